@@ -1,0 +1,61 @@
+// What a scene says of a material: density and a law with its constants, SI. Checked when a law is made from it.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "mpm/math/error.hpp"
+
+namespace mpm {
+
+/// Impossible constants.
+class MaterialError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Isotropic elasticity by Young's modulus [Pa] > 0 and Poisson's ratio in (-1, 0.5).
+struct Elasticity {
+  double young = 0.0;
+  double poisson = 0.0;
+  double bulk() const { return young / (3.0 * (1.0 - 2.0 * poisson)); }
+  double shear() const { return young / (2.0 * (1.0 + poisson)); }
+};
+
+/// Hypoelastic: objective (Jaumann) rate of Cauchy stress.
+struct LinearElasticDefinition {
+  Elasticity elasticity;
+};
+
+/// Nairn & Guilkey (2015) eq. (64).
+struct NeoHookeanDefinition {
+  Elasticity elasticity;
+};
+
+/// Which Mohr-Coulomb state the cone passes through.
+enum class ConeMatch { compression, extension, plane_strain };
+
+/// Drucker-Prager soil; angles in radians.
+struct DruckerPragerDefinition {
+  Elasticity elasticity;
+  double friction_angle = 0.0;     ///< [rad], in [0, pi/2)
+  double dilation_angle = 0.0;     ///< [rad], in [0, friction_angle]
+  double cohesion = 0.0;           ///< [Pa], >= 0
+  double tension_cutoff = -1.0;    ///< largest mean tension [Pa]; negative: the cone's apex
+  ConeMatch match = ConeMatch::compression;
+};
+
+using LawDefinition = std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition>;
+
+struct MaterialDefinition {
+  std::string name;
+  double density = 0.0;  ///< initial [kg/m^3], > 0
+  LawDefinition law;
+};
+
+/// @throws MaterialError naming the constant, its value and the range.
+void check(const MaterialDefinition& material);
+/// "neo_hookean" and so on, as scenes spell it.
+std::string law_name(const LawDefinition& law);
+
+}  // namespace mpm

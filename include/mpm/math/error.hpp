@@ -1,0 +1,16 @@
+// The root of the library's errors. Each floor derives one type of its own, so that a caller can tell bad input
+// (exit code 2) from failed physics (exit code 3) without reading the text.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace mpm {
+
+/// Base of every error the library throws. what() is one line that says what, where and what to do.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace mpm

@@ -1,0 +1,68 @@
+// A rigid body: a surface that moves as it is told. What it is told lives here too (functions of time, a twist, a
+// pose to be at by a time), so that pose and twist come from one place.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "mpm/math/function.hpp"
+#include "mpm/rigid/motion.hpp"
+#include "mpm/rigid/surface.hpp"
+
+namespace mpm {
+
+/// Coulomb friction between a body (or wall) and the material; `stick` glues in both directions while in contact.
+struct FrictionLaw {
+  double coefficient = 0.0;  ///< >= 0
+  bool stick = false;        ///< no sliding at all
+};
+
+/// What a scene says of a rigid body.
+struct RigidBodyDefinition {
+  std::string name;
+  std::shared_ptr<const Surface> surface;
+  Pose pose;                              ///< at time zero
+  std::array<Function, 3> velocity;       ///< of the origin, world axes, functions of t [m/s]
+  std::array<Function, 3> rotation_rate;  ///< world axes, functions of t [rad/s]
+  FrictionLaw friction;
+};
+
+/// What a body follows at the moment.
+enum class Drive : std::uint8_t { functions = 0, velocity = 1, pose = 2 };
+
+class RigidBody {
+ public:
+  explicit RigidBody(RigidBodyDefinition definition);
+
+  const std::string& name() const { return definition_.name; }
+  const Surface& surface() const { return *definition_.surface; }
+  const FrictionLaw& friction() const { return definition_.friction; }
+  const Pose& pose() const { return pose_; }
+  const Twist& twist() const { return twist_; }
+  Drive drive() const { return drive_; }
+
+  /// Constant twist from now on. @throws RigidError when not finite.
+  void command_velocity(const Twist& twist);
+  /// Constant twist from `now` that arrives at `target` at `arrival` > now [ns], then rest.
+  /// @throws RigidError when not finite, or arrival is not after now.
+  void command_pose(const Pose& target, std::int64_t now, std::int64_t arrival);
+
+  /// Sets the twist for the step that begins at `time` [s] and lasts `dt` [s]: functions are read at its middle.
+  void begin_step(double time, double dt);
+  /// Moves the pose by the twist over `dt` [s].
+  void end_step(double dt);
+  /// At a sync point: a body that has reached its target pose is put exactly there and rests.
+  void at_sync(std::int64_t now);
+
+ private:
+  RigidBodyDefinition definition_;
+  Pose pose_;
+  Twist twist_;
+  Drive drive_ = Drive::functions;
+  Pose target_;
+  std::int64_t arrival_ = 0;
+};
+
+}  // namespace mpm

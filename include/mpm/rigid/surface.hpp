@@ -1,0 +1,70 @@
+// The surface of a rigid body as a signed distance in the body's own frame.
+//
+// One virtual call a grid node near the body, none a particle. Distances are exact (a mesh: to the nearest triangle
+// through a bounding-volume hierarchy), normals are exact except on edges and corners, where the outward
+// direction from the nearest point of the surface is used outside and the nearest face's normal inside.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mpm/math/error.hpp"
+#include "mpm/math/geometry.hpp"
+
+namespace mpm {
+
+/// A body or mesh that cannot serve as a rigid body.
+class RigidError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// What a surface says of one point.
+struct SurfacePoint {
+  double distance = 0.0;         ///< signed distance [m], negative inside
+  Vec3 normal = Vec3::UnitZ();   ///< outward unit normal at the nearest point of the surface
+};
+
+class Surface {
+ public:
+  virtual ~Surface() = default;
+  /// Signed distance and normal at a point of the body frame [m].
+  virtual SurfacePoint at(const Vec3& point) const = 0;
+  /// True, with the same answer as at(), when the signed distance is at most `band` [m]; else false, at less cost.
+  virtual bool within(const Vec3& point, double band, SurfacePoint& result) const = 0;
+  /// Bounds in the body frame [m].
+  virtual Box bounds() const = 0;
+  /// The smallest thickness of the body [m] (for the warning about thin tools); a mesh estimates it.
+  virtual double thickness() const = 0;
+  /// Triangles for display (markers), body frame; three vertices each.
+  virtual std::vector<std::array<Vec3, 3>> triangles() const = 0;
+};
+
+/// A closed triangle mesh; indices are counter-clockwise seen from outside.
+struct TriangleMesh {
+  std::vector<Vec3> vertices;                 ///< [m]
+  std::vector<std::array<int, 3>> triangles;
+};
+
+/// Edge lengths [m], all positive (infinity allowed along y in planar scenes), centred on the origin.
+/// @throws RigidError
+std::unique_ptr<Surface> make_box(const Vec3& size);
+/// @throws RigidError
+std::unique_ptr<Surface> make_sphere(double radius);
+/// Axis along body z (or y in planar scenes: `axis` 1), centred; height may be infinite. @throws RigidError
+std::unique_ptr<Surface> make_cylinder(double radius, double height, int axis = 2);
+/// @throws RigidError when the mesh is empty, degenerate, not closed or not consistently oriented; a mesh turned
+/// inside out as a whole is turned right.
+std::unique_ptr<Surface> make_mesh(const TriangleMesh& mesh);
+
+/// Reads any format that assimp reads, joining equal vertices; `scale` multiplies coordinates.
+/// `path` may be `package://name/…` (searched along ROS_PACKAGE_PATH and CMAKE_PREFIX_PATH) or a file path.
+/// @throws RigidError with the path and the reason.
+TriangleMesh load_mesh(const std::string& path, double scale = 1.0);
+
+/// Resolves `package://name/rest`; any other text is returned as it is. @throws RigidError when no such package.
+std::string resolve_resource(const std::string& uri);
+
+}  // namespace mpm

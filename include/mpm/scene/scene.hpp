@@ -1,0 +1,67 @@
+// From YAML to a checked Scene, and from there to what a Simulation is made from.
+//
+//   mpm::Scene scene = mpm::load_scene("blade_in_soil", {"grid.cell=0.02"});
+//   mpm::Simulation simulation(mpm::build(scene), {.threads = 2});
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mpm/math/error.hpp"
+#include "mpm/simulation/definition.hpp"
+
+namespace mpm {
+
+/// Bad scene. what() begins with "file:line: key.path: " and says what to write instead.
+class SceneError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A region of space that a deformable body fills.
+struct Region {
+  enum class Kind { box, sphere, cylinder } kind = Kind::box;
+  Box box;                      ///< box
+  Vec3 center = Vec3::Zero();   ///< sphere, cylinder [m]
+  double radius = 0.0;          ///< [m]
+  double height = 0.0;          ///< cylinder, along `axis`
+  int axis = 2;
+  bool contains(const Vec3& point) const;
+  Box bounds() const;
+};
+
+struct BodyDefinition {
+  std::string name;
+  std::string material;
+  Region region;
+  std::array<Function, 3> velocity;  ///< initial, functions of place [m/s]
+};
+
+/// What is written out, beside the sync period that carries it.
+struct OutputDefinition {
+  double period = 0.0;                       ///< [s] between particle snapshots; a multiple of the sync period
+  std::vector<std::string> particle_fields;  ///< chosen scalars, beside x, y, z, id
+  int particle_stride = 1;
+};
+
+struct Scene {
+  SimulationDefinition definition;  ///< all but the particles of the bodies
+  std::vector<BodyDefinition> bodies;
+  OutputDefinition output;
+  std::string path;                 ///< of the file
+  std::string text;                 ///< as loaded, overrides applied, for the record
+  std::vector<std::pair<std::string, std::string>> choices;  ///< what was chosen and why, for --explain
+};
+
+/// `name_or_path`: a shipped scene's name, or a path to a YAML file. `overrides`: "key.path=value".
+/// @throws SceneError
+Scene load_scene(const std::string& name_or_path, const std::vector<std::string>& overrides = {});
+/// The same from text; `label` stands for the file in errors; relative mesh paths are read from the working folder.
+Scene parse_scene(const std::string& text, const std::string& label, const std::vector<std::string>& overrides = {});
+/// Names and first comment lines of the scenes that are shipped.
+std::vector<std::pair<std::string, std::string>> shipped_scenes();
+/// Fills the bodies with particles and checks them against the grid and each other. @throws SceneError
+SimulationDefinition build(const Scene& scene);
+
+}  // namespace mpm

@@ -1,0 +1,81 @@
+// Everything a Simulation is made from, in SI, with its defaults. A Scene fills this in; tests may do so by hand.
+// Planar scenes lie in the x-z plane: y components are ignored, `thickness` is along y.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mpm/material/definition.hpp"
+#include "mpm/math/geometry.hpp"
+#include "mpm/rigid/rigid_body.hpp"
+
+namespace mpm {
+
+enum class GeometryKind { plane_strain, solid };
+enum class UpdateScheme { usf, usavg };
+
+struct GridDefinition {
+  Vec3 cell = Vec3::Zero();  ///< cell size along each axis [m]
+  Vec3 min = Vec3::Zero();   ///< corners of the domain that material may not leave [m]; a node lies on min
+  Vec3 max = Vec3::Zero();
+};
+
+struct TimeDefinition {
+  double end = 0.0;            ///< [s]; 0 for a node that runs until it is stopped
+  double cfl = 0.5;            ///< fraction of a cell that the fastest wave may travel in a step, in (0, 1)
+  std::optional<double> step;  ///< upper limit of the time step [s]
+  std::int64_t sync = 0;       ///< period of sync points [ns]; commands, services and outputs live on them
+};
+
+struct MethodDefinition {
+  UpdateScheme update = UpdateScheme::usavg;
+  double flip = 1.0;               ///< fraction of FLIP, 0 is PIC; per step
+  double damping = 0.0;            ///< grid damping [1/s]
+  int gradient_terms = 2;          ///< terms of exp(grad v dt)
+  int particles_per_direction = 2; ///< particles along a cell's edge
+};
+
+enum class WallKind { none, fixed, slip, frictional };
+/// A face of the domain. `slip` holds the normal velocity at zero in both directions; `frictional` lets go.
+struct WallDefinition {
+  WallKind kind = WallKind::none;
+  FrictionLaw friction;
+};
+/// Order of the faces in arrays: x_min, x_max, y_min, y_max, z_min, z_max.
+extern const std::array<const char*, 6> kWallNames;
+
+struct DeformableBody {
+  std::string name;
+  std::string material;          ///< name in SimulationDefinition::materials
+  std::vector<Vec3> positions;   ///< particle centres [m]
+  std::vector<Vec3> velocities;  ///< one each, or empty for rest [m/s]
+  double particle_volume = 0.0;  ///< initial volume of one particle [m^3]
+};
+
+enum class Statistic { mean, std_dev, min, max };
+/// A number of the summary: a statistic of a particle field over one body (or all, when `body` is empty).
+struct MetricDefinition {
+  std::string name;
+  Statistic statistic = Statistic::mean;
+  std::string field;
+  std::string body;
+};
+
+struct SimulationDefinition {
+  std::string name;
+  GeometryKind geometry = GeometryKind::solid;
+  double thickness = 1.0;  ///< of a planar scene, along y [m]
+  GridDefinition grid;
+  TimeDefinition time;
+  MethodDefinition method;
+  Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
+  std::vector<MaterialDefinition> materials;
+  std::vector<DeformableBody> bodies;
+  std::vector<RigidBodyDefinition> rigid_bodies;
+  std::array<WallDefinition, 6> walls;
+  std::vector<MetricDefinition> metrics;
+};
+
+}  // namespace mpm

@@ -1,0 +1,87 @@
+// The assembled run. Time advances from one sync point (integer nanoseconds) to the next by a whole number of equal
+// steps; commands given at a sync point act from there on; everything that is read is read at a sync point.
+//
+//   auto simulation = mpm::Simulation(definition, {.threads = 2});
+//   while (simulation.time() < end) { simulation.advance(); auto report = simulation.take_contact(0); … }
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mpm/math/error.hpp"
+#include "mpm/simulation/definition.hpp"
+#include "mpm/simulation/report.hpp"
+
+namespace mpm {
+
+/// A definition that cannot be simulated (bad input: exit code 2).
+class DefinitionError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// The physics failed (exit code 3): J <= 0, a value that is not finite, a particle outside the domain.
+/// what() names the particle, the step, the place and the likely remedy.
+class PhysicsError : public Error {
+ public:
+  using Error::Error;
+};
+
+struct SimulationOptions {
+  int threads = 0;  ///< 0: as many as the machine has
+};
+
+class Simulation {
+ public:
+  /// @throws DefinitionError, MaterialError, RigidError
+  explicit Simulation(const SimulationDefinition& definition, SimulationOptions options = {});
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  const SimulationDefinition& definition() const;  ///< particle positions left out
+  int threads() const;
+  std::string isa() const;                         ///< instruction set of the kernels
+  std::vector<std::string> warnings() const;       ///< one line each, found when the run was put together
+
+  std::int64_t time() const;         ///< simulated time since the start [ns]
+  std::int64_t sync_period() const;  ///< [ns]
+  /// Runs to the next sync point. After a PhysicsError the state of the failed step can still be read and saved.
+  void advance();
+
+  /// Index of a rigid body, or -1.
+  int find_body(const std::string& name) const;
+  /// From now on, until the next command. @throws RigidError when not finite.
+  void command_velocity(int body, const Twist& twist);
+  /// To be at `target` by `arrival` [ns] > time(). @throws RigidError
+  void command_pose(int body, const Pose& target, std::int64_t arrival);
+
+  std::vector<BodyState> bodies() const;
+  const RigidBody& rigid_body(int body) const;
+  /// What the material did to the body since the last call.
+  ContactReport take_contact(int body);
+  SolverState state() const;
+  /// The scene's own numbers, in order.
+  std::vector<std::pair<std::string, double>> metrics() const;
+
+  std::uint64_t particles() const;
+  /// Names that particle_field() knows, with their units: {"vx", "m/s"}, …
+  static std::vector<std::pair<std::string, std::string>> particle_fields();
+  /// One value a particle, in order of id (0 … particles()-1): the same order in every call.
+  /// @throws DefinitionError for an unknown name, listing those that exist.
+  void particle_field(const std::string& name, std::vector<float>& values) const;
+  void particle_field(const std::string& name, std::vector<double>& values) const;
+  /// First id and one-past-last id of a deformable body.
+  std::pair<std::uint64_t, std::uint64_t> body_ids(const std::string& body) const;
+
+  /// FNV-1a over time, particle state (by id) and rigid bodies: equal bits, equal hash.
+  std::uint64_t state_hash() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace mpm

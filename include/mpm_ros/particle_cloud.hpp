@@ -1,0 +1,42 @@
+// Particles as one PointCloud2, laid out without padding, so that numpy.frombuffer reads it in one call:
+//   numpy.frombuffer(cloud.data, dtype=[("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("id", "<u4"), ("vx", "<f4"), …])
+#pragma once
+
+#include <sensor_msgs/PointCloud2.h>
+
+#include <string>
+#include <vector>
+
+#include "mpm/simulation/simulation.hpp"
+
+namespace mpm_ros {
+
+/// Which particles and which of their fields are written.
+struct ParticleSelection {
+  std::vector<std::string> fields;  ///< names that mpm::Simulation::particle_field() knows, beside x, y, z, id
+  int stride = 1;                   ///< every `stride`-th particle by id, >= 1
+};
+
+/// Why a selection cannot be used, naming the nearest field or the range; empty when it can.
+std::string problem_of(const ParticleSelection& selection);
+
+/// Fills the cloud: x, y, z (float32), id (uint32), then the chosen fields (float32), in order of id. `columns` holds
+/// one vector a field, x, y and z first, with one value a particle; all of one length.
+void fill_cloud(const std::vector<std::string>& fields, const std::vector<std::vector<float>>& columns, int stride,
+                sensor_msgs::PointCloud2& cloud);
+
+/// Reads a simulation's particles; keeps its buffers from one call to the next.
+class ParticleCloud {
+ public:
+  explicit ParticleCloud(ParticleSelection selection);
+  /// The header is left to the caller.
+  const sensor_msgs::PointCloud2& read(const mpm::Simulation& simulation);
+  sensor_msgs::PointCloud2& message() { return cloud_; }
+
+ private:
+  ParticleSelection selection_;
+  std::vector<std::vector<float>> columns_;
+  sensor_msgs::PointCloud2 cloud_;
+};
+
+}  // namespace mpm_ros

@@ -1,0 +1,32 @@
+// Names of topics and services, relative to the node's namespace unless they begin with a slash.
+#pragma once
+
+#include <string>
+
+namespace mpm_ros::topics {
+
+constexpr const char* kParticles = "particles";
+constexpr const char* kContactForces = "contact_forces";
+constexpr const char* kBodies = "bodies";
+constexpr const char* kCommands = "commands";
+constexpr const char* kSolverState = "solver_state";
+constexpr const char* kRunInfo = "run_info";
+constexpr const char* kMarkers = "markers";             ///< shapes of the rigid bodies, latched
+constexpr const char* kForceMarkers = "force_markers";  ///< an arrow a body
+constexpr const char* kClock = "/clock";
+constexpr const char* kTf = "/tf";
+
+constexpr const char* kPause = "pause";
+constexpr const char* kReset = "reset";
+constexpr const char* kStep = "step";
+
+/// `bodies/<name>/<leaf>`
+inline std::string of_body(const std::string& body, const std::string& leaf) {
+  return std::string(kBodies) + "/" + body + "/" + leaf;
+}
+constexpr const char* kWrench = "wrench";
+constexpr const char* kCmdVel = "cmd_vel";
+constexpr const char* kCmdVelStamped = "cmd_vel_stamped";
+constexpr const char* kCmdPose = "cmd_pose";
+
+}  // namespace mpm_ros::topics

@@ -1,4 +1,4 @@
-// A scalar of time and place: a constant, or an expression in t [s] and x, y, z [m] parsed once by muParser.
+// A scalar of time and place: a constant, or an expression in t and x, y, z parsed once by muParser.
 #pragma once
 
 #include <memory>
@@ -15,28 +15,35 @@ class FunctionError : public Error {
   using Error::Error;
 };
 
-/// Value-semantic and cheap to copy; evaluation allocates nothing and is not thread-safe for one instance.
+/// Units of an expression, as factors to SI: of its result, of t, and of x, y, z.
+struct FunctionUnits {
+  double value = 1.0;
+  double time = 1.0;    ///< [s]
+  double length = 1.0;  ///< [m]
+};
+
+/// Value-semantic and cheap to copy; evaluation allocates nothing. Copies share one parsed expression: evaluate them
+/// from one thread at a time.
 class Function {
  public:
   /// The constant 0.
   Function() = default;
   /// A constant, in SI.
   Function(double constant) : constant_(constant) {}  // NOLINT: a number is a function
-  /// An expression in t, x, y, z with muParser's operators and functions, `pi` and `e`.
-  /// `scale` multiplies the result (units of the scene to SI).
+  /// An expression in t, x, y, z with muParser's operators and functions, `pi` and `e`; t and the place are given to it
+  /// in `units`, and its result is read in them.
   /// @throws FunctionError when it does not parse, or names an unknown variable.
-  static Function parse(const std::string& expression, double scale = 1.0);
+  static Function parse(const std::string& expression, const FunctionUnits& units = {});
 
-  /// @throws FunctionError when the value is not finite.
+  /// In SI, at t [s] and place [m]. @throws FunctionError when the value is not finite.
   double operator()(double t, const Vec3& place = Vec3::Zero()) const;
   bool is_constant() const { return expression_ == nullptr; }
-  /// The expression, or the constant, as text.
+  /// The expression, or the constant in SI, as text.
   std::string text() const;
 
  private:
   struct Expression;
   double constant_ = 0.0;
-  double scale_ = 1.0;
   std::shared_ptr<Expression> expression_;
 };
 

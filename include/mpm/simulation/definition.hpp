@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/boundary/wall.hpp"
 #include "mpm/material/definition.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/rigid/rigid_body.hpp"
@@ -37,12 +38,6 @@ struct MethodDefinition {
   int particles_per_direction = 2; ///< particles along a cell's edge
 };
 
-enum class WallKind { none, fixed, slip, frictional };
-/// A face of the domain. `slip` holds the normal velocity at zero in both directions; `frictional` lets go.
-struct WallDefinition {
-  WallKind kind = WallKind::none;
-  FrictionLaw friction;
-};
 /// Order of the faces in arrays: x_min, x_max, y_min, y_max, z_min, z_max.
 extern const std::array<const char*, 6> kWallNames;
 

@@ -1,7 +1,7 @@
 // The assembled run. Time advances from one sync point (integer nanoseconds) to the next by a whole number of equal
 // steps; commands given at a sync point act from there on; everything that is read is read at a sync point.
 //
-//   auto simulation = mpm::Simulation(definition, {.threads = 2});
+//   auto simulation = mpm::Simulation(definition, mpm::SimulationOptions{2});
 //   while (simulation.time() < end) { simulation.advance(); auto report = simulation.take_contact(0); … }
 #pragma once
 

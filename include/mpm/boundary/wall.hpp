@@ -1,0 +1,45 @@
+// A face of the domain as a condition on the velocity of the nodes on it and beyond it.
+//
+// fixed: no velocity. slip: no velocity along the normal, in or out. frictional: Coulomb contact, lets go.
+// Two walls that meet act one after the other; as their normals are orthogonal neither undoes the other.
+// Source: Nairn, GIMP notes (3.1)-(3.11): a condition replaces the momentum along one direction, force and momentum
+// alike.
+#pragma once
+
+#include <vector>
+
+#include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+enum class WallKind { none, fixed, slip, frictional };
+
+/// What a scene says of a face of the domain.
+struct WallDefinition {
+  WallKind kind = WallKind::none;
+  FrictionLaw friction;  ///< frictional only
+};
+
+class Wall final : public Stage {
+ public:
+  /// `face`: 2 * grid axis, + 1 for the upper one. `name` as in scenes ("z_min").
+  Wall(int face, const WallDefinition& definition, const std::string& name);
+
+  void momentum_gathered(StepContext& context) override;
+  void before_strain(StepContext& context) override;
+  void momentum_updated(StepContext& context) override;
+  void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+
+ private:
+  Vec3 change(const Vec3& velocity, const Vec3& normal) const;
+  Vec3 normal(const GridLayout& layout) const;
+
+  int face_;
+  WallDefinition definition_;
+  ImpulseAccount account_;
+  std::vector<NodeRef> nodes_;
+  std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
+};
+
+}  // namespace mpm

@@ -1,0 +1,58 @@
+// Contact of the material with one rigid body: nodes that carry mass and lie in the body (signed distance <= 0) take
+// the body's velocity along its exact normal, and along the surface as friction allows.
+//
+// What is reported is what was applied: the wrench is the sum over nodes of the momentum that contact changed in
+// momentum_updated, over the time it took; torque about the body's origin as it moves.
+// Weak: a surface between two rows of nodes is met up to a cell early; material on both sides of a tool thinner than
+// three cells shares nodes. Source: Nairn, GIMP notes (3.12)-(3.20); method reference 5.3, 8.3; the normal is the exact
+// one instead of a mass gradient.
+#pragma once
+
+#include <vector>
+
+#include "mpm/contact/contact_report.hpp"
+#include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+class RigidContact final : public Stage {
+ public:
+  /// `body` outlives the stage.
+  RigidContact(const RigidBody& body, int threads);
+
+  void momentum_gathered(StepContext& context) override;
+  void before_strain(StepContext& context) override;
+  void momentum_updated(StepContext& context) override;
+  void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+
+  /// What the material did to the body since the last call; `now` [s].
+  ContactReport take(double now);
+  /// Work of the body on the material since the start: impulse times the body's velocity where it acts [J].
+  double work() const { return work_; }
+
+ private:
+  struct Node {
+    NodeRef ref;
+    Vec3 normal;    ///< out of the body
+    Vec3 velocity;  ///< of the body's surface there [m/s]
+    Vec3 arm;       ///< from the body's origin [m]
+  };
+  template <class Visit>
+  void each_node(Visit&& visit) const;
+
+  const RigidBody& body_;
+  int threads_;
+  std::vector<int> near_;                 ///< blocks whose nodes may lie in the body
+  std::vector<std::vector<Node>> nodes_;  ///< of each block in near_
+  ImpulseAccount account_;                ///< given to the material
+  double work_ = 0.0;
+
+  Vec3 impulse_ = Vec3::Zero();          ///< on the body since the last report [N s]
+  Vec3 angular_impulse_ = Vec3::Zero();  ///< [N m s]
+  Wrench peak_;
+  int touching_ = 0;
+  double last_report_ = 0.0;
+};
+
+}  // namespace mpm

@@ -1,0 +1,49 @@
+// The blocks in use. An owner is a block that holds particles; the blocks in use are the owners and their neighbours,
+// in the order of their keys. Rebuilt when particles are sorted, constant in between.
+//
+// Owners are handed out by colour: two owners of one colour are at least two blocks apart along some axis, so the tiles
+// that they scatter into (two nodes beyond the block on each side) never share a node. Within a colour the order
+// does not matter, across colours it is fixed: the sums at a node do not depend on the number of threads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mpm/grid/grid_layout.hpp"
+
+namespace mpm {
+
+class BlockTable {
+ public:
+  explicit BlockTable(const GridLayout& layout) : layout_(&layout) {}
+
+  /// `owner_keys`: ascending, unique.
+  void rebuild(const std::vector<std::uint64_t>& owner_keys);
+
+  const GridLayout& layout() const { return *layout_; }
+  int size() const { return static_cast<int>(keys_.size()); }  ///< blocks in use
+  int owners() const { return static_cast<int>(owner_block_.size()); }
+  /// Index among the blocks in use of an owner.
+  int owner_block(int owner) const { return owner_block_[owner]; }
+  /// Neighbours of an owner, itself in the middle: 3^dim indices, the last axis fastest.
+  const int* neighbours(int owner) const { return &neighbours_[static_cast<std::size_t>(owner) * span_]; }
+  const std::array<int, 3>& block(int index) const { return coordinates_[index]; }
+  /// Index of the block with this key, or -1.
+  int find(std::uint64_t key) const;
+  int colours() const { return 1 << layout_->dim(); }
+  const std::vector<int>& owners_of_colour(int colour) const { return colours_[colour]; }
+  /// Counts rebuilds, for those who keep lists of nodes.
+  std::uint64_t generation() const { return generation_; }
+
+ private:
+  const GridLayout* layout_;
+  int span_ = 0;
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::array<int, 3>> coordinates_;
+  std::vector<int> owner_block_, neighbours_;
+  std::array<std::vector<int>, 8> colours_;
+  std::uint64_t generation_ = 0;
+};
+
+}  // namespace mpm

@@ -1,0 +1,62 @@
+// Where the nodes of the background grid are, and how they are grouped into blocks of 4 nodes along each axis.
+//
+// Nodes are numbered by integers along each axis, node 0 on the domain's lower corner. A planar grid has two axes, the
+// world's x and z. A particle belongs to the block of its nearest node; a block is named by a key, its position in the
+// box of all blocks that the domain could need, so memory follows the blocks in use and never that box.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "mpm/math/error.hpp"
+#include "mpm/math/geometry.hpp"
+
+namespace mpm {
+
+/// A grid that cannot be laid out.
+class GridError : public Error {
+ public:
+  using Error::Error;
+};
+
+inline constexpr int kBlockEdge = 4;  ///< nodes of a block along an axis
+
+class GridLayout {
+ public:
+  /// `dim` 2 (x, z) or 3; cell sizes [m] > 0. @throws GridError
+  GridLayout(int dim, const Vec3& cell, const Vec3& min, const Vec3& max);
+
+  int dim() const { return dim_; }
+  int nodes_per_block() const { return dim_ == 3 ? 64 : 16; }
+  /// World axis of grid axis k.
+  int axis(int k) const { return dim_ == 3 ? k : 2 * k; }
+  double cell(int k) const { return cell_[k]; }
+  double inverse_cell(int k) const { return inverse_cell_[k]; }
+  double origin(int k) const { return origin_[k]; }
+  double smallest_cell() const;
+  double cell_volume() const;  ///< [m^3]; planar: area [m^2]
+  /// Last node along axis k that lies in the domain; the domain is a whole number of cells.
+  int last_node(int k) const { return last_node_[k]; }
+
+  /// Position in cells: node i lies at i.
+  double in_cells(int k, double position) const { return (position - origin_[k]) * inverse_cell_[k]; }
+  static int nearest(double cells) { return static_cast<int>(std::floor(cells + 0.5)); }
+
+  std::uint64_t key(const std::array<int, 3>& block) const;
+  std::array<int, 3> block(std::uint64_t key) const;
+  std::int64_t key_stride(int k) const { return stride_[k]; }
+
+  /// World position of a node of a block; y = 0 in a planar grid.
+  Vec3 node_position(const std::array<int, 3>& block, int local) const;
+  /// Node numbers along each axis.
+  std::array<int, 3> node(const std::array<int, 3>& block, int local) const;
+
+ private:
+  int dim_;
+  std::array<double, 3> cell_{}, inverse_cell_{}, origin_{};
+  std::array<int, 3> last_node_{}, blocks_{};
+  std::array<std::int64_t, 3> stride_{};
+};
+
+}  // namespace mpm

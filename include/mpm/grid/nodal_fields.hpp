@@ -1,0 +1,54 @@
+// The fields of the grid's nodes that every scene has. One array a field, a block after the other, within a block one
+// component after the other: [block][component][node].
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "mpm/grid/block_table.hpp"
+
+namespace mpm {
+
+class NodalField {
+ public:
+  NodalField(int components, int nodes_per_block) : components_(components), nodes_(nodes_per_block) {}
+
+  int components() const { return components_; }
+  void resize(int blocks) { data_.resize(static_cast<std::size_t>(blocks) * components_ * nodes_); }
+  double* block(int b) { return data_.data() + static_cast<std::size_t>(b) * components_ * nodes_; }
+  const double* block(int b) const { return data_.data() + static_cast<std::size_t>(b) * components_ * nodes_; }
+  double& at(int b, int component, int node) { return block(b)[component * nodes_ + node]; }
+  double at(int b, int component, int node) const { return block(b)[component * nodes_ + node]; }
+
+ private:
+  int components_, nodes_;
+  std::vector<double> data_;
+};
+
+/// The grid of one step.
+struct Grid {
+  explicit Grid(const GridLayout& grid_layout)
+      : layout(grid_layout),
+        blocks(layout),
+        mass(1, layout.nodes_per_block()),
+        momentum(layout.dim(), layout.nodes_per_block()),
+        velocity(layout.dim(), layout.nodes_per_block()),
+        force(layout.dim(), layout.nodes_per_block()) {}
+  Grid(const Grid&) = delete;
+  Grid& operator=(const Grid&) = delete;
+
+  /// Takes the blocks in use from the sorted particles and makes room for their nodes.
+  void rebuild(const std::vector<std::uint64_t>& owner_keys) {
+    blocks.rebuild(owner_keys);
+    for (NodalField* field : {&mass, &momentum, &velocity, &force}) field->resize(blocks.size());
+  }
+
+  GridLayout layout;
+  BlockTable blocks;
+  NodalField mass;      ///< m_i [kg]
+  NodalField momentum;  ///< p_i as gathered, without conditions; kept through the step [N s]
+  NodalField velocity;  ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]
+  NodalField force;     ///< f_i while forces are gathered [N], then the acceleration a_i [m/s^2]
+};
+
+}  // namespace mpm

@@ -1,0 +1,96 @@
+// Drucker-Prager soil: f = sqrt(J2) + eta p - xi c, potential with eta_bar from the dilation angle, tension positive,
+// p = tr(sigma)/3. Elastic predictor in rate form (as linear_elastic.hpp), return to the cone, its apex, or the tension
+// cut-off. Soil that has opened (apex, cut-off) remembers by how much, and must close again before it carries pressure;
+// otherwise every opening would turn into spurious stress on the way back.
+// Weak: no hardening, no critical state, so dilation never ends; hypoelastic, meant for small elastic strain.
+// Source: method reference 10.6 (flow rule and the three matches to Mohr-Coulomb verified there).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/material/linear_elastic.hpp"
+
+namespace mpm {
+
+class DruckerPrager {
+ public:
+  static constexpr int kHistory = 3;
+  static constexpr int kPlasticStrain = 0;
+  static constexpr int kPlasticWork = 2;
+  static constexpr int kOpening = 1;  ///< logarithmic volume that the soil has opened by
+
+  DruckerPrager(const DruckerPragerDefinition& d, double density);
+
+  template <class T, class Matrix, class Symmetric>
+  void update(const Matrix& du, const Matrix&, T j_old, T j, Symmetric& tau, T* const* history, int p) const {
+    const T bulk = T(bulk_), shear = T(shear_);
+    const Symmetric previous = scale_shift(tau, T(density_) / j_old, T(0));
+    const Symmetric trial = LinearElastic::stress_rate_update(previous, du, bulk, shear);
+
+    T mean = trace(trial) / T(3);
+    Symmetric deviator = scale_shift(trial, T(1), -mean);
+    T& opening = history[kOpening][p];
+    if (opening > T(0) && mean < T(0)) {
+      const T closing = std::min(opening, -mean / bulk);
+      opening -= closing;
+      mean += bulk * closing;
+    }
+    const T root_j2 = std::sqrt(T(0.5) * squared_norm(deviator));
+    const T yield = root_j2 + T(eta_) * mean - T(strength_);
+    T multiplier = T(0);  // increment of the equivalent plastic shear strain, sqrt(2 de:de)
+    T opened = T(0);
+    if (yield > T(0)) {
+      multiplier = yield / (shear + bulk * T(eta_) * T(eta_bar_));
+      const T left = root_j2 - shear * multiplier;
+      if (left >= T(0)) {
+        deviator = scale_shift(deviator, left / root_j2, T(0));
+        mean -= bulk * T(eta_bar_) * multiplier;
+      } else {
+        multiplier = root_j2 / shear;
+        deviator = scale_shift(deviator, T(0), T(0));
+        opened += (mean - T(apex_)) / bulk;
+        mean = T(apex_);
+      }
+    }
+    if (mean > T(cutoff_)) {
+      opened += (mean - T(cutoff_)) / bulk;
+      mean = T(cutoff_);
+      // On the cut-off plane the cone leaves less shear strength than the trial had: return the deviator too.
+      const T limit = std::max(T(strength_) - T(eta_) * mean, T(0));
+      const T remaining = std::sqrt(T(0.5) * squared_norm(deviator));
+      if (remaining > limit) {
+        deviator = scale_shift(deviator, limit / remaining, T(0));
+        multiplier += (remaining - limit) / shear;
+      }
+    }
+    if (multiplier > T(0) || opened > T(0)) {
+      opening += opened;
+      history[kPlasticStrain][p] += multiplier;
+      const T shear_stress = std::sqrt(T(0.5) * squared_norm(deviator));
+      const T dilation = multiplier > T(0) && opened == T(0) ? T(eta_bar_) * multiplier : opened;
+      history[kPlasticWork][p] += (shear_stress * multiplier + mean * dilation) * j / T(density_);
+    }
+    tau = scale_shift(scale_shift(deviator, T(1), mean), j / T(density_), T(0));
+  }
+
+  template <class Matrix, class Symmetric>
+  double elastic_energy(const Matrix&, const Symmetric& tau, double j) const {
+    return LinearElastic::stress_energy(scale_shift(tau, density_ / j, 0.0), bulk_, shear_) * j / density_;
+  }
+
+  double wave_speed(double j) const { return std::sqrt((bulk_ + 4.0 / 3.0 * shear_) * j / density_); }
+  double density() const { return density_; }
+  double eta() const { return eta_; }
+  double eta_bar() const { return eta_bar_; }
+  /// xi c: shear strength at zero mean stress [Pa]
+  double strength() const { return strength_; }
+
+ private:
+  double density_, bulk_, shear_;
+  double eta_, eta_bar_, strength_;
+  double apex_;    ///< mean stress at the cone's apex [Pa]
+  double cutoff_;  ///< largest mean stress [Pa]
+};
+
+}  // namespace mpm

@@ -1,0 +1,57 @@
+// Linear elasticity in rate form: Cauchy stress is turned by the rotation of the step (Hughes & Winget 1980) and gains
+// C : sym(grad v) dt. Weak at large elastic strain: hypoelasticity dissipates or creates energy around closed
+// paths, and simple shear follows G sin(gamma) (exact-solutions 4). Source: method reference 10.1.
+#pragma once
+
+#include <cmath>
+
+#include "mpm/material/definition.hpp"
+#include "mpm/math/tensor.hpp"
+
+namespace mpm {
+
+class LinearElastic {
+ public:
+  static constexpr int kPlasticStrain = -1;  ///< which scalar of history it is, if any
+  static constexpr int kPlasticWork = -1;
+  static constexpr int kHistory = 0;  ///< scalars of history a particle
+
+  LinearElastic(const LinearElasticDefinition& d, double density)
+      : density_(density), bulk_(d.elasticity.bulk()), shear_(d.elasticity.shear()) {}
+
+  /// Advances Cauchy stress over one increment `du` = grad v dt.
+  template <class T, class Matrix, class Symmetric>
+  static Symmetric stress_rate_update(const Symmetric& cauchy, const Matrix& du, T bulk, T shear) {
+    const Symmetric strain = symmetric_part(du);
+    const T volumetric = trace(strain);
+    return sum(rotate(cauchy, du), scale_shift(strain, T(2) * shear, (bulk - T(2) / T(3) * shear) * volumetric));
+  }
+
+  /// Law interface (see law.hpp): from specific Kirchhoff stress tau/rho0 to its new value.
+  template <class T, class Matrix, class Symmetric>
+  void update(const Matrix& du, const Matrix&, T j_old, T j, Symmetric& tau, T* const*, int) const {
+    const Symmetric cauchy = scale_shift(tau, T(density_) / j_old, T(0));
+    tau = scale_shift(stress_rate_update(cauchy, du, T(bulk_), T(shear_)), j / T(density_), T(0));
+  }
+
+  /// Stored energy per unit mass [J/kg] of a Cauchy stress: small-strain complementary energy.
+  template <class Matrix, class Symmetric>
+  double elastic_energy(const Matrix&, const Symmetric& tau, double j) const {
+    return stress_energy(scale_shift(tau, density_ / j, 0.0), bulk_, shear_) * j / density_;
+  }
+  template <class Symmetric>
+  static double stress_energy(const Symmetric& cauchy, double bulk, double shear) {
+    const double pressure = trace(cauchy) / 3.0;
+    const double deviator2 = squared_norm(scale_shift(cauchy, 1.0, -pressure));
+    return pressure * pressure / (2.0 * bulk) + deviator2 / (4.0 * shear);
+  }
+
+  /// Fastest wave [m/s] at volume ratio j.
+  double wave_speed(double j) const { return std::sqrt((bulk_ + 4.0 / 3.0 * shear_) * j / density_); }
+  double density() const { return density_; }
+
+ private:
+  double density_, bulk_, shear_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,101 @@
+// The geometries that the kernels are compiled for: number of axes, which world axes they are, and how the tensors of
+// a particle lie in structure-of-arrays storage. The one place that an out-of-plane policy is stated.
+#pragma once
+
+#include <type_traits>
+
+#include "mpm/math/tensor.hpp"
+
+namespace mpm {
+
+/// Three dimensions.
+struct Solid {
+  static constexpr int kDim = 3;
+  static constexpr int kMatrix = 9;     ///< stored components of the deformation gradient
+  static constexpr int kSymmetric = 6;  ///< stored components of a stress
+  template <class T>
+  using Matrix = Matrix3<T>;
+  template <class T>
+  using Symmetric = Symmetric3<T>;
+
+  template <class Arrays>
+  static auto load_matrix(const Arrays& a, int p) {
+    using T = std::decay_t<decltype(a[0][p])>;
+    return Matrix3<T>{a[0][p], a[1][p], a[2][p], a[3][p], a[4][p], a[5][p], a[6][p], a[7][p], a[8][p]};
+  }
+  template <class T>
+  static void store_matrix(const Matrix3<T>& m, T* const* a, int p) {
+    a[0][p] = m.xx, a[1][p] = m.xy, a[2][p] = m.xz;
+    a[3][p] = m.yx, a[4][p] = m.yy, a[5][p] = m.yz;
+    a[6][p] = m.zx, a[7][p] = m.zy, a[8][p] = m.zz;
+  }
+  template <class Arrays>
+  static auto load_symmetric(const Arrays& a, int p) {
+    using T = std::decay_t<decltype(a[0][p])>;
+    return Symmetric3<T>{a[0][p], a[1][p], a[2][p], a[3][p], a[4][p], a[5][p]};
+  }
+  template <class T>
+  static void store_symmetric(const Symmetric3<T>& s, T* const* a, int p) {
+    a[0][p] = s.xx, a[1][p] = s.yy, a[2][p] = s.zz, a[3][p] = s.yz, a[4][p] = s.xz, a[5][p] = s.xy;
+  }
+  /// Velocity gradient from d v_i / d x_j, row by row.
+  template <class T>
+  static Matrix3<T> gradient(const T (&l)[3][3]) {
+    return {l[0][0], l[0][1], l[0][2], l[1][0], l[1][1], l[1][2], l[2][0], l[2][1], l[2][2]};
+  }
+  /// Column j of the stress: the traction on a face whose normal is axis j.
+  template <class T>
+  static void column(const Symmetric3<T>& s, int j, T (&c)[3]) {
+    if (j == 0) {
+      c[0] = s.xx, c[1] = s.xy, c[2] = s.xz;
+    } else if (j == 1) {
+      c[0] = s.xy, c[1] = s.yy, c[2] = s.yz;
+    } else {
+      c[0] = s.xz, c[1] = s.yz, c[2] = s.zz;
+    }
+  }
+};
+
+/// Two dimensions, x and z; no strain along y.
+struct PlaneStrain {
+  static constexpr int kDim = 2;
+  static constexpr int kMatrix = 4;
+  static constexpr int kSymmetric = 4;
+  template <class T>
+  using Matrix = MatrixPlane<T>;
+  template <class T>
+  using Symmetric = SymmetricPlane<T>;
+
+  template <class Arrays>
+  static auto load_matrix(const Arrays& a, int p) {
+    using T = std::decay_t<decltype(a[0][p])>;
+    return MatrixPlane<T>{a[0][p], a[1][p], a[2][p], a[3][p], T(1)};
+  }
+  template <class T>
+  static void store_matrix(const MatrixPlane<T>& m, T* const* a, int p) {
+    a[0][p] = m.xx, a[1][p] = m.xz, a[2][p] = m.zx, a[3][p] = m.zz;
+  }
+  template <class Arrays>
+  static auto load_symmetric(const Arrays& a, int p) {
+    using T = std::decay_t<decltype(a[0][p])>;
+    return SymmetricPlane<T>{a[0][p], a[1][p], a[2][p], a[3][p]};
+  }
+  template <class T>
+  static void store_symmetric(const SymmetricPlane<T>& s, T* const* a, int p) {
+    a[0][p] = s.xx, a[1][p] = s.zz, a[2][p] = s.xz, a[3][p] = s.yy;
+  }
+  template <class T>
+  static MatrixPlane<T> gradient(const T (&l)[2][2]) {
+    return {l[0][0], l[0][1], l[1][0], l[1][1], T(0)};
+  }
+  template <class T>
+  static void column(const SymmetricPlane<T>& s, int j, T (&c)[2]) {
+    if (j == 0) {
+      c[0] = s.xx, c[1] = s.xz;
+    } else {
+      c[0] = s.xz, c[1] = s.zz;
+    }
+  }
+};
+
+}  // namespace mpm

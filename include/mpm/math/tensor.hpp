@@ -1,0 +1,160 @@
+// Small tensors of the kernels, by component and by geometry: a solid has all nine (six) components, a planar body
+// lies in x-z and keeps only the out-of-plane yy beside them. Laws are written once against the functions below;
+// what a planar tensor does not have costs nothing. T is a scalar type (later: a wide register).
+#pragma once
+
+namespace mpm {
+
+/// Row-major 3x3: deformation gradient, velocity gradient.
+template <class T>
+struct Matrix3 {
+  T xx, xy, xz, yx, yy, yz, zx, zy, zz;
+  static Matrix3 identity() { return {T(1), T(0), T(0), T(0), T(1), T(0), T(0), T(0), T(1)}; }
+};
+
+template <class T>
+struct Symmetric3 {
+  T xx, yy, zz, yz, xz, xy;
+};
+
+/// x-z block and yy.
+template <class T>
+struct MatrixPlane {
+  T xx, xz, zx, zz, yy;
+  static MatrixPlane identity() { return {T(1), T(0), T(0), T(1), T(1)}; }
+};
+
+template <class T>
+struct SymmetricPlane {
+  T xx, zz, xz, yy;
+};
+
+// --- solid ------------------------------------------------------------------------------------------------------
+
+template <class T>
+T determinant(const Matrix3<T>& a) {
+  return a.xx * (a.yy * a.zz - a.yz * a.zy) - a.xy * (a.yx * a.zz - a.yz * a.zx) + a.xz * (a.yx * a.zy - a.yy * a.zx);
+}
+
+template <class T>
+Matrix3<T> product(const Matrix3<T>& a, const Matrix3<T>& b) {
+  return {a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy,
+          a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.yx + a.yz * b.zx,
+          a.yx * b.xy + a.yy * b.yy + a.yz * b.zy, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
+          a.zx * b.xx + a.zy * b.yx + a.zz * b.zx, a.zx * b.xy + a.zy * b.yy + a.zz * b.zy,
+          a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
+}
+
+/// a a^T
+template <class T>
+Symmetric3<T> left_cauchy_green(const Matrix3<T>& a) {
+  return {a.xx * a.xx + a.xy * a.xy + a.xz * a.xz, a.yx * a.yx + a.yy * a.yy + a.yz * a.yz,
+          a.zx * a.zx + a.zy * a.zy + a.zz * a.zz, a.yx * a.zx + a.yy * a.zy + a.yz * a.zz,
+          a.xx * a.zx + a.xy * a.zy + a.xz * a.zz, a.xx * a.yx + a.xy * a.yy + a.xz * a.yz};
+}
+
+template <class T>
+Symmetric3<T> symmetric_part(const Matrix3<T>& a) {
+  const T half = T(0.5);
+  return {a.xx, a.yy, a.zz, half * (a.yz + a.zy), half * (a.xz + a.zx), half * (a.xy + a.yx)};
+}
+
+template <class T>
+T trace(const Symmetric3<T>& s) {
+  return s.xx + s.yy + s.zz;
+}
+
+/// s : s
+template <class T>
+T squared_norm(const Symmetric3<T>& s) {
+  return s.xx * s.xx + s.yy * s.yy + s.zz * s.zz + T(2) * (s.yz * s.yz + s.xz * s.xz + s.xy * s.xy);
+}
+
+/// a s + b I
+template <class T>
+Symmetric3<T> scale_shift(const Symmetric3<T>& s, T a, T b) {
+  return {a * s.xx + b, a * s.yy + b, a * s.zz + b, a * s.yz, a * s.xz, a * s.xy};
+}
+
+template <class T>
+Symmetric3<T> sum(const Symmetric3<T>& a, const Symmetric3<T>& b) {
+  return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.yz + b.yz, a.xz + b.xz, a.xy + b.xy};
+}
+
+/// Q s Q^T with the orthogonal Q = (I - W/2)^-1 (I + W/2), W the skew part of `increment`
+/// (Hughes & Winget 1980; method reference 10.1).
+template <class T>
+Symmetric3<T> rotate(const Symmetric3<T>& s, const Matrix3<T>& increment) {
+  // Axial vector of W/2, and Q by Rodrigues' formula for the Cayley transform.
+  const T quarter = T(0.25);
+  const T a = quarter * (increment.zy - increment.yz);
+  const T b = quarter * (increment.xz - increment.zx);
+  const T c = quarter * (increment.yx - increment.xy);
+  const T f = T(2) / (T(1) + a * a + b * b + c * c);
+  const Matrix3<T> q = {T(1) - f * (b * b + c * c), f * (a * b - c), f * (a * c + b), f * (a * b + c),
+                        T(1) - f * (a * a + c * c), f * (b * c - a), f * (a * c - b), f * (b * c + a),
+                        T(1) - f * (a * a + b * b)};
+  const Matrix3<T> full = {s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz};
+  const Matrix3<T> m = product(q, full);
+  return {m.xx * q.xx + m.xy * q.xy + m.xz * q.xz, m.yx * q.yx + m.yy * q.yy + m.yz * q.yz,
+          m.zx * q.zx + m.zy * q.zy + m.zz * q.zz, m.yx * q.zx + m.yy * q.zy + m.yz * q.zz,
+          m.xx * q.zx + m.xy * q.zy + m.xz * q.zz, m.xx * q.yx + m.xy * q.yy + m.xz * q.yz};
+}
+
+// --- planar -----------------------------------------------------------------------------------------------------
+
+template <class T>
+T determinant(const MatrixPlane<T>& a) {
+  return (a.xx * a.zz - a.xz * a.zx) * a.yy;
+}
+
+template <class T>
+MatrixPlane<T> product(const MatrixPlane<T>& a, const MatrixPlane<T>& b) {
+  return {a.xx * b.xx + a.xz * b.zx, a.xx * b.xz + a.xz * b.zz, a.zx * b.xx + a.zz * b.zx, a.zx * b.xz + a.zz * b.zz,
+          a.yy * b.yy};
+}
+
+template <class T>
+SymmetricPlane<T> left_cauchy_green(const MatrixPlane<T>& a) {
+  return {a.xx * a.xx + a.xz * a.xz, a.zx * a.zx + a.zz * a.zz, a.xx * a.zx + a.xz * a.zz, a.yy * a.yy};
+}
+
+template <class T>
+SymmetricPlane<T> symmetric_part(const MatrixPlane<T>& a) {
+  return {a.xx, a.zz, T(0.5) * (a.xz + a.zx), a.yy};
+}
+
+template <class T>
+T trace(const SymmetricPlane<T>& s) {
+  return s.xx + s.zz + s.yy;
+}
+
+template <class T>
+T squared_norm(const SymmetricPlane<T>& s) {
+  return s.xx * s.xx + s.zz * s.zz + s.yy * s.yy + T(2) * (s.xz * s.xz);
+}
+
+template <class T>
+SymmetricPlane<T> scale_shift(const SymmetricPlane<T>& s, T a, T b) {
+  return {a * s.xx + b, a * s.zz + b, a * s.xz, a * s.yy + b};
+}
+
+template <class T>
+SymmetricPlane<T> sum(const SymmetricPlane<T>& a, const SymmetricPlane<T>& b) {
+  return {a.xx + b.xx, a.zz + b.zz, a.xz + b.xz, a.yy + b.yy};
+}
+
+template <class T>
+SymmetricPlane<T> rotate(const SymmetricPlane<T>& s, const MatrixPlane<T>& increment) {
+  const T b = T(0.25) * (increment.xz - increment.zx);
+  const T f = T(2) / (T(1) + b * b);
+  const T cosine = T(1) - f * b * b;
+  const T sine = f * b;  // Q = [cosine sine; -sine cosine] in (x, z)
+  const T xx = cosine * s.xx + sine * s.xz;
+  const T xz = cosine * s.xz + sine * s.zz;
+  const T zx = cosine * s.xz - sine * s.xx;
+  const T zz = cosine * s.zz - sine * s.xz;
+  return {xx * cosine + xz * sine, zz * cosine - zx * sine, xz * cosine - xx * sine, s.yy};
+}
+
+}  // namespace mpm

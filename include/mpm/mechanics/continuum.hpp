@@ -1,0 +1,27 @@
+// The mechanics of the deformable bodies on the grid: runs the block kernels over the blocks, colour by colour, and the
+// passes over nodes between them. One instantiation a geometry and shape function, chosen by make_mechanics().
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mpm/particles/particle_set.hpp"
+#include "mpm/step/mechanics.hpp"
+
+namespace mpm {
+
+/// What the kernels are told once.
+struct ContinuumSettings {
+  double flip = 1.0;       ///< FLIP fraction
+  int gradient_terms = 2;  ///< of exp(grad v dt)
+  Vec3 gravity = Vec3::Zero();
+  int threads = 1;
+};
+
+/// Kernels of a planar (`dim` 2, plane strain) or solid (`dim` 3) scene with uGIMP. `sets` outlives the result.
+std::unique_ptr<Mechanics> make_mechanics(int dim, std::vector<ParticleSet>& sets, const ContinuumSettings& settings);
+
+/// Instruction set that the kernels were compiled for.
+const char* kernel_isa();
+
+}  // namespace mpm

@@ -1,0 +1,33 @@
+// uGIMP: hat functions averaged over a box that moves with the particle and keeps its size. C1 within a step's
+// reach, no cell-crossing noise. Weak at large strain: the boxes overlap or gap, and convergence stalls.
+// Source: Nairn, GIMP notes (4.9)-(4.12); Nairn & Guilkey (2015) (68), (69); branch-free form of method reference 2.1.
+//
+// Along one axis a box of half-width w <= 1/2 cell touches the particle's nearest node and its two neighbours.
+#pragma once
+
+#include <algorithm>
+
+namespace mpm {
+
+/// Values and gradients at the three nodes nearest-1, nearest, nearest+1.
+template <class T>
+struct Ugimp {
+  T s[3];  ///< shape function, sums to 1
+  T g[3];  ///< gradient [1/m], sums to 0
+
+  /// `offset`: particle minus its nearest node, in cells, in [-1/2, 1/2]; `half`: w, half the box in cells, (0, 1/2].
+  Ugimp(T offset, T half, T inverse_cell) {
+    const T a = std::max(offset + half, T(0)), b = std::max(offset - half, T(0));
+    const T c = std::min(offset - half, T(0)), d = std::min(offset + half, T(0));
+    const T scale = T(1) / (T(4) * half);
+    const T slope = T(2) * scale * inverse_cell;
+    s[0] = (c * c - d * d) * scale;
+    s[2] = (a * a - b * b) * scale;
+    s[1] = T(1) - s[0] - s[2];
+    g[0] = (c - d) * slope;
+    g[2] = (a - b) * slope;
+    g[1] = -g[0] - g[2];
+  }
+};
+
+}  // namespace mpm

@@ -1,0 +1,34 @@
+// The passes of the mechanics, as a schedule sees them: one virtual call a pass, none a particle.
+#pragma once
+
+#include <optional>
+
+#include "mpm/particles/sorter.hpp"
+#include "mpm/step/step_context.hpp"
+
+namespace mpm {
+
+class Mechanics {
+ public:
+  virtual ~Mechanics() = default;
+
+  /// Mass and momentum to the grid; velocity = momentum / mass.
+  virtual void scatter_momentum(StepContext&) = 0;
+  /// Strain and stress advance by `dt` with the grid's velocity; then the internal force goes to the grid.
+  virtual void strain_and_force(StepContext&, double dt) = 0;
+  /// velocity = v^{n+1}, force = acceleration, from momentum, force and gravity.
+  virtual void update_momentum(StepContext&) = 0;
+  /// Velocity and position of the particles.
+  virtual void move_particles(StepContext&) = 0;
+  /// Velocity of the particles; their new momentum to the grid with this step's weights; velocity = momentum / mass.
+  virtual void move_and_regather(StepContext&) = 0;
+  /// Strain and stress advance by `dt`; then positions take their new value. Goes with move_and_regather().
+  virtual void strain_and_place(StepContext&, double dt) = 0;
+
+  /// A particle whose J is not positive (or not finite), found in the step, if there is one: lowest id.
+  virtual std::optional<ParticleRef> failed() const = 0;
+  /// Particles have left the reach of their blocks.
+  virtual bool needs_sort() const = 0;
+};
+
+}  // namespace mpm

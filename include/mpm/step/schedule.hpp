@@ -1,0 +1,21 @@
+// The order of a step: update strain first (USF) or half first and half last (USAVG).
+//
+// USF costs least and conserves energy less well; USAVG re-extrapolates momentum and doubles the strain update for the
+// smallest energy drift. Contact and walls act on velocities beside the gathered momentum, which stays as it was,
+// so nothing has to be undone before the update. Source: Nairn, GIMP notes 2.2; method reference 5.4.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mpm/step/mechanics.hpp"
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+using Stages = std::vector<std::unique_ptr<Stage>>;
+
+void step_usf(Mechanics& mechanics, Stages& stages, StepContext& context);
+void step_usavg(Mechanics& mechanics, Stages& stages, StepContext& context);
+
+}  // namespace mpm

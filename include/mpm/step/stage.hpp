@@ -1,0 +1,41 @@
+// A physics other than the mechanics of the material: it meets the step at four joints on the grid. A scene's
+// list of stages is put together when it is loaded; what a scene does not name is not in the list.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mpm/step/step_context.hpp"
+
+namespace mpm {
+
+/// Momentum that something outside gave to the material [N s], since the start.
+struct ImpulseAccount {
+  std::string name;
+  Vec3 impulse = Vec3::Zero();
+  double exchanged = 0.0;  ///< sum over steps of |impulse of the step|
+
+  void add(const Vec3& step_impulse) {
+    impulse += step_impulse;
+    exchanged += step_impulse.norm();
+  }
+};
+
+class Stage {
+ public:
+  virtual ~Stage() = default;
+
+  /// Mass and momentum are on the grid, velocity is momentum over mass: the place to find one's nodes.
+  virtual void momentum_gathered(StepContext&) {}
+  /// Grid.velocity is about to give the strain: impose conditions on it. Called once (USF) or twice (USAVG) a step.
+  virtual void before_strain(StepContext&) {}
+  /// Grid.force holds the internal force: add to it [N].
+  virtual void forces_gathered(StepContext&) {}
+  /// Grid.velocity is v^{n+1}, Grid.force the acceleration: whoever adds dv to the one adds dv/dt to the other.
+  virtual void momentum_updated(StepContext&) {}
+
+  /// What this stage gave to the material, under its names.
+  virtual void accounts(std::vector<ImpulseAccount>&) const {}
+};
+
+}  // namespace mpm

@@ -1,0 +1,122 @@
+#include "mpm/contact/rigid_contact.hpp"
+
+#include "mpm/step/coulomb.hpp"
+
+namespace mpm {
+namespace {
+
+// Part of a cell within which a node counts as lying on the surface: keeps aligned surfaces from flickering by
+// round-off.
+constexpr double kOnSurface = 1e-6;
+
+// Box around the body in the world; a body that is endless along an axis stays endless.
+Box world_bounds(const RigidBody& body) {
+  const Box local = body.surface().bounds();
+  const Mat3 rotation = body.pose().orientation.toRotationMatrix();
+  Box world{body.pose().position, body.pose().position};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const double r = rotation(i, k);
+      if (r == 0.0) continue;
+      const double a = r * local.min[k], b = r * local.max[k];
+      world.min[i] += std::min(a, b);
+      world.max[i] += std::max(a, b);
+    }
+  }
+  return world;
+}
+
+}  // namespace
+
+RigidContact::RigidContact(const RigidBody& body, int threads) : body_(body), threads_(threads) {
+  account_.name = "contact/" + body.name();
+}
+
+void RigidContact::momentum_gathered(StepContext& context) {
+  const Grid& grid = context.grid;
+  const GridLayout& layout = grid.layout;
+  const double tolerance = kOnSurface * layout.smallest_cell();
+  const Box bounds = world_bounds(body_).grown(tolerance);
+
+  near_.clear();
+  for (int b = 0; b < grid.blocks.size(); ++b) {
+    const Box block{layout.node_position(grid.blocks.block(b), 0),
+                    layout.node_position(grid.blocks.block(b), layout.nodes_per_block() - 1)};
+    if (block.intersects(bounds)) near_.push_back(b);
+  }
+  if (nodes_.size() < near_.size()) nodes_.resize(near_.size());
+
+  const int count = static_cast<int>(near_.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
+  for (int i = 0; i < count; ++i) {
+    const int block = near_[i];
+    nodes_[i].clear();
+    const double* mass = grid.mass.block(block);
+    for (int n = 0; n < layout.nodes_per_block(); ++n) {
+      if (!(mass[n] > 0.0)) continue;
+      const Vec3 position = layout.node_position(grid.blocks.block(block), n);
+      SurfacePoint point;
+      if (!body_.surface().within(body_.pose().to_body(position), tolerance, point)) continue;
+      nodes_[i].push_back({{block, n},
+                           body_.pose().orientation * point.normal,
+                           velocity_at(body_.pose(), body_.twist(), position),
+                           position - body_.pose().position});
+    }
+  }
+}
+
+template <class Visit>
+void RigidContact::each_node(Visit&& visit) const {
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    for (const Node& node : nodes_[i]) visit(node);
+  }
+}
+
+void RigidContact::before_strain(StepContext& context) {
+  Grid& grid = context.grid;
+  each_node([&](const Node& node) {
+    const Vec3 relative = nodal_vector(grid.velocity, grid.layout, node.ref) - node.velocity;
+    const Vec3 change = contact_velocity_change(relative, node.normal, body_.friction());
+    add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
+  });
+}
+
+void RigidContact::momentum_updated(StepContext& context) {
+  Grid& grid = context.grid;
+  Vec3 given = Vec3::Zero(), angular = Vec3::Zero();
+  int touching = 0;
+  each_node([&](const Node& node) {
+    const Vec3 relative = nodal_vector(grid.velocity, grid.layout, node.ref) - node.velocity;
+    const Vec3 change = contact_velocity_change(relative, node.normal, body_.friction());
+    if (change.isZero(0.0)) return;
+    add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
+    add_nodal_vector(grid.force, grid.layout, node.ref, change / context.dt);
+    const Vec3 impulse = grid.mass.at(node.ref.block, 0, node.ref.node) * change;
+    given += impulse;
+    angular += node.arm.cross(impulse);
+    work_ += impulse.dot(node.velocity);
+    ++touching;
+  });
+  account_.add(given);
+  impulse_ -= given;
+  angular_impulse_ -= angular;
+  touching_ = touching;
+  const Wrench wrench{-given / context.dt, -angular / context.dt};
+  if (wrench.force.squaredNorm() > peak_.force.squaredNorm()) peak_ = wrench;
+}
+
+ContactReport RigidContact::take(double now) {
+  ContactReport report;
+  report.body = body_.name();
+  report.interval = now - last_report_;
+  if (report.interval > 0.0) report.mean = {impulse_ / report.interval, angular_impulse_ / report.interval};
+  report.peak = peak_;
+  report.nodes = touching_;
+  report.impulse = -account_.impulse;
+  impulse_ = angular_impulse_ = Vec3::Zero();
+  peak_ = {};
+  last_report_ = now;
+  return report;
+}
+
+}  // namespace mpm

@@ -1,0 +1,21 @@
+#include "mpm/mechanics/continuum.hpp"
+
+#include "mpm/mechanics/instances.hpp"
+
+namespace mpm {
+
+std::unique_ptr<Mechanics> make_mechanics(int dim, std::vector<ParticleSet>& sets, const ContinuumSettings& settings) {
+  return dim == 3 ? make_solid_ugimp(sets, settings) : make_plane_strain_ugimp(sets, settings);
+}
+
+const char* kernel_isa() {
+#if defined(__AVX512F__)
+  return "avx512";
+#elif defined(__AVX2__)
+  return "avx2";
+#else
+  return "x86-64";
+#endif
+}
+
+}  // namespace mpm

@@ -1,0 +1,102 @@
+#include "mpm/particles/sorter.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace mpm {
+
+void Sorter::radix_sort(std::vector<Entry>& entries) {
+  if (entries.size() < 2) return;
+  std::uint64_t low = entries[0].key, high = entries[0].key;
+  for (const Entry& e : entries) {
+    low = std::min(low, e.key);
+    high = std::max(high, e.key);
+  }
+  constexpr int kBits = 11;
+  constexpr std::uint64_t kMask = (1u << kBits) - 1;
+  other_.resize(entries.size());
+  for (int shift = 0; shift < 64 && ((high - low) >> shift) != 0; shift += kBits) {
+    std::array<std::uint32_t, kMask + 1> start{};
+    for (const Entry& e : entries) ++start[((e.key - low) >> shift) & kMask];
+    std::uint32_t sum = 0;
+    for (std::uint32_t& s : start) {
+      const std::uint32_t count = s;
+      s = sum;
+      sum += count;
+    }
+    for (const Entry& e : entries) other_[start[((e.key - low) >> shift) & kMask]++] = e;
+    entries.swap(other_);
+  }
+}
+
+void Sorter::permute(ParticleSet& set, const std::vector<Entry>& entries) {
+  const int n = set.size();
+  scratch_.resize(n);
+  set.each_scalar([&](std::vector<double>& scalar) {
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < n; ++i) scratch_[i] = scalar[entries[i].index];
+    scalar.swap(scratch_);
+  });
+  id_scratch_.resize(n);
+  for (int i = 0; i < n; ++i) id_scratch_[i] = set.id[entries[i].index];
+  set.id.swap(id_scratch_);
+}
+
+std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Grid& grid) {
+  const GridLayout& layout = grid.layout;
+  const int dim = layout.dim();
+  entries_.resize(sets.size());
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const ParticleSet& set = sets[s];
+    const int n = set.size();
+    std::vector<Entry>& entries = entries_[s];
+    entries.resize(n);
+    int outside = n;
+#pragma omp parallel for schedule(static) reduction(min : outside)
+    for (int i = 0; i < n; ++i) {
+      std::array<int, 3> block{};
+      std::uint32_t local = 0;
+      bool inside = true;
+      for (int k = 0; k < dim; ++k) {
+        const double cells = layout.in_cells(k, set.x[k][i]);
+        inside = inside && cells >= 0.0 && cells <= layout.last_node(k);
+        const int node = inside ? GridLayout::nearest(cells) : 0;
+        block[k] = node / kBlockEdge;
+        local = local * kBlockEdge + node % kBlockEdge;
+      }
+      if (!inside) outside = std::min(outside, i);
+      entries[i] = {layout.key(block) * layout.nodes_per_block() + local, static_cast<std::uint32_t>(i)};
+    }
+    if (outside < n) return ParticleRef{static_cast<int>(s), outside};
+  }
+
+  owner_keys_.clear();
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    std::vector<Entry>& entries = entries_[s];
+    radix_sort(entries);
+    permute(sets[s], entries);
+    std::uint64_t last = ~std::uint64_t{0};
+    for (Entry& e : entries) {
+      e.key /= layout.nodes_per_block();
+      if (e.key != last) owner_keys_.push_back(last = e.key);
+    }
+  }
+  std::sort(owner_keys_.begin(), owner_keys_.end());
+  owner_keys_.erase(std::unique(owner_keys_.begin(), owner_keys_.end()), owner_keys_.end());
+
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    std::vector<std::uint32_t>& begin = sets[s].begin;
+    begin.resize(owner_keys_.size() + 1);
+    std::uint32_t next = 0;
+    const std::vector<Entry>& entries = entries_[s];
+    for (std::size_t o = 0; o < owner_keys_.size(); ++o) {
+      begin[o] = next;
+      while (next < entries.size() && entries[next].key == owner_keys_[o]) ++next;
+    }
+    begin[owner_keys_.size()] = next;
+  }
+  grid.rebuild(owner_keys_);
+  return std::nullopt;
+}
+
+}  // namespace mpm

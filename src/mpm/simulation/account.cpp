@@ -1,0 +1,151 @@
+// What a Simulation says of itself: momentum audit, energies, metrics, the hash of its state. Computed when asked for.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "state.hpp"
+
+namespace mpm {
+namespace {
+
+Vec3 particle_vector(const std::vector<std::vector<double>>& field, const GridLayout& layout, int p) {
+  Vec3 v = Vec3::Zero();
+  for (int k = 0; k < layout.dim(); ++k) v[layout.axis(k)] = field[k][p];
+  return v;
+}
+
+double elastic_energy(const ParticleSet& set, int dim, int p) {
+  const ParticleTensors t = particle_tensors(set, dim, p);
+  return set.mass * std::visit([&](const auto& law) { return law.elastic_energy(t.f, t.tau, t.j); }, set.law);
+}
+
+double plastic_work(const ParticleSet& set, int p) {
+  const int index = std::visit([](const auto& law) { return law.kPlasticWork; }, set.law);
+  return index < 0 ? 0.0 : set.mass * set.history[index][p];
+}
+
+// FNV-1a, 64 bits.
+class Hash {
+ public:
+  template <class T>
+  void add(const T& value) {
+    unsigned char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    for (const unsigned char byte : bytes) {
+      value_ ^= byte;
+      value_ *= 1099511628211ull;
+    }
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 14695981039346656037ull;
+};
+
+}  // namespace
+
+ParticleTensors particle_tensors(const ParticleSet& set, int dim, int p) {
+  ParticleTensors t{};
+  if (dim == 3) {
+    t.f = {set.f[0][p], set.f[1][p], set.f[2][p], set.f[3][p], set.f[4][p],
+           set.f[5][p], set.f[6][p], set.f[7][p], set.f[8][p]};
+    t.tau = {set.tau[0][p], set.tau[1][p], set.tau[2][p], set.tau[3][p], set.tau[4][p], set.tau[5][p]};
+  } else {
+    t.f = {set.f[0][p], 0.0, set.f[1][p], 0.0, 1.0, 0.0, set.f[2][p], 0.0, set.f[3][p]};
+    t.tau = {set.tau[0][p], set.tau[3][p], set.tau[1][p], 0.0, set.tau[2][p], 0.0};
+  }
+  t.j = determinant(t.f);
+  return t;
+}
+
+SolverState Simulation::state() const {
+  const State& s = *state_;
+  const GridLayout& layout = s.grid->layout;
+  SolverState report;
+  report.time = s.time;
+  report.step = s.steps;
+  report.particles = particles();
+  report.wall_seconds = s.wall.count();
+
+  const int dim = layout.dim();
+  auto sum = [&](auto&& term) { return sum_particles(s.sets, s.threads, 0.0, term); };
+  report.energy.kinetic = sum(
+      [&](const ParticleSet& set, int p) { return 0.5 * set.mass * particle_vector(set.v, layout, p).squaredNorm(); });
+  report.energy.potential = sum([&](const ParticleSet& set, int p) {
+    return -set.mass * s.definition.gravity.dot(particle_vector(set.x, layout, p));
+  });
+  report.energy.elastic = sum([&](const ParticleSet& set, int p) { return elastic_energy(set, dim, p); });
+  report.energy.plastic = sum([&](const ParticleSet& set, int p) { return plastic_work(set, p); });
+  for (const RigidContact* contact : s.contacts) report.energy.contact_work += contact->work();
+
+  AuditReport& audit = report.audit;
+  audit.momentum = sum_particles(s.sets, s.threads, Vec3(Vec3::Zero()), [&](const ParticleSet& set, int p) {
+    return Vec3(set.mass * particle_vector(set.v, layout, p));
+  });
+  audit.initial_momentum = s.initial_momentum;
+  std::vector<ImpulseAccount> accounts{s.gravity};
+  for (const auto& stage : s.stages) stage->accounts(accounts);
+  Vec3 given = Vec3::Zero();
+  for (const ImpulseAccount& account : accounts) {
+    audit.impulses.push_back({account.name, account.impulse});
+    audit.exchanged += account.exchanged;
+    given += account.impulse;
+  }
+  const double carried =
+      sum([&](const ParticleSet& set, int p) { return set.mass * particle_vector(set.v, layout, p).norm(); });
+  const double scale = std::max(audit.exchanged, carried);
+  const double error = (audit.momentum - audit.initial_momentum - given).norm();
+  audit.residual = scale > 0.0 ? error / scale : error;
+
+  report.min_j = std::numeric_limits<double>::infinity();
+  for (const ParticleSet& set : s.sets) {
+    for (int p = 0; p < set.size(); ++p) report.min_j = std::min(report.min_j, particle_tensors(set, dim, p).j);
+  }
+  return report;
+}
+
+std::vector<std::pair<std::string, double>> Simulation::metrics() const {
+  std::vector<std::pair<std::string, double>> list;
+  std::vector<double> values;
+  for (const MetricDefinition& metric : state_->definition.metrics) {
+    particle_field(metric.field, values);
+    const auto [first, last] =
+        metric.body.empty() ? std::pair<std::uint64_t, std::uint64_t>{0, values.size()} : body_ids(metric.body);
+    const auto begin = values.begin() + first, end = values.begin() + last;
+    double mean = 0.0;
+    for (auto it = begin; it != end; ++it) mean += *it;
+    mean /= static_cast<double>(last - first);
+    double result = mean;
+    if (metric.statistic == Statistic::min) result = *std::min_element(begin, end);
+    if (metric.statistic == Statistic::max) result = *std::max_element(begin, end);
+    if (metric.statistic == Statistic::std_dev) {
+      double squares = 0.0;
+      for (auto it = begin; it != end; ++it) squares += (*it - mean) * (*it - mean);
+      result = std::sqrt(squares / static_cast<double>(last - first));
+    }
+    list.emplace_back(metric.name, result);
+  }
+  return list;
+}
+
+std::uint64_t Simulation::state_hash() const {
+  const State& s = *state_;
+  Hash hash;
+  hash.add(s.time);
+  for (const ParticleSet& set : s.sets) {
+    std::vector<int> place(set.size());
+    for (int p = 0; p < set.size(); ++p) place[set.id[p] - set.first_id] = p;
+    for (const auto* group : {&set.x, &set.v, &set.f, &set.tau, &set.history}) {
+      for (const std::vector<double>& scalar : *group) {
+        for (const int p : place) hash.add(scalar[p]);
+      }
+    }
+  }
+  for (const RigidBody& body : s.bodies) {
+    for (int k = 0; k < 3; ++k) hash.add(body.pose().position[k]);
+    for (int k = 0; k < 4; ++k) hash.add(body.pose().orientation.coeffs()[k]);
+  }
+  return hash.value();
+}
+
+}  // namespace mpm

@@ -1,0 +1,67 @@
+// The inside of a Simulation: what the rooms below it are put together from. Private to this room.
+#pragma once
+
+#include <chrono>
+
+#include "mpm/contact/rigid_contact.hpp"
+#include "mpm/mechanics/continuum.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "mpm/step/schedule.hpp"
+
+namespace mpm {
+
+struct Simulation::State {
+  SimulationDefinition definition;
+  int threads = 1;
+  std::vector<std::string> warnings;
+
+  std::vector<ParticleSet> sets;
+  std::unique_ptr<Grid> grid;
+  Sorter sorter;
+  std::unique_ptr<Mechanics> mechanics;
+  std::vector<RigidBody> bodies;
+  Stages stages;
+  std::vector<RigidContact*> contacts;  ///< of each body, owned by stages
+
+  std::int64_t time = 0;  ///< [ns]
+  StepReport steps;
+  ImpulseAccount gravity;
+  Vec3 initial_momentum = Vec3::Zero();
+  double total_mass = 0.0;
+  std::chrono::duration<double> wall{0.0};
+
+  /// The largest stable step now [s], and what limits it.
+  std::pair<double, std::string> step_limit() const;
+  /// One step of the schedule, with the checks after it. `time` [s]. @throws PhysicsError
+  void step(double at, double dt);
+  void sort();
+  [[noreturn]] void fail(const std::string& what, ParticleRef particle, const std::string& remedy) const;
+};
+
+/// Sums over all particles of `term(set, index)`, grouped so that the result does not depend on the number of threads.
+template <class Value, class Term>
+Value sum_particles(const std::vector<ParticleSet>& sets, int threads, Value zero, Term&& term) {
+  constexpr int kGroup = 4096;
+  Value total = zero;
+  for (const ParticleSet& set : sets) {
+    const int groups = (set.size() + kGroup - 1) / kGroup;
+    std::vector<Value> partial(groups, zero);
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int g = 0; g < groups; ++g) {
+      const int end = std::min(set.size(), (g + 1) * kGroup);
+      for (int p = g * kGroup; p < end; ++p) partial[g] += term(set, p);
+    }
+    for (const Value& value : partial) total += value;
+  }
+  return total;
+}
+
+/// Deformation gradient and stress of one particle as full tensors (planar: yy filled in), for what is not a kernel.
+struct ParticleTensors {
+  Matrix3<double> f;
+  Symmetric3<double> tau;  ///< Kirchhoff stress over initial density [J/kg]
+  double j;                ///< det f
+};
+ParticleTensors particle_tensors(const ParticleSet& set, int dim, int p);
+
+}  // namespace mpm

@@ -19,13 +19,14 @@ class SceneError : public Error {
   using Error::Error;
 };
 
-/// A region of space that a deformable body fills.
+/// A region of space that a deformable body fills. Half-open: of two that share a face, one holds a point on it.
+/// In planar scenes a sphere is a disk, and a box has no end along y.
 struct Region {
   enum class Kind { box, sphere, cylinder } kind = Kind::box;
-  Box box;                      ///< box
-  Vec3 center = Vec3::Zero();   ///< sphere, cylinder [m]
-  double radius = 0.0;          ///< [m]
-  double height = 0.0;          ///< cylinder, along `axis`
+  Box box;                     ///< box
+  Vec3 center = Vec3::Zero();  ///< sphere, cylinder [m]
+  double radius = 0.0;         ///< [m]
+  double height = 0.0;         ///< cylinder, along `axis`
   int axis = 2;
   bool contains(const Vec3& point) const;
   Box bounds() const;
@@ -36,6 +37,7 @@ struct BodyDefinition {
   std::string material;
   Region region;
   std::array<Function, 3> velocity;  ///< initial, functions of place [m/s]
+  std::string where;                 ///< "file:line: key.path", for errors found when it is built
 };
 
 /// What is written out, beside the sync period that carries it.
@@ -49,15 +51,16 @@ struct Scene {
   SimulationDefinition definition;  ///< all but the particles of the bodies
   std::vector<BodyDefinition> bodies;
   OutputDefinition output;
-  std::string path;                 ///< of the file
-  std::string text;                 ///< as loaded, overrides applied, for the record
+  std::string path;                                          ///< of the file
+  std::string text;                                          ///< as loaded, overrides applied, for the record
   std::vector<std::pair<std::string, std::string>> choices;  ///< what was chosen and why, for --explain
 };
 
 /// `name_or_path`: a shipped scene's name, or a path to a YAML file. `overrides`: "key.path=value".
 /// @throws SceneError
 Scene load_scene(const std::string& name_or_path, const std::vector<std::string>& overrides = {});
-/// The same from text; `label` stands for the file in errors; relative mesh paths are read from the working folder.
+/// The same from text; `label` stands for the file in errors. Relative mesh paths start from the label's folder (from
+/// the working folder when it has none), so a scene out of a bag is given its path as the label.
 Scene parse_scene(const std::string& text, const std::string& label, const std::vector<std::string>& overrides = {});
 /// Names and first comment lines of the scenes that are shipped.
 std::vector<std::pair<std::string, std::string>> shipped_scenes();

@@ -1,0 +1,102 @@
+// Reading a scene's tree: each value knows its path and line, each map refuses keys it does not know.
+//
+//   const Map grid(value, {"cell", "min", "max"});
+//   const double cell = grid.at("cell").positive(kLength);
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mpm/math/function.hpp"
+#include "mpm/math/geometry.hpp"
+#include "mpm/scene/scene.hpp"
+#include "mpm/scene/source.hpp"
+#include "mpm/scene/units.hpp"
+
+namespace mpm {
+
+/// What all of a scene's values are read with.
+struct ReadContext {
+  const Source* source = nullptr;
+  UnitSystem units;
+  bool planar = false;  ///< vectors have two components (x, z)
+};
+
+/// A key or word of a feature that is not built yet, and what can be used.
+struct Later {
+  std::string word;
+  std::string advice;
+};
+
+class Value {
+ public:
+  Value(const ReadContext& context, YAML::Node node, std::string path);
+
+  const std::string& path() const { return path_; }
+  const YAML::Node& node() const { return node_; }
+  const ReadContext& context() const { return *context_; }
+  bool is_map() const { return node_.IsMap(); }
+  bool is_list() const { return node_.IsSequence(); }
+  bool is_text() const { return node_.IsScalar(); }
+
+  /// "file:line: key.path"
+  std::string where() const;
+  /// @throws SceneError always: where, then `what`.
+  [[noreturn]] void fail(const std::string& what) const;
+
+  /// A number or quantity, to SI. The three differ in the range they take.
+  double number(const Dimension& dimension) const;
+  double positive(const Dimension& dimension) const;
+  double non_negative(const Dimension& dimension) const;
+  int integer() const;
+  std::string text() const;
+  /// A word that can stand in topic names: a letter, then letters, digits and '_'.
+  std::string name() const;
+  /// The index of the word in `words`.
+  std::size_t choice(const std::vector<std::string>& words, const std::vector<Later>& later = {}) const;
+  /// A number, a quantity, or an expression of t, x, y, z in the scene's units.
+  Function function(const Dimension& dimension) const;
+  /// Three components, or two (x, z) in planar scenes, where y is 0.
+  Vec3 vector(const Dimension& dimension) const;
+  std::array<Function, 3> functions(const Dimension& dimension) const;
+  /// Exactly three components, in planar scenes too (rotations).
+  std::array<Function, 3> three_functions(const Dimension& dimension) const;
+  /// The elements of a list.
+  std::vector<Value> elements() const;
+  /// An element of a list, or the value of a key; the caller has checked that it is there.
+  Value child(const YAML::Node& node, const std::string& part) const;
+
+ private:
+  std::vector<Value> components() const;
+
+  const ReadContext* context_;
+  YAML::Node node_;
+  std::string path_;
+};
+
+/// A map whose keys are all known.
+class Map {
+ public:
+  /// @throws SceneError when the value is not a map, or has a key that is not among `keys`.
+  Map(const Value& value, std::vector<std::string> keys, const std::vector<Later>& later = {});
+
+  /// @throws SceneError when the key is not there, or has no value.
+  Value at(const std::string& key) const;
+  /// Nothing when the key is not there. @throws SceneError when it has no value.
+  std::optional<Value> find(const std::string& key) const;
+  const Value& value() const { return value_; }
+  [[noreturn]] void fail(const std::string& what) const { value_.fail(what); }
+
+ private:
+  Value value_;
+  std::vector<std::string> keys_;
+};
+
+/// The one key of a map such as {sphere: …}, among `keys`, and its value.
+std::pair<std::string, Value> only_key(const Value& value, const std::vector<std::string>& keys,
+                                       const std::vector<Later>& later = {});
+
+}  // namespace mpm

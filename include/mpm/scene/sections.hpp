@@ -1,0 +1,43 @@
+// The sections of a scene file, one function each, in the order in which parse_scene() reads them. Each checks what it
+// reads, fills its part of the Scene and notes in Scene::choices what it chose by itself.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "mpm/scene/reader.hpp"
+#include "mpm/scene/scene.hpp"
+
+namespace mpm {
+
+/// `units`
+UnitSystem read_units(const Value& value);
+/// `grid`
+void read_grid(const Map& root, Scene& scene);
+/// `method`
+void read_method(const Map& root, Scene& scene);
+/// `materials`
+void read_materials(const Map& root, Scene& scene);
+/// `bodies`, after materials
+void read_bodies(const Map& root, Scene& scene);
+/// `rigid_bodies` and `contact`, after bodies
+void read_rigid_bodies(const Map& root, Scene& scene);
+/// `boundaries`
+void read_boundaries(const Map& root, Scene& scene);
+/// `time` and `output`: sync points and snapshots are chosen together
+void read_time_and_output(const Map& root, Scene& scene);
+/// `metrics`, after bodies
+void read_metrics(const Map& root, Scene& scene);
+
+/// A number >= 0 or the word stick.
+FrictionLaw read_friction(const Value& value);
+/// One of the names that Simulation::particle_fields() knows.
+std::string read_particle_field(const Value& value);
+/// A shape's number of cells and particles along an edge: what the lattice of particles is made of.
+double particle_spacing(const Scene& scene, int axis);
+/// Name of the world's axis.
+const char* axis_name(int axis);
+/// Axes of the scene's space: x, z or x, y, z.
+std::vector<int> axes_of(const Scene& scene);
+
+}  // namespace mpm

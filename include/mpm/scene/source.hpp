@@ -1,0 +1,44 @@
+// The text of a scene as a tree, overrides applied, and where each of its values was written.
+//
+// Parts of a path are keys; an element of a list is named by its `name`, or by its index when it has none:
+// "bodies.soil.material", "bodies.0.material". Overrides and errors use the same spelling.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+#include <vector>
+
+namespace mpm {
+
+class Source {
+ public:
+  /// `overrides`: "key.path=value", the value in YAML.
+  /// @throws SceneError when the text is not YAML, has a key twice, or an override does not fit the tree.
+  Source(const std::string& text, std::string label, const std::vector<std::string>& overrides);
+
+  const YAML::Node& root() const { return root_; }
+  const std::string& label() const { return label_; }
+  /// "file:line" of a value, or the override that set it.
+  std::string where(const YAML::Node& node) const;
+  /// The tree as YAML, overrides applied.
+  std::string dump() const { return YAML::Dump(root_); }
+
+ private:
+  struct Override {
+    std::string text;
+    YAML::Node node;
+  };
+  void apply(const std::string& text);
+
+  std::string label_;
+  YAML::Node root_;
+  std::vector<Override> overrides_;
+};
+
+/// The name of an element of a list in paths.
+std::string element_name(const YAML::Node& list, std::size_t index);
+/// `path` with one more part.
+std::string join_path(const std::string& path, const std::string& part);
+
+}  // namespace mpm

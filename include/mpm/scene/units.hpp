@@ -1,0 +1,71 @@
+// Units: quantities as text ("2300 MPa"), consistent unit systems, and the dimension that a key expects.
+#pragma once
+
+#include <string>
+
+#include "mpm/math/error.hpp"
+
+namespace mpm {
+
+/// A quantity, unit or unit system that is not understood, or is of another dimension than expected.
+class UnitError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Exponents of the base dimensions. An angle is one, so that degrees cannot stand where a number is meant.
+struct Dimension {
+  int length = 0;
+  int mass = 0;
+  int time = 0;
+  int angle = 0;
+  friend bool operator==(const Dimension& a, const Dimension& b) {
+    return a.length == b.length && a.mass == b.mass && a.time == b.time && a.angle == b.angle;
+  }
+};
+
+inline constexpr Dimension kPlain{};
+inline constexpr Dimension kLength{1, 0, 0, 0};
+inline constexpr Dimension kMass{0, 1, 0, 0};
+inline constexpr Dimension kTime{0, 0, 1, 0};
+inline constexpr Dimension kAngle{0, 0, 0, 1};
+inline constexpr Dimension kRate{0, 0, -1, 0};
+inline constexpr Dimension kAngularRate{0, 0, -1, 1};
+inline constexpr Dimension kVelocity{1, 0, -1, 0};
+inline constexpr Dimension kAcceleration{1, 0, -2, 0};
+inline constexpr Dimension kDensity{-3, 1, 0, 0};
+inline constexpr Dimension kPressure{-1, 1, -2, 0};
+
+/// "a pressure", "a length"; for a dimension without a name "a quantity in m^2/s".
+std::string describe(const Dimension& dimension);
+/// An example of a quantity of this dimension: "5 kPa".
+std::string example(const Dimension& dimension);
+
+/// A unit: factor to SI and dimension.
+struct Unit {
+  double factor = 1.0;
+  Dimension dimension;
+};
+/// "MPa", "g/cm^3", "kg/(m*s^2)", "1/s". @throws UnitError naming the part that is not known.
+Unit parse_unit(const std::string& text);
+
+/// The units of a scene's plain numbers, as factors to SI. Angles are always radians.
+struct UnitSystem {
+  double length = 1.0;  ///< [m]
+  double mass = 1.0;    ///< [kg]
+  double time = 1.0;    ///< [s]
+  std::string name = "si";
+  double factor(const Dimension& dimension) const;
+};
+/// "si", or a consistent system by its length, mass and time: "mm-g-s", "mm-t-s", "cm-g-us", … @throws UnitError
+UnitSystem parse_unit_system(const std::string& name);
+/// @throws UnitError when one of the three is not a length, a mass or a time.
+UnitSystem make_unit_system(const std::string& length, const std::string& mass, const std::string& time);
+
+/// Whether `text` is a number, alone or with something behind it that may be a unit; `value` and `rest` are set.
+bool split_number(const std::string& text, double& value, std::string& rest);
+/// A plain number in `system`, or a number with a unit, to SI.
+/// @throws UnitError when it is neither, not finite, or not of the dimension expected.
+double parse_quantity(const std::string& text, const Dimension& expected, const UnitSystem& system = {});
+
+}  // namespace mpm

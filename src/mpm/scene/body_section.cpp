@@ -1,0 +1,105 @@
+// bodies: what deforms, its material, shape and initial state.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "mpm/scene/nearest.hpp"
+#include "mpm/scene/sections.hpp"
+
+namespace mpm {
+namespace {
+
+Region read_box(const Value& value, bool planar) {
+  const Map map(value, {"min", "max"}, {{"size", "write the corners min and max"}});
+  Region region;
+  region.kind = Region::Kind::box;
+  region.box.min = map.at("min").vector(kLength);
+  const Value max = map.at("max");
+  region.box.max = max.vector(kLength);
+  if (planar) {
+    region.box.min.y() = -std::numeric_limits<double>::infinity();
+    region.box.max.y() = std::numeric_limits<double>::infinity();
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(region.box.max[axis] > region.box.min[axis])) {
+      max.fail(fmt::format("{} = {} m is not above the box's min ({} m); put max above min", axis_name(axis),
+                           region.box.max[axis], region.box.min[axis]));
+    }
+  }
+  return region;
+}
+
+Region read_sphere(const Value& value) {
+  const Map map(value, {"center", "radius"});
+  Region region;
+  region.kind = Region::Kind::sphere;
+  region.center = map.at("center").vector(kLength);
+  region.radius = map.at("radius").positive(kLength);
+  return region;
+}
+
+Region read_cylinder(const Value& value, bool planar) {
+  const Map map(value, {"center", "radius", "height", "axis"});
+  if (planar) value.fail("a planar scene has no cylinder; write sphere, which is a disk there, or box");
+  Region region;
+  region.kind = Region::Kind::cylinder;
+  region.center = map.at("center").vector(kLength);
+  region.radius = map.at("radius").positive(kLength);
+  region.height = map.at("height").positive(kLength);
+  if (const auto axis = map.find("axis")) region.axis = static_cast<int>(axis->choice({"x", "y", "z"}));
+  return region;
+}
+
+Region read_region(const Value& value, bool planar) {
+  const std::string advice = "use box, sphere or cylinder";
+  const auto [kind, shape] =
+      only_key(value, {"box", "sphere", "cylinder"},
+               {{"mesh", advice}, {"polygon", advice}, {"capsule", advice}, {"disk", "use sphere"}});
+  if (kind == "box") return read_box(shape, planar);
+  if (kind == "sphere") return read_sphere(shape);
+  return read_cylinder(shape, planar);
+}
+
+void read_initial(const Value& value, BodyDefinition& body) {
+  if (value.is_text() && value.text() == "geostatic") {
+    value.fail("'geostatic' is not built yet; let the soil settle before the tool reaches it");
+  }
+  const Map map(value, {"velocity"},
+                {{"stress", "bodies start without stress"},
+                 {"temperature", "a run is mechanical"},
+                 {"concentration", "a run is mechanical"},
+                 {"pore_pressure", "a run is mechanical"}});
+  if (const auto velocity = map.find("velocity")) body.velocity = velocity->functions(kVelocity);
+}
+
+}  // namespace
+
+void read_bodies(const Map& root, Scene& scene) {
+  const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
+  const Value list = root.at("bodies");
+  std::vector<std::string> materials;
+  for (const MaterialDefinition& material : scene.definition.materials) materials.push_back(material.name);
+  for (const Value& value : list.elements()) {
+    const Map map(value, {"name", "material", "shape", "initial"},
+                  {{"temperature", "a run is mechanical"}, {"angle", "bodies lie along the grid's axes"}});
+    BodyDefinition body;
+    body.name = map.at("name").name();
+    for (const BodyDefinition& other : scene.bodies) {
+      if (other.name == body.name) value.fail(fmt::format("a second body '{}'; give each its own name", body.name));
+    }
+    const Value material = map.at("material");
+    body.material = material.text();
+    if (std::find(materials.begin(), materials.end(), body.material) == materials.end()) {
+      material.fail(fmt::format("no material '{}'; {}", body.material, suggest(body.material, materials)));
+    }
+    const Value shape = map.at("shape");
+    body.region = read_region(shape, planar);
+    body.where = shape.where();
+    if (const auto initial = map.find("initial")) read_initial(*initial, body);
+    scene.bodies.push_back(std::move(body));
+  }
+  if (scene.bodies.empty()) list.fail("no body; write at least one that deforms");
+}
+
+}  // namespace mpm

@@ -1,0 +1,202 @@
+// Fills bodies with particles on the grid's own lattice, and refuses what cannot start.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "mpm/scene/sections.hpp"
+
+namespace mpm {
+namespace {
+
+// Ids of particles are 32-bit in messages.
+constexpr double kMostParticles = 4294967295.0;
+// A face this much of a cell beyond the grid's is on it: 0.1 is not a binary number.
+constexpr double kOnFace = 1e-6;
+
+std::string span(const Box& box, const std::vector<int>& axes) {
+  std::string text;
+  for (const int axis : axes) {
+    text +=
+        fmt::format("{}{} {:.6g} to {:.6g}", text.empty() ? "" : ", ", axis_name(axis), box.min[axis], box.max[axis]);
+  }
+  return text + " m";
+}
+
+void check_place(const BodyDefinition& body, const Scene& scene) {
+  const GridDefinition& grid = scene.definition.grid;
+  const Box bounds = body.region.bounds();
+  const std::vector<int> axes = axes_of(scene);
+  for (const int axis : axes) {
+    const double slack = kOnFace * grid.cell[axis];
+    if (bounds.min[axis] < grid.min[axis] - slack || bounds.max[axis] > grid.max[axis] + slack) {
+      throw SceneError(
+          fmt::format("{}: body '{}' reaches out of the grid along {}: it spans {}, the grid {}; move it or "
+                      "enlarge the grid",
+                      body.where, body.name, axis_name(axis), span(bounds, axes), span({grid.min, grid.max}, axes)));
+    }
+    const double size = bounds.max[axis] - bounds.min[axis];
+    if (size < grid.cell[axis] - slack) {
+      throw SceneError(
+          fmt::format("{}: body '{}' is smaller than a cell along {}: {:.6g} m in a cell of {:.6g} m; make "
+                      "grid.cell at most half of that, or the body larger",
+                      body.where, body.name, axis_name(axis), size, grid.cell[axis]));
+    }
+  }
+}
+
+/// Lattice places along an axis whose centres can lie between `low` and `high`: centre i is at
+/// grid.min + (i + 1/2) spacing.
+struct Lattice {
+  double origin;
+  double spacing;
+  std::int64_t first;
+  std::int64_t last;
+  double center(std::int64_t i) const { return origin + (static_cast<double>(i) + 0.5) * spacing; }
+  double count() const { return static_cast<double>(std::max<std::int64_t>(0, last - first + 1)); }
+};
+
+Lattice lattice(const Scene& scene, const Box& bounds, int axis) {
+  const GridDefinition& grid = scene.definition.grid;
+  const double spacing = particle_spacing(scene, axis);
+  const double all = std::round((grid.max[axis] - grid.min[axis]) / spacing);
+  // One place more on either side: the region itself decides.
+  const double first = std::floor((bounds.min[axis] - grid.min[axis]) / spacing) - 1.0;
+  const double last = std::ceil((bounds.max[axis] - grid.min[axis]) / spacing) + 1.0;
+  return {grid.min[axis], spacing, static_cast<std::int64_t>(std::max(0.0, first)),
+          static_cast<std::int64_t>(std::min(all - 1.0, last))};
+}
+
+DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
+  const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
+  const Box bounds = body.region.bounds();
+  const Lattice x = lattice(scene, bounds, 0);
+  const Lattice y = planar ? Lattice{0.0, 0.0, 0, 0} : lattice(scene, bounds, 1);
+  const Lattice z = lattice(scene, bounds, 2);
+  const double places = x.count() * y.count() * z.count();
+  if (places > kMostParticles) {
+    throw SceneError(
+        fmt::format("{}: body '{}' would have about {:.2g} particles, more than {:.0f}; make grid.cell larger",
+                    body.where, body.name, places, kMostParticles));
+  }
+  DeformableBody filled;
+  filled.name = body.name;
+  filled.material = body.material;
+  filled.particle_volume = x.spacing * z.spacing * (planar ? scene.definition.thickness : y.spacing);
+  // x runs fastest, as grid blocks are numbered.
+  for (std::int64_t k = z.first; k <= z.last; ++k) {
+    for (std::int64_t j = y.first; j <= y.last; ++j) {
+      for (std::int64_t i = x.first; i <= x.last; ++i) {
+        const Vec3 point(x.center(i), y.center(j), z.center(k));
+        if (body.region.contains(point)) filled.positions.push_back(point);
+      }
+    }
+  }
+  if (filled.positions.empty()) {
+    throw SceneError(
+        fmt::format("{}: body '{}' holds no particle; make it larger or grid.cell smaller", body.where, body.name));
+  }
+  return filled;
+}
+
+void set_velocities(const BodyDefinition& body, DeformableBody& filled) {
+  bool at_rest = true;
+  for (const Function& component : body.velocity) at_rest = at_rest && component.is_constant() && component(0.0) == 0.0;
+  if (at_rest) return;
+  filled.velocities.reserve(filled.positions.size());
+  try {
+    for (const Vec3& point : filled.positions) {
+      filled.velocities.emplace_back(body.velocity[0](0.0, point), body.velocity[1](0.0, point),
+                                     body.velocity[2](0.0, point));
+    }
+  } catch (const FunctionError& error) {
+    throw SceneError(fmt::format("{}: initial velocity of body '{}': {}", body.where, body.name, error.what()));
+  }
+}
+
+/// Two bodies on one lattice overlap where both hold the same place.
+void check_overlap(const BodyDefinition& first, const BodyDefinition& second, const DeformableBody& filled_second) {
+  if (!first.region.bounds().intersects(second.region.bounds())) return;
+  std::size_t count = 0;
+  Vec3 place = Vec3::Zero();
+  for (const Vec3& point : filled_second.positions) {
+    if (!first.region.contains(point)) continue;
+    if (count++ == 0) place = point;
+  }
+  if (count == 0) return;
+  throw SceneError(
+      fmt::format("{}: bodies '{}' and '{}' overlap: both hold {} of the same particles, one at ({:.6g}, {:.6g}, "
+                  "{:.6g}) m; move one of them",
+                  second.where, second.name, first.name, count, place.x(), place.y(), place.z()));
+}
+
+Box world_bounds(const RigidBodyDefinition& rigid) {
+  const Box local = rigid.surface->bounds();
+  Box world;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 point((corner & 1) != 0 ? local.max.x() : local.min.x(),
+                     (corner & 2) != 0 ? local.max.y() : local.min.y(),
+                     (corner & 4) != 0 ? local.max.z() : local.min.z());
+    // A body without end along y turns about y alone: its other extents are finite.
+    const Vec3 finite = point.unaryExpr([](double c) { return std::isfinite(c) ? c : std::copysign(1e9, c); });
+    world.add(rigid.pose.to_world(finite));
+  }
+  return world;
+}
+
+void check_rigid(const BodyDefinition& body, const DeformableBody& filled, const RigidBodyDefinition& rigid,
+                 double half_spacing) {
+  const Box bounds = world_bounds(rigid);
+  std::size_t count = 0;
+  double deepest = 0.0;
+  for (const Vec3& point : filled.positions) {
+    SurfacePoint surface;
+    if (!bounds.contains(point) || !rigid.surface->within(rigid.pose.to_body(point), -half_spacing, surface)) continue;
+    ++count;
+    deepest = std::max(deepest, -surface.distance);
+  }
+  if (count == 0) return;
+  throw SceneError(
+      fmt::format("{}: body '{}' overlaps rigid body '{}' at the start: {} particles lie inside it by more than "
+                  "half their spacing, the deepest by {:.4g} m; move one of them",
+                  body.where, body.name, rigid.name, count, deepest));
+}
+
+}  // namespace
+
+bool Region::contains(const Vec3& point) const {
+  if (kind == Kind::box) return (point.array() >= box.min.array()).all() && (point.array() < box.max.array()).all();
+  Vec3 arm = point - center;
+  if (kind == Kind::cylinder) {
+    if (arm[axis] < -0.5 * height || arm[axis] >= 0.5 * height) return false;
+    arm[axis] = 0.0;
+  }
+  return arm.squaredNorm() < radius * radius;
+}
+
+Box Region::bounds() const {
+  if (kind == Kind::box) return box;
+  Vec3 half = Vec3::Constant(radius);
+  if (kind == Kind::cylinder) half[axis] = 0.5 * height;
+  return {center - half, center + half};
+}
+
+SimulationDefinition build(const Scene& scene) {
+  SimulationDefinition definition = scene.definition;
+  double half_spacing = std::numeric_limits<double>::infinity();
+  for (const int axis : axes_of(scene)) half_spacing = std::min(half_spacing, 0.5 * particle_spacing(scene, axis));
+  for (const BodyDefinition& body : scene.bodies) {
+    check_place(body, scene);
+    DeformableBody filled = fill(body, scene);
+    for (const BodyDefinition& other : scene.bodies) {
+      if (&other == &body) break;
+      check_overlap(other, body, filled);
+    }
+    for (const RigidBodyDefinition& rigid : definition.rigid_bodies) check_rigid(body, filled, rigid, half_spacing);
+    set_velocities(body, filled);
+    definition.bodies.push_back(std::move(filled));
+  }
+  return definition;
+}
+
+}  // namespace mpm

@@ -1,0 +1,104 @@
+#include "mpm/scene/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "mpm/material/law.hpp"
+#include "mpm/scene/sections.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kNanosecond = 1e-9;
+
+std::string transfer_text(double flip) {
+  if (flip == 1.0) return "FLIP";
+  return flip == 0.0 ? "PIC" : fmt::format("{:g} FLIP, {:g} PIC", flip, 1.0 - flip);
+}
+
+double smallest_cell(const Scene& scene) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const int axis : axes_of(scene)) smallest = std::min(smallest, scene.definition.grid.cell[axis]);
+  return smallest;
+}
+
+void add_bodies(const Scene& scene, const SimulationDefinition& built, std::string& text) {
+  double particles = 0.0;
+  for (const DeformableBody& body : built.bodies) {
+    for (const MaterialDefinition& material : built.materials) {
+      if (material.name != body.material) continue;
+      const auto count = static_cast<double>(body.positions.size());
+      particles += count;
+      text += fmt::format("body {}: {:.0f} particles of {} ({}), {:.6g} kg\n", body.name, count, material.name,
+                          law_name(material.law), count * body.particle_volume * material.density);
+    }
+  }
+  for (const RigidBodyDefinition& rigid : built.rigid_bodies) {
+    text += fmt::format("rigid body {}: {}\n", rigid.name,
+                        rigid.friction.stick ? "sticks" : fmt::format("friction {:g}", rigid.friction.coefficient));
+  }
+  const double per_cell = std::pow(built.method.particles_per_direction, axes_of(scene).size());
+  text += fmt::format("total: {:.0f} particles in {:.0f} cells\n", particles, particles / per_cell);
+}
+
+void add_steps(const Scene& scene, const SimulationDefinition& built, std::string& text) {
+  double fastest = 0.0;
+  std::string material_name;
+  for (const MaterialDefinition& material : built.materials) {
+    const double speed = wave_speed(make_law(material), 1.0);
+    if (speed <= fastest) continue;
+    fastest = speed;
+    material_name = material.name;
+  }
+  const TimeDefinition& time = built.time;
+  const double by_wave = time.cfl * smallest_cell(scene) / fastest;
+  const double sync = static_cast<double>(time.sync) * kNanosecond;
+  double limit = by_wave;
+  std::string reason =
+      fmt::format("the wave in {} ({:.5g} m/s) crosses {:g} of a cell", material_name, fastest, time.cfl);
+  if (time.step && *time.step < limit) {
+    limit = *time.step;
+    reason = "time.step";
+  }
+  if (sync < limit) {
+    limit = sync;
+    reason = "the sync period";
+  }
+  const double steps = std::ceil(sync / limit);
+  text += fmt::format("time step: at most {:.4g} s, set by {}\n", limit, reason);
+  text += fmt::format("sync period: {:.9g} s, {:.0f} steps each while the material is unstrained\n", sync, steps);
+  if (time.end > 0.0) {
+    text += fmt::format("run: to {:g} s in about {:.0f} steps\n", time.end, std::ceil(time.end / sync - 1e-9) * steps);
+  } else {
+    text += "run: until it is stopped\n";
+  }
+}
+
+}  // namespace
+
+std::string explain(const Scene& scene, const SimulationDefinition& built) {
+  const MethodDefinition& method = built.method;
+  const bool planar = built.geometry == GeometryKind::plane_strain;
+  std::string text = fmt::format("scene {} ({})\n", built.name, scene.path);
+  text += fmt::format("method: {}, uGIMP shape functions, {}, {}, {} term{} of the deformation's exponential{}\n",
+                      planar ? fmt::format("plane strain, {:g} m thick", built.thickness) : "solid",
+                      method.update == UpdateScheme::usavg ? "USAVG" : "USF", transfer_text(method.flip),
+                      method.gradient_terms, method.gradient_terms == 1 ? "" : "s",
+                      method.damping > 0.0 ? fmt::format(", grid damping {:g} 1/s", method.damping) : "");
+  text += "grid:";
+  for (const int axis : axes_of(scene)) {
+    const GridDefinition& grid = built.grid;
+    text += fmt::format(" {} {:g} to {:g} m by {:g} m{}", axis_name(axis), grid.min[axis], grid.max[axis],
+                        grid.cell[axis], axis == 2 ? "\n" : ",");
+  }
+  add_bodies(scene, built, text);
+  add_steps(scene, built, text);
+  text += fmt::format("output: every {:.9g} s\n", scene.output.period);
+  if (!scene.choices.empty()) text += "chosen, for the scene does not say:\n";
+  for (const auto& [key, reason] : scene.choices) text += fmt::format("  {}: {}\n", key, reason);
+  return text;
+}
+
+}  // namespace mpm

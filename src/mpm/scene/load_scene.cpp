@@ -1,0 +1,92 @@
+// Finding scene files: a path, or the name of a scene that is shipped.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "mpm/scene/nearest.hpp"
+#include "mpm/scene/scene.hpp"
+
+namespace mpm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folders of shipped scenes, the first one found counts: MPM_ROS_SCENE_PATH (split at ':'), the source tree's, and
+/// where the package is installed.
+std::vector<fs::path> scene_folders() {
+  std::vector<fs::path> folders;
+  if (const char* variable = std::getenv("MPM_ROS_SCENE_PATH")) {
+    std::istringstream parts(variable);
+    for (std::string part; std::getline(parts, part, ':');) {
+      if (!part.empty()) folders.emplace_back(part);
+    }
+  }
+  folders.emplace_back(MPM_SCENE_DIR);
+  folders.emplace_back(MPM_INSTALLED_SCENE_DIR);
+  return folders;
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+std::string read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file)
+    throw SceneError(fmt::format("{}: cannot be read; check that it is a file and its permissions", path.string()));
+  return text.str();
+}
+
+std::string first_comment(const fs::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  const std::size_t begin = line.find_first_not_of("# ");
+  return line.empty() || line[0] != '#' || begin == std::string::npos ? "" : line.substr(begin);
+}
+
+fs::path find_scene(const std::string& name_or_path) {
+  if (is_file(name_or_path)) return name_or_path;
+  const bool is_path = name_or_path.find('/') != std::string::npos || fs::path(name_or_path).extension() == ".yaml";
+  if (is_path)
+    throw SceneError(fmt::format("{}: no such scene file; check the path, or name a shipped scene", name_or_path));
+  for (const fs::path& folder : scene_folders()) {
+    const fs::path path = folder / (name_or_path + ".yaml");
+    if (is_file(path)) return path;
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, line] : shipped_scenes()) names.push_back(name);
+  throw SceneError(fmt::format("{}: no shipped scene of that name; {}", name_or_path, suggest(name_or_path, names)));
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> shipped_scenes() {
+  std::vector<std::pair<std::string, std::string>> scenes;
+  for (const fs::path& folder : scene_folders()) {
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+      if (entry.path().extension() != ".yaml") continue;
+      const std::string name = entry.path().stem().string();
+      const auto same = [&name](const auto& scene) { return scene.first == name; };
+      if (std::none_of(scenes.begin(), scenes.end(), same)) scenes.emplace_back(name, first_comment(entry.path()));
+    }
+  }
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+Scene load_scene(const std::string& name_or_path, const std::vector<std::string>& overrides) {
+  const fs::path path = find_scene(name_or_path);
+  return parse_scene(read_file(path), path.string(), overrides);
+}
+
+}  // namespace mpm

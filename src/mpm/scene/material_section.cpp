@@ -1,0 +1,113 @@
+// materials: density, a law and its constants.
+#include <fmt/format.h>
+
+#include "mpm/scene/sections.hpp"
+
+namespace mpm {
+namespace {
+
+const std::vector<std::string> kLaws = {"linear_elastic", "neo_hookean", "drucker_prager"};
+
+const std::vector<Later>& later_laws() {
+  static const std::string solid = "use linear_elastic or neo_hookean";
+  static const std::vector<Later> laws = {{"von_mises", solid},
+                                          {"j2", solid},
+                                          {"johnson_cook", solid},
+                                          {"viscoelastic", solid},
+                                          {"ideal_gas", "use neo_hookean"},
+                                          {"newtonian", "use neo_hookean"},
+                                          {"mohr_coulomb", "use drucker_prager, matched by its key 'match'"},
+                                          {"rigid", "a rigid body is not a material: write it under rigid_bodies"}};
+  return laws;
+}
+
+const std::vector<Later>& later_keys() {
+  static const std::string thermal = "leave it out: a run is mechanical";
+  static const std::vector<Later> keys = {
+      {"thermal_expansion", thermal}, {"conductivity", thermal}, {"heat_capacity", thermal},
+      {"diffusion", thermal},         {"biot", thermal},         {"toughness", "leave it out: bodies are whole"}};
+  return keys;
+}
+
+Elasticity read_elasticity(const Map& map) {
+  return {map.at("young").number(kPressure), map.at("poisson").number(kPlain)};
+}
+
+DruckerPragerDefinition read_drucker_prager(const Map& map, Scene& scene) {
+  DruckerPragerDefinition law;
+  law.elasticity = read_elasticity(map);
+  law.friction_angle = map.at("friction_angle").number(kAngle);
+  if (const auto dilation = map.find("dilation_angle")) law.dilation_angle = dilation->number(kAngle);
+  if (const auto cohesion = map.find("cohesion")) law.cohesion = cohesion->number(kPressure);
+  if (const auto cutoff = map.find("tension_cutoff")) law.tension_cutoff = cutoff->non_negative(kPressure);
+  if (const auto match = map.find("match")) {
+    static constexpr std::array kMatches = {ConeMatch::compression, ConeMatch::extension, ConeMatch::plane_strain};
+    law.match = kMatches.at(match->choice({"compression", "extension", "plane_strain"}));
+  } else {
+    scene.choices.emplace_back(map.value().path() + ".match",
+                               "compression: the cone passes through Mohr-Coulomb's triaxial compression");
+  }
+  return law;
+}
+
+MaterialDefinition read_material(const Value& value, Scene& scene) {
+  static const std::vector<std::vector<std::string>> kKeys = {
+      {},
+      {},
+      {"friction_angle", "dilation_angle", "cohesion", "tension_cutoff", "match"},
+  };
+  std::vector<std::string> keys = {"name", "density", "law", "young", "poisson"};
+  // The law decides which keys there are; a law that cannot be read is told by choice() below.
+  const YAML::Node law_node = value.is_map() ? value.node()["law"] : YAML::Node();
+  if (value.is_map() && law_node && law_node.IsScalar()) {
+    const std::size_t law = value.child(law_node, "law").choice(kLaws, later_laws());
+    keys.insert(keys.end(), kKeys[law].begin(), kKeys[law].end());
+  }
+  const Map map(value, keys, later_keys());
+  MaterialDefinition material;
+  material.name = map.at("name").name();
+  material.density = map.at("density").number(kDensity);
+  switch (map.at("law").choice(kLaws, later_laws())) {
+    case 0:
+      material.law = LinearElasticDefinition{read_elasticity(map)};
+      break;
+    case 1:
+      material.law = NeoHookeanDefinition{read_elasticity(map)};
+      break;
+    default:
+      material.law = read_drucker_prager(map, scene);
+  }
+  try {
+    check(material);
+  } catch (const MaterialError& error) {
+    // The check speaks of one constant: the key whose name stands first in its text is the culprit.
+    const std::string text = error.what();
+    std::string culprit;
+    std::size_t first = std::string::npos;
+    for (const std::string& key : keys) {
+      const std::size_t found = key == "name" ? std::string::npos : text.find(key);
+      if (found < first && value.node()[key]) {
+        first = found;
+        culprit = key;
+      }
+    }
+    if (culprit.empty()) value.fail(text);
+    map.at(culprit).fail(text);
+  }
+  return material;
+}
+
+}  // namespace
+
+void read_materials(const Map& root, Scene& scene) {
+  for (const Value& value : root.at("materials").elements()) {
+    MaterialDefinition material = read_material(value, scene);
+    for (const MaterialDefinition& other : scene.definition.materials) {
+      if (other.name == material.name)
+        value.fail(fmt::format("a second material '{}'; give each its own name", material.name));
+    }
+    scene.definition.materials.push_back(std::move(material));
+  }
+}
+
+}  // namespace mpm

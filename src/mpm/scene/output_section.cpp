@@ -1,0 +1,189 @@
+// time, output and metrics: the end, the step's limits, sync points, snapshots and the scene's own numbers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "mpm/scene/nearest.hpp"
+#include "mpm/scene/sections.hpp"
+#include "mpm/simulation/simulation.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kNanosecond = 1e-9;
+constexpr double kShortestEnd = 100.0 * kNanosecond;  // a hundred sync points of the least period
+constexpr double kLongest = 1e9;                      // [s], 32 years; 64-bit nanoseconds hold 292
+constexpr std::int64_t kMostSync = 10'000'000;        // [ns], a command waits no longer than this by default
+
+double seconds(std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) * kNanosecond; }
+
+/// A time of whole nanoseconds.
+std::int64_t read_nanoseconds(const Value& value) {
+  const double time = value.positive(kTime);
+  if (time > kLongest) value.fail(fmt::format("{:g} s is longer than {:g} s; write a shorter time", time, kLongest));
+  const double exact = time / kNanosecond;
+  const double whole = std::round(exact);
+  // A hundred-thousandth of a nanosecond, and the last digits of a double, are forgiven.
+  if (whole < 1.0 || std::abs(exact - whole) > std::max(1e-5, 1e-12 * exact)) {
+    value.fail(fmt::format("{:.12g} s is not a whole number of nanoseconds; write {:.12g} s", time,
+                           std::max(1.0, whole) * kNanosecond));
+  }
+  return static_cast<std::int64_t>(whole);
+}
+
+/// The largest of 1, 2, 5 times a power of ten that is not above `limit`.
+std::int64_t round_down(double limit) {
+  std::int64_t best = 1;
+  for (std::int64_t power = 1; static_cast<double>(power) <= limit; power *= 10) {
+    for (const std::int64_t digit : {1, 2, 5}) {
+      if (static_cast<double>(digit * power) <= limit) best = digit * power;
+    }
+  }
+  return best;
+}
+
+/// The largest period that divides `period` and is not above `limit` [ns], or 0 when all are far below.
+std::int64_t largest_divisor(std::int64_t period, std::int64_t limit) {
+  const std::int64_t fewest = (period + limit - 1) / limit;
+  for (std::int64_t parts = fewest; parts <= 10 * fewest && parts <= period; ++parts) {
+    if (period % parts == 0) return period / parts;
+  }
+  return 0;
+}
+
+void read_time(const Map& root, Scene& scene, std::optional<Value>& sync) {
+  TimeDefinition& time = scene.definition.time;
+  const auto section = root.find("time");
+  if (!section) {
+    scene.choices.emplace_back("time.end", "none: runs until it is stopped");
+    return;
+  }
+  const Map map(*section, {"end", "cfl", "step", "sync"}, {{"start", "a run starts at 0"}});
+  if (const auto end = map.find("end")) {
+    time.end = end->positive(kTime);
+    if (time.end < kShortestEnd || time.end > kLongest) {
+      end->fail(fmt::format("{:g} s is not between {:g} s and {:g} s; write a time between", time.end, kShortestEnd,
+                            kLongest));
+    }
+  } else {
+    scene.choices.emplace_back("time.end", "none: runs until it is stopped");
+  }
+  if (const auto cfl = map.find("cfl")) {
+    time.cfl = cfl->positive(kPlain);
+    if (time.cfl >= 1.0)
+      cfl->fail(fmt::format("{} is not below 1, where steps become unstable; 0.5 is the default", time.cfl));
+  }
+  if (const auto step = map.find("step")) time.step = step->positive(kTime);
+  sync = map.find("sync");
+}
+
+void choose_periods(const std::optional<Value>& sync_key, const std::optional<Value>& period_key, Scene& scene) {
+  TimeDefinition& time = scene.definition.time;
+  const double end_ns = time.end / kNanosecond;
+  std::int64_t period = 0;
+  if (period_key) {
+    period = read_nanoseconds(*period_key);
+  } else {
+    period = time.end > 0.0 ? round_down(end_ns / 50.0) : 20'000'000;
+  }
+  if (sync_key) {
+    time.sync = read_nanoseconds(*sync_key);
+    if (period % time.sync != 0) {
+      const std::int64_t parts = std::max<std::int64_t>(1, (period + time.sync / 2) / time.sync);
+      if (period_key) {
+        period_key->fail(fmt::format("{:.9g} s is not a whole number of sync periods of {:.9g} s; write {:.12g} s",
+                                     seconds(period), seconds(time.sync), seconds(parts * time.sync)));
+      }
+      period = parts * time.sync;
+    }
+  } else {
+    std::int64_t limit = std::min(kMostSync, period);
+    if (time.end > 0.0) limit = std::min(limit, std::max<std::int64_t>(1, static_cast<std::int64_t>(end_ns / 100.0)));
+    time.sync = largest_divisor(period, limit);
+    if (time.sync == 0) {
+      period_key->fail(fmt::format("{:.12g} s cannot be divided into sync periods of about {:.9g} s; write {:.12g} s",
+                                   seconds(period), seconds(limit), seconds(round_down(static_cast<double>(period)))));
+    }
+    scene.choices.emplace_back("time.sync",
+                               fmt::format("{:.9g} s: the largest period up to {:.9g} s that divides output.period",
+                                           seconds(time.sync), seconds(limit)));
+  }
+  if (!period_key) {
+    scene.choices.emplace_back("output.period", fmt::format("{:.9g} s{}", seconds(period),
+                                                            time.end > 0.0 ? ": 50 to 125 snapshots to the end" : ""));
+  }
+  scene.output.period = seconds(period);
+}
+
+}  // namespace
+
+std::string read_particle_field(const Value& value) {
+  const std::string field = value.text();
+  std::vector<std::string> names;
+  for (const auto& [name, unit] : Simulation::particle_fields()) names.push_back(name);
+  if (std::find(names.begin(), names.end(), field) == names.end()) {
+    value.fail(fmt::format("no particle field '{}'; {}", field, suggest(field, names)));
+  }
+  return field;
+}
+
+void read_time_and_output(const Map& root, Scene& scene) {
+  OutputDefinition& output = scene.output;
+  output.particle_fields = scene.definition.geometry == GeometryKind::plane_strain
+                               ? std::vector<std::string>{"vx", "vz", "p", "j"}
+                               : std::vector<std::string>{"vx", "vy", "vz", "p", "j"};
+  std::optional<Value> sync, period;
+  read_time(root, scene, sync);
+  if (const auto section = root.find("output")) {
+    const Map map(*section, {"period", "particle_fields", "particle_stride"},
+                  {{"first", "snapshots begin at the start"},
+                   {"folder", "name it on the command line: --csv DIR, --bag FILE"},
+                   {"crack_fields", "bodies are whole"}});
+    period = map.find("period");
+    if (const auto fields = map.find("particle_fields")) {
+      output.particle_fields.clear();
+      for (const Value& field : fields->elements()) output.particle_fields.push_back(read_particle_field(field));
+    }
+    if (const auto stride = map.find("particle_stride")) {
+      output.particle_stride = stride->integer();
+      if (output.particle_stride < 1) stride->fail("write 1 for every particle, 2 for every second, and so on");
+    }
+  }
+  choose_periods(sync, period, scene);
+}
+
+void read_metrics(const Map& root, Scene& scene) {
+  const auto section = root.find("metrics");
+  if (!section) return;
+  static const std::vector<std::string> kStatistics = {"mean", "std", "min", "max"};
+  static constexpr std::array kKinds = {Statistic::mean, Statistic::std_dev, Statistic::min, Statistic::max};
+  std::vector<std::string> bodies;
+  for (const BodyDefinition& body : scene.bodies) bodies.push_back(body.name);
+  if (!section->is_map()) section->fail("write one line for each metric, as in mean_szz: {mean: szz, of: soil}");
+  for (const auto& entry : section->node()) {
+    const Value value = section->child(entry.second, entry.first.Scalar());
+    const Map map(value, {"mean", "std", "min", "max", "of"}, {{"sum", "use mean, and multiply by the particles"}});
+    MetricDefinition metric;
+    metric.name = section->child(entry.first, entry.first.Scalar()).name();
+    int statistics = 0;
+    for (std::size_t i = 0; i < kStatistics.size(); ++i) {
+      if (const auto field = map.find(kStatistics[i])) {
+        ++statistics;
+        metric.statistic = kKinds.at(i);
+        metric.field = read_particle_field(*field);
+      }
+    }
+    if (statistics != 1) value.fail(fmt::format("has {} statistics; write one of mean, std, min or max", statistics));
+    if (const auto of = map.find("of")) {
+      metric.body = of->text();
+      if (std::find(bodies.begin(), bodies.end(), metric.body) == bodies.end()) {
+        of->fail(fmt::format("no deformable body '{}'; {}", metric.body, suggest(metric.body, bodies)));
+      }
+    }
+    scene.definition.metrics.push_back(std::move(metric));
+  }
+}
+
+}  // namespace mpm

@@ -1,0 +1,97 @@
+// From a scene's text to a Scene: the order in which its sections are read.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "mpm/scene/sections.hpp"
+
+namespace mpm {
+namespace {
+
+const std::vector<Later>& later_sections() {
+  static const std::vector<Later> sections = {
+      {"loads", "use gravity, boundaries or moving rigid_bodies"},
+      {"transport", "leave it out: a run is mechanical, without heat, diffusion or pore pressure"},
+      {"cracks", "leave it out: bodies are whole"}};
+  return sections;
+}
+
+const std::vector<Later>& later_geometries() {
+  static const std::vector<Later> geometries = {{"line", "use plane_strain with a grid one cell high"},
+                                                {"plane_stress", "use plane_strain, or solid with a thin body"},
+                                                {"axisymmetric", "use solid with a cylinder"}};
+  return geometries;
+}
+
+void read_geometry(const Map& root, ReadContext& context, Scene& scene) {
+  SimulationDefinition& definition = scene.definition;
+  if (const auto geometry = root.find("geometry")) {
+    const std::size_t kind = geometry->choice({"plane_strain", "solid"}, later_geometries());
+    definition.geometry = kind == 0 ? GeometryKind::plane_strain : GeometryKind::solid;
+  } else {
+    scene.choices.emplace_back("geometry", "solid: three dimensions unless the scene says plane_strain");
+  }
+  context.planar = definition.geometry == GeometryKind::plane_strain;
+  if (const auto thickness = root.find("thickness")) {
+    if (!context.planar) thickness->fail("only a planar scene has a thickness; leave it out");
+    definition.thickness = thickness->positive(kLength);
+  } else if (context.planar) {
+    definition.thickness = context.units.factor(kLength);
+    scene.choices.emplace_back("thickness", fmt::format("{} m: one unit of length along y", definition.thickness));
+  }
+}
+
+}  // namespace
+
+const char* axis_name(int axis) {
+  static constexpr std::array<const char*, 3> kNames = {"x", "y", "z"};
+  return kNames.at(static_cast<std::size_t>(axis));
+}
+
+std::vector<int> axes_of(const Scene& scene) {
+  return scene.definition.geometry == GeometryKind::plane_strain ? std::vector<int>{0, 2} : std::vector<int>{0, 1, 2};
+}
+
+double particle_spacing(const Scene& scene, int axis) {
+  return scene.definition.grid.cell[axis] / scene.definition.method.particles_per_direction;
+}
+
+Scene parse_scene(const std::string& text, const std::string& label, const std::vector<std::string>& overrides) {
+  const Source source(text, label, overrides);
+  ReadContext context;
+  context.source = &source;
+  const Value top(context, source.root(), "");
+  const Map root(top,
+                 {"name", "units", "geometry", "thickness", "grid", "time", "method", "gravity", "materials", "bodies",
+                  "rigid_bodies", "contact", "boundaries", "output", "metrics"},
+                 later_sections());
+  Scene scene;
+  scene.path = label;
+  scene.text = source.dump();
+  SimulationDefinition& definition = scene.definition;
+  if (const auto name = root.find("name")) {
+    definition.name = name->text();
+  } else {
+    definition.name = std::filesystem::path(label).stem().string();
+  }
+  if (const auto units = root.find("units")) {
+    context.units = read_units(*units);
+  }
+  read_geometry(root, context, scene);
+  read_grid(root, scene);
+  read_method(root, scene);
+  if (const auto gravity = root.find("gravity")) {
+    definition.gravity = gravity->vector(kAcceleration);
+  } else {
+    scene.choices.emplace_back("gravity", "none: the scene names none");
+  }
+  read_materials(root, scene);
+  read_bodies(root, scene);
+  read_rigid_bodies(root, scene);
+  read_boundaries(root, scene);
+  read_time_and_output(root, scene);
+  read_metrics(root, scene);
+  return scene;
+}
+
+}  // namespace mpm

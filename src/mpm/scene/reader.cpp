@@ -1,0 +1,212 @@
+#include "mpm/scene/reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <stdexcept>
+
+#include "mpm/scene/nearest.hpp"
+
+namespace mpm {
+namespace {
+
+const Later* find_later(const std::string& word, const std::vector<Later>& later) {
+  for (const Later& entry : later) {
+    if (entry.word == word) return &entry;
+  }
+  return nullptr;
+}
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::vector<std::string> with_later(std::vector<std::string> words, const std::vector<Later>& later) {
+  for (const Later& entry : later) words.push_back(entry.word);
+  return words;
+}
+
+const char* kind_of(const YAML::Node& node) {
+  if (node.IsMap()) return "a map of keys";
+  if (node.IsSequence()) return "a list";
+  return node.IsScalar() ? "one value" : "nothing";
+}
+
+}  // namespace
+
+Value::Value(const ReadContext& context, YAML::Node node, std::string path)
+    : context_(&context), node_(std::move(node)), path_(std::move(path)) {}
+
+std::string Value::where() const {
+  return fmt::format("{}: {}", context_->source->where(node_), path_.empty() ? "scene" : path_);
+}
+
+void Value::fail(const std::string& what) const { throw SceneError(where() + ": " + what); }
+
+std::string Value::text() const {
+  if (!is_text()) fail(fmt::format("found {}; write one value", kind_of(node_)));
+  return node_.Scalar();
+}
+
+double Value::number(const Dimension& dimension) const {
+  if (!is_text()) {
+    fail(fmt::format("found {}; write {}, such as {}", kind_of(node_), describe(dimension), example(dimension)));
+  }
+  try {
+    return parse_quantity(node_.Scalar(), dimension, context_->units);
+  } catch (const UnitError& error) {
+    fail(error.what());
+  }
+}
+
+double Value::positive(const Dimension& dimension) const {
+  const double value = number(dimension);
+  if (!(value > 0.0)) {
+    fail(fmt::format("'{}' is not greater than 0; write {}, such as {}", text(), describe(dimension),
+                     example(dimension)));
+  }
+  return value;
+}
+
+double Value::non_negative(const Dimension& dimension) const {
+  const double value = number(dimension);
+  if (!(value >= 0.0)) {
+    fail(
+        fmt::format("'{}' is less than 0; write 0 or {}, such as {}", text(), describe(dimension), example(dimension)));
+  }
+  return value;
+}
+
+int Value::integer() const {
+  const std::string word = text();
+  int value = 0;
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || stop != word.data() + word.size()) {
+    fail(fmt::format("'{}' is not a whole number; write one, such as 2", word));
+  }
+  return value;
+}
+
+std::string Value::name() const {
+  std::string word = text();
+  const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const auto good = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  if (word.empty() || word.size() > 64 || !letter(word[0]) || !std::all_of(word.begin(), word.end(), good)) {
+    fail(fmt::format(
+        "'{}' is not a name; write a letter and then letters, digits and '_', for it becomes part of topic names",
+        word));
+  }
+  return word;
+}
+
+std::size_t Value::choice(const std::vector<std::string>& words, const std::vector<Later>& later) const {
+  const std::string word = text();
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  if (const Later* entry = find_later(word, later)) fail(fmt::format("'{}' is not built yet; {}", word, entry->advice));
+  fail(fmt::format(
+      "'{}' is not known; {}", word,
+      nearest(word, words).empty() ? fmt::format("write one of {}", fmt::join(words, ", ")) : suggest(word, words)));
+}
+
+Function Value::function(const Dimension& dimension) const {
+  const std::string word = text();
+  double number = 0.0;
+  std::string rest;
+  // A number with a word behind it is a quantity; anything else that is more than a number is an expression.
+  const bool starts_with_number = split_number(word, number, rest);
+  const bool has_unit = starts_with_number && !rest.empty() && std::isalpha(static_cast<unsigned char>(rest[0]));
+  if (starts_with_number && (rest.empty() || has_unit)) return {this->number(dimension)};
+  const UnitSystem& units = context_->units;
+  try {
+    return Function::parse(word, {units.factor(dimension), units.time, units.length});
+  } catch (const FunctionError& error) {
+    fail(fmt::format("{}; write {}, such as {}, or an expression", error.what(), describe(dimension),
+                     example(dimension)));
+  }
+}
+
+std::vector<Value> Value::components() const {
+  const std::size_t expected = context_->planar ? 2 : 3;
+  if (!is_list() || node_.size() != expected) {
+    const std::string found = is_list() ? fmt::format("{} components", node_.size()) : kind_of(node_);
+    fail(context_->planar ? fmt::format("found {}; write two components, [x, z], for the scene is planar", found)
+                          : fmt::format("found {}; write three components, [x, y, z]", found));
+  }
+  return elements();
+}
+
+Vec3 Value::vector(const Dimension& dimension) const {
+  const std::vector<Value> parts = components();
+  if (context_->planar) return {parts[0].number(dimension), 0.0, parts[1].number(dimension)};
+  return {parts[0].number(dimension), parts[1].number(dimension), parts[2].number(dimension)};
+}
+
+std::array<Function, 3> Value::functions(const Dimension& dimension) const {
+  const std::vector<Value> parts = components();
+  if (context_->planar) return {parts[0].function(dimension), Function(), parts[1].function(dimension)};
+  return {parts[0].function(dimension), parts[1].function(dimension), parts[2].function(dimension)};
+}
+
+std::array<Function, 3> Value::three_functions(const Dimension& dimension) const {
+  if (!is_list() || node_.size() != 3) fail("write three components, about x, y and z");
+  const std::vector<Value> parts = elements();
+  return {parts[0].function(dimension), parts[1].function(dimension), parts[2].function(dimension)};
+}
+
+std::vector<Value> Value::elements() const {
+  if (!is_list()) fail(fmt::format("found {}; write a list", kind_of(node_)));
+  std::vector<Value> values;
+  for (std::size_t i = 0; i < node_.size(); ++i) values.push_back(child(node_[i], element_name(node_, i)));
+  return values;
+}
+
+Value Value::child(const YAML::Node& node, const std::string& part) const {
+  return {*context_, node, join_path(path_, part)};
+}
+
+Map::Map(const Value& value, std::vector<std::string> keys, const std::vector<Later>& later)
+    : value_(value), keys_(std::move(keys)) {
+  if (!value.is_map()) {
+    value.fail(fmt::format("found {}; write keys, of {}", kind_of(value.node()), fmt::join(keys_, ", ")));
+  }
+  for (const auto& entry : value.node()) {
+    const std::string& key = entry.first.Scalar();
+    if (contains(keys_, key)) continue;
+    // The line of the key, not of its value.
+    const Value culprit = value.child(entry.first, key);
+    if (const Later* known = find_later(key, later)) culprit.fail("not built yet; " + known->advice);
+    culprit.fail(fmt::format(
+        "unknown key '{}'; {}", key,
+        nearest(key, with_later(keys_, later)).empty() ? suggest(key, keys_) : suggest(key, with_later(keys_, later))));
+  }
+}
+
+std::optional<Value> Map::find(const std::string& key) const {
+  if (!contains(keys_, key)) throw std::logic_error("scene reader asked for the undeclared key " + key);
+  const YAML::Node node = value_.node()[key];
+  if (!node) return std::nullopt;
+  Value found = value_.child(node, key);
+  if (node.IsNull()) found.fail("has no value; write one, or leave the key out for its default");
+  return found;
+}
+
+Value Map::at(const std::string& key) const {
+  if (auto found = find(key)) return *found;
+  value_.fail(fmt::format("the key '{}' is missing; add it", key));
+}
+
+std::pair<std::string, Value> only_key(const Value& value, const std::vector<std::string>& keys,
+                                       const std::vector<Later>& later) {
+  const Map map(value, keys, later);
+  if (value.node().size() != 1)
+    value.fail(fmt::format("found {} keys; write one of {}", value.node().size(), fmt::join(keys, ", ")));
+  std::string key = value.node().begin()->first.Scalar();
+  Value found = map.at(key);
+  return {std::move(key), std::move(found)};
+}
+
+}  // namespace mpm

@@ -1,0 +1,174 @@
+// rigid_bodies and contact: tools, their surfaces, poses, motions and friction.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "mpm/scene/sections.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+std::unique_ptr<Surface> read_mesh(const Value& value, bool planar) {
+  if (planar) value.fail("a planar scene has no mesh; write box, sphere or cylinder, each without end along y");
+  const Map map(value, {"file", "scale"});
+  const Value file = map.at("file");
+  std::string path = file.text();
+  if (path.find("://") == std::string::npos && std::filesystem::path(path).is_relative()) {
+    path = (std::filesystem::path(value.context().source->label()).parent_path() / path).string();
+  }
+  const auto scale_key = map.find("scale");
+  const double scale = scale_key ? scale_key->positive(kLength) : value.context().units.factor(kLength);
+  try {
+    return make_mesh(load_mesh(path, scale));
+  } catch (const RigidError& error) {
+    file.fail(error.what());
+  }
+}
+
+std::unique_ptr<Surface> read_box(const Value& value, bool planar) {
+  const Value size_value = Map(value, {"size"}, {{"min", "write size, and put the body by its pose"}}).at("size");
+  Vec3 size = size_value.vector(kLength);
+  if (planar) size.y() = kEndless;
+  if (!(size.array() > 0.0).all()) size_value.fail("an edge is not greater than 0; write the lengths of its edges");
+  return make_box(size);
+}
+
+std::unique_ptr<Surface> read_sphere(const Value& value, bool planar) {
+  const double radius = Map(value, {"radius"}).at("radius").positive(kLength);
+  if (planar) return make_cylinder(radius, kEndless, 1);
+  return make_sphere(radius);
+}
+
+std::unique_ptr<Surface> read_cylinder(const Value& value, bool planar) {
+  const Map map(value, {"radius", "height", "axis"});
+  const double radius = map.at("radius").positive(kLength);
+  const auto axis_key = map.find("axis");
+  const auto height = map.find("height");
+  if (planar) {
+    if (axis_key && axis_key->choice({"x", "y", "z"}) != 1)
+      axis_key->fail("a planar scene's cylinder lies along y; write y");
+    if (height) height->fail("a planar scene's cylinder has no end along y; leave it out");
+    return make_cylinder(radius, kEndless, 1);
+  }
+  const int axis = axis_key ? static_cast<int>(axis_key->choice({"x", "y", "z"})) : 2;
+  return make_cylinder(radius, map.at("height").positive(kLength), axis);
+}
+
+std::unique_ptr<Surface> read_surface(const Value& value, bool planar) {
+  const auto [kind, shape] = only_key(value, {"mesh", "box", "sphere", "cylinder"},
+                                      {{"capsule", "use cylinder or mesh"}, {"plane", "use boundaries or box"}});
+  try {
+    if (kind == "mesh") return read_mesh(shape, planar);
+    if (kind == "box") return read_box(shape, planar);
+    if (kind == "sphere") return read_sphere(shape, planar);
+    return read_cylinder(shape, planar);
+  } catch (const RigidError& error) {
+    shape.fail(error.what());
+  }
+}
+
+Quat read_rpy(const Value& value) {
+  const std::vector<Value> angles = value.elements();
+  if (angles.size() != 3) value.fail("write three angles, [roll, pitch, yaw], about x, y and z in that order");
+  // REP-103: fixed axes, roll about x first.
+  return Quat(Eigen::AngleAxisd(angles[2].number(kAngle), Vec3::UnitZ()) *
+              Eigen::AngleAxisd(angles[1].number(kAngle), Vec3::UnitY()) *
+              Eigen::AngleAxisd(angles[0].number(kAngle), Vec3::UnitX()));
+}
+
+Quat read_quaternion(const Value& value) {
+  const std::vector<Value> parts = value.elements();
+  if (parts.size() != 4) value.fail("write four numbers, [x, y, z, w]");
+  const Quat given(parts[3].number(kPlain), parts[0].number(kPlain), parts[1].number(kPlain), parts[2].number(kPlain));
+  // As for commands: normalised within 1e-3, refused beyond.
+  if (std::abs(given.norm() - 1.0) > 1e-3) {
+    value.fail(fmt::format("its length is {:.6g}, not 1; write [0, 0, 0, 1] for no rotation", given.norm()));
+  }
+  return given.normalized();
+}
+
+Pose read_pose(const Value& value, bool planar) {
+  const Map map(value, {"position", "rpy", "quaternion"}, {{"frame", "poses are in the world frame"}});
+  Pose pose;
+  if (const auto position = map.find("position")) pose.position = position->vector(kLength);
+  const auto rpy = map.find("rpy");
+  const auto quaternion = map.find("quaternion");
+  if (rpy && quaternion) quaternion->fail("a pose has rpy or quaternion, not both; leave one out");
+  if (rpy) pose.orientation = read_rpy(*rpy);
+  if (quaternion) pose.orientation = read_quaternion(*quaternion);
+  // In a planar scene the body's y axis stays the world's.
+  if (planar && (pose.orientation * Vec3::UnitY() - Vec3::UnitY()).norm() > 1e-9) {
+    (rpy ? *rpy : *quaternion)
+        .fail("turns the body out of the plane; a planar scene turns about y alone: rpy: [0, pitch, 0]");
+  }
+  return pose;
+}
+
+std::array<Function, 3> read_rotation_rate(const Value& value, bool planar) {
+  if (!planar) return value.three_functions(kAngularRate);
+  if (!value.is_text()) value.fail("a planar scene turns about y alone; write one number or expression");
+  return {Function(), value.function(kAngularRate), Function()};
+}
+
+void read_motion(const Value& value, bool planar, RigidBodyDefinition& body) {
+  const Map map(value, {"velocity", "rotation_rate"},
+                {{"pose", "use velocity and rotation_rate, or pose commands on a topic"},
+                 {"file", "use velocity and rotation_rate, or commands from a bag"}});
+  if (const auto velocity = map.find("velocity")) body.velocity = velocity->functions(kVelocity);
+  if (const auto rate = map.find("rotation_rate")) body.rotation_rate = read_rotation_rate(*rate, planar);
+}
+
+FrictionLaw read_contact(const Map& root, Scene& scene, bool needed) {
+  const auto section = root.find("contact");
+  if (!section) {
+    if (needed) scene.choices.emplace_back("contact.friction", "0: smooth tools, for the scene names none");
+    return {};
+  }
+  const std::string deformable = "deformable bodies share one velocity field and stick to each other";
+  const Map map(*section, {"friction"},
+                {{"pairs", deformable},
+                 {"interface", deformable},
+                 {"detection", "contact is found by distance and approach"},
+                 {"normals", "normals come from the tools' surfaces"},
+                 {"position", "contact is found by distance and approach"}});
+  const auto friction = map.find("friction");
+  return friction ? read_friction(*friction) : FrictionLaw{};
+}
+
+}  // namespace
+
+void read_rigid_bodies(const Map& root, Scene& scene) {
+  const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
+  const auto section = root.find("rigid_bodies");
+  const FrictionLaw friction = read_contact(root, scene, section.has_value());
+  if (!section) return;
+  for (const Value& value : section->elements()) {
+    const Map map(value, {"name", "shape", "pose", "motion", "friction"},
+                  {{"drive", "use motion, or velocity and pose commands on topics"},
+                   {"mass", "rigid bodies move as they are told"},
+                   {"frame", "use commands on topics, which tf2 transforms"}});
+    RigidBodyDefinition body;
+    body.name = map.at("name").name();
+    for (const RigidBodyDefinition& other : scene.definition.rigid_bodies) {
+      if (other.name == body.name)
+        value.fail(fmt::format("a second rigid body '{}'; give each its own name", body.name));
+    }
+    for (const BodyDefinition& other : scene.bodies) {
+      if (other.name == body.name) {
+        value.fail(fmt::format("'{}' is already the name of a deformable body; give each its own name", body.name));
+      }
+    }
+    body.surface = read_surface(map.at("shape"), planar);
+    if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, planar);
+    if (const auto motion = map.find("motion")) read_motion(*motion, planar, body);
+    const auto own_friction = map.find("friction");
+    body.friction = own_friction ? read_friction(*own_friction) : friction;
+    scene.definition.rigid_bodies.push_back(std::move(body));
+  }
+}
+
+}  // namespace mpm

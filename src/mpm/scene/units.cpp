@@ -1,0 +1,290 @@
+#include "mpm/scene/units.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include "mpm/scene/nearest.hpp"
+
+namespace mpm {
+namespace {
+
+struct NamedUnit {
+  const char* name;
+  Unit unit;
+};
+
+constexpr Dimension kForce{1, 1, -2, 0};
+constexpr Dimension kEnergy{2, 1, -2, 0};
+constexpr Dimension kPower{2, 1, -3, 0};
+
+// Inch, foot, pound, ounce, pound-force: international definitions (NIST SP 811, appendix B).
+constexpr double kPound = 0.45359237;
+constexpr double kPoundForce = kPound * 9.80665;
+constexpr double kInch = 0.0254;
+
+const std::array kUnits = {
+    NamedUnit{"m", {1.0, kLength}},
+    NamedUnit{"km", {1e3, kLength}},
+    NamedUnit{"cm", {1e-2, kLength}},
+    NamedUnit{"mm", {1e-3, kLength}},
+    NamedUnit{"um", {1e-6, kLength}},
+    NamedUnit{"microns", {1e-6, kLength}},
+    NamedUnit{"nm", {1e-9, kLength}},
+    NamedUnit{"in", {kInch, kLength}},
+    NamedUnit{"ft", {12.0 * kInch, kLength}},
+    NamedUnit{"kg", {1.0, kMass}},
+    NamedUnit{"g", {1e-3, kMass}},
+    NamedUnit{"mg", {1e-6, kMass}},
+    NamedUnit{"t", {1e3, kMass}},
+    NamedUnit{"lb", {kPound, kMass}},
+    NamedUnit{"lbs", {kPound, kMass}},
+    NamedUnit{"oz", {kPound / 16.0, kMass}},
+    NamedUnit{"s", {1.0, kTime}},
+    NamedUnit{"sec", {1.0, kTime}},
+    NamedUnit{"ms", {1e-3, kTime}},
+    NamedUnit{"msec", {1e-3, kTime}},
+    NamedUnit{"us", {1e-6, kTime}},
+    NamedUnit{"microsec", {1e-6, kTime}},
+    NamedUnit{"ns", {1e-9, kTime}},
+    NamedUnit{"min", {60.0, kTime}},
+    NamedUnit{"Hz", {1.0, kRate}},
+    NamedUnit{"rad", {1.0, kAngle}},
+    NamedUnit{"deg", {M_PI / 180.0, kAngle}},
+    NamedUnit{"rpm", {M_PI / 30.0, kAngularRate}},
+    NamedUnit{"N", {1.0, kForce}},
+    NamedUnit{"kN", {1e3, kForce}},
+    NamedUnit{"MN", {1e6, kForce}},
+    NamedUnit{"mN", {1e-3, kForce}},
+    NamedUnit{"uN", {1e-6, kForce}},
+    NamedUnit{"dyn", {1e-5, kForce}},
+    NamedUnit{"lbf", {kPoundForce, kForce}},
+    NamedUnit{"Pa", {1.0, kPressure}},
+    NamedUnit{"kPa", {1e3, kPressure}},
+    NamedUnit{"MPa", {1e6, kPressure}},
+    NamedUnit{"GPa", {1e9, kPressure}},
+    NamedUnit{"bar", {1e5, kPressure}},
+    NamedUnit{"Ba", {0.1, kPressure}},
+    NamedUnit{"psi", {kPoundForce / (kInch * kInch), kPressure}},
+    NamedUnit{"J", {1.0, kEnergy}},
+    NamedUnit{"kJ", {1e3, kEnergy}},
+    NamedUnit{"mJ", {1e-3, kEnergy}},
+    NamedUnit{"nJ", {1e-9, kEnergy}},
+    NamedUnit{"erg", {1e-7, kEnergy}},
+    NamedUnit{"W", {1.0, kPower}},
+    NamedUnit{"%", {0.01, kPlain}},
+};
+
+struct DimensionText {
+  Dimension dimension;
+  const char* noun;
+  const char* example;
+};
+const std::array kDimensions = {
+    DimensionText{kPlain, "a number without a unit", "0.3"},
+    DimensionText{kLength, "a length", "10 mm"},
+    DimensionText{kMass, "a mass", "2 kg"},
+    DimensionText{kTime, "a time", "0.2 s"},
+    DimensionText{kAngle, "an angle", "35 deg"},
+    DimensionText{kRate, "a rate", "5 1/s"},
+    DimensionText{kAngularRate, "a rotation rate", "10 deg/s"},
+    DimensionText{kVelocity, "a velocity", "1.7 km/s"},
+    DimensionText{kAcceleration, "an acceleration", "9.81 m/s^2"},
+    DimensionText{kDensity, "a density", "1600 kg/m^3"},
+    DimensionText{kPressure, "a pressure", "5 kPa"},
+    DimensionText{kForce, "a force", "3 N"},
+    DimensionText{kEnergy, "an energy", "3 J"},
+    DimensionText{kPower, "a power", "3 W"},
+};
+
+std::string base_units(const Dimension& dimension) {
+  std::string text;
+  const auto add = [&text](const char* name, int exponent) {
+    if (exponent == 0) return;
+    if (!text.empty()) text += ' ';
+    text += exponent == 1 ? std::string(name) : fmt::format("{}^{}", name, exponent);
+  };
+  add("m", dimension.length);
+  add("kg", dimension.mass);
+  add("s", dimension.time);
+  add("rad", dimension.angle);
+  return text;
+}
+
+// product := factor { ('*' | ' ' | '/') factor };  factor := ( name | '1' | '(' product ')' ) [ '^' integer ]
+class UnitParser {
+ public:
+  explicit UnitParser(const std::string& text) : text_(text) {}
+
+  Unit run() {
+    Unit unit;
+    skip_spaces();
+    if (peek() != '/') unit = factor();  // "5 /s" is allowed
+    unit = rest_of_product(unit);
+    if (position_ != text_.size()) fail(fmt::format("'{}' is out of place", text_.substr(position_)));
+    return unit;
+  }
+
+ private:
+  Unit rest_of_product(Unit unit) {
+    for (skip_spaces(); position_ < text_.size() && peek() != ')'; skip_spaces()) {
+      const bool divide = peek() == '/';
+      if (divide || peek() == '*') ++position_;
+      unit = combine(unit, factor(), divide ? -1 : 1);
+    }
+    return unit;
+  }
+
+  Unit factor() {
+    skip_spaces();
+    Unit unit;
+    if (peek() == '(') {
+      if (++depth_ > 8) fail("is nested too deep");
+      ++position_;
+      unit = rest_of_product(factor());
+      if (peek() != ')') fail("lacks ')'");
+      ++position_;
+      --depth_;
+    } else if (peek() == '1') {
+      ++position_;
+    } else {
+      unit = named();
+    }
+    if (peek() == '^') {
+      ++position_;
+      unit = combine(Unit{}, unit, exponent());
+    }
+    return unit;
+  }
+
+  Unit named() {
+    const std::size_t begin = position_;
+    while (std::isalpha(static_cast<unsigned char>(peek())) || peek() == '%') ++position_;
+    const std::string name = text_.substr(begin, position_ - begin);
+    for (const NamedUnit& known : kUnits) {
+      if (name == known.name) return known.unit;
+    }
+    std::vector<std::string> names;
+    for (const NamedUnit& known : kUnits) names.emplace_back(known.name);
+    if (name.empty()) fail("is not a unit; write one such as MPa, mm/s or kg/m^3");
+    throw UnitError(fmt::format("unknown unit '{}'; {}", name, suggest(name, names)));
+  }
+
+  int exponent() {
+    int value = 0;
+    const char* end = text_.data() + text_.size();
+    const auto [stop, error] = std::from_chars(text_.data() + position_, end, value);
+    if (error != std::errc() || std::abs(value) > 9) fail("has an exponent that is not a small whole number");
+    position_ = static_cast<std::size_t>(stop - text_.data());
+    return value;
+  }
+
+  static Unit combine(const Unit& a, const Unit& b, int power) {
+    const Dimension& p = a.dimension;
+    const Dimension& q = b.dimension;
+    return {a.factor * std::pow(b.factor, power),
+            {p.length + power * q.length, p.mass + power * q.mass, p.time + power * q.time, p.angle + power * q.angle}};
+  }
+
+  char peek() const { return position_ < text_.size() ? text_[position_] : '\0'; }
+  void skip_spaces() {
+    while (peek() == ' ') ++position_;
+  }
+  [[noreturn]] void fail(const std::string& what) const { throw UnitError(fmt::format("unit '{}' {}", text_, what)); }
+
+  const std::string& text_;
+  std::size_t position_ = 0;
+  int depth_ = 0;
+};
+
+double base_unit(const std::string& text, const Dimension& expected, const char* what) {
+  const Unit unit = parse_unit(text);
+  if (!(unit.dimension == expected)) {
+    throw UnitError(fmt::format("'{}' is {}, not {}; a unit system is length-mass-time, as in mm-g-s", text,
+                                describe(unit.dimension), what));
+  }
+  return unit.factor;
+}
+
+}  // namespace
+
+std::string describe(const Dimension& dimension) {
+  for (const DimensionText& known : kDimensions) {
+    if (known.dimension == dimension) return known.noun;
+  }
+  return "a quantity in " + base_units(dimension);
+}
+
+std::string example(const Dimension& dimension) {
+  for (const DimensionText& known : kDimensions) {
+    if (known.dimension == dimension) return known.example;
+  }
+  return "1 " + base_units(dimension);
+}
+
+Unit parse_unit(const std::string& text) { return UnitParser(text).run(); }
+
+double UnitSystem::factor(const Dimension& dimension) const {
+  return std::pow(length, dimension.length) * std::pow(mass, dimension.mass) * std::pow(time, dimension.time);
+}
+
+UnitSystem make_unit_system(const std::string& length, const std::string& mass, const std::string& time) {
+  UnitSystem system;
+  system.length = base_unit(length, kLength, "a length");
+  system.mass = base_unit(mass, kMass, "a mass");
+  system.time = base_unit(time, kTime, "a time");
+  system.name = fmt::format("{}-{}-{}", length, mass, time);
+  return system;
+}
+
+UnitSystem parse_unit_system(const std::string& name) {
+  if (name == "si") return {};
+  const std::size_t first = name.find('-');
+  const std::size_t second = first == std::string::npos ? first : name.find('-', first + 1);
+  if (second == std::string::npos) {
+    throw UnitError(
+        fmt::format("unknown unit system '{}'; write si, or length-mass-time as in mm-g-s, mm-t-s, cm-g-us", name));
+  }
+  return make_unit_system(name.substr(0, first), name.substr(first + 1, second - first - 1), name.substr(second + 1));
+}
+
+bool split_number(const std::string& text, double& value, std::string& rest) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string::npos) return false;
+  const char* from = text.data() + begin + (text[begin] == '+' ? 1 : 0);
+  const auto [stop, error] = std::from_chars(from, text.data() + text.size(), value);
+  if (error != std::errc()) return false;
+  rest = text.substr(static_cast<std::size_t>(stop - text.data()));
+  rest.erase(0, rest.find_first_not_of(' '));
+  return true;
+}
+
+double parse_quantity(const std::string& text, const Dimension& expected, const UnitSystem& system) {
+  double value = 0.0;
+  std::string rest;
+  if (!split_number(text, value, rest)) {
+    throw UnitError(
+        fmt::format("'{}' is not a number; write {}, such as {}", text, describe(expected), example(expected)));
+  }
+  double factor = 1.0;
+  if (rest.empty()) {
+    factor = system.factor(expected);
+  } else {
+    const Unit unit = parse_unit(rest);
+    if (!(unit.dimension == expected)) {
+      throw UnitError(fmt::format("'{}' is {}, but {} is expected; write one such as {}", text,
+                                  describe(unit.dimension), describe(expected), example(expected)));
+    }
+    factor = unit.factor;
+  }
+  if (!std::isfinite(value * factor)) {
+    throw UnitError(
+        fmt::format("'{}' is not a finite number; write {}, such as {}", text, describe(expected), example(expected)));
+  }
+  return value * factor;
+}
+
+}  // namespace mpm

@@ -1,0 +1,30 @@
+# Sourced by the scripts: where things lie, and an environment that does not depend on the caller's.
+# shellcheck shell=bash
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+build="$root/build"
+export PATH="/usr/bin:$PATH" # ROS belongs to the system's Python
+
+# configure FOLDER [cmake options]: quiet unless it fails.
+configure() {
+  local folder=$1
+  shift
+  mkdir -p "$folder"
+  if ! cmake -S "$root" -B "$folder" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
+    "$@" >"$folder/configure.log" 2>&1; then
+    cat "$folder/configure.log" >&2
+    return 1
+  fi
+}
+
+# use_package: the built package joins the environment, as `source build/devel/setup.bash` does.
+use_package() {
+  set +u # the generated file reads variables that may not be set
+  # shellcheck source=/dev/null
+  source "$build/devel/setup.bash"
+  set -u
+}
+
+# free_port: a TCP port on which nothing listens.
+free_port() {
+  /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])'
+}

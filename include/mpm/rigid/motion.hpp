@@ -10,8 +10,8 @@
 namespace mpm {
 
 struct Pose {
-  Vec3 position = Vec3::Zero();             ///< origin of the body in the world [m]
-  Quat orientation = Quat::Identity();      ///< rotates body axes to world axes; unit
+  Vec3 position = Vec3::Zero();         ///< origin of the body in the world [m]
+  Quat orientation = Quat::Identity();  ///< rotates body axes to world axes; unit
   Vec3 to_world(const Vec3& body_point) const { return position + orientation * body_point; }
   Vec3 to_body(const Vec3& world_point) const { return orientation.conjugate() * (world_point - position); }
 };

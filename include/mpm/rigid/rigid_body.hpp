@@ -34,6 +34,7 @@ enum class Drive : std::uint8_t { functions = 0, velocity = 1, pose = 2 };
 
 class RigidBody {
  public:
+  /// @throws RigidError when it has no name or shape, or a number that is impossible.
   explicit RigidBody(RigidBodyDefinition definition);
 
   const std::string& name() const { return definition_.name; }
@@ -46,14 +47,15 @@ class RigidBody {
   /// Constant twist from now on. @throws RigidError when not finite.
   void command_velocity(const Twist& twist);
   /// Constant twist from `now` that arrives at `target` at `arrival` > now [ns], then rest.
-  /// @throws RigidError when not finite, or arrival is not after now.
+  /// @throws RigidError when not finite, the quaternion's length is not 1 within 1e-3, or arrival is not after now.
   void command_pose(const Pose& target, std::int64_t now, std::int64_t arrival);
 
   /// Sets the twist for the step that begins at `time` [s] and lasts `dt` [s]: functions are read at its middle.
+  /// @throws FunctionError when a function is not finite there.
   void begin_step(double time, double dt);
   /// Moves the pose by the twist over `dt` [s].
   void end_step(double dt);
-  /// At a sync point: a body that has reached its target pose is put exactly there and rests.
+  /// At a sync point: a body that has reached its target pose is put exactly there and rests until the next command.
   void at_sync(std::int64_t now);
 
  private:

@@ -1,8 +1,8 @@
 // The surface of a rigid body as a signed distance in the body's own frame.
 //
 // One virtual call a grid node near the body, none a particle. Distances are exact (a mesh: to the nearest triangle
-// through a bounding-volume hierarchy), normals are exact except on edges and corners, where the outward
-// direction from the nearest point of the surface is used outside and the nearest face's normal inside.
+// through a bounding-volume hierarchy), normals are their gradients. Where there is no gradient one is chosen: of
+// several nearest faces (inside) the first; on an edge or corner itself, a face's (a mesh: the mean of its faces').
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ class RigidError : public Error {
 
 /// What a surface says of one point.
 struct SurfacePoint {
-  double distance = 0.0;         ///< signed distance [m], negative inside
-  Vec3 normal = Vec3::UnitZ();   ///< outward unit normal at the nearest point of the surface
+  double distance = 0.0;        ///< signed distance [m], negative inside
+  Vec3 normal = Vec3::UnitZ();  ///< outward unit normal at the nearest point of the surface
 };
 
 class Surface {
@@ -34,32 +34,34 @@ class Surface {
   virtual SurfacePoint at(const Vec3& point) const = 0;
   /// True, with the same answer as at(), when the signed distance is at most `band` [m]; else false, at less cost.
   virtual bool within(const Vec3& point, double band, SurfacePoint& result) const = 0;
-  /// Bounds in the body frame [m].
+  /// Bounds in the body frame [m]; infinite along an axis without end.
   virtual Box bounds() const = 0;
   /// The smallest thickness of the body [m] (for the warning about thin tools); a mesh estimates it.
   virtual double thickness() const = 0;
-  /// Triangles for display (markers), body frame; three vertices each.
+  /// Triangles for display (markers), body frame; three vertices each, counter-clockwise seen from outside. A body
+  /// without end along an axis is drawn as long as it is wide.
   virtual std::vector<std::array<Vec3, 3>> triangles() const = 0;
 };
 
 /// A closed triangle mesh; indices are counter-clockwise seen from outside.
 struct TriangleMesh {
-  std::vector<Vec3> vertices;                 ///< [m]
+  std::vector<Vec3> vertices;  ///< [m]
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// Edge lengths [m], all positive (infinity allowed along y in planar scenes), centred on the origin.
+/// Edge lengths [m], all positive (one may be infinite: y in planar scenes), centred on the origin.
 /// @throws RigidError
 std::unique_ptr<Surface> make_box(const Vec3& size);
 /// @throws RigidError
 std::unique_ptr<Surface> make_sphere(double radius);
-/// Axis along body z (or y in planar scenes: `axis` 1), centred; height may be infinite. @throws RigidError
+/// Axis along body x, y or z (`axis` 0, 1, 2; y in planar scenes), centred; height may be infinite. @throws RigidError
 std::unique_ptr<Surface> make_cylinder(double radius, double height, int axis = 2);
 /// @throws RigidError when the mesh is empty, degenerate, not closed or not consistently oriented; a mesh turned
 /// inside out as a whole is turned right.
 std::unique_ptr<Surface> make_mesh(const TriangleMesh& mesh);
 
-/// Reads any format that assimp reads, joining equal vertices; `scale` multiplies coordinates.
+/// Reads any format that assimp reads, joining equal vertices; `scale` multiplies coordinates, which are taken in the
+/// file's own axes (a COLLADA unit is applied, its up axis is not, as in RViz).
 /// `path` may be `package://name/…` (searched along ROS_PACKAGE_PATH and CMAKE_PREFIX_PATH) or a file path.
 /// @throws RigidError with the path and the reason.
 TriangleMesh load_mesh(const std::string& path, double scale = 1.0);

@@ -1,0 +1,254 @@
+// A closed triangle mesh as a signed distance: the nearest triangle through a bounding-volume hierarchy, the sign
+// by angle-weighted pseudonormals (Baerentzen & Aanaes (2005), IEEE Trans. Vis. Comput. Graph. 11(3), 243-253).
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <unsupported/Eigen/BVH>
+#include <utility>
+
+#include "mpm/rigid/mesh_topology.hpp"
+#include "mpm/rigid/surface.hpp"
+
+namespace mpm {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Part of a triangle that is nearest to a point: corners 0-2, edges 3-5 (edge 3 + i from corner i), the face 6.
+enum Feature : int { kCorner = 0, kEdge = 3, kFace = 6 };
+
+struct Triangle {
+  Vec3 a, ab, ac;
+  int index;  ///< in the mesh
+};
+
+struct Nearest {
+  double squared = kInfinity;
+  Vec3 point = Vec3::Zero();
+  int triangle = -1;
+  int feature = kFace;
+};
+
+/// Nearest point of a triangle by the Voronoi regions of its corners and edges: Ericson (2005), Real-Time Collision
+/// Detection, section 5.1.5.
+void nearest_of(const Triangle& t, const Vec3& p, Nearest& best) {
+  const Vec3 ap = p - t.a;
+  const double d1 = t.ab.dot(ap), d2 = t.ac.dot(ap);
+  const double ab2 = t.ab.squaredNorm(), ac2 = t.ac.squaredNorm(), abc = t.ab.dot(t.ac);
+  const double d3 = d1 - ab2, d4 = d2 - abc;  // ab.bp, ac.bp
+  const double d5 = d1 - abc, d6 = d2 - ac2;  // ab.cp, ac.cp
+  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  double v = 0.0, w = 0.0;
+  int feature = kFace;
+  if (d1 <= 0.0 && d2 <= 0.0) {
+    feature = kCorner;
+  } else if (d3 >= 0.0 && d4 <= d3) {
+    feature = kCorner + 1, v = 1.0;
+  } else if (d6 >= 0.0 && d5 <= d6) {
+    feature = kCorner + 2, w = 1.0;
+  } else if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
+    feature = kEdge, v = d1 / (d1 - d3);
+  } else if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
+    feature = kEdge + 2, w = d2 / (d2 - d6);
+  } else if (va <= 0.0 && d4 >= d3 && d5 >= d6) {
+    feature = kEdge + 1, w = (d4 - d3) / ((d4 - d3) + (d5 - d6)), v = 1.0 - w;
+  } else {
+    const double sum = va + vb + vc;
+    v = vb / sum, w = vc / sum;
+  }
+  const Vec3 offset = v * t.ab + w * t.ac;
+  const double squared = (ap - offset).squaredNorm();
+  if (squared < best.squared) best = {squared, t.a + offset, t.index, feature};
+}
+
+class MeshSurface final : public Surface {
+ public:
+  explicit MeshSurface(const TriangleMesh& mesh) : mesh_(solid_mesh(mesh)) {
+    find_pseudonormals();
+    std::vector<Triangle> triangles;
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto [a, b, c] = corners(t);
+      triangles.push_back({a, b - a, c - a, static_cast<int>(t)});
+      boxes.emplace_back(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
+      for (const Vec3& corner : {a, b, c}) bounds_.add(corner);
+    }
+    tree_.init(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
+    thickness_ = find_thickness(triangles);
+  }
+
+  SurfacePoint at(const Vec3& point) const override {
+    const Nearest nearest = find_nearest(point);
+    const Vec3 away = point - nearest.point;
+    SurfacePoint result;
+    if (nearest.feature == kFace) {
+      result.normal = face_normals_[nearest.triangle];
+      result.distance = away.dot(result.normal);
+      return result;
+    }
+    const Vec3& pseudonormal = nearest.feature < kEdge
+                                   ? corner_normals_[mesh_.triangles[nearest.triangle][nearest.feature]]
+                                   : edge_normals_[nearest.triangle][nearest.feature - kEdge];
+    const double distance = std::sqrt(nearest.squared);
+    const double sign = away.dot(pseudonormal) < 0.0 ? -1.0 : 1.0;
+    result.distance = sign * distance;
+    // On the edge itself, to rounding, there is no direction from the nearest point.
+    const bool on_surface = distance <= 1e-13 * (bounds_.size().norm() + point.norm());
+    result.normal = on_surface ? pseudonormal : Vec3(sign * away / distance);
+    return result;
+  }
+
+  bool within(const Vec3& point, double band, SurfacePoint& result) const override {
+    const double outside = (bounds_.min - point).cwiseMax(point - bounds_.max).maxCoeff();
+    if (outside > std::max(band, 0.0)) return false;
+    const SurfacePoint found = at(point);
+    if (found.distance > band) return false;
+    result = found;
+    return true;
+  }
+
+  Box bounds() const override { return bounds_; }
+  double thickness() const override { return thickness_; }
+
+  std::vector<std::array<Vec3, 3>> triangles() const override {
+    std::vector<std::array<Vec3, 3>> result;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) result.push_back(corners(t));
+    return result;
+  }
+
+ private:
+  using Tree = Eigen::KdBVH<double, 3, Triangle>;
+
+  std::array<Vec3, 3> corners(std::size_t t) const {
+    const auto& [i, j, k] = mesh_.triangles[t];
+    return {mesh_.vertices[i], mesh_.vertices[j], mesh_.vertices[k]};
+  }
+
+  /// An edge's is the sum of its two faces' normals, a corner's that of its faces' weighted by their angle there.
+  void find_pseudonormals() {
+    const std::size_t count = mesh_.triangles.size();
+    face_normals_.resize(count);
+    edge_normals_.resize(count);
+    corner_normals_.assign(mesh_.vertices.size(), Vec3::Zero());
+    std::map<std::pair<int, int>, Vec3> edge_sum;  // undirected: lower index first
+    const auto key = [](int i, int j) { return std::make_pair(std::min(i, j), std::max(i, j)); };
+    for (std::size_t t = 0; t < count; ++t) {
+      const auto [a, b, c] = corners(t);
+      const Vec3 normal = (b - a).cross(c - a).normalized();
+      face_normals_[t] = normal;
+      const std::array<Vec3, 3> p{a, b, c};
+      for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const Vec3 u = p[j] - p[i], v = p[k] - p[i];
+        corner_normals_[mesh_.triangles[t][i]] += std::atan2(u.cross(v).norm(), u.dot(v)) * normal;
+        edge_sum.emplace(key(mesh_.triangles[t][i], mesh_.triangles[t][j]), Vec3::Zero()).first->second += normal;
+      }
+    }
+    for (Vec3& normal : corner_normals_) normal.normalize();
+    for (std::size_t t = 0; t < count; ++t) {
+      for (int i = 0; i < 3; ++i) {
+        edge_normals_[t][i] = edge_sum.at(key(mesh_.triangles[t][i], mesh_.triangles[t][(i + 1) % 3])).normalized();
+      }
+    }
+  }
+
+  /// Depth first, the nearer child first; boxes farther than the best triangle so far are passed over.
+  Nearest find_nearest(const Vec3& point) const {
+    Nearest best;
+    struct Entry {
+      double squared;
+      int node;
+    };
+    std::array<Entry, 64> stack;  // the tree is balanced: its depth is the logarithm of the number of triangles
+    int size = 0;
+    stack[size++] = {0.0, tree_.getRootIndex()};
+    while (size > 0) {
+      const Entry entry = stack[--size];
+      if (entry.squared >= best.squared) continue;
+      Tree::VolumeIterator child = nullptr, last_child = nullptr;
+      Tree::ObjectIterator leaf = nullptr, last_leaf = nullptr;
+      tree_.getChildren(entry.node, child, last_child, leaf, last_leaf);
+      for (; leaf != last_leaf; ++leaf) nearest_of(*leaf, point, best);
+      const int first = size;
+      for (; child != last_child; ++child) {
+        const double squared = tree_.getVolume(*child).squaredExteriorDistance(point);
+        if (squared < best.squared) stack[size++] = {squared, *child};
+      }
+      if (size - first == 2 && stack[first].squared < stack[first + 1].squared) {
+        std::swap(stack[first], stack[first + 1]);
+      }
+    }
+    return best;
+  }
+
+  /// A ray from inside the mesh, for Eigen::BVIntersect: how far to where it leaves.
+  struct Ray {
+    Vec3 origin, direction;
+    int from;  ///< triangle it starts at
+    double length = kInfinity;
+
+    bool intersectVolume(const Eigen::AlignedBox3d& box) const {
+      double enter = 0.0, leave = length;
+      for (int i = 0; i < 3; ++i) {
+        if (direction[i] == 0.0) {
+          if (origin[i] < box.min()[i] || origin[i] > box.max()[i]) return false;
+          continue;
+        }
+        const double one = (box.min()[i] - origin[i]) / direction[i];
+        const double two = (box.max()[i] - origin[i]) / direction[i];
+        enter = std::max(enter, std::min(one, two));
+        leave = std::min(leave, std::max(one, two));
+      }
+      return enter <= leave;
+    }
+
+    /// Moeller & Trumbore (1997). Returns true to stop: never, since a nearer triangle may follow.
+    bool intersectObject(const Triangle& t) {
+      const Vec3 h = direction.cross(t.ac);
+      const double det = t.ab.dot(h);
+      if (t.index == from || det >= 0.0) return false;  // entering, or along the face
+      const Vec3 s = origin - t.a, q = s.cross(t.ab);
+      const double u = s.dot(h) / det, v = direction.dot(q) / det, distance = t.ac.dot(q) / det;
+      if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0) length = std::min(length, distance);
+      return false;
+    }
+  };
+
+  /// Length of a ray inwards from each triangle's centroid; the length that 5 % of the area stays below. An estimate:
+  /// a large triangle is sampled once, and a knife edge of less area than that does not count.
+  double find_thickness(const std::vector<Triangle>& triangles) const {
+    std::vector<std::pair<double, double>> samples;  // length, area
+    double total = 0.0;
+    for (const Triangle& t : triangles) {
+      Ray ray{t.a + (t.ab + t.ac) / 3.0, -face_normals_[t.index], t.index};
+      Eigen::BVIntersect(tree_, ray);
+      const double area = 0.5 * t.ab.cross(t.ac).norm();
+      if (std::isfinite(ray.length)) samples.emplace_back(ray.length, area);
+      total += area;
+    }
+    std::sort(samples.begin(), samples.end());
+    double below = 0.0;
+    for (const auto& [length, area] : samples) {
+      below += area;
+      if (below >= 0.05 * total) return length;
+    }
+    return bounds_.size().minCoeff();
+  }
+
+  TriangleMesh mesh_;
+  std::vector<Vec3> face_normals_, corner_normals_;
+  std::vector<std::array<Vec3, 3>> edge_normals_;  // of each triangle, edge i from corner i
+  Tree tree_;
+  Box bounds_;
+  double thickness_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<Surface> make_mesh(const TriangleMesh& mesh) { return std::make_unique<MeshSurface>(mesh); }
+
+}  // namespace mpm

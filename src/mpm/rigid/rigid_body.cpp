@@ -1,0 +1,90 @@
+// Commands to a rigid body and its motion between sync points.
+#include "mpm/rigid/rigid_body.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace mpm {
+
+namespace {
+
+std::string text_of(const Vec3& v) {
+  std::ostringstream text;
+  text << "(" << v.x() << ", " << v.y() << ", " << v.z() << ")";
+  return text.str();
+}
+
+/// The pose with its quaternion at unit length. @throws RigidError
+Pose checked(const Pose& pose, const std::string& body, const std::string& what) {
+  const std::string start = "rigid body '" + body + "': " + what + ": ";
+  if (!pose.position.allFinite()) throw RigidError(start + "position " + text_of(pose.position) + " is not finite");
+  if (!pose.orientation.coeffs().allFinite()) throw RigidError(start + "orientation is not finite");
+  const double length = pose.orientation.norm();
+  if (!(std::abs(length - 1.0) <= 1e-3)) {
+    std::ostringstream text;
+    text << start << "orientation is a quaternion of length " << length << "; send one of length 1";
+    throw RigidError(text.str());
+  }
+  return {pose.position, pose.orientation.normalized()};
+}
+
+}  // namespace
+
+RigidBody::RigidBody(RigidBodyDefinition definition) : definition_(std::move(definition)) {
+  const std::string start = "rigid body '" + definition_.name + "': ";
+  if (definition_.name.empty()) throw RigidError("rigid body without a name; give it one");
+  if (!definition_.surface) throw RigidError(start + "it has no shape");
+  const double friction = definition_.friction.coefficient;
+  if (!(friction >= 0.0) || std::isinf(friction)) {
+    std::ostringstream text;
+    text << start << "friction coefficient is " << friction << "; it must be finite and not negative";
+    throw RigidError(text.str());
+  }
+  definition_.pose = checked(definition_.pose, definition_.name, "initial pose");
+  pose_ = definition_.pose;
+}
+
+void RigidBody::command_velocity(const Twist& twist) {
+  if (!twist.linear.allFinite() || !twist.angular.allFinite()) {
+    throw RigidError("rigid body '" + name() + "': velocity command is not finite: linear " + text_of(twist.linear) +
+                     ", angular " + text_of(twist.angular));
+  }
+  twist_ = twist;
+  drive_ = Drive::velocity;
+}
+
+void RigidBody::command_pose(const Pose& target, std::int64_t now, std::int64_t arrival) {
+  const Pose goal = checked(target, name(), "pose command");
+  if (arrival <= now) {
+    throw RigidError("rigid body '" + name() + "': pose command arrives at " + std::to_string(arrival) +
+                     " ns, not after the present " + std::to_string(now) + " ns");
+  }
+  target_ = goal;
+  arrival_ = arrival;
+  twist_ = twist_between(pose_, target_, 1e-9 * static_cast<double>(arrival - now));
+  drive_ = Drive::pose;
+}
+
+void RigidBody::begin_step(double time, double dt) {
+  if (drive_ == Drive::functions) {
+    for (int i = 0; i < 3; ++i) {
+      twist_.linear[i] = definition_.velocity[i](time + 0.5 * dt);
+      twist_.angular[i] = definition_.rotation_rate[i](time + 0.5 * dt);
+    }
+  } else if (drive_ == Drive::pose && 1e-9 * static_cast<double>(arrival_) - time < (1.0 - 1e-6) * dt) {
+    // An arrival between two sync points lies within a step: be there at its end, and stay. (Less than a millionth
+    // short is rounding of the clock, and the twist as it is arrives.)
+    twist_ = twist_between(pose_, target_, dt);
+  }
+}
+
+void RigidBody::end_step(double dt) { pose_ = integrate(pose_, twist_, dt); }
+
+void RigidBody::at_sync(std::int64_t now) {
+  if (drive_ != Drive::pose || now < arrival_) return;
+  pose_ = target_;
+  twist_ = Twist();
+}
+
+}  // namespace mpm

@@ -1,0 +1,70 @@
+// A sphere about the origin.
+#include <cmath>
+#include <sstream>
+
+#include "mpm/rigid/surface.hpp"
+
+namespace mpm {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kMeridians = 32;  // of the display mesh
+constexpr int kParallels = 16;
+
+class SphereSurface final : public Surface {
+ public:
+  explicit SphereSurface(double radius) : radius_(radius) {}
+
+  SurfacePoint at(const Vec3& point) const override {
+    SurfacePoint result;  // at the centre all directions are alike: z
+    const double r = point.stableNorm();
+    result.distance = r - radius_;
+    if (r > 0.0) result.normal = point / r;
+    return result;
+  }
+
+  bool within(const Vec3& point, double band, SurfacePoint& result) const override {
+    const SurfacePoint found = at(point);
+    if (found.distance > band) return false;
+    result = found;
+    return true;
+  }
+
+  Box bounds() const override { return {Vec3::Constant(-radius_), Vec3::Constant(radius_)}; }
+
+  double thickness() const override { return 2.0 * radius_; }
+
+  std::vector<std::array<Vec3, 3>> triangles() const override {
+    const auto vertex = [&](int parallel, int meridian) {
+      const double theta = kPi * parallel / kParallels;
+      const double phi = 2.0 * kPi * (meridian % kMeridians) / kMeridians;
+      const double ring = parallel == 0 || parallel == kParallels ? 0.0 : std::sin(theta);  // one vertex a pole
+      return Vec3(radius_ * Vec3(ring * std::cos(phi), ring * std::sin(phi), std::cos(theta)));
+    };
+    std::vector<std::array<Vec3, 3>> result;
+    for (int i = 0; i < kParallels; ++i) {
+      for (int j = 0; j < kMeridians; ++j) {
+        if (i + 1 < kParallels) result.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+        if (i > 0) result.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+      }
+    }
+    return result;
+  }
+
+ private:
+  double radius_;
+};
+
+}  // namespace
+
+std::unique_ptr<Surface> make_sphere(double radius) {
+  if (!(radius > 0.0) || std::isinf(radius)) {
+    std::ostringstream text;
+    text << "sphere: radius is " << radius << " m; it must be positive and finite";
+    throw RigidError(text.str());
+  }
+  return std::make_unique<SphereSurface>(radius);
+}
+
+}  // namespace mpm

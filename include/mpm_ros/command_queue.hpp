@@ -40,6 +40,8 @@ class CommandQueue {
   /// Commands with a stamp that was zero or past when they came.
   std::uint64_t late() const;
   std::size_t waiting() const;
+  /// The last sync point taken [ns]; -1 before the first.
+  std::int64_t passed() const;
 
   /// A gap in a body's stream of poses longer than this [ns] says nothing of its period.
   static constexpr std::int64_t kLongestPeriod = 1'000'000'000;

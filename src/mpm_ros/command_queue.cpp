@@ -103,6 +103,11 @@ std::uint64_t CommandQueue::late() const {
   return late_;
 }
 
+std::int64_t CommandQueue::passed() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return passed_;
+}
+
 std::size_t CommandQueue::waiting() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return waiting_.size();

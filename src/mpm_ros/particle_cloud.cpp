@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "mpm_ros/nearest_name.hpp"
+#include "mpm/scene/nearest.hpp"
 
 namespace mpm_ros {
 
@@ -32,7 +32,7 @@ std::string problem_of(const ParticleSelection& selection) {
   for (const auto& [name, unit] : mpm::Simulation::particle_fields()) known.push_back(name);
   for (const std::string& field : selection.fields) {
     if (std::find(known.begin(), known.end(), field) == known.end()) {
-      return fmt::format("there is no particle field '{}'{}", field, did_you_mean(field, known));
+      return fmt::format("there is no particle field '{}'; {}", field, mpm::suggest(field, known));
     }
     if (std::count(selection.fields.begin(), selection.fields.end(), field) > 1) {
       return fmt::format("particle field '{}' is named twice", field);

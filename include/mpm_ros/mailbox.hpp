@@ -1,0 +1,35 @@
+// Work that other threads hand to the solver's thread, done there between two sync periods. Services use it, so that
+// only one thread ever touches the simulation.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+
+namespace mpm_ros {
+
+class Mailbox {
+ public:
+  /// Hands over `work` and waits until it is done. False, with the work not done, once closed. Not from the thread
+  /// that calls run_until().
+  bool call(const std::function<void()>& work);
+  /// Does what has been handed over; waits for more until `deadline`, or until some work was done.
+  /// What the work throws comes out here; the caller is let go.
+  void run_until(std::chrono::steady_clock::time_point deadline);
+  /// Lets every waiting caller go.
+  void close();
+
+ private:
+  struct Letter {
+    const std::function<void()>* work;
+    bool done = false;
+  };
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Letter*> letters_;
+  bool closed_ = false;
+};
+
+}  // namespace mpm_ros

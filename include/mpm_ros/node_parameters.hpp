@@ -1,0 +1,67 @@
+// The node's private parameters: read once, each checked for its type and range.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mpm_ros {
+
+/// A parameter that is missing, of the wrong type or out of range. what() is one line that names it.
+class ParameterError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class Pacing {
+  real_time,  ///< simulated time follows the wall clock, times real_time_factor
+  free,       ///< as fast as it goes
+  lockstep    ///< only when the service `step` is called
+};
+
+/// What happens to a commanded body that has not heard a command for command_timeout.
+enum class OnTimeout {
+  hold,  ///< it goes on as it was told last
+  stop,  ///< it stands still
+  error  ///< the run ends
+};
+
+struct NodeParameters {
+  std::string scene;             ///< shipped name or path
+  std::vector<std::string> set;  ///< "key.path=value", over the scene
+  Pacing pacing = Pacing::real_time;
+  double real_time_factor = 1.0;            ///< simulated over wall time, > 0
+  int threads = 0;                          ///< 0: as many as the machine has
+  std::string record;                       ///< bag to write; empty: none, "auto": named by scene and date
+  std::string record_compression = "none";  ///< none, lz4, bz2
+  std::string commands;                     ///< bag whose commands are replayed in place of live ones
+  double command_timeout = 0.0;             ///< [s] simulated; 0: never
+  OnTimeout on_timeout = OnTimeout::hold;
+  std::string world_frame = "world";
+  bool publish_clock = true;                                ///< with use_sim_time
+  double clock_rate = 0.0;                                  ///< [1/s] simulated; 0: every sync point
+  std::optional<double> particle_rate;                      ///< [1/s] simulated; unset: as the scene says
+  std::optional<std::vector<std::string>> particle_fields;  ///< unset: as the scene says
+  std::optional<int> particle_stride;                       ///< unset: as the scene says
+  double wrench_rate = 0.0;  ///< [1/s] simulated, of forces, bodies, transforms, state; 0: every sync point
+  double force_scale = 0.0;  ///< of contact arrows [m/N]; 0: by the largest force met
+  bool state_hash = false;   ///< in every solver state
+  bool keep_alive = false;   ///< serve on after the run's end; unset: in lockstep only
+  bool start_paused = false;
+
+  std::string text;  ///< what was given, as YAML
+};
+
+using ParameterValues = std::map<std::string, XmlRpc::XmlRpcValue>;
+
+/// All parameters below a private node handle.
+ParameterValues fetch_parameters(const ros::NodeHandle& private_node);
+/// `warnings` gets one line for each name that is not known. @throws ParameterError
+NodeParameters read_parameters(const ParameterValues& values, std::vector<std::string>& warnings);
+
+}  // namespace mpm_ros

@@ -1,0 +1,31 @@
+// Keeps simulated time at the wall clock's pace. The only part of the node that reads the wall clock.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace mpm_ros {
+
+class Pacer {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// `period` [ns] simulated from one deadline to the next, `factor` simulated over wall time, > 0.
+  Pacer(std::int64_t period, double factor);
+
+  /// Begins again from `now`: at the start, after a pause.
+  void restart(Clock::time_point now) { deadline_ = now; }
+  /// When the sync period that is computed at `now` is due. A deadline that has passed is an overrun; a delay of more
+  /// than kLargestDebt is not caught up with.
+  Clock::time_point next(Clock::time_point now);
+  std::uint64_t overruns() const { return overruns_; }
+
+  static constexpr std::chrono::milliseconds kLargestDebt{100};
+
+ private:
+  const Clock::duration period_;
+  Clock::time_point deadline_;
+  std::uint64_t overruns_ = 0;
+};
+
+}  // namespace mpm_ros

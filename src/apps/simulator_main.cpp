@@ -1,0 +1,73 @@
+// rosrun mpm_ros simulator _scene:=NAME: the node. Wiring only; see mpm_ros/simulator_node.hpp.
+//
+// Exit codes: 0 done (or told to stop), 1 a bag that cannot be written or another failure of the machine, 2 bad input,
+// 3 the physics failed.
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/master.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "mpm_ros/simulator_node.hpp"
+
+namespace {
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+void on_signal(int signal) { stop_signal = signal; }
+
+bool stop_requested() { return stop_signal != 0 || !ros::ok(); }
+
+/// False when told to stop before there was one.
+bool wait_for_master() {
+  bool said = false;
+  while (stop_signal == 0) {
+    if (ros::master::check()) return true;
+    if (!said) ROS_WARN_STREAM("waiting for a master at " << ros::master::getURI() << "; start roscore");
+    said = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+  return false;
+}
+
+int run() {
+  std::vector<std::string> warnings;
+  const mpm_ros::NodeParameters parameters =
+      mpm_ros::read_parameters(mpm_ros::fetch_parameters(ros::NodeHandle("~")), warnings);
+  for (const std::string& warning : warnings) ROS_WARN_STREAM(warning);
+  mpm_ros::SimulatorNode node(ros::NodeHandle(), parameters, stop_requested);
+  return node.spin();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // Our own handlers: roscpp's would take the connections away before the bag is closed.
+  ros::init(argc, argv, "simulator", ros::init_options::NoSigintHandler);
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  if (!wait_for_master()) return 0;
+  ros::start();
+  int exit_code = 1;
+  try {
+    exit_code = run();
+  } catch (const mpm::PhysicsError& error) {
+    ROS_FATAL_STREAM(error.what());
+    exit_code = 3;
+  } catch (const mpm::Error& error) {
+    ROS_FATAL_STREAM(error.what());
+    exit_code = 2;
+  } catch (const mpm_ros::ParameterError& error) {
+    ROS_FATAL_STREAM(error.what());
+    exit_code = 2;
+  } catch (const mpm_ros::BagError& error) {
+    ROS_FATAL_STREAM(error.what());
+    exit_code = 2;
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM("unexpected: " << error.what());
+  }
+  ros::shutdown();
+  return exit_code;
+}

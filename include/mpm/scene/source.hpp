@@ -27,7 +27,8 @@ class Source {
  private:
   struct Override {
     std::string text;
-    YAML::Node node;
+    YAML::Node node;                  ///< the value it set
+    std::vector<YAML::Node> created;  ///< keys, and maps on the way to the value, that were not there before
   };
   void apply(const std::string& text);
 
@@ -38,6 +39,8 @@ class Source {
 
 /// The name of an element of a list in paths.
 std::string element_name(const YAML::Node& list, std::size_t index);
+/// The node of a key itself, for its line; the map when there is no such key.
+YAML::Node key_node(const YAML::Node& map, const std::string& key);
 /// `path` with one more part.
 std::string join_path(const std::string& path, const std::string& part);
 

@@ -68,7 +68,8 @@ void add_steps(const Scene& scene, const SimulationDefinition& built, std::strin
   }
   const double steps = std::ceil(sync / limit);
   text += fmt::format("time step: at most {:.4g} s, set by {}\n", limit, reason);
-  text += fmt::format("sync period: {:.9g} s, {:.0f} steps each while the material is unstrained\n", sync, steps);
+  text += fmt::format("sync period: {:.9g} s, {:.0f} step{} each while the material is unstrained\n", sync, steps,
+                      steps == 1.0 ? "" : "s");
   if (time.end > 0.0) {
     text += fmt::format("run: to {:g} s in about {:.0f} steps\n", time.end, std::ceil(time.end / sync - 1e-9) * steps);
   } else {

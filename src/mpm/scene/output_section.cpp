@@ -17,7 +17,7 @@ constexpr double kShortestEnd = 100.0 * kNanosecond;  // a hundred sync points o
 constexpr double kLongest = 1e9;                      // [s], 32 years; 64-bit nanoseconds hold 292
 constexpr std::int64_t kMostSync = 10'000'000;        // [ns], a command waits no longer than this by default
 
-double seconds(std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) * kNanosecond; }
+double seconds(std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) / 1e9; }  // rounds once
 
 /// A time of whole nanoseconds.
 std::int64_t read_nanoseconds(const Value& value) {
@@ -81,12 +81,12 @@ void read_time(const Map& root, Scene& scene, std::optional<Value>& sync) {
 
 void choose_periods(const std::optional<Value>& sync_key, const std::optional<Value>& period_key, Scene& scene) {
   TimeDefinition& time = scene.definition.time;
-  const double end_ns = time.end / kNanosecond;
+  const std::int64_t end_ns = std::llround(time.end * 1e9);
   std::int64_t period = 0;
   if (period_key) {
     period = read_nanoseconds(*period_key);
   } else {
-    period = time.end > 0.0 ? round_down(end_ns / 50.0) : 20'000'000;
+    period = time.end > 0.0 ? round_down(static_cast<double>(end_ns) / 50.0) : 20'000'000;
   }
   if (sync_key) {
     time.sync = read_nanoseconds(*sync_key);
@@ -100,7 +100,7 @@ void choose_periods(const std::optional<Value>& sync_key, const std::optional<Va
     }
   } else {
     std::int64_t limit = std::min(kMostSync, period);
-    if (time.end > 0.0) limit = std::min(limit, std::max<std::int64_t>(1, static_cast<std::int64_t>(end_ns / 100.0)));
+    if (time.end > 0.0) limit = std::min(limit, std::max<std::int64_t>(1, end_ns / 100));
     time.sync = largest_divisor(period, limit);
     if (time.sync == 0) {
       period_key->fail(fmt::format("{:.12g} s cannot be divided into sync periods of about {:.9g} s; write {:.12g} s",

@@ -189,9 +189,12 @@ std::optional<Value> Map::find(const std::string& key) const {
   if (!contains(keys_, key)) throw std::logic_error("scene reader asked for the undeclared key " + key);
   const YAML::Node node = value_.node()[key];
   if (!node) return std::nullopt;
-  Value found = value_.child(node, key);
-  if (node.IsNull()) found.fail("has no value; write one, or leave the key out for its default");
-  return found;
+  if (node.IsNull()) {
+    // Nothing has no line of its own: the key's is told.
+    value_.child(key_node(value_.node(), key), key)
+        .fail("has no value; write one, or leave the key out for its default");
+  }
+  return value_.child(node, key);
 }
 
 Value Map::at(const std::string& key) const {

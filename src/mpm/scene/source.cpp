@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "mpm/scene/nearest.hpp"
@@ -109,6 +110,13 @@ std::string element_name(const YAML::Node& list, std::size_t index) {
   return std::to_string(index);
 }
 
+YAML::Node key_node(const YAML::Node& map, const std::string& key) {
+  for (const auto& entry : map) {
+    if (entry.first.Scalar() == key) return entry.first;
+  }
+  return map;
+}
+
 Source::Source(const std::string& text, std::string label, const std::vector<std::string>& overrides)
     : label_(std::move(label)) {
   try {
@@ -134,7 +142,8 @@ Source::Source(const std::string& text, std::string label, const std::vector<std
 std::string Source::where(const YAML::Node& node) const {
   // The last override of a value is the one that holds.
   for (auto it = overrides_.rbegin(); it != overrides_.rend(); ++it) {
-    if (holds(it->node, node)) return "--set " + it->text;
+    const auto same = [&node](const YAML::Node& created) { return created.is(node); };
+    if (holds(it->node, node) || std::any_of(it->created.begin(), it->created.end(), same)) return "--set " + it->text;
   }
   return place(label_, node.Mark());
 }
@@ -158,6 +167,7 @@ void Source::apply(const std::string& text) {
   const std::vector<std::string> parts = split(path);
   YAML::Node node = root_;
   std::string walked;
+  std::vector<YAML::Node> created;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string& part = parts[i];
     const bool last = i + 1 == parts.size();
@@ -174,18 +184,21 @@ void Source::apply(const std::string& text) {
       if (last) node[index] = value;
       node.reset(node[index]);
     } else if (node.IsMap() || node.IsNull()) {
+      const bool is_new = !node[part];
       if (last) {
         node[part] = value;
-      } else if (!node[part]) {
+      } else if (is_new) {
         node[part] = YAML::Node(YAML::NodeType::Map);
+        created.push_back(node[part]);
       }
+      if (is_new) created.push_back(key_node(node, part));
       node.reset(node[part]);
     } else {
       throw SceneError(fmt::format("{}: {}: is one value without keys; set '{}' itself", label, walked, walked));
     }
     walked = join_path(walked, part);
   }
-  overrides_.push_back({text, node});
+  overrides_.push_back({text, node, std::move(created)});
 }
 
 }  // namespace mpm

@@ -114,7 +114,7 @@ std::string base_units(const Dimension& dimension) {
   return text;
 }
 
-// product := factor { ('*' | ' ' | '/') factor };  factor := ( name | '1' | '(' product ')' ) [ '^' integer ]
+// product := factor { ('*' | ' ' | '/') factor };  factor := ( name | '1' | '(' product ')' ) [ ['^'] integer ]
 class UnitParser {
  public:
   explicit UnitParser(const std::string& text) : text_(text) {}
@@ -156,13 +156,15 @@ class UnitParser {
     if (peek() == '^') {
       ++position_;
       unit = combine(Unit{}, unit, exponent());
+    } else if (is_digit(peek()) && is_letter(text_[position_ - 1])) {
+      unit = combine(Unit{}, unit, exponent());  // "m3"
     }
     return unit;
   }
 
   Unit named() {
     const std::size_t begin = position_;
-    while (std::isalpha(static_cast<unsigned char>(peek())) || peek() == '%') ++position_;
+    while (is_letter(peek()) || peek() == '%') ++position_;
     const std::string name = text_.substr(begin, position_ - begin);
     for (const NamedUnit& known : kUnits) {
       if (name == known.name) return known.unit;
@@ -189,6 +191,8 @@ class UnitParser {
             {p.length + power * q.length, p.mass + power * q.mass, p.time + power * q.time, p.angle + power * q.angle}};
   }
 
+  static bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+  static bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
   char peek() const { return position_ < text_.size() ? text_[position_] : '\0'; }
   void skip_spaces() {
     while (peek() == ' ') ++position_;

@@ -1,0 +1,79 @@
+// Functions of time and place: values by hand, and what is refused.
+#include "mpm/math/function.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mpm {
+namespace {
+
+std::string refusal(const std::string& expression) {
+  try {
+    Function::parse(expression);
+  } catch (const FunctionError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Function, DefaultsToZeroAndHoldsConstants) {
+  EXPECT_EQ(Function()(3.0), 0.0);
+  EXPECT_EQ(Function(2.5)(3.0, Vec3(1, 2, 3)), 2.5);
+  EXPECT_TRUE(Function(2.5).is_constant());
+}
+
+TEST(Function, ReadsTimeAndPlace) {
+  EXPECT_EQ(Function::parse("2*t + x - y*z")(0.5, Vec3(3, 4, 5)), 1.0 + 3.0 - 20.0);
+  EXPECT_FALSE(Function::parse("2*t").is_constant());
+  // sin(pi/6) = 1/2 and log(e) = 1, to the last digits of the library's functions.
+  EXPECT_NEAR(Function::parse("sin(pi/6)")(0.0), 0.5, 1e-15);
+  EXPECT_NEAR(Function::parse("ln(e)")(0.0), 1.0, 1e-15);
+}
+
+TEST(Function, HasComparisonsAndChoice) {
+  const Function pulse = Function::parse("0.1*(t<1)");
+  EXPECT_EQ(pulse(0.999), 0.1);
+  EXPECT_EQ(pulse(1.0), 0.0);
+  const Function steps = Function::parse("t < 0.2 ? -0.01 : t >= 0.5 && x != 0 ? 7 : 0");
+  EXPECT_EQ(steps(0.1), -0.01);
+  EXPECT_EQ(steps(0.3), 0.0);
+  EXPECT_EQ(steps(0.5, Vec3(1, 0, 0)), 7.0);
+}
+
+TEST(Function, TakesAndGivesValuesInItsUnits) {
+  // mm/s of a time in ms and a place in mm: at 2 ms and 3 mm, 2 + 3 = 5 mm/s.
+  const Function f = Function::parse("t + x", {1e-3, 1e-3, 1e-3});
+  // Three roundings of a few units in the last place.
+  EXPECT_NEAR(f(2e-3, Vec3(3e-3, 0, 0)), 5e-3, 1e-17);
+}
+
+TEST(Function, CopiesAreValues) {
+  Function f = Function::parse("t");
+  const Function copy = f;
+  f = Function(9.0);
+  EXPECT_EQ(copy(4.0), 4.0);
+  EXPECT_EQ(f(4.0), 9.0);
+  EXPECT_EQ(copy.text(), "t");
+}
+
+TEST(Function, NamesAnUnknownVariableWithAHint) {
+  EXPECT_NE(refusal("2*time").find("unknown name 'time'; write 't'"), std::string::npos) << refusal("2*time");
+  EXPECT_NE(refusal("q + 1").find("unknown name 'q'; an expression may use t, x, y, z"), std::string::npos);
+}
+
+TEST(Function, RefusesWhatDoesNotParse) {
+  for (const char* bad : {"2*(t", "", "t +", "1, 2", "sin()", "\"t\"", "t ? 1", "= 3"}) {
+    EXPECT_NE(refusal(bad), "") << bad;
+  }
+}
+
+TEST(Function, RefusesAValueThatIsNotFinite) {
+  const Function f = Function::parse("1/x");
+  EXPECT_EQ(f(0.0, Vec3(4, 0, 0)), 0.25);
+  EXPECT_THROW(f(0.0, Vec3::Zero()), FunctionError);
+  EXPECT_THROW(Function::parse("sqrt(-1)")(0.0), FunctionError);
+}
+
+}  // namespace
+}  // namespace mpm

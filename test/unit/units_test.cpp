@@ -1,0 +1,97 @@
+// Quantities and unit systems. Factors: SI brochure (9th edition) and, for inch and pound, NIST SP 811 appendix B.
+#include "mpm/scene/units.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mpm {
+namespace {
+
+// A few roundings of a double.
+constexpr double kRoundOff = 1e-14;
+
+void expect_si(const std::string& text, const Dimension& dimension, double expected) {
+  EXPECT_NEAR(parse_quantity(text, dimension), expected, kRoundOff * std::abs(expected)) << text;
+}
+
+std::string refusal(const std::string& text, const Dimension& dimension) {
+  try {
+    parse_quantity(text, dimension);
+  } catch (const UnitError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Units, QuantitiesBecomeSi) {
+  expect_si("2300 MPa", kPressure, 2.3e9);
+  expect_si("5kPa", kPressure, 5e3);
+  expect_si("1 psi", kPressure, 6894.757293168361);
+  expect_si("35 deg", kAngle, 35.0 * M_PI / 180.0);
+  expect_si("10 mm", kLength, 0.01);
+  expect_si("1 in", kLength, 0.0254);
+  expect_si("0.2 s", kTime, 0.2);
+  expect_si("3 us", kTime, 3e-6);
+  expect_si("1.7 km/s", kVelocity, 1700.0);
+  expect_si("2.7 g/cm^3", kDensity, 2700.0);
+  expect_si("9.81 m/s^2", kAcceleration, 9.81);
+  expect_si("1600 kg/m3", kDensity, 1600.0);
+  expect_si("9.81 m s^-2", kAcceleration, 9.81);
+  expect_si("5 kg/(m*s^2)", kPressure, 5.0);
+  expect_si("5 kg/m/s^2", kPressure, 5.0);
+  expect_si("4 N/mm^2", kPressure, 4e6);
+  expect_si("20 1/s", kRate, 20.0);
+  expect_si("20 /s", kRate, 20.0);
+  expect_si("90 deg/s", kAngularRate, M_PI / 2.0);
+  expect_si("30 %", kPlain, 0.3);
+  expect_si("-1e-3 m", kLength, -1e-3);
+  expect_si("+2", kPlain, 2.0);
+}
+
+TEST(Units, PlainNumbersAreInTheSceneSystem) {
+  // Nairn, GIMP notes, tables 7.1 and 7.3: mm-g-s has force in uN, pressure in Pa; mm-t-s has pressure in MPa; cm-g-us
+  // has pressure in 100 GPa (Mbar), velocity in 10 km/s.
+  const auto si = [](const char* system, const Dimension& dimension) {
+    return parse_quantity("1", dimension, parse_unit_system(system));
+  };
+  EXPECT_NEAR(si("mm-g-s", kPressure), 1.0, kRoundOff);
+  EXPECT_NEAR(si("mm-g-sec", kDensity), 1e6, 1e6 * kRoundOff);
+  EXPECT_NEAR(si("mm-t-s", kPressure), 1e6, 1e6 * kRoundOff);
+  EXPECT_NEAR(si("mm-t-s", kDensity), 1e12, 1e12 * kRoundOff);
+  EXPECT_NEAR(si("cm-g-us", kPressure), 1e11, 1e11 * kRoundOff);
+  EXPECT_NEAR(si("cm-g-us", kVelocity), 1e4, 1e4 * kRoundOff);
+  EXPECT_NEAR(si("cm-g-s", kPressure), 0.1, kRoundOff);
+  EXPECT_EQ(si("m-kg-s", kPressure), 1.0);
+  EXPECT_EQ(si("mm-g-s", kAngle), 1.0);
+  // A written unit does not care for the system.
+  EXPECT_NEAR(parse_quantity("2 m", kLength, parse_unit_system("mm-g-s")), 2.0, kRoundOff);
+}
+
+TEST(Units, AWrongDimensionNamesWhatWasExpected) {
+  EXPECT_EQ(refusal("2 m", kPressure), "'2 m' is a length, but a pressure is expected; write one such as 5 kPa");
+  EXPECT_EQ(refusal("35 deg", kPlain),
+            "'35 deg' is an angle, but a number without a unit is expected; write one such as 0.3");
+  EXPECT_EQ(refusal("2 m^2/s", kTime),
+            "'2 m^2/s' is a quantity in m^2 s^-1, but a time is expected; write one such as 0.2 s");
+}
+
+TEST(Units, WhatIsNotAQuantityIsRefused) {
+  EXPECT_EQ(refusal("3 MPaa", kPressure), "unknown unit 'MPaa'; did you mean 'MPa'?");
+  EXPECT_EQ(refusal("fast", kVelocity), "'fast' is not a number; write a velocity, such as 1.7 km/s");
+  for (const char* bad : {"", " ", "nan", "inf", "1e400", "3 m^x", "3 m^99", "3 (m", "3 m)", "3 **m", "3 ((((((((((m",
+                          "3 m/", "0x10", "1,5", "5 m m^-1 m^"}) {
+    EXPECT_NE(refusal(bad, kLength), "") << bad;
+  }
+}
+
+TEST(Units, BadSystemsAreRefused) {
+  EXPECT_THROW(parse_unit_system("legacy"), UnitError);
+  EXPECT_THROW(parse_unit_system("g-mm-s"), UnitError);
+  EXPECT_THROW(parse_unit_system("mm-g"), UnitError);
+  EXPECT_THROW(parse_unit_system("mm-g-s-s"), UnitError);
+  EXPECT_THROW(make_unit_system("mm", "g", "fortnight"), UnitError);
+}
+
+}  // namespace
+}  // namespace mpm

@@ -1,0 +1,123 @@
+// Constants that no material can have are refused, each with its value and range.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "mpm/material/definition.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+MaterialDefinition soil() {
+  DruckerPragerDefinition law;
+  law.elasticity = {1e6, 0.3};
+  law.friction_angle = 30.0 * kDegree;
+  law.dilation_angle = 5.0 * kDegree;
+  law.cohesion = 1000.0;
+  return {"soil", 1600.0, law};
+}
+
+std::string refusal(const MaterialDefinition& material) {
+  try {
+    check(material);
+  } catch (const MaterialError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  return "";
+}
+
+std::string soil_with(double DruckerPragerDefinition::*constant, double value) {
+  MaterialDefinition material = soil();
+  std::get<DruckerPragerDefinition>(material.law).*constant = value;
+  return refusal(material);
+}
+
+TEST(MaterialDefinition, SoundMaterialsPass) {
+  EXPECT_EQ(refusal(soil()), "");
+  EXPECT_EQ(refusal({"rubber", 1100.0, NeoHookeanDefinition{{1e6, 0.499}}}), "");
+  EXPECT_EQ(refusal({"foam", 30.0, LinearElasticDefinition{{1e4, -0.9}}}), "");
+}
+
+TEST(MaterialDefinition, Density) {
+  for (const double bad : {0.0, -1.0, kNan, kInfinity}) {
+    MaterialDefinition material = soil();
+    material.density = bad;
+    EXPECT_NE(refusal(material), "") << bad;
+  }
+  MaterialDefinition material = soil();
+  material.density = -1.0;
+  EXPECT_EQ(refusal(material), "material 'soil': density is -1 kg/m^3; it must be positive and finite");
+}
+
+TEST(MaterialDefinition, ElasticConstantsOfEveryLaw) {
+  const std::vector<std::function<LawDefinition(Elasticity)>> laws = {
+      [](Elasticity e) { return LinearElasticDefinition{e}; },
+      [](Elasticity e) { return NeoHookeanDefinition{e}; },
+      [](Elasticity e) {
+        DruckerPragerDefinition law;
+        law.elasticity = e;
+        return law;
+      },
+  };
+  for (const auto& law : laws) {
+    EXPECT_EQ(refusal({"m", 1.0, law({1.0, 0.0})}), "");
+    for (const double young : {0.0, -1.0, kNan, kInfinity}) EXPECT_NE(refusal({"m", 1.0, law({young, 0.3})}), "");
+    for (const double poisson : {-1.0, -2.0, 0.5, 0.6, kNan}) EXPECT_NE(refusal({"m", 1.0, law({1.0, poisson})}), "");
+  }
+  EXPECT_EQ(refusal({"m", 1.0, NeoHookeanDefinition{{1.0, 0.5}}}),
+            "material 'm': Poisson's ratio is 0.5; it must lie between -1 and 0.5, both excluded");
+  EXPECT_EQ(refusal({"m", 1.0, NeoHookeanDefinition{{0.0, 0.3}}}),
+            "material 'm': Young's modulus is 0 Pa; it must be positive and finite");
+}
+
+TEST(MaterialDefinition, SoilAngles) {
+  using Law = DruckerPragerDefinition;
+  EXPECT_EQ(soil_with(&Law::dilation_angle, 30.0 * kDegree), "");  // associated
+  EXPECT_EQ(soil_with(&Law::dilation_angle, 0.0), "");
+  EXPECT_EQ(soil_with(&Law::dilation_angle, 31.0 * kDegree),
+            "material 'soil': dilation angle is 31 degrees; it must lie from 0 to the friction angle, 30");
+  EXPECT_EQ(soil_with(&Law::friction_angle, 90.0 * kDegree),
+            "material 'soil': friction angle is 90 degrees; it must lie from 0 to below 90");
+  for (const double bad : {-1.0 * kDegree, 30.0, kNan}) EXPECT_NE(soil_with(&Law::friction_angle, bad), "") << bad;
+  for (const double bad : {-1.0 * kDegree, kNan}) EXPECT_NE(soil_with(&Law::dilation_angle, bad), "") << bad;
+}
+
+TEST(MaterialDefinition, CohesionAndTensionCutoff) {
+  using Law = DruckerPragerDefinition;
+  EXPECT_EQ(soil_with(&Law::cohesion, 0.0), "");
+  for (const double bad : {-1.0, kNan, kInfinity}) EXPECT_NE(soil_with(&Law::cohesion, bad), "") << bad;
+  // Apex by hand: 1000 Pa / tan(30 degrees) = 1000 sqrt(3) Pa.
+  EXPECT_EQ(soil_with(&Law::tension_cutoff, 1000.0 * std::sqrt(3.0)), "");
+  EXPECT_EQ(soil_with(&Law::tension_cutoff, 0.0), "");
+  EXPECT_EQ(soil_with(&Law::tension_cutoff, 1733.0),
+            "material 'soil': tension cut-off is 1733 Pa; it must not lie above the cone's apex, cohesion / "
+            "tan(friction angle) = 1732.05 Pa");
+  for (const double bad : {kNan, kInfinity, -kInfinity}) EXPECT_NE(soil_with(&Law::tension_cutoff, bad), "") << bad;
+  // Clay without friction has no apex: any finite cut-off stands.
+  MaterialDefinition clay = soil();
+  auto& law = std::get<Law>(clay.law);
+  law.friction_angle = law.dilation_angle = 0.0;
+  law.tension_cutoff = 1e9;
+  EXPECT_EQ(refusal(clay), "");
+}
+
+TEST(MaterialDefinition, Names) {
+  EXPECT_EQ(law_name(LinearElasticDefinition{}), "linear_elastic");
+  EXPECT_EQ(law_name(NeoHookeanDefinition{}), "neo_hookean");
+  EXPECT_EQ(law_name(DruckerPragerDefinition{}), "drucker_prager");
+  MaterialDefinition nameless = soil();
+  nameless.name.clear();
+  EXPECT_NE(refusal(nameless), "");
+}
+
+}  // namespace
+}  // namespace mpm

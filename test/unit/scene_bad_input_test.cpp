@@ -162,6 +162,26 @@ TEST(SceneBadInput, MaterialConstantsOutOfRange) {
   expect_refused(17, "    poisson: 10 deg", "materials.soft.poisson: '10 deg' is an angle,");
 }
 
+TEST(SceneBadInput, SoilConstantsOutOfRange) {
+  const auto soil = [](const std::string& last) {
+    return refusal(with_line(17, "    poisson: 0.3\n    friction_angle: 30 deg\n    " + last),
+                   {"materials.soft.law=drucker_prager"});
+  };
+  const auto starts = [&soil](const std::string& last, const std::string& start) {
+    const std::string found = soil(last);
+    EXPECT_EQ(found.substr(0, start.size()), start) << found;
+  };
+  starts("dilation_angle: 31 deg", "bad.yaml:19: materials.soft.dilation_angle: ");
+  starts("dilation_angle: -1 deg", "bad.yaml:19: materials.soft.dilation_angle: ");
+  starts("cohesion: -1", "bad.yaml:19: materials.soft.cohesion: ");
+  starts("tension_cutoff: -1", "bad.yaml:19: materials.soft.tension_cutoff: '-1' is less than 0;");
+  starts("match: inner", "bad.yaml:19: materials.soft.match: 'inner' is not known; write one of compression");
+  // Without a unit an angle is in radians: 30 of them are beyond a right angle.
+  const std::string found =
+      refusal(with_line(17, "    poisson: 0.3\n    friction_angle: 30"), {"materials.soft.law=drucker_prager"});
+  EXPECT_EQ(found.find("bad.yaml:18: materials.soft.friction_angle: friction angle is 1718.87 degrees"), 0U) << found;
+}
+
 TEST(SceneBadInput, MissingKeysAndNamesTwice) {
   EXPECT_EQ(refusal("materials: []\n"), "bad.yaml:1: scene: the key 'grid' is missing; add it");
   std::vector<std::string> lines = kLines;

@@ -1,6 +1,8 @@
 // materials: density, a law and its constants.
 #include <fmt/format.h>
 
+#include <array>
+
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -50,6 +52,23 @@ DruckerPragerDefinition read_drucker_prager(const Map& map, Scene& scene) {
   return law;
 }
 
+/// A refused constant belongs to the key that it was read from; the check's text begins with the constant's name.
+[[noreturn]] void fail(const Map& map, const std::string& text) {
+  static constexpr std::array<std::array<const char*, 2>, 7> kConstants = {{{"density", "density"},
+                                                                            {"Young's modulus", "young"},
+                                                                            {"Poisson's ratio", "poisson"},
+                                                                            {"friction angle", "friction_angle"},
+                                                                            {"dilation angle", "dilation_angle"},
+                                                                            {"cohesion", "cohesion"},
+                                                                            {"tension cut-off", "tension_cutoff"}}};
+  const std::size_t colon = text.find(": ");
+  const std::string what = colon == std::string::npos ? text : text.substr(colon + 2);
+  for (const auto& [constant, key] : kConstants) {
+    if (what.rfind(constant, 0) == 0 && map.value().node()[key]) map.at(key).fail(what);
+  }
+  map.fail(what);
+}
+
 MaterialDefinition read_material(const Value& value, Scene& scene) {
   static const std::vector<std::vector<std::string>> kKeys = {
       {},
@@ -80,19 +99,7 @@ MaterialDefinition read_material(const Value& value, Scene& scene) {
   try {
     check(material);
   } catch (const MaterialError& error) {
-    // The check speaks of one constant: the key whose name stands first in its text is the culprit.
-    const std::string text = error.what();
-    std::string culprit;
-    std::size_t first = std::string::npos;
-    for (const std::string& key : keys) {
-      const std::size_t found = key == "name" ? std::string::npos : text.find(key);
-      if (found < first && value.node()[key]) {
-        first = found;
-        culprit = key;
-      }
-    }
-    if (culprit.empty()) value.fail(text);
-    map.at(culprit).fail(text);
+    fail(map, error.what());
   }
   return material;
 }

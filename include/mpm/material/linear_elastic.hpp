@@ -24,7 +24,9 @@ class LinearElastic {
   static Symmetric stress_rate_update(const Symmetric& cauchy, const Matrix& du, T bulk, T shear) {
     const Symmetric strain = symmetric_part(du);
     const T volumetric = trace(strain);
-    return sum(rotate(cauchy, du), scale_shift(strain, T(2) * shear, (bulk - T(2) / T(3) * shear) * volumetric));
+    // Half of the increment before the rotation and half after it: second order in the step.
+    const Symmetric half = scale_shift(strain, shear, T(0.5) * (bulk - T(2) / T(3) * shear) * volumetric);
+    return sum(rotate(sum(cauchy, half), du), half);
   }
 
   /// Law interface (see law.hpp): from specific Kirchhoff stress tau/rho0 to its new value.

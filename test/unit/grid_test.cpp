@@ -1,0 +1,78 @@
+// The blocked grid: numbering, neighbours, colours.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "mpm/grid/nodal_fields.hpp"
+
+namespace {
+
+using mpm::GridLayout;
+
+TEST(GridLayout, NumbersBlocksBothWays) {
+  const GridLayout layout(3, {0.1, 0.1, 0.1}, {0, 0, 0}, {1.0, 2.0, 3.0});
+  std::set<std::uint64_t> keys;
+  for (int x = -1; x <= 10 / 4 + 1; ++x) {
+    for (int y = -1; y <= 20 / 4 + 1; ++y) {
+      for (int z = -1; z <= 30 / 4 + 1; ++z) {
+        const std::uint64_t key = layout.key({x, y, z});
+        EXPECT_TRUE(keys.insert(key).second);
+        EXPECT_EQ(layout.block(key), (std::array<int, 3>{x, y, z}));
+      }
+    }
+  }
+}
+
+TEST(GridLayout, PlanarAxesAreXAndZ) {
+  const GridLayout layout(2, {0.1, 9.0, 0.5}, {1.0, -7.0, 2.0}, {3.0, 7.0, 6.0});
+  EXPECT_EQ(layout.last_node(0), 20);
+  EXPECT_EQ(layout.last_node(1), 8);
+  const mpm::Vec3 position = layout.node_position({1, 1}, 4 * 2 + 3);  // node (6, 7)
+  EXPECT_TRUE(position.isApprox(mpm::Vec3(1.6, 0.0, 5.5), 1e-14));
+}
+
+TEST(GridLayout, RefusesWhatCannotBe) {
+  EXPECT_THROW(GridLayout(3, {0.0, 0.1, 0.1}, {0, 0, 0}, {1, 1, 1}), mpm::GridError);
+  EXPECT_THROW(GridLayout(3, {0.1, 0.1, 0.1}, {0, 0, 0}, {1, 1, 0.01}), mpm::GridError);
+  EXPECT_THROW(GridLayout(3, {1e-7, 1e-7, 1e-7}, {0, 0, 0}, {90, 90, 90}), mpm::GridError);
+}
+
+TEST(BlockTable, KnowsNeighboursAndKeepsColoursApart) {
+  const GridLayout layout(3, {1, 1, 1}, {0, 0, 0}, {40, 40, 40});
+  std::vector<std::uint64_t> owners;
+  for (int x = 0; x < 4; ++x) {
+    for (int y = 2; y < 5; ++y) {
+      for (int z = 0; z < 3; ++z) owners.push_back(layout.key({x, y, z}));
+    }
+  }
+  mpm::BlockTable table(layout);
+  table.rebuild(owners);
+  EXPECT_EQ(table.owners(), 4 * 3 * 3);
+  EXPECT_EQ(table.size(), 6 * 5 * 5);
+  int seen = 0;
+  for (int colour = 0; colour < 8; ++colour) {
+    const auto& list = table.owners_of_colour(colour);
+    seen += static_cast<int>(list.size());
+    for (const int a : list) {
+      for (int s = 0; s < 27; ++s) {
+        const auto& block = table.block(table.owner_block(a));
+        const auto& neighbour = table.block(table.neighbours(a)[s]);
+        EXPECT_EQ(neighbour[0] - block[0], s / 9 - 1);
+        EXPECT_EQ(neighbour[1] - block[1], s / 3 % 3 - 1);
+        EXPECT_EQ(neighbour[2] - block[2], s % 3 - 1);
+      }
+      for (const int b : list) {
+        if (a == b) continue;
+        int apart = 0;
+        for (int k = 0; k < 3; ++k) {
+          apart =
+              std::max(apart, std::abs(table.block(table.owner_block(a))[k] - table.block(table.owner_block(b))[k]));
+        }
+        EXPECT_GE(apart, 2);
+      }
+    }
+  }
+  EXPECT_EQ(seen, table.owners());
+}
+
+}  // namespace

@@ -1,0 +1,99 @@
+// Small tensors and the exponential against Eigen, an independent implementation.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <random>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "mpm/math/exponential.hpp"
+
+namespace {
+
+using mpm::Matrix3;
+using mpm::MatrixPlane;
+
+Eigen::Matrix3d eigen(const Matrix3<double>& a) {
+  Eigen::Matrix3d m;
+  m << a.xx, a.xy, a.xz, a.yx, a.yy, a.yz, a.zx, a.zy, a.zz;
+  return m;
+}
+Eigen::Matrix3d eigen(const MatrixPlane<double>& a) {
+  Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+  m(0, 0) = a.xx, m(0, 2) = a.xz, m(2, 0) = a.zx, m(2, 2) = a.zz, m(1, 1) = a.yy;
+  return m;
+}
+Eigen::Matrix3d eigen(const mpm::Symmetric3<double>& s) {
+  Eigen::Matrix3d m;
+  m << s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz;
+  return m;
+}
+Eigen::Matrix3d eigen(const mpm::SymmetricPlane<double>& s) {
+  Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+  m(0, 0) = s.xx, m(0, 2) = m(2, 0) = s.xz, m(2, 2) = s.zz, m(1, 1) = s.yy;
+  return m;
+}
+
+template <class M>
+class TensorTest : public testing::Test {
+ protected:
+  M random(double size) {
+    std::uniform_real_distribution<double> u(-size, size);
+    if constexpr (std::is_same_v<M, Matrix3<double>>) {
+      return {u(engine_), u(engine_), u(engine_), u(engine_), u(engine_),
+              u(engine_), u(engine_), u(engine_), u(engine_)};
+    } else {
+      return {u(engine_), u(engine_), u(engine_), u(engine_), u(engine_)};
+    }
+  }
+  std::mt19937 engine_{7};
+};
+using Matrices = testing::Types<Matrix3<double>, MatrixPlane<double>>;
+TYPED_TEST_SUITE(TensorTest, Matrices);
+
+TYPED_TEST(TensorTest, AgreesWithEigen) {
+  for (int i = 0; i < 100; ++i) {
+    const TypeParam a = this->random(1.0), b = this->random(1.0);
+    const Eigen::Matrix3d ea = eigen(a), eb = eigen(b);
+    // 1e-14: some ten round-offs of numbers of order one.
+    EXPECT_NEAR(determinant(a), ea.determinant(), 1e-14);
+    EXPECT_LT((eigen(product(a, b)) - ea * eb).norm(), 1e-14);
+    EXPECT_LT((eigen(left_cauchy_green(a)) - ea * ea.transpose()).norm(), 1e-14);
+    EXPECT_LT((eigen(symmetric_part(a)) - 0.5 * (ea + ea.transpose())).norm(), 1e-14);
+    EXPECT_NEAR(squared_norm(symmetric_part(a)), (0.5 * (ea + ea.transpose())).squaredNorm(), 1e-14);
+  }
+}
+
+TYPED_TEST(TensorTest, RotatesByHughesAndWinget) {
+  for (int i = 0; i < 100; ++i) {
+    const TypeParam du = this->random(0.5);
+    const auto stress = symmetric_part(this->random(1.0));
+    const Eigen::Matrix3d e = eigen(du), w = 0.5 * (e - e.transpose()), one = Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d q = (one - 0.5 * w).inverse() * (one + 0.5 * w);
+    EXPECT_LT((eigen(rotate(stress, du)) - q * eigen(stress) * q.transpose()).norm(), 1e-14);
+  }
+}
+
+TYPED_TEST(TensorTest, ExponentialIsTheTaylorSumToTheTermAskedFor) {
+  for (int i = 0; i < 20; ++i) {
+    const TypeParam a = this->random(0.3);
+    const Eigen::Matrix3d e = eigen(a);
+    Eigen::Matrix3d term = Eigen::Matrix3d::Identity(), sum = term;
+    for (int k = 1; k <= 8; ++k) {
+      term = term * e / k;
+      sum += term;
+      EXPECT_LT((eigen(exponential(a, k)) - sum).norm(), 1e-14) << k << " terms";
+    }
+    const Eigen::Matrix3d exact = e.exp();
+    EXPECT_LT((eigen(exponential(a, 16)) - exact).norm(), 1e-14);
+  }
+}
+
+// Method reference 7: a pure rotation by theta a step grows J by theta^2 (k = 1) or theta^4 / 4 (k = 2).
+TEST(Exponential, GrowsVolumeUnderRotationAsTheorySays) {
+  const double theta = 0.1;
+  MatrixPlane<double> spin{0.0, theta, -theta, 0.0, 0.0};
+  EXPECT_NEAR(determinant(exponential(spin, 1)), 1.0 + theta * theta, 1e-15);
+  EXPECT_NEAR(determinant(exponential(spin, 2)), 1.0 + std::pow(theta, 4) / 4.0, 1e-15);
+}
+
+}  // namespace

@@ -1,0 +1,106 @@
+// uGIMP against values by quadrature (test/data/ugimp.csv, 135 rows) and its identities.
+#include "mpm/shape/ugimp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "mpm/mechanics/stencil.hpp"
+
+namespace {
+
+using mpm::GridLayout;
+using mpm::Ugimp;
+
+struct Axis {
+  double cell, l_p, particle, node;
+};
+
+// Shape function and physical gradient along one axis, 0 beyond the three nodes.
+std::pair<double, double> evaluate(const Axis& axis) {
+  const double cells = axis.particle / axis.cell;
+  const int nearest = GridLayout::nearest(cells);
+  const Ugimp<double> shape(cells - nearest, 0.5 * axis.l_p, 1.0 / axis.cell);
+  const int place = static_cast<int>(std::lround(axis.node / axis.cell)) - nearest + 1;
+  if (place < 0 || place > 2) return {0.0, 0.0};
+  return {shape.s[place], shape.g[place]};
+}
+
+TEST(Ugimp, MatchesQuadratureRowByRow) {
+  std::ifstream file(std::string(MPM_TEST_DATA_DIR) + "/ugimp.csv");
+  ASSERT_TRUE(file);
+  int rows = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::vector<double> v;
+    std::stringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) v.push_back(std::stod(cell));
+    const int dim = static_cast<int>(v[0]);
+    ASSERT_EQ(v.size(), static_cast<std::size_t>(2 + 5 * dim)) << line;
+    double s[3], g[3], value = 1.0;
+    for (int k = 0; k < dim; ++k) {
+      std::tie(s[k], g[k]) = evaluate({v[1 + 4 * k], v[2 + 4 * k], v[3 + 4 * k], v[4 + 4 * k]});
+      value *= s[k];
+    }
+    // 1e-12 relative to max(1, |value|): method reference 13.
+    EXPECT_NEAR(value, v[1 + 4 * dim], 1e-12) << line;
+    for (int k = 0; k < dim; ++k) {
+      double gradient = g[k];
+      for (int m = 0; m < dim; ++m) gradient *= m == k ? 1.0 : s[m];
+      const double expected = v[2 + 4 * dim + k];
+      EXPECT_NEAR(gradient, expected, 1e-12 * std::max(1.0, std::abs(expected))) << line;
+    }
+    ++rows;
+  }
+  EXPECT_EQ(rows, 135);
+}
+
+TEST(Ugimp, ReproducesConstantsAndLinearFields) {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> offset(-0.5, 0.5), half(0.05, 0.5);
+  for (int i = 0; i < 1000; ++i) {
+    const double x = offset(engine), cell = 0.3;
+    const Ugimp<double> w(x, half(engine), 1.0 / cell);
+    EXPECT_NEAR(w.s[0] + w.s[1] + w.s[2], 1.0, 1e-15);
+    EXPECT_NEAR(w.g[0] + w.g[1] + w.g[2], 0.0, 1e-14);
+    EXPECT_NEAR(w.s[2] - w.s[0], x, 1e-15);
+    EXPECT_NEAR((w.g[2] - w.g[0]) * cell, 1.0, 1e-14);
+  }
+}
+
+// The stencil of a tile puts the weights on the right nodes: sum of x_i S is x_p, sum of x_i G is 1.
+TEST(Stencil, FindsItsNodesInTheTile) {
+  const GridLayout layout(3, {0.1, 0.2, 0.25}, {-1.0, 0.0, 2.0}, {3.0, 4.0, 6.0});
+  mpm::ParticleSet set("p", mpm::make_law({"m", 1.0, mpm::NeoHookeanDefinition{{1.0, 0.3}}}));
+  set.half = {0.25, 0.25, 0.25};
+  set.x = {{0.431}, {1.97}, {3.08}};
+  std::array<int, 3> corner;
+  for (int k = 0; k < 3; ++k) {
+    corner[k] = GridLayout::nearest(layout.in_cells(k, set.x[k][0])) / 4 * 4 - mpm::kTileMargin;
+  }
+  const mpm::Stencil<3, Ugimp> w(layout, set, corner, 0);
+  double sum = 0.0, x[3] = {}, gradient[3] = {};
+  w.each_row([&](int first, double s, const double* across) {
+    for (int n = 0; n < 3; ++n) {
+      const int node = first + n;
+      const int place[3] = {node / 64, node / 8 % 8, node % 8};
+      double position[3];
+      for (int k = 0; k < 3; ++k) position[k] = layout.origin(k) + (corner[k] + place[k]) * layout.cell(k);
+      const double weight = s * w.s[2][n];
+      sum += weight;
+      for (int k = 0; k < 3; ++k) x[k] += weight * position[k];
+      gradient[0] += across[0] * w.s[2][n] * position[0];
+      gradient[1] += across[1] * w.s[2][n] * position[1];
+      gradient[2] += s * w.g[2][n] * position[2];
+    }
+  });
+  EXPECT_NEAR(sum, 1.0, 1e-14);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(x[k], set.x[k][0], 1e-13);
+    EXPECT_NEAR(gradient[k], 1.0, 1e-13);
+  }
+}
+
+}  // namespace

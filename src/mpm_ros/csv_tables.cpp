@@ -35,7 +35,7 @@ void ContactForcesCsv::add(double time, const std::vector<mpm::ContactReport>& b
       add_vector_columns(columns, name + " peak t", "N m");
       add_vector_columns(columns, name + " impulse ", "N s");
       columns.push_back(name + " interval [s]");
-      columns.push_back(name + " nodes [-]");
+      columns.push_back(name + " nodes [1]");
     }
     writer_.emplace(path_, columns);
   }
@@ -55,8 +55,8 @@ void BodiesCsv::add(double time, const std::vector<mpm::BodyState>& bodies) {
     for (const mpm::BodyState& body : bodies) {
       const std::string& name = body.name;
       add_vector_columns(columns, name + " ", "m");
-      add_vector_columns(columns, name + " q", "-");
-      columns.push_back(name + " qw [-]");
+      add_vector_columns(columns, name + " q", "1");
+      columns.push_back(name + " qw [1]");
       add_vector_columns(columns, name + " v", "m/s");
       add_vector_columns(columns, name + " w", "rad/s");
       columns.push_back(name + " drive");
@@ -76,7 +76,7 @@ void BodiesCsv::close() { close_if_open(writer_); }
 
 void SolverStateCsv::add(const mpm::SolverState& state, double real_time_factor) {
   if (!writer_) {
-    std::vector<std::string> columns = {"time [s]", "steps [-]", "dt [s]", "dt min [s]", "dt max [s]", "particles [-]"};
+    std::vector<std::string> columns = {"time [s]", "steps [1]", "dt [s]", "dt min [s]", "dt max [s]", "particles [1]"};
     for (const char* kind : {"kinetic", "elastic", "plastic", "potential"}) {
       columns.push_back(std::string("energy ") + kind + " [J]");
     }
@@ -86,7 +86,7 @@ void SolverStateCsv::add(const mpm::SolverState& state, double real_time_factor)
       impulses_.push_back(impulse.name);
       add_vector_columns(columns, "impulse " + impulse.name + " ", "N s");
     }
-    for (const char* last : {"momentum exchanged [N s]", "momentum error [-]", "min j [-]", "real-time factor [-]"}) {
+    for (const char* last : {"momentum exchanged [N s]", "momentum error [1]", "min j [1]", "real-time factor [1]"}) {
       columns.emplace_back(last);
     }
     writer_.emplace(path_, columns);
@@ -111,7 +111,7 @@ void SolverStateCsv::close() { close_if_open(writer_); }
 CommandsCsv::CommandsCsv(const std::string& folder)
     : writer_(folder + "/commands.csv",
               {"time [s]", "body", "kind", "vx [m/s]", "vy [m/s]", "vz [m/s]", "wx [rad/s]", "wy [rad/s]", "wz [rad/s]",
-               "x [m]", "y [m]", "z [m]", "qx [-]", "qy [-]", "qz [-]", "qw [-]", "arrival [s]"}) {}
+               "x [m]", "y [m]", "z [m]", "qx [1]", "qy [1]", "qz [1]", "qw [1]", "arrival [s]"}) {}
 
 void CommandsCsv::add(const CommandRow& command) {
   writer_ << command.time << command.body << drive_name(command.kind);
@@ -129,11 +129,11 @@ void CommandsCsv::add(const CommandRow& command) {
 void CommandsCsv::close() { writer_.close(); }
 
 ParticlesCsv::ParticlesCsv(const std::string& folder)
-    : folder_(folder), index_(folder + "/particles.csv", {"file", "time [s]", "particles [-]"}) {}
+    : folder_(folder), index_(folder + "/particles.csv", {"file", "time [s]", "particles [1]"}) {}
 
 void ParticlesCsv::add(double time, const std::vector<std::uint32_t>& ids, const std::vector<ParticleColumn>& columns) {
   const std::string file = fmt::format("particles_{:04}.csv", count_++);
-  std::vector<std::string> header = {"id [-]"};
+  std::vector<std::string> header = {"id [1]"};
   for (const ParticleColumn& column : columns) {
     if (column.values.size() != ids.size()) {
       throw CsvError(fmt::format("{}/{}: {} values of {} for {} particles", folder_, file, column.values.size(),

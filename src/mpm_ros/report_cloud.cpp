@@ -62,7 +62,6 @@ float real_at(const sensor_msgs::PointCloud2& cloud, std::size_t point, const se
 }
 
 std::string unit_of(const std::string& name) {
-  if (name == "x" || name == "y" || name == "z") return "m";
   for (const auto& [field, unit] : mpm::Simulation::particle_fields()) {
     if (field == name) return unit;
   }

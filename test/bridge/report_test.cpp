@@ -1,0 +1,422 @@
+// bag_report on runs made up by hand: its tables and CSV files against closed forms, each of its checks against a bag
+// with one fault, and its errors.
+#include "mpm_ros/report.hpp"
+
+#include <gtest/gtest.h>
+#include <std_msgs/String.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "mpm_ros/bag_error.hpp"
+#include "mpm_ros/report_bag.hpp"
+#include "mpm_ros/report_check.hpp"
+#include "mpm_ros/report_csv.hpp"
+#include "mpm_ros/report_plots.hpp"
+#include "mpm_ros/report_statistics.hpp"
+#include "report_run.hpp"
+
+namespace mpm_ros {
+namespace {
+
+using test::HalfSineRun;
+using test::kPi;
+
+/// Sums of about a hundred doubles.
+constexpr double kRoundOff = 1e-13;
+
+class ReportTest : public ::testing::Test {
+ protected:
+  std::string in_folder(const std::string& name) const { return folder_.path() + "/" + name; }
+
+  std::string bag_of(const HalfSineRun& run) const {
+    const std::string path = in_folder("run.bag");
+    run.write(path);
+    return path;
+  }
+
+  RunStatistics statistics_of(const HalfSineRun& run) const {
+    RunBag bag(bag_of(run), "");
+    RunStatistics statistics;
+    bag.read({&statistics});
+    return statistics;
+  }
+
+  /// Names of the checks that fail.
+  std::vector<std::string> failures_of(const HalfSineRun& run) const {
+    RunBag bag(bag_of(run), "");
+    RunChecks checks(bag.info() ? bag.info()->sync_period : 0.0, bag.missing());
+    bag.read({&checks});
+    std::vector<std::string> names;
+    for (const CheckResult& result : checks.results()) {
+      if (!result.passed) names.push_back(result.name);
+    }
+    return names;
+  }
+
+  /// The error of opening a bag, which must be one line.
+  std::string error_of(const std::string& path, const std::string& name_space = "") const {
+    try {
+      RunBag bag(path, name_space);
+    } catch (const BagError& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+      return error.what();
+    }
+    return "no error";
+  }
+
+  /// Cells of a CSV file without quotes.
+  std::vector<std::vector<std::string>> cells_of(const std::string& name) const {
+    std::ifstream file(in_folder(name));
+    EXPECT_TRUE(file) << name;
+    std::vector<std::vector<std::string>> rows;
+    for (std::string line; std::getline(file, line);) {
+      rows.emplace_back();
+      std::stringstream stream(line);
+      for (std::string cell; std::getline(stream, cell, ',');) rows.back().push_back(cell);
+    }
+    return rows;
+  }
+
+  /// The number in a row under a column's header.
+  static double value(const std::vector<std::vector<std::string>>& rows, std::size_t row, const std::string& column) {
+    const auto found = std::find(rows.front().begin(), rows.front().end(), column);
+    if (found == rows.front().end()) {
+      ADD_FAILURE() << "no column " << column;
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    return std::stod(rows.at(row).at(static_cast<std::size_t>(found - rows.front().begin())));
+  }
+
+  TemporaryFolder folder_;
+};
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(ReportTest, PeakIsTheMeanOverTheMiddleInterval) {
+  const RunStatistics statistics = statistics_of({});
+  const BodyStatistics& tool = statistics.body_statistics().at(0);
+  // The mean of A sin(pi t / T) over an interval h about the middle is A (2 T / (pi h)) sin(pi h / (2 T)).
+  const double h = HalfSineRun::kStep;
+  const double width = HalfSineRun::kDuration;
+  const double expected = HalfSineRun::kAmplitude * 2.0 * width / (kPi * h) * std::sin(kPi * h / (2.0 * width));
+  EXPECT_NEAR(tool.force.norm, expected, 1e-10 * expected);  // difference of impulses, divided by 1e-3 s
+  EXPECT_EQ(tool.force.time, 51000000);                      // the end of the 51st of 101 intervals
+  EXPECT_NEAR(tool.step_force.norm, 2.0 * expected, 1e-10 * expected);
+  EXPECT_NEAR(tool.torque.norm, 0.1 * expected, 1e-10 * expected);
+  EXPECT_EQ(statistics.peak_time(), 51000000);
+}
+
+TEST_F(ReportTest, ImpulseAndMeanOfAHalfSine) {
+  const BodyStatistics tool = statistics_of({}).body_statistics().at(0);
+  const double impulse = 2.0 * HalfSineRun::kAmplitude * HalfSineRun::kDuration / kPi;  // the integral of a half sine
+  EXPECT_NEAR(tool.impulse.x(), impulse, kRoundOff * impulse);
+  EXPECT_NEAR(tool.force_integral.x(), impulse, kRoundOff * impulse);
+  EXPECT_NEAR(tool.duration, HalfSineRun::kDuration, kRoundOff);
+  EXPECT_EQ(tool.contact, std::make_pair(std::int64_t{1000000}, std::int64_t{101000000}));
+}
+
+TEST_F(ReportTest, RangeOfMotionAndTurn) {
+  const BodyStatistics tool = statistics_of({}).body_statistics().at(0);
+  EXPECT_DOUBLE_EQ(tool.range.min.x(), 0.0);
+  EXPECT_DOUBLE_EQ(tool.range.max.x(), HalfSineRun::kSpeed * HalfSineRun::kDuration);
+  EXPECT_DOUBLE_EQ(tool.range.max.z(), 0.3);
+  // An angle from a quaternion's dot product: the square root of round-off where the angle is small, better here.
+  EXPECT_NEAR(tool.largest_turn, HalfSineRun::kTurnRate * HalfSineRun::kDuration, 1e-12);
+}
+
+TEST_F(ReportTest, TablesSayWhatTheRunWas) {
+  ReportOptions options;
+  options.bag = bag_of({});
+  options.check = true;
+  std::ostringstream out;
+  EXPECT_TRUE(report(options, out));
+  const std::string text = out.str();
+  EXPECT_TRUE(contains(text, "half_sine"));
+  EXPECT_TRUE(contains(text, "0.101 s")) << text;
+  EXPECT_TRUE(contains(text, "1010, dt 0.0001 to 0.0001 s")) << text;
+  EXPECT_TRUE(contains(text, "4; 11 snapshots of x y z id vx")) << text;
+  EXPECT_TRUE(contains(text, "2.572")) << text;  // impulse 2 A T / pi [N s]
+  EXPECT_TRUE(contains(text, "Gaps in time: none")) << text;
+  EXPECT_FALSE(contains(text, "FAIL")) << text;
+}
+
+TEST_F(ReportTest, TablesDoNotDependOnTheStampOfTimeZero) {
+  HalfSineRun run;
+  run.origin = ros::Time(1700000000, 5);
+  const RunStatistics statistics = statistics_of(run);
+  EXPECT_EQ(statistics.peak_time(), 51000000);
+  EXPECT_TRUE(failures_of(run).empty());
+}
+
+TEST_F(ReportTest, CommandsAreCountedAndLateOnesToo) {
+  const auto commands = statistics_of({}).commands();
+  const CommandStatistics& tool = commands.at({"tool", mpm::Drive::velocity});
+  EXPECT_EQ(tool.count, 1U);
+  EXPECT_EQ(tool.first, 10000000);
+  EXPECT_EQ(tool.late, 1U);  // asked for at 8 ms, applied at 10 ms
+}
+
+TEST_F(ReportTest, CsvHasTheNumbersOfTheMessages) {
+  ReportOptions options;
+  options.bag = bag_of({});
+  options.csv = in_folder("csv");
+  options.snapshots = 3;
+  std::ostringstream out;
+  report(options, out);
+
+  const auto forces = cells_of("csv/contact_forces.csv");
+  ASSERT_EQ(forces.size(), 1U + 102U);
+  EXPECT_EQ(value(forces, 51 + 1, "time [s]"), 0.051);
+  EXPECT_EQ(value(forces, 51 + 1, "tool fx [N]"), HalfSineRun::mean(51 * 1e-3 - 1e-3, 51 * 1e-3));
+  EXPECT_EQ(value(forces, 102, "tool impulse x [N s]"), HalfSineRun::impulse(101 * 1e-3));
+  const auto bodies = cells_of("csv/bodies.csv");
+  EXPECT_EQ(value(bodies, 102, "tool x [m]"), HalfSineRun::kSpeed * (101 * 1e-3));
+  EXPECT_EQ(value(bodies, 102, "tool wy [rad/s]"), HalfSineRun::kTurnRate);
+  const auto states = cells_of("csv/solver_state.csv");
+  EXPECT_EQ(value(states, 102, "energy kinetic [J]"), 102.0);
+  EXPECT_EQ(value(states, 102, "impulse gravity z [N s]"), HalfSineRun::kWeight * (101 * 1e-3));
+  const auto commands = cells_of("csv/commands.csv");
+  ASSERT_EQ(commands.size(), 2U);
+  EXPECT_EQ(value(commands, 1, "vx [m/s]"), HalfSineRun::kSpeed);
+
+  const auto index = cells_of("csv/particles.csv");
+  ASSERT_EQ(index.size(), 1U + 3U);
+  EXPECT_EQ(value(index, 1, "time [s]"), 0.0);
+  EXPECT_EQ(value(index, 3, "time [s]"), 0.1);
+  const auto particles = cells_of("csv/" + index[3][0]);
+  ASSERT_EQ(particles.size(), 1U + 4U);
+  EXPECT_EQ(value(particles, 4, "id [1]"), 9.0);
+  EXPECT_EQ(static_cast<float>(value(particles, 4, "x [m]")), 0.03F);
+  EXPECT_EQ(value(particles, 4, "vx [m/s]"), 100.0);
+}
+
+TEST_F(ReportTest, OutlineOfABodyIsAMeshWithSharedCorners) {
+  ReportOptions options;
+  options.bag = bag_of({});
+  options.csv = in_folder("csv");
+  std::ostringstream out;
+  report(options, out);
+  std::ifstream file(in_folder("csv/outline_tool.obj"));
+  int corners = 0;
+  int faces = 0;
+  for (std::string line; std::getline(file, line);) {
+    corners += line.rfind("v ", 0) == 0;
+    faces += line.rfind("f ", 0) == 0;
+  }
+  EXPECT_EQ(corners, 4);  // a tetrahedron
+  EXPECT_EQ(faces, 4);
+}
+
+TEST_F(ReportTest, SnapshotsAreSpreadAndThePeakIsAmongThem) {
+  std::vector<std::int64_t> times;
+  for (int i = 0; i <= 100; ++i) times.push_back(i);
+  EXPECT_EQ(choose_snapshots(times, 3, std::nullopt), (std::set<std::size_t>{0, 50, 100}));
+  EXPECT_EQ(choose_snapshots(times, 3, 7), (std::set<std::size_t>{0, 50, 100}));
+  const std::set<std::size_t> four = choose_snapshots(times, 4, 7);
+  EXPECT_EQ(four.size(), 4U);
+  EXPECT_TRUE(four.count(0) == 1 && four.count(7) == 1 && four.count(100) == 1);
+  EXPECT_EQ(choose_snapshots(times, 1, std::nullopt), (std::set<std::size_t>{100}));
+  EXPECT_EQ(choose_snapshots({5, 6}, 10, std::nullopt), (std::set<std::size_t>{0, 1}));
+  EXPECT_TRUE(choose_snapshots({}, 10, std::nullopt).empty());
+}
+
+TEST_F(ReportTest, AGoodRunPassesAllChecks) { EXPECT_EQ(failures_of({}), std::vector<std::string>()); }
+
+using Names = std::vector<std::string>;
+
+TEST_F(ReportTest, CheckFindsMomentumFromNowhere) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 60) message.momentum.y += 1e-8;  // of about 1.8 N s exchanged: above the limit of 1e-10
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"audit"});
+}
+
+TEST_F(ReportTest, CheckBelievesAnAuditThatReportsItsOwnFailure) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 60) message.momentum_error = 1e-9;
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"audit"});
+}
+
+TEST_F(ReportTest, CheckFindsAnEnergyThatIsNotFinite) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 3) message.energy_plastic = std::numeric_limits<double>::infinity();
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"energy"});
+}
+
+TEST_F(ReportTest, CheckFindsALostState) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState&) { return i != 40; };
+  EXPECT_EQ(failures_of(run), Names{"gaps"});
+}
+
+TEST_F(ReportTest, CheckFindsALostContactMessage) {
+  HalfSineRun run;
+  run.on_forces = [](int i, ContactForces&) { return i != 40; };
+  EXPECT_EQ(failures_of(run), Names{"gaps"});
+}
+
+TEST_F(ReportTest, AShorterLastIntervalIsNoGap) {
+  HalfSineRun run;  // states every 2 ms, the last after 1 ms: 101 is odd
+  run.on_state = [](int i, SolverState&) { return i % 2 == 0 || i == HalfSineRun::kIntervals; };
+  EXPECT_TRUE(failures_of(run).empty());
+}
+
+TEST_F(ReportTest, CheckFindsAStampThatIsNotTheSolversTime) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 5) message.time += 1e-6;
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"stamps"});
+}
+
+TEST_F(ReportTest, CheckFindsMaterialTurnedInsideOut) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 100) message.min_j = 0.0;
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"volume"});
+}
+
+TEST_F(ReportTest, CheckFindsAPoseThatIsNotFinite) {
+  HalfSineRun run;
+  run.on_bodies = [](int i, BodyStates& message) {
+    if (i == 9) message.bodies[0].pose.position.z = std::numeric_limits<double>::quiet_NaN();
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"bodies"});
+}
+
+TEST_F(ReportTest, CheckFindsForcesThatDoNotAddUpToTheImpulse) {
+  HalfSineRun run;
+  run.on_forces = [](int i, ContactForces& message) {
+    if (i == 30) message.bodies[0].wrench.force.z = 1e-3;  // 1e-6 N s of about 0.5 N s
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"impulse"});
+}
+
+TEST_F(ReportTest, CheckFindsABodyThatFeelsOtherThanTheMaterial) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 30) {  // the material's balance still closes
+      message.impulses[0].impulse.z += 1e-6;
+      message.impulses[1].impulse.z -= 1e-6;
+    }
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"reaction"});
+}
+
+TEST_F(ReportTest, CheckFindsAParticleValueThatIsNotFinite) {
+  HalfSineRun run;
+  run.on_particles = [](int i, sensor_msgs::PointCloud2& message) {
+    const float bad = std::numeric_limits<float>::quiet_NaN();
+    if (i == 4) std::memcpy(message.data.data() + 20 + 16, &bad, 4);  // vx of the second particle
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"particles"});
+}
+
+TEST_F(ReportTest, CheckMissesWhatIsNotThere) {
+  HalfSineRun without_info;
+  without_info.with_info = false;
+  EXPECT_EQ(failures_of(without_info), Names{"complete"});
+  HalfSineRun without_pose;
+  without_pose.on_bodies = [](int, BodyStates& message) {
+    message.bodies.clear();
+    return true;
+  };
+  EXPECT_EQ(failures_of(without_pose), Names{"complete"});
+  HalfSineRun without_particles;
+  without_particles.on_particles = [](int, sensor_msgs::PointCloud2&) { return false; };
+  EXPECT_EQ(failures_of(without_particles), Names{"complete"});
+}
+
+TEST_F(ReportTest, FailedChecksAreTold) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState&) { return i != 40; };
+  ReportOptions options;
+  options.bag = bag_of(run);
+  std::ostringstream out;
+  EXPECT_TRUE(report(options, out));  // not asked for
+  options.check = true;
+  EXPECT_FALSE(report(options, out));
+  EXPECT_TRUE(contains(out.str(), "solver_state: 0.001 s missing before 0.041 s")) << out.str();
+}
+
+TEST_F(ReportTest, ErrorsOfFiles) {
+  EXPECT_TRUE(contains(error_of(in_folder("none.bag")), "no such file"));
+  EXPECT_TRUE(contains(error_of(folder_.path()), "not a file"));
+  std::ofstream(in_folder("empty.bag")).close();
+  EXPECT_TRUE(contains(error_of(in_folder("empty.bag")), "an empty file"));
+  std::ofstream(in_folder("text.bag")) << "time [s],blade fx [N]\n0,0\n";
+  EXPECT_TRUE(contains(error_of(in_folder("text.bag")), "not a bag"));
+}
+
+TEST_F(ReportTest, AnUnindexedBagIsToldHowToRepair) {
+  const std::string path = bag_of({});
+  // A bag that was never closed has 0 as the place of its index, in the first record's header.
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  std::string head(4096, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  const std::string key = "index_pos=";
+  const std::size_t place = head.find(key);
+  ASSERT_NE(place, std::string::npos);
+  file.seekp(static_cast<std::streamoff>(place + key.size()));
+  file.write(std::string(8, '\0').data(), 8);
+  file.close();
+  EXPECT_TRUE(contains(error_of(path), "rosbag reindex " + path)) << error_of(path);
+}
+
+TEST_F(ReportTest, ABagWithoutMessages) {
+  rosbag::Bag bag(in_folder("none.bag"), rosbag::bagmode::Write);
+  bag.close();
+  EXPECT_TRUE(contains(error_of(in_folder("none.bag")), "without messages"));
+}
+
+TEST_F(ReportTest, ABagOfAnotherKindIsNotOurs) {
+  rosbag::Bag bag(in_folder("other.bag"), rosbag::bagmode::Write);
+  bag.write("/chatter", ros::Time(1.0), std_msgs::String());
+  bag.close();
+  EXPECT_TRUE(contains(error_of(in_folder("other.bag")), "/chatter"));
+}
+
+TEST_F(ReportTest, ABagWithoutForces) {
+  HalfSineRun run;
+  run.on_forces = [](int, ContactForces&) { return false; };
+  EXPECT_TRUE(contains(error_of(bag_of(run)), "no topic /mpm/contact_forces"));
+}
+
+TEST_F(ReportTest, SeveralRunsNeedANamespace) {
+  rosbag::Bag bag(in_folder("two.bag"), rosbag::bagmode::Write);
+  HalfSineRun run;
+  run.name_space = "/left";
+  run.write(bag);
+  run.name_space = "";
+  run.write(bag);
+  bag.close();
+  EXPECT_TRUE(contains(error_of(in_folder("two.bag")), "--namespace"));
+  EXPECT_EQ(error_of(in_folder("two.bag"), "left"), "no error");
+  EXPECT_EQ(error_of(in_folder("two.bag"), "/"), "no error");
+  EXPECT_TRUE(contains(error_of(in_folder("two.bag"), "right"), "no run under namespace 'right'"));
+}
+
+}  // namespace
+}  // namespace mpm_ros

@@ -1,0 +1,199 @@
+// When a command takes effect, in which order, and what it puts an end to. Sync points are 10 ns apart here.
+#include "mpm_ros/command_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mpm_ros/command_watch.hpp"
+
+namespace mpm_ros {
+namespace {
+
+BodyCommand velocity(int body, double vx, std::optional<std::int64_t> stamp = {}) {
+  BodyCommand command;
+  command.body = body;
+  command.twist.linear.x() = vx;
+  command.stamp = stamp;
+  return command;
+}
+
+BodyCommand pose(int body, double x, std::optional<std::int64_t> stamp = {}) {
+  BodyCommand command;
+  command.body = body;
+  command.kind = CommandKind::pose;
+  command.pose.position.x() = x;
+  command.stamp = stamp;
+  return command;
+}
+
+std::vector<double> speeds(const std::vector<DueCommand>& due) {
+  std::vector<double> values;
+  for (const DueCommand& command : due) values.push_back(command.command.twist.linear.x());
+  return values;
+}
+
+using Speeds = std::vector<double>;
+
+TEST(CommandQueue, VelocityWithoutStampTakesEffectAtTheNextSyncPoint) {
+  CommandQueue queue(10);
+  queue.take(0);
+  queue.push(velocity(0, 1.0));
+  EXPECT_EQ(speeds(queue.take(10)), Speeds{1.0});
+  EXPECT_TRUE(queue.take(20).empty());
+  EXPECT_EQ(queue.late(), 0U);
+}
+
+TEST(CommandQueue, StampedVelocityWaitsForTheFirstSyncPointAtOrAfterItsStamp) {
+  CommandQueue queue(10);
+  queue.push(velocity(0, 1.0, 11));
+  queue.push(velocity(0, 2.0, 10));
+  EXPECT_TRUE(queue.take(0).empty());
+  EXPECT_EQ(speeds(queue.take(10)), Speeds{2.0});
+  EXPECT_EQ(queue.waiting(), 1U);
+  EXPECT_EQ(speeds(queue.take(20)), Speeds{1.0});
+  EXPECT_EQ(queue.late(), 0U);
+}
+
+TEST(CommandQueue, PastStampIsAppliedAtTheNextSyncPointAndCounted) {
+  CommandQueue queue(10);
+  queue.take(0);
+  queue.take(10);
+  queue.push(velocity(0, 1.0, 10));  // the sync point at 10 has passed
+  queue.push(velocity(0, 2.0, 11));
+  EXPECT_EQ(queue.late(), 1U);
+  // Effective times are 20 (late: now) and 11: the late one is applied last.
+  EXPECT_EQ(speeds(queue.take(20)), (Speeds{2.0, 1.0}));
+}
+
+TEST(CommandQueue, OrderIsEffectiveTimeThenBodyThenArrival) {
+  CommandQueue queue(10);
+  queue.take(0);
+  queue.push(velocity(1, 1.0, 9));
+  queue.push(velocity(1, 2.0, 5));
+  queue.push(velocity(1, 3.0, 5));
+  queue.push(velocity(0, 4.0, 5));
+  queue.push(velocity(0, 5.0));
+  EXPECT_EQ(speeds(queue.take(10)), (Speeds{4.0, 2.0, 3.0, 1.0, 5.0}));
+}
+
+TEST(CommandQueue, PoseToComeArrivesAtItsStampRoundedUp) {
+  CommandQueue queue(10);
+  queue.push(pose(0, 1.0, 33));
+  const std::vector<DueCommand> due = queue.take(0);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due[0].arrival, 40);
+}
+
+TEST(CommandQueue, PosesToComeFollowEachOther) {
+  CommandQueue queue(10);
+  queue.push(pose(0, 3.0, 60));
+  queue.push(pose(0, 1.0, 20));
+  queue.push(pose(0, 2.0, 40));
+  std::vector<std::pair<std::int64_t, std::int64_t>> effect_and_arrival;
+  for (std::int64_t now = 0; now < 100; now += 10) {
+    for (const DueCommand& due : queue.take(now)) effect_and_arrival.emplace_back(now, due.arrival);
+  }
+  EXPECT_EQ(effect_and_arrival, (std::vector<std::pair<std::int64_t, std::int64_t>>{{0, 20}, {20, 40}, {40, 60}}));
+}
+
+TEST(CommandQueue, EarlierPoseTakesThePlaceOfTheOneUnderWay) {
+  CommandQueue queue(10);
+  queue.push(pose(0, 1.0, 100));
+  EXPECT_EQ(queue.take(0).size(), 1U);
+  queue.push(pose(0, 2.0, 50));
+  const std::vector<DueCommand> due = queue.take(10);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due[0].arrival, 50);
+}
+
+TEST(CommandQueue, LatePosesArriveOneCommandPeriodLater) {
+  CommandQueue queue(10);
+  queue.take(0);
+  queue.push(pose(0, 1.0, 0));
+  std::vector<DueCommand> due = queue.take(10);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due[0].arrival, 20);  // no period is known: one sync period
+  queue.take(20);
+  queue.take(30);
+  queue.push(pose(0, 2.0, 30));
+  due = queue.take(40);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due[0].arrival, 70);  // the stamps are 30 apart
+}
+
+TEST(CommandQueue, PosesWithoutStampTakeTheirPeriodFromTheSyncPoints) {
+  CommandQueue queue(10);
+  queue.take(0);
+  queue.push(pose(0, 1.0));
+  queue.take(10);
+  queue.take(20);
+  queue.push(pose(0, 2.0));
+  const std::vector<DueCommand> due = queue.take(30);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due[0].arrival, 50);  // they set out at 10 and at 30
+}
+
+TEST(CommandQueue, VelocityEndsThePosesReceivedBeforeIt) {
+  CommandQueue queue(10);
+  queue.push(pose(0, 1.0, 20));
+  queue.push(pose(0, 2.0, 40));
+  queue.push(pose(1, 9.0, 40));  // another body's
+  queue.take(0);
+  queue.push(velocity(0, 1.0));
+  EXPECT_EQ(speeds(queue.take(10)), Speeds{1.0});
+  EXPECT_EQ(queue.waiting(), 0U);
+  EXPECT_TRUE(queue.take(20).empty());
+}
+
+TEST(CommandQueue, TheKindReceivedLastWinsAtOneSyncPoint) {
+  CommandQueue queue(10);
+  queue.push(pose(0, 1.0, 50));
+  queue.push(velocity(0, 1.0));
+  std::vector<DueCommand> due = queue.take(0);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due[0].command.kind, CommandKind::velocity);
+
+  queue.push(velocity(0, 2.0));
+  queue.push(pose(0, 1.0, 50));
+  due = queue.take(10);
+  ASSERT_EQ(due.size(), 2U);
+  EXPECT_EQ(due[1].command.kind, CommandKind::pose);
+}
+
+TEST(CommandQueue, PoseEndsAVelocityThatWaits) {
+  CommandQueue queue(10);
+  queue.push(velocity(0, 1.0, 100));
+  queue.push(pose(0, 1.0, 50));
+  EXPECT_EQ(queue.take(0).size(), 1U);
+  EXPECT_EQ(queue.waiting(), 0U);
+}
+
+TEST(CommandWatch, NamesEachSilenceOnce) {
+  CommandWatch watch(50);
+  EXPECT_TRUE(watch.silent(1000).empty());  // nobody was commanded
+  AppliedCommand command;
+  command.body = 3;
+  command.effect = 100;
+  watch.heard(command);
+  EXPECT_TRUE(watch.silent(149).empty());
+  EXPECT_EQ(watch.silent(150), std::vector<int>{3});
+  EXPECT_TRUE(watch.silent(160).empty());
+}
+
+TEST(CommandWatch, APoseIsHeardOfUntilItsArrival) {
+  CommandWatch watch(50);
+  AppliedCommand command;
+  command.effect = 100;
+  command.arrival = 300;
+  watch.heard(command);
+  EXPECT_TRUE(watch.silent(349).empty());
+  EXPECT_EQ(watch.silent(350).size(), 1U);
+}
+
+TEST(CommandWatch, ZeroMeansNever) {
+  CommandWatch watch(0);
+  watch.heard(AppliedCommand());
+  EXPECT_TRUE(watch.silent(1'000'000'000'000).empty());
+}
+
+}  // namespace
+}  // namespace mpm_ros

@@ -1,0 +1,185 @@
+// Conversions, stamps and clouds, against values worked out by hand.
+#include "mpm_ros/conversions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "mpm_ros/contact_average.hpp"
+#include "mpm_ros/particle_cloud.hpp"
+#include "mpm_ros/stamps.hpp"
+
+namespace mpm_ros {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+geometry_msgs::Pose pose_message(double w, double x, double y, double z) {
+  geometry_msgs::Pose pose;
+  pose.orientation.w = w;
+  pose.orientation.x = x;
+  pose.orientation.y = y;
+  pose.orientation.z = z;
+  return pose;
+}
+
+TEST(Conversions, TwistKeepsEveryBit) {
+  geometry_msgs::Twist message;
+  message.linear.x = 0.1;
+  message.linear.y = -0.2;
+  message.linear.z = 1.0 / 3.0;
+  message.angular.x = 4.0;
+  message.angular.y = 5.0;
+  message.angular.z = -6.0;
+  EXPECT_EQ(to_message(from_message(message)), message);
+}
+
+TEST(Conversions, PoseKeepsTheOrderOfTheQuaternion) {
+  const geometry_msgs::Pose message = pose_message(0.5, 0.1, -0.5, 0.7);
+  const mpm::Pose pose = from_message(message);
+  EXPECT_EQ(pose.orientation.w(), 0.5);
+  EXPECT_EQ(pose.orientation.z(), 0.7);
+  EXPECT_EQ(to_message(pose), message);
+}
+
+TEST(Conversions, NonFiniteComponentsAreNamed) {
+  geometry_msgs::Twist twist;
+  EXPECT_EQ(problem_of(twist), "");
+  twist.angular.y = kNaN;
+  EXPECT_EQ(problem_of(twist), "angular.y is nan");
+  twist.linear.z = kInfinity;
+  EXPECT_EQ(problem_of(twist), "linear.z is inf");
+
+  geometry_msgs::Pose pose = pose_message(1.0, 0.0, 0.0, 0.0);
+  EXPECT_EQ(problem_of(pose), "");
+  pose.position.x = -kInfinity;
+  EXPECT_EQ(problem_of(pose), "position.x is -inf");
+  pose = pose_message(kNaN, 0.0, 0.0, 0.0);
+  EXPECT_EQ(problem_of(pose), "orientation.w is nan");
+}
+
+TEST(Conversions, QuaternionIsNormalisedWithinOneThousandthAndRefusedBeyond) {
+  EXPECT_EQ(problem_of(pose_message(1.0009, 0.0, 0.0, 0.0)), "");
+  EXPECT_EQ(problem_of(pose_message(0.9991, 0.0, 0.0, 0.0)), "");
+  EXPECT_NE(problem_of(pose_message(1.0011, 0.0, 0.0, 0.0)), "");
+  EXPECT_NE(problem_of(pose_message(0.9989, 0.0, 0.0, 0.0)), "");
+  EXPECT_NE(problem_of(pose_message(0.0, 0.0, 0.0, 0.0)), "");
+  // One division and one square root: a few units in the last place.
+  EXPECT_NEAR(checked_pose(pose_message(1.0009, 0.0, 0.0, 0.0)).orientation.norm(), 1.0, 1e-15);
+}
+
+TEST(Conversions, WrenchInBodyAxes) {
+  // Turned by 90 degrees about z, the body's x axis is the world's y: a world force along y is along the body's x.
+  const mpm::Quat turned(std::cos(M_PI / 4.0), 0.0, 0.0, std::sin(M_PI / 4.0));
+  const mpm::Wrench wrench = in_body_axes({{0.0, 3.0, 0.5}, {2.0, 0.0, 0.0}}, turned);
+  EXPECT_TRUE(wrench.force.isApprox(mpm::Vec3(3.0, 0.0, 0.5), 1e-15));
+  EXPECT_TRUE(wrench.torque.isApprox(mpm::Vec3(0.0, -2.0, 0.0), 1e-15));
+}
+
+TEST(Conversions, TransformsNameTheBodies) {
+  mpm::BodyState body;
+  body.name = "blade";
+  body.pose.position = {1.0, 2.0, 3.0};
+  const tf2_msgs::TFMessage message = to_transforms({body}, "world", ros::Time(5, 6));
+  ASSERT_EQ(message.transforms.size(), 1U);
+  EXPECT_EQ(message.transforms[0].header.frame_id, "world");
+  EXPECT_EQ(message.transforms[0].child_frame_id, "blade");
+  EXPECT_EQ(message.transforms[0].header.stamp, ros::Time(5, 6));
+  EXPECT_EQ(message.transforms[0].transform.translation.z, 3.0);
+  EXPECT_EQ(message.transforms[0].transform.rotation.w, 1.0);
+}
+
+TEST(Conversions, SolverStateKeepsItsNumbers) {
+  mpm::SolverState state;
+  state.time = 1'500'000'000;
+  state.step.steps = 7;
+  state.energy.plastic = 2.5;
+  state.audit.impulses.push_back({"gravity", {0.0, 0.0, -9.0}});
+  const SolverState message = to_message(state);
+  EXPECT_EQ(message.time, 1.5);
+  EXPECT_EQ(message.steps, 7U);
+  EXPECT_EQ(message.energy_plastic, 2.5);
+  ASSERT_EQ(message.impulses.size(), 1U);
+  EXPECT_EQ(message.impulses[0].name, "gravity");
+  EXPECT_EQ(message.impulses[0].impulse.z, -9.0);
+}
+
+TEST(Conversions, HashHasSixteenDigits) { EXPECT_EQ(hash_text(0xabcU), "0000000000000abc"); }
+
+TEST(Stamps, CountFromTheOrigin) {
+  const Stamps stamps(ros::Time(100, 999'999'999));
+  EXPECT_EQ(stamps.at(1), ros::Time(101, 0));
+  EXPECT_EQ(stamps.time_of(ros::Time(101, 0)), 1);
+  EXPECT_EQ(stamps.time_of(ros::Time(99, 999'999'999)), -1'000'000'000);
+}
+
+TEST(Stamps, NothingIsStampedZero) {
+  const Stamps stamps;
+  EXPECT_EQ(stamps.at(0), ros::TIME_MIN);
+  EXPECT_EQ(stamps.time_of(ros::TIME_MIN), 0);
+  EXPECT_EQ(stamps.at(2'000'000'003), ros::Time(2, 3));
+}
+
+TEST(ParticleCloud, IsPackedInOrderOfId) {
+  sensor_msgs::PointCloud2 cloud;
+  // Five particles, every second of them: ids 0, 2, 4.
+  fill_cloud({"vx"}, {{0, 1, 2, 3, 4}, {10, 11, 12, 13, 14}, {20, 21, 22, 23, 24}, {30, 31, 32, 33, 34}}, 2, cloud);
+  ASSERT_EQ(cloud.width, 3U);
+  ASSERT_EQ(cloud.point_step, 20U);
+  ASSERT_EQ(cloud.data.size(), 60U);
+  ASSERT_EQ(cloud.fields.size(), 5U);
+  EXPECT_EQ(cloud.fields[3].name, "id");
+  EXPECT_EQ(cloud.fields[3].datatype, sensor_msgs::PointField::UINT32);
+  EXPECT_EQ(cloud.fields[4].name, "vx");
+  EXPECT_EQ(cloud.fields[4].offset, 16U);
+  struct Point {
+    float x, y, z;
+    std::uint32_t id;
+    float vx;
+  } last;
+  std::memcpy(&last, cloud.data.data() + 40, sizeof(last));
+  EXPECT_EQ(last.x, 4.0F);
+  EXPECT_EQ(last.y, 14.0F);
+  EXPECT_EQ(last.z, 24.0F);
+  EXPECT_EQ(last.id, 4U);
+  EXPECT_EQ(last.vx, 34.0F);
+}
+
+TEST(ParticleCloud, RefusesAnUnknownField) {
+  EXPECT_EQ(problem_of(ParticleSelection{{"vx"}, 1}), "");
+  EXPECT_NE(problem_of(ParticleSelection{{"vxx"}, 1}).find("'vxx'"), std::string::npos);
+  EXPECT_NE(problem_of(ParticleSelection{{"vx", "vx"}, 1}), "");
+  EXPECT_NE(problem_of(ParticleSelection{{"x"}, 1}), "");
+  EXPECT_NE(problem_of(ParticleSelection{{}, 0}), "");
+}
+
+mpm::ContactReport contact(double force, double peak, double interval, double impulse) {
+  mpm::ContactReport report;
+  report.body = "blade";
+  report.mean.force.x() = force;
+  report.peak.force.x() = peak;
+  report.interval = interval;
+  report.impulse.x() = impulse;
+  return report;
+}
+
+TEST(ContactAverage, IsImpulseOverTime) {
+  ContactAverage average;
+  average.add({contact(0.0, 0.0, 0.0, 0.0)});  // the report at time zero covers no time
+  average.add({contact(4.0, 5.0, 1.0, 4.0)});
+  average.add({contact(1.0, 2.0, 3.0, 7.0)});
+  const std::vector<mpm::ContactReport> taken = average.take();
+  ASSERT_EQ(taken.size(), 1U);
+  // (4 N x 1 s + 1 N x 3 s) / 4 s
+  EXPECT_DOUBLE_EQ(taken[0].mean.force.x(), 1.75);
+  EXPECT_EQ(taken[0].peak.force.x(), 5.0);
+  EXPECT_EQ(taken[0].interval, 4.0);
+  EXPECT_EQ(taken[0].impulse.x(), 7.0);
+  EXPECT_TRUE(average.take().empty());
+}
+
+}  // namespace
+}  // namespace mpm_ros

@@ -1,0 +1,143 @@
+// Parameters, pacing and the mailbox, without a master.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+
+#include "mpm_ros/mailbox.hpp"
+#include "mpm_ros/node_parameters.hpp"
+#include "mpm_ros/pacer.hpp"
+
+namespace mpm_ros {
+namespace {
+
+/// The error's text, or "" when the parameters are taken.
+std::string error_of(const ParameterValues& values) {
+  std::vector<std::string> warnings;
+  try {
+    read_parameters(values, warnings);
+  } catch (const ParameterError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+ParameterValues with(const std::string& name, const XmlRpc::XmlRpcValue& value) {
+  return {{"scene", XmlRpc::XmlRpcValue("press")}, {name, value}};
+}
+
+TEST(NodeParameters, SceneMustBeGiven) {
+  const std::string error = error_of({});
+  EXPECT_NE(error.find("~scene is not given"), std::string::npos) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos);
+}
+
+TEST(NodeParameters, DefaultsAreSound) {
+  std::vector<std::string> warnings;
+  const NodeParameters parameters = read_parameters({{"scene", XmlRpc::XmlRpcValue("press")}}, warnings);
+  EXPECT_EQ(parameters.pacing, Pacing::real_time);
+  EXPECT_EQ(parameters.real_time_factor, 1.0);
+  EXPECT_EQ(parameters.on_timeout, OnTimeout::hold);
+  EXPECT_FALSE(parameters.keep_alive);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(NodeParameters, LockstepServesOnAfterTheEnd) {
+  std::vector<std::string> warnings;
+  EXPECT_TRUE(read_parameters(with("pacing", "lockstep"), warnings).keep_alive);
+}
+
+TEST(NodeParameters, WrongTypesAndRangesNameTheParameter) {
+  EXPECT_NE(error_of(with("pacing", "lock_step")).find("~pacing is 'lock_step'"), std::string::npos);
+  EXPECT_NE(error_of(with("real_time_factor", 0.0)).find("~real_time_factor"), std::string::npos);
+  EXPECT_NE(error_of(with("real_time_factor", "fast")).find("~real_time_factor must be a number"), std::string::npos);
+  EXPECT_NE(error_of(with("threads", -1)).find("~threads"), std::string::npos);
+  EXPECT_NE(error_of(with("threads", 1.5)).find("~threads"), std::string::npos);
+  EXPECT_NE(error_of({{"scene", XmlRpc::XmlRpcValue(7)}}).find("~scene must be text"), std::string::npos);
+  EXPECT_NE(error_of(with("command_timeout", -0.1)).find("~command_timeout"), std::string::npos);
+  EXPECT_NE(error_of(with("on_timeout", "panic")).find("~on_timeout"), std::string::npos);
+  EXPECT_NE(error_of(with("particle_stride", 0)).find("~particle_stride"), std::string::npos);
+  EXPECT_NE(error_of(with("record_compression", "zip")).find("~record_compression"), std::string::npos);
+  EXPECT_EQ(error_of(with("real_time_factor", 2)), "");  // a whole number is a number
+}
+
+TEST(NodeParameters, MisspeltNamesAreWarnedOf) {
+  std::vector<std::string> warnings;
+  read_parameters(with("pacin", "free"), warnings);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("~pacin"), std::string::npos);
+  EXPECT_NE(warnings[0].find("'pacing'"), std::string::npos);
+}
+
+TEST(NodeParameters, FieldsAreAListOrOneText) {
+  XmlRpc::XmlRpcValue list;
+  list[0] = "vx";
+  list[1] = "szz";
+  std::vector<std::string> warnings;
+  const std::vector<std::string> expected{"vx", "szz"};
+  EXPECT_EQ(read_parameters(with("particle_fields", list), warnings).particle_fields, expected);
+  EXPECT_EQ(read_parameters(with("particle_fields", "[vx, szz]"), warnings).particle_fields, expected);
+}
+
+using std::chrono::milliseconds;
+
+TEST(Pacer, DeadlinesFollowTheFactor) {
+  // 10 ms of simulated time at twice the wall's pace: 5 ms apart.
+  Pacer pacer(10'000'000, 2.0);
+  const Pacer::Clock::time_point start{};
+  pacer.restart(start);
+  EXPECT_EQ(pacer.next(start), start + milliseconds(5));
+  EXPECT_EQ(pacer.next(start + milliseconds(5)), start + milliseconds(10));
+  EXPECT_EQ(pacer.overruns(), 0U);
+}
+
+TEST(Pacer, SmallDelaysAreCaughtUpWithAndLargeOnesAreNot) {
+  Pacer pacer(10'000'000, 1.0);
+  const Pacer::Clock::time_point start{};
+  pacer.restart(start);
+  EXPECT_EQ(pacer.next(start + milliseconds(30)), start + milliseconds(10));
+  EXPECT_EQ(pacer.overruns(), 1U);
+  EXPECT_EQ(pacer.next(start + milliseconds(500)), start + milliseconds(500));
+  EXPECT_EQ(pacer.overruns(), 2U);
+}
+
+TEST(Mailbox, WorkIsDoneOnTheOtherThread) {
+  Mailbox mailbox;
+  std::thread::id worker;
+  bool done = false;
+  std::thread caller([&] { done = mailbox.call([&] { worker = std::this_thread::get_id(); }); });
+  while (worker == std::thread::id()) mailbox.run_until(std::chrono::steady_clock::now() + milliseconds(10));
+  caller.join();
+  EXPECT_TRUE(done);
+  EXPECT_EQ(worker, std::this_thread::get_id());
+}
+
+TEST(Mailbox, ClosingLetsCallersGo) {
+  Mailbox mailbox;
+  bool done = true;
+  std::thread caller([&] { done = mailbox.call([] {}); });
+  std::this_thread::sleep_for(milliseconds(20));
+  mailbox.close();
+  caller.join();
+  EXPECT_FALSE(done);
+  EXPECT_FALSE(mailbox.call([] {}));
+}
+
+TEST(Mailbox, AnErrorComesOutAndTheCallerIsLetGo) {
+  Mailbox mailbox;
+  std::thread caller([&] { mailbox.call([] { throw std::runtime_error("work"); }); });
+  bool thrown = false;
+  while (!thrown) {
+    try {
+      mailbox.run_until(std::chrono::steady_clock::now() + milliseconds(10));
+    } catch (const std::runtime_error&) {
+      thrown = true;
+    }
+  }
+  caller.join();
+  EXPECT_TRUE(thrown);
+}
+
+}  // namespace
+}  // namespace mpm_ros

@@ -1,0 +1,123 @@
+// Commands a rigid body over a topic, in simulated time: a list of phases, each a trapezoid of velocity.
+//
+// Private parameters: ~phases, a list of {name, begin, end, ramp, linear: [3], angular: [3]} in s, m/s and rad/s (world
+// axes; phases that overlap add up); ~topic; ~frame_id; ~period [s] between commands; ~lead [s] of simulated time by
+// which a command is sent before it takes effect, so that it arrives in time whatever the delay on the way.
+#include <geometry_msgs/TwistStamped.h>
+#include <ros/ros.h>
+#include <xmlrpcpp/XmlRpcException.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+struct Phase {
+  std::string name;
+  double begin = 0.0;  // [s]
+  double end = 0.0;
+  double ramp = 0.0;              // [s] from rest to full speed, and back
+  std::array<double, 6> twist{};  // linear [m/s], angular [rad/s], at full speed
+
+  double share(double time) const { return std::clamp(std::min(time - begin, end - time) / ramp, 0.0, 1.0); }
+};
+
+double number(XmlRpc::XmlRpcValue& value) {
+  return value.getType() == XmlRpc::XmlRpcValue::TypeInt ? static_cast<int>(value) : static_cast<double>(value);
+}
+
+void read_vector(XmlRpc::XmlRpcValue& phase, const char* key, double* result) {
+  if (!phase.hasMember(key)) return;
+  if (phase[key].size() != 3) throw std::runtime_error(std::string(key) + " has not three components");
+  for (int i = 0; i < 3; ++i) result[i] = number(phase[key][i]);
+}
+
+std::vector<Phase> read_phases(const ros::NodeHandle& parameters) {
+  XmlRpc::XmlRpcValue list;
+  if (!parameters.getParam("phases", list)) throw std::runtime_error("it is not given; see the launch file");
+  std::vector<Phase> phases;
+  for (int i = 0; i < list.size(); ++i) {
+    XmlRpc::XmlRpcValue& value = list[i];
+    Phase phase;
+    phase.name = static_cast<std::string>(value["name"]);
+    phase.begin = number(value["begin"]);
+    phase.end = number(value["end"]);
+    phase.ramp = number(value["ramp"]);
+    read_vector(value, "linear", phase.twist.data());
+    read_vector(value, "angular", phase.twist.data() + 3);
+    if (!(phase.ramp > 0.0 && phase.end > phase.begin)) throw std::runtime_error("end <= begin, or ramp <= 0");
+    phases.push_back(phase);
+  }
+  return phases;
+}
+
+std::array<double, 6> twist_at(const std::vector<Phase>& phases, double time) {
+  std::array<double, 6> twist{};
+  for (const Phase& phase : phases) {
+    const double share = phase.share(time);
+    for (std::size_t i = 0; i < twist.size(); ++i) twist[i] += share * phase.twist[i];
+  }
+  return twist;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "blade_driver");
+  ros::NodeHandle node;
+  const ros::NodeHandle parameters("~");
+  std::vector<Phase> phases;
+  try {
+    phases = read_phases(parameters);
+  } catch (const std::exception& error) {
+    ROS_FATAL("parameter ~phases: %s", error.what());
+    return 2;
+  } catch (const XmlRpc::XmlRpcException& error) {
+    ROS_FATAL("parameter ~phases: %s", error.getMessage().c_str());
+    return 2;
+  }
+  const double period = parameters.param("period", 0.01);
+  const double lead = parameters.param("lead", 0.1);
+  double end = 0.0;
+  for (const Phase& phase : phases) end = std::max(end, phase.end);
+
+  geometry_msgs::TwistStamped command;
+  command.header.frame_id = parameters.param<std::string>("frame_id", "world");
+  const auto topic = parameters.param<std::string>("topic", "bodies/blade/cmd_vel_stamped");
+  ros::Publisher publisher = node.advertise<geometry_msgs::TwistStamped>(topic, 100);
+
+  // Simulated time counts from the start of the run; without use_sim_time, from the first look at the clock.
+  const ros::Time start = ros::Time::isSimTime() ? ros::Time() : ros::Time::now();
+  std::int64_t next = 1;
+  double last = 0.0;
+  for (ros::WallRate rate(500.0); ros::ok(); rate.sleep()) {
+    const double now = (ros::Time::now() - start).toSec();
+    if (publisher.getNumSubscribers() == 0 || now <= 0.0) continue;
+    if (now < last) next = 1;  // the run was reset
+    last = now;
+    // Before the first command the body follows the scene; what is past is not sent.
+    next = std::max(next, static_cast<std::int64_t>(now / period));
+    for (; static_cast<double>(next) * period <= std::min(now + lead, end); ++next) {
+      const double time = static_cast<double>(next) * period;
+      for (const Phase& phase : phases) {
+        if (std::max(1LL, std::llround(phase.begin / period)) == next) ROS_INFO("%s", phase.name.c_str());
+      }
+      const std::array<double, 6> twist = twist_at(phases, time + 0.5 * period);
+      command.header.stamp = start + ros::Duration(time);
+      command.twist.linear.x = twist[0];
+      command.twist.linear.y = twist[1];
+      command.twist.linear.z = twist[2];
+      command.twist.angular.x = twist[3];
+      command.twist.angular.y = twist[4];
+      command.twist.angular.z = twist[5];
+      publisher.publish(command);
+    }
+    if (now > end) break;
+  }
+  return 0;
+}

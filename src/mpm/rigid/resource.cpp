@@ -2,7 +2,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "mpm/rigid/surface.hpp"
@@ -29,9 +28,12 @@ bool holds_package(const fs::path& folder, const std::string& name) {
   if (!file) return false;
   std::ostringstream text;
   text << file.rdbuf();
-  const std::string manifest = text.str();
-  std::smatch match;
-  return std::regex_search(manifest, match, std::regex(R"(<name>\s*([^<\s]+)\s*</name>)")) && match[1] == name;
+  const std::string manifest = text.str(), open = "<name>", blank = " \t\r\n";
+  const std::size_t start = manifest.find(open);
+  if (start == std::string::npos) return false;
+  const std::size_t first = manifest.find_first_not_of(blank, start + open.size());
+  return first != std::string::npos &&
+         manifest.substr(first, manifest.find_first_of(blank + "<", first) - first) == name;
 }
 
 /// Folders that hold the package, in the order in which they are preferred.

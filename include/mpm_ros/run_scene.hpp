@@ -1,0 +1,34 @@
+// A scene run offline, as fast as it goes, without a ROS master: what the program run_scene does behind its options.
+#pragma once
+
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace mpm_ros {
+
+struct RunSceneOptions {
+  std::string scene;             ///< a shipped name, or a path
+  std::vector<std::string> set;  ///< overrides, "key.path=value"
+  std::string end;               ///< a time in seconds or with a unit; empty: the scene's
+  int threads = 0;               ///< 0: as many as the machine has
+  std::string bag;               ///< path, "auto", or empty for none
+  std::string csv;               ///< folder, or empty for none
+  std::string summary;           ///< JSON file, or empty for none
+};
+
+/// What a run ended with, as an exit code.
+enum class RunSceneResult { done = 0, bad_input = 2, physics_failed = 3 };
+
+/// Names and descriptions of the shipped scenes, a line each.
+void list_scenes(std::ostream& out);
+/// What the scene amounts to, and warnings. @throws mpm::Error
+void explain_scene(const RunSceneOptions& options, std::ostream& out);
+/// Runs the scene to its end, or to the sync point after `stop_requested` says true; then writes what was asked, as
+/// it does when the physics fail. Results go to `out`, progress and errors to `err`; `bar`: progress as a bar that is
+/// drawn over and over (a terminal).
+RunSceneResult run_scene(const RunSceneOptions& options, std::ostream& out, std::ostream& err, bool bar,
+                         const std::function<bool()>& stop_requested);
+
+}  // namespace mpm_ros

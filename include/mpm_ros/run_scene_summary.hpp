@@ -1,0 +1,40 @@
+// The numbers of a run that is over: as one JSON object, and as a few lines for people.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mpm/scene/scene.hpp"
+#include "mpm/simulation/simulation.hpp"
+
+namespace mpm_ros {
+
+struct RunSummary {
+  /// Reads the simulation where it stands. `contacts`: the last reports of its rigid bodies.
+  RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::EnergyReport& start_energy,
+             const std::vector<mpm::ContactReport>& contacts);
+
+  /// Keys and units as doc/scene.md lists them; the order of the keys is kept.
+  nlohmann::ordered_json json() const;
+  /// A few lines, each ended.
+  std::string text() const;
+
+  std::string scene;
+  mpm::SimulationDefinition definition;  ///< particle positions left out
+  std::string isa;
+  int threads = 0;
+  mpm::SolverState state;
+  mpm::EnergyReport start_energy;
+  std::uint64_t state_hash = 0;
+  std::uint64_t peak_memory = 0;                                   ///< [byte] of the whole process
+  std::vector<std::pair<std::string, mpm::Vec3>> contact_impulse;  ///< [N s]
+  std::vector<std::pair<std::string, double>> metrics;
+
+  double seconds() const { return static_cast<double>(state.time) / 1e9; }
+  double particle_steps_per_second() const;
+  double real_time_factor() const;
+};
+
+}  // namespace mpm_ros

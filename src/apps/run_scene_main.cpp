@@ -1,0 +1,58 @@
+// rosrun mpm_ros run_scene SCENE: a scene without a master, as fast as it goes. Wiring only; see mpm_ros/run_scene.hpp.
+//
+// Exit codes: 0 done (or told to stop), 2 bad input, 3 the physics failed.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <iostream>
+
+#include "mpm_ros/run_scene.hpp"
+
+namespace {
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+void on_signal(int signal) { stop_signal = signal; }
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  mpm_ros::RunSceneOptions options;
+  bool list = false;
+  bool explain = false;
+  CLI::App app("Runs a scene without a ROS master, as fast as it goes.");
+  auto* scene = app.add_option("SCENE", options.scene, "a shipped scene's name (--list), or a path to a YAML file");
+  app.add_option("--bag", options.bag, "record everything to this bag; auto: a name of its own in this folder");
+  app.add_option("--csv", options.csv, "write tables (contact forces, bodies, solver state, particles) to this folder");
+  app.add_option("--summary", options.summary, "write the run's numbers as JSON to this file");
+  app.add_option("--threads", options.threads, "threads; 0: as many as the machine has")->check(CLI::Range(0, 1024));
+  app.add_option("--end", options.end, "stop at this time, in seconds or with a unit (\"20 ms\")");
+  app.add_option("--set", options.set, "change the scene: key.path=value, as in grid.cell=0.02; may be given often")
+      ->allow_extra_args(false);
+  app.add_flag("--list", list, "name the shipped scenes, and exit");
+  app.add_flag("--explain", explain, "say what was chosen for the scene and why, and exit");
+  try {
+    app.parse(argc, argv);
+    if (!list && scene->empty()) throw CLI::RequiredError("SCENE (--list names those that are shipped)");
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  try {
+    if (list) {
+      mpm_ros::list_scenes(std::cout);
+      return 0;
+    }
+    if (explain) {
+      mpm_ros::explain_scene(options, std::cout);
+      return 0;
+    }
+    return static_cast<int>(
+        mpm_ros::run_scene(options, std::cout, std::cerr, isatty(STDERR_FILENO) != 0, [] { return stop_signal != 0; }));
+  } catch (const std::exception& error) {
+    std::cerr << "run_scene: " << error.what() << "\n";
+    return 2;
+  }
+}

@@ -88,7 +88,8 @@ void write_outline(const std::string& path, const visualization_msgs::Marker& ma
   file << "o " << marker.header.frame_id << "\n";
   std::map<std::array<double, 3>, std::size_t> known;
   fmt::memory_buffer faces;
-  for (std::size_t corner = 0; corner + corner % 3 < marker.points.size(); ++corner) {
+  const std::size_t corners = marker.points.size() / 3 * 3;
+  for (std::size_t corner = 0; corner < corners; ++corner) {
     const geometry_msgs::Point& point = marker.points[corner];
     const mpm::Vec3 vertex = pose.to_world({point.x, point.y, point.z});
     const auto [entry, fresh] =

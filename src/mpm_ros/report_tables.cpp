@@ -14,10 +14,10 @@ namespace {
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
 /// Four digits, as many as a table needs.
-std::string number(double value) { return fmt::format("{:.4g}", value); }
+std::string number(double value) { return fmt::format("{:.4g}", value + 0.0); }  // no "-0"
 
 std::string triple(const mpm::Vec3& vector) {
-  return fmt::format("{:.4g}  {:.4g}  {:.4g}", vector.x(), vector.y(), vector.z());
+  return number(vector.x()) + "  " + number(vector.y()) + "  " + number(vector.z());
 }
 
 std::string run_table(const RunBag& bag, const RunStatistics& statistics) {

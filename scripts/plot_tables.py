@@ -1,0 +1,129 @@
+"""Reads the CSV tables of a run (doc/analysis.md lists them) and the outlines of its rigid bodies."""
+import csv
+import os
+
+import numpy as np
+
+
+class TableError(Exception):
+    """A table that is missing or not ours; one line."""
+
+
+class Table:
+    """The numeric columns of one file: table["blade fx"] is an array, table.units["blade fx"] is "N"."""
+
+    def __init__(self, path):
+        try:
+            with open(path, newline="", encoding="utf-8") as file:
+                rows = csv.reader(file)
+                header = next(rows)
+                first = next(rows, None)
+        except (OSError, StopIteration) as error:
+            raise TableError(f"{path}: cannot be read; give a folder that bag_report --csv wrote") from error
+        numeric = [i for i, cell in enumerate(first or []) if _is_number(cell)]
+        self.units = {}
+        self._values = {}
+        if not numeric:
+            return
+        values = np.loadtxt(path, delimiter=",", skiprows=1, usecols=numeric, ndmin=2, quotechar='"', comments=None)
+        for column, i in enumerate(numeric):
+            name, _, unit = header[i].partition(" [")
+            self.units[name] = unit.rstrip("]")
+            self._values[name] = values[:, column]
+
+    def __contains__(self, name):
+        return name in self._values
+
+    def __getitem__(self, name):
+        return self._values[name]
+
+    def names(self):
+        return list(self._values)
+
+    def vector(self, prefix):
+        """Columns "<prefix>x", "<prefix>y", "<prefix>z" as an array of rows."""
+        return np.column_stack([self._values[prefix + axis] for axis in "xyz"])
+
+
+def file_stem(name):
+    """A file name's stem from a body's or a field's name."""
+    return "".join(c if c.isascii() and (c.isalnum() or c in ".-_") else "_" for c in name)
+
+
+def _is_number(text):
+    try:
+        float(text)
+        return True
+    except ValueError:
+        return False
+
+
+class Run:
+    """All tables of a folder."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.forces = Table(os.path.join(folder, "contact_forces.csv"))
+        self.poses = Table(os.path.join(folder, "bodies.csv"))
+        self.state = Table(os.path.join(folder, "solver_state.csv"))
+        ending = " interval"
+        self.bodies = [name[: -len(ending)] for name in self.forces.names() if name.endswith(ending)]
+        self.snapshots = self._snapshots()
+
+    def _snapshots(self):
+        """(time [s], path), in order of time."""
+        path = os.path.join(self.folder, "particles.csv")
+        if not os.path.exists(path):
+            return []
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        return [(float(row["time [s]"]), os.path.join(self.folder, row["file"])) for row in rows]
+
+    def strongest(self):
+        """The body that meets the largest force, that force's time [s] and vector [N]; None without any force."""
+        best = None
+        for body in self.bodies:
+            force = self.forces.vector(body + " f")
+            size = np.linalg.norm(force, axis=1)
+            at = int(np.argmax(size))
+            if size[at] > 0 and (best is None or size[at] > best[0]):
+                best = (size[at], body, self.forces["time"][at], force[at])
+        return None if best is None else best[1:]
+
+    def pose_at(self, body, time):
+        """Position [m] and rotation matrix (body to world) of the message nearest to a time [s]."""
+        row = int(np.argmin(np.abs(self.poses["time"] - time)))
+        x, y, z, w = (self.poses[f"{body} q{axis}"][row] for axis in "xyzw")
+        rotation = np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+        )
+        return self.poses.vector(body + " ")[row], rotation
+
+    def outlines(self):
+        """Vertices in the body's frame [m] and triangles (indices) of each body that has an outline."""
+        found = {}
+        for file in sorted(os.listdir(self.folder)):
+            if not (file.startswith("outline_") and file.endswith(".obj")):
+                continue
+            name, vertices, faces = _read_obj(os.path.join(self.folder, file))
+            if name in self.bodies and faces:
+                found[name] = (np.array(vertices), np.array(faces))
+        return found
+
+
+def _read_obj(path):
+    name, vertices, faces = "", [], []
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            kind, _, rest = line.strip().partition(" ")
+            if kind == "o":
+                name = rest
+            elif kind == "v":
+                vertices.append([float(word) for word in rest.split()])
+            elif kind == "f":
+                faces.append([int(word) - 1 for word in rest.split()])
+    return name, vertices, faces

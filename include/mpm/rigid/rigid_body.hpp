@@ -55,7 +55,8 @@ class RigidBody {
   void begin_step(double time, double dt);
   /// Moves the pose by the twist over `dt` [s].
   void end_step(double dt);
-  /// At a sync point: a body that has reached its target pose is put exactly there and rests until the next command.
+  /// At a sync point: a body that has reached its target pose is put exactly there. Its twist stays that of the step
+  /// just made; it rests from the next step on, unless a command says otherwise.
   void at_sync(std::int64_t now);
 
  private:

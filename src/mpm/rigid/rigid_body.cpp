@@ -73,7 +73,7 @@ void RigidBody::begin_step(double time, double dt) {
       twist_.angular[i] = definition_.rotation_rate[i](time + 0.5 * dt);
     }
   } else if (drive_ == Drive::pose && 1e-9 * static_cast<double>(arrival_) - time < (1.0 - 1e-6) * dt) {
-    // An arrival between two sync points lies within a step: be there at its end, and stay. (Less than a millionth
+    // Arrived: rest. An arrival between two sync points lies within a step: be there at its end. (Less than a millionth
     // short is rounding of the clock, and the twist as it is arrives.)
     twist_ = twist_between(pose_, target_, dt);
   }
@@ -82,9 +82,7 @@ void RigidBody::begin_step(double time, double dt) {
 void RigidBody::end_step(double dt) { pose_ = integrate(pose_, twist_, dt); }
 
 void RigidBody::at_sync(std::int64_t now) {
-  if (drive_ != Drive::pose || now < arrival_) return;
-  pose_ = target_;
-  twist_ = Twist();
+  if (drive_ == Drive::pose && now >= arrival_) pose_ = target_;
 }
 
 }  // namespace mpm

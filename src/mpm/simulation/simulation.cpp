@@ -221,7 +221,16 @@ void Simulation::command_velocity(int body, const Twist& twist) {
 
 void Simulation::command_pose(int body, const Pose& target, std::int64_t arrival) {
   Pose applied = target;
-  if (state_->grid->layout.dim() == 2) applied.position.y() = state_->bodies.at(body).pose().position.y();
+  if (state_->grid->layout.dim() == 2) {
+    // Position in the plane, and of the rotation its part about y (swing-twist): zeros stay exact zeros.
+    applied.position.y() = state_->bodies.at(body).pose().position.y();
+    const double length = target.orientation.norm();
+    const double in_plane = std::hypot(target.orientation.w(), target.orientation.y());
+    if (in_plane > 0.0) {
+      applied.orientation =
+          Quat(target.orientation.w() * length / in_plane, 0.0, target.orientation.y() * length / in_plane, 0.0);
+    }
+  }
   state_->bodies.at(body).command_pose(applied, state_->time, arrival);
 }
 

@@ -27,6 +27,16 @@ Survey survey(const ParticleSet& set, int dim, int threads) {
   return {min_j, max_j, max_speed2};
 }
 
+// Of the body's origin plus what its rotation adds at its farthest corner; endless axes do not count.
+double largest_speed(const RigidBody& body) {
+  const Box bounds = body.surface().bounds();
+  Vec3 corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs());
+  for (int k = 0; k < 3; ++k) {
+    if (!std::isfinite(corner[k])) corner[k] = 0.0;
+  }
+  return body.twist().linear.norm() + body.twist().angular.norm() * corner.norm();
+}
+
 }  // namespace
 
 std::pair<double, std::string> Simulation::State::step_limit() const {
@@ -44,7 +54,7 @@ std::pair<double, std::string> Simulation::State::step_limit() const {
     }
   }
   for (const RigidBody& body : bodies) {
-    const double allowed = reach / body.twist().linear.norm();
+    const double allowed = reach / largest_speed(body);
     if (allowed < limit) {
       limit = allowed;
       limited_by = fmt::format("speed of '{}'", body.name());

@@ -78,17 +78,17 @@ class Coloring:
         self.label = FIELDS.get(field, field) + ("" if unit in ("", "1") else f" [{unit}]")
 
     def bar(self, figure, axes):
-        bar = figure.colorbar(self.map, ax=axes, shrink=0.75, aspect=30, pad=0.01, extend="both")
+        bar = figure.colorbar(self.map, ax=axes, shrink=0.8, aspect=30, pad=0.01, extend="both", extendfrac=0.02)
         bar.set_label(self.label)
         bar.outline.set_visible(False)
 
 
 def panels(count, aspect, height):
-    """A figure of equal panels whose content has the given width over height."""
-    columns = 1 if aspect > 4 else (count if aspect < 0.7 else min(2, count))
+    """A figure of equal panels whose content has the given width over height; `height` [in] for a panel's labels."""
+    columns = 1 if aspect > 4 else (count if aspect < 0.65 else min(2, count))
     rows = -(-count // columns)
-    wide = 11.0 / columns
-    figure, axes = plt.subplots(rows, columns, figsize=(12.0, rows * (wide / aspect + height) + 0.5), squeeze=False,
+    wide = 10.6 / columns - 0.7  # less the colour bar, and a panel's own labels
+    figure, axes = plt.subplots(rows, columns, figsize=(12.0, rows * (wide / aspect + height) + 0.4), squeeze=False,
                                 constrained_layout=True)
     for spare in axes.ravel()[count:]:
         spare.set_visible(False)
@@ -181,8 +181,13 @@ def plot_section(run, snapshots, field, coloring, gap, folder, title):
             reach = 1.5 * (every.max(axis=0) - every.min(axis=0))[shown]  # a plate without end is cut off
             low = np.minimum(low, np.maximum(moved.min(axis=0) - gap, low - 0.5 * reach))
             high = np.maximum(high, np.minimum(moved.max(axis=0) + gap, high + 0.5 * reach))
+    # The largest force is a quarter of the picture long.
+    arrow = 0.25 * (high - low).max() / np.linalg.norm(strongest[2]) if strongest else 0.0
+    for snapshot in snapshots if tool else []:
+        tip = run.pose_at(tool, snapshot.time)[0][shown] + arrow * run.force_at(tool, snapshot.time)[shown]
+        low, high = np.minimum(low, tip - gap), np.maximum(high, tip + gap)
     size = high - low
-    figure, axes = panels(len(snapshots), size[0] / size[1], 0.7)
+    figure, axes = panels(len(snapshots), size[0] / size[1], 1.3)
     names = "xyz"
     for i, (snapshot, panel) in enumerate(zip(snapshots, axes)):
         at = run.pose_at(tool, snapshot.time)[0][axis] if tool else float(np.median(snapshot.positions[:, axis]))
@@ -191,7 +196,7 @@ def plot_section(run, snapshots, field, coloring, gap, folder, title):
             near[:] = True
         points = snapshot.positions[near][:, shown]
         colors = coloring.map.to_rgba(snapshot.table[field][near])
-        width = np.full(len(points), 1.15 * gap)
+        width = np.full(len(points), 1.42 * gap)
         panel.add_collection(EllipseCollection(width, width, np.zeros(len(points)), units="xy", offsets=points,
                                                offset_transform=panel.transData, facecolors=colors, linewidths=0))
         for body, (vertices, faces) in outlines.items():
@@ -202,12 +207,13 @@ def plot_section(run, snapshots, field, coloring, gap, folder, title):
                 panel.add_patch(PathPatch(Path.make_compound_path(*paths), facecolor=STEEL, linewidth=0, zorder=3))
             panel.add_collection(LineCollection(segments, colors="black", linewidths=1.3, zorder=4))
         if tool:
-            draw_force(run, tool, snapshot.time, panel, shown, 0.28 * size[0], strongest)
+            draw_force(run, tool, snapshot.time, panel, shown, arrow)
         panel.set_xlim(low[0], high[0])
         panel.set_ylim(low[1], high[1])
         panel.set_aspect("equal")
         panel.grid(False)
-        panel.set_title(f"{snapshot.time:.3g} s ({snapshot.label})")
+        size_of_force = f"\n|F| on {tool} = {np.linalg.norm(run.force_at(tool, snapshot.time)):.3g} N" if tool else ""
+        panel.set_title(f"{snapshot.time:.3g} s ({snapshot.label}){size_of_force}")
         panel.set_xlabel(f"{names[level]} [m]")
         if i % 2 == 0:
             panel.set_ylabel("z [m]")
@@ -217,22 +223,15 @@ def plot_section(run, snapshots, field, coloring, gap, folder, title):
     save(figure, folder, f"section_{file_stem(field)}.png")
 
 
-def draw_force(run, tool, time, panel, shown, longest, strongest):
+def draw_force(run, tool, time, panel, shown, metres_a_newton):
     """The path of the tool's origin, and an arrow for the force on it."""
     path = run.poses.vector(tool + " ")[:, shown]
-    panel.plot(path[:, 0], path[:, 1], color="black", linewidth=0.8, linestyle=":", zorder=2)
-    if strongest is None:
-        return
-    force = run.forces.vector(tool + " f")[int(np.argmin(np.abs(run.forces["time"] - time)))]
-    largest = np.linalg.norm(strongest[2])
-    if np.linalg.norm(force) < 0.01 * largest:
-        return
-    begin = run.pose_at(tool, time)[0][shown]
-    arrow = force[shown] / largest * longest
-    panel.annotate("", begin + arrow, begin, zorder=6,
-                   arrowprops={"arrowstyle": "-|>", "color": RED, "linewidth": 2, "shrinkA": 0, "shrinkB": 0})
-    panel.text(0.985, 0.96, f"|F| = {np.linalg.norm(force):.3g} N", transform=panel.transAxes, ha="right", va="top",
-               color=RED, fontsize=9.5)
+    panel.plot(path[:, 0], path[:, 1], color="black", linewidth=0.8, linestyle=":", zorder=5)
+    begin, arrow = run.pose_at(tool, time)[0][shown], metres_a_newton * run.force_at(tool, time)[shown]
+    if np.any(arrow != 0):
+        panel.annotate("", begin + arrow, begin, zorder=6, annotation_clip=False,
+                       arrowprops={"arrowstyle": "-|>,head_width=0.25,head_length=0.5", "color": RED, "linewidth": 2,
+                                   "shrinkA": 0, "shrinkB": 0})
 
 
 # --- views -----------------------------------------------------------------------------------------------------------
@@ -256,7 +255,7 @@ def plot_view(run, snapshots, field, coloring, gap, folder, title):
     flat = camera.project(np.concatenate(corners))[:, :2]
     margin = 0.12 * np.ptp(flat[:, 0])
     extent = (flat[:, 0].min() - margin, flat[:, 0].max() + margin, flat[:, 1].min() - margin, flat[:, 1].max() + 0.2 * margin)
-    figure, axes = panels(len(snapshots), (extent[1] - extent[0]) / (extent[3] - extent[2]), 0.3)
+    figure, axes = panels(len(snapshots), (extent[1] - extent[0]) / (extent[3] - extent[2]), 0.5)
     for snapshot, panel in zip(snapshots, axes):
         canvas = Canvas(camera, extent, 1100)
         canvas.spheres(snapshot.positions, 0.62 * gap, coloring.map.to_rgba(snapshot.table[field])[:, :3])
@@ -281,19 +280,20 @@ def draw_scales(panel, camera, box):
     left = int(np.argmin(flat_corners[:, 0]))
     starts = {0: (None, box[near[1]][1], low[2]), 1: (box[near[0]][0], None, low[2]),
               2: (box[left // 2][0], box[left % 2][1], None)}
-    length = 0.015 * np.ptp(camera.project(box)[:, 0])
     for axis, start in starts.items():
         ticks = MaxNLocator(5 if axis == 0 else 3, steps=[1, 2, 5, 10]).tick_values(box[0][axis], box[1][axis])
-        ticks = ticks[(ticks >= box[0][axis] - 1e-9) & (ticks <= box[1][axis] + 1e-9)]
-        line = np.array([[v if v is not None else box[end][axis] for v in start] for end in (0, 1)])
+        ticks = ticks[(ticks >= box[0][axis]) & (ticks <= box[1][axis])]
+        if axis == 1:  # the corner belongs to x
+            ticks = ticks[np.abs(ticks - box[near[1]][1]) > 0.05 * (box[1][1] - box[0][1])]
+        line = [[v if v is not None else box[end][axis] for v in start] for end in (0, 1)]
         ends = camera.project(line)[:, :2]
         panel.plot(ends[:, 0], ends[:, 1], color="#555555", linewidth=1, zorder=2)
-        out = np.array([-1.0, 0.0]) if axis == 2 else np.array([0.0, -1.0])
+        upright = axis == 2
+        style = {"textcoords": "offset points", "color": "#444444", "ha": "right" if upright else "center",
+                 "va": "center" if upright else "top"}
         for tick in ticks:
             point = camera.project([[v if v is not None else tick for v in start]])[0, :2]
-            panel.plot(*zip(point, point + out * length), color="#555555", linewidth=1, zorder=2)
-            panel.text(*(point + 1.6 * out * length), f"{tick:g}", fontsize=8, color="#444444",
-                       ha="right" if axis == 2 else "center", va="center" if axis == 2 else "top")
-        middle = ends.mean(axis=0) + (6.5 if axis == 2 else 5.0) * out * length
-        panel.text(*middle, f"{'xyz'[axis]} [m]", fontsize=9, color="#444444", ha="right" if axis == 2 else "center",
-                   va="center" if axis == 2 else "top")
+            panel.plot(*point, marker="_" if upright else "|", color="#555555", markersize=6, zorder=2)
+            panel.annotate(f"{tick:g}", point, xytext=(-5, 0) if upright else (0, -4), fontsize=8, **style)
+        panel.annotate(f"{'xyz'[axis]} [m]", ends.mean(axis=0), xytext=(-24, 0) if upright else (0, -17), fontsize=9,
+                       **style)

@@ -28,6 +28,7 @@ class Canvas:
         self.width, self.height = width, int(np.ceil((extent[3] - extent[2]) * self.scale))
         self.image = np.ones((self.height * self.width, 3))
         self.depth = np.full(self.height * self.width, -np.inf)
+        self._last = np.zeros(self.height * self.width, int)
 
     def _pixels(self, projected):
         column = np.rint((projected[:, 0] - self.extent[0]) * self.scale).astype(int)
@@ -38,9 +39,8 @@ class Canvas:
         """Points in order of depth, farthest first: of those on one pixel the last one stays."""
         inside = (column >= 0) & (column < self.width) & (row >= 0) & (row < self.height)
         pixel, depth, color = (row * self.width + column)[inside], depth[inside], color[inside]
-        last = np.full(len(self.depth), -1)
-        last[pixel] = np.arange(len(pixel))
-        nearest = last[pixel] == np.arange(len(pixel))
+        self._last[pixel] = np.arange(len(pixel))
+        nearest = self._last[pixel] == np.arange(len(pixel))
         pixel, depth, color = pixel[nearest], depth[nearest], color[nearest]
         visible = depth > self.depth[pixel]
         self.depth[pixel[visible]] = depth[visible]

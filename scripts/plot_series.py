@@ -102,6 +102,8 @@ def plot_contact(run, body, folder, title):
     time = run.forces["time"]
     force, torque = run.forces.vector(body + " f"), run.forces.vector(body + " t")
     peak = np.linalg.norm(run.forces.vector(body + " peak f"), axis=1)
+    if np.abs(torque).max() < 1e-9 * np.abs(force).max():
+        torque[:] = 0.0  # round-off of forces in balance
     velocity = run.poses.vector(body + " v")
     spans = phases(run.poses["time"], velocity)
 
@@ -114,11 +116,14 @@ def plot_contact(run, body, folder, title):
     top.set_ylabel("force [N]")
     top.set_title("Force of the material on the body (mean over each interval, world axes)", pad=18)
     # One step's spike must not flatten the rest.
-    means = np.linalg.norm(force, axis=1)
-    if means.max() > 0 and peak.max() > 3 * means.max():
-        low = min(0, force.min())
-        top.set_ylim(low * 1.1, 1.6 * means.max())
+    largest, low = np.linalg.norm(force, axis=1).max(), min(0, force.min())
+    if largest > 0:
+        top.set_ylim(1.1 * low - 0.02 * largest, 1.18 * min(max(peak.max(), largest), 2 * largest))
     draw_vector(middle, time, torque, "|T|")
+    if np.any(torque):
+        middle.margins(y=0.15)
+    else:
+        middle.set_ylim(-1, 1)
     mark_peak(middle, time, np.linalg.norm(torque, axis=1), "N m")
     middle.set_ylabel("torque [N m]")
     middle.set_title("Torque about the body's origin")
@@ -143,8 +148,10 @@ def plot_energies(run, folder, title):
                                          constrained_layout=True)
     figure.suptitle(f"{title}: energies of the material", fontweight="bold")
     top.plot(time, work, color=BLACK, linewidth=2.0, label="work done by\nthe bodies")
-    top.plot(time, plastic, color=RED, label="dissipated by\nplastic flow")
-    top.plot(time, potential, color=GREEN, label="potential")
+    if plastic.any():
+        top.plot(time, plastic, color=RED, label="dissipated by\nplastic flow")
+    if potential.any():
+        top.plot(time, potential, color=GREEN, label="potential")
     top.plot(time, kinetic, color=BLUE, label="kinetic")
     top.plot(time, elastic, color=ORANGE, label="elastic")
     rest = work - plastic - potential - (kinetic - kinetic[0]) - (elastic - elastic[0])
@@ -175,15 +182,18 @@ def plot_audit(run, folder, title):
     top.set_title("Change of momentum less all impulses, over the momentum exchanged")
     colors = [GREEN, BLUE, ORANGE, RED, PINK, SKY, YELLOW]
     names = [name[len("impulse "):-2] for name in state.names() if name.startswith("impulse ") and name.endswith(" x")]
-    sizes = {name: np.linalg.norm(state.vector(f"impulse {name} "), axis=1) for name in names}
-    acting = [name for name in names if sizes[name].max() > 0]
+    impulses = {name: state.vector(f"impulse {name} ") for name in names}
+    sizes = {name: np.abs(impulse).max() for name, impulse in impulses.items()}
+    largest = max(impulses, key=sizes.get, default=None)
+    axis = int(np.argmax(np.abs(impulses[largest]).max(axis=0))) if largest else 2
+    acting = [name for name in names if np.abs(impulses[name][:, axis]).max() > 1e-9 * sizes[largest]]
     for i, name in enumerate(acting):
-        bottom.plot(time, sizes[name], color=colors[i % len(colors)], linestyle="-" if i < len(colors) else "--",
-                    label=name)
-    change = np.linalg.norm(state.vector("momentum ") - state.vector("momentum ")[0], axis=1)
-    bottom.plot(time, change, color=BLACK, linewidth=2.0, label="change of\nmomentum")
-    bottom.set_ylabel("|impulse| [N s]")
-    bottom.set_title("Impulses on the material since the start, by source")
+        bottom.plot(time, impulses[name][:, axis], color=colors[i % len(colors)],
+                    linestyle="-" if i < len(colors) else "--", label=name)
+    momentum = state["momentum " + "xyz"[axis]]
+    bottom.plot(time, momentum - momentum[0], color=BLACK, linewidth=2.0, label="change of\nmomentum")
+    bottom.set_ylabel("impulse [N s]")
+    bottom.set_title(f"Impulses on the material since the start along {'xyz'[axis]}, by source")
     bottom.set_xlabel("simulated time [s]")
     for axes in (top, bottom):
         legend(axes)

@@ -90,6 +90,11 @@ class Run:
                 best = (size[at], body, self.forces["time"][at], force[at])
         return None if best is None else best[1:]
 
+    def force_at(self, body, time):
+        """Mean force [N] of the interval that ends nearest to a time [s]."""
+        row = int(np.argmin(np.abs(self.forces["time"] - time)))
+        return np.array([self.forces[f"{body} f{axis}"][row] for axis in "xyz"])
+
     def pose_at(self, body, time):
         """Position [m] and rotation matrix (body to world) of the message nearest to a time [s]."""
         row = int(np.argmin(np.abs(self.poses["time"] - time)))

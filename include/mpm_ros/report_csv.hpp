@@ -47,7 +47,7 @@ class SnapshotExport : public RunVisitor {
 };
 
 /// Which of the snapshots taken at `times` [ns] to write: at most `most` of them, evenly spread from the first to the
-/// last; with room for four or more, the one nearest to `peak` [ns] stands in for its neighbour.
+/// last, with one place kept for the snapshot nearest to `peak` [ns] when there are three places or more.
 std::set<std::size_t> choose_snapshots(const std::vector<std::int64_t>& times, std::size_t most,
                                        std::optional<std::int64_t> peak);
 

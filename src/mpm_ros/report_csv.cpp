@@ -62,22 +62,14 @@ std::set<std::size_t> choose_snapshots(const std::vector<std::int64_t>& times, s
   if (times.empty() || most == 0) return chosen;
   const std::size_t last = times.size() - 1;
   if (most == 1) return {last};
-  const std::size_t count = std::min(most, times.size());
-  for (std::size_t i = 0; i < count; ++i)
-    chosen.insert((i * last + (count - 1) / 2) / std::max<std::size_t>(count - 1, 1));
-  if (!peak || count < 4) return chosen;
-
-  const auto distance = [&](std::int64_t time) { return std::llabs(time - *peak); };
-  const auto nearest = std::min_element(times.begin(), times.end(),
-                                        [&](std::int64_t a, std::int64_t b) { return distance(a) < distance(b); });
-  const auto at_peak = static_cast<std::size_t>(nearest - times.begin());
-  if (chosen.count(at_peak) > 0) return chosen;
-  // The first and the last stay.
-  const auto above = chosen.lower_bound(at_peak);
-  const std::size_t below = *std::prev(above);
-  const bool take_above = below == 0 || (*above != last && *above - at_peak < at_peak - below);
-  chosen.erase(take_above ? *above : below);
-  chosen.insert(at_peak);
+  const bool with_peak = peak && most > 2 && times.size() > most;
+  if (with_peak) {
+    const auto nearer = [&](std::int64_t a, std::int64_t b) { return std::llabs(a - *peak) < std::llabs(b - *peak); };
+    const auto nearest = std::min_element(times.begin(), times.end(), nearer);
+    chosen.insert(static_cast<std::size_t>(nearest - times.begin()));
+  }
+  const std::size_t gaps = std::min(with_peak ? most - 1 : most, times.size()) - 1;
+  for (std::size_t i = 0; i <= gaps; ++i) chosen.insert(gaps == 0 ? last : (2 * i * last + gaps) / (2 * gaps));
   return chosen;
 }
 

@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
     if (now < last) next = 1;  // the run was reset
     last = now;
     // Before the first command the body follows the scene; what is past is not sent.
-    next = std::max(next, static_cast<std::int64_t>(now / period));
+    next = std::max(next, static_cast<std::int64_t>(now / period) + 1);
     for (; static_cast<double>(next) * period <= std::min(now + lead, end); ++next) {
       const double time = static_cast<double>(next) * period;
       for (const Phase& phase : phases) {

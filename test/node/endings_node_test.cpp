@@ -1,0 +1,152 @@
+// How the node ends, by the wall clock: the scene's end, signals, failed physics, bad input. Whatever ends it, the bag
+// can be read.
+#include <geometry_msgs/Twist.h>
+#include <mpm_ros/BodyStates.h>
+#include <mpm_ros/SolverState.h>
+#include <std_srvs/SetBool.h>
+
+#include "simulator_process.hpp"
+
+namespace mpm_ros::test {
+namespace {
+
+const std::string kPress = "scene:=" MPM_TEST_DATA_DIR "/press.yaml";
+
+/// Messages of a type in a bag; throws when rosbag cannot open it.
+std::size_t messages_in(const std::string& path, const std::string& type) {
+  rosbag::Bag bag(path);
+  return rosbag::View(bag, rosbag::TypeQuery(type)).size();
+}
+
+void expect_closed_bag_after(int signal) {
+  const Folder folder;
+  const std::string bag = folder.file("run.bag");
+  SimulatorProcess simulator({kPress, "pacing:=real_time", "threads:=1", "set:=[time.end=1000]", "record:=" + bag});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Ear<BodyStates> bodies(simulator.name("bodies"));
+  ASSERT_TRUE(bodies.hears(5)) << simulator.log();
+  simulator.signal(signal);
+  EXPECT_EQ(simulator.wait(), 0) << simulator.log();
+  EXPECT_EQ(messages_in(bag, "mpm_ros/RunInfo"), 1U);
+  EXPECT_GE(messages_in(bag, "mpm_ros/BodyStates"), 5U);
+  EXPECT_EQ(hash_in(bag).size(), 16U);  // the last state is there
+}
+
+TEST(Endings, InterruptClosesTheBag) { expect_closed_bag_after(SIGINT); }
+
+TEST(Endings, TerminationClosesTheBag) { expect_closed_bag_after(SIGTERM); }
+
+TEST(Endings, InterruptWhilePausedClosesTheBag) {
+  const Folder folder;
+  const std::string bag = folder.file("run.bag");
+  SimulatorProcess simulator({kPress, "threads:=1", "start_paused:=true", "record:=" + bag});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  simulator.signal(SIGINT);
+  EXPECT_EQ(simulator.wait(), 0) << simulator.log();
+  EXPECT_EQ(messages_in(bag, "mpm_ros/BodyStates"), 1U);  // the state at the start
+}
+
+TEST(Endings, TheScenesEndIsExitCodeZero) {
+  const Folder folder;
+  const std::string bag = folder.file("run.bag");
+  SimulatorProcess simulator({kPress, "pacing:=free", "threads:=1", "record:=" + bag});
+  EXPECT_EQ(simulator.wait(), 0) << simulator.log();
+  EXPECT_EQ(hash_in(bag).size(), 16U);
+}
+
+TEST(Endings, FailedPhysicsIsExitCodeThreeAndLeavesABag) {
+  const Folder folder;
+  const std::string bag = folder.file("run.bag");
+  SimulatorProcess simulator(
+      {"scene:=" MPM_TEST_DATA_DIR "/leaves_domain.yaml", "pacing:=free", "threads:=1", "record:=" + bag});
+  EXPECT_EQ(simulator.wait(), 3) << simulator.log();
+  const std::vector<std::string> lines = simulator.fatal_lines();
+  ASSERT_EQ(lines.size(), 1U) << simulator.log();
+  EXPECT_NE(lines[0].find("particle"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("step"), std::string::npos) << lines[0];
+  // The block's front at 0.09 m, 2 m/s: it leaves the domain at 0.2 m no later than after 0.06 s, so snapshots of
+  // 0, 0.02 and 0.04 s are there, and the state of the failure.
+  EXPECT_GE(messages_in(bag, "sensor_msgs/PointCloud2"), 4U);
+  EXPECT_EQ(hash_in(bag).size(), 16U);
+}
+
+void expect_bad_input(const std::vector<std::string>& parameters, const std::string& text) {
+  SimulatorProcess simulator(parameters);
+  EXPECT_EQ(simulator.wait(), 2) << simulator.log();
+  const std::vector<std::string> lines = simulator.fatal_lines();
+  ASSERT_EQ(lines.size(), 1U) << simulator.log();
+  EXPECT_NE(lines[0].find(text), std::string::npos) << lines[0];
+}
+
+TEST(Endings, SceneNotGiven) { expect_bad_input({}, "~scene is not given"); }
+
+TEST(Endings, SceneThatIsNotThere) { expect_bad_input({"scene:=no_such_scene"}, "no_such_scene"); }
+
+TEST(Endings, BadOverride) { expect_bad_input({kPress, "set:=[grid.cel=0.01]"}, "cel"); }
+
+TEST(Endings, BadPacing) { expect_bad_input({kPress, "pacing:=fast"}, "~pacing"); }
+
+TEST(Endings, BadParticleField) { expect_bad_input({kPress, "particle_fields:=vxx"}, "vxx"); }
+
+TEST(Endings, BagThatCannotBeWritten) {
+  expect_bad_input({kPress, "record:=/no/such/folder/run.bag"}, "/no/such/folder");
+}
+
+TEST(Endings, CommandsThatAreNotThere) { expect_bad_input({kPress, "commands:=/no/such.bag"}, "/no/such.bag"); }
+
+TEST(Endings, MisspeltParameterIsWarnedOf) {
+  SimulatorProcess simulator({kPress, "pacing:=free", "threads:=1", "recrd:=x"});
+  EXPECT_EQ(simulator.wait(), 0) << simulator.log();
+  EXPECT_NE(simulator.log().find("~recrd is not known"), std::string::npos) << simulator.log();
+  EXPECT_NE(simulator.log().find("'record'"), std::string::npos) << simulator.log();
+}
+
+TEST(Endings, StampsCountFromTheWallTimeOfTheStart) {
+  const ros::WallTime before = ros::WallTime::now();
+  SimulatorProcess simulator({kPress, "start_paused:=true", "threads:=1"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Ear<SolverState> state(simulator.name("solver_state"));
+  ASSERT_TRUE(state.hears(1));
+  EXPECT_GE(state.heard()[0].header.stamp.toSec(), before.toSec() - 1e-3);
+  EXPECT_LE(state.heard()[0].header.stamp.toSec(), ros::WallTime::now().toSec());
+}
+
+TEST(Endings, PauseHoldsSimulatedTimeAndCommandsAreTakenAfterwards) {
+  SimulatorProcess simulator(
+      {kPress, "threads:=1", "start_paused:=true", "set:=[time.end=1000]", "real_time_factor:=0.5"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Ear<BodyStates> bodies(simulator.name("bodies"));
+  ASSERT_TRUE(bodies.connected());
+  ros::Publisher publisher = ros::NodeHandle().advertise<geometry_msgs::Twist>(simulator.name("bodies/rod/cmd_vel"), 1);
+  ASSERT_TRUE(eventually([&] { return publisher.getNumSubscribers() > 0; }));
+  geometry_msgs::Twist up;
+  up.linear.z = 0.01;
+  publisher.publish(up);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_TRUE(bodies.heard().empty());  // nothing moves while paused
+
+  std_srvs::SetBool pause;
+  pause.request.data = 0;
+  ASSERT_TRUE(ros::service::call(simulator.name("pause"), pause));
+  ASSERT_TRUE(bodies.hears(3)) << simulator.log();
+  EXPECT_EQ(bodies.heard().back().bodies[1].drive, BodyState::VELOCITY);
+  EXPECT_EQ(bodies.heard().back().bodies[1].twist.linear.z, 0.01);
+  Step step;
+  ASSERT_TRUE(ros::service::call(simulator.name("step"), step));
+  EXPECT_FALSE(step.response.success);  // not in lockstep
+}
+
+}  // namespace
+}  // namespace mpm_ros::test
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  setenv("OMP_WAIT_POLICY", "passive", 1);  // several simulators share the cores
+  ros::init(argc, argv, "endings_node_test");
+  ros::start();
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  const int result = RUN_ALL_TESTS();
+  ros::shutdown();
+  return result;
+}

@@ -1,0 +1,186 @@
+// A simulator in a process of its own, below a namespace of its own, as a user would start it; for node tests.
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <mpm_ros/Step.h>
+#include <ros/ros.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <mutex>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace mpm_ros::test {
+
+/// Asks until the answer is yes or `seconds` of wall time have passed; simulated time may stand still.
+inline bool eventually(const std::function<bool()>& ask, double seconds = 20.0) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (std::chrono::steady_clock::now() < deadline) {
+    if (ask()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return ask();
+}
+
+/// A folder of its own, gone with the test.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "mpm_ros_XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+class SimulatorProcess {
+ public:
+  /// `parameters`: "name:=value" without the underscore. Several may live one after the other; each has its namespace.
+  explicit SimulatorProcess(const std::vector<std::string>& parameters) {
+    static int count = 0;
+    namespace_ = "/sim" + std::to_string(getpid()) + "_" + std::to_string(++count);
+    log_ = folder_.file("log");
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "simulator";
+    std::vector<std::string> words{program.string(), "__ns:=" + namespace_};
+    for (const std::string& parameter : parameters) words.push_back("_" + parameter);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_ = fork();
+    if (pid_ == 0) {
+      const int log = open(log_.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
+      dup2(log, STDOUT_FILENO);
+      dup2(log, STDERR_FILENO);
+      execv(program.c_str(), arguments.data());
+      _exit(127);
+    }
+  }
+
+  ~SimulatorProcess() {
+    if (pid_ <= 0) return;
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+
+  std::string name(const std::string& relative) const { return namespace_ + "/" + relative; }
+  void signal(int number) const { kill(pid_, number); }
+
+  /// Exit code; -1 when it did not end in time, -2 when a signal ended it.
+  int wait(double seconds = 60.0) {
+    int status = 0;
+    if (!eventually([&] { return waitpid(pid_, &status, WNOHANG) == pid_; }, seconds)) return -1;
+    pid_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -2;
+  }
+
+  bool ready() const {
+    return eventually([&] { return ros::service::exists(name("step"), false); });
+  }
+
+  /// What it printed.
+  std::string log() const {
+    std::ifstream file(log_);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  /// Lines with FATAL.
+  std::vector<std::string> fatal_lines() const {
+    std::vector<std::string> lines;
+    std::istringstream text(log());
+    for (std::string line; std::getline(text, line);) {
+      if (line.find("FATAL") != std::string::npos) lines.push_back(line);
+    }
+    return lines;
+  }
+
+  Step::Response step(const Step::Request& request) const {
+    Step::Response response;
+    Step::Request copy = request;
+    EXPECT_TRUE(ros::service::call(name("step"), copy, response)) << log();
+    return response;
+  }
+  Step::Response step(std::uint32_t count, const std::vector<mpm_ros::Command>& commands = {}) const {
+    Step::Request request;
+    request.count = count;
+    request.commands = commands;
+    return step(request);
+  }
+
+ private:
+  Folder folder_;
+  std::string namespace_;
+  std::string log_;
+  pid_t pid_ = 0;
+};
+
+/// Hears a topic on a thread of roscpp's and keeps every message.
+template <typename Message>
+class Ear {
+ public:
+  explicit Ear(const std::string& topic) {
+    subscriber_ =
+        ros::NodeHandle().subscribe<Message>(topic, 10000, [this](const boost::shared_ptr<const Message>& message) {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          messages_.push_back(*message);
+        });
+  }
+  bool connected() const {
+    return eventually([&] { return subscriber_.getNumPublishers() > 0; });
+  }
+  std::vector<Message> heard() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return messages_;
+  }
+  bool hears(std::size_t count) const {
+    return eventually([&] { return heard().size() >= count; });
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<Message> messages_;
+  ros::Subscriber subscriber_;
+};
+
+/// Waits for the status `commands` or `solver` of that simulator to say `text`.
+inline bool diagnosed(const Ear<diagnostic_msgs::DiagnosticArray>& ear, const SimulatorProcess& simulator,
+                      const std::string& text) {
+  const std::string node = simulator.name("simulator").substr(1) + ": ";
+  return eventually([&] {
+    for (const diagnostic_msgs::DiagnosticArray& array : ear.heard()) {
+      for (const diagnostic_msgs::DiagnosticStatus& status : array.status) {
+        if (status.name.compare(0, node.size(), node) == 0 && status.message.find(text) != std::string::npos) {
+          return true;
+        }
+      }
+    }
+    return false;
+  });
+}
+
+/// The last state hash in a bag; throws when rosbag cannot open it.
+inline std::string hash_in(const std::string& path) {
+  rosbag::Bag bag(path);
+  rosbag::View view(bag, rosbag::TypeQuery("mpm_ros/SolverState"));
+  std::string hash;
+  for (const rosbag::MessageInstance& message : view) hash = message.instantiate<mpm_ros::SolverState>()->state_hash;
+  return hash;
+}
+
+}  // namespace mpm_ros::test

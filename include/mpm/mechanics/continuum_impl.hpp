@@ -75,20 +75,17 @@ class Continuum final : public Mechanics {
   }
 
   void move_and_regather(StepContext& context) override {
-    each_owner(context.grid, [&](const typename Kernels::Block& block, int owner, const int* neighbours) {
-      typename Kernels::MotionTile motion;
-      load_motion(context.grid, neighbours, motion);
-      each_set(owner, [&](ParticleSet& set, int begin, int end) {
-        note_reach(Kernels::gather_motion(block, set, begin, end, motion, context.dt, settings_.flip, set.next_x));
-      });
-    });
     clear({&context.grid.momentum}, context.grid);
     each_owner(context.grid, [&](const typename Kernels::Block& block, int owner, const int* neighbours) {
-      typename Kernels::VectorTile tile;
-      tile.clear();
-      each_set(owner,
-               [&](ParticleSet& set, int begin, int end) { Kernels::scatter_velocity(block, set, begin, end, tile); });
-      tile.add_to(context.grid.momentum, neighbours, 0);
+      typename Kernels::MotionTile motion;
+      typename Kernels::VectorTile momentum;
+      load_motion(context.grid, neighbours, motion);
+      momentum.clear();
+      each_set(owner, [&](ParticleSet& set, int begin, int end) {
+        note_reach(Kernels::gather_motion(block, set, begin, end, motion, context.dt, settings_.flip, set.next_x));
+        Kernels::scatter_velocity(block, set, begin, end, momentum);
+      });
+      momentum.add_to(context.grid.momentum, neighbours, 0);
     });
     velocity_from_momentum(context.grid);
   }

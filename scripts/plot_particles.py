@@ -36,13 +36,14 @@ class Snapshot:
 
 
 def choose(run):
-    """The first, the middle and the last snapshot, and the one nearest to the largest force."""
+    """The first, the middle and the last snapshot, and the one nearest to the largest force; else four evenly spread."""
     times = np.array([time for time, _ in run.snapshots])
+    begin, end = times[0], times[-1]
     strongest = run.strongest()
-    wanted = [(times[0], "start"), (times[-1], "end")]
     if strongest:
-        wanted.append((strongest[1], "largest force"))
-    wanted.append((0.5 * (times[0] + times[-1]), "middle"))
+        wanted = [(begin, " (start)"), (end, " (end)"), (strongest[1], " (largest force)"), (0.5 * (begin + end), "")]
+    else:
+        wanted = [(begin, " (start)"), (end, " (end)"), ((2 * begin + end) / 3, ""), ((begin + 2 * end) / 3, "")]
     chosen = {}
     for time, label in wanted:
         chosen.setdefault(int(np.argmin(np.abs(times - time))), label)
@@ -95,14 +96,20 @@ def panels(count, aspect, height):
     return figure, axes.ravel()[:count]
 
 
-def plot_particles(run, folder, title, field):
+def fields_of(run, wanted):
+    """The field that is wanted, else those that tell most of what was recorded."""
     if not run.snapshots:
+        return []
+    known = [name for name in Table(run.snapshots[0][1]).names() if name not in POSITION]
+    if wanted and wanted not in known:
+        raise TableError(f"no particle field '{wanted}' was recorded; there are: {', '.join(known)}")
+    return [wanted] if wanted else [name for name in ("speed", "ep", "mises", "p") if name in known][:3] or known[:1]
+
+
+def plot_particles(run, folder, title, fields):
+    if not fields:
         return
     snapshots = choose(run)
-    known = [name for name in snapshots[0].table.names() if name not in POSITION]
-    if field and field not in known:
-        raise TableError(f"no particle field '{field}' was recorded; there are: {', '.join(known)}")
-    fields = [field] if field else [name for name in ("speed", "ep", "mises", "p") if name in known][:3] or known[:1]
     gap = spacing(snapshots[0].positions)
     flat = all(np.ptp(snapshot.positions[:, 1]) == 0 for snapshot in snapshots)
     for name in fields:
@@ -187,7 +194,7 @@ def plot_section(run, snapshots, field, coloring, gap, folder, title):
         tip = run.pose_at(tool, snapshot.time)[0][shown] + arrow * run.force_at(tool, snapshot.time)[shown]
         low, high = np.minimum(low, tip - gap), np.maximum(high, tip + gap)
     size = high - low
-    figure, axes = panels(len(snapshots), size[0] / size[1], 1.3)
+    figure, axes = panels(len(snapshots), size[0] / size[1], 1.3 if tool else 1.05)
     names = "xyz"
     for i, (snapshot, panel) in enumerate(zip(snapshots, axes)):
         at = run.pose_at(tool, snapshot.time)[0][axis] if tool else float(np.median(snapshot.positions[:, axis]))
@@ -213,7 +220,7 @@ def plot_section(run, snapshots, field, coloring, gap, folder, title):
         panel.set_aspect("equal")
         panel.grid(False)
         size_of_force = f"\n|F| on {tool} = {np.linalg.norm(run.force_at(tool, snapshot.time)):.3g} N" if tool else ""
-        panel.set_title(f"{snapshot.time:.3g} s ({snapshot.label}){size_of_force}")
+        panel.set_title(f"{snapshot.time:.3g} s{snapshot.label}{size_of_force}")
         panel.set_xlabel(f"{names[level]} [m]")
         if i % 2 == 0:
             panel.set_ylabel("z [m]")
@@ -264,7 +271,7 @@ def plot_view(run, snapshots, field, coloring, gap, folder, title):
             canvas.triangles(position + vertices @ rotation.T, faces, STEEL)
         panel.imshow(canvas.picture(), extent=extent, interpolation="antialiased", zorder=1)
         draw_scales(panel, camera, box)
-        panel.set_title(f"{snapshot.time:.3g} s ({snapshot.label})")
+        panel.set_title(f"{snapshot.time:.3g} s{snapshot.label}")
         panel.set_aspect("equal")
         panel.axis("off")
     figure.suptitle(f"{title}: {coloring.label.partition(' [')[0]}", fontweight="bold")

@@ -32,6 +32,7 @@ def main():
     options = parser.parse_args()
     try:
         run = plot_tables.Run(options.csv)
+        fields = plot_particles.fields_of(run, options.field)
         os.makedirs(options.plots, exist_ok=True)
         title = options.title or os.path.basename(os.path.abspath(options.csv))
         plot_series.style()
@@ -39,7 +40,7 @@ def main():
             plot_series.plot_contact(run, body, options.plots, title)
         plot_series.plot_energies(run, options.plots, title)
         plot_series.plot_audit(run, options.plots, title)
-        plot_particles.plot_particles(run, options.plots, title, options.field)
+        plot_particles.plot_particles(run, options.plots, title, fields)
     except (plot_tables.TableError, OSError) as error:
         print(f"plot_report.py: {error}", file=sys.stderr)
         return 2

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -62,6 +63,7 @@ class RunStatistics : public RunVisitor {
   /// The first and the last state; nothing before the first message.
   const std::optional<SolverState>& first_state() const { return first_state_; }
   const SolverState& last_state() const { return last_state_; }
+  double smallest_j() const { return smallest_j_; }  ///< det F over the whole run
   /// When the particle snapshots were taken [ns].
   const std::vector<std::int64_t>& snapshots() const { return snapshots_; }
   const std::vector<std::string>& particle_fields() const { return particle_fields_; }
@@ -75,6 +77,7 @@ class RunStatistics : public RunVisitor {
   std::map<std::pair<std::string, mpm::Drive>, CommandStatistics> commands_;
   std::optional<SolverState> first_state_;
   SolverState last_state_;
+  double smallest_j_ = std::numeric_limits<double>::infinity();
   std::vector<std::int64_t> snapshots_;
   std::vector<std::string> particle_fields_;
 };

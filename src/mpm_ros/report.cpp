@@ -33,6 +33,7 @@ bool report(const ReportOptions& options, std::ostream& out) {
   if (!folder.empty()) visitors.push_back(&csv.emplace(folder));
 
   bag.read(visitors);
+  if (!statistics.first_state()) throw BagError(options.bag + ": the run has no message; was it stopped at its start?");
   out << tables(bag, statistics, checks.gaps());
   const std::vector<CheckResult> results = checks.results();
   if (options.check) out << "\n" << check_lines(results);

@@ -50,6 +50,7 @@ void RunStatistics::bodies(std::int64_t /*time*/, const BodyStates& message) {
 void RunStatistics::solver_state(std::int64_t /*time*/, const SolverState& message) {
   if (!first_state_) first_state_ = message;
   last_state_ = message;
+  smallest_j_ = std::min(smallest_j_, message.min_j);
 }
 
 void RunStatistics::command(std::int64_t time, const Command& message) {

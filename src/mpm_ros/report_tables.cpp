@@ -37,12 +37,13 @@ std::string run_table(const RunBag& bag, const RunStatistics& statistics) {
   line("real-time factor", fmt::format("{} (simulated over wall time)", number(last.real_time_factor)));
   line("particles", fmt::format("{}; {} snapshots of {}", last.particles, statistics.snapshots().size(),
                                 fmt::join(statistics.particle_fields(), " ")));
-  line("smallest det F", number(last.min_j));
+  line("smallest det F", number(statistics.smallest_j()));
   if (!last.state_hash.empty()) line("state hash", last.state_hash);
   return text;
 }
 
 std::string contact_table(const RunStatistics& statistics) {
+  if (statistics.body_statistics().empty()) return "Contact: the scene has no rigid body\n";
   TextTable peaks({"body", "peak |F| [N]", "at [s]", "F x  y  z [N]", "of a step [N]", "peak |T| [N m]", "at [s]"});
   TextTable means({"body", "mean F x  y  z [N]", "mean T x  y  z [N m]", "impulse x  y  z [N s]", "contact [s]"});
   for (const BodyStatistics& body : statistics.body_statistics()) {
@@ -59,6 +60,7 @@ std::string contact_table(const RunStatistics& statistics) {
 }
 
 std::string motion_table(const RunStatistics& statistics) {
+  if (statistics.body_statistics().empty()) return "Motion: the scene has no rigid body\n";
   TextTable table({"body", "x [m]", "y [m]", "z [m]", "start x  y  z [m]", "end x  y  z [m]", "largest turn [deg]"});
   const auto span = [](const mpm::Box& box, int axis) {
     return number(box.min[axis]) + " to " + number(box.max[axis]);

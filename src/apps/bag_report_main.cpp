@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   app.add_option("--plots", options.plots, "draw pictures (PNG) to this folder");
   app.add_option("--snapshots", options.snapshots, "write at most so many particle snapshots")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(std::size_t{1}, std::size_t{10000}));
   app.add_option("--field", options.field, "particle field that colours the pictures");
   app.add_option("--namespace", options.name_space, "of the topics, when the bag holds several runs");
   app.add_flag("--check", options.check,

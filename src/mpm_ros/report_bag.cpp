@@ -6,12 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "mpm_ros/topics.hpp"
 
 namespace mpm_ros {
 namespace {
+
+constexpr const char* kBegin = "#ROSBAG";  // of a bag of any version
 
 template <typename Message>
 std::string type_of() {
@@ -33,6 +37,10 @@ typename Message::ConstPtr take(const rosbag::MessageInstance& instance, const s
   return message;
 }
 
+BagError damaged(const std::string& path, const ros::Exception& problem) {
+  return BagError(fmt::format("{}: damaged ({}); repair it with: rosbag reindex {}", path, problem.what(), path));
+}
+
 /// Everything before "/solver_state".
 std::string parent(const std::string& topic) { return topic.substr(0, topic.rfind('/')); }
 
@@ -43,8 +51,8 @@ RunBag::RunBag(const std::string& path, const std::string& name_space) : path_(p
   try {
     find_run(name_space);
     find_start();
-  } catch (const rosbag::BagException& error) {
-    throw BagError(fmt::format("{}: damaged ({}); repair it with: rosbag reindex {}", path_, error.what(), path_));
+  } catch (const ros::Exception& error) {
+    throw damaged(path_, error);
   }
 }
 
@@ -61,7 +69,12 @@ void RunBag::open() {
     throw BagError(fmt::format("{}: not indexed, since it was not closed properly; repair it with: rosbag reindex {}",
                                path_, path_));
   } catch (const rosbag::BagException& problem) {
-    throw BagError(fmt::format("{}: not a bag that can be read ({})", path_, problem.what()));
+    std::ifstream file(path_, std::ios::binary);
+    std::string begin(std::strlen(kBegin), ' ');
+    file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    if (begin == kBegin) throw damaged(path_, problem);
+    throw BagError(
+        fmt::format("{}: not a bag ({}); give a file that the simulator or run_scene recorded", path_, problem.what()));
   }
 }
 
@@ -162,7 +175,7 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors) {
       }
     }
   } catch (const ros::Exception& error) {
-    throw BagError(fmt::format("{}: damaged ({}); repair it with: rosbag reindex {}", path_, error.what(), path_));
+    throw damaged(path_, error);
   }
 }
 
@@ -175,7 +188,7 @@ void RunBag::read_snapshots(const std::set<std::size_t>& chosen, RunVisitor& vis
       hand_on(instance, {&visitor}, &RunVisitor::particles);
     }
   } catch (const ros::Exception& error) {
-    throw BagError(fmt::format("{}: damaged ({}); repair it with: rosbag reindex {}", path_, error.what(), path_));
+    throw damaged(path_, error);
   }
 }
 

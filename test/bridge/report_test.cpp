@@ -385,6 +385,12 @@ TEST_F(ReportTest, AnUnindexedBagIsToldHowToRepair) {
   EXPECT_TRUE(contains(error_of(path), "rosbag reindex " + path)) << error_of(path);
 }
 
+TEST_F(ReportTest, ABagThatWasCutOffIsToldHowToRepair) {
+  const std::string path = bag_of({});
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  EXPECT_TRUE(contains(error_of(path), "rosbag reindex " + path)) << error_of(path);
+}
+
 TEST_F(ReportTest, ABagWithoutMessages) {
   rosbag::Bag bag(in_folder("none.bag"), rosbag::bagmode::Write);
   bag.close();

@@ -40,7 +40,9 @@ RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulatio
       state_hash(simulation.state_hash()),
       peak_memory(peak_memory_bytes()),
       metrics(simulation.metrics()) {
-  for (const mpm::ContactReport& contact : contacts) contact_impulse.emplace_back(contact.body, contact.impulse);
+  for (const mpm::ContactReport& contact : contacts) {
+    contact_impulse.emplace_back(contact.body, contact.impulse.array() + 0.0);  // no -0
+  }
 }
 
 double RunSummary::particle_steps_per_second() const {

@@ -33,7 +33,7 @@ void read_metrics(const Map& root, Scene& scene);
 FrictionLaw read_friction(const Value& value);
 /// One of the names that Simulation::particle_fields() knows.
 std::string read_particle_field(const Value& value);
-/// A shape's number of cells and particles along an edge: what the lattice of particles is made of.
+/// Distance between particle centres along an axis [m].
 double particle_spacing(const Scene& scene, int axis);
 /// Name of the world's axis.
 const char* axis_name(int axis);

@@ -81,8 +81,7 @@ void read_bodies(const Map& root, Scene& scene) {
   std::vector<std::string> materials;
   for (const MaterialDefinition& material : scene.definition.materials) materials.push_back(material.name);
   for (const Value& value : list.elements()) {
-    const Map map(value, {"name", "material", "shape", "initial"},
-                  {{"temperature", "a run is mechanical"}, {"angle", "bodies lie along the grid's axes"}});
+    const Map map(value, {"name", "material", "shape", "initial"});
     BodyDefinition body;
     body.name = map.at("name").name();
     for (const BodyDefinition& other : scene.bodies) {

@@ -115,8 +115,7 @@ FrictionLaw read_friction(const Value& value) {
 
 void read_grid(const Map& root, Scene& scene) {
   GridDefinition& grid = scene.definition.grid;
-  const Map map(root.at("grid"), {"cell", "min", "max"},
-                {{"shift", "write min and max"}, {"stretch", "cells have one size"}});
+  const Map map(root.at("grid"), {"cell", "min", "max"});
   grid.cell = read_cell(map.at("cell"), scene);
   grid.min = map.at("min").vector(kLength);
   const Value max = map.at("max");
@@ -142,8 +141,7 @@ void read_method(const Map& root, Scene& scene) {
                 {"shape", "update", "transfer", "damping", "gradient_terms", "particles_per_cell", "precision"},
                 {{"feedback_damping", "use damping"},
                  {"particle_damping", "use damping, or transfer {flip: 0.99}"},
-                 {"leave_limit", "a particle that leaves the grid ends the run; use boundaries"},
-                 {"extrapolate", "leave it out"}});
+                 {"leave_limit", "a particle that leaves the grid ends the run; use boundaries"}});
   if (const auto shape = map.find("shape")) {
     const std::string advice = "use ugimp";
     shape->choice({"ugimp"}, {{"dirac", advice},

@@ -164,7 +164,7 @@ void read_metrics(const Map& root, Scene& scene) {
   if (!section->is_map()) section->fail("write one line for each metric, as in mean_szz: {mean: szz, of: soil}");
   for (const auto& entry : section->node()) {
     const Value value = section->child(entry.second, entry.first.Scalar());
-    const Map map(value, {"mean", "std", "min", "max", "of"}, {{"sum", "use mean, and multiply by the particles"}});
+    const Map map(value, {"mean", "std", "min", "max", "of"});
     MetricDefinition metric;
     metric.name = section->child(entry.first, entry.first.Scalar()).name();
     int statistics = 0;

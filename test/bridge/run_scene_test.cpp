@@ -1,0 +1,150 @@
+// The program run_scene behind its options: results, exit codes, and what is written whatever ends the run.
+#include "mpm_ros/run_scene.hpp"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "mpm_ros/run_scene_progress.hpp"
+
+namespace mpm_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunScene : public ::testing::Test {
+ protected:
+  RunScene() : folder_(fs::temp_directory_path() / ("mpm_run_scene_test_" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+    options_.scene = std::string(MPM_SOURCE_DIR) + "/config/scenes/falling_block.yaml";
+    options_.threads = 1;
+    options_.end = "50 ms";
+    options_.summary = (folder_ / "summary.json").string();
+  }
+  ~RunScene() override { fs::remove_all(folder_); }
+
+  RunSceneResult run(const std::function<bool()>& stop = [] { return false; }) {
+    out_.str("");
+    err_.str("");
+    return run_scene(options_, out_, err_, false, stop);
+  }
+  nlohmann::json summary() const {
+    std::ifstream file(options_.summary);
+    return nlohmann::json::parse(file);
+  }
+
+  fs::path folder_;
+  RunSceneOptions options_;
+  std::ostringstream out_, err_;
+};
+
+TEST_F(RunScene, WritesASummaryWithItsKeysAndTheRightNumbers) {
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  const nlohmann::json root = summary();
+  for (const char* key : {"scene", "method", "particles", "steps", "time", "dt", "wall_seconds",
+                          "particle_steps_per_second", "real_time_factor", "peak_memory_bytes", "threads", "state_hash",
+                          "energy", "momentum_error", "contact_impulse", "metrics"}) {
+    EXPECT_TRUE(root.contains(key)) << key;
+  }
+  for (const char* key : {"geometry", "shape", "update", "transfer", "precision", "isa"}) {
+    EXPECT_TRUE(root["method"].contains(key)) << key;
+  }
+  for (const char* key : {"min", "max", "limited_by"}) EXPECT_TRUE(root["dt"].contains(key)) << key;
+  EXPECT_EQ(root["scene"], "falling_block");
+  EXPECT_EQ(root["particles"], 100);
+  EXPECT_EQ(root["time"], 0.05);
+  // Free fall: v = -g t, kinetic energy m v^2 / 2 of 10 kg; round-off of some hundred steps.
+  EXPECT_NEAR(root["metrics"]["mean_vz"].get<double>(), -9.81 * 0.05, 1e-12);
+  EXPECT_NEAR(root["energy"]["end"]["kinetic"].get<double>(), 5.0 * std::pow(9.81 * 0.05, 2), 1e-11);
+  // The block's middle at 0.25 m: m g z = 24.525 J.
+  EXPECT_NEAR(root["energy"]["start"]["potential"].get<double>(), 24.525, 1e-11);
+  EXPECT_LT(root["momentum_error"].get<double>(), 1e-10);
+  EXPECT_EQ(root["state_hash"].get<std::string>().size(), 16U);
+}
+
+TEST_F(RunScene, AShorterRunIsTheBeginningOfALongerOne) {
+  ASSERT_EQ(run(), RunSceneResult::done);
+  const std::string whole = summary()["state_hash"];
+  // Twenty sync periods of 2.5 ms, then told to stop: as far as the run before.
+  options_.end.clear();
+  int asked = 0;
+  ASSERT_EQ(run([&asked] { return asked++ == 20; }), RunSceneResult::done);
+  EXPECT_EQ(summary()["time"], 0.05);
+  EXPECT_EQ(summary()["state_hash"], whole);
+  EXPECT_NE(err_.str().find("stopped at t = 0.05 s"), std::string::npos) << err_.str();
+}
+
+TEST_F(RunScene, WritesTablesAndABagThatOpens) {
+  options_.csv = (folder_ / "tables").string();
+  options_.bag = (folder_ / "run.bag").string();
+  options_.scene = std::string(MPM_SOURCE_DIR) + "/config/scenes/compressed_block.yaml";
+  options_.end = "0.01";
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  for (const char* name : {"contact_forces.csv", "bodies.csv", "solver_state.csv", "particles_0000.csv"}) {
+    EXPECT_TRUE(fs::is_regular_file(fs::path(options_.csv) / name)) << name;
+  }
+  std::ifstream table(fs::path(options_.csv) / "contact_forces.csv");
+  std::string header;
+  std::getline(table, header);
+  EXPECT_EQ(header.find("time [s],anvil fx [N]"), 0U) << header;
+  rosbag::Bag bag(options_.bag, rosbag::bagmode::Read);
+  EXPECT_GT(rosbag::View(bag).size(), 0U);
+}
+
+TEST_F(RunScene, PhysicsThatFailEndWithThreeAndLeaveEverythingWritten) {
+  // Nothing catches the block: it leaves the grid after 0.2 s.
+  options_.set = {"boundaries={}"};
+  options_.end.clear();
+  options_.bag = (folder_ / "run.bag").string();
+  EXPECT_EQ(run(), RunSceneResult::physics_failed);
+  for (const char* part : {"particle ", "step ", "grid.min"}) {
+    EXPECT_NE(err_.str().find(part), std::string::npos) << part << " not in: " << err_.str();
+  }
+  // sqrt(2 h / g) for the lower particle centres, half a spacing above the block's face at 0.2 m.
+  EXPECT_NEAR(summary()["time"].get<double>(), std::sqrt(2.0 * 0.205 / 9.81), 0.0025);  // a sync period
+  rosbag::Bag bag(options_.bag, rosbag::bagmode::Read);
+  EXPECT_GT(rosbag::View(bag).size(), 0U);
+}
+
+TEST_F(RunScene, BadInputEndsWithTwoAndOneLine) {
+  const auto refused = [this](const std::string& part) {
+    EXPECT_EQ(run(), RunSceneResult::bad_input) << part;
+    EXPECT_NE(err_.str().find(part), std::string::npos) << err_.str();
+    EXPECT_EQ(err_.str().find('\n'), err_.str().size() - 1) << err_.str();
+  };
+  const RunSceneOptions good = options_;
+  options_.end = "5 m";
+  refused("--end: '5 m' is a length, but a time is expected");
+  options_ = good;
+  options_.set = {"grid.cel=1"};
+  refused("--set grid.cel=1: grid.cel: unknown key 'cel'; did you mean 'cell'?");
+  options_ = good;
+  options_.scene = "fallin_block";
+  refused("did you mean 'falling_block'?");
+  options_ = good;
+  options_.summary = (folder_ / "no/such/folder.json").string();
+  refused("cannot be written");
+  options_ = good;
+  options_.bag = (folder_ / "no/such.bag").string();
+  refused("no/such.bag");
+  options_ = good;
+  options_.end.clear();
+  options_.set = {"time={}"};
+  refused("the scene has no end");
+}
+
+TEST(ClockText, CountsHoursAndMinutes) {
+  EXPECT_EQ(clock_text(7.2), "0:07");
+  EXPECT_EQ(clock_text(754.0), "12:34");
+  EXPECT_EQ(clock_text(10921.0), "3:02:01");
+}
+
+}  // namespace
+}  // namespace mpm_ros

@@ -4,14 +4,17 @@ import os
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.colors import ListedColormap
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator
 
 from plot_render import Camera, Canvas
-from plot_series import RED, save
+from plot_series import BLUE, save
 from plot_tables import Table, TableError, file_stem
 
+# From light to dark: what is at rest stays light, so that its shape can be seen.
+SEQUENTIAL = ListedColormap(plt.get_cmap("magma_r")(np.linspace(0.1, 0.92, 256)), "light_to_dark")
 STEEL = (0.62, 0.68, 0.75)
 FIELDS = {
     "speed": "speed",
@@ -41,7 +44,9 @@ def choose(run):
     begin, end = times[0], times[-1]
     strongest = run.strongest()
     if strongest:
-        wanted = [(begin, " (start)"), (end, " (end)"), (strongest[1], " (largest force)"), (0.5 * (begin + end), "")]
+        near = "" if np.abs(times - strongest[1]).min() < 1e-9 else "near the "
+        wanted = [(begin, " (start)"), (end, " (end)"), (strongest[1], f" ({near}largest force)"),
+                  (0.5 * (begin + end), " (middle)")]
     else:
         wanted = [(begin, " (start)"), (end, " (end)"), ((2 * begin + end) / 3, ""), ((begin + 2 * end) / 3, "")]
     chosen = {}
@@ -71,7 +76,7 @@ class Coloring:
             high = max(-low, high)
             low, name = -high, "RdBu_r"
         else:
-            low, name = (0.0 if 0 <= low < 0.3 * high else low), "viridis"
+            low, name = (0.0 if 0 <= low < 0.3 * high else low), SEQUENTIAL
         if high <= low:
             high = low + max(abs(low), 1.0) * 1e-3
         self.map = plt.cm.ScalarMappable(plt.Normalize(low, high), name)
@@ -103,7 +108,7 @@ def fields_of(run, wanted):
     known = [name for name in Table(run.snapshots[0][1]).names() if name not in POSITION]
     if wanted and wanted not in known:
         raise TableError(f"no particle field '{wanted}' was recorded; there are: {', '.join(known)}")
-    return [wanted] if wanted else [name for name in ("speed", "ep", "mises", "p") if name in known][:3] or known[:1]
+    return [wanted] if wanted else [name for name in ("speed", "ep", "mises", "p") if name in known][:2] or known[:1]
 
 
 def plot_particles(run, folder, title, fields):
@@ -237,7 +242,7 @@ def draw_force(run, tool, time, panel, shown, metres_a_newton):
     begin, arrow = run.pose_at(tool, time)[0][shown], metres_a_newton * run.force_at(tool, time)[shown]
     if np.any(arrow != 0):
         panel.annotate("", begin + arrow, begin, zorder=6, annotation_clip=False,
-                       arrowprops={"arrowstyle": "-|>,head_width=0.25,head_length=0.5", "color": RED, "linewidth": 2,
+                       arrowprops={"arrowstyle": "-|>,head_width=0.25,head_length=0.5", "color": BLUE, "linewidth": 2,
                                    "shrinkA": 0, "shrinkB": 0})
 
 
@@ -302,5 +307,5 @@ def draw_scales(panel, camera, box):
             point = camera.project([[v if v is not None else tick for v in start]])[0, :2]
             panel.plot(*point, marker="_" if upright else "|", color="#555555", markersize=6, zorder=2)
             panel.annotate(f"{tick:g}", point, xytext=(-5, 0) if upright else (0, -4), fontsize=8, **style)
-        panel.annotate(f"{'xyz'[axis]} [m]", ends.mean(axis=0), xytext=(-24, 0) if upright else (0, -17), fontsize=9,
-                       **style)
+        beside = [(-12, -15), (16, -12), (-24, 0)][axis]
+        panel.annotate(f"{'xyz'[axis]} [m]", ends.mean(axis=0), xytext=beside, fontsize=9, **style)

@@ -1,5 +1,4 @@
-// bag_report on runs made up by hand: its tables and CSV files against closed forms, each of its checks against a bag
-// with one fault, and its errors.
+// bag_report on runs made up by hand: its tables and CSV files against closed forms, and its errors.
 #include "mpm_ros/report.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +15,6 @@
 
 #include "mpm_ros/bag_error.hpp"
 #include "mpm_ros/report_bag.hpp"
-#include "mpm_ros/report_check.hpp"
 #include "mpm_ros/report_csv.hpp"
 #include "mpm_ros/report_plots.hpp"
 #include "mpm_ros/report_statistics.hpp"
@@ -46,18 +44,6 @@ class ReportTest : public ::testing::Test {
     RunStatistics statistics;
     bag.read({&statistics});
     return statistics;
-  }
-
-  /// Names of the checks that fail.
-  std::vector<std::string> failures_of(const HalfSineRun& run) const {
-    RunBag bag(bag_of(run), "");
-    RunChecks checks(bag.info() ? bag.info()->sync_period : 0.0, bag.missing());
-    bag.read({&checks});
-    std::vector<std::string> names;
-    for (const CheckResult& result : checks.results()) {
-      if (!result.passed) names.push_back(result.name);
-    }
-    return names;
   }
 
   /// The error of opening a bag, which must be one line.
@@ -152,7 +138,6 @@ TEST_F(ReportTest, TablesDoNotDependOnTheStampOfTimeZero) {
   run.origin = ros::Time(1700000000, 5);
   const RunStatistics statistics = statistics_of(run);
   EXPECT_EQ(statistics.peak_time(), 51000000);
-  EXPECT_TRUE(failures_of(run).empty());
 }
 
 TEST_F(ReportTest, CommandsAreCountedAndLateOnesToo) {
@@ -225,128 +210,6 @@ TEST_F(ReportTest, SnapshotsAreSpreadAndThePeakIsAmongThem) {
   EXPECT_EQ(choose_snapshots(times, 1, std::nullopt), (std::set<std::size_t>{100}));
   EXPECT_EQ(choose_snapshots({5, 6}, 10, std::nullopt), (std::set<std::size_t>{0, 1}));
   EXPECT_TRUE(choose_snapshots({}, 10, std::nullopt).empty());
-}
-
-TEST_F(ReportTest, AGoodRunPassesAllChecks) { EXPECT_EQ(failures_of({}), std::vector<std::string>()); }
-
-using Names = std::vector<std::string>;
-
-TEST_F(ReportTest, CheckFindsMomentumFromNowhere) {
-  HalfSineRun run;
-  run.on_state = [](int i, SolverState& message) {
-    if (i == 60) message.momentum.y += 1e-8;  // of about 1.8 N s exchanged: above the limit of 1e-10
-    return true;
-  };
-  EXPECT_EQ(failures_of(run), Names{"audit"});
-}
-
-TEST_F(ReportTest, CheckBelievesAnAuditThatReportsItsOwnFailure) {
-  HalfSineRun run;
-  run.on_state = [](int i, SolverState& message) {
-    if (i == 60) message.momentum_error = 1e-9;
-    return true;
-  };
-  EXPECT_EQ(failures_of(run), Names{"audit"});
-}
-
-TEST_F(ReportTest, CheckFindsAnEnergyThatIsNotFinite) {
-  HalfSineRun run;
-  run.on_state = [](int i, SolverState& message) {
-    if (i == 3) message.energy_plastic = std::numeric_limits<double>::infinity();
-    return true;
-  };
-  EXPECT_EQ(failures_of(run), Names{"energy"});
-}
-
-TEST_F(ReportTest, CheckFindsALostState) {
-  HalfSineRun run;
-  run.on_state = [](int i, SolverState&) { return i != 40; };
-  EXPECT_EQ(failures_of(run), Names{"gaps"});
-}
-
-TEST_F(ReportTest, CheckFindsALostContactMessage) {
-  HalfSineRun run;
-  run.on_forces = [](int i, ContactForces&) { return i != 40; };
-  EXPECT_EQ(failures_of(run), Names{"gaps"});
-}
-
-TEST_F(ReportTest, AShorterLastIntervalIsNoGap) {
-  HalfSineRun run;  // states every 2 ms, the last after 1 ms: 101 is odd
-  run.on_state = [](int i, SolverState&) { return i % 2 == 0 || i == HalfSineRun::kIntervals; };
-  EXPECT_TRUE(failures_of(run).empty());
-}
-
-TEST_F(ReportTest, CheckFindsAStampThatIsNotTheSolversTime) {
-  HalfSineRun run;
-  run.on_state = [](int i, SolverState& message) {
-    if (i == 5) message.time += 1e-6;
-    return true;
-  };
-  EXPECT_EQ(failures_of(run), Names{"stamps"});
-}
-
-TEST_F(ReportTest, CheckFindsMaterialTurnedInsideOut) {
-  HalfSineRun run;
-  run.on_state = [](int i, SolverState& message) {
-    if (i == 100) message.min_j = 0.0;
-    return true;
-  };
-  EXPECT_EQ(failures_of(run), Names{"volume"});
-}
-
-TEST_F(ReportTest, CheckFindsAPoseThatIsNotFinite) {
-  HalfSineRun run;
-  run.on_bodies = [](int i, BodyStates& message) {
-    if (i == 9) message.bodies[0].pose.position.z = std::numeric_limits<double>::quiet_NaN();
-    return true;
-  };
-  EXPECT_EQ(failures_of(run), Names{"bodies"});
-}
-
-TEST_F(ReportTest, CheckFindsForcesThatDoNotAddUpToTheImpulse) {
-  HalfSineRun run;
-  run.on_forces = [](int i, ContactForces& message) {
-    if (i == 30) message.bodies[0].wrench.force.z = 1e-3;  // 1e-6 N s of about 0.5 N s
-    return true;
-  };
-  EXPECT_EQ(failures_of(run), Names{"impulse"});
-}
-
-TEST_F(ReportTest, CheckFindsABodyThatFeelsOtherThanTheMaterial) {
-  HalfSineRun run;
-  run.on_state = [](int i, SolverState& message) {
-    if (i == 30) {  // the material's balance still closes
-      message.impulses[0].impulse.z += 1e-6;
-      message.impulses[1].impulse.z -= 1e-6;
-    }
-    return true;
-  };
-  EXPECT_EQ(failures_of(run), Names{"reaction"});
-}
-
-TEST_F(ReportTest, CheckFindsAParticleValueThatIsNotFinite) {
-  HalfSineRun run;
-  run.on_particles = [](int i, sensor_msgs::PointCloud2& message) {
-    const float bad = std::numeric_limits<float>::quiet_NaN();
-    if (i == 4) std::memcpy(message.data.data() + 20 + 16, &bad, 4);  // vx of the second particle
-    return true;
-  };
-  EXPECT_EQ(failures_of(run), Names{"particles"});
-}
-
-TEST_F(ReportTest, CheckMissesWhatIsNotThere) {
-  HalfSineRun without_info;
-  without_info.with_info = false;
-  EXPECT_EQ(failures_of(without_info), Names{"complete"});
-  HalfSineRun without_pose;
-  without_pose.on_bodies = [](int, BodyStates& message) {
-    message.bodies.clear();
-    return true;
-  };
-  EXPECT_EQ(failures_of(without_pose), Names{"complete"});
-  HalfSineRun without_particles;
-  without_particles.on_particles = [](int, sensor_msgs::PointCloud2&) { return false; };
-  EXPECT_EQ(failures_of(without_particles), Names{"complete"});
 }
 
 TEST_F(ReportTest, FailedChecksAreTold) {

@@ -1,0 +1,164 @@
+// Each check of bag_report against a bag with one fault.
+#include "mpm_ros/report_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "mpm_ros/report_bag.hpp"
+#include "mpm_ros/report_plots.hpp"
+#include "report_run.hpp"
+
+namespace mpm_ros {
+namespace {
+
+using test::HalfSineRun;
+using Names = std::vector<std::string>;
+
+class ReportCheckTest : public ::testing::Test {
+ protected:
+  /// Names of the checks that fail.
+  std::vector<std::string> failures_of(const HalfSineRun& run) const {
+    const std::string path = folder_.path() + "/run.bag";
+    run.write(path);
+    RunBag bag(path, "");
+    RunChecks checks(bag.info() ? bag.info()->sync_period : 0.0, bag.missing());
+    bag.read({&checks});
+    std::vector<std::string> names;
+    for (const CheckResult& result : checks.results()) {
+      if (!result.passed) names.push_back(result.name);
+    }
+    return names;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReportCheckTest, AGoodRunPassesAllChecks) { EXPECT_EQ(failures_of({}), std::vector<std::string>()); }
+
+TEST_F(ReportCheckTest, CheckFindsMomentumFromNowhere) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 60) message.momentum.y += 1e-8;  // of about 1.8 N s exchanged: above the limit of 1e-10
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"audit"});
+}
+
+TEST_F(ReportCheckTest, CheckBelievesAnAuditThatReportsItsOwnFailure) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 60) message.momentum_error = 1e-9;
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"audit"});
+}
+
+TEST_F(ReportCheckTest, CheckFindsAnEnergyThatIsNotFinite) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 3) message.energy_plastic = std::numeric_limits<double>::infinity();
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"energy"});
+}
+
+TEST_F(ReportCheckTest, CheckFindsALostState) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState&) { return i != 40; };
+  EXPECT_EQ(failures_of(run), Names{"gaps"});
+}
+
+TEST_F(ReportCheckTest, CheckFindsALostContactMessage) {
+  HalfSineRun run;
+  run.on_forces = [](int i, ContactForces&) { return i != 40; };
+  EXPECT_EQ(failures_of(run), Names{"gaps"});
+}
+
+TEST_F(ReportCheckTest, AShorterLastIntervalIsNoGap) {
+  HalfSineRun run;  // states every 2 ms, the last after 1 ms: 101 is odd
+  run.on_state = [](int i, SolverState&) { return i % 2 == 0 || i == HalfSineRun::kIntervals; };
+  EXPECT_TRUE(failures_of(run).empty());
+}
+
+TEST_F(ReportCheckTest, CheckFindsAStampThatIsNotTheSolversTime) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 5) message.time += 1e-6;
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"stamps"});
+}
+
+TEST_F(ReportCheckTest, CheckFindsMaterialTurnedInsideOut) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 100) message.min_j = 0.0;
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"volume"});
+}
+
+TEST_F(ReportCheckTest, CheckFindsAPoseThatIsNotFinite) {
+  HalfSineRun run;
+  run.on_bodies = [](int i, BodyStates& message) {
+    if (i == 9) message.bodies[0].pose.position.z = std::numeric_limits<double>::quiet_NaN();
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"bodies"});
+}
+
+TEST_F(ReportCheckTest, CheckFindsForcesThatDoNotAddUpToTheImpulse) {
+  HalfSineRun run;
+  run.on_forces = [](int i, ContactForces& message) {
+    if (i == 30) message.bodies[0].wrench.force.z = 1e-3;  // 1e-6 N s of about 0.5 N s
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"impulse"});
+}
+
+TEST_F(ReportCheckTest, CheckFindsABodyThatFeelsOtherThanTheMaterial) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 30) {  // the material's balance still closes
+      message.impulses[0].impulse.z += 1e-6;
+      message.impulses[1].impulse.z -= 1e-6;
+    }
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"reaction"});
+}
+
+TEST_F(ReportCheckTest, CheckFindsAParticleValueThatIsNotFinite) {
+  HalfSineRun run;
+  run.on_particles = [](int i, sensor_msgs::PointCloud2& message) {
+    const float bad = std::numeric_limits<float>::quiet_NaN();
+    if (i == 4) std::memcpy(message.data.data() + 20 + 16, &bad, 4);  // vx of the second particle
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"particles"});
+}
+
+TEST_F(ReportCheckTest, CheckMissesWhatIsNotThere) {
+  HalfSineRun without_info;
+  without_info.with_info = false;
+  EXPECT_EQ(failures_of(without_info), Names{"complete"});
+  HalfSineRun without_pose;
+  without_pose.on_bodies = [](int, BodyStates& message) {
+    message.bodies.clear();
+    return true;
+  };
+  EXPECT_EQ(failures_of(without_pose), Names{"complete"});
+  HalfSineRun without_particles;
+  without_particles.on_particles = [](int, sensor_msgs::PointCloud2&) { return false; };
+  EXPECT_EQ(failures_of(without_particles), Names{"complete"});
+}
+
+TEST_F(ReportCheckTest, StampsMayCountFromAnyTime) {
+  HalfSineRun run;
+  run.origin = ros::Time(1700000000, 5);
+  EXPECT_EQ(failures_of(run), Names());
+}
+
+}  // namespace
+}  // namespace mpm_ros

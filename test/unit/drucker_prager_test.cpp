@@ -109,6 +109,17 @@ TEST(DruckerPrager, ClosesItsOpeningBeforeItCarriesPressure) {
   EXPECT_NEAR(element.mean(), -3e-4 * d.elasticity.bulk(), 1e-9);
 }
 
+// It has room to dilate into: shear at constant volume builds no pressure while it is open, whatever the dilation
+// angle.
+TEST(DruckerPrager, OpenedSoilDilatesWithoutPressure) {
+  DruckerPragerDefinition d{{1e6, 0.3}, 35.0 * kDegree, 10.0 * kDegree, 0.0};
+  Element element(d);
+  for (int i = 0; i < 100; ++i) element.strain(1e-4, 1e-4, 1e-4);
+  for (int i = 0; i < 1000; ++i) element.strain(0.0, 0.0, 0.0, 1e-4);
+  EXPECT_EQ(element.mean(), 0.0);
+  EXPECT_EQ(element.root_j2(), 0.0);
+}
+
 TEST(DruckerPrager, CutsTensionWhereAsked) {
   DruckerPragerDefinition d{{1e6, 0.3}, 30.0 * kDegree, 0.0, 100.0, 30.0};
   Element element(d);

@@ -13,11 +13,12 @@ using mpm::Vec3;
 struct Scene {
   Scene(int dim, double jitter, const mpm::LawDefinition& law, int threads = 1)
       : grid(mpm::GridLayout(dim, Vec3::Constant(cell), Vec3::Zero(), Vec3::Constant(2.0))) {
-    sets.emplace_back("block", mpm::make_law({"m", 900.0, law}));
+    laws.push_back(mpm::make_law({"m", 900.0, law}));
+    sets.emplace_back();
     mpm::ParticleSet& set = sets.back();
-    set.volume = std::pow(0.5 * cell, dim);
-    set.mass = 900.0 * set.volume;
+    set.mass = 900.0 * std::pow(0.5 * cell, dim);
     set.half = {0.25, 0.25, 0.25};
+    set.highest = {20.0, 20.0, 20.0};
     std::mt19937 engine(11);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     const int edge = 20;  // particles along an edge: 10 cells, 3 blocks
@@ -27,7 +28,7 @@ struct Scene {
     set.v.assign(dim, std::vector<double>(count));
     set.f.assign(dim == 3 ? 9 : 4, std::vector<double>(count, 0.0));
     set.tau.assign(dim == 3 ? 6 : 4, std::vector<double>(count, 0.0));
-    set.history.assign(mpm::history_size(set.law), std::vector<double>(count, 0.0));
+    set.history.assign(mpm::history_size(laws[0]), std::vector<double>(count, 0.0));
     set.next_x.assign(dim, std::vector<double>(count));
     for (int p = 0; p < count; ++p) {
       set.id.push_back(p);
@@ -39,10 +40,10 @@ struct Scene {
         rest /= edge;
       }
     }
-    EXPECT_FALSE(mpm::Sorter().sort(sets, grid));
+    EXPECT_FALSE(mpm::Sorter(threads).sort(sets, grid));
     mpm::ContinuumSettings settings;
     settings.threads = threads;
-    mechanics = mpm::make_mechanics(dim, sets, settings);
+    mechanics = mpm::make_mechanics(dim, sets, laws, settings);
   }
 
   template <class Visit>
@@ -55,6 +56,7 @@ struct Scene {
   static constexpr double cell = 0.1;
   mpm::Grid grid;
   std::vector<mpm::ParticleSet> sets;
+  std::vector<mpm::Law> laws;
   std::unique_ptr<mpm::Mechanics> mechanics;
 };
 
@@ -63,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Dimensions, MechanicsTest, testing::Values(2, 3));
 
 TEST_P(MechanicsTest, ScatterKeepsMassAndMomentum) {
   Scene scene(GetParam(), 0.3, mpm::NeoHookeanDefinition{{1e6, 0.3}});
-  mpm::StepContext context{scene.grid, 0, 0.0, 1e-4};
+  mpm::StepContext context{scene.grid, 1e-4};
   scene.mechanics->scatter_momentum(context);
   double mass = 0.0, scale = 0.0;
   Vec3 momentum = Vec3::Zero(), expected = Vec3::Zero();
@@ -86,7 +88,7 @@ TEST_P(MechanicsTest, ScatterKeepsMassAndMomentum) {
 
 TEST_P(MechanicsTest, InternalForcesSumToZero) {
   Scene scene(GetParam(), 0.3, mpm::NeoHookeanDefinition{{1e6, 0.3}});
-  mpm::StepContext context{scene.grid, 0, 0.0, 1e-3};
+  mpm::StepContext context{scene.grid, 1e-3};
   scene.mechanics->scatter_momentum(context);
   scene.mechanics->strain_and_force(context, context.dt);
   Vec3 sum = Vec3::Zero();
@@ -112,7 +114,7 @@ TEST_P(MechanicsTest, UniformStressGivesNoForceInside) {
     for (int k = 0; k < dim; ++k) set.f[k * (dim + 1)][p] = 0.9 + 0.1 * k;
     set.f[1][p] = 0.05;
   }
-  mpm::StepContext context{scene.grid, 0, 0.0, 1e-3};
+  mpm::StepContext context{scene.grid, 1e-3};
   scene.mechanics->scatter_momentum(context);
   scene.mechanics->strain_and_force(context, context.dt);
   double inside = 0.0, surface = 0.0;
@@ -133,7 +135,7 @@ TEST_P(MechanicsTest, ForcesDoNotDependOnThreads) {
   std::vector<double> force[2];
   for (const int threads : {1, 2}) {
     Scene scene(GetParam(), 0.3, mpm::DruckerPragerDefinition{{1e6, 0.3}, 0.5, 0.1, 100.0}, threads);
-    mpm::StepContext context{scene.grid, 0, 0.0, 1e-3};
+    mpm::StepContext context{scene.grid, 1e-3};
     scene.mechanics->scatter_momentum(context);
     scene.mechanics->strain_and_force(context, context.dt);
     scene.each_node([&](mpm::NodeRef n) {
@@ -149,7 +151,7 @@ TEST_P(MechanicsTest, MotionKeepsMomentumForEveryFlipFraction) {
     Scene scene(GetParam(), 0.3, mpm::NeoHookeanDefinition{{1e6, 0.3}});
     mpm::ContinuumSettings settings;
     settings.flip = flip;
-    scene.mechanics = mpm::make_mechanics(GetParam(), scene.sets, settings);
+    scene.mechanics = mpm::make_mechanics(GetParam(), scene.sets, scene.laws, settings);
     mpm::ParticleSet& set = scene.sets[0];
     auto momentum = [&] {
       Vec3 sum = Vec3::Zero();
@@ -159,7 +161,7 @@ TEST_P(MechanicsTest, MotionKeepsMomentumForEveryFlipFraction) {
       return sum;
     };
     const Vec3 before = momentum();
-    mpm::StepContext context{scene.grid, 0, 0.0, 1e-3};
+    mpm::StepContext context{scene.grid, 1e-3};
     scene.mechanics->scatter_momentum(context);
     scene.mechanics->strain_and_force(context, context.dt);
     scene.mechanics->update_momentum(context);

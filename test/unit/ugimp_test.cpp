@@ -73,7 +73,7 @@ TEST(Ugimp, ReproducesConstantsAndLinearFields) {
 // The stencil of a tile puts the weights on the right nodes: sum of x_i S is x_p, sum of x_i G is 1.
 TEST(Stencil, FindsItsNodesInTheTile) {
   const GridLayout layout(3, {0.1, 0.2, 0.25}, {-1.0, 0.0, 2.0}, {3.0, 4.0, 6.0});
-  mpm::ParticleSet set("p", mpm::make_law({"m", 1.0, mpm::NeoHookeanDefinition{{1.0, 0.3}}}));
+  mpm::ParticleSet set;
   set.half = {0.25, 0.25, 0.25};
   set.x = {{0.431}, {1.97}, {3.08}};
   std::array<int, 3> corner;

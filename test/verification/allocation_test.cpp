@@ -61,6 +61,39 @@ long allocations_of_a_period(double step) {
   return during;
 }
 
+// A block that crosses the grid is sorted again and again; the tool meets new nodes all the while.
+long allocations_of_a_crossing(int periods) {
+  mpm::SimulationDefinition d;
+  d.grid = {Vec3::Constant(0.1), Vec3::Zero(), Vec3::Constant(9.0)};
+  d.time.sync = 20'000'000;
+  d.materials = {{"m", 1000.0, mpm::NeoHookeanDefinition{{1e5, 0.3}}}};
+  mpm::DeformableBody body;
+  body.name = "block";
+  body.material = "m";
+  body.particle_volume = 0.1 * 0.1 * 0.1 / 8.0;
+  for (int i = 0; i < 512; ++i) {
+    body.positions.emplace_back(0.1 + 0.05 * (i / 64 + 0.5), 2.0 + 0.05 * (i / 8 % 8 + 0.5),
+                                2.0 + 0.05 * (i % 8 + 0.5));
+  }
+  body.velocities.assign(512, Vec3(10.0, 0.0, 0.0));
+  d.bodies = {body};
+  mpm::RigidBodyDefinition tool;
+  tool.name = "tool";
+  tool.surface = mpm::make_box({20.0, 2.0, 2.0});  // the block slides along its top
+  tool.pose.position = {0.0, 2.0, 1.0};
+  d.rigid_bodies = {tool};
+  mpm::Simulation simulation(d, {1});
+  for (int i = 0; i < 10; ++i) simulation.advance();
+  const long before = allocations;
+  for (int i = 0; i < periods; ++i) simulation.advance();
+  return allocations - before;
+}
+
+TEST(Allocation, SortingAndContactDoNotAllocate) {
+  // What a period allocates is the same for ten and for twenty periods, two metres and four of grid.
+  EXPECT_EQ(2 * allocations_of_a_crossing(10), allocations_of_a_crossing(20));
+}
+
 TEST(Allocation, StepsDoNotAllocate) { EXPECT_EQ(allocations_of_a_period(1e-3), allocations_of_a_period(2.5e-4)); }
 
 }  // namespace

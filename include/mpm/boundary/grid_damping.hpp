@@ -1,6 +1,6 @@
-// Grid damping: a force -alpha p on every node, so that momentum decays as exp(-alpha t); rigid motion is damped as
-// well. Weak: it takes momentum from the material (the audit names it "damping"); for settling, not for dynamics.
-// Source: Nairn, GIMP notes (2.35)-(2.42), the placement in the force; method reference 6.3.
+// Grid damping: a force -alpha p on every node, so that momentum decays by (1 - alpha dt) a step; rigid motion is
+// damped as well. Weak: it takes momentum from the material (the audit names it "damping"); for settling, not for
+// dynamics. Source: Nairn, GIMP notes (2.35)-(2.42), the placement in the force; method reference 6.3.
 #pragma once
 
 #include "mpm/step/stage.hpp"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/coulomb.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
@@ -32,13 +33,20 @@ class Wall final : public Stage {
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
 
  private:
-  Vec3 change(const Vec3& velocity, const Vec3& normal) const;
+  struct Node {
+    NodeRef ref;
+    std::uint64_t id;
+    Hold hold;  ///< frictional only
+  };
+  /// Frictional: how the wall holds the node; else what it always does.
+  ContactChange change(const Vec3& velocity, const Vec3& normal) const;
   Vec3 normal(const GridLayout& layout) const;
 
   int face_;
   WallDefinition definition_;
   ImpulseAccount account_;
-  std::vector<NodeRef> nodes_;
+  std::vector<Node> nodes_;
+  HeldNodes held_;
   std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
 };
 

@@ -12,6 +12,7 @@
 
 #include "mpm/contact/contact_report.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/coulomb.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
@@ -37,15 +38,17 @@ class RigidContact final : public Stage {
     Vec3 normal;    ///< out of the body
     Vec3 velocity;  ///< of the body's surface there [m/s]
     Vec3 arm;       ///< from the body's origin [m]
+    Hold hold;
   };
   template <class Visit>
-  void each_node(Visit&& visit) const;
+  void each_node(Visit&& visit);
 
   const RigidBody& body_;
   int threads_;
   std::vector<int> near_;                 ///< blocks whose nodes may lie in the body
   std::vector<std::vector<Node>> nodes_;  ///< of each block in near_
-  ImpulseAccount account_;                ///< given to the material
+  HeldNodes held_;
+  ImpulseAccount account_;  ///< given to the material
   double work_ = 0.0;
 
   Vec3 impulse_ = Vec3::Zero();          ///< on the body since the last report [N s]

@@ -29,6 +29,7 @@ class BlockTable {
   /// Neighbours of an owner, itself in the middle: 3^dim indices, the last axis fastest.
   const int* neighbours(int owner) const { return &neighbours_[static_cast<std::size_t>(owner) * span_]; }
   const std::array<int, 3>& block(int index) const { return coordinates_[index]; }
+  std::uint64_t key(int index) const { return keys_[index]; }
   /// Index of the block with this key, or -1.
   int find(std::uint64_t key) const;
   int colours() const { return 1 << layout_->dim(); }

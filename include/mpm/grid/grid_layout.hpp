@@ -35,7 +35,6 @@ class GridLayout {
   double inverse_cell(int k) const { return inverse_cell_[k]; }
   double origin(int k) const { return origin_[k]; }
   double smallest_cell() const;
-  double cell_volume() const;  ///< [m^3]; planar: area [m^2]
   /// Last node along axis k that lies in the domain; the domain is a whole number of cells.
   int last_node(int k) const { return last_node_[k]; }
 

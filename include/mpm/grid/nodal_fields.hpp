@@ -43,12 +43,17 @@ struct Grid {
     for (NodalField* field : {&mass, &momentum, &velocity, &force}) field->resize(blocks.size());
   }
 
+  /// The node takes part in the step. What is lighter than least_mass is left out: a particle that reaches a node with
+  /// 1e-30 of its mass reaches it with 1e-15 of its force, the order of the last bit.
+  bool carries(int block, int node) const { return mass.at(block, 0, node) > least_mass; }
+
   GridLayout layout;
   BlockTable blocks;
-  NodalField mass;      ///< m_i [kg]
-  NodalField momentum;  ///< p_i as gathered, without conditions; kept through the step [N s]
-  NodalField velocity;  ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]
-  NodalField force;     ///< f_i while forces are gathered [N], then the acceleration a_i [m/s^2]
+  double least_mass = 0.0;  ///< [kg]
+  NodalField mass;          ///< m_i [kg]
+  NodalField momentum;      ///< p_i as gathered, without conditions; kept through the step [N s]
+  NodalField velocity;      ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]
+  NodalField force;         ///< f_i while forces are gathered [N], then the acceleration a_i [m/s^2]
 };
 
 }  // namespace mpm

@@ -38,10 +38,10 @@ enum class ConeMatch { compression, extension, plane_strain };
 /// Drucker-Prager soil; angles in radians.
 struct DruckerPragerDefinition {
   Elasticity elasticity;
-  double friction_angle = 0.0;     ///< [rad], in [0, pi/2)
-  double dilation_angle = 0.0;     ///< [rad], in [0, friction_angle]
-  double cohesion = 0.0;           ///< [Pa], >= 0
-  double tension_cutoff = -1.0;    ///< largest mean tension [Pa]; negative: the cone's apex
+  double friction_angle = 0.0;   ///< [rad], in [0, pi/2)
+  double dilation_angle = 0.0;   ///< [rad], in [0, friction_angle]
+  double cohesion = 0.0;         ///< [Pa], >= 0
+  double tension_cutoff = -1.0;  ///< largest mean tension [Pa]; negative: the cone's apex
   ConeMatch match = ConeMatch::compression;
 };
 

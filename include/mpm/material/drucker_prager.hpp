@@ -39,13 +39,16 @@ class DruckerPrager {
     const T root_j2 = std::sqrt(T(0.5) * squared_norm(deviator));
     const T yield = root_j2 + T(eta_) * mean - T(strength_);
     T multiplier = T(0);  // increment of the equivalent plastic shear strain, sqrt(2 de:de)
-    T opened = T(0);
+    T dilation = T(0), opened = T(0);
     if (yield > T(0)) {
-      multiplier = yield / (shear + bulk * T(eta_) * T(eta_bar_));
+      // Opened soil has room to dilate into: no pressure comes of it.
+      const T eta_bar = opening > T(0) ? T(0) : T(eta_bar_);
+      multiplier = yield / (shear + bulk * T(eta_) * eta_bar);
       const T left = root_j2 - shear * multiplier;
       if (left >= T(0)) {
         deviator = scale_shift(deviator, left / root_j2, T(0));
-        mean -= bulk * T(eta_bar_) * multiplier;
+        dilation = eta_bar * multiplier;
+        mean -= bulk * dilation;
       } else {
         multiplier = root_j2 / shear;
         deviator = scale_shift(deviator, T(0), T(0));
@@ -56,20 +59,12 @@ class DruckerPrager {
     if (mean > T(cutoff_)) {
       opened += (mean - T(cutoff_)) / bulk;
       mean = T(cutoff_);
-      // On the cut-off plane the cone leaves less shear strength than the trial had: return the deviator too.
-      const T limit = std::max(T(strength_) - T(eta_) * mean, T(0));
-      const T remaining = std::sqrt(T(0.5) * squared_norm(deviator));
-      if (remaining > limit) {
-        deviator = scale_shift(deviator, limit / remaining, T(0));
-        multiplier += (remaining - limit) / shear;
-      }
     }
     if (multiplier > T(0) || opened > T(0)) {
       opening += opened;
       history[kPlasticStrain][p] += multiplier;
       const T shear_stress = std::sqrt(T(0.5) * squared_norm(deviator));
-      const T dilation = multiplier > T(0) && opened == T(0) ? T(eta_bar_) * multiplier : opened;
-      history[kPlasticWork][p] += (shear_stress * multiplier + mean * dilation) * j / T(density_);
+      history[kPlasticWork][p] += (shear_stress * multiplier + mean * (dilation + opened)) * j / T(density_);
     }
     tau = scale_shift(scale_shift(deviator, T(1), mean), j / T(density_), T(0));
   }
@@ -79,7 +74,8 @@ class DruckerPrager {
     return LinearElastic::stress_energy(scale_shift(tau, density_ / j, 0.0), bulk_, shear_) * j / density_;
   }
 
-  double wave_speed(double j) const { return std::sqrt((bulk_ + 4.0 / 3.0 * shear_) * j / density_); }
+  /// Loose soil (j > 1) carries no more than dense soil does.
+  double wave_speed(double j) const { return std::sqrt((bulk_ + 4.0 / 3.0 * shear_) * std::min(j, 1.0) / density_); }
   double density() const { return density_; }
   double eta() const { return eta_; }
   double eta_bar() const { return eta_bar_; }

@@ -1,5 +1,6 @@
 // Compressible neo-Hookean solid. W = K/2 [(J^2 - 1)/2 - ln J] + G/2 (I1 J^(-2/3) - 3), so
-// sigma = K/2 (J - 1/J) I + G J^(-5/3) dev B. Weak in extreme stretch: K, G alone do not lock.
+// sigma = K/2 (J - 1/J) I + G J^(-5/3) dev B. Weak in extreme stretch: K, G alone do not lock, and
+// wave_speed() knows the volume ratio only, not that a stretch of lambda stiffens its own direction by lambda^2.
 // Source: Nairn & Guilkey (2015) eq. (64); method reference 10.2.
 #pragma once
 

@@ -21,6 +21,7 @@ template <class Geometry, template <class> class Shape>
 struct BlockKernels {
   static constexpr int kDim = Geometry::kDim;
   static constexpr int kChunk = 64;
+  static constexpr double kSlack = 1e-6;  ///< [cells]
   using Weights = Stencil<kDim, Shape>;
   using MassMomentumTile = Tile<kDim, kDim + 1>;
   using VectorTile = Tile<kDim, kDim>;
@@ -36,6 +37,7 @@ struct BlockKernels {
     std::array<int, 3> corner;  ///< node numbers of the tile's lower corner
   };
 
+  /// Momentum [N s] and, last, mass [kg].
   static void scatter_momentum(const Block& block, const ParticleSet& set, int begin, int end, MassMomentumTile& tile) {
     for (int p = begin; p < end; ++p) {
       const Weights w(block.layout, set, block.corner, p);
@@ -46,6 +48,7 @@ struct BlockKernels {
     }
   }
 
+  /// Momentum alone [N s].
   static void scatter_velocity(const Block& block, const ParticleSet& set, int begin, int end, VectorTile& tile) {
     for (int p = begin; p < end; ++p) {
       const Weights w(block.layout, set, block.corner, p);
@@ -55,6 +58,7 @@ struct BlockKernels {
     }
   }
 
+  /// grad v [1/s] of a chunk: sum of v_i (x) G_ip; GIMP notes (2.2).
   static void gather_gradient(const Block& block, const ParticleSet& set, int begin, int count, const VectorTile& tile,
                               Gradients& gradients) {
     for (int q = 0; q < count; ++q) {
@@ -108,6 +112,7 @@ struct BlockKernels {
     return bad;
   }
 
+  /// Internal force [N] from tau [J/kg].
   static void scatter_force(const Block& block, const ParticleSet& set, int begin, int end, VectorTile& tile) {
     const double* tau[Geometry::kSymmetric];
     for (int c = 0; c < Geometry::kSymmetric; ++c) tau[c] = set.tau[c].data();
@@ -136,7 +141,7 @@ struct BlockKernels {
   }
 
   /// Velocity of the particles in place, position into `x_new`. `flip`: FLIP fraction.
-  /// Returns false when a particle has left the reach of the block (or is not finite).
+  /// Returns false when a particle has left the reach of the block or the place where it may be, or is not finite.
   static bool gather_motion(const Block& block, ParticleSet& set, int begin, int end, const MotionTile& tile, double dt,
                             double flip, std::vector<std::vector<double>>& x_new) {
     bool within = true;
@@ -156,9 +161,10 @@ struct BlockKernels {
         const double x = set.x[c][p] + dt * (velocity - 0.5 * slip - 0.5 * dt * acceleration);
         set.v[c][p] += acceleration * dt - slip;
         x_new[c][p] = x;
-        // In cells from the tile's corner: the nearest node must keep a neighbour on each side.
-        const double cells = block.layout.in_cells(c, x) - block.corner[c];
-        within = within && cells >= 0.5 && cells < kTileEdge - 1.5;
+        // The nearest node must keep a neighbour on each side in the tile; the slack covers rounding to that node.
+        const double cells = block.layout.in_cells(c, x), in_tile = cells - block.corner[c];
+        within = within && in_tile >= 0.5 + kSlack && in_tile <= kTileEdge - 1.5 - kSlack && cells >= set.lowest[c] &&
+                 cells <= set.highest[c];
       }
     }
     return within;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "mpm/material/law.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/step/mechanics.hpp"
 
@@ -12,14 +13,16 @@ namespace mpm {
 
 /// What the kernels are told once.
 struct ContinuumSettings {
-  double flip = 1.0;       ///< FLIP fraction
-  int gradient_terms = 2;  ///< of exp(grad v dt)
-  Vec3 gravity = Vec3::Zero();
+  double flip = 1.0;            ///< FLIP fraction
+  int gradient_terms = 2;       ///< of exp(grad v dt)
+  Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
   int threads = 1;
 };
 
-/// Kernels of a planar (`dim` 2, plane strain) or solid (`dim` 3) scene with uGIMP. `sets` outlives the result.
-std::unique_ptr<Mechanics> make_mechanics(int dim, std::vector<ParticleSet>& sets, const ContinuumSettings& settings);
+/// Kernels of a planar (`dim` 2, plane strain) or solid (`dim` 3) scene with uGIMP. `laws`: of each
+/// set; both outlive the result.
+std::unique_ptr<Mechanics> make_mechanics(int dim, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                                          const ContinuumSettings& settings);
 
 /// Instruction set that the kernels were compiled for.
 const char* kernel_isa();

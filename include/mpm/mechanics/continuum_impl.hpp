@@ -15,12 +15,8 @@ class Continuum final : public Mechanics {
   static constexpr int kDim = Geometry::kDim;
 
  public:
-  Continuum(std::vector<ParticleSet>& sets, const ContinuumSettings& settings) : sets_(sets), settings_(settings) {
-    double lightest = sets.empty() ? 0.0 : sets.front().mass;
-    for (const ParticleSet& set : sets) lightest = std::min(lightest, set.mass);
-    // A node that holds less has forces below the last bit of any other's: nothing is lost by leaving it out.
-    least_mass_ = 1e-30 * lightest;
-  }
+  Continuum(std::vector<ParticleSet>& sets, const std::vector<Law>& laws, const ContinuumSettings& settings)
+      : sets_(sets), laws_(laws), settings_(settings) {}
 
   void scatter_momentum(StepContext& context) override {
     failed_.reset();
@@ -113,8 +109,10 @@ class Continuum final : public Mechanics {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(settings_.threads)
       for (int i = 0; i < count; ++i) {
         const int owner = owners[i];
-        typename Kernels::Block block{grid.layout, blocks.block(blocks.owner_block(owner))};
-        for (int k = 0; k < kDim; ++k) block.corner[k] = block.corner[k] * kBlockEdge - kTileMargin;
+        typename Kernels::Block block{grid.layout, {}};
+        for (int k = 0; k < kDim; ++k) {
+          block.corner[k] = blocks.block(blocks.owner_block(owner))[k] * kBlockEdge - kTileMargin;
+        }
         pass(block, owner, blocks.neighbours(owner));
       }
     }
@@ -134,8 +132,7 @@ class Continuum final : public Mechanics {
     const int nodes = grid.layout.nodes_per_block();
 #pragma omp parallel for schedule(static) num_threads(settings_.threads)
     for (int b = 0; b < grid.blocks.size(); ++b) {
-      const double* mass = grid.mass.block(b);
-      for (int n = 0; n < nodes; ++n) pass(b, n, mass[n] > least_mass_ ? 1.0 / mass[n] : 0.0);
+      for (int n = 0; n < nodes; ++n) pass(b, n, grid.carries(b, n) ? 1.0 / grid.mass.at(b, 0, n) : 0.0);
     }
   }
 
@@ -172,7 +169,7 @@ class Continuum final : public Mechanics {
             if (bad < count) note_failure(set, first + bad);
           }
         },
-        set.law);
+        laws_[&set - sets_.data()]);
   }
 
   void note_reach(bool within) {
@@ -189,8 +186,8 @@ class Continuum final : public Mechanics {
   }
 
   std::vector<ParticleSet>& sets_;
+  const std::vector<Law>& laws_;
   ContinuumSettings settings_;
-  double least_mass_ = 0.0;
   std::optional<ParticleRef> failed_;
   std::atomic<bool> needs_sort_{false};
 };

@@ -5,7 +5,9 @@
 
 namespace mpm {
 
-std::unique_ptr<Mechanics> make_plane_strain_ugimp(std::vector<ParticleSet>& sets, const ContinuumSettings& settings);
-std::unique_ptr<Mechanics> make_solid_ugimp(std::vector<ParticleSet>& sets, const ContinuumSettings& settings);
+std::unique_ptr<Mechanics> make_plane_strain_ugimp(std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                                                   const ContinuumSettings& settings);
+std::unique_ptr<Mechanics> make_solid_ugimp(std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                                            const ContinuumSettings& settings);
 
 }  // namespace mpm

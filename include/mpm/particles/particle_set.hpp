@@ -1,7 +1,7 @@
 // The particles of one deformable body: structure of arrays, one material, equal mass, kept sorted by grid block.
 //
 // What a body's scene does not need is not stored: history exists as its law asks for it, the second position only when
-// the update scheme gathers twice a step.
+// the update scheme updates strain after the motion.
 #pragma once
 
 #include <array>
@@ -9,19 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "mpm/material/law.hpp"
-
 namespace mpm {
 
 struct ParticleSet {
-  ParticleSet(std::string body_name, const Law& body_law) : name(std::move(body_name)), law(body_law) {}
-
-  std::string name;
-  Law law;
-  double mass = 0.0;             ///< of a particle [kg]
-  double volume = 0.0;           ///< initial, of a particle [m^3]
-  std::array<double, 3> half{};  ///< half of a particle's box along each grid axis [cells]
-  std::uint32_t first_id = 0;    ///< ids run from here
+  std::string name;                           ///< of the body
+  double mass = 0.0;                          ///< of a particle [kg]
+  std::array<double, 3> half{};               ///< half of a particle's box along each grid axis [cells]
+  std::array<double, 3> lowest{}, highest{};  ///< where a centre may be along each grid axis [cells]
+  std::uint32_t first_id = 0;                 ///< ids run from here
 
   std::vector<std::uint32_t> id;         ///< within the whole run
   std::vector<std::vector<double>> x;    ///< position, along grid axes [m]
@@ -41,9 +36,6 @@ struct ParticleSet {
     for (auto* group : {&x, &v, &f, &tau, &history}) {
       for (auto& scalar : *group) visit(scalar);
     }
-  }
-  double density() const {
-    return std::visit([](const auto& l) { return l.density(); }, law);
   }
 };
 

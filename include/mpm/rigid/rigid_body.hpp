@@ -13,10 +13,10 @@
 
 namespace mpm {
 
-/// Coulomb friction between a body (or wall) and the material; `stick` glues in both directions while in contact.
+/// Coulomb friction between a body (or wall) and the material. Both let go when the material moves away.
 struct FrictionLaw {
   double coefficient = 0.0;  ///< >= 0
-  bool stick = false;        ///< no sliding at all
+  bool stick = false;        ///< no sliding while pressed together
 };
 
 /// What a scene says of a rigid body.
@@ -50,6 +50,9 @@ class RigidBody {
   /// @throws RigidError when not finite, the quaternion's length is not 1 within 1e-3, or arrival is not after now.
   void command_pose(const Pose& target, std::int64_t now, std::int64_t arrival);
 
+  /// The twist that the step which begins at `time` [s] would have, as far as it is known now.
+  /// @throws FunctionError when a function is not finite there.
+  Twist twist_at(double time) const;
   /// Sets the twist for the step that begins at `time` [s] and lasts `dt` [s]: functions are read at its middle.
   /// @throws FunctionError when a function is not finite there.
   void begin_step(double time, double dt);

@@ -32,10 +32,10 @@ struct TimeDefinition {
 
 struct MethodDefinition {
   UpdateScheme update = UpdateScheme::usavg;
-  double flip = 1.0;               ///< fraction of FLIP, 0 is PIC; per step
-  double damping = 0.0;            ///< grid damping [1/s]
-  int gradient_terms = 2;          ///< terms of exp(grad v dt)
-  int particles_per_direction = 2; ///< particles along a cell's edge
+  double flip = 1.0;                ///< fraction of FLIP, 0 is PIC; per step
+  double damping = 0.0;             ///< grid damping [1/s]
+  int gradient_terms = 2;           ///< terms of exp(grad v dt)
+  int particles_per_direction = 2;  ///< particles along a cell's edge
 };
 
 /// Order of the faces in arrays: x_min, x_max, y_min, y_max, z_min, z_max.

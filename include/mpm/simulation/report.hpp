@@ -21,45 +21,45 @@ struct BodyState {
 /// Energies [J].
 struct EnergyReport {
   double kinetic = 0.0;
-  double elastic = 0.0;          ///< stored in the material
-  double plastic = 0.0;          ///< dissipated by plastic flow since the start
-  double potential = 0.0;        ///< -sum m g.x
-  double contact_work = 0.0;     ///< done by rigid bodies on the material since the start
+  double elastic = 0.0;       ///< stored in the material
+  double plastic = 0.0;       ///< dissipated by plastic flow since the start
+  double potential = 0.0;     ///< -sum m g.x
+  double contact_work = 0.0;  ///< done by rigid bodies on the material since the start
   double total() const { return kinetic + elastic + potential; }
 };
 
 /// One external impulse on the material since the start [N s].
 struct NamedImpulse {
-  std::string name;  ///< "gravity", "contact/blade", "wall/z_min", "damping", "mass cut-off"
+  std::string name;  ///< "gravity", "contact/blade", "wall/z_min", "damping"
   Vec3 impulse = Vec3::Zero();
 };
 
 /// Momentum balance: change = sum of the impulses + residual. Each term is found independently of the others.
 struct AuditReport {
-  Vec3 momentum = Vec3::Zero();         ///< of the particles now [N s]
+  Vec3 momentum = Vec3::Zero();  ///< of the particles now [N s]
   Vec3 initial_momentum = Vec3::Zero();
   std::vector<NamedImpulse> impulses;
-  double exchanged = 0.0;               ///< momentum exchanged: sum over steps and sources of |impulse| [N s]
-  double residual = 0.0;                ///< |change - sum of impulses| / max(exchanged, sum of m |v|)
+  double exchanged = 0.0;  ///< momentum exchanged: sum over steps and sources of |impulse| [N s]
+  double residual = 0.0;   ///< |change - sum of impulses| / max(exchanged, sum of m |v|)
 };
 
 /// What limited the time step, and the steps taken.
 struct StepReport {
-  std::uint64_t steps = 0;     ///< since the start
-  double dt_min = 0.0;         ///< [s] over the run so far
+  std::uint64_t steps = 0;  ///< since the start
+  double dt_min = 0.0;      ///< [s] over the run so far
   double dt_max = 0.0;
   double dt_last = 0.0;
-  std::string limited_by;      ///< "wave speed of soil", "time.step", "sync period"
+  std::string limited_by;  ///< "wave speed of soil", "time.step", "sync period"
 };
 
 struct SolverState {
-  std::int64_t time = 0;       ///< [ns]
+  std::int64_t time = 0;  ///< [ns]
   StepReport step;
   EnergyReport energy;
   AuditReport audit;
   std::uint64_t particles = 0;
-  double min_j = 1.0;          ///< smallest det F of any particle
-  double wall_seconds = 0.0;   ///< spent in stepping
+  double min_j = 1.0;         ///< smallest det F of any particle
+  double wall_seconds = 0.0;  ///< spent in stepping
 };
 
 }  // namespace mpm

@@ -35,7 +35,7 @@ struct SimulationOptions {
 
 class Simulation {
  public:
-  /// @throws DefinitionError, MaterialError, RigidError
+  /// @throws DefinitionError, GridError, MaterialError, RigidError
   explicit Simulation(const SimulationDefinition& definition, SimulationOptions options = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;
@@ -43,12 +43,13 @@ class Simulation {
 
   const SimulationDefinition& definition() const;  ///< particle positions left out
   int threads() const;
-  std::string isa() const;                         ///< instruction set of the kernels
-  std::vector<std::string> warnings() const;       ///< one line each, found when the run was put together
+  std::string isa() const;                    ///< instruction set of the kernels
+  std::vector<std::string> warnings() const;  ///< one line each, found when the run was put together
 
   std::int64_t time() const;         ///< simulated time since the start [ns]
   std::int64_t sync_period() const;  ///< [ns]
-  /// Runs to the next sync point. After a PhysicsError the state of the failed step can still be read and saved.
+  /// Runs to the next sync point. @throws PhysicsError; the state of the failed step can still be read and saved then,
+  /// and advance() throws from there on.
   void advance();
 
   /// Index of a rigid body, or -1.

@@ -1,27 +1,72 @@
 // Contact of one node with a surface of infinite mass: stick, slide or let go.
 //
+// Whether a node is in contact is decided where force and momentum meet, on v^{n+1}: pressed nodes approach. Strain has
+// to be taken from the same state. A raw velocity does not know it: in a rebound the particles already move away while
+// the node is still pressed, and to release it there would keep the stress from relaxing while the surface goes on
+// pushing, which creates energy (a block landed with half as much again as it fell with). So a node that was held stays
+// held when strain is updated next, and one that was free is held if it approaches.
+//
 // Weak: a node is in contact or not, so a surface between two rows of nodes is felt up to a cell early.
 // Source: Nairn, GIMP notes (3.12)-(3.20) with the cone limit and the sense of the tangent of method reference 8.3
-// (erratum 24); divided here by the nodal mass.
+// (erratum 24), divided here by the nodal mass; the holding is ours.
 #pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
 
 #include "mpm/math/geometry.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 
 namespace mpm {
 
-/// Change of the node's velocity. `relative`: velocity of the material minus that of the surface [m/s];
+/// How a surface holds a node.
+enum class Hold : std::uint8_t { free, slide, stick };
+
+struct ContactChange {
+  Vec3 velocity;  ///< change of the node's velocity [m/s]
+  Hold hold;
+};
+
+/// Decides by approach and friction. `relative`: velocity of the material minus that of the surface [m/s];
 /// `normal`: out of the surface, towards the material.
-inline Vec3 contact_velocity_change(const Vec3& relative, const Vec3& normal, const FrictionLaw& law) {
+inline ContactChange contact_change(const Vec3& relative, const Vec3& normal, const FrictionLaw& law) {
   const double approach = relative.dot(normal);
-  if (!(approach < 0.0)) return Vec3::Zero();
-  if (law.stick) return -relative;
+  if (!(approach < 0.0)) return {Vec3::Zero(), Hold::free};
+  if (law.stick) return {-relative, Hold::stick};
   const Vec3 tangential = relative - approach * normal;
   const double sliding = tangential.norm();
   const double limit = -law.coefficient * approach;
-  const Vec3 normal_change = -approach * normal;
-  if (sliding <= limit) return normal_change - tangential;
-  return normal_change - tangential * (limit / sliding);
+  if (sliding <= limit) return {-relative, Hold::stick};
+  return {-approach * normal - tangential * (limit / sliding), Hold::slide};
 }
+
+/// For the strain: a held node keeps to the surface, a free one is held if it approaches.
+inline Vec3 strain_change(const Vec3& relative, const Vec3& normal, const FrictionLaw& law, Hold hold) {
+  if (hold == Hold::stick) return -relative;
+  if (hold == Hold::slide) return -relative.dot(normal) * normal;
+  return contact_change(relative, normal, law).velocity;
+}
+
+/// Which nodes were held in the step before, by the key of their block: survives sorting and tools on the move.
+class HeldNodes {
+ public:
+  static std::uint64_t id(std::uint64_t block_key, int node) { return block_key * 64 + node; }
+  void clear() { held_.clear(); }
+  /// In ascending order of id.
+  void add(std::uint64_t id, Hold hold) { held_.push_back({id, hold}); }
+  Hold find(std::uint64_t id) const {
+    const auto it = std::lower_bound(held_.begin(), held_.end(), id,
+                                     [](const Entry& entry, std::uint64_t wanted) { return entry.id < wanted; });
+    return it != held_.end() && it->id == id ? it->hold : Hold::free;
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t id;
+    Hold hold;
+  };
+  std::vector<Entry> held_;
+};
 
 }  // namespace mpm

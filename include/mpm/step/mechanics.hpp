@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "mpm/particles/sorter.hpp"
+#include "mpm/step/sorter.hpp"
 #include "mpm/step/step_context.hpp"
 
 namespace mpm {
@@ -25,9 +25,10 @@ class Mechanics {
   /// Strain and stress advance by `dt`; then positions take their new value. Goes with move_and_regather().
   virtual void strain_and_place(StepContext&, double dt) = 0;
 
-  /// A particle whose J is not positive (or not finite), found in the step, if there is one: lowest id.
+  /// A particle whose J is not positive (or not finite), found in the step, if there is one; the same one for any
+  /// number of threads.
   virtual std::optional<ParticleRef> failed() const = 0;
-  /// Particles have left the reach of their blocks.
+  /// Particles have left the reach of their blocks, or the place where they may be.
   virtual bool needs_sort() const = 0;
 };
 

@@ -1,17 +1,13 @@
 // What a stage sees of the step it works in.
 #pragma once
 
-#include <cstdint>
-
 #include "mpm/grid/nodal_fields.hpp"
 
 namespace mpm {
 
 struct StepContext {
   Grid& grid;
-  std::uint64_t step;  ///< number of this step, from 0
-  double time;         ///< at its start [s]
-  double dt;           ///< [s]
+  double dt;  ///< [s]
 };
 
 /// A node by its block and its place in it.

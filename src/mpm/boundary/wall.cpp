@@ -1,7 +1,5 @@
 #include "mpm/boundary/wall.hpp"
 
-#include "mpm/step/coulomb.hpp"
-
 namespace mpm {
 
 Wall::Wall(int face, const WallDefinition& definition, const std::string& name) : face_(face), definition_(definition) {
@@ -12,18 +10,18 @@ Vec3 Wall::normal(const GridLayout& layout) const {
   return Vec3::Unit(layout.axis(face_ / 2)) * (face_ % 2 == 0 ? 1.0 : -1.0);
 }
 
-Vec3 Wall::change(const Vec3& velocity, const Vec3& normal) const {
+ContactChange Wall::change(const Vec3& velocity, const Vec3& normal) const {
   switch (definition_.kind) {
     case WallKind::fixed:
-      return -velocity;
+      return {-velocity, Hold::stick};
     case WallKind::slip:
-      return -velocity.dot(normal) * normal;
+      return {-velocity.dot(normal) * normal, Hold::slide};
     case WallKind::frictional:
-      return contact_velocity_change(velocity, normal, definition_.friction);
+      return contact_change(velocity, normal, definition_.friction);
     case WallKind::none:
       break;
   }
-  return Vec3::Zero();
+  return {Vec3::Zero(), Hold::free};
 }
 
 void Wall::momentum_gathered(StepContext& context) {
@@ -39,7 +37,10 @@ void Wall::momentum_gathered(StepContext& context) {
     if (upper ? first + kBlockEdge <= layout.last_node(axis) : first > 0) continue;
     for (int n = 0; n < layout.nodes_per_block(); ++n) {
       const int node = layout.node(blocks.block(b), n)[axis];
-      if (upper ? node >= layout.last_node(axis) : node <= 0) nodes_.push_back({b, n});
+      if (upper ? node >= layout.last_node(axis) : node <= 0) {
+        const std::uint64_t id = HeldNodes::id(blocks.key(b), n);
+        nodes_.push_back({{b, n}, id, held_.find(id)});
+      }
     }
   }
 }
@@ -47,8 +48,12 @@ void Wall::momentum_gathered(StepContext& context) {
 void Wall::before_strain(StepContext& context) {
   Grid& grid = context.grid;
   const Vec3 n = normal(grid.layout);
-  for (const NodeRef& node : nodes_) {
-    add_nodal_vector(grid.velocity, grid.layout, node, change(nodal_vector(grid.velocity, grid.layout, node), n));
+  const bool lets_go = definition_.kind == WallKind::frictional;
+  for (const Node& node : nodes_) {
+    const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
+    add_nodal_vector(
+        grid.velocity, grid.layout, node.ref,
+        lets_go ? strain_change(velocity, n, definition_.friction, node.hold) : change(velocity, n).velocity);
   }
 }
 
@@ -56,13 +61,17 @@ void Wall::momentum_updated(StepContext& context) {
   Grid& grid = context.grid;
   const Vec3 n = normal(grid.layout);
   Vec3 given = Vec3::Zero();
-  for (const NodeRef& node : nodes_) {
-    const double mass = grid.mass.at(node.block, 0, node.node);
-    if (!(mass > 0.0)) continue;
-    const Vec3 dv = change(nodal_vector(grid.velocity, grid.layout, node), n);
-    add_nodal_vector(grid.velocity, grid.layout, node, dv);
-    add_nodal_vector(grid.force, grid.layout, node, dv / context.dt);
-    given += mass * dv;
+  held_.clear();
+  for (Node& node : nodes_) {
+    node.hold = Hold::free;
+    if (!grid.carries(node.ref.block, node.ref.node)) continue;
+    const auto [dv, hold] = change(nodal_vector(grid.velocity, grid.layout, node.ref), n);
+    node.hold = hold;
+    if (hold == Hold::free) continue;
+    held_.add(node.id, hold);
+    add_nodal_vector(grid.velocity, grid.layout, node.ref, dv);
+    add_nodal_vector(grid.force, grid.layout, node.ref, dv / context.dt);
+    given += grid.mass.at(node.ref.block, 0, node.ref.node) * dv;
   }
   account_.add(given);
 }

@@ -1,6 +1,6 @@
 #include "mpm/contact/rigid_contact.hpp"
 
-#include "mpm/step/coulomb.hpp"
+#include <algorithm>
 
 namespace mpm {
 namespace {
@@ -44,31 +44,31 @@ void RigidContact::momentum_gathered(StepContext& context) {
                     layout.node_position(grid.blocks.block(b), layout.nodes_per_block() - 1)};
     if (block.intersects(bounds)) near_.push_back(b);
   }
-  if (nodes_.size() < near_.size()) nodes_.resize(near_.size());
+  while (nodes_.size() < near_.size()) nodes_.emplace_back().reserve(layout.nodes_per_block());
 
   const int count = static_cast<int>(near_.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
   for (int i = 0; i < count; ++i) {
     const int block = near_[i];
     nodes_[i].clear();
-    const double* mass = grid.mass.block(block);
     for (int n = 0; n < layout.nodes_per_block(); ++n) {
-      if (!(mass[n] > 0.0)) continue;
+      if (!grid.carries(block, n)) continue;
       const Vec3 position = layout.node_position(grid.blocks.block(block), n);
       SurfacePoint point;
       if (!body_.surface().within(body_.pose().to_body(position), tolerance, point)) continue;
       nodes_[i].push_back({{block, n},
                            body_.pose().orientation * point.normal,
                            velocity_at(body_.pose(), body_.twist(), position),
-                           position - body_.pose().position});
+                           position - body_.pose().position,
+                           held_.find(HeldNodes::id(grid.blocks.key(block), n))});
     }
   }
 }
 
 template <class Visit>
-void RigidContact::each_node(Visit&& visit) const {
+void RigidContact::each_node(Visit&& visit) {
   for (std::size_t i = 0; i < near_.size(); ++i) {
-    for (const Node& node : nodes_[i]) visit(node);
+    for (Node& node : nodes_[i]) visit(node);
   }
 }
 
@@ -76,7 +76,7 @@ void RigidContact::before_strain(StepContext& context) {
   Grid& grid = context.grid;
   each_node([&](const Node& node) {
     const Vec3 relative = nodal_vector(grid.velocity, grid.layout, node.ref) - node.velocity;
-    const Vec3 change = contact_velocity_change(relative, node.normal, body_.friction());
+    const Vec3 change = strain_change(relative, node.normal, body_.friction(), node.hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
   });
 }
@@ -85,10 +85,13 @@ void RigidContact::momentum_updated(StepContext& context) {
   Grid& grid = context.grid;
   Vec3 given = Vec3::Zero(), angular = Vec3::Zero();
   int touching = 0;
-  each_node([&](const Node& node) {
+  held_.clear();
+  each_node([&](Node& node) {
     const Vec3 relative = nodal_vector(grid.velocity, grid.layout, node.ref) - node.velocity;
-    const Vec3 change = contact_velocity_change(relative, node.normal, body_.friction());
-    if (change.isZero(0.0)) return;
+    const auto [change, hold] = contact_change(relative, node.normal, body_.friction());
+    node.hold = hold;
+    if (hold == Hold::free) return;
+    held_.add(HeldNodes::id(grid.blocks.key(node.ref.block), node.ref.node), hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
     add_nodal_vector(grid.force, grid.layout, node.ref, change / context.dt);
     const Vec3 impulse = grid.mass.at(node.ref.block, 0, node.ref.node) * change;

@@ -35,12 +35,6 @@ GridLayout::GridLayout(int dim, const Vec3& cell, const Vec3& min, const Vec3& m
 
 double GridLayout::smallest_cell() const { return *std::min_element(cell_.begin(), cell_.begin() + dim_); }
 
-double GridLayout::cell_volume() const {
-  double volume = 1.0;
-  for (int k = 0; k < dim_; ++k) volume *= cell_[k];
-  return volume;
-}
-
 std::uint64_t GridLayout::key(const std::array<int, 3>& block) const {
   std::int64_t key = 0;
   for (int k = 0; k < dim_; ++k) key += (block[k] + 1) * stride_[k];

@@ -4,8 +4,9 @@
 
 namespace mpm {
 
-std::unique_ptr<Mechanics> make_mechanics(int dim, std::vector<ParticleSet>& sets, const ContinuumSettings& settings) {
-  return dim == 3 ? make_solid_ugimp(sets, settings) : make_plane_strain_ugimp(sets, settings);
+std::unique_ptr<Mechanics> make_mechanics(int dim, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                                          const ContinuumSettings& settings) {
+  return dim == 3 ? make_solid_ugimp(sets, laws, settings) : make_plane_strain_ugimp(sets, laws, settings);
 }
 
 const char* kernel_isa() {

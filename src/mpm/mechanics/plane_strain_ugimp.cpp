@@ -5,8 +5,9 @@
 
 namespace mpm {
 
-std::unique_ptr<Mechanics> make_plane_strain_ugimp(std::vector<ParticleSet>& sets, const ContinuumSettings& settings) {
-  return std::make_unique<Continuum<PlaneStrain, Ugimp>>(sets, settings);
+std::unique_ptr<Mechanics> make_plane_strain_ugimp(std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                                                   const ContinuumSettings& settings) {
+  return std::make_unique<Continuum<PlaneStrain, Ugimp>>(sets, laws, settings);
 }
 
 }  // namespace mpm

@@ -66,12 +66,19 @@ void RigidBody::command_pose(const Pose& target, std::int64_t now, std::int64_t 
   drive_ = Drive::pose;
 }
 
+Twist RigidBody::twist_at(double time) const {
+  if (drive_ != Drive::functions) return twist_;
+  Twist twist;
+  for (int i = 0; i < 3; ++i) {
+    twist.linear[i] = definition_.velocity[i](time);
+    twist.angular[i] = definition_.rotation_rate[i](time);
+  }
+  return twist;
+}
+
 void RigidBody::begin_step(double time, double dt) {
   if (drive_ == Drive::functions) {
-    for (int i = 0; i < 3; ++i) {
-      twist_.linear[i] = definition_.velocity[i](time + 0.5 * dt);
-      twist_.angular[i] = definition_.rotation_rate[i](time + 0.5 * dt);
-    }
+    twist_ = twist_at(time + 0.5 * dt);
   } else if (drive_ == Drive::pose && 1e-9 * static_cast<double>(arrival_) - time < (1.0 - 1e-6) * dt) {
     // Arrived: rest. An arrival between two sync points lies within a step: be there at its end. (Less than a millionth
     // short is rounding of the clock, and the twist as it is arrives.)

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
+#include "mpm/math/dimension.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -14,13 +16,13 @@ Vec3 particle_vector(const std::vector<std::vector<double>>& field, const GridLa
   return v;
 }
 
-double elastic_energy(const ParticleSet& set, int dim, int p) {
+double elastic_energy(const ParticleSet& set, const Law& law, int dim, int p) {
   const ParticleTensors t = particle_tensors(set, dim, p);
-  return set.mass * std::visit([&](const auto& law) { return law.elastic_energy(t.f, t.tau, t.j); }, set.law);
+  return set.mass * std::visit([&](const auto& l) { return l.elastic_energy(t.f, t.tau, t.j); }, law);
 }
 
-double plastic_work(const ParticleSet& set, int p) {
-  const int index = std::visit([](const auto& law) { return law.kPlasticWork; }, set.law);
+double plastic_work(const ParticleSet& set, const Law& law, int p) {
+  const int index = std::visit([](const auto& l) { return l.kPlasticWork; }, law);
   return index < 0 ? 0.0 : set.mass * set.history[index][p];
 }
 
@@ -47,12 +49,13 @@ class Hash {
 ParticleTensors particle_tensors(const ParticleSet& set, int dim, int p) {
   ParticleTensors t{};
   if (dim == 3) {
-    t.f = {set.f[0][p], set.f[1][p], set.f[2][p], set.f[3][p], set.f[4][p],
-           set.f[5][p], set.f[6][p], set.f[7][p], set.f[8][p]};
-    t.tau = {set.tau[0][p], set.tau[1][p], set.tau[2][p], set.tau[3][p], set.tau[4][p], set.tau[5][p]};
+    t.f = Solid::load_matrix(set.f, p);
+    t.tau = Solid::load_symmetric(set.tau, p);
   } else {
-    t.f = {set.f[0][p], 0.0, set.f[1][p], 0.0, 1.0, 0.0, set.f[2][p], 0.0, set.f[3][p]};
-    t.tau = {set.tau[0][p], set.tau[3][p], set.tau[1][p], 0.0, set.tau[2][p], 0.0};
+    const auto f = PlaneStrain::load_matrix(set.f, p);
+    const auto tau = PlaneStrain::load_symmetric(set.tau, p);
+    t.f = {f.xx, 0.0, f.xz, 0.0, f.yy, 0.0, f.zx, 0.0, f.zz};
+    t.tau = {tau.xx, tau.yy, tau.zz, 0.0, tau.xz, 0.0};
   }
   t.j = determinant(t.f);
   return t;
@@ -69,13 +72,14 @@ SolverState Simulation::state() const {
 
   const int dim = layout.dim();
   auto sum = [&](auto&& term) { return sum_particles(s.sets, s.threads, 0.0, term); };
+  auto law = [&](const ParticleSet& set) -> const Law& { return s.laws[&set - s.sets.data()]; };
   report.energy.kinetic = sum(
       [&](const ParticleSet& set, int p) { return 0.5 * set.mass * particle_vector(set.v, layout, p).squaredNorm(); });
   report.energy.potential = sum([&](const ParticleSet& set, int p) {
     return -set.mass * s.definition.gravity.dot(particle_vector(set.x, layout, p));
   });
-  report.energy.elastic = sum([&](const ParticleSet& set, int p) { return elastic_energy(set, dim, p); });
-  report.energy.plastic = sum([&](const ParticleSet& set, int p) { return plastic_work(set, p); });
+  report.energy.elastic = sum([&](const ParticleSet& set, int p) { return elastic_energy(set, law(set), dim, p); });
+  report.energy.plastic = sum([&](const ParticleSet& set, int p) { return plastic_work(set, law(set), p); });
   for (const RigidContact* contact : s.contacts) report.energy.contact_work += contact->work();
 
   AuditReport& audit = report.audit;

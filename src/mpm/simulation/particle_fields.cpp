@@ -11,6 +11,7 @@ namespace {
 // What a field may look at.
 struct Particle {
   const ParticleSet& set;
+  const Law& law;
   int set_index;
   const GridLayout& layout;
   int p;
@@ -22,10 +23,13 @@ struct Particle {
     return 0.0;
   }
   ParticleTensors tensors() const { return particle_tensors(set, layout.dim(), p); }
+  double density() const {
+    return std::visit([](const auto& l) { return l.density(); }, law);
+  }
   /// [Pa]
   Symmetric3<double> cauchy() const {
     const ParticleTensors t = tensors();
-    return scale_shift(t.tau, set.density() / t.j, 0.0);
+    return scale_shift(t.tau, density() / t.j, 0.0);
   }
 };
 
@@ -64,10 +68,10 @@ const Field kFields[] = {
     {"p", "Pa", [](const Particle& p) { return -trace(p.cauchy()) / 3.0; }},
     {"mises", "Pa", [](const Particle& p) { return mises(p.cauchy()); }},
     {"j", "1", [](const Particle& p) { return p.tensors().j; }},
-    {"density", "kg/m^3", [](const Particle& p) { return p.set.density() / p.tensors().j; }},
+    {"density", "kg/m^3", [](const Particle& p) { return p.density() / p.tensors().j; }},
     {"ep", "1",
      [](const Particle& p) {
-       return history(p, std::visit([](const auto& law) { return law.kPlasticStrain; }, p.set.law));
+       return history(p, std::visit([](const auto& law) { return law.kPlasticStrain; }, p.law));
      }},
     {"body", "1", [](const Particle& p) { return static_cast<double>(p.set_index); }},
 };
@@ -82,13 +86,13 @@ const Field& find_field(const std::string& name) {
 }
 
 template <class T>
-void fill(const std::vector<ParticleSet>& sets, const GridLayout& layout, int threads, const Field& field,
-          std::vector<T>& values) {
+void fill(const std::vector<ParticleSet>& sets, const std::vector<Law>& laws, const GridLayout& layout, int threads,
+          const Field& field, std::vector<T>& values) {
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const ParticleSet& set = sets[s];
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int p = 0; p < set.size(); ++p) {
-      values[set.id[p]] = static_cast<T>(field.value({set, static_cast<int>(s), layout, p}));
+      values[set.id[p]] = static_cast<T>(field.value({set, laws[s], static_cast<int>(s), layout, p}));
     }
   }
 }
@@ -104,13 +108,13 @@ std::vector<std::pair<std::string, std::string>> Simulation::particle_fields() {
 void Simulation::particle_field(const std::string& name, std::vector<float>& values) const {
   const Field& field = find_field(name);
   values.resize(particles());
-  fill(state_->sets, state_->grid->layout, state_->threads, field, values);
+  fill(state_->sets, state_->laws, state_->grid->layout, state_->threads, field, values);
 }
 
 void Simulation::particle_field(const std::string& name, std::vector<double>& values) const {
   const Field& field = find_field(name);
   values.resize(particles());
-  fill(state_->sets, state_->grid->layout, state_->threads, field, values);
+  fill(state_->sets, state_->laws, state_->grid->layout, state_->threads, field, values);
 }
 
 }  // namespace mpm

@@ -8,6 +8,7 @@
 
 #include "mpm/boundary/grid_damping.hpp"
 #include "mpm/boundary/wall.hpp"
+#include "mpm/math/dimension.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -17,6 +18,7 @@ const std::array<const char*, 6> kWallNames = {"x_min", "x_max", "y_min", "y_max
 namespace {
 
 constexpr double kNanosecond = 1e-9;
+constexpr double kMostSteps = 1e7;  ///< in a sync period; more is a run that went wrong
 
 const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body) {
   for (const MaterialDefinition& material : definition.materials) {
@@ -25,32 +27,47 @@ const MaterialDefinition& find_material(const SimulationDefinition& definition, 
   throw DefinitionError(fmt::format("body '{}': no material is called '{}'", body.name, body.material));
 }
 
-ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body, const GridLayout& layout) {
-  const MaterialDefinition& material = find_material(definition, body);
-  if (body.positions.empty()) throw DefinitionError(fmt::format("body '{}' has no particle", body.name));
-  if (!(body.particle_volume > 0.0)) {
-    throw DefinitionError(
-        fmt::format("body '{}': particle volume {} must be positive", body.name, body.particle_volume));
-  }
-  ParticleSet set(body.name, make_law(material));
-  set.volume = body.particle_volume;
-  set.mass = material.density * body.particle_volume;
-  const int dim = layout.dim();
+ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body, double density, const Law& law,
+                     const GridLayout& layout) {
   const std::size_t n = body.positions.size();
-  for (int k = 0; k < dim; ++k) set.half[k] = 0.5 / definition.method.particles_per_direction;
+  const std::string start = fmt::format("body '{}': ", body.name);
+  if (n == 0) throw DefinitionError(start + "it has no particle");
+  if (!body.velocities.empty() && body.velocities.size() != n) {
+    throw DefinitionError(fmt::format("{}{} velocities for {} particles", start, body.velocities.size(), n));
+  }
+  if (!(body.particle_volume > 0.0) || !std::isfinite(body.particle_volume)) {
+    throw DefinitionError(fmt::format("{}particle volume {} must be positive", start, body.particle_volume));
+  }
+  ParticleSet set;
+  set.name = body.name;
+  set.mass = density * body.particle_volume;
+  const int dim = layout.dim();
+  for (int k = 0; k < dim; ++k) {
+    set.half[k] = 0.5 / definition.method.particles_per_direction;
+    // Pressed against a wall, a particle comes to rest only when its box is half beyond it.
+    const int face = 2 * layout.axis(k);
+    set.lowest[k] = definition.walls[face].kind == WallKind::none ? 0.0 : -set.half[k];
+    set.highest[k] = layout.last_node(k) + (definition.walls[face + 1].kind == WallKind::none ? 0.0 : set.half[k]);
+  }
   set.id.resize(n);
   set.x.assign(dim, std::vector<double>(n));
   set.v.assign(dim, std::vector<double>(n));
   for (std::size_t p = 0; p < n; ++p) {
     for (int k = 0; k < dim; ++k) {
-      set.x[k][p] = body.positions[p][layout.axis(k)];
-      set.v[k][p] = body.velocities.empty() ? 0.0 : body.velocities[p][layout.axis(k)];
+      const int axis = layout.axis(k);
+      set.x[k][p] = body.positions[p][axis];
+      set.v[k][p] = body.velocities.empty() ? 0.0 : body.velocities[p][axis];
+      const double cells = layout.in_cells(k, set.x[k][p]);
+      if (!(cells >= 0.0 && cells <= layout.last_node(k)) || !std::isfinite(set.v[k][p])) {
+        throw DefinitionError(fmt::format("{}particle {} is outside the grid or not finite: {} = {} m, velocity {} m/s",
+                                          start, p, "xyz"[axis], set.x[k][p], set.v[k][p]));
+      }
     }
   }
-  set.f.assign(dim == 3 ? 9 : 4, std::vector<double>(n, 0.0));
+  set.f.assign(dim == 3 ? Solid::kMatrix : PlaneStrain::kMatrix, std::vector<double>(n, 0.0));
   for (int k = 0; k < dim; ++k) std::fill(set.f[k * (dim + 1)].begin(), set.f[k * (dim + 1)].end(), 1.0);
-  set.tau.assign(dim == 3 ? 6 : 4, std::vector<double>(n, 0.0));
-  set.history.assign(history_size(set.law), std::vector<double>(n, 0.0));
+  set.tau.assign(dim == 3 ? Solid::kSymmetric : PlaneStrain::kSymmetric, std::vector<double>(n, 0.0));
+  set.history.assign(history_size(law), std::vector<double>(n, 0.0));
   if (definition.method.update == UpdateScheme::usavg) set.next_x.assign(dim, std::vector<double>(n));
   return set;
 }
@@ -60,13 +77,40 @@ void check(const SimulationDefinition& d) {
   if (!(d.time.cfl > 0.0 && d.time.cfl < 1.0)) {
     throw DefinitionError(fmt::format("time.cfl is {}, must lie between 0 and 1", d.time.cfl));
   }
+  if (d.time.step && !(*d.time.step > 0.0)) {
+    throw DefinitionError(fmt::format("time.step is {}, must be positive", *d.time.step));
+  }
   if (d.method.gradient_terms < 1) throw DefinitionError("method.gradient_terms must be at least 1");
   if (!(d.method.flip >= 0.0 && d.method.flip <= 1.0)) {
     throw DefinitionError(fmt::format("FLIP fraction {} must lie in [0, 1]", d.method.flip));
   }
-  if (!(d.method.damping >= 0.0)) throw DefinitionError("method.damping must not be negative");
+  if (!(d.method.damping >= 0.0) || !std::isfinite(d.method.damping)) {
+    throw DefinitionError(fmt::format("method.damping is {}, must be finite and not negative", d.method.damping));
+  }
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
   if (d.geometry != GeometryKind::solid && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
+  if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");
+}
+
+// What a planar scene keeps of a pose: the plane's position, and of the rotation its part about y (swing and twist), so
+// that zeros stay exact zeros.
+Pose planar(const Pose& pose, const std::string& body) {
+  const Quat& q = pose.orientation;
+  const double about_y = std::hypot(q.w(), q.y());
+  if (!(about_y >= 1e-3 * q.norm())) {
+    throw RigidError(
+        fmt::format("rigid body '{}': its pose is turned over in a planar scene; turn it about y only", body));
+  }
+  const double scale = q.norm() / about_y;
+  return {{pose.position.x(), 0.0, pose.position.z()}, Quat(q.w() * scale, 0.0, q.y() * scale, 0.0)};
+}
+
+void make_planar(SimulationDefinition& definition) {
+  definition.gravity.y() = 0.0;
+  for (RigidBodyDefinition& body : definition.rigid_bodies) {
+    body.pose = planar(body.pose, body.name);
+    body.velocity[1] = body.rotation_rate[0] = body.rotation_rate[2] = Function();
+  }
 }
 
 }  // namespace
@@ -78,19 +122,22 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
   s.definition = definition;
   s.threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   const int dim = definition.geometry == GeometryKind::solid ? 3 : 2;
+  if (dim == 2) make_planar(s.definition);
   s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));
   const GridLayout& layout = s.grid->layout;
 
   std::uint32_t next_id = 0;
   s.sets.reserve(definition.bodies.size());
   for (const DeformableBody& body : definition.bodies) {
-    s.sets.push_back(make_set(definition, body, layout));
+    const MaterialDefinition& material = find_material(definition, body);
+    s.laws.push_back(make_law(material));
+    s.sets.push_back(make_set(definition, body, material.density, s.laws.back(), layout));
     ParticleSet& set = s.sets.back();
     set.first_id = next_id;
     for (std::uint32_t& id : set.id) id = next_id++;
     s.total_mass += set.mass * set.size();
   }
-  if (next_id == 0) throw DefinitionError("there is no deformable body, so nothing to simulate; add one to 'bodies'");
+  if (s.sets.empty()) throw DefinitionError("there is no deformable body, so nothing to simulate; add one to 'bodies'");
   for (DeformableBody& body : s.definition.bodies) {
     body.positions = {};
     body.velocities = {};
@@ -98,7 +145,7 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
 
   if (definition.method.damping > 0.0) s.stages.push_back(std::make_unique<GridDamping>(definition.method.damping));
   s.bodies.reserve(definition.rigid_bodies.size());
-  for (const RigidBodyDefinition& body : definition.rigid_bodies) {
+  for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
     s.bodies.emplace_back(body);
     auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.threads);
     s.contacts.push_back(contact.get());
@@ -123,11 +170,16 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
   ContinuumSettings settings;
   settings.flip = definition.method.flip;
   settings.gradient_terms = definition.method.gradient_terms;
-  settings.gravity = definition.gravity;
+  settings.gravity = s.definition.gravity;
   settings.threads = s.threads;
-  s.mechanics = make_mechanics(dim, s.sets, settings);
+  s.mechanics = make_mechanics(dim, s.sets, s.laws, settings);
+  double lightest = s.sets.front().mass;
+  for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.mass);
+  s.grid->least_mass = 1e-30 * lightest;
+  s.sorter = std::make_unique<Sorter>(s.threads);
   s.gravity.name = "gravity";
-  s.sort();
+  s.sort(0.0);
+  s.material_limit = s.survey_material();
   s.initial_momentum = state().audit.momentum;
 }
 
@@ -142,27 +194,27 @@ std::vector<std::string> Simulation::warnings() const { return state_->warnings;
 std::int64_t Simulation::time() const { return state_->time; }
 std::int64_t Simulation::sync_period() const { return state_->definition.time.sync; }
 
-void Simulation::State::fail(const std::string& what, ParticleRef particle, const std::string& remedy) const {
+void Simulation::State::fail(const std::string& what, ParticleRef particle, double now,
+                             const std::string& remedy) const {
   const ParticleSet& set = sets[particle.set];
   Vec3 position = Vec3::Zero();
   for (int k = 0; k < grid->layout.dim(); ++k) position[grid->layout.axis(k)] = set.x[k][particle.index];
-  throw PhysicsError(
-      fmt::format("{}: particle {} of body '{}' in step {} (t = {:.6g} s) at ({:.6g}, {:.6g}, {:.6g}) m; {}", what,
-                  set.id[particle.index], set.name, steps.steps, time * kNanosecond, position.x(), position.y(),
-                  position.z(), remedy));
+  throw PhysicsError(fmt::format(
+      "{}: particle {} of body '{}' after step {} (t = {:.6g} s) at ({:.6g}, {:.6g}, {:.6g}) m; {}", what,
+      set.id[particle.index], set.name, steps.steps, now, position.x(), position.y(), position.z(), remedy));
 }
 
-void Simulation::State::sort() {
-  if (const auto outside = sorter.sort(sets, *grid)) {
+void Simulation::State::sort(double now) {
+  if (const auto outside = sorter->sort(sets, *grid)) {
     fail(
-        "a particle is outside the domain or not finite", *outside,
+        "a particle is outside the domain or not finite", *outside, now,
         "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', or lower time.cfl if the run blew up");
   }
 }
 
-void Simulation::State::step(double at, double dt) {
-  for (RigidBody& body : bodies) body.begin_step(at, dt);
-  StepContext context{*grid, steps.steps, at, dt};
+void Simulation::State::step(double start, double dt) {
+  for (RigidBody& body : bodies) body.begin_step(start, dt);
+  StepContext context{*grid, dt};
   if (definition.method.update == UpdateScheme::usavg) {
     step_usavg(*mechanics, stages, context);
   } else {
@@ -174,32 +226,51 @@ void Simulation::State::step(double at, double dt) {
   steps.dt_last = dt;
   steps.dt_min = steps.steps == 1 ? dt : std::min(steps.dt_min, dt);
   steps.dt_max = std::max(steps.dt_max, dt);
-  if (const auto failed = mechanics->failed()) {
-    fail("the volume ratio J is not positive", *failed,
-         "lower time.cfl, use a finer grid.cell or slower tools, or soften what presses on it");
+  if (const auto particle = mechanics->failed()) {
+    fail("the volume ratio J is not positive", *particle, start + dt,
+         "lower time.cfl, use a finer grid.cell or slower tools, or stiffen what is crushed");
   }
-  if (mechanics->needs_sort()) sort();
+  if (mechanics->needs_sort()) sort(start + dt);
+}
+
+void Simulation::State::run_period() {
+  const StepLimit limit = step_limit();
+  const double period = static_cast<double>(definition.time.sync) * kNanosecond;
+  const double count = std::max(1.0, std::ceil(period / limit.dt - 1e-9));
+  if (!(limit.dt > 0.0) || !(count <= kMostSteps)) {
+    throw PhysicsError(
+        fmt::format("the time step fell to {:.3g} s at t = {:.6g} s, limited by the {}: look for what "
+                    "runs away, or lower time.sync when such steps are meant",
+                    limit.dt, time * kNanosecond, limit.by));
+  }
+  const int number = static_cast<int>(count);
+  const double start = static_cast<double>(time) * kNanosecond, dt = period / number;
+  steps.limited_by = limit.dt > period ? "sync period" : limit.by;
+  for (int k = 0; k < number; ++k) step(start + k * dt, dt);
+  time += definition.time.sync;
+  for (RigidBody& body : bodies) body.at_sync(time);
+
+  // What accelerated or stiffened within the period was not known at its start: a wave may not have outrun a cell.
+  material_limit = survey_material();
+  if (!(dt * definition.time.cfl <= material_limit.dt)) {
+    throw PhysicsError(
+        fmt::format("the time step {:.3g} s was above the limit {:.3g} s that the {} set in the period "
+                    "before t = {:.6g} s; lower time.sync, time.cfl or time.step",
+                    dt, material_limit.dt / definition.time.cfl, material_limit.by, time * kNanosecond));
+  }
 }
 
 void Simulation::advance() {
   State& s = *state_;
+  if (s.failed) throw PhysicsError("the run has failed and cannot go on; start it again");
   const auto started = std::chrono::steady_clock::now();
-  const auto [limit, limited_by] = s.step_limit();
-  const double period = static_cast<double>(s.definition.time.sync) * kNanosecond;
-  const double count = std::max(1.0, std::ceil(period / limit - 1e-9));
-  if (!(count < 1e9)) {
-    throw PhysicsError(
-        fmt::format("the time step fell to {:.3g} s, limited by {}: the run cannot go on; lower "
-                    "time.cfl or look for the particle that runs away",
-                    limit, limited_by));
+  s.failed = true;  // until the period is done
+  try {
+    s.run_period();
+  } catch (const FunctionError& error) {
+    throw PhysicsError(fmt::format("motion of a rigid body at t = {:.6g} s: {}", s.time * kNanosecond, error.what()));
   }
-  const int steps = static_cast<int>(count);
-  s.steps.limited_by = limit > period ? "sync period" : limited_by;
-  const double start = static_cast<double>(s.time) * kNanosecond;
-  const double dt = period / steps;
-  for (int k = 0; k < steps; ++k) s.step(start + k * dt, dt);
-  s.time += s.definition.time.sync;
-  for (RigidBody& body : s.bodies) body.at_sync(s.time);
+  s.failed = false;
   s.wall += std::chrono::steady_clock::now() - started;
 }
 
@@ -220,17 +291,7 @@ void Simulation::command_velocity(int body, const Twist& twist) {
 }
 
 void Simulation::command_pose(int body, const Pose& target, std::int64_t arrival) {
-  Pose applied = target;
-  if (state_->grid->layout.dim() == 2) {
-    // Position in the plane, and of the rotation its part about y (swing-twist): zeros stay exact zeros.
-    applied.position.y() = state_->bodies.at(body).pose().position.y();
-    const double length = target.orientation.norm();
-    const double in_plane = std::hypot(target.orientation.w(), target.orientation.y());
-    if (in_plane > 0.0) {
-      applied.orientation =
-          Quat(target.orientation.w() * length / in_plane, 0.0, target.orientation.y() * length / in_plane, 0.0);
-    }
-  }
+  const Pose applied = state_->grid->layout.dim() == 2 ? planar(target, state_->bodies.at(body).name()) : target;
   state_->bodies.at(body).command_pose(applied, state_->time, arrival);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <limits>
 
 #include "mpm/contact/rigid_contact.hpp"
 #include "mpm/mechanics/continuum.hpp"
@@ -10,14 +11,21 @@
 
 namespace mpm {
 
+/// The largest time step that something allows [s], and what that is.
+struct StepLimit {
+  double dt = std::numeric_limits<double>::infinity();
+  std::string by = "nothing";
+};
+
 struct Simulation::State {
   SimulationDefinition definition;
   int threads = 1;
   std::vector<std::string> warnings;
 
   std::vector<ParticleSet> sets;
+  std::vector<Law> laws;  ///< of each set
   std::unique_ptr<Grid> grid;
-  Sorter sorter;
+  std::unique_ptr<Sorter> sorter;
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;
   Stages stages;
@@ -29,13 +37,20 @@ struct Simulation::State {
   Vec3 initial_momentum = Vec3::Zero();
   double total_mass = 0.0;
   std::chrono::duration<double> wall{0.0};
+  StepLimit material_limit;  ///< as surveyed at the last sync point
+  bool failed = false;
 
-  /// The largest stable step now [s], and what limits it.
-  std::pair<double, std::string> step_limit() const;
-  /// One step of the schedule, with the checks after it. `time` [s]. @throws PhysicsError
-  void step(double at, double dt);
-  void sort();
-  [[noreturn]] void fail(const std::string& what, ParticleRef particle, const std::string& remedy) const;
+  /// What the material allows now.
+  StepLimit survey_material() const;
+  /// What material, tools and scene allow in the sync period that begins now.
+  StepLimit step_limit() const;
+  /// Runs to the next sync point. @throws PhysicsError, FunctionError
+  void run_period();
+  /// One step of the schedule, with the checks after it; it begins at `start` [s].
+  void step(double start, double dt);
+  /// @throws PhysicsError for a particle that is not where it may be
+  void sort(double now);
+  [[noreturn]] void fail(const std::string& what, ParticleRef particle, double now, const std::string& remedy) const;
 };
 
 /// Sums over all particles of `term(set, index)`, grouped so that the result does not depend on the number of threads.

@@ -20,8 +20,10 @@ struct ParticleRef {
 
 class Sorter {
  public:
-  /// Sorts, and rebuilds the blocks of `grid`. Returns a particle that is outside the domain or not finite, if there is
-  /// one (the first by set and place); then nothing has been changed.
+  explicit Sorter(int threads) : threads_(threads) {}
+
+  /// Sorts, and rebuilds the blocks of `grid`. Returns a particle that is not where its set allows, or not finite, if
+  /// there is one (the first by set and place); then nothing has been changed.
   std::optional<ParticleRef> sort(std::vector<ParticleSet>& sets, Grid& grid);
 
  private:
@@ -33,6 +35,7 @@ class Sorter {
   void radix_sort(std::vector<Entry>& entries);
   void permute(ParticleSet& set, const std::vector<Entry>& entries);
 
+  int threads_;
   std::vector<std::vector<Entry>> entries_;
   std::vector<Entry> other_;
   std::vector<std::uint64_t> owner_keys_;

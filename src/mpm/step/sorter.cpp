@@ -1,4 +1,4 @@
-#include "mpm/particles/sorter.hpp"
+#include "mpm/step/sorter.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ void Sorter::permute(ParticleSet& set, const std::vector<Entry>& entries) {
   const int n = set.size();
   scratch_.resize(n);
   set.each_scalar([&](std::vector<double>& scalar) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) num_threads(threads_)
     for (int i = 0; i < n; ++i) scratch_[i] = scalar[entries[i].index];
     scalar.swap(scratch_);
   });
@@ -52,14 +52,14 @@ std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Grid& gr
     std::vector<Entry>& entries = entries_[s];
     entries.resize(n);
     int outside = n;
-#pragma omp parallel for schedule(static) reduction(min : outside)
+#pragma omp parallel for schedule(static) num_threads(threads_) reduction(min : outside)
     for (int i = 0; i < n; ++i) {
       std::array<int, 3> block{};
       std::uint32_t local = 0;
       bool inside = true;
       for (int k = 0; k < dim; ++k) {
         const double cells = layout.in_cells(k, set.x[k][i]);
-        inside = inside && cells >= 0.0 && cells <= layout.last_node(k);
+        inside = inside && cells >= set.lowest[k] && cells <= set.highest[k];
         const int node = inside ? GridLayout::nearest(cells) : 0;
         block[k] = node / kBlockEdge;
         local = local * kBlockEdge + node % kBlockEdge;

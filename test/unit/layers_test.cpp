@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::map<std::string, int> kFloors = {{"math", 1},     {"grid", 2},     {"particles", 3},  {"shape", 2},
-                                            {"material", 2}, {"rigid", 2},    {"step", 4},       {"mechanics", 5},
+const std::map<std::string, int> kFloors = {{"math", 1},     {"grid", 2},     {"particles", 2},  {"shape", 3},
+                                            {"material", 3}, {"rigid", 3},    {"step", 4},       {"mechanics", 5},
                                             {"contact", 5},  {"boundary", 5}, {"simulation", 6}, {"scene", 7}};
 
 struct Include {

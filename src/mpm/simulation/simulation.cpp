@@ -18,7 +18,8 @@ const std::array<const char*, 6> kWallNames = {"x_min", "x_max", "y_min", "y_max
 namespace {
 
 constexpr double kNanosecond = 1e-9;
-constexpr double kMostSteps = 1e7;  ///< in a sync period; more is a run that went wrong
+constexpr std::size_t kParticlesPerThread = 4000;  ///< fewer do not pay for the waiting at the end of every pass
+constexpr double kMostSteps = 1e7;                 ///< in a sync period; more is a run that went wrong
 
 const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body) {
   for (const MaterialDefinition& material : definition.materials) {
@@ -120,7 +121,10 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
   State& s = *state_;
   check(definition);
   s.definition = definition;
-  s.threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  std::size_t count = 0;
+  for (const DeformableBody& body : definition.bodies) count += body.positions.size();
+  s.threads = options.threads > 0 ? options.threads
+                                  : std::clamp(static_cast<int>(count / kParticlesPerThread), 1, omp_get_max_threads());
   const int dim = definition.geometry == GeometryKind::solid ? 3 : 2;
   if (dim == 2) make_planar(s.definition);
   s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));

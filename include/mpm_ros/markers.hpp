@@ -12,7 +12,7 @@
 namespace mpm_ros {
 
 /// The triangles of every rigid body in the body's own frame, locked to it: sent once, moved by /tf.
-visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation, const ros::Time& stamp);
+visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation);
 
 /// One arrow a body, from its origin along the mean contact force; removed where the force is zero.
 class ForceMarkers {

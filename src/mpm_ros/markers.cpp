@@ -33,14 +33,14 @@ geometry_msgs::Point drawable(const mpm::Vec3& vertex) {
 
 }  // namespace
 
-visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation, const ros::Time& stamp) {
+visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation) {
   visualization_msgs::MarkerArray markers;
   const int count = static_cast<int>(simulation.bodies().size());
   for (int body = 0; body < count; ++body) {
     const mpm::RigidBody& rigid = simulation.rigid_body(body);
     visualization_msgs::Marker marker;
+    // No stamp: RViz takes the frame where it is now. With one it drops the marker when it came later than that.
     marker.header.frame_id = rigid.name();
-    marker.header.stamp = stamp;
     marker.ns = "shape";
     marker.id = body;
     marker.type = visualization_msgs::Marker::TRIANGLE_LIST;

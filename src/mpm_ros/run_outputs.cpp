@@ -80,7 +80,7 @@ bool RunOutputs::wanted(const std::string& topic) const {
 
 void RunOutputs::begin(const RunInfo& info) {
   put(topics::kRunInfo, info);
-  if (wanted(topics::kMarkers)) put(topics::kMarkers, shape_markers(simulation_, stamp()));
+  if (wanted(topics::kMarkers)) put(topics::kMarkers, shape_markers(simulation_));
   read_contacts();
   write_bodies();
   write_contacts();

@@ -17,6 +17,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 # Its companions lie beside it, also when it runs through the wrapper of the devel space.
+sys.dont_write_bytecode = True  # nothing is left among the sources
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import plot_particles  # noqa: E402
 import plot_series  # noqa: E402

@@ -19,7 +19,6 @@ class CommandLog {
 
   bool empty() const { return commands_.empty(); }
   std::size_t size() const { return commands_.size(); }
-  const std::vector<mpm_ros::Command>& commands() const { return commands_; }
   /// Commands whose time has come at simulation.time() and that were not taken before.
   /// @throws BagError for a body that the simulation does not have, or an effect between two sync points.
   std::vector<AppliedCommand> take(const mpm::Simulation& simulation);

@@ -1,5 +1,6 @@
 // Parameters, pacing and the mailbox, without a master.
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include <atomic>
 #include <stdexcept>
@@ -78,6 +79,47 @@ TEST(NodeParameters, FieldsAreAListOrOneText) {
   const std::vector<std::string> expected{"vx", "szz"};
   EXPECT_EQ(read_parameters(with("particle_fields", list), warnings).particle_fields, expected);
   EXPECT_EQ(read_parameters(with("particle_fields", "[vx, szz]"), warnings).particle_fields, expected);
+}
+
+TEST(NodeParameters, TheTemplateHoldsEveryParameterWithItsDefault) {
+  ParameterValues values;
+  for (const auto& entry : YAML::LoadFile(MPM_SOURCE_DIR "/config/simulator.yaml")) {
+    const auto name = entry.first.as<std::string>();
+    const YAML::Node& value = entry.second;
+    if (value.IsSequence()) {
+      XmlRpc::XmlRpcValue list;
+      list.setSize(0);
+      values[name] = list;
+    } else if (value.Tag() == "!") {  // in quotes
+      values[name] = XmlRpc::XmlRpcValue(value.as<std::string>());
+    } else if (value.Scalar() == "true" || value.Scalar() == "false") {
+      values[name] = XmlRpc::XmlRpcValue(value.as<bool>());
+    } else if (value.Scalar().find('.') != std::string::npos) {
+      values[name] = XmlRpc::XmlRpcValue(value.as<double>());
+    } else {
+      values[name] = XmlRpc::XmlRpcValue(value.as<int>());
+    }
+  }
+  std::vector<std::string> warnings;
+  const NodeParameters given = read_parameters(values, warnings);
+  EXPECT_TRUE(warnings.empty()) << warnings.front();
+  const NodeParameters plain = read_parameters({{"scene", XmlRpc::XmlRpcValue("press")}}, warnings);
+  EXPECT_EQ(given.pacing, plain.pacing);
+  EXPECT_EQ(given.real_time_factor, plain.real_time_factor);
+  EXPECT_EQ(given.threads, plain.threads);
+  EXPECT_EQ(given.record, plain.record);
+  EXPECT_EQ(given.record_compression, plain.record_compression);
+  EXPECT_EQ(given.commands, plain.commands);
+  EXPECT_EQ(given.command_timeout, plain.command_timeout);
+  EXPECT_EQ(given.on_timeout, plain.on_timeout);
+  EXPECT_EQ(given.world_frame, plain.world_frame);
+  EXPECT_EQ(given.publish_clock, plain.publish_clock);
+  EXPECT_EQ(given.clock_rate, plain.clock_rate);
+  EXPECT_EQ(given.wrench_rate, plain.wrench_rate);
+  EXPECT_EQ(given.force_scale, plain.force_scale);
+  EXPECT_EQ(given.state_hash, plain.state_hash);
+  EXPECT_EQ(given.keep_alive, plain.keep_alive);
+  EXPECT_EQ(given.start_paused, plain.start_paused);
 }
 
 using std::chrono::milliseconds;

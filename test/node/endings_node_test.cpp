@@ -1,5 +1,5 @@
-// How the node ends, by the wall clock: the scene's end, signals, failed physics, bad input. Whatever ends it, the bag
-// can be read.
+// How the node ends, by the wall clock: the scene's end, signals, failed physics, silence, bad input. Whatever ends it,
+// the bag can be read.
 #include <geometry_msgs/Twist.h>
 #include <mpm_ros/BodyStates.h>
 #include <mpm_ros/SolverState.h>
@@ -134,6 +134,46 @@ TEST(Endings, PauseHoldsSimulatedTimeAndCommandsAreTakenAfterwards) {
   Step step;
   ASSERT_TRUE(ros::service::call(simulator.name("step"), step));
   EXPECT_FALSE(step.response.success);  // not in lockstep
+}
+
+TEST(Endings, SilenceStopsTheBody) {
+  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1", "command_timeout:=0.05", "on_timeout:=stop"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Ear<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  ASSERT_TRUE(diagnostics.connected());
+  Step::Request request;
+  request.duration = 0.1;
+  request.commands.push_back(velocity("rod", -0.1));
+  const Step::Response response = simulator.step(request);
+  ASSERT_TRUE(response.success);
+  // It moved for 0.05 s and stood still for the rest.
+  EXPECT_NEAR(response.bodies.bodies[1].pose.position.z, 0.1 - 0.1 * 0.05, 1e-12);
+  EXPECT_EQ(response.bodies.bodies[1].twist.linear.z, 0.0);
+  EXPECT_TRUE(diagnosed(diagnostics, simulator, "no command for 'rod'"));
+}
+
+TEST(Endings, SilenceHoldsTheTwistByDefault) {
+  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1", "command_timeout:=0.05"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Step::Request request;
+  request.duration = 0.1;
+  request.commands.push_back(velocity("rod", -0.1));
+  const Step::Response response = simulator.step(request);
+  ASSERT_TRUE(response.success);
+  EXPECT_NEAR(response.bodies.bodies[1].pose.position.z, 0.1 - 0.1 * 0.1, 1e-12);
+}
+
+TEST(Endings, SilenceCanEndTheRun) {
+  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1", "command_timeout:=0.05", "on_timeout:=error"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Step::Request request;
+  request.duration = 0.1;
+  request.commands.push_back(velocity("rod", -0.1));
+  const Step::Response response = simulator.step(request);
+  EXPECT_FALSE(response.success);
+  EXPECT_NE(response.message.find("no command for 'rod'"), std::string::npos);
+  EXPECT_NEAR(response.time, 0.05, 1e-9);
+  EXPECT_EQ(simulator.wait(), 3) << simulator.log();
 }
 
 }  // namespace

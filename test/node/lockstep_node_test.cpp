@@ -26,14 +26,6 @@ namespace {
 const std::string kPress = "scene:=" MPM_TEST_DATA_DIR "/press.yaml";
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-mpm_ros::Command velocity(const std::string& body, double vz) {
-  mpm_ros::Command command;
-  command.body = body;
-  command.kind = mpm_ros::Command::VELOCITY;
-  command.twist.linear.z = vz;
-  return command;
-}
-
 /// Publishes until the simulator's subscriber is there, then once.
 template <typename Message>
 void say(const std::string& topic, const Message& message) {
@@ -364,46 +356,6 @@ TEST(Lockstep, TheEndOfTheSceneEndsTheSteps) {
   Ear<SolverState> state(simulator.name("solver_state"));  // latched
   ASSERT_TRUE(state.hears(1));
   EXPECT_EQ(state.heard()[0].state_hash.size(), 16U);
-}
-
-TEST(Lockstep, SilenceStopsTheBody) {
-  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1", "command_timeout:=0.05", "on_timeout:=stop"});
-  ASSERT_TRUE(simulator.ready()) << simulator.log();
-  Ear<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
-  ASSERT_TRUE(diagnostics.connected());
-  Step::Request request;
-  request.duration = 0.1;
-  request.commands.push_back(velocity("rod", -0.1));
-  const Step::Response response = simulator.step(request);
-  ASSERT_TRUE(response.success);
-  // It moved for 0.05 s and stood still for the rest.
-  EXPECT_NEAR(response.bodies.bodies[1].pose.position.z, 0.1 - 0.1 * 0.05, 1e-12);
-  EXPECT_EQ(response.bodies.bodies[1].twist.linear.z, 0.0);
-  EXPECT_TRUE(diagnosed(diagnostics, simulator, "no command for 'rod'"));
-}
-
-TEST(Lockstep, SilenceHoldsTheTwistByDefault) {
-  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1", "command_timeout:=0.05"});
-  ASSERT_TRUE(simulator.ready()) << simulator.log();
-  Step::Request request;
-  request.duration = 0.1;
-  request.commands.push_back(velocity("rod", -0.1));
-  const Step::Response response = simulator.step(request);
-  ASSERT_TRUE(response.success);
-  EXPECT_NEAR(response.bodies.bodies[1].pose.position.z, 0.1 - 0.1 * 0.1, 1e-12);
-}
-
-TEST(Lockstep, SilenceCanEndTheRun) {
-  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1", "command_timeout:=0.05", "on_timeout:=error"});
-  ASSERT_TRUE(simulator.ready()) << simulator.log();
-  Step::Request request;
-  request.duration = 0.1;
-  request.commands.push_back(velocity("rod", -0.1));
-  const Step::Response response = simulator.step(request);
-  EXPECT_FALSE(response.success);
-  EXPECT_NE(response.message.find("no command for 'rod'"), std::string::npos);
-  EXPECT_NEAR(response.time, 0.05, 1e-9);
-  EXPECT_EQ(simulator.wait(), 3) << simulator.log();
 }
 
 }  // namespace

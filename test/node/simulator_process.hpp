@@ -4,6 +4,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <mpm_ros/Command.h>
 #include <mpm_ros/Step.h>
 #include <ros/ros.h>
 #include <rosbag/bag.h>
@@ -33,6 +34,14 @@ inline bool eventually(const std::function<bool()>& ask, double seconds = 20.0) 
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return ask();
+}
+
+inline mpm_ros::Command velocity(const std::string& body, double vz) {
+  mpm_ros::Command command;
+  command.body = body;
+  command.kind = mpm_ros::Command::VELOCITY;
+  command.twist.linear.z = vz;
+  return command;
 }
 
 /// A folder of its own, gone with the test.

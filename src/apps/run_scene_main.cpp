@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "mpm_ros/run_scene.hpp"
+#include "mpm_ros/shared_cores.hpp"
 
 namespace {
 
@@ -18,6 +19,7 @@ void on_signal(int signal) { stop_signal = signal; }
 }  // namespace
 
 int main(int argc, char** argv) {
+  mpm_ros::wait_without_spinning(argv);
   mpm_ros::RunSceneOptions options;
   bool list = false;
   bool explain = false;

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <thread>
 
+#include "mpm_ros/shared_cores.hpp"
 #include "mpm_ros/simulator_node.hpp"
 
 namespace {
@@ -44,6 +45,7 @@ int run() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  mpm_ros::wait_without_spinning(argv);
   // Our own handlers: roscpp's would take the connections away before the bag is closed.
   ros::init(argc, argv, "simulator", ros::init_options::NoSigintHandler);
   std::signal(SIGINT, on_signal);

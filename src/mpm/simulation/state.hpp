@@ -53,6 +53,10 @@ struct Simulation::State {
   [[noreturn]] void fail(const std::string& what, ParticleRef particle, double now, const std::string& remedy) const;
 };
 
+/// What a planar scene keeps of a pose: the plane's position, and of the rotation its part about y (swing and twist),
+/// so that zeros stay exact zeros. @throws RigidError for a pose that is turned over.
+Pose planar(const Pose& pose, const std::string& body);
+
 /// Sums over all particles of `term(set, index)`, grouped so that the result does not depend on the number of threads.
 template <class Value, class Term>
 Value sum_particles(const std::vector<ParticleSet>& sets, int threads, Value zero, Term&& term) {

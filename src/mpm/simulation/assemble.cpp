@@ -1,0 +1,185 @@
+// From a definition to a run: checks it, makes the particles, and puts the list of stages together.
+#include <fmt/core.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/boundary/grid_damping.hpp"
+#include "mpm/boundary/wall.hpp"
+#include "mpm/math/dimension.hpp"
+#include "state.hpp"
+
+namespace mpm {
+
+const std::array<const char*, 6> kWallNames = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+
+namespace {
+
+constexpr std::size_t kParticlesPerThread = 4000;  ///< fewer do not pay for the waiting at the end of every pass
+
+const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body) {
+  for (const MaterialDefinition& material : definition.materials) {
+    if (material.name == body.material) return material;
+  }
+  throw DefinitionError(fmt::format("body '{}': no material is called '{}'", body.name, body.material));
+}
+
+ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body, double density, const Law& law,
+                     const GridLayout& layout) {
+  const std::size_t n = body.positions.size();
+  const std::string start = fmt::format("body '{}': ", body.name);
+  if (n == 0) throw DefinitionError(start + "it has no particle");
+  if (!body.velocities.empty() && body.velocities.size() != n) {
+    throw DefinitionError(fmt::format("{}{} velocities for {} particles", start, body.velocities.size(), n));
+  }
+  if (!(body.particle_volume > 0.0) || !std::isfinite(body.particle_volume)) {
+    throw DefinitionError(fmt::format("{}particle volume {} must be positive", start, body.particle_volume));
+  }
+  ParticleSet set;
+  set.name = body.name;
+  set.mass = density * body.particle_volume;
+  const int dim = layout.dim();
+  for (int k = 0; k < dim; ++k) {
+    set.half[k] = 0.5 / definition.method.particles_per_direction;
+    // Pressed against a wall, a particle comes to rest only when its box is half beyond it.
+    const int face = 2 * layout.axis(k);
+    set.lowest[k] = definition.walls[face].kind == WallKind::none ? 0.0 : -set.half[k];
+    set.highest[k] = layout.last_node(k) + (definition.walls[face + 1].kind == WallKind::none ? 0.0 : set.half[k]);
+  }
+  set.id.resize(n);
+  set.x.assign(dim, std::vector<double>(n));
+  set.v.assign(dim, std::vector<double>(n));
+  for (std::size_t p = 0; p < n; ++p) {
+    for (int k = 0; k < dim; ++k) {
+      const int axis = layout.axis(k);
+      set.x[k][p] = body.positions[p][axis];
+      set.v[k][p] = body.velocities.empty() ? 0.0 : body.velocities[p][axis];
+      const double cells = layout.in_cells(k, set.x[k][p]);
+      if (!(cells >= 0.0 && cells <= layout.last_node(k)) || !std::isfinite(set.v[k][p])) {
+        throw DefinitionError(fmt::format("{}particle {} is outside the grid or not finite: {} = {} m, velocity {} m/s",
+                                          start, p, "xyz"[axis], set.x[k][p], set.v[k][p]));
+      }
+    }
+  }
+  set.f.assign(dim == 3 ? Solid::kMatrix : PlaneStrain::kMatrix, std::vector<double>(n, 0.0));
+  for (int k = 0; k < dim; ++k) std::fill(set.f[k * (dim + 1)].begin(), set.f[k * (dim + 1)].end(), 1.0);
+  set.tau.assign(dim == 3 ? Solid::kSymmetric : PlaneStrain::kSymmetric, std::vector<double>(n, 0.0));
+  set.history.assign(history_size(law), std::vector<double>(n, 0.0));
+  if (definition.method.update == UpdateScheme::usavg) set.next_x.assign(dim, std::vector<double>(n));
+  return set;
+}
+
+void check(const SimulationDefinition& d) {
+  if (d.time.sync <= 0) throw DefinitionError("time.sync must be a positive number of nanoseconds");
+  if (!(d.time.cfl > 0.0 && d.time.cfl < 1.0)) {
+    throw DefinitionError(fmt::format("time.cfl is {}, must lie between 0 and 1", d.time.cfl));
+  }
+  if (d.time.step && !(*d.time.step > 0.0)) {
+    throw DefinitionError(fmt::format("time.step is {}, must be positive", *d.time.step));
+  }
+  if (d.method.gradient_terms < 1) throw DefinitionError("method.gradient_terms must be at least 1");
+  if (!(d.method.flip >= 0.0 && d.method.flip <= 1.0)) {
+    throw DefinitionError(fmt::format("FLIP fraction {} must lie in [0, 1]", d.method.flip));
+  }
+  if (!(d.method.damping >= 0.0) || !std::isfinite(d.method.damping)) {
+    throw DefinitionError(fmt::format("method.damping is {}, must be finite and not negative", d.method.damping));
+  }
+  if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
+  if (d.geometry != GeometryKind::solid && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
+  if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");
+}
+
+void make_planar(SimulationDefinition& definition) {
+  definition.gravity.y() = 0.0;
+  for (RigidBodyDefinition& body : definition.rigid_bodies) {
+    body.pose = planar(body.pose, body.name);
+    body.velocity[1] = body.rotation_rate[0] = body.rotation_rate[2] = Function();
+  }
+}
+
+}  // namespace
+
+Pose planar(const Pose& pose, const std::string& body) {
+  const Quat& q = pose.orientation;
+  const double about_y = std::hypot(q.w(), q.y());
+  if (!(about_y >= 1e-3 * q.norm())) {
+    throw RigidError(
+        fmt::format("rigid body '{}': its pose is turned over in a planar scene; turn it about y only", body));
+  }
+  const double scale = q.norm() / about_y;
+  return {{pose.position.x(), 0.0, pose.position.z()}, Quat(q.w() * scale, 0.0, q.y() * scale, 0.0)};
+}
+
+Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions options)
+    : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  check(definition);
+  s.definition = definition;
+  std::size_t count = 0;
+  for (const DeformableBody& body : definition.bodies) count += body.positions.size();
+  s.threads = options.threads > 0 ? options.threads
+                                  : std::clamp(static_cast<int>(count / kParticlesPerThread), 1, omp_get_max_threads());
+  const int dim = definition.geometry == GeometryKind::solid ? 3 : 2;
+  if (dim == 2) make_planar(s.definition);
+  s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));
+  const GridLayout& layout = s.grid->layout;
+
+  std::uint32_t next_id = 0;
+  s.sets.reserve(definition.bodies.size());
+  for (const DeformableBody& body : definition.bodies) {
+    const MaterialDefinition& material = find_material(definition, body);
+    s.laws.push_back(make_law(material));
+    s.sets.push_back(make_set(definition, body, material.density, s.laws.back(), layout));
+    ParticleSet& set = s.sets.back();
+    set.first_id = next_id;
+    for (std::uint32_t& id : set.id) id = next_id++;
+    s.total_mass += set.mass * set.size();
+  }
+  if (s.sets.empty()) throw DefinitionError("there is no deformable body, so nothing to simulate; add one to 'bodies'");
+  for (DeformableBody& body : s.definition.bodies) {
+    body.positions = {};
+    body.velocities = {};
+  }
+
+  if (definition.method.damping > 0.0) s.stages.push_back(std::make_unique<GridDamping>(definition.method.damping));
+  s.bodies.reserve(definition.rigid_bodies.size());
+  for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
+    s.bodies.emplace_back(body);
+    auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.threads);
+    s.contacts.push_back(contact.get());
+    s.stages.push_back(std::move(contact));
+    const double cells = body.surface->thickness() / layout.smallest_cell();
+    if (cells < 3.0) {
+      s.warnings.push_back(
+          fmt::format("rigid body '{}' is {:.2g} cells thick where it is thinnest: material on its two sides shares "
+                      "nodes and feels "
+                      "each other when it is thinner than 3; use a finer grid.cell or a thicker body",
+                      body.name, cells));
+    }
+  }
+  for (int face = 0; face < 6; ++face) {
+    if (definition.walls[face].kind == WallKind::none) continue;
+    const int world_axis = face / 2;
+    if (dim == 2 && world_axis == 1) continue;
+    const int grid_axis = dim == 3 ? world_axis : world_axis / 2;
+    s.stages.push_back(std::make_unique<Wall>(2 * grid_axis + face % 2, definition.walls[face], kWallNames[face]));
+  }
+
+  ContinuumSettings settings;
+  settings.flip = definition.method.flip;
+  settings.gradient_terms = definition.method.gradient_terms;
+  settings.gravity = s.definition.gravity;
+  settings.threads = s.threads;
+  s.mechanics = make_mechanics(dim, s.sets, s.laws, settings);
+  double lightest = s.sets.front().mass;
+  for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.mass);
+  s.grid->least_mass = 1e-30 * lightest;
+  s.sorter = std::make_unique<Sorter>(s.threads);
+  s.gravity.name = "gravity";
+  s.sort(0.0);
+  s.material_limit = s.survey_material();
+  s.initial_momentum = state().audit.momentum;
+}
+
+}  // namespace mpm

@@ -1,0 +1,68 @@
+// The shipped scenes as they are: the audit closes, the same bits for one and two threads. The demo's scene runs on a
+// grid twice as coarse here, and as it is in the suite of long tests.
+#include <gtest/gtest.h>
+
+#include "mpm/scene/scene.hpp"
+#include "mpm/simulation/simulation.hpp"
+
+namespace {
+
+mpm::SolverState run(const std::string& name, const std::vector<std::string>& overrides, int threads,
+                     std::uint64_t* hash = nullptr) {
+  const mpm::Scene scene = mpm::load_scene(name, overrides);
+  mpm::Simulation simulation(mpm::build(scene), {threads});
+  const auto end = static_cast<std::int64_t>(scene.definition.time.end * 1e9 + 0.5);
+  EXPECT_GT(end, 0) << name << " has no end";
+  double worst = 0.0;
+  while (simulation.time() < end) {
+    simulation.advance();
+    if (simulation.time() % (10 * simulation.sync_period()) == 0) {
+      worst = std::max(worst, simulation.state().audit.residual);
+    }
+  }
+  EXPECT_LT(worst, 1e-10) << name;  // DESIGN: of the momentum exchanged
+  if (hash != nullptr) *hash = simulation.state_hash();
+  return simulation.state();
+}
+
+double impulse(const mpm::SolverState& state, const std::string& name) {
+  for (const mpm::NamedImpulse& entry : state.audit.impulses) {
+    if (entry.name == name) return entry.impulse.norm();
+  }
+  return 0.0;
+}
+
+const std::vector<std::string> kCoarse = {"grid.cell=0.07"};
+
+TEST(ShippedScenes, CloseTheAudit) {
+  int scenes = 0;
+  for (const auto& [name, about] : mpm::shipped_scenes()) {
+    EXPECT_FALSE(about.empty()) << name << " does not say what it shows";
+    run(name, name == "blade_in_soil" ? kCoarse : std::vector<std::string>(), 1);
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 5);
+}
+
+TEST(ShippedScenes, BladeHasTheSameBitsForTwoThreads) {
+  std::uint64_t one = 0, two = 0;
+  const mpm::SolverState state = run("blade_in_soil", kCoarse, 1, &one);
+  run("blade_in_soil", kCoarse, 2, &two);
+  EXPECT_EQ(one, two);
+  EXPECT_GT(impulse(state, "contact/blade"), 50.0);  // [N s] it did push
+}
+
+TEST(FullShippedScenes, BladeClosesTheAuditAsShipped) { run("blade_in_soil", {}, 0); }
+
+// A slow blade is resisted by strength and weight: half and twice the stiffness change its impulse by less than 10 %,
+// the scatter of the heap's shape (README, "Accuracy and speed").
+TEST(FullShippedScenes, StiffnessHardlyChangesTheForceOnTheBlade) {
+  const double as_shipped = impulse(run("blade_in_soil", {}, 0), "contact/blade");
+  for (const char* young : {"0.25 MPa", "1 MPa"}) {
+    const double other =
+        impulse(run("blade_in_soil", {std::string("materials.sand.young=") + young}, 0), "contact/blade");
+    EXPECT_NEAR(other, as_shipped, 0.1 * as_shipped) << young;
+  }
+}
+
+}  // namespace

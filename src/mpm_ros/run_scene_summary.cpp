@@ -96,8 +96,9 @@ std::string RunSummary::text() const {
       "{:.4g}); lost to plastic flow {:.4g} J, work of tools {:.4g} J\n",
       start_energy.total(), state.energy.total(), state.energy.kinetic, state.energy.elastic, state.energy.potential,
       state.energy.plastic, state.energy.contact_work);
-  text += fmt::format("  momentum error {:.2g} of the momentum exchanged, smallest J {:.4g}, state hash {}\n",
-                      state.audit.residual, state.min_j, hash_text(state_hash));
+  text +=
+      fmt::format("  momentum error {:.2g} of the momentum exchanged, smallest J {:.4g} at the end, state hash {}\n",
+                  state.audit.residual, state.min_j, hash_text(state_hash));
   for (const auto& [body, impulse] : contact_impulse) {
     text +=
         fmt::format("  contact impulse on {}: {:.6g} {:.6g} {:.6g} N s\n", body, impulse.x(), impulse.y(), impulse.z());

@@ -9,27 +9,13 @@
 #include <set>
 
 #include "mpm_ros/command_log.hpp"
+#include "mpm_ros/report_plots.hpp"
 #include "mpm_ros/run.hpp"
 
 namespace mpm_ros {
 namespace {
 
 mpm::Scene press() { return mpm::load_scene(MPM_TEST_DATA_DIR "/press.yaml"); }
-
-/// A folder of its own, gone with the test.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "mpm_ros_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  std::string path() const { return path_.string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 AppliedCommand push_down(const Run& run, double speed) {
   AppliedCommand command;
@@ -90,7 +76,7 @@ std::uint64_t replay_run(const std::string& bag, int threads) {
 }
 
 TEST(RunBag, RecordedCommandsGiveTheSameHashWithAnyNumberOfThreads) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::uint64_t hash = press_run(folder.file("one.bag"), 1);
   EXPECT_EQ(press_run("", 2), hash);
   EXPECT_EQ(replay_run(folder.file("one.bag"), 1), hash);
@@ -98,7 +84,7 @@ TEST(RunBag, RecordedCommandsGiveTheSameHashWithAnyNumberOfThreads) {
 }
 
 TEST(RunBag, HoldsEverythingFromTheStartOn) {
-  const Folder folder;
+  const TemporaryFolder folder;
   press_run(folder.file("run.bag"), 1);
   rosbag::Bag bag(folder.file("run.bag"));
   rosbag::View view(bag);
@@ -132,7 +118,7 @@ TEST(RunBag, HoldsEverythingFromTheStartOn) {
 }
 
 TEST(RunBag, ForceMeansImpulseOverTime) {
-  const Folder folder;
+  const TemporaryFolder folder;
   press_run(folder.file("run.bag"), 1);
   rosbag::Bag bag(folder.file("run.bag"));
   rosbag::View view(bag, rosbag::TopicQuery("/mpm/contact_forces"));
@@ -154,7 +140,7 @@ TEST(RunBag, ForceMeansImpulseOverTime) {
 }
 
 TEST(RunBag, StaticTopicsAreLatched) {
-  const Folder folder;
+  const TemporaryFolder folder;
   press_run(folder.file("run.bag"), 1);
   rosbag::Bag bag(folder.file("run.bag"));
   rosbag::View view(bag);
@@ -179,7 +165,7 @@ TEST(RunBag, AFolderThatCannotBeWrittenIsOneLine) {
   EXPECT_NE(missing.find("/no/such/folder"), std::string::npos);
   EXPECT_EQ(missing.find('\n'), std::string::npos);
   if (geteuid() != 0) {  // root may write everywhere
-    const Folder folder;
+    const TemporaryFolder folder;
     chmod(folder.path().c_str(), 0500);
     EXPECT_NE(error_of(folder.file("run.bag")).find("not writable"), std::string::npos);
     chmod(folder.path().c_str(), 0700);
@@ -187,7 +173,7 @@ TEST(RunBag, AFolderThatCannotBeWrittenIsOneLine) {
 }
 
 TEST(RunBag, ABagWithoutCommandsCannotBeReplayed) {
-  const Folder folder;
+  const TemporaryFolder folder;
   { BagRecorder recorder(folder.file("empty.bag")); }
   EXPECT_THROW(read_commands(folder.file("empty.bag")), BagError);
   EXPECT_THROW(read_commands(folder.file("missing.bag")), BagError);

@@ -19,7 +19,7 @@ std::size_t messages_in(const std::string& path, const std::string& type) {
 }
 
 void expect_closed_bag_after(int signal) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string bag = folder.file("run.bag");
   SimulatorProcess simulator({kPress, "pacing:=real_time", "threads:=1", "set:=[time.end=1000]", "record:=" + bag});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
@@ -37,7 +37,7 @@ TEST(Endings, InterruptClosesTheBag) { expect_closed_bag_after(SIGINT); }
 TEST(Endings, TerminationClosesTheBag) { expect_closed_bag_after(SIGTERM); }
 
 TEST(Endings, InterruptWhilePausedClosesTheBag) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string bag = folder.file("run.bag");
   SimulatorProcess simulator({kPress, "threads:=1", "start_paused:=true", "record:=" + bag});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
@@ -47,7 +47,7 @@ TEST(Endings, InterruptWhilePausedClosesTheBag) {
 }
 
 TEST(Endings, TheScenesEndIsExitCodeZero) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string bag = folder.file("run.bag");
   SimulatorProcess simulator({kPress, "pacing:=free", "threads:=1", "record:=" + bag});
   EXPECT_EQ(simulator.wait(), 0) << simulator.log();
@@ -55,7 +55,7 @@ TEST(Endings, TheScenesEndIsExitCodeZero) {
 }
 
 TEST(Endings, FailedPhysicsIsExitCodeThreeAndLeavesABag) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string bag = folder.file("run.bag");
   SimulatorProcess simulator(
       {"scene:=" MPM_TEST_DATA_DIR "/leaves_domain.yaml", "pacing:=free", "threads:=1", "record:=" + bag});
@@ -179,14 +179,4 @@ TEST(Endings, SilenceCanEndTheRun) {
 }  // namespace
 }  // namespace mpm_ros::test
 
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  setenv("OMP_WAIT_POLICY", "passive", 1);  // several simulators share the cores
-  ros::init(argc, argv, "endings_node_test");
-  ros::start();
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  const int result = RUN_ALL_TESTS();
-  ros::shutdown();
-  return result;
-}
+int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "endings_node_test"); }

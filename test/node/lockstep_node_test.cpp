@@ -79,7 +79,7 @@ TEST(Lockstep, TopicsAndServicesHaveTheirTypes) {
 }
 
 TEST(Lockstep, CommandMovesTheBodyAndTheBodyFeelsTheMaterial) {
-  const Folder folder;
+  const TemporaryFolder folder;
   SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1", "record:=" + folder.file("run.bag")});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
   Ear<ContactForces> forces(simulator.name("contact_forces"));
@@ -171,7 +171,7 @@ std::string driven_run(const std::string& bag, int threads) {
 }
 
 TEST(Lockstep, ThreadsAndReplayGiveTheSameHash) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string hash = driven_run(folder.file("one.bag"), 1);
   ASSERT_EQ(hash.size(), 16U);
   EXPECT_EQ(driven_run(folder.file("two.bag"), 2), hash);
@@ -315,7 +315,7 @@ TEST(Lockstep, CommandsInABodysOwnAxes) {
 }
 
 TEST(Lockstep, PauseRefusesStepsAndResetBeginsAgain) {
-  const Folder folder;
+  const TemporaryFolder folder;
   SimulatorProcess simulator(
       {kPress, "pacing:=lockstep", "threads:=1", "state_hash:=true", "record:=" + folder.file("run.bag")});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
@@ -361,14 +361,4 @@ TEST(Lockstep, TheEndOfTheSceneEndsTheSteps) {
 }  // namespace
 }  // namespace mpm_ros::test
 
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  setenv("OMP_WAIT_POLICY", "passive", 1);  // several simulators share the cores
-  ros::init(argc, argv, "lockstep_node_test");
-  ros::start();
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  const int result = RUN_ALL_TESTS();
-  ros::shutdown();
-  return result;
-}
+int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "lockstep_node_test"); }

@@ -24,6 +24,8 @@
 #include <thread>
 #include <vector>
 
+#include "mpm_ros/report_plots.hpp"
+
 namespace mpm_ros::test {
 
 /// Asks until the answer is yes or `seconds` of wall time have passed; simulated time may stand still.
@@ -43,20 +45,6 @@ inline mpm_ros::Command velocity(const std::string& body, double vz) {
   command.twist.linear.z = vz;
   return command;
 }
-
-/// A folder of its own, gone with the test.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "mpm_ros_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 class SimulatorProcess {
  public:
@@ -133,7 +121,7 @@ class SimulatorProcess {
   }
 
  private:
-  Folder folder_;
+  TemporaryFolder folder_;
   std::string namespace_;
   std::string log_;
   pid_t pid_ = 0;
@@ -190,6 +178,19 @@ inline std::string hash_in(const std::string& path) {
   std::string hash;
   for (const rosbag::MessageInstance& message : view) hash = message.instantiate<mpm_ros::SolverState>()->state_hash;
   return hash;
+}
+
+/// main() of a node test: runs the tests as the ROS node `name`.
+inline int run_node_tests(int argc, char** argv, const std::string& name) {
+  testing::InitGoogleTest(&argc, argv);
+  setenv("OMP_WAIT_POLICY", "passive", 1);  // several simulators share the cores
+  ros::init(argc, argv, name);
+  ros::start();
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  const int result = RUN_ALL_TESTS();
+  ros::shutdown();
+  return result;
 }
 
 }  // namespace mpm_ros::test

@@ -46,7 +46,7 @@ class Wall final : public Stage {
   WallDefinition definition_;
   ImpulseAccount account_;
   std::vector<Node> nodes_;
-  HeldNodes held_;
+  HeldNodes held_;                ///< frictional only
   std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
 };
 

@@ -58,7 +58,7 @@ struct SolverState {
   EnergyReport energy;
   AuditReport audit;
   std::uint64_t particles = 0;
-  double min_j = 1.0;         ///< smallest det F of any particle
+  double min_j = 1.0;         ///< smallest det F of any particle now
   double wall_seconds = 0.0;  ///< spent in stepping
 };
 

@@ -68,7 +68,7 @@ void Wall::momentum_updated(StepContext& context) {
     const auto [dv, hold] = change(nodal_vector(grid.velocity, grid.layout, node.ref), n);
     node.hold = hold;
     if (hold == Hold::free) continue;
-    held_.add(node.id, hold);
+    if (definition_.kind == WallKind::frictional) held_.add(node.id, hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, dv);
     add_nodal_vector(grid.force, grid.layout, node.ref, dv / context.dt);
     given += grid.mass.at(node.ref.block, 0, node.ref.node) * dv;

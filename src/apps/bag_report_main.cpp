@@ -3,7 +3,7 @@
 #include <exception>
 #include <iostream>
 
-#include "mpm_ros/report.hpp"
+#include "mpm_ros/report/report.hpp"
 
 int main(int argc, char** argv) {
   mpm_ros::ReportOptions options;

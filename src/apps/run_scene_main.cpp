@@ -7,8 +7,8 @@
 #include <csignal>
 #include <iostream>
 
-#include "mpm_ros/run_scene.hpp"
-#include "mpm_ros/shared_cores.hpp"
+#include "mpm_ros/run/run_scene.hpp"
+#include "mpm_ros/run/shared_cores.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include <csignal>
 #include <thread>
 
-#include "mpm_ros/shared_cores.hpp"
-#include "mpm_ros/simulator_node.hpp"
+#include "mpm_ros/node/simulator_node.hpp"
+#include "mpm_ros/run/shared_cores.hpp"
 
 namespace {
 

@@ -1,9 +1,9 @@
 // When a command takes effect, in which order, and what it puts an end to. Sync points are 10 ns apart here.
-#include "mpm_ros/command_queue.hpp"
+#include "mpm_ros/command/command_queue.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mpm_ros/command_watch.hpp"
+#include "mpm_ros/command/command_watch.hpp"
 
 namespace mpm_ros {
 namespace {

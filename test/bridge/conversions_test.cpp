@@ -1,5 +1,5 @@
 // Conversions, stamps and clouds, against values worked out by hand.
-#include "mpm_ros/conversions.hpp"
+#include "mpm_ros/message/conversions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cstring>
 #include <limits>
 
-#include "mpm_ros/contact_average.hpp"
-#include "mpm_ros/particle_cloud.hpp"
-#include "mpm_ros/stamps.hpp"
+#include "mpm_ros/message/contact_average.hpp"
+#include "mpm_ros/message/particle_cloud.hpp"
+#include "mpm_ros/message/stamps.hpp"
 
 namespace mpm_ros {
 namespace {

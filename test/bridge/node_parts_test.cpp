@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "mpm_ros/mailbox.hpp"
-#include "mpm_ros/node_parameters.hpp"
-#include "mpm_ros/pacer.hpp"
+#include "mpm_ros/node/mailbox.hpp"
+#include "mpm_ros/node/node_parameters.hpp"
+#include "mpm_ros/node/pacer.hpp"
 
 namespace mpm_ros {
 namespace {

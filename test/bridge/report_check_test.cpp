@@ -1,12 +1,12 @@
 // Each check of bag_report against a bag with one fault.
-#include "mpm_ros/report_check.hpp"
+#include "mpm_ros/report/report_check.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "mpm_ros/report_bag.hpp"
-#include "mpm_ros/report_plots.hpp"
+#include "mpm_ros/report/report_bag.hpp"
+#include "mpm_ros/report/report_plots.hpp"
 #include "report_run.hpp"
 
 namespace mpm_ros {

@@ -1,5 +1,5 @@
 // scripts/plot_report.py on the tables of a run made up by hand: every picture is there and shows something.
-#include "mpm_ros/report_plots.hpp"
+#include "mpm_ros/report/report_plots.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "mpm_ros/report.hpp"
+#include "mpm_ros/report/report.hpp"
 #include "report_run.hpp"
 
 namespace mpm_ros {

@@ -1,5 +1,5 @@
 // bag_report on runs made up by hand: its tables and CSV files against closed forms, and its errors.
-#include "mpm_ros/report.hpp"
+#include "mpm_ros/report/report.hpp"
 
 #include <gtest/gtest.h>
 #include <std_msgs/String.h>
@@ -13,11 +13,11 @@
 #include <limits>
 #include <sstream>
 
-#include "mpm_ros/bag_error.hpp"
-#include "mpm_ros/report_bag.hpp"
-#include "mpm_ros/report_csv.hpp"
-#include "mpm_ros/report_plots.hpp"
-#include "mpm_ros/report_statistics.hpp"
+#include "mpm_ros/message/bag_error.hpp"
+#include "mpm_ros/report/report_bag.hpp"
+#include "mpm_ros/report/report_csv.hpp"
+#include "mpm_ros/report/report_plots.hpp"
+#include "mpm_ros/report/report_statistics.hpp"
 #include "report_run.hpp"
 
 namespace mpm_ros {

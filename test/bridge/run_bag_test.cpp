@@ -8,9 +8,9 @@
 #include <map>
 #include <set>
 
-#include "mpm_ros/command_log.hpp"
-#include "mpm_ros/report_plots.hpp"
-#include "mpm_ros/run.hpp"
+#include "mpm_ros/command/command_log.hpp"
+#include "mpm_ros/report/report_plots.hpp"
+#include "mpm_ros/run/run.hpp"
 
 namespace mpm_ros {
 namespace {

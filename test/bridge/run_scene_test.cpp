@@ -1,5 +1,5 @@
 // The program run_scene behind its options: results, exit codes, and what is written whatever ends the run.
-#include "mpm_ros/run_scene.hpp"
+#include "mpm_ros/run/run_scene.hpp"
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "mpm_ros/run_scene_progress.hpp"
+#include "mpm_ros/run/run_scene_progress.hpp"
 
 namespace mpm_ros {
 namespace {

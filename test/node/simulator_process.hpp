@@ -24,7 +24,7 @@
 #include <thread>
 #include <vector>
 
-#include "mpm_ros/report_plots.hpp"
+#include "mpm_ros/report/report_plots.hpp"
 
 namespace mpm_ros::test {
 

@@ -1,0 +1,53 @@
+// Commands to rigid bodies: as they are asked for, and as they are applied.
+#pragma once
+
+#include <mpm_ros/Command.h>
+#include <ros/time.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mpm/rigid/motion.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "mpm_ros/message/stamps.hpp"
+
+namespace mpm_ros {
+
+enum class CommandKind : std::uint8_t { velocity = mpm_ros::Command::VELOCITY, pose = mpm_ros::Command::POSE };
+
+/// A checked command that waits for its time.
+struct BodyCommand {
+  int body = 0;  ///< index in the simulation
+  CommandKind kind = CommandKind::velocity;
+  mpm::Twist twist;     ///< velocity: of the body's origin
+  mpm::Pose pose;       ///< pose: to be at
+  int frame_body = -1;  ///< rigid body in whose axes it is given, as they are when it is applied; -1: world
+  ros::Time requested;  ///< stamp it came with
+  std::optional<std::int64_t> stamp;  ///< the same in simulated time [ns]; none: as soon as possible
+  bool late = false;                  ///< the stamp was zero, or past when it came
+  std::uint64_t order = 0;            ///< of arrival
+};
+
+/// A command as the simulation gets it; world axes.
+struct AppliedCommand {
+  int body = 0;
+  CommandKind kind = CommandKind::velocity;
+  mpm::Twist twist;
+  mpm::Pose pose;
+  std::int64_t effect = 0;   ///< [ns] simulated time at which it takes effect
+  std::int64_t arrival = 0;  ///< [ns] pose: when it is reached
+  ros::Time requested;
+};
+
+/// Gives the command to the simulation, whose time() is the command's effect. @throws mpm::RigidError
+void apply(const AppliedCommand& command, mpm::Simulation& simulation);
+
+/// As recorded and published.
+mpm_ros::Command to_message(const AppliedCommand& command, const std::string& body, const std::string& world_frame,
+                            const Stamps& stamps);
+/// The exact inverse but for the body's name. @throws BagError when the scene has no such body or the kind is unknown.
+AppliedCommand from_message(const mpm_ros::Command& message, const mpm::Simulation& simulation);
+
+}  // namespace mpm_ros

@@ -1,0 +1,36 @@
+// The commands that a bag recorded, applied again at the simulated time at which they took effect: with the same scene
+// this gives the same state hash.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mpm/simulation/simulation.hpp"
+#include "mpm_ros/command/body_command.hpp"
+
+namespace mpm_ros {
+
+class CommandLog {
+ public:
+  CommandLog() = default;
+  /// In the order in which they were applied; effect_ns must not decrease. @throws BagError
+  explicit CommandLog(std::vector<mpm_ros::Command> commands);
+
+  bool empty() const { return commands_.empty(); }
+  std::size_t size() const { return commands_.size(); }
+  /// Commands whose time has come at simulation.time() and that were not taken before.
+  /// @throws BagError for a body that the simulation does not have, or an effect between two sync points.
+  std::vector<AppliedCommand> take(const mpm::Simulation& simulation);
+  /// Begins again.
+  void rewind() { next_ = 0; }
+
+ private:
+  std::vector<mpm_ros::Command> commands_;
+  std::size_t next_ = 0;
+};
+
+/// The commands in a bag, in order. @throws BagError when it cannot be read or has no topic of type mpm_ros/Command.
+CommandLog read_commands(const std::string& bag_path);
+
+}  // namespace mpm_ros

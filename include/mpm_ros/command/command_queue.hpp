@@ -1,0 +1,70 @@
+// The commands that wait for their sync point: one queue by stamp, filled by any thread, emptied by the solver's.
+//
+// Velocity: takes effect at the first sync point at or after its stamp; without a stamp, or with one that is past, at
+// the next. Pose: one whose stamp is to come arrives at it (rounded up to a sync point), setting out when the pose
+// before it has been reached; any other sets out at the next sync point and arrives one command period later, the
+// period being the time between the body's last two pose commands. A body has one kind of command at a time: a command
+// that takes effect drops those of the other kind that were received before it.
+//
+// What is due at a sync point is applied in order of effective time, body, arrival here.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "mpm_ros/command/body_command.hpp"
+
+namespace mpm_ros {
+
+/// A command that is due, still in the axes it was given in.
+struct DueCommand {
+  BodyCommand command;
+  std::int64_t arrival = 0;  ///< [ns] pose: a sync point after the present one
+};
+
+class CommandQueue {
+ public:
+  /// `sync_period` > 0 [ns].
+  explicit CommandQueue(std::int64_t sync_period) : sync_period_(sync_period) {}
+
+  /// Any thread.
+  void push(BodyCommand command);
+  /// What takes effect at the sync point `now` [ns], which is later than the one before.
+  std::vector<DueCommand> take(std::int64_t now);
+  /// Forgets everything but the counts, for a run that begins again.
+  void clear();
+
+  /// Commands with a stamp that was zero or past when they came.
+  std::uint64_t late() const;
+  std::size_t waiting() const;
+  /// The last sync point taken [ns]; -1 before the first.
+  std::int64_t passed() const;
+
+  /// A gap in a body's stream of poses longer than this [ns] says nothing of its period.
+  static constexpr std::int64_t kLongestPeriod = 1'000'000'000;
+
+ private:
+  /// The stream of poses of one body.
+  struct PoseStream {
+    std::int64_t last_stamp = -1;  ///< of the last pose that set out (its sync point when it had none) [ns]
+    std::int64_t period = 0;       ///< [ns]
+    std::int64_t arrival = 0;      ///< [ns] of the pose under way
+  };
+
+  std::int64_t round_up(std::int64_t time) const { return (time + sync_period_ - 1) / sync_period_ * sync_period_; }
+  bool is_due(const BodyCommand& command, std::int64_t now) const;
+  std::int64_t arrival_of(const BodyCommand& command, std::int64_t now);
+
+  const std::int64_t sync_period_;
+  mutable std::mutex mutex_;
+  std::vector<BodyCommand> waiting_;
+  std::map<int, PoseStream> streams_;
+  std::int64_t passed_ = -1;  ///< last sync point taken [ns]
+  std::uint64_t arrivals_ = 0;
+  std::uint64_t late_ = 0;
+};
+
+}  // namespace mpm_ros

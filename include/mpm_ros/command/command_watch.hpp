@@ -1,0 +1,28 @@
+// Notices bodies that were commanded and hear nothing more, in simulated time.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "mpm_ros/command/body_command.hpp"
+
+namespace mpm_ros {
+
+class CommandWatch {
+ public:
+  /// `timeout` [ns]; 0: never.
+  explicit CommandWatch(std::int64_t timeout) : timeout_(timeout) {}
+
+  /// A command was applied: the body has heard until its effect, or until its arrival.
+  void heard(const AppliedCommand& command);
+  /// Bodies, in order, whose last command is the timeout or more ago. Each is named once for each silence.
+  std::vector<int> silent(std::int64_t now);
+  void clear() { heard_.clear(); }
+
+ private:
+  std::int64_t timeout_;
+  std::map<int, std::int64_t> heard_;  // [ns] by body
+};
+
+}  // namespace mpm_ros

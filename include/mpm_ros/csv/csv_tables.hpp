@@ -1,0 +1,105 @@
+// The tables of a run, the same whether run_scene writes them as it goes or bag_report from a bag:
+// contact_forces.csv, bodies.csv, solver_state.csv, commands.csv, particles.csv (the index of the snapshots) and
+// particles_NNNN.csv. doc/analysis.md lists the columns. Each table's columns are set by its first row.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mpm/simulation/report.hpp"
+#include "mpm_ros/csv/csv_writer.hpp"
+
+namespace mpm_ros {
+
+/// contact_forces.csv: wrench, peak, impulse, interval and nodes of each body.
+class ContactForcesCsv {
+ public:
+  explicit ContactForcesCsv(const std::string& folder) : path_(folder + "/contact_forces.csv") {}
+  /// `time` [s] is the end of the interval; the bodies and their order are those of the first row.
+  /// @throws CsvError
+  void add(double time, const std::vector<mpm::ContactReport>& bodies);
+  void close();
+
+ private:
+  std::string path_;
+  std::optional<CsvWriter> writer_;
+};
+
+/// bodies.csv: pose, twist and drive of each body.
+class BodiesCsv {
+ public:
+  explicit BodiesCsv(const std::string& folder) : path_(folder + "/bodies.csv") {}
+  /// @throws CsvError
+  void add(double time, const std::vector<mpm::BodyState>& bodies);
+  void close();
+
+ private:
+  std::string path_;
+  std::optional<CsvWriter> writer_;
+};
+
+/// solver_state.csv: steps, energies and the momentum audit.
+class SolverStateCsv {
+ public:
+  explicit SolverStateCsv(const std::string& folder) : path_(folder + "/solver_state.csv") {}
+  /// `real_time_factor`: simulated over wall time. Impulses are put under the names of the first row.
+  /// @throws CsvError
+  void add(const mpm::SolverState& state, double real_time_factor);
+  void close();
+
+ private:
+  std::string path_;
+  std::optional<CsvWriter> writer_;
+  std::vector<std::string> impulses_;
+};
+
+/// A command as it was applied.
+struct CommandRow {
+  double time = 0.0;  ///< [s] since the start, when it took effect
+  std::string body;
+  mpm::Drive kind = mpm::Drive::velocity;
+  mpm::Twist twist;      ///< of a velocity command
+  mpm::Pose pose;        ///< of a pose command
+  double arrival = 0.0;  ///< [s] of a pose command
+};
+
+/// commands.csv: one row a command; cells that do not belong to its kind are empty.
+class CommandsCsv {
+ public:
+  /// @throws CsvError
+  explicit CommandsCsv(const std::string& folder);
+  void add(const CommandRow& command);
+  void close();
+
+ private:
+  CsvWriter writer_;
+};
+
+/// A particle field's name and unit, one value a particle.
+struct ParticleColumn {
+  std::string name;
+  std::string unit;  ///< empty: not known, left out of the header
+  std::vector<float> values;
+};
+
+/// particles_NNNN.csv: one file a snapshot, one row a particle; particles.csv lists the files with their times.
+class ParticlesCsv {
+ public:
+  /// @throws CsvError
+  explicit ParticlesCsv(const std::string& folder);
+  /// `ids` and the values of each column are as many as the particles. @throws CsvError
+  void add(double time, const std::vector<std::uint32_t>& ids, const std::vector<ParticleColumn>& columns);
+  void close();
+
+ private:
+  std::string folder_;
+  std::uint64_t count_ = 0;
+  CsvWriter index_;
+};
+
+/// "functions", "velocity" or "pose".
+std::string drive_name(mpm::Drive drive);
+
+}  // namespace mpm_ros

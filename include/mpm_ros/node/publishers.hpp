@@ -1,0 +1,43 @@
+// The node's publishers. A message is worth making when somebody subscribes, or when it is latched for those to come.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mpm_ros/message/message_sink.hpp"
+
+namespace mpm_ros {
+
+class Publishers : public MessageSink {
+ public:
+  /// Advertises every topic, below the node's namespace. @param bodies names of the rigid bodies.
+  Publishers(ros::NodeHandle node, const std::vector<std::string>& bodies);
+
+  bool wants(const std::string& topic) const override;
+  void put(const std::string& topic, const ros::Time&, const RunInfo& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const visualization_msgs::MarkerArray& m) override {
+    at(topic).publish(m);
+  }
+  void put(const std::string& topic, const ros::Time&, const ContactForces& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const geometry_msgs::WrenchStamped& m) override {
+    at(topic).publish(m);
+  }
+  void put(const std::string& topic, const ros::Time&, const BodyStates& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const SolverState& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const tf2_msgs::TFMessage& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const sensor_msgs::PointCloud2& m) override {
+    at(topic).publish(m);
+  }
+  void put(const std::string& topic, const ros::Time&, const Command& m) override { at(topic).publish(m); }
+
+ private:
+  ros::Publisher& at(const std::string& topic) { return publishers_.at(topic); }
+
+  std::map<std::string, ros::Publisher> publishers_;
+};
+
+}  // namespace mpm_ros

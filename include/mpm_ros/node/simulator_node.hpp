@@ -1,0 +1,112 @@
+// The node: a run, its topics and services, and the loop that drives it.
+//
+// Three threads at work: the solver's (the one that calls spin(), the only one that touches the run), one for command
+// topics (checks and queues them), two for services and housekeeping (hand work to the solver's thread and wait).
+// A sync period is: apply the commands that are due, advance, publish and record, then pace.
+#pragma once
+
+#include <mpm_ros/Step.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <ros/steady_timer.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "mpm/scene/scene.hpp"
+#include "mpm_ros/command/command_bridge.hpp"
+#include "mpm_ros/command/command_log.hpp"
+#include "mpm_ros/command/command_queue.hpp"
+#include "mpm_ros/command/command_watch.hpp"
+#include "mpm_ros/message/node_health.hpp"
+#include "mpm_ros/node/mailbox.hpp"
+#include "mpm_ros/node/node_parameters.hpp"
+#include "mpm_ros/node/pacer.hpp"
+#include "mpm_ros/node/publishers.hpp"
+#include "mpm_ros/run/run.hpp"
+
+namespace mpm_ros {
+
+class SimulatorNode {
+ public:
+  /// Loads the scene and makes the first run ready. `stop_requested` is asked between sync periods.
+  /// @throws mpm::Error, ParameterError, BagError: bad input, exit code 2.
+  SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters, std::function<bool()> stop_requested);
+  ~SimulatorNode();
+
+  /// Runs until the scene ends (and, with keep_alive, on until told to stop), a stop is requested or the physics fails.
+  /// Returns the exit code: 0 done, 1 the bag cannot be written, 2 bad input that showed only now (a function of time
+  /// that is not finite, recorded commands of another scene), 3 the physics failed (or silence, with on_timeout error).
+  int spin();
+
+ private:
+  enum class Phase { running, paused, waiting, ended, failed };
+
+  RunOptions run_options() const;
+  Stamps first_stamps() const;
+  void start_run(const Stamps& stamps);
+  /// One sync period; extra commands are applied after those that are due. False when it failed.
+  bool sync_period(const std::vector<AppliedCommand>& extra);
+  void apply_due(const std::vector<AppliedCommand>& extra);
+  void apply(const AppliedCommand& command);
+  void act_on_silence();
+  void fail(const std::string& reason, int exit_code);
+  void end_run();
+  void publish_clock(bool always);
+  void report();
+  Phase phase() const;
+
+  // Services; the first of each pair runs on a service thread, the second on the solver's.
+  bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool on_step(Step::Request& request, Step::Response& response);
+  void pause(bool paused, std_srvs::SetBool::Response& response);
+  void reset(std_srvs::Trigger::Response& response);
+  void step(const Step::Request& request, Step::Response& response);
+  /// Sync periods that a step request asks for; 0 with a problem when it makes no sense.
+  std::int64_t periods_of(const Step::Request& request, std::string& problem) const;
+  std::vector<AppliedCommand> commands_of(const Step::Request& request, std::int64_t periods,
+                                          std::string& problem) const;
+  void housekeeping();
+
+  ros::NodeHandle node_;
+  const NodeParameters parameters_;
+  const std::function<bool()> stop_requested_;
+  const mpm::Scene scene_;
+  CommandLog log_;
+  std::vector<std::string> bodies_;
+
+  NodeHealth health_;
+  Mailbox mailbox_;
+  ros::CallbackQueue topic_callbacks_;
+  ros::CallbackQueue service_callbacks_;
+  ros::Publisher clock_;
+  std::unique_ptr<Publishers> publishers_;
+  std::unique_ptr<Run> run_;
+  std::unique_ptr<CommandQueue> queue_;
+  std::unique_ptr<CommandBridge> bridge_;
+  std::unique_ptr<Pacer> pacer_;
+  CommandWatch watch_;
+  std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
+  std::vector<ros::ServiceServer> services_;
+  ros::SteadyTimer timer_;
+  std::unique_ptr<ros::AsyncSpinner> topic_spinner_;
+  std::unique_ptr<ros::AsyncSpinner> service_spinner_;
+
+  int runs_ = 0;
+  bool paused_ = false;
+  std::string failure_;
+  int exit_code_ = 0;
+  std::int64_t clock_at_ = -1;  // [ns] when /clock was published last
+  std::mutex housekeeping_;
+  std::chrono::steady_clock::time_point checked_at_;
+};
+
+}  // namespace mpm_ros

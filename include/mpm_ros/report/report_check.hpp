@@ -1,0 +1,80 @@
+// What must hold of any recorded run, found from its messages alone. Where a message says of itself that all is well,
+// the same is worked out again from its parts: the audit's residual from momentum and impulses, a body's impulse from
+// its forces and from what the material's balance says of it.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "mpm_ros/report/report_bag.hpp"
+#include "mpm_ros/report/report_messages.hpp"
+
+namespace mpm_ros {
+
+/// One line of `bag_report --check`.
+struct CheckResult {
+  std::string name;
+  bool passed = true;
+  std::string detail;  ///< the numbers; of a failure: the first time it was found, and what
+};
+
+/// Largest residual of the momentum audit over the momentum exchanged, and of impulses over their own size.
+constexpr double kAuditLimit = 1e-10;
+
+class RunChecks : public RunVisitor {
+ public:
+  /// `sync_period` [s] of the run; 0 when it is not known.
+  RunChecks(double sync_period, std::vector<std::string> missing);
+
+  void contact_forces(std::int64_t time, const ContactForces& message) override;
+  void bodies(std::int64_t time, const BodyStates& message) override;
+  void solver_state(std::int64_t time, const SolverState& message) override;
+  void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) override;
+
+  /// Call once all messages are read.
+  std::vector<CheckResult> results() const;
+  /// Where time is missing: "contact_forces: 0.002 s missing before 0.105 s".
+  const std::vector<std::string>& gaps() const { return gaps_; }
+
+ private:
+  /// Times of one topic: evenly spaced by a multiple of the sync period; the last interval may be shorter.
+  struct Spacing {
+    std::optional<std::int64_t> first;
+    std::int64_t last = 0;
+    std::int64_t interval = 0;            ///< of the first two messages
+    std::optional<std::int64_t> shorter;  ///< end of a shorter interval, allowed at the end alone
+    std::uint64_t count = 0;
+  };
+  struct BodyImpulse {
+    mpm::Vec3 impulse = mpm::Vec3::Zero();  ///< of the last message
+    std::optional<std::int64_t> time;       ///< of the last message
+    double exchanged = 0.0;                 ///< sum of |force| times interval [N s]
+  };
+
+  void space(const std::string& topic, std::int64_t time);
+  void gap(const std::string& text);
+  void fail(const std::string& name, std::int64_t time, const std::string& what);
+  void check_against_material(const std::string& body, std::int64_t time, const mpm::Vec3& impulse);
+
+  std::int64_t sync_period_;  ///< [ns]
+  std::vector<std::string> missing_;
+  std::map<std::string, std::string> failures_;  ///< the first of each check, by its name
+  std::vector<std::string> gaps_;
+  std::map<std::string, Spacing> spacing_;  ///< by topic
+  std::map<std::string, BodyImpulse> impulses_;
+  std::set<std::string> posed_;             ///< bodies with a pose
+  std::optional<mpm::SolverState> state_;   ///< the last one
+  std::vector<std::string> impulse_names_;  ///< of the first state
+  double worst_audit_ = 0.0;
+  double worst_impulse_ = 0.0;
+  double worst_reaction_ = 0.0;
+  double worst_stamp_ = 0.0;  ///< [s]
+  double min_j_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace mpm_ros

@@ -1,0 +1,27 @@
+// From the messages of a run back to the library's plain values; conversions.hpp has the other direction.
+#pragma once
+
+#include <mpm_ros/BodyStates.h>
+#include <mpm_ros/Command.h>
+#include <mpm_ros/ContactForces.h>
+#include <mpm_ros/SolverState.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "mpm/simulation/report.hpp"
+#include "mpm_ros/csv/csv_tables.hpp"
+
+namespace mpm_ros {
+
+std::vector<mpm::ContactReport> contact_reports_of(const ContactForces& message);
+std::vector<mpm::BodyState> body_states_of(const BodyStates& message);
+/// `time` [ns] since the start. The wall time is not in the message and stays zero.
+mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message);
+/// `time` [ns] since the start.
+CommandRow command_row_of(std::int64_t time, const Command& message);
+
+/// Nanoseconds as seconds.
+inline double seconds(std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) / 1e9; }
+
+}  // namespace mpm_ros

@@ -1,0 +1,85 @@
+// What the tables of a report say, gathered message by message: a few numbers a body, nothing that grows with the run
+// but the times of the particle snapshots.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mpm_ros/report/report_bag.hpp"
+#include "mpm_ros/report/report_messages.hpp"
+
+namespace mpm_ros {
+
+/// The largest vector met, and when.
+struct Extreme {
+  double norm = 0.0;
+  mpm::Vec3 vector = mpm::Vec3::Zero();
+  std::int64_t time = 0;  ///< [ns] since the start
+  void offer(const mpm::Vec3& candidate, std::int64_t when);
+};
+
+/// Contact and motion of one rigid body over the run; world axes.
+struct BodyStatistics {
+  std::string name;
+  Extreme force;                                                 ///< largest mean over an interval [N]
+  Extreme step_force;                                            ///< largest of a single step [N]
+  Extreme torque;                                                ///< largest mean over an interval [N m]
+  mpm::Vec3 force_integral = mpm::Vec3::Zero();                  ///< sum of mean times interval [N s]
+  mpm::Vec3 torque_integral = mpm::Vec3::Zero();                 ///< [N m s]
+  mpm::Vec3 impulse = mpm::Vec3::Zero();                         ///< as the run counted it since its start [N s]
+  double duration = 0.0;                                         ///< sum of the intervals [s]
+  std::optional<std::pair<std::int64_t, std::int64_t>> contact;  ///< end of first, last interval with a force [ns]
+
+  mpm::Box range;                  ///< of the body's origin [m]
+  std::optional<mpm::Pose> first;  ///< pose in the first message
+  mpm::Pose last;                  ///< pose in the last message
+  double largest_turn = 0.0;       ///< largest angle from the first pose [rad]
+};
+
+/// Commands of one kind to one body.
+struct CommandStatistics {
+  std::uint64_t count = 0;
+  std::int64_t first = 0;  ///< took effect [ns]
+  std::int64_t last = 0;
+  std::uint64_t late = 0;  ///< asked for by a stamp before the time at which they took effect
+};
+
+class RunStatistics : public RunVisitor {
+ public:
+  void contact_forces(std::int64_t time, const ContactForces& message) override;
+  void bodies(std::int64_t time, const BodyStates& message) override;
+  void solver_state(std::int64_t time, const SolverState& message) override;
+  void command(std::int64_t time, const Command& message) override;
+  void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) override;
+
+  const std::vector<BodyStatistics>& body_statistics() const { return bodies_; }
+  /// By body and kind.
+  const std::map<std::pair<std::string, mpm::Drive>, CommandStatistics>& commands() const { return commands_; }
+  /// The first and the last state; nothing before the first message.
+  const std::optional<SolverState>& first_state() const { return first_state_; }
+  const SolverState& last_state() const { return last_state_; }
+  double smallest_j() const { return smallest_j_; }  ///< det F over the whole run
+  /// When the particle snapshots were taken [ns].
+  const std::vector<std::int64_t>& snapshots() const { return snapshots_; }
+  const std::vector<std::string>& particle_fields() const { return particle_fields_; }
+  /// When the largest force of all bodies acted [ns]; nothing when no body was touched.
+  std::optional<std::int64_t> peak_time() const;
+
+ private:
+  BodyStatistics& body(const std::string& name);
+
+  std::vector<BodyStatistics> bodies_;  ///< in the order of the messages
+  std::map<std::pair<std::string, mpm::Drive>, CommandStatistics> commands_;
+  std::optional<SolverState> first_state_;
+  SolverState last_state_;
+  double smallest_j_ = std::numeric_limits<double>::infinity();
+  std::vector<std::int64_t> snapshots_;
+  std::vector<std::string> particle_fields_;
+};
+
+}  // namespace mpm_ros

@@ -1,0 +1,74 @@
+// One run of a scene from time zero, with everything that belongs to it: simulation, outputs, bag, and the commands
+// that it was given. Knows nothing of a ROS master, pacing or services.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "mpm/scene/scene.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "mpm_ros/command/body_command.hpp"
+#include "mpm_ros/message/stamps.hpp"
+#include "mpm_ros/run/bag_recorder.hpp"
+#include "mpm_ros/run/run_outputs.hpp"
+
+namespace mpm_ros {
+
+struct RunOptions {
+  int threads = 0;
+  OutputOptions output;
+  std::string bag;  ///< path to write; empty: none
+  BagOptions bag_options;
+  std::string parameters;  ///< for RunInfo, YAML
+};
+
+class Run {
+ public:
+  /// Builds the simulation; opens the bag. `live`: a sink beside the bag, or null; must outlive the run.
+  /// @throws mpm::Error for what cannot be simulated, BagError
+  Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamps, MessageSink* live);
+
+  /// Writes static content and the state at time zero.
+  void begin();
+  /// Applies a command at the present sync point, and writes it. @throws mpm::RigidError; then nothing is changed.
+  void apply(const AppliedCommand& command);
+  /// Runs to the next sync point and writes what is due. @throws mpm::PhysicsError; call fail() then. @throws BagError
+  void advance();
+  /// Forgets the wall time since the last advance(): after a pause.
+  void resume_clock() { clock_ = std::chrono::steady_clock::now(); }
+  /// Writes the last state, and closes the bag. Nothing when done before. @throws BagError
+  void finish();
+  /// The same for the state that a PhysicsError left behind.
+  void fail();
+
+  mpm::Simulation& simulation() { return simulation_; }
+  const mpm::Simulation& simulation() const { return simulation_; }
+  const RunOutputs& outputs() const { return outputs_; }
+  const Stamps& stamps() const { return stamps_; }
+  /// [ns]; 0: it runs until it is stopped
+  std::int64_t end() const { return end_; }
+  bool closed() const { return closed_; }
+  bool ended() const { return end_ > 0 && simulation_.time() >= end_; }
+  /// Simulated over wall time so far.
+  double real_time_factor() const;
+  /// Empty when none is written.
+  std::string bag() const { return recorder_ ? recorder_->path() : std::string(); }
+
+ private:
+  void close(bool failed);
+
+  const mpm::Scene& scene_;
+  const std::string parameters_;
+  const Stamps stamps_;
+  mpm::Simulation simulation_;
+  const std::int64_t end_;
+  std::unique_ptr<BagRecorder> recorder_;
+  RunOutputs outputs_;
+  std::chrono::steady_clock::time_point clock_;
+  std::chrono::steady_clock::duration wall_{};  // while not paused
+  bool closed_ = false;
+};
+
+}  // namespace mpm_ros

@@ -1,0 +1,93 @@
+// What a run writes and when: turns the simulation's state at sync points into messages and hands them to sinks.
+// The node and run_scene share it, so that a bag is the same whichever of them wrote it.
+//
+//   RunOutputs outputs(simulation, stamps, options);
+//   outputs.add(recorder);
+//   outputs.begin(run_info);
+//   while (…) { apply(command, simulation); outputs.command(command); simulation.advance(); outputs.sync(false, 1.0); }
+//   outputs.finish(1.0);
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mpm/scene/scene.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "mpm_ros/command/body_command.hpp"
+#include "mpm_ros/message/contact_average.hpp"
+#include "mpm_ros/message/markers.hpp"
+#include "mpm_ros/message/message_sink.hpp"
+#include "mpm_ros/message/particle_cloud.hpp"
+#include "mpm_ros/message/stamps.hpp"
+
+namespace mpm_ros {
+
+struct OutputOptions {
+  ParticleSelection particles;
+  double particle_period = 0.0;  ///< [s] simulated, rounded to sync periods; 0: at every sync point
+  double wrench_period = 0.0;    ///< [s] of contact forces, wrenches, bodies, solver state, transforms; 0: the same
+  std::string world_frame = "world";
+  double force_scale = 0.0;  ///< of contact arrows [m/N]; 0: by the largest force met
+  bool state_hash = false;   ///< in every solver state, not in the last alone
+};
+
+/// As the scene's `output` says.
+OutputOptions output_options(const mpm::Scene& scene);
+
+/// What made a run. `parameters`: what the caller was given beside the scene, as YAML.
+RunInfo run_info(const mpm::Scene& scene, const mpm::Simulation& simulation, const Stamps& stamps,
+                 const std::string& parameters);
+
+class RunOutputs {
+ public:
+  /// Both must outlive it. The simulation stands at its start.
+  RunOutputs(mpm::Simulation& simulation, const Stamps& stamps, OutputOptions options);
+
+  /// Sinks are kept by reference. Add them before begin().
+  void add(MessageSink& sink) { sinks_.push_back(&sink); }
+  /// Static content, and the state at the start.
+  void begin(const RunInfo& info);
+  /// A command that was applied just now.
+  void command(const AppliedCommand& command);
+  /// After each advance. `last`: the run ends here, so everything is written, with the state hash.
+  /// `real_time_factor`: simulated over wall time so far.
+  void sync(bool last, double real_time_factor);
+  /// For a run that ends between: writes the last state with its hash, unless sync() did. `failed`: after a
+  /// PhysicsError, for the state of the failure.
+  void finish(double real_time_factor, bool failed = false);
+
+  /// Contacts over the last sync period.
+  const std::vector<mpm::ContactReport>& contacts() const { return contacts_; }
+  ContactForces contact_forces(const std::vector<mpm::ContactReport>& contacts) const;
+  BodyStates body_states() const;
+  ros::Time stamp() const;
+
+ private:
+  template <typename Message>
+  void put(const std::string& topic, const Message& message);
+  bool wanted(const std::string& topic) const;
+  void read_contacts();
+  void write_contacts();
+  void write_bodies();
+  void write_state(bool with_hash, double real_time_factor);
+  void write_particles();
+  std_msgs::Header header(const std::string& frame) const;
+
+  mpm::Simulation& simulation_;
+  const Stamps& stamps_;
+  const OutputOptions options_;
+  const std::int64_t particle_period_;  // [ns]
+  const std::int64_t wrench_period_;    // [ns]
+  std::vector<MessageSink*> sinks_;
+  std::vector<std::string> wrench_topics_;
+  ParticleCloud cloud_;
+  ForceMarkers force_markers_;
+  std::vector<mpm::ContactReport> contacts_;
+  ContactAverage average_;
+  std::int64_t particles_at_ = -1;  // [ns] when they were written last
+  std::int64_t contacts_at_ = -1;   // [ns] the same
+  bool finished_ = false;
+};
+
+}  // namespace mpm_ros

@@ -1,0 +1,116 @@
+#include "mpm_ros/command/command_queue.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace mpm_ros {
+
+void CommandQueue::push(BodyCommand command) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  command.order = arrivals_++;
+  // Sync points up to passed_ are used up.
+  command.late = command.late || (command.stamp && *command.stamp <= passed_);
+  if (command.late) ++late_;
+  waiting_.push_back(std::move(command));
+}
+
+bool CommandQueue::is_due(const BodyCommand& command, std::int64_t now) const {
+  if (!command.stamp || *command.stamp <= now) return true;
+  if (command.kind == CommandKind::velocity) return false;
+  // A pose to come sets out when the one under way is reached, or takes its place if it is to be reached no later.
+  const auto stream = streams_.find(command.body);
+  if (stream == streams_.end()) return true;
+  const std::int64_t under_way = stream->second.arrival;
+  return under_way <= now || round_up(*command.stamp) <= under_way;
+}
+
+std::int64_t CommandQueue::arrival_of(const BodyCommand& command, std::int64_t now) {
+  PoseStream& stream = streams_[command.body];
+  const std::int64_t stamp = command.stamp.value_or(now);
+  const std::int64_t gap = stamp - stream.last_stamp;
+  if (stream.last_stamp >= 0 && gap > 0 && gap <= kLongestPeriod) stream.period = gap;
+  stream.last_stamp = stamp;
+  const bool to_come = command.stamp && *command.stamp > now;
+  stream.arrival = round_up(to_come ? *command.stamp : now + std::max(stream.period, sync_period_));
+  return stream.arrival;
+}
+
+std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  passed_ = now;
+  // A velocity that takes effect ends the poses that were received before it, those that could set out now as well.
+  std::map<int, std::uint64_t> last_velocity;
+  for (const BodyCommand& command : waiting_) {
+    if (command.kind != CommandKind::velocity || !is_due(command, now)) continue;
+    std::uint64_t& order = last_velocity[command.body];
+    order = std::max(order, command.order);
+  }
+  const auto ended = [&](const BodyCommand& command) {
+    const auto velocity = last_velocity.find(command.body);
+    return command.kind == CommandKind::pose && command.stamp.value_or(now) > now && velocity != last_velocity.end() &&
+           command.order < velocity->second;
+  };
+  waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), ended), waiting_.end());
+
+  // Of the poses to come the earliest first, since one that sets out holds back those after it.
+  const auto effect = [now](const BodyCommand& command) {
+    return command.late ? now : std::min(command.stamp.value_or(now), now);
+  };
+  const auto target = [now](const BodyCommand& command) { return std::max(command.stamp.value_or(now), now); };
+  std::sort(waiting_.begin(), waiting_.end(), [&](const BodyCommand& a, const BodyCommand& b) {
+    return std::make_tuple(effect(a), a.body, target(a), a.order) <
+           std::make_tuple(effect(b), b.body, target(b), b.order);
+  });
+
+  std::vector<DueCommand> due;
+  std::vector<BodyCommand> still_waiting;
+  for (BodyCommand& command : waiting_) {
+    if (!is_due(command, now)) {
+      still_waiting.push_back(std::move(command));
+      continue;
+    }
+    DueCommand next;
+    if (command.kind == CommandKind::pose) {
+      next.arrival = arrival_of(command, now);
+    } else {
+      streams_.erase(command.body);
+    }
+    next.command = std::move(command);
+    due.push_back(std::move(next));
+  }
+  // The same for whatever still waits, of either kind.
+  for (const DueCommand& applied : due) {
+    const auto superseded = [&](const BodyCommand& command) {
+      return command.body == applied.command.body && command.kind != applied.command.kind &&
+             command.order < applied.command.order;
+    };
+    still_waiting.erase(std::remove_if(still_waiting.begin(), still_waiting.end(), superseded), still_waiting.end());
+  }
+  waiting_ = std::move(still_waiting);
+  return due;
+}
+
+void CommandQueue::clear() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  waiting_.clear();
+  streams_.clear();
+  passed_ = -1;
+}
+
+std::uint64_t CommandQueue::late() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return late_;
+}
+
+std::int64_t CommandQueue::passed() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return passed_;
+}
+
+std::size_t CommandQueue::waiting() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return waiting_.size();
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,91 @@
+#include "mpm_ros/message/particle_cloud.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "mpm/scene/nearest.hpp"
+
+namespace mpm_ros {
+
+namespace {
+
+const char* const kPosition[] = {"x", "y", "z"};
+constexpr std::uint32_t kScalar = 4;  // bytes of a float32 and of a uint32
+
+void add_field(sensor_msgs::PointCloud2& cloud, const std::string& name, std::uint8_t type) {
+  sensor_msgs::PointField field;
+  field.name = name;
+  field.offset = kScalar * static_cast<std::uint32_t>(cloud.fields.size());
+  field.datatype = type;
+  field.count = 1;
+  cloud.fields.push_back(field);
+}
+
+}  // namespace
+
+std::string problem_of(const ParticleSelection& selection) {
+  if (selection.stride < 1) return fmt::format("the particle stride is {}; it must be 1 or more", selection.stride);
+  std::vector<std::string> known;
+  for (const auto& [name, unit] : mpm::Simulation::particle_fields()) known.push_back(name);
+  for (const std::string& field : selection.fields) {
+    if (std::find(known.begin(), known.end(), field) == known.end()) {
+      return fmt::format("there is no particle field '{}'; {}", field, mpm::suggest(field, known));
+    }
+    if (std::count(selection.fields.begin(), selection.fields.end(), field) > 1) {
+      return fmt::format("particle field '{}' is named twice", field);
+    }
+    if (std::count(std::begin(kPosition), std::end(kPosition), field) > 0) {
+      return fmt::format("particle field '{}' is always written; leave it out", field);
+    }
+  }
+  return {};
+}
+
+void fill_cloud(const std::vector<std::string>& fields, const std::vector<std::vector<float>>& columns, int stride,
+                sensor_msgs::PointCloud2& cloud) {
+  cloud.fields.clear();
+  for (const char* name : kPosition) add_field(cloud, name, sensor_msgs::PointField::FLOAT32);
+  add_field(cloud, "id", sensor_msgs::PointField::UINT32);
+  for (const std::string& name : fields) add_field(cloud, name, sensor_msgs::PointField::FLOAT32);
+
+  const std::size_t step = static_cast<std::size_t>(stride);
+  const std::size_t particles = columns.front().size();
+  const std::size_t points = (particles + step - 1) / step;
+  const std::size_t point_step = kScalar * cloud.fields.size();
+  cloud.height = 1;
+  cloud.width = static_cast<std::uint32_t>(points);
+  cloud.is_bigendian = 0;
+  cloud.is_dense = 1;
+  cloud.point_step = static_cast<std::uint32_t>(point_step);
+  cloud.row_step = static_cast<std::uint32_t>(point_step * points);
+  cloud.data.resize(point_step * points);
+
+  std::uint8_t* out = cloud.data.data();
+  for (std::size_t particle = 0; particle < particles; particle += step) {
+    const std::uint32_t id = static_cast<std::uint32_t>(particle);
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+      // The id stands between the position and the other fields.
+      const std::size_t slot = column < 3 ? column : column + 1;
+      std::memcpy(out + kScalar * slot, &columns[column][particle], kScalar);
+    }
+    std::memcpy(out + kScalar * 3, &id, kScalar);
+    out += point_step;
+  }
+}
+
+ParticleCloud::ParticleCloud(ParticleSelection selection)
+    : selection_(std::move(selection)), columns_(3 + selection_.fields.size()) {}
+
+const sensor_msgs::PointCloud2& ParticleCloud::read(const mpm::Simulation& simulation) {
+  for (int axis = 0; axis < 3; ++axis) simulation.particle_field(kPosition[axis], columns_[axis]);
+  for (std::size_t field = 0; field < selection_.fields.size(); ++field) {
+    simulation.particle_field(selection_.fields[field], columns_[3 + field]);
+  }
+  fill_cloud(selection_.fields, columns_, selection_.stride, cloud_);
+  return cloud_;
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,48 @@
+#include "mpm_ros/node/mailbox.hpp"
+
+#include <algorithm>
+#include <exception>
+
+namespace mpm_ros {
+
+bool Mailbox::call(const std::function<void()>& work) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (closed_) return false;
+  Letter letter{&work};
+  letters_.push_back(&letter);
+  changed_.notify_all();
+  // A letter that has left the queue is being worked on and will be done, closed or not.
+  changed_.wait(lock, [&] {
+    return letter.done || (closed_ && std::find(letters_.begin(), letters_.end(), &letter) != letters_.end());
+  });
+  if (!letter.done) letters_.erase(std::find(letters_.begin(), letters_.end(), &letter));
+  return letter.done;
+}
+
+void Mailbox::run_until(std::chrono::steady_clock::time_point deadline) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait_until(lock, deadline, [this] { return !letters_.empty() || closed_; });
+  while (!letters_.empty() && !closed_) {
+    Letter* letter = letters_.front();
+    letters_.pop_front();
+    lock.unlock();
+    std::exception_ptr error;
+    try {
+      (*letter->work)();
+    } catch (...) {
+      error = std::current_exception();
+    }
+    lock.lock();
+    letter->done = true;
+    changed_.notify_all();
+    if (error) std::rethrow_exception(error);
+  }
+}
+
+void Mailbox::close() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  closed_ = true;
+  changed_.notify_all();
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,36 @@
+#include "mpm_ros/node/publishers.hpp"
+
+#include "mpm_ros/message/topics.hpp"
+
+namespace mpm_ros {
+
+namespace {
+
+// Messages that a subscriber may fall behind: enough for a second of small ones at 1 kHz, a few clouds.
+constexpr std::uint32_t kSmall = 1000;
+constexpr std::uint32_t kLarge = 10;
+
+}  // namespace
+
+Publishers::Publishers(ros::NodeHandle node, const std::vector<std::string>& bodies) {
+  publishers_[topics::kRunInfo] = node.advertise<RunInfo>(topics::kRunInfo, 1, true);
+  publishers_[topics::kMarkers] = node.advertise<visualization_msgs::MarkerArray>(topics::kMarkers, 1, true);
+  publishers_[topics::kSolverState] = node.advertise<SolverState>(topics::kSolverState, kSmall, true);
+  publishers_[topics::kForceMarkers] = node.advertise<visualization_msgs::MarkerArray>(topics::kForceMarkers, kLarge);
+  publishers_[topics::kContactForces] = node.advertise<ContactForces>(topics::kContactForces, kSmall);
+  publishers_[topics::kBodies] = node.advertise<BodyStates>(topics::kBodies, kSmall);
+  publishers_[topics::kTf] = node.advertise<tf2_msgs::TFMessage>(topics::kTf, kSmall);
+  publishers_[topics::kParticles] = node.advertise<sensor_msgs::PointCloud2>(topics::kParticles, kLarge);
+  publishers_[topics::kCommands] = node.advertise<Command>(topics::kCommands, kSmall);
+  for (const std::string& body : bodies) {
+    const std::string topic = topics::of_body(body, topics::kWrench);
+    publishers_[topic] = node.advertise<geometry_msgs::WrenchStamped>(topic, kSmall);
+  }
+}
+
+bool Publishers::wants(const std::string& topic) const {
+  const ros::Publisher& publisher = publishers_.at(topic);
+  return publisher.isLatched() || publisher.getNumSubscribers() > 0;
+}
+
+}  // namespace mpm_ros

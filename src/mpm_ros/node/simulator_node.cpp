@@ -1,0 +1,309 @@
+#include "mpm_ros/node/simulator_node.hpp"
+
+#include <fmt/format.h>
+#include <ros/console.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "mpm_ros/message/topics.hpp"
+
+namespace mpm_ros {
+
+namespace {
+
+/// How long the solver's thread sleeps at most before it looks whether it is to stop.
+constexpr std::chrono::milliseconds kGlance{50};
+/// At the end: for messages and answers on their way out.
+constexpr std::chrono::milliseconds kLinger{300};
+
+const char* drive_text(mpm::Drive drive) {
+  switch (drive) {
+    case mpm::Drive::velocity:
+      return "commanded velocities";
+    case mpm::Drive::pose:
+      return "commanded poses";
+    default:
+      return "the scene's functions of time";
+  }
+}
+
+}  // namespace
+
+SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters,
+                             std::function<bool()> stop_requested)
+    : node_(std::move(node)),
+      parameters_(parameters),
+      stop_requested_(std::move(stop_requested)),
+      scene_(mpm::load_scene(parameters.scene, parameters.set)),
+      watch_(std::llround(parameters.command_timeout * 1e9)),
+      paused_(parameters.start_paused) {
+  if (!parameters_.commands.empty()) log_ = read_commands(parameters_.commands);
+  if (const std::string problem = problem_of(run_options().output.particles); !problem.empty()) {
+    throw ParameterError(fmt::format("parameter ~particle_fields or ~particle_stride: {}", problem));
+  }
+  for (const mpm::RigidBodyDefinition& body : scene_.definition.rigid_bodies) bodies_.push_back(body.name);
+
+  ros::NodeHandle services(node_);
+  services.setCallbackQueue(&service_callbacks_);
+  ros::NodeHandle commands(node_);
+  commands.setCallbackQueue(&topic_callbacks_);
+
+  if (ros::Time::isSimTime() && parameters_.publish_clock) {
+    clock_ = node_.advertise<rosgraph_msgs::Clock>(topics::kClock, 10, true);
+  }
+  publishers_ = std::make_unique<Publishers>(services, bodies_);
+  start_run(first_stamps());
+  for (const std::string& warning : run_->simulation().warnings()) ROS_WARN_STREAM(warning);
+  queue_ = std::make_unique<CommandQueue>(run_->simulation().sync_period());
+  pacer_ = std::make_unique<Pacer>(run_->simulation().sync_period(), parameters_.real_time_factor);
+  // A run that replays recorded commands listens to nobody else.
+  if (log_.empty()) {
+    bridge_ = std::make_unique<CommandBridge>(commands, bodies_, parameters_.world_frame, *queue_, health_);
+    bridge_->set_stamps(run_->stamps());
+  }
+
+  services_.push_back(services.advertiseService(topics::kPause, &SimulatorNode::on_pause, this));
+  services_.push_back(services.advertiseService(topics::kReset, &SimulatorNode::on_reset, this));
+  services_.push_back(services.advertiseService(topics::kStep, &SimulatorNode::on_step, this));
+
+  diagnostics_ = std::make_unique<diagnostic_updater::Updater>(services);
+  diagnostics_->setHardwareID("none");
+  diagnostics_->add("commands", [this](diagnostic_updater::DiagnosticStatusWrapper& s) { health_.fill_commands(s); });
+  diagnostics_->add("solver", [this](diagnostic_updater::DiagnosticStatusWrapper& s) { health_.fill_solver(s); });
+  timer_ = services.createSteadyTimer(ros::WallDuration(0.1), [this](const ros::SteadyTimerEvent&) { housekeeping(); });
+
+  topic_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &topic_callbacks_);
+  service_spinner_ = std::make_unique<ros::AsyncSpinner>(2, &service_callbacks_);
+  topic_spinner_->start();
+  service_spinner_->start();
+}
+
+SimulatorNode::~SimulatorNode() {
+  mailbox_.close();
+  timer_.stop();
+  if (topic_spinner_) topic_spinner_->stop();
+  if (service_spinner_) service_spinner_->stop();
+}
+
+RunOptions SimulatorNode::run_options() const {
+  RunOptions options;
+  options.threads = parameters_.threads;
+  options.output = output_options(scene_);
+  if (parameters_.particle_rate) options.output.particle_period = 1.0 / *parameters_.particle_rate;
+  if (parameters_.particle_fields) options.output.particles.fields = *parameters_.particle_fields;
+  if (parameters_.particle_stride) options.output.particles.stride = *parameters_.particle_stride;
+  if (parameters_.wrench_rate > 0.0) options.output.wrench_period = 1.0 / parameters_.wrench_rate;
+  options.output.world_frame = parameters_.world_frame;
+  options.output.force_scale = parameters_.force_scale;
+  options.output.state_hash = parameters_.state_hash;
+  if (!parameters_.record.empty()) options.bag = bag_path(parameters_.record, scene_.definition.name, runs_);
+  options.bag_options.topics_below = node_.getNamespace();
+  options.bag_options.compression = parameters_.record_compression;
+  options.parameters = parameters_.text;
+  return options;
+}
+
+Stamps SimulatorNode::first_stamps() const {
+  if (ros::Time::isSimTime()) return Stamps();
+  const ros::WallTime now = ros::WallTime::now();
+  return Stamps(ros::Time(now.sec, now.nsec));
+}
+
+void SimulatorNode::start_run(const Stamps& stamps) {
+  ++runs_;  // names the next bag
+  auto run = std::make_unique<Run>(scene_, run_options(), stamps, publishers_.get());
+  if (run_) end_run();
+  run_ = std::move(run);
+  log_.rewind();
+  watch_.clear();
+  failure_.clear();
+  clock_at_ = -1;
+}
+
+SimulatorNode::Phase SimulatorNode::phase() const {
+  if (!failure_.empty()) return Phase::failed;
+  if (run_->ended()) return Phase::ended;
+  if (paused_) return Phase::paused;
+  return parameters_.pacing == Pacing::lockstep ? Phase::waiting : Phase::running;
+}
+
+int SimulatorNode::spin() {
+  publish_clock(true);
+  run_->begin();
+  report();
+  pacer_->restart(Pacer::Clock::now());
+  while (!stop_requested_()) {
+    const Phase now = phase();
+    if (now == Phase::failed || (now == Phase::ended && !parameters_.keep_alive)) break;
+    if (now != Phase::running) {
+      mailbox_.run_until(Pacer::Clock::now() + kGlance);
+      continue;
+    }
+    mailbox_.run_until(Pacer::Clock::now());
+    if (phase() != Phase::running || !sync_period({}) || parameters_.pacing != Pacing::real_time) continue;
+    const Pacer::Clock::time_point due = pacer_->next(Pacer::Clock::now());
+    while (Pacer::Clock::now() < due && phase() == Phase::running && !stop_requested_()) {
+      mailbox_.run_until(std::min(due, Pacer::Clock::now() + kGlance));
+    }
+  }
+  end_run();
+  mailbox_.close();
+  std::this_thread::sleep_for(kLinger);
+  return exit_code_;
+}
+
+bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra) {
+  try {
+    apply_due(extra);
+    if (!failure_.empty()) return false;
+    run_->advance();
+    publish_clock(run_->ended());
+    if (run_->ended()) end_run();
+    report();
+    return true;
+  } catch (const mpm::PhysicsError& error) {
+    fail(error.what(), 3);
+  } catch (const mpm::Error& error) {
+    fail(error.what(), 2);
+  } catch (const ParameterError& error) {
+    fail(error.what(), 2);
+  } catch (const BagError& error) {
+    fail(error.what(), 1);
+  }
+  return false;
+}
+
+void SimulatorNode::apply_due(const std::vector<AppliedCommand>& extra) {
+  if (!log_.empty()) {
+    try {
+      for (const AppliedCommand& command : log_.take(run_->simulation())) apply(command);
+    } catch (const BagError& error) {
+      throw ParameterError(fmt::format("parameter ~commands, {}: {}", parameters_.commands, error.what()));
+    }
+    return;
+  }
+  const std::int64_t now = run_->simulation().time();
+  for (const DueCommand& due : queue_->take(now)) apply(in_world(due, run_->simulation().bodies(), now));
+  for (const AppliedCommand& command : extra) apply(command);
+  act_on_silence();
+}
+
+void SimulatorNode::apply(const AppliedCommand& command) {
+  const mpm::RigidBody& body = run_->simulation().rigid_body(command.body);
+  const mpm::Drive before = body.drive();
+  try {
+    run_->apply(command);
+  } catch (const mpm::RigidError& error) {
+    health_.refuse(fmt::format("a command for '{}': {}", body.name(), error.what()));
+    return;
+  }
+  watch_.heard(command);
+  if (body.drive() != before) {
+    health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(body.drive()),
+                               static_cast<double>(command.effect) * 1e-9, drive_text(before)));
+  }
+}
+
+void SimulatorNode::act_on_silence() {
+  const std::int64_t now = run_->simulation().time();
+  for (const int body : watch_.silent(now)) {
+    const std::string silence =
+        fmt::format("no command for '{}' in the {:g} s (simulated) before {:.6f} s", bodies_[body],
+                    parameters_.command_timeout, static_cast<double>(now) * 1e-9);
+    if (parameters_.on_timeout == OnTimeout::error) {
+      fail(silence + "; ~on_timeout is error", 3);
+      return;
+    }
+    if (parameters_.on_timeout == OnTimeout::stop) {
+      AppliedCommand stop;
+      stop.body = body;
+      stop.effect = now;
+      run_->apply(stop);
+      health_.time_out(silence + ": it stands still");
+    } else {
+      health_.time_out(silence + ": it goes on as it was told last");
+    }
+  }
+}
+
+void SimulatorNode::fail(const std::string& reason, int exit_code) {
+  failure_ = reason;
+  exit_code_ = exit_code;
+  ROS_FATAL_STREAM(reason);
+  try {
+    run_->fail();
+    if (!run_->bag().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
+  } catch (const BagError& error) {
+    ROS_FATAL_STREAM(error.what());
+  }
+  report();
+}
+
+void SimulatorNode::end_run() {
+  if (run_->closed()) return;
+  try {
+    run_->finish();
+    if (!run_->bag().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
+  } catch (const BagError& error) {
+    ROS_FATAL_STREAM(error.what());
+    exit_code_ = 1;
+  }
+}
+
+void SimulatorNode::publish_clock(bool always) {
+  if (!clock_) return;
+  const std::int64_t time = run_->simulation().time();
+  const double period = parameters_.clock_rate > 0.0 ? 1e9 / parameters_.clock_rate : 0.0;
+  if (!always && clock_at_ >= 0 && static_cast<double>(time - clock_at_) < period) return;
+  clock_at_ = time;
+  rosgraph_msgs::Clock message;
+  message.clock = run_->stamps().at(time);
+  clock_.publish(message);
+}
+
+void SimulatorNode::report() {
+  SolverHealth solver;
+  switch (phase()) {
+    case Phase::running:
+      solver.phase = "running";
+      break;
+    case Phase::paused:
+      solver.phase = "paused";
+      break;
+    case Phase::waiting:
+      solver.phase = "waiting for step";
+      break;
+    case Phase::ended:
+      solver.phase = "ended";
+      break;
+    case Phase::failed:
+      solver.phase = "failed: " + failure_;
+      solver.failed = true;
+      break;
+  }
+  solver.time = static_cast<double>(run_->simulation().time()) * 1e-9;
+  solver.real_time_factor = run_->real_time_factor();
+  solver.overruns = pacer_->overruns();
+  solver.late = queue_->late();
+  solver.waiting = queue_->waiting();
+  health_.set_solver(solver);
+}
+
+void SimulatorNode::housekeeping() {
+  // Once a second, and at once when there is news. Runs on the steady clock: simulated time may stand still.
+  const std::unique_lock<std::mutex> lock(housekeeping_, std::try_to_lock);
+  if (!lock) return;
+  const auto now = std::chrono::steady_clock::now();
+  const bool due = now - checked_at_ >= std::chrono::seconds(1);
+  if (due) {
+    checked_at_ = now;
+    if (bridge_) bridge_->find_strangers();
+  }
+  if (health_.take_news() || due) diagnostics_->force_update();
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,152 @@
+// The services of the node: pause, reset, step.
+#include <fmt/format.h>
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm_ros/message/contact_average.hpp"
+#include "mpm_ros/node/simulator_node.hpp"
+
+namespace mpm_ros {
+
+namespace {
+
+constexpr const char* kEnding = "the node is ending";
+
+}  // namespace
+
+bool SimulatorNode::on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  response.message = kEnding;
+  mailbox_.call([&] { pause(request.data != 0, response); });
+  return true;
+}
+
+bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  response.message = kEnding;
+  mailbox_.call([&] { reset(response); });
+  return true;
+}
+
+bool SimulatorNode::on_step(Step::Request& request, Step::Response& response) {
+  response.message = kEnding;
+  mailbox_.call([&] { step(request, response); });
+  return true;
+}
+
+void SimulatorNode::pause(bool paused, std_srvs::SetBool::Response& response) {
+  paused_ = paused;
+  run_->resume_clock();
+  pacer_->restart(Pacer::Clock::now());
+  report();
+  response.success = 1;
+  response.message = fmt::format("{} at {:.6f} s (simulated)", paused ? "paused" : "not paused",
+                                 static_cast<double>(run_->simulation().time()) * 1e-9);
+}
+
+void SimulatorNode::reset(std_srvs::Trigger::Response& response) {
+  // Stamps never run backwards: simulated time is zero again, at a stamp later than all before.
+  const std::int64_t next = run_->simulation().time() + run_->simulation().sync_period();
+  ros::Time origin = run_->stamps().at(next);
+  if (!ros::Time::isSimTime()) origin = std::max(origin, first_stamps().origin());
+  try {
+    start_run(Stamps(origin));
+  } catch (const std::exception& error) {
+    // A bag that cannot be opened, or memory: the run goes on as it was.
+    response.success = 0;
+    response.message = error.what();
+    return;
+  }
+  queue_->clear();
+  if (bridge_) bridge_->set_stamps(run_->stamps());
+  publish_clock(true);
+  run_->begin();
+  pacer_->restart(Pacer::Clock::now());
+  report();
+  response.success = 1;
+  response.message =
+      fmt::format("run {}: simulated time is zero again, at stamp {}.{:09d}", runs_, origin.sec, origin.nsec);
+}
+
+std::int64_t SimulatorNode::periods_of(const Step::Request& request, std::string& problem) const {
+  if (request.count > 0) return request.count;
+  if (!std::isfinite(request.duration) || request.duration < 0.0) {
+    problem = fmt::format("duration is {}; it must be finite and not negative", request.duration);
+    return 0;
+  }
+  const double periods = request.duration * 1e9 / static_cast<double>(run_->simulation().sync_period());
+  // Rounded up, but for the round-off of a duration meant to be whole.
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(periods - 1e-6)));
+}
+
+std::vector<AppliedCommand> SimulatorNode::commands_of(const Step::Request& request, std::int64_t periods,
+                                                       std::string& problem) const {
+  std::vector<AppliedCommand> commands;
+  if (!request.commands.empty() && !bridge_) {
+    problem = "recorded commands are being replayed (~commands); others are not taken";
+    return commands;
+  }
+  const std::int64_t now = run_->simulation().time();
+  const std::int64_t sync = run_->simulation().sync_period();
+  for (const mpm_ros::Command& message : request.commands) {
+    DueCommand due;
+    due.command = bridge_->read(message, problem);
+    if (!problem.empty()) return commands;
+    if (due.command.kind == CommandKind::pose) {
+      const std::int64_t arrival = due.command.stamp.value_or(now + periods * sync);
+      if (arrival <= now) {
+        problem = fmt::format("the command for '{}': its arrival is not after the present, {:.9f} s", message.body,
+                              static_cast<double>(now) * 1e-9);
+        return commands;
+      }
+      due.arrival = (arrival + sync - 1) / sync * sync;
+    }
+    commands.push_back(in_world(due, run_->simulation().bodies(), now));
+  }
+  return commands;
+}
+
+void SimulatorNode::step(const Step::Request& request, Step::Response& response) {
+  response.success = 0;
+  response.message.clear();
+  response.stamp = run_->outputs().stamp();
+  response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
+  response.bodies = run_->outputs().body_states();
+
+  std::string problem;
+  const Phase now = phase();
+  if (parameters_.pacing != Pacing::lockstep) {
+    problem = "step needs ~pacing lockstep";
+  } else if (now == Phase::paused) {
+    problem = "paused; call pause with false first";
+  } else if (now == Phase::ended) {
+    problem = fmt::format("the run has ended at {:.6f} s; call reset to begin again", response.time);
+  } else if (now == Phase::failed) {
+    problem = failure_;
+  }
+  std::int64_t periods = 0;
+  std::vector<AppliedCommand> commands;
+  if (problem.empty()) periods = periods_of(request, problem);
+  if (problem.empty()) commands = commands_of(request, periods, problem);
+  if (!problem.empty()) {
+    response.message = problem;
+    if (!request.commands.empty()) health_.refuse("a step request: " + problem);
+    return;
+  }
+
+  ContactAverage contacts;
+  run_->resume_clock();
+  for (std::int64_t period = 0; period < periods && !run_->ended() && !stop_requested_(); ++period) {
+    if (!sync_period(period == 0 ? commands : std::vector<AppliedCommand>())) break;
+    contacts.add(run_->outputs().contacts());
+  }
+  response.success = failure_.empty() ? 1 : 0;
+  response.message = failure_;
+  if (failure_.empty() && run_->ended()) response.message = "the run has ended";
+  response.stamp = run_->outputs().stamp();
+  response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
+  response.contact_forces = run_->outputs().contact_forces(contacts.take());
+  response.bodies = run_->outputs().body_states();
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,195 @@
+#include "mpm_ros/report/report_bag.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "mpm_ros/message/topics.hpp"
+
+namespace mpm_ros {
+namespace {
+
+constexpr const char* kBegin = "#ROSBAG";  // of a bag of any version
+
+template <typename Message>
+std::string type_of() {
+  return ros::message_traits::DataType<Message>::value();
+}
+
+/// The message, or an error when the bag was written with another definition of its type.
+template <typename Message>
+typename Message::ConstPtr take(const rosbag::MessageInstance& instance, const std::string& path) {
+  if (instance.getMD5Sum() != ros::message_traits::MD5Sum<Message>::value()) {
+    throw BagError(
+        fmt::format("{}: {} on {} has another definition than here; read the bag with the version of mpm_ros "
+                    "that recorded it",
+                    path, instance.getDataType(), instance.getTopic()));
+  }
+  const typename Message::ConstPtr message = instance.instantiate<Message>();
+  if (!message)
+    throw BagError(fmt::format("{}: {} on {} cannot be read", path, instance.getDataType(), instance.getTopic()));
+  return message;
+}
+
+BagError damaged(const std::string& path, const ros::Exception& problem) {
+  return BagError(fmt::format("{}: damaged ({}); repair it with: rosbag reindex {}", path, problem.what(), path));
+}
+
+/// Everything before "/solver_state".
+std::string parent(const std::string& topic) { return topic.substr(0, topic.rfind('/')); }
+
+}  // namespace
+
+RunBag::RunBag(const std::string& path, const std::string& name_space) : path_(path) {
+  open();
+  try {
+    find_run(name_space);
+    find_start();
+  } catch (const ros::Exception& error) {
+    throw damaged(path_, error);
+  }
+}
+
+void RunBag::open() {
+  std::error_code error;
+  if (!std::filesystem::exists(path_, error)) throw BagError(path_ + ": no such file");
+  if (!std::filesystem::is_regular_file(path_, error)) throw BagError(path_ + ": not a file; give a bag");
+  if (std::filesystem::file_size(path_, error) == 0) {
+    throw BagError(path_ + ": an empty file, not a bag; was the recording stopped before it began?");
+  }
+  try {
+    bag_.open(path_, rosbag::bagmode::Read);
+  } catch (const rosbag::BagUnindexedException&) {
+    throw BagError(fmt::format("{}: not indexed, since it was not closed properly; repair it with: rosbag reindex {}",
+                               path_, path_));
+  } catch (const rosbag::BagException& problem) {
+    std::ifstream file(path_, std::ios::binary);
+    std::string begin(std::strlen(kBegin), ' ');
+    file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    if (begin == kBegin) throw damaged(path_, problem);
+    throw BagError(
+        fmt::format("{}: not a bag ({}); give a file that the simulator or run_scene recorded", path_, problem.what()));
+  }
+}
+
+void RunBag::find_run(const std::string& wanted) {
+  rosbag::View view(bag_);
+  if (view.size() == 0) throw BagError(path_ + ": a bag without messages; was anything published while it recorded?");
+  for (const rosbag::ConnectionInfo* connection : view.getConnections())
+    types_[connection->topic] = connection->datatype;
+
+  std::set<std::string> runs;
+  for (const auto& [name, type] : types_) {
+    const std::string above = parent(name);
+    if (type == type_of<SolverState>() && name == above + "/" + topics::kSolverState) runs.insert(above);
+  }
+  if (runs.empty()) {
+    std::vector<std::string> names;
+    for (const auto& [name, type] : types_) names.push_back(name);
+    throw BagError(fmt::format("{}: not a recording of this package: no topic */solver_state of type {} among {}",
+                               path_, type_of<SolverState>(), fmt::join(names, ", ")));
+  }
+  if (wanted.empty()) {
+    if (runs.size() > 1) {
+      throw BagError(
+          fmt::format("{}: holds several runs; choose one with --namespace: {}", path_, fmt::join(runs, ", ")));
+    }
+    name_space_ = *runs.begin();
+  } else {
+    name_space_ = wanted == "/" ? "" : (wanted.front() == '/' ? wanted : "/" + wanted);
+    if (runs.count(name_space_) == 0) {
+      throw BagError(
+          fmt::format("{}: no run under namespace '{}'; there is: '{}'", path_, wanted, fmt::join(runs, "', '")));
+    }
+  }
+
+  std::vector<std::string> needed;
+  const std::pair<const char*, std::string> expected[] = {{topics::kContactForces, type_of<ContactForces>()},
+                                                          {topics::kBodies, type_of<BodyStates>()}};
+  for (const auto& [name, type] : expected) {
+    const auto found = types_.find(topic(name));
+    if (found == types_.end() || found->second != type) needed.push_back(topic(name) + " (" + type + ")");
+  }
+  if (!needed.empty()) {
+    throw BagError(fmt::format("{}: no topic {}; record it beside {}", path_, fmt::join(needed, ", "),
+                               topic(topics::kSolverState)));
+  }
+  for (const char* name : {topics::kRunInfo, topics::kParticles}) {
+    if (types_.count(topic(name)) == 0) missing_.push_back(topic(name));
+  }
+}
+
+void RunBag::find_start() {
+  rosbag::View infos(bag_, rosbag::TopicQuery(topic(topics::kRunInfo)));
+  if (infos.begin() != infos.end()) {
+    info_ = *take<RunInfo>(*infos.begin(), path_);
+    stamps_ = Stamps(info_->start);
+    return;
+  }
+  rosbag::View states(bag_, rosbag::TopicQuery(topic(topics::kSolverState)));
+  if (states.begin() == states.end()) throw BagError(path_ + ": the run has no message; was it stopped at its start?");
+  const SolverState::ConstPtr first = take<SolverState>(*states.begin(), path_);
+  if (first->header.stamp == ros::TIME_MIN) return;  // stands for time zero of a run with origin zero
+  const std::int64_t origin = static_cast<std::int64_t>(first->header.stamp.toNSec()) - std::llround(first->time * 1e9);
+  ros::Time start;
+  start.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(origin, 0)));
+  stamps_ = Stamps(start);
+}
+
+template <typename Message>
+void RunBag::hand_on(const rosbag::MessageInstance& instance, const std::vector<RunVisitor*>& visitors,
+                     void (RunVisitor::*receive)(std::int64_t, const Message&)) const {
+  const typename Message::ConstPtr message = take<Message>(instance, path_);
+  for (RunVisitor* visitor : visitors) (visitor->*receive)(stamps_.time_of(message->header.stamp), *message);
+}
+
+void RunBag::read(const std::vector<RunVisitor*>& visitors) {
+  std::vector<std::string> names;
+  for (const char* name : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kCommands,
+                           topics::kParticles, topics::kMarkers}) {
+    names.push_back(topic(name));
+  }
+  try {
+    rosbag::View view(bag_, rosbag::TopicQuery(names));
+    for (const rosbag::MessageInstance& instance : view) {
+      const std::string name = instance.getTopic().substr(name_space_.size() + 1);
+      if (name == topics::kContactForces) {
+        hand_on(instance, visitors, &RunVisitor::contact_forces);
+      } else if (name == topics::kBodies) {
+        hand_on(instance, visitors, &RunVisitor::bodies);
+      } else if (name == topics::kSolverState) {
+        hand_on(instance, visitors, &RunVisitor::solver_state);
+      } else if (name == topics::kCommands) {
+        hand_on(instance, visitors, &RunVisitor::command);
+      } else if (name == topics::kParticles) {
+        hand_on(instance, visitors, &RunVisitor::particles);
+      } else {
+        const auto message = take<visualization_msgs::MarkerArray>(instance, path_);
+        for (RunVisitor* visitor : visitors) visitor->markers(*message);
+      }
+    }
+  } catch (const ros::Exception& error) {
+    throw damaged(path_, error);
+  }
+}
+
+void RunBag::read_snapshots(const std::set<std::size_t>& chosen, RunVisitor& visitor) {
+  try {
+    rosbag::View view(bag_, rosbag::TopicQuery(topic(topics::kParticles)));
+    std::size_t index = 0;
+    for (const rosbag::MessageInstance& instance : view) {
+      if (chosen.count(index++) == 0) continue;
+      hand_on(instance, {&visitor}, &RunVisitor::particles);
+    }
+  } catch (const ros::Exception& error) {
+    throw damaged(path_, error);
+  }
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,226 @@
+#include "mpm_ros/report/report_check.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "mpm_ros/report/report_cloud.hpp"
+
+namespace mpm_ros {
+namespace {
+
+constexpr std::int64_t kStampRounding = 1;  // [ns]: a time in double precision is rounded to whole nanoseconds
+constexpr double kUnitLimit = 1e-9;         // of a quaternion's norm: it is renormalised every step
+constexpr std::size_t kGapsListed = 10;
+
+bool finite(const mpm::Vec3& vector) { return vector.allFinite(); }
+
+/// `difference` in units of `scale`; a difference where nothing was exchanged is infinitely wrong.
+double relative(double difference, double scale) {
+  if (difference == 0.0) return 0.0;
+  return scale > 0.0 ? difference / scale : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+RunChecks::RunChecks(double sync_period, std::vector<std::string> missing)
+    : sync_period_(std::llround(sync_period * 1e9)), missing_(std::move(missing)) {}
+
+void RunChecks::fail(const std::string& name, std::int64_t time, const std::string& what) {
+  failures_.emplace(name, fmt::format("at {} s: {}", seconds(time), what));
+}
+
+void RunChecks::gap(const std::string& text) {
+  failures_.emplace("gaps", text);
+  if (gaps_.size() < kGapsListed) gaps_.push_back(text);
+}
+
+void RunChecks::space(const std::string& topic, std::int64_t time) {
+  Spacing& known = spacing_[topic];
+  ++known.count;
+  if (!known.first) {
+    known.first = known.last = time;
+    return;
+  }
+  const std::int64_t interval = time - known.last;
+  known.last = time;
+  if (interval == 0) return;  // the closing message of a run repeats the last time
+  if (interval < 0) {
+    gap(fmt::format("{}: time goes back by {} s to {} s (was the run reset?)", topic, seconds(-interval),
+                    seconds(time)));
+    return;
+  }
+  if (known.interval == 0) {
+    known.interval = interval;
+    if (sync_period_ > 0 && interval % sync_period_ != 0) {
+      gap(fmt::format("{}: {} s between messages is no multiple of the sync period, {} s", topic, seconds(interval),
+                      seconds(sync_period_)));
+    }
+    return;
+  }
+  if (known.shorter) {
+    gap(fmt::format("{}: only {} s before {} s, {} s elsewhere", topic, seconds(*known.shorter),
+                    seconds(known.last - interval), seconds(known.interval)));
+    known.shorter.reset();
+  }
+  if (interval < known.interval) known.shorter = interval;
+  if (interval > known.interval) {
+    gap(fmt::format("{}: {} s missing before {} s", topic, seconds(interval - known.interval), seconds(time)));
+  }
+}
+
+void RunChecks::contact_forces(std::int64_t time, const ContactForces& message) {
+  for (const mpm::ContactReport& report : contact_reports_of(message)) {
+    BodyImpulse& known = impulses_[report.body];
+    const std::int64_t begin = time - std::llround(report.interval * 1e9);
+    bool whole = true;  // the interval begins where the last one ended
+    if (known.time && std::llabs(begin - *known.time) > kStampRounding) {
+      whole = false;
+      gap(fmt::format("contact_forces: the interval of {} that ends at {} s begins at {} s, the last ended at {} s",
+                      report.body, seconds(time), seconds(begin), seconds(*known.time)));
+    }
+    const mpm::Vec3 gained = report.mean.force * report.interval;
+    if (!known.time && std::llabs(begin) > kStampRounding)
+      whole = false;  // recorded from later on: no known impulse before
+    known.exchanged += gained.norm();
+    if (whole) {
+      const double error = relative((known.impulse + gained - report.impulse).norm(), known.exchanged);
+      worst_impulse_ = std::max(worst_impulse_, error);
+      if (!(error <= kAuditLimit)) {
+        fail("impulse", time,
+             fmt::format("the forces on {} add up to another impulse than is reported, by {:.3g} of it", report.body,
+                         error));
+      }
+    }
+    known.impulse = report.impulse;
+    known.time = time;
+    if (!finite(report.mean.force) || !finite(report.mean.torque) || !finite(report.impulse)) {
+      fail("impulse", time, "force, torque or impulse of " + report.body + " is not finite");
+    }
+    if (state_ && state_->time == time) check_against_material(report.body, time, report.impulse);
+  }
+}
+
+void RunChecks::check_against_material(const std::string& body, std::int64_t time, const mpm::Vec3& impulse) {
+  const std::vector<mpm::NamedImpulse>& impulses = state_->audit.impulses;
+  const auto named = [&body](const mpm::NamedImpulse& other) { return other.name == "contact/" + body; };
+  const auto on_material = std::find_if(impulses.begin(), impulses.end(), named);
+  if (on_material == impulses.end()) {
+    fail("complete", time, "the audit has no impulse contact/" + body);
+    return;
+  }
+  const double error = relative((impulse + on_material->impulse).norm(), state_->audit.exchanged);
+  worst_reaction_ = std::max(worst_reaction_, error);
+  if (!(error <= kAuditLimit)) {
+    fail("reaction", time,
+         fmt::format("impulse on {} and on the material differ by {:.3g} of the momentum exchanged", body, error));
+  }
+}
+
+void RunChecks::bodies(std::int64_t time, const BodyStates& message) {
+  space("bodies", time);
+  for (const mpm::BodyState& state : body_states_of(message)) {
+    posed_.insert(state.name);
+    const mpm::Pose& pose = state.pose;
+    if (!finite(pose.position) || !pose.orientation.coeffs().allFinite()) {
+      fail("bodies", time, "pose of " + state.name + " is not finite");
+    } else if (std::abs(pose.orientation.norm() - 1.0) > kUnitLimit) {
+      fail("bodies", time, fmt::format("quaternion of {} has norm {}", state.name, pose.orientation.norm()));
+    }
+    if (!finite(state.twist.linear) || !finite(state.twist.angular)) {
+      fail("bodies", time, "twist of " + state.name + " is not finite");
+    }
+  }
+}
+
+void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
+  space("solver_state", time);
+  const mpm::SolverState state = solver_state_of(time, message);
+
+  const std::int64_t off = std::llabs(std::llround(message.time * 1e9) - time);
+  worst_stamp_ = std::max(worst_stamp_, seconds(off));
+  if (off > kStampRounding) {
+    fail("stamps", time, fmt::format("the solver's time is {} s, {:.3g} s off the stamp", message.time, seconds(off)));
+  }
+  if (state_ && state.step.steps < state_->step.steps) {
+    fail("stamps", time, fmt::format("steps went back from {} to {}", state_->step.steps, state.step.steps));
+  }
+
+  const mpm::AuditReport& audit = state.audit;
+  mpm::Vec3 residual = audit.momentum - audit.initial_momentum;
+  for (const mpm::NamedImpulse& impulse : audit.impulses) residual -= impulse.impulse;
+  const double scale = std::max(audit.exchanged, audit.initial_momentum.norm());
+  const double error = std::max(relative(residual.norm(), scale), audit.residual);
+  worst_audit_ = std::max(worst_audit_, error);
+  if (!(error <= kAuditLimit)) {
+    fail("audit", time, fmt::format("residual {:.3g} of the momentum exchanged, limit {:.0e}", error, kAuditLimit));
+  }
+
+  const mpm::EnergyReport& energy = state.energy;
+  for (const double value : {energy.kinetic, energy.elastic, energy.plastic, energy.potential, energy.contact_work}) {
+    if (!std::isfinite(value)) fail("energy", time, "an energy is not finite");
+  }
+  min_j_ = std::min(min_j_, state.min_j);
+  if (!(state.min_j > 0.0)) fail("volume", time, fmt::format("the smallest det F is {}", state.min_j));
+
+  std::vector<std::string> names;
+  for (const mpm::NamedImpulse& impulse : audit.impulses) names.push_back(impulse.name);
+  if (!state_) impulse_names_ = names;
+  if (names != impulse_names_) fail("complete", time, "the audit's impulses are not those of the first message");
+
+  state_ = state;
+  for (const auto& [body, known] : impulses_) {
+    if (known.time == time) check_against_material(body, time, known.impulse);
+  }
+}
+
+void RunChecks::particles(std::int64_t time, const sensor_msgs::PointCloud2& message) {
+  ++spacing_["particles"].count;
+  const std::optional<std::string> field = field_not_finite(message);
+  if (field) fail("particles", time, "a value of " + *field + " is not finite");
+}
+
+std::vector<CheckResult> RunChecks::results() const {
+  std::map<std::string, std::string> failures = failures_;
+  std::vector<std::string> missing = missing_;
+  for (const auto& [body, known] : impulses_) {
+    if (posed_.count(body) == 0) missing.push_back("pose of " + body);
+  }
+  if (!missing.empty()) failures.emplace("complete", fmt::format("missing: {}", fmt::join(missing, ", ")));
+
+  const auto spacing = spacing_.find("solver_state");
+  Spacing states;
+  if (spacing != spacing_.end()) states = spacing->second;
+  const auto snapshots = spacing_.find("particles");
+  const std::pair<const char*, std::string> passed[] = {
+      {"audit",
+       fmt::format("residual at most {:.2g} of the momentum exchanged, limit {:.0e}", worst_audit_, kAuditLimit)},
+      {"energy", "finite throughout"},
+      {"gaps", fmt::format("{} states, every {} s from {} s to {} s", states.count, seconds(states.interval),
+                           seconds(states.first.value_or(0)), seconds(states.last))},
+      {"stamps", fmt::format("at most {:.2g} s off the solver's time", worst_stamp_)},
+      {"volume", fmt::format("smallest det F {:.4g}", min_j_)},
+      {"bodies", "poses and twists finite, quaternions of unit length"},
+      {"impulse", fmt::format("forces add up to the impulses, within {:.2g} of them", worst_impulse_)},
+      {"reaction",
+       fmt::format("impulses on bodies and on the material are opposite, within {:.2g} of the momentum exchanged",
+                   worst_reaction_)},
+      {"particles",
+       fmt::format("{} snapshots, all values finite", snapshots == spacing_.end() ? 0 : snapshots->second.count)},
+      {"complete", "every topic and every body is there"}};
+  std::vector<CheckResult> results;
+  for (const auto& [name, detail] : passed) {
+    const auto failure = failures.find(name);
+    if (failure == failures.end()) {
+      results.push_back({name, true, detail});
+    } else {
+      results.push_back({name, false, failure->second});
+    }
+  }
+  return results;
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,60 @@
+#include "mpm_ros/report/report_messages.hpp"
+
+#include "mpm_ros/message/conversions.hpp"
+
+namespace mpm_ros {
+
+std::vector<mpm::ContactReport> contact_reports_of(const ContactForces& message) {
+  std::vector<mpm::ContactReport> reports;
+  for (const ContactForce& force : message.bodies) {
+    mpm::ContactReport report;
+    report.body = force.name;
+    report.mean = {from_message(force.wrench.force), from_message(force.wrench.torque)};
+    report.peak = {from_message(force.peak.force), from_message(force.peak.torque)};
+    report.interval = force.interval;
+    report.nodes = static_cast<int>(force.nodes);
+    report.impulse = from_message(force.impulse);
+    reports.push_back(report);
+  }
+  return reports;
+}
+
+std::vector<mpm::BodyState> body_states_of(const BodyStates& message) {
+  std::vector<mpm::BodyState> states;
+  for (const BodyState& body : message.bodies) {
+    states.push_back(
+        {body.name, from_message(body.pose), from_message(body.twist), static_cast<mpm::Drive>(body.drive)});
+  }
+  return states;
+}
+
+mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message) {
+  mpm::SolverState state;
+  state.time = time;
+  state.step = {message.steps, message.dt_min, message.dt_max, message.dt, message.dt_limited_by};
+  state.energy = {message.energy_kinetic, message.energy_elastic, message.energy_plastic, message.energy_potential,
+                  message.contact_work};
+  state.audit.momentum = from_message(message.momentum);
+  state.audit.initial_momentum = from_message(message.initial_momentum);
+  for (const Impulse& impulse : message.impulses) {
+    state.audit.impulses.push_back({impulse.name, from_message(impulse.impulse)});
+  }
+  state.audit.exchanged = message.momentum_exchanged;
+  state.audit.residual = message.momentum_error;
+  state.particles = message.particles;
+  state.min_j = message.min_j;
+  return state;
+}
+
+CommandRow command_row_of(std::int64_t time, const Command& message) {
+  CommandRow row;
+  row.time = seconds(time);
+  row.body = message.body;
+  row.kind = static_cast<mpm::Drive>(message.kind);
+  row.twist = from_message(message.twist);
+  row.pose = from_message(message.pose);
+  row.arrival = seconds(message.arrival_ns);
+  return row;
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,77 @@
+#include "mpm_ros/report/report_statistics.hpp"
+
+#include <algorithm>
+
+namespace mpm_ros {
+
+void Extreme::offer(const mpm::Vec3& candidate, std::int64_t when) {
+  if (candidate.norm() <= norm) return;
+  norm = candidate.norm();
+  vector = candidate;
+  time = when;
+}
+
+BodyStatistics& RunStatistics::body(const std::string& name) {
+  const auto named = [&name](const BodyStatistics& known) { return known.name == name; };
+  const auto found = std::find_if(bodies_.begin(), bodies_.end(), named);
+  if (found != bodies_.end()) return *found;
+  bodies_.emplace_back();
+  bodies_.back().name = name;
+  return bodies_.back();
+}
+
+void RunStatistics::contact_forces(std::int64_t time, const ContactForces& message) {
+  for (const mpm::ContactReport& report : contact_reports_of(message)) {
+    BodyStatistics& known = body(report.body);
+    known.force.offer(report.mean.force, time);
+    known.step_force.offer(report.peak.force, time);
+    known.torque.offer(report.mean.torque, time);
+    known.force_integral += report.mean.force * report.interval;
+    known.torque_integral += report.mean.torque * report.interval;
+    known.impulse = report.impulse;
+    known.duration += report.interval;
+    if (report.mean.force.squaredNorm() > 0.0) {
+      if (!known.contact) known.contact.emplace(time, time);
+      known.contact->second = time;
+    }
+  }
+}
+
+void RunStatistics::bodies(std::int64_t /*time*/, const BodyStates& message) {
+  for (const mpm::BodyState& state : body_states_of(message)) {
+    BodyStatistics& known = body(state.name);
+    if (!known.first) known.first = state.pose;
+    known.last = state.pose;
+    known.range.add(state.pose.position);
+    known.largest_turn = std::max(known.largest_turn, known.first->orientation.angularDistance(state.pose.orientation));
+  }
+}
+
+void RunStatistics::solver_state(std::int64_t /*time*/, const SolverState& message) {
+  if (!first_state_) first_state_ = message;
+  last_state_ = message;
+  smallest_j_ = std::min(smallest_j_, message.min_j);
+}
+
+void RunStatistics::command(std::int64_t time, const Command& message) {
+  CommandStatistics& known = commands_[{message.body, static_cast<mpm::Drive>(message.kind)}];
+  if (known.count++ == 0) known.first = time;
+  known.last = time;
+  if (!message.requested.isZero() && message.requested < message.header.stamp) ++known.late;
+}
+
+void RunStatistics::particles(std::int64_t time, const sensor_msgs::PointCloud2& message) {
+  if (snapshots_.empty()) {
+    for (const sensor_msgs::PointField& field : message.fields) particle_fields_.push_back(field.name);
+  }
+  snapshots_.push_back(time);
+}
+
+std::optional<std::int64_t> RunStatistics::peak_time() const {
+  const auto weaker = [](const BodyStatistics& a, const BodyStatistics& b) { return a.force.norm < b.force.norm; };
+  const auto strongest = std::max_element(bodies_.begin(), bodies_.end(), weaker);
+  if (strongest == bodies_.end() || strongest->force.norm == 0.0) return std::nullopt;
+  return strongest->force.time;
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,158 @@
+#include "mpm_ros/report/report_tables.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+#include "mpm_ros/message/conversions.hpp"
+
+namespace mpm_ros {
+namespace {
+
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+
+/// Four digits, as many as a table needs.
+std::string number(double value) { return fmt::format("{:.4g}", value + 0.0); }  // no "-0"
+
+std::string triple(const mpm::Vec3& vector) {
+  return number(vector.x()) + "  " + number(vector.y()) + "  " + number(vector.z());
+}
+
+std::string run_table(const RunBag& bag, const RunStatistics& statistics) {
+  const SolverState& last = statistics.last_state();
+  std::string text = bag.path() + "\n\n";
+  const auto line = [&text](const std::string& name, const std::string& value) {
+    text += fmt::format("{:<18}{}\n", name, value);
+  };
+  if (bag.info()) {
+    const RunInfo& info = *bag.info();
+    line("scene", info.scene + (info.scene_path.empty() ? "" : "  (" + info.scene_path + ")"));
+    line("recorded by", fmt::format("mpm_ros {}, instruction set {}", info.version, info.isa));
+  }
+  line("simulated time", fmt::format("{} s", number(last.time)));
+  line("steps", fmt::format("{}, dt {} to {} s, limited by {}", last.steps, number(last.dt_min), number(last.dt_max),
+                            last.dt_limited_by.empty() ? "nothing" : last.dt_limited_by));
+  line("real-time factor", fmt::format("{} (simulated over wall time)", number(last.real_time_factor)));
+  line("particles", fmt::format("{}; {} snapshots of {}", last.particles, statistics.snapshots().size(),
+                                fmt::join(statistics.particle_fields(), " ")));
+  line("smallest det F", number(statistics.smallest_j()));
+  if (!last.state_hash.empty()) line("state hash", last.state_hash);
+  return text;
+}
+
+std::string contact_table(const RunStatistics& statistics) {
+  if (statistics.body_statistics().empty()) return "Contact: the scene has no rigid body\n";
+  TextTable peaks({"body", "peak |F| [N]", "at [s]", "F x  y  z [N]", "of a step [N]", "peak |T| [N m]", "at [s]"});
+  TextTable means({"body", "mean F x  y  z [N]", "mean T x  y  z [N m]", "impulse x  y  z [N s]", "contact [s]"});
+  for (const BodyStatistics& body : statistics.body_statistics()) {
+    peaks.add({body.name, number(body.force.norm), number(seconds(body.force.time)), triple(body.force.vector),
+               number(body.step_force.norm), number(body.torque.norm), number(seconds(body.torque.time))});
+    const double duration = body.duration > 0.0 ? body.duration : 1.0;  // without messages the integrals are zero
+    const std::string contact =
+        body.contact ? number(seconds(body.contact->first)) + " to " + number(seconds(body.contact->second)) : "none";
+    means.add({body.name, triple(body.force_integral / duration), triple(body.torque_integral / duration),
+               triple(body.impulse), contact});
+  }
+  return "Contact: force and torque of the material on each body, world axes, torque about the body's origin\n" +
+         peaks.text() + "\n" + means.text();
+}
+
+std::string motion_table(const RunStatistics& statistics) {
+  if (statistics.body_statistics().empty()) return "Motion: the scene has no rigid body\n";
+  TextTable table({"body", "x [m]", "y [m]", "z [m]", "start x  y  z [m]", "end x  y  z [m]", "largest turn [deg]"});
+  const auto span = [](const mpm::Box& box, int axis) {
+    return number(box.min[axis]) + " to " + number(box.max[axis]);
+  };
+  for (const BodyStatistics& body : statistics.body_statistics()) {
+    if (!body.first) continue;
+    table.add({body.name, span(body.range, 0), span(body.range, 1), span(body.range, 2), triple(body.first->position),
+               triple(body.last.position), number(body.largest_turn * kDegrees)});
+  }
+  return "Motion: range of each body's origin\n" + table.text();
+}
+
+std::string energy_table(const RunStatistics& statistics) {
+  const SolverState& first = *statistics.first_state();
+  const SolverState& last = statistics.last_state();
+  TextTable table({"energy [J]", "start", "end", "change"});
+  const auto row = [&](const char* name, auto value) {
+    table.add({name, number(value(first)), number(value(last)), number(value(last) - value(first))});
+  };
+  row("kinetic", [](const SolverState& s) { return s.energy_kinetic; });
+  row("elastic", [](const SolverState& s) { return s.energy_elastic; });
+  row("potential", [](const SolverState& s) { return s.energy_potential; });
+  row("sum", [](const SolverState& s) { return s.energy_kinetic + s.energy_elastic + s.energy_potential; });
+  row("plastic, dissipated", [](const SolverState& s) { return s.energy_plastic; });
+  row("work of the bodies", [](const SolverState& s) { return s.contact_work; });
+  return "Energies of the material\n" + table.text();
+}
+
+std::string audit_table(const RunStatistics& statistics) {
+  const SolverState& last = statistics.last_state();
+  const auto row = [](const std::string& name, const mpm::Vec3& v) {
+    return std::vector<std::string>{name, number(v.x()), number(v.y()), number(v.z())};
+  };
+  TextTable table({"momentum [N s]", "x", "y", "z"});
+  mpm::Vec3 sum = mpm::Vec3::Zero();
+  for (const Impulse& impulse : last.impulses) {
+    const mpm::Vec3 value = from_message(impulse.impulse);
+    sum += value;
+    table.add(row(impulse.name, value));
+  }
+  const mpm::Vec3 change = from_message(last.momentum) - from_message(last.initial_momentum);
+  table.add(row("sum of impulses", sum));
+  table.add(row("change", change));
+  table.add(row("residual", change - sum));
+  return fmt::format("Audit: impulses on the material since the start\n{}exchanged {} N s, residual {:.2g} of it\n",
+                     table.text(), number(last.momentum_exchanged), last.momentum_error);
+}
+
+std::string command_table(const RunStatistics& statistics) {
+  if (statistics.commands().empty()) return "Commands: none; the bodies followed the scene\n";
+  TextTable table({"commands", "kind", "applied", "first [s]", "last [s]", "late"});
+  for (const auto& [key, value] : statistics.commands()) {
+    table.add({key.first, drive_name(key.second), std::to_string(value.count), number(seconds(value.first)),
+               number(seconds(value.last)), std::to_string(value.late)});
+  }
+  return "Commands, by the time they took effect (late: after the stamp they carried)\n" + table.text();
+}
+
+std::string gap_lines(const std::vector<std::string>& gaps) {
+  if (gaps.empty()) return "Gaps in time: none\n";
+  return fmt::format("Gaps in time\n  {}\n", fmt::join(gaps, "\n  "));
+}
+
+}  // namespace
+
+std::string TextTable::text() const {
+  std::vector<std::size_t> widths(rows_.front().size(), 0);
+  for (const std::vector<std::string>& row : rows_) {
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], row.at(i).size());
+  }
+  std::string text;
+  for (const std::vector<std::string>& row : rows_) {
+    std::string line = fmt::format("  {:<{}}", row[0], widths[0]);
+    for (std::size_t i = 1; i < widths.size(); ++i) line += fmt::format("   {:>{}}", row[i], widths[i]);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string tables(const RunBag& bag, const RunStatistics& statistics, const std::vector<std::string>& gaps) {
+  const std::array<std::string, 7> parts = {
+      run_table(bag, statistics), contact_table(statistics), motion_table(statistics), energy_table(statistics),
+      audit_table(statistics),    command_table(statistics), gap_lines(gaps)};
+  return fmt::format("{}", fmt::join(parts, "\n"));
+}
+
+std::string check_lines(const std::vector<CheckResult>& results) {
+  std::string text;
+  for (const CheckResult& result : results) {
+    text += fmt::format("{:<6}{:<11}{}\n", result.passed ? "ok" : "FAIL", result.name, result.detail);
+  }
+  return text;
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,181 @@
+#include "mpm_ros/run/run_outputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/topics.hpp"
+
+namespace mpm_ros {
+
+namespace {
+
+/// A period [s] as whole sync periods, at least one [ns].
+std::int64_t in_syncs(double period, std::int64_t sync) {
+  return sync * std::max<std::int64_t>(1, std::llround(period * 1e9 / static_cast<double>(sync)));
+}
+
+/// The longest contact arrow, as a part of the domain's longest edge.
+constexpr double kArrowLength = 0.25;
+
+}  // namespace
+
+OutputOptions output_options(const mpm::Scene& scene) {
+  OutputOptions options;
+  options.particles.fields = scene.output.particle_fields;
+  options.particles.stride = scene.output.particle_stride;
+  options.particle_period = scene.output.period;
+  return options;
+}
+
+RunInfo run_info(const mpm::Scene& scene, const mpm::Simulation& simulation, const Stamps& stamps,
+                 const std::string& parameters) {
+  RunInfo info;
+  info.header.stamp = stamps.at(simulation.time());
+  info.scene = scene.definition.name;
+  info.scene_text = scene.text;
+  info.scene_path = scene.path;
+  info.isa = simulation.isa();
+  info.sync_period = static_cast<double>(simulation.sync_period()) * 1e-9;
+  info.start = stamps.origin();
+  info.version = MPM_VERSION;
+  info.parameters = parameters;
+  return info;
+}
+
+RunOutputs::RunOutputs(mpm::Simulation& simulation, const Stamps& stamps, OutputOptions options)
+    : simulation_(simulation),
+      stamps_(stamps),
+      options_(std::move(options)),
+      particle_period_(in_syncs(options_.particle_period, simulation.sync_period())),
+      wrench_period_(in_syncs(options_.wrench_period, simulation.sync_period())),
+      cloud_(options_.particles),
+      force_markers_(options_.force_scale,
+                     kArrowLength * (simulation.definition().grid.max - simulation.definition().grid.min).maxCoeff()) {
+  for (const mpm::BodyState& body : simulation.bodies()) {
+    wrench_topics_.push_back(topics::of_body(body.name, topics::kWrench));
+  }
+}
+
+ros::Time RunOutputs::stamp() const { return stamps_.at(simulation_.time()); }
+
+std_msgs::Header RunOutputs::header(const std::string& frame) const {
+  std_msgs::Header header;
+  header.stamp = stamp();
+  header.frame_id = frame;
+  return header;
+}
+
+template <typename Message>
+void RunOutputs::put(const std::string& topic, const Message& message) {
+  for (MessageSink* sink : sinks_) {
+    if (sink->wants(topic)) sink->put(topic, stamp(), message);
+  }
+}
+
+bool RunOutputs::wanted(const std::string& topic) const {
+  return std::any_of(sinks_.begin(), sinks_.end(), [&](const MessageSink* sink) { return sink->wants(topic); });
+}
+
+void RunOutputs::begin(const RunInfo& info) {
+  put(topics::kRunInfo, info);
+  if (wanted(topics::kMarkers)) put(topics::kMarkers, shape_markers(simulation_));
+  read_contacts();
+  write_bodies();
+  write_contacts();
+  write_state(options_.state_hash, 0.0);
+  write_particles();
+}
+
+void RunOutputs::command(const AppliedCommand& command) {
+  put(topics::kCommands,
+      to_message(command, simulation_.rigid_body(command.body).name(), options_.world_frame, stamps_));
+}
+
+void RunOutputs::sync(bool last, double real_time_factor) {
+  read_contacts();
+  const std::int64_t time = simulation_.time();
+  if (last || time % wrench_period_ == 0) {
+    write_bodies();
+    write_contacts();
+    write_state(last || options_.state_hash, real_time_factor);
+  }
+  if (last || time % particle_period_ == 0) write_particles();
+  finished_ = last;
+}
+
+void RunOutputs::finish(double real_time_factor, bool failed) {
+  if (finished_) return;
+  finished_ = true;
+  if (failed || contacts_at_ != simulation_.time()) {
+    read_contacts();
+    write_bodies();
+    write_contacts();
+  }
+  write_state(true, real_time_factor);
+  if (failed || particles_at_ != simulation_.time()) write_particles();
+}
+
+void RunOutputs::read_contacts() {
+  contacts_.clear();
+  for (int body = 0; body < static_cast<int>(wrench_topics_.size()); ++body) {
+    contacts_.push_back(simulation_.take_contact(body));
+  }
+  average_.add(contacts_);
+}
+
+ContactForces RunOutputs::contact_forces(const std::vector<mpm::ContactReport>& contacts) const {
+  ContactForces message;
+  message.header = header(options_.world_frame);
+  for (const mpm::ContactReport& contact : contacts) message.bodies.push_back(to_message(contact));
+  return message;
+}
+
+BodyStates RunOutputs::body_states() const {
+  BodyStates message;
+  message.header = header(options_.world_frame);
+  for (const mpm::BodyState& body : simulation_.bodies()) message.bodies.push_back(to_message(body));
+  return message;
+}
+
+void RunOutputs::write_contacts() {
+  contacts_at_ = simulation_.time();
+  const std::vector<mpm::ContactReport> contacts = average_.take();
+  const std::vector<mpm::BodyState> bodies = simulation_.bodies();
+  if (wanted(topics::kContactForces)) put(topics::kContactForces, contact_forces(contacts));
+  for (std::size_t body = 0; body < contacts.size(); ++body) {
+    if (!wanted(wrench_topics_[body])) continue;
+    geometry_msgs::WrenchStamped message;
+    message.header = header(bodies[body].name);
+    message.wrench = to_message(in_body_axes(contacts[body].mean, bodies[body].pose.orientation));
+    put(wrench_topics_[body], message);
+  }
+  if (wanted(topics::kForceMarkers)) {
+    put(topics::kForceMarkers, force_markers_.arrows(contacts, bodies, options_.world_frame, stamp()));
+  }
+}
+
+void RunOutputs::write_bodies() {
+  if (wanted(topics::kTf)) put(topics::kTf, to_transforms(simulation_.bodies(), options_.world_frame, stamp()));
+  if (wanted(topics::kBodies)) put(topics::kBodies, body_states());
+}
+
+void RunOutputs::write_state(bool with_hash, double real_time_factor) {
+  if (!wanted(topics::kSolverState)) return;
+  SolverState message = to_message(simulation_.state());
+  message.header = header(options_.world_frame);
+  message.real_time_factor = real_time_factor;
+  if (with_hash) message.state_hash = hash_text(simulation_.state_hash());
+  put(topics::kSolverState, message);
+}
+
+void RunOutputs::write_particles() {
+  particles_at_ = simulation_.time();
+  if (!wanted(topics::kParticles)) return;
+  cloud_.read(simulation_);
+  cloud_.message().header = header(options_.world_frame);
+  put(topics::kParticles, cloud_.message());
+}
+
+}  // namespace mpm_ros

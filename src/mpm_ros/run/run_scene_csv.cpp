@@ -1,0 +1,48 @@
+#include "mpm_ros/run/run_scene_csv.hpp"
+
+#include "mpm_ros/message/topics.hpp"
+
+namespace mpm_ros {
+
+CsvSink::CsvSink(const std::string& folder, const Stamps& stamps)
+    : stamps_(stamps), tables_(folder), snapshots_(folder) {}
+
+void CsvSink::close() {
+  tables_.close();
+  snapshots_.close();
+}
+
+bool CsvSink::wants(const std::string& topic) const {
+  // The rest repeats these in another form, or is for displays.
+  for (const char* table :
+       {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kParticles, topics::kCommands}) {
+    if (topic == table) return true;
+  }
+  return topic == topics::kMarkers;
+}
+
+void CsvSink::put(const std::string&, const ros::Time& stamp, const ContactForces& message) {
+  tables_.contact_forces(stamps_.time_of(stamp), message);
+}
+void CsvSink::put(const std::string&, const ros::Time& stamp, const BodyStates& message) {
+  tables_.bodies(stamps_.time_of(stamp), message);
+}
+void CsvSink::put(const std::string&, const ros::Time& stamp, const SolverState& message) {
+  tables_.solver_state(stamps_.time_of(stamp), message);
+}
+void CsvSink::put(const std::string&, const ros::Time& stamp, const Command& message) {
+  tables_.command(stamps_.time_of(stamp), message);
+}
+void CsvSink::put(const std::string&, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) {
+  snapshots_.particles(stamps_.time_of(stamp), message);
+}
+void CsvSink::put(const std::string&, const ros::Time&, const visualization_msgs::MarkerArray& message) {
+  tables_.markers(message);
+}
+
+// Not wanted.
+void CsvSink::put(const std::string&, const ros::Time&, const RunInfo&) {}
+void CsvSink::put(const std::string&, const ros::Time&, const geometry_msgs::WrenchStamped&) {}
+void CsvSink::put(const std::string&, const ros::Time&, const tf2_msgs::TFMessage&) {}
+
+}  // namespace mpm_ros

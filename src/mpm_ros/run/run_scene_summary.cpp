@@ -1,0 +1,110 @@
+#include "mpm_ros/run/run_scene_summary.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "mpm_ros/message/conversions.hpp"
+
+namespace mpm_ros {
+namespace {
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;  // Linux counts kibibytes
+}
+
+/// As scenes spell it.
+std::string transfer_name(double flip) {
+  if (flip == 1.0) return "flip";
+  return flip == 0.0 ? "pic" : fmt::format("flip {:g}", flip);
+}
+
+nlohmann::ordered_json energy_json(const mpm::EnergyReport& energy) {
+  return {{"kinetic", energy.kinetic},     {"elastic", energy.elastic},           {"plastic", energy.plastic},
+          {"potential", energy.potential}, {"contact_work", energy.contact_work}, {"total", energy.total()}};
+}
+
+}  // namespace
+
+RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation,
+                       const mpm::EnergyReport& start_energy, const std::vector<mpm::ContactReport>& contacts)
+    : scene(scene.definition.name),
+      definition(simulation.definition()),
+      isa(simulation.isa()),
+      threads(simulation.threads()),
+      state(simulation.state()),
+      start_energy(start_energy),
+      state_hash(simulation.state_hash()),
+      peak_memory(peak_memory_bytes()),
+      metrics(simulation.metrics()) {
+  for (const mpm::ContactReport& contact : contacts) {
+    contact_impulse.emplace_back(contact.body, contact.impulse.array() + 0.0);  // no -0
+  }
+}
+
+double RunSummary::particle_steps_per_second() const {
+  const double work = static_cast<double>(state.particles) * static_cast<double>(state.step.steps);
+  return state.wall_seconds > 0.0 ? work / state.wall_seconds : 0.0;
+}
+
+double RunSummary::real_time_factor() const { return state.wall_seconds > 0.0 ? seconds() / state.wall_seconds : 0.0; }
+
+nlohmann::ordered_json RunSummary::json() const {
+  const bool planar = definition.geometry == mpm::GeometryKind::plane_strain;
+  nlohmann::ordered_json root;
+  root["scene"] = scene;
+  root["method"] = {{"geometry", planar ? "plane_strain" : "solid"},
+                    {"shape", "ugimp"},
+                    {"update", definition.method.update == mpm::UpdateScheme::usavg ? "usavg" : "usf"},
+                    {"transfer", transfer_name(definition.method.flip)},
+                    {"precision", "double"},
+                    {"isa", isa}};
+  root["particles"] = state.particles;
+  root["steps"] = state.step.steps;
+  root["time"] = seconds();
+  root["dt"] = {{"min", state.step.dt_min}, {"max", state.step.dt_max}, {"limited_by", state.step.limited_by}};
+  root["wall_seconds"] = state.wall_seconds;
+  root["particle_steps_per_second"] = particle_steps_per_second();
+  root["real_time_factor"] = real_time_factor();
+  root["peak_memory_bytes"] = peak_memory;
+  root["threads"] = threads;
+  root["state_hash"] = hash_text(state_hash);
+  root["energy"] = {{"start", energy_json(start_energy)}, {"end", energy_json(state.energy)}};
+  root["momentum_error"] = state.audit.residual;
+  root["contact_impulse"] = nlohmann::ordered_json::object();
+  for (const auto& [body, impulse] : contact_impulse) {
+    root["contact_impulse"][body] = {impulse.x(), impulse.y(), impulse.z()};
+  }
+  root["metrics"] = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : metrics) root["metrics"][name] = value;
+  return root;
+}
+
+std::string RunSummary::text() const {
+  std::string text = fmt::format("{}: {:g} s simulated in {:.3g} s ({:.3g} times real time), {} steps\n", scene,
+                                 seconds(), state.wall_seconds, real_time_factor(), state.step.steps);
+  text += fmt::format("  particles {}, {:.3g} million particle-steps a second on {} thread{} ({}), {:.0f} MB\n",
+                      state.particles, 1e-6 * particle_steps_per_second(), threads, threads == 1 ? "" : "s", isa,
+                      1e-6 * static_cast<double>(peak_memory));
+  text += fmt::format("  time step {:.4g} to {:.4g} s, limited by {}\n", state.step.dt_min, state.step.dt_max,
+                      state.step.limited_by);
+  text += fmt::format(
+      "  energy {:.6g} J at the start, {:.6g} J at the end (kinetic {:.4g}, elastic {:.4g}, potential "
+      "{:.4g}); lost to plastic flow {:.4g} J, work of tools {:.4g} J\n",
+      start_energy.total(), state.energy.total(), state.energy.kinetic, state.energy.elastic, state.energy.potential,
+      state.energy.plastic, state.energy.contact_work);
+  text +=
+      fmt::format("  momentum error {:.2g} of the momentum exchanged, smallest J {:.4g} at the end, state hash {}\n",
+                  state.audit.residual, state.min_j, hash_text(state_hash));
+  for (const auto& [body, impulse] : contact_impulse) {
+    text +=
+        fmt::format("  contact impulse on {}: {:.6g} {:.6g} {:.6g} N s\n", body, impulse.x(), impulse.y(), impulse.z());
+  }
+  for (const auto& [name, value] : metrics) text += fmt::format("  {} = {:.9g}\n", name, value);
+  return text;
+}
+
+}  // namespace mpm_ros

@@ -23,9 +23,10 @@ struct Element {
   void strain(double x, double y, double z, double xz = 0.0) {
     const Matrix3<double> du{x, 0.0, xz, 0.0, y, 0.0, xz, 0.0, z};
     const double j_old = determinant(f);
-    f = product(exponential(du, 4), f);
+    const Matrix3<double> df = exponential(du, 4);
+    f = product(df, f);
     double* history[3] = {&h[0], &h[1], &h[2]};
-    law.update(du, f, j_old, determinant(f), tau, history, 0);
+    law.update(mpm::Increment<double, Matrix3<double>>{du, df, f, j_old, determinant(f), 0.0}, tau, history, 0);
   }
   mpm::Symmetric3<double> stress() const { return scale_shift(tau, rho / determinant(f), 0.0); }
   double mean() const { return trace(stress()) / 3.0; }

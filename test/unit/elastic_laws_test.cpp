@@ -16,7 +16,8 @@ mpm::Symmetric3<double> neo_hookean(const Matrix3<double>& f, double density = 7
   const mpm::NeoHookean law({kElasticity}, density);
   mpm::Symmetric3<double> tau{};
   const double j = determinant(f);
-  law.update(Matrix3<double>{}, f, 1.0, j, tau, static_cast<double* const*>(nullptr), 0);
+  law.update(mpm::Increment<double, Matrix3<double>>{{}, f, f, 1.0, j, 0.0}, tau, static_cast<double* const*>(nullptr),
+             0);
   return scale_shift(tau, density / j, 0.0);
 }
 
@@ -72,8 +73,10 @@ TEST(LinearElastic, FollowsTheJaumannSolutionInSimpleShear) {
   const int steps = 2000;
   for (int i = 0; i < steps; ++i) {
     const Matrix3<double> du{0, gamma / steps, 0, 0, 0, 0, 0, 0, 0};
-    f = product(exponential(du, 2), f);
-    law.update(du, f, 1.0, 1.0, tau, static_cast<double* const*>(nullptr), 0);
+    const Matrix3<double> df = exponential(du, 2);
+    f = product(df, f);
+    law.update(mpm::Increment<double, Matrix3<double>>{du, df, f, 1.0, 1.0, 0.0}, tau,
+               static_cast<double* const*>(nullptr), 0);
   }
   EXPECT_NEAR(density * tau.xy, shear * std::sin(gamma), 1e-4 * shear);
   EXPECT_NEAR(density * tau.xx, shear * (1.0 - std::cos(gamma)), 1e-4 * shear);

@@ -13,7 +13,7 @@
 
 namespace mpm {
 
-class DruckerPrager {
+class DruckerPrager : public LawTraits {
  public:
   static constexpr int kHistory = 3;
   static constexpr int kPlasticStrain = 0;
@@ -23,10 +23,11 @@ class DruckerPrager {
   DruckerPrager(const DruckerPragerDefinition& d, double density);
 
   template <class T, class Matrix, class Symmetric>
-  void update(const Matrix& du, const Matrix&, T j_old, T j, Symmetric& tau, T* const* history, int p) const {
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const* history, int p) const {
+    const T j = step.j;
     const T bulk = T(bulk_), shear = T(shear_);
-    const Symmetric previous = scale_shift(tau, T(density_) / j_old, T(0));
-    const Symmetric trial = LinearElastic::stress_rate_update(previous, du, bulk, shear);
+    const Symmetric previous = scale_shift(tau, T(density_) / step.j_old, T(0));
+    const Symmetric trial = LinearElastic::stress_rate_update(previous, step.du, bulk, shear);
 
     T mean = trace(trial) / T(3);
     Symmetric deviator = scale_shift(trial, T(1), -mean);
@@ -75,7 +76,9 @@ class DruckerPrager {
   }
 
   /// Loose soil (j > 1) carries no more than dense soil does.
-  double wave_speed(double j) const { return std::sqrt((bulk_ + 4.0 / 3.0 * shear_) * std::min(j, 1.0) / density_); }
+  double wave_speed(const Matrix3<double>&, const Symmetric3<double>&, double j) const {
+    return std::sqrt((bulk_ + 4.0 / 3.0 * shear_) * std::min(j, 1.0) / density_);
+  }
   double density() const { return density_; }
   double eta() const { return eta_; }
   double eta_bar() const { return eta_bar_; }

@@ -1,14 +1,11 @@
-// The closed list of constitutive laws, and what the mechanics asks of each. A law is a plain class with
+// The closed list of constitutive laws, and what the mechanics asks of each. A law is a plain class, derived from
+// LawTraits (increment.hpp) for the constants and functions that it does not define itself, with
 //
-//   static constexpr int kHistory;                        scalars of history a particle
-//   static constexpr int kPlasticStrain, kPlasticWork;    which of them is the equivalent plastic strain [-] and the
-//                                                         plastic work [J/kg]; -1: none
-//   void update(du, F, J_old, J, tau, history, p) const;  tau: Kirchhoff stress over initial density [J/kg], in and
-//   out;
-//                                                         du = grad v dt; F and J at the end of the increment;
-//                                                         history[k][p] is scalar k of particle p
-//   double elastic_energy(F, tau, J) const;               [J/kg]
-//   double wave_speed(J) const;                           [m/s], fastest, tangent
+//   void update(increment, tau, history, p) const;   tau: Kirchhoff stress over initial density [J/kg], in and out;
+//                                                    history[k][p] is scalar k of particle p
+//   double elastic_energy(F, tau, J) const;          [J/kg]
+//   double wave_speed(F, tau, J) const;              [m/s], of the fastest small wave on the present state (tangent)
+//   double density() const;                          [kg/m^3], initial
 //
 // It is chosen once a block of particles of one material; inside the loop there is no virtual call and no branch on it.
 // To add one: a definition in definition.hpp, a file beside these, its name in the two variants and in make_law().
@@ -30,9 +27,6 @@ Law make_law(const MaterialDefinition& material);
 
 inline int history_size(const Law& law) {
   return std::visit([](const auto& l) { return l.kHistory; }, law);
-}
-inline double wave_speed(const Law& law, double j) {
-  return std::visit([j](const auto& l) { return l.wave_speed(j); }, law);
 }
 
 }  // namespace mpm

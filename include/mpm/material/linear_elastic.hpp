@@ -6,16 +6,13 @@
 #include <cmath>
 
 #include "mpm/material/definition.hpp"
+#include "mpm/material/increment.hpp"
 #include "mpm/math/tensor.hpp"
 
 namespace mpm {
 
-class LinearElastic {
+class LinearElastic : public LawTraits {
  public:
-  static constexpr int kPlasticStrain = -1;  ///< which scalar of history it is, if any
-  static constexpr int kPlasticWork = -1;
-  static constexpr int kHistory = 0;  ///< scalars of history a particle
-
   LinearElastic(const LinearElasticDefinition& d, double density)
       : density_(density), bulk_(d.elasticity.bulk()), shear_(d.elasticity.shear()) {}
 
@@ -31,9 +28,9 @@ class LinearElastic {
 
   /// Law interface (see law.hpp): from specific Kirchhoff stress tau/rho0 to its new value.
   template <class T, class Matrix, class Symmetric>
-  void update(const Matrix& du, const Matrix&, T j_old, T j, Symmetric& tau, T* const*, int) const {
-    const Symmetric cauchy = scale_shift(tau, T(density_) / j_old, T(0));
-    tau = scale_shift(stress_rate_update(cauchy, du, T(bulk_), T(shear_)), j / T(density_), T(0));
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const*, int) const {
+    const Symmetric cauchy = scale_shift(tau, T(density_) / step.j_old, T(0));
+    tau = scale_shift(stress_rate_update(cauchy, step.du, T(bulk_), T(shear_)), step.j / T(density_), T(0));
   }
 
   /// Stored energy per unit mass [J/kg] of a Cauchy stress: small-strain complementary energy.
@@ -48,8 +45,10 @@ class LinearElastic {
     return pressure * pressure / (2.0 * bulk) + deviator2 / (4.0 * shear);
   }
 
-  /// Fastest wave [m/s] at volume ratio j.
-  double wave_speed(double j) const { return std::sqrt((bulk_ + 4.0 / 3.0 * shear_) * j / density_); }
+  /// Longitudinal wave: the stress that is there adds nothing to it (Jaumann rate of Cauchy stress).
+  double wave_speed(const Matrix3<double>&, const Symmetric3<double>&, double j) const {
+    return std::sqrt((bulk_ + 4.0 / 3.0 * shear_) * j / density_);
+  }
   double density() const { return density_; }
 
  private:

@@ -1,29 +1,25 @@
 // Compressible neo-Hookean solid. W = K/2 [(J^2 - 1)/2 - ln J] + G/2 (I1 J^(-2/3) - 3), so
-// sigma = K/2 (J - 1/J) I + G J^(-5/3) dev B. Weak in extreme stretch: K, G alone do not lock, and
-// wave_speed() knows the volume ratio only, not that a stretch of lambda stiffens its own direction by lambda^2.
+// sigma = K/2 (J - 1/J) I + G J^(-5/3) dev B. Weak in extreme stretch: K, G alone do not lock.
 // Source: Nairn & Guilkey (2015) eq. (64); method reference 10.2.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "mpm/material/definition.hpp"
-#include "mpm/math/tensor.hpp"
+#include "mpm/material/increment.hpp"
+#include "mpm/math/principal.hpp"
 
 namespace mpm {
 
-class NeoHookean {
+class NeoHookean : public LawTraits {
  public:
-  static constexpr int kPlasticStrain = -1;  ///< which scalar of history it is, if any
-  static constexpr int kPlasticWork = -1;
-  static constexpr int kHistory = 0;
-
   NeoHookean(const NeoHookeanDefinition& d, double density)
       : density_(density), bulk_(d.elasticity.bulk()), shear_(d.elasticity.shear()) {}
 
   template <class T, class Matrix, class Symmetric>
-  void update(const Matrix&, const Matrix& f, T, T j, Symmetric& tau, T* const*, int) const {
-    const Symmetric b = left_cauchy_green(f);
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const*, int) const {
+    const Symmetric b = left_cauchy_green(step.f);
+    const T j = step.j;
     const T inverse_density = T(1.0 / density_);
     const T root = std::cbrt(j);
     const T deviatoric = T(shear_) / (root * root) * inverse_density;           // J sigma = G J^-2/3 dev B
@@ -37,10 +33,16 @@ class NeoHookean {
     return (0.5 * bulk_ * (0.5 * (j * j - 1.0) - std::log(j)) + 0.5 * shear_ * (invariant - 3.0)) / density_;
   }
 
-  /// Tangent at the volume ratio j: d sigma / d ln V = K/2 (J + 1/J), shear G J^(-5/3) at B = J^(2/3) I.
-  double wave_speed(double j) const {
+  /// Bound on the fastest small wave on the present state, exact without deviatoric stretch. For a wave along n the
+  /// acoustic tensor is K/2 (J + 1/J) n n + G J^(-5/3) [(n.Bn) I - 2/3 (Bn n + n Bn) + 5/9 tr(B) n n].
+  double wave_speed(const Matrix3<double>& f, const Symmetric3<double>&, double j) const {
+    const Principal<double> b = principal(left_cauchy_green(f));
+    const double trace_b = b.value[0] + b.value[1] + b.value[2];
+    const double along = 5.0 / 9.0 * trace_b - b.smallest() / 3.0, across = b.largest();
+    const double coupling = (b.largest() - b.smallest()) / 3.0;
     const double bulk = 0.5 * bulk_ * (j + 1.0 / j);
-    return std::sqrt((bulk + 4.0 / 3.0 * shear_ / j) * j / density_);
+    const double shear = shear_ * std::pow(j, -5.0 / 3.0);
+    return std::sqrt((bulk + shear * (std::max(along, across) + coupling)) * j / density_);
   }
   double density() const { return density_; }
 

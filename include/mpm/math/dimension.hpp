@@ -2,6 +2,7 @@
 // a particle lie in structure-of-arrays storage. The one place that an out-of-plane policy is stated.
 #pragma once
 
+#include <cmath>
 #include <type_traits>
 
 #include "mpm/math/tensor.hpp"
@@ -42,6 +43,12 @@ struct Solid {
   template <class T>
   static Matrix3<T> gradient(const T (&l)[3][3]) {
     return {l[0][0], l[0][1], l[0][2], l[1][0], l[1][1], l[1][2], l[2][0], l[2][1], l[2][2]};
+  }
+  /// Deformation gradient of a pure change of volume.
+  template <class T>
+  static Matrix3<T> dilatation(T j) {
+    const T edge = std::cbrt(j);
+    return {edge, T(0), T(0), T(0), edge, T(0), T(0), T(0), edge};
   }
   /// Column j of the stress: the traction on a face whose normal is axis j.
   template <class T>
@@ -87,6 +94,11 @@ struct PlaneStrain {
   template <class T>
   static MatrixPlane<T> gradient(const T (&l)[2][2]) {
     return {l[0][0], l[0][1], l[1][0], l[1][1], T(0)};
+  }
+  template <class T>
+  static MatrixPlane<T> dilatation(T j) {
+    const T edge = std::sqrt(j);
+    return {edge, T(0), T(0), edge, T(1)};
   }
   template <class T>
   static void column(const SymmetricPlane<T>& s, int j, T (&c)[2]) {

@@ -11,7 +11,9 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
+#include "mpm/material/increment.hpp"
 #include "mpm/math/exponential.hpp"
 #include "mpm/mechanics/stencil.hpp"
 
@@ -101,10 +103,13 @@ struct BlockKernels {
       }
       const auto du = Geometry::gradient(l);
       const auto old = Geometry::load_matrix(f, q);
-      const auto now = product(exponential(du, terms), old);
+      const auto df = exponential(du, terms);
+      const double j_old = determinant(old);
+      auto now = product(df, old);
+      if constexpr (LawType::kForgetsShape) now = Geometry::dilatation(j_old * determinant(df));
       const double j = determinant(now);
       auto stress = Geometry::load_symmetric(tau, q);
-      law.update(du, now, determinant(old), j, stress, history, q);
+      law.update(Increment<double, std::decay_t<decltype(du)>>{du, df, now, j_old, j, dt}, stress, history, q);
       Geometry::store_matrix(now, f, q);
       Geometry::store_symmetric(stress, tau, q);
       if (!(j > 0.0) && bad == count) bad = q;

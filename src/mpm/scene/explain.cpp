@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mpm/material/law.hpp"
+#include "mpm/material/material_point.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -47,7 +47,7 @@ void add_steps(const Scene& scene, const SimulationDefinition& built, std::strin
   double fastest = 0.0;
   std::string material_name;
   for (const MaterialDefinition& material : built.materials) {
-    const double speed = wave_speed(make_law(material), 1.0);
+    const double speed = MaterialPoint(material).wave_speed();
     if (speed <= fastest) continue;
     fastest = speed;
     material_name = material.name;

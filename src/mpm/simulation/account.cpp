@@ -67,6 +67,7 @@ SolverState Simulation::state() const {
   SolverState report;
   report.time = s.time;
   report.step = s.steps;
+  report.step.limited_by = s.limit.text();
   report.particles = particles();
   report.wall_seconds = s.wall.count();
 

@@ -178,7 +178,7 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
   s.sorter = std::make_unique<Sorter>(s.threads);
   s.gravity.name = "gravity";
   s.sort(0.0);
-  s.material_limit = s.survey_material();
+  s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = state().audit.momentum;
 }
 

@@ -66,29 +66,29 @@ void Simulation::State::step(double start, double dt) {
 }
 
 void Simulation::State::run_period() {
-  const StepLimit limit = step_limit();
+  limit = step_limit();
   const double period = static_cast<double>(definition.time.sync) * kNanosecond;
   const double count = std::max(1.0, std::ceil(period / limit.dt - 1e-9));
   if (!(limit.dt > 0.0) || !(count <= kMostSteps)) {
     throw PhysicsError(
         fmt::format("the time step fell to {:.3g} s at t = {:.6g} s, limited by the {}: look for what "
                     "runs away, or lower time.sync when such steps are meant",
-                    limit.dt, time * kNanosecond, limit.by));
+                    limit.dt, time * kNanosecond, limit.text()));
   }
   const int number = static_cast<int>(count);
   const double start = static_cast<double>(time) * kNanosecond, dt = period / number;
-  steps.limited_by = limit.dt > period ? "sync period" : limit.by;
   for (int k = 0; k < number; ++k) step(start + k * dt, dt);
   time += definition.time.sync;
   for (RigidBody& body : bodies) body.at_sync(time);
 
   // What accelerated or stiffened within the period was not known at its start: a wave may not have outrun a cell.
+  previous_limit = material_limit;
   material_limit = survey_material();
   if (!(dt * definition.time.cfl <= material_limit.dt)) {
     throw PhysicsError(
         fmt::format("the time step {:.3g} s was above the limit {:.3g} s that the {} set in the period "
                     "before t = {:.6g} s; lower time.sync, time.cfl or time.step",
-                    dt, material_limit.dt / definition.time.cfl, material_limit.by, time * kNanosecond));
+                    dt, material_limit.dt / definition.time.cfl, material_limit.text(), time * kNanosecond));
   }
 }
 

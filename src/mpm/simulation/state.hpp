@@ -11,10 +11,15 @@
 
 namespace mpm {
 
-/// The largest time step that something allows [s], and what that is.
+/// The largest time step that something allows, and what and where that is. Put into words only when asked for.
 struct StepLimit {
-  double dt = std::numeric_limits<double>::infinity();
-  std::string by = "nothing";
+  enum class Cause { nothing, material, tool, damping, scene, period };
+  double dt = std::numeric_limits<double>::infinity();  ///< [s]
+  Cause cause = Cause::nothing;
+  const std::string* name = nullptr;  ///< of the body, deformable or rigid
+  double speed = 0.0;                 ///< [m/s]
+  Vec3 place = Vec3::Zero();          ///< of the particle [m]
+  std::string text() const;
 };
 
 struct Simulation::State {
@@ -38,6 +43,8 @@ struct Simulation::State {
   double total_mass = 0.0;
   std::chrono::duration<double> wall{0.0};
   StepLimit material_limit;  ///< as surveyed at the last sync point
+  StepLimit previous_limit;  ///< as surveyed at the one before
+  StepLimit limit;           ///< of the last period's steps
   bool failed = false;
 
   /// What the material allows now.

@@ -1,6 +1,7 @@
-// The largest stable time step: a fraction cfl of a cell for the fastest wave riding on the fastest particle of each
-// body, and for the fastest point of each tool; a fraction cfl of the time of grid damping. The material is surveyed at
-// every sync point. Source: method reference 11.
+// The largest stable time step: a fraction cfl of the time in which a wave on a moving particle, or a point of a tool,
+// crosses a cell; viscosity and grid damping add their own rates. Every particle is looked at in its present state at
+// every sync point, and what got stiffer in the last period is expected to go on doing so in the next.
+// Source: method reference 11; Hirsch, Numerical Computation of Internal and External Flows, 7.3 (viscous rate).
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -11,22 +12,40 @@
 namespace mpm {
 namespace {
 
-struct Survey {
-  double min_j, max_j, max_speed2;
+constexpr double kMostForeseen = 0.5;  ///< the limit is not expected to fall below this part of itself in one period
+
+/// How many times a second a particle's waves, motion and viscosity cross a cell.
+struct Fastest {
+  double rate = -1.0;  ///< [1/s]
+  int particle = 0;
 };
 
-Survey survey(const ParticleSet& set, int dim, int threads) {
-  double min_j = std::numeric_limits<double>::infinity(), max_j = 0.0, max_speed2 = 0.0;
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : min_j) reduction(max : max_j, max_speed2)
-  for (int p = 0; p < set.size(); ++p) {
-    const double j = particle_tensors(set, dim, p).j;
-    double speed2 = 0.0;
-    for (int k = 0; k < dim; ++k) speed2 += set.v[k][p] * set.v[k][p];
-    min_j = std::min(min_j, j);
-    max_j = std::max(max_j, j);
-    max_speed2 = std::max(max_speed2, speed2);
-  }
-  return {min_j, max_j, max_speed2};
+// Of two equal rates the first particle, so that the place does not depend on the number of threads.
+Fastest faster(const Fastest& a, const Fastest& b) {
+  if (std::isnan(a.rate)) return a;
+  return !(b.rate <= a.rate) ? b : a;
+}
+#pragma omp declare reduction(faster:Fastest                                                            \
+                              : omp_out = omp_in.particle < omp_out.particle ? faster(omp_in, omp_out)  \
+                                                                             : faster(omp_out, omp_in)) \
+    initializer(omp_priv = Fastest{-1.0, 1 << 30})
+
+Fastest survey(const ParticleSet& set, const Law& law, int dim, double cell, int threads) {
+  Fastest found{-1.0, 1 << 30};
+  std::visit(
+      [&](const auto& kind) {
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(faster : found)
+        for (int p = 0; p < set.size(); ++p) {
+          const ParticleTensors t = particle_tensors(set, dim, p);
+          double speed2 = 0.0;
+          for (int k = 0; k < dim; ++k) speed2 += set.v[k][p] * set.v[k][p];
+          const double waves = (kind.wave_speed(t.f, t.tau, t.j) + std::sqrt(speed2)) / cell;
+          const double viscous = 2.0 * dim * kind.diffusivity(t.j) / (cell * cell);
+          found = faster(found, {waves + viscous, p});
+        }
+      },
+      law);
+  return found;
 }
 
 // Of the body's origin plus what its rotation adds at its farthest corner; endless axes do not count.
@@ -40,21 +59,45 @@ double largest_speed(const RigidBody& body, double time) {
   return twist.linear.norm() + twist.angular.norm() * corner.norm();
 }
 
-void tighten(StepLimit& limit, double dt, std::string by) {
-  // Not "dt < limit": what is not a number must not pass unnoticed.
-  if (!(dt >= limit.dt)) limit = {dt, std::move(by)};
+void tighten(StepLimit& limit, const StepLimit& other) {
+  // Not "other < limit": what is not a number must not pass unnoticed.
+  if (!(other.dt >= limit.dt)) limit = other;
 }
 
 }  // namespace
 
+std::string StepLimit::text() const {
+  switch (cause) {
+    case Cause::nothing:
+      return "nothing";
+    case Cause::material:
+      return fmt::format("wave speed of '{}' ({:.4g} m/s with its motion and viscosity) at ({:.4g}, {:.4g}, {:.4g}) m",
+                         *name, speed, place.x(), place.y(), place.z());
+    case Cause::tool:
+      return fmt::format("speed of '{}' ({:.4g} m/s)", *name, speed);
+    case Cause::damping:
+      return "method.damping";
+    case Cause::scene:
+      return "time.step";
+    case Cause::period:
+      return "sync period";
+  }
+  return {};
+}
+
 StepLimit Simulation::State::survey_material() const {
   const int dim = grid->layout.dim();
-  const double reach = definition.time.cfl * grid->layout.smallest_cell();
+  const double cell = grid->layout.smallest_cell();
   StepLimit limit;
   for (std::size_t s = 0; s < sets.size(); ++s) {
-    const Survey found = survey(sets[s], dim, threads);
-    const double wave = std::max(wave_speed(laws[s], found.min_j), wave_speed(laws[s], found.max_j));
-    tighten(limit, reach / (wave + std::sqrt(found.max_speed2)), fmt::format("wave speed of '{}'", sets[s].name));
+    const Fastest found = survey(sets[s], laws[s], dim, cell, threads);
+    StepLimit material;
+    material.dt = definition.time.cfl / found.rate;
+    material.cause = StepLimit::Cause::material;
+    material.name = &sets[s].name;
+    material.speed = found.rate * cell;
+    for (int k = 0; k < dim; ++k) material.place[grid->layout.axis(k)] = sets[s].x[k][found.particle];
+    tighten(limit, material);
   }
   return limit;
 }
@@ -63,15 +106,30 @@ StepLimit Simulation::State::step_limit() const {
   const double reach = definition.time.cfl * grid->layout.smallest_cell();
   const double start = 1e-9 * static_cast<double>(time), period = 1e-9 * static_cast<double>(definition.time.sync);
   StepLimit limit = material_limit;
+  limit.dt *= std::clamp(material_limit.dt / previous_limit.dt, kMostForeseen, 1.0);
   for (const RigidBody& body : bodies) {
-    double speed = 0.0;
-    for (const double part : {0.0, 0.5, 1.0}) speed = std::max(speed, largest_speed(body, start + part * period));
-    if (speed > 0.0) tighten(limit, reach / speed, fmt::format("speed of '{}'", body.name()));
+    StepLimit tool;
+    for (const double part : {0.0, 0.5, 1.0}) {
+      tool.speed = std::max(tool.speed, largest_speed(body, start + part * period));
+    }
+    tool.dt = reach / tool.speed;
+    tool.cause = StepLimit::Cause::tool;
+    tool.name = &body.name();
+    if (tool.speed > 0.0) tighten(limit, tool);
   }
   if (definition.method.damping > 0.0) {
-    tighten(limit, definition.time.cfl / definition.method.damping, "method.damping");
+    StepLimit damping;
+    damping.dt = definition.time.cfl / definition.method.damping;
+    damping.cause = StepLimit::Cause::damping;
+    tighten(limit, damping);
   }
-  if (definition.time.step) tighten(limit, *definition.time.step, "time.step");
+  if (definition.time.step) {
+    StepLimit scene;
+    scene.dt = *definition.time.step;
+    scene.cause = StepLimit::Cause::scene;
+    tighten(limit, scene);
+  }
+  if (limit.dt > period) limit.cause = StepLimit::Cause::period;
   return limit;
 }
 

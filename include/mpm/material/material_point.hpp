@@ -1,0 +1,39 @@
+// One piece of material on its own: a law driven along a path of strain, as a particle in the solver is.
+#pragma once
+
+#include <vector>
+
+#include "mpm/material/law.hpp"
+#include "mpm/math/tensor.hpp"
+
+namespace mpm {
+
+class MaterialPoint {
+ public:
+  /// At rest, undeformed. @throws MaterialError
+  explicit MaterialPoint(const MaterialDefinition& material);
+
+  /// F = exp(grad v dt) F; `du` = grad v dt, held over `dt` [s].
+  void advance(const Matrix3<double>& du, double dt);
+
+  const Law& law() const { return law_; }
+  const Matrix3<double>& f() const { return f_; }
+  double j() const { return determinant(f_); }
+  Symmetric3<double> cauchy() const;  ///< [Pa]
+  /// Scalar of history, 0 for an index of -1.
+  double history(int index) const { return index < 0 ? 0.0 : history_[index]; }
+  double plastic_strain() const;  ///< [-]
+  double plastic_work() const;    ///< [J/kg]
+  double elastic_energy() const;  ///< [J/kg]
+  double wave_speed() const;      ///< [m/s]
+
+ private:
+  Law law_;
+  double density_;
+  Matrix3<double> f_ = Matrix3<double>::identity();
+  Symmetric3<double> tau_{};
+  std::vector<double> history_;
+  std::vector<double*> places_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,89 @@
+// Principal values and directions of small symmetric tensors. Cyclic Jacobi rotations in three dimensions: exact to
+// round-off for equal and nearly equal values too, where the closed form with a cosine loses half of the digits.
+// Source: Golub & Van Loan, Matrix Computations, section 8.5.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mpm/math/tensor.hpp"
+
+namespace mpm {
+
+/// s = sum of value[k] direction[k] (x) direction[k], in no particular order; directions are of unit length.
+template <class T>
+struct Principal {
+  T value[3];
+  T direction[3][3];
+  T largest() const { return std::max(value[0], std::max(value[1], value[2])); }
+  T smallest() const { return std::min(value[0], std::min(value[1], value[2])); }
+};
+
+template <class T>
+Principal<T> principal(const Symmetric3<T>& s) {
+  T a[3][3] = {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
+  Principal<T> result{{}, {{T(1), T(0), T(0)}, {T(0), T(1), T(0)}, {T(0), T(0), T(1)}}};
+  constexpr int kSweeps = 12;  // six reach round-off for any tensor
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    if (a[0][1] == T(0) && a[0][2] == T(0) && a[1][2] == T(0)) break;
+    for (const auto& [i, j] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
+      const T shear = a[i][j];
+      if (shear == T(0)) continue;
+      const T theta = (a[j][j] - a[i][i]) / (T(2) * shear);
+      const T t = (theta < T(0) ? T(-1) : T(1)) / (std::abs(theta) + std::sqrt(theta * theta + T(1)));
+      const T cosine = T(1) / std::sqrt(t * t + T(1)), sine = t * cosine;
+      const int k = 3 - i - j;
+      const T ik = a[i][k], jk = a[j][k];
+      a[i][i] -= t * shear;
+      a[j][j] += t * shear;
+      a[i][j] = a[j][i] = T(0);
+      a[i][k] = a[k][i] = cosine * ik - sine * jk;
+      a[j][k] = a[k][j] = sine * ik + cosine * jk;
+      for (int c = 0; c < 3; ++c) {
+        const T di = result.direction[i][c], dj = result.direction[j][c];
+        result.direction[i][c] = cosine * di - sine * dj;
+        result.direction[j][c] = sine * di + cosine * dj;
+      }
+    }
+  }
+  for (int k = 0; k < 3; ++k) result.value[k] = a[k][k];
+  return result;
+}
+
+/// yy is the value of the direction out of the plane, the third.
+template <class T>
+Principal<T> principal(const SymmetricPlane<T>& s) {
+  T cosine = T(1), sine = T(0), xx = s.xx, zz = s.zz;
+  if (s.xz != T(0)) {
+    const T theta = (s.zz - s.xx) / (T(2) * s.xz);
+    const T t = (theta < T(0) ? T(-1) : T(1)) / (std::abs(theta) + std::sqrt(theta * theta + T(1)));
+    cosine = T(1) / std::sqrt(t * t + T(1));
+    sine = t * cosine;
+    xx -= t * s.xz;
+    zz += t * s.xz;
+  }
+  return {{xx, zz, s.yy}, {{cosine, T(0), -sine}, {sine, T(0), cosine}, {T(0), T(1), T(0)}}};
+}
+
+/// Back from principal values to the tensor that `like` is one of.
+template <class T>
+Symmetric3<T> compose(const Principal<T>& p, const Symmetric3<T>&) {
+  Symmetric3<T> s{};
+  for (int k = 0; k < 3; ++k) {
+    const T* d = p.direction[k];
+    const T v = p.value[k];
+    s = sum(s, {v * d[0] * d[0], v * d[1] * d[1], v * d[2] * d[2], v * d[1] * d[2], v * d[0] * d[2], v * d[0] * d[1]});
+  }
+  return s;
+}
+
+template <class T>
+SymmetricPlane<T> compose(const Principal<T>& p, const SymmetricPlane<T>&) {
+  const T cosine = p.direction[0][0], sine = p.direction[1][0];
+  const T a = p.value[0], b = p.value[1];
+  return {a * cosine * cosine + b * sine * sine, a * sine * sine + b * cosine * cosine, (b - a) * sine * cosine,
+          p.value[2]};
+}
+
+}  // namespace mpm

@@ -1,0 +1,46 @@
+#include "mpm/material/material_point.hpp"
+
+#include "mpm/math/dimension.hpp"
+#include "mpm/math/exponential.hpp"
+
+namespace mpm {
+
+namespace {
+
+constexpr int kTerms = 12;  ///< of exp(du): round-off for increments up to about 0.3
+
+}  // namespace
+
+MaterialPoint::MaterialPoint(const MaterialDefinition& material)
+    : law_(make_law(material)), density_(material.density), history_(history_size(law_), 0.0) {}
+
+void MaterialPoint::advance(const Matrix3<double>& du, double dt) {
+  places_.clear();  // made anew, so that a copy of a point has its own history
+  for (double& scalar : history_) places_.push_back(&scalar);
+  const Matrix3<double> df = exponential(du, kTerms);
+  const double j_old = determinant(f_);
+  std::visit(
+      [&](const auto& law) {
+        f_ = law.kForgetsShape ? Solid::dilatation(j_old * determinant(df)) : product(df, f_);
+        const Increment<double, Matrix3<double>> step{du, df, f_, j_old, determinant(f_), dt};
+        law.update(step, tau_, places_.data(), 0);
+      },
+      law_);
+}
+
+Symmetric3<double> MaterialPoint::cauchy() const { return scale_shift(tau_, density_ / j(), 0.0); }
+
+double MaterialPoint::plastic_strain() const {
+  return std::visit([this](const auto& law) { return history(law.kPlasticStrain); }, law_);
+}
+double MaterialPoint::plastic_work() const {
+  return std::visit([this](const auto& law) { return history(law.kPlasticWork); }, law_);
+}
+double MaterialPoint::elastic_energy() const {
+  return std::visit([this](const auto& law) { return law.elastic_energy(f_, tau_, j()); }, law_);
+}
+double MaterialPoint::wave_speed() const {
+  return std::visit([this](const auto& law) { return law.wave_speed(f_, tau_, j()); }, law_);
+}
+
+}  // namespace mpm

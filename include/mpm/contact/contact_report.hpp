@@ -1,6 +1,7 @@
 // What the material did to a rigid body: plain values, SI.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "mpm/math/geometry.hpp"
@@ -14,6 +15,12 @@ struct Wrench {
 };
 
 /// What the material did to one rigid body since the last report. Planar scenes: for the whole thickness.
+///
+/// Centre of pressure: the mean of the points where the material pressed, each weighted by the magnitude of the normal
+/// impulse it gave there, over all nodes in contact and all steps of the interval. The points are counted from the
+/// body's origin (world axes) as it was in their step, and the mean is laid at the origin as it is now: so it travels
+/// with a body that moves, and where the contact is flat and smooth, torque = arm x force. Nothing pressed: not a
+/// number.
 struct ContactReport {
   std::string body;
   Wrench mean;                  ///< averaged over `interval`: applied impulse over time
@@ -21,6 +28,13 @@ struct ContactReport {
   double interval = 0.0;        ///< [s] since the last report; 0 before the first step (then mean is zero)
   int nodes = 0;                ///< grid nodes in contact in the last step
   Vec3 impulse = Vec3::Zero();  ///< force on the body integrated since the start [N s]
+
+  double pressing = 0.0;         ///< sum over nodes of the magnitude of the normal force, averaged as `mean` is [N]
+  Vec3 friction = Vec3::Zero();  ///< the part of mean.force along the surface; the rest is normal to it [N]
+  Vec3 origin = Vec3::Zero();    ///< of the body, at the end of the interval [m]
+  Vec3 arm = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< origin to centre of pressure [m]
+
+  Vec3 centre_of_pressure() const { return origin + arm; }  ///< world [m]; not finite while nothing presses
 };
 
 }  // namespace mpm

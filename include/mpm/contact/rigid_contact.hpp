@@ -2,7 +2,8 @@
 // the body's velocity along its exact normal, and along the surface as friction allows.
 //
 // What is reported is what was applied: the wrench is the sum over nodes of the momentum that contact changed in
-// momentum_updated, over the time it took; torque about the body's origin as it moves.
+// momentum_updated, over the time it took; torque about the body's origin as it moves; the same sums, weighted by the
+// normal part, give the centre of pressure.
 // Weak: a surface between two rows of nodes is met up to a cell early; material on both sides of a tool thinner than
 // three cells shares nodes. Source: Nairn, GIMP notes (3.12)-(3.20); method reference 5.3, 8.3; the normal is the exact
 // one instead of a mass gradient.
@@ -53,6 +54,9 @@ class RigidContact final : public Stage {
 
   Vec3 impulse_ = Vec3::Zero();          ///< on the body since the last report [N s]
   Vec3 angular_impulse_ = Vec3::Zero();  ///< [N m s]
+  Vec3 friction_ = Vec3::Zero();         ///< the part of impulse_ along the surface [N s]
+  double pressed_ = 0.0;                 ///< magnitudes of the normal impulses since the last report [N s]
+  Vec3 pressed_arm_ = Vec3::Zero();      ///< arms times those magnitudes [N s m]
   Wrench peak_;
   int touching_ = 0;
   double last_report_ = 0.0;

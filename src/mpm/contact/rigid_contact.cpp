@@ -83,7 +83,7 @@ void RigidContact::before_strain(StepContext& context) {
 
 void RigidContact::momentum_updated(StepContext& context) {
   Grid& grid = context.grid;
-  Vec3 given = Vec3::Zero(), angular = Vec3::Zero();
+  Vec3 given = Vec3::Zero(), angular = Vec3::Zero(), along = Vec3::Zero();
   int touching = 0;
   held_.clear();
   each_node([&](Node& node) {
@@ -95,14 +95,19 @@ void RigidContact::momentum_updated(StepContext& context) {
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
     add_nodal_vector(grid.force, grid.layout, node.ref, change / context.dt);
     const Vec3 impulse = grid.mass.at(node.ref.block, 0, node.ref.node) * change;
+    const double normal = impulse.dot(node.normal);
     given += impulse;
     angular += node.arm.cross(impulse);
+    along += impulse - normal * node.normal;
+    pressed_ += normal;
+    pressed_arm_ += normal * node.arm;
     work_ += impulse.dot(node.velocity);
     ++touching;
   });
   account_.add(given);
   impulse_ -= given;
   angular_impulse_ -= angular;
+  friction_ -= along;
   touching_ = touching;
   const Wrench wrench{-given / context.dt, -angular / context.dt};
   if (wrench.force.squaredNorm() > peak_.force.squaredNorm()) peak_ = wrench;
@@ -112,11 +117,18 @@ ContactReport RigidContact::take(double now) {
   ContactReport report;
   report.body = body_.name();
   report.interval = now - last_report_;
-  if (report.interval > 0.0) report.mean = {impulse_ / report.interval, angular_impulse_ / report.interval};
+  if (report.interval > 0.0) {
+    report.mean = {impulse_ / report.interval, angular_impulse_ / report.interval};
+    report.friction = friction_ / report.interval;
+    report.pressing = pressed_ / report.interval;
+  }
+  report.origin = body_.pose().position;
+  if (pressed_ > 0.0) report.arm = pressed_arm_ / pressed_;
   report.peak = peak_;
   report.nodes = touching_;
   report.impulse = -account_.impulse;
-  impulse_ = angular_impulse_ = Vec3::Zero();
+  impulse_ = angular_impulse_ = friction_ = pressed_arm_ = Vec3::Zero();
+  pressed_ = 0.0;
   peak_ = {};
   last_report_ = now;
   return report;

@@ -1,0 +1,170 @@
+// What a rigid body's contact reports: sums at nodes set by hand, and a whole run against symmetry and the moment's
+// identity.
+#include "mpm/contact/contact_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mpm/contact/rigid_contact.hpp"
+#include "mpm/simulation/simulation.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kStep = 0.5;  // [s]
+
+/// A plate whose upper face lies at z = 0, its origin 0.1 m below, on a grid of 1 m cells with one block in use.
+class PlateBelowNodes {
+ public:
+  explicit PlateBelowNodes(double friction) : body_(definition(friction)), contact_(body_, 1), grid_(layout()) {
+    grid_.rebuild({layout().key({0, 0, 0})});
+    for (NodalField* field : {&grid_.mass, &grid_.momentum, &grid_.velocity, &grid_.force}) {
+      std::fill_n(field->block(0), grid_.blocks.size() * field->components() * 64, 0.0);
+    }
+  }
+
+  /// Material of `mass` [kg] at node (x, y, 0) with `velocity`.
+  void set(int x, int y, double mass, const Vec3& velocity) {
+    const int block = grid_.blocks.find(grid_.layout.key({0, 0, 0}));
+    for (int n = 0; n < 64; ++n) {
+      if (grid_.layout.node_position(grid_.blocks.block(block), n) != Vec3(x, y, 0.0)) continue;
+      grid_.mass.at(block, 0, n) = mass;
+      for (int k = 0; k < 3; ++k) grid_.velocity.at(block, k, n) = velocity[k];
+    }
+  }
+
+  void step() {
+    StepContext context{grid_, kStep};
+    contact_.momentum_gathered(context);
+    contact_.momentum_updated(context);
+    time_ += kStep;
+  }
+  ContactReport take() { return contact_.take(time_); }
+  RigidBody& body() { return body_; }
+
+ private:
+  static GridLayout layout() { return {3, Vec3::Ones(), Vec3::Zero(), Vec3::Constant(8.0)}; }
+  static RigidBodyDefinition definition(double friction) {
+    RigidBodyDefinition plate;
+    plate.name = "plate";
+    plate.surface = make_box({20.0, 20.0, 0.2});
+    plate.pose.position = {0.0, 0.0, -0.1};
+    plate.friction.coefficient = friction;
+    return plate;
+  }
+
+  RigidBody body_;
+  RigidContact contact_;
+  Grid grid_;
+  double time_ = 0.0;
+};
+
+TEST(ContactReport, CentreOfPressureIsTheMeanPlaceWeightedByTheNormalImpulse) {
+  PlateBelowNodes plate(0.0);
+  plate.set(1, 2, 3.0, {0.0, 0.0, -2.0});  // 6 N s
+  plate.set(3, 0, 1.0, {5.0, 0.0, -2.0});  // 2 N s, and no friction
+  plate.set(2, 3, 9.0, {0.0, 0.0, 1.0});   // leaves
+  plate.step();
+  const ContactReport report = plate.take();
+  EXPECT_EQ(report.nodes, 2);
+  // (6 (1, 2) + 2 (3, 0)) / 8; all of these numbers are exact in binary, but for the origin's 0.1.
+  EXPECT_NEAR((report.centre_of_pressure() - Vec3(1.5, 1.5, 0.0)).norm(), 0.0, 1e-15);
+  EXPECT_EQ(report.pressing, 8.0 / kStep);
+  EXPECT_EQ(report.mean.force, Vec3(0.0, 0.0, -8.0 / kStep));
+  EXPECT_EQ(report.friction, Vec3::Zero());
+}
+
+TEST(ContactReport, FrictionIsThePartAlongTheSurface) {
+  PlateBelowNodes plate(0.25);
+  plate.set(1, 1, 2.0, {3.0, 0.0, -4.0});  // slides: 8 N s normal, Coulomb's 0.25 x 8 = 2 N s along x
+  plate.set(3, 1, 2.0, {0.0, 0.5, -4.0});  // sticks: 8 N s normal, its whole 1 N s along y
+  plate.step();
+  const ContactReport report = plate.take();
+  EXPECT_EQ(report.friction, Vec3(2.0, 1.0, 0.0) / kStep);
+  EXPECT_EQ(report.mean.force, Vec3(2.0, 1.0, -16.0) / kStep);
+  EXPECT_EQ(report.pressing, 16.0 / kStep);
+  // Friction has no weight: both press alike.
+  EXPECT_NEAR((report.centre_of_pressure() - Vec3(2.0, 1.0, 0.0)).norm(), 0.0, 1e-15);
+}
+
+TEST(ContactReport, CentreOfPressureTravelsWithTheBody) {
+  PlateBelowNodes plate(0.0);
+  plate.body().command_velocity({{8.0, 0.0, 0.0}, Vec3::Zero()});
+  plate.set(1, 1, 1.0, {0.0, 0.0, -1.0});
+  plate.step();
+  plate.body().end_step(kStep);
+  // It pressed at (1, 1), 1 m ahead of the body's origin, which has gone on by 4 m.
+  EXPECT_NEAR((plate.take().centre_of_pressure() - Vec3(5.0, 1.0, 0.0)).norm(), 0.0, 1e-15);
+}
+
+TEST(ContactReport, NothingPressedHasNoCentre) {
+  PlateBelowNodes plate(0.0);
+  plate.set(1, 1, 1.0, {0.0, 0.0, -1.0});
+  plate.step();
+  EXPECT_TRUE(plate.take().centre_of_pressure().allFinite());
+  plate.set(1, 1, 1.0, {0.0, 0.0, 1.0});
+  plate.step();
+  const ContactReport report = plate.take();
+  EXPECT_FALSE(report.centre_of_pressure().allFinite());
+  EXPECT_EQ(report.pressing, 0.0);
+}
+
+// A block of 0.4 x 0.2 m and 0.2 m high on a smooth plate, the plate's origin far from the block's middle.
+SimulationDefinition block_on_plate() {
+  SimulationDefinition d;
+  d.grid = {Vec3::Constant(0.1), Vec3::Zero(), Vec3(2.0, 1.6, 1.0)};
+  d.time.sync = 10'000'000;
+  d.gravity = {0.0, 0.0, -9.81};
+  d.materials = {{"rubber", 1000.0, NeoHookeanDefinition{{1e5, 0.3}}}};
+  DeformableBody block;
+  block.name = "block";
+  block.material = "rubber";
+  block.particle_volume = 0.05 * 0.05 * 0.05;
+  for (int i = 0; i < 8; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      for (int k = 0; k < 4; ++k) {
+        block.positions.emplace_back(1.0 + 0.05 * (i + 0.5), 0.4 + 0.05 * (j + 0.5), 0.2 + 0.05 * (k + 0.5));
+      }
+    }
+  }
+  d.bodies = {block};
+  RigidBodyDefinition plate;
+  plate.name = "plate";
+  plate.surface = make_box({4.0, 4.0, 0.2});
+  plate.pose.position = {0.3, 0.2, 0.1};
+  d.rigid_bodies = {plate};
+  return d;
+}
+
+TEST(ContactReport, AFlatBlockPressesAtItsMiddle) {
+  Simulation simulation(block_on_plate(), {1});
+  for (int i = 0; i < 20; ++i) simulation.advance();
+  const ContactReport report = simulation.take_contact(0);
+  ASSERT_GT(report.pressing, 0.0);
+  // Symmetry about the block's middle. Mirrored halves add the same numbers in another order, so they differ by
+  // round-off, 1e-16 of the size, which a few hundred steps of a stable run do not multiply by more than a thousand.
+  EXPECT_NEAR(report.centre_of_pressure().x(), 1.2, 1e-13);
+  EXPECT_NEAR(report.centre_of_pressure().y(), 0.5, 1e-13);
+  // Nodes on the face, and in the row below it once the block's edge has sagged past it.
+  EXPECT_LE(report.centre_of_pressure().z(), 0.2 + 1e-13);
+  EXPECT_GT(report.centre_of_pressure().z(), 0.1);
+}
+
+TEST(ContactReport, OnAFlatSmoothFaceTheTorqueIsArmTimesForce) {
+  Simulation simulation(block_on_plate(), {1});
+  simulation.command_velocity(0, {{0.2, -0.1, 0.0}, Vec3::Zero()});  // along its face
+  for (int i = 0; i < 20; ++i) simulation.advance();
+  const ContactReport report = simulation.take_contact(0);
+  ASSERT_GT(report.pressing, 0.0);
+  // Every node gives a force along z at its arm: the moments about the centre of pressure cancel, and nothing turns
+  // about z. Round-off of the sums over some thousand terms: 1e-12 of force times the arm.
+  const Vec3 left = report.mean.torque - report.arm.cross(report.mean.force);
+  EXPECT_LT(left.norm(), 1e-12 * report.arm.norm() * report.mean.force.norm());
+  EXPECT_GT(report.mean.torque.norm(), 0.1 * report.arm.norm() * report.mean.force.norm());
+  EXPECT_NEAR(report.pressing, -report.mean.force.z(), 1e-12 * report.pressing);
+  EXPECT_EQ(report.friction, Vec3::Zero());
+}
+
+}  // namespace
+}  // namespace mpm

@@ -90,9 +90,12 @@ class Page {
  public:
   /// `chapter`: waves, conservation, contact, soil, metal, fluid or viscoelastic; `name`: of the picture's file.
   Page(std::string chapter, std::string name, const std::string& title) : name_(std::move(name)) {
-    json_ = {{"chapter", std::move(chapter)}, {"name", name_}, {"title", title}, {"rows", nlohmann::json::array()}};
+    json_ = {{"chapter", std::move(chapter)}, {"title", title}, {"rows", nlohmann::json::array()}};
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    json_["test"] = std::string(test->test_suite_name()) + "." + test->name();
+    const std::string suite = test->test_suite_name();
+    json_["test"] = suite + "." + test->name();
+    if (suite.rfind("Full", 0) == 0) name_ = "full_" + name_;  // kept when only the short tests are run again
+    json_["name"] = name_;
   }
   Page(const Page&) = delete;
   Page& operator=(const Page&) = delete;

@@ -1,0 +1,156 @@
+#!/usr/bin/python3
+"""make_verification.py PAGES DOC: writes DOC/verification.md and DOC/images/verification/*.png from the pages (JSON)
+that the verification tests left in PAGES, after the hand-written head test/verification/head.md."""
+
+import json
+import math
+import pathlib
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402: the backend comes first
+
+CHAPTERS = {
+    "waves": "Waves, weight and order of convergence",
+    "conservation": "Conservation",
+    "contact": "Contact with rigid bodies",
+    "soil": "Soil",
+    "metal": "Metal",
+    "fluid": "Fluid and gas",
+    "viscoelastic": "Viscoelastic material",
+}
+# Okabe & Ito: told apart by colour-blind readers too. Black is for what is exact.
+COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
+MARKS = ["o", "s", "^", "D", "v", "P"]
+
+
+def draw_series(axes, series, number, figure):
+    kind, label = series["kind"], series["label"]
+    x, y = series["x"], series["y"]
+    colour = COLOURS[number % len(COLOURS)]
+    if kind == "exact":
+        axes.plot(x, y, color="black", lw=1.4, label=label, zorder=2)
+    elif kind == "line":
+        axes.plot(x, y, color=colour, lw=1.4, label=label, zorder=3)
+    elif kind == "points":
+        mark = MARKS[number % len(MARKS)] if len(x) < 400 else "."
+        axes.plot(x, y, mark, color=colour, ms=4 if len(x) < 400 else 1.5, label=label, zorder=3)
+    elif kind == "published":
+        axes.plot(x, y, MARKS[number % len(MARKS)], mfc="none", color="#666666", ms=6, label=label, zorder=4)
+    elif kind == "particles":
+        size = max(0.3, min(12.0, 9000.0 / len(x)))
+        drawn = axes.scatter(x, y, c=series["c"], s=size, cmap="cividis", linewidths=0)
+        axes.set_aspect("equal")
+        figure.colorbar(drawn, ax=axes, label=label, shrink=0.8)
+    else:
+        raise SystemExit(f"make_verification: a series of unknown kind '{kind}'")
+
+
+def draw_order(axes, order):
+    """A triangle of the slope, below the lowest points."""
+    xs = [v for line in axes.lines for v in line.get_xdata()]
+    ys = [v for line in axes.lines for v in line.get_ydata()]
+    left, right = min(xs), max(xs)
+    a = left * (right / left) ** 0.55
+    b = left * (right / left) ** 0.9
+    bottom = min(ys) * 0.8
+    axes.plot([a, b, b, a], [bottom, bottom, bottom * (b / a) ** order, bottom], color="#666666", lw=0.8)
+    axes.text(b, bottom * (b / a) ** (order / 2), f" order {order:g}", fontsize=8, color="#666666", va="center")
+
+
+def draw(page, path):
+    panels = page["figure"]
+    figure, all_axes = plt.subplots(
+        1, len(panels), figsize=(4.6 * len(panels) + 0.4, 3.5), squeeze=False, layout="constrained"
+    )
+    for axes, panel in zip(all_axes[0], panels):
+        number = 0
+        for series in panel["series"]:
+            draw_series(axes, series, number, figure)
+            number += series["kind"] in ("line", "points", "published")
+        if panel.get("log_x"):
+            axes.set_xscale("log")
+        if panel.get("log_y"):
+            axes.set_yscale("log")
+        if "order" in panel:
+            draw_order(axes, panel["order"])
+        axes.set_title(panel["title"], fontsize=10)
+        axes.set_xlabel(panel["x"])
+        axes.set_ylabel(panel["y"])
+        axes.grid(alpha=0.25)
+        if any(series["kind"] != "particles" for series in panel["series"]):
+            axes.legend(fontsize=8, frameon=False)
+    figure.savefig(path, dpi=110, metadata={"Software": None})
+    plt.close(figure)
+
+
+def number(value):
+    if value is None or not math.isfinite(value):
+        return "–" if value is None else str(value)
+    return f"{value:.5g}"
+
+
+def deviation(row):
+    exact = row["exact"]
+    if exact is None:
+        return ""
+    if exact == 0:
+        return f"{row['reached']:+.2g}"
+    return f"{100 * (row['reached'] / exact - 1):+.2g} %"
+
+
+def section(page, pictures):
+    lines = [f"### {page['title']}", "", page["problem"], ""]
+    if "exact" in page:
+        lines += [f"*Exact:* {page['exact']} *Source:* {page['source']}.", ""]
+    if page["figure"]:
+        lines += [f"![{page['title']}]({pictures}/{page['name']}.png)", ""]
+    if page["rows"]:
+        lines += ["| quantity | reached | exact or published | deviation | asked |", "|---|---|---|---|---|"]
+        for row in page["rows"]:
+            unit = "" if row["unit"] in ("", "1") else " " + row["unit"]
+            exact = "" if row["exact"] is None else number(row["exact"]) + unit
+            cells = [row["quantity"], number(row["reached"]) + unit, exact, deviation(row), row["criterion"]]
+            lines.append("| " + " | ".join(cells) + " |")
+        lines.append("")
+    if "meaning" in page:
+        lines += [page["meaning"], ""]
+    told = [f"Test `{page['test']}`"]
+    if "scene" in page:
+        told.append(f"scene `{page['scene']}`")
+    lines += ["<sub>" + ", ".join(told) + ("" if page["passed"] else ", **failed in this run**") + "</sub>", ""]
+    return lines
+
+
+def main():
+    if len(sys.argv) != 3:
+        raise SystemExit("usage: make_verification.py PAGES DOC")
+    pages_folder, doc = map(pathlib.Path, sys.argv[1:])
+    pages = [json.loads(file.read_text()) for file in sorted(pages_folder.glob("*.json"))]
+    if not pages:
+        raise SystemExit(f"make_verification: no page in {pages_folder}; run the tests with MPM_PAGES set to it")
+    pictures = doc / "images" / "verification"
+    pictures.mkdir(parents=True, exist_ok=True)
+    for old in pictures.glob("*.png"):
+        old.unlink()
+    head = pathlib.Path(__file__).resolve().parent.parent / "test" / "verification" / "head.md"
+    lines = [head.read_text().rstrip(), ""]
+    for chapter, title in CHAPTERS.items():
+        members = [page for page in pages if page["chapter"] == chapter]
+        if members:
+            lines += [f"## {title}", ""]
+        for page in members:
+            if page["figure"]:
+                draw(page, pictures / f"{page['name']}.png")
+            lines += section(page, "images/verification")
+    unknown = sorted({page["chapter"] for page in pages} - set(CHAPTERS))
+    if unknown:
+        raise SystemExit(f"make_verification: unknown chapters {', '.join(unknown)}; add them to CHAPTERS")
+    (doc / "verification.md").write_text("\n".join(lines).rstrip() + "\n")
+    print(f"{len(pages)} pages: {doc / 'verification.md'}")
+
+
+if __name__ == "__main__":
+    main()

@@ -45,7 +45,17 @@ struct DruckerPragerDefinition {
   ConeMatch match = ConeMatch::compression;
 };
 
-using LawDefinition = std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition>;
+/// Mohr-Coulomb soil; angles in radians.
+struct MohrCoulombDefinition {
+  Elasticity elasticity;
+  double friction_angle = 0.0;   ///< [rad], in [0, pi/2)
+  double dilation_angle = 0.0;   ///< [rad], in [0, friction_angle]
+  double cohesion = 0.0;         ///< [Pa], >= 0
+  double tension_cutoff = -1.0;  ///< largest principal tension [Pa]; negative: the apex
+};
+
+using LawDefinition =
+    std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition, MohrCoulombDefinition>;
 
 struct MaterialDefinition {
   std::string name;

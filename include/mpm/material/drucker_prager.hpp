@@ -1,7 +1,6 @@
 // Drucker-Prager soil: f = sqrt(J2) + eta p - xi c, potential with eta_bar from the dilation angle, tension positive,
 // p = tr(sigma)/3. Elastic predictor in rate form (as linear_elastic.hpp), return to the cone, its apex, or the tension
-// cut-off. Soil that has opened (apex, cut-off) remembers by how much, and must close again before it carries pressure;
-// otherwise every opening would turn into spurious stress on the way back.
+// cut-off. Soil that has opened (apex, cut-off) closes before it carries pressure (opening.hpp).
 // Weak: no hardening, no critical state, so dilation never ends; hypoelastic, meant for small elastic strain.
 // Source: method reference 10.6 (flow rule and the three matches to Mohr-Coulomb verified there).
 #pragma once
@@ -10,6 +9,7 @@
 #include <cmath>
 
 #include "mpm/material/linear_elastic.hpp"
+#include "mpm/material/opening.hpp"
 
 namespace mpm {
 
@@ -32,11 +32,7 @@ class DruckerPrager : public LawTraits {
     T mean = trace(trial) / T(3);
     Symmetric deviator = scale_shift(trial, T(1), -mean);
     T& opening = history[kOpening][p];
-    if (opening > T(0) && mean < T(0)) {
-      const T closing = std::min(opening, -mean / bulk);
-      opening -= closing;
-      mean += bulk * closing;
-    }
+    mean = close_opening(mean, bulk, opening);
     const T root_j2 = std::sqrt(T(0.5) * squared_norm(deviator));
     const T yield = root_j2 + T(eta_) * mean - T(strength_);
     T multiplier = T(0);  // increment of the equivalent plastic shear strain, sqrt(2 de:de)
@@ -46,8 +42,8 @@ class DruckerPrager : public LawTraits {
       const T eta_bar = opening > T(0) ? T(0) : T(eta_bar_);
       multiplier = yield / (shear + bulk * T(eta_) * eta_bar);
       const T left = root_j2 - shear * multiplier;
-      if (left >= T(0)) {
-        deviator = scale_shift(deviator, left / root_j2, T(0));
+      if (left >= T(0) || eta_ == 0.0) {  // without friction there is no apex, only round-off below zero
+        deviator = scale_shift(deviator, std::max(left, T(0)) / root_j2, T(0));
         dilation = eta_bar * multiplier;
         mean -= bulk * dilation;
       } else {

@@ -16,11 +16,12 @@
 #include "mpm/material/definition.hpp"
 #include "mpm/material/drucker_prager.hpp"
 #include "mpm/material/linear_elastic.hpp"
+#include "mpm/material/mohr_coulomb.hpp"
 #include "mpm/material/neo_hookean.hpp"
 
 namespace mpm {
 
-using Law = std::variant<LinearElastic, NeoHookean, DruckerPrager>;
+using Law = std::variant<LinearElastic, NeoHookean, DruckerPrager, MohrCoulomb>;
 
 /// @throws MaterialError when check() does.
 Law make_law(const MaterialDefinition& material);

@@ -24,39 +24,44 @@ void check(const MaterialDefinition& material, const Elasticity& elasticity) {
           fmt::format("Poisson's ratio is {:g}; it must lie between -1 and 0.5, both excluded", poisson));
 }
 
+/// Angles and strengths of either law of soil; `apex` is what the text calls it.
+template <class SoilDefinition>
+void check_soil(const MaterialDefinition& material, const SoilDefinition& law, const char* apex) {
+  check(material, law.elasticity);
+  const double friction = law.friction_angle, dilation = law.dilation_angle;
+  require(friction >= 0.0 && friction < 0.5 * kPi, material,
+          fmt::format("friction angle is {:g} degrees; it must lie from 0 to below 90", friction / kDegree));
+  require(dilation >= 0.0 && dilation <= friction, material,
+          fmt::format("dilation angle is {:g} degrees; it must lie from 0 to the friction angle, {:g}",
+                      dilation / kDegree, friction / kDegree));
+  require(law.cohesion >= 0.0 && std::isfinite(law.cohesion), material,
+          fmt::format("cohesion is {:g} Pa; it must be finite and not negative", law.cohesion));
+  require(std::isfinite(law.tension_cutoff), material,
+          fmt::format("tension cut-off is {:g} Pa; it must be finite (negative: {})", law.tension_cutoff, apex));
+  // c cot(phi), for every match of the cone too (method reference 10.6: xi / eta); there is none without friction.
+  if (friction > 0.0) {
+    const double largest = law.cohesion / std::tan(friction);
+    require(law.tension_cutoff <= largest * (1.0 + 1e-12), material,  // an apex given as the cut-off may be rounded
+            fmt::format("tension cut-off is {:g} Pa; it must not lie above {}, cohesion / tan(friction angle) = "
+                        "{:g} Pa",
+                        law.tension_cutoff, apex, largest));
+  }
+}
+
 struct Checker {
   const MaterialDefinition& material;
 
   void operator()(const LinearElasticDefinition& law) const { check(material, law.elasticity); }
   void operator()(const NeoHookeanDefinition& law) const { check(material, law.elasticity); }
-  void operator()(const DruckerPragerDefinition& law) const {
-    check(material, law.elasticity);
-    const double friction = law.friction_angle, dilation = law.dilation_angle;
-    require(friction >= 0.0 && friction < 0.5 * kPi, material,
-            fmt::format("friction angle is {:g} degrees; it must lie from 0 to below 90", friction / kDegree));
-    require(dilation >= 0.0 && dilation <= friction, material,
-            fmt::format("dilation angle is {:g} degrees; it must lie from 0 to the friction angle, {:g}",
-                        dilation / kDegree, friction / kDegree));
-    require(law.cohesion >= 0.0 && std::isfinite(law.cohesion), material,
-            fmt::format("cohesion is {:g} Pa; it must be finite and not negative", law.cohesion));
-    require(
-        std::isfinite(law.tension_cutoff), material,
-        fmt::format("tension cut-off is {:g} Pa; it must be finite (negative: the cone's apex)", law.tension_cutoff));
-    // Mean stress at the apex is c cot(phi) for every match (method reference 10.6: xi / eta); none without friction.
-    if (friction > 0.0) {
-      const double apex = law.cohesion / std::tan(friction);
-      require(law.tension_cutoff <= apex * (1.0 + 1e-12), material,  // an apex given as the cut-off may be rounded
-              fmt::format("tension cut-off is {:g} Pa; it must not lie above the cone's apex, cohesion / "
-                          "tan(friction angle) = {:g} Pa",
-                          law.tension_cutoff, apex));
-    }
-  }
+  void operator()(const DruckerPragerDefinition& law) const { check_soil(material, law, "the cone's apex"); }
+  void operator()(const MohrCoulombDefinition& law) const { check_soil(material, law, "the apex"); }
 };
 
 struct Name {
   std::string operator()(const LinearElasticDefinition&) const { return "linear_elastic"; }
   std::string operator()(const NeoHookeanDefinition&) const { return "neo_hookean"; }
   std::string operator()(const DruckerPragerDefinition&) const { return "drucker_prager"; }
+  std::string operator()(const MohrCoulombDefinition&) const { return "mohr_coulomb"; }
 };
 
 }  // namespace

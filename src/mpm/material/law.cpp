@@ -8,6 +8,7 @@ struct Maker {
   Law operator()(const LinearElasticDefinition& d) const { return LinearElastic(d, density); }
   Law operator()(const NeoHookeanDefinition& d) const { return NeoHookean(d, density); }
   Law operator()(const DruckerPragerDefinition& d) const { return DruckerPrager(d, density); }
+  Law operator()(const MohrCoulombDefinition& d) const { return MohrCoulomb(d, density); }
 };
 
 }  // namespace

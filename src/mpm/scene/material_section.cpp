@@ -8,7 +8,7 @@
 namespace mpm {
 namespace {
 
-const std::vector<std::string> kLaws = {"linear_elastic", "neo_hookean", "drucker_prager"};
+const std::vector<std::string> kLaws = {"linear_elastic", "neo_hookean", "drucker_prager", "mohr_coulomb"};
 
 const std::vector<Later>& later_laws() {
   static const std::string solid = "use linear_elastic or neo_hookean";
@@ -18,7 +18,6 @@ const std::vector<Later>& later_laws() {
                                           {"viscoelastic", solid},
                                           {"ideal_gas", "use neo_hookean"},
                                           {"newtonian", "use neo_hookean"},
-                                          {"mohr_coulomb", "use drucker_prager, matched by its key 'match'"},
                                           {"rigid", "a rigid body is not a material: write it under rigid_bodies"}};
   return laws;
 }
@@ -35,13 +34,20 @@ Elasticity read_elasticity(const Map& map) {
   return {map.at("young").number(kPressure), map.at("poisson").number(kPlain)};
 }
 
-DruckerPragerDefinition read_drucker_prager(const Map& map, Scene& scene) {
-  DruckerPragerDefinition law;
+/// What the laws of soil have in common.
+template <class SoilDefinition>
+SoilDefinition read_soil(const Map& map) {
+  SoilDefinition law;
   law.elasticity = read_elasticity(map);
   law.friction_angle = map.at("friction_angle").number(kAngle);
   if (const auto dilation = map.find("dilation_angle")) law.dilation_angle = dilation->number(kAngle);
   if (const auto cohesion = map.find("cohesion")) law.cohesion = cohesion->number(kPressure);
   if (const auto cutoff = map.find("tension_cutoff")) law.tension_cutoff = cutoff->non_negative(kPressure);
+  return law;
+}
+
+DruckerPragerDefinition read_drucker_prager(const Map& map, Scene& scene) {
+  auto law = read_soil<DruckerPragerDefinition>(map);
   if (const auto match = map.find("match")) {
     static constexpr std::array kMatches = {ConeMatch::compression, ConeMatch::extension, ConeMatch::plane_strain};
     law.match = kMatches.at(match->choice({"compression", "extension", "plane_strain"}));
@@ -74,6 +80,7 @@ MaterialDefinition read_material(const Value& value, Scene& scene) {
       {},
       {},
       {"friction_angle", "dilation_angle", "cohesion", "tension_cutoff", "match"},
+      {"friction_angle", "dilation_angle", "cohesion", "tension_cutoff"},
   };
   std::vector<std::string> keys = {"name", "density", "law", "young", "poisson"};
   // The law decides which keys there are; a law that cannot be read is told by choice() below.
@@ -93,8 +100,11 @@ MaterialDefinition read_material(const Value& value, Scene& scene) {
     case 1:
       material.law = NeoHookeanDefinition{read_elasticity(map)};
       break;
-    default:
+    case 2:
       material.law = read_drucker_prager(map, scene);
+      break;
+    default:
+      material.law = read_soil<MohrCoulombDefinition>(map);
   }
   try {
     check(material);

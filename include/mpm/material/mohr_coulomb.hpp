@@ -1,0 +1,187 @@
+// Mohr-Coulomb soil. Principal stresses s1 >= s2 >= s3, tension positive:
+//   f = (s1 - s3) + (s1 + s3) sin(phi) - 2 c cos(phi) <= 0,   s1 <= tension cut-off (Rankine),
+// flow from the same f with the dilation angle, and normal to the cut-off. Elastic predictor in rate form (as
+// linear_elastic.hpp); its principal axes are kept, its principal values returned to the surface in closed form: main
+// plane, the edges of triaxial compression and extension, the apex, and the planes, edges and corners of the cut-off.
+// Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp).
+// Weak: no hardening, no critical state, so dilation never ends; hypoelastic, meant for small elastic strain; an
+// opening is remembered as a volume, not by its direction.
+// Source: method reference 10.7; de Souza Neto, Peric & Owen (2008) section 8.2; Clausen, Damkilde & Andersen (2006).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mpm/material/linear_elastic.hpp"
+#include "mpm/material/opening.hpp"
+#include "mpm/math/principal.hpp"
+
+namespace mpm {
+
+class MohrCoulomb : public LawTraits {
+ public:
+  static constexpr int kHistory = 3;
+  static constexpr int kPlasticStrain = 0;  ///< sum of sqrt(2 de:de), de the plastic deviator, as Drucker-Prager's
+  static constexpr int kOpening = 1;        ///< logarithmic volume that the soil has opened by
+  static constexpr int kPlasticWork = 2;
+
+  /// Where a stress came to lie.
+  enum class Region { elastic, plane, compression_edge, extension_edge, apex, tension, tension_and_shear };
+
+  MohrCoulomb(const MohrCoulombDefinition& d, double density);
+
+  template <class T, class Matrix, class Symmetric>
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const* history, int p) const {
+    const T bulk = T(bulk_);
+    const T to_tau = step.j / T(density_);
+    const Symmetric previous = scale_shift(tau, T(density_) / step.j_old, T(0));
+    const Symmetric trial = LinearElastic::stress_rate_update(previous, step.du, bulk, T(shear_));
+    T& opening = history[kOpening][p];
+    const T shift = close_opening(trace(trial) / T(3), bulk, opening) - trace(trial) / T(3);
+    const Symmetric closed = scale_shift(trial, T(1), shift);
+    Principal<T> axes = principal(closed);
+    int order[3] = {0, 1, 2};  // the pairs of principal values stay with their directions
+    const auto sort = [&axes, &order](int a, int b) {
+      if (axes.value[order[a]] < axes.value[order[b]]) std::swap(order[a], order[b]);
+    };
+    sort(0, 1);
+    sort(1, 2);
+    sort(0, 1);
+    T s[3], plastic[3];
+    for (int k = 0; k < 3; ++k) plastic[k] = s[k] = axes.value[order[k]];
+    // Opened soil has room to dilate into: no pressure comes of it.
+    const Region region = return_to_surface(s, opening > T(0) ? T(0) : T(sin_dilation_));
+    if (region == Region::elastic) {
+      tau = scale_shift(closed, to_tau, T(0));
+      return;
+    }
+    // Plastic strain is the elastic strain lost: C^-1 of the stress that the return took.
+    for (int k = 0; k < 3; ++k) plastic[k] -= s[k];
+    const T mean = (plastic[0] + plastic[1] + plastic[2]) / T(3);
+    T shear_strain = T(0), work = T(0);
+    for (int k = 0; k < 3; ++k) {
+      const T deviator = (plastic[k] - mean) / T(2.0 * shear_);
+      shear_strain += T(2) * deviator * deviator;
+      work += s[k] * (deviator + mean / (T(3) * bulk));
+      axes.value[order[k]] = s[k];
+    }
+    if (region >= Region::apex) opening += std::max(mean / bulk, T(0));
+    history[kPlasticStrain][p] += std::sqrt(shear_strain);
+    history[kPlasticWork][p] += work * to_tau;
+    tau = scale_shift(compose(axes, closed), to_tau, T(0));
+  }
+
+  /// `s`: trial principal stresses in falling order [Pa], returned to the surface; flow at `sin_dilation`.
+  template <class T>
+  Region return_to_surface(T* s, T sin_dilation) const {
+    const T cutoff = T(cutoff_);
+    const bool shears = yield(s[0], s[2]) > T(0);
+    if (!shears && s[0] <= cutoff) return Region::elastic;
+    T r[3] = {s[0], s[1], s[2]};
+    Region region = Region::elastic;
+    if (shears) region = shear_return(r, sin_dilation);
+    if (!(r[0] >= r[1] && r[1] >= r[2] && r[0] <= cutoff)) {
+      region = cutoff_is_apex_ ? Region::apex : tension_return(s, r, sin_dilation);
+      if (cutoff_is_apex_) r[0] = r[1] = r[2] = cutoff;
+    }
+    std::copy(r, r + 3, s);
+    return region;
+  }
+
+  /// f above, of the largest and the smallest principal stress [Pa].
+  template <class T>
+  T yield(T largest, T smallest) const {
+    return (largest - smallest) + (largest + smallest) * T(sin_friction_) - T(strength_);
+  }
+
+  template <class Matrix, class Symmetric>
+  double elastic_energy(const Matrix&, const Symmetric& tau, double j) const {
+    return LinearElastic::stress_energy(scale_shift(tau, density_ / j, 0.0), bulk_, shear_) * j / density_;
+  }
+
+  /// Loose soil (j > 1) carries no more than dense soil does.
+  double wave_speed(const Matrix3<double>&, const Symmetric3<double>&, double j) const {
+    return std::sqrt((bulk_ + 4.0 / 3.0 * shear_) * std::min(j, 1.0) / density_);
+  }
+  double density() const { return density_; }
+  double sin_dilation() const { return sin_dilation_; }
+  /// Largest principal stress [Pa]; infinite for a soil without friction and cut-off.
+  double cutoff() const { return cutoff_; }
+
+ private:
+  double lame() const { return bulk_ - 2.0 / 3.0 * shear_; }
+
+  /// To the main plane, f(s1, s3) = 0, or the edge where two planes meet; the order may come out wrong beyond the apex.
+  /// C m = 2 lame q (1, 1, 1) + 2 G m, with m = (1 + q, 0, -1 + q) and q the sine of the dilation angle.
+  template <class T>
+  Region shear_return(T* r, T q) const {
+    const T a = T(lame()), g = T(shear_), sine = T(sin_friction_);
+    const T volumetric = T(4) * a * sine * q;
+    const T own = volumetric + T(4) * g * (T(1) + sine * q);  // n . C m of one plane
+    const T trial[3] = {r[0], r[1], r[2]};
+    const T f = yield(trial[0], trial[2]);
+    const T multiplier = f / own;
+    r[0] -= multiplier * (T(2) * a * q + T(2) * g * (T(1) + q));
+    r[1] -= multiplier * T(2) * a * q;
+    r[2] -= multiplier * (T(2) * a * q - T(2) * g * (T(1) - q));
+    if (r[0] >= r[1] && r[1] >= r[2]) return Region::plane;
+    // Which edge the flow leads to (de Souza Neto et al. (2008) Box 8.4).
+    if ((T(1) - q) * trial[0] - T(2) * trial[1] + (T(1) + q) * trial[2] > T(0)) {
+      // s2 = s3: the planes of (1, 3) and (1, 2); their sum of multipliers moves s1.
+      const T other = volumetric + T(2) * g * (T(1) + sine) * (T(1) + q);
+      const T both = (f + yield(trial[0], trial[1])) / (own + other);
+      const T pair = T(0.5) * (trial[1] + trial[2]) - both * (T(2) * a * q - g * (T(1) - q));
+      r[0] = (T(strength_) + (T(1) - sine) * pair) / (T(1) + sine);
+      r[1] = r[2] = pair;
+      return Region::compression_edge;
+    }
+    // s1 = s2: the planes of (1, 3) and (2, 3).
+    const T other = volumetric + T(2) * g * (T(1) - sine) * (T(1) - q);
+    const T both = (f + yield(trial[1], trial[2])) / (own + other);
+    const T pair = T(0.5) * (trial[0] + trial[1]) - both * (T(2) * a * q + g * (T(1) + q));
+    r[0] = r[1] = pair;
+    r[2] = beside(pair);
+    return Region::extension_edge;
+  }
+
+  /// The cut-off alone, or with shear: once neither of the two alone is enough, the stress lies on the line
+  /// s1 = cut-off, f = 0, between its two ends.
+  template <class T>
+  Region tension_return(const T* trial, T* r, T q) const {
+    const T a = T(lame()), g = T(shear_), cutoff = T(cutoff_);
+    const T excess = trial[0] - cutoff;
+    const T ratio = a / (a + T(2) * g);
+    r[0] = cutoff;
+    r[1] = trial[1] - ratio * excess;
+    r[2] = trial[2] - ratio * excess;
+    if (r[1] > cutoff) {
+      r[1] = cutoff;
+      r[2] = std::min(trial[2] - a * (trial[0] + trial[1] - T(2) * cutoff) / (T(2) * (a + g)), cutoff);
+    }
+    if (yield(r[0], r[2]) <= T(0)) return Region::tension;
+    const T smallest = beside(cutoff);
+    const T lower = trial[2] - smallest;
+    const T determinant = T(4) * g * (T(1) - q) * (a + g);
+    const T along1 = T(2) * a * q + T(2) * g * (T(1) + q), along3 = T(2) * a * q - T(2) * g * (T(1) - q);
+    const T shear = (excess * a - lower * (a + T(2) * g)) / determinant;
+    const T opening = (along1 * lower - along3 * excess) / determinant;
+    r[1] = std::min(std::max(trial[1] - shear * T(2) * a * q - opening * a, smallest), cutoff);
+    r[2] = smallest;
+    return Region::tension_and_shear;
+  }
+
+  /// The smallest principal stress on the surface beside a largest one.
+  template <class T>
+  T beside(T largest) const {
+    return ((T(1) + T(sin_friction_)) * largest - T(strength_)) / (T(1) - T(sin_friction_));
+  }
+
+  double density_, bulk_, shear_;
+  double sin_friction_, sin_dilation_;
+  double strength_;  ///< 2 c cos(phi) [Pa]
+  double cutoff_;    ///< largest principal stress [Pa]
+  bool cutoff_is_apex_;
+};
+
+}  // namespace mpm

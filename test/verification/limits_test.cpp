@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "mpm/simulation/simulation.hpp"
@@ -100,6 +101,31 @@ TEST(Limits, CountsAToolsSpeedBeforeItMoves) {
   const mpm::StepReport step = simulation.state().step;
   EXPECT_LE(step.dt_max * 40.0, 0.5 * 0.1);
   EXPECT_EQ(step.limited_by.rfind("speed of 'tool'", 0), 0u) << step.limited_by;
+}
+
+// Two bodies, one four times as stiff: it limits the step, and the place named is in it. At rest and undeformed the
+// limit is cfl h / sqrt((K + 4 G / 3) / rho).
+TEST(Limits, NamesTheBodyThatLimitsTheStepAndThePlace) {
+  auto d = block(0.1, 0.5, 0.5);
+  auto stiff = block(1.0, 1.4, 0.5, 4e5);
+  stiff.materials[0].name = "stiff";
+  stiff.bodies[0].name = "second";
+  stiff.bodies[0].material = "stiff";
+  d.materials.push_back(stiff.materials[0]);
+  d.bodies.push_back(stiff.bodies[0]);
+  mpm::Simulation simulation(d, {1});
+  simulation.advance();
+  const mpm::StepReport step = simulation.state().step;
+  EXPECT_EQ(step.limited_by.rfind("wave speed of 'second'", 0), 0u) << step.limited_by;
+  double x = 0.0, y = 0.0, z = 0.0;
+  const std::size_t at = step.limited_by.find("at (");
+  ASSERT_NE(at, std::string::npos) << step.limited_by;
+  ASSERT_EQ(std::sscanf(step.limited_by.c_str() + at, "at (%lf, %lf, %lf) m", &x, &y, &z), 3);
+  EXPECT_TRUE(x > 1.0 && x < 1.4 && z > 0.0 && z < 0.5) << step.limited_by;
+  const double modulus = 4e5 * 0.7 / (1.3 * 0.4);  // E (1 - nu) / ((1 + nu) (1 - 2 nu))
+  const double limit = 0.5 * 0.1 / std::sqrt(modulus / 1000.0);
+  const double steps = std::ceil(0.01 / limit - 1e-9);
+  EXPECT_NEAR(step.dt_last, 0.01 / steps, 1e-12);
 }
 
 TEST(Limits, KeepsStrongDampingStable) {

@@ -1,0 +1,60 @@
+// Drives a material along a path (strain_path.hpp). What is stressed is solved for at every step: Newton's method on
+// copies of the point, with a numerical tangent.
+//
+//   PathDriver driver(material);
+//   for (const Leg& leg : make_strain_path("triaxial", {})) driver.run(leg, [&] { print(driver.point().cauchy()); });
+#pragma once
+
+#include <functional>
+
+#include "mpm/material/material_point.hpp"
+#include "mpm/material/strain_path.hpp"
+
+namespace mpm {
+
+/// The law gave way: a stress that the material cannot carry, a value that is not finite, J <= 0.
+class PathFailure : public Error {
+ public:
+  using Error::Error;
+};
+
+class PathDriver {
+ public:
+  /// At rest at time 0. @throws MaterialError
+  explicit PathDriver(const MaterialDefinition& material);
+
+  /// Calls `after_step` at the end of every step. @throws PathError, PathFailure
+  void run(const Leg& leg, const std::function<void()>& after_step = {});
+
+  const MaterialPoint& point() const { return point_; }
+  double time() const { return time_; }                 ///< [s]
+  const Components& strain() const { return strain_; }  ///< integral of the rate of deformation
+  /// ln V of all that the material went through.
+  Symmetric3<double> logarithmic_strain() const;
+  double work() const { return work_; }  ///< done on the material since the start [J/kg]
+
+ private:
+  struct Progress;
+  struct Step;
+  /// Drives the leg to `share` of it, in one step or in halves.
+  void advance_to(Progress& progress, double share, int divisions);
+  MaterialPoint advanced(const Step& step, const Components& increment) const;
+  /// False when the stresses asked for were not reached; `increment` is then the nearest found.
+  bool solve(const Step& step, Components& increment) const;
+  void accept(const Step& step, const Components& increment);
+  [[noreturn]] void give_up(const Step& step, const Components& increment) const;
+
+  MaterialPoint point_;
+  double density_;
+  double modulus_;  ///< of the fastest wave at the start [Pa]: the scale below which a stress is round-off
+  Matrix3<double> f_ = Matrix3<double>::identity();
+  double time_ = 0.0;
+  double work_ = 0.0;
+  Components strain_{};
+  Components last_{};  ///< increment of the last step, where Newton's method starts from
+};
+
+/// In the order of kComponentNames.
+inline Components components(const Symmetric3<double>& s) { return {s.xx, s.yy, s.zz, s.yz, s.xz, s.xy}; }
+
+}  // namespace mpm

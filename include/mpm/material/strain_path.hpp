@@ -1,0 +1,56 @@
+// Paths of strain and stress that a piece of material is driven along, as laboratories do: legs, on each of which every
+// component is either strained or stressed at a constant rate. Components: xx, yy, zz, yz, xz, xy.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mpm/math/error.hpp"
+
+namespace mpm {
+
+/// A path that cannot be driven: bad input.
+class PathError : public Error {
+ public:
+  using Error::Error;
+};
+
+constexpr int kComponents = 6;
+using Components = std::array<double, kComponents>;
+/// "xx", "yy", "zz", "yz", "xz", "xy"
+extern const std::array<const char*, kComponents> kComponentNames;
+
+/// What is prescribed of a component. Strain is the integral of the rate of deformation: along axes that do not turn,
+/// the logarithmic strain.
+enum class Control {
+  strain,        ///< of the tensor; a shear strain without rotation
+  simple_shear,  ///< engineering shear, the first axis displaced in proportion to the second (xz: d vx / dz)
+  stress         ///< Cauchy stress [Pa]
+};
+
+struct Leg {
+  double duration = 0.0;  ///< [s]
+  int steps = 0;
+  std::array<Control, kComponents> control{};
+  Components target{};  ///< at the end of the leg; a component goes there from where it is at a constant rate
+};
+using StrainPath = std::vector<Leg>;
+
+/// What the paths below need to know. Compression is negative.
+struct PathDefinition {
+  double strain = -0.01;   ///< reached at the end, along z; engineering shear where the path shears
+  double confining = 1e5;  ///< `triaxial`: pressure around [Pa]
+  double stress = 0.0;     ///< `creep`: held [Pa]
+  double rate = 1.0;       ///< of the strain [1/s], > 0
+  double hold = 1.0;       ///< `relaxation`, `creep`: for how long [s], > 0
+  bool shear = false;      ///< `relaxation`, `creep`: in shear xz, in place of along z with free sides
+  int steps = 100;         ///< a leg
+};
+
+/// "uniaxial_strain", "uniaxial_stress", "triaxial", "simple_shear", "volumetric", "relaxation", "creep"
+const std::vector<std::string>& strain_path_names();
+/// @throws PathError for an unknown name, or a number that the path cannot have.
+StrainPath make_strain_path(const std::string& name, const PathDefinition& definition);
+
+}  // namespace mpm

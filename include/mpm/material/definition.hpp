@@ -54,8 +54,43 @@ struct MohrCoulombDefinition {
   double tension_cutoff = -1.0;  ///< largest principal tension [Pa]; negative: the apex
 };
 
+/// Metal with isotropic hardening: yield + H a + (saturation - yield) (1 - exp(-rate a)) at plastic strain a.
+struct J2PlasticityDefinition {
+  Elasticity elasticity;
+  double yield_stress = 0.0;       ///< Mises stress at first yield [Pa], > 0
+  double hardening_modulus = 0.0;  ///< H [Pa], >= 0
+  double saturation_stress = 0.0;  ///< [Pa], >= yield_stress; of no effect when saturation_rate is 0
+  double saturation_rate = 0.0;    ///< [-], >= 0
+};
+
+/// Tait's equation p = K/n (J^-n - 1) and Newtonian viscosity.
+struct NewtonianFluidDefinition {
+  double bulk_modulus = 0.0;  ///< K [Pa], > 0
+  double exponent = 7.0;      ///< n, >= 1
+  double viscosity = 0.0;     ///< dynamic, shear [Pa s], >= 0
+  bool tension = false;       ///< whether pressure may be negative
+};
+
+enum class GasProcess { adiabatic, isothermal };
+
+/// p = p0 (T/T0) / J.
+struct IdealGasDefinition {
+  double pressure = 0.0;             ///< p0, at the material's density and T0 [Pa], > 0
+  double temperature = 0.0;          ///< T0, absolute [K], > 0
+  double heat_capacity_ratio = 1.4;  ///< > 1
+  GasProcess process = GasProcess::adiabatic;
+};
+
+/// Neo-Hookean solid of the long-term constants and a Maxwell branch beside it.
+struct StandardLinearSolidDefinition {
+  Elasticity elasticity;         ///< long-term
+  double branch_modulus = 0.0;   ///< shear modulus of the branch's spring [Pa], > 0
+  double relaxation_time = 0.0;  ///< of the branch [s], > 0
+};
+
 using LawDefinition =
-    std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition, MohrCoulombDefinition>;
+    std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition, MohrCoulombDefinition,
+                 J2PlasticityDefinition, NewtonianFluidDefinition, IdealGasDefinition, StandardLinearSolidDefinition>;
 
 struct MaterialDefinition {
   std::string name;

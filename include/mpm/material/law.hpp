@@ -15,13 +15,18 @@
 
 #include "mpm/material/definition.hpp"
 #include "mpm/material/drucker_prager.hpp"
+#include "mpm/material/ideal_gas.hpp"
+#include "mpm/material/j2_plasticity.hpp"
 #include "mpm/material/linear_elastic.hpp"
 #include "mpm/material/mohr_coulomb.hpp"
 #include "mpm/material/neo_hookean.hpp"
+#include "mpm/material/newtonian_fluid.hpp"
+#include "mpm/material/standard_linear_solid.hpp"
 
 namespace mpm {
 
-using Law = std::variant<LinearElastic, NeoHookean, DruckerPrager, MohrCoulomb>;
+using Law = std::variant<LinearElastic, NeoHookean, DruckerPrager, MohrCoulomb, J2Plasticity, NewtonianFluid, IdealGas,
+                         StandardLinearSolid>;
 
 /// @throws MaterialError when check() does.
 Law make_law(const MaterialDefinition& material);

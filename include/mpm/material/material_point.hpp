@@ -10,7 +10,7 @@ namespace mpm {
 
 class MaterialPoint {
  public:
-  /// At rest, undeformed. @throws MaterialError
+  /// At rest, undeformed; under stress only where the law is so then, as a gas is. @throws MaterialError
   explicit MaterialPoint(const MaterialDefinition& material);
 
   /// F = exp(grad v dt) F; `du` = grad v dt, held over `dt` [s].
@@ -19,7 +19,8 @@ class MaterialPoint {
   const Law& law() const { return law_; }
   const Matrix3<double>& f() const { return f_; }
   double j() const { return determinant(f_); }
-  Symmetric3<double> cauchy() const;  ///< [Pa]
+  const Symmetric3<double>& tau() const { return tau_; }  ///< Kirchhoff stress over initial density [J/kg]
+  Symmetric3<double> cauchy() const;                      ///< [Pa]
   /// Scalar of history, 0 for an index of -1.
   double history(int index) const { return index < 0 ? 0.0 : history_[index]; }
   double plastic_strain() const;  ///< [-]

@@ -7,7 +7,7 @@
 
 #include "mpm/material/definition.hpp"
 #include "mpm/material/increment.hpp"
-#include "mpm/math/principal.hpp"
+#include "mpm/material/isochoric.hpp"
 
 namespace mpm {
 
@@ -30,21 +30,20 @@ class NeoHookean : public LawTraits {
   template <class Matrix, class Symmetric>
   double elastic_energy(const Matrix& f, const Symmetric&, double j) const {
     const double invariant = trace(left_cauchy_green(f)) / std::pow(j, 2.0 / 3.0);
-    return (0.5 * bulk_ * (0.5 * (j * j - 1.0) - std::log(j)) + 0.5 * shear_ * (invariant - 3.0)) / density_;
+    return (volume_energy(j, bulk_) + 0.5 * shear_ * (invariant - 3.0)) / density_;
   }
 
-  /// Bound on the fastest small wave on the present state, exact without deviatoric stretch. For a wave along n the
-  /// acoustic tensor is K/2 (J + 1/J) n n + G J^(-5/3) [(n.Bn) I - 2/3 (Bn n + n Bn) + 5/9 tr(B) n n].
+  /// Bound on the fastest small wave on the present state, exact without deviatoric stretch.
   double wave_speed(const Matrix3<double>& f, const Symmetric3<double>&, double j) const {
-    const Principal<double> b = principal(left_cauchy_green(f));
-    const double trace_b = b.value[0] + b.value[1] + b.value[2];
-    const double along = 5.0 / 9.0 * trace_b - b.smallest() / 3.0, across = b.largest();
-    const double coupling = (b.largest() - b.smallest()) / 3.0;
-    const double bulk = 0.5 * bulk_ * (j + 1.0 / j);
-    const double shear = shear_ * std::pow(j, -5.0 / 3.0);
-    return std::sqrt((bulk + shear * (std::max(along, across) + coupling)) * j / density_);
+    const ShearWaves waves(left_cauchy_green(f), shear_ * std::pow(j, -5.0 / 3.0));
+    return std::sqrt(waves.stiffest(volume_stiffness(j, bulk_)) * j / density_);
   }
   double density() const { return density_; }
+
+  /// K/2 [(J^2 - 1)/2 - ln J] [Pa]: of all laws with this pressure.
+  static double volume_energy(double j, double bulk) { return 0.5 * bulk * (0.5 * (j * j - 1.0) - std::log(j)); }
+  /// Its part of rho c^2 along a wave [Pa].
+  static double volume_stiffness(double j, double bulk) { return 0.5 * bulk * (j + 1.0 / j); }
 
  private:
   double density_, bulk_, shear_;

@@ -45,6 +45,15 @@ Matrix3<T> product(const Matrix3<T>& a, const Matrix3<T>& b) {
           a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
 }
 
+/// a^-1, with det a at hand
+template <class T>
+Matrix3<T> inverse(const Matrix3<T>& a, T det) {
+  const T s = T(1) / det;
+  return {s * (a.yy * a.zz - a.yz * a.zy), s * (a.xz * a.zy - a.xy * a.zz), s * (a.xy * a.yz - a.xz * a.yy),
+          s * (a.yz * a.zx - a.yx * a.zz), s * (a.xx * a.zz - a.xz * a.zx), s * (a.xz * a.yx - a.xx * a.yz),
+          s * (a.yx * a.zy - a.yy * a.zx), s * (a.xy * a.zx - a.xx * a.zy), s * (a.xx * a.yy - a.xy * a.yx)};
+}
+
 /// a a^T
 template <class T>
 Symmetric3<T> left_cauchy_green(const Matrix3<T>& a) {
@@ -64,6 +73,11 @@ T trace(const Symmetric3<T>& s) {
   return s.xx + s.yy + s.zz;
 }
 
+template <class T>
+T determinant(const Symmetric3<T>& s) {
+  return s.xx * (s.yy * s.zz - s.yz * s.yz) - s.xy * (s.xy * s.zz - s.yz * s.xz) + s.xz * (s.xy * s.yz - s.yy * s.xz);
+}
+
 /// s : s
 template <class T>
 T squared_norm(const Symmetric3<T>& s) {
@@ -81,6 +95,16 @@ Symmetric3<T> sum(const Symmetric3<T>& a, const Symmetric3<T>& b) {
   return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.yz + b.yz, a.xz + b.xz, a.xy + b.xy};
 }
 
+/// a s a^T
+template <class T>
+Symmetric3<T> congruence(const Matrix3<T>& a, const Symmetric3<T>& s) {
+  const Matrix3<T> full = {s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz};
+  const Matrix3<T> m = product(a, full);
+  return {m.xx * a.xx + m.xy * a.xy + m.xz * a.xz, m.yx * a.yx + m.yy * a.yy + m.yz * a.yz,
+          m.zx * a.zx + m.zy * a.zy + m.zz * a.zz, m.yx * a.zx + m.yy * a.zy + m.yz * a.zz,
+          m.xx * a.zx + m.xy * a.zy + m.xz * a.zz, m.xx * a.yx + m.xy * a.yy + m.xz * a.yz};
+}
+
 /// Q s Q^T with the orthogonal Q = (I - W/2)^-1 (I + W/2), W the skew part of `increment`
 /// (Hughes & Winget 1980; method reference 10.1).
 template <class T>
@@ -94,11 +118,7 @@ Symmetric3<T> rotate(const Symmetric3<T>& s, const Matrix3<T>& increment) {
   const Matrix3<T> q = {T(1) - f * (b * b + c * c), f * (a * b - c), f * (a * c + b), f * (a * b + c),
                         T(1) - f * (a * a + c * c), f * (b * c - a), f * (a * c - b), f * (b * c + a),
                         T(1) - f * (a * a + b * b)};
-  const Matrix3<T> full = {s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz};
-  const Matrix3<T> m = product(q, full);
-  return {m.xx * q.xx + m.xy * q.xy + m.xz * q.xz, m.yx * q.yx + m.yy * q.yy + m.yz * q.yz,
-          m.zx * q.zx + m.zy * q.zy + m.zz * q.zz, m.yx * q.zx + m.yy * q.zy + m.yz * q.zz,
-          m.xx * q.zx + m.xy * q.zy + m.xz * q.zz, m.xx * q.yx + m.xy * q.yy + m.xz * q.yz};
+  return congruence(q, s);
 }
 
 // --- planar -----------------------------------------------------------------------------------------------------
@@ -112,6 +132,12 @@ template <class T>
 MatrixPlane<T> product(const MatrixPlane<T>& a, const MatrixPlane<T>& b) {
   return {a.xx * b.xx + a.xz * b.zx, a.xx * b.xz + a.xz * b.zz, a.zx * b.xx + a.zz * b.zx, a.zx * b.xz + a.zz * b.zz,
           a.yy * b.yy};
+}
+
+template <class T>
+MatrixPlane<T> inverse(const MatrixPlane<T>& a, T det) {
+  const T s = a.yy / det;
+  return {s * a.zz, -s * a.xz, -s * a.zx, s * a.xx, T(1) / a.yy};
 }
 
 template <class T>
@@ -130,6 +156,11 @@ T trace(const SymmetricPlane<T>& s) {
 }
 
 template <class T>
+T determinant(const SymmetricPlane<T>& s) {
+  return (s.xx * s.zz - s.xz * s.xz) * s.yy;
+}
+
+template <class T>
 T squared_norm(const SymmetricPlane<T>& s) {
   return s.xx * s.xx + s.zz * s.zz + s.yy * s.yy + T(2) * (s.xz * s.xz);
 }
@@ -142,6 +173,13 @@ SymmetricPlane<T> scale_shift(const SymmetricPlane<T>& s, T a, T b) {
 template <class T>
 SymmetricPlane<T> sum(const SymmetricPlane<T>& a, const SymmetricPlane<T>& b) {
   return {a.xx + b.xx, a.zz + b.zz, a.xz + b.xz, a.yy + b.yy};
+}
+
+template <class T>
+SymmetricPlane<T> congruence(const MatrixPlane<T>& a, const SymmetricPlane<T>& s) {
+  const T xx = a.xx * s.xx + a.xz * s.xz, xz = a.xx * s.xz + a.xz * s.zz;
+  const T zx = a.zx * s.xx + a.zz * s.xz, zz = a.zx * s.xz + a.zz * s.zz;
+  return {xx * a.xx + xz * a.xz, zx * a.zx + zz * a.zz, xx * a.zx + xz * a.zz, a.yy * s.yy * a.yy};
 }
 
 template <class T>

@@ -19,8 +19,10 @@ struct Dimension {
   int mass = 0;
   int time = 0;
   int angle = 0;
+  int temperature = 0;
   friend bool operator==(const Dimension& a, const Dimension& b) {
-    return a.length == b.length && a.mass == b.mass && a.time == b.time && a.angle == b.angle;
+    return a.length == b.length && a.mass == b.mass && a.time == b.time && a.angle == b.angle &&
+           a.temperature == b.temperature;
   }
 };
 
@@ -35,6 +37,8 @@ inline constexpr Dimension kVelocity{1, 0, -1, 0};
 inline constexpr Dimension kAcceleration{1, 0, -2, 0};
 inline constexpr Dimension kDensity{-3, 1, 0, 0};
 inline constexpr Dimension kPressure{-1, 1, -2, 0};
+inline constexpr Dimension kViscosity{-1, 1, -1, 0};
+inline constexpr Dimension kTemperature{0, 0, 0, 0, 1};
 
 /// "a pressure", "a length"; for a dimension without a name "a quantity in m^2/s".
 std::string describe(const Dimension& dimension);
@@ -49,7 +53,7 @@ struct Unit {
 /// "MPa", "g/cm^3", "kg/(m*s^2)", "1/s". @throws UnitError naming the part that is not known.
 Unit parse_unit(const std::string& text);
 
-/// The units of a scene's plain numbers, as factors to SI. Angles are always radians.
+/// The units of a scene's plain numbers, as factors to SI. Angles are always radians, temperatures kelvins.
 struct UnitSystem {
   double length = 1.0;  ///< [m]
   double mass = 1.0;    ///< [kg]

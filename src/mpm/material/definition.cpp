@@ -48,6 +48,16 @@ void check_soil(const MaterialDefinition& material, const SoilDefinition& law, c
   }
 }
 
+void require_positive(double value, const MaterialDefinition& material, const char* constant, const char* unit) {
+  require(value > 0.0 && std::isfinite(value), material,
+          fmt::format("{} is {:g}{}; it must be positive and finite", constant, value, unit));
+}
+
+void require_not_negative(double value, const MaterialDefinition& material, const char* constant, const char* unit) {
+  require(value >= 0.0 && std::isfinite(value), material,
+          fmt::format("{} is {:g}{}; it must be finite and not negative", constant, value, unit));
+}
+
 struct Checker {
   const MaterialDefinition& material;
 
@@ -55,6 +65,35 @@ struct Checker {
   void operator()(const NeoHookeanDefinition& law) const { check(material, law.elasticity); }
   void operator()(const DruckerPragerDefinition& law) const { check_soil(material, law, "the cone's apex"); }
   void operator()(const MohrCoulombDefinition& law) const { check_soil(material, law, "the apex"); }
+  void operator()(const J2PlasticityDefinition& law) const {
+    check(material, law.elasticity);
+    require_positive(law.yield_stress, material, "yield stress", " Pa");
+    require_not_negative(law.hardening_modulus, material, "hardening modulus", " Pa");
+    require_not_negative(law.saturation_rate, material, "saturation rate", "");
+    if (law.saturation_rate > 0.0) {
+      require(law.saturation_stress >= law.yield_stress && std::isfinite(law.saturation_stress), material,
+              fmt::format("saturation stress is {:g} Pa; it must be finite and not below the yield stress, {:g} Pa",
+                          law.saturation_stress, law.yield_stress));
+    }
+  }
+  void operator()(const NewtonianFluidDefinition& law) const {
+    require_positive(law.bulk_modulus, material, "bulk modulus", " Pa");
+    require(law.exponent >= 1.0 && std::isfinite(law.exponent), material,
+            fmt::format("exponent is {:g}; it must be finite and at least 1", law.exponent));
+    require_not_negative(law.viscosity, material, "viscosity", " Pa s");
+  }
+  void operator()(const IdealGasDefinition& law) const {
+    require_positive(law.pressure, material, "pressure", " Pa");
+    require(law.temperature > 0.0 && std::isfinite(law.temperature), material,
+            fmt::format("temperature is {:g} K; it is absolute and must be positive and finite", law.temperature));
+    require(law.heat_capacity_ratio > 1.0 && std::isfinite(law.heat_capacity_ratio), material,
+            fmt::format("heat capacity ratio is {:g}; it must be finite and above 1", law.heat_capacity_ratio));
+  }
+  void operator()(const StandardLinearSolidDefinition& law) const {
+    check(material, law.elasticity);
+    require_positive(law.branch_modulus, material, "branch modulus", " Pa");
+    require_positive(law.relaxation_time, material, "relaxation time", " s");
+  }
 };
 
 struct Name {
@@ -62,6 +101,10 @@ struct Name {
   std::string operator()(const NeoHookeanDefinition&) const { return "neo_hookean"; }
   std::string operator()(const DruckerPragerDefinition&) const { return "drucker_prager"; }
   std::string operator()(const MohrCoulombDefinition&) const { return "mohr_coulomb"; }
+  std::string operator()(const J2PlasticityDefinition&) const { return "j2_plasticity"; }
+  std::string operator()(const NewtonianFluidDefinition&) const { return "newtonian_fluid"; }
+  std::string operator()(const IdealGasDefinition&) const { return "ideal_gas"; }
+  std::string operator()(const StandardLinearSolidDefinition&) const { return "viscoelastic"; }
 };
 
 }  // namespace

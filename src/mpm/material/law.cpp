@@ -9,6 +9,10 @@ struct Maker {
   Law operator()(const NeoHookeanDefinition& d) const { return NeoHookean(d, density); }
   Law operator()(const DruckerPragerDefinition& d) const { return DruckerPrager(d, density); }
   Law operator()(const MohrCoulombDefinition& d) const { return MohrCoulomb(d, density); }
+  Law operator()(const J2PlasticityDefinition& d) const { return J2Plasticity(d, density); }
+  Law operator()(const NewtonianFluidDefinition& d) const { return NewtonianFluid(d, density); }
+  Law operator()(const IdealGasDefinition& d) const { return IdealGas(d, density); }
+  Law operator()(const StandardLinearSolidDefinition& d) const { return StandardLinearSolid(d, density); }
 };
 
 }  // namespace

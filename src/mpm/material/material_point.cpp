@@ -12,7 +12,9 @@ constexpr int kTerms = 12;  ///< of exp(du): round-off for increments up to abou
 }  // namespace
 
 MaterialPoint::MaterialPoint(const MaterialDefinition& material)
-    : law_(make_law(material)), density_(material.density), history_(history_size(law_), 0.0) {}
+    : law_(make_law(material)), density_(material.density), history_(history_size(law_), 0.0) {
+  advance({}, 1.0);  // the stress at the start is that of a step without motion
+}
 
 void MaterialPoint::advance(const Matrix3<double>& du, double dt) {
   places_.clear();  // made anew, so that a copy of a point has its own history

@@ -1,6 +1,7 @@
 // materials: density, a law and its constants.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "mpm/scene/sections.hpp"
@@ -8,16 +9,8 @@
 namespace mpm {
 namespace {
 
-const std::vector<std::string> kLaws = {"linear_elastic", "neo_hookean", "drucker_prager", "mohr_coulomb"};
-
 const std::vector<Later>& later_laws() {
-  static const std::string solid = "use linear_elastic or neo_hookean";
-  static const std::vector<Later> laws = {{"von_mises", solid},
-                                          {"j2", solid},
-                                          {"johnson_cook", solid},
-                                          {"viscoelastic", solid},
-                                          {"ideal_gas", "use neo_hookean"},
-                                          {"newtonian", "use neo_hookean"},
+  static const std::vector<Later> laws = {{"johnson_cook", "use j2_plasticity"},
                                           {"rigid", "a rigid body is not a material: write it under rigid_bodies"}};
   return laws;
 }
@@ -34,6 +27,10 @@ Elasticity read_elasticity(const Map& map) {
   return {map.at("young").number(kPressure), map.at("poisson").number(kPlain)};
 }
 
+LawDefinition read_linear_elastic(const Map& map, Scene&) { return LinearElasticDefinition{read_elasticity(map)}; }
+
+LawDefinition read_neo_hookean(const Map& map, Scene&) { return NeoHookeanDefinition{read_elasticity(map)}; }
+
 /// What the laws of soil have in common.
 template <class SoilDefinition>
 SoilDefinition read_soil(const Map& map) {
@@ -46,7 +43,7 @@ SoilDefinition read_soil(const Map& map) {
   return law;
 }
 
-DruckerPragerDefinition read_drucker_prager(const Map& map, Scene& scene) {
+LawDefinition read_drucker_prager(const Map& map, Scene& scene) {
   auto law = read_soil<DruckerPragerDefinition>(map);
   if (const auto match = map.find("match")) {
     static constexpr std::array kMatches = {ConeMatch::compression, ConeMatch::extension, ConeMatch::plane_strain};
@@ -58,54 +55,130 @@ DruckerPragerDefinition read_drucker_prager(const Map& map, Scene& scene) {
   return law;
 }
 
-/// A refused constant belongs to the key that it was read from; the check's text begins with the constant's name.
+LawDefinition read_mohr_coulomb(const Map& map, Scene&) { return read_soil<MohrCoulombDefinition>(map); }
+
+LawDefinition read_j2_plasticity(const Map& map, Scene&) {
+  J2PlasticityDefinition law;
+  law.elasticity = read_elasticity(map);
+  law.yield_stress = map.at("yield_stress").number(kPressure);
+  if (const auto modulus = map.find("hardening_modulus")) law.hardening_modulus = modulus->number(kPressure);
+  const auto stress = map.find("saturation_stress"), rate = map.find("saturation_rate");
+  if (stress.has_value() != rate.has_value()) {
+    map.fail("saturation_stress and saturation_rate go together; write both or neither");
+  }
+  if (stress) {
+    law.saturation_stress = stress->number(kPressure);
+    law.saturation_rate = rate->positive(kPlain);
+  }
+  return law;
+}
+
+LawDefinition read_newtonian_fluid(const Map& map, Scene& scene) {
+  NewtonianFluidDefinition law;
+  const auto bulk = map.find("bulk_modulus"), speed = map.find("sound_speed");
+  if (bulk.has_value() == speed.has_value()) map.fail("write exactly one of bulk_modulus and sound_speed");
+  if (bulk) {
+    law.bulk_modulus = bulk->number(kPressure);
+  } else {
+    const double c = speed->positive(kVelocity);
+    law.bulk_modulus = map.at("density").positive(kDensity) * c * c;
+  }
+  if (const auto exponent = map.find("exponent")) law.exponent = exponent->number(kPlain);
+  if (const auto viscosity = map.find("viscosity")) law.viscosity = viscosity->number(kViscosity);
+  if (const auto tension = map.find("tension")) {
+    law.tension = tension->choice({"none", "allow"}) == 1;
+  } else {
+    scene.choices.emplace_back(map.value().path() + ".tension", "none: a free surface parts without resistance");
+  }
+  return law;
+}
+
+LawDefinition read_ideal_gas(const Map& map, Scene& scene) {
+  IdealGasDefinition law;
+  law.pressure = map.at("pressure").number(kPressure);
+  law.temperature = map.at("temperature").number(kTemperature);
+  if (const auto ratio = map.find("heat_capacity_ratio")) {
+    law.heat_capacity_ratio = ratio->number(kPlain);
+  } else {
+    scene.choices.emplace_back(map.value().path() + ".heat_capacity_ratio", "1.4: air");
+  }
+  if (const auto process = map.find("process")) {
+    static constexpr std::array kProcesses = {GasProcess::adiabatic, GasProcess::isothermal};
+    law.process = kProcesses.at(process->choice({"adiabatic", "isothermal"}));
+  } else {
+    scene.choices.emplace_back(map.value().path() + ".process", "adiabatic: no heat leaves the gas");
+  }
+  return law;
+}
+
+LawDefinition read_viscoelastic(const Map& map, Scene&) {
+  return StandardLinearSolidDefinition{read_elasticity(map), map.at("branch_modulus").number(kPressure),
+                                       map.at("relaxation_time").number(kTime)};
+}
+
+struct LawSection {
+  const char* name;
+  std::vector<std::string> keys;  ///< beside name, density and law
+  LawDefinition (*read)(const Map&, Scene&);
+};
+
+const std::vector<LawSection>& law_sections() {
+  static const std::vector<LawSection> sections = {
+      {"linear_elastic", {"young", "poisson"}, read_linear_elastic},
+      {"neo_hookean", {"young", "poisson"}, read_neo_hookean},
+      {"drucker_prager",
+       {"young", "poisson", "friction_angle", "dilation_angle", "cohesion", "tension_cutoff", "match"},
+       read_drucker_prager},
+      {"mohr_coulomb",
+       {"young", "poisson", "friction_angle", "dilation_angle", "cohesion", "tension_cutoff"},
+       read_mohr_coulomb},
+      {"j2_plasticity",
+       {"young", "poisson", "yield_stress", "hardening_modulus", "saturation_stress", "saturation_rate"},
+       read_j2_plasticity},
+      {"viscoelastic", {"young", "poisson", "branch_modulus", "relaxation_time"}, read_viscoelastic},
+      {"newtonian_fluid", {"bulk_modulus", "sound_speed", "exponent", "viscosity", "tension"}, read_newtonian_fluid},
+      {"ideal_gas", {"pressure", "temperature", "heat_capacity_ratio", "process"}, read_ideal_gas}};
+  return sections;
+}
+
+const LawSection& find_section(const Value& law) {
+  std::vector<std::string> names;
+  for (const LawSection& section : law_sections()) names.emplace_back(section.name);
+  return law_sections()[law.choice(names, later_laws())];
+}
+
+/// A refused constant belongs to the key that it was read from: the check's text begins with the constant's name, which
+/// is the key with spaces, but for three.
 [[noreturn]] void fail(const Map& map, const std::string& text) {
-  static constexpr std::array<std::array<const char*, 2>, 7> kConstants = {{{"density", "density"},
-                                                                            {"Young's modulus", "young"},
-                                                                            {"Poisson's ratio", "poisson"},
-                                                                            {"friction angle", "friction_angle"},
-                                                                            {"dilation angle", "dilation_angle"},
-                                                                            {"cohesion", "cohesion"},
-                                                                            {"tension cut-off", "tension_cutoff"}}};
   const std::size_t colon = text.find(": ");
   const std::string what = colon == std::string::npos ? text : text.substr(colon + 2);
-  for (const auto& [constant, key] : kConstants) {
-    if (what.rfind(constant, 0) == 0 && map.value().node()[key]) map.at(key).fail(what);
+  for (const auto& entry : map.value().node()) {
+    const std::string key = entry.first.Scalar();
+    std::string constant = key;
+    std::replace(constant.begin(), constant.end(), '_', ' ');
+    if (key == "young") constant = "Young's modulus";
+    if (key == "poisson") constant = "Poisson's ratio";
+    if (key == "tension_cutoff") constant = "tension cut-off";
+    if (what.rfind(constant + " is ", 0) == 0) map.at(key).fail(what);
   }
   map.fail(what);
 }
 
 MaterialDefinition read_material(const Value& value, Scene& scene) {
-  static const std::vector<std::vector<std::string>> kKeys = {
-      {},
-      {},
-      {"friction_angle", "dilation_angle", "cohesion", "tension_cutoff", "match"},
-      {"friction_angle", "dilation_angle", "cohesion", "tension_cutoff"},
-  };
-  std::vector<std::string> keys = {"name", "density", "law", "young", "poisson"};
-  // The law decides which keys there are; a law that cannot be read is told by choice() below.
-  const YAML::Node law_node = value.is_map() ? value.node()["law"] : YAML::Node();
-  if (value.is_map() && law_node && law_node.IsScalar()) {
-    const std::size_t law = value.child(law_node, "law").choice(kLaws, later_laws());
-    keys.insert(keys.end(), kKeys[law].begin(), kKeys[law].end());
+  std::vector<std::string> keys = {"name", "density", "law"};
+  // The law decides which keys there are; without one, those of all laws are known, and its own is missed below.
+  const YAML::Node law = value.is_map() ? value.node()["law"] : YAML::Node();
+  if (value.is_map() && law && law.IsScalar()) {
+    const LawSection& section = find_section(value.child(law, "law"));
+    keys.insert(keys.end(), section.keys.begin(), section.keys.end());
+  } else if (value.is_map()) {
+    for (const LawSection& section : law_sections()) keys.insert(keys.end(), section.keys.begin(), section.keys.end());
   }
   const Map map(value, keys, later_keys());
   MaterialDefinition material;
   material.name = map.at("name").name();
   material.density = map.at("density").number(kDensity);
-  switch (map.at("law").choice(kLaws, later_laws())) {
-    case 0:
-      material.law = LinearElasticDefinition{read_elasticity(map)};
-      break;
-    case 1:
-      material.law = NeoHookeanDefinition{read_elasticity(map)};
-      break;
-    case 2:
-      material.law = read_drucker_prager(map, scene);
-      break;
-    default:
-      material.law = read_soil<MohrCoulombDefinition>(map);
-  }
+  material.law = find_section(map.at("law")).read(map, scene);
   try {
     check(material);
   } catch (const MaterialError& error) {

@@ -75,6 +75,7 @@ const std::array kUnits = {
     NamedUnit{"nJ", {1e-9, kEnergy}},
     NamedUnit{"erg", {1e-7, kEnergy}},
     NamedUnit{"W", {1.0, kPower}},
+    NamedUnit{"K", {1.0, kTemperature}},
     NamedUnit{"%", {0.01, kPlain}},
 };
 
@@ -98,6 +99,8 @@ const std::array kDimensions = {
     DimensionText{kForce, "a force", "3 N"},
     DimensionText{kEnergy, "an energy", "3 J"},
     DimensionText{kPower, "a power", "3 W"},
+    DimensionText{kViscosity, "a viscosity", "1 Pa s"},
+    DimensionText{kTemperature, "a temperature", "293 K"},
 };
 
 std::string base_units(const Dimension& dimension) {
@@ -111,6 +114,7 @@ std::string base_units(const Dimension& dimension) {
   add("kg", dimension.mass);
   add("s", dimension.time);
   add("rad", dimension.angle);
+  add("K", dimension.temperature);
   return text;
 }
 
@@ -188,7 +192,8 @@ class UnitParser {
     const Dimension& p = a.dimension;
     const Dimension& q = b.dimension;
     return {a.factor * std::pow(b.factor, power),
-            {p.length + power * q.length, p.mass + power * q.mass, p.time + power * q.time, p.angle + power * q.angle}};
+            {p.length + power * q.length, p.mass + power * q.mass, p.time + power * q.time, p.angle + power * q.angle,
+             p.temperature + power * q.temperature}};
   }
 
   static bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }

@@ -1,0 +1,112 @@
+// Metal: J2 (von Mises) plasticity with isotropic hardening at finite strain. The isochoric elastic left Cauchy-Green
+// tensor b gives s = dev tau = G dev b; trial state by the increment, radial return of s to the Mises stress
+// sigma_y(a) = yield + H a + (saturation - yield) (1 - exp(-rate a)) (linear and Voce). Pressure is that of
+// neo_hookean.hpp, so below yield the law is that one. Source: Simo & Hughes, Computational Inelasticity, box 9.1. Why
+// not logarithmic strain: this needs no principal directions, is exactly hyperelastic, so that closed elastic cycles
+// leave nothing behind, and its b comes back from the stress, so that a particle stores no strain beside it.
+// Two things differ from box 9.1. tr b is what det b = 1 asks for (isochoric.hpp), where the box keeps that of the
+// trial state, which grows without end under plastic flow. And the return's modulus is such that plastic strain times
+// Mises stress is exactly the elastic energy that flow releases: with I1, I2 and J2, J3 the invariants of b and dev b
+// it is G 2 J2 I2 / (I1 I2 - 9), I1 I2 - 9 = 3 (2 J2 tr(b)/3 - 3 J3), and tends to the box's G tr(b)/3 for small
+// elastic strain. Weak: yields on Kirchhoff stress (Cauchy stress at yield is sigma_y / J); no rate or temperature, no
+// kinematic hardening.
+#pragma once
+
+#include <cmath>
+
+#include "mpm/material/definition.hpp"
+#include "mpm/material/increment.hpp"
+#include "mpm/material/isochoric.hpp"
+#include "mpm/material/neo_hookean.hpp"
+
+namespace mpm {
+
+class J2Plasticity : public LawTraits {
+ public:
+  static constexpr int kHistory = 2;
+  static constexpr int kPlasticStrain = 0;
+  static constexpr int kPlasticWork = 1;
+
+  J2Plasticity(const J2PlasticityDefinition& d, double density)
+      : density_(density),
+        bulk_(d.elasticity.bulk()),
+        shear_(d.elasticity.shear()),
+        yield_(d.yield_stress),
+        hardening_(d.hardening_modulus),
+        voce_(d.saturation_rate > 0.0 ? d.saturation_stress - d.yield_stress : 0.0),
+        rate_(d.saturation_rate) {}
+
+  template <class T, class Matrix, class Symmetric>
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const* history, int p) const {
+    const T shear = T(shear_);
+    Symmetric deviator = stretch_isochoric(step.df, step.j / step.j_old, elastic_deviator<T>(tau));
+    const T j2 = T(0.5) * squared_norm(deviator);
+    const T mises = shear * std::sqrt(T(3) * j2);
+    T& strain = history[kPlasticStrain][p];
+    const T before = strength(strain);
+    if (mises > before) {
+      const T j3 = determinant(deviator);
+      const T mean = T(1) + isochoric_excess(j2, j3);
+      const T modulus = T(2) * shear * j2 * (T(3) * mean * mean - j2) / (T(2) * mean * j2 - T(3) * j3);
+      const T flow = plastic_increment(mises, modulus, strain);
+      const T after = mises - modulus * flow;
+      deviator = scale_shift(deviator, after / mises, T(0));
+      strain += flow;
+      history[kPlasticWork][p] += T(0.5) * (before + after) * flow / T(density_);
+    }
+    const T inverse_density = T(1.0 / density_);
+    tau =
+        scale_shift(deviator, shear * inverse_density, T(0.5) * T(bulk_) * (step.j * step.j - T(1)) * inverse_density);
+  }
+
+  template <class Matrix, class Symmetric>
+  double elastic_energy(const Matrix&, const Symmetric& tau, double j) const {
+    const double excess = isochoric_excess(elastic_deviator<double>(tau));
+    return (NeoHookean::volume_energy(j, bulk_) + 1.5 * shear_ * excess) / density_;
+  }
+
+  /// Of the elastic response; plastic flow is slower.
+  double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double j) const {
+    const Symmetric3<double> deviator = elastic_deviator<double>(tau);
+    const ShearWaves waves(scale_shift(deviator, 1.0, 1.0 + isochoric_excess(deviator)), shear_ / j);
+    return std::sqrt(waves.stiffest(NeoHookean::volume_stiffness(j, bulk_)) * j / density_);
+  }
+  double density() const { return density_; }
+
+ private:
+  template <class T, class Symmetric>
+  Symmetric elastic_deviator(const Symmetric& tau) const {
+    const T scale = T(density_ / shear_);
+    return scale_shift(tau, scale, -scale * trace(tau) / T(3));
+  }
+
+  template <class T>
+  T strength(T strain) const {
+    T sigma = T(yield_) + T(hardening_) * strain;
+    if (voce_ > 0.0) sigma += T(voce_) * (T(1) - std::exp(T(-rate_) * strain));
+    return sigma;
+  }
+
+  /// Root of mises - modulus x = sigma_y(strain + x). The left side less the right one falls and is convex, so Newton's
+  /// method comes to it from below; one step without Voce's part.
+  template <class T>
+  T plastic_increment(T mises, T modulus, T strain) const {
+    constexpr int kSteps = 30;
+    T x = T(0);
+    for (int i = 0; i < kSteps; ++i) {
+      const T excess = mises - modulus * x - strength(strain + x);
+      if (excess <= T(1e-14) * mises) break;
+      T slope = modulus + T(hardening_);
+      if (voce_ > 0.0) slope += T(voce_ * rate_) * std::exp(T(-rate_) * (strain + x));
+      x += excess / slope;
+    }
+    return x;
+  }
+
+  double density_, bulk_, shear_;
+  double yield_, hardening_;
+  double voce_;  ///< saturation less yield [Pa]
+  double rate_;
+};
+
+}  // namespace mpm

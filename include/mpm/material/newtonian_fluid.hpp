@@ -1,0 +1,62 @@
+// Weakly compressible Newtonian fluid: pressure by Tait's equation p = K/n (J^-n - 1), n = 7 for water, 1 for a linear
+// one, and viscous stress 2 mu dev(d), d the rate of deformation over the step. Only J of the deformation gradient is
+// kept. Without tension (a free surface) p is cut at zero: spray expands freely, and must come back to its density
+// before it carries pressure. Viscous work counts as dissipated. Weak: J of each particle is an integral of grad v and
+// drifts from the particles' real spacing in long sloshing; a lower bulk modulus than the real one is usual, and its
+// Mach number is the user's to keep small. Source: Monaghan (1994), J. Comput. Phys. 110 (Tait's form).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/material/definition.hpp"
+#include "mpm/material/increment.hpp"
+
+namespace mpm {
+
+class NewtonianFluid : public LawTraits {
+ public:
+  static constexpr int kHistory = 1;
+  static constexpr int kPlasticWork = 0;  ///< of the viscous stress
+  static constexpr bool kForgetsShape = true;
+
+  NewtonianFluid(const NewtonianFluidDefinition& d, double density)
+      : density_(density), bulk_(d.bulk_modulus), exponent_(d.exponent), viscosity_(d.viscosity), tension_(d.tension) {}
+
+  template <class T, class Matrix, class Symmetric>
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const* history, int p) const {
+    T pressure = T(bulk_ / exponent_) * (std::pow(step.j, T(-exponent_)) - T(1));
+    if (!tension_) pressure = std::max(pressure, T(0));
+    const Symmetric strain = symmetric_part(step.du);
+    const T volume = step.j / T(density_);  // [m^3/kg]
+    const T twice_viscosity = T(2.0 * viscosity_) / step.dt * volume;
+    const T mean = trace(strain) / T(3);
+    tau = scale_shift(strain, twice_viscosity, -twice_viscosity * mean - pressure * volume);
+    history[kPlasticWork][p] += twice_viscosity * (squared_norm(strain) - T(3) * mean * mean);
+  }
+
+  /// -integral of p dJ from 1 [J/kg].
+  template <class Matrix, class Symmetric>
+  double elastic_energy(const Matrix&, const Symmetric&, double j) const {
+    if (!tension_ && j > 1.0) return 0.0;
+    const double logarithm = std::log(j), power = 1.0 - exponent_;
+    const double expansion = power == 0.0 ? logarithm : std::expm1(power * logarithm) / power;
+    return bulk_ / exponent_ * ((j - 1.0) - expansion) / density_;
+  }
+
+  /// Of pressure. Where tension is cut there is none: that of the fluid's own density stands in, for it may close
+  /// again.
+  double wave_speed(const Matrix3<double>&, const Symmetric3<double>&, double j) const {
+    const double closed = tension_ ? j : std::min(j, 1.0);
+    return std::sqrt(bulk_ * std::pow(closed, 1.0 - exponent_) / density_);
+  }
+  /// Of the longitudinal motion, the fastest.
+  double diffusivity(double j) const { return 4.0 / 3.0 * viscosity_ * j / density_; }
+  double density() const { return density_; }
+
+ private:
+  double density_, bulk_, exponent_, viscosity_;
+  bool tension_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,87 @@
+// Viscoelastic solid for foam and tissue, the standard linear solid at finite strain: the neo-Hookean solid of the
+// long-term constants beside one Maxwell branch, a spring of shear modulus G1 in line with a dashpot,
+//
+//   tau = K/2 (J^2 - 1) I + G dev B* + G1 dev b,   b stretched with the material, dev b' = -dev b / T
+//
+// with B* = J^(-2/3) F F^T and b isochoric (isochoric.hpp). Relaxation takes half of its time before the stretch of a
+// step and half after it: second order in the step, stable for any, and exact while strain is held. Volume does not
+// relax. b is what the stress has over that of the long-term spring, so none is stored; energy that the branch loses
+// counts as dissipated. Weak: one relaxation time; isothermal.
+// Source: Reese & Govindjee (1998), Int. J. Solids Struct. 35, for the decomposition; theirs relaxes logarithmic
+// strain, the same to first order in the branch's strain.
+#pragma once
+
+#include <cmath>
+
+#include "mpm/material/definition.hpp"
+#include "mpm/material/increment.hpp"
+#include "mpm/material/isochoric.hpp"
+#include "mpm/material/neo_hookean.hpp"
+
+namespace mpm {
+
+class StandardLinearSolid : public LawTraits {
+ public:
+  static constexpr int kHistory = 1;
+  static constexpr int kPlasticWork = 0;  ///< lost in the dashpot
+
+  StandardLinearSolid(const StandardLinearSolidDefinition& d, double density)
+      : density_(density),
+        bulk_(d.elasticity.bulk()),
+        shear_(d.elasticity.shear()),
+        branch_(d.branch_modulus),
+        relaxation_time_(d.relaxation_time) {}
+
+  template <class T, class Matrix, class Symmetric>
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const* history, int p) const {
+    const T ratio = step.j / step.j_old;
+    const Matrix f_old = product(inverse(step.df, ratio), step.f);
+    const T half = std::exp(T(-0.5 / relaxation_time_) * step.dt);
+    Symmetric branch = branch_deviator(isochoric_deviator(f_old, step.j_old), tau);
+    T lost = T(0);
+    const auto relax = [&] {
+      lost += isochoric_excess(branch);
+      branch = scale_shift(branch, half, T(0));
+      lost -= isochoric_excess(branch);
+    };
+    relax();
+    branch = stretch_isochoric(step.df, ratio, branch);
+    relax();
+    const T inverse_density = T(1.0 / density_);
+    history[kPlasticWork][p] += T(1.5 * branch_) * lost * inverse_density;
+    const T volumetric = T(0.5) * T(bulk_) * (step.j * step.j - T(1)) * inverse_density;
+    tau = sum(scale_shift(isochoric_deviator(step.f, step.j), T(shear_) * inverse_density, volumetric),
+              scale_shift(branch, T(branch_) * inverse_density, T(0)));
+  }
+
+  template <class Matrix, class Symmetric>
+  double elastic_energy(const Matrix& f, const Symmetric& tau, double j) const {
+    const Symmetric deviator = isochoric_deviator(f, j);
+    const double shear = shear_ * isochoric_excess(deviator);
+    const double branch = branch_ * isochoric_excess(branch_deviator(deviator, tau));
+    return (NeoHookean::volume_energy(j, bulk_) + 1.5 * (shear + branch)) / density_;
+  }
+
+  /// Of the response without time to relax.
+  double wave_speed(const Matrix3<double>& f, const Symmetric3<double>& tau, double j) const {
+    const Symmetric3<double> deviator = isochoric_deviator(f, j), branch = branch_deviator(deviator, tau);
+    const auto with_mean = [](const Symmetric3<double>& d) { return scale_shift(d, 1.0, 1.0 + isochoric_excess(d)); };
+    const ShearWaves waves = ShearWaves(with_mean(deviator), shear_ / j) + ShearWaves(with_mean(branch), branch_ / j);
+    return std::sqrt(waves.stiffest(NeoHookean::volume_stiffness(j, bulk_)) * j / density_);
+  }
+  double density() const { return density_; }
+
+ private:
+  template <class Symmetric>
+  Symmetric branch_deviator(const Symmetric& long_term, const Symmetric& tau) const {
+    using T = decltype(trace(tau));
+    const T scale = T(density_ / branch_);
+    return sum(scale_shift(tau, scale, -scale * trace(tau) / T(3)), scale_shift(long_term, T(-shear_ / branch_), T(0)));
+  }
+
+  double density_, bulk_, shear_;
+  double branch_;           ///< G1 [Pa]
+  double relaxation_time_;  ///< [s]
+};
+
+}  // namespace mpm

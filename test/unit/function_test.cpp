@@ -57,6 +57,25 @@ TEST(Function, CopiesAreValues) {
   EXPECT_EQ(copy.text(), "t");
 }
 
+TEST(Function, ReadsThePlaceAtTheStartWhereToldTo) {
+  const Function f = Function::parse("x - X + 10*(y - Y) + Z", {1.0, 1.0, 1e-3}, FunctionPlaces::present_and_start);
+  EXPECT_TRUE(f.uses_start());
+  // Places in mm: (3 - 1) + 10 (5 - 2) + 7.
+  EXPECT_NEAR(f(0.0, Vec3(3e-3, 5e-3, 0), Vec3(1e-3, 2e-3, 7e-3)), 39.0, 1e-13);
+  EXPECT_FALSE(Function::parse("x", {}, FunctionPlaces::present_and_start).uses_start());
+  EXPECT_FALSE(Function(2.0).uses_start());
+  EXPECT_NE(refusal("X").find("unknown name 'X'; write 'x'"), std::string::npos) << refusal("X");
+}
+
+TEST(Function, AnOwnCopyIsTheSameFunction) {
+  const Function f = Function::parse("t*x + X", {2.0, 3.0, 4.0}, FunctionPlaces::present_and_start);
+  const Function copy = f.own_copy();
+  const Vec3 place(1.0, 2.0, 3.0), start(5.0, 6.0, 7.0);
+  EXPECT_EQ(copy(0.7, place, start), f(0.7, place, start));
+  EXPECT_EQ(copy.text(), f.text());
+  EXPECT_EQ(Function(3.0).own_copy()(0.0), 3.0);
+}
+
 TEST(Function, NamesAnUnknownVariableWithAHint) {
   EXPECT_NE(refusal("2*time").find("unknown name 'time'; write 't'"), std::string::npos) << refusal("2*time");
   EXPECT_NE(refusal("q + 1").find("unknown name 'q'; an expression may use t, x, y, z"), std::string::npos);

@@ -104,7 +104,6 @@ TEST(SceneBadInput, UnknownWordsSuggestTheNearest) {
 }
 
 TEST(SceneBadInput, WhatIsNotBuiltYetSaysSo) {
-  expect_refused(28, "loads: []", "loads: not built yet; use gravity");
   expect_refused(28, "transport: {}", "transport: not built yet;");
   expect_refused(28, "cracks: {}", "cracks: not built yet;");
   expect_refused(1, "geometry: axisymmetric", "geometry: 'axisymmetric' is not built yet; use solid");

@@ -24,7 +24,7 @@ namespace {
 
 using mpm::Vec3;
 
-// Soil at rest on a wall, touched by a box that moves along its surface.
+// Soil at rest on a wall, touched by a box that moves along its surface and shaken by a load that is a function.
 long allocations_of_a_period(double step) {
   mpm::SimulationDefinition d;
   const double h = 0.1;
@@ -50,6 +50,7 @@ long allocations_of_a_period(double step) {
   tool.pose.position = {0.3, 0.3, 0.79};
   tool.velocity[0] = mpm::Function(0.1);
   d.rigid_bodies = {tool};
+  d.body_forces = {{"", {mpm::Function::parse("sin(9*t)*X", {}, mpm::FunctionPlaces::present_and_start)}}};
   mpm::Simulation simulation(d, {1});
   for (int i = 0; i < 3; ++i) simulation.advance();
   const long before = allocations;

@@ -1,4 +1,5 @@
-// A scalar of time and place: a constant, or an expression in t and x, y, z parsed once by muParser.
+// A scalar of time and place: a constant, or an expression in t and x, y, z parsed once by muParser. What acts on
+// moving material may also use X, Y, Z, the place that the material had at the start.
 #pragma once
 
 #include <memory>
@@ -22,8 +23,11 @@ struct FunctionUnits {
   double length = 1.0;  ///< [m]
 };
 
+/// Which places an expression may use: x, y, z alone, or X, Y, Z beside them.
+enum class FunctionPlaces { present, present_and_start };
+
 /// Value-semantic and cheap to copy; evaluation allocates nothing. Copies share one parsed expression: evaluate them
-/// from one thread at a time.
+/// from one thread at a time, or give each thread its own_copy().
 class Function {
  public:
   /// The constant 0.
@@ -33,11 +37,18 @@ class Function {
   /// An expression in t, x, y, z with muParser's operators and functions, `pi` and `e`; t and the place are given to it
   /// in `units`, and its result is read in them.
   /// @throws FunctionError when it does not parse, or names an unknown variable.
-  static Function parse(const std::string& expression, const FunctionUnits& units = {});
+  static Function parse(const std::string& expression, const FunctionUnits& units = {},
+                        FunctionPlaces places = FunctionPlaces::present);
 
   /// In SI, at t [s] and place [m]. @throws FunctionError when the value is not finite.
-  double operator()(double t, const Vec3& place = Vec3::Zero()) const;
+  double operator()(double t, const Vec3& place = Vec3::Zero()) const { return (*this)(t, place, place); }
+  /// The same where `start` [m] is the place at the start: X, Y, Z.
+  double operator()(double t, const Vec3& place, const Vec3& start) const;
   bool is_constant() const { return expression_ == nullptr; }
+  /// Whether the value depends on X, Y or Z.
+  bool uses_start() const;
+  /// The same function with a parsed expression of its own.
+  Function own_copy() const;
   /// The expression, or the constant in SI, as text.
   std::string text() const;
 

@@ -6,7 +6,8 @@
 //   scatter_force       tile of f             <-  -m tau G                          GIMP notes (1.26)
 //   gather_motion       v, x of the particles <-  tile of v and a, by S             GIMP notes (2.15), (2.16)
 //
-// USAVG adds scatter_velocity and a second gather_gradient and law with half the time step each.
+// USAVG adds scatter_velocity and a second gather_gradient and law with half the time step each; loads on particles add
+// scatter_load.
 // Particles of one body and one block are a chunk at a time, [begin, begin + count) of its arrays.
 #pragma once
 
@@ -38,6 +39,25 @@ struct BlockKernels {
     const GridLayout& layout;
     std::array<int, 3> corner;  ///< node numbers of the tile's lower corner
   };
+
+  /// pass(block, owner, its neighbours) for every block that holds particles, a colour after the other.
+  template <class Pass>
+  static void each_owner(const Grid& grid, int threads, Pass&& pass) {
+    const BlockTable& blocks = grid.blocks;
+    for (int colour = 0; colour < blocks.colours(); ++colour) {
+      const std::vector<int>& owners = blocks.owners_of_colour(colour);
+      const int count = static_cast<int>(owners.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+      for (int i = 0; i < count; ++i) {
+        const int owner = owners[i];
+        Block block{grid.layout, {}};
+        for (int k = 0; k < kDim; ++k) {
+          block.corner[k] = blocks.block(blocks.owner_block(owner))[k] * kBlockEdge - kTileMargin;
+        }
+        pass(block, owner, blocks.neighbours(owner));
+      }
+    }
+  }
 
   /// Momentum [N s] and, last, mass [kg].
   static void scatter_momentum(const Block& block, const ParticleSet& set, int begin, int end, MassMomentumTile& tile) {
@@ -142,6 +162,17 @@ struct BlockKernels {
           }
         }
       });
+    }
+  }
+
+  /// External force [N] from an acceleration [m/s^2] of each particle of the set: sum of m b S_ip, GIMP notes (1.27).
+  static void scatter_load(const Block& block, const ParticleSet& set, const std::vector<std::vector<double>>& b,
+                           int begin, int end, VectorTile& tile) {
+    for (int p = begin; p < end; ++p) {
+      const Weights w(block.layout, set, block.corner, p);
+      double value[kDim];
+      for (int c = 0; c < kDim; ++c) value[c] = set.mass * b[c][p];
+      scatter_values<kDim>(w, value, tile.data);
     }
   }
 

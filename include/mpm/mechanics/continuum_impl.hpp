@@ -102,20 +102,7 @@ class Continuum final : public Mechanics {
  private:
   template <class Pass>
   void each_owner(const Grid& grid, Pass&& pass) {
-    const BlockTable& blocks = grid.blocks;
-    for (int colour = 0; colour < blocks.colours(); ++colour) {
-      const std::vector<int>& owners = blocks.owners_of_colour(colour);
-      const int count = static_cast<int>(owners.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(settings_.threads)
-      for (int i = 0; i < count; ++i) {
-        const int owner = owners[i];
-        typename Kernels::Block block{grid.layout, {}};
-        for (int k = 0; k < kDim; ++k) {
-          block.corner[k] = blocks.block(blocks.owner_block(owner))[k] * kBlockEdge - kTileMargin;
-        }
-        pass(block, owner, blocks.neighbours(owner));
-      }
-    }
+    Kernels::each_owner(grid, settings_.threads, pass);
   }
 
   template <class Pass>

@@ -1,7 +1,7 @@
 // The particles of one deformable body: structure of arrays, one material, equal mass, kept sorted by grid block.
 //
 // What a body's scene does not need is not stored: history exists as its law asks for it, the second position only when
-// the update scheme updates strain after the motion.
+// the update scheme updates strain after the motion, the place at the start only when a load is a function of it.
 #pragma once
 
 #include <array>
@@ -24,7 +24,8 @@ struct ParticleSet {
   std::vector<std::vector<double>> f;    ///< deformation gradient, stored components
   std::vector<std::vector<double>> tau;  ///< Kirchhoff stress over initial density [J/kg]; GIMP notes (1.24)
   std::vector<std::vector<double>> history;
-  std::vector<std::vector<double>> next_x;  ///< position at the end of the step, when strain is updated after motion
+  std::vector<std::vector<double>> start_x;  ///< position at the start of the run [m]
+  std::vector<std::vector<double>> next_x;   ///< position at the end of the step, when strain is updated after motion
 
   /// First particle of each owner block, and one past the last particle.
   std::vector<std::uint32_t> begin;
@@ -33,7 +34,7 @@ struct ParticleSet {
   /// Calls `visit(std::vector<double>&)` for every stored scalar but next_x.
   template <class Visit>
   void each_scalar(Visit&& visit) {
-    for (auto* group : {&x, &v, &f, &tau, &history}) {
+    for (auto* group : {&x, &v, &f, &tau, &history, &start_x}) {
       for (auto& scalar : *group) visit(scalar);
     }
   }

@@ -57,11 +57,11 @@ class Value {
   std::string name() const;
   /// The index of the word in `words`.
   std::size_t choice(const std::vector<std::string>& words, const std::vector<Later>& later = {}) const;
-  /// A number, a quantity, or an expression of t, x, y, z in the scene's units.
-  Function function(const Dimension& dimension) const;
+  /// A number, a quantity, or an expression of t, x, y, z (and X, Y, Z where told) in the scene's units.
+  Function function(const Dimension& dimension, FunctionPlaces places = FunctionPlaces::present) const;
   /// Three components, or two (x, z) in planar scenes, where y is 0.
   Vec3 vector(const Dimension& dimension) const;
-  std::array<Function, 3> functions(const Dimension& dimension) const;
+  std::array<Function, 3> functions(const Dimension& dimension, FunctionPlaces places = FunctionPlaces::present) const;
   /// Exactly three components, in planar scenes too (rotations).
   std::array<Function, 3> three_functions(const Dimension& dimension) const;
   /// The elements of a list.

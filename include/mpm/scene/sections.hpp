@@ -24,6 +24,8 @@ void read_bodies(const Map& root, Scene& scene);
 void read_rigid_bodies(const Map& root, Scene& scene);
 /// `boundaries`
 void read_boundaries(const Map& root, Scene& scene);
+/// `loads`, after bodies
+void read_loads(const Map& root, Scene& scene);
 /// `time` and `output`: sync points and snapshots are chosen together
 void read_time_and_output(const Map& root, Scene& scene);
 /// `metrics`, after bodies

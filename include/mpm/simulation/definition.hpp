@@ -49,6 +49,12 @@ struct DeformableBody {
   double particle_volume = 0.0;  ///< initial volume of one particle [m^3]
 };
 
+/// An acceleration of the material as a function of time, place and place at the start (mechanics/body_force.hpp).
+struct BodyForceDefinition {
+  std::string body;                      ///< deformable body that it acts on; all when empty
+  std::array<Function, 3> acceleration;  ///< [m/s^2]
+};
+
 enum class Statistic { mean, std_dev, min, max };
 /// A number of the summary: a statistic of a particle field over one body (or all, when `body` is empty).
 struct MetricDefinition {
@@ -70,6 +76,7 @@ struct SimulationDefinition {
   std::vector<DeformableBody> bodies;
   std::vector<RigidBodyDefinition> rigid_bodies;
   std::array<WallDefinition, 6> walls;
+  std::vector<BodyForceDefinition> body_forces;
   std::vector<MetricDefinition> metrics;
 };
 

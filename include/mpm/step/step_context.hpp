@@ -7,7 +7,8 @@ namespace mpm {
 
 struct StepContext {
   Grid& grid;
-  double dt;  ///< [s]
+  double dt;           ///< [s]
+  double start = 0.0;  ///< when the step begins [s]
 };
 
 /// A node by its block and its place in it.

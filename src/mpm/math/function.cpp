@@ -11,16 +11,26 @@ namespace mpm {
 struct Function::Expression {
   std::string text;
   FunctionUnits units;
-  double t = 0.0, x = 0.0, y = 0.0, z = 0.0;  // the parser reads these through pointers
+  FunctionPlaces places;
+  bool uses_start = false;
+  double t = 0.0;  // the parser reads these through pointers
+  std::array<double, 3> place{}, start{};
   mu::Parser parser;
 };
 
 namespace {
 
-constexpr const char* kVariables = "an expression may use t, x, y, z, pi, e and functions such as sin(...)";
+constexpr std::array<const char*, 3> kPlace = {"x", "y", "z"};
+constexpr std::array<const char*, 3> kStart = {"X", "Y", "Z"};
+
+const char* variables(FunctionPlaces places) {
+  return places == FunctionPlaces::present
+             ? "an expression may use t, x, y, z, pi, e and functions such as sin(...)"
+             : "an expression may use t, x, y, z, X, Y, Z, pi, e and functions such as sin(...)";
+}
 
 // What people write by habit from other programs, and what it is called here.
-std::string hint(const std::string& token) {
+std::string hint(const std::string& token, FunctionPlaces places) {
   static constexpr std::array<std::array<const char*, 2>, 8> kHabits = {{{"time", "t"},
                                                                          {"T", "t"},
                                                                          {"X", "x"},
@@ -32,31 +42,35 @@ std::string hint(const std::string& token) {
   for (const auto& [habit, name] : kHabits) {
     if (token == habit) return fmt::format("write '{}'", name);
   }
-  return kVariables;
+  return variables(places);
 }
 
 }  // namespace
 
-Function Function::parse(const std::string& expression, const FunctionUnits& units) {
+Function Function::parse(const std::string& expression, const FunctionUnits& units, FunctionPlaces places) {
   auto parsed = std::make_shared<Expression>();
   parsed->text = expression;
   parsed->units = units;
+  parsed->places = places;
   mu::Parser& parser = parsed->parser;
   try {
     parser.DefineVar("t", &parsed->t);
-    parser.DefineVar("x", &parsed->x);
-    parser.DefineVar("y", &parsed->y);
-    parser.DefineVar("z", &parsed->z);
+    for (int k = 0; k < 3; ++k) {
+      parser.DefineVar(kPlace[k], &parsed->place[k]);
+      if (places == FunctionPlaces::present_and_start) parser.DefineVar(kStart[k], &parsed->start[k]);
+    }
     parser.DefineConst("pi", M_PI);
     parser.DefineConst("e", M_E);
     parser.SetExpr(expression);
     parser.Eval();
+    for (const char* name : kStart) parsed->uses_start = parsed->uses_start || parser.GetUsedVar().count(name) > 0;
   } catch (const mu::ParserError& error) {
     if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && !error.GetToken().empty()) {
-      throw FunctionError(
-          fmt::format("expression '{}': unknown name '{}'; {}", expression, error.GetToken(), hint(error.GetToken())));
+      throw FunctionError(fmt::format("expression '{}': unknown name '{}'; {}", expression, error.GetToken(),
+                                      hint(error.GetToken(), places)));
     }
-    throw FunctionError(fmt::format("expression '{}' does not parse: {} {}", expression, error.GetMsg(), kVariables));
+    throw FunctionError(
+        fmt::format("expression '{}' does not parse: {} {}", expression, error.GetMsg(), variables(places)));
   }
   if (parser.GetNumResults() != 1) {
     throw FunctionError(fmt::format("expression '{}' has {} values, separated by commas; write one", expression,
@@ -67,14 +81,15 @@ Function Function::parse(const std::string& expression, const FunctionUnits& uni
   return function;
 }
 
-double Function::operator()(double t, const Vec3& place) const {
+double Function::operator()(double t, const Vec3& place, const Vec3& start) const {
   if (is_constant()) return constant_;
   Expression& parsed = *expression_;
   const FunctionUnits& units = parsed.units;
   parsed.t = t / units.time;
-  parsed.x = place.x() / units.length;
-  parsed.y = place.y() / units.length;
-  parsed.z = place.z() / units.length;
+  for (int k = 0; k < 3; ++k) {
+    parsed.place[k] = place[k] / units.length;
+    parsed.start[k] = start[k] / units.length;
+  }
   double value = std::nan("");
   try {
     value = parsed.parser.Eval() * units.value;
@@ -87,6 +102,12 @@ double Function::operator()(double t, const Vec3& place) const {
         parsed.text, t, place.x(), place.y(), place.z()));
   }
   return value;
+}
+
+bool Function::uses_start() const { return expression_ != nullptr && expression_->uses_start; }
+
+Function Function::own_copy() const {
+  return is_constant() ? *this : parse(expression_->text, expression_->units, expression_->places);
 }
 
 std::string Function::text() const { return is_constant() ? fmt::format("{}", constant_) : expression_->text; }

@@ -1,4 +1,5 @@
 #include "mpm/math/dimension.hpp"
+#include "mpm/mechanics/body_force_impl.hpp"
 #include "mpm/mechanics/continuum_impl.hpp"
 #include "mpm/mechanics/instances.hpp"
 #include "mpm/shape/ugimp.hpp"
@@ -8,6 +9,11 @@ namespace mpm {
 std::unique_ptr<Mechanics> make_plane_strain_ugimp(std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
                                                    const ContinuumSettings& settings) {
   return std::make_unique<Continuum<PlaneStrain, Ugimp>>(sets, laws, settings);
+}
+
+std::unique_ptr<BodyForce> make_plane_strain_ugimp_load(const std::vector<ParticleSet>& sets,
+                                                        const std::vector<BodyForceTerm>& terms, int threads) {
+  return std::make_unique<ParticleLoad<PlaneStrain, Ugimp>>(sets, terms, threads);
 }
 
 }  // namespace mpm

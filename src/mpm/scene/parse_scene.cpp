@@ -10,7 +10,6 @@ namespace {
 
 const std::vector<Later>& later_sections() {
   static const std::vector<Later> sections = {
-      {"loads", "use gravity, boundaries or moving rigid_bodies"},
       {"transport", "leave it out: a run is mechanical, without heat, diffusion or pore pressure"},
       {"cracks", "leave it out: bodies are whole"}};
   return sections;
@@ -63,7 +62,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   const Value top(context, source.root(), "");
   const Map root(top,
                  {"name", "units", "geometry", "thickness", "grid", "time", "method", "gravity", "materials", "bodies",
-                  "rigid_bodies", "contact", "boundaries", "output", "metrics"},
+                  "rigid_bodies", "contact", "boundaries", "loads", "output", "metrics"},
                  later_sections());
   Scene scene;
   scene.path = label;
@@ -89,6 +88,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_bodies(root, scene);
   read_rigid_bodies(root, scene);
   read_boundaries(root, scene);
+  read_loads(root, scene);
   read_time_and_output(root, scene);
   read_metrics(root, scene);
   return scene;

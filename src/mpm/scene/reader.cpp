@@ -112,7 +112,7 @@ std::size_t Value::choice(const std::vector<std::string>& words, const std::vect
       nearest(word, words).empty() ? fmt::format("write one of {}", fmt::join(words, ", ")) : suggest(word, words)));
 }
 
-Function Value::function(const Dimension& dimension) const {
+Function Value::function(const Dimension& dimension, FunctionPlaces places) const {
   const std::string word = text();
   double number = 0.0;
   std::string rest;
@@ -122,7 +122,7 @@ Function Value::function(const Dimension& dimension) const {
   if (starts_with_number && (rest.empty() || has_unit)) return {this->number(dimension)};
   const UnitSystem& units = context_->units;
   try {
-    return Function::parse(word, {units.factor(dimension), units.time, units.length});
+    return Function::parse(word, {units.factor(dimension), units.time, units.length}, places);
   } catch (const FunctionError& error) {
     fail(fmt::format("{}; write {}, such as {}, or an expression", error.what(), describe(dimension),
                      example(dimension)));
@@ -145,10 +145,11 @@ Vec3 Value::vector(const Dimension& dimension) const {
   return {parts[0].number(dimension), parts[1].number(dimension), parts[2].number(dimension)};
 }
 
-std::array<Function, 3> Value::functions(const Dimension& dimension) const {
+std::array<Function, 3> Value::functions(const Dimension& dimension, FunctionPlaces places) const {
   const std::vector<Value> parts = components();
-  if (context_->planar) return {parts[0].function(dimension), Function(), parts[1].function(dimension)};
-  return {parts[0].function(dimension), parts[1].function(dimension), parts[2].function(dimension)};
+  const auto read = [&](std::size_t i) { return parts[i].function(dimension, places); };
+  if (context_->planar) return {read(0), Function(), read(1)};
+  return {read(0), read(1), read(2)};
 }
 
 std::array<Function, 3> Value::three_functions(const Dimension& dimension) const {

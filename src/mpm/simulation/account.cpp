@@ -82,6 +82,7 @@ SolverState Simulation::state() const {
   report.energy.elastic = sum([&](const ParticleSet& set, int p) { return elastic_energy(set, law(set), dim, p); });
   report.energy.plastic = sum([&](const ParticleSet& set, int p) { return plastic_work(set, law(set), p); });
   for (const RigidContact* contact : s.contacts) report.energy.contact_work += contact->work();
+  if (s.body_force != nullptr) report.energy.load_work = s.body_force->work();
 
   AuditReport& audit = report.audit;
   audit.momentum = sum_particles(s.sets, s.threads, Vec3(Vec3::Zero()), [&](const ParticleSet& set, int p) {

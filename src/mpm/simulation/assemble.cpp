@@ -7,6 +7,7 @@
 
 #include "mpm/boundary/grid_damping.hpp"
 #include "mpm/boundary/wall.hpp"
+#include "mpm/material/material_point.hpp"
 #include "mpm/math/dimension.hpp"
 #include "state.hpp"
 
@@ -23,6 +24,14 @@ const MaterialDefinition& find_material(const SimulationDefinition& definition, 
     if (material.name == body.material) return material;
   }
   throw DefinitionError(fmt::format("body '{}': no material is called '{}'", body.name, body.material));
+}
+
+// Some laws are under stress where nothing is deformed: a gas.
+void start_stress(ParticleSet& set, const MaterialDefinition& material, int dim) {
+  const Symmetric3<double> s = MaterialPoint(material).tau();
+  const std::vector<double> start =
+      dim == 3 ? std::vector{s.xx, s.yy, s.zz, s.yz, s.xz, s.xy} : std::vector{s.xx, s.zz, s.xz, s.yy};
+  for (const double component : start) set.tau.emplace_back(set.id.size(), component);
 }
 
 ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body, double density, const Law& law,
@@ -64,7 +73,7 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
   }
   set.f.assign(dim == 3 ? Solid::kMatrix : PlaneStrain::kMatrix, std::vector<double>(n, 0.0));
   for (int k = 0; k < dim; ++k) std::fill(set.f[k * (dim + 1)].begin(), set.f[k * (dim + 1)].end(), 1.0);
-  set.tau.assign(dim == 3 ? Solid::kSymmetric : PlaneStrain::kSymmetric, std::vector<double>(n, 0.0));
+  start_stress(set, find_material(definition, body), dim);
   set.history.assign(history_size(law), std::vector<double>(n, 0.0));
   if (definition.method.update == UpdateScheme::usavg) set.next_x.assign(dim, std::vector<double>(n));
   return set;
@@ -96,6 +105,31 @@ void make_planar(SimulationDefinition& definition) {
     body.pose = planar(body.pose, body.name);
     body.velocity[1] = body.rotation_rate[0] = body.rotation_rate[2] = Function();
   }
+  for (BodyForceDefinition& load : definition.body_forces) load.acceleration[1] = Function();
+}
+
+// Sets that a term with X, Y or Z acts on remember where their particles start.
+std::vector<BodyForceTerm> make_body_force_terms(const SimulationDefinition& definition,
+                                                 std::vector<ParticleSet>& sets) {
+  std::vector<BodyForceTerm> terms;
+  for (const BodyForceDefinition& load : definition.body_forces) {
+    BodyForceTerm term{std::nullopt, load.acceleration};
+    if (!load.body.empty()) {
+      const auto set = std::find_if(sets.begin(), sets.end(), [&](const auto& s) { return s.name == load.body; });
+      if (set == sets.end()) {
+        throw DefinitionError(
+            fmt::format("body force: no deformable body is called '{}'; name one of 'bodies'", load.body));
+      }
+      term.set = static_cast<int>(set - sets.begin());
+    }
+    const bool uses_start = std::any_of(load.acceleration.begin(), load.acceleration.end(),
+                                        [](const Function& component) { return component.uses_start(); });
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      if (uses_start && (!term.set || *term.set == static_cast<int>(s))) sets[s].start_x = sets[s].x;
+    }
+    terms.push_back(std::move(term));
+  }
+  return terms;
 }
 
 }  // namespace
@@ -164,6 +198,12 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
     if (dim == 2 && world_axis == 1) continue;
     const int grid_axis = dim == 3 ? world_axis : world_axis / 2;
     s.stages.push_back(std::make_unique<Wall>(2 * grid_axis + face % 2, definition.walls[face], kWallNames[face]));
+  }
+
+  if (!s.definition.body_forces.empty()) {
+    auto load = make_body_force(dim, s.sets, make_body_force_terms(s.definition, s.sets), s.threads);
+    s.body_force = load.get();
+    s.stages.push_back(std::move(load));
   }
 
   ContinuumSettings settings;

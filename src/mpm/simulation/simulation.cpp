@@ -46,7 +46,7 @@ void Simulation::State::sort(double now) {
 
 void Simulation::State::step(double start, double dt) {
   for (RigidBody& body : bodies) body.begin_step(start, dt);
-  StepContext context{*grid, dt};
+  StepContext context{*grid, dt, start};
   if (definition.method.update == UpdateScheme::usavg) {
     step_usavg(*mechanics, stages, context);
   } else {
@@ -99,6 +99,8 @@ void Simulation::advance() {
   s.failed = true;  // until the period is done
   try {
     s.run_period();
+  } catch (const LoadError& error) {
+    throw PhysicsError(error.what());
   } catch (const FunctionError& error) {
     throw PhysicsError(fmt::format("motion of a rigid body at t = {:.6g} s: {}", s.time * kNanosecond, error.what()));
   }

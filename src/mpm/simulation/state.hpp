@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mpm/contact/rigid_contact.hpp"
+#include "mpm/mechanics/body_force.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/step/schedule.hpp"
@@ -35,6 +36,7 @@ struct Simulation::State {
   std::vector<RigidBody> bodies;
   Stages stages;
   std::vector<RigidContact*> contacts;  ///< of each body, owned by stages
+  BodyForce* body_force = nullptr;      ///< owned by stages, when the scene has one
 
   std::int64_t time = 0;  ///< [ns]
   StepReport steps;

@@ -1,0 +1,73 @@
+// loads: what is read, and each refusal with its place.
+#include <gtest/gtest.h>
+
+#include "mpm/scene/scene.hpp"
+
+namespace mpm {
+namespace {
+
+const char* const kPlanar =
+    "geometry: plane_strain\n"
+    "grid: {cell: 0.1, min: [0, 0], max: [1, 1]}\n"
+    "materials: [{name: soft, density: 1000, law: neo_hookean, young: 1000, poisson: 0.3}]\n"
+    "bodies: [{name: block, material: soft, shape: {box: {min: [0.2, 0.2], max: [0.6, 0.6]}}}]\n";
+
+std::string refusal(const std::string& lines) {
+  try {
+    build(parse_scene(kPlanar + lines, "bad.yaml"));
+  } catch (const SceneError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "no error";
+}
+
+void expect_refused(const std::string& line, const std::string& expected) {
+  const std::string found = refusal(line + "\n");
+  EXPECT_EQ(found.substr(0, expected.size()), expected) << "whole text: " << found;
+}
+
+TEST(SceneLoads, AreReadWithTheirUnits) {
+  const auto d = parse_scene(std::string("units: mm-g-s\n") + kPlanar +
+                                 "loads:\n"
+                                 "  - {body_force: {acceleration: [\"2*t\", \"X+x\"], body: block}}\n"
+                                 "  - {body_force: {acceleration: [1 m/s^2, 5], body: all}}\n"
+                                 "  - {body_force: {acceleration: [0, 0]}}\n",
+                             "test.yaml")
+                     .definition;
+  ASSERT_EQ(d.body_forces.size(), 3u);
+  EXPECT_EQ(d.body_forces[0].body, "block");
+  EXPECT_EQ(d.body_forces[1].body, "");
+  EXPECT_EQ(d.body_forces[2].body, "");
+  // 2 t mm/s^2 at 3 s; X + x = (7 + 4) mm/s^2 at X = 7 mm, x = 4 mm.
+  EXPECT_NEAR(d.body_forces[0].acceleration[0](3.0), 6e-3, 1e-17);
+  EXPECT_NEAR(d.body_forces[0].acceleration[2](0.0, Vec3(4e-3, 0, 0), Vec3(7e-3, 0, 0)), 11e-3, 1e-17);
+  EXPECT_TRUE(d.body_forces[0].acceleration[2].uses_start());
+  EXPECT_FALSE(d.body_forces[0].acceleration[0].uses_start());
+  EXPECT_EQ(d.body_forces[1].acceleration[0](0.0), 1.0);
+  EXPECT_EQ(d.body_forces[1].acceleration[2](0.0), 5e-3);
+}
+
+TEST(SceneLoads, AreRefusedWhenWrong) {
+  expect_refused("loads: {}", "bad.yaml:5: loads: found a map of keys; write a list");
+  expect_refused("loads: [{body_forc: {}}]",
+                 "bad.yaml:5: loads.0.body_forc: unknown key 'body_forc'; did you mean 'body_force'?");
+  expect_refused("loads: [{traction: {}}]", "bad.yaml:5: loads.0.traction: not built yet; use body_force");
+  expect_refused("loads: [{body_force: {}}]",
+                 "bad.yaml:5: loads.0.body_force: the key 'acceleration' is missing; add it");
+  const std::string at = "bad.yaml:5: loads.0.body_force.";
+  expect_refused("loads: [{body_force: {force: [0, 1]}}]", at + "force: not built yet; write acceleration");
+  expect_refused("loads: [{body_force: {acceleration: [0, 0, 1]}}]",
+                 at + "acceleration: found 3 components; write two components, [x, z]");
+  expect_refused("loads: [{body_force: {acceleration: [0, 3 N]}}]",
+                 at + "acceleration.1: '3 N' is a force, but an acceleration is expected");
+  expect_refused("loads: [{body_force: {acceleration: [0, \"sin(T)\"]}}]",
+                 at + "acceleration.1: expression 'sin(T)': unknown name 'T'; write 't'");
+  expect_refused("loads: [{body_force: {acceleration: [0, \"2*(t\"]}}]",
+                 at + "acceleration.1: expression '2*(t' does not parse");
+  expect_refused("loads: [{body_force: {acceleration: [0, 1], body: blok}}]",
+                 at + "body: no deformable body 'blok'; did you mean 'block'?");
+}
+
+}  // namespace
+}  // namespace mpm

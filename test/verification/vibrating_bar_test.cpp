@@ -29,10 +29,10 @@ struct Vibration {
 };
 
 /// Ten and a quarter periods with velocities v0 sin(beta X).
-Vibration vibrate(const std::string& update, double v0) {
+Vibration vibrate(const std::string& update, double v0, const std::string& law = "linear_elastic") {
   mpm::Simulation simulation =
-      start("vibrating_bar",
-            {"method.update=" + update, fmt::format("bodies.bar.initial.velocity=['{}*sin(pi*x/2)', 0]", v0)});
+      start("vibrating_bar", {"method.update=" + update, "materials.bar.law=" + law,
+                              fmt::format("bodies.bar.initial.velocity=['{}*sin(pi*x/2)', 0]", v0)});
   const std::vector<double> start_x = field(simulation, "x");
   const auto tip = std::max_element(start_x.begin(), start_x.end()) - start_x.begin();
   Vibration run;

@@ -1,0 +1,125 @@
+// Two equal elastic disks, R = 0.2 m, meet head-on on a diagonal, 0.1 m/s along x and z each. No exact solution is
+// known for the impact; exact are: total momentum 0, energy kept (part of it as vibration after the impact), and the
+// time at which the disks touch, (|distance of the centres| - 2 R) / |relative velocity| = 1.585786 s. Source:
+// exact-solutions 11; the example is that of Sulsky, Chen and Schreyer (1994).
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "page.hpp"
+#include "scene_run.hpp"
+
+namespace verification {
+namespace {
+
+const double kTouch = (0.6 * std::sqrt(2.0) - 0.4) / (0.2 * std::sqrt(2.0));  // [s]
+
+struct Collision {
+  Numbers time, kinetic, elastic, total;  // [s], energies over that of the start
+  Numbers left_vx;                        // mean velocity of the left disk along x, over that of the start
+  double drift = 0.0;                     // largest |total - 1|
+  double touch = 0.0;                     // when the left disk had lost 0.1 % of its momentum [s]
+  double rebound = 0.0;                   // mean velocity after the impact over that before
+  double momentum = 0.0;                  // largest total momentum over what one disk gave to the other
+  Numbers x, z, mises;                    // when the elastic energy was largest; [m], [Pa]
+};
+
+Collision collide(const std::vector<std::string>& overrides) {
+  mpm::Simulation simulation = start("colliding_disks", overrides);
+  const auto [first, last] = simulation.body_ids("left");
+  const double start_energy = simulation.state().energy.total();
+  const auto velocity = [&, first = first, last = last](const std::string& name) {
+    const std::vector<double> values = field(simulation, name);
+    double sum = 0.0;
+    for (auto p = first; p < last; ++p) sum += values[p];
+    return sum / static_cast<double>(last - first);
+  };
+  const double before = velocity("vx");
+  // Half of all is the left disk's, and it moves along the diagonal.
+  const double left_mass = start_energy / (2.0 * before * before);
+  Collision run;
+  double largest_momentum = 0.0, most_elastic = 0.0;
+  while (seconds(simulation) < 3.6 - 1e-9) {
+    simulation.advance();
+    const mpm::SolverState state = simulation.state();
+    run.time.push_back(seconds(simulation));
+    run.kinetic.push_back(state.energy.kinetic / start_energy);
+    run.elastic.push_back(state.energy.elastic / start_energy);
+    run.total.push_back(state.energy.total() / start_energy);
+    run.left_vx.push_back(velocity("vx") / before);
+    run.drift = std::max(run.drift, std::abs(run.total.back() - 1.0));
+    if (run.touch == 0.0 && run.left_vx.back() < 0.999) run.touch = seconds(simulation);
+    largest_momentum = std::max(largest_momentum, state.audit.momentum.norm());
+    if (state.energy.elastic > most_elastic) {
+      most_elastic = state.energy.elastic;
+      run.x = field(simulation, "x");
+      run.z = field(simulation, "z");
+      run.mises = field(simulation, "mises");
+    }
+  }
+  run.rebound = -run.left_vx.back();
+  run.momentum = largest_momentum / (left_mass * before * std::sqrt(2.0) * (1.0 + run.rebound));
+  return run;
+}
+
+TEST(CollidingDisks, MomentumAndEnergy) {
+  Page page("conservation", "colliding_disks", "Two elastic disks collide");
+  page.problem(
+          "Two disks of radius 0.2 m, 8 cells across, start at (0.2, 0.2) and (0.8, 0.8) m with velocities (0.1, 0.1) "
+          "and "
+          "(-0.1, -0.1) m/s. Neo-Hookean, E = 1000 Pa, Poisson's ratio 0.3, density 1000 kg/m³, plane strain: the "
+          "speed is "
+          "an eighth of the wave speed. Deformable bodies share one velocity field: there is no contact law between "
+          "them.")
+      .exact(
+          "Total momentum is 0 and energy is kept. The disks touch at 1.5858 s, by their geometry. The rebound has no "
+          "closed "
+          "form: it is slower than the approach, since part of the energy stays in vibration.",
+          "conservation laws; the example is that of Sulsky, Chen and Schreyer (1994)")
+      .meaning(
+          "USAVG keeps the energy to a fraction that falls with the square of the time step; USF errs fifty times as "
+          "much. In a single velocity field the disks feel each other when they share a node, so they rebound before "
+          "they touch, by a gap that shrinks with the cell. No published number for the rebound speed could be found "
+          "to "
+          "put beside ours; refinement shows how far it is from converged.")
+      .scene("colliding_disks");
+  const Collision usavg = collide({}), usf = collide({"method.update=usf"});
+  const Collision fine = collide({"grid.cell=0.025"}), finest = collide({"grid.cell=0.0125"});
+  const Collision small_step = collide({"time.cfl=0.25"});
+
+  // Round-off: 1e-10 of the momentum exchanged. 0.1 % as asked, of the energy at the start, at any time of the run.
+  page.below("total momentum, USAVG", usavg.momentum, 1e-10, "of the momentum exchanged");
+  page.below("total momentum, USF", usf.momentum, 1e-10, "of the momentum exchanged");
+  page.below("largest drift of the energy, USAVG", 100.0 * usavg.drift, 0.1, "% of the start");
+  page.below("largest drift of the energy, USAVG, half the cell", 100.0 * fine.drift, 0.1, "% of the start");
+  page.report("largest drift of the energy, USAVG, half the time step", 100.0 * small_step.drift, "% of the start");
+  page.report("largest drift of the energy, USF", 100.0 * usf.drift, "% of the start");
+  page.beside("first felt at (0.1 % of momentum lost), 8 cells across", usavg.touch, kTouch, "s");
+  page.beside("first felt at, 16 cells across", fine.touch, kTouch, "s");
+  page.beside("first felt at, 32 cells across", finest.touch, kTouch, "s");
+  page.report("rebound over approach speed, 8 cells across", usavg.rebound, "");
+  page.report("rebound over approach speed, 16 cells across", fine.rebound, "");
+  page.report("rebound over approach speed, 32 cells across", finest.rebound, "");
+  // They did collide and part.
+  EXPECT_GT(*std::max_element(usavg.elastic.begin(), usavg.elastic.end()), 0.5);
+  EXPECT_GT(usavg.rebound, 0.5);
+
+  page.figure()
+      .panel("Energy, USAVG", "time [s]", "over the start")
+      .line("kinetic", usavg.time, usavg.kinetic)
+      .line("elastic", usavg.time, usavg.elastic)
+      .line("total", usavg.time, usavg.total)
+      .line("total, USF", usf.time, usf.total);
+  page.figure()
+      .panel("Mean velocity of the left disk", "time [s]", "over the start")
+      .exact("first touch", {kTouch, kTouch}, {-1.0, 1.0})
+      .line("8 cells across", usavg.time, usavg.left_vx)
+      .line("16", fine.time, fine.left_vx)
+      .line("32", finest.time, finest.left_vx);
+  page.figure()
+      .panel("Most compressed, 32 cells across", "x [m]", "z [m]")
+      .particles("von Mises stress [Pa]", finest.x, finest.z, finest.mises);
+}
+
+}  // namespace
+}  // namespace verification

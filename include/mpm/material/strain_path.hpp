@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,15 +38,16 @@ struct Leg {
 };
 using StrainPath = std::vector<Leg>;
 
-/// What the paths below need to know. Compression is negative.
+/// What the paths below are made from. What is not given has a default; what a path has no use for is refused.
 struct PathDefinition {
-  double strain = -0.01;   ///< reached at the end, along z; engineering shear where the path shears
-  double confining = 1e5;  ///< `triaxial`: pressure around [Pa]
-  double stress = 0.0;     ///< `creep`: held [Pa]
-  double rate = 1.0;       ///< of the strain [1/s], > 0
-  double hold = 1.0;       ///< `relaxation`, `creep`: for how long [s], > 0
-  bool shear = false;      ///< `relaxation`, `creep`: in shear xz, in place of along z with free sides
-  int steps = 100;         ///< a leg
+  /// Reached at the end: along z, of volume, or engineering shear; compression is negative. Default -0.01, shear 0.01.
+  std::optional<double> strain;
+  std::optional<double> confining;  ///< `triaxial`: pressure around [Pa], > 0; default 1e5
+  std::optional<double> stress;     ///< `creep`: what is held [Pa]; no default
+  std::optional<double> rate;       ///< of the strain [1/s], > 0; default 1
+  std::optional<double> hold;       ///< `relaxation`, `creep`: for how long [s], > 0; default 1
+  bool shear = false;               ///< `relaxation`, `creep`: in shear xz, in place of along z with free sides
+  int steps = 100;                  ///< a leg
 };
 
 /// "uniaxial_strain", "uniaxial_stress", "triaxial", "simple_shear", "volumetric", "relaxation", "creep"

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <limits>
 
 namespace mpm {
 namespace {
@@ -19,10 +18,6 @@ void require_positive(double value, const char* what, const char* unit) {
   }
 }
 
-void require_finite(double value, const char* what, const char* unit) {
-  if (!std::isfinite(value)) throw PathError(fmt::format("{} is {:g} {}; it must be finite", what, value, unit));
-}
-
 Leg leg(const PathDefinition& d, double duration) {
   Leg leg;
   leg.duration = duration;
@@ -30,12 +25,21 @@ Leg leg(const PathDefinition& d, double duration) {
   return leg;
 }
 
+double strain_of(const PathDefinition& d, double otherwise) {
+  const double strain = d.strain.value_or(otherwise);
+  if (strain == 0.0 || !std::isfinite(strain)) {
+    throw PathError(fmt::format("the strain is {:g}; it must be finite and not 0", strain));
+  }
+  return strain;
+}
+
 Leg strain_leg(const PathDefinition& d, int component, Control control) {
-  require_finite(d.strain, "the strain", "");
-  if (d.strain == 0.0) throw PathError("the strain is 0: there is nothing to drive; give another");
-  Leg straining = leg(d, std::abs(d.strain) / d.rate);
+  const double rate = d.rate.value_or(1.0);
+  require_positive(rate, "the rate of strain", "1/s");
+  const double strain = strain_of(d, control == Control::simple_shear ? 0.01 : -0.01);
+  Leg straining = leg(d, std::abs(strain) / rate);
   straining.control[component] = control;
-  straining.target[component] = d.strain;
+  straining.target[component] = strain;
   return straining;
 }
 
@@ -55,13 +59,14 @@ StrainPath uniaxial_stress(const PathDefinition& d) {
 }
 
 StrainPath triaxial(const PathDefinition& d) {
-  require_positive(d.confining, "the confining pressure", "Pa");
+  const double confining = d.confining.value_or(1e5);
+  require_positive(confining, "the confining pressure", "Pa");
   Leg axial = strain_leg(d, kZz, Control::strain);
-  free_sides(axial, d.confining);
+  free_sides(axial, confining);
   Leg confine = leg(d, axial.duration);
   for (const int k : {0, 1, 2}) {
     confine.control[k] = Control::stress;
-    confine.target[k] = -d.confining;
+    confine.target[k] = -confining;
   }
   return {confine, axial};
 }
@@ -70,16 +75,18 @@ StrainPath simple_shear(const PathDefinition& d) { return {strain_leg(d, kXz, Co
 
 StrainPath volumetric(const PathDefinition& d) {
   Leg squeeze = strain_leg(d, kZz, Control::strain);
-  for (const int k : {0, 1, 2}) squeeze.target[k] = d.strain / 3.0;
+  const double third = squeeze.target[kZz] / 3.0;
+  for (const int k : {0, 1, 2}) squeeze.target[k] = third;
   return {squeeze};
 }
 
 /// The sudden step, and the hold after it with the same targets.
 StrainPath step_and_hold(const PathDefinition& d, Leg step) {
-  require_positive(d.hold, "the time to hold", "s");
-  step.duration = kSudden * d.hold;
+  const double time = d.hold.value_or(1.0);
+  require_positive(time, "the time to hold", "s");
+  step.duration = kSudden * time;
   Leg hold = step;
-  hold.duration = d.hold;
+  hold.duration = time;
   return {step, hold};
 }
 
@@ -90,12 +97,14 @@ StrainPath relaxation(const PathDefinition& d) {
 }
 
 StrainPath creep(const PathDefinition& d) {
-  require_finite(d.stress, "the stress", "Pa");
-  if (d.stress == 0.0) throw PathError("the stress to hold is 0; give another");
+  if (!d.stress) throw PathError("creep needs the stress to hold; give it");
+  if (*d.stress == 0.0 || !std::isfinite(*d.stress)) {
+    throw PathError(fmt::format("the stress to hold is {:g} Pa; it must be finite and not 0", *d.stress));
+  }
   Leg step = leg(d, 0.0);
   const int component = d.shear ? kXz : kZz;
   step.control[component] = Control::stress;
-  step.target[component] = d.stress;
+  step.target[component] = *d.stress;
   if (!d.shear) free_sides(step, 0.0);
   return step_and_hold(d, step);
 }
@@ -103,14 +112,29 @@ StrainPath creep(const PathDefinition& d) {
 struct NamedPath {
   const char* name;
   StrainPath (*make)(const PathDefinition&);
+  bool strain, confining, stress, rate, hold, shear;  ///< what it has a use for
 };
-constexpr std::array<NamedPath, 7> kPaths = {{{"uniaxial_strain", uniaxial_strain},
-                                              {"uniaxial_stress", uniaxial_stress},
-                                              {"triaxial", triaxial},
-                                              {"simple_shear", simple_shear},
-                                              {"volumetric", volumetric},
-                                              {"relaxation", relaxation},
-                                              {"creep", creep}}};
+constexpr std::array<NamedPath, 7> kPaths = {{
+    {"uniaxial_strain", uniaxial_strain, true, false, false, true, false, false},
+    {"uniaxial_stress", uniaxial_stress, true, false, false, true, false, false},
+    {"triaxial", triaxial, true, true, false, true, false, false},
+    {"simple_shear", simple_shear, true, false, false, true, false, false},
+    {"volumetric", volumetric, true, false, false, true, false, false},
+    {"relaxation", relaxation, true, false, false, false, true, true},
+    {"creep", creep, false, false, true, false, true, true},
+}};
+
+void refuse_unused(const NamedPath& path, const PathDefinition& d) {
+  const auto check = [&path](bool given, bool used, const char* what) {
+    if (given && !used) throw PathError(fmt::format("{} has no {}; leave it out", path.name, what));
+  };
+  check(d.strain.has_value(), path.strain, "strain to reach");
+  check(d.confining.has_value(), path.confining, "confining pressure");
+  check(d.stress.has_value(), path.stress, "stress to hold");
+  check(d.rate.has_value(), path.rate, "rate of strain");
+  check(d.hold.has_value(), path.hold, "time to hold");
+  check(d.shear, path.shear, "choice of shear");
+}
 
 }  // namespace
 
@@ -127,9 +151,10 @@ const std::vector<std::string>& strain_path_names() {
 
 StrainPath make_strain_path(const std::string& name, const PathDefinition& definition) {
   if (definition.steps < 1) throw PathError(fmt::format("{} steps; take at least one", definition.steps));
-  require_positive(definition.rate, "the rate of strain", "1/s");
   for (const NamedPath& path : kPaths) {
-    if (name == path.name) return path.make(definition);
+    if (name != path.name) continue;
+    refuse_unused(path, definition);
+    return path.make(definition);
   }
   throw PathError(fmt::format("'{}' is not a path; write one of {}", name, fmt::join(strain_path_names(), ", ")));
 }

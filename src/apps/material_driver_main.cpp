@@ -1,0 +1,55 @@
+// rosrun mpm_ros material_driver MATERIAL [PATH]: one piece of material along a path of strain or stress. Wiring only;
+// see mpm/scene/material_driver.hpp.
+//
+// Exit codes: 0 done, 2 bad input, 3 the law failed.
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+
+#include "mpm/material/path_driver.hpp"
+#include "mpm/scene/material_driver.hpp"
+
+int main(int argc, char** argv) {
+  mpm::MaterialDriverOptions options;
+  std::string csv;
+  CLI::App app("Drives one piece of material along a path of strain or stress, and prints what it carries as CSV.");
+  app.add_option("MATERIAL", options.material,
+                 "'{law: neo_hookean, density: 1000, young: 1 MPa, poisson: 0.3}', as in a scene; with --scene a name")
+      ->required();
+  app.add_option("PATH", options.path,
+                 "uniaxial_strain, uniaxial_stress, triaxial, simple_shear, volumetric, relaxation or creep");
+  app.add_option("--scene", options.scene, "take the material from this scene: a shipped name, or a path");
+  app.add_option("--path", options.path_file, "a path of your own: CSV with columns such as t, ezz, sxx [kPa], gxz");
+  app.add_option("--strain", options.strain, "to reach (-0.01; in shear 0.01); compression is negative");
+  app.add_option("--confining", options.confining, "triaxial: pressure around (100 kPa)");
+  app.add_option("--stress", options.stress, "creep: stress to hold; compression is negative");
+  app.add_option("--rate", options.rate, "of the strain, in 1/s (1)");
+  app.add_option("--hold", options.hold, "relaxation, creep: for how long, in s (1)");
+  app.add_flag("--shear", options.shear, "relaxation, creep: in shear xz, in place of along z with free sides");
+  app.add_option("--steps", options.steps, "a leg of the path (100), or from one row of a file to the next (10)")
+      ->check(CLI::Range(1, 10000000));
+  app.add_option("--csv", csv, "write to this file, not to the terminal");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  std::ofstream file;
+  if (!csv.empty()) {
+    file.open(csv);
+    if (!file) {
+      std::cerr << "material_driver: " << csv << ": cannot be written; check the folder and its permissions\n";
+      return 2;
+    }
+  }
+  try {
+    mpm::drive_material(options, csv.empty() ? std::cout : file);
+    return 0;
+  } catch (const mpm::PathFailure& error) {
+    std::cerr << "material_driver: " << error.what() << "\n";
+    return 3;
+  } catch (const std::exception& error) {
+    std::cerr << "material_driver: " << error.what() << "\n";
+    return 2;
+  }
+}

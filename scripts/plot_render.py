@@ -88,6 +88,14 @@ class Canvas:
             for right, down in ((0, 0), (1, 0), (0, 1), (1, 1)):
                 self._put(column + right, row + down, points[:, 2] + before, np.full((steps, 3), 0.12))
 
+    def line(self, begin, end, brightness):
+        """A thin line between two points, grey: 0 is black, 1 is white."""
+        a, b = self.camera.project([begin, end])
+        steps = int(np.ceil(2 * self.scale * np.linalg.norm((b - a)[:2]))) + 2
+        points = a + np.outer(np.linspace(0, 1, steps), b - a)
+        column, row = self._pixels(points)
+        self._put(column, row, points[:, 2], np.full((steps, 3), brightness))
+
     def picture(self):
         return self.image.reshape(self.height, self.width, 3)
 

@@ -1,13 +1,17 @@
 #!/usr/bin/python3
-"""Pictures of a run from the CSV tables that bag_report and run_scene write.
+"""Pictures of runs from the CSV tables that bag_report and run_scene write.
 
-    plot_report.py CSV_DIR PLOTS_DIR [--title T] [--field F]
+    plot_report.py CSV_DIR PLOTS_DIR [--title T] [--field F]       one run
+    plot_report.py CSV_DIR CSV_DIR... PLOTS_DIR                     several runs on one another
+    plot_report.py CSV_DIR --animate FILE                          as bag_report calls it
 
-contact_<body>.png    force, torque and velocity of a rigid body over time
-energies.png          energies by kind
-audit.png             residual of the momentum audit, and the impulses by source
-section_<field>.png   the particles in a slice through the tool
-view_<field>.png      the particles and the tools seen from the side (runs in 3D)
+contact_<body>.png            force, impulse, torque and velocity of a rigid body over time
+energies.png                  energies by kind
+audit.png                     the momentum's account by source and its residual, time step, smallest det F
+section_<field>.png           the particles in a slice through the tool
+view_<field>.png              the particles and the tools seen from the side (runs in 3D)
+compare_contact_<body>.png    several runs: force and impulse, a line a run
+compare_energies.png, compare_audit.png
 """
 import argparse
 import os
@@ -19,29 +23,46 @@ matplotlib.use("Agg")
 # Its companions lie beside it, also when it runs through the wrapper of the devel space.
 sys.dont_write_bytecode = True  # nothing is left among the sources
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+import plot_animation  # noqa: E402
+import plot_compare  # noqa: E402
 import plot_particles  # noqa: E402
 import plot_series  # noqa: E402
+import plot_style  # noqa: E402
 import plot_tables  # noqa: E402
 
 
+def draw(options):
+    plot_style.style()
+    if options.animate:
+        plot_animation.animate(plot_tables.Run(options.folders[0], options.title), options.animate)
+        return
+    if len(options.folders) < 2:
+        raise plot_tables.TableError("give a folder with tables, and one for the pictures")
+    *folders, plots = options.folders
+    runs = [plot_tables.Run(folder, options.title if len(folders) == 1 else "") for folder in folders]
+    fields = plot_particles.fields_of(runs[0], options.field) if len(runs) == 1 else []
+    os.makedirs(plots, exist_ok=True)
+    if len(runs) > 1:
+        plot_compare.plot_comparison(runs, plots)
+        return
+    run = runs[0]
+    for body in run.bodies:
+        plot_series.plot_contact(run, body, plots)
+    plot_series.plot_energies(run, plots)
+    plot_series.plot_audit(run, plots)
+    plot_particles.plot_particles(run, plots, fields)
+
+
 def main():
-    parser = argparse.ArgumentParser(description="Draws pictures of a run from the tables of bag_report --csv.")
-    parser.add_argument("csv", help="folder with contact_forces.csv and the other tables")
-    parser.add_argument("plots", help="folder for the pictures; made if need be")
+    parser = argparse.ArgumentParser(description="Draws pictures of runs from the tables of bag_report --csv.")
+    parser.add_argument("folders", nargs="+", metavar="FOLDER",
+                        help="with contact_forces.csv and the other tables, one a run; the last: for the pictures")
     parser.add_argument("--title", default="", help="name of the run, above each picture")
     parser.add_argument("--field", default="", help="particle field that colours the particles")
+    parser.add_argument("--animate", default="", help="make an animation of snapshots from standard input")
     options = parser.parse_args()
     try:
-        run = plot_tables.Run(options.csv)
-        fields = plot_particles.fields_of(run, options.field)
-        os.makedirs(options.plots, exist_ok=True)
-        title = options.title or os.path.basename(os.path.abspath(options.csv))
-        plot_series.style()
-        for body in run.bodies:
-            plot_series.plot_contact(run, body, options.plots, title)
-        plot_series.plot_energies(run, options.plots, title)
-        plot_series.plot_audit(run, options.plots, title)
-        plot_particles.plot_particles(run, options.plots, title, fields)
+        draw(options)
     except (plot_tables.TableError, OSError) as error:
         print(f"plot_report.py: {error}", file=sys.stderr)
         return 2

@@ -1,43 +1,14 @@
-"""Pictures over time: contact and motion of a body, energies, the momentum audit."""
-import os
-
+"""Pictures over time: contact and motion of a body, energies, the account of the momentum and the numbers of the
+solver."""
 import matplotlib.pyplot as plt
 import numpy as np
 
+from plot_style import (AXES, BLACK, BLUE, CYCLE, GREEN, GREY, ORANGE, RED, caption, mark_peak, name_lines, save,
+                        zero_line)
 from plot_tables import file_stem
 
-# Okabe and Ito's colours, which people with any colour vision tell apart.
-BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, RED, PINK = (
-    "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7",
-)
-AXES = {"x": BLUE, "y": ORANGE, "z": GREEN}
 AUDIT_LIMIT = 1e-10
-
-
-def style():
-    plt.rcParams.update(
-        {
-            "font.size": 10,
-            "axes.titlesize": 11,
-            "axes.titleweight": "bold",
-            "axes.titlelocation": "left",
-            "axes.spines.top": False,
-            "axes.spines.right": False,
-            "axes.grid": True,
-            "grid.color": "#e4e4e4",
-            "grid.linewidth": 0.7,
-            "axes.axisbelow": True,
-            "legend.frameon": False,
-            "lines.linewidth": 1.6,
-            "figure.dpi": 150,
-            "savefig.facecolor": "white",
-        }
-    )
-
-
-def save(figure, folder, name):
-    figure.savefig(os.path.join(folder, name))
-    plt.close(figure)
+TIME = "simulated time [s]"
 
 
 def phases(time, velocity):
@@ -72,130 +43,178 @@ def shade(axes, spans, labelled):
                       fontsize=8.5, color="#666666")
 
 
-def mark_peak(axes, time, size, unit):
-    at = int(np.argmax(size))
-    if size[at] <= 0:
-        return
-    axes.plot(time[at], size[at], "o", color=RED, markersize=6, zorder=5)
-    left = time[at] > 0.6 * time[-1] + 0.4 * time[0]
-    axes.annotate(f"peak {size[at]:.4g} {unit} at {time[at]:.3g} s", (time[at], size[at]), xytext=(-9 if left else 9, 3),
-                  textcoords="offset points", ha="right" if left else "left", va="bottom", color=RED, fontsize=9)
-
-
 def draw_vector(axes, time, vector, size_name=None):
-    """Components that are not zero (or round-off) throughout, and the size in black."""
+    """Components that are not zero (or round-off) throughout, and the size in black. Entries for name_lines()."""
+    entries = []
     if size_name:
-        axes.plot(time, np.linalg.norm(vector, axis=1), color=BLACK, linewidth=2.0, label=size_name)
+        size = np.linalg.norm(vector, axis=1)
+        axes.plot(time, size, color=BLACK, linewidth=2.6)
+        entries.append((size[-1], size_name, BLACK))
     for i, (axis, color) in enumerate(AXES.items()):
         if np.any(np.abs(vector[:, i]) > 1e-9 * max(np.abs(vector).max(), 1e-300)):
-            axes.plot(time, vector[:, i], color=color, label=axis)
-    axes.axhline(0, color="#999999", linewidth=0.8, zorder=1)
+            axes.plot(time, vector[:, i], color=color)
+            entries.append((vector[-1, i], axis, color))
+    zero_line(axes)
+    return entries
 
 
-def legend(axes):
-    if not axes.get_legend_handles_labels()[0]:
-        return
-    axes.legend(loc="center left", bbox_to_anchor=(1.005, 0.5), handlelength=1.4)
+def steps_of_time(axes):
+    axes[-1].set_xlabel(TIME)
+    for panel in axes:
+        panel.margins(x=0.01)
 
 
-def plot_contact(run, body, folder, title):
+def plot_contact(run, body, folder):
     time = run.forces["time"]
     force, torque = run.forces.vector(body + " f"), run.forces.vector(body + " t")
+    impulse = run.forces.vector(body + " impulse ")
     peak = np.linalg.norm(run.forces.vector(body + " peak f"), axis=1)
-    if np.abs(torque).max() < 1e-9 * np.abs(force).max():
-        torque[:] = 0.0  # round-off of forces in balance
+    # Round-off of forces in balance is no torque: compared with the forces at the arm of the body's own size.
+    turns = np.abs(torque).max() > 1e-9 * np.abs(force).max()
     velocity = run.poses.vector(body + " v")
+    moves = np.any(velocity)
     spans = phases(run.poses["time"], velocity)
 
-    figure, (top, middle, bottom) = plt.subplots(3, 1, figsize=(9, 8), sharex=True, height_ratios=[1.5, 1.2, 1],
-                                                 constrained_layout=True)
-    figure.suptitle(f"{title}: contact of {body} and its motion", fontweight="bold")
-    top.fill_between(time, peak, color="#d9d9d9", linewidth=0, label="largest\nof a step", zorder=1)
-    draw_vector(top, time, force, "|F|")
-    mark_peak(top, time, np.linalg.norm(force, axis=1), "N")
-    top.set_ylabel("force [N]")
-    top.set_title("Force of the material on the body (mean over each interval, world axes)", pad=18)
+    ratios = [1.6, 1.0] + ([1.0] if turns else []) + ([0.8] if moves else [])
+    figure, panels = plt.subplots(len(ratios), 1, figsize=(9.5, 1.2 + 1.9 * sum(ratios)), sharex=True,
+                                  height_ratios=ratios, constrained_layout=True)
+    caption(figure, f"{run.title}: what the material does to {body}", run.caption())
+    top, below = panels[0], list(panels[1:])
+    top.fill_between(time, peak, color="#d9d9d9", linewidth=0, zorder=1)
+    entries = draw_vector(top, time, force, "|F|")
     # One step's spike must not flatten the rest.
     largest, low = np.linalg.norm(force, axis=1).max(), min(0, force.min())
     if largest > 0:
-        top.set_ylim(1.1 * low - 0.02 * largest, 1.18 * min(max(peak.max(), largest), 2 * largest))
-    draw_vector(middle, time, torque, "|T|")
-    if np.any(torque):
-        middle.margins(y=0.15)
+        top.set_ylim(1.1 * low - 0.02 * largest, 1.22 * min(max(peak.max(), largest), 2 * largest))
     else:
-        middle.set_ylim(-1, 1)
-    mark_peak(middle, time, np.linalg.norm(torque, axis=1), "N m")
-    middle.set_ylabel("torque [N m]")
-    middle.set_title("Torque about the body's origin")
-    draw_vector(bottom, run.poses["time"], velocity)
-    bottom.set_ylabel("velocity [m/s]")
-    bottom.set_title("Velocity of the body's origin")
-    bottom.set_xlabel("simulated time [s]")
-    for i, axes in enumerate((top, middle, bottom)):
+        top.set_ylim(-1, 1)
+        top.text(0.5, 0.7, "never touched", transform=top.transAxes, ha="center", color=GREY)
+    mark_peak(top, time, np.linalg.norm(force, axis=1), "N")
+    top.set_ylabel("force [N]")
+    top.set_title("Force on the body, world axes: mean over each interval; grey: largest single step",
+                  pad=18 if len(spans) > 1 else 6)
+    name_lines(top, entries)
+
+    panel = below.pop(0)
+    draw_vector(panel, time, impulse)
+    panel.margins(y=0.12)
+    names = [(impulse[-1, i], f"{axis}: {impulse[-1, i]:.4g} N s".replace("-", "−"), color) for i, (axis, color) in enumerate(AXES.items())
+             if np.any(np.abs(impulse[:, i]) > 1e-9 * max(np.abs(impulse).max(), 1e-300))]
+    panel.set_ylabel("impulse [N s]")
+    panel.set_title("Impulse: the force summed over time")
+    name_lines(panel, names)
+    if turns:
+        panel = below.pop(0)
+        entries = draw_vector(panel, time, torque, "|T|")
+        panel.margins(y=0.2)
+        mark_peak(panel, time, np.linalg.norm(torque, axis=1), "N m")
+        panel.set_ylabel("torque [N m]")
+        panel.set_title("Torque about the body's origin, world axes")
+        name_lines(panel, entries)
+    if moves:
+        panel = below.pop(0)
+        entries = draw_vector(panel, run.poses["time"], velocity)
+        panel.set_ylabel("velocity [m/s]")
+        panel.set_title("Velocity of the body's origin")
+        name_lines(panel, entries)
+    for i, axes in enumerate(panels):
         shade(axes, spans, labelled=i == 0)
-        legend(axes)
-        axes.margins(x=0.01)
+    steps_of_time(panels)
     save(figure, folder, f"contact_{file_stem(body)}.png")
 
 
-def plot_energies(run, folder, title):
-    state = run.state
-    time = state["time"]
+def energies_of(state):
+    """(name, values [J], colour): potential energy since the start; `rest` is what the others leave over."""
     kinetic, elastic, plastic = (state["energy " + kind] for kind in ("kinetic", "elastic", "plastic"))
     potential = state["energy potential"] - state["energy potential"][0]
     work = state["contact work"]
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(9, 7), sharex=True, height_ratios=[1.5, 1],
-                                         constrained_layout=True)
-    figure.suptitle(f"{title}: energies of the material", fontweight="bold")
-    top.plot(time, work, color=BLACK, linewidth=2.0, label="work done by\nthe bodies")
-    if plastic.any():
-        top.plot(time, plastic, color=RED, label="dissipated by\nplastic flow")
-    if potential.any():
-        top.plot(time, potential, color=GREEN, label="potential")
-    top.plot(time, kinetic, color=BLUE, label="kinetic")
-    top.plot(time, elastic, color=ORANGE, label="elastic")
     rest = work - plastic - potential - (kinetic - kinetic[0]) - (elastic - elastic[0])
-    top.plot(time, rest, color="#888888", linestyle="--", label="not in these:\nfriction, walls,\ndamping")
-    top.set_title("Where the work of the bodies goes (potential energy since the start)")
-    bottom.plot(time, kinetic, color=BLUE, label="kinetic")
-    bottom.plot(time, elastic, color=ORANGE, label="elastic")
-    bottom.set_title("Kinetic and elastic energy alone")
-    bottom.set_xlabel("simulated time [s]")
-    for axes in (top, bottom):
-        axes.set_ylabel("energy [J]")
-        axes.axhline(0, color="#999999", linewidth=0.8, zorder=1)
-        legend(axes)
-        axes.margins(x=0.01)
+    return [("work done by\nthe bodies", work, BLACK), ("potential", potential, GREEN), ("kinetic", kinetic, BLUE),
+            ("elastic", elastic, ORANGE), ("lost to\nplastic flow", plastic, RED),
+            ("lost elsewhere:\nfriction, walls,\ndamping", rest, GREY)]
+
+
+def plot_energies(run, folder):
+    state = run.state
+    time = state["time"]
+    every = [entry for entry in energies_of(state) if np.any(entry[1])]
+    stored = [entry for entry in every if entry[0] in ("kinetic", "elastic")]
+    figure, panels = plt.subplots(2, 1, figsize=(9.5, 7), sharex=True, height_ratios=[1.6, 1], constrained_layout=True)
+    caption(figure, f"{run.title}: energies of the material", run.caption())
+    for panel, entries in zip(panels, (every, stored)):
+        for name, values, color in entries:
+            panel.plot(time, values, color=color, linewidth=2.6 if color == BLACK else 1.6,
+                       linestyle="--" if color == GREY else "-")
+        panel.set_ylabel("energy [J]")
+        zero_line(panel)
+        panel.margins(y=0.08)
+        name_lines(panel, [(values[-1], name, color) for name, values, color in entries])
+    panels[0].set_title("Where the work of the bodies and of gravity goes (potential energy since the start)")
+    panels[1].set_title("Kinetic and elastic energy alone")
+    steps_of_time(panels)
     save(figure, folder, "energies.png")
 
 
-def plot_audit(run, folder, title):
-    state = run.state
-    time, error = state["time"], state["momentum error"]
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(9, 7), sharex=True, constrained_layout=True)
-    figure.suptitle(f"{title}: audit of the momentum", fontweight="bold")
-    smallest = 1e-18  # a residual of exactly zero has no logarithm
-    top.semilogy(time, np.maximum(error, smallest), color=BLUE, label="residual")
-    top.axhline(AUDIT_LIMIT, color=RED, linestyle="--", label="limit")
-    top.set_ylim(smallest / 2, max(1e-9, 10 * error.max()))
-    top.set_ylabel("residual / momentum exchanged")
-    top.set_title("Change of momentum less all impulses, over the momentum exchanged")
-    colors = [GREEN, BLUE, ORANGE, RED, PINK, SKY, YELLOW]
+def impulses_of(state):
+    """The axis along which most momentum went, and (name, impulse along it [N s], colour) of each source that acts."""
     names = [name[len("impulse "):-2] for name in state.names() if name.startswith("impulse ") and name.endswith(" x")]
     impulses = {name: state.vector(f"impulse {name} ") for name in names}
     sizes = {name: np.abs(impulse).max() for name, impulse in impulses.items()}
     largest = max(impulses, key=sizes.get, default=None)
     axis = int(np.argmax(np.abs(impulses[largest]).max(axis=0))) if largest else 2
     acting = [name for name in names if np.abs(impulses[name][:, axis]).max() > 1e-9 * sizes[largest]]
-    for i, name in enumerate(acting):
-        bottom.plot(time, impulses[name][:, axis], color=colors[i % len(colors)],
-                    linestyle="-" if i < len(colors) else "--", label=name)
-    momentum = state["momentum " + "xyz"[axis]]
-    bottom.plot(time, momentum - momentum[0], color=BLACK, linewidth=2.0, label="change of\nmomentum")
-    bottom.set_ylabel("impulse [N s]")
-    bottom.set_title(f"Impulses on the material since the start along {'xyz'[axis]}, by source")
-    bottom.set_xlabel("simulated time [s]")
-    for axes in (top, bottom):
-        legend(axes)
-        axes.margins(x=0.01)
+    return axis, [(name, impulses[name][:, axis], CYCLE[i % 6]) for i, name in enumerate(acting)]
+
+
+def draw_residual(axes, time, error, color):
+    smallest = 1e-18  # a residual of exactly zero has no logarithm
+    axes.semilogy(time, np.maximum(error, smallest), color=color)
+
+
+def frame_residual(axes, largest):
+    axes.axhline(AUDIT_LIMIT, color=RED, linestyle="--", linewidth=1.2)
+    axes.set_ylim(1e-18, max(1e-9, 10 * largest))
+    axes.set_yticks(10.0 ** np.arange(-18, np.log10(axes.get_ylim()[1]) + 0.1, 4))
+    axes.set_ylabel("residual [1]")
+    axes.set_title("Audit: change of momentum less all impulses, over the momentum exchanged")
+
+
+def draw_steps(axes, state, color):
+    """The time step over time; before the first one there is none."""
+    made = state["dt"] > 0
+    axes.plot(state["time"][made], 1e6 * state["dt"][made], color=color)
+    return state["dt"][-1] * 1e6
+
+
+def plot_audit(run, folder):
+    state = run.state
+    time, error = state["time"], state["momentum error"]
+    figure, panels = plt.subplots(4, 1, figsize=(9.5, 10), sharex=True, height_ratios=[1.5, 1, 0.8, 0.8],
+                                  constrained_layout=True)
+    caption(figure, f"{run.title}: account of the momentum, time step, volume", run.caption())
+    momentum, residual, step, volume = panels
+    axis, sources = impulses_of(state)
+    for name, impulse, color in sources:
+        momentum.plot(time, impulse, color=color)
+    change = state["momentum " + "xyz"[axis]] - state["momentum " + "xyz"[axis]][0]
+    momentum.plot(time, change, color=BLACK, linewidth=2.6)
+    zero_line(momentum)
+    momentum.set_ylabel("impulse [N s]")
+    momentum.set_title(f"Impulses on the material since the start along {'xyz'[axis]}, by source")
+    name_lines(momentum, [(impulse[-1], name, color) for name, impulse, color in sources]
+               + [(change[-1], "change of\nmomentum", BLACK)])
+    draw_residual(residual, time, error, BLUE)
+    frame_residual(residual, error.max())
+    name_lines(residual, [(max(error[-1], 1e-18), f"worst {error.max():.1e}", BLUE), (AUDIT_LIMIT, "limit", RED)])
+    draw_steps(step, state, BLUE)
+    step.set_ylim(0, 1.15e6 * state["dt"].max())
+    step.set_ylabel("time step [µs]")
+    step.set_title("Length of a time step")
+    volume.plot(time, state["min j"], color=BLUE)
+    low, high = min(state["min j"].min(), 0.99), max(state["min j"].max(), 1.0)
+    volume.set_ylim(low - 0.1 * (high - low), high + 0.1 * (high - low))
+    volume.set_ylabel("det F [1]")
+    volume.set_title("Smallest volume of a particle over its volume at the start (must stay above 0)")
+    name_lines(volume, [(state["min j"][-1], f"least {state['min j'].min():.4g}", BLUE)])
+    steps_of_time(panels)
     save(figure, folder, "audit.png")

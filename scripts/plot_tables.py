@@ -1,5 +1,6 @@
 """Reads the CSV tables of a run (doc/analysis.md lists them) and the outlines of its rigid bodies."""
 import csv
+import json
 import os
 
 import numpy as np
@@ -50,6 +51,32 @@ def file_stem(name):
     return "".join(c if c.isascii() and (c.isalnum() or c in ".-_") else "_" for c in name)
 
 
+def reach_of(run, box, times, gap):
+    """The lower and upper corner of what pictures show: all particles (`box` around their centres, `gap` apart), and
+    the tools at some times as far as half the particles' size beyond them; a plate without end is cut off."""
+    low, high = box[0] - gap, box[1] + gap
+    most = 0.5 * (high - low).max()
+    least, largest = low - most, high + most
+    for body, (vertices, _) in run.outlines().items():
+        for time in times:
+            position, rotation = run.pose_at(body, time)
+            moved = position + vertices @ rotation.T
+            low = np.minimum(low, np.maximum(moved.min(axis=0) - gap, least))
+            high = np.maximum(high, np.minimum(moved.max(axis=0) + gap, largest))
+    return low, high
+
+
+def _about(folder):
+    path = os.path.join(folder, "run.json")
+    if not os.path.exists(path):
+        return {}
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except ValueError as error:
+        raise TableError(f"{path}: not what bag_report --csv wrote; write the folder again") from error
+
+
 def _is_number(text):
     try:
         float(text)
@@ -59,10 +86,13 @@ def _is_number(text):
 
 
 class Run:
-    """All tables of a folder."""
+    """All tables of a folder, and what bag_report wrote beside them in run.json."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, title=""):
         self.folder = folder
+        self.about = _about(folder)
+        self.label = self.about.get("label") or os.path.basename(os.path.abspath(folder))
+        self.title = title or self.about.get("scene") or self.label
         self.forces = Table(os.path.join(folder, "contact_forces.csv"))
         self.poses = Table(os.path.join(folder, "bodies.csv"))
         self.state = Table(os.path.join(folder, "solver_state.csv"))
@@ -78,6 +108,15 @@ class Run:
         with open(path, newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         return [(float(row["time [s]"]), os.path.join(self.folder, row["file"])) for row in rows]
+
+    def caption(self):
+        """How the run was made, in one line."""
+        parts = [self.title, self.about.get("method"), f"{self.state['particles'][-1]:.0f} particles"]
+        if self.about.get("version"):
+            parts.append(f"mpm_ros {self.about['version']}")
+        if self.about.get("bag"):
+            parts.append(os.path.basename(self.about["bag"]))
+        return "  ·  ".join(part for part in parts if part)
 
     def strongest(self):
         """The body that meets the largest force, that force's time [s] and vector [N]; None without any force."""

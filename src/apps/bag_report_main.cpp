@@ -1,21 +1,28 @@
-// rosrun mpm_ros bag_report F.bag [--csv DIR] [--plots DIR] [--check]
+// rosrun mpm_ros bag_report F.bag... [--csv DIR] [--json F] [--plots DIR] [--animate F.mp4] [--check]
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <iostream>
 
 #include "mpm_ros/report/report.hpp"
 
 int main(int argc, char** argv) {
   mpm_ros::ReportOptions options;
-  CLI::App app("Tables, CSV files, pictures and checks of a run that the simulator or run_scene recorded.");
-  app.add_option("bag", options.bag, "the bag")->required();
+  CLI::App app(
+      "Tables, CSV files, JSON, pictures, an animation and checks of runs that the simulator or run_scene recorded.");
+  app.add_option("bag", options.bags, "the bag; several are put side by side")->required();
   app.add_option("--csv", options.csv, "write the tables as CSV files, with units in their headers, to this folder");
+  app.add_option("--json", options.json, "write the figures of the tables to this file; -: to standard output alone");
   app.add_option("--plots", options.plots, "draw pictures (PNG) to this folder");
-  app.add_option("--snapshots", options.snapshots, "write at most so many particle snapshots")
+  app.add_option("--animate", options.animate, "draw the particles in motion to this file, .mp4 (by ffmpeg) or .gif");
+  app.add_option("--snapshots", options.snapshots, "write at most so many particle snapshots as CSV")
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{1}, std::size_t{10000}));
+  app.add_option("--frames", options.frames, "at most so many frames of the animation")
+      ->capture_default_str()
+      ->check(CLI::Range(std::size_t{2}, std::size_t{10000}));
   app.add_option("--field", options.field, "particle field that colours the pictures");
-  app.add_option("--namespace", options.name_space, "of the topics, when the bag holds several runs");
+  app.add_option("--namespace", options.name_space, "of the topics, when a bag holds several runs");
   app.add_flag("--check", options.check,
                "check the run: audit, energy, gaps in time, impulses; exit code 3 on failure");
   try {
@@ -23,10 +30,5 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  try {
-    return mpm_ros::report(options, std::cout) ? 0 : 3;
-  } catch (const std::exception& error) {
-    std::cerr << "bag_report: " << error.what() << "\n";
-    return 2;
-  }
+  return static_cast<int>(mpm_ros::run_report(options, std::cout, std::cerr, isatty(STDERR_FILENO) != 0));
 }

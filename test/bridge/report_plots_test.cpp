@@ -21,11 +21,11 @@ class ReportPlotsTest : public ::testing::Test {
  protected:
   void SetUp() override {
     ReportOptions options;
-    options.bag = folder_.path() + "/run.bag";
+    options.bags = {folder_.path() + "/run.bag"};
     options.csv = csv_;
-    test::HalfSineRun().write(options.bag);
+    test::HalfSineRun().write(options.bags.front());
     std::ostringstream out;
-    ASSERT_TRUE(report(options, out));
+    ASSERT_TRUE(report(options, out, out, false));
   }
 
   /// Exit code of the script with these arguments.

@@ -2,8 +2,6 @@
 #include "mpm_ros/report/report.hpp"
 
 #include <gtest/gtest.h>
-#include <std_msgs/String.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,17 +42,6 @@ class ReportTest : public ::testing::Test {
     RunStatistics statistics;
     bag.read({&statistics});
     return statistics;
-  }
-
-  /// The error of opening a bag, which must be one line.
-  std::string error_of(const std::string& path, const std::string& name_space = "") const {
-    try {
-      RunBag bag(path, name_space);
-    } catch (const BagError& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-      return error.what();
-    }
-    return "no error";
   }
 
   /// Cells of a CSV file without quotes.
@@ -119,10 +106,10 @@ TEST_F(ReportTest, RangeOfMotionAndTurn) {
 
 TEST_F(ReportTest, TablesSayWhatTheRunWas) {
   ReportOptions options;
-  options.bag = bag_of({});
+  options.bags = {bag_of({})};
   options.check = true;
   std::ostringstream out;
-  EXPECT_TRUE(report(options, out));
+  EXPECT_TRUE(report(options, out, out, false));
   const std::string text = out.str();
   EXPECT_TRUE(contains(text, "half_sine"));
   EXPECT_TRUE(contains(text, "0.101 s")) << text;
@@ -150,11 +137,11 @@ TEST_F(ReportTest, CommandsAreCountedAndLateOnesToo) {
 
 TEST_F(ReportTest, CsvHasTheNumbersOfTheMessages) {
   ReportOptions options;
-  options.bag = bag_of({});
+  options.bags = {bag_of({})};
   options.csv = in_folder("csv");
   options.snapshots = 3;
   std::ostringstream out;
-  report(options, out);
+  report(options, out, out, false);
 
   const auto forces = cells_of("csv/contact_forces.csv");
   ASSERT_EQ(forces.size(), 1U + 102U);
@@ -184,10 +171,10 @@ TEST_F(ReportTest, CsvHasTheNumbersOfTheMessages) {
 
 TEST_F(ReportTest, OutlineOfABodyIsAMeshWithSharedCorners) {
   ReportOptions options;
-  options.bag = bag_of({});
+  options.bags = {bag_of({})};
   options.csv = in_folder("csv");
   std::ostringstream out;
-  report(options, out);
+  report(options, out, out, false);
   std::ifstream file(in_folder("csv/outline_tool.obj"));
   int corners = 0;
   std::vector<std::string> faces;
@@ -216,75 +203,12 @@ TEST_F(ReportTest, FailedChecksAreTold) {
   HalfSineRun run;
   run.on_state = [](int i, SolverState&) { return i != 40; };
   ReportOptions options;
-  options.bag = bag_of(run);
+  options.bags = {bag_of(run)};
   std::ostringstream out;
-  EXPECT_TRUE(report(options, out));  // not asked for
+  EXPECT_TRUE(report(options, out, out, false));  // not asked for
   options.check = true;
-  EXPECT_FALSE(report(options, out));
+  EXPECT_FALSE(report(options, out, out, false));
   EXPECT_TRUE(contains(out.str(), "solver_state: 0.001 s missing before 0.041 s")) << out.str();
-}
-
-TEST_F(ReportTest, ErrorsOfFiles) {
-  EXPECT_TRUE(contains(error_of(in_folder("none.bag")), "no such file"));
-  EXPECT_TRUE(contains(error_of(folder_.path()), "not a file"));
-  std::ofstream(in_folder("empty.bag")).close();
-  EXPECT_TRUE(contains(error_of(in_folder("empty.bag")), "an empty file"));
-  std::ofstream(in_folder("text.bag")) << "time [s],blade fx [N]\n0,0\n";
-  EXPECT_TRUE(contains(error_of(in_folder("text.bag")), "not a bag"));
-}
-
-TEST_F(ReportTest, AnUnindexedBagIsToldHowToRepair) {
-  const std::string path = bag_of({});
-  // A bag that was never closed has 0 as the place of its index, in the first record's header.
-  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-  std::string head(4096, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  const std::string key = "index_pos=";
-  const std::size_t place = head.find(key);
-  ASSERT_NE(place, std::string::npos);
-  file.seekp(static_cast<std::streamoff>(place + key.size()));
-  file.write(std::string(8, '\0').data(), 8);
-  file.close();
-  EXPECT_TRUE(contains(error_of(path), "rosbag reindex " + path)) << error_of(path);
-}
-
-TEST_F(ReportTest, ABagThatWasCutOffIsToldHowToRepair) {
-  const std::string path = bag_of({});
-  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
-  EXPECT_TRUE(contains(error_of(path), "rosbag reindex " + path)) << error_of(path);
-}
-
-TEST_F(ReportTest, ABagWithoutMessages) {
-  rosbag::Bag bag(in_folder("none.bag"), rosbag::bagmode::Write);
-  bag.close();
-  EXPECT_TRUE(contains(error_of(in_folder("none.bag")), "without messages"));
-}
-
-TEST_F(ReportTest, ABagOfAnotherKindIsNotOurs) {
-  rosbag::Bag bag(in_folder("other.bag"), rosbag::bagmode::Write);
-  bag.write("/chatter", ros::Time(1.0), std_msgs::String());
-  bag.close();
-  EXPECT_TRUE(contains(error_of(in_folder("other.bag")), "/chatter"));
-}
-
-TEST_F(ReportTest, ABagWithoutForces) {
-  HalfSineRun run;
-  run.on_forces = [](int, ContactForces&) { return false; };
-  EXPECT_TRUE(contains(error_of(bag_of(run)), "no topic /mpm/contact_forces"));
-}
-
-TEST_F(ReportTest, SeveralRunsNeedANamespace) {
-  rosbag::Bag bag(in_folder("two.bag"), rosbag::bagmode::Write);
-  HalfSineRun run;
-  run.name_space = "/left";
-  run.write(bag);
-  run.name_space = "";
-  run.write(bag);
-  bag.close();
-  EXPECT_TRUE(contains(error_of(in_folder("two.bag")), "--namespace"));
-  EXPECT_EQ(error_of(in_folder("two.bag"), "left"), "no error");
-  EXPECT_EQ(error_of(in_folder("two.bag"), "/"), "no error");
-  EXPECT_TRUE(contains(error_of(in_folder("two.bag"), "right"), "no run under namespace 'right'"));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "mpm_ros/run/run_scene_progress.hpp"
+#include "mpm_ros/message/progress_bar.hpp"
 
 namespace mpm_ros {
 namespace {

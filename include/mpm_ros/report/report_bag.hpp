@@ -1,6 +1,7 @@
 // Reading back a bag that the node or run_scene recorded: which of its topics make up a run, and its messages one
 // after the other with the simulated time they stand for. Messages are handed on and dropped, so a bag of any size
-// is read in the memory of its largest chunk.
+// is read in the memory of its largest chunk and of its index. A bag that was cut short is read from a copy with an
+// index.
 #pragma once
 
 #include <mpm_ros/BodyStates.h>
@@ -22,6 +23,7 @@
 
 #include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/stamps.hpp"
+#include "mpm_ros/report/temporary_folder.hpp"
 
 namespace mpm_ros {
 
@@ -41,10 +43,13 @@ class RunVisitor {
   static void unused(std::int64_t /*time*/, const Message& /*message*/) {}
 };
 
+/// Told from time to time which part of the messages, 0 to 1, is read.
+using Reading = std::function<void(double part)>;
+
 class RunBag {
  public:
   /// Opens the bag and finds the run in it. `name_space` is needed only when the bag holds several runs.
-  /// @throws BagError when the file is missing, not a bag, not indexed, empty, holds no run, or lacks a topic
+  /// @throws BagError when the file is missing, not a bag, empty, of another version, holds no run, or lacks a topic
   RunBag(const std::string& path, const std::string& name_space);
 
   const std::string& path() const { return path_; }
@@ -54,17 +59,23 @@ class RunBag {
   const std::optional<RunInfo>& info() const { return info_; }
   /// The topics that a complete bag has and this one has not.
   const std::vector<std::string>& missing() const { return missing_; }
+  /// Whether the recording was cut short, so that only a part of it could be read.
+  bool cut_short() const { return copy_.has_value(); }
+  /// Fields of the first particle snapshot, x, y, z and id among them; empty when there is none.
+  const std::vector<std::string>& particle_fields() const { return particle_fields_; }
 
   /// One pass over all messages in the order of their recording.
   /// @throws BagError
-  void read(const std::vector<RunVisitor*>& visitors);
+  void read(const std::vector<RunVisitor*>& visitors, const Reading& reading = {});
   /// The chosen particle snapshots, counted from 0 in the order of their recording. @throws BagError
-  void read_snapshots(const std::set<std::size_t>& chosen, RunVisitor& visitor);
+  void read_snapshots(const std::set<std::size_t>& chosen, RunVisitor& visitor, const Reading& reading = {});
 
  private:
   void open();
+  void open_copy();
   void find_run(const std::string& wanted);
   void find_start();
+  void find_fields();
   std::string topic(const std::string& name) const { return name_space_ + "/" + name; }
   template <typename Message>
   void hand_on(const rosbag::MessageInstance& instance, const std::vector<RunVisitor*>& visitors,
@@ -72,10 +83,12 @@ class RunBag {
 
   std::string path_;
   std::string name_space_;
+  std::optional<TemporaryFolder> copy_;  ///< holds the bag that is read in place of one cut short
   rosbag::Bag bag_;
   std::map<std::string, std::string> types_;  ///< of the topics in the bag
   std::optional<RunInfo> info_;
   std::vector<std::string> missing_;
+  std::vector<std::string> particle_fields_;
   Stamps stamps_;
 };
 

@@ -21,6 +21,7 @@ struct CheckResult {
   std::string name;
   bool passed = true;
   std::string detail;  ///< the numbers; of a failure: the first time it was found, and what
+  bool made = true;    ///< false: could not be made, and `detail` says why; then `passed` is true
 };
 
 /// Largest residual of the momentum audit over the momentum exchanged, and of impulses over their own size.

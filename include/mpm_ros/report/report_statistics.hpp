@@ -63,10 +63,10 @@ class RunStatistics : public RunVisitor {
   /// The first and the last state; nothing before the first message.
   const std::optional<SolverState>& first_state() const { return first_state_; }
   const SolverState& last_state() const { return last_state_; }
-  double smallest_j() const { return smallest_j_; }  ///< det F over the whole run
+  double smallest_j() const { return smallest_j_; }    ///< det F over the whole run
+  double worst_audit() const { return worst_audit_; }  ///< largest residual that the solver reports
   /// When the particle snapshots were taken [ns].
   const std::vector<std::int64_t>& snapshots() const { return snapshots_; }
-  const std::vector<std::string>& particle_fields() const { return particle_fields_; }
   /// When the largest force of all bodies acted [ns]; nothing when no body was touched.
   std::optional<std::int64_t> peak_time() const;
 
@@ -78,8 +78,8 @@ class RunStatistics : public RunVisitor {
   std::optional<SolverState> first_state_;
   SolverState last_state_;
   double smallest_j_ = std::numeric_limits<double>::infinity();
+  double worst_audit_ = 0.0;
   std::vector<std::int64_t> snapshots_;
-  std::vector<std::string> particle_fields_;
 };
 
 }  // namespace mpm_ros

@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "mpm_ros/report/report_bag.hpp"
-#include "mpm_ros/report/report_check.hpp"
-#include "mpm_ros/report/report_statistics.hpp"
+#include "mpm/math/geometry.hpp"
+#include "mpm_ros/report/recorded_run.hpp"
 
 namespace mpm_ros {
 
@@ -23,10 +22,15 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// All tables: run, contact forces, motion, energies, audit, commands, gaps.
-std::string tables(const RunBag& bag, const RunStatistics& statistics, const std::vector<std::string>& gaps);
+/// Four digits, as many as a table needs.
+std::string number(double value);
+/// Three numbers.
+std::string triple(const mpm::Vec3& vector);
 
-/// "ok    audit      residual at most …", a line each.
+/// All tables of one run: run, contact forces, motion, energies, audit, commands, gaps.
+std::string tables(const RecordedRun& run);
+
+/// "ok    audit      residual at most …", a line each; "-" in place of "ok" for a check that could not be made.
 std::string check_lines(const std::vector<CheckResult>& results);
 
 }  // namespace mpm_ros

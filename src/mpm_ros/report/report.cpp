@@ -1,57 +1,218 @@
 #include "mpm_ros/report/report.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
-#include <vector>
 
-#include "mpm_ros/report/report_bag.hpp"
-#include "mpm_ros/report/report_check.hpp"
+#include "mpm_ros/message/progress_bar.hpp"
+#include "mpm_ros/report/recorded_run.hpp"
+#include "mpm_ros/report/report_animation.hpp"
+#include "mpm_ros/report/report_compare.hpp"
 #include "mpm_ros/report/report_csv.hpp"
+#include "mpm_ros/report/report_error.hpp"
+#include "mpm_ros/report/report_json.hpp"
+#include "mpm_ros/report/report_momentum.hpp"
 #include "mpm_ros/report/report_plots.hpp"
-#include "mpm_ros/report/report_statistics.hpp"
 #include "mpm_ros/report/report_tables.hpp"
 
 namespace mpm_ros {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// Pictures show the first, a middle, the last snapshot and that of the largest force.
 constexpr std::size_t kSnapshotsOfPlots = 4;
+/// Beside the tables, for the script that draws them.
+constexpr const char* kFigures = "run.json";
+
+/// Told before hours of reading, not after.
+void check_folder(const std::string& option, const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || access(folder.c_str(), W_OK) != 0) {
+    throw ReportError(fmt::format("{} {}: the folder cannot be written; choose another, or change its permissions",
+                                  option, folder.string()));
+  }
+}
+
+std::ofstream open_file(const std::string& option, const std::string& path) {
+  std::ofstream file(path, std::ios::trunc);
+  if (!file) throw ReportError(fmt::format("{} {}: cannot be written; check that the folder is there", option, path));
+  return file;
+}
+
+void write_json(std::ostream& out, const nlohmann::ordered_json& json, const std::string& path) {
+  out << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+  if (!out) throw ReportError(path + ": cannot be written; check the space on its disk");
+}
+
+void check_options(const ReportOptions& options) {
+  if (options.bags.empty()) throw ReportError("give a bag");
+  if (!options.csv.empty()) check_folder("--csv", options.csv);
+  if (!options.plots.empty()) check_folder("--plots", options.plots);
+  if (options.animate.empty()) return;
+  if (options.bags.size() > 1) throw ReportError("--animate: shows one run; give one bag");
+  const fs::path file(options.animate);
+  if (file.extension() != ".mp4" && file.extension() != ".gif") {
+    throw ReportError(fmt::format("--animate {}: neither .mp4 nor .gif; name the file so", options.animate));
+  }
+  check_folder("--animate", fs::absolute(file).parent_path());
+}
+
+/// Reads one bag after the other, and writes the files of each.
+class Reader {
+ public:
+  Reader(const ReportOptions& options, std::ostream& err, bool bar) : options_(options), err_(err), bar_(bar) {}
+
+  RecordedRun read(const std::string& path, const std::string& label) {
+    RunBag bag(path, options_.name_space);
+    const bool particles = !bag.particle_fields().empty();
+    const bool pictures = !options_.plots.empty() || !options_.animate.empty();
+    std::string field;
+    if (pictures && particles) field = choose_field(bag.particle_fields(), options_.field);
+    if (!options_.animate.empty() && !particles) {
+      throw ReportError(
+          fmt::format("--animate: {} holds no particle snapshot; record {}/particles", path, bag.name_space()));
+    }
+
+    RecordedRun run;
+    run.path = path;
+    run.label = label;
+    run.name_space = bag.name_space();
+    run.info = bag.info();
+    if (run.info) run.scene = scene_facts(*run.info);
+    run.particle_fields = bag.particle_fields();
+
+    RunChecks checks(run.info ? run.info->sync_period : 0.0, bag.missing());
+    std::vector<RunVisitor*> visitors = {&run.statistics, &checks};
+    std::optional<MomentumCheck> momentum;
+    if (options_.check) visitors.push_back(&momentum.emplace(run.info));
+    std::optional<FieldRange> range;
+    if (!options_.animate.empty()) visitors.push_back(&range.emplace(field));
+    const std::string folder = folder_of(label);
+    std::optional<CsvExport> csv;
+    if (!folder.empty()) visitors.push_back(&csv.emplace(folder));
+
+    with_bar(label, [&](const Reading& reading) { bag.read(visitors, reading); });
+    if (!run.statistics.first_state()) throw BagError(path + ": the run has no message; was it stopped at its start?");
+    run.gaps = checks.gaps();
+    run.notes = notes_on(run, bag.cut_short());
+    if (options_.check) {
+      run.checks = checks.results();
+      run.checks.push_back(momentum->result());
+    }
+    if (csv) {
+      csv->close();
+      write_snapshots(bag, run, folder);
+      std::ofstream file = open_file("--csv", folder + "/" + kFigures);
+      write_json(file, report_json(run), folder + "/" + kFigures);
+      folders_.push_back(folder);
+    }
+    if (range) animate(bag, run, *range, folder);
+    return run;
+  }
+
+  /// Of the tables, one a bag; empty when none were written.
+  const std::vector<std::string>& folders() const { return folders_; }
+
+ private:
+  /// Where the tables of a bag go; empty: nowhere.
+  std::string folder_of(const std::string& label) {
+    if (!options_.csv.empty()) return options_.bags.size() == 1 ? options_.csv : options_.csv + "/" + file_stem(label);
+    if (options_.plots.empty() && options_.animate.empty()) return {};
+    if (!temporary_) temporary_ = std::make_unique<TemporaryFolder>();
+    return temporary_->file(file_stem(label));
+  }
+
+  void write_snapshots(RunBag& bag, const RecordedRun& run, const std::string& folder) {
+    const bool compared = options_.bags.size() > 1;
+    std::size_t most = options_.snapshots;
+    if (options_.csv.empty()) most = compared || options_.plots.empty() ? 0 : kSnapshotsOfPlots;
+    if (most == 0) return;
+    SnapshotExport snapshots(folder);
+    const RunStatistics& statistics = run.statistics;
+    const std::set<std::size_t> chosen = choose_snapshots(statistics.snapshots(), most, statistics.peak_time());
+    with_bar(run.label + ", snapshots",
+             [&](const Reading& reading) { bag.read_snapshots(chosen, snapshots, reading); });
+    snapshots.close();
+  }
+
+  void animate(RunBag& bag, const RecordedRun& run, const FieldRange& range, const std::string& folder) {
+    const std::set<std::size_t> frames = choose_snapshots(run.statistics.snapshots(), options_.frames, std::nullopt);
+    Animation animation(folder, options_.animate, range, frames.size());
+    with_bar(run.label + ", animation",
+             [&](const Reading& reading) { bag.read_snapshots(frames, animation, reading); });
+    animation.close();
+  }
+
+  void with_bar(const std::string& what, const std::function<void(const Reading&)>& work) {
+    ProgressBar bar(err_, bar_);
+    work([&](double part) { bar.show(part, [&what] { return what; }); });
+    bar.clear();
+  }
+
+  const ReportOptions& options_;
+  std::ostream& err_;
+  bool bar_;
+  std::unique_ptr<TemporaryFolder> temporary_;
+  std::vector<std::string> folders_;
+};
+
+bool passed(const RecordedRun& run) {
+  return std::all_of(run.checks.begin(), run.checks.end(), [](const CheckResult& check) { return check.passed; });
+}
+
+void print(const std::vector<RecordedRun>& runs, std::ostream& out) {
+  out << (runs.size() == 1 ? tables(runs.front()) : comparison(runs));
+  for (const RecordedRun& run : runs) {
+    if (run.checks.empty()) continue;
+    out << "\n";
+    if (runs.size() > 1) out << "Checks of " << run.label << "\n";
+    out << check_lines(run.checks);
+  }
+}
 
 }  // namespace
 
-bool report(const ReportOptions& options, std::ostream& out) {
-  RunBag bag(options.bag, options.name_space);
-  RunStatistics statistics;
-  RunChecks checks(bag.info() ? bag.info()->sync_period : 0.0, bag.missing());
-  std::vector<RunVisitor*> visitors = {&statistics, &checks};
+bool report(const ReportOptions& options, std::ostream& out, std::ostream& err, bool bar) {
+  check_options(options);
+  const bool only_json = options.json == "-";
+  std::ofstream json;
+  if (!options.json.empty() && !only_json) json = open_file("--json", options.json);
 
-  std::optional<TemporaryFolder> temporary;
-  std::string folder = options.csv;
-  if (folder.empty() && !options.plots.empty()) folder = temporary.emplace().path();
-  std::optional<CsvExport> csv;
-  if (!folder.empty()) visitors.push_back(&csv.emplace(folder));
+  const std::vector<std::string> labels = labels_of(options.bags);
+  Reader reader(options, err, bar);
+  std::vector<RecordedRun> runs;
+  for (std::size_t i = 0; i < options.bags.size(); ++i) runs.push_back(reader.read(options.bags[i], labels[i]));
 
-  bag.read(visitors);
-  if (!statistics.first_state()) throw BagError(options.bag + ": the run has no message; was it stopped at its start?");
-  out << tables(bag, statistics, checks.gaps());
-  const std::vector<CheckResult> results = checks.results();
-  if (options.check) out << "\n" << check_lines(results);
-
-  if (csv) {
-    csv->close();
-    const std::size_t most = options.csv.empty() ? kSnapshotsOfPlots : options.snapshots;
-    SnapshotExport snapshots(folder);
-    bag.read_snapshots(choose_snapshots(statistics.snapshots(), most, statistics.peak_time()), snapshots);
-    snapshots.close();
-    if (!options.csv.empty()) out << "\ntables    " << folder << "\n";
+  if (only_json) {
+    write_json(out, report_json(runs), "--json");
+  } else {
+    print(runs, out);
+    if (json.is_open()) write_json(json, report_json(runs), options.json);
+    if (!options.csv.empty()) out << "\ntables    " << options.csv << "\n";
   }
   if (!options.plots.empty()) {
-    make_plots({folder, options.plots, bag.info() ? bag.info()->scene : "", options.field});
-    out << "pictures  " << options.plots << "\n";
+    make_plots({reader.folders(), options.plots, options.field});
+    if (!only_json) out << "pictures  " << options.plots << "\n";
   }
-  const auto passed = [](const CheckResult& result) { return result.passed; };
-  return !options.check || std::all_of(results.begin(), results.end(), passed);
+  return std::all_of(runs.begin(), runs.end(), passed);
+}
+
+ReportResult run_report(const ReportOptions& options, std::ostream& out, std::ostream& err, bool bar) {
+  try {
+    return report(options, out, err, bar) ? ReportResult::done : ReportResult::check_failed;
+  } catch (const std::exception& error) {
+    err << "bag_report: " << error.what() << "\n";
+    return ReportResult::bad_input;
+  }
 }
 
 }  // namespace mpm_ros

@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/report/reindex.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -37,9 +38,25 @@ typename Message::ConstPtr take(const rosbag::MessageInstance& instance, const s
   return message;
 }
 
+/// An error of the bag library, which is one line.
 BagError damaged(const std::string& path, const ros::Exception& problem) {
-  return BagError(fmt::format("{}: damaged ({}); repair it with: rosbag reindex {}", path, problem.what(), path));
+  return BagError(
+      fmt::format("{}: damaged ({}); what is whole can be saved with: rosbag reindex {}", path, problem.what(), path));
 }
+
+/// Tells how far a view is read; counts messages.
+class Count {
+ public:
+  Count(rosbag::View& view, const Reading& reading) : reading_(reading), size_(view.size()) {}
+  void next() {
+    if (reading_) reading_(static_cast<double>(done_++) / static_cast<double>(size_));
+  }
+
+ private:
+  const Reading& reading_;
+  std::uint64_t size_;
+  std::uint64_t done_ = 0;
+};
 
 /// Everything before "/solver_state".
 std::string parent(const std::string& topic) { return topic.substr(0, topic.rfind('/')); }
@@ -51,6 +68,7 @@ RunBag::RunBag(const std::string& path, const std::string& name_space) : path_(p
   try {
     find_run(name_space);
     find_start();
+    find_fields();
   } catch (const ros::Exception& error) {
     throw damaged(path_, error);
   }
@@ -65,17 +83,28 @@ void RunBag::open() {
   }
   try {
     bag_.open(path_, rosbag::bagmode::Read);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw BagError(fmt::format("{}: not indexed, since it was not closed properly; repair it with: rosbag reindex {}",
-                               path_, path_));
   } catch (const rosbag::BagException& problem) {
     std::ifstream file(path_, std::ios::binary);
+    if (!file) throw BagError(path_ + ": cannot be read; check its permissions");
     std::string begin(std::strlen(kBegin), ' ');
     file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    if (begin == kBegin) throw damaged(path_, problem);
-    throw BagError(
-        fmt::format("{}: not a bag ({}); give a file that the simulator or run_scene recorded", path_, problem.what()));
+    if (begin != kBegin) {
+      throw BagError(fmt::format("{}: not a bag ({}); give a file that the simulator or run_scene recorded", path_,
+                                 problem.what()));
+    }
+    open_copy();
   }
+}
+
+void RunBag::open_copy() {
+  const std::string copy = reindexed_copy(path_, copy_.emplace().path());
+  try {
+    bag_.open(copy, rosbag::bagmode::Read);
+    if (rosbag::View(bag_).size() > 0) return;
+  } catch (const ros::Exception& problem) {
+    throw BagError(fmt::format("{}: damaged ({}); record again", path_, problem.what()));
+  }
+  throw BagError(path_ + ": cut short before its first messages were written; nothing in it can be read");
 }
 
 void RunBag::find_run(const std::string& wanted) {
@@ -142,6 +171,13 @@ void RunBag::find_start() {
   stamps_ = Stamps(start);
 }
 
+void RunBag::find_fields() {
+  rosbag::View clouds(bag_, rosbag::TopicQuery(topic(topics::kParticles)));
+  if (clouds.begin() == clouds.end()) return;
+  const auto first = take<sensor_msgs::PointCloud2>(*clouds.begin(), path_);
+  for (const sensor_msgs::PointField& field : first->fields) particle_fields_.push_back(field.name);
+}
+
 template <typename Message>
 void RunBag::hand_on(const rosbag::MessageInstance& instance, const std::vector<RunVisitor*>& visitors,
                      void (RunVisitor::*receive)(std::int64_t, const Message&)) const {
@@ -149,7 +185,7 @@ void RunBag::hand_on(const rosbag::MessageInstance& instance, const std::vector<
   for (RunVisitor* visitor : visitors) (visitor->*receive)(stamps_.time_of(message->header.stamp), *message);
 }
 
-void RunBag::read(const std::vector<RunVisitor*>& visitors) {
+void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& reading) {
   std::vector<std::string> names;
   for (const char* name : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kCommands,
                            topics::kParticles, topics::kMarkers}) {
@@ -157,7 +193,9 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors) {
   }
   try {
     rosbag::View view(bag_, rosbag::TopicQuery(names));
+    Count count(view, reading);
     for (const rosbag::MessageInstance& instance : view) {
+      count.next();
       const std::string name = instance.getTopic().substr(name_space_.size() + 1);
       if (name == topics::kContactForces) {
         hand_on(instance, visitors, &RunVisitor::contact_forces);
@@ -179,11 +217,13 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors) {
   }
 }
 
-void RunBag::read_snapshots(const std::set<std::size_t>& chosen, RunVisitor& visitor) {
+void RunBag::read_snapshots(const std::set<std::size_t>& chosen, RunVisitor& visitor, const Reading& reading) {
   try {
     rosbag::View view(bag_, rosbag::TopicQuery(topic(topics::kParticles)));
+    Count count(view, reading);
     std::size_t index = 0;
     for (const rosbag::MessageInstance& instance : view) {
+      count.next();
       if (chosen.count(index++) == 0) continue;
       hand_on(instance, {&visitor}, &RunVisitor::particles);
     }

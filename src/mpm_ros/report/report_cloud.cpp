@@ -61,14 +61,33 @@ float real_at(const sensor_msgs::PointCloud2& cloud, std::size_t point, const se
   return static_cast<float>(value_at<double>(cloud, point, field.offset));
 }
 
-std::string unit_of(const std::string& name) {
+}  // namespace
+
+std::string unit_of_field(const std::string& name) {
   for (const auto& [field, unit] : mpm::Simulation::particle_fields()) {
     if (field == name) return unit;
   }
   return "";
 }
 
-}  // namespace
+CloudField::CloudField(const sensor_msgs::PointCloud2& cloud, const std::string& name)
+    : cloud_(cloud), size_(checked_count(cloud)) {
+  for (const sensor_msgs::PointField& field : cloud.fields) {
+    const bool read = is_real(field) || field.datatype == sensor_msgs::PointField::UINT32;
+    if (field.name == name && read) field_ = &field;
+  }
+}
+
+double CloudField::at(std::size_t particle) const {
+  switch (field_->datatype) {
+    case sensor_msgs::PointField::FLOAT64:
+      return value_at<double>(cloud_, particle, field_->offset);
+    case sensor_msgs::PointField::UINT32:
+      return value_at<std::uint32_t>(cloud_, particle, field_->offset);
+    default:
+      return value_at<float>(cloud_, particle, field_->offset);
+  }
+}
 
 CloudColumns columns_of(const sensor_msgs::PointCloud2& cloud) {
   const std::size_t count = checked_count(cloud);
@@ -80,7 +99,7 @@ CloudColumns columns_of(const sensor_msgs::PointCloud2& cloud) {
       for (std::size_t i = 0; i < count; ++i) result.ids[i] = value_at<std::uint32_t>(cloud, i, field.offset);
     }
     if (!is_real(field)) continue;
-    ParticleColumn column{field.name, unit_of(field.name), std::vector<float>(count)};
+    ParticleColumn column{field.name, unit_of_field(field.name), std::vector<float>(count)};
     for (std::size_t i = 0; i < count; ++i) column.values[i] = real_at(cloud, i, field);
     result.columns.push_back(std::move(column));
   }

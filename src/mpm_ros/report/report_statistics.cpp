@@ -51,6 +51,7 @@ void RunStatistics::solver_state(std::int64_t /*time*/, const SolverState& messa
   if (!first_state_) first_state_ = message;
   last_state_ = message;
   smallest_j_ = std::min(smallest_j_, message.min_j);
+  worst_audit_ = std::max(worst_audit_, message.momentum_error);
 }
 
 void RunStatistics::command(std::int64_t time, const Command& message) {
@@ -60,10 +61,7 @@ void RunStatistics::command(std::int64_t time, const Command& message) {
   if (!message.requested.isZero() && message.requested < message.header.stamp) ++known.late;
 }
 
-void RunStatistics::particles(std::int64_t time, const sensor_msgs::PointCloud2& message) {
-  if (snapshots_.empty()) {
-    for (const sensor_msgs::PointField& field : message.fields) particle_fields_.push_back(field.name);
-  }
+void RunStatistics::particles(std::int64_t time, const sensor_msgs::PointCloud2& /*message*/) {
   snapshots_.push_back(time);
 }
 

@@ -13,32 +13,28 @@ namespace {
 
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
-/// Four digits, as many as a table needs.
-std::string number(double value) { return fmt::format("{:.4g}", value + 0.0); }  // no "-0"
-
-std::string triple(const mpm::Vec3& vector) {
-  return number(vector.x()) + "  " + number(vector.y()) + "  " + number(vector.z());
-}
-
-std::string run_table(const RunBag& bag, const RunStatistics& statistics) {
+std::string run_table(const RecordedRun& run) {
+  const RunStatistics& statistics = run.statistics;
   const SolverState& last = statistics.last_state();
-  std::string text = bag.path() + "\n\n";
+  std::string text = run.path + "\n\n";
   const auto line = [&text](const std::string& name, const std::string& value) {
     text += fmt::format("{:<18}{}\n", name, value);
   };
-  if (bag.info()) {
-    const RunInfo& info = *bag.info();
+  if (run.info) {
+    const RunInfo& info = *run.info;
     line("scene", info.scene + (info.scene_path.empty() ? "" : "  (" + info.scene_path + ")"));
     line("recorded by", fmt::format("mpm_ros {}, instruction set {}", info.version, info.isa));
   }
+  if (!run.scene.method.empty()) line("method", run.scene.method);
   line("simulated time", fmt::format("{} s", number(last.time)));
   line("steps", fmt::format("{}, dt {} to {} s, limited by {}", last.steps, number(last.dt_min), number(last.dt_max),
                             last.dt_limited_by.empty() ? "nothing" : last.dt_limited_by));
   line("real-time factor", fmt::format("{} (simulated over wall time)", number(last.real_time_factor)));
   line("particles", fmt::format("{}; {} snapshots of {}", last.particles, statistics.snapshots().size(),
-                                fmt::join(statistics.particle_fields(), " ")));
+                                fmt::join(run.particle_fields, " ")));
   line("smallest det F", number(statistics.smallest_j()));
   if (!last.state_hash.empty()) line("state hash", last.state_hash);
+  for (const std::string& note : run.notes) line("note", note);
   return text;
 }
 
@@ -126,6 +122,12 @@ std::string gap_lines(const std::vector<std::string>& gaps) {
 
 }  // namespace
 
+std::string number(double value) { return fmt::format("{:.4g}", value + 0.0); }  // no "-0"
+
+std::string triple(const mpm::Vec3& vector) {
+  return number(vector.x()) + "  " + number(vector.y()) + "  " + number(vector.z());
+}
+
 std::string TextTable::text() const {
   std::vector<std::size_t> widths(rows_.front().size(), 0);
   for (const std::vector<std::string>& row : rows_) {
@@ -140,17 +142,19 @@ std::string TextTable::text() const {
   return text;
 }
 
-std::string tables(const RunBag& bag, const RunStatistics& statistics, const std::vector<std::string>& gaps) {
+std::string tables(const RecordedRun& run) {
+  const RunStatistics& statistics = run.statistics;
   const std::array<std::string, 7> parts = {
-      run_table(bag, statistics), contact_table(statistics), motion_table(statistics), energy_table(statistics),
-      audit_table(statistics),    command_table(statistics), gap_lines(gaps)};
+      run_table(run),          contact_table(statistics), motion_table(statistics), energy_table(statistics),
+      audit_table(statistics), command_table(statistics), gap_lines(run.gaps)};
   return fmt::format("{}", fmt::join(parts, "\n"));
 }
 
 std::string check_lines(const std::vector<CheckResult>& results) {
   std::string text;
   for (const CheckResult& result : results) {
-    text += fmt::format("{:<6}{:<11}{}\n", result.passed ? "ok" : "FAIL", result.name, result.detail);
+    text += fmt::format("{:<6}{:<11}{}\n", !result.made ? "-" : (result.passed ? "ok" : "FAIL"), result.name,
+                        result.detail);
   }
   return text;
 }

@@ -9,9 +9,9 @@
 #include "mpm/scene/explain.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/scene/units.hpp"
+#include "mpm_ros/message/progress_bar.hpp"
 #include "mpm_ros/run/run.hpp"
 #include "mpm_ros/run/run_scene_csv.hpp"
-#include "mpm_ros/run/run_scene_progress.hpp"
 #include "mpm_ros/run/run_scene_summary.hpp"
 
 namespace mpm_ros {
@@ -70,13 +70,17 @@ class OfflineRun {
     const mpm::Simulation& simulation = run_->simulation();
     for (const std::string& warning : simulation.warnings()) err << "warning: " << warning << "\n";
     const mpm::EnergyReport start_energy = simulation.state().energy;
-    ProgressBar progress(err, run_->end(), bar);
+    ProgressBar progress(err, bar);
+    const double end = static_cast<double>(run_->end());
+    const auto where = [&] {
+      return fmt::format("t = {:.4g} of {:.4g} s", static_cast<double>(simulation.time()) / 1e9, end / 1e9);
+    };
     RunSceneResult result = RunSceneResult::done;
     try {
       run_->begin();
       while (!run_->ended() && !stop_requested()) {
         run_->advance();
-        progress.show(simulation.time());
+        progress.show(static_cast<double>(simulation.time()) / end, where);
       }
       progress.clear();
       if (!run_->ended())

@@ -1,0 +1,35 @@
+// What the scene's text, which every bag carries, says of the run: when it was to end, by which method it was solved,
+// and how heavy its particles are. Independent of what the solver recorded.
+#pragma once
+
+#include <mpm_ros/RunInfo.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mpm/math/geometry.hpp"
+
+namespace mpm_ros {
+
+/// Particles of one mass with consecutive ids.
+struct ParticleMass {
+  std::uint64_t count = 0;
+  double mass = 0.0;  ///< [kg] of one
+};
+
+struct SceneFacts {
+  std::optional<double> end;              ///< [s] simulated time that the run was to reach; none: until stopped
+  std::string method;                     ///< "3D, uGIMP, USAVG, FLIP 0.998, …"; empty: the text could not be read
+  mpm::Vec3 gravity = mpm::Vec3::Zero();  ///< [m/s^2]
+};
+
+/// A text that this version does not read (or none) gives facts without values.
+SceneFacts scene_facts(const RunInfo& info);
+
+/// Masses of the particles in the order of their ids. Makes all particles of the scene.
+/// @throws mpm::Error when the scene cannot be read or built
+std::vector<ParticleMass> particle_masses(const RunInfo& info);
+
+}  // namespace mpm_ros

@@ -1,0 +1,98 @@
+"""How all pictures look: colours, captions, names beside the lines."""
+import os
+import textwrap
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import ListedColormap
+
+# Okabe and Ito's colours, which people with any colour vision tell apart.
+BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, RED, PINK = (
+    "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7",
+)
+CYCLE = [BLUE, ORANGE, GREEN, RED, PINK, SKY, BLACK, YELLOW]  # of sources and of runs
+AXES = {"x": BLUE, "y": ORANGE, "z": GREEN}
+GREY = "#888888"
+# From light to dark: what is at rest stays light, so that its shape can be seen. Its lightness falls evenly.
+SEQUENTIAL = ListedColormap(plt.get_cmap("magma_r")(np.linspace(0.1, 0.92, 256)), "light_to_dark")
+DIVERGING = "RdBu_r"
+STEEL = (0.62, 0.68, 0.75)
+
+
+def style():
+    plt.rcParams.update(
+        {
+            "font.size": 10,
+            "axes.titlesize": 11,
+            "axes.titleweight": "bold",
+            "axes.titlelocation": "left",
+            "axes.spines.top": False,
+            "axes.spines.right": False,
+            "axes.grid": True,
+            "grid.color": "#e4e4e4",
+            "grid.linewidth": 0.7,
+            "axes.axisbelow": True,
+            "legend.frameon": False,
+            "lines.linewidth": 1.6,
+            "figure.dpi": 150,
+            "savefig.facecolor": "white",
+            "figure.constrained_layout.h_pad": 0.06,
+        }
+    )
+
+
+def caption(figure, title, text):
+    """The run's name and what is seen above, how it was made below."""
+    figure.suptitle(title, fontweight="bold", fontsize=13, x=0.012, ha="left")
+    lines = textwrap.wrap(text, int(15.5 * figure.get_figwidth()))
+    figure.supxlabel("\n".join(lines), fontsize=8, color="#666666", x=0.012, ha="left")
+
+
+def save(figure, folder, name):
+    figure.savefig(os.path.join(folder, name))
+    plt.close(figure)
+
+
+def name_lines(axes, entries):
+    """Names beside the right ends of lines, in their colours and apart from each other: (value at the end, name,
+    colour)."""
+    entries = [entry for entry in entries if np.isfinite(entry[0])]
+    if not entries:
+        return
+    height = axes.get_figure().get_figheight() * axes.get_position().height * 72  # points
+    low, high = axes.get_ylim()
+    if axes.get_yscale() == "log":
+        low, high = np.log10(low), np.log10(high)
+    places = []
+    for value, name, color in entries:
+        value = np.log10(max(value, 1e-300)) if axes.get_yscale() == "log" else value
+        places.append([np.clip((value - low) / (high - low), 0, 1), name, color])
+    places.sort(key=lambda place: place[0])
+    needed = [(12 * name.count("\n") + 14) / height for _, name, _ in places]
+    centers = [place[0] for place in places]
+    for _ in range(200):  # pushed apart until none overlap
+        for i in range(len(centers) - 1):
+            overlap = 0.5 * (needed[i] + needed[i + 1]) - (centers[i + 1] - centers[i])
+            if overlap > 1e-4:
+                centers[i] -= 0.5 * overlap
+                centers[i + 1] += 0.5 * overlap
+        centers[0] = max(centers[0], 0.0)
+        centers[-1] = min(centers[-1], 1.0)
+    for center, (_, name, color) in zip(centers, places):
+        axes.text(1.012, center, name, transform=axes.transAxes, color=color, ha="left", va="center", fontsize=9.5,
+                  linespacing=1.05)
+
+
+def zero_line(axes):
+    axes.axhline(0, color="#999999", linewidth=0.8, zorder=1)
+
+
+def mark_peak(axes, time, size, unit, color=RED):
+    at = int(np.argmax(size))
+    if size[at] <= 0:
+        return
+    axes.plot(time[at], size[at], "o", color=color, markersize=6, zorder=5)
+    left = time[at] > 0.6 * time[-1] + 0.4 * time[0]
+    axes.annotate(f"peak {size[at]:.4g} {unit} at {time[at]:.4g} s", (time[at], size[at]),
+                  xytext=(-9 if left else 9, 4), textcoords="offset points", ha="right" if left else "left",
+                  va="bottom", color=color, fontsize=9)

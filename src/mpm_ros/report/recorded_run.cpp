@@ -1,0 +1,43 @@
+#include "mpm_ros/report/recorded_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace mpm_ros {
+
+std::vector<std::string> notes_on(const RecordedRun& run, bool cut_short) {
+  std::vector<std::string> notes;
+  const SolverState& last = run.statistics.last_state();
+  if (cut_short) {
+    notes.push_back(fmt::format(
+        "the recording was cut short: this is what is whole in it, up to {:.4g} s; to repair it for good: rosbag "
+        "reindex {}",
+        last.time, run.path));
+  }
+  const double sync = run.info ? run.info->sync_period : 0.0;
+  if (run.scene.end && last.time < *run.scene.end - 0.5 * sync) {
+    // The last message of a run that ends in order carries the state's hash.
+    const bool ended = !last.state_hash.empty();
+    notes.push_back(
+        fmt::format("the run ends at {:.4g} s, before its end at {:.4g} s: {}", last.time, *run.scene.end,
+                    ended ? "it was stopped, or the physics failed" : "its recording does not reach further"));
+  }
+  return notes;
+}
+
+std::vector<std::string> labels_of(const std::vector<std::string>& paths) {
+  std::vector<std::string> labels;
+  for (const std::string& path : paths) {
+    const std::string stem = std::filesystem::path(path).stem().string();
+    std::string label = stem;
+    for (int number = 2; std::find(labels.begin(), labels.end(), label) != labels.end(); ++number) {
+      label = fmt::format("{}_{}", stem, number);
+    }
+    labels.push_back(label);
+  }
+  return labels;
+}
+
+}  // namespace mpm_ros

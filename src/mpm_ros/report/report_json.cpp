@@ -1,0 +1,125 @@
+#include "mpm_ros/report/report_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "mpm_ros/message/conversions.hpp"
+
+namespace mpm_ros {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json array(const mpm::Vec3& vector) { return {vector.x() + 0.0, vector.y() + 0.0, vector.z() + 0.0}; }  // no -0
+
+Json extreme(const Extreme& value) {
+  return {{"size", value.norm}, {"time", seconds(value.time)}, {"vector", array(value.vector)}};
+}
+
+Json body_json(const BodyStatistics& body) {
+  const double duration = body.duration > 0.0 ? body.duration : 1.0;  // without messages the integrals are zero
+  Json json = {{"peak_force", extreme(body.force)},
+               {"peak_force_of_a_step", extreme(body.step_force)},
+               {"peak_torque", extreme(body.torque)},
+               {"mean_force", array(body.force_integral / duration)},
+               {"mean_torque", array(body.torque_integral / duration)},
+               {"impulse", array(body.impulse)},
+               {"contact", nullptr}};
+  if (body.contact) json["contact"] = {seconds(body.contact->first), seconds(body.contact->second)};
+  if (body.first) {
+    json["position"] = {{"start", array(body.first->position)},
+                        {"end", array(body.last.position)},
+                        {"min", array(body.range.min)},
+                        {"max", array(body.range.max)}};
+    json["largest_turn"] = body.largest_turn;
+  }
+  return json;
+}
+
+Json energy_json(const SolverState& state) {
+  return {{"kinetic", state.energy_kinetic},
+          {"elastic", state.energy_elastic},
+          {"potential", state.energy_potential},
+          {"plastic", state.energy_plastic},
+          {"contact_work", state.contact_work}};
+}
+
+Json audit_json(const RunStatistics& statistics) {
+  const SolverState& last = statistics.last_state();
+  Json impulses = Json::object();
+  mpm::Vec3 sum = mpm::Vec3::Zero();
+  for (const Impulse& impulse : last.impulses) {
+    impulses[impulse.name] = array(from_message(impulse.impulse));
+    sum += from_message(impulse.impulse);
+  }
+  const mpm::Vec3 change = from_message(last.momentum) - from_message(last.initial_momentum);
+  return {{"impulses", impulses},
+          {"sum", array(sum)},
+          {"change", array(change)},
+          {"exchanged", last.momentum_exchanged},
+          {"residual", last.momentum_error},
+          {"worst_residual", statistics.worst_audit()}};
+}
+
+}  // namespace
+
+Json report_json(const RecordedRun& run) {
+  const RunStatistics& statistics = run.statistics;
+  const SolverState& last = statistics.last_state();
+  Json json;
+  json["schema"] = kReportSchema;
+  json["bag"] = run.path;
+  json["label"] = run.label;
+  json["namespace"] = run.name_space;
+  json["scene"] = run.scene_name();
+  json["method"] = run.scene.method;
+  json["version"] = run.info ? run.info->version : "";
+  json["isa"] = run.info ? run.info->isa : "";
+  json["duration"] = last.time;
+  json["end"] = run.scene.end ? Json(*run.scene.end) : Json(nullptr);
+  json["steps"] = last.steps;
+  json["dt"] = {{"min", last.dt_min}, {"max", last.dt_max}, {"last", last.dt}, {"limited_by", last.dt_limited_by}};
+  json["real_time_factor"] = last.real_time_factor;
+  json["particles"] = last.particles;
+  json["min_j"] = statistics.smallest_j();
+  json["state_hash"] = last.state_hash;
+  json["energy"] = {{"start", energy_json(*statistics.first_state())}, {"end", energy_json(last)}};
+  json["audit"] = audit_json(statistics);
+  json["bodies"] = Json::object();
+  for (const BodyStatistics& body : statistics.body_statistics()) json["bodies"][body.name] = body_json(body);
+  json["commands"] = Json::array();
+  for (const auto& [key, value] : statistics.commands()) {
+    json["commands"].push_back({{"body", key.first},
+                                {"kind", drive_name(key.second)},
+                                {"applied", value.count},
+                                {"first", seconds(value.first)},
+                                {"last", seconds(value.last)},
+                                {"late", value.late}});
+  }
+  const std::vector<std::int64_t>& snapshots = statistics.snapshots();
+  json["snapshots"] = {
+      {"count", snapshots.size()}, {"first", nullptr}, {"last", nullptr}, {"fields", run.particle_fields}};
+  if (!snapshots.empty()) {
+    json["snapshots"]["first"] = seconds(snapshots.front());
+    json["snapshots"]["last"] = seconds(snapshots.back());
+  }
+  json["gaps"] = run.gaps;
+  json["notes"] = run.notes;
+  json["checks"] = Json::array();
+  for (const CheckResult& check : run.checks) {
+    json["checks"].push_back({{"name", check.name},
+                              {"result", !check.made ? "not made" : (check.passed ? "ok" : "failed")},
+                              {"detail", check.detail}});
+  }
+  return json;
+}
+
+Json report_json(const std::vector<RecordedRun>& runs) {
+  if (runs.size() == 1) return report_json(runs.front());
+  Json json;
+  json["schema"] = kReportSchema;
+  json["runs"] = Json::array();
+  for (const RecordedRun& run : runs) json["runs"].push_back(report_json(run));
+  return json;
+}
+
+}  // namespace mpm_ros

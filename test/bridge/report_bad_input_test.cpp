@@ -1,0 +1,249 @@
+// bag_report on bags and options that it cannot report on: exit code 2 and one line that says what to do; and on bags
+// that were cut short, which it reads as far as they are whole.
+#include <gtest/gtest.h>
+#include <std_msgs/String.h>
+#include <topic_tools/shape_shifter.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "mpm_ros/report/report.hpp"
+#include "mpm_ros/report/temporary_folder.hpp"
+#include "report_run.hpp"
+
+namespace mpm_ros {
+namespace {
+
+using test::HalfSineRun;
+namespace fs = std::filesystem;
+
+class ReportBadInput : public ::testing::Test {
+ protected:
+  std::string in_folder(const std::string& name) const { return folder_.file(name); }
+  std::string bag_of(const HalfSineRun& run, const std::string& name = "run.bag") const {
+    run.write(in_folder(name));
+    return in_folder(name);
+  }
+
+  /// What the program prints as its error, which must be one line that begins with its name.
+  static std::string error_of(const ReportOptions& options) {
+    std::ostringstream out, err;
+    EXPECT_EQ(run_report(options, out, err, false), ReportResult::bad_input);
+    std::string text = err.str();
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+    EXPECT_EQ(text.rfind("bag_report: ", 0), 0U) << text;
+    return text;
+  }
+  std::string error_of(const std::string& bag, const std::string& name_space = "") const {
+    ReportOptions options;
+    options.bags = {bag};
+    options.name_space = name_space;
+    return error_of(options);
+  }
+  /// The tables of a bag that can be reported on.
+  static std::string text_of(const std::string& bag, const std::string& name_space = "") {
+    ReportOptions options;
+    options.bags = {bag};
+    options.name_space = name_space;
+    std::ostringstream out, err;
+    EXPECT_EQ(run_report(options, out, err, false), ReportResult::done) << err.str();
+    return out.str();
+  }
+  static bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReportBadInput, NoFile) { EXPECT_TRUE(contains(error_of(in_folder("none.bag")), "no such file")); }
+
+TEST_F(ReportBadInput, AFolder) { EXPECT_TRUE(contains(error_of(folder_.path()), "not a file; give a bag")); }
+
+TEST_F(ReportBadInput, AnEmptyFile) {
+  std::ofstream(in_folder("empty.bag")).close();
+  EXPECT_TRUE(contains(error_of(in_folder("empty.bag")), "an empty file"));
+}
+
+TEST_F(ReportBadInput, NotABag) {
+  std::ofstream(in_folder("text.bag")) << "time [s],blade fx [N]\n0,0\n";
+  EXPECT_TRUE(contains(error_of(in_folder("text.bag")), "not a bag"));
+}
+
+TEST_F(ReportBadInput, ABagWithoutMessages) {
+  rosbag::Bag bag(in_folder("none.bag"), rosbag::bagmode::Write);
+  bag.close();
+  EXPECT_TRUE(contains(error_of(in_folder("none.bag")), "without messages"));
+}
+
+TEST_F(ReportBadInput, ABagOfAnotherKind) {
+  rosbag::Bag bag(in_folder("other.bag"), rosbag::bagmode::Write);
+  bag.write("/chatter", ros::Time(1.0), std_msgs::String());
+  bag.close();
+  EXPECT_TRUE(contains(error_of(in_folder("other.bag")), "no topic */solver_state of type mpm_ros/SolverState among"));
+}
+
+TEST_F(ReportBadInput, WithoutForces) {
+  HalfSineRun run;
+  run.on_forces = [](int, ContactForces&) { return false; };
+  EXPECT_TRUE(contains(error_of(bag_of(run)), "no topic /mpm/contact_forces (mpm_ros/ContactForces); record it"));
+}
+
+TEST_F(ReportBadInput, WithoutBodies) {
+  HalfSineRun run;
+  run.on_bodies = [](int, BodyStates&) { return false; };
+  EXPECT_TRUE(contains(error_of(bag_of(run)), "no topic /mpm/bodies"));
+}
+
+TEST_F(ReportBadInput, MessagesOfAnotherVersion) {
+  // The same type's name with another definition: another checksum.
+  topic_tools::ShapeShifter old;
+  old.morph("0123456789abcdef0123456789abcdef", "mpm_ros/SolverState", "float64 time\n", "");
+  std::uint8_t bytes[8] = {};
+  ros::serialization::IStream stream(bytes, sizeof bytes);
+  old.read(stream);
+  rosbag::Bag bag(in_folder("old.bag"), rosbag::bagmode::Write);
+  HalfSineRun run;
+  run.on_state = [](int, SolverState&) { return false; };
+  run.with_info = false;
+  run.write(bag);
+  bag.write("/mpm/solver_state", ros::Time(1.0), old);
+  bag.close();
+  EXPECT_TRUE(contains(error_of(in_folder("old.bag")),
+                       "mpm_ros/SolverState on /mpm/solver_state has another definition than here; read the bag with "
+                       "the version of mpm_ros that recorded it"));
+}
+
+TEST_F(ReportBadInput, SeveralRuns) {
+  rosbag::Bag bag(in_folder("two.bag"), rosbag::bagmode::Write);
+  HalfSineRun run;
+  run.name_space = "/left";
+  run.write(bag);
+  run.name_space = "";
+  run.write(bag);
+  bag.close();
+  EXPECT_TRUE(contains(error_of(in_folder("two.bag")), "choose one with --namespace: "));
+  EXPECT_TRUE(contains(error_of(in_folder("two.bag")), "/left"));
+  EXPECT_TRUE(contains(text_of(in_folder("two.bag"), "left"), "half_sine"));
+  EXPECT_TRUE(contains(text_of(in_folder("two.bag"), "/"), "half_sine"));
+  EXPECT_TRUE(contains(error_of(in_folder("two.bag"), "right"), "no run under namespace 'right'; there is: "));
+}
+
+TEST_F(ReportBadInput, OneOfSeveralBags) {
+  ReportOptions options;
+  options.bags = {bag_of({}), in_folder("none.bag")};
+  EXPECT_TRUE(contains(error_of(options), "none.bag: no such file"));
+}
+
+TEST_F(ReportBadInput, AFieldThatWasNotRecorded) {
+  ReportOptions options;
+  options.bags = {bag_of({})};
+  options.plots = in_folder("plots");
+  options.field = "temperature";
+  EXPECT_TRUE(contains(error_of(options), "--field temperature: not recorded; there is: vx"));
+}
+
+TEST_F(ReportBadInput, FilesAndFoldersThatCannotBeWritten) {
+  // A file stands where a folder is wanted, which stops the superuser too.
+  std::ofstream(in_folder("file")) << "x";
+  ReportOptions options;
+  options.bags = {bag_of({})};
+  options.csv = in_folder("file/csv");
+  EXPECT_TRUE(contains(error_of(options), "--csv " + in_folder("file/csv") + ": the folder cannot be written"));
+  options.csv.clear();
+  options.plots = in_folder("file/plots");
+  EXPECT_TRUE(contains(error_of(options), "--plots " + in_folder("file/plots")));
+  options.plots.clear();
+  options.json = in_folder("file/run.json");
+  EXPECT_TRUE(contains(error_of(options), "--json " + in_folder("file/run.json") + ": cannot be written"));
+  options.json.clear();
+  options.animate = in_folder("file/run.gif");
+  EXPECT_TRUE(contains(error_of(options), "--animate " + in_folder("file")));
+}
+
+TEST_F(ReportBadInput, AFolderWithoutPermission) {
+  if (geteuid() == 0) GTEST_SKIP() << "the superuser may write anywhere";
+  fs::create_directory(in_folder("locked"));
+  fs::permissions(in_folder("locked"), fs::perms::owner_read | fs::perms::owner_exec);
+  ReportOptions options;
+  options.bags = {bag_of({})};
+  options.csv = in_folder("locked");
+  EXPECT_TRUE(contains(error_of(options), "the folder cannot be written"));
+}
+
+TEST_F(ReportBadInput, AnAnimationOfAnotherKind) {
+  ReportOptions options;
+  options.bags = {bag_of({})};
+  options.animate = in_folder("run.avi");
+  EXPECT_TRUE(contains(error_of(options), "neither .mp4 nor .gif"));
+}
+
+TEST_F(ReportBadInput, AnAnimationOfSeveralBags) {
+  ReportOptions options;
+  options.bags = {bag_of({}), bag_of({}, "other.bag")};
+  options.animate = in_folder("run.gif");
+  EXPECT_TRUE(contains(error_of(options), "give one bag"));
+}
+
+TEST_F(ReportBadInput, AnAnimationWithoutParticles) {
+  HalfSineRun run;
+  run.on_particles = [](int, sensor_msgs::PointCloud2&) { return false; };
+  ReportOptions options;
+  options.bags = {bag_of(run)};
+  options.animate = in_folder("run.gif");
+  EXPECT_TRUE(contains(error_of(options), "holds no particle snapshot; record /mpm/particles"));
+}
+
+/// Sets the place of the index to 0, as in a bag that was never closed.
+void forget_index(const std::string& path) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  std::string head(4096, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  const std::string key = "index_pos=";
+  const std::size_t place = head.find(key);
+  ASSERT_NE(place, std::string::npos);
+  file.seekp(static_cast<std::streamoff>(place + key.size()));
+  file.write(std::string(8, '\0').data(), 8);
+}
+
+TEST_F(ReportBadInput, AnUnindexedBagIsReadWhole) {
+  const std::string path = bag_of({});
+  forget_index(path);
+  const auto before = fs::last_write_time(path);
+  const std::string text = text_of(path);
+  EXPECT_TRUE(contains(text, "simulated time    0.101 s")) << text;
+  EXPECT_TRUE(contains(text, "cut short")) << text;
+  EXPECT_TRUE(contains(text, "rosbag reindex " + path)) << text;
+  EXPECT_EQ(fs::last_write_time(path), before);  // the bag itself stays as it is
+}
+
+TEST_F(ReportBadInput, ABagThatWasCutOffIsReadAsFarAsItIsWhole) {
+  const std::string path = in_folder("cut.bag.active");
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    bag.setChunkThreshold(4096);  // of a size to lose only the last few
+    HalfSineRun().write(bag);
+    bag.close();
+  }
+  fs::resize_file(path, fs::file_size(path) / 2);
+  const std::string text = text_of(path);
+  EXPECT_TRUE(contains(text, "cut short")) << text;
+  const std::size_t place = text.find("simulated time    ");
+  ASSERT_NE(place, std::string::npos);
+  // Messages are spread evenly over the file, but for the index at its end: half of it is 30 to 60 % of the time.
+  const double time = std::stod(text.substr(place + 18));
+  EXPECT_GT(time, 0.3 * HalfSineRun::kDuration) << text;
+  EXPECT_LT(time, 0.6 * HalfSineRun::kDuration) << text;
+}
+
+TEST_F(ReportBadInput, ABagThatWasCutOffBeforeItsFirstMessages) {
+  const std::string path = bag_of({});
+  fs::resize_file(path, 5000);  // the header takes 4117 bytes
+  EXPECT_TRUE(contains(error_of(path), "cut short")) << error_of(path);
+}
+
+}  // namespace
+}  // namespace mpm_ros

@@ -1,0 +1,234 @@
+// What bag_report writes beside its tables: JSON, several bags side by side, an animation.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "mpm_ros/report/recorded_run.hpp"
+#include "mpm_ros/report/report.hpp"
+#include "mpm_ros/report/report_animation.hpp"
+#include "mpm_ros/report/report_error.hpp"
+#include "mpm_ros/report/temporary_folder.hpp"
+#include "report_run.hpp"
+
+namespace mpm_ros {
+namespace {
+
+using nlohmann::json;
+using test::HalfSineRun;
+using test::kPi;
+namespace fs = std::filesystem;
+
+/// Sums of about a hundred doubles.
+constexpr double kRoundOff = 1e-13;
+
+class ReportOutputs : public ::testing::Test {
+ protected:
+  std::string in_folder(const std::string& name) const { return folder_.file(name); }
+  std::string bag_of(const HalfSineRun& run, const std::string& name = "run.bag") const {
+    run.write(in_folder(name));
+    return in_folder(name);
+  }
+  /// What the program prints.
+  static std::string text_of(const ReportOptions& options) {
+    std::ostringstream out, err;
+    EXPECT_EQ(run_report(options, out, err, false), ReportResult::done) << err.str();
+    return out.str();
+  }
+  /// Exit code of a line of Python.
+  static int python(const std::string& line) {
+    return WEXITSTATUS(std::system(fmt::format("/usr/bin/python3 -c '{}'", line).c_str()));
+  }
+
+  TemporaryFolder folder_;
+};
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(ReportOutputs, JsonHasTheFiguresOfTheTables) {
+  ReportOptions options;
+  options.bags = {bag_of({})};
+  options.json = "-";
+  options.check = true;
+  const json run = json::parse(text_of(options));  // nothing but JSON is printed
+  EXPECT_EQ(run.at("schema"), 1);
+  EXPECT_EQ(run.at("scene"), "half_sine");
+  EXPECT_EQ(run.at("duration"), 0.101);
+  EXPECT_EQ(run.at("steps"), 1010);
+  EXPECT_EQ(run.at("dt").at("max"), HalfSineRun::kStep / 10);
+  EXPECT_EQ(run.at("energy").at("start").at("kinetic"), 1.0);
+  EXPECT_EQ(run.at("energy").at("end").at("kinetic"), 102.0);
+  const json& tool = run.at("bodies").at("tool");
+  const double impulse = 2.0 * HalfSineRun::kAmplitude * HalfSineRun::kDuration / kPi;  // the integral of a half sine
+  EXPECT_NEAR(tool.at("impulse").at(0), impulse, kRoundOff * impulse);
+  EXPECT_NEAR(tool.at("mean_force").at(0), impulse / HalfSineRun::kDuration, 1e-12 * impulse / HalfSineRun::kDuration);
+  EXPECT_EQ(tool.at("peak_force").at("time"), 0.051);  // the middle one of 101 intervals
+  EXPECT_EQ(run.at("audit").at("impulses").at("gravity").at(2), HalfSineRun::kWeight * 0.101);
+  EXPECT_EQ(run.at("snapshots").at("count"), 11);
+  EXPECT_EQ(run.at("commands").at(0).at("late"), 1);
+  ASSERT_EQ(run.at("checks").size(), 11U);
+  for (const json& check : run.at("checks")) {
+    // The run is made up: it has no scene from which the particles' masses are known.
+    EXPECT_EQ(check.at("result"), check.at("name") == "momentum" ? "not made" : "ok") << check.dump();
+  }
+}
+
+TEST_F(ReportOutputs, JsonOfSeveralBagsIsAListOfRuns) {
+  ReportOptions options;
+  options.bags = {bag_of({}), bag_of({}, "other.bag")};
+  options.json = in_folder("runs.json");
+  text_of(options);
+  std::ifstream file(options.json);
+  const json both = json::parse(file);
+  EXPECT_EQ(both.at("schema"), 1);
+  ASSERT_EQ(both.at("runs").size(), 2U);
+  EXPECT_EQ(both.at("runs").at(1).at("label"), "other");
+}
+
+TEST_F(ReportOutputs, WhatIsNotFiniteIsNullInJson) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == HalfSineRun::kIntervals) message.energy_plastic = std::numeric_limits<double>::infinity();
+    return true;
+  };
+  ReportOptions options;
+  options.bags = {bag_of(run)};
+  options.json = "-";
+  EXPECT_TRUE(json::parse(text_of(options)).at("energy").at("end").at("plastic").is_null());
+}
+
+TEST(ReportLabels, AreTheFilesNamesAndDiffer) {
+  EXPECT_EQ(labels_of({"a/run.bag", "b/run.bag", "run_2.bag", "x.bag.active"}),
+            (std::vector<std::string>{"run", "run_2", "run_2_2", "x.bag"}));
+}
+
+TEST_F(ReportOutputs, SeveralBagsAreSetSideBySide) {
+  HalfSineRun with_blade;
+  with_blade.on_forces = [](int, ContactForces& message) {
+    message.bodies.push_back(message.bodies.front());
+    message.bodies.back().name = "blade";
+    return true;
+  };
+  ReportOptions options;
+  options.bags = {bag_of({}, "one.bag"), bag_of(with_blade, "two.bag")};
+  options.csv = in_folder("csv");
+  options.plots = in_folder("plots");
+  const std::string text = text_of(options);
+  // A body in one of them only is shown for that one.
+  bool found = false;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!contains(line, "blade impulse")) continue;
+    found = true;
+    EXPECT_LT(line.find(" - "), line.find("2.572")) << line;  // impulse 2 A T / pi [N s] of the second
+  }
+  EXPECT_TRUE(found) << text;
+  for (const char* file :
+       {"csv/one/contact_forces.csv", "csv/two/contact_forces.csv", "plots/compare_contact_tool.png",
+        "plots/compare_contact_blade.png", "plots/compare_energies.png", "plots/compare_audit.png"}) {
+    EXPECT_TRUE(fs::exists(in_folder(file))) << file;
+  }
+}
+
+TEST_F(ReportOutputs, AnimationHasAFrameASnapshot) {
+  ReportOptions options;
+  options.bags = {bag_of({})};
+  options.animate = in_folder("run.gif");
+  text_of(options);
+  // 11 snapshots; each differs from the others, since the tool and the line of the present time have moved.
+  EXPECT_EQ(
+      python(fmt::format("import sys, PIL.Image as i; g = i.open(\"{}\"); sys.exit(g.n_frames)", options.animate)), 11);
+  options.frames = 4;
+  text_of(options);
+  EXPECT_EQ(
+      python(fmt::format("import sys, PIL.Image as i; g = i.open(\"{}\"); sys.exit(g.n_frames)", options.animate)), 4);
+}
+
+/// PATH for the time of a test.
+class WithPath {
+ public:
+  explicit WithPath(const std::string& path) : before_(std::getenv("PATH")) { setenv("PATH", path.c_str(), 1); }
+  ~WithPath() { setenv("PATH", before_.c_str(), 1); }
+
+ private:
+  std::string before_;
+};
+
+TEST_F(ReportOutputs, Mp4IsMadeByFfmpegFromEveryFrame) {
+  // A stand-in that keeps how it was called and how many bytes it was given.
+  fs::create_directory(in_folder("bin"));
+  std::ofstream(in_folder("bin/ffmpeg")) << "#!/bin/sh\nfor last; do :; done\nprintf '%s ' \"$@\" >\"$last\"\n"
+                                            "/usr/bin/wc -c >>\"$last\"\n";
+  fs::permissions(in_folder("bin/ffmpeg"), fs::perms::owner_all);
+  const WithPath path(in_folder("bin"));
+  ReportOptions options;
+  options.bags = {bag_of({})};
+  options.animate = in_folder("run.mp4");
+  text_of(options);
+  std::ifstream file(options.animate);
+  std::stringstream text;
+  text << file.rdbuf();
+  std::size_t width = 0, height = 0, bytes = 0;
+  const std::size_t size = text.str().find("-s ");
+  ASSERT_NE(size, std::string::npos) << text.str();
+  ASSERT_EQ(std::sscanf(text.str().c_str() + size, "-s %zux%zu", &width, &height), 2) << text.str();
+  const std::string end = text.str().substr(text.str().find("run.mp4 ") + 8);
+  bytes = std::stoul(end);
+  EXPECT_EQ(bytes, 11U * 3U * width * height);  // 11 snapshots, three bytes a pixel
+  EXPECT_EQ(width % 2, 0U);                     // yuv420p halves both
+  EXPECT_EQ(height % 2, 0U);
+}
+
+TEST_F(ReportOutputs, WithoutFfmpegAnMp4BecomesAGif) {
+  fs::create_directory(in_folder("bin"));
+  const WithPath path(in_folder("bin"));
+  ReportOptions options;
+  options.bags = {bag_of({})};
+  options.animate = in_folder("run.mp4");
+  text_of(options);
+  EXPECT_FALSE(fs::exists(in_folder("run.mp4")));
+  EXPECT_TRUE(fs::exists(in_folder("run.gif")));
+}
+
+TEST(ReportField, IsTheOneAskedForOrTheMostTelling) {
+  EXPECT_EQ(choose_field({"x", "y", "z", "id", "vx", "p"}, ""), "p");
+  EXPECT_EQ(choose_field({"x", "y", "z", "id", "vx", "p"}, "vx"), "vx");
+  EXPECT_EQ(choose_field({"x", "y", "z", "id", "sxx"}, ""), "sxx");
+  EXPECT_EQ(choose_field({"x", "y", "z", "id"}, ""), "z");
+  EXPECT_THROW(choose_field({"x", "y", "z", "id", "vx"}, "ep"), ReportError);
+}
+
+TEST(ReportFieldRange, QuantilesOfManyValuesFromAnEvenSample) {
+  // 0 to 999,999 in order, in 100 clouds: more than are kept. Every stride-th value is, so a quantile is off by at most
+  // one stride, 16 here (a million values, at most 200,000 kept, strides are powers of two), of a million.
+  FieldRange range("v");
+  sensor_msgs::PointCloud2 cloud;
+  const char* names[] = {"x", "y", "z", "v"};
+  for (std::uint32_t field = 0; field < 4; ++field) {
+    cloud.fields.emplace_back();
+    cloud.fields.back().name = names[field];
+    cloud.fields.back().offset = 4 * field;
+    cloud.fields.back().datatype = sensor_msgs::PointField::FLOAT32;
+  }
+  cloud.height = 1;
+  cloud.width = 10000;
+  cloud.point_step = 16;
+  cloud.data.resize(160000);
+  for (int i = 0; i < 1000000; ++i) {
+    const float row[] = {static_cast<float>(i % 7), -1.0F, 2.0F, static_cast<float>(i)};
+    std::memcpy(cloud.data.data() + 16 * (i % 10000), row, 16);
+    if (i % 10000 == 9999) range.particles(0, cloud);
+  }
+  EXPECT_NEAR(range.quantile(0.0), 0.0, 16.0);
+  EXPECT_NEAR(range.quantile(0.25), 250000.0, 16.0);
+  EXPECT_NEAR(range.quantile(1.0), 999999.0, 16.0);
+  EXPECT_EQ(range.box().min, mpm::Vec3(0.0, -1.0, 2.0));
+  EXPECT_EQ(range.box().max, mpm::Vec3(6.0, -1.0, 2.0));
+}
+
+}  // namespace
+}  // namespace mpm_ros

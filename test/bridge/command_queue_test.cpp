@@ -39,7 +39,7 @@ TEST(CommandQueue, VelocityWithoutStampTakesEffectAtTheNextSyncPoint) {
   queue.push(velocity(0, 1.0));
   EXPECT_EQ(speeds(queue.take(10)), Speeds{1.0});
   EXPECT_TRUE(queue.take(20).empty());
-  EXPECT_EQ(queue.late(), 0U);
+  EXPECT_EQ(queue.late().past + queue.late().unstamped, 0U);
 }
 
 TEST(CommandQueue, StampedVelocityWaitsForTheFirstSyncPointAtOrAfterItsStamp) {
@@ -50,7 +50,7 @@ TEST(CommandQueue, StampedVelocityWaitsForTheFirstSyncPointAtOrAfterItsStamp) {
   EXPECT_EQ(speeds(queue.take(10)), Speeds{2.0});
   EXPECT_EQ(queue.waiting(), 1U);
   EXPECT_EQ(speeds(queue.take(20)), Speeds{1.0});
-  EXPECT_EQ(queue.late(), 0U);
+  EXPECT_EQ(queue.late().past + queue.late().unstamped, 0U);
 }
 
 TEST(CommandQueue, PastStampIsAppliedAtTheNextSyncPointAndCounted) {
@@ -59,7 +59,13 @@ TEST(CommandQueue, PastStampIsAppliedAtTheNextSyncPointAndCounted) {
   queue.take(10);
   queue.push(velocity(0, 1.0, 10));  // the sync point at 10 has passed
   queue.push(velocity(0, 2.0, 11));
-  EXPECT_EQ(queue.late(), 1U);
+  EXPECT_EQ(queue.late().past, 1U);
+  BodyCommand unstamped = velocity(0, 3.0);
+  unstamped.late = true;  // a stamped topic's message with stamp zero
+  CommandQueue other(10);
+  other.push(unstamped);
+  EXPECT_EQ(other.late().unstamped, 1U);
+  EXPECT_EQ(other.late().past, 0U);
   // Effective times are 20 (late: now) and 11: the late one is applied last.
   EXPECT_EQ(speeds(queue.take(20)), (Speeds{2.0, 1.0}));
 }

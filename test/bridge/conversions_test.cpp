@@ -92,6 +92,39 @@ TEST(Conversions, TransformsNameTheBodies) {
   EXPECT_EQ(message.transforms[0].transform.rotation.w, 1.0);
 }
 
+TEST(Conversions, ContactForceThereAndBack) {
+  mpm::ContactReport report;
+  report.body = "blade";
+  report.mean = {{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}};
+  report.peak = {{7.0, 8.0, 9.0}, {-1.0, -2.0, -3.0}};
+  report.interval = 0.25;
+  report.nodes = 12;
+  report.impulse = {0.5, 0.0, -0.5};
+  report.pressing = 11.0;
+  report.friction = {0.125, 0.25, 0.5};
+  report.origin = {10.0, 20.0, 30.0};
+  report.arm = {0.5, -0.25, 0.125};
+  const ContactForce message = to_message(report);
+  EXPECT_EQ(message.centre_of_pressure.x, 10.5);
+  EXPECT_EQ(message.centre_of_pressure.y, 19.75);
+  EXPECT_EQ(message.centre_of_pressure.z, 30.125);
+  const mpm::ContactReport again = from_message(message);
+  EXPECT_EQ(again.body, report.body);
+  EXPECT_EQ(again.nodes, report.nodes);
+  EXPECT_EQ(again.pressing, report.pressing);
+  EXPECT_EQ(again.friction, report.friction);
+  EXPECT_EQ(again.origin, report.origin);
+  EXPECT_EQ(again.arm, report.arm);
+  EXPECT_EQ(to_message(again), message);
+}
+
+TEST(Conversions, NothingPressedStaysNotANumber) {
+  const ContactForce message = to_message(mpm::ContactReport());
+  EXPECT_TRUE(std::isnan(message.centre_of_pressure.x));
+  EXPECT_EQ(message.pressing, 0.0);
+  EXPECT_FALSE(from_message(message).centre_of_pressure().allFinite());
+}
+
 TEST(Conversions, SolverStateKeepsItsNumbers) {
   mpm::SolverState state;
   state.time = 1'500'000'000;
@@ -179,6 +212,37 @@ TEST(ContactAverage, IsImpulseOverTime) {
   EXPECT_EQ(taken[0].interval, 4.0);
   EXPECT_EQ(taken[0].impulse.x(), 7.0);
   EXPECT_TRUE(average.take().empty());
+}
+
+mpm::ContactReport pressed(double pressing, double interval, double arm, double origin) {
+  mpm::ContactReport report;
+  report.body = "blade";
+  report.interval = interval;
+  report.pressing = pressing;
+  report.friction.y() = pressing;
+  report.origin.x() = origin;
+  if (pressing > 0.0) report.arm = {arm, 0.0, 0.0};
+  return report;
+}
+
+TEST(ContactAverage, ArmsGoByTheNormalImpulse) {
+  ContactAverage average;
+  average.add({pressed(0.0, 1.0, 0.0, 1.0)});  // nothing pressed: no arm
+  average.add({pressed(6.0, 1.0, 2.0, 2.0)});  // 6 N s
+  average.add({pressed(1.0, 2.0, 6.0, 3.0)});  // 2 N s
+  average.add({pressed(0.0, 4.0, 0.0, 4.0)});  // nothing again, but the body went on
+  const std::vector<mpm::ContactReport> taken = average.take();
+  // (6 x 2 m + 2 x 6 m) / 8 from where the body is now
+  EXPECT_EQ(taken[0].centre_of_pressure(), mpm::Vec3(7.0, 0.0, 0.0));
+  EXPECT_EQ(taken[0].pressing, 1.0);  // 8 N s in 8 s
+  EXPECT_EQ(taken[0].friction.y(), 1.0);
+}
+
+TEST(ContactAverage, NothingPressedHasNoCentre) {
+  ContactAverage average;
+  average.add({pressed(0.0, 1.0, 0.0, 1.0)});
+  average.add({pressed(0.0, 1.0, 0.0, 1.0)});
+  EXPECT_FALSE(average.take()[0].centre_of_pressure().allFinite());
 }
 
 }  // namespace

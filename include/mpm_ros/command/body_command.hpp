@@ -41,7 +41,9 @@ struct AppliedCommand {
   ros::Time requested;
 };
 
-/// Gives the command to the simulation, whose time() is the command's effect. @throws mpm::RigidError
+/// Gives the command to the simulation, whose time() is the command's effect. @throws mpm::RigidError, then nothing is
+/// changed: not finite, a pose that is none, or a motion of more than the domain's diagonal in a sync period, which no
+/// tool means and which would take steps without end.
 void apply(const AppliedCommand& command, mpm::Simulation& simulation);
 
 /// As recorded and published.

@@ -25,6 +25,11 @@ struct DueCommand {
   std::int64_t arrival = 0;  ///< [ns] pose: a sync point after the present one
 };
 
+struct LateCommands {
+  std::uint64_t unstamped = 0;
+  std::uint64_t past = 0;
+};
+
 class CommandQueue {
  public:
   /// `sync_period` > 0 [ns].
@@ -37,8 +42,8 @@ class CommandQueue {
   /// Forgets everything but the counts, for a run that begins again.
   void clear();
 
-  /// Commands with a stamp that was zero or past when they came.
-  std::uint64_t late() const;
+  /// Commands that came on a stamped topic with a stamp of zero, and with one that was past.
+  LateCommands late() const;
   std::size_t waiting() const;
   /// The last sync point taken [ns]; -1 before the first.
   std::int64_t passed() const;
@@ -64,7 +69,7 @@ class CommandQueue {
   std::map<int, PoseStream> streams_;
   std::int64_t passed_ = -1;  ///< last sync point taken [ns]
   std::uint64_t arrivals_ = 0;
-  std::uint64_t late_ = 0;
+  LateCommands late_;
 };
 
 }  // namespace mpm_ros

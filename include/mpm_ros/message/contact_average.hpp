@@ -12,12 +12,12 @@ class ContactAverage {
  public:
   /// One report a body, always in the same order; interval after interval.
   void add(const std::vector<mpm::ContactReport>& reports);
-  /// Mean: impulse over time. Peak: of the step with the largest force. Impulse and nodes: of the last report.
-  /// Starts anew.
+  /// Means: impulse over time. Arm: mean by normal impulse. Peak: of the step with the largest force. Impulse, nodes
+  /// and origin: of the last report. Starts anew.
   std::vector<mpm::ContactReport> take();
 
  private:
-  std::vector<mpm::ContactReport> sum_;  // `mean` holds the mean so far
+  std::vector<mpm::ContactReport> sum_;  // its means are those so far
 };
 
 }  // namespace mpm_ros

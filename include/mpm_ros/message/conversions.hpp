@@ -26,6 +26,8 @@ geometry_msgs::Twist to_message(const mpm::Twist& twist);
 geometry_msgs::Wrench to_message(const mpm::Wrench& wrench);
 
 mpm::Vec3 from_message(const geometry_msgs::Vector3& message);
+mpm::Vec3 from_message(const geometry_msgs::Point& message);
+mpm::Wrench from_message(const geometry_msgs::Wrench& message);
 mpm::Twist from_message(const geometry_msgs::Twist& message);
 /// As it stands; see checked_pose() for what comes from outside.
 mpm::Pose from_message(const geometry_msgs::Pose& message);
@@ -42,7 +44,9 @@ mpm::Pose checked_pose(const geometry_msgs::Pose& message);
 
 mpm_ros::BodyState to_message(const mpm::BodyState& state);
 mpm_ros::ContactForce to_message(const mpm::ContactReport& report);
-/// All but the header, real_time_factor and state_hash.
+/// The inverse; the body's origin is known to round-off, and not at all where nothing presses.
+mpm::ContactReport from_message(const mpm_ros::ContactForce& message);
+/// All but the header, real_time_factor, state_hash, and what only the run knows: commands and failure.
 mpm_ros::SolverState to_message(const mpm::SolverState& state);
 
 /// Force and torque in the body's own axes (torque about its origin already), as a sensor on it would say.

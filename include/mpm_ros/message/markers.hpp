@@ -14,14 +14,17 @@ namespace mpm_ros {
 /// The triangles of every rigid body in the body's own frame, locked to it: sent once, moved by /tf.
 visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation);
 
-/// One arrow a body, from its origin along the mean contact force; removed where the force is zero.
+/// A force for people: three digits and a prefix, "537 N", "1.24 kN", "35.0 mN".
+std::string force_text(double newtons);
+
+/// For each body that something presses on: an arrow along the mean contact force, a ball at its foot, which is the
+/// centre of pressure, and the force's size at its head. They go when the contact ends.
 class ForceMarkers {
  public:
   /// `scale` [m/N]; zero: the largest force met so far is drawn `longest` [m] long.
   ForceMarkers(double scale, double longest) : scale_(scale), longest_(longest) {}
-  visualization_msgs::MarkerArray arrows(const std::vector<mpm::ContactReport>& contacts,
-                                         const std::vector<mpm::BodyState>& bodies, const std::string& world_frame,
-                                         const ros::Time& stamp);
+  visualization_msgs::MarkerArray markers(const std::vector<mpm::ContactReport>& contacts,
+                                          const std::string& world_frame, const ros::Time& stamp);
 
  private:
   double scale_;

@@ -1,4 +1,8 @@
 // What went wrong or should be known, for the log and for /diagnostics: two statuses, `commands` and `solver`.
+//
+// solver: ERROR when the run has failed; WARN when the audit does not close, a particle is nearly crushed, or the wall
+// clock is not kept up with; else OK. commands: WARN for ten seconds after one was refused, and as long as a body that
+// was commanded hears nothing (past ~command_timeout); else OK. A late command is normal latency: counted, no warning.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -17,38 +21,81 @@ struct SolverHealth {
   bool failed = false;
   double time = 0.0;  ///< [s] simulated
   double real_time_factor = 0.0;
-  std::uint64_t overruns = 0;  ///< sync periods that took longer than their wall time
-  std::uint64_t late = 0;      ///< commands with a zero or past stamp
-  std::uint64_t waiting = 0;   ///< commands whose time is to come
+  double asked_factor = 0.0;    ///< that pacing tries to keep; 0: none
+  std::uint64_t overruns = 0;   ///< sync periods that took longer than their wall time
+  std::uint64_t steps = 0;      ///< since the start
+  double step = 0.0;            ///< the last one [s]
+  std::string step_limited_by;  ///< what and where
+  double momentum_error = 0.0;  ///< residual of the audit over the momentum exchanged
+  double min_j = 1.0;           ///< smallest det F
+  std::uint64_t particles = 0;
+};
+
+/// Commands that were taken, for the status `commands`.
+struct CommandHealth {
+  std::uint64_t unstamped = 0;  ///< on stamped topics, with stamp zero: applied at the next sync point
+  std::uint64_t past = 0;       ///< with a stamp that was past: the same
+  std::uint64_t waiting = 0;    ///< whose time is to come
 };
 
 /// Safe to use from any thread.
 class NodeHealth {
  public:
-  /// A command was refused and changed nothing. One log line; the same line at most once a second.
+  using Clock = std::chrono::steady_clock;
+
+  /// A command was refused and changed nothing. One log line; the same line at most once a second, and no more than
+  /// twenty of them.
   void refuse(const std::string& reason);
+  /// A body took a command at simulated time `time` [s].
+  void follow(const std::string& body, double time);
   /// A body follows another kind of command than before. One log line.
   void change(const std::string& what);
   /// A commanded body has not heard a command in time. One log line.
-  void time_out(const std::string& what);
+  void time_out(const std::string& body, const std::string& what);
   void set_solver(const SolverHealth& solver);
+  void set_commands(const CommandHealth& commands);
+  /// The run begins again: nobody is silent, nobody was commanded. The counts of what was refused stay.
+  void restart();
 
-  /// Status `commands`: warns once something was refused or timed out, with the last reason and the counts.
-  void fill_commands(diagnostic_updater::DiagnosticStatusWrapper& status) const;
-  /// Status `solver`.
+  std::uint64_t refused() const;
+
+  void fill_commands(diagnostic_updater::DiagnosticStatusWrapper& status, Clock::time_point now = Clock::now()) const;
   void fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   /// True once after something was reported that should be published without delay.
   bool take_news();
 
+  /// A residual of the audit above this is no round-off (design rule: 1e-10 of the momentum exchanged).
+  static constexpr double kAuditTolerance = 1e-10;
+  /// Below this part of its volume a particle is about to be crushed: a run fails at zero.
+  static constexpr double kCrushed = 0.1;
+  /// Of the pace that was asked for; less is behind.
+  static constexpr double kPaceKept = 0.95;
+  /// How long a refusal warns.
+  static constexpr std::chrono::seconds kFresh{10};
+
  private:
+  struct Follower {
+    std::uint64_t commands = 0;
+    double last = 0.0;  // [s] simulated
+    bool silent = false;
+  };
+  void log_refusal(const std::string& line);
+
   mutable std::mutex mutex_;
   SolverHealth solver_;
+  CommandHealth commands_;
+  std::map<std::string, Follower> followers_;
   std::uint64_t refused_ = 0;
   std::uint64_t changes_ = 0;
   std::uint64_t timeouts_ = 0;
-  std::string last_problem_;
+  std::string last_refusal_;
+  Clock::time_point refused_at_;
+  std::string last_timeout_;
   std::string last_change_;
-  std::map<std::string, std::chrono::steady_clock::time_point> logged_;
+  std::map<std::string, Clock::time_point> logged_;  // lines of refusals
+  Clock::time_point quota_from_;
+  int quota_used_ = 0;
+  std::uint64_t unlogged_ = 0;
   bool news_ = false;
 };
 

@@ -59,6 +59,7 @@ class SimulatorNode {
   void act_on_silence();
   void fail(const std::string& reason, int exit_code);
   void end_run();
+  void count_commands();
   void publish_clock(bool always);
   void report();
   Phase phase() const;

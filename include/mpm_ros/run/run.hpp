@@ -40,8 +40,10 @@ class Run {
   void resume_clock() { clock_ = std::chrono::steady_clock::now(); }
   /// Writes the last state, and closes the bag. Nothing when done before. @throws BagError
   void finish();
-  /// The same for the state that a PhysicsError left behind.
-  void fail();
+  /// The same for the state that a PhysicsError left behind; the last solver state says why, in one line.
+  void fail(const std::string& reason);
+  /// Commands that were late and refused so far, for the solver states.
+  void count_commands(std::uint64_t late, std::uint64_t refused) { outputs_.count_commands(late, refused); }
 
   mpm::Simulation& simulation() { return simulation_; }
   const mpm::Simulation& simulation() const { return simulation_; }
@@ -57,7 +59,7 @@ class Run {
   std::string bag() const { return recorder_ ? recorder_->path() : std::string(); }
 
  private:
-  void close(bool failed);
+  void close(const std::string& failure);
 
   const mpm::Scene& scene_;
   const std::string parameters_;

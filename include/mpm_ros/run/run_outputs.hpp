@@ -53,10 +53,14 @@ class RunOutputs {
   /// After each advance. `last`: the run ends here, so everything is written, with the state hash.
   /// `real_time_factor`: simulated over wall time so far.
   void sync(bool last, double real_time_factor);
-  /// For a run that ends between: writes the last state with its hash, unless sync() did. `failed`: after a
-  /// PhysicsError, for the state of the failure.
-  void finish(double real_time_factor, bool failed = false);
+  /// For a run that ends between: writes the last state with its hash, unless sync() did. `failure`: why the run cannot
+  /// go on, one line; then the state of the failure is written whole, and marked. Empty: it was told to end.
+  void finish(double real_time_factor, const std::string& failure = {});
+  /// For the solver states from now on.
+  void count_commands(std::uint64_t late, std::uint64_t refused);
 
+  /// The solver state as it was written last.
+  const SolverState& solver_state() const { return state_; }
   /// Contacts over the last sync period.
   const std::vector<mpm::ContactReport>& contacts() const { return contacts_; }
   ContactForces contact_forces(const std::vector<mpm::ContactReport>& contacts) const;
@@ -85,6 +89,10 @@ class RunOutputs {
   ForceMarkers force_markers_;
   std::vector<mpm::ContactReport> contacts_;
   ContactAverage average_;
+  SolverState state_;
+  std::uint64_t applied_ = 0;  // commands
+  std::uint64_t late_ = 0;
+  std::uint64_t refused_ = 0;
   std::int64_t particles_at_ = -1;  // [ns] when they were written last
   std::int64_t contacts_at_ = -1;   // [ns] the same
   bool finished_ = false;

@@ -2,12 +2,51 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/conversions.hpp"
 
 namespace mpm_ros {
 
+namespace {
+
+/// How far a body reaches from its origin [m]; endless axes do not count.
+double reach_of(const mpm::RigidBody& body) {
+  const mpm::Box bounds = body.surface().bounds();
+  const mpm::Vec3 corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs());
+  return corner.unaryExpr([](double c) { return std::isfinite(c) ? c : 0.0; }).norm();
+}
+
+/// How far the command moves some point of its body in a sync period, at most [m]; infinite when it overflows.
+double travel_of(const AppliedCommand& command, const mpm::Simulation& simulation) {
+  const mpm::RigidBody& body = simulation.rigid_body(command.body);
+  const double sync = static_cast<double>(simulation.sync_period()) * 1e-9;
+  if (command.kind == CommandKind::velocity) {
+    return sync * (command.twist.linear.norm() + command.twist.angular.norm() * reach_of(body));
+  }
+  const double periods = static_cast<double>(command.arrival - command.effect) * 1e-9 / sync;
+  const double turn = command.pose.orientation.angularDistance(body.pose().orientation);
+  return ((command.pose.position - body.pose().position).norm() + turn * reach_of(body)) / periods;
+}
+
+void check_travel(const AppliedCommand& command, const mpm::Simulation& simulation) {
+  mpm::Vec3 size = simulation.definition().grid.max - simulation.definition().grid.min;
+  if (simulation.definition().geometry != mpm::GeometryKind::solid) size.y() = 0.0;  // nothing moves out of the plane
+  const double longest = size.norm(), travel = travel_of(command, simulation);
+  // Not "travel > longest": what is not a number is left to the body's own check.
+  if (!(travel > longest)) return;
+  throw mpm::RigidError(
+      fmt::format("it would move '{}' by {:.3g} m in one sync period of {:g} s, more than the domain's diagonal of "
+                  "{:.3g} m; check its units, or reach a far pose in more time",
+                  simulation.rigid_body(command.body).name(), travel,
+                  static_cast<double>(simulation.sync_period()) * 1e-9, longest));
+}
+
+}  // namespace
+
 void apply(const AppliedCommand& command, mpm::Simulation& simulation) {
+  check_travel(command, simulation);
   if (command.kind == CommandKind::velocity) {
     simulation.command_velocity(command.body, command.twist);
   } else {

@@ -10,8 +10,10 @@ void CommandQueue::push(BodyCommand command) {
   const std::lock_guard<std::mutex> lock(mutex_);
   command.order = arrivals_++;
   // Sync points up to passed_ are used up.
-  command.late = command.late || (command.stamp && *command.stamp <= passed_);
-  if (command.late) ++late_;
+  const bool past = command.stamp && *command.stamp <= passed_;
+  if (past) ++late_.past;
+  if (command.late && !past) ++late_.unstamped;
+  command.late = command.late || past;
   waiting_.push_back(std::move(command));
 }
 
@@ -98,7 +100,7 @@ void CommandQueue::clear() {
   passed_ = -1;
 }
 
-std::uint64_t CommandQueue::late() const {
+LateCommands CommandQueue::late() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return late_;
 }

@@ -13,9 +13,17 @@ void ContactAverage::add(const std::vector<mpm::ContactReport>& reports) {
     mpm::ContactReport& sum = sum_[body];
     const mpm::ContactReport& next = reports[body];
     const double interval = sum.interval + next.interval;
+    // Arms go by the normal impulse; nothing pressed, no arm (not a number, which must not spread).
+    const double before = sum.interval * sum.pressing, added = next.interval * next.pressing;
+    if (added > 0.0)
+      sum.arm = before > 0.0 ? mpm::Vec3((before * sum.arm + added * next.arm) / (before + added)) : next.arm;
+    sum.origin = next.origin;
     if (interval > 0.0) {
-      sum.mean.force = (sum.interval * sum.mean.force + next.interval * next.mean.force) / interval;
-      sum.mean.torque = (sum.interval * sum.mean.torque + next.interval * next.mean.torque) / interval;
+      const auto mean = [&](const auto& a, const auto& b) { return (sum.interval * a + next.interval * b) / interval; };
+      sum.mean.force = mean(sum.mean.force, next.mean.force);
+      sum.mean.torque = mean(sum.mean.torque, next.mean.torque);
+      sum.friction = mean(sum.friction, next.friction);
+      sum.pressing = mean(sum.pressing, next.pressing);
     }
     if (next.peak.force.norm() > sum.peak.force.norm()) sum.peak = next.peak;
     sum.interval = interval;

@@ -67,12 +67,18 @@ geometry_msgs::Wrench to_message(const mpm::Wrench& wrench) {
 
 mpm::Vec3 from_message(const geometry_msgs::Vector3& message) { return {message.x, message.y, message.z}; }
 
+mpm::Vec3 from_message(const geometry_msgs::Point& message) { return {message.x, message.y, message.z}; }
+
+mpm::Wrench from_message(const geometry_msgs::Wrench& message) {
+  return {from_message(message.force), from_message(message.torque)};
+}
+
 mpm::Twist from_message(const geometry_msgs::Twist& message) {
   return {from_message(message.linear), from_message(message.angular)};
 }
 
 mpm::Pose from_message(const geometry_msgs::Pose& message) {
-  return {{message.position.x, message.position.y, message.position.z}, quaternion(message.orientation)};
+  return {from_message(message.position), quaternion(message.orientation)};
 }
 
 std::string problem_of(const geometry_msgs::Twist& message) {
@@ -114,7 +120,26 @@ mpm_ros::ContactForce to_message(const mpm::ContactReport& report) {
   message.impulse = to_vector(report.impulse);
   message.interval = report.interval;
   message.nodes = static_cast<std::uint32_t>(report.nodes);
+  message.pressing = report.pressing;
+  message.friction = to_vector(report.friction);
+  message.centre_of_pressure = to_point(report.centre_of_pressure());
+  message.arm = to_vector(report.arm);
   return message;
+}
+
+mpm::ContactReport from_message(const mpm_ros::ContactForce& message) {
+  mpm::ContactReport report;
+  report.body = message.name;
+  report.mean = from_message(message.wrench);
+  report.peak = from_message(message.peak);
+  report.impulse = from_message(message.impulse);
+  report.interval = message.interval;
+  report.nodes = static_cast<int>(message.nodes);
+  report.pressing = message.pressing;
+  report.friction = from_message(message.friction);
+  report.arm = from_message(message.arm);
+  report.origin = from_message(message.centre_of_pressure) - report.arm;
+  return report;
 }
 
 mpm_ros::SolverState to_message(const mpm::SolverState& state) {
@@ -131,6 +156,7 @@ mpm_ros::SolverState to_message(const mpm::SolverState& state) {
   message.energy_plastic = state.energy.plastic;
   message.energy_potential = state.energy.potential;
   message.contact_work = state.energy.contact_work;
+  message.load_work = state.energy.load_work;
   message.momentum = to_vector(state.audit.momentum);
   message.initial_momentum = to_vector(state.audit.initial_momentum);
   for (const mpm::NamedImpulse& impulse : state.audit.impulses) {

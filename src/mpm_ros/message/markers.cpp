@@ -1,8 +1,11 @@
 #include "mpm_ros/message/markers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mpm_ros/message/conversions.hpp"
@@ -20,21 +23,14 @@ std_msgs::ColorRGBA color(float red, float green, float blue, float alpha) {
   return value;
 }
 
-/// Infinite edges of planar bodies are drawn this far from the origin [m].
-constexpr double kFarAway = 1.0;
-
-geometry_msgs::Point drawable(const mpm::Vec3& vertex) {
-  mpm::Vec3 point = vertex;
-  for (double& component : point) {
-    if (!std::isfinite(component)) component = std::signbit(component) ? -kFarAway : kFarAway;
-  }
-  return to_point(point);
-}
-
 }  // namespace
 
 visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation) {
   visualization_msgs::MarkerArray markers;
+  // Bodies of a planar scene are endless along y: drawn as slices of a cell, so that they do not hide the material.
+  const bool planar = simulation.definition().geometry != mpm::GeometryKind::solid;
+  const double half_slice =
+      planar ? 0.5 * simulation.definition().grid.cell.x() : std::numeric_limits<double>::infinity();
   const int count = static_cast<int>(simulation.bodies().size());
   for (int body = 0; body < count; ++body) {
     const mpm::RigidBody& rigid = simulation.rigid_body(body);
@@ -50,16 +46,30 @@ visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation)
     marker.color = color(0.55F, 0.60F, 0.66F, 1.0F);
     marker.frame_locked = 1;
     for (const std::array<mpm::Vec3, 3>& triangle : rigid.surface().triangles()) {
-      for (const mpm::Vec3& vertex : triangle) marker.points.push_back(drawable(vertex));
+      for (mpm::Vec3 vertex : triangle) {
+        vertex.y() = std::clamp(vertex.y(), -half_slice, half_slice);
+        marker.points.push_back(to_point(vertex));
+      }
     }
     markers.markers.push_back(std::move(marker));
   }
   return markers;
 }
 
-visualization_msgs::MarkerArray ForceMarkers::arrows(const std::vector<mpm::ContactReport>& contacts,
-                                                     const std::vector<mpm::BodyState>& bodies,
-                                                     const std::string& world_frame, const ros::Time& stamp) {
+std::string force_text(double newtons) {
+  if (!std::isfinite(newtons) || newtons == 0.0) return fmt::format("{:g} N", newtons);
+  // Rounded to three digits first: 999.6 N is 1.00 kN.
+  const double rounded = std::stod(fmt::format("{:.2e}", newtons));
+  constexpr std::array<const char*, 5> prefixes{"u", "m", "", "k", "M"};
+  const int thousands = std::clamp(static_cast<int>(std::floor(std::log10(std::abs(rounded)) / 3.0 + 1e-9)), -2, 2);
+  const double value = rounded / std::pow(1000.0, thousands);
+  const int before_point = std::max(1, static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9)) + 1);
+  return fmt::format("{:.{}f} {}N", value, std::max(0, 3 - before_point), prefixes[thousands + 2]);
+}
+
+visualization_msgs::MarkerArray ForceMarkers::markers(const std::vector<mpm::ContactReport>& contacts,
+                                                      const std::string& world_frame, const ros::Time& stamp) {
+  using visualization_msgs::Marker;
   for (const mpm::ContactReport& contact : contacts) {
     largest_force_ = std::max(largest_force_, contact.mean.force.norm());
   }
@@ -67,20 +77,39 @@ visualization_msgs::MarkerArray ForceMarkers::arrows(const std::vector<mpm::Cont
 
   visualization_msgs::MarkerArray markers;
   for (std::size_t body = 0; body < contacts.size(); ++body) {
-    const mpm::Vec3 arrow = scale * contacts[body].mean.force;
-    visualization_msgs::Marker marker;
-    marker.header.frame_id = world_frame;
-    marker.header.stamp = stamp;
-    marker.ns = "contact_force";
-    marker.id = static_cast<int>(body);
-    marker.type = visualization_msgs::Marker::ARROW;
-    marker.action = arrow.isZero() ? visualization_msgs::Marker::DELETE : visualization_msgs::Marker::ADD;
-    marker.pose.orientation.w = 1.0;
-    marker.points = {to_point(bodies[body].pose.position), to_point(bodies[body].pose.position + arrow)};
-    marker.scale.x = 0.03 * longest_;  // shaft
-    marker.scale.y = 0.08 * longest_;  // head
-    marker.color = color(0.85F, 0.15F, 0.10F, 1.0F);
-    markers.markers.push_back(std::move(marker));
+    const mpm::ContactReport& contact = contacts[body];
+    const bool pressed = contact.centre_of_pressure().allFinite();
+    const auto add = [&](const char* name, int type) -> Marker& {
+      Marker marker;
+      marker.header.frame_id = world_frame;
+      marker.header.stamp = stamp;
+      marker.ns = name;
+      marker.id = static_cast<int>(body);
+      marker.type = type;
+      marker.action = pressed ? Marker::ADD : Marker::DELETE;
+      marker.pose.orientation.w = 1.0;
+      markers.markers.push_back(std::move(marker));
+      return markers.markers.back();
+    };
+    const mpm::Vec3 foot = pressed ? contact.centre_of_pressure() : mpm::Vec3(mpm::Vec3::Zero());
+    const mpm::Vec3 head = foot + scale * contact.mean.force;
+
+    Marker& arrow = add("contact_force", Marker::ARROW);
+    arrow.points = {to_point(foot), to_point(head)};
+    arrow.scale.x = 0.05 * longest_;  // shaft
+    arrow.scale.y = 0.12 * longest_;  // head
+    arrow.color = color(0.85F, 0.15F, 0.10F, 1.0F);
+
+    Marker& ball = add("centre_of_pressure", Marker::SPHERE);
+    ball.pose.position = to_point(foot);
+    ball.scale.x = ball.scale.y = ball.scale.z = 0.12 * longest_;
+    ball.color = color(0.98F, 0.80F, 0.10F, 1.0F);
+
+    Marker& text = add("contact_force_size", Marker::TEXT_VIEW_FACING);
+    text.pose.position = to_point(head + mpm::Vec3(0.0, 0.0, 0.15 * longest_));
+    text.scale.z = 0.15 * longest_;
+    text.color = color(1.0F, 1.0F, 1.0F, 1.0F);
+    text.text = contact.body + " " + force_text(contact.mean.force.norm());
   }
   return markers;
 }

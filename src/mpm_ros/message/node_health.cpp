@@ -1,45 +1,86 @@
 #include "mpm_ros/message/node_health.hpp"
 
+#include <fmt/format.h>
 #include <ros/console.h>
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace mpm_ros {
 
 namespace {
 
+using diagnostic_msgs::DiagnosticStatus;
+
 constexpr std::chrono::seconds kQuiet{1};
+constexpr int kLinesInQuiet = 20;         // refusals logged in that time
 constexpr std::size_t kMostLines = 1000;  // distinct lines remembered
+constexpr std::size_t kLongestLine = 600;
+
+/// What others wrote (names of frames and bodies) is quoted in reasons: one line of plain text, whatever it was.
+std::string one_line(std::string text) {
+  if (text.size() > kLongestLine) text = text.substr(0, kLongestLine) + "...";
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
+  return text;
+}
 
 }  // namespace
 
 void NodeHealth::refuse(const std::string& reason) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  const std::string line = one_line("refused: " + reason);
   ++refused_;
-  last_problem_ = "refused: " + reason;
+  last_refusal_ = line;
+  refused_at_ = Clock::now();
   news_ = true;
-  const auto now = std::chrono::steady_clock::now();
+  log_refusal(line);
+}
+
+void NodeHealth::log_refusal(const std::string& line) {
+  const Clock::time_point now = refused_at_;
   if (logged_.size() > kMostLines) logged_.clear();
-  const auto [entry, fresh] = logged_.emplace(reason, now);
+  const auto [entry, fresh] = logged_.emplace(line, now);
   if (!fresh && now - entry->second < kQuiet) return;
   entry->second = now;
-  ROS_WARN_STREAM("refused: " << reason);
+  if (now - quota_from_ >= kQuiet) {
+    if (unlogged_ > 0) ROS_WARN_STREAM("refused: " << unlogged_ << " more commands, not shown");
+    quota_from_ = now;
+    quota_used_ = 0;
+    unlogged_ = 0;
+  }
+  if (quota_used_ >= kLinesInQuiet) {
+    ++unlogged_;
+    return;
+  }
+  ++quota_used_;
+  ROS_WARN_STREAM(line);
+}
+
+void NodeHealth::follow(const std::string& body, double time) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Follower& follower = followers_[body];
+  ++follower.commands;
+  follower.last = time;
+  follower.silent = false;
 }
 
 void NodeHealth::change(const std::string& what) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++changes_;
-  last_change_ = what;
+  last_change_ = one_line(what);
   news_ = true;
-  ROS_INFO_STREAM(what);
+  ROS_INFO_STREAM(last_change_);
 }
 
-void NodeHealth::time_out(const std::string& what) {
+void NodeHealth::time_out(const std::string& body, const std::string& what) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++timeouts_;
-  last_problem_ = what;
+  followers_[body].silent = true;
+  last_timeout_ = one_line(what);
   news_ = true;
-  ROS_WARN_STREAM(what);
+  ROS_WARN_STREAM(last_timeout_);
 }
 
 void NodeHealth::set_solver(const SolverHealth& solver) {
@@ -48,28 +89,74 @@ void NodeHealth::set_solver(const SolverHealth& solver) {
   solver_ = solver;
 }
 
-void NodeHealth::fill_commands(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void NodeHealth::set_commands(const CommandHealth& commands) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (last_problem_.empty()) {
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "commands are applied as they come");
-  } else {
-    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, last_problem_);
-  }
+  commands_ = commands;
+}
+
+void NodeHealth::restart() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  followers_.clear();
+}
+
+std::uint64_t NodeHealth::refused() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return refused_;
+}
+
+void NodeHealth::fill_commands(diagnostic_updater::DiagnosticStatusWrapper& status, Clock::time_point now) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status.summary(DiagnosticStatus::OK, "commands are applied as they come");
+  const bool silent =
+      std::any_of(followers_.begin(), followers_.end(), [](const auto& follower) { return follower.second.silent; });
+  if (silent) status.mergeSummary(DiagnosticStatus::WARN, last_timeout_);
+  if (refused_ > 0 && now - refused_at_ < kFresh) status.mergeSummary(DiagnosticStatus::WARN, last_refusal_);
   status.add("refused", refused_);
-  status.add("late (zero or past stamp)", solver_.late);
-  status.add("waiting", solver_.waiting);
+  status.add("last refused", last_refusal_);
+  status.add("late: stamp zero", commands_.unstamped);
+  status.add("late: stamp past", commands_.past);
+  status.add("waiting", commands_.waiting);
   status.add("timeouts", timeouts_);
+  status.add("last timeout", last_timeout_);
   status.add("changes of kind", changes_);
   status.add("last change", last_change_);
+  for (const auto& [body, follower] : followers_) {
+    status.add("applied to " + body, fmt::format("{}, the last at {:.6f} s", follower.commands, follower.last));
+  }
 }
 
 void NodeHealth::fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  status.summary(solver_.failed ? diagnostic_msgs::DiagnosticStatus::ERROR : diagnostic_msgs::DiagnosticStatus::OK,
-                 solver_.phase);
+  std::string text = solver_.phase;
+  bool warn = false;
+  const auto add_warning = [&](const std::string& warning) {
+    text += "; " + warning;
+    warn = true;
+  };
+  // Written so that what is not a number warns.
+  if (!(solver_.momentum_error <= kAuditTolerance)) {
+    add_warning(fmt::format("the momentum audit is off by {:.2g} of the momentum exchanged", solver_.momentum_error));
+  }
+  if (!(solver_.min_j >= kCrushed)) {
+    add_warning(fmt::format("a particle is crushed to {:.3g} of its volume", solver_.min_j));
+  }
+  if (solver_.overruns > 0 && solver_.real_time_factor < kPaceKept * solver_.asked_factor) {
+    add_warning(fmt::format("slower than asked: {:.3g} of the wall clock's pace, not {:g}", solver_.real_time_factor,
+                            solver_.asked_factor));
+  }
+  const int level = solver_.failed ? DiagnosticStatus::ERROR : warn ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
+  status.summary(static_cast<std::uint8_t>(level), one_line(text));
   status.add("simulated time [s]", solver_.time);
   status.add("real-time factor", solver_.real_time_factor);
   status.add("overruns", solver_.overruns);
+  status.add("steps", solver_.steps);
+  status.add("time step [s]", solver_.step);
+  status.add("time step limited by", solver_.step_limited_by);
+  status.add("audit: momentum error", solver_.momentum_error);
+  status.add("smallest det F", solver_.min_j);
+  status.add("particles", solver_.particles);
+  // Nothing is ever outside and simulated on; the key is there for those who watch it.
+  status.add("particles outside (one ends the run)", 0);
 }
 
 bool NodeHealth::take_news() {

@@ -63,7 +63,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   // A run that replays recorded commands listens to nobody else.
   if (log_.empty()) {
     bridge_ = std::make_unique<CommandBridge>(commands, bodies_, parameters_.world_frame, *queue_, health_);
-    bridge_->set_stamps(run_->stamps());
+    bridge_->reader().set_stamps(run_->stamps());
   }
 
   services_.push_back(services.advertiseService(topics::kPause, &SimulatorNode::on_pause, this));
@@ -120,6 +120,7 @@ void SimulatorNode::start_run(const Stamps& stamps) {
   run_ = std::move(run);
   log_.rewind();
   watch_.clear();
+  health_.restart();
   failure_.clear();
   clock_at_ = -1;
 }
@@ -160,6 +161,7 @@ bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra) {
   try {
     apply_due(extra);
     if (!failure_.empty()) return false;
+    count_commands();
     run_->advance();
     publish_clock(run_->ended());
     if (run_->ended()) end_run();
@@ -202,6 +204,7 @@ void SimulatorNode::apply(const AppliedCommand& command) {
     return;
   }
   watch_.heard(command);
+  health_.follow(body.name(), static_cast<double>(command.effect) * 1e-9);
   if (body.drive() != before) {
     health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(body.drive()),
                                static_cast<double>(command.effect) * 1e-9, drive_text(before)));
@@ -223,9 +226,9 @@ void SimulatorNode::act_on_silence() {
       stop.body = body;
       stop.effect = now;
       run_->apply(stop);
-      health_.time_out(silence + ": it stands still");
+      health_.time_out(bodies_[body], silence + ": it stands still");
     } else {
-      health_.time_out(silence + ": it goes on as it was told last");
+      health_.time_out(bodies_[body], silence + ": it goes on as it was told last");
     }
   }
 }
@@ -235,7 +238,8 @@ void SimulatorNode::fail(const std::string& reason, int exit_code) {
   exit_code_ = exit_code;
   ROS_FATAL_STREAM(reason);
   try {
-    run_->fail();
+    count_commands();
+    run_->fail(reason);
     if (!run_->bag().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
   } catch (const BagError& error) {
     ROS_FATAL_STREAM(error.what());
@@ -246,12 +250,18 @@ void SimulatorNode::fail(const std::string& reason, int exit_code) {
 void SimulatorNode::end_run() {
   if (run_->closed()) return;
   try {
+    count_commands();
     run_->finish();
     if (!run_->bag().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
   } catch (const BagError& error) {
     ROS_FATAL_STREAM(error.what());
     exit_code_ = 1;
   }
+}
+
+void SimulatorNode::count_commands() {
+  const LateCommands late = queue_->late();
+  run_->count_commands(late.unstamped + late.past, health_.refused());
 }
 
 void SimulatorNode::publish_clock(bool always) {
@@ -287,10 +297,21 @@ void SimulatorNode::report() {
   }
   solver.time = static_cast<double>(run_->simulation().time()) * 1e-9;
   solver.real_time_factor = run_->real_time_factor();
+  if (parameters_.pacing == Pacing::real_time && phase() == Phase::running) {
+    solver.asked_factor = parameters_.real_time_factor;
+  }
   solver.overruns = pacer_->overruns();
-  solver.late = queue_->late();
-  solver.waiting = queue_->waiting();
+  const SolverState& state = run_->outputs().solver_state();
+  solver.steps = state.steps;
+  solver.step = state.dt;
+  solver.step_limited_by = state.dt_limited_by;
+  solver.momentum_error = state.momentum_error;
+  solver.min_j = state.min_j;
+  solver.particles = state.particles;
   health_.set_solver(solver);
+
+  const LateCommands late = queue_->late();
+  health_.set_commands({late.unstamped, late.past, queue_->waiting()});
 }
 
 void SimulatorNode::housekeeping() {

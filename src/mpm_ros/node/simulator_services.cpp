@@ -58,7 +58,7 @@ void SimulatorNode::reset(std_srvs::Trigger::Response& response) {
     return;
   }
   queue_->clear();
-  if (bridge_) bridge_->set_stamps(run_->stamps());
+  if (bridge_) bridge_->reader().set_stamps(run_->stamps());
   publish_clock(true);
   run_->begin();
   pacer_->restart(Pacer::Clock::now());
@@ -90,7 +90,7 @@ std::vector<AppliedCommand> SimulatorNode::commands_of(const Step::Request& requ
   const std::int64_t sync = run_->simulation().sync_period();
   for (const mpm_ros::Command& message : request.commands) {
     DueCommand due;
-    due.command = bridge_->read(message, problem);
+    due.command = bridge_->reader().read(message, problem);
     if (!problem.empty()) return commands;
     if (due.command.kind == CommandKind::pose) {
       const std::int64_t arrival = due.command.stamp.value_or(now + periods * sync);

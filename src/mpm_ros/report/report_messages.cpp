@@ -6,16 +6,7 @@ namespace mpm_ros {
 
 std::vector<mpm::ContactReport> contact_reports_of(const ContactForces& message) {
   std::vector<mpm::ContactReport> reports;
-  for (const ContactForce& force : message.bodies) {
-    mpm::ContactReport report;
-    report.body = force.name;
-    report.mean = {from_message(force.wrench.force), from_message(force.wrench.torque)};
-    report.peak = {from_message(force.peak.force), from_message(force.peak.torque)};
-    report.interval = force.interval;
-    report.nodes = static_cast<int>(force.nodes);
-    report.impulse = from_message(force.impulse);
-    reports.push_back(report);
-  }
+  for (const ContactForce& force : message.bodies) reports.push_back(from_message(force));
   return reports;
 }
 
@@ -32,8 +23,8 @@ mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message) 
   mpm::SolverState state;
   state.time = time;
   state.step = {message.steps, message.dt_min, message.dt_max, message.dt, message.dt_limited_by};
-  state.energy = {message.energy_kinetic, message.energy_elastic, message.energy_plastic, message.energy_potential,
-                  message.contact_work};
+  state.energy = {message.energy_kinetic,   message.energy_elastic, message.energy_plastic,
+                  message.energy_potential, message.contact_work,   message.load_work};
   state.audit.momentum = from_message(message.momentum);
   state.audit.initial_momentum = from_message(message.initial_momentum);
   for (const Impulse& impulse : message.impulses) {

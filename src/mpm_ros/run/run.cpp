@@ -39,14 +39,14 @@ double Run::real_time_factor() const {
   return wall > 0.0 ? static_cast<double>(simulation_.time()) * 1e-9 / wall : 0.0;
 }
 
-void Run::finish() { close(false); }
+void Run::finish() { close({}); }
 
-void Run::fail() { close(true); }
+void Run::fail(const std::string& reason) { close(reason); }
 
-void Run::close(bool failed) {
+void Run::close(const std::string& failure) {
   if (closed_) return;
   closed_ = true;
-  outputs_.finish(real_time_factor(), failed);
+  outputs_.finish(real_time_factor(), failure);
   if (recorder_) recorder_->close();
 }
 

@@ -89,6 +89,7 @@ void RunOutputs::begin(const RunInfo& info) {
 }
 
 void RunOutputs::command(const AppliedCommand& command) {
+  ++applied_;
   put(topics::kCommands,
       to_message(command, simulation_.rigid_body(command.body).name(), options_.world_frame, stamps_));
 }
@@ -105,9 +106,12 @@ void RunOutputs::sync(bool last, double real_time_factor) {
   finished_ = last;
 }
 
-void RunOutputs::finish(double real_time_factor, bool failed) {
+void RunOutputs::finish(double real_time_factor, const std::string& failure) {
   if (finished_) return;
   finished_ = true;
+  const bool failed = !failure.empty();
+  state_.failed = failed ? 1 : 0;
+  state_.failure = failure;
   if (failed || contacts_at_ != simulation_.time()) {
     read_contacts();
     write_bodies();
@@ -115,6 +119,11 @@ void RunOutputs::finish(double real_time_factor, bool failed) {
   }
   write_state(true, real_time_factor);
   if (failed || particles_at_ != simulation_.time()) write_particles();
+}
+
+void RunOutputs::count_commands(std::uint64_t late, std::uint64_t refused) {
+  late_ = late;
+  refused_ = refused;
 }
 
 void RunOutputs::read_contacts() {
@@ -152,7 +161,7 @@ void RunOutputs::write_contacts() {
     put(wrench_topics_[body], message);
   }
   if (wanted(topics::kForceMarkers)) {
-    put(topics::kForceMarkers, force_markers_.arrows(contacts, bodies, options_.world_frame, stamp()));
+    put(topics::kForceMarkers, force_markers_.markers(contacts, options_.world_frame, stamp()));
   }
 }
 
@@ -166,8 +175,14 @@ void RunOutputs::write_state(bool with_hash, double real_time_factor) {
   SolverState message = to_message(simulation_.state());
   message.header = header(options_.world_frame);
   message.real_time_factor = real_time_factor;
+  message.commands_applied = applied_;
+  message.commands_late = late_;
+  message.commands_refused = refused_;
+  message.failed = state_.failed;
+  message.failure = state_.failure;
   if (with_hash) message.state_hash = hash_text(simulation_.state_hash());
   put(topics::kSolverState, message);
+  state_ = std::move(message);
 }
 
 void RunOutputs::write_particles() {

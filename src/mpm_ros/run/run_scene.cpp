@@ -89,7 +89,7 @@ class OfflineRun {
     } catch (const mpm::PhysicsError& error) {
       progress.clear();
       err << "run_scene: " << error.what() << "\n";
-      run_->fail();
+      run_->fail(error.what());
       result = RunSceneResult::physics_failed;
     }
     if (csv_) csv_->close();

@@ -1,0 +1,67 @@
+// From command messages to the queue: checks each message, turns its frame into the world's (or names the body in whose
+// axes it stands), refuses what cannot be used with a reason and without any effect. Knows no ROS connection; it is
+// CommandBridge that hears the topics.
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <mpm_ros/Command.h>
+#include <tf2/buffer_core.h>
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "mpm/simulation/report.hpp"
+#include "mpm_ros/command/command_queue.hpp"
+#include "mpm_ros/message/node_health.hpp"
+#include "mpm_ros/message/stamps.hpp"
+
+namespace mpm_ros {
+
+class CommandReader {
+ public:
+  /// `prefix`: of the bodies' topics, as refusals name them. What is given by reference must outlive it.
+  CommandReader(std::vector<std::string> bodies, std::string world_frame, std::string prefix,
+                const tf2::BufferCore& frames, CommandQueue& queue, NodeHealth& health);
+
+  /// The run began (again): what stamps mean from now on.
+  void set_stamps(const Stamps& stamps);
+
+  /// A message for a body (its index): to the queue, or refused. Any thread.
+  void take(int body, const geometry_msgs::Twist& message);
+  void take(int body, const geometry_msgs::TwistStamped& message);
+  void take(int body, const geometry_msgs::PoseStamped& message);
+  /// A command of a step request, checked as those on topics are. `problem` says why not; then the result is of no use.
+  BodyCommand read(const mpm_ros::Command& message, std::string& problem) const;
+
+  const std::vector<std::string>& bodies() const { return bodies_; }
+  /// -1 when there is none.
+  int find_body(const std::string& name) const;
+
+ private:
+  void read_twist(const geometry_msgs::Twist& twist, const std::string& frame, const ros::Time& stamp,
+                  BodyCommand& command, std::string& problem) const;
+  void read_pose(const geometry_msgs::Pose& pose, const std::string& frame, const ros::Time& stamp,
+                 BodyCommand& command, std::string& problem) const;
+  void set_stamp(const ros::Time& stamp, BodyCommand& command, std::string& problem) const;
+  /// Why a simulated time [ns] cannot be meant, or empty.
+  std::string too_far_ahead(std::int64_t stamp) const;
+  void push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem);
+  /// Pose of a frame in the world, or the body whose frame it is.
+  mpm::Pose find_frame(const std::string& frame, const ros::Time& stamp, int& body, std::string& problem) const;
+
+  const std::vector<std::string> bodies_;
+  const std::string world_frame_;
+  const std::string prefix_;
+  const tf2::BufferCore& frames_;
+  CommandQueue& queue_;
+  NodeHealth& health_;
+  mutable std::mutex mutex_;  // of stamps_
+  Stamps stamps_;
+};
+
+/// A due command in world axes; `bodies` as they are at its effect [ns].
+AppliedCommand in_world(const DueCommand& due, const std::vector<mpm::BodyState>& bodies, std::int64_t effect);
+
+}  // namespace mpm_ros

@@ -1,0 +1,30 @@
+// Where RViz should look from: made to fit a cloud of particles, whatever the size of the scene.
+#pragma once
+
+#include <sensor_msgs/PointCloud2.h>
+
+#include <string>
+
+#include "mpm/math/geometry.hpp"
+
+namespace mpm_ros {
+
+/// Of RViz's view controller "Orbit", and of its display of the particles.
+struct View {
+  mpm::Vec3 focus = mpm::Vec3::Zero();  ///< point in the middle of the picture [m]
+  double distance = 1.0;                ///< of the eye from it [m]
+  double yaw = 0.0;                     ///< of the eye about z from x [rad]
+  double pitch = 0.0;                   ///< of the eye above the horizon [rad]
+  double particle_size = 0.01;          ///< [m]
+  std::string field;                    ///< that colours the particles; empty: none is there
+};
+
+/// All particles in the picture, each as large as their spacing; planar scenes (all y equal) from the front.
+/// `field`: wished for; when the cloud does not have it (or it is empty) the first of speed, p, and the cloud's own.
+View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field = {});
+
+/// An RViz configuration (YAML text) with the view put in, its topics below `name_space`, which ends with a slash.
+/// @throws std::runtime_error when it is not such a configuration.
+std::string with_view(const std::string& configuration, const View& view, const std::string& name_space);
+
+}  // namespace mpm_ros

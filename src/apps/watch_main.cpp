@@ -1,0 +1,85 @@
+// rosrun mpm_ros watch CONFIG.rviz [_field:=NAME]: RViz with a view that fits the run at hand. Waits for the first
+// particles below its namespace, puts their size, place and field into the configuration, and becomes RViz.
+#include <ros/ros.h>
+#include <ros/topic.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/message/view.hpp"
+
+namespace {
+
+/// How long it waits for particles; a run may be paused [s].
+constexpr double kPatience = 20.0;
+
+std::filesystem::path fitted_path() {
+  const char* ros_home = std::getenv("ROS_HOME");
+  const char* home = std::getenv("HOME");
+  const std::filesystem::path folder =
+      ros_home != nullptr ? ros_home : std::filesystem::path(home != nullptr ? home : "/tmp") / ".ros";
+  std::filesystem::create_directories(folder);
+  return folder / "mpm_ros_watch.rviz";
+}
+
+/// The configuration to start RViz with: fitted, or as it is when nothing is heard.
+std::string fitted(const std::string& path, const std::string& field) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  if (!file) throw std::runtime_error(path + " cannot be read");
+  ros::NodeHandle node;
+  sensor_msgs::PointCloud2ConstPtr cloud;
+  const auto subscriber = node.subscribe<sensor_msgs::PointCloud2>(
+      mpm_ros::topics::kParticles, 1, [&](const sensor_msgs::PointCloud2ConstPtr& message) { cloud = message; });
+  // By the wall clock: simulated time may stand still.
+  for (const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
+       ros::ok() && !cloud && ros::WallTime::now() < end;) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
+  }
+  if (!cloud) {
+    ROS_WARN("no particles on %s yet: the view is the configuration's own", subscriber.getTopic().c_str());
+    return path;
+  }
+  const std::string fitted_file = fitted_path();
+  std::ofstream out(fitted_file);
+  out << mpm_ros::with_view(text.str(), mpm_ros::view_of(*cloud, field), ros::this_node::getNamespace() + "/");
+  if (!out.flush()) throw std::runtime_error(fitted_file + " cannot be written");
+  return fitted_file;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<char*> words(argv, argv + argc);  // with what roslaunch appended, which RViz takes too
+  ros::init(argc, argv, "watch");
+  if (argc != 2) {
+    ROS_FATAL("usage: rosrun mpm_ros watch CONFIG.rviz [_field:=NAME]");
+    return 2;
+  }
+  std::string configuration = argv[1];
+  try {
+    ros::start();
+    configuration = fitted(configuration, ros::NodeHandle("~").param<std::string>("field", ""));
+  } catch (const std::exception& error) {
+    ROS_FATAL("watch: %s", error.what());
+    return 2;
+  }
+  const bool stopped = !ros::ok();
+  ros::shutdown();
+  if (stopped) return 0;
+  std::string rviz = "rviz", option = "-d";
+  std::vector<char*> command{rviz.data(), option.data(), configuration.data()};
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    if (std::string(words[i]).find(":=") != std::string::npos) command.push_back(words[i]);
+  }
+  command.push_back(nullptr);
+  execvp(rviz.c_str(), command.data());
+  ROS_FATAL("watch: rviz cannot be started; install it with scripts/install_packages rviz");
+  return 1;
+}

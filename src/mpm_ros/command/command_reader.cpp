@@ -1,0 +1,192 @@
+#include "mpm_ros/command/command_reader.hpp"
+
+#include <fmt/format.h>
+#include <tf2/exceptions.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "mpm/scene/nearest.hpp"
+#include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/topics.hpp"
+
+namespace mpm_ros {
+
+namespace {
+
+constexpr std::size_t kLongestFrame = 255;
+/// A stamp farther ahead of the simulation than this [ns] comes from another clock: nobody plans an hour ahead.
+constexpr std::int64_t kFarthest = 3'600'000'000'000;
+
+}  // namespace
+
+CommandReader::CommandReader(std::vector<std::string> bodies, std::string world_frame, std::string prefix,
+                             const tf2::BufferCore& frames, CommandQueue& queue, NodeHealth& health)
+    : bodies_(std::move(bodies)),
+      world_frame_(std::move(world_frame)),
+      prefix_(std::move(prefix)),
+      frames_(frames),
+      queue_(queue),
+      health_(health) {}
+
+void CommandReader::set_stamps(const Stamps& stamps) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  stamps_ = stamps;
+}
+
+int CommandReader::find_body(const std::string& name) const {
+  const auto body = std::find(bodies_.begin(), bodies_.end(), name);
+  return body == bodies_.end() ? -1 : static_cast<int>(body - bodies_.begin());
+}
+
+mpm::Pose CommandReader::find_frame(const std::string& frame, const ros::Time& stamp, int& body,
+                                    std::string& problem) const {
+  body = -1;
+  if (frame.size() > kLongestFrame) {
+    problem = fmt::format("the frame's name has {} characters; the most is {}", frame.size(), kLongestFrame);
+    return {};
+  }
+  if (frame.empty() || frame == world_frame_) return {};
+  // The simulation knows its own bodies better than tf does, which hears of them a message later.
+  body = find_body(frame);
+  if (body >= 0) return {};
+  try {
+    geometry_msgs::TransformStamped transform;
+    try {
+      transform = frames_.lookupTransform(world_frame_, frame, stamp);
+    } catch (const tf2::ExtrapolationException&) {
+      transform = frames_.lookupTransform(world_frame_, frame, ros::Time());
+    }
+    geometry_msgs::Pose pose;
+    pose.position.x = transform.transform.translation.x;
+    pose.position.y = transform.transform.translation.y;
+    pose.position.z = transform.transform.translation.z;
+    pose.orientation = transform.transform.rotation;
+    problem = problem_of(pose);
+    if (problem.empty()) return checked_pose(pose);
+    problem = fmt::format("the transform from {} to {}: {}", world_frame_, frame, problem);
+  } catch (const tf2::TransformException& error) {
+    problem = fmt::format("frame '{}' is not known to tf ({})", frame, error.what());
+  }
+  return {};
+}
+
+void CommandReader::set_stamp(const ros::Time& stamp, BodyCommand& command, std::string& problem) const {
+  command.requested = stamp;
+  if (stamp.isZero()) {
+    command.late = true;
+    return;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  command.stamp = std::max<std::int64_t>(stamps_.time_of(stamp), -1);
+  problem = too_far_ahead(*command.stamp);
+}
+
+std::string CommandReader::too_far_ahead(std::int64_t stamp) const {
+  const std::int64_t ahead = stamp - queue_.passed();
+  if (ahead <= kFarthest) return {};
+  return fmt::format("the stamp lies {:.0f} s ahead of the simulation; does the sender read the same clock?",
+                     static_cast<double>(ahead) * 1e-9);
+}
+
+void CommandReader::read_twist(const geometry_msgs::Twist& twist, const std::string& frame, const ros::Time& stamp,
+                               BodyCommand& command, std::string& problem) const {
+  command.kind = CommandKind::velocity;
+  problem = problem_of(twist);
+  if (!problem.empty()) return;
+  const mpm::Pose axes = find_frame(frame, stamp, command.frame_body, problem);
+  const mpm::Twist given = from_message(twist);
+  // Left untouched where nothing is to be turned, so that the bits are those of the message.
+  command.twist = axes.orientation.coeffs() == mpm::Quat::Identity().coeffs()
+                      ? given
+                      : mpm::Twist{axes.orientation * given.linear, axes.orientation * given.angular};
+}
+
+void CommandReader::read_pose(const geometry_msgs::Pose& pose, const std::string& frame, const ros::Time& stamp,
+                              BodyCommand& command, std::string& problem) const {
+  command.kind = CommandKind::pose;
+  problem = problem_of(pose);
+  if (!problem.empty()) return;
+  const mpm::Pose origin = find_frame(frame, stamp, command.frame_body, problem);
+  const mpm::Pose given = checked_pose(pose);
+  command.pose = {origin.to_world(given.position), (origin.orientation * given.orientation).normalized()};
+}
+
+void CommandReader::push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem) {
+  if (problem.empty()) {
+    queue_.push(std::move(command));
+  } else {
+    health_.refuse(fmt::format("a command on {}{}/{}: {}", prefix_, bodies_[command.body], leaf, problem));
+  }
+}
+
+void CommandReader::take(int body, const geometry_msgs::Twist& message) {
+  BodyCommand command;
+  command.body = body;
+  std::string problem;
+  read_twist(message, world_frame_, ros::Time(), command, problem);
+  push_or_refuse(topics::kCmdVel, std::move(command), problem);
+}
+
+void CommandReader::take(int body, const geometry_msgs::TwistStamped& message) {
+  BodyCommand command;
+  command.body = body;
+  std::string problem;
+  set_stamp(message.header.stamp, command, problem);
+  if (problem.empty()) read_twist(message.twist, message.header.frame_id, message.header.stamp, command, problem);
+  push_or_refuse(topics::kCmdVelStamped, std::move(command), problem);
+}
+
+void CommandReader::take(int body, const geometry_msgs::PoseStamped& message) {
+  BodyCommand command;
+  command.body = body;
+  std::string problem;
+  set_stamp(message.header.stamp, command, problem);
+  if (problem.empty()) read_pose(message.pose, message.header.frame_id, message.header.stamp, command, problem);
+  push_or_refuse(topics::kCmdPose, std::move(command), problem);
+}
+
+BodyCommand CommandReader::read(const mpm_ros::Command& message, std::string& problem) const {
+  BodyCommand command;
+  command.body = find_body(message.body);
+  if (command.body < 0) {
+    problem = fmt::format("there is no rigid body '{}'; {}", message.body, mpm::suggest(message.body, bodies_));
+    return command;
+  }
+  const std::string& frame = message.header.frame_id;
+  if (message.kind == mpm_ros::Command::VELOCITY) {
+    read_twist(message.twist, frame, ros::Time(), command, problem);
+  } else if (message.kind == mpm_ros::Command::POSE) {
+    read_pose(message.pose, frame, ros::Time(), command, problem);
+    if (!message.arrival.isZero()) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      command.stamp = stamps_.time_of(message.arrival);
+      if (problem.empty()) problem = too_far_ahead(*command.stamp);
+    }
+  } else {
+    problem = fmt::format("kind is {}; it must be VELOCITY ({}) or POSE ({})", message.kind,
+                          +mpm_ros::Command::VELOCITY, +mpm_ros::Command::POSE);
+  }
+  command.requested = message.requested;
+  if (!problem.empty()) problem = fmt::format("the command for '{}': {}", message.body, problem);
+  return command;
+}
+
+AppliedCommand in_world(const DueCommand& due, const std::vector<mpm::BodyState>& bodies, std::int64_t effect) {
+  AppliedCommand applied;
+  applied.body = due.command.body;
+  applied.kind = due.command.kind;
+  applied.twist = due.command.twist;
+  applied.pose = due.command.pose;
+  applied.effect = effect;
+  applied.arrival = due.arrival;
+  applied.requested = due.command.requested;
+  if (due.command.frame_body >= 0) {
+    const mpm::Pose& frame = bodies[due.command.frame_body].pose;
+    applied.twist = {frame.orientation * applied.twist.linear, frame.orientation * applied.twist.angular};
+    applied.pose = {frame.to_world(applied.pose.position), (frame.orientation * applied.pose.orientation).normalized()};
+  }
+  return applied;
+}
+
+}  // namespace mpm_ros

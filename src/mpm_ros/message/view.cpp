@@ -1,0 +1,96 @@
+#include "mpm_ros/message/view.hpp"
+
+#include <fmt/format.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+namespace mpm_ros {
+
+namespace {
+
+/// Distance of the eye over the radius of what is to be seen: RViz's field of view is 45 degrees high.
+constexpr double kDistance = 2.4;
+
+std::string choose_field(const sensor_msgs::PointCloud2& cloud, const std::string& wished) {
+  std::vector<std::string> names;
+  for (const sensor_msgs::PointField& field : cloud.fields) names.push_back(field.name);
+  const auto there = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const std::string& name : {wished, std::string("speed"), std::string("p")}) {
+    if (there(name)) return name;
+  }
+  return names.size() > 4 ? names[4] : std::string();  // after x, y, z and id
+}
+
+/// The usual distance of a particle from the one before it, which is its neighbour in the row it was laid in.
+double spacing_of(const std::vector<mpm::Vec3>& points) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < points.size(); ++i) steps.push_back((points[i] - points[i - 1]).norm());
+  if (steps.empty()) return View().particle_size;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+}  // namespace
+
+View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field) {
+  std::vector<mpm::Vec3> points;
+  mpm::Box box;
+  sensor_msgs::PointCloud2ConstIterator<float> x(cloud, "x"), y(cloud, "y"), z(cloud, "z");
+  for (; x != x.end(); ++x, ++y, ++z) {
+    const mpm::Vec3 point(*x, *y, *z);
+    if (!point.allFinite()) continue;
+    points.push_back(point);
+    box.add(point);
+  }
+  View view;
+  view.field = choose_field(cloud, field);
+  if (points.empty()) return view;
+  const bool planar = box.size().y() == 0.0;
+  view.focus = box.center();
+  view.distance = kDistance * std::max(0.5 * box.size().norm(), 1e-3);
+  view.yaw = planar ? 1.5 * M_PI : 5.5;
+  view.pitch = planar ? 0.0 : 0.42;
+  view.particle_size = spacing_of(points);
+  return view;
+}
+
+std::string with_view(const std::string& configuration, const View& view, const std::string& name_space) {
+  try {
+    YAML::Node root = YAML::Load(configuration);
+    YAML::Node manager = root["Visualization Manager"];
+    for (YAML::Node display : manager["Displays"]) {
+      for (const char* key : {"Topic", "Marker Topic"}) {
+        if (!display[key]) continue;
+        const auto topic = display[key].as<std::string>();
+        display[key] = name_space + topic.substr(topic.rfind('/') + 1);
+      }
+      if (display["Class"].as<std::string>() != "rviz/PointCloud2") continue;
+      display["Size (m)"] = view.particle_size;
+      if (view.field.empty()) {
+        display["Color Transformer"] = "FlatColor";
+      } else {
+        display["Channel Name"] = view.field;
+        display["Name"] = "Particles, by " + view.field;
+      }
+    }
+    YAML::Node eye = manager["Views"]["Current"];
+    eye["Distance"] = view.distance;
+    eye["Yaw"] = view.yaw;
+    eye["Pitch"] = view.pitch;
+    eye["Focal Point"]["X"] = view.focus.x();
+    eye["Focal Point"]["Y"] = view.focus.y();
+    eye["Focal Point"]["Z"] = view.focus.z();
+    return YAML::Dump(root);
+  } catch (const YAML::Exception& error) {
+    throw std::runtime_error(fmt::format("the RViz configuration cannot be used: {}", error.what()));
+  }
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,72 @@
+// What a simulation is not told: a motion that no tool means.
+#include "mpm_ros/command/body_command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mpm/scene/scene.hpp"
+
+namespace mpm_ros {
+namespace {
+
+class TooFast : public testing::Test {
+ protected:
+  mpm::Scene scene_ = mpm::load_scene(MPM_TEST_DATA_DIR "/press.yaml");
+  mpm::Simulation simulation_{mpm::build(scene_), {1}};
+  // The domain is 0.2 x 0.12 m.
+  double diagonal_ = std::hypot(0.2, 0.12);
+  double sync_ = static_cast<double>(simulation_.sync_period()) * 1e-9;
+  AppliedCommand command_;
+
+  void SetUp() override { command_.body = simulation_.find_body("plate"); }
+  void expect_refused() {
+    try {
+      apply(command_, simulation_);
+      FAIL() << "it was taken";
+    } catch (const mpm::RigidError& error) {
+      EXPECT_NE(std::string(error.what()).find("'plate'"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("diagonal"), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(simulation_.rigid_body(command_.body).drive(), mpm::Drive::functions);
+  }
+  void expect_taken() {
+    apply(command_, simulation_);
+    EXPECT_NE(simulation_.rigid_body(command_.body).drive(), mpm::Drive::functions);
+  }
+};
+
+TEST_F(TooFast, VelocityOfMoreThanTheDiagonalInASyncPeriod) {
+  command_.twist.linear.x() = 1.001 * diagonal_ / sync_;
+  expect_refused();
+  command_.twist.linear.x() = 0.999 * diagonal_ / sync_;
+  expect_taken();
+}
+
+TEST_F(TooFast, RotationCountsAtTheFarthestCorner) {
+  // The plate is 0.14 x 0.04 m about its origin, and endless along y.
+  const double reach = std::hypot(0.07, 0.02);
+  command_.twist.angular.y() = 1.001 * diagonal_ / sync_ / reach;
+  expect_refused();
+  command_.twist.angular.y() = 0.999 * diagonal_ / sync_ / reach;
+  expect_taken();
+}
+
+TEST_F(TooFast, PoseThatIsFarForItsTime) {
+  command_.kind = CommandKind::pose;
+  command_.pose = simulation_.rigid_body(command_.body).pose();
+  command_.pose.position.z() += 5.0 * diagonal_;
+  command_.arrival = 4 * simulation_.sync_period();
+  expect_refused();
+  command_.arrival = 6 * simulation_.sync_period();
+  expect_taken();
+}
+
+TEST_F(TooFast, OverflowIsRefused) {
+  command_.twist.linear.x() = 1e308;
+  command_.twist.angular.y() = -1e308;
+  expect_refused();
+}
+
+}  // namespace
+}  // namespace mpm_ros

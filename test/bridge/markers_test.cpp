@@ -1,0 +1,101 @@
+// What RViz is told of contact, and of the shapes.
+#include "mpm_ros/message/markers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mpm/scene/scene.hpp"
+
+namespace mpm_ros {
+namespace {
+
+using visualization_msgs::Marker;
+
+TEST(ForceText, HasThreeDigitsAndAPrefix) {
+  EXPECT_EQ(force_text(537.2), "537 N");
+  EXPECT_EQ(force_text(53.72), "53.7 N");
+  EXPECT_EQ(force_text(1.0), "1.00 N");
+  EXPECT_EQ(force_text(1000.0), "1.00 kN");
+  EXPECT_EQ(force_text(999.6), "1.00 kN");  // rounded before it gets its prefix
+  EXPECT_EQ(force_text(12345.0), "12.3 kN");
+  EXPECT_EQ(force_text(2.5e6), "2.50 MN");
+  EXPECT_EQ(force_text(0.035), "35.0 mN");
+  EXPECT_EQ(force_text(4.2e-5), "42.0 uN");
+  EXPECT_EQ(force_text(0.0), "0 N");
+}
+
+mpm::ContactReport contact() {
+  mpm::ContactReport report;
+  report.body = "blade";
+  report.mean.force = {30.0, 0.0, 40.0};
+  report.pressing = 50.0;
+  report.origin = {1.0, 0.0, 0.0};
+  report.arm = {0.0, 2.0, 0.0};
+  return report;
+}
+
+TEST(ForceMarkers, ArrowBallAndSizeAtTheCentreOfPressure) {
+  ForceMarkers markers(0.1, 1.0);
+  const visualization_msgs::MarkerArray array = markers.markers({contact()}, "world", ros::Time(3, 0));
+  ASSERT_EQ(array.markers.size(), 3U);
+  const Marker &arrow = array.markers[0], &ball = array.markers[1], &text = array.markers[2];
+  for (const Marker& marker : array.markers) {
+    EXPECT_EQ(marker.action, Marker::ADD);
+    EXPECT_EQ(marker.header.frame_id, "world");
+    EXPECT_EQ(marker.header.stamp, ros::Time(3, 0));
+  }
+  EXPECT_EQ(arrow.type, Marker::ARROW);
+  ASSERT_EQ(arrow.points.size(), 2U);
+  EXPECT_EQ(arrow.points[0].x, 1.0);
+  EXPECT_EQ(arrow.points[0].y, 2.0);
+  EXPECT_DOUBLE_EQ(arrow.points[1].x, 1.0 + 0.1 * 30.0);
+  EXPECT_DOUBLE_EQ(arrow.points[1].z, 0.1 * 40.0);
+  EXPECT_EQ(ball.type, Marker::SPHERE);
+  EXPECT_EQ(ball.pose.position.y, 2.0);
+  EXPECT_EQ(text.type, Marker::TEXT_VIEW_FACING);
+  EXPECT_EQ(text.text, "blade 50.0 N");
+}
+
+TEST(ForceMarkers, TheLargestForceMetIsDrawnAsLongAsItMayBe) {
+  ForceMarkers markers(0.0, 0.5);
+  const auto length = [&](const mpm::ContactReport& report) {
+    const Marker arrow = markers.markers({report}, "world", ros::Time()).markers[0];
+    return std::hypot(arrow.points[1].x - arrow.points[0].x, arrow.points[1].z - arrow.points[0].z);
+  };
+  EXPECT_DOUBLE_EQ(length(contact()), 0.5);
+  mpm::ContactReport half = contact();
+  half.mean.force /= 2.0;
+  EXPECT_DOUBLE_EQ(length(half), 0.25);
+}
+
+TEST(ForceMarkers, AllGoWhenTheContactEnds) {
+  ForceMarkers markers(0.0, 1.0);
+  const visualization_msgs::MarkerArray there = markers.markers({contact()}, "world", ros::Time());
+  const visualization_msgs::MarkerArray gone = markers.markers({mpm::ContactReport()}, "world", ros::Time());
+  ASSERT_EQ(gone.markers.size(), there.markers.size());
+  for (std::size_t i = 0; i < gone.markers.size(); ++i) {
+    EXPECT_EQ(gone.markers[i].action, Marker::DELETE);
+    EXPECT_EQ(gone.markers[i].ns, there.markers[i].ns);  // a marker is known by its namespace and number
+    EXPECT_EQ(gone.markers[i].id, there.markers[i].id);
+    // RViz refuses what is not finite, whatever the action.
+    EXPECT_TRUE(std::isfinite(gone.markers[i].pose.position.x));
+  }
+}
+
+TEST(ShapeMarkers, PlanarBodiesAreSlices) {
+  const mpm::Scene scene = mpm::load_scene(MPM_TEST_DATA_DIR "/press.yaml");
+  const mpm::Simulation simulation(mpm::build(scene), {1});
+  const visualization_msgs::MarkerArray array = shape_markers(simulation);
+  ASSERT_EQ(array.markers.size(), 2U);
+  for (const Marker& marker : array.markers) {
+    ASSERT_FALSE(marker.points.empty());
+    // As thick as a cell, 0.01 m.
+    for (const geometry_msgs::Point& point : marker.points) EXPECT_LE(std::abs(point.y), 0.005);
+  }
+  EXPECT_EQ(array.markers[0].header.frame_id, "plate");
+  EXPECT_EQ(std::abs(array.markers[0].points[0].y), 0.005);
+}
+
+}  // namespace
+}  // namespace mpm_ros

@@ -71,9 +71,15 @@ class DruckerPrager : public LawTraits {
     return LinearElastic::stress_energy(scale_shift(tau, density_ / j, 0.0), bulk_, shear_) * j / density_;
   }
 
-  /// Loose soil (j > 1) carries no more than dense soil does.
-  double wave_speed(const Matrix3<double>&, const Symmetric3<double>&, double j) const {
-    return std::sqrt((bulk_ + 4.0 / 3.0 * shear_) * std::min(j, 1.0) / density_);
+  double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double j) const {
+    const double mean = trace(tau) / 3.0 * density_ / j;
+    const double root_j2 = std::sqrt(0.5 * squared_norm(scale_shift(tau, 1.0, -trace(tau) / 3.0))) * density_ / j;
+    const bool flows = root_j2 >= kNearYield * (strength_ - eta_ * mean);
+    // |p - q| = K (eta - eta_bar), h = G + K eta eta_bar; opened soil, which never bears pressure, does not dilate.
+    const double eta_bar = mean > -kStressFree * bulk_ ? 0.0 : eta_bar_;
+    const double half = 0.5 * bulk_ * (eta_ - eta_bar);
+    const double flow = half * half / (shear_ + bulk_ * eta_ * eta_bar);
+    return soil_wave_speed(tau, j, bulk_, shear_, density_, flows ? flow : 0.0);
   }
   double density() const { return density_; }
   double eta() const { return eta_; }

@@ -1,15 +1,20 @@
 // Metal: J2 (von Mises) plasticity with isotropic hardening at finite strain. The isochoric elastic left Cauchy-Green
 // tensor b gives s = dev tau = G dev b; trial state by the increment, radial return of s to the Mises stress
-// sigma_y(a) = yield + H a + (saturation - yield) (1 - exp(-rate a)) (linear and Voce). Pressure is that of
-// neo_hookean.hpp, so below yield the law is that one. Source: Simo & Hughes, Computational Inelasticity, box 9.1. Why
-// not logarithmic strain: this needs no principal directions, is exactly hyperelastic, so that closed elastic cycles
-// leave nothing behind, and its b comes back from the stress, so that a particle stores no strain beside it.
+//   sigma_y(a) = yield + H a + (saturation - yield) (1 - exp(-rate a))        (linear and Voce hardening).
+// Pressure is that of neo_hookean.hpp, so below yield the law is that one.
+// Source: Simo & Hughes, Computational Inelasticity, box 9.1.
+//
+// Why not logarithmic strain: this needs no principal directions, is exactly hyperelastic, so that closed elastic
+// cycles leave nothing behind, and its b comes back from the stress, so that a particle stores no strain beside it.
+//
 // Two things differ from box 9.1. tr b is what det b = 1 asks for (isochoric.hpp), where the box keeps that of the
 // trial state, which grows without end under plastic flow. And the return's modulus is such that plastic strain times
-// Mises stress is exactly the elastic energy that flow releases: with I1, I2 and J2, J3 the invariants of b and dev b
-// it is G 2 J2 I2 / (I1 I2 - 9), I1 I2 - 9 = 3 (2 J2 tr(b)/3 - 3 J3), and tends to the box's G tr(b)/3 for small
-// elastic strain. Weak: yields on Kirchhoff stress (Cauchy stress at yield is sigma_y / J); no rate or temperature, no
-// kinematic hardening.
+// Mises stress is the elastic energy that flow releases: with the invariants I1, I2 of b and J2, J3 of dev b it is
+// 2 G J2 I2 / (I1 I2 - 9), where I1 I2 - 9 = 2 J2 I1 - 9 J3; for small elastic strain it is the box's G I1 / 3.
+//
+// Plastic work closes the energy balance to second order in the step while elastic strain is small.
+// Weak: yields on Kirchhoff stress (Cauchy stress at yield is sigma_y / J); no rate or temperature, no kinematic
+// hardening.
 #pragma once
 
 #include <cmath>
@@ -46,13 +51,16 @@ class J2Plasticity : public LawTraits {
     const T before = strength(strain);
     if (mises > before) {
       const T j3 = determinant(deviator);
-      const T mean = T(1) + isochoric_excess(j2, j3);
+      const T excess = isochoric_excess(j2, j3), mean = T(1) + excess;
       const T modulus = T(2) * shear * j2 * (T(3) * mean * mean - j2) / (T(2) * mean * j2 - T(3) * j3);
       const T flow = plastic_increment(mises, modulus, strain);
       const T after = mises - modulus * flow;
       deviator = scale_shift(deviator, after / mises, T(0));
       strain += flow;
-      history[kPlasticWork][p] += T(0.5) * (before + after) * flow / T(density_);
+      // What the return released, less what of it the trial took too much to get there: to second order the mean Mises
+      // stress of the step times its plastic strain.
+      const T released = T(1.5) * shear * (excess - isochoric_excess(deviator));
+      history[kPlasticWork][p] += (released - T(0.5) * (mises - before) * flow) / T(density_);
     }
     const T inverse_density = T(1.0 / density_);
     tau =

@@ -3,6 +3,7 @@
 // paths, and simple shear follows G sin(gamma) (exact-solutions 4). Source: method reference 10.1.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "mpm/material/definition.hpp"
@@ -45,9 +46,16 @@ class LinearElastic : public LawTraits {
     return pressure * pressure / (2.0 * bulk) + deviator2 / (4.0 * shear);
   }
 
-  /// Longitudinal wave: the stress that is there adds nothing to it (Jaumann rate of Cauchy stress).
-  double wave_speed(const Matrix3<double>&, const Symmetric3<double>&, double j) const {
-    return std::sqrt((bulk_ + 4.0 / 3.0 * shear_) * j / density_);
+  double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double j) const {
+    return tangent_wave_speed(tau, j, bulk_, shear_, density_);
+  }
+  /// Bound on the fastest small wave: longitudinal, to which the stress that is there adds nothing (Jaumann rate of
+  /// Cauchy stress), or transverse, G + (s1 - s3)/2 at most, with s1 - s3 <= sqrt(2) |dev s|.
+  /// `flow`: what more there is [Pa].
+  static double tangent_wave_speed(const Symmetric3<double>& tau, double j, double bulk, double shear, double density,
+                                   double flow = 0.0) {
+    const double deviator = std::sqrt(squared_norm(scale_shift(tau, 1.0, -trace(tau) / 3.0))) * density / j;
+    return std::sqrt((std::max(bulk + 4.0 / 3.0 * shear, shear + deviator / std::sqrt(2.0)) + flow) * j / density);
   }
   double density() const { return density_; }
 

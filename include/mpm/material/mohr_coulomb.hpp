@@ -27,7 +27,7 @@ class MohrCoulomb : public LawTraits {
   static constexpr int kPlasticWork = 2;
 
   /// Where a stress came to lie.
-  enum class Region { elastic, plane, compression_edge, extension_edge, apex, tension, tension_and_shear };
+  enum class Region { elastic, plane, extension_edge, compression_edge, apex, tension, tension_and_shear };
 
   MohrCoulomb(const MohrCoulombDefinition& d, double density);
 
@@ -100,9 +100,12 @@ class MohrCoulomb : public LawTraits {
     return LinearElastic::stress_energy(scale_shift(tau, density_ / j, 0.0), bulk_, shear_) * j / density_;
   }
 
-  /// Loose soil (j > 1) carries no more than dense soil does.
-  double wave_speed(const Matrix3<double>&, const Symmetric3<double>&, double j) const {
-    return std::sqrt((bulk_ + 4.0 / 3.0 * shear_) * std::min(j, 1.0) / density_);
+  double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double j) const {
+    const Principal<double> s = principal(scale_shift(tau, density_ / j, 0.0));
+    const double largest = s.largest(), smallest = s.smallest();
+    const bool flows = largest - smallest >= kNearYield * (strength_ - (largest + smallest) * sin_friction_);
+    const bool open = trace(tau) / 3.0 * density_ / j > -kStressFree * bulk_;
+    return soil_wave_speed(tau, j, bulk_, shear_, density_, flows ? flow_stiffness(open ? 0.0 : sin_dilation_) : 0.0);
   }
   double density() const { return density_; }
   double sin_dilation() const { return sin_dilation_; }
@@ -111,6 +114,23 @@ class MohrCoulomb : public LawTraits {
 
  private:
   double lame() const { return bulk_ - 2.0 / 3.0 * shear_; }
+
+  /// What flow at `sin_dilation` = q may add to rho c^2 [Pa]: (|p - q|/2)^2 / h of the main plane (opening.hpp), and of
+  /// both planes of an edge, as their sum and their difference.
+  double flow_stiffness(double q) const {
+    const double a = lame(), g = shear_, sine = sin_friction_;
+    const double volumetric = 4.0 * a * sine * q;
+    const double own = volumetric + 4.0 * g * (1.0 + sine * q);
+    const auto square = [](double x) { return x * x; };
+    double most = std::max(square(2.0 * a), square(2.0 * (a + g))) / own;
+    for (const double sign : {1.0, -1.0}) {  // s2 = s3, s1 = s2
+      const double sum = own + volumetric + 2.0 * g * (1.0 + sign * sine) * (1.0 + sign * q);
+      const double difference = 2.0 * g * (1.0 - sign * sine) * (1.0 - sign * q);
+      most = std::max(most, square(4.0 * (a + g)) / (2.0 * sum));
+      most = std::max(most, square(4.0 * a + 2.0 * g) / (2.0 * sum) + square(2.0 * g) / (2.0 * difference));
+    }
+    return 0.25 * square(sine - q) * most;
+  }
 
   /// To the main plane, f(s1, s3) = 0, or the edge where two planes meet; the order may come out wrong beyond the apex.
   /// C m = 2 lame q (1, 1, 1) + 2 G m, with m = (1 + q, 0, -1 + q) and q the sine of the dilation angle.
@@ -134,7 +154,7 @@ class MohrCoulomb : public LawTraits {
       const T pair = T(0.5) * (trial[1] + trial[2]) - both * (T(2) * a * q - g * (T(1) - q));
       r[0] = (T(strength_) + (T(1) - sine) * pair) / (T(1) + sine);
       r[1] = r[2] = pair;
-      return Region::compression_edge;
+      return Region::extension_edge;
     }
     // s1 = s2: the planes of (1, 3) and (2, 3).
     const T other = volumetric + T(2) * g * (T(1) - sine) * (T(1) - q);
@@ -142,7 +162,7 @@ class MohrCoulomb : public LawTraits {
     const T pair = T(0.5) * (trial[0] + trial[1]) - both * (T(2) * a * q + g * (T(1) + q));
     r[0] = r[1] = pair;
     r[2] = beside(pair);
-    return Region::extension_edge;
+    return Region::compression_edge;
   }
 
   /// The cut-off alone, or with shear: once neither of the two alone is enough, the stress lies on the line

@@ -29,10 +29,11 @@ class NewtonianFluid : public LawTraits {
     if (!tension_) pressure = std::max(pressure, T(0));
     const Symmetric strain = symmetric_part(step.du);
     const T volume = step.j / T(density_);  // [m^3/kg]
-    const T twice_viscosity = T(2.0 * viscosity_) / step.dt * volume;
+    const T twice_viscosity = T(2.0 * viscosity_) / step.dt;
     const T mean = trace(strain) / T(3);
-    tau = scale_shift(strain, twice_viscosity, -twice_viscosity * mean - pressure * volume);
-    history[kPlasticWork][p] += twice_viscosity * (squared_norm(strain) - T(3) * mean * mean);
+    tau = scale_shift(strain, twice_viscosity * volume, -(twice_viscosity * mean + pressure) * volume);
+    const T mean_volume = T(0.5 / density_) * (step.j_old + step.j);
+    history[kPlasticWork][p] += twice_viscosity * mean_volume * (squared_norm(strain) - T(3) * mean * mean);
   }
 
   /// -integral of p dJ from 1 [J/kg].

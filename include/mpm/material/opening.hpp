@@ -3,8 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+
+#include "mpm/material/linear_elastic.hpp"
 
 namespace mpm {
+
+/// Of the bulk modulus: a smaller mean stress is none.
+constexpr double kStressFree = 1e-9;
+/// Of its strength: where a soil counts as flowing, for the wave speed.
+constexpr double kNearYield = 0.9;
 
 /// Closes what pressure there is room for. `mean`: trial mean stress, tension positive [Pa]; `opening`: logarithmic
 /// volume, >= 0, reduced by what closes. Gives what is left of the mean stress.
@@ -14,6 +22,16 @@ T close_opening(T mean, T bulk, T& opening) {
   const T closing = std::min(opening, -mean / bulk);
   opening -= closing;
   return mean + bulk * closing;
+}
+
+/// Bound on the fastest small wave [m/s]. Loose soil (j > 1) without pressure carries none until it has closed, and is
+/// as dense as at the start then. `flow`: what plastic flow adds to rho c^2 where it goes on [Pa]; more than nothing
+/// for a flow that is not associated: with p = C m n and q = C f n of the flow m and the yield surface's normal f, the
+/// acoustic tensor is Q - p q / h, h = f C m, whose eigenvalues exceed those of Q by (|p - q|/2)^2 / h at most.
+inline double soil_wave_speed(const Symmetric3<double>& tau, double j, double bulk, double shear, double density,
+                              double flow) {
+  const bool bears = std::abs(trace(tau)) / 3.0 * density > kStressFree * bulk;
+  return LinearElastic::tangent_wave_speed(tau, bears ? j : std::min(j, 1.0), bulk, shear, density, flow);
 }
 
 }  // namespace mpm

@@ -1,0 +1,60 @@
+// One material of each law, for the tests that every law must pass.
+#pragma once
+
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "material_paths.hpp"
+#include "mpm/material/definition.hpp"
+
+namespace mpm::paths {
+
+struct Specimen {
+  MaterialDefinition material;
+  double strain;    ///< size of an increment's components on a path that shows the law: metals yield, soil shears
+  double pressing;  ///< logarithmic volume strain that a path begins with
+  double time;      ///< of an increment [s]
+};
+
+inline std::vector<Specimen> zoo() {
+  const Elasticity soft{1e5, 0.3}, metal{70e9, 0.33}, soil{1e6, 0.3};
+  IdealGasDefinition air{101325.0, 293.15, 1.4, GasProcess::adiabatic};
+  IdealGasDefinition slow_air = air;
+  slow_air.process = GasProcess::isothermal;
+  return {
+      {{"linear_elastic", 1000.0, LinearElasticDefinition{soft}}, 0.1, 0.0, 1.0},
+      {{"auxetic", 1000.0, LinearElasticDefinition{{1e5, -0.6}}}, 0.1, 0.0, 1.0},
+      {{"neo_hookean", 1000.0, NeoHookeanDefinition{soft}}, 0.1, 0.0, 1.0},
+      {{"drucker_prager", 1600.0, DruckerPragerDefinition{soil, 0.6, 0.2, 2000.0, -1.0, ConeMatch::compression}},
+       1e-3,
+       -0.02,
+       1.0},
+      {{"dilated_drucker_prager", 1600.0,
+        DruckerPragerDefinition{soil, 0.6, 0.2, 2000.0, 500.0, ConeMatch::compression}},
+       0.01,
+       0.0,
+       1.0},
+      {{"mohr_coulomb", 1600.0, MohrCoulombDefinition{soil, 0.6, 0.2, 2000.0, -1.0}}, 1e-3, -0.02, 1.0},
+      {{"dilated_mohr_coulomb", 1600.0, MohrCoulombDefinition{soil, 0.6, 0.2, 2000.0, -1.0}}, 0.01, 0.0, 1.0},
+      {{"j2_plasticity", 2700.0, J2PlasticityDefinition{metal, 200e6, 500e6, 300e6, 20.0}}, 0.01, 0.0, 1.0},
+      {{"soft_j2_plasticity", 1500.0, J2PlasticityDefinition{soft, 30e3, 5e3, 0.0, 0.0}}, 0.1, 0.0, 1.0},
+      {{"newtonian_fluid", 1000.0, NewtonianFluidDefinition{1e6, 7.0, 50.0, true}}, 0.02, -0.05, 0.01},
+      {{"free_surface_fluid", 1000.0, NewtonianFluidDefinition{1e6, 7.0, 0.0, false}}, 0.02, -0.1, 0.01},
+      {{"ideal_gas", 1.2, air}, 0.1, 0.0, 1.0},
+      {{"isothermal_gas", 1.2, slow_air}, 0.1, 0.0, 1.0},
+      {{"viscoelastic", 100.0, StandardLinearSolidDefinition{soft, 50e3, 0.5}}, 0.1, 0.0, 0.1},
+  };
+}
+
+/// A specimen after a path of random increments.
+inline MaterialPoint worked(const Specimen& specimen, std::mt19937& random, int steps) {
+  MaterialPoint point(specimen.material);
+  const double e = specimen.pressing / 30.0;
+  for (int n = 0; n < 10; ++n) point.advance({e, 0, 0, 0, e, 0, 0, 0, e}, specimen.time);
+  for (int n = 0; n < steps; ++n) point.advance(random_gradient(random, specimen.strain), specimen.time);
+  return point;
+}
+
+}  // namespace mpm::paths

@@ -1,0 +1,134 @@
+// The wave speed that the time step is taken from, against the acoustic tensor found by small increments of every law.
+//
+// A plane wave a f(n.x - c t) on a uniform state: rho0 u'' = Div P with P = rho0 tau F^-T gives
+//   c^2 a = delta tau(a n) n - tau n (a.n),
+// delta tau(a n) the change of tau = Kirchhoff stress over initial density for a velocity gradient a n.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "material_zoo.hpp"
+
+namespace {
+
+using namespace mpm;
+using namespace mpm::paths;
+using Vector = Eigen::Vector3d;
+using Tensor = Eigen::Matrix3d;
+
+constexpr double kInstant = 1e-9;  ///< [s] too short to relax
+constexpr double kLong = 1e12;     ///< [s] too long for viscous stress
+
+Tensor full(const Symmetric3<double>& s) {
+  Tensor m;
+  m << s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz;
+  return m;
+}
+
+/// Change of tau n for a small velocity gradient e a n, over e; whether it was in plastic flow.
+struct Probe {
+  Vector response;
+  bool flows;
+};
+
+Probe probe(const MaterialPoint& point, const Vector& a, const Vector& n, double dt) {
+  constexpr double e = 1e-6;
+  const Tensor l = e * a * n.transpose();
+  MaterialPoint moved = point;
+  moved.advance({l(0, 0), l(0, 1), l(0, 2), l(1, 0), l(1, 1), l(1, 2), l(2, 0), l(2, 1), l(2, 2)}, dt);
+  return {(full(moved.tau()) - full(point.tau())) * n / e - full(point.tau()) * n * a.dot(n),
+          moved.plastic_strain() - point.plastic_strain() > 1e-4 * e};
+}
+
+/// Largest eigenvalue of the acoustic tensor, c^2.
+double largest_eigenvalue(const Tensor& acoustic, Vector& polarization) {
+  const Eigen::EigenSolver<Tensor> solver(acoustic);
+  int largest = 0;
+  solver.eigenvalues().real().maxCoeff(&largest);
+  polarization = solver.eigenvectors().col(largest).real().normalized();
+  return solver.eigenvalues()[largest].real();
+}
+
+/// Squares of the largest speeds along n, elastic and in plastic flow.
+struct Speeds {
+  double elastic = 0.0, plastic = 0.0;
+};
+
+Speeds speeds(const MaterialPoint& point, const Vector& n, double dt) {
+  Tensor elastic, plastic;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Probe forth = probe(point, Vector::Unit(axis), n, dt), back = probe(point, -Vector::Unit(axis), n, dt);
+    const Vector mean = 0.5 * (forth.response - back.response);
+    // Plastic flow is one-sided: each side of the surface has its own tangent.
+    elastic.col(axis) = forth.flows == back.flows ? mean : Vector(forth.flows ? -back.response : forth.response);
+    plastic.col(axis) = forth.flows == back.flows ? mean : Vector(forth.flows ? forth.response : -back.response);
+  }
+  // In a corner of the yield surface three columns need not belong to one tangent: the wave itself must be one.
+  const auto confirmed = [&](const Tensor& acoustic, bool flows) {
+    Vector a;
+    const double c2 = largest_eigenvalue(acoustic, a);
+    for (const Vector& side : {a, Vector(-a)}) {
+      const Probe wave = probe(point, side, n, dt);
+      if (wave.flows == flows && (wave.response - c2 * side).norm() < 1e-4 * c2) return c2;
+    }
+    return 0.0;
+  };
+  return {confirmed(elastic, false), confirmed(plastic, true)};
+}
+
+/// The largest over many directions.
+Speeds fastest(const MaterialPoint& point, double dt, std::mt19937& random, int directions) {
+  std::normal_distribution<double> normal;
+  Speeds found;
+  for (int k = 0; k < directions; ++k) {
+    const Vector n = Vector(normal(random), normal(random), normal(random)).normalized();
+    const Speeds here = speeds(point, n, dt);
+    found.elastic = std::max(found.elastic, here.elastic);
+    found.plastic = std::max(found.plastic, here.plastic);
+  }
+  return {std::sqrt(found.elastic), std::sqrt(found.plastic)};
+}
+
+/// What has opened carries less than its speed says, which is that of the material closed again.
+bool parted(const MaterialPoint& point) {
+  if (std::holds_alternative<DruckerPrager>(point.law())) return point.history(DruckerPrager::kOpening) > 0.0;
+  if (std::holds_alternative<MohrCoulomb>(point.law())) return point.history(MohrCoulomb::kOpening) > 0.0;
+  return std::holds_alternative<NewtonianFluid>(point.law()) && point.j() > 1.0 && trace(point.tau()) == 0.0;
+}
+
+double probe_time(const Specimen& specimen) {
+  return std::holds_alternative<NewtonianFluidDefinition>(specimen.material.law) ? kLong : kInstant;
+}
+
+TEST(WaveSpeed, IsThatOfTheElasticStateAtTheStart) {
+  std::mt19937 random(1);
+  for (const Specimen& specimen : zoo()) {
+    MaterialPoint point(specimen.material);
+    // Without tension there is none on one side of the start: a breath of pressure.
+    if (specimen.material.name == "free_surface_fluid") point.advance({-1e-5, 0, 0, 0, 0, 0, 0, 0, 0}, kLong);
+    const double found = fastest(point, probe_time(specimen), random, 50).elastic;
+    // Differences of increments of 1e-6: second order where central, and 1e-16 / 1e-6 of round-off.
+    EXPECT_NEAR(point.wave_speed(), found, 1e-6 * found) << specimen.material.name;
+  }
+}
+
+TEST(WaveSpeed, BoundsTheTangentInEveryState) {
+  std::mt19937 random(2);
+  for (const Specimen& specimen : zoo()) {
+    double closest = 1e9, farthest = 0.0;
+    for (int state = 0; state < 60; ++state) {
+      MaterialPoint point = worked(specimen, random, 1 + state);
+      // The viscous part of the last stress is no state of the fluid.
+      if (probe_time(specimen) == kLong) point.advance({}, kLong);
+      const Speeds found = fastest(point, probe_time(specimen), random, 100);
+      const double ratio = point.wave_speed() / std::max(found.elastic, found.plastic);
+      closest = std::min(closest, ratio);
+      if (!parted(point)) farthest = std::max(farthest, ratio);
+    }
+    EXPECT_GE(closest, 1.0 - 1e-5) << specimen.material.name;  // one-sided differences of 1e-6
+    EXPECT_GT(farthest, 0.0) << specimen.material.name;
+    EXPECT_LE(farthest, 1.2) << specimen.material.name;  // not uselessly safe
+  }
+}
+
+}  // namespace

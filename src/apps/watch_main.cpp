@@ -1,7 +1,9 @@
-// rosrun mpm_ros watch CONFIG.rviz [_field:=NAME]: RViz with a view that fits the run at hand. Waits for the first
-// particles below its namespace, puts their size, place and field into the configuration, and becomes RViz.
+// rosrun mpm_ros watch [CONFIG.rviz] [_field:=NAME] [__ns:=NAMESPACE]: RViz with a view that fits the run at hand.
+// Waits for the first particles below its namespace, puts their size, place and field into the configuration (left out:
+// the package's config/rviz/mpm.rviz), and becomes RViz.
+#include <ros/callback_queue.h>
+#include <ros/package.h>
 #include <ros/ros.h>
-#include <ros/topic.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -58,11 +60,11 @@ std::string fitted(const std::string& path, const std::string& field) {
 int main(int argc, char** argv) {
   std::vector<char*> words(argv, argv + argc);  // with what roslaunch appended, which RViz takes too
   ros::init(argc, argv, "watch");
-  if (argc != 2) {
-    ROS_FATAL("usage: rosrun mpm_ros watch CONFIG.rviz [_field:=NAME]");
+  if (argc > 2) {
+    ROS_FATAL("usage: rosrun mpm_ros watch [CONFIG.rviz] [_field:=NAME] [__ns:=NAMESPACE]");
     return 2;
   }
-  std::string configuration = argv[1];
+  std::string configuration = argc == 2 ? argv[1] : ros::package::getPath("mpm_ros") + "/config/rviz/mpm.rviz";
   try {
     ros::start();
     configuration = fitted(configuration, ros::NodeHandle("~").param<std::string>("field", ""));

@@ -52,6 +52,7 @@ TEST(Endings, TheScenesEndIsExitCodeZero) {
   SimulatorProcess simulator({kPress, "pacing:=free", "threads:=1", "record:=" + bag});
   EXPECT_EQ(simulator.wait(), 0) << simulator.log();
   EXPECT_EQ(hash_in(bag).size(), 16U);
+  EXPECT_FALSE(last_state_in(bag).failed);
 }
 
 TEST(Endings, FailedPhysicsIsExitCodeThreeAndLeavesABag) {
@@ -68,6 +69,10 @@ TEST(Endings, FailedPhysicsIsExitCodeThreeAndLeavesABag) {
   // 0, 0.02 and 0.04 s are there, and the state of the failure.
   EXPECT_GE(messages_in(bag, "sensor_msgs/PointCloud2"), 4U);
   EXPECT_EQ(hash_in(bag).size(), 16U);
+  // The bag alone tells that it failed, and why.
+  const SolverState last = last_state_in(bag);
+  EXPECT_TRUE(last.failed);
+  EXPECT_NE(lines[0].find(last.failure), std::string::npos) << last.failure;
 }
 
 void expect_bad_input(const std::vector<std::string>& parameters, const std::string& text) {

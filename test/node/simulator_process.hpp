@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <mpm_ros/Command.h>
+#include <mpm_ros/SolverState.h>
 #include <mpm_ros/Step.h>
 #include <ros/ros.h>
 #include <rosbag/bag.h>
@@ -24,7 +25,7 @@
 #include <thread>
 #include <vector>
 
-#include "mpm_ros/report/report_plots.hpp"
+#include "mpm_ros/report/temporary_folder.hpp"
 
 namespace mpm_ros::test {
 
@@ -171,14 +172,15 @@ inline bool diagnosed(const Ear<diagnostic_msgs::DiagnosticArray>& ear, const Si
   });
 }
 
-/// The last state hash in a bag; throws when rosbag cannot open it.
-inline std::string hash_in(const std::string& path) {
+/// The last solver state in a bag; throws when rosbag cannot open it.
+inline mpm_ros::SolverState last_state_in(const std::string& path) {
   rosbag::Bag bag(path);
   rosbag::View view(bag, rosbag::TypeQuery("mpm_ros/SolverState"));
-  std::string hash;
-  for (const rosbag::MessageInstance& message : view) hash = message.instantiate<mpm_ros::SolverState>()->state_hash;
-  return hash;
+  mpm_ros::SolverState state;
+  for (const rosbag::MessageInstance& message : view) state = *message.instantiate<mpm_ros::SolverState>();
+  return state;
 }
+inline std::string hash_in(const std::string& path) { return last_state_in(path).state_hash; }
 
 /// main() of a node test: runs the tests as the ROS node `name`.
 inline int run_node_tests(int argc, char** argv, const std::string& name) {

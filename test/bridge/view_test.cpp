@@ -1,0 +1,101 @@
+// Where RViz is told to look from.
+#include "mpm_ros/message/view.hpp"
+
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "mpm_ros/message/particle_cloud.hpp"
+
+namespace mpm_ros {
+namespace {
+
+/// 5 x 3 x 2 particles 0.1 m apart, from (1, 2, 3) on; the last axis fastest, as bodies are filled.
+sensor_msgs::PointCloud2 lattice(const std::vector<std::string>& fields, bool planar = false) {
+  std::vector<std::vector<float>> columns(3 + fields.size());
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < 2; ++k) {
+        columns[0].push_back(1.0F + 0.1F * static_cast<float>(i));
+        columns[1].push_back(planar ? 0.0F : 2.0F + 0.1F * static_cast<float>(j));
+        columns[2].push_back(3.0F + 0.1F * static_cast<float>(k));
+      }
+    }
+  }
+  for (std::size_t f = 3; f < columns.size(); ++f) columns[f].assign(columns[0].size(), 0.0F);
+  sensor_msgs::PointCloud2 cloud;
+  fill_cloud(fields, columns, 1, cloud);
+  return cloud;
+}
+
+constexpr double kSingle = 1e-6;  // a few units in the last place of numbers near 3 in single precision
+
+TEST(View, LooksAtTheMiddleOfTheParticles) {
+  const View view = view_of(lattice({"vx", "p"}));
+  EXPECT_NEAR((view.focus - mpm::Vec3(1.2, 2.1, 3.05)).norm(), 0.0, kSingle);
+  EXPECT_NEAR(view.particle_size, 0.1, kSingle);
+  // From outside the ball about them.
+  EXPECT_GT(view.distance, 0.5 * std::hypot(0.4, 0.2, 0.1));
+}
+
+TEST(View, PlanarScenesFromTheFront) {
+  const View view = view_of(lattice({"p"}, true));
+  EXPECT_NEAR(view.yaw, 1.5 * M_PI, 1e-15);  // the eye lies towards -y, so that x is to the right
+  EXPECT_EQ(view.pitch, 0.0);
+}
+
+TEST(View, ColoursByWhatIsThere) {
+  EXPECT_EQ(view_of(lattice({"vx", "p", "speed"})).field, "speed");
+  EXPECT_EQ(view_of(lattice({"vx", "p"})).field, "p");
+  EXPECT_EQ(view_of(lattice({"vx", "j"})).field, "vx");
+  EXPECT_EQ(view_of(lattice({})).field, "");
+  EXPECT_EQ(view_of(lattice({"vx", "speed"}), "vx").field, "vx");
+  EXPECT_EQ(view_of(lattice({"vx", "speed"}), "ep").field, "speed");  // wished for, but not recorded
+}
+
+TEST(View, AnEmptyCloudHasSomeView) {
+  sensor_msgs::PointCloud2 cloud;
+  fill_cloud({"p"}, {{}, {}, {}, {}}, 1, cloud);
+  EXPECT_GT(view_of(cloud).distance, 0.0);
+}
+
+TEST(View, IsPutIntoTheShippedConfiguration) {
+  std::ifstream file(MPM_SOURCE_DIR "/config/rviz/mpm.rviz");
+  std::stringstream text;
+  text << file.rdbuf();
+  View view;
+  view.focus = {1.0, 2.0, 3.0};
+  view.distance = 4.5;
+  view.particle_size = 0.02;
+  view.field = "ep";
+  const YAML::Node root = YAML::Load(with_view(text.str(), view, "/other/"));
+  const YAML::Node manager = root["Visualization Manager"];
+  int clouds = 0, arrays = 0;
+  for (const YAML::Node& display : manager["Displays"]) {
+    const auto type = display["Class"].as<std::string>();
+    if (type == "rviz/PointCloud2") {
+      ++clouds;
+      EXPECT_EQ(display["Topic"].as<std::string>(), "/other/particles");
+      EXPECT_EQ(display["Channel Name"].as<std::string>(), "ep");
+      EXPECT_EQ(display["Size (m)"].as<double>(), 0.02);
+    } else if (type == "rviz/MarkerArray") {
+      ++arrays;
+      EXPECT_EQ(display["Marker Topic"].as<std::string>().find("/other/"), 0U);
+    }
+  }
+  EXPECT_EQ(clouds, 1);
+  EXPECT_EQ(arrays, 2);
+  const YAML::Node eye = manager["Views"]["Current"];
+  EXPECT_EQ(eye["Distance"].as<double>(), 4.5);
+  EXPECT_EQ(eye["Focal Point"]["Z"].as<double>(), 3.0);
+}
+
+TEST(View, RefusesWhatIsNoConfiguration) {
+  EXPECT_THROW(with_view("Displays: [", View(), "/mpm/"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace mpm_ros

@@ -1,0 +1,88 @@
+// Hundreds of random commands over the topics: what cannot be used is refused and counted, what can is applied, counted
+// and recorded, and the node goes on.
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <mpm_ros/SolverState.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "simulator_process.hpp"
+
+namespace mpm_ros::test {
+namespace {
+
+const std::string kPress = "scene:=" MPM_TEST_DATA_DIR "/press.yaml";
+constexpr std::uint64_t kSeed = 20240607;
+constexpr int kEach = 50;  // of each of six kinds of bad command, and of good ones
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+template <typename Message>
+ros::Publisher connect(const std::string& topic) {
+  ros::Publisher publisher = ros::NodeHandle().advertise<Message>(topic, 1000);
+  EXPECT_TRUE(eventually([&] { return publisher.getNumSubscribers() > 0; })) << topic;
+  return publisher;
+}
+
+TEST(Commands, RandomOnesAreRefusedOrAppliedAndCounted) {
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937_64 dice(kSeed);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(dice); };
+  const TemporaryFolder folder;
+  const std::string bag = folder.file("run.bag");
+  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1", "record:=" + bag, "set:=[time.end=1000]"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Ear<SolverState> states(simulator.name("solver_state"));
+  ros::Publisher twists = connect<geometry_msgs::Twist>(simulator.name("bodies/plate/cmd_vel"));
+  ros::Publisher stamped = connect<geometry_msgs::TwistStamped>(simulator.name("bodies/plate/cmd_vel_stamped"));
+  ros::Publisher poses = connect<geometry_msgs::PoseStamped>(simulator.name("bodies/plate/cmd_pose"));
+  ros::Publisher rod = connect<geometry_msgs::Twist>(simulator.name("bodies/rod/cmd_vel"));
+
+  for (int i = 0; i < kEach; ++i) {
+    geometry_msgs::Twist twist;
+    twist.linear.x = uniform(-1.0, 1.0) > 0.0 ? kNaN : std::numeric_limits<double>::infinity();
+    twists.publish(twist);
+    geometry_msgs::TwistStamped frame;
+    frame.header.frame_id = std::string(1 + dice() % 400, static_cast<char>(dice()));
+    stamped.publish(frame);
+    geometry_msgs::TwistStamped ahead;
+    ahead.header.stamp = ros::Time(uniform(1e4, 1e9));
+    stamped.publish(ahead);
+    poses.publish(geometry_msgs::PoseStamped());
+    geometry_msgs::PoseStamped longer;
+    longer.header.stamp = ros::Time(uniform(0.0, 1.0));
+    longer.pose.orientation.w = uniform(1.01, 1e6);
+    poses.publish(longer);
+    geometry_msgs::Twist good;
+    good.linear.x = uniform(-0.01, 0.01);
+    rod.publish(good);
+    twist.linear.x = std::pow(10.0, uniform(6.0, 300.0));
+    twists.publish(twist);  // refused when it is to take effect
+  }
+  const auto counts = [&](std::uint64_t refused, std::uint64_t applied) {
+    simulator.step(1);
+    const std::vector<SolverState> heard = states.heard();
+    return !heard.empty() && heard.back().commands_refused == refused && heard.back().commands_applied == applied;
+  };
+  ASSERT_TRUE(eventually([&] { return counts(6 * kEach, kEach); }))
+      << states.heard().back().commands_refused << " refused, " << states.heard().back().commands_applied << " applied";
+  // cmd_vel has no stamp and cannot be late; all others were refused.
+  EXPECT_EQ(states.heard().back().commands_late, 0U);
+  const Step::Response response = simulator.step(1);
+  ASSERT_TRUE(response.success);
+  EXPECT_EQ(response.bodies.bodies[0].pose.position.z, 0.065);  // the plate is where the scene put it
+  EXPECT_EQ(response.bodies.bodies[0].drive, BodyState::FUNCTIONS);
+  EXPECT_EQ(response.bodies.bodies[1].drive, BodyState::VELOCITY);
+
+  simulator.signal(SIGINT);
+  EXPECT_EQ(simulator.wait(), 0) << simulator.log();
+  rosbag::Bag recorded(bag);
+  EXPECT_EQ(rosbag::View(recorded, rosbag::TypeQuery("mpm_ros/Command")).size(), static_cast<std::uint32_t>(kEach));
+}
+
+}  // namespace
+}  // namespace mpm_ros::test
+
+int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "commands_node_test"); }

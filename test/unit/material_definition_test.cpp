@@ -63,6 +63,12 @@ TEST(MaterialDefinition, ElasticConstantsOfEveryLaw) {
       [](Elasticity e) { return LinearElasticDefinition{e}; },
       [](Elasticity e) { return NeoHookeanDefinition{e}; },
       [](Elasticity e) {
+        return J2PlasticityDefinition{e, 1.0};
+      },
+      [](Elasticity e) {
+        return StandardLinearSolidDefinition{e, 1.0, 1.0};
+      },
+      [](Elasticity e) {
         DruckerPragerDefinition law;
         law.elasticity = e;
         return law;
@@ -110,10 +116,75 @@ TEST(MaterialDefinition, CohesionAndTensionCutoff) {
   EXPECT_EQ(refusal(clay), "");
 }
 
+TEST(MaterialDefinition, Metal) {
+  const auto metal = [](double yield, double hardening, double saturation, double rate) {
+    return refusal({"m", 7800.0, J2PlasticityDefinition{{200e9, 0.3}, yield, hardening, saturation, rate}});
+  };
+  EXPECT_EQ(metal(1e8, 0.0, 0.0, 0.0), "");
+  EXPECT_EQ(metal(1e8, 1e9, 1e8, 5.0), "");  // saturated from the start
+  EXPECT_EQ(metal(0.0, 0.0, 0.0, 0.0), "material 'm': yield stress is 0 Pa; it must be positive and finite");
+  EXPECT_EQ(metal(1e8, 0.0, 9e7, 5.0),
+            "material 'm': saturation stress is 9e+07 Pa; it must be finite and not below the yield stress, 1e+08 Pa");
+  EXPECT_EQ(metal(1e8, -1.0, 0.0, 0.0), "material 'm': hardening modulus is -1 Pa; it must be finite and not negative");
+  for (const double bad : {-1.0, kNan, kInfinity}) {
+    EXPECT_NE(metal(bad, 0.0, 0.0, 0.0), "") << bad;
+    EXPECT_NE(metal(1e8, bad, 0.0, 0.0), "") << bad;
+    EXPECT_NE(metal(1e8, 0.0, bad, 5.0), "") << bad;
+    EXPECT_NE(metal(1e8, 0.0, 2e8, bad), "") << bad;
+  }
+}
+
+TEST(MaterialDefinition, Fluid) {
+  const auto fluid = [](double bulk, double exponent, double viscosity) {
+    return refusal({"m", 1000.0, NewtonianFluidDefinition{bulk, exponent, viscosity, false}});
+  };
+  EXPECT_EQ(fluid(2e9, 7.0, 1e-3), "");
+  EXPECT_EQ(fluid(2e9, 1.0, 0.0), "");
+  EXPECT_EQ(fluid(2e9, 0.5, 0.0), "material 'm': exponent is 0.5; it must be finite and at least 1");
+  EXPECT_EQ(fluid(2e9, 7.0, -1.0), "material 'm': viscosity is -1 Pa s; it must be finite and not negative");
+  EXPECT_EQ(fluid(0.0, 7.0, 0.0), "material 'm': bulk modulus is 0 Pa; it must be positive and finite");
+  for (const double bad : {-1.0, kNan, kInfinity}) {
+    EXPECT_NE(fluid(bad, 7.0, 0.0), "") << bad;
+    EXPECT_NE(fluid(2e9, bad, 0.0), "") << bad;
+    EXPECT_NE(fluid(2e9, 7.0, bad), "") << bad;
+  }
+}
+
+TEST(MaterialDefinition, Gas) {
+  const auto gas = [](double pressure, double temperature, double ratio) {
+    return refusal({"m", 1.2, IdealGasDefinition{pressure, temperature, ratio, GasProcess::adiabatic}});
+  };
+  EXPECT_EQ(gas(1e5, 293.0, 1.4), "");
+  EXPECT_EQ(gas(1e5, -20.0, 1.4), "material 'm': temperature is -20 K; it is absolute and must be positive and finite");
+  EXPECT_EQ(gas(1e5, 293.0, 1.0), "material 'm': heat capacity ratio is 1; it must be finite and above 1");
+  for (const double bad : {0.0, -1.0, kNan, kInfinity}) {
+    EXPECT_NE(gas(bad, 293.0, 1.4), "") << bad;
+    EXPECT_NE(gas(1e5, bad, 1.4), "") << bad;
+    EXPECT_NE(gas(1e5, 293.0, bad), "") << bad;
+  }
+}
+
+TEST(MaterialDefinition, ViscoelasticSolid) {
+  const auto solid = [](double modulus, double time) {
+    return refusal({"m", 100.0, StandardLinearSolidDefinition{{1e4, 0.3}, modulus, time}});
+  };
+  EXPECT_EQ(solid(1e4, 0.1), "");
+  EXPECT_EQ(solid(0.0, 0.1), "material 'm': branch modulus is 0 Pa; it must be positive and finite");
+  EXPECT_EQ(solid(1e4, 0.0), "material 'm': relaxation time is 0 s; it must be positive and finite");
+  for (const double bad : {-1.0, kNan, kInfinity}) {
+    EXPECT_NE(solid(bad, 0.1), "") << bad;
+    EXPECT_NE(solid(1e4, bad), "") << bad;
+  }
+}
+
 TEST(MaterialDefinition, Names) {
   EXPECT_EQ(law_name(LinearElasticDefinition{}), "linear_elastic");
   EXPECT_EQ(law_name(NeoHookeanDefinition{}), "neo_hookean");
   EXPECT_EQ(law_name(DruckerPragerDefinition{}), "drucker_prager");
+  EXPECT_EQ(law_name(J2PlasticityDefinition{}), "j2_plasticity");
+  EXPECT_EQ(law_name(NewtonianFluidDefinition{}), "newtonian_fluid");
+  EXPECT_EQ(law_name(IdealGasDefinition{}), "ideal_gas");
+  EXPECT_EQ(law_name(StandardLinearSolidDefinition{}), "viscoelastic");
   MaterialDefinition nameless = soil();
   nameless.name.clear();
   EXPECT_NE(refusal(nameless), "");

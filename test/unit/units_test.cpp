@@ -45,6 +45,9 @@ TEST(Units, QuantitiesBecomeSi) {
   expect_si("20 /s", kRate, 20.0);
   expect_si("90 deg/s", kAngularRate, M_PI / 2.0);
   expect_si("30 %", kPlain, 0.3);
+  expect_si("293.15 K", kTemperature, 293.15);
+  expect_si("1e-3 Pa s", kViscosity, 1e-3);
+  expect_si("2 kg/(m*s)", kViscosity, 2.0);
   expect_si("-1e-3 m", kLength, -1e-3);
   expect_si("+2", kPlain, 2.0);
 }
@@ -64,6 +67,8 @@ TEST(Units, PlainNumbersAreInTheSceneSystem) {
   EXPECT_NEAR(si("cm-g-s", kPressure), 0.1, kRoundOff);
   EXPECT_EQ(si("m-kg-s", kPressure), 1.0);
   EXPECT_EQ(si("mm-g-s", kAngle), 1.0);
+  EXPECT_EQ(si("mm-g-s", kTemperature), 1.0);
+  EXPECT_NEAR(si("mm-g-s", kViscosity), 1.0, kRoundOff);
   // A written unit does not care for the system.
   EXPECT_NEAR(parse_quantity("2 m", kLength, parse_unit_system("mm-g-s")), 2.0, kRoundOff);
 }
@@ -72,6 +77,10 @@ TEST(Units, AWrongDimensionNamesWhatWasExpected) {
   EXPECT_EQ(refusal("2 m", kPressure), "'2 m' is a length, but a pressure is expected; write one such as 5 kPa");
   EXPECT_EQ(refusal("35 deg", kPlain),
             "'35 deg' is an angle, but a number without a unit is expected; write one such as 0.3");
+  EXPECT_EQ(refusal("20", kTemperature), "");
+  EXPECT_EQ(refusal("20 m", kTemperature),
+            "'20 m' is a length, but a temperature is expected; write one such as 293 K");
+  EXPECT_EQ(refusal("2 K", kPressure), "'2 K' is a temperature, but a pressure is expected; write one such as 5 kPa");
   EXPECT_EQ(refusal("2 m^2/s", kTime),
             "'2 m^2/s' is a quantity in m^2 s^-1, but a time is expected; write one such as 0.2 s");
 }

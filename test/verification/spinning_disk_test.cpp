@@ -1,0 +1,194 @@
+// A disk that spins freely: its angular momentum about the centre should stay. FLIP does not keep it: a particle moves
+// with the velocity of the grid, not with its own, so that position x momentum changes though the forces balance.
+// Source: exact-solutions 4. Beside it the stress of a disk in steady rotation, plane strain, small strain
+// (exact-solutions 5): with n = nu / (1 - nu), s = rho omega^2 / 8,
+//   sigma_r = (3 + n) s (R^2 - r^2), sigma_theta = s [(3 + n) R^2 - (1 + 3 n) r^2].
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "page.hpp"
+#include "scene_run.hpp"
+
+namespace verification {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRate = 2.0 * kPi;                      // [rad/s]
+constexpr double kDensity = 1000.0, kRatio = 0.3 / 0.7;  // of the scene; n above
+constexpr double kScale = kDensity * kRate * kRate / 8.0;
+
+double angular_momentum(const mpm::Simulation& simulation) {  // over the mass of a particle
+  const std::vector<double> x = field(simulation, "x"), z = field(simulation, "z");
+  const std::vector<double> vx = field(simulation, "vx"), vz = field(simulation, "vz");
+  double sum = 0.0;
+  for (std::size_t p = 0; p < x.size(); ++p) sum += z[p] * vx[p] - x[p] * vz[p];
+  return sum;
+}
+
+/// Stress in rings about the centre, the mean over a turn: the disk also swings along its radius.
+class RingStress {
+ public:
+  static constexpr int kRings = 10;
+  void add(const mpm::Simulation& simulation) {
+    const std::vector<double> x = field(simulation, "x"), z = field(simulation, "z");
+    const std::vector<double> sxx = field(simulation, "sxx"), szz = field(simulation, "szz");
+    const std::vector<double> sxz = field(simulation, "sxz");
+    for (std::size_t p = 0; p < x.size(); ++p) {
+      const double r2 = x[p] * x[p] + z[p] * z[p], r = std::sqrt(r2);
+      const int ring = std::min(kRings - 1, static_cast<int>(r * kRings));
+      const double radial = (x[p] * x[p] * sxx[p] + 2.0 * x[p] * z[p] * sxz[p] + z[p] * z[p] * szz[p]) / r2;
+      count_[ring] += 1.0;
+      radius_[ring] += r;
+      radial_[ring] += radial;
+      hoop_[ring] += sxx[p] + szz[p] - radial;
+    }
+  }
+  Numbers radius() const { return mean(radius_, 1.0); }
+  Numbers radial() const { return mean(radial_, 1e-3); }  // [kPa]
+  Numbers hoop() const { return mean(hoop_, 1e-3); }
+  /// Of radial + hoop stress over the disk [kPa].
+  double mean_sum() const {
+    double sum = 0.0, count = 0.0;
+    for (int i = 0; i < kRings; ++i) {
+      sum += radial_[i] + hoop_[i];
+      count += count_[i];
+    }
+    return 1e-3 * sum / count;
+  }
+
+ private:
+  Numbers mean(const Numbers& sum, double factor) const {
+    Numbers values;
+    for (int i = 0; i < kRings; ++i) values.push_back(factor * sum[i] / count_[i]);
+    return values;
+  }
+  Numbers count_ = Numbers(kRings), radius_ = Numbers(kRings), radial_ = Numbers(kRings), hoop_ = Numbers(kRings);
+};
+
+double exact_radial(double r) { return 1e-3 * (3.0 + kRatio) * kScale * (1.0 - r * r); }                 // [kPa]
+double exact_hoop(double r) { return 1e-3 * kScale * ((3.0 + kRatio) - (1.0 + 3.0 * kRatio) * r * r); }  // [kPa]
+
+/// Largest difference of a ring's stress from the exact one, in percent of the stress at the centre.
+double ring_error(const RingStress& stress) {
+  double worst = 0.0;
+  for (int i = 0; i < RingStress::kRings; ++i) {
+    const double r = stress.radius()[i];
+    worst =
+        std::max({worst, std::abs(stress.radial()[i] - exact_radial(r)), std::abs(stress.hoop()[i] - exact_hoop(r))});
+  }
+  return 100.0 * worst / exact_radial(0.0);
+}
+
+struct Turn {
+  Numbers time, momentum;    // [s], angular momentum over that of the start
+  double change = 0.0;       // of angular momentum in the turn [%]
+  double most_energy = 0.0;  // largest kinetic + elastic over that of the start
+  double linear = 0.0;       // largest linear momentum over sum of m |v|
+  RingStress stress;
+};
+
+Turn spin(const std::vector<std::string>& overrides) {
+  mpm::Simulation simulation = start("spinning_disk", overrides);
+  const double momentum = angular_momentum(simulation), energy = simulation.state().energy.total();
+  Turn turn;
+  while (seconds(simulation) < 1.0 - 1e-9) {
+    simulation.advance();
+    const mpm::SolverState state = simulation.state();
+    turn.time.push_back(seconds(simulation));
+    turn.momentum.push_back(angular_momentum(simulation) / momentum);
+    turn.most_energy = std::max(turn.most_energy, state.energy.total() / energy);
+    turn.linear = std::max(turn.linear, state.audit.residual);
+    turn.stress.add(simulation);
+  }
+  turn.change = 100.0 * (turn.momentum.back() - 1.0);
+  return turn;
+}
+
+double largest(const std::vector<Turn>& turns) {
+  double change = 0.0;
+  for (const Turn& turn : turns) change = std::max(change, std::abs(turn.change));
+  return change;
+}
+
+TEST(SpinningDisk, AngularMomentumOfATurn) {
+  Page page("conservation", "spinning_disk", "A disk that spins freely");
+  page.problem(
+          "A disk of radius R = 1 m spins about its centre in free space with ω = 2π rad/s: a turn a second. "
+          "Neo-Hookean, "
+          "E = 1.857 MPa, Poisson's ratio 0.3, density 1000 kg/m³, plane strain; its rim moves with an eighth of the "
+          "wave "
+          "speed. It starts unstrained, so that it also swings along its radius. 20 and 40 cells across; transfer "
+          "FLIP.")
+      .exact(
+          "The angular momentum stays. Of the stress, the mean over a turn: σr = (3 + n)s(R² - r²), σθ = s[(3 + n)R² - "
+          "(1 + "
+          "3n)r²], with n = ν/(1 - ν) and s = ρω²/8, for small strain; the mean of σr + σθ over the disk is ρω²R²/2.",
+          "conservation; equilibrium and compatibility of a rotating disk")
+      .meaning(
+          "FLIP does not keep angular momentum: particles move with the velocity of the grid, not with their own. The "
+          "change "
+          "is of the order of a percent a turn, of either sign, larger in a stiffer disk, and does not fall with the "
+          "cell or the step alone. A part of PIC takes its share every step. USAVG keeps the energy; USF feeds the "
+          "disk's "
+          "vibrations. One term of the exponential instead of two lets rotation swell the disk, which shows as energy.")
+      .scene("spinning_disk");
+  const Turn usavg = spin({}), usf = spin({"method.update=usf"});
+  const Turn fine = spin({"grid.cell=0.05"}), fine_usf = spin({"grid.cell=0.05", "method.update=usf"});
+  const Turn small_step = spin({"time.cfl=0.25"}), stiff = spin({"materials.rubber.young=7.43 MPa"});
+  const Turn one_term = spin({"method.gradient_terms=1"});
+  const Turn one_term_usf = spin({"method.gradient_terms=1", "method.update=usf"});
+  const Turn damped = spin({"method.transfer={flip: 0.99}"});
+
+  const std::string change = "change of angular momentum in a turn, ";
+  page.report(change + "USAVG, 20 cells across", usavg.change, "%");
+  page.report(change + "USAVG, 40 cells", fine.change, "%");
+  page.report(change + "USF, 20 cells", usf.change, "%");
+  page.report(change + "USF, 40 cells", fine_usf.change, "%");
+  page.report(change + "USAVG, 20 cells, half the time step", small_step.change, "%");
+  page.report(change + "USAVG, 20 cells, four times as stiff", stiff.change, "%");
+  page.report(change + "USAVG, 20 cells, gradient_terms 1", one_term.change, "%");
+  page.report(change + "USF, 20 cells, gradient_terms 1", one_term_usf.change, "%");
+  page.report(change + "USAVG, 20 cells, FLIP 0.99", damped.change, "%");
+  // A trial with another code lost 5.5 % at 20 cells across.
+  page.below("largest change of these, FLIP", largest({usavg, fine, usf, fine_usf, small_step, stiff}), 5.5, "%");
+  // Round-off, as in all runs.
+  page.below("linear momentum, USAVG, 20 cells", usavg.linear, 1e-10, "of the sum of m |v|");
+  // What is asked of colliding disks is asked here too.
+  page.below("growth of the energy, USAVG, 20 cells", 100.0 * (usavg.most_energy - 1.0), 0.1, "%");
+  page.below("growth of the energy, USAVG, 40 cells", 100.0 * (fine.most_energy - 1.0), 0.1, "%");
+  page.report("growth of the energy, USF, 20 cells", 100.0 * (usf.most_energy - 1.0), "%");
+  page.report("growth of the energy, USF, 40 cells", 100.0 * (fine_usf.most_energy - 1.0), "%");
+  page.report("growth of the energy, USAVG, 20 cells, gradient_terms 1", 100.0 * (one_term.most_energy - 1.0), "%");
+  // The virial theorem: half of rho omega^2 R^2. 3 %: the strain, rho omega^2 R^2 / E = 2 %, and the lattice's area,
+  // 0.6 %.
+  page.near("mean of σr + σθ, USAVG, 20 cells", usavg.stress.mean_sum(), 4e-3 * kScale, 0.03, "kPa");
+  page.near("mean of σr + σθ, USAVG, 40 cells", fine.stress.mean_sum(), 4e-3 * kScale, 0.03, "kPa");
+  page.report("largest error of a ring's stress, USAVG, 20 cells", ring_error(usavg.stress), "% of the centre's");
+  page.report("largest error of a ring's stress, USAVG, 40 cells", ring_error(fine.stress), "% of the centre's");
+
+  page.figure()
+      .panel("Angular momentum", "time [s]", "over the start")
+      .exact("exact", {0.0, 1.0}, {1.0, 1.0})
+      .line("USAVG, 20 cells across", usavg.time, usavg.momentum)
+      .line("USAVG, 40 cells", fine.time, fine.momentum)
+      .line("USF, 20 cells", usf.time, usf.momentum)
+      .line("USAVG, 20 cells, four times as stiff", stiff.time, stiff.momentum);
+  Numbers radius, radial, hoop;
+  for (int i = 0; i <= 40; ++i) {
+    radius.push_back(i / 40.0);
+    radial.push_back(exact_radial(radius.back()));
+    hoop.push_back(exact_hoop(radius.back()));
+  }
+  page.figure()
+      .panel("Stress, mean over the turn and over rings", "radius [m]", "stress [kPa]")
+      .exact("σr, exact", radius, radial)
+      .exact("σθ, exact", radius, hoop)
+      .points("σr, USAVG, 20 cells across", usavg.stress.radius(), usavg.stress.radial())
+      .points("σθ, USAVG, 20 cells across", usavg.stress.radius(), usavg.stress.hoop())
+      .points("σr, USAVG, 40 cells", fine.stress.radius(), fine.stress.radial())
+      .points("σθ, USAVG, 40 cells", fine.stress.radius(), fine.stress.hoop());
+}
+
+}  // namespace
+}  // namespace verification

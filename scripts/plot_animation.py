@@ -120,7 +120,7 @@ class Gif:
     def add(self, pixels):
         from PIL import Image  # needed for this kind of file alone
 
-        self.frames.append(Image.fromarray(pixels).quantize(128, dither=Image.Dither.NONE))  # a byte a pixel
+        self.frames.append(Image.fromarray(pixels).quantize(256, dither=Image.Dither.NONE))  # a byte a pixel
 
     def close(self):
         lengths = [1000 // FRAMES_A_SECOND] * (len(self.frames) - 1) + [int(1000 * LAST)]

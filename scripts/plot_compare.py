@@ -25,7 +25,7 @@ class Compared:
         self.styles = ["-", "--", "-.", ":"]
 
     def caption(self):
-        return "      ".join(run.caption() for run in self.runs)
+        return "\n".join(f"{label}:  {run.caption()}" for run, label in zip(self.runs, self.labels))
 
     def draw(self, axes, values_of, runs=None, log=False):
         """One line a run: values_of(run) is (times, values)."""
@@ -98,7 +98,7 @@ def compare_contact(compared, body, folder):
 
 def compare_energies(compared, folder):
     kinds = []
-    for index in range(6):
+    for index in range(len(energies_of(compared.runs[0].state))):
         name = energies_of(compared.runs[0].state)[index][0].replace("\n", " ")
         if any(np.any(energies_of(run.state)[index][1]) for run in compared.runs):
             kinds.append((index, name))

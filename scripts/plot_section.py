@@ -78,7 +78,7 @@ class Section:
         # The largest force is a quarter of the picture long.
         self.arrow = 0.25 * (high - low).max() / np.linalg.norm(strongest[2]) if strongest else 0.0
         for time in times if self.tool else []:
-            tip = run.pose_at(self.tool, time)[0][self.shown] + self.arrow * run.force_at(self.tool, time)[self.shown]
+            tip = run.pressed_at(self.tool, time)[self.shown] + self.arrow * run.force_at(self.tool, time)[self.shown]
             low, high = np.minimum(low, tip - gap), np.maximum(high, tip + gap)
         self.low, self.high = low, high
         self.aspect = float((high - low)[0] / (high - low)[1])
@@ -119,11 +119,11 @@ class Section:
         return f"arrow: force on {self.tool}, {np.linalg.norm(self.run.force_at(self.tool, time)):.3g} N"
 
     def _draw_force(self, panel, time):
-        """The path of the tool's origin, and an arrow for the force on it."""
+        """The path of the tool's origin, and the force on it as an arrow from where it is pressed."""
         path = self.run.poses.vector(self.tool + " ")[:, self.shown]
         if np.any(np.ptp(path, axis=0) > 0):
             panel.plot(path[:, 0], path[:, 1], color="black", linewidth=0.8, linestyle=":", zorder=5)
-        begin = self.run.pose_at(self.tool, time)[0][self.shown]
+        begin = self.run.pressed_at(self.tool, time)[self.shown]
         arrow = self.arrow * self.run.force_at(self.tool, time)[self.shown]
         if np.any(arrow != 0):
             panel.annotate("", begin + arrow, begin, zorder=6, annotation_clip=False,

@@ -3,7 +3,7 @@ solver."""
 import matplotlib.pyplot as plt
 import numpy as np
 
-from plot_style import (AXES, BLACK, BLUE, CYCLE, GREEN, GREY, ORANGE, RED, caption, mark_peak, name_lines, save,
+from plot_style import (AXES, BLACK, BLUE, CYCLE, GREEN, GREY, ORANGE, PINK, RED, caption, mark_peak, name_lines, save,
                         zero_line)
 from plot_tables import file_stem
 
@@ -128,8 +128,9 @@ def energies_of(state):
     kinetic, elastic, plastic = (state["energy " + kind] for kind in ("kinetic", "elastic", "plastic"))
     potential = state["energy potential"] - state["energy potential"][0]
     work = state["contact work"]
-    rest = work - plastic - potential - (kinetic - kinetic[0]) - (elastic - elastic[0])
-    return [("work done by\nthe bodies", work, BLACK), ("potential", potential, GREEN), ("kinetic", kinetic, BLUE),
+    loads = state["load work"]
+    rest = work + loads - plastic - potential - (kinetic - kinetic[0]) - (elastic - elastic[0])
+    return [("work done by\nthe bodies", work, BLACK), ("work done by\nloads", loads, PINK), ("potential", potential, GREEN), ("kinetic", kinetic, BLUE),
             ("elastic", elastic, ORANGE), ("lost to\nplastic flow", plastic, RED),
             ("lost elsewhere:\nfriction, walls,\ndamping", rest, GREY)]
 

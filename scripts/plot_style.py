@@ -44,7 +44,7 @@ def style():
 def caption(figure, title, text):
     """The run's name and what is seen above, how it was made below."""
     figure.suptitle(title, fontweight="bold", fontsize=13, x=0.012, ha="left")
-    lines = textwrap.wrap(text, int(15.5 * figure.get_figwidth()))
+    lines = [part for line in text.splitlines() for part in textwrap.wrap(line, int(15.5 * figure.get_figwidth()))]
     figure.supxlabel("\n".join(lines), fontsize=8, color="#666666", x=0.012, ha="left")
 
 

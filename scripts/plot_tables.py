@@ -134,6 +134,15 @@ class Run:
         row = int(np.argmin(np.abs(self.forces["time"] - time)))
         return np.array([self.forces[f"{body} f{axis}"][row] for axis in "xyz"])
 
+    def pressed_at(self, body, time):
+        """Centre of pressure [m] of the interval that ends nearest to a time [s]; the body's origin where none is."""
+        row = int(np.argmin(np.abs(self.forces["time"] - time)))
+        if f"{body} cop x" in self.forces:
+            center = self.forces.vector(body + " cop ")[row]
+            if np.all(np.isfinite(center)):
+                return center
+        return self.pose_at(body, time)[0]
+
     def pose_at(self, body, time):
         """Position [m] and rotation matrix (body to world) of the message nearest to a time [s]."""
         row = int(np.argmin(np.abs(self.poses["time"] - time)))

@@ -7,6 +7,22 @@ from plot_style import STEEL
 from plot_tables import reach_of
 
 WIDTH = 1100  # pixels of a picture
+LARGEST = 20  # pixels of a particle's radius: more is slow, and shows nothing
+
+
+def in_front(positions, gap, towards):
+    """Whether a particle can be seen: not where all three neighbouring places towards the viewer are taken."""
+    cells = np.floor((positions - positions.min(axis=0)) / gap + 0.5).astype(np.int64) + 1
+    sizes = cells.max(axis=0) + 2
+    strides = np.array([1, sizes[0], sizes[0] * sizes[1]])
+    keys = cells @ strides
+    taken = np.unique(keys)
+    hidden = np.ones(len(keys), bool)
+    for axis in range(3):
+        neighbour = keys + int(np.sign(towards[axis])) * strides[axis]
+        place = np.minimum(np.searchsorted(taken, neighbour), len(taken) - 1)
+        hidden &= taken[place] == neighbour
+    return ~hidden
 
 
 class View:
@@ -14,7 +30,7 @@ class View:
     room = 0.5
 
     def __init__(self, run, box, gap, times, width=WIDTH):
-        self.run, self.gap, self.width = run, gap, width
+        self.run, self.gap = run, gap
         self.outlines = run.outlines()
         strongest = run.strongest()
         forward = 1.0
@@ -29,19 +45,21 @@ class View:
         self.extent = (flat[:, 0].min() - margin, flat[:, 0].max() + margin,
                        flat[:, 1].min() - margin, flat[:, 1].max() + 0.1 * margin)
         self.aspect = float((self.extent[1] - self.extent[0]) / (self.extent[3] - self.extent[2]))
+        self.width = int(min(width, max(0.5 * width, LARGEST * (self.extent[1] - self.extent[0]) / (0.62 * gap))))
         self.ticks = [self._ticks(axis) for axis in range(3)]
 
     def _ticks(self, axis):
         low, high = self.box[:, axis]
         longest = np.ptp(self.box, axis=0).max()
-        count = max(3, round(6 * (high - low) / longest))
+        count = max(4, round(6 * (high - low) / longest))
         ticks = MaxNLocator(count, steps=[1, 2, 5, 10]).tick_values(low, high)
         return ticks[(ticks >= low - 1e-9 * longest) & (ticks <= high + 1e-9 * longest)]
 
     def draw(self, panel, time, positions, colors):
         canvas = Canvas(self.camera, self.extent, self.width)
         self._draw_ground(canvas)
-        canvas.spheres(positions, 0.62 * self.gap, colors[:, :3])
+        seen = in_front(positions, self.gap, self.camera.towards)
+        canvas.spheres(positions[seen], 0.62 * self.gap, colors[seen, :3])
         for body, (vertices, faces) in self.outlines.items():
             position, rotation = self.run.pose_at(body, time)
             canvas.triangles(position + vertices @ rotation.T, faces, STEEL)

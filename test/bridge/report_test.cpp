@@ -199,6 +199,22 @@ TEST_F(ReportTest, SnapshotsAreSpreadAndThePeakIsAmongThem) {
   EXPECT_TRUE(choose_snapshots({}, 10, std::nullopt).empty());
 }
 
+TEST_F(ReportTest, AFailedRunIsTold) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == HalfSineRun::kIntervals) {
+      message.failed = 1;
+      message.failure = "particle 7 of soil is turned inside out";
+    }
+    return true;
+  };
+  ReportOptions options;
+  options.bags = {bag_of(run)};
+  std::ostringstream out;
+  EXPECT_TRUE(report(options, out, out, false));
+  EXPECT_TRUE(contains(out.str(), "the run failed at 0.101 s: particle 7 of soil is turned inside out")) << out.str();
+}
+
 TEST_F(ReportTest, FailedChecksAreTold) {
   HalfSineRun run;
   run.on_state = [](int i, SolverState&) { return i != 40; };

@@ -13,7 +13,8 @@
 
 namespace mpm_ros {
 
-/// contact_forces.csv: wrench, peak, impulse, interval and nodes of each body.
+/// contact_forces.csv: wrench, peak, impulse, interval, nodes, pressing force, friction and centre of pressure of each
+/// body.
 class ContactForcesCsv {
  public:
   explicit ContactForcesCsv(const std::string& folder) : path_(folder + "/contact_forces.csv") {}

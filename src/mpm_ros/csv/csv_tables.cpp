@@ -36,13 +36,17 @@ void ContactForcesCsv::add(double time, const std::vector<mpm::ContactReport>& b
       add_vector_columns(columns, name + " impulse ", "N s");
       columns.push_back(name + " interval [s]");
       columns.push_back(name + " nodes [1]");
+      columns.push_back(name + " pressing [N]");
+      add_vector_columns(columns, name + " friction ", "N");
+      add_vector_columns(columns, name + " cop ", "m");
     }
     writer_.emplace(path_, columns);
   }
   *writer_ << time;
   for (const mpm::ContactReport& body : bodies) {
     *writer_ << body.mean.force << body.mean.torque << body.peak.force << body.peak.torque << body.impulse
-             << body.interval << static_cast<std::uint64_t>(std::max(body.nodes, 0));
+             << body.interval << static_cast<std::uint64_t>(std::max(body.nodes, 0)) << body.pressing << body.friction
+             << body.centre_of_pressure();
   }
   writer_->end_row();
 }
@@ -81,6 +85,7 @@ void SolverStateCsv::add(const mpm::SolverState& state, double real_time_factor)
       columns.push_back(std::string("energy ") + kind + " [J]");
     }
     columns.emplace_back("contact work [J]");
+    columns.emplace_back("load work [J]");
     add_vector_columns(columns, "momentum ", "N s");
     for (const mpm::NamedImpulse& impulse : state.audit.impulses) {
       impulses_.push_back(impulse.name);
@@ -95,7 +100,7 @@ void SolverStateCsv::add(const mpm::SolverState& state, double real_time_factor)
   const mpm::EnergyReport& energy = state.energy;
   *writer_ << static_cast<double>(state.time) / 1e9 << step.steps << step.dt_last << step.dt_min << step.dt_max
            << state.particles << energy.kinetic << energy.elastic << energy.plastic << energy.potential
-           << energy.contact_work << state.audit.momentum;
+           << energy.contact_work << energy.load_work << state.audit.momentum;
   const std::vector<mpm::NamedImpulse>& impulses = state.audit.impulses;
   for (const std::string& name : impulses_) {
     const auto named = [&name](const mpm::NamedImpulse& impulse) { return impulse.name == name; };

@@ -16,13 +16,16 @@ std::vector<std::string> notes_on(const RecordedRun& run, bool cut_short) {
         "reindex {}",
         last.time, run.path));
   }
+  if (last.failed) {
+    notes.push_back(fmt::format("the run failed at {:.4g} s: {}", last.time, last.failure));
+    return notes;
+  }
   const double sync = run.info ? run.info->sync_period : 0.0;
   if (run.scene.end && last.time < *run.scene.end - 0.5 * sync) {
     // The last message of a run that ends in order carries the state's hash.
-    const bool ended = !last.state_hash.empty();
-    notes.push_back(
-        fmt::format("the run ends at {:.4g} s, before its end at {:.4g} s: {}", last.time, *run.scene.end,
-                    ended ? "it was stopped, or the physics failed" : "its recording does not reach further"));
+    notes.push_back(fmt::format("the recording ends at {:.4g} s, before the scene's end at {:.4g} s: {}", last.time,
+                                *run.scene.end,
+                                last.state_hash.empty() ? "it does not reach further" : "the run was stopped there"));
   }
   return notes;
 }

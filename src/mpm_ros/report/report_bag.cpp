@@ -99,6 +99,7 @@ void RunBag::open() {
 void RunBag::open_copy() {
   const std::string copy = reindexed_copy(path_, copy_.emplace().path());
   try {
+    bag_.close();  // the file stays open when it could not be read
     bag_.open(copy, rosbag::bagmode::Read);
     if (rosbag::View(bag_).size() > 0) return;
   } catch (const ros::Exception& problem) {

@@ -160,7 +160,8 @@ void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
   }
 
   const mpm::EnergyReport& energy = state.energy;
-  for (const double value : {energy.kinetic, energy.elastic, energy.plastic, energy.potential, energy.contact_work}) {
+  for (const double value :
+       {energy.kinetic, energy.elastic, energy.plastic, energy.potential, energy.contact_work, energy.load_work}) {
     if (!std::isfinite(value)) fail("energy", time, "an energy is not finite");
   }
   min_j_ = std::min(min_j_, state.min_j);

@@ -18,7 +18,6 @@ Figures run_figures(const RecordedRun& run) {
   const RunStatistics& statistics = run.statistics;
   const SolverState& last = statistics.last_state();
   return {{"scene", run.scene_name()},
-          {"method", run.scene.method.empty() ? "not known" : run.scene.method},
           {"simulated time [s]", number(last.time)},
           {"steps", std::to_string(last.steps)},
           {"smallest step [s]", number(last.dt_min)},
@@ -39,7 +38,8 @@ Figures energy_figures(const RecordedRun& run) {
           {"elastic", change(first.energy_elastic, last.energy_elastic)},
           {"potential", change(first.energy_potential, last.energy_potential)},
           {"plastic, dissipated", change(first.energy_plastic, last.energy_plastic)},
-          {"work of the bodies", change(first.contact_work, last.contact_work)}};
+          {"work of the bodies", change(first.contact_work, last.contact_work)},
+          {"work of loads", change(first.load_work, last.load_work)}};
 }
 
 Figures contact_figures(const RecordedRun& run) {
@@ -87,7 +87,11 @@ std::string side_by_side(const std::string& title, const std::vector<RecordedRun
 }  // namespace
 
 std::string comparison(const std::vector<RecordedRun>& runs) {
-  std::string text = "Runs\n" + side_by_side("", runs, run_figures);
+  std::string text;
+  for (const RecordedRun& run : runs) {
+    text += fmt::format("{}: {}{}\n", run.label, run.path, run.scene.method.empty() ? "" : ", " + run.scene.method);
+  }
+  text += "\nRuns\n" + side_by_side("run", runs, run_figures);
   text += "\nContact: force and torque of the material on each body, world axes\n" +
           side_by_side("body", runs, contact_figures);
   text += "\nEnergies of the material, start to end\n" + side_by_side("energy [J]", runs, energy_figures);

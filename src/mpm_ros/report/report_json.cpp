@@ -36,11 +36,9 @@ Json body_json(const BodyStatistics& body) {
 }
 
 Json energy_json(const SolverState& state) {
-  return {{"kinetic", state.energy_kinetic},
-          {"elastic", state.energy_elastic},
-          {"potential", state.energy_potential},
-          {"plastic", state.energy_plastic},
-          {"contact_work", state.contact_work}};
+  return {{"kinetic", state.energy_kinetic},     {"elastic", state.energy_elastic},
+          {"potential", state.energy_potential}, {"plastic", state.energy_plastic},
+          {"contact_work", state.contact_work},  {"load_work", state.load_work}};
 }
 
 Json audit_json(const RunStatistics& statistics) {
@@ -82,6 +80,8 @@ Json report_json(const RecordedRun& run) {
   json["particles"] = last.particles;
   json["min_j"] = statistics.smallest_j();
   json["state_hash"] = last.state_hash;
+  json["failed"] = static_cast<bool>(last.failed);
+  json["failure"] = last.failure;
   json["energy"] = {{"start", energy_json(*statistics.first_state())}, {"end", energy_json(last)}};
   json["audit"] = audit_json(statistics);
   json["bodies"] = Json::object();

@@ -1,0 +1,175 @@
+// bag_report on runs that were really made: the check `momentum`, which needs a scene, and the Python of
+// doc/analysis.md.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "mpm_ros/report/report.hpp"
+#include "mpm_ros/report/report_bag.hpp"
+#include "mpm_ros/report/report_statistics.hpp"
+#include "mpm_ros/report/temporary_folder.hpp"
+#include "mpm_ros/run/run_scene.hpp"
+
+namespace mpm_ros {
+namespace {
+
+using nlohmann::json;
+
+class ReportRecorded : public ::testing::Test {
+ protected:
+  /// A block that a press squeezes, for 50 ms: 2,000 particles, two bodies, damping.
+  std::string record(const std::vector<std::string>& set = {}, const std::string& scene = "compressed_block") const {
+    RunSceneOptions options;
+    options.scene = scene;
+    options.end = "50 ms";
+    options.bag = folder_.file(scene + ".bag");
+    options.set = set;
+    options.threads = 1;
+    std::ostringstream out, err;
+    EXPECT_EQ(run_scene(options, out, err, false, [] { return false; }), RunSceneResult::done) << err.str();
+    return options.bag;
+  }
+
+  static json report_of(const std::string& bag) {
+    ReportOptions options;
+    options.bags = {bag};
+    options.json = "-";
+    options.check = true;
+    std::ostringstream out, err;
+    EXPECT_NE(run_report(options, out, err, false), ReportResult::bad_input) << err.str();
+    return json::parse(out.str());
+  }
+  /// "ok", "failed" or "not made", by the check's name.
+  static std::map<std::string, std::string> results_of(const json& report) {
+    std::map<std::string, std::string> results;
+    for (const json& check : report.at("checks")) results[check.at("name")] = check.at("result");
+    return results;
+  }
+  static std::string detail_of(const json& report, const std::string& name) {
+    for (const json& check : report.at("checks")) {
+      if (check.at("name") == name) return check.at("detail");
+    }
+    return {};
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReportRecorded, ParticlesMoveAsForcesWeightAndWallsSay) {
+  for (const char* scene : {"compressed_block", "elastic_block", "sliding_block"}) {
+    const json report = report_of(record({}, scene));
+    for (const auto& [name, result] : results_of(report)) {
+      EXPECT_EQ(result, "ok") << scene << " " << name << ": " << detail_of(report, name);
+    }
+  }
+}
+
+TEST_F(ReportRecorded, MomentumFindsForcesThatAreWrongInAllBooks) {
+  // Force, impulse, the audit's impulses and its momentum a thousandth larger: all that the run says of itself agrees.
+  // What the particles did does not.
+  const std::string path = record(), wrong = folder_.file("wrong.bag");
+  rosbag::Bag in(path, rosbag::bagmode::Read), out(wrong, rosbag::bagmode::Write);
+  const auto grow = [](geometry_msgs::Vector3& vector) {
+    vector.x *= 1.001;
+    vector.y *= 1.001;
+    vector.z *= 1.001;
+  };
+  rosbag::View view(in);
+  for (const rosbag::MessageInstance& instance : view) {
+    if (const ContactForces::Ptr forces = instance.instantiate<ContactForces>()) {
+      for (ContactForce& body : forces->bodies) {
+        if (body.name != "press") continue;
+        grow(body.wrench.force);
+        grow(body.impulse);
+      }
+      out.write(instance.getTopic(), instance.getTime(), *forces);
+    } else if (const SolverState::Ptr state = instance.instantiate<SolverState>()) {
+      for (Impulse& impulse : state->impulses) {
+        if (impulse.name != "contact/press") continue;
+        state->momentum.z += 0.001 * impulse.impulse.z;
+        grow(impulse.impulse);
+      }
+      out.write(instance.getTopic(), instance.getTime(), *state);
+    } else {
+      out.write(instance.getTopic(), instance.getTime(), instance);
+    }
+  }
+  out.close();
+  for (const auto& [name, result] : results_of(report_of(wrong))) {
+    EXPECT_EQ(result, name == "momentum" ? "failed" : "ok") << name;
+  }
+}
+
+TEST_F(ReportRecorded, MomentumSaysWhenItCannotBeMade) {
+  const json every_second = report_of(record({"output.particle_stride=2"}));
+  EXPECT_EQ(results_of(every_second).at("momentum"), "not made");
+  EXPECT_EQ(detail_of(every_second, "momentum"), "the clouds hold 1000 of 2000 particles");
+  const json without_velocity = report_of(record({"output.particle_fields=[p]"}));
+  EXPECT_EQ(results_of(without_velocity).at("momentum"), "not made");
+  EXPECT_EQ(detail_of(without_velocity, "momentum"),
+            "no velocity is recorded; add vx, vy, vz to output.particle_fields");
+}
+
+TEST_F(ReportRecorded, ARunThatEndedEarlyIsTold) {
+  // run_scene --end moves the end; a run that is stopped before it has not reached it.
+  EXPECT_TRUE(report_of(record()).at("notes").empty());
+  RunSceneOptions options;
+  options.scene = "compressed_block";
+  options.bag = folder_.file("stopped.bag");
+  options.threads = 1;
+  int asked = 0;
+  std::ostringstream out, err;
+  run_scene(options, out, err, false, [&asked] { return ++asked > 4; });
+  const json report = report_of(options.bag);
+  EXPECT_EQ(report.at("end"), 0.4);
+  ASSERT_EQ(report.at("notes").size(), 1U);
+  const std::string note = report.at("notes").at(0);
+  EXPECT_NE(note.find("before the scene's end at 0.4 s: the run was stopped there"), std::string::npos) << note;
+}
+
+TEST_F(ReportRecorded, ThePythonOfTheDocumentationReadsABag) {
+  const std::string bag = record();
+  std::ifstream page(MPM_SOURCE_DIR "/doc/analysis.md");
+  std::stringstream text;
+  text << page.rdbuf();
+  const std::string begin = "```python\n";
+  const std::size_t first = text.str().find(begin);
+  ASSERT_NE(first, std::string::npos);
+  std::string code = text.str().substr(first + begin.size());
+  code = code.substr(0, code.find("```"));
+  code.replace(code.find("F.bag"), 5, bag);
+  std::ofstream(folder_.file("analysis.py")) << code;
+
+  FILE* pipe = popen(fmt::format("/usr/bin/python3 {} 2>&1", folder_.file("analysis.py")).c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  std::string printed;
+  for (char line[512]; std::fgets(line, sizeof line, pipe) != nullptr;) printed += line;
+  ASSERT_EQ(pclose(pipe), 0) << printed;
+
+  // The same numbers as bag_report's.
+  RunBag run(bag, "");
+  RunStatistics statistics;
+  run.read({&statistics});
+  for (const BodyStatistics& body : statistics.body_statistics()) {
+    const std::string line = fmt::format("{} peak {:.4g} N at {:.4g} s", body.name, body.force.norm,
+                                         static_cast<double>(body.force.time) / 1e9);
+    EXPECT_NE(printed.find(line), std::string::npos) << line << "\nis not in\n" << printed;
+  }
+  std::size_t snapshots = 0;
+  for (std::size_t at = printed.find("highest particle"); at != std::string::npos;
+       at = printed.find("highest particle", at + 1)) {
+    ++snapshots;
+  }
+  EXPECT_EQ(snapshots, statistics.snapshots().size());
+}
+
+}  // namespace
+}  // namespace mpm_ros

@@ -115,8 +115,6 @@ TEST(SceneBadInput, WhatIsNotBuiltYetSaysSo) {
   expect_refused(10, "  transfer: {xpic: 2}", "method.transfer.xpic: not built yet; use flip");
   expect_refused(10, "  precision: single", "method.precision: 'single' is not built yet; use double");
   expect_refused(15, "    law: johnson_cook", "materials.soft.law: 'johnson_cook' is not built yet; use");
-  expect_refused(22, "    initial: geostatic", "bodies.block.initial: 'geostatic' is not built yet;");
-  expect_refused(22, "    initial: {stress: 0}", "bodies.block.initial.stress: not built yet;");
   expect_refused(27, "    drive: tf", "rigid_bodies.ball.drive: not built yet; use motion");
   expect_refused(21, "    shape: {mesh: {file: a.stl}}", "bodies.block.shape.mesh: not built yet; use box");
 }

@@ -77,7 +77,7 @@ TEST(SceneBuild, AVelocityThatIsNotFiniteIsRefused) {
     built(solid("{box: {min: [0, 0, 0], max: [0.2, 0.2, 0.2]}}", ", initial: {velocity: [\"1/(x-x)\", 0, 0]}"));
     FAIL() << "not refused";
   } catch (const SceneError& error) {
-    EXPECT_EQ(std::string(error.what()).find("test.yaml:3: bodies.body.shape: initial velocity of body 'body': "), 0U)
+    EXPECT_EQ(std::string(error.what()).find("test.yaml:3: bodies.body.initial: initial velocity of body 'body': "), 0U)
         << error.what();
   }
 }

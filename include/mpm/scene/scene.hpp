@@ -36,8 +36,15 @@ struct BodyDefinition {
   std::string name;
   std::string material;
   Region region;
-  std::array<Function, 3> velocity;  ///< initial, functions of place [m/s]
+  std::array<Function, 3> velocity;               ///< initial, functions of place [m/s]
+  std::optional<std::array<Function, 6>> stress;  ///< initial Cauchy stress, xx yy zz yz xz xy, of place [Pa]
+  bool yy_follows = false;                        ///< planar: yy of it is what plane strain makes it
+  std::optional<Function> temperature;            ///< initial, function of place [K]
+  std::optional<GeostaticDefinition> geostatic;
+  bool cut_out_all = false;          ///< particles inside any rigid body are left out
+  std::vector<std::string> cut_out;  ///< the same for rigid bodies by name
   std::string where;                 ///< "file:line: key.path", for errors found when it is built
+  std::string initial_where, cut_out_where;
 };
 
 /// What is written out, beside the sync period that carries it.

@@ -20,6 +20,8 @@ void read_method(const Map& root, Scene& scene);
 void read_materials(const Map& root, Scene& scene);
 /// `bodies`, after materials
 void read_bodies(const Map& root, Scene& scene);
+/// `bodies.<name>.initial`
+void read_initial(const Value& value, const MaterialDefinition& material, Scene& scene, BodyDefinition& body);
 /// `rigid_bodies` and `contact`, after bodies
 void read_rigid_bodies(const Map& root, Scene& scene);
 /// `boundaries`

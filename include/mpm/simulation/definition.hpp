@@ -10,6 +10,7 @@
 #include "mpm/boundary/wall.hpp"
 #include "mpm/material/definition.hpp"
 #include "mpm/math/geometry.hpp"
+#include "mpm/math/tensor.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 
 namespace mpm {
@@ -41,12 +42,22 @@ struct MethodDefinition {
 /// Order of the faces in arrays: x_min, x_max, y_min, y_max, z_min, z_max.
 extern const std::array<const char*, 6> kWallNames;
 
+/// Soil at rest at the start: under its own weight, settled before the run (simulation/geostatic.cpp).
+struct GeostaticDefinition {
+  std::optional<double> k0;  ///< horizontal over vertical stress; the material's own without one
+  double residual = 1e-3;    ///< unbalanced force over weight at which it counts as settled
+};
+
 struct DeformableBody {
   std::string name;
-  std::string material;          ///< name in SimulationDefinition::materials
-  std::vector<Vec3> positions;   ///< particle centres [m]
-  std::vector<Vec3> velocities;  ///< one each, or empty for rest [m/s]
-  double particle_volume = 0.0;  ///< initial volume of one particle [m^3]
+  std::string material;                      ///< name in SimulationDefinition::materials
+  std::vector<Vec3> positions;               ///< particle centres [m]
+  std::vector<Vec3> velocities;              ///< one each, or empty for rest [m/s]
+  std::vector<Symmetric3<double>> stresses;  ///< Cauchy stress to start under, one each, or empty [Pa]
+  bool yy_follows = false;                   ///< planar: yy of these is what plane strain makes it
+  std::vector<double> temperatures;          ///< to start at, one each, or empty for the material's own [K]
+  std::optional<GeostaticDefinition> geostatic;
+  double particle_volume = 0.0;  ///< volume of one particle at the start [m^3]
 };
 
 /// An acceleration of the material as a function of time, place and place at the start (mechanics/body_force.hpp).

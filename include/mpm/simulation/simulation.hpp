@@ -45,6 +45,7 @@ class Simulation {
   int threads() const;
   std::string isa() const;                    ///< instruction set of the kernels
   std::vector<std::string> warnings() const;  ///< one line each, found when the run was put together
+  std::vector<std::string> notes() const;     ///< the same, of what was done then and went well
 
   std::int64_t time() const;         ///< simulated time since the start [ns]
   std::int64_t sync_period() const;  ///< [ns]

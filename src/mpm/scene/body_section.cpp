@@ -61,16 +61,15 @@ Region read_region(const Value& value, bool planar) {
   return read_cylinder(shape, planar);
 }
 
-void read_initial(const Value& value, BodyDefinition& body) {
-  if (value.is_text() && value.text() == "geostatic") {
-    value.fail("'geostatic' is not built yet; let the soil settle before the tool reaches it");
+/// Rigid bodies by name; that they exist is known when the body is filled.
+void read_cut_out(const Value& value, BodyDefinition& body) {
+  body.cut_out_where = value.where();
+  if (value.is_text() && value.text() == "all") {
+    body.cut_out_all = true;
+    return;
   }
-  const Map map(value, {"velocity"},
-                {{"stress", "bodies start without stress"},
-                 {"temperature", "a run is mechanical"},
-                 {"concentration", "a run is mechanical"},
-                 {"pore_pressure", "a run is mechanical"}});
-  if (const auto velocity = map.find("velocity")) body.velocity = velocity->functions(kVelocity);
+  if (!value.is_list()) value.fail("write all, or a list of rigid bodies, such as [blade]");
+  for (const Value& name : value.elements()) body.cut_out.push_back(name.text());
 }
 
 }  // namespace
@@ -81,7 +80,7 @@ void read_bodies(const Map& root, Scene& scene) {
   std::vector<std::string> materials;
   for (const MaterialDefinition& material : scene.definition.materials) materials.push_back(material.name);
   for (const Value& value : list.elements()) {
-    const Map map(value, {"name", "material", "shape", "initial"});
+    const Map map(value, {"name", "material", "shape", "initial", "cut_out"});
     BodyDefinition body;
     body.name = map.at("name").name();
     for (const BodyDefinition& other : scene.bodies) {
@@ -89,13 +88,17 @@ void read_bodies(const Map& root, Scene& scene) {
     }
     const Value material = map.at("material");
     body.material = material.text();
-    if (std::find(materials.begin(), materials.end(), body.material) == materials.end()) {
+    const auto found = std::find(materials.begin(), materials.end(), body.material);
+    if (found == materials.end()) {
       material.fail(fmt::format("no material '{}'; {}", body.material, suggest(body.material, materials)));
     }
     const Value shape = map.at("shape");
     body.region = read_region(shape, planar);
     body.where = shape.where();
-    if (const auto initial = map.find("initial")) read_initial(*initial, body);
+    if (const auto cut_out = map.find("cut_out")) read_cut_out(*cut_out, body);
+    if (const auto initial = map.find("initial")) {
+      read_initial(*initial, scene.definition.materials[found - materials.begin()], scene, body);
+    }
     scene.bodies.push_back(std::move(body));
   }
   if (scene.bodies.empty()) list.fail("no body; write at least one that deforms");

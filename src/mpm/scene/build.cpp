@@ -1,9 +1,11 @@
 // Fills bodies with particles on the grid's own lattice, and refuses what cannot start.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "mpm/scene/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -99,19 +101,38 @@ DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
   return filled;
 }
 
-void set_velocities(const BodyDefinition& body, DeformableBody& filled) {
+/// `at` of every particle's place. @throws SceneError when a function has no value there.
+template <class T, class At>
+void evaluate(const BodyDefinition& body, const DeformableBody& filled, const char* what, std::vector<T>& values,
+              At&& at) {
+  values.reserve(filled.positions.size());
+  try {
+    for (const Vec3& point : filled.positions) values.push_back(at(point));
+  } catch (const FunctionError& error) {
+    throw SceneError(fmt::format("{}: initial {} of body '{}': {}", body.initial_where, what, body.name, error.what()));
+  }
+}
+
+void set_initial(const BodyDefinition& body, DeformableBody& filled) {
   bool at_rest = true;
   for (const Function& component : body.velocity) at_rest = at_rest && component.is_constant() && component(0.0) == 0.0;
-  if (at_rest) return;
-  filled.velocities.reserve(filled.positions.size());
-  try {
-    for (const Vec3& point : filled.positions) {
-      filled.velocities.emplace_back(body.velocity[0](0.0, point), body.velocity[1](0.0, point),
-                                     body.velocity[2](0.0, point));
-    }
-  } catch (const FunctionError& error) {
-    throw SceneError(fmt::format("{}: initial velocity of body '{}': {}", body.where, body.name, error.what()));
+  if (!at_rest) {
+    const auto& v = body.velocity;
+    evaluate(body, filled, "velocity", filled.velocities,
+             [&](const Vec3& x) { return Vec3(v[0](0.0, x), v[1](0.0, x), v[2](0.0, x)); });
   }
+  if (body.stress) {
+    const auto& s = *body.stress;
+    evaluate(body, filled, "stress", filled.stresses, [&](const Vec3& x) {
+      return Symmetric3<double>{s[0](0.0, x), s[1](0.0, x), s[2](0.0, x), s[3](0.0, x), s[4](0.0, x), s[5](0.0, x)};
+    });
+  }
+  if (body.temperature) {
+    evaluate(body, filled, "temperature", filled.temperatures,
+             [&](const Vec3& x) { return (*body.temperature)(0.0, x); });
+  }
+  filled.yy_follows = body.yy_follows;
+  filled.geostatic = body.geostatic;
 }
 
 /// Two bodies on one lattice overlap where both hold the same place.
@@ -158,8 +179,35 @@ void check_rigid(const BodyDefinition& body, const DeformableBody& filled, const
   if (count == 0) return;
   throw SceneError(
       fmt::format("{}: body '{}' overlaps rigid body '{}' at the start: {} particles lie inside it by more than "
-                  "half their spacing, the deepest by {:.4g} m; move one of them",
-                  body.where, body.name, rigid.name, count, deepest));
+                  "half their spacing, the deepest by {:.4g} m; move one of them, or leave them out by cut_out: [{}]",
+                  body.where, body.name, rigid.name, count, deepest, rigid.name));
+}
+
+/// Leaves out the particles whose centres lie inside the rigid bodies that the body asks to be cut out.
+void cut_out(const BodyDefinition& body, const Scene& scene, DeformableBody& filled) {
+  std::vector<std::string> names;
+  for (const RigidBodyDefinition& rigid : scene.definition.rigid_bodies) names.push_back(rigid.name);
+  for (const std::string& name : body.cut_out) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw SceneError(fmt::format("{}: no rigid body '{}'; {}", body.cut_out_where, name,
+                                 names.empty() ? "the scene has none" : suggest(name, names)));
+  }
+  std::vector<Vec3>& points = filled.positions;
+  for (const RigidBodyDefinition& rigid : scene.definition.rigid_bodies) {
+    const bool named = std::find(body.cut_out.begin(), body.cut_out.end(), rigid.name) != body.cut_out.end();
+    if (!body.cut_out_all && !named) continue;
+    const Box bounds = world_bounds(rigid);
+    const auto inside = [&](const Vec3& point) {
+      SurfacePoint surface;
+      return bounds.contains(point) && rigid.surface->within(rigid.pose.to_body(point), 0.0, surface);
+    };
+    points.erase(std::remove_if(points.begin(), points.end(), inside), points.end());
+  }
+  if (points.empty()) {
+    throw SceneError(
+        fmt::format("{}: nothing is left of body '{}': all of it lies inside rigid bodies; move one of them",
+                    body.cut_out_where, body.name));
+  }
 }
 
 }  // namespace
@@ -188,12 +236,13 @@ SimulationDefinition build(const Scene& scene) {
   for (const BodyDefinition& body : scene.bodies) {
     check_place(body, scene);
     DeformableBody filled = fill(body, scene);
+    cut_out(body, scene, filled);
     for (const BodyDefinition& other : scene.bodies) {
       if (&other == &body) break;
       check_overlap(other, body, filled);
     }
     for (const RigidBodyDefinition& rigid : definition.rigid_bodies) check_rigid(body, filled, rigid, half_spacing);
-    set_velocities(body, filled);
+    set_initial(body, filled);
     definition.bodies.push_back(std::move(filled));
   }
   return definition;

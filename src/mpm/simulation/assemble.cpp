@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "initial.hpp"
 #include "mpm/boundary/grid_damping.hpp"
 #include "mpm/boundary/wall.hpp"
-#include "mpm/material/material_point.hpp"
 #include "mpm/math/dimension.hpp"
 #include "state.hpp"
 
@@ -26,16 +26,9 @@ const MaterialDefinition& find_material(const SimulationDefinition& definition, 
   throw DefinitionError(fmt::format("body '{}': no material is called '{}'", body.name, body.material));
 }
 
-// Some laws are under stress where nothing is deformed: a gas.
-void start_stress(ParticleSet& set, const MaterialDefinition& material, int dim) {
-  const Symmetric3<double> s = MaterialPoint(material).tau();
-  const std::vector<double> start =
-      dim == 3 ? std::vector{s.xx, s.yy, s.zz, s.yz, s.xz, s.xy} : std::vector{s.xx, s.zz, s.xz, s.yy};
-  for (const double component : start) set.tau.emplace_back(set.id.size(), component);
-}
-
-ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body, double density, const Law& law,
-                     const GridLayout& layout) {
+ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body,
+                     const MaterialDefinition& material, const Law& law, const GridLayout& layout,
+                     std::vector<std::string>& warnings) {
   const std::size_t n = body.positions.size();
   const std::string start = fmt::format("body '{}': ", body.name);
   if (n == 0) throw DefinitionError(start + "it has no particle");
@@ -47,7 +40,7 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
   }
   ParticleSet set;
   set.name = body.name;
-  set.mass = density * body.particle_volume;
+  set.mass = material.density * body.particle_volume;
   const int dim = layout.dim();
   for (int k = 0; k < dim; ++k) {
     set.half[k] = 0.5 / definition.method.particles_per_direction;
@@ -72,9 +65,9 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
     }
   }
   set.f.assign(dim == 3 ? Solid::kMatrix : PlaneStrain::kMatrix, std::vector<double>(n, 0.0));
-  for (int k = 0; k < dim; ++k) std::fill(set.f[k * (dim + 1)].begin(), set.f[k * (dim + 1)].end(), 1.0);
-  start_stress(set, find_material(definition, body), dim);
+  set.tau.assign(dim == 3 ? Solid::kSymmetric : PlaneStrain::kSymmetric, std::vector<double>(n, 0.0));
   set.history.assign(history_size(law), std::vector<double>(n, 0.0));
+  start_particles(set, body, material, dim, warnings);
   if (definition.method.update == UpdateScheme::usavg) set.next_x.assign(dim, std::vector<double>(n));
   return set;
 }
@@ -159,24 +152,47 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
   s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));
   const GridLayout& layout = s.grid->layout;
 
+  const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
+                                     [](const DeformableBody& body) { return body.geostatic.has_value(); });
+  if (geostatic) add_geostatic_stress(s.definition);
   std::uint32_t next_id = 0;
   s.sets.reserve(definition.bodies.size());
-  for (const DeformableBody& body : definition.bodies) {
+  for (const DeformableBody& body : s.definition.bodies) {
     const MaterialDefinition& material = find_material(definition, body);
     s.laws.push_back(make_law(material));
-    s.sets.push_back(make_set(definition, body, material.density, s.laws.back(), layout));
+    s.sets.push_back(make_set(definition, body, material, s.laws.back(), layout, s.warnings));
     ParticleSet& set = s.sets.back();
     set.first_id = next_id;
     for (std::uint32_t& id : set.id) id = next_id++;
     s.total_mass += set.mass * set.size();
   }
   if (s.sets.empty()) throw DefinitionError("there is no deformable body, so nothing to simulate; add one to 'bodies'");
+  if (geostatic) s.settle();
   for (DeformableBody& body : s.definition.bodies) {
     body.positions = {};
     body.velocities = {};
+    body.stresses = {};
+    body.temperatures = {};
   }
 
   if (definition.method.damping > 0.0) s.stages.push_back(std::make_unique<GridDamping>(definition.method.damping));
+  // Walls that always hold act before contact, so that friction knows no velocity through them, and once more after it
+  // (method reference 5.4, steps 7 to 9).
+  std::vector<Wall*> holding;
+  const auto add_walls = [&](bool lets_go) {
+    for (int face = 0; face < 6; ++face) {
+      const WallKind kind = definition.walls[face].kind;
+      if (kind == WallKind::none || (kind == WallKind::frictional) != lets_go) continue;
+      const int world_axis = face / 2;
+      if (dim == 2 && world_axis == 1) continue;
+      const int grid_axis = dim == 3 ? world_axis : world_axis / 2;
+      auto wall = std::make_unique<Wall>(2 * grid_axis + face % 2, definition.walls[face], kWallNames[face]);
+      if (!lets_go) holding.push_back(wall.get());
+      s.stages.push_back(std::move(wall));
+    }
+  };
+  add_walls(false);
+  const std::size_t before_contact = s.stages.size();
   s.bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
     s.bodies.emplace_back(body);
@@ -192,12 +208,9 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
                       body.name, cells));
     }
   }
-  for (int face = 0; face < 6; ++face) {
-    if (definition.walls[face].kind == WallKind::none) continue;
-    const int world_axis = face / 2;
-    if (dim == 2 && world_axis == 1) continue;
-    const int grid_axis = dim == 3 ? world_axis : world_axis / 2;
-    s.stages.push_back(std::make_unique<Wall>(2 * grid_axis + face % 2, definition.walls[face], kWallNames[face]));
+  add_walls(true);
+  if (s.stages.size() > before_contact) {
+    for (Wall* wall : holding) s.stages.push_back(std::make_unique<WallAgain>(*wall));
   }
 
   if (!s.definition.body_forces.empty()) {

@@ -23,6 +23,7 @@ const SimulationDefinition& Simulation::definition() const { return state_->defi
 int Simulation::threads() const { return state_->threads; }
 std::string Simulation::isa() const { return kernel_isa(); }
 std::vector<std::string> Simulation::warnings() const { return state_->warnings; }
+std::vector<std::string> Simulation::notes() const { return state_->notes; }
 std::int64_t Simulation::time() const { return state_->time; }
 std::int64_t Simulation::sync_period() const { return state_->definition.time.sync; }
 

@@ -26,7 +26,7 @@ struct StepLimit {
 struct Simulation::State {
   SimulationDefinition definition;
   int threads = 1;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, notes;
 
   std::vector<ParticleSet> sets;
   std::vector<Law> laws;  ///< of each set
@@ -59,6 +59,9 @@ struct Simulation::State {
   void step(double start, double dt);
   /// @throws PhysicsError for a particle that is not where it may be
   void sort(double now);
+  /// Lets the bodies that start geostatic, already under their weight's stress, come to rest. Before anything is
+  /// sorted.
+  void settle();
   [[noreturn]] void fail(const std::string& what, ParticleRef particle, double now, const std::string& remedy) const;
 };
 

@@ -58,6 +58,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   publishers_ = std::make_unique<Publishers>(services, bodies_);
   start_run(first_stamps());
   for (const std::string& warning : run_->simulation().warnings()) ROS_WARN_STREAM(warning);
+  for (const std::string& note : run_->simulation().notes()) ROS_INFO_STREAM(note);
   queue_ = std::make_unique<CommandQueue>(run_->simulation().sync_period());
   pacer_ = std::make_unique<Pacer>(run_->simulation().sync_period(), parameters_.real_time_factor);
   // A run that replays recorded commands listens to nobody else.

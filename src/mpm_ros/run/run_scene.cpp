@@ -69,6 +69,7 @@ class OfflineRun {
   RunSceneResult go(std::ostream& out, std::ostream& err, bool bar, const std::function<bool()>& stop_requested) {
     const mpm::Simulation& simulation = run_->simulation();
     for (const std::string& warning : simulation.warnings()) err << "warning: " << warning << "\n";
+    for (const std::string& note : simulation.notes()) err << note << "\n";
     const mpm::EnergyReport start_energy = simulation.state().energy;
     ProgressBar progress(err, bar);
     const double end = static_cast<double>(run_->end());
@@ -127,6 +128,7 @@ void explain_scene(const RunSceneOptions& options, std::ostream& out) {
   out << mpm::explain(scene, built);
   const mpm::Simulation simulation(built, {options.threads});
   for (const std::string& warning : simulation.warnings()) out << "warning: " << warning << "\n";
+  for (const std::string& note : simulation.notes()) out << note << "\n";
 }
 
 RunSceneResult run_scene(const RunSceneOptions& options, std::ostream& out, std::ostream& err, bool bar,

@@ -1,0 +1,262 @@
+#include "mpm/material/initial_state.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include "mpm/math/dimension.hpp"
+#include "mpm/math/principal.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kForEver = 1e30;  // [s]
+constexpr double kChange = 1e-6;   // of a logarithmic stretch, for differences
+constexpr double kLargest = 0.5;   // change of a logarithmic stretch in one step of Newton's method
+constexpr int kSteps = 100;
+constexpr double kSame = 1e-9;        // of the largest component, for stresses that are the same,
+constexpr double kRoundOff = 1e-14;   // and of the stiffness: a stretch is known to the last digit of 1
+constexpr double kCompatible = 1e-6;  // the same for a stress along y that was written down
+
+/// What a law keeps its stress in. A law that is not listed does not compile.
+enum class Keeps { stress, volume_and_stress, volume, deformation };
+struct WhatIsKept {
+  Keeps operator()(const LinearElastic&) const { return Keeps::stress; }
+  Keeps operator()(const DruckerPrager&) const { return Keeps::stress; }
+  Keeps operator()(const MohrCoulomb&) const { return Keeps::stress; }
+  Keeps operator()(const J2Plasticity&) const { return Keeps::volume_and_stress; }
+  Keeps operator()(const NewtonianFluid&) const { return Keeps::volume; }
+  Keeps operator()(const IdealGas&) const { return Keeps::volume; }
+  Keeps operator()(const NeoHookean&) const { return Keeps::deformation; }
+  Keeps operator()(const StandardLinearSolid&) const { return Keeps::deformation; }
+};
+
+struct PoissonRatio {
+  template <class Definition>
+  auto operator()(const Definition& d) const -> decltype(d.elasticity, std::optional<double>()) {
+    return d.elasticity.poisson;
+  }
+  std::optional<double> operator()(const NewtonianFluidDefinition&) const { return std::nullopt; }
+  std::optional<double> operator()(const IdealGasDefinition&) const { return std::nullopt; }
+};
+
+double largest(const Symmetric3<double>& s) {
+  double most = 0.0;
+  for (const double c : {s.xx, s.yy, s.zz, s.yz, s.xz, s.xy}) most = std::max(most, std::abs(c));
+  return most;
+}
+
+/// Largest component of the difference.
+double distance(const Symmetric3<double>& a, const Symmetric3<double>& b) {
+  return largest(sum(a, scale_shift(b, -1.0, 0.0)));
+}
+
+std::string text(const Symmetric3<double>& s) {
+  return fmt::format("xx {:.4g}, yy {:.4g}, zz {:.4g}, yz {:.4g}, xz {:.4g}, xy {:.4g} Pa", s.xx, s.yy, s.zz, s.yz,
+                     s.xz, s.xy);
+}
+
+bool finite(const Symmetric3<double>& s) { return std::isfinite(s.xx + s.yy + s.zz + s.yz + s.xz + s.xy); }
+
+Matrix3<double> dilatation(double j, bool planar) {
+  if (!planar) return Solid::dilatation(j);
+  const double edge = std::sqrt(j);
+  return {edge, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, edge};
+}
+
+Principal<double> axes_of(const Symmetric3<double>& s, bool planar) {
+  return planar ? principal(SymmetricPlane<double>{s.xx, s.zz, s.xz, s.yy}) : principal(s);
+}
+
+Matrix3<double> stretch(const Principal<double>& axes) {
+  const Symmetric3<double> v = compose(axes, Symmetric3<double>{});
+  return {v.xx, v.xy, v.xz, v.xy, v.yy, v.yz, v.xz, v.yz, v.zz};
+}
+
+}  // namespace
+
+InitialStates::InitialStates(const MaterialDefinition& material, bool planar)
+    : material_(material), law_(make_law(material)), planar_(planar) {
+  const double speed =
+      std::visit([&](const auto& law) { return law.wave_speed(Matrix3<double>::identity(), held({}), 1.0); }, law_);
+  least_ = kRoundOff * material.density * speed * speed;
+}
+
+void InitialStates::refuse(const std::string& why) const {
+  throw InitialStateError(fmt::format("material '{}' ({}) {}", material_.name, law_name(material_.law), why));
+}
+
+int InitialStates::temperature_index() const {
+  return std::visit([](const auto& law) { return law.kTemperature; }, law_);
+}
+
+bool InitialStates::yy_is_bound() const { return planar_ && std::visit(WhatIsKept(), law_) == Keeps::deformation; }
+
+Symmetric3<double> InitialStates::held(const InitialState& state) const {
+  return std::visit(
+      [&](const auto& law) {
+        std::array<double, std::decay_t<decltype(law)>::kHistory + 1> scalars{};
+        std::array<double*, std::decay_t<decltype(law)>::kHistory + 1> history{};
+        for (std::size_t k = 0; k < scalars.size(); ++k) history[k] = &scalars[k];
+        if constexpr (std::decay_t<decltype(law)>::kTemperature >= 0) {
+          scalars[law.kTemperature] = state.temperature_excess;
+        }
+        const Matrix3<double> none{}, same = Matrix3<double>::identity();
+        const double j = state.j();
+        Symmetric3<double> tau = state.tau;
+        law.update(Increment<double, Matrix3<double>>{none, same, state.f, j, j, kForEver}, tau, history.data(), 0);
+        return tau;
+      },
+      law_);
+}
+
+Symmetric3<double> InitialStates::cauchy_of(const InitialState& state) const {
+  return scale_shift(held(state), material_.density / state.j(), 0.0);
+}
+
+InitialState InitialStates::find(const InitialRequest& request) const {
+  InitialState state;
+  if (request.temperature) {
+    if (temperature_index() < 0) refuse("has no temperature; leave it out");
+    if (!(*request.temperature > 0.0) || !std::isfinite(*request.temperature)) {
+      refuse(fmt::format("cannot start at {:g} K; a temperature is absolute and positive", *request.temperature));
+    }
+    state.temperature_excess =
+        *request.temperature - std::visit([](const auto& law) { return law.reference_temperature(); }, law_);
+  }
+  if (!request.cauchy) {
+    state.tau = held(state);
+    return state;
+  }
+  Symmetric3<double> cauchy = *request.cauchy;
+  if (!finite(cauchy)) refuse(fmt::format("cannot start under a stress that is not finite: {}", text(cauchy)));
+  const Keeps keeps = std::visit(WhatIsKept(), law_);
+  if (request.yy_follows && keeps != Keeps::deformation) {
+    // No strain along y from the state without stress; a fluid has the same pressure in all directions.
+    cauchy.yy = std::visit(PoissonRatio(), material_.law).value_or(0.5) * (cauchy.xx + cauchy.zz);
+  }
+  switch (keeps) {
+    case Keeps::stress:
+      state.tau = scale_shift(cauchy, 1.0 / material_.density, 0.0);
+      break;
+    case Keeps::volume_and_stress:
+    case Keeps::volume:
+      state = volume_for(cauchy, state.temperature_excess);
+      break;
+    case Keeps::deformation:
+      state = stretch_for(cauchy, request.yy_follows);
+      cauchy = cauchy_of(state);
+      break;
+  }
+  const Symmetric3<double> carried = cauchy_of(state);
+  if (!(distance(carried, cauchy) <= kSame * largest(cauchy) + least_)) {
+    if (keeps == Keeps::volume) {
+      refuse(fmt::format("is a fluid and carries pressure alone at rest, not {}; write equal xx, yy and zz",
+                         text(cauchy)));
+    }
+    refuse(fmt::format("cannot carry the stress {}: it is outside its yield surface, which would leave {}",
+                       text(cauchy), text(carried)));
+  }
+  state.tau = held(state);
+  return state;
+}
+
+bool InitialStates::carries(const Symmetric3<double>& cauchy) const {
+  try {
+    find({cauchy, yy_is_bound(), std::nullopt});
+  } catch (const InitialStateError&) {
+    return false;
+  }
+  return true;
+}
+
+// Mean stress rises with ln J in every law. The difference is taken towards the root: without tension a fluid's
+// pressure has a corner at J = 1.
+InitialState InitialStates::volume_for(const Symmetric3<double>& cauchy, double excess) const {
+  const double target = trace(cauchy) / 3.0;
+  const auto at = [&](double e) {
+    InitialState state;
+    state.f = dilatation(std::exp(e), planar_);
+    state.tau = scale_shift(cauchy, std::exp(e) / material_.density, 0.0);
+    state.temperature_excess = excess;
+    return state;
+  };
+  const auto miss = [&](double e) { return trace(cauchy_of(at(e))) / 3.0 - target; };
+  double e = 0.0, error = miss(e);
+  for (int step = 0; step < kSteps && error != 0.0; ++step) {
+    const double change = error > 0.0 ? -kChange : kChange;
+    const double slope = (miss(e + change) - error) / change;
+    if (!(slope > 0.0)) break;
+    e += std::clamp(-error / slope, -kLargest, kLargest);
+    const double next = miss(e);
+    if (std::abs(next) >= std::abs(error) && std::abs(next) <= kSame * std::abs(target) + least_) break;  // round-off
+    error = next;
+  }
+  if (!(std::abs(miss(e)) <= kSame * std::abs(target) + least_)) {
+    refuse(fmt::format("has no volume at which its mean stress is {:.4g} Pa", target));
+  }
+  return at(e);
+}
+
+InitialState InitialStates::stretch_for(const Symmetric3<double>& cauchy, bool yy_follows) const {
+  const Principal<double> axes = axes_of(cauchy, planar_);
+  const int unknowns = planar_ ? 2 : 3;  // the third direction of a plane tensor is y
+  using Vector = Eigen::Vector3d;
+  const Vector target(axes.value[0], axes.value[1], axes.value[2]);
+  const auto principal_stress = [&](const Vector& e) {
+    InitialState state;
+    state.f = {std::exp(e[0]), 0.0, 0.0, 0.0, std::exp(e[1]), 0.0, 0.0, 0.0, std::exp(e[2])};
+    const Symmetric3<double> s = cauchy_of(state);
+    return Vector(s.xx, s.yy, s.zz);
+  };
+  const auto size = [unknowns](const Vector& v) { return v.head(unknowns).cwiseAbs().maxCoeff(); };
+  Vector e = Vector::Zero(), error = principal_stress(e) - target;
+  for (int step = 0; step < kSteps && size(error) > 0.0; ++step) {
+    Eigen::Matrix3d slope = Eigen::Matrix3d::Identity();
+    for (int k = 0; k < unknowns; ++k) {
+      const Vector change = kChange * Vector::Unit(k);
+      slope.col(k) = (principal_stress(e + change) - principal_stress(e - change)) / (2.0 * kChange);
+    }
+    const Eigen::MatrixXd part = slope.topLeftCorner(unknowns, unknowns);
+    Vector correction = Vector::Zero();
+    correction.head(unknowns) = -part.fullPivLu().solve(error.head(unknowns));
+    if (const double most = size(correction); most > kLargest) correction *= kLargest / most;
+    e += correction;
+    const Vector next = principal_stress(e) - target;
+    const bool stuck = size(next) >= size(error) && size(next) <= kSame * size(target) + least_;
+    error = next;
+    if (stuck) break;  // round-off
+  }
+  if (!(size(error) <= kSame * size(target) + least_)) {
+    refuse(fmt::format("has no stretch under which its stress is {}", text(cauchy)));
+  }
+  if (planar_ && !yy_follows) {
+    const double yy = principal_stress(e)[2];
+    if (!(std::abs(yy - cauchy.yy) <= kCompatible * std::max(largest(cauchy), std::abs(yy)))) {
+      refuse(
+          fmt::format("cannot have yy = {:.6g} Pa in plane strain: with the other components it is {:.6g} Pa; leave yy "
+                      "out",
+                      cauchy.yy, yy));
+    }
+  }
+  Principal<double> stretches = axes;
+  for (int k = 0; k < 3; ++k) stretches.value[k] = std::exp(e[k]);
+  InitialState state;
+  state.f = stretch(stretches);
+  return state;
+}
+
+std::optional<double> pressure_at_rest(const LawDefinition& law) {
+  if (const auto* soil = std::get_if<DruckerPragerDefinition>(&law)) return 1.0 - std::sin(soil->friction_angle);
+  if (const auto* soil = std::get_if<MohrCoulombDefinition>(&law)) return 1.0 - std::sin(soil->friction_angle);
+  if (std::holds_alternative<IdealGasDefinition>(law)) return std::nullopt;
+  const std::optional<double> poisson = std::visit(PoissonRatio(), law);
+  return poisson ? *poisson / (1.0 - *poisson) : 1.0;
+}
+
+}  // namespace mpm

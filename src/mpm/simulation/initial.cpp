@@ -1,0 +1,90 @@
+#include "initial.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/math/dimension.hpp"
+#include "mpm/simulation/simulation.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kEvenVolume = 0.01;  ///< spread of J above which one mass for all particles is worth a warning
+
+/// `per_particle`: one for each particle, or none.
+void check_count(const DeformableBody& body, std::size_t per_particle, const char* what) {
+  if (per_particle == 0 || per_particle == body.positions.size()) return;
+  throw DefinitionError(
+      fmt::format("body '{}': {} {} for {} particles", body.name, per_particle, what, body.positions.size()));
+}
+
+/// Where a set keeps its deformation gradients and stresses.
+struct Store {
+  Store(ParticleSet& set, int dim) : dim_(dim) {
+    for (auto& component : set.f) f_.push_back(component.data());
+    for (auto& component : set.tau) tau_.push_back(component.data());
+  }
+  void operator()(const InitialState& state, int p) const {
+    const Matrix3<double>& f = state.f;
+    const Symmetric3<double>& t = state.tau;
+    if (dim_ == 3) {
+      Solid::store_matrix(f, f_.data(), p);
+      Solid::store_symmetric(t, tau_.data(), p);
+    } else {
+      PlaneStrain::store_matrix(MatrixPlane<double>{f.xx, f.xz, f.zx, f.zz, 1.0}, f_.data(), p);
+      PlaneStrain::store_symmetric(SymmetricPlane<double>{t.xx, t.zz, t.xz, t.yy}, tau_.data(), p);
+    }
+  }
+
+ private:
+  int dim_;
+  std::vector<double*> f_, tau_;
+};
+
+}  // namespace
+
+void start_particles(ParticleSet& set, const DeformableBody& body, const MaterialDefinition& material, int dim,
+                     std::vector<std::string>& warnings) {
+  check_count(body, body.stresses.size(), "stresses");
+  check_count(body, body.temperatures.size(), "temperatures");
+  const std::size_t n = body.positions.size();
+  const InitialStates states(material, dim == 2);
+  const bool asked = !body.stresses.empty() || !body.temperatures.empty();
+  const Store store(set, dim);
+  InitialState state = states.find({});
+  double least_j = 1.0, most_j = 1.0, inverse_j = 0.0;
+  for (std::size_t p = 0; p < n; ++p) {
+    if (asked) {
+      InitialRequest request;
+      if (!body.stresses.empty()) request.cauchy = body.stresses[p];
+      request.yy_follows = dim == 2 && body.yy_follows;
+      if (!body.temperatures.empty()) request.temperature = body.temperatures[p];
+      try {
+        state = states.find(request);
+      } catch (const InitialStateError& error) {
+        const Vec3& place = body.positions[p];
+        throw DefinitionError(fmt::format("body '{}', initial state at ({:.6g}, {:.6g}, {:.6g}) m: {}", body.name,
+                                          place.x(), place.y(), place.z(), error.what()));
+      }
+      if (const int index = states.temperature_index(); index >= 0) set.history[index][p] = state.temperature_excess;
+    }
+    store(state, static_cast<int>(p));
+    const double j = state.j();
+    least_j = p == 0 ? j : std::min(least_j, j);
+    most_j = p == 0 ? j : std::max(most_j, j);
+    inverse_j += 1.0 / j;
+  }
+  // The particles of a body have one mass, so where J varies it is their mean mass that is right.
+  if (least_j != most_j || least_j != 1.0) set.mass *= inverse_j / static_cast<double>(n);
+  if (most_j > (1.0 + kEvenVolume) * least_j) {
+    warnings.push_back(
+        fmt::format("body '{}': its initial stress strains it unevenly, J from {:.4g} to {:.4g}, but its particles "
+                    "have one mass: its "
+                    "density is off by as much; a stiffer material or several bodies would be closer",
+                    body.name, least_j, most_j));
+  }
+}
+
+}  // namespace mpm

@@ -1,0 +1,23 @@
+// How particles start: under a stress, at a temperature, or as soil at rest. Private to this room.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mpm/material/initial_state.hpp"
+#include "mpm/particles/particle_set.hpp"
+#include "mpm/simulation/definition.hpp"
+
+namespace mpm {
+
+/// Deformation gradient, stress, history and mass of a set whose places are known, as its body asks for. Adds to
+/// `warnings`. @throws DefinitionError naming the body and the particle's place.
+void start_particles(ParticleSet& set, const DeformableBody& body, const MaterialDefinition& material, int dim,
+                     std::vector<std::string>& warnings);
+
+/// Gives the bodies that start geostatic the stress of the weight above them: vertical from the columns of particles
+/// over each particle down to its centre, whatever geostatic bodies they belong to, horizontal by k0. A gap in a column
+/// carries nothing. @throws DefinitionError
+void add_geostatic_stress(SimulationDefinition& definition);
+
+}  // namespace mpm

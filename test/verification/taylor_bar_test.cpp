@@ -1,0 +1,105 @@
+// Taylor's test with the constants that codes are compared with: a copper rod, 32.4 mm long and 3.2 mm in radius, hits
+// a smooth rigid wall at 227 m/s; E = 117 GPa, nu = 0.35, 8930 kg/m^3, yield 400 MPa, hardening 100 MPa. No exact
+// solution; finite elements give a final length of 21.4 to 21.7 mm and a mushroom of 6.9 to 7.2 mm in radius at 80 us
+// (Kamoulakos 1990, "A simple benchmark for impact"; Zhu and Cescotto 1995, Int. J. Numer. Methods Eng. 38).
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "page.hpp"
+#include "scene_run.hpp"
+
+namespace verification {
+namespace {
+
+constexpr double kLength = 21.5, kRadius = 7.05;  // middles of the published ranges [mm]
+
+struct Rod {
+  double length = 0.0, radius = 0.0;  // [mm]
+  double drift = 0.0;                 // of kinetic + elastic + dissipated energy, over the start's
+  double kinetic = 0.0;               // at the end, over the start's
+  double largest_strain = 0.0;
+  Numbers r, z, strain;
+  Numbers time, height;  // [us], [mm]
+};
+
+// Ends of the rod lie half of a particle's extent beyond the outermost centres.
+Rod hit(double cell) {
+  mpm::Simulation simulation = start("taylor_bar", {fmt::format("grid.cell={} mm", cell)});
+  Rod rod;
+  const double energy = simulation.state().energy.total();
+  const double half = 0.25 * cell;
+  const auto height = [&] {
+    const std::vector<double> z = field(simulation, "z");
+    return 1e3 * *std::max_element(z.begin(), z.end()) + half;
+  };
+  while (seconds(simulation) < 80e-6 - 1e-12) {
+    simulation.advance();
+    rod.time.push_back(1e6 * seconds(simulation));
+    rod.height.push_back(height());
+  }
+  const std::vector<double> x = field(simulation, "x"), y = field(simulation, "y"), z = field(simulation, "z"),
+                            ep = field(simulation, "ep");
+  for (std::size_t p = 0; p < x.size(); ++p) {
+    const double r = 1e3 * std::hypot(x[p], y[p]);
+    rod.radius = std::max(rod.radius, r + half);
+    rod.largest_strain = std::max(rod.largest_strain, ep[p]);
+    if (y[p] > x[p] || y[p] < 0.0) continue;  // an eighth holds all there is to see
+    rod.r.push_back(r);
+    rod.z.push_back(1e3 * z[p]);
+    rod.strain.push_back(ep[p]);
+  }
+  rod.length = rod.height.back();
+  const mpm::EnergyReport end = simulation.state().energy;
+  rod.drift = (end.total() + end.plastic) / energy - 1.0;
+  rod.kinetic = end.kinetic / energy;
+  return rod;
+}
+
+void show(Page& page, const Rod& rod) {
+  page.beside("length after 80 us (published 21.4 to 21.7)", rod.length, kLength, "mm");
+  page.beside("radius of the mushroom (published 6.9 to 7.2)", rod.radius, kRadius, "mm");
+  page.report("largest plastic strain", rod.largest_strain, "1");
+  page.report("energy left as motion", 100.0 * rod.kinetic, "%");
+  page.report("change of kinetic + elastic + dissipated energy", 100.0 * rod.drift, "%");
+  Figure& figure = page.figure();
+  figure.panel("The rod after 80 us", "r [mm]", "z [mm]").particles("plastic strain", rod.r, rod.z, rod.strain);
+  figure.panel("Length", "time [us]", "length [mm]")
+      .line("highest particle", rod.time, rod.height)
+      .published("published range at 80 us", {80.0, 80.0}, {21.4, 21.7});
+}
+
+const char* const kProblem =
+    "A copper rod (length 32.4 mm, radius 3.2 mm, E = 117 GPa, nu = 0.35, 8930 kg/m^3, yield stress 400 MPa, hardening "
+    "100 MPa) hits a smooth rigid wall at 227 m/s. Three dimensions, uGIMP, USAVG, FLIP; cells of ";
+
+TEST(Metal, TaylorBar) {
+  Page page("metal", "taylor_bar", "Taylor's test: a copper rod hits a wall");
+  page.scene("test/verification/scenes/taylor_bar.yaml");
+  page.problem(std::string(kProblem) + "0.8 mm, four across the radius.");
+  page.exact("none; published finite element results for these constants.",
+             "Kamoulakos (1990); Zhu and Cescotto (1995)");
+  const Rod rod = hit(0.8);
+  show(page, rod);
+  // Coarse: a gross fault shows (no plasticity, wrong hardening or mass).
+  EXPECT_NEAR(rod.length, kLength, 0.05 * kLength);
+  EXPECT_GT(rod.radius, 1.5 * 3.2);
+  page.meaning("The length is that of finite elements; the mushroom's edge is known to a cell.");
+}
+
+TEST(FullMetal, TaylorBarFine) {
+  Page page("metal", "taylor_bar_fine", "Taylor's test, finer");
+  page.scene("test/verification/scenes/taylor_bar.yaml");
+  page.problem(std::string(kProblem) + "0.4 mm, eight across the radius.");
+  page.exact("none; published finite element results for these constants.",
+             "Kamoulakos (1990); Zhu and Cescotto (1995)");
+  const Rod rod = hit(0.4);
+  show(page, rod);
+  EXPECT_NEAR(rod.length, kLength, 0.03 * kLength);
+  EXPECT_NEAR(rod.radius, kRadius, 0.4);
+  page.meaning("Beside the coarser run above: what a finer grid changes.");
+}
+
+}  // namespace
+}  // namespace verification

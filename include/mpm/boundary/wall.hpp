@@ -1,7 +1,8 @@
 // A face of the domain as a condition on the velocity of the nodes on it and beyond it.
 //
 // fixed: no velocity. slip: no velocity along the normal, in or out. frictional: Coulomb contact, lets go.
-// Two walls that meet act one after the other; as their normals are orthogonal neither undoes the other.
+// Two walls that meet act one after the other; as their normals are orthogonal neither undoes the other. Contact may: a
+// wall that always holds acts before it and, as WallAgain, after it.
 // Source: Nairn, GIMP notes (3.1)-(3.11): a condition replaces the momentum along one direction, force and momentum
 // alike.
 #pragma once
@@ -48,6 +49,18 @@ class Wall final : public Stage {
   std::vector<Node> nodes_;
   HeldNodes held_;                ///< frictional only
   std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
+};
+
+/// The same wall once more in a step, after stages that may have pushed its nodes through it.
+class WallAgain final : public Stage {
+ public:
+  explicit WallAgain(Wall& wall) : wall_(wall) {}
+
+  void before_strain(StepContext& context) override { wall_.before_strain(context); }
+  void momentum_updated(StepContext& context) override { wall_.momentum_updated(context); }
+
+ private:
+  Wall& wall_;
 };
 
 }  // namespace mpm

@@ -96,7 +96,7 @@ class Section:
         width = np.full(len(points), 1.42 * gap)
         panel.add_collection(EllipseCollection(width, width, np.zeros(len(points)), units="xy", offsets=points,
                                                offset_transform=panel.transData, facecolors=colors[near],
-                                               linewidths=0))
+                                               edgecolors="#88888866", linewidths=0.25))
         for body, (vertices, faces) in self.outlines.items():
             position, rotation = run.pose_at(body, time)
             segments = [(a[shown], b[shown]) for a, b in cut(position + vertices @ rotation.T, faces, axis, at)]

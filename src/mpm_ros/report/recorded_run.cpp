@@ -12,9 +12,10 @@ std::vector<std::string> notes_on(const RecordedRun& run, bool cut_short) {
   const SolverState& last = run.statistics.last_state();
   if (cut_short) {
     notes.push_back(fmt::format(
-        "the recording was cut short: this is what is whole in it, up to {:.4g} s; to repair it for good: rosbag "
+        "the recording was cut short: this is what is whole in it, up to {:.4g} s{}; to repair it for good: rosbag "
         "reindex {}",
-        last.time, run.path));
+        last.time, run.scene.end ? fmt::format(" of {:.4g} s", *run.scene.end) : "", run.path));
+    return notes;
   }
   if (last.failed) {
     notes.push_back(fmt::format("the run failed at {:.4g} s: {}", last.time, last.failure));

@@ -69,11 +69,12 @@ TEST(View, IsPutIntoTheShippedConfiguration) {
   View view;
   view.focus = {1.0, 2.0, 3.0};
   view.distance = 4.5;
+  view.floor = 2.5;
   view.particle_size = 0.02;
   view.field = "ep";
   const YAML::Node root = YAML::Load(with_view(text.str(), view, "/other/"));
   const YAML::Node manager = root["Visualization Manager"];
-  int clouds = 0, arrays = 0;
+  int clouds = 0, arrays = 0, grids = 0;
   for (const YAML::Node& display : manager["Displays"]) {
     const auto type = display["Class"].as<std::string>();
     if (type == "rviz/PointCloud2") {
@@ -81,12 +82,18 @@ TEST(View, IsPutIntoTheShippedConfiguration) {
       EXPECT_EQ(display["Topic"].as<std::string>(), "/other/particles");
       EXPECT_EQ(display["Channel Name"].as<std::string>(), "ep");
       EXPECT_EQ(display["Size (m)"].as<double>(), 0.02);
+    } else if (type == "rviz/Grid") {
+      ++grids;
+      EXPECT_EQ(display["Cell Size"].as<double>(), 0.5);  // the round number below 0.15 x 4.5
+      EXPECT_EQ(display["Plane"].as<std::string>(), "XY");
+      EXPECT_EQ(display["Offset"]["Z"].as<double>(), 2.5 - 0.01);  // half a particle below the lowest
     } else if (type == "rviz/MarkerArray") {
       ++arrays;
       EXPECT_EQ(display["Marker Topic"].as<std::string>().find("/other/"), 0U);
     }
   }
   EXPECT_EQ(clouds, 1);
+  EXPECT_EQ(grids, 1);
   EXPECT_EQ(arrays, 2);
   const YAML::Node eye = manager["Views"]["Current"];
   EXPECT_EQ(eye["Distance"].as<double>(), 4.5);

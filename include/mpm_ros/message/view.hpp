@@ -9,12 +9,14 @@
 
 namespace mpm_ros {
 
-/// Of RViz's view controller "Orbit", and of its display of the particles.
+/// Of RViz's view controller "Orbit", and of its displays.
 struct View {
+  bool planar = false;                  ///< seen from the front: the eye towards -y, x to the right
   mpm::Vec3 focus = mpm::Vec3::Zero();  ///< point in the middle of the picture [m]
   double distance = 1.0;                ///< of the eye from it [m]
   double yaw = 0.0;                     ///< of the eye about z from x [rad]
   double pitch = 0.0;                   ///< of the eye above the horizon [rad]
+  double floor = 0.0;                   ///< height of the lowest particle [m]
   double particle_size = 0.01;          ///< [m]
   std::string field;                    ///< that colours the particles; empty: none is there
 };
@@ -23,7 +25,8 @@ struct View {
 /// `field`: wished for; when the cloud does not have it (or it is empty) the first of speed, p, and the cloud's own.
 View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field = {});
 
-/// An RViz configuration (YAML text) with the view put in, its topics below `name_space`, which ends with a slash.
+/// An RViz configuration (YAML text) with the view put in: camera, particles, a reference grid of round cells below
+/// them (behind them in a planar scene), axes of the frames; its topics below `name_space`, which ends with a slash.
 /// @throws std::runtime_error when it is not such a configuration.
 std::string with_view(const std::string& configuration, const View& view, const std::string& name_space);
 

@@ -43,7 +43,7 @@ visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation)
     marker.action = visualization_msgs::Marker::ADD;
     marker.pose.orientation.w = 1.0;
     marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
-    marker.color = color(0.55F, 0.60F, 0.66F, 1.0F);
+    marker.color = color(0.80F, 0.85F, 0.92F, 0.5F);  // seen through: contact lies behind
     marker.frame_locked = 1;
     for (const std::array<mpm::Vec3, 3>& triangle : rigid.surface().triangles()) {
       for (mpm::Vec3 vertex : triangle) {

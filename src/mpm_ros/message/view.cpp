@@ -5,6 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace mpm_ros {
 
 namespace {
 
-/// Distance of the eye over the radius of what is to be seen: RViz's field of view is 45 degrees high.
-constexpr double kDistance = 2.4;
+/// Distance of the eye over the radius of the particles: RViz's field of view is 45 degrees high, and tools stand
+/// about.
+constexpr double kDistance = 3.0;
 
 std::string choose_field(const sensor_msgs::PointCloud2& cloud, const std::string& wished) {
   std::vector<std::string> names;
@@ -37,6 +39,40 @@ double spacing_of(const std::vector<mpm::Vec3>& points) {
   return *middle;
 }
 
+/// 1, 2 or 5 times a power of ten: the one below `size`.
+double round_size(double size) {
+  const double power = std::pow(10.0, std::floor(std::log10(size)));
+  return power * (size >= 5.0 * power ? 5.0 : size >= 2.0 * power ? 2.0 : 1.0);
+}
+
+void set_point(YAML::Node node, const mpm::Vec3& point) {
+  node["X"] = point.x();
+  node["Y"] = point.y();
+  node["Z"] = point.z();
+}
+
+void fit_particles(YAML::Node display, const View& view) {
+  display["Size (m)"] = view.particle_size;
+  if (view.field.empty()) {
+    display["Color Transformer"] = "FlatColor";
+  } else {
+    display["Channel Name"] = view.field;
+    display["Name"] = "Colour: " + view.field;
+  }
+}
+
+void fit_grid(YAML::Node display, const View& view) {
+  display["Cell Size"] = round_size(0.15 * view.distance);
+  display["Plane"] = view.planar ? "XZ" : "XY";
+  mpm::Vec3 offset = view.focus;
+  if (view.planar) {
+    offset.y() += 0.05 * view.distance;
+  } else {
+    offset.z() = view.floor - 0.5 * view.particle_size;
+  }
+  set_point(display["Offset"], offset);
+}
+
 }  // namespace
 
 View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field) {
@@ -52,11 +88,12 @@ View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field) {
   View view;
   view.field = choose_field(cloud, field);
   if (points.empty()) return view;
-  const bool planar = box.size().y() == 0.0;
+  view.planar = box.size().y() == 0.0;
   view.focus = box.center();
   view.distance = kDistance * std::max(0.5 * box.size().norm(), 1e-3);
-  view.yaw = planar ? 1.5 * M_PI : 5.5;
-  view.pitch = planar ? 0.0 : 0.42;
+  view.yaw = view.planar ? 1.5 * M_PI : 5.2;
+  view.pitch = view.planar ? 0.0 : 0.6;
+  view.floor = box.min.z();
   view.particle_size = spacing_of(points);
   return view;
 }
@@ -71,22 +108,16 @@ std::string with_view(const std::string& configuration, const View& view, const 
         const auto topic = display[key].as<std::string>();
         display[key] = name_space + topic.substr(topic.rfind('/') + 1);
       }
-      if (display["Class"].as<std::string>() != "rviz/PointCloud2") continue;
-      display["Size (m)"] = view.particle_size;
-      if (view.field.empty()) {
-        display["Color Transformer"] = "FlatColor";
-      } else {
-        display["Channel Name"] = view.field;
-        display["Name"] = "Particles, by " + view.field;
-      }
+      const auto type = display["Class"].as<std::string>();
+      if (type == "rviz/PointCloud2") fit_particles(display, view);
+      if (type == "rviz/Grid") fit_grid(display, view);
+      if (type == "rviz/TF") display["Marker Scale"] = 0.12 * view.distance;
     }
     YAML::Node eye = manager["Views"]["Current"];
     eye["Distance"] = view.distance;
     eye["Yaw"] = view.yaw;
     eye["Pitch"] = view.pitch;
-    eye["Focal Point"]["X"] = view.focus.x();
-    eye["Focal Point"]["Y"] = view.focus.y();
-    eye["Focal Point"]["Z"] = view.focus.z();
+    set_point(eye["Focal Point"], view.focus);
     return YAML::Dump(root);
   } catch (const YAML::Exception& error) {
     throw std::runtime_error(fmt::format("the RViz configuration cannot be used: {}", error.what()));

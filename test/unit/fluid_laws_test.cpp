@@ -102,6 +102,21 @@ TEST(IdealGas, IsAdiabatic) {
   }
 }
 
+// Stress is the pressure above the ambient one; sound knows the whole pressure, c^2 = g p / rho.
+TEST(IdealGas, CountsFromTheAmbientPressure) {
+  IdealGasDefinition definition = kAir;
+  definition.ambient = 1e5;
+  MaterialPoint air({"air", 1.2, definition});
+  EXPECT_NEAR(air.cauchy().xx, -1325.0, 1e-9);
+  EXPECT_NEAR(air.wave_speed(), std::sqrt(1.4 * 101325.0 / 1.2), 1e-9);
+  EXPECT_EQ(air.elastic_energy(), 0.0);
+  air.advance({-0.1, 0, 0, 0, 0, 0, 0, 0, 0}, 1.0);
+  const double j = std::exp(-0.1), pressure = 101325.0 * std::pow(j, -1.4);
+  EXPECT_NEAR(air.cauchy().xx, 1e5 - pressure, 1e-9 * pressure);
+  // Work on the gas, (p V - p0 V0) / (g - 1), less what the ambient pressure did of it.
+  EXPECT_NEAR(air.elastic_energy(), ((pressure * j - 101325.0) / 0.4 - 1e5 * (1.0 - j)) / 1.2, 1e-9 * pressure);
+}
+
 TEST(IdealGas, IsIsothermal) {
   IdealGasDefinition definition = kAir;
   definition.process = GasProcess::isothermal;

@@ -79,6 +79,7 @@ struct IdealGasDefinition {
   double temperature = 0.0;          ///< T0, absolute [K], > 0
   double heat_capacity_ratio = 1.4;  ///< > 1
   GasProcess process = GasProcess::adiabatic;
+  double ambient = 0.0;  ///< pressure of what is around and is not modelled [Pa], >= 0: stress counts from it
 };
 
 /// Neo-Hookean solid of the long-term constants and a Maxwell branch beside it.

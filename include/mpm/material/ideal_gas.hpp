@@ -1,8 +1,11 @@
 // Ideal gas without viscosity: p = p0 (T/T0) / J, with p0 the pressure at the material's density and T0. Adiabatic: the
 // temperature follows T = T_old (J_old/J)^(g-1) exactly, so p J^g stays what it was whatever the steps; isothermal: T
-// is kept. Only J of the deformation gradient is kept. It is under pressure from the start and fills what holds it:
-// without walls, tools or other material around it, it flies apart. Weak: no heat conduction, and no dissipation in a
-// shock: the method's own alone gives it its entropy. Energy counts from the start at T0. Source: method
+// is kept. Only J of the deformation gradient is kept. Stress is the pressure above an ambient one that acts from
+// outside and is not modelled; without it the gas is under its whole pressure from the start, and flies apart where
+// nothing holds it. Weak: pressure acts on every unevenness of the particles' places and does work there that volume
+// does not know of. Sound in a closed box is stable with the ambient pressure taken off and grows without end with it
+// left on; gas that a piston presses strongly becomes unstable in either case. No heat conduction, and no dissipation
+// in a shock: the method's own alone gives it its entropy. Energy counts from the start at T0. Source: method
 // reference 10.8.
 #pragma once
 
@@ -24,7 +27,8 @@ class IdealGas : public LawTraits {
         temperature_(d.temperature),
         specific_pressure_(d.pressure / density),
         ratio_(d.heat_capacity_ratio),
-        adiabatic_(d.process == GasProcess::adiabatic) {}
+        adiabatic_(d.process == GasProcess::adiabatic),
+        specific_ambient_(d.ambient / density) {}
 
   template <class T, class Matrix, class Symmetric>
   void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const* history, int p) const {
@@ -33,30 +37,39 @@ class IdealGas : public LawTraits {
       const T temperature = (T(temperature_) + excess) * std::pow(step.j_old / step.j, T(ratio_ - 1.0));
       excess = temperature - T(temperature_);
     }
-    // tau/rho0 = -p J / rho0
+    // tau/rho0 = -(p - ambient) J / rho0
     const T pressure = T(specific_pressure_) * (T(1) + excess / T(temperature_));
-    tau = scale_shift(tau, T(0), -pressure);
+    tau = scale_shift(tau, T(0), T(specific_ambient_) * step.j - pressure);
   }
 
-  /// Adiabatic: internal energy c_v (T - T0). Isothermal: free energy, -(p J / rho0) ln J.
+  /// Adiabatic: internal energy c_v (T - T0). Isothermal: free energy, -(p J / rho0) ln J. Of both, what the ambient
+  /// pressure took up.
   template <class Matrix, class Symmetric>
   double elastic_energy(const Matrix&, const Symmetric& tau, double j) const {
-    const double pressure = -trace(tau) / 3.0;
-    return adiabatic_ ? (pressure - specific_pressure_) / (ratio_ - 1.0) : -pressure * std::log(j);
+    const double pressure = whole_pressure(tau, j);
+    const double inner = adiabatic_ ? (pressure - specific_pressure_) / (ratio_ - 1.0) : -pressure * std::log(j);
+    return inner + specific_ambient_ * (j - 1.0);
   }
 
   /// c^2 = g p / rho, with g = 1 when isothermal.
-  double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double) const {
-    return std::sqrt((adiabatic_ ? ratio_ : 1.0) * -trace(tau) / 3.0);
+  double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double j) const {
+    return std::sqrt((adiabatic_ ? ratio_ : 1.0) * whole_pressure(tau, j));
   }
   double density() const { return density_; }
   double reference_temperature() const { return temperature_; }
 
  private:
+  /// p J / rho0 [J/kg]
+  template <class Symmetric>
+  double whole_pressure(const Symmetric& tau, double j) const {
+    return specific_ambient_ * j - trace(tau) / 3.0;
+  }
+
   double density_, temperature_;
   double specific_pressure_;  ///< p0 / rho0 [J/kg]
   double ratio_;
   bool adiabatic_;
+  double specific_ambient_;  ///< ambient pressure / rho0 [J/kg]
 };
 
 }  // namespace mpm

@@ -88,6 +88,7 @@ struct Checker {
             fmt::format("temperature is {:g} K; it is absolute and must be positive and finite", law.temperature));
     require(law.heat_capacity_ratio > 1.0 && std::isfinite(law.heat_capacity_ratio), material,
             fmt::format("heat capacity ratio is {:g}; it must be finite and above 1", law.heat_capacity_ratio));
+    require_not_negative(law.ambient, material, "ambient pressure", " Pa");
   }
   void operator()(const StandardLinearSolidDefinition& law) const {
     check(material, law.elasticity);

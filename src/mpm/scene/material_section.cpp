@@ -108,6 +108,7 @@ LawDefinition read_ideal_gas(const Map& map, Scene& scene) {
   } else {
     scene.choices.emplace_back(map.value().path() + ".process", "adiabatic: no heat leaves the gas");
   }
+  if (const auto ambient = map.find("ambient_pressure")) law.ambient = ambient->number(kPressure);
   return law;
 }
 
@@ -137,7 +138,7 @@ const std::vector<LawSection>& law_sections() {
        read_j2_plasticity},
       {"viscoelastic", {"young", "poisson", "branch_modulus", "relaxation_time"}, read_viscoelastic},
       {"newtonian_fluid", {"bulk_modulus", "sound_speed", "exponent", "viscosity", "tension"}, read_newtonian_fluid},
-      {"ideal_gas", {"pressure", "temperature", "heat_capacity_ratio", "process"}, read_ideal_gas}};
+      {"ideal_gas", {"pressure", "temperature", "heat_capacity_ratio", "process", "ambient_pressure"}, read_ideal_gas}};
   return sections;
 }
 

@@ -73,6 +73,15 @@ const Field kFields[] = {
      [](const Particle& p) {
        return history(p, std::visit([](const auto& law) { return law.kPlasticStrain; }, p.law));
      }},
+    // Zero where the law has none.
+    {"temperature", "K",
+     [](const Particle& p) {
+       return std::visit(
+           [&](const auto& law) {
+             return law.kTemperature < 0 ? 0.0 : law.reference_temperature() + history(p, law.kTemperature);
+           },
+           p.law);
+     }},
     {"body", "1", [](const Particle& p) { return static_cast<double>(p.set_index); }},
 };
 

@@ -128,6 +128,30 @@ TEST(Limits, NamesTheBodyThatLimitsTheStepAndThePlace) {
   EXPECT_NEAR(step.dt_last, 0.01 / steps, 1e-12);
 }
 
+// Tait's fluid is pressed by a piston: c^2 = K/rho J^(1 - n). The step falls with it and obeys the tangent at the
+// densest particle, without ever having been above the limit (the run would have ended).
+TEST(Limits, FollowsWhatStiffens) {
+  auto d = block(0.0, 2.0, 1.0);
+  const double bulk = 1e5, exponent = 7.0;
+  d.materials[0].law = mpm::NewtonianFluidDefinition{bulk, exponent, 0.0, false};
+  d.walls[0].kind = d.walls[1].kind = d.walls[4].kind = mpm::WallKind::slip;
+  mpm::RigidBodyDefinition piston;
+  piston.name = "piston";
+  piston.surface = mpm::make_box({3.0, std::numeric_limits<double>::infinity(), 0.6});
+  piston.pose.position = {1.0, 0.0, 1.3};
+  piston.velocity[2] = mpm::Function(-1.0);
+  d.rigid_bodies = {piston};
+  mpm::Simulation simulation(d, {1});
+  simulation.advance();
+  const double first = simulation.state().step.dt_last;
+  while (simulation.time() < 200'000'000) simulation.advance();
+  const mpm::SolverState state = simulation.state();
+  EXPECT_LT(state.min_j, 0.85);
+  const double speed = std::sqrt(bulk / 1000.0 * std::pow(state.min_j, 1.0 - exponent));
+  EXPECT_LE(state.step.dt_last, 0.5 * 0.1 / speed * (1.0 + 0.05));  // the last period changes J by 1 %, c by 3 %
+  EXPECT_LT(state.step.dt_last, 0.7 * first);
+}
+
 TEST(Limits, KeepsStrongDampingStable) {
   auto d = block(0.1, 0.5, 0.5);
   d.method.damping = 5000.0;

@@ -10,7 +10,9 @@ namespace mpm {
 /// Base of every error the library throws. what() is one line that says what, where and what to do.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// What a user wrote may be quoted in `text` as it is: control characters become '?', and what would fill a screen
+  /// loses its middle, for the place stands at the beginning and the advice at the end.
+  explicit Error(const std::string& text);
 };
 
 }  // namespace mpm

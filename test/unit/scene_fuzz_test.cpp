@@ -1,0 +1,208 @@
+// Spoilt scene files: each is built and runs, or is refused in one line that says what and where. 2,000 of them with
+// fixed seeds; 200 under sanitizers. MPM_FUZZ_CASES sets another number.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "mpm/material/material_point.hpp"
+#include "mpm/scene/scene.hpp"
+#include "mpm/scene/sections.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "scene_mutator.hpp"
+
+namespace mpm {
+namespace {
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr int kCases = 200;
+constexpr int kHangSeconds = 300;
+#else
+constexpr int kCases = 2000;
+constexpr int kHangSeconds = 60;  // a case takes milliseconds; a loaded machine is not a hang
+#endif
+constexpr double kMostToBuild = 2e5;  // particles: larger ones are sound, but not cheap
+constexpr double kMostToRun = 5000;
+constexpr double kCoarse = 600;  // particles of a scene before it is spoilt
+constexpr int kPeriods = 2;
+constexpr double kStepsAPeriod = 4.0;
+
+/// Ends the program when a case does not come back.
+class HangGuard {
+ public:
+  HangGuard() : thread_([this] { watch(); }) {}
+  ~HangGuard() {
+    done_ = true;
+    thread_.join();
+  }
+  void begin(int number, const std::string& text) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    number_ = number;
+    text_ = text;
+    start_ = std::chrono::steady_clock::now();
+  }
+
+ private:
+  void watch() {
+    while (!done_) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (std::chrono::steady_clock::now() - start_ > std::chrono::seconds(kHangSeconds)) {
+        std::fprintf(stderr, "case %d does not end:\n%s\n", number_, text_.c_str());
+        std::abort();
+      }
+    }
+  }
+  std::atomic<bool> done_{false};
+  std::mutex mutex_;
+  int number_ = 0;
+  std::string text_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::thread thread_;
+};
+
+/// Places of the lattice in the bodies' bounds: no fewer than the particles that build() makes.
+double places(const Scene& scene) {
+  double sum = 0.0;
+  for (const BodyDefinition& body : scene.bodies) {
+    const Box bounds = body.region.bounds();
+    double product = 1.0;
+    for (const int axis : axes_of(scene)) {
+      product *= std::max(1.0, (bounds.max[axis] - bounds.min[axis]) / particle_spacing(scene, axis));
+    }
+    sum += product;
+  }
+  return sum;
+}
+
+/// A scene of the repository, on a grid so coarse that it is cheap; empty when it has none.
+std::string coarse(const std::string& path) {
+  const Vec3 cell = load_scene(path).definition.grid.cell;
+  for (const char* particles : {"", "1"}) {
+    for (int factor = 1; factor <= 64; ++factor) {
+      std::vector<std::string> overrides = {"grid.cell=[" + std::to_string(factor * cell.x()) + ", " +
+                                            std::to_string(factor * cell.y()) + ", " +
+                                            std::to_string(factor * cell.z()) + "]"};
+      if (cell.x() == cell.z()) overrides = {"grid.cell=" + std::to_string(factor * cell.x())};
+      if (*particles != '\0') overrides.push_back("method.particles_per_cell=1");
+      try {
+        const Scene scene = load_scene(path, overrides);
+        if (places(scene) > kCoarse) continue;
+        build(scene);
+        return scene.text;
+      } catch (const SceneError&) {  // not a whole number of such cells, or a body thinner than one
+      }
+    }
+  }
+  return "";
+}
+
+std::vector<std::string> base_scenes() {
+  std::vector<std::string> texts;
+  for (const char* folder : {"/config/scenes", "/test/data", "/test/verification/scenes"}) {
+    std::vector<std::string> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(MPM_SOURCE_DIR + std::string(folder))) {
+      if (entry.path().extension() == ".yaml") paths.push_back(entry.path().string());
+    }
+    std::sort(paths.begin(), paths.end());
+    for (const std::string& path : paths) {
+      std::string text = coarse(path);
+      if (!text.empty()) texts.push_back(std::move(text));
+    }
+  }
+  return texts;
+}
+
+/// A period of few steps, whatever the material's stiffness: the real one may be thousands of steps long.
+void shorten_period(SimulationDefinition& definition) {
+  double speed = 1.0;
+  for (const MaterialDefinition& material : definition.materials) {
+    speed = std::max(speed, MaterialPoint(material).wave_speed());
+  }
+  double cell = std::min(definition.grid.cell.x(), definition.grid.cell.z());
+  if (definition.geometry == GeometryKind::solid) cell = std::min(cell, definition.grid.cell.y());
+  double step = definition.time.cfl * cell / speed;
+  if (definition.method.damping > 0.0) step = std::min(step, definition.time.cfl / definition.method.damping);
+  if (definition.time.step) step = std::min(step, *definition.time.step);
+  const double period = std::max(1.0, kStepsAPeriod * step * 1e9);
+  if (period < static_cast<double>(definition.time.sync)) definition.time.sync = static_cast<std::int64_t>(period);
+}
+
+/// Builds and runs; gives what became of it.
+std::string outcome(const std::string& text) {
+  const Scene scene = parse_scene(text, "fuzz.yaml");
+  const double count = places(scene);
+  constexpr double kNoMachineHolds = 1e12;
+  if (count > kMostToBuild && count < kNoMachineHolds) return "large";
+  SimulationDefinition definition = build(scene);
+  if (count > kMostToRun) return "built";
+  shorten_period(definition);
+  Simulation simulation(definition, {1});
+  for (int n = 0; n < kPeriods; ++n) simulation.advance();
+  for (std::size_t b = 0; b < definition.rigid_bodies.size(); ++b) simulation.take_contact(static_cast<int>(b));
+  std::vector<double> values;
+  for (const auto& [name, unit] : Simulation::particle_fields()) simulation.particle_field(name, values);
+  simulation.metrics();
+  simulation.state();
+  simulation.state_hash();
+  return "ran";
+}
+
+/// What is wrong with an error's text, or "".
+std::string fault_of(const std::string& what) {
+  if (what.empty()) return "no text";
+  if (what.size() > 1000) return "more than a line of text";
+  for (const char c : what) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) return "a control character";
+  }
+  return "";
+}
+
+TEST(SceneFuzz, SpoiltScenesRunOrAreRefusedInOneLine) {
+  const std::vector<std::string> bases = base_scenes();
+  ASSERT_GE(bases.size(), 10U);
+  int cases = kCases;
+  if (const char* number = std::getenv("MPM_FUZZ_CASES")) cases = std::atoi(number);
+  std::map<std::string, int> seen;
+  HangGuard guard;
+  for (int number = 0; number < cases; ++number) {
+    SceneMutator mutator(static_cast<unsigned>(number));
+    const std::string text = mutator.mutate(bases[static_cast<std::size_t>(number) % bases.size()]);
+    guard.begin(number, text);
+    std::string what, fault;
+    try {
+      ++seen[outcome(text)];
+    } catch (const PhysicsError& error) {
+      ++seen["failed"];
+      fault = fault_of(what = error.what());
+    } catch (const SceneError& error) {
+      ++seen["refused"];
+      fault = fault_of(what = error.what());
+      if (fault.empty() && what.rfind("fuzz.yaml:", 0) != 0) fault = "no place";
+    } catch (const Error& error) {
+      ++seen["refused by the simulation"];
+      fault = fault_of(what = error.what());
+    } catch (const std::exception& error) {
+      what = error.what();
+      fault = "not an error of the library";
+    }
+    EXPECT_EQ(fault, "") << "case " << number << ": " << what << "\n" << text;
+  }
+  for (const auto& [kind, count] : seen) std::printf("%5d %s\n", count, kind.c_str());
+  // The changes are neither so mild that nothing is refused nor so wild that nothing runs.
+  EXPECT_GT(seen["refused"], cases / 3);
+  EXPECT_GT(seen["ran"], cases / 20);
+}
+
+}  // namespace
+}  // namespace mpm

@@ -37,7 +37,7 @@ inline std::vector<Specimen> zoo() {
        0.0,
        1.0},
       {{"mohr_coulomb", 1600.0, MohrCoulombDefinition{soil, 0.6, 0.2, 2000.0, -1.0}}, 1e-3, -0.02, 1.0},
-      {{"dilated_mohr_coulomb", 1600.0, MohrCoulombDefinition{soil, 0.6, 0.2, 2000.0, -1.0}}, 0.01, 0.0, 1.0},
+      {{"dilated_mohr_coulomb", 1600.0, MohrCoulombDefinition{soil, 0.6, 0.2, 2000.0, 500.0}}, 0.01, 0.0, 1.0},
       {{"j2_plasticity", 2700.0, J2PlasticityDefinition{metal, 200e6, 500e6, 300e6, 20.0}}, 0.01, 0.0, 1.0},
       {{"soft_j2_plasticity", 1500.0, J2PlasticityDefinition{soft, 30e3, 5e3, 0.0, 0.0}}, 0.1, 0.0, 1.0},
       {{"newtonian_fluid", 1000.0, NewtonianFluidDefinition{1e6, 7.0, 50.0, true}}, 0.02, -0.05, 0.01},

@@ -11,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "material_paths.hpp"
 #include "mpm/material/path_driver.hpp"
 #include "mpm/math/exponential.hpp"
 
@@ -296,6 +297,29 @@ TEST(MohrCoulomb, ClosesItsOpeningBeforeItCarriesPressure) {
   EXPECT_EQ(trace(point.cauchy()), 0.0);
   swell(-1e-4, 2);
   EXPECT_NEAR(point.cauchy().zz, -3e-4 * clay(0.0).elasticity.bulk(), 1e-7);  // round-off of 0.03 of the modulus
+}
+
+// Whatever has gone before, stress changes by strain alone, and soil with room to close in bears no pressure. 40 paths
+// through the cut-off; round-off of the 1 MPa modulus.
+TEST(MohrCoulomb, OpenedSoilIsAtRestWithoutStrain) {
+  std::mt19937 random(8);
+  for (const double cutoff : {0.0, 500.0}) {
+    int opened = 0;
+    for (int path = 0; path < 20; ++path) {
+      MaterialPoint point({"soil", 1600.0, MohrCoulombDefinition{{1e6, 0.3}, 0.6, 0.2, 2000.0, cutoff}});
+      point.advance({0.02, 0, 0, 0, 0.02, 0, 0, 0, 0.02}, 1.0);
+      for (int n = 0; n < 50; ++n) {
+        point.advance(paths::random_gradient(random, 0.01), 1.0);
+        const Symmetric3<double> before = point.cauchy();
+        point.advance({}, 1.0);
+        ASSERT_LE(paths::distance(point.cauchy(), before), 1e-12 * 1e6);
+        if (!(point.history(MohrCoulomb::kOpening) > 0.0)) continue;
+        ++opened;
+        ASSERT_GE(trace(point.cauchy()), -1e-12 * 1e6);
+      }
+    }
+    EXPECT_GT(opened, 100);
+  }
 }
 
 /// Vertical stress -100 kPa, no strain along y, pressed along x: the passive limit.

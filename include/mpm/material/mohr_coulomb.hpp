@@ -5,7 +5,8 @@
 // plane, the edges of triaxial compression and extension, the apex, and the planes, edges and corners of the cut-off.
 // Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp).
 // Weak: no hardening, no critical state, so dilation never ends; hypoelastic, meant for small elastic strain; an
-// opening is remembered as a volume, not by its direction.
+// opening is remembered as a volume, not by its direction, and only where no pressure is left across it: a crack in
+// soil that is pressed along it heals as it closes.
 // Source: method reference 10.7; de Souza Neto, Peric & Owen (2008) section 8.2; Clausen, Damkilde & Andersen (2006).
 #pragma once
 
@@ -56,6 +57,8 @@ class MohrCoulomb : public LawTraits {
       tau = scale_shift(closed, to_tau, T(0));
       return;
     }
+    const bool has_room = opening > T(0);
+    if (region >= Region::apex && has_room) use_room(s);
     // Plastic strain is the elastic strain lost: C^-1 of the stress that the return took.
     for (int k = 0; k < 3; ++k) plastic[k] -= s[k];
     const T mean = (plastic[0] + plastic[1] + plastic[2]) / T(3);
@@ -66,7 +69,10 @@ class MohrCoulomb : public LawTraits {
       work += s[k] * (deviator + mean / (T(3) * bulk));
       axes.value[order[k]] = s[k];
     }
-    if (region >= Region::apex) opening += std::max(mean / bulk, T(0));
+    // Soil that is still pressed across what opened has not parted: with room and pressure at once, the one would close
+    // the other without any strain.
+    const bool parts = has_room || s[0] + s[1] + s[2] >= T(0);
+    if (region >= Region::apex && parts) opening += std::max(mean / bulk, T(0));
     history[kPlasticStrain][p] += std::sqrt(shear_strain);
     history[kPlasticWork][p] += work * to_tau;
     tau = scale_shift(compose(axes, closed), to_tau, T(0));
@@ -189,6 +195,16 @@ class MohrCoulomb : public LawTraits {
     r[1] = std::min(std::max(trial[1] - shear * T(2) * a * q - opening * a, smallest), cutoff);
     r[2] = smallest;
     return Region::tension_and_shear;
+  }
+
+  /// Soil that has opened before is not pressed by opening on: the pressure that the cut-off's return leaves goes into
+  /// the room there is, the deviator shrinks to the cut-off. Admissible, as the cut-off is not beyond the apex.
+  template <class T>
+  void use_room(T* s) const {
+    const T mean = (s[0] + s[1] + s[2]) / T(3);
+    if (!(mean < T(0))) return;
+    const T scale = T(cutoff_) / (s[0] - mean);
+    for (int k = 0; k < 3; ++k) s[k] = scale * (s[k] - mean);
   }
 
   /// The smallest principal stress on the surface beside a largest one.

@@ -77,8 +77,9 @@ TEST(CollidingDisks, MomentumAndEnergy) {
           "form: it is slower than the approach, since part of the energy stays in vibration.",
           "conservation laws; the example is that of Sulsky, Chen and Schreyer (1994)")
       .meaning(
-          "USAVG keeps the energy to a fraction that falls with the square of the time step; USF errs fifty times as "
-          "much. In a single velocity field the disks feel each other when they share a node, so they rebound before "
+          "USAVG keeps the energy to a small fraction that falls with the time step; USF errs a hundred times as much. "
+          "In a "
+          "single velocity field the disks feel each other when they share a node, so they rebound before "
           "they touch, by a gap that shrinks with the cell. No published number for the rebound speed could be found "
           "to "
           "put beside ours; refinement shows how far it is from converged.")

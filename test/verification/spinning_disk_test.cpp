@@ -153,7 +153,7 @@ TEST(SpinningDisk, AngularMomentumOfATurn) {
   // A trial with another code lost 5.5 % at 20 cells across.
   page.below("largest change of these, FLIP", largest({usavg, fine, usf, fine_usf, small_step, stiff}), 5.5, "%");
   // Round-off, as in all runs.
-  page.below("linear momentum, USAVG, 20 cells", usavg.linear, 1e-10, "of the sum of m |v|");
+  page.below("linear momentum, USAVG, 20 cells", usavg.linear, 1e-10, "of the sum of mass times speed");
   // What is asked of colliding disks is asked here too.
   page.below("growth of the energy, USAVG, 20 cells", 100.0 * (usavg.most_energy - 1.0), 0.1, "%");
   page.below("growth of the energy, USAVG, 40 cells", 100.0 * (fine.most_energy - 1.0), 0.1, "%");

@@ -104,6 +104,11 @@ TEST(VibratingBar, KeepsItsPeriodAndAmplitude) {
           "kg/m³, Poisson's ratio 0; 2 × 2 particles a cell, half the critical time step.")
       .exact("u(X, t) = v0/(βc) sin(βX) sin(βct) with β = π/2L and c = √(E/ρ) = 100 m/s: the period is 4L/c = 40 ms.",
              "the wave equation ρ u_tt = E u_xx")
+      .meaning(
+          "Period and amplitude stay. The grid's waves are a little slow, by the square of cell over wave length. USF "
+          "updates "
+          "stress with velocities half a step off: its energy swings with the motion, without a trend; USAVG's hardly "
+          "moves.")
       .scene("vibrating_bar");
   const double v0 = 1e-4 * kSpeed, exact_amplitude = v0 / (kBeta * kSpeed);
   const Vibration usavg = vibrate("usavg", v0), usf = vibrate("usf", v0);
@@ -144,6 +149,10 @@ TEST(VibratingBar, CrossesCells) {
           "The solution for small strain. It is no longer exact: a strain of v0/c changes stiffness and length by as "
           "much, and the wave's shape with it.",
           "the wave equation, for small strain")
+      .meaning(
+          "No jump when particles pass from cell to cell, which is what boxes around the particles are for. The wider "
+          "the swing, "
+          "the more energy goes: a percent in ten periods at a strain of 0.1.")
       .scene("vibrating_bar");
   Panel& tip = page.figure().panel("Particle next to the free end", "time [ms]", "displacement over the amplitude");
   Panel& energy = page.figure().panel("Energy", "time [ms]", "kinetic + elastic, over the start");

@@ -1,6 +1,7 @@
 // rosrun mpm_ros watch [CONFIG.rviz] [_field:=NAME] [__ns:=NAMESPACE]: RViz with a view that fits the run at hand.
-// Waits for the first particles below its namespace, puts their size, place and field into the configuration (left out:
-// the package's config/rviz/mpm.rviz), and becomes RViz.
+// Waits for the first particles below its namespace, puts the domain, their size and their field into the configuration
+// (left out: the package's config/rviz/mpm.rviz), and becomes RViz.
+#include <mpm_ros/RunInfo.h>
 #include <ros/callback_queue.h>
 #include <ros/package.h>
 #include <ros/ros.h>
@@ -12,6 +13,7 @@
 #include <sstream>
 #include <vector>
 
+#include "mpm/scene/scene.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/message/view.hpp"
 
@@ -29,6 +31,17 @@ std::filesystem::path fitted_path() {
   return folder / "mpm_ros_watch.rviz";
 }
 
+/// Of the scene that runs; empty when that is not known.
+mpm::Box domain_of(const mpm_ros::RunInfoConstPtr& info) {
+  if (!info) return {};
+  try {
+    const mpm::Scene scene = mpm::parse_scene(info->scene_text, info->scene_path);
+    return {scene.definition.grid.min, scene.definition.grid.max};
+  } catch (const mpm::Error&) {
+    return {};  // of another version: the particles alone will do
+  }
+}
+
 /// The configuration to start RViz with: fitted, or as it is when nothing is heard.
 std::string fitted(const std::string& path, const std::string& field) {
   std::ifstream file(path);
@@ -39,9 +52,12 @@ std::string fitted(const std::string& path, const std::string& field) {
   sensor_msgs::PointCloud2ConstPtr cloud;
   const auto subscriber = node.subscribe<sensor_msgs::PointCloud2>(
       mpm_ros::topics::kParticles, 1, [&](const sensor_msgs::PointCloud2ConstPtr& message) { cloud = message; });
+  mpm_ros::RunInfoConstPtr info;
+  const auto info_subscriber = node.subscribe<mpm_ros::RunInfo>(
+      mpm_ros::topics::kRunInfo, 1, [&](const mpm_ros::RunInfoConstPtr& message) { info = message; });
   // By the wall clock: simulated time may stand still.
   for (const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
-       ros::ok() && !cloud && ros::WallTime::now() < end;) {
+       ros::ok() && !(cloud && info) && ros::WallTime::now() < end;) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
   }
   if (!cloud) {
@@ -50,7 +66,8 @@ std::string fitted(const std::string& path, const std::string& field) {
   }
   const std::string fitted_file = fitted_path();
   std::ofstream out(fitted_file);
-  out << mpm_ros::with_view(text.str(), mpm_ros::view_of(*cloud, field), ros::this_node::getNamespace() + "/");
+  out << mpm_ros::with_view(text.str(), mpm_ros::view_of(*cloud, field, domain_of(info)),
+                            ros::this_node::getNamespace() + "/");
   if (!out.flush()) throw std::runtime_error(fitted_file + " cannot be written");
   return fitted_file;
 }

@@ -47,6 +47,18 @@ TEST(View, PlanarScenesFromTheFront) {
   EXPECT_EQ(view.pitch, 0.0);
 }
 
+TEST(View, LooksAtTheDomainWhenItIsKnown) {
+  mpm::Box domain;
+  domain.add({0.0, -2.0, 1.0});
+  domain.add({4.0, 2.0, 3.0});
+  const View view = view_of(lattice({"p"}), {}, domain);
+  EXPECT_EQ(view.focus, mpm::Vec3(2.0, 0.0, 2.0));
+  EXPECT_GT(view.distance, 3.0);                  // the domain's half diagonal
+  EXPECT_NEAR(view.particle_size, 0.1, kSingle);  // still of the particles
+  // A planar scene has its particles in one plane, whatever its domain says of y.
+  EXPECT_EQ(view_of(lattice({"p"}, true), {}, domain).focus, mpm::Vec3(2.0, 0.0, 2.0));
+}
+
 TEST(View, ColoursByWhatIsThere) {
   EXPECT_EQ(view_of(lattice({"vx", "p", "speed"})).field, "speed");
   EXPECT_EQ(view_of(lattice({"vx", "p"})).field, "p");

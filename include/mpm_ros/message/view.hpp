@@ -1,4 +1,4 @@
-// Where RViz should look from: made to fit a cloud of particles, whatever the size of the scene.
+// Where RViz should look from: made to fit a run, whatever the size of its scene.
 #pragma once
 
 #include <sensor_msgs/PointCloud2.h>
@@ -21,9 +21,10 @@ struct View {
   std::string field;                    ///< that colours the particles; empty: none is there
 };
 
-/// All particles in the picture, each as large as their spacing; planar scenes (all y equal) from the front.
+/// All of the domain in the picture (empty: of the particles), each particle as large as their spacing; planar scenes
+/// (all y equal) from the front.
 /// `field`: wished for; when the cloud does not have it (or it is empty) the first of speed, p, and the cloud's own.
-View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field = {});
+View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field = {}, const mpm::Box& domain = {});
 
 /// An RViz configuration (YAML text) with the view put in: camera, particles, a reference grid of round cells below
 /// them (behind them in a planar scene), axes of the frames; its topics below `name_space`, which ends with a slash.

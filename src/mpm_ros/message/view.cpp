@@ -13,9 +13,8 @@ namespace mpm_ros {
 
 namespace {
 
-/// Distance of the eye over the radius of the particles: RViz's field of view is 45 degrees high, and tools stand
-/// about.
-constexpr double kDistance = 3.0;
+/// Distance of the eye over the radius of what is to be seen: RViz's field of view is 45 degrees high.
+constexpr double kDistance = 2.4;
 
 std::string choose_field(const sensor_msgs::PointCloud2& cloud, const std::string& wished) {
   std::vector<std::string> names;
@@ -75,7 +74,7 @@ void fit_grid(YAML::Node display, const View& view) {
 
 }  // namespace
 
-View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field) {
+View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field, const mpm::Box& domain) {
   std::vector<mpm::Vec3> points;
   mpm::Box box;
   sensor_msgs::PointCloud2ConstIterator<float> x(cloud, "x"), y(cloud, "y"), z(cloud, "z");
@@ -89,9 +88,11 @@ View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field) {
   view.field = choose_field(cloud, field);
   if (points.empty()) return view;
   view.planar = box.size().y() == 0.0;
-  view.focus = box.center();
-  view.distance = kDistance * std::max(0.5 * box.size().norm(), 1e-3);
-  view.yaw = view.planar ? 1.5 * M_PI : 5.2;
+  mpm::Box seen = domain.empty() ? box : domain;
+  if (view.planar) seen.min.y() = seen.max.y() = box.min.y();
+  view.focus = seen.center();
+  view.distance = kDistance * std::max(0.5 * seen.size().norm(), 1e-3);
+  view.yaw = view.planar ? 1.5 * M_PI : 4.5;
   view.pitch = view.planar ? 0.0 : 0.6;
   view.floor = box.min.z();
   view.particle_size = spacing_of(points);

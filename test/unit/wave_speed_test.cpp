@@ -131,4 +131,21 @@ TEST(WaveSpeed, BoundsTheTangentInEveryState) {
   }
 }
 
+// Soil with more shear stiffness than bulk stiffness that has opened, on its cut-off: volume is free there, shear is
+// not.
+TEST(WaveSpeed, BoundsTheTangentOfOpenedAuxeticSoil) {
+  std::mt19937 random(3);
+  const Specimen specimen{
+      {"soil", 1600.0, MohrCoulombDefinition{{1e6, -0.3}, 0.6, 0.2, 2000.0, 500.0}}, 0.01, 0.0, 1.0};
+  double closest = 1e9;
+  for (int state = 0; state < 60; ++state) {
+    MaterialPoint point(specimen.material);
+    point.advance({0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.01}, specimen.time);
+    for (int n = 0; n < 1 + state % 20; ++n) point.advance(random_gradient(random, specimen.strain), specimen.time);
+    const Speeds found = fastest(point, kInstant, random, 60);
+    closest = std::min(closest, point.wave_speed() / std::max(found.elastic, found.plastic));
+  }
+  EXPECT_GE(closest, 1.0 - 1e-5);  // one-sided differences of 1e-6
+}
+
 }  // namespace

@@ -111,7 +111,11 @@ class MohrCoulomb : public LawTraits {
     const double largest = s.largest(), smallest = s.smallest();
     const bool flows = largest - smallest >= kNearYield * (strength_ - (largest + smallest) * sin_friction_);
     const bool open = trace(tau) / 3.0 * density_ / j > -kStressFree * bulk_;
-    return soil_wave_speed(tau, j, bulk_, shear_, density_, flows ? flow_stiffness(open ? 0.0 : sin_dilation_) : 0.0);
+    double flow = flows ? flow_stiffness(open ? 0.0 : sin_dilation_) : 0.0;
+    // use_room(): volume is free, 4/3 G for shear and (|p - q|/2)^2 / h = 3/4 G at most; more than elastic if K < 3/4
+    // G.
+    if (open && !cutoff_is_apex_ && largest >= kNearYield * cutoff_) flow = std::max(flow, 0.75 * shear_ - bulk_);
+    return soil_wave_speed(tau, j, bulk_, shear_, density_, flow);
   }
   double density() const { return density_; }
   double sin_dilation() const { return sin_dilation_; }

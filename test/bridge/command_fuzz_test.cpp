@@ -5,9 +5,8 @@
 #include <ros/console.h>
 
 #include <cmath>
-#include <limits>
-#include <random>
 
+#include "command_dice.hpp"
 #include "mpm_ros/command/command_log.hpp"
 #include "mpm_ros/command/command_reader.hpp"
 #include "mpm_ros/run/run.hpp"
@@ -15,14 +14,12 @@
 namespace mpm_ros {
 namespace {
 
+using test::Dice;
+using test::kOrigin;
+
 constexpr std::uint64_t kSeed = 20240607;
 constexpr int kMessages = 10'000;
 constexpr int kMessagesBetweenSyncPoints = 25;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Simulated time zero: so late that a stamp can lie 1e9 s before it and still be one.
-const ros::Time kOrigin(1'500'000'000, 0);
-
 /// Keeps the commands that a run applied.
 class CommandKeeper : public MessageSink {
  public:
@@ -118,93 +115,6 @@ class Console {
   CommandReader reader_;
   std::uint64_t taken_ = 0;
   std::uint64_t applied_ = 0;
-};
-
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
-  int below(int count) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(count)); }
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  std::uint32_t word() { return static_cast<std::uint32_t>(engine_()); }
-  template <typename Value>
-  Value one_of(std::initializer_list<Value> values) {
-    return *(values.begin() + below(static_cast<int>(values.size())));
-  }
-
-  double bad_number() { return one_of({kNaN, kInfinity, -kInfinity}); }
-  double huge_number() { return std::copysign(std::pow(10.0, uniform(6.0, 307.0)), uniform(-1.0, 1.0)); }
-  double number() {
-    const int kind = below(20);
-    if (kind == 0) return bad_number();
-    if (kind == 1) return huge_number();
-    if (kind == 2) return one_of({0.0, -0.0, 5e-324, 1e-300});
-    return uniform(-0.05, 0.05);
-  }
-  geometry_msgs::Twist twist(bool sound = false) {
-    geometry_msgs::Twist twist;
-    for (double* value :
-         {&twist.linear.x, &twist.linear.y, &twist.linear.z, &twist.angular.x, &twist.angular.y, &twist.angular.z}) {
-      *value = sound ? uniform(-0.05, 0.05) : number();
-    }
-    return twist;
-  }
-  geometry_msgs::Pose pose(bool sound = false) {
-    geometry_msgs::Pose pose;
-    pose.position.x = 0.1 + (sound ? uniform(-0.05, 0.05) : number());
-    pose.position.z = 0.1 + (sound ? uniform(-0.02, 0.02) : number());
-    const int kind = sound ? 0 : below(4);
-    const double angle = uniform(-1.0, 1.0), scale = kind == 1 ? uniform(0.0, 2.0) : 1.0;
-    pose.orientation.w = scale * std::cos(angle);
-    pose.orientation.y = scale * std::sin(angle);
-    if (kind == 2) pose.orientation = geometry_msgs::Quaternion();  // zero: an empty message
-    if (kind == 3) pose.orientation.x = number();
-    return pose;
-  }
-  std::string unknown_frame() {
-    std::string noise(below(300), ' ');
-    for (char& c : noise) c = static_cast<char>(word());
-    return one_of<std::string>(
-        {"nowhere", "/world", "wor\nld", "\xff\xfe", std::string(1000, 'x'), "{}%s%n", noise + "!"});
-  }
-  std::string frame() {
-    return below(8) == 0 ? unknown_frame() : one_of<std::string>({"", "world", "plate", "rod", "sensor"});
-  }
-  /// More than the hour ahead that is believed.
-  ros::Time far_stamp(double now) {
-    switch (below(3)) {
-      case 0:
-        return raw(4'000'000'000U + word() % 200'000'000U, word());  // nanoseconds beyond a second
-      case 1:
-        return raw(0xffffffffU, 0xffffffffU);
-      default:
-        return kOrigin + ros::Duration(now + uniform(3700.0, 1e9));
-    }
-  }
-  ros::Time stamp(double now) {
-    switch (below(6)) {
-      case 0:
-        return ros::Time();
-      case 1:
-        return far_stamp(now);
-      case 2:
-        return kOrigin + ros::Duration(uniform(-1e9, 1e9));
-      case 3:
-        return raw(word(), word());
-      default:
-        return kOrigin + ros::Duration(now + uniform(-0.1, 0.1));
-    }
-  }
-
- private:
-  /// As it could come over the wire: not normalised.
-  static ros::Time raw(std::uint32_t sec, std::uint32_t nsec) {
-    ros::Time time;
-    time.sec = sec;
-    time.nsec = nsec;
-    return time;
-  }
-
-  std::mt19937_64 engine_;
 };
 
 /// A command as the service takes it, applied at once when it is sound.

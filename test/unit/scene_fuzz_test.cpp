@@ -1,5 +1,6 @@
 // Spoilt scene files: each is built and runs, or is refused in one line that says what and where. 2,000 of them with
 // fixed seeds; 200 under sanitizers. MPM_FUZZ_CASES sets another number.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "mpm/material/material_point.hpp"
+#include "mpm/scene/memory.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/simulation.hpp"
@@ -36,6 +38,7 @@ constexpr double kMostToRun = 5000;
 constexpr double kCoarse = 600;  // particles of a scene before it is spoilt
 constexpr int kPeriods = 2;
 constexpr double kStepsAPeriod = 4.0;
+constexpr double kMostSteps = 1000.0;
 
 /// Ends the program when a case does not come back.
 class HangGuard {
@@ -123,8 +126,9 @@ std::vector<std::string> base_scenes() {
   return texts;
 }
 
-/// A period of few steps, whatever the material's stiffness: the real one may be thousands of steps long.
-void shorten_period(SimulationDefinition& definition) {
+/// A period of few steps, whatever the material's stiffness: the real one may be thousands of steps long. False when a
+/// nanosecond already is.
+bool shorten_period(SimulationDefinition& definition) {
   double speed = 1.0;
   for (const MaterialDefinition& material : definition.materials) {
     speed = std::max(speed, MaterialPoint(material).wave_speed());
@@ -136,17 +140,16 @@ void shorten_period(SimulationDefinition& definition) {
   if (definition.time.step) step = std::min(step, *definition.time.step);
   const double period = std::max(1.0, kStepsAPeriod * step * 1e9);
   if (period < static_cast<double>(definition.time.sync)) definition.time.sync = static_cast<std::int64_t>(period);
+  return step * 1e9 > 1.0 / kMostSteps;
 }
 
 /// Builds and runs; gives what became of it.
 std::string outcome(const std::string& text) {
   const Scene scene = parse_scene(text, "fuzz.yaml");
   const double count = places(scene);
-  constexpr double kNoMachineHolds = 1e12;
-  if (count > kMostToBuild && count < kNoMachineHolds) return "large";
+  if (count > kMostToBuild && count * 160.0 < 2.0 * usable_memory()) return "large";  // build() may well make it
   SimulationDefinition definition = build(scene);
-  if (count > kMostToRun) return "built";
-  shorten_period(definition);
+  if (count > kMostToRun || !shorten_period(definition)) return "built";
   Simulation simulation(definition, {1});
   for (int n = 0; n < kPeriods; ++n) simulation.advance();
   for (std::size_t b = 0; b < definition.rigid_bodies.size(); ++b) simulation.take_contact(static_cast<int>(b));
@@ -202,6 +205,36 @@ TEST(SceneFuzz, SpoiltScenesRunOrAreRefusedInOneLine) {
   // The changes are neither so mild that nothing is refused nor so wild that nothing runs.
   EXPECT_GT(seen["refused"], cases / 3);
   EXPECT_GT(seen["ran"], cases / 20);
+}
+
+std::string refusal_of_block(double cell) {
+  const std::string text = fmt::format(
+      "grid: {{cell: {:.17g}, min: [0, 0, 0], max: [{:.17g}, {:.17g}, {:.17g}]}}\n"
+      "method: {{particles_per_cell: 1}}\n"
+      "materials: [{{name: m, density: 1, law: neo_hookean, young: 1, poisson: 0}}]\n"
+      "bodies:\n"
+      "  - {{name: block, material: m, shape: {{box: {{min: [0, 0, 0], max: [1, 1, 1]}}}}}}\n",
+      cell, 1.0, 1.0, 1.0);
+  try {
+    build(parse_scene(text, "block.yaml"));
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// A particle takes at least 240 bytes in three dimensions: 9 + 9 + 6 numbers of state, and 6 in its definition.
+TEST(SceneFuzz, RefusesWhatNoMachineHolds) {
+  const double edge = std::ceil(std::cbrt(1.2 * usable_memory() / 240.0));  // cells along it
+  const std::string memory = refusal_of_block(1.0 / edge);
+  EXPECT_EQ(memory.find("block.yaml:5: bodies.block.shape: with body 'block' there would be about "), 0U) << memory;
+  EXPECT_NE(
+      memory.find(edge * edge * edge < 2147483647.0 ? " GB of memory; this machine has " : " particles, more than "),
+      std::string::npos)
+      << memory;
+  const std::string number = refusal_of_block(1e-5);
+  EXPECT_NE(number.find("about 1e+15 particles, more than 2147483647; make grid.cell larger"), std::string::npos)
+      << number;
 }
 
 }  // namespace

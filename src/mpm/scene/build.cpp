@@ -5,14 +5,18 @@
 #include <cmath>
 #include <limits>
 
+#include "mpm/scene/memory.hpp"
 #include "mpm/scene/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
 namespace {
 
-// Ids of particles are 32-bit in messages.
-constexpr double kMostParticles = 4294967295.0;
+// Particles are numbered by signed 32-bit integers.
+constexpr double kMostParticles = 2147483647.0;
+// What a particle takes at least: position, velocity, deformation and stress, and its place in the definition.
+constexpr double kBytesOfParticle = 240.0;
+constexpr double kBytesOfPlanarParticle = 160.0;
 // A face this much of a cell beyond the grid's is on it: 0.1 is not a binary number.
 constexpr double kOnFace = 1e-6;
 
@@ -69,18 +73,44 @@ Lattice lattice(const Scene& scene, const Box& bounds, int axis) {
           static_cast<std::int64_t>(std::min(all - 1.0, last))};
 }
 
+/// Volume over that of the bounds; area in planar scenes, where a sphere is a disk.
+double fullness(const Region& region, bool planar) {
+  constexpr double kPi = 3.14159265358979323846;
+  if (region.kind == Region::Kind::box) return 1.0;
+  return region.kind == Region::Kind::sphere && !planar ? kPi / 6.0 : kPi / 4.0;
+}
+
+/// Refuses what cannot be numbered or does not fit in memory, before any particle is made.
+void check_size(const Scene& scene) {
+  const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
+  const double memory = usable_memory(), bytes = planar ? kBytesOfPlanarParticle : kBytesOfParticle;
+  double total = 0.0;
+  for (const BodyDefinition& body : scene.bodies) {
+    const Box bounds = body.region.bounds();
+    double places = fullness(body.region, planar);
+    for (const int axis : axes_of(scene))
+      places *= (bounds.max[axis] - bounds.min[axis]) / particle_spacing(scene, axis);
+    total += places;
+    const std::string start =
+        fmt::format("{}: with body '{}' there would be about {:.2g} particles", body.where, body.name, total);
+    if (!(total <= kMostParticles)) {
+      throw SceneError(fmt::format("{}, more than {:.0f}; make grid.cell larger", start, kMostParticles));
+    }
+    if (total * bytes > memory) {
+      throw SceneError(
+          fmt::format("{}, which need at least {:.3g} GB of memory; this machine has {:.3g} GB: make "
+                      "grid.cell larger",
+                      start, 1e-9 * total * bytes, 1e-9 * memory));
+    }
+  }
+}
+
 DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
   const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
   const Box bounds = body.region.bounds();
   const Lattice x = lattice(scene, bounds, 0);
   const Lattice y = planar ? Lattice{0.0, 0.0, 0, 0} : lattice(scene, bounds, 1);
   const Lattice z = lattice(scene, bounds, 2);
-  const double places = x.count() * y.count() * z.count();
-  if (places > kMostParticles) {
-    throw SceneError(
-        fmt::format("{}: body '{}' would have about {:.2g} particles, more than {:.0f}; make grid.cell larger",
-                    body.where, body.name, places, kMostParticles));
-  }
   DeformableBody filled;
   filled.name = body.name;
   filled.material = body.material;
@@ -233,8 +263,9 @@ SimulationDefinition build(const Scene& scene) {
   SimulationDefinition definition = scene.definition;
   double half_spacing = std::numeric_limits<double>::infinity();
   for (const int axis : axes_of(scene)) half_spacing = std::min(half_spacing, 0.5 * particle_spacing(scene, axis));
+  for (const BodyDefinition& body : scene.bodies) check_place(body, scene);
+  check_size(scene);
   for (const BodyDefinition& body : scene.bodies) {
-    check_place(body, scene);
     DeformableBody filled = fill(body, scene);
     cut_out(body, scene, filled);
     for (const BodyDefinition& other : scene.bodies) {

@@ -4,9 +4,8 @@
 //   the stress itself    linear_elastic, drucker_prager, mohr_coulomb: F = I
 //   J and the stress     j2_plasticity: pressure by a change of volume, the deviator is carried; F = J^(1/dim) I
 //   J alone              newtonian_fluid, ideal_gas: pressure; a deviator cannot be carried
-//   F                    neo_hookean, viscoelastic: F is the pure stretch that has this stress, found in principal axes
-//   by
-//                        Newton's method. In plane strain F_yy = 1, so yy follows from the rest.
+//   F                    neo_hookean, viscoelastic: F is the pure stretch that has this stress, found in principal
+//                        axes by Newton's method. In plane strain F_yy = 1, so yy follows from the rest.
 //
 // Found from the laws themselves, by a step without motion that lasts for ever: what relaxes has relaxed, what flows
 // has come to rest. A stress that such a step changes cannot be carried, above all one outside a yield surface.

@@ -3,7 +3,6 @@
 that the verification tests left in PAGES, after the hand-written head test/verification/head.md."""
 
 import json
-import math
 import pathlib
 import sys
 
@@ -12,6 +11,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402: the backend comes first
 
+ROOT = pathlib.Path(__file__).resolve().parent.parent
 CHAPTERS = {
     "waves": "Waves, weight and order of convergence",
     "conservation": "Conservation",
@@ -81,24 +81,38 @@ def draw(page, path):
         axes.set_ylabel(panel["y"])
         axes.grid(alpha=0.25)
         if any(series["kind"] != "particles" for series in panel["series"]):
-            axes.legend(fontsize=8, frameon=False)
+            axes.legend(fontsize=8, frameon=any(series["kind"] == "particles" for series in panel["series"]))
     figure.savefig(path, dpi=110, metadata={"Software": None})
     plt.close(figure)
 
 
 def number(value):
-    if value is None or not math.isfinite(value):
-        return "–" if value is None else str(value)
-    return f"{value:.5g}"
+    return "not finite" if value is None else f"{value:.5g}"  # JSON has no NaN: a test that failed wrote null
 
 
 def deviation(row):
-    exact = row["exact"]
-    if exact is None:
+    exact, reached = row["exact"], row["reached"]
+    if exact is None or reached is None:
         return ""
     if exact == 0:
-        return f"{row['reached']:+.2g}"
-    return f"{100 * (row['reached'] / exact - 1):+.2g} %"
+        return f"{reached:+.2g}" + with_unit(row)
+    part = 100 * (reached / exact - 1)
+    if abs(part) < 1e-9:
+        return "round-off"
+    return f"{part:+.0f} %" if abs(part) >= 99.5 else f"{part:+.2g} %"
+
+
+def with_unit(row):
+    return "" if row["unit"] in ("", "1", "-") else " " + row["unit"]
+
+
+def scene_path(name):
+    """Where a scene lies, however the test wrote it: its name, its file or its path."""
+    file = pathlib.PurePath(name).stem + ".yaml"
+    for folder in ("test/verification/scenes", "config/scenes"):
+        if (ROOT / folder / file).exists():
+            return f"{folder}/{file}"
+    raise SystemExit(f"make_verification: there is no scene '{name}'")
 
 
 def section(page, pictures):
@@ -110,16 +124,15 @@ def section(page, pictures):
     if page["rows"]:
         lines += ["| quantity | reached | exact or published | deviation | asked |", "|---|---|---|---|---|"]
         for row in page["rows"]:
-            unit = "" if row["unit"] in ("", "1") else " " + row["unit"]
-            exact = "" if row["exact"] is None else number(row["exact"]) + unit
-            cells = [row["quantity"], number(row["reached"]) + unit, exact, deviation(row), row["criterion"]]
-            lines.append("| " + " | ".join(cells) + " |")
+            exact = "" if row["exact"] is None else number(row["exact"]) + with_unit(row)
+            cells = [row["quantity"], number(row["reached"]) + with_unit(row), exact, deviation(row), row["criterion"]]
+            lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
         lines.append("")
     if "meaning" in page:
         lines += [page["meaning"], ""]
     told = [f"Test `{page['test']}`"]
     if "scene" in page:
-        told.append(f"scene `{page['scene']}`")
+        told.append(f"scene `{scene_path(page['scene'])}`")
     lines += ["<sub>" + ", ".join(told) + ("" if page["passed"] else ", **failed in this run**") + "</sub>", ""]
     return lines
 
@@ -135,7 +148,7 @@ def main():
     pictures.mkdir(parents=True, exist_ok=True)
     for old in pictures.glob("*.png"):
         old.unlink()
-    head = pathlib.Path(__file__).resolve().parent.parent / "test" / "verification" / "head.md"
+    head = ROOT / "test" / "verification" / "head.md"
     lines = [head.read_text().rstrip(), ""]
     for chapter, title in CHAPTERS.items():
         members = [page for page in pages if page["chapter"] == chapter]

@@ -66,6 +66,8 @@ def main():
     except (plot_tables.TableError, OSError) as error:
         print(f"plot_report.py: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        return 130
     return 0
 
 

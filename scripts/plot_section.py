@@ -116,7 +116,7 @@ class Section:
     def force_text(self, time):
         if not self.tool:
             return ""
-        return f"arrow: force on {self.tool}, {np.linalg.norm(self.run.force_at(self.tool, time)):.3g} N"
+        return f"arrow: force on {self.tool}, {np.linalg.norm(self.run.force_at(self.tool, time)):.4g} N"
 
     def _draw_force(self, panel, time):
         """The path of the tool's origin, and the force on it as an arrow from where it is pressed."""

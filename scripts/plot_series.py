@@ -98,7 +98,8 @@ def plot_contact(run, body, folder):
     panel = below.pop(0)
     draw_vector(panel, time, impulse)
     panel.margins(y=0.12)
-    names = [(impulse[-1, i], f"{axis}: {impulse[-1, i]:.4g} N s".replace("-", "−"), color) for i, (axis, color) in enumerate(AXES.items())
+    names = [(impulse[-1, i], f"{axis}: {impulse[-1, i]:.4g} N s".replace("-", "−"), color)
+             for i, (axis, color) in enumerate(AXES.items())
              if np.any(np.abs(impulse[:, i]) > 1e-9 * max(np.abs(impulse).max(), 1e-300))]
     panel.set_ylabel("impulse [N s]")
     panel.set_title("Impulse: the force summed over time")
@@ -130,8 +131,9 @@ def energies_of(state):
     work = state["contact work"]
     loads = state["load work"]
     rest = work + loads - plastic - potential - (kinetic - kinetic[0]) - (elastic - elastic[0])
-    return [("work done by\nthe bodies", work, BLACK), ("work done by\nloads", loads, PINK), ("potential", potential, GREEN), ("kinetic", kinetic, BLUE),
-            ("elastic", elastic, ORANGE), ("lost to\nplastic flow", plastic, RED),
+    return [("work done by\nthe bodies", work, BLACK), ("work done by\nloads", loads, PINK),
+            ("potential", potential, GREEN), ("kinetic", kinetic, BLUE), ("elastic", elastic, ORANGE),
+            ("lost to plastic\nor viscous flow", plastic, RED),
             ("lost elsewhere:\nfriction, walls,\ndamping", rest, GREY)]
 
 

@@ -14,19 +14,20 @@ class Table:
     """The numeric columns of one file: table["blade fx"] is an array, table.units["blade fx"] is "N"."""
 
     def __init__(self, path):
+        self._path = path
+        self.units = {}
+        self._values = {}
         try:
             with open(path, newline="", encoding="utf-8") as file:
                 rows = csv.reader(file)
                 header = next(rows)
                 first = next(rows, None)
-        except (OSError, StopIteration) as error:
+            numeric = [i for i, cell in enumerate(first or []) if i < len(header) and _is_number(cell)]
+            if not numeric:
+                return
+            values = np.loadtxt(path, delimiter=",", skiprows=1, usecols=numeric, ndmin=2, quotechar='"', comments=None)
+        except (OSError, StopIteration, ValueError, csv.Error) as error:
             raise TableError(f"{path}: cannot be read; give a folder that bag_report --csv wrote") from error
-        numeric = [i for i, cell in enumerate(first or []) if _is_number(cell)]
-        self.units = {}
-        self._values = {}
-        if not numeric:
-            return
-        values = np.loadtxt(path, delimiter=",", skiprows=1, usecols=numeric, ndmin=2, quotechar='"', comments=None)
         for column, i in enumerate(numeric):
             name, _, unit = header[i].partition(" [")
             self.units[name] = unit.rstrip("]")
@@ -36,6 +37,8 @@ class Table:
         return name in self._values
 
     def __getitem__(self, name):
+        if name not in self._values:
+            raise TableError(f"{self._path}: no numbers of '{name}'; give a folder that bag_report --csv wrote whole")
         return self._values[name]
 
     def names(self):
@@ -43,7 +46,7 @@ class Table:
 
     def vector(self, prefix):
         """Columns "<prefix>x", "<prefix>y", "<prefix>z" as an array of rows."""
-        return np.column_stack([self._values[prefix + axis] for axis in "xyz"])
+        return np.column_stack([self[prefix + axis] for axis in "xyz"])
 
 
 def file_stem(name):

@@ -130,17 +130,17 @@ class Page {
   void near_absolute(const std::string& quantity, double reached, double exact, double absolute,
                      const std::string& unit) {
     EXPECT_NEAR(reached, exact, absolute) << quantity;
-    row(quantity, reached, unit, exact, "within " + text(absolute) + " " + unit);
+    row(quantity, reached, unit, exact, "within " + text(absolute) + of(unit));
   }
   /// Checked: reached <= limit.
   void below(const std::string& quantity, double reached, double limit, const std::string& unit) {
     EXPECT_LE(reached, limit) << quantity;
-    row(quantity, reached, unit, nullptr, "at most " + text(limit));
+    row(quantity, reached, unit, nullptr, "at most " + text(limit) + of(unit));
   }
   /// Checked: reached >= limit.
   void above(const std::string& quantity, double reached, double limit, const std::string& unit) {
     EXPECT_GE(reached, limit) << quantity;
-    row(quantity, reached, unit, nullptr, "at least " + text(limit));
+    row(quantity, reached, unit, nullptr, "at least " + text(limit) + of(unit));
   }
   /// Shown beside a published number, not checked.
   void beside(const std::string& quantity, double reached, double published, const std::string& unit) {
@@ -165,6 +165,9 @@ class Page {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.3g", value);
     return buffer;
+  }
+  static std::string of(const std::string& unit) {
+    return unit.empty() || unit == "1" || unit == "-" ? "" : " " + unit;
   }
   static std::string percent(double fraction) { return text(100.0 * fraction) + " %"; }
 

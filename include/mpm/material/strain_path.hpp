@@ -34,13 +34,15 @@ struct Leg {
   double duration = 0.0;  ///< [s]
   int steps = 0;
   std::array<Control, kComponents> control{};
-  Components target{};  ///< at the end of the leg; a component goes there from where it is at a constant rate
+  Components target{};      ///< at the end of the leg; a component goes there from where it is at a constant rate
+  bool from_start = false;  ///< strains of `target` count from the start of the leg, not from the path's
 };
 using StrainPath = std::vector<Leg>;
 
 /// What the paths below are made from. What is not given has a default; what a path has no use for is refused.
 struct PathDefinition {
-  /// Reached at the end: along z, of volume, or engineering shear; compression is negative. Default -0.01, shear 0.01.
+  /// Reached at the end: along z (`triaxial`: beyond what the confining pressure did), of volume, or engineering shear;
+  /// compression is negative. Default -0.01, shear 0.01.
   std::optional<double> strain;
   std::optional<double> confining;  ///< `triaxial`: pressure around [Pa], > 0; default 1e5
   std::optional<double> stress;     ///< `creep`: what is held [Pa]; no default

@@ -98,7 +98,8 @@ void PathDriver::advance_to(Progress& progress, double share, int divisions) {
       increment[k] = last_[k];
       continue;
     }
-    increment[k] = progress.strain[k] + share * (target - progress.strain[k]) - strain_[k];
+    const double way = leg.from_start ? target : target - progress.strain[k];
+    increment[k] = progress.strain[k] + share * way - strain_[k];
     if (std::abs(increment[k]) > kLargestStep) {
       throw PathError(fmt::format("{} is strained by {:.3g} in one step, more than {:g}; take more steps",
                                   kComponentNames[k], increment[k], kLargestStep));

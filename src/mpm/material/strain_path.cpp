@@ -62,6 +62,7 @@ StrainPath triaxial(const PathDefinition& d) {
   const double confining = d.confining.value_or(1e5);
   require_positive(confining, "the confining pressure", "Pa");
   Leg axial = strain_leg(d, kZz, Control::strain);
+  axial.from_start = true;  // as laboratories count it: soft soil shortens by more under the pressure alone
   free_sides(axial, confining);
   Leg confine = leg(d, axial.duration);
   for (const int k : {0, 1, 2}) {

@@ -2,9 +2,18 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <iostream>
 
 #include "mpm_ros/report/report.hpp"
+
+namespace {
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+void on_signal(int signal) { stop_signal = signal; }
+
+}  // namespace
 
 int main(int argc, char** argv) {
   mpm_ros::ReportOptions options;
@@ -30,5 +39,14 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  return static_cast<int>(mpm_ros::run_report(options, std::cout, std::cerr, isatty(STDERR_FILENO) != 0));
+  // Temporary files are taken away before it ends.
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  options.stop_requested = [] { return stop_signal != 0; };
+  const mpm_ros::ReportResult result = mpm_ros::run_report(options, std::cout, std::cerr, isatty(STDERR_FILENO) != 0);
+  if (result == mpm_ros::ReportResult::stopped) {
+    std::signal(stop_signal, SIG_DFL);
+    std::raise(stop_signal);
+  }
+  return static_cast<int>(result);
 }

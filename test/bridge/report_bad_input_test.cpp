@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -162,6 +163,47 @@ TEST_F(ReportBadInput, FilesAndFoldersThatCannotBeWritten) {
   options.json.clear();
   options.animate = in_folder("file/run.gif");
   EXPECT_TRUE(contains(error_of(options), "--animate " + in_folder("file")));
+}
+
+// `--json A.bag B.bag`: the first bag is taken for the file to write.
+TEST_F(ReportBadInput, ABagIsNotWrittenOver) {
+  ReportOptions options;
+  options.json = bag_of({}, "first.bag");
+  options.bags = {bag_of({}, "second.bag")};
+  const auto before = fs::file_size(options.json);
+  EXPECT_TRUE(contains(error_of(options), "first.bag: is a bag; name a file for the figures"));
+  EXPECT_EQ(fs::file_size(options.json), before);
+}
+
+TEST_F(ReportBadInput, LeavesNothingBehind) {
+  std::ofstream(in_folder("old.json")) << "old";
+  ReportOptions options;
+  options.bags = {in_folder("none.bag")};
+  options.csv = in_folder("csv");
+  options.plots = in_folder("plots/of/run");
+  options.json = in_folder("old.json");
+  EXPECT_TRUE(contains(error_of(options), "no such file"));
+  EXPECT_FALSE(fs::exists(in_folder("csv")));
+  EXPECT_FALSE(fs::exists(in_folder("plots")));
+  EXPECT_EQ(fs::file_size(in_folder("old.json")), 3U);
+}
+
+TEST_F(ReportBadInput, StopsWithoutATrace) {
+  const char* set = std::getenv("TMPDIR");
+  const std::string old = set != nullptr ? set : "";
+  fs::create_directory(in_folder("tmp"));
+  setenv("TMPDIR", in_folder("tmp").c_str(), 1);
+  ReportOptions options;
+  options.bags = {bag_of({})};
+  options.plots = in_folder("plots");
+  int asked = 0;
+  options.stop_requested = [&] { return ++asked > 20; };  // amid the messages, when the tables are half written
+  std::ostringstream out, err;
+  EXPECT_EQ(run_report(options, out, err, false), ReportResult::stopped);
+  EXPECT_EQ(err.str(), "bag_report: stopped\n");
+  EXPECT_EQ(out.str(), "");
+  EXPECT_TRUE(fs::is_empty(in_folder("tmp")));
+  old.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", old.c_str(), 1);
 }
 
 TEST_F(ReportBadInput, AFolderWithoutPermission) {

@@ -63,6 +63,15 @@ TEST_F(ReportCheckTest, CheckFindsAnEnergyThatIsNotFinite) {
   EXPECT_EQ(failures_of(run), Names{"energy"});
 }
 
+TEST_F(ReportCheckTest, CheckFindsARunThatFailed) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == HalfSineRun::kIntervals) message.failed = true;
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"complete"});
+}
+
 TEST_F(ReportCheckTest, CheckFindsALostState) {
   HalfSineRun run;
   run.on_state = [](int i, SolverState&) { return i != 40; };

@@ -104,6 +104,7 @@ TEST_F(ReportOutputs, WhatIsNotFiniteIsNullInJson) {
 TEST(ReportLabels, AreTheFilesNamesAndDiffer) {
   EXPECT_EQ(labels_of({"a/run.bag", "b/run.bag", "run_2.bag", "x.bag.active"}),
             (std::vector<std::string>{"run", "run_2", "run_2_2", "x.bag"}));
+  EXPECT_EQ(labels_of({"a b.bag", "a_b.bag"}), (std::vector<std::string>{"a_b", "a_b_2"}));  // a folder each
 }
 
 TEST_F(ReportOutputs, SeveralBagsAreSetSideBySide) {

@@ -30,7 +30,8 @@ struct RecordedRun {
 /// Notes on a run that is read: cut short, ended before the scene's end, snapshots missing.
 std::vector<std::string> notes_on(const RecordedRun& run, bool cut_short);
 
-/// A label for each path, all different: the file's name without its ending, with a number where two have the same.
+/// A label for each path, all different: the file's name without its ending, fit for a folder's name, with a number
+/// where two have the same.
 std::vector<std::string> labels_of(const std::vector<std::string>& paths);
 
 }  // namespace mpm_ros

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -19,10 +20,11 @@ struct ReportOptions {
   std::size_t snapshots = 10;     ///< of particles, written at most
   std::size_t frames = 150;       ///< of the animation, at most
   bool check = false;
+  std::function<bool()> stop_requested;  ///< asked between messages; empty: never
 };
 
-/// The program's exit codes.
-enum class ReportResult { done = 0, bad_input = 2, check_failed = 3 };
+/// The program's exit codes; one that was told to stop ends by the signal that told it.
+enum class ReportResult { done = 0, bad_input = 2, check_failed = 3, stopped };
 
 /// Reads the bags and writes what is asked for; tables and checks to `out`. A progress bar to `err` when `bar`.
 /// False when a check that was asked for failed. @throws BagError, CsvError, ReportError

@@ -27,6 +27,9 @@
 
 namespace mpm_ros {
 
+/// Whether a file begins as a bag does, whole or not.
+bool is_bag(const std::string& path);
+
 /// Receives the messages of a run. `time` [ns] is simulated, since the start: the message's stamp less the run's start.
 class RunVisitor {
  public:

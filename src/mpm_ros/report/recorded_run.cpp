@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "mpm_ros/csv/csv_writer.hpp"
+
 namespace mpm_ros {
 
 std::vector<std::string> notes_on(const RecordedRun& run, bool cut_short) {
@@ -34,7 +36,7 @@ std::vector<std::string> notes_on(const RecordedRun& run, bool cut_short) {
 std::vector<std::string> labels_of(const std::vector<std::string>& paths) {
   std::vector<std::string> labels;
   for (const std::string& path : paths) {
-    const std::string stem = std::filesystem::path(path).stem().string();
+    const std::string stem = file_stem(std::filesystem::path(path).stem().string());  // names the run's folder, too
     std::string label = stem;
     for (int number = 2; std::find(labels.begin(), labels.end(), label) != labels.end(); ++number) {
       label = fmt::format("{}_{}", stem, number);

@@ -14,6 +14,7 @@
 #include "mpm_ros/message/progress_bar.hpp"
 #include "mpm_ros/report/recorded_run.hpp"
 #include "mpm_ros/report/report_animation.hpp"
+#include "mpm_ros/report/report_bag.hpp"
 #include "mpm_ros/report/report_compare.hpp"
 #include "mpm_ros/report/report_csv.hpp"
 #include "mpm_ros/report/report_error.hpp"
@@ -31,32 +32,52 @@ namespace fs = std::filesystem;
 constexpr std::size_t kSnapshotsOfPlots = 4;
 /// Beside the tables, for the script that draws them.
 constexpr const char* kFigures = "run.json";
+constexpr const char* kStandardOutput = "-";
 
-/// Told before hours of reading, not after.
+/// Told to stop, as by Ctrl-C.
+class Stopped : public ReportError {
+ public:
+  Stopped() : ReportError("stopped") {}
+};
+
+/// Told before hours of reading, not after. Nothing is made yet: a report that fails leaves nothing behind.
 void check_folder(const std::string& option, const fs::path& folder) {
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || access(folder.c_str(), W_OK) != 0) {
+  fs::path there = fs::absolute(folder);
+  while (!fs::exists(there, error) && there != there.root_path()) there = there.parent_path();
+  if (!fs::is_directory(there, error) || access(there.c_str(), W_OK) != 0) {
     throw ReportError(fmt::format("{} {}: the folder cannot be written; choose another, or change its permissions",
                                   option, folder.string()));
   }
 }
 
-std::ofstream open_file(const std::string& option, const std::string& path) {
-  std::ofstream file(path, std::ios::trunc);
-  if (!file) throw ReportError(fmt::format("{} {}: cannot be written; check that the folder is there", option, path));
-  return file;
+/// A recording must not be lost to a forgotten word: `--json A.bag B.bag`.
+void check_file(const std::string& option, const std::string& path) {
+  std::error_code error;
+  if (is_bag(path)) throw ReportError(fmt::format("{} {}: is a bag; name a file for the figures", option, path));
+  const fs::path folder = fs::absolute(path).parent_path();
+  const bool there = fs::exists(path, error);
+  if (fs::is_directory(path, error) || access(there ? path.c_str() : folder.c_str(), W_OK) != 0 ||
+      !fs::is_directory(folder, error)) {
+    throw ReportError(fmt::format("{} {}: cannot be written; check that the folder is there", option, path));
+  }
 }
 
 void write_json(std::ostream& out, const nlohmann::ordered_json& json, const std::string& path) {
   out << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
-  if (!out) throw ReportError(path + ": cannot be written; check the space on its disk");
+  if (!out) throw ReportError(path + ": cannot be written; check the folder and the space on its disk");
+}
+
+void write_json(const std::string& path, const nlohmann::ordered_json& json) {
+  std::ofstream file(path, std::ios::trunc);
+  write_json(file, json, path);
 }
 
 void check_options(const ReportOptions& options) {
   if (options.bags.empty()) throw ReportError("give a bag");
   if (!options.csv.empty()) check_folder("--csv", options.csv);
   if (!options.plots.empty()) check_folder("--plots", options.plots);
+  if (!options.json.empty() && options.json != kStandardOutput) check_file("--json", options.json);
   if (options.animate.empty()) return;
   if (options.bags.size() > 1) throw ReportError("--animate: shows one run; give one bag");
   const fs::path file(options.animate);
@@ -111,8 +132,7 @@ class Reader {
     if (csv) {
       csv->close();
       write_snapshots(bag, run, folder);
-      std::ofstream file = open_file("--csv", folder + "/" + kFigures);
-      write_json(file, report_json(run), folder + "/" + kFigures);
+      write_json(folder + "/" + kFigures, report_json(run));
       folders_.push_back(folder);
     }
     if (range) animate(bag, run, *range, folder);
@@ -125,10 +145,10 @@ class Reader {
  private:
   /// Where the tables of a bag go; empty: nowhere.
   std::string folder_of(const std::string& label) {
-    if (!options_.csv.empty()) return options_.bags.size() == 1 ? options_.csv : options_.csv + "/" + file_stem(label);
+    if (!options_.csv.empty()) return options_.bags.size() == 1 ? options_.csv : options_.csv + "/" + label;
     if (options_.plots.empty() && options_.animate.empty()) return {};
     if (!temporary_) temporary_ = std::make_unique<TemporaryFolder>();
-    return temporary_->file(file_stem(label));
+    return temporary_->file(label);
   }
 
   void write_snapshots(RunBag& bag, const RecordedRun& run, const std::string& folder) {
@@ -146,6 +166,7 @@ class Reader {
 
   void animate(RunBag& bag, const RecordedRun& run, const FieldRange& range, const std::string& folder) {
     const std::set<std::size_t> frames = choose_snapshots(run.statistics.snapshots(), options_.frames, std::nullopt);
+    fs::create_directories(fs::absolute(options_.animate).parent_path());
     Animation animation(folder, options_.animate, range, frames.size());
     with_bar(run.label + ", animation",
              [&](const Reading& reading) { bag.read_snapshots(frames, animation, reading); });
@@ -154,7 +175,10 @@ class Reader {
 
   void with_bar(const std::string& what, const std::function<void(const Reading&)>& work) {
     ProgressBar bar(err_, bar_);
-    work([&](double part) { bar.show(part, [&what] { return what; }); });
+    work([&](double part) {
+      if (options_.stop_requested && options_.stop_requested()) throw Stopped();
+      bar.show(part, [&what] { return what; });
+    });
     bar.clear();
   }
 
@@ -183,10 +207,7 @@ void print(const std::vector<RecordedRun>& runs, std::ostream& out) {
 
 bool report(const ReportOptions& options, std::ostream& out, std::ostream& err, bool bar) {
   check_options(options);
-  const bool only_json = options.json == "-";
-  std::ofstream json;
-  if (!options.json.empty() && !only_json) json = open_file("--json", options.json);
-
+  const bool only_json = options.json == kStandardOutput;
   const std::vector<std::string> labels = labels_of(options.bags);
   Reader reader(options, err, bar);
   std::vector<RecordedRun> runs;
@@ -196,7 +217,7 @@ bool report(const ReportOptions& options, std::ostream& out, std::ostream& err, 
     write_json(out, report_json(runs), "--json");
   } else {
     print(runs, out);
-    if (json.is_open()) write_json(json, report_json(runs), options.json);
+    if (!options.json.empty()) write_json(options.json, report_json(runs));
     if (!options.csv.empty()) out << "\ntables    " << options.csv << "\n";
   }
   if (!options.plots.empty()) {
@@ -210,6 +231,11 @@ ReportResult run_report(const ReportOptions& options, std::ostream& out, std::os
   try {
     return report(options, out, err, bar) ? ReportResult::done : ReportResult::check_failed;
   } catch (const std::exception& error) {
+    // A script that was stopped with us has failed, too: that is not what there is to tell.
+    if (options.stop_requested && options.stop_requested()) {
+      err << "bag_report: stopped\n";
+      return ReportResult::stopped;
+    }
     err << "bag_report: " << error.what() << "\n";
     return ReportResult::bad_input;
   }

@@ -63,6 +63,12 @@ std::string parent(const std::string& topic) { return topic.substr(0, topic.rfin
 
 }  // namespace
 
+bool is_bag(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string begin(std::strlen(kBegin), ' ');
+  return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kBegin;
+}
+
 RunBag::RunBag(const std::string& path, const std::string& name_space) : path_(path) {
   open();
   try {
@@ -84,11 +90,8 @@ void RunBag::open() {
   try {
     bag_.open(path_, rosbag::bagmode::Read);
   } catch (const rosbag::BagException& problem) {
-    std::ifstream file(path_, std::ios::binary);
-    if (!file) throw BagError(path_ + ": cannot be read; check its permissions");
-    std::string begin(std::strlen(kBegin), ' ');
-    file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    if (begin != kBegin) {
+    if (!std::ifstream(path_)) throw BagError(path_ + ": cannot be read; check its permissions");
+    if (!is_bag(path_)) {
       throw BagError(fmt::format("{}: not a bag ({}); give a file that the simulator or run_scene recorded", path_,
                                  problem.what()));
     }

@@ -165,6 +165,7 @@ void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
     if (!std::isfinite(value)) fail("energy", time, "an energy is not finite");
   }
   min_j_ = std::min(min_j_, state.min_j);
+  if (message.failed) fail("complete", time, "the run failed: " + message.failure);
   if (!(state.min_j > 0.0)) fail("volume", time, fmt::format("the smallest det F is {}", state.min_j));
 
   std::vector<std::string> names;

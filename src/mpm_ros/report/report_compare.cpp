@@ -37,7 +37,7 @@ Figures energy_figures(const RecordedRun& run) {
   return {{"kinetic", change(first.energy_kinetic, last.energy_kinetic)},
           {"elastic", change(first.energy_elastic, last.energy_elastic)},
           {"potential", change(first.energy_potential, last.energy_potential)},
-          {"plastic, dissipated", change(first.energy_plastic, last.energy_plastic)},
+          {"lost to plastic or viscous flow", change(first.energy_plastic, last.energy_plastic)},
           {"work of the bodies", change(first.contact_work, last.contact_work)},
           {"work of loads", change(first.load_work, last.load_work)}};
 }

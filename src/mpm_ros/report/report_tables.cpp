@@ -80,7 +80,7 @@ std::string energy_table(const RunStatistics& statistics) {
   row("elastic", [](const SolverState& s) { return s.energy_elastic; });
   row("potential", [](const SolverState& s) { return s.energy_potential; });
   row("sum", [](const SolverState& s) { return s.energy_kinetic + s.energy_elastic + s.energy_potential; });
-  row("plastic, dissipated", [](const SolverState& s) { return s.energy_plastic; });
+  row("lost to plastic or viscous flow", [](const SolverState& s) { return s.energy_plastic; });
   row("work of the bodies", [](const SolverState& s) { return s.contact_work; });
   if (last.load_work != 0.0) row("work of loads", [](const SolverState& s) { return s.load_work; });
   return "Energies of the material\n" + table.text();

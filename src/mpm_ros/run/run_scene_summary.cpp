@@ -93,7 +93,7 @@ std::string RunSummary::text() const {
                       state.step.limited_by);
   text += fmt::format(
       "  energy {:.6g} J at the start, {:.6g} J at the end (kinetic {:.4g}, elastic {:.4g}, potential "
-      "{:.4g}); lost to plastic flow {:.4g} J, work of tools {:.4g} J\n",
+      "{:.4g}); lost to plastic or viscous flow {:.4g} J, work of tools {:.4g} J\n",
       start_energy.total(), state.energy.total(), state.energy.kinetic, state.energy.elastic, state.energy.potential,
       state.energy.plastic, state.energy.contact_work);
   text +=

@@ -146,23 +146,29 @@ void round_punch(const std::vector<int>& counts) {
     const double boussinesq = LayerContact(half_space, ToolShape::circular, run.exact.radius).flat_punch(kDepth).force;
     const std::string at = fmt::format(" at {} cells a radius", run.cells);
     page.near_absolute("radius whose exact force this is," + at, run.told, run.cells, kEdge, "cells");
-    page.beside("force" + at, run.force, run.exact.force, "N");
+    if (run.cells > 12.0) {
+      page.near("force" + at, run.force, run.exact.force, kAsked, "N");
+    } else {
+      page.beside("force" + at, run.force, run.exact.force, "N");
+    }
     page.report("its error" + at, 100.0 * run.error(), "%");
     page.report("exact stiffness over that of the half space" + at, run.exact.force / boussinesq, "");
     cells.push_back(1.0 / run.cells);
     errors.push_back(std::abs(run.error()));
     if (count == counts.back()) draw_pressure(page, run, kPi * run.exact.radius * run.exact.radius);
   }
-  page.figure()
-      .panel("Error of the force", "cell / radius", "relative error")
-      .log_x()
-      .log_y()
-      .points("force", cells, errors);
+  if (counts.size() > 1) {
+    page.figure()
+        .panel("Error of the force", "cell / radius", "relative error")
+        .log_x()
+        .log_y()
+        .points("force", cells, errors);
+  }
   page.meaning(
-      "Asked for is 5 % at 8 cells a radius; reached is 7 % at 8.5. The edge of the punch acts up to half a cell "
-      "further "
-      "in than it is, and near walls that tell, force grows as the power 1.36 of the radius. At 4.5 cells the error is "
-      "smaller by luck: the nodes within 4.5 cells cover 8 % more area than the circle.");
+      "Asked for is 5 % at 8 cells a radius; the long test reaches 7 % at 8.5 and 3.9 % at 12.5. The edge of the punch "
+      "acts up to half a cell further in than it is, and near walls that tell, force grows as the power 1.36 of the "
+      "radius. At 4.5 cells the error is smaller by luck: the nodes within 4.5 cells cover 8 % more area than the "
+      "circle.");
 }
 
 TEST(FlatPunch, Round) { round_punch({12}); }

@@ -122,9 +122,14 @@ void compare(Page& page, ToolShape shape, const std::string& unit) {
     by_radius.push_back(run.force[i] / curve.force_at_radius(run.radius[i]));
     cells.push_back(curve.radius_at_force(run.force[i]) / kCell);
   }
-  page.beside("contact radius from the centre of pressure, last step", 1e3 * run.radius.back(),
-              1e3 * curve.radius_at_force(run.force.back()), "mm");
-  page.report("force over the exact force at that radius, last step", by_radius.back(), "");
+  for (const int i : {kSteps - 2, kSteps - 1}) {
+    page.beside(fmt::format("contact radius from the centre of pressure at a depth of {:.0f} mm", 1e3 * run.depth[i]),
+                1e3 * run.radius[i], 1e3 * curve.radius_at_force(run.force[i]), "mm");
+  }
+  page.report(fmt::format("force over the exact force at that radius, {:.1f} cells", cells[kSteps - 2]),
+              by_radius[kSteps - 2], "");
+  page.near(fmt::format("force over the exact force at that radius, {:.1f} cells", cells[kSteps - 1]),
+            by_radius[kSteps - 1], 1.0, kAsked, "");
   // It comes from above, as the tool passes rows of nodes: the contact is never found too narrow, and ever less too
   // wide.
   for (int i = 0; i < kSteps; ++i) {
@@ -171,7 +176,9 @@ TEST(Hertz, Cylinder) {
       "Force against depth follows the exact curve to a tenth of a row. The pressure reaches too far out while the "
       "tool has "
       "passed few rows, because a node just inside the tool holds material that has not yet come up to its surface: "
-      "against the contact radius the force comes within 5 % only beyond 8 cells and six rows.");
+      "against its own contact radius the force is 7 % low at 8 cells, when five rows are passed, and within 5 % from "
+      "nine cells and six rows on. With cells as high as wide, of which a tool of 1 m radius passes "
+      "less than one, contact was found 1.3 to 1.4 times too wide.");
 }
 
 TEST(FullHertz, Sphere) {
@@ -188,7 +195,11 @@ TEST(FullHertz, Sphere) {
           "Hertz; Johnson, Contact Mechanics (1985) 3.4, 4.2, 5.8")
       .scene("hertz_sphere");
   compare(page, ToolShape::circular, "N");
-  page.meaning("As for the cylinder. The error of the contact radius counts three times in the force.");
+  page.meaning(
+      "Force against depth holds to 2 % with an offset below a tenth of a row. Asked for besides is the cube of the "
+      "contact radius, to 5 % at 8 cells: 5.4 % is reached at 8.2 cells and 2.9 % at 9.3. With cells as high as wide, "
+      "of "
+      "which the sphere would pass one or two, contact is found 1.4 times too wide.");
 }
 
 }  // namespace

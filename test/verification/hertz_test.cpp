@@ -197,9 +197,7 @@ TEST(FullHertz, Sphere) {
   compare(page, ToolShape::circular, "N");
   page.meaning(
       "Force against depth holds to 2 % with an offset below a tenth of a row. Asked for besides is the cube of the "
-      "contact radius, to 5 % at 8 cells: 5.4 % is reached at 8.2 cells and 2.9 % at 9.3. With cells as high as wide, "
-      "of "
-      "which the sphere would pass one or two, contact is found 1.4 times too wide.");
+      "contact radius, to 5 % at 8 cells: 5.4 % is reached at 8.2 cells and 2.9 % at 9.3.");
 }
 
 }  // namespace

@@ -126,16 +126,31 @@ std::vector<std::string> base_scenes() {
   return texts;
 }
 
+double norm_at_start(const std::array<Function, 3>& motion) {
+  try {
+    return Vec3(motion[0](0.0), motion[1](0.0), motion[2](0.0)).norm();
+  } catch (const FunctionError&) {
+    return 0.0;  // for the simulation to tell
+  }
+}
+
 /// A period of few steps, whatever the material's stiffness: the real one may be thousands of steps long. False when a
 /// nanosecond already is.
 bool shorten_period(SimulationDefinition& definition) {
-  double speed = 1.0;
-  for (const MaterialDefinition& material : definition.materials) {
-    speed = std::max(speed, MaterialPoint(material).wave_speed());
-  }
   double cell = std::min(definition.grid.cell.x(), definition.grid.cell.z());
   if (definition.geometry == GeometryKind::solid) cell = std::min(cell, definition.grid.cell.y());
-  double step = definition.time.cfl * cell / speed;
+  double rate = 1.0;  // how often a second the fastest crosses a cell
+  for (const MaterialDefinition& material : definition.materials) {
+    const MaterialPoint point(material);
+    const double diffusivity = std::visit([](const auto& law) { return law.diffusivity(1.0); }, point.law());
+    rate = std::max(rate, point.wave_speed() / cell + 6.0 * diffusivity / (cell * cell));
+  }
+  for (const RigidBodyDefinition& body : definition.rigid_bodies) {
+    const Box bounds = body.surface->bounds();
+    const double size = std::max(bounds.max.x() - bounds.min.x(), bounds.max.z() - bounds.min.z());
+    rate = std::max(rate, (norm_at_start(body.velocity) + norm_at_start(body.rotation_rate) * size) / cell);
+  }
+  double step = definition.time.cfl / rate;
   if (definition.method.damping > 0.0) step = std::min(step, definition.time.cfl / definition.method.damping);
   if (definition.time.step) step = std::min(step, *definition.time.step);
   const double period = std::max(1.0, kStepsAPeriod * step * 1e9);

@@ -82,7 +82,7 @@ void verify(verification::Page& page, const std::vector<double>& aspects, int ce
           "with several sands. A continuum with the μ(I) law: 2.2 a (Lagrée et al. 2011, who collect these fits). "
           "Balmforth and Kerswell (2005) find powers of 0.9 ± 0.1 in wide channels, with factors that depend on the "
           "sand.",
-          "exact-solutions 27; the fits are quoted from secondary sources")
+          "the fits named, quoted from secondary sources")
       .scene("column_collapse.yaml");
   Numbers a, run_out;
   auto& scaling = page.figure().panel("Run-out", "a = h0 / d0 [-]", "(d - d0) / d0 [-]");

@@ -81,7 +81,7 @@ TEST(InfiniteSlope, StaysOrSlidesAsItsFrictionSays) {
           "along and across the layer, so that μ = sin φ = 0.5 by Mohr-Coulomb, and μ = η = 3 tan φ / √(9 + 12 tan² φ) "
           "= "
           "0.4804 by Drucker-Prager with the plane-strain match.",
-          "exact-solutions 26; Davis (1968) for μ of sand whose dilation is not its friction")
+          "balance of the layer along the slope; Davis (1968) for μ of sand whose dilation is not its friction")
       .scene("infinite_slope.yaml");
   auto& panel = page.figure().panel("Speed of the layer", "time [s]", "v [m/s]");
   const auto draw = [&](const std::string& label, double degrees, double friction, const Slide& run) {

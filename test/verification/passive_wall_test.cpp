@@ -70,7 +70,7 @@ TEST(PassiveWall, ForceIsRankines) {
           "depth; over a rough floor the sand slides on a plane that rises at 45° - φ/2 = 30° from the wall's foot. "
           "The active force, of a wall "
           "that gives way, is ½ ρ g H² / Kp.",
-          "Rankine; exact-solutions 25")
+          "Rankine (1857), On the stability of loose earth")
       .scene("passive_wall.yaml");
 
   const Push smooth = push({});

@@ -51,7 +51,7 @@ TEST(SoilBox, OedometerAndTriaxialTestAreExact) {
           "At the limit σv/σh = tan²(45° + φ/2) = 3. Oedometer: yielding from the start, since elastic sand would have "
           "σh/σv = ν/(1-ν) = 1/9; σv = K (1 + η' c)(1 + 2η/√3) ε with c = (2G/√3 - ηK)/(G + ηη'K), ε = -ln J, η and η' "
           "the slopes of cone and flow. Triaxial: p keeps the value K ln(1/J) of the first part.",
-          "exact-solutions 24; the modulus follows from consistency, derived in the test")
+          "Mohr-Coulomb's criterion; the modulus follows from consistency, derived in the test")
       .scene("soil_box.yaml");
 
   const double eta = slope_of_cone(30.0), eta_bar = slope_of_cone(10.0);

@@ -1,8 +1,9 @@
 // Drucker-Prager soil: f = sqrt(J2) + eta p - xi c, potential with eta_bar from the dilation angle, tension positive,
 // p = tr(sigma)/3. Elastic predictor in rate form (as linear_elastic.hpp), return to the cone, its apex, or the tension
 // cut-off. Soil that has opened (apex, cut-off) closes before it carries pressure (opening.hpp).
-// Weak: no hardening, no critical state, so dilation never ends; hypoelastic, meant for small elastic strain.
-// Source: method reference 10.6 (flow rule and the three matches to Mohr-Coulomb verified there).
+// Weak: plastic work counts the stress at the end of a step; no hardening, no critical state, so dilation never ends;
+// hypoelastic, meant for small elastic strain. Source: method reference 10.6 (flow rule and the three matches to
+// Mohr-Coulomb verified there).
 #pragma once
 
 #include <algorithm>

@@ -64,10 +64,10 @@ struct ShearWaves {
   ShearWaves() = default;
   /// `shear`: G/J [Pa]
   ShearWaves(const Symmetric3<double>& b, double shear) {
-    const Principal<double> p = principal(b);
-    along = shear * (5.0 / 9.0 * trace(b) - p.smallest() / 3.0);
-    across = shear * p.largest();
-    coupling = shear * (p.largest() - p.smallest()) / 3.0;
+    const auto [largest, smallest] = principal_extremes(b);
+    along = shear * (5.0 / 9.0 * trace(b) - smallest / 3.0);
+    across = shear * largest;
+    coupling = shear * (largest - smallest) / 3.0;
   }
   friend ShearWaves operator+(ShearWaves a, const ShearWaves& b) {
     a.along += b.along;

@@ -4,10 +4,10 @@
 // linear_elastic.hpp); its principal axes are kept, its principal values returned to the surface in closed form: main
 // plane, the edges of triaxial compression and extension, the apex, and the planes, edges and corners of the cut-off.
 // Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp).
-// Weak: no hardening, no critical state, so dilation never ends; hypoelastic, meant for small elastic strain; an
-// opening is remembered as a volume, not by its direction, and only where no pressure is left across it: a crack in
-// soil that is pressed along it heals as it closes.
-// Source: method reference 10.7; de Souza Neto, Peric & Owen (2008) section 8.2; Clausen, Damkilde & Andersen (2006).
+// Weak: plastic work counts the stress at the end of a step; no hardening, no critical state, so dilation never ends;
+// hypoelastic, meant for small elastic strain; an opening is remembered as a volume, not by its direction, and only
+// where no pressure is left across it: a crack in soil that is pressed along it heals as it closes. Source: method
+// reference 10.7; de Souza Neto, Peric & Owen (2008) section 8.2; Clausen, Damkilde & Andersen (2006).
 #pragma once
 
 #include <algorithm>
@@ -107,8 +107,7 @@ class MohrCoulomb : public LawTraits {
   }
 
   double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double j) const {
-    const Principal<double> s = principal(scale_shift(tau, density_ / j, 0.0));
-    const double largest = s.largest(), smallest = s.smallest();
+    const auto [largest, smallest] = principal_extremes(scale_shift(tau, density_ / j, 0.0));
     const bool flows = largest - smallest >= kNearYield * (strength_ - (largest + smallest) * sin_friction_);
     const bool open = trace(tau) / 3.0 * density_ / j > -kStressFree * bulk_;
     double flow = flows ? flow_stiffness(open ? 0.0 : sin_dilation_) : 0.0;

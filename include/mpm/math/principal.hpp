@@ -51,6 +51,20 @@ Principal<T> principal(const Symmetric3<T>& s) {
   return result;
 }
 
+/// The largest and the smallest principal value, to about 1e-8 of the largest: the closed form with a cosine, for
+/// bounds, at a twentieth of the cost of principal(). Source: Smith (1961), Commun. ACM 4.
+template <class T>
+std::pair<T, T> principal_extremes(const Symmetric3<T>& s) {
+  const T mean = trace(s) / T(3);
+  const Symmetric3<T> deviator = scale_shift(s, T(1), -mean);
+  const T size = std::sqrt(squared_norm(deviator) / T(6));
+  if (size == T(0)) return {mean, mean};
+  const T cosine = determinant(deviator) / (T(2) * size * size * size);
+  const T third = std::acos(std::clamp(cosine, T(-1), T(1))) / T(3);
+  constexpr double kThirdTurn = 2.0943951023931953;
+  return {mean + T(2) * size * std::cos(third), mean + T(2) * size * std::cos(third + T(kThirdTurn))};
+}
+
 /// yy is the value of the direction out of the plane, the third.
 template <class T>
 Principal<T> principal(const SymmetricPlane<T>& s) {

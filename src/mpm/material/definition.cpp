@@ -36,6 +36,9 @@ void check_soil(const MaterialDefinition& material, const SoilDefinition& law, c
                       dilation / kDegree, friction / kDegree));
   require(law.cohesion >= 0.0 && std::isfinite(law.cohesion), material,
           fmt::format("cohesion is {:g} Pa; it must be finite and not negative", law.cohesion));
+  require(friction > 0.0 || law.cohesion > 0.0, material,
+          "cohesion is 0 Pa and so is the friction angle: soil without any strength; give one of them, or use "
+          "newtonian_fluid for a liquid");
   require(std::isfinite(law.tension_cutoff), material,
           fmt::format("tension cut-off is {:g} Pa; it must be finite (negative: {})", law.tension_cutoff, apex));
   // c cot(phi), for every match of the cone too (method reference 10.6: xi / eta); there is none without friction.

@@ -159,8 +159,10 @@ InitialState InitialStates::find(const InitialRequest& request) const {
       refuse(fmt::format("is a fluid and carries pressure alone at rest, not {}; write equal xx, yy and zz",
                          text(cauchy)));
     }
-    refuse(fmt::format("cannot carry the stress {}: it is outside its yield surface, which would leave {}",
-                       text(cauchy), text(carried)));
+    refuse(
+        fmt::format("cannot carry the stress {}: it is outside its yield surface, which would leave {}; lower the "
+                    "difference of its components, bring k0 nearer to 1, or give the material more strength",
+                    text(cauchy), text(carried)));
   }
   state.tau = held(state);
   return state;
@@ -198,7 +200,7 @@ InitialState InitialStates::volume_for(const Symmetric3<double>& cauchy, double 
     error = next;
   }
   if (!(std::abs(miss(e)) <= kSame * std::abs(target) + least_)) {
-    refuse(fmt::format("has no volume at which its mean stress is {:.4g} Pa", target));
+    refuse(fmt::format("has no volume at which its mean stress is {:.4g} Pa; give a stress that it can carry", target));
   }
   return at(e);
 }
@@ -233,7 +235,8 @@ InitialState InitialStates::stretch_for(const Symmetric3<double>& cauchy, bool y
     if (stuck) break;  // round-off
   }
   if (!(size(error) <= kSame * size(target) + least_)) {
-    refuse(fmt::format("has no stretch under which its stress is {}", text(cauchy)));
+    refuse(fmt::format("has no stretch under which its stress is {}; give a smaller stress or a stiffer material",
+                       text(cauchy)));
   }
   if (planar_ && !yy_follows) {
     const double yy = principal_stress(e)[2];

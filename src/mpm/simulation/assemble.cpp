@@ -19,13 +19,6 @@ namespace {
 
 constexpr std::size_t kParticlesPerThread = 4000;  ///< fewer do not pay for the waiting at the end of every pass
 
-const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body) {
-  for (const MaterialDefinition& material : definition.materials) {
-    if (material.name == body.material) return material;
-  }
-  throw DefinitionError(fmt::format("body '{}': no material is called '{}'", body.name, body.material));
-}
-
 ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body,
                      const MaterialDefinition& material, const Law& law, const GridLayout& layout,
                      std::vector<std::string>& warnings) {
@@ -126,6 +119,13 @@ std::vector<BodyForceTerm> make_body_force_terms(const SimulationDefinition& def
 }
 
 }  // namespace
+
+const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body) {
+  for (const MaterialDefinition& material : definition.materials) {
+    if (material.name == body.material) return material;
+  }
+  throw DefinitionError(fmt::format("body '{}': no material is called '{}'", body.name, body.material));
+}
 
 Pose planar(const Pose& pose, const std::string& body) {
   const Quat& q = pose.orientation;

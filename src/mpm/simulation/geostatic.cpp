@@ -45,13 +45,6 @@ int axis_of(const Vec3& gravity) {
   return axis;
 }
 
-const MaterialDefinition& material_of(const SimulationDefinition& definition, const DeformableBody& body) {
-  for (const MaterialDefinition& material : definition.materials) {
-    if (material.name == body.material) return material;
-  }
-  throw DefinitionError(fmt::format("body '{}': no material is called '{}'", body.name, body.material));
-}
-
 /// Ratio of horizontal to vertical stress: as asked, or the material's own, raised to what it can carry.
 double ratio_at_rest(const DeformableBody& body, const MaterialDefinition& material, const InitialStates& states,
                      double deepest, const std::function<Symmetric3<double>(double, double)>& stress) {
@@ -139,7 +132,7 @@ void add_geostatic_stress(SimulationDefinition& definition) {
   for (std::size_t b = 0; b < definition.bodies.size(); ++b) {
     const DeformableBody& body = definition.bodies[b];
     if (!body.geostatic) continue;
-    const double weight = material_of(definition, body).density * body.particle_volume * g;
+    const double weight = find_material(definition, body).density * body.particle_volume * g;
     for (std::size_t p = 0; p < body.positions.size(); ++p) {
       const Vec3 cells = (body.positions[p] - definition.grid.min).cwiseQuotient(spacing);
       std::int64_t column = 0;
@@ -171,7 +164,7 @@ void add_geostatic_stress(SimulationDefinition& definition) {
   for (std::size_t b = 0; b < definition.bodies.size(); ++b) {
     DeformableBody& body = definition.bodies[b];
     if (!body.geostatic || vertical[b].empty()) continue;
-    const MaterialDefinition& material = material_of(definition, body);
+    const MaterialDefinition& material = find_material(definition, body);
     const InitialStates states(material, planar);
     const double deepest = *std::min_element(vertical[b].begin(), vertical[b].end());
     const double ratio = ratio_at_rest(body, material, states, deepest, stress);

@@ -20,6 +20,7 @@ struct StepLimit {
   const std::string* name = nullptr;  ///< of the body, deformable or rigid
   double speed = 0.0;                 ///< [m/s]
   Vec3 place = Vec3::Zero();          ///< of the particle [m]
+  bool foreseen = false;              ///< shortened for what stiffens
   std::string text() const;
 };
 
@@ -64,6 +65,9 @@ struct Simulation::State {
   void settle();
   [[noreturn]] void fail(const std::string& what, ParticleRef particle, double now, const std::string& remedy) const;
 };
+
+/// @throws DefinitionError when there is none of that name
+const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body);
 
 /// What a planar scene keeps of a pose: the plane's position, and of the rotation its part about y (swing and twist),
 /// so that zeros stay exact zeros. @throws RigidError for a pose that is turned over.

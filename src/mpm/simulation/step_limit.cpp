@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kMostForeseen = 0.5;  ///< the limit is not expected to fall below this part of itself in one period
 
+constexpr double kWorthTelling = 0.99;  ///< a trend below this is told with the limit
+
 /// How many times a second a particle's waves, motion and viscosity cross a cell.
 struct Fastest {
   double rate = -1.0;  ///< [1/s]
@@ -71,8 +73,9 @@ std::string StepLimit::text() const {
     case Cause::nothing:
       return "nothing";
     case Cause::material:
-      return fmt::format("wave speed of '{}' ({:.4g} m/s with its motion and viscosity) at ({:.4g}, {:.4g}, {:.4g}) m",
-                         *name, speed, place.x(), place.y(), place.z());
+      return fmt::format(
+          "wave speed of '{}' ({:.4g} m/s with its motion and viscosity{}) at ({:.4g}, {:.4g}, {:.4g}) m", *name, speed,
+          foreseen ? ", and growing" : "", place.x(), place.y(), place.z());
     case Cause::tool:
       return fmt::format("speed of '{}' ({:.4g} m/s)", *name, speed);
     case Cause::damping:
@@ -106,7 +109,9 @@ StepLimit Simulation::State::step_limit() const {
   const double reach = definition.time.cfl * grid->layout.smallest_cell();
   const double start = 1e-9 * static_cast<double>(time), period = 1e-9 * static_cast<double>(definition.time.sync);
   StepLimit limit = material_limit;
-  limit.dt *= std::clamp(material_limit.dt / previous_limit.dt, kMostForeseen, 1.0);
+  const double trend = std::clamp(material_limit.dt / previous_limit.dt, kMostForeseen, 1.0);
+  limit.dt *= trend;
+  limit.foreseen = trend < kWorthTelling;
   for (const RigidBody& body : bodies) {
     StepLimit tool;
     for (const double part : {0.0, 0.5, 1.0}) {

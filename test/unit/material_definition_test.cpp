@@ -58,6 +58,17 @@ TEST(MaterialDefinition, Density) {
   EXPECT_EQ(refusal(material), "material 'soil': density is -1 kg/m^3; it must be positive and finite");
 }
 
+TEST(MaterialDefinition, SoilNeedsSomeStrength) {
+  DruckerPragerDefinition law;
+  law.elasticity = {1e6, 0.3};
+  EXPECT_NE(refusal({"m", 1600.0, law}).find("soil without any strength; give one of them"), std::string::npos);
+  law.friction_angle = 0.1;
+  EXPECT_EQ(refusal({"m", 1600.0, law}), "");
+  law.friction_angle = 0.0;
+  law.cohesion = 1e3;
+  EXPECT_EQ(refusal({"m", 1600.0, law}), "");
+}
+
 TEST(MaterialDefinition, ElasticConstantsOfEveryLaw) {
   const std::vector<std::function<LawDefinition(Elasticity)>> laws = {
       [](Elasticity e) { return LinearElasticDefinition{e}; },
@@ -71,6 +82,7 @@ TEST(MaterialDefinition, ElasticConstantsOfEveryLaw) {
       [](Elasticity e) {
         DruckerPragerDefinition law;
         law.elasticity = e;
+        law.cohesion = 1.0;
         return law;
       },
   };

@@ -102,5 +102,16 @@ TEST(Units, BadSystemsAreRefused) {
   EXPECT_THROW(make_unit_system("mm", "g", "fortnight"), UnitError);
 }
 
+// Found by the fuzz test: exponents that no integer holds, and powers of powers.
+TEST(Units, ExponentsStaySmall) {
+  const std::string small = "has an exponent that is not a small whole number";
+  for (const char* text : {"m^10", "m^-2147483648", "m^99999999999999999999"}) {
+    EXPECT_THROW(parse_unit(text), UnitError) << text;
+  }
+  EXPECT_NE(refusal("1 m^-2147483648", kLength).find(small), std::string::npos);
+  EXPECT_EQ(parse_unit("(m^9)^9").dimension.length, 81);
+  EXPECT_THROW(parse_unit("((((m^9)^9)^9)^9)^9"), UnitError);
+}
+
 }  // namespace
 }  // namespace mpm

@@ -120,6 +120,8 @@ std::string base_units(const Dimension& dimension) {
 
 // product := factor { ('*' | ' ' | '/') factor };  factor := ( name | '1' | '(' product ')' ) [ ['^'] integer ]
 class UnitParser {
+  static constexpr int kLargestExponent = 99;  ///< of a base unit, for integers that cannot overflow
+
  public:
   explicit UnitParser(const std::string& text) : text_(text) {}
 
@@ -183,17 +185,20 @@ class UnitParser {
     int value = 0;
     const char* end = text_.data() + text_.size();
     const auto [stop, error] = std::from_chars(text_.data() + position_, end, value);
-    if (error != std::errc() || std::abs(value) > 9) fail("has an exponent that is not a small whole number");
+    if (error != std::errc() || value < -9 || value > 9) fail("has an exponent that is not a small whole number");
     position_ = static_cast<std::size_t>(stop - text_.data());
     return value;
   }
 
-  static Unit combine(const Unit& a, const Unit& b, int power) {
+  Unit combine(const Unit& a, const Unit& b, int power) const {
     const Dimension& p = a.dimension;
     const Dimension& q = b.dimension;
-    return {a.factor * std::pow(b.factor, power),
-            {p.length + power * q.length, p.mass + power * q.mass, p.time + power * q.time, p.angle + power * q.angle,
-             p.temperature + power * q.temperature}};
+    const Dimension d{p.length + power * q.length, p.mass + power * q.mass, p.time + power * q.time,
+                      p.angle + power * q.angle, p.temperature + power * q.temperature};
+    for (const int exponent : {d.length, d.mass, d.time, d.angle, d.temperature}) {
+      if (exponent < -kLargestExponent || exponent > kLargestExponent) fail("has exponents that are too large");
+    }
+    return {a.factor * std::pow(b.factor, power), d};
   }
 
   static bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }

@@ -14,7 +14,10 @@ namespace mpm_ros {
 TemporaryFolder::TemporaryFolder() {
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
-  path_ = ((error ? std::filesystem::path("/tmp") : folder) / "bag_report_XXXXXX").string();
+  if (error) {
+    throw ReportError(fmt::format("TMPDIR names no folder for temporary files: {}; set it to one", error.message()));
+  }
+  path_ = (folder / "bag_report_XXXXXX").string();
   if (mkdtemp(path_.data()) == nullptr) {
     throw ReportError(fmt::format("{}: no temporary folder can be made: {}", path_, std::strerror(errno)));
   }

@@ -24,19 +24,20 @@ struct Scene {
     const int edge = 20;  // particles along an edge: 10 cells, 3 blocks
     int count = 1;
     for (int k = 0; k < dim; ++k) count *= edge;
-    set.x.assign(dim, std::vector<double>(count));
-    set.v.assign(dim, std::vector<double>(count));
-    set.f.assign(dim == 3 ? 9 : 4, std::vector<double>(count, 0.0));
-    set.tau.assign(dim == 3 ? 6 : 4, std::vector<double>(count, 0.0));
-    set.history.assign(mpm::history_size(laws[0]), std::vector<double>(count, 0.0));
-    set.next_x.assign(dim, std::vector<double>(count));
+    set.x.assign(dim, mpm::PaddedArray<double>(count));
+    set.v.assign(dim, mpm::ParticleScalar(set.precision, count));
+    set.f.assign(dim == 3 ? 9 : 4, mpm::ParticleScalar(set.precision, count));
+    set.tau.assign(dim == 3 ? 6 : 4, mpm::ParticleScalar(set.precision, count));
+    set.history.assign(mpm::history_size(laws[0]), mpm::ParticleScalar(set.precision, count));
+    set.id.resize(count);
+    set.next_x.assign(dim, mpm::PaddedArray<double>(count));
     for (int p = 0; p < count; ++p) {
-      set.id.push_back(p);
+      set.id[p] = p;
       int rest = p;
       for (int k = 0; k < dim; ++k) {
         set.x[k][p] = 0.5 + cell * (0.5 * (rest % edge + 0.5) + jitter * u(engine));
-        set.v[k][p] = u(engine);
-        set.f[k * (dim + 1)][p] = 1.0;
+        set.v[k].set(p, u(engine));
+        set.f[k * (dim + 1)].set(p, 1.0);
         rest /= edge;
       }
     }
@@ -108,11 +109,11 @@ TEST_P(MechanicsTest, UniformStressGivesNoForceInside) {
   Scene scene(dim, 0.0, mpm::NeoHookeanDefinition{{1e6, 0.3}});
   mpm::ParticleSet& set = scene.sets[0];
   for (auto* field : {&set.v, &set.f}) {
-    for (auto& scalar : *field) std::fill(scalar.begin(), scalar.end(), 0.0);
+    for (auto& scalar : *field) scalar.assign(scalar.size(), 0.0);
   }
   for (int p = 0; p < set.size(); ++p) {
-    for (int k = 0; k < dim; ++k) set.f[k * (dim + 1)][p] = 0.9 + 0.1 * k;
-    set.f[1][p] = 0.05;
+    for (int k = 0; k < dim; ++k) set.f[k * (dim + 1)].set(p, 0.9 + 0.1 * k);
+    set.f[1].set(p, 0.05);
   }
   mpm::StepContext context{scene.grid, 1e-3};
   scene.mechanics->scatter_momentum(context);

@@ -75,7 +75,7 @@ TEST(Stencil, FindsItsNodesInTheTile) {
   const GridLayout layout(3, {0.1, 0.2, 0.25}, {-1.0, 0.0, 2.0}, {3.0, 4.0, 6.0});
   mpm::ParticleSet set;
   set.half = {0.25, 0.25, 0.25};
-  set.x = {{0.431}, {1.97}, {3.08}};
+  for (const double place : {0.431, 1.97, 3.08}) set.x.emplace_back(1, place);
   std::array<int, 3> corner;
   for (int k = 0; k < 3; ++k) {
     corner[k] = GridLayout::nearest(layout.in_cells(k, set.x[k][0])) / 4 * 4 - mpm::kTileMargin;

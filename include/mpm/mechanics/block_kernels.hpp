@@ -61,10 +61,11 @@ struct BlockKernels {
 
   /// Momentum [N s] and, last, mass [kg].
   static void scatter_momentum(const Block& block, const ParticleSet& set, int begin, int end, MassMomentumTile& tile) {
+    const auto v = velocities(set);
     for (int p = begin; p < end; ++p) {
       const Weights w(block.layout, set, block.corner, p);
       double value[kDim + 1];
-      for (int c = 0; c < kDim; ++c) value[c] = set.mass * set.v[c][p];
+      for (int c = 0; c < kDim; ++c) value[c] = set.mass * v[c][p];
       value[kDim] = set.mass;
       scatter_values<kDim + 1>(w, value, tile.data);
     }
@@ -72,10 +73,11 @@ struct BlockKernels {
 
   /// Momentum alone [N s].
   static void scatter_velocity(const Block& block, const ParticleSet& set, int begin, int end, VectorTile& tile) {
+    const auto v = velocities(set);
     for (int p = begin; p < end; ++p) {
       const Weights w(block.layout, set, block.corner, p);
       double value[kDim];
-      for (int c = 0; c < kDim; ++c) value[c] = set.mass * set.v[c][p];
+      for (int c = 0; c < kDim; ++c) value[c] = set.mass * v[c][p];
       scatter_values<kDim>(w, value, tile.data);
     }
   }
@@ -112,9 +114,9 @@ struct BlockKernels {
     double* f[Geometry::kMatrix];
     double* tau[Geometry::kSymmetric];
     double* history[LawType::kHistory + 1];
-    for (int c = 0; c < Geometry::kMatrix; ++c) f[c] = set.f[c].data() + begin;
-    for (int c = 0; c < Geometry::kSymmetric; ++c) tau[c] = set.tau[c].data() + begin;
-    for (int c = 0; c < LawType::kHistory; ++c) history[c] = set.history[c].data() + begin;
+    for (int c = 0; c < Geometry::kMatrix; ++c) f[c] = set.f[c].template data<double>() + begin;
+    for (int c = 0; c < Geometry::kSymmetric; ++c) tau[c] = set.tau[c].template data<double>() + begin;
+    for (int c = 0; c < LawType::kHistory; ++c) history[c] = set.history[c].template data<double>() + begin;
     int bad = count;
     for (int q = 0; q < count; ++q) {
       double l[kDim][kDim];
@@ -140,7 +142,7 @@ struct BlockKernels {
   /// Internal force [N] from tau [J/kg].
   static void scatter_force(const Block& block, const ParticleSet& set, int begin, int end, VectorTile& tile) {
     const double* tau[Geometry::kSymmetric];
-    for (int c = 0; c < Geometry::kSymmetric; ++c) tau[c] = set.tau[c].data();
+    for (int c = 0; c < Geometry::kSymmetric; ++c) tau[c] = set.tau[c].template data<double>();
     for (int p = begin; p < end; ++p) {
       const Weights w(block.layout, set, block.corner, p);
       const auto stress = Geometry::load_symmetric(tau, p);
@@ -179,7 +181,9 @@ struct BlockKernels {
   /// Velocity of the particles in place, position into `x_new`. `flip`: FLIP fraction.
   /// Returns false when a particle has left the reach of the block or the place where it may be, or is not finite.
   static bool gather_motion(const Block& block, ParticleSet& set, int begin, int end, const MotionTile& tile, double dt,
-                            double flip, std::vector<std::vector<double>>& x_new) {
+                            double flip, std::vector<PaddedArray<double>>& x_new) {
+    double* v[kDim];
+    for (int c = 0; c < kDim; ++c) v[c] = set.v[c].template data<double>();
     bool within = true;
     for (int p = begin; p < end; ++p) {
       const Weights w(block.layout, set, block.corner, p);
@@ -193,9 +197,9 @@ struct BlockKernels {
       });
       for (int c = 0; c < kDim; ++c) {
         const double velocity = motion[c], acceleration = motion[kDim + c];
-        const double slip = (1.0 - flip) * (set.v[c][p] - (velocity - acceleration * dt));
+        const double slip = (1.0 - flip) * (v[c][p] - (velocity - acceleration * dt));
         const double x = set.x[c][p] + dt * (velocity - 0.5 * slip - 0.5 * dt * acceleration);
-        set.v[c][p] += acceleration * dt - slip;
+        v[c][p] += acceleration * dt - slip;
         x_new[c][p] = x;
         // The nearest node must keep a neighbour on each side in the tile; the slack covers rounding to that node.
         const double cells = block.layout.in_cells(c, x), in_tile = cells - block.corner[c];
@@ -207,6 +211,12 @@ struct BlockKernels {
   }
 
  private:
+  static std::array<const double*, kDim> velocities(const ParticleSet& set) {
+    std::array<const double*, kDim> v;
+    for (int c = 0; c < kDim; ++c) v[c] = set.v[c].template data<double>();
+    return v;
+  }
+
   template <int Components>
   static void scatter_values(const Weights& w, const double (&value)[Components], double (*data)[Components]) {
     w.each_row([&](int first, double s, const double*) {

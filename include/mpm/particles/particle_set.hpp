@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "mpm/particles/particle_scalar.hpp"
+
 namespace mpm {
 
 struct ParticleSet {
@@ -18,25 +20,33 @@ struct ParticleSet {
   std::array<double, 3> lowest{}, highest{};  ///< where a centre may be along each grid axis [cells]
   std::uint32_t first_id = 0;                 ///< ids run from here
 
-  std::vector<std::uint32_t> id;         ///< within the whole run
-  std::vector<std::vector<double>> x;    ///< position, along grid axes [m]
-  std::vector<std::vector<double>> v;    ///< velocity [m/s]
-  std::vector<std::vector<double>> f;    ///< deformation gradient, stored components
-  std::vector<std::vector<double>> tau;  ///< Kirchhoff stress over initial density [J/kg]; GIMP notes (1.24)
-  std::vector<std::vector<double>> history;
-  std::vector<std::vector<double>> start_x;  ///< position at the start of the run [m]
-  std::vector<std::vector<double>> next_x;   ///< position at the end of the step, when strain is updated after motion
+  Precision precision = Precision::float64;  ///< of velocity, deformation, stress and history
+
+  PaddedArray<std::uint32_t> id;             ///< within the whole run
+  std::vector<PaddedArray<double>> x;        ///< position, along grid axes [m]
+  std::vector<ParticleScalar> v;             ///< velocity [m/s]
+  std::vector<ParticleScalar> f;             ///< deformation gradient, stored components
+  std::vector<ParticleScalar> tau;           ///< Kirchhoff stress over initial density [J/kg]; GIMP notes (1.24)
+  std::vector<ParticleScalar> history;       ///< what the law keeps
+  std::vector<PaddedArray<double>> start_x;  ///< position at the start of the run [m]
+  std::vector<PaddedArray<double>> next_x;   ///< position at the end of the step, when strain is updated after motion
 
   /// First particle of each owner block, and one past the last particle.
   std::vector<std::uint32_t> begin;
+  /// First particle of each group (step/sorter.hpp: they are worked on together), and one past the last particle.
+  std::vector<std::uint32_t> group;
+  /// First group of each owner block, and one past the last group.
+  std::vector<std::uint32_t> group_begin;
 
   int size() const { return static_cast<int>(id.size()); }
-  /// Calls `visit(std::vector<double>&)` for every stored scalar but next_x.
+  /// visit(PaddedArray<double>&) or visit(PaddedArray<float>&) for every stored scalar but next_x.
   template <class Visit>
   void each_scalar(Visit&& visit) {
-    for (auto* group : {&x, &v, &f, &tau, &history, &start_x}) {
-      for (auto& scalar : *group) visit(scalar);
+    for (auto& scalar : x) visit(scalar);
+    for (auto* fields : {&v, &f, &tau, &history}) {
+      for (ParticleScalar& scalar : *fields) scalar.visit(visit);
     }
+    for (auto& scalar : start_x) visit(scalar);
   }
 };
 

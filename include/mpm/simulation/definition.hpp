@@ -11,6 +11,7 @@
 #include "mpm/material/definition.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/math/tensor.hpp"
+#include "mpm/particles/particle_scalar.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 
 namespace mpm {
@@ -33,10 +34,11 @@ struct TimeDefinition {
 
 struct MethodDefinition {
   UpdateScheme update = UpdateScheme::usavg;
-  double flip = 1.0;                ///< fraction of FLIP, 0 is PIC; per step
-  double damping = 0.0;             ///< grid damping [1/s]
-  int gradient_terms = 2;           ///< terms of exp(grad v dt)
-  int particles_per_direction = 2;  ///< particles along a cell's edge
+  double flip = 1.0;                         ///< fraction of FLIP, 0 is PIC; per step
+  double damping = 0.0;                      ///< grid damping [1/s]
+  int gradient_terms = 2;                    ///< terms of exp(grad v dt)
+  int particles_per_direction = 2;           ///< particles along a cell's edge
+  Precision precision = Precision::float64;  ///< of what particles carry but their positions
 };
 
 /// Order of the faces in arrays: x_min, x_max, y_min, y_max, z_min, z_max.

@@ -10,7 +10,8 @@
 namespace mpm {
 namespace {
 
-Vec3 particle_vector(const std::vector<std::vector<double>>& field, const GridLayout& layout, int p) {
+template <class Field>
+Vec3 particle_vector(const Field& field, const GridLayout& layout, int p) {
   Vec3 v = Vec3::Zero();
   for (int k = 0; k < layout.dim(); ++k) v[layout.axis(k)] = field[k][p];
   return v;
@@ -141,10 +142,12 @@ std::uint64_t Simulation::state_hash() const {
   for (const ParticleSet& set : s.sets) {
     std::vector<int> place(set.size());
     for (int p = 0; p < set.size(); ++p) place[set.id[p] - set.first_id] = p;
-    for (const auto* group : {&set.x, &set.v, &set.f, &set.tau, &set.history}) {
-      for (const std::vector<double>& scalar : *group) {
-        for (const int p : place) hash.add(scalar[p]);
-      }
+    const auto add = [&](const auto& values) {
+      for (const int p : place) hash.add(values[p]);
+    };
+    for (const PaddedArray<double>& scalar : set.x) add(scalar);
+    for (const auto* fields : {&set.v, &set.f, &set.tau, &set.history}) {
+      for (const ParticleScalar& scalar : *fields) scalar.visit(add);
     }
   }
   for (const RigidBody& body : s.bodies) {

@@ -43,13 +43,14 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
     set.highest[k] = layout.last_node(k) + (definition.walls[face + 1].kind == WallKind::none ? 0.0 : set.half[k]);
   }
   set.id.resize(n);
-  set.x.assign(dim, std::vector<double>(n));
-  set.v.assign(dim, std::vector<double>(n));
+  set.precision = definition.method.precision;
+  set.x.assign(dim, PaddedArray<double>(n));
+  set.v.assign(dim, ParticleScalar(set.precision, n));
   for (std::size_t p = 0; p < n; ++p) {
     for (int k = 0; k < dim; ++k) {
       const int axis = layout.axis(k);
       set.x[k][p] = body.positions[p][axis];
-      set.v[k][p] = body.velocities.empty() ? 0.0 : body.velocities[p][axis];
+      set.v[k].set(p, body.velocities.empty() ? 0.0 : body.velocities[p][axis]);
       const double cells = layout.in_cells(k, set.x[k][p]);
       if (!(cells >= 0.0 && cells <= layout.last_node(k)) || !std::isfinite(set.v[k][p])) {
         throw DefinitionError(fmt::format("{}particle {} is outside the grid or not finite: {} = {} m, velocity {} m/s",
@@ -57,11 +58,11 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
       }
     }
   }
-  set.f.assign(dim == 3 ? Solid::kMatrix : PlaneStrain::kMatrix, std::vector<double>(n, 0.0));
-  set.tau.assign(dim == 3 ? Solid::kSymmetric : PlaneStrain::kSymmetric, std::vector<double>(n, 0.0));
-  set.history.assign(history_size(law), std::vector<double>(n, 0.0));
+  set.f.assign(dim == 3 ? Solid::kMatrix : PlaneStrain::kMatrix, ParticleScalar(set.precision, n));
+  set.tau.assign(dim == 3 ? Solid::kSymmetric : PlaneStrain::kSymmetric, ParticleScalar(set.precision, n));
+  set.history.assign(history_size(law), ParticleScalar(set.precision, n));
   start_particles(set, body, material, dim, warnings);
-  if (definition.method.update == UpdateScheme::usavg) set.next_x.assign(dim, std::vector<double>(n));
+  if (definition.method.update == UpdateScheme::usavg) set.next_x.assign(dim, PaddedArray<double>(n));
   return set;
 }
 
@@ -79,6 +80,9 @@ void check(const SimulationDefinition& d) {
   }
   if (!(d.method.damping >= 0.0) || !std::isfinite(d.method.damping)) {
     throw DefinitionError(fmt::format("method.damping is {}, must be finite and not negative", d.method.damping));
+  }
+  if (d.method.precision != Precision::float64) {
+    throw DefinitionError("method.precision: the kernels of this version work in double; write double");
   }
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
   if (d.geometry != GeometryKind::solid && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");

@@ -94,7 +94,7 @@ double kinetic_energy(const std::vector<ParticleSet>& sets, int threads) {
 
 void stop(std::vector<ParticleSet>& sets) {
   for (ParticleSet& set : sets) {
-    for (auto& component : set.v) std::fill(component.begin(), component.end(), 0.0);
+    for (ParticleScalar& component : set.v) component.assign(component.size(), 0.0);
   }
 }
 
@@ -217,10 +217,10 @@ void Simulation::State::settle() {
       for (std::size_t k = 0; k < set.x.size(); ++k) moved += std::pow(other->x[k][p] - set.x[k][i], 2);
       farthest = std::max(farthest, std::sqrt(moved));
       for (std::size_t k = 0; k < set.x.size(); ++k) set.x[k][i] = other->x[k][p];
-      for (std::size_t k = 0; k < set.f.size(); ++k) set.f[k][i] = other->f[k][p];
-      for (std::size_t k = 0; k < set.tau.size(); ++k) set.tau[k][i] = other->tau[k][p];
-      for (std::size_t k = 0; k < set.history.size(); ++k) set.history[k][i] = other->history[k][p];
-      if (work >= 0) set.history[work][i] = 0.0;  // dissipated since the start
+      for (std::size_t k = 0; k < set.f.size(); ++k) set.f[k].set(i, other->f[k][p]);
+      for (std::size_t k = 0; k < set.tau.size(); ++k) set.tau[k].set(i, other->tau[k][p]);
+      for (std::size_t k = 0; k < set.history.size(); ++k) set.history[k].set(i, other->history[k][p]);
+      if (work >= 0) set.history[work].set(i, 0.0);  // dissipated since the start
     }
   }
   const std::string text = fmt::format(

@@ -20,28 +20,26 @@ void check_count(const DeformableBody& body, std::size_t per_particle, const cha
       fmt::format("body '{}': {} {} for {} particles", body.name, per_particle, what, body.positions.size()));
 }
 
-/// Where a set keeps its deformation gradients and stresses.
-struct Store {
-  Store(ParticleSet& set, int dim) : dim_(dim) {
-    for (auto& component : set.f) f_.push_back(component.data());
-    for (auto& component : set.tau) tau_.push_back(component.data());
+void store(const InitialState& state, int dim, ParticleSet& set, std::size_t p) {
+  const Matrix3<double>& f = state.f;
+  const Symmetric3<double>& t = state.tau;
+  double values[Solid::kMatrix] = {};
+  double* slots[Solid::kMatrix];
+  for (int c = 0; c < Solid::kMatrix; ++c) slots[c] = &values[c];
+  const auto keep = [&](std::vector<ParticleScalar>& field) {
+    for (std::size_t c = 0; c < field.size(); ++c) field[c].set(p, values[c]);
+  };
+  if (dim == 3) {
+    Solid::store_matrix(f, slots, 0);
+    keep(set.f);
+    Solid::store_symmetric(t, slots, 0);
+  } else {
+    PlaneStrain::store_matrix(MatrixPlane<double>{f.xx, f.xz, f.zx, f.zz, 1.0}, slots, 0);
+    keep(set.f);
+    PlaneStrain::store_symmetric(SymmetricPlane<double>{t.xx, t.zz, t.xz, t.yy}, slots, 0);
   }
-  void operator()(const InitialState& state, int p) const {
-    const Matrix3<double>& f = state.f;
-    const Symmetric3<double>& t = state.tau;
-    if (dim_ == 3) {
-      Solid::store_matrix(f, f_.data(), p);
-      Solid::store_symmetric(t, tau_.data(), p);
-    } else {
-      PlaneStrain::store_matrix(MatrixPlane<double>{f.xx, f.xz, f.zx, f.zz, 1.0}, f_.data(), p);
-      PlaneStrain::store_symmetric(SymmetricPlane<double>{t.xx, t.zz, t.xz, t.yy}, tau_.data(), p);
-    }
-  }
-
- private:
-  int dim_;
-  std::vector<double*> f_, tau_;
-};
+  keep(set.tau);
+}
 
 }  // namespace
 
@@ -52,7 +50,6 @@ void start_particles(ParticleSet& set, const DeformableBody& body, const Materia
   const std::size_t n = body.positions.size();
   const InitialStates states(material, dim == 2);
   const bool asked = !body.stresses.empty() || !body.temperatures.empty();
-  const Store store(set, dim);
   InitialState state = states.find({});
   double least_j = 1.0, most_j = 1.0, inverse_j = 0.0;
   for (std::size_t p = 0; p < n; ++p) {
@@ -68,9 +65,9 @@ void start_particles(ParticleSet& set, const DeformableBody& body, const Materia
         throw DefinitionError(fmt::format("body '{}', initial state at ({:.6g}, {:.6g}, {:.6g}) m: {}", body.name,
                                           place.x(), place.y(), place.z(), error.what()));
       }
-      if (const int index = states.temperature_index(); index >= 0) set.history[index][p] = state.temperature_excess;
+      if (const int index = states.temperature_index(); index >= 0) set.history[index].set(p, state.temperature_excess);
     }
-    store(state, static_cast<int>(p));
+    store(state, dim, set, p);
     const double j = state.j();
     least_j = p == 0 ? j : std::min(least_j, j);
     most_j = p == 0 ? j : std::max(most_j, j);

@@ -16,7 +16,8 @@ struct Particle {
   const GridLayout& layout;
   int p;
 
-  double along(const std::vector<std::vector<double>>& field, int world_axis) const {
+  template <class Values>
+  double along(const Values& field, int world_axis) const {
     for (int k = 0; k < layout.dim(); ++k) {
       if (layout.axis(k) == world_axis) return field[k][p];
     }

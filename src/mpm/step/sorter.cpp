@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 namespace mpm {
 
@@ -31,15 +32,38 @@ void Sorter::radix_sort(std::vector<Entry>& entries) {
 
 void Sorter::permute(ParticleSet& set, const std::vector<Entry>& entries) {
   const int n = set.size();
-  scratch_.resize(n);
-  set.each_scalar([&](std::vector<double>& scalar) {
+  const auto reorder = [&](auto& values, auto& scratch) {
+    scratch.resize(n);
 #pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int i = 0; i < n; ++i) scratch_[i] = scalar[entries[i].index];
-    scalar.swap(scratch_);
+    for (int i = 0; i < n; ++i) scratch[i] = values[entries[i].index];
+    values.swap(scratch);
+  };
+  set.each_scalar([&](auto& values) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(values[0])>, double>) {
+      reorder(values, scratch_);
+    } else {
+      reorder(values, float_scratch_);
+    }
   });
-  id_scratch_.resize(n);
-  for (int i = 0; i < n; ++i) id_scratch_[i] = set.id[entries[i].index];
-  set.id.swap(id_scratch_);
+  reorder(set.id, id_scratch_);
+}
+
+void Sorter::find_groups(ParticleSet& set, const std::vector<Entry>& entries) const {
+  const std::uint64_t span = grouping_.by == Grouping::By::column ? kBlockEdge : 1;
+  const std::uint32_t most = static_cast<std::uint32_t>(grouping_.lanes);
+  const std::size_t owners = set.begin.size() - 1;
+  set.group.clear();
+  set.group_begin.resize(owners + 1);
+  for (std::size_t o = 0; o < owners; ++o) {
+    set.group_begin[o] = static_cast<std::uint32_t>(set.group.size());
+    for (std::uint32_t first = set.begin[o], p = first; p < set.begin[o + 1]; ++p) {
+      if (p == set.begin[o] || p - first == most || entries[p].key / span != entries[first].key / span) {
+        set.group.push_back(first = p);
+      }
+    }
+  }
+  set.group_begin[owners] = static_cast<std::uint32_t>(set.group.size());
+  set.group.push_back(static_cast<std::uint32_t>(set.size()));
 }
 
 std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Grid& grid) {
@@ -76,9 +100,9 @@ std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Grid& gr
     radix_sort(entries);
     permute(sets[s], entries);
     std::uint64_t last = ~std::uint64_t{0};
-    for (Entry& e : entries) {
-      e.key /= layout.nodes_per_block();
-      if (e.key != last) owner_keys_.push_back(last = e.key);
+    for (const Entry& e : entries) {
+      const std::uint64_t block = e.key / layout.nodes_per_block();
+      if (block != last) owner_keys_.push_back(last = block);
     }
   }
   std::sort(owner_keys_.begin(), owner_keys_.end());
@@ -91,9 +115,10 @@ std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Grid& gr
     const std::vector<Entry>& entries = entries_[s];
     for (std::size_t o = 0; o < owner_keys_.size(); ++o) {
       begin[o] = next;
-      while (next < entries.size() && entries[next].key == owner_keys_[o]) ++next;
+      while (next < entries.size() && entries[next].key / layout.nodes_per_block() == owner_keys_[o]) ++next;
     }
     begin[owner_keys_.size()] = next;
+    find_groups(sets[s], entries);
   }
   grid.rebuild(owner_keys_);
   return std::nullopt;

@@ -1,8 +1,9 @@
 // The geometries that the kernels are compiled for: number of axes, which world axes they are, and how the tensors of
 // a particle lie in structure-of-arrays storage. The one place that an out-of-plane policy is stated.
+//
+// Storage is whatever gives component c of particle p as a[c][p]: arrays of numbers, or views of them as registers.
 #pragma once
 
-#include <cmath>
 #include <type_traits>
 
 #include "mpm/math/tensor.hpp"
@@ -24,8 +25,8 @@ struct Solid {
     using T = std::decay_t<decltype(a[0][p])>;
     return Matrix3<T>{a[0][p], a[1][p], a[2][p], a[3][p], a[4][p], a[5][p], a[6][p], a[7][p], a[8][p]};
   }
-  template <class T>
-  static void store_matrix(const Matrix3<T>& m, T* const* a, int p) {
+  template <class T, class Arrays>
+  static void store_matrix(const Matrix3<T>& m, const Arrays& a, int p) {
     a[0][p] = m.xx, a[1][p] = m.xy, a[2][p] = m.xz;
     a[3][p] = m.yx, a[4][p] = m.yy, a[5][p] = m.yz;
     a[6][p] = m.zx, a[7][p] = m.zy, a[8][p] = m.zz;
@@ -35,8 +36,8 @@ struct Solid {
     using T = std::decay_t<decltype(a[0][p])>;
     return Symmetric3<T>{a[0][p], a[1][p], a[2][p], a[3][p], a[4][p], a[5][p]};
   }
-  template <class T>
-  static void store_symmetric(const Symmetric3<T>& s, T* const* a, int p) {
+  template <class T, class Arrays>
+  static void store_symmetric(const Symmetric3<T>& s, const Arrays& a, int p) {
     a[0][p] = s.xx, a[1][p] = s.yy, a[2][p] = s.zz, a[3][p] = s.yz, a[4][p] = s.xz, a[5][p] = s.xy;
   }
   /// Velocity gradient from d v_i / d x_j, row by row.
@@ -47,7 +48,7 @@ struct Solid {
   /// Deformation gradient of a pure change of volume.
   template <class T>
   static Matrix3<T> dilatation(T j) {
-    const T edge = std::cbrt(j);
+    const T root = inverse_cbrt(j), edge = j * root * root;
     return {edge, T(0), T(0), T(0), edge, T(0), T(0), T(0), edge};
   }
   /// Column j of the stress: the traction on a face whose normal is axis j.
@@ -78,8 +79,8 @@ struct PlaneStrain {
     using T = std::decay_t<decltype(a[0][p])>;
     return MatrixPlane<T>{a[0][p], a[1][p], a[2][p], a[3][p], T(1)};
   }
-  template <class T>
-  static void store_matrix(const MatrixPlane<T>& m, T* const* a, int p) {
+  template <class T, class Arrays>
+  static void store_matrix(const MatrixPlane<T>& m, const Arrays& a, int p) {
     a[0][p] = m.xx, a[1][p] = m.xz, a[2][p] = m.zx, a[3][p] = m.zz;
   }
   template <class Arrays>
@@ -87,8 +88,8 @@ struct PlaneStrain {
     using T = std::decay_t<decltype(a[0][p])>;
     return SymmetricPlane<T>{a[0][p], a[1][p], a[2][p], a[3][p]};
   }
-  template <class T>
-  static void store_symmetric(const SymmetricPlane<T>& s, T* const* a, int p) {
+  template <class T, class Arrays>
+  static void store_symmetric(const SymmetricPlane<T>& s, const Arrays& a, int p) {
     a[0][p] = s.xx, a[1][p] = s.zz, a[2][p] = s.xz, a[3][p] = s.yy;
   }
   template <class T>
@@ -97,7 +98,7 @@ struct PlaneStrain {
   }
   template <class T>
   static MatrixPlane<T> dilatation(T j) {
-    const T edge = std::sqrt(j);
+    const T edge = sqrt(j);
     return {edge, T(0), T(0), edge, T(1)};
   }
   template <class T>

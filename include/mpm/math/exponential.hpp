@@ -20,14 +20,15 @@ Matrix3<T> exponential(const Matrix3<T>& a, int terms) {
     const T i2 = T(0.5) * (i1 * i1 - (a2.xx + a2.yy + a2.zz));
     const T i3 = determinant(a);
     T pa = T(1), pb = T(0), pc = T(0);  // A^k = pa A^2 + pb A + pc I
-    T factorial = T(2);
+    double factorial = 2.0;
     for (int k = 3; k <= terms; ++k) {
       const T na = i1 * pa + pb, nb = pc - i2 * pa, nc = i3 * pa;
       pa = na, pb = nb, pc = nc;
-      factorial *= T(k);
-      square += pa / factorial;
-      linear += pb / factorial;
-      constant += pc / factorial;
+      factorial *= k;
+      const T weight = T(1.0 / factorial);
+      square += pa * weight;
+      linear += pb * weight;
+      constant += pc * weight;
     }
   }
   return {constant + linear * a.xx + square * a2.xx,
@@ -47,17 +48,18 @@ MatrixPlane<T> exponential(const MatrixPlane<T>& a, int terms) {
   const T d = a.xx * a.zz - a.xz * a.zx;
   T linear = T(1), constant = T(1);
   T pa = T(1), pb = T(0);  // A^k = pa A + pb I
-  T factorial = T(1);
+  double factorial = 1.0;
   T power = a.yy;
   T out_of_plane = T(1) + a.yy;
   for (int k = 2; k <= terms; ++k) {
     const T na = t * pa + pb, nb = -(d * pa);
     pa = na, pb = nb;
-    factorial *= T(k);
-    linear += pa / factorial;
-    constant += pb / factorial;
+    factorial *= k;
+    const T weight = T(1.0 / factorial);
+    linear += pa * weight;
+    constant += pb * weight;
     power *= a.yy;
-    out_of_plane += power / factorial;
+    out_of_plane += power * weight;
   }
   return {constant + linear * a.xx, linear * a.xz, linear * a.zx, constant + linear * a.zz, out_of_plane};
 }

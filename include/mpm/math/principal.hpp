@@ -1,5 +1,6 @@
 // Principal values and directions of small symmetric tensors. Cyclic Jacobi rotations in three dimensions: exact to
 // round-off for equal and nearly equal values too, where the closed form with a cosine loses half of the digits.
+// For numbers alone: what it takes differs too much from tensor to tensor for wide registers.
 // Source: Golub & Van Loan, Matrix Computations, section 8.5.
 #pragma once
 
@@ -63,6 +64,14 @@ std::pair<T, T> principal_extremes(const Symmetric3<T>& s) {
   const T third = std::acos(std::clamp(cosine, T(-1), T(1))) / T(3);
   constexpr double kThirdTurn = 2.0943951023931953;
   return {mean + T(2) * size * std::cos(third), mean + T(2) * size * std::cos(third + T(kThirdTurn))};
+}
+
+/// To round-off.
+template <class T>
+std::pair<T, T> principal_extremes(const SymmetricPlane<T>& s) {
+  const T mean = T(0.5) * (s.xx + s.zz), half = T(0.5) * (s.xx - s.zz);
+  const T radius = std::sqrt(half * half + s.xz * s.xz);
+  return {std::max(mean + radius, s.yy), std::min(mean - radius, s.yy)};
 }
 
 /// yy is the value of the direction out of the plane, the third.

@@ -1,7 +1,9 @@
 // Small tensors of the kernels, by component and by geometry: a solid has all nine (six) components, a planar body
 // lies in x-z and keeps only the out-of-plane yy beside them. Laws are written once against the functions below;
-// what a planar tensor does not have costs nothing. T is a scalar type (later: a wide register).
+// what a planar tensor does not have costs nothing. T is a number or a wide register of them (lanes.hpp).
 #pragma once
+
+#include "mpm/math/lanes.hpp"
 
 namespace mpm {
 
@@ -15,6 +17,8 @@ struct Matrix3 {
 template <class T>
 struct Symmetric3 {
   T xx, yy, zz, yz, xz, xy;
+  /// value I
+  static Symmetric3 isotropic(T value) { return {value, value, value, T(0), T(0), T(0)}; }
 };
 
 /// x-z block and yy.
@@ -27,6 +31,7 @@ struct MatrixPlane {
 template <class T>
 struct SymmetricPlane {
   T xx, zz, xz, yy;
+  static SymmetricPlane isotropic(T value) { return {value, value, T(0), value}; }
 };
 
 // --- solid ------------------------------------------------------------------------------------------------------
@@ -82,6 +87,22 @@ T determinant(const Symmetric3<T>& s) {
 template <class T>
 T squared_norm(const Symmetric3<T>& s) {
   return s.xx * s.xx + s.yy * s.yy + s.zz * s.zz + T(2) * (s.yz * s.yz + s.xz * s.xz + s.xy * s.xy);
+}
+
+/// The tensor that lane `i` holds.
+template <class T>
+Symmetric3<ScalarOf<T>> lane(const Symmetric3<T>& s, int i) {
+  return {lane(s.xx, i), lane(s.yy, i), lane(s.zz, i), lane(s.yz, i), lane(s.xz, i), lane(s.xy, i)};
+}
+
+template <class T>
+void set_lane(Symmetric3<T>& s, int i, const Symmetric3<ScalarOf<T>>& value) {
+  set_lane(s.xx, i, value.xx);
+  set_lane(s.yy, i, value.yy);
+  set_lane(s.zz, i, value.zz);
+  set_lane(s.yz, i, value.yz);
+  set_lane(s.xz, i, value.xz);
+  set_lane(s.xy, i, value.xy);
 }
 
 /// a s + b I
@@ -163,6 +184,19 @@ T determinant(const SymmetricPlane<T>& s) {
 template <class T>
 T squared_norm(const SymmetricPlane<T>& s) {
   return s.xx * s.xx + s.zz * s.zz + s.yy * s.yy + T(2) * (s.xz * s.xz);
+}
+
+template <class T>
+SymmetricPlane<ScalarOf<T>> lane(const SymmetricPlane<T>& s, int i) {
+  return {lane(s.xx, i), lane(s.zz, i), lane(s.xz, i), lane(s.yy, i)};
+}
+
+template <class T>
+void set_lane(SymmetricPlane<T>& s, int i, const SymmetricPlane<ScalarOf<T>>& value) {
+  set_lane(s.xx, i, value.xx);
+  set_lane(s.zz, i, value.zz);
+  set_lane(s.xz, i, value.xz);
+  set_lane(s.yy, i, value.yy);
 }
 
 template <class T>

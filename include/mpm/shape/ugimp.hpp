@@ -5,7 +5,7 @@
 // Along one axis a box of half-width w <= 1/2 cell touches the particle's nearest node and its two neighbours.
 #pragma once
 
-#include <algorithm>
+#include "mpm/math/lanes.hpp"
 
 namespace mpm {
 
@@ -17,8 +17,8 @@ struct Ugimp {
 
   /// `offset`: particle minus its nearest node, in cells, in [-1/2, 1/2]; `half`: w, half the box in cells, (0, 1/2].
   Ugimp(T offset, T half, T inverse_cell) {
-    const T a = std::max(offset + half, T(0)), b = std::max(offset - half, T(0));
-    const T c = std::min(offset - half, T(0)), d = std::min(offset + half, T(0));
+    const T a = max(offset + half, T(0)), b = max(offset - half, T(0));
+    const T c = min(offset - half, T(0)), d = min(offset + half, T(0));
     const T scale = T(1) / (T(4) * half);
     const T slope = T(2) * scale * inverse_cell;
     s[0] = (c * c - d * d) * scale;

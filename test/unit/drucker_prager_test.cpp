@@ -25,8 +25,7 @@ struct Element {
     const double j_old = determinant(f);
     const Matrix3<double> df = exponential(du, 4);
     f = product(df, f);
-    double* history[3] = {&h[0], &h[1], &h[2]};
-    law.update(mpm::Increment<double, Matrix3<double>>{du, df, f, j_old, determinant(f), 0.0}, tau, history, 0);
+    law.update(mpm::Increment<double, Matrix3<double>>{du, df, f, j_old, determinant(f), 0.0}, tau, h);
   }
   mpm::Symmetric3<double> stress() const { return scale_shift(tau, rho / determinant(f), 0.0); }
   double mean() const { return trace(stress()) / 3.0; }

@@ -16,8 +16,7 @@ mpm::Symmetric3<double> neo_hookean(const Matrix3<double>& f, double density = 7
   const mpm::NeoHookean law({kElasticity}, density);
   mpm::Symmetric3<double> tau{};
   const double j = determinant(f);
-  law.update(mpm::Increment<double, Matrix3<double>>{{}, f, f, 1.0, j, 0.0}, tau, static_cast<double* const*>(nullptr),
-             0);
+  law.update(mpm::Increment<double, Matrix3<double>>{{}, f, f, 1.0, j, 0.0}, tau, static_cast<double*>(nullptr));
   return scale_shift(tau, density / j, 0.0);
 }
 
@@ -75,8 +74,7 @@ TEST(LinearElastic, FollowsTheJaumannSolutionInSimpleShear) {
     const Matrix3<double> du{0, gamma / steps, 0, 0, 0, 0, 0, 0, 0};
     const Matrix3<double> df = exponential(du, 2);
     f = product(df, f);
-    law.update(mpm::Increment<double, Matrix3<double>>{du, df, f, 1.0, 1.0, 0.0}, tau,
-               static_cast<double* const*>(nullptr), 0);
+    law.update(mpm::Increment<double, Matrix3<double>>{du, df, f, 1.0, 1.0, 0.0}, tau, static_cast<double*>(nullptr));
   }
   EXPECT_NEAR(density * tau.xy, shear * std::sin(gamma), 1e-4 * shear);
   EXPECT_NEAR(density * tau.xx, shear * (1.0 - std::cos(gamma)), 1e-4 * shear);

@@ -81,15 +81,13 @@ struct PlanarPoint {
     tau = {start.xx, start.zz, start.xz, start.yy};
   }
   void advance(const MatrixPlane<double>& du, double dt) {
-    std::vector<double*> places;
-    for (double& scalar : history) places.push_back(&scalar);
     std::visit(
         [&](const auto& kind) {
           const MatrixPlane<double> df = exponential(du, 12), old = f;
           const double j_old = determinant(old);
           f = kind.kForgetsShape ? PlaneStrain::dilatation(j_old * determinant(df)) : product(df, old);
-          kind.update(Increment<double, MatrixPlane<double>>{du, df, f, j_old, determinant(f), dt}, tau, places.data(),
-                      0);
+          kind.update(Increment<double, MatrixPlane<double>>{du, df, f, j_old, determinant(f), dt}, tau,
+                      history.data());
         },
         law);
   }

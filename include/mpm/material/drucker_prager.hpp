@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mpm/material/linear_elastic.hpp"
 #include "mpm/material/opening.hpp"
@@ -24,47 +25,18 @@ class DruckerPrager : public LawTraits {
   DruckerPrager(const DruckerPragerDefinition& d, double density);
 
   template <class T, class Matrix, class Symmetric>
-  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const* history, int p) const {
-    const T j = step.j;
-    const T bulk = T(bulk_), shear = T(shear_);
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* history) const {
+    const T to_tau = step.j * T(1.0 / density_);
     const Symmetric previous = scale_shift(tau, T(density_) / step.j_old, T(0));
-    const Symmetric trial = LinearElastic::stress_rate_update(previous, step.du, bulk, shear);
-
-    T mean = trace(trial) / T(3);
-    Symmetric deviator = scale_shift(trial, T(1), -mean);
-    T& opening = history[kOpening][p];
-    mean = close_opening(mean, bulk, opening);
-    const T root_j2 = std::sqrt(T(0.5) * squared_norm(deviator));
-    const T yield = root_j2 + T(eta_) * mean - T(strength_);
-    T multiplier = T(0);  // increment of the equivalent plastic shear strain, sqrt(2 de:de)
-    T dilation = T(0), opened = T(0);
-    if (yield > T(0)) {
-      // Opened soil has room to dilate into: no pressure comes of it.
-      const T eta_bar = opening > T(0) ? T(0) : T(eta_bar_);
-      multiplier = yield / (shear + bulk * T(eta_) * eta_bar);
-      const T left = root_j2 - shear * multiplier;
-      if (left >= T(0) || eta_ == 0.0) {  // without friction there is no apex, only round-off below zero
-        deviator = scale_shift(deviator, std::max(left, T(0)) / root_j2, T(0));
-        dilation = eta_bar * multiplier;
-        mean -= bulk * dilation;
-      } else {
-        multiplier = root_j2 / shear;
-        deviator = scale_shift(deviator, T(0), T(0));
-        opened += (mean - T(apex_)) / bulk;
-        mean = T(apex_);
-      }
-    }
-    if (mean > T(cutoff_)) {
-      opened += (mean - T(cutoff_)) / bulk;
-      mean = T(cutoff_);
-    }
-    if (multiplier > T(0) || opened > T(0)) {
-      opening += opened;
-      history[kPlasticStrain][p] += multiplier;
-      const T shear_stress = std::sqrt(T(0.5) * squared_norm(deviator));
-      history[kPlasticWork][p] += (shear_stress * multiplier + mean * (dilation + opened)) * j / T(density_);
-    }
-    tau = scale_shift(scale_shift(deviator, T(1), mean), j / T(density_), T(0));
+    const Symmetric trial = LinearElastic::stress_rate_update(previous, step.du, bulk_, shear_);
+    const T trial_mean = T(1.0 / 3.0) * trace(trial);
+    Symmetric deviator = scale_shift(trial, T(1), -trial_mean);
+    T mean = close_opening(trial_mean, bulk_, history[kOpening]);
+    const T j2 = T(0.5) * squared_norm(deviator);
+    const T bears = T(strength_) - T(eta_) * mean;  // sqrt(J2) at yield
+    const auto shears = (bears < T(0)) | (j2 > bears * bears);
+    if (any(shears | (mean > T(cutoff_)))) flow(shears, j2, bears, to_tau, mean, deviator, history);
+    tau = scale_shift(deviator, to_tau, mean * to_tau);
   }
 
   template <class Matrix, class Symmetric>
@@ -89,6 +61,31 @@ class DruckerPrager : public LawTraits {
   double strength() const { return strength_; }
 
  private:
+  /// Returns `mean` and `deviator`: to the cone or its apex in the lanes where `shears`, in all to the cut-off.
+  template <class T, class Mask, class Symmetric>
+  void flow(const Mask& shears, T j2, T bears, T to_tau, T& mean, Symmetric& deviator, T* history) const {
+    const T root_j2 = sqrt(j2);
+    // Opened soil has room to dilate into: no pressure comes of it.
+    const T eta_bar = select(history[kOpening] > T(0), T(0), T(eta_bar_));
+    // Increment of the equivalent plastic shear strain, sqrt(2 de:de).
+    T multiplier = select(shears, (root_j2 - bears) / (T(shear_) + T(bulk_ * eta_) * eta_bar), T(0));
+    const T beyond = root_j2 - T(shear_) * multiplier;
+    const T left = max(beyond, T(0));
+    // Without friction there is no apex, only round-off below zero.
+    const auto apex = (beyond < T(0)) & (T(eta_) > T(0));
+    multiplier = select(apex, T(1.0 / shear_) * root_j2, multiplier);
+    const T dilation = select(apex, T(0), eta_bar * multiplier);
+    T opened = select(apex, T(1.0 / bulk_) * (mean - T(apex_)), T(0));
+    mean = select(apex, T(apex_), mean - T(bulk_) * dilation);
+    opened += T(1.0 / bulk_) * max(mean - T(cutoff_), T(0));
+    mean = min(mean, T(cutoff_));
+    constexpr float kAlmostNothing = std::numeric_limits<float>::min();  // a quotient for no deviator too
+    deviator = scale_shift(deviator, left / max(root_j2, T(kAlmostNothing)), T(0));
+    history[kOpening] += opened;
+    history[kPlasticStrain] += multiplier;
+    history[kPlasticWork] += (left * multiplier + mean * (dilation + opened)) * to_tau;
+  }
+
   double density_, bulk_, shear_;
   double eta_, eta_bar_, strength_;
   double apex_;    ///< mean stress at the cone's apex [Pa]

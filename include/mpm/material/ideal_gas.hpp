@@ -31,15 +31,15 @@ class IdealGas : public LawTraits {
         specific_ambient_(d.ambient / density) {}
 
   template <class T, class Matrix, class Symmetric>
-  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const* history, int p) const {
-    T& excess = history[kTemperature][p];
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* history) const {
+    T& excess = history[kTemperature];
     if (adiabatic_) {
-      const T temperature = (T(temperature_) + excess) * std::pow(step.j_old / step.j, T(ratio_ - 1.0));
+      const T temperature = (T(temperature_) + excess) * pow(step.j_old / step.j, T(ratio_ - 1.0));
       excess = temperature - T(temperature_);
     }
     // tau/rho0 = -(p - ambient) J / rho0
-    const T pressure = T(specific_pressure_) * (T(1) + excess / T(temperature_));
-    tau = scale_shift(tau, T(0), T(specific_ambient_) * step.j - pressure);
+    const T pressure = T(specific_pressure_) + T(specific_pressure_ / temperature_) * excess;
+    tau = Symmetric::isotropic(T(specific_ambient_) * step.j - pressure);
   }
 
   /// Adiabatic: internal energy c_v (T - T0). Isothermal: free energy, -(p J / rho0) ln J. Of both, what the ambient

@@ -9,7 +9,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "mpm/math/principal.hpp"
 
@@ -18,15 +18,20 @@ namespace mpm {
 /// x, the largest root of the equation above.
 template <class T>
 T isochoric_excess(T j2, T j3) {
-  // Above the root, since no eigenvalue of the deviator is below -2 sqrt(J2/3); close to it at small strain. Convexity
-  // makes Newton's steps monotone from the second on.
-  T x = j2 < T(12) ? j2 / T(3) : T(2) * std::sqrt(j2 / T(3));
-  constexpr int kSteps = 20;  // stretch ratios of 1e3 need twelve, metals two
-  for (int i = 0; i < kSteps; ++i) {
+  // Close to the root at small strain; above it at large strain, since no eigenvalue of the deviator is below
+  // -2 sqrt(J2/3). Wherever the slope is positive, convexity makes Newton's steps monotone from the second on.
+  T x = T(1.0 / 3.0) * (j2 - select(j2 < T(1), j3, T(0)));
+  const auto large = j2 >= T(12);
+  if (any(large)) x = select(large, T(2) * sqrt(T(1.0 / 3.0) * j2), x);
+  constexpr int kSteps = 20;  // stretch ratios of 1e3 need twelve, metals one
+  constexpr double kRoundOff = 0.25 * std::numeric_limits<ScalarOf<T>>::epsilon();
+  auto open = j2 >= T(0);
+  for (int i = 0; i < kSteps && any(open); ++i) {
     const T slope = T(3) * (T(1) + x) * (T(1) + x) - j2;
-    const T step = (x * (T(3) + T(3) * x + x * x - j2) + j3 - j2) / slope;
+    const T step = select(open, (x * (T(3) + T(3) * x + x * x - j2) + j3 - j2) / slope, T(0));
     x -= step;
-    if (std::abs(step) <= T(1e-9) * x) break;  // the next step is the square of this one
+    // The next step would be the square of this one times half of the curvature, 3 (1 + x), over the slope.
+    open = open & (T(3) * (T(1) + x) * step * step > T(kRoundOff) * x * slope);
   }
   return x;
 }
@@ -41,18 +46,18 @@ auto isochoric_excess(const Symmetric& deviator) {
 template <class T, class Matrix>
 auto isochoric_deviator(const Matrix& f, T j) {
   const auto b = left_cauchy_green(f);
-  const T root = std::cbrt(j);
-  const T scale = T(1) / (root * root);
-  return scale_shift(b, scale, -scale * trace(b) / T(3));
+  const T root = inverse_cbrt(j);
+  const T scale = root * root;
+  return scale_shift(b, scale, T(-1.0 / 3.0) * scale * trace(b));
 }
 
-/// Deviator of b from that of the increment's start: b <- J^(-2/3) df b df^T with J = det df.
+/// Deviator of b from that of the increment's start, whose x is `excess`: b <- J^(-2/3) df b df^T with J = det df.
 template <class T, class Matrix, class Symmetric>
-Symmetric stretch_isochoric(const Matrix& df, T det, const Symmetric& deviator) {
-  const T root = std::cbrt(det);
-  const Symmetric b = congruence(df, scale_shift(deviator, T(1), T(1) + isochoric_excess(deviator)));
-  const T scale = T(1) / (root * root);
-  return scale_shift(b, scale, -scale * trace(b) / T(3));
+Symmetric stretch_isochoric(const Matrix& df, T det, const Symmetric& deviator, T excess) {
+  const T root = inverse_cbrt(det);
+  const Symmetric b = congruence(df, scale_shift(deviator, T(1), T(1) + excess));
+  const T scale = root * root;
+  return scale_shift(b, scale, T(-1.0 / 3.0) * scale * trace(b));
 }
 
 /// Bounds over all directions n of a wave on the acoustic tensor of tau = G dev b,

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "mpm/material/definition.hpp"
 #include "mpm/material/increment.hpp"
@@ -42,29 +43,14 @@ class J2Plasticity : public LawTraits {
         rate_(d.saturation_rate) {}
 
   template <class T, class Matrix, class Symmetric>
-  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const* history, int p) const {
-    const T shear = T(shear_);
-    Symmetric deviator = stretch_isochoric(step.df, step.j / step.j_old, elastic_deviator<T>(tau));
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* history) const {
+    const Symmetric before = elastic_deviator<T>(tau);
+    Symmetric deviator = stretch_isochoric(step.df, step.j / step.j_old, before, isochoric_excess(before));
     const T j2 = T(0.5) * squared_norm(deviator);
-    const T mises = shear * std::sqrt(T(3) * j2);
-    T& strain = history[kPlasticStrain][p];
-    const T before = strength(strain);
-    if (mises > before) {
-      const T j3 = determinant(deviator);
-      const T excess = isochoric_excess(j2, j3), mean = T(1) + excess;
-      const T modulus = T(2) * shear * j2 * (T(3) * mean * mean - j2) / (T(2) * mean * j2 - T(3) * j3);
-      const T flow = plastic_increment(mises, modulus, strain);
-      const T after = mises - modulus * flow;
-      deviator = scale_shift(deviator, after / mises, T(0));
-      strain += flow;
-      // What the return released, less what of it the trial took too much to get there: to second order the mean Mises
-      // stress of the step times its plastic strain.
-      const T released = T(1.5) * shear * (excess - isochoric_excess(deviator));
-      history[kPlasticWork][p] += (released - T(0.5) * (mises - before) * flow) / T(density_);
-    }
-    const T inverse_density = T(1.0 / density_);
-    tau =
-        scale_shift(deviator, shear * inverse_density, T(0.5) * T(bulk_) * (step.j * step.j - T(1)) * inverse_density);
+    // Voce's part, an exponential, is left for where there is more stress than it could take from the strength.
+    const T least = T(yield_) + T(hardening_) * history[kPlasticStrain];
+    if (any(T(3.0 * shear_ * shear_) * j2 > least * least)) flow(j2, deviator, history);
+    tau = scale_shift(deviator, T(shear_ / density_), T(0.5 * bulk_ / density_) * (step.j * step.j - T(1)));
   }
 
   template <class Matrix, class Symmetric>
@@ -85,28 +71,60 @@ class J2Plasticity : public LawTraits {
   template <class T, class Symmetric>
   Symmetric elastic_deviator(const Symmetric& tau) const {
     const T scale = T(density_ / shear_);
-    return scale_shift(tau, scale, -scale * trace(tau) / T(3));
+    return scale_shift(tau, scale, T(-1.0 / 3.0) * scale * trace(tau));
   }
 
-  template <class T>
-  T strength(T strain) const {
-    T sigma = T(yield_) + T(hardening_) * strain;
-    if (voce_ > 0.0) sigma += T(voce_) * (T(1) - std::exp(T(-rate_) * strain));
-    return sigma;
+  /// Returns the deviator to the Mises stress in the lanes where it is beyond it.
+  template <class T, class Symmetric>
+  void flow(T j2, Symmetric& deviator, T* history) const {
+    const T shear = T(shear_);
+    T& strain = history[kPlasticStrain];
+    const T mises = shear * sqrt(T(3) * j2);
+    const T before = strength(strain, voce_part(strain));
+    const auto flows = mises > before;
+    if (!any(flows)) return;
+    const T j3 = determinant(deviator);
+    const T excess = isochoric_excess(j2, j3), mean = T(1) + excess;
+    const T modulus = T(2) * shear * j2 * (T(3) * mean * mean - j2) / (T(2) * mean * j2 - T(3) * j3);
+    const T plastic = plastic_increment(flows, mises, before, modulus, strain);
+    const T after = mises - modulus * plastic;
+    deviator = scale_shift(deviator, select(flows, after / mises, T(1)), T(0));
+    strain += plastic;
+    // What the return released, less what of it the trial took too much to get there: to second order in the step the
+    // mean Mises stress of the step times its plastic strain.
+    const T released = T(1.5) * shear * (excess - isochoric_excess(deviator));
+    const T work = T(1.0 / density_) * (released - T(0.5) * (mises - before) * plastic);
+    history[kPlasticWork] += select(flows, work, T(0));
   }
 
-  /// Root of mises - modulus x = sigma_y(strain + x). The left side less the right one falls and is convex, so Newton's
-  /// method comes to it from below; one step without Voce's part.
+  /// What Voce's part still lacks of its saturation [Pa].
   template <class T>
-  T plastic_increment(T mises, T modulus, T strain) const {
+  T voce_part(T strain) const {
+    return voce_ > 0.0 ? T(voce_) * exp(T(-rate_) * strain) : T(0);
+  }
+  /// sigma_y [Pa], `lacks` being voce_part().
+  template <class T>
+  T strength(T strain, T lacks) const {
+    return T(yield_) + T(hardening_) * strain + (T(voce_) - lacks);
+  }
+
+  /// Root of mises - modulus x = sigma_y(strain + x) where `flows`, elsewhere 0; `before`: sigma_y(strain). The left
+  /// side less the right one falls and is convex, so Newton's method comes to it from below; one step without Voce's
+  /// part.
+  template <class T, class Mask>
+  T plastic_increment(const Mask& flows, T mises, T before, T modulus, T strain) const {
+    const T least_slope = modulus + T(hardening_);
+    if (voce_ == 0.0) return select(flows, (mises - before) / least_slope, T(0));
     constexpr int kSteps = 30;
+    constexpr double kRoundOff = 64.0 * std::numeric_limits<ScalarOf<T>>::epsilon();
     T x = T(0);
+    auto open = flows;
     for (int i = 0; i < kSteps; ++i) {
-      const T excess = mises - modulus * x - strength(strain + x);
-      if (excess <= T(1e-14) * mises) break;
-      T slope = modulus + T(hardening_);
-      if (voce_ > 0.0) slope += T(voce_ * rate_) * std::exp(T(-rate_) * (strain + x));
-      x += excess / slope;
+      const T total = strain + x, lacks = voce_part(total);
+      const T excess = mises - modulus * x - strength(total, lacks);
+      open = open & (excess > T(kRoundOff) * mises);
+      if (!any(open)) break;
+      x += select(open, excess / (least_slope + T(rate_) * lacks), T(0));
     }
     return x;
   }

@@ -18,20 +18,20 @@ class LinearElastic : public LawTraits {
       : density_(density), bulk_(d.elasticity.bulk()), shear_(d.elasticity.shear()) {}
 
   /// Advances Cauchy stress over one increment `du` = grad v dt.
-  template <class T, class Matrix, class Symmetric>
-  static Symmetric stress_rate_update(const Symmetric& cauchy, const Matrix& du, T bulk, T shear) {
+  template <class Matrix, class Symmetric>
+  static Symmetric stress_rate_update(const Symmetric& cauchy, const Matrix& du, double bulk, double shear) {
+    using T = decltype(trace(cauchy));
     const Symmetric strain = symmetric_part(du);
-    const T volumetric = trace(strain);
     // Half of the increment before the rotation and half after it: second order in the step.
-    const Symmetric half = scale_shift(strain, shear, T(0.5) * (bulk - T(2) / T(3) * shear) * volumetric);
+    const Symmetric half = scale_shift(strain, T(shear), T(0.5 * (bulk - 2.0 / 3.0 * shear)) * trace(strain));
     return sum(rotate(sum(cauchy, half), du), half);
   }
 
   /// Law interface (see law.hpp): from specific Kirchhoff stress tau/rho0 to its new value.
   template <class T, class Matrix, class Symmetric>
-  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const*, int) const {
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T*) const {
     const Symmetric cauchy = scale_shift(tau, T(density_) / step.j_old, T(0));
-    tau = scale_shift(stress_rate_update(cauchy, step.du, T(bulk_), T(shear_)), step.j / T(density_), T(0));
+    tau = scale_shift(stress_rate_update(cauchy, step.du, bulk_, shear_), step.j * T(1.0 / density_), T(0));
   }
 
   /// Stored energy per unit mass [J/kg] of a Cauchy stress: small-strain complementary energy.

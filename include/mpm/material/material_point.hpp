@@ -34,7 +34,6 @@ class MaterialPoint {
   Matrix3<double> f_ = Matrix3<double>::identity();
   Symmetric3<double> tau_{};
   std::vector<double> history_;
-  std::vector<double*> places_;
 };
 
 }  // namespace mpm

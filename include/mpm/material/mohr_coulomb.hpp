@@ -3,7 +3,8 @@
 // flow from the same f with the dilation angle, and normal to the cut-off. Elastic predictor in rate form (as
 // linear_elastic.hpp); its principal axes are kept, its principal values returned to the surface in closed form: main
 // plane, the edges of triaxial compression and extension, the apex, and the planes, edges and corners of the cut-off.
-// Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp).
+// Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp). In wide registers only what is surely
+// elastic is done together; the rest goes lane by lane.
 // Weak: plastic work counts the stress at the end of a step; no hardening, no critical state, so dilation never ends;
 // hypoelastic, meant for small elastic strain; an opening is remembered as a volume, not by its direction, and only
 // where no pressure is left across it: a crack in soil that is pressed along it heals as it closes. Source: method
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mpm/material/linear_elastic.hpp"
@@ -33,49 +35,29 @@ class MohrCoulomb : public LawTraits {
   MohrCoulomb(const MohrCoulombDefinition& d, double density);
 
   template <class T, class Matrix, class Symmetric>
-  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const* history, int p) const {
-    const T bulk = T(bulk_);
-    const T to_tau = step.j / T(density_);
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* history) const {
+    const T to_tau = step.j * T(1.0 / density_);
     const Symmetric previous = scale_shift(tau, T(density_) / step.j_old, T(0));
-    const Symmetric trial = LinearElastic::stress_rate_update(previous, step.du, bulk, T(shear_));
-    T& opening = history[kOpening][p];
-    const T shift = close_opening(trace(trial) / T(3), bulk, opening) - trace(trial) / T(3);
-    const Symmetric closed = scale_shift(trial, T(1), shift);
-    Principal<T> axes = principal(closed);
-    int order[3] = {0, 1, 2};  // the pairs of principal values stay with their directions
-    const auto sort = [&axes, &order](int a, int b) {
-      if (axes.value[order[a]] < axes.value[order[b]]) std::swap(order[a], order[b]);
-    };
-    sort(0, 1);
-    sort(1, 2);
-    sort(0, 1);
-    T s[3], plastic[3];
-    for (int k = 0; k < 3; ++k) plastic[k] = s[k] = axes.value[order[k]];
-    // Opened soil has room to dilate into: no pressure comes of it.
-    const Region region = return_to_surface(s, opening > T(0) ? T(0) : T(sin_dilation_));
-    if (region == Region::elastic) {
-      tau = scale_shift(closed, to_tau, T(0));
-      return;
-    }
-    const bool has_room = opening > T(0);
-    if (region >= Region::apex && has_room) use_room(s);
-    // Plastic strain is the elastic strain lost: C^-1 of the stress that the return took.
-    for (int k = 0; k < 3; ++k) plastic[k] -= s[k];
-    const T mean = (plastic[0] + plastic[1] + plastic[2]) / T(3);
-    T shear_strain = T(0), work = T(0);
-    for (int k = 0; k < 3; ++k) {
-      const T deviator = (plastic[k] - mean) / T(2.0 * shear_);
-      shear_strain += T(2) * deviator * deviator;
-      work += s[k] * (deviator + mean / (T(3) * bulk));
-      axes.value[order[k]] = s[k];
-    }
-    // Soil that is still pressed across what opened has not parted: with room and pressure at once, the one would close
-    // the other without any strain.
-    const bool parts = has_room || s[0] + s[1] + s[2] >= T(0);
-    if (region >= Region::apex && parts) opening += std::max(mean / bulk, T(0));
-    history[kPlasticStrain][p] += std::sqrt(shear_strain);
-    history[kPlasticWork][p] += work * to_tau;
-    tau = scale_shift(compose(axes, closed), to_tau, T(0));
+    const Symmetric trial = LinearElastic::stress_rate_update(previous, step.du, bulk_, shear_);
+    const T trial_mean = T(1.0 / 3.0) * trace(trial);
+    const T mean = close_opening(trial_mean, bulk_, history[kOpening]);
+    Symmetric cauchy = scale_shift(trial, T(1), mean - trial_mean);
+    const auto suspects = may_flow(mean, T(0.5) * squared_norm(scale_shift(cauchy, T(1), -mean)));
+    if (any(suspects)) flow_by_lanes(select(suspects, T(1), T(0)), step.j, cauchy, history);
+    tau = scale_shift(cauchy, to_tau, T(0));
+  }
+
+  /// Never false beyond the surface, from the mean stress [Pa] and the invariant J2 [Pa^2]: outside the largest cones
+  /// that the surface and the cut-off hold, whatever the third invariant. False for what is not a number.
+  template <class T>
+  auto may_flow(T mean, T j2) const {
+    // Of s1 - s3 + (s1 + s3 - 2 mean) sin(phi), the largest for its J2; and of s1 - mean. Squares over J2.
+    const T shear_factor = T(kCaution * (4.0 + 4.0 / 3.0 * sin_friction_ * sin_friction_));
+    const T tension_factor = T(kCaution * 4.0 / 3.0);
+    const T bears = T(strength_) - T(2.0 * sin_friction_) * mean;
+    const T below = T(cutoff_) - mean;
+    return (bears < T(0)) | (shear_factor * j2 > bears * bears) | (below < T(0)) |
+           (tension_factor * j2 > below * below);
   }
 
   /// `s`: trial principal stresses in falling order [Pa], returned to the surface; flow at `sin_dilation`.
@@ -122,6 +104,64 @@ class MohrCoulomb : public LawTraits {
   double cutoff() const { return cutoff_; }
 
  private:
+  static constexpr double kCaution = 1.0 + 1e-6;  ///< against round-off
+
+  /// flow() in the lanes where `suspects` is not zero: principal directions are a matter of single tensors.
+  template <class T, class Symmetric>
+  void flow_by_lanes(const T& suspects, const T& j, Symmetric& cauchy, T* history) const {
+    for (int i = 0; i < lane_count<T>; ++i) {
+      if (lane(suspects, i) == 0) continue;
+      auto stress = lane(cauchy, i);
+      ScalarOf<T> scalars[kHistory];
+      for (int k = 0; k < kHistory; ++k) scalars[k] = lane(history[k], i);
+      flow(lane(j, i), stress, scalars);
+      set_lane(cauchy, i, stress);
+      for (int k = 0; k < kHistory; ++k) set_lane(history[k], i, scalars[k]);
+    }
+  }
+
+  /// Returns a stress [Pa] to the surface, if it is beyond it.
+  template <class T, class Symmetric>
+  void flow(T j, Symmetric& cauchy, T* history) const {
+    const auto [largest, smallest] = principal_extremes(cauchy);
+    // Of what the closed form may miss, tenfold.
+    const T doubt = T(10) * std::sqrt(std::numeric_limits<T>::epsilon()) * (std::abs(largest) + std::abs(smallest));
+    if (largest + doubt < T(cutoff_) && yield(largest, smallest) + T(2) * doubt < T(0)) return;
+    Principal<T> axes = principal(cauchy);
+    int order[3] = {0, 1, 2};  // the pairs of principal values stay with their directions
+    const auto sort = [&axes, &order](int a, int b) {
+      if (axes.value[order[a]] < axes.value[order[b]]) std::swap(order[a], order[b]);
+    };
+    sort(0, 1);
+    sort(1, 2);
+    sort(0, 1);
+    T s[3], plastic[3];
+    for (int k = 0; k < 3; ++k) plastic[k] = s[k] = axes.value[order[k]];
+    // Opened soil has room to dilate into: no pressure comes of it.
+    T& opening = history[kOpening];
+    const bool has_room = opening > T(0);
+    const Region region = return_to_surface(s, has_room ? T(0) : T(sin_dilation_));
+    if (region == Region::elastic) return;
+    if (region >= Region::apex && has_room) use_room(s);
+    // Plastic strain is the elastic strain lost: C^-1 of the stress that the return took.
+    for (int k = 0; k < 3; ++k) plastic[k] -= s[k];
+    const T mean = (plastic[0] + plastic[1] + plastic[2]) / T(3);
+    T shear_strain = T(0), work = T(0);
+    for (int k = 0; k < 3; ++k) {
+      const T deviator = (plastic[k] - mean) / T(2.0 * shear_);
+      shear_strain += T(2) * deviator * deviator;
+      work += s[k] * (deviator + mean / T(3.0 * bulk_));
+      axes.value[order[k]] = s[k];
+    }
+    // Soil that is still pressed across what opened has not parted: with room and pressure at once, the one would close
+    // the other without any strain.
+    const bool parts = has_room || s[0] + s[1] + s[2] >= T(0);
+    if (region >= Region::apex && parts) opening += std::max(mean / T(bulk_), T(0));
+    history[kPlasticStrain] += std::sqrt(shear_strain);
+    history[kPlasticWork] += work * j / T(density_);
+    cauchy = compose(axes, cauchy);
+  }
+
   double lame() const { return bulk_ - 2.0 / 3.0 * shear_; }
 
   /// What flow at `sin_dilation` = q may add to rho c^2 [Pa]: (|p - q|/2)^2 / h of the main plane (opening.hpp), and of

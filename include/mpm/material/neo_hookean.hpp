@@ -17,14 +17,13 @@ class NeoHookean : public LawTraits {
       : density_(density), bulk_(d.elasticity.bulk()), shear_(d.elasticity.shear()) {}
 
   template <class T, class Matrix, class Symmetric>
-  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const*, int) const {
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T*) const {
     const Symmetric b = left_cauchy_green(step.f);
     const T j = step.j;
-    const T inverse_density = T(1.0 / density_);
-    const T root = std::cbrt(j);
-    const T deviatoric = T(shear_) / (root * root) * inverse_density;           // J sigma = G J^-2/3 dev B
-    const T volumetric = T(0.5) * T(bulk_) * (j * j - T(1)) * inverse_density;  //         + K/2 (J^2-1) I
-    tau = scale_shift(b, deviatoric, volumetric - deviatoric * trace(b) / T(3));
+    const T root = inverse_cbrt(j);
+    const T deviatoric = T(shear_ / density_) * root * root;          // J sigma = G J^-2/3 dev B
+    const T volumetric = T(0.5 * bulk_ / density_) * (j * j - T(1));  //         + K/2 (J^2-1) I
+    tau = scale_shift(b, deviatoric, volumetric - T(1.0 / 3.0) * deviatoric * trace(b));
   }
 
   template <class Matrix, class Symmetric>

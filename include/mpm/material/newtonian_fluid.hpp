@@ -21,19 +21,28 @@ class NewtonianFluid : public LawTraits {
   static constexpr bool kForgetsShape = true;
 
   NewtonianFluid(const NewtonianFluidDefinition& d, double density)
-      : density_(density), bulk_(d.bulk_modulus), exponent_(d.exponent), viscosity_(d.viscosity), tension_(d.tension) {}
+      : density_(density), bulk_(d.bulk_modulus), exponent_(d.exponent), viscosity_(d.viscosity), tension_(d.tension) {
+    if (d.exponent <= kMostProducts && d.exponent == std::floor(d.exponent))
+      whole_exponent_ = static_cast<int>(d.exponent);
+  }
 
   template <class T, class Matrix, class Symmetric>
-  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const* history, int p) const {
-    T pressure = T(bulk_ / exponent_) * (std::pow(step.j, T(-exponent_)) - T(1));
-    if (!tension_) pressure = std::max(pressure, T(0));
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* history) const {
+    const T inverse = T(1) / step.j;
+    const T power = whole_exponent_ > 0 ? whole_power(inverse, whole_exponent_) : pow(inverse, T(exponent_));
+    T pressure = T(bulk_ / exponent_) * (power - T(1));
+    if (!tension_) pressure = max(pressure, T(0));
+    const T volume = step.j * T(1.0 / density_);  // [m^3/kg]
+    if (viscosity_ == 0.0) {
+      tau = Symmetric::isotropic(-pressure * volume);
+      return;
+    }
     const Symmetric strain = symmetric_part(step.du);
-    const T volume = step.j / T(density_);  // [m^3/kg]
     const T twice_viscosity = T(2.0 * viscosity_) / step.dt;
-    const T mean = trace(strain) / T(3);
+    const T mean = T(1.0 / 3.0) * trace(strain);
     tau = scale_shift(strain, twice_viscosity * volume, -(twice_viscosity * mean + pressure) * volume);
     const T mean_volume = T(0.5 / density_) * (step.j_old + step.j);
-    history[kPlasticWork][p] += twice_viscosity * mean_volume * (squared_norm(strain) - T(3) * mean * mean);
+    history[kPlasticWork] += twice_viscosity * mean_volume * (squared_norm(strain) - T(3) * mean * mean);
   }
 
   /// -integral of p dJ from 1 [J/kg].
@@ -56,7 +65,10 @@ class NewtonianFluid : public LawTraits {
   double density() const { return density_; }
 
  private:
+  static constexpr double kMostProducts = 64.0;  ///< largest exponent whose power is taken by products
+
   double density_, bulk_, exponent_, viscosity_;
+  int whole_exponent_ = 0;  ///< the exponent where it is whole, or 0
   bool tension_;
 };
 

@@ -15,13 +15,12 @@ constexpr double kStressFree = 1e-9;
 constexpr double kNearYield = 0.9;
 
 /// Closes what pressure there is room for. `mean`: trial mean stress, tension positive [Pa]; `opening`: logarithmic
-/// volume, >= 0, reduced by what closes. Gives what is left of the mean stress.
+/// volume, >= 0, reduced by what closes. Gives what is left of the mean stress; `bulk` [Pa].
 template <class T>
-T close_opening(T mean, T bulk, T& opening) {
-  if (!(opening > T(0) && mean < T(0))) return mean;
-  const T closing = std::min(opening, -mean / bulk);
-  opening -= closing;
-  return mean + bulk * closing;
+T close_opening(T mean, double bulk, T& opening) {
+  const T left = min(mean + T(bulk) * opening, max(mean, T(0)));
+  opening = max(opening + T(1.0 / bulk) * min(mean, T(0)), T(0));
+  return left;
 }
 
 /// Bound on the fastest small wave [m/s]. Loose soil (j > 1) without pressure carries none until it has closed, and is

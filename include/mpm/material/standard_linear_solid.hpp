@@ -33,25 +33,22 @@ class StandardLinearSolid : public LawTraits {
         relaxation_time_(d.relaxation_time) {}
 
   template <class T, class Matrix, class Symmetric>
-  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* const* history, int p) const {
+  void update(const Increment<T, Matrix>& step, Symmetric& tau, T* history) const {
     const T ratio = step.j / step.j_old;
     const Matrix f_old = product(inverse(step.df, ratio), step.f);
-    const T half = std::exp(T(-0.5 / relaxation_time_) * step.dt);
+    const T half = exp(T(-0.5 / relaxation_time_) * step.dt);
     Symmetric branch = branch_deviator(isochoric_deviator(f_old, step.j_old), tau);
-    T lost = T(0);
-    const auto relax = [&] {
-      lost += isochoric_excess(branch);
-      branch = scale_shift(branch, half, T(0));
-      lost -= isochoric_excess(branch);
-    };
-    relax();
-    branch = stretch_isochoric(step.df, ratio, branch);
-    relax();
-    const T inverse_density = T(1.0 / density_);
-    history[kPlasticWork][p] += T(1.5 * branch_) * lost * inverse_density;
-    const T volumetric = T(0.5) * T(bulk_) * (step.j * step.j - T(1)) * inverse_density;
-    tau = sum(scale_shift(isochoric_deviator(step.f, step.j), T(shear_) * inverse_density, volumetric),
-              scale_shift(branch, T(branch_) * inverse_density, T(0)));
+    T lost = isochoric_excess(branch);
+    branch = scale_shift(branch, half, T(0));
+    const T relaxed = isochoric_excess(branch);
+    branch = stretch_isochoric(step.df, ratio, branch, relaxed);
+    lost += isochoric_excess(branch) - relaxed;
+    branch = scale_shift(branch, half, T(0));
+    lost -= isochoric_excess(branch);
+    history[kPlasticWork] += T(1.5 * branch_ / density_) * lost;
+    const T volumetric = T(0.5 * bulk_ / density_) * (step.j * step.j - T(1));
+    tau = sum(scale_shift(isochoric_deviator(step.f, step.j), T(shear_ / density_), volumetric),
+              scale_shift(branch, T(branch_ / density_), T(0)));
   }
 
   template <class Matrix, class Symmetric>
@@ -76,7 +73,8 @@ class StandardLinearSolid : public LawTraits {
   Symmetric branch_deviator(const Symmetric& long_term, const Symmetric& tau) const {
     using T = decltype(trace(tau));
     const T scale = T(density_ / branch_);
-    return sum(scale_shift(tau, scale, -scale * trace(tau) / T(3)), scale_shift(long_term, T(-shear_ / branch_), T(0)));
+    return sum(scale_shift(tau, scale, T(-1.0 / 3.0) * scale * trace(tau)),
+               scale_shift(long_term, T(-shear_ / branch_), T(0)));
   }
 
   double density_, bulk_, shear_;

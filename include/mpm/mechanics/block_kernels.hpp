@@ -131,7 +131,10 @@ struct BlockKernels {
       if constexpr (LawType::kForgetsShape) now = Geometry::dilatation(j_old * determinant(df));
       const double j = determinant(now);
       auto stress = Geometry::load_symmetric(tau, q);
-      law.update(Increment<double, std::decay_t<decltype(du)>>{du, df, now, j_old, j, dt}, stress, history, q);
+      double scalars[LawType::kHistory + 1];
+      for (int c = 0; c < LawType::kHistory; ++c) scalars[c] = history[c][q];
+      law.update(Increment<double, std::decay_t<decltype(du)>>{du, df, now, j_old, j, dt}, stress, scalars);
+      for (int c = 0; c < LawType::kHistory; ++c) history[c][q] = scalars[c];
       Geometry::store_matrix(now, f, q);
       Geometry::store_symmetric(stress, tau, q);
       if (!(j > 0.0) && bad == count) bad = q;

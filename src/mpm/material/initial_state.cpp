@@ -101,15 +101,13 @@ Symmetric3<double> InitialStates::held(const InitialState& state) const {
   return std::visit(
       [&](const auto& law) {
         std::array<double, std::decay_t<decltype(law)>::kHistory + 1> scalars{};
-        std::array<double*, std::decay_t<decltype(law)>::kHistory + 1> history{};
-        for (std::size_t k = 0; k < scalars.size(); ++k) history[k] = &scalars[k];
         if constexpr (std::decay_t<decltype(law)>::kTemperature >= 0) {
           scalars[law.kTemperature] = state.temperature_excess;
         }
         const Matrix3<double> none{}, same = Matrix3<double>::identity();
         const double j = state.j();
         Symmetric3<double> tau = state.tau;
-        law.update(Increment<double, Matrix3<double>>{none, same, state.f, j, j, kForEver}, tau, history.data(), 0);
+        law.update(Increment<double, Matrix3<double>>{none, same, state.f, j, j, kForEver}, tau, scalars.data());
         return tau;
       },
       law_);

@@ -17,15 +17,13 @@ MaterialPoint::MaterialPoint(const MaterialDefinition& material)
 }
 
 void MaterialPoint::advance(const Matrix3<double>& du, double dt) {
-  places_.clear();  // made anew, so that a copy of a point has its own history
-  for (double& scalar : history_) places_.push_back(&scalar);
   const Matrix3<double> df = exponential(du, kTerms);
   const double j_old = determinant(f_);
   std::visit(
       [&](const auto& law) {
         f_ = law.kForgetsShape ? Solid::dilatation(j_old * determinant(df)) : product(df, f_);
         const Increment<double, Matrix3<double>> step{du, df, f_, j_old, determinant(f_), dt};
-        law.update(step, tau_, places_.data(), 0);
+        law.update(step, tau_, history_.data());
       },
       law_);
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mpm/math/tensor.hpp"
@@ -26,11 +27,13 @@ Principal<T> principal(const Symmetric3<T>& s) {
   T a[3][3] = {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
   Principal<T> result{{}, {{T(1), T(0), T(0)}, {T(0), T(1), T(0)}, {T(0), T(0), T(1)}}};
   constexpr int kSweeps = 12;  // six reach round-off for any tensor
+  const T round_off = T(0.125) * std::numeric_limits<T>::epsilon() * std::sqrt(squared_norm(s));
+  const auto none = [&](int i, int j) { return std::abs(a[i][j]) <= round_off; };
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    if (a[0][1] == T(0) && a[0][2] == T(0) && a[1][2] == T(0)) break;
+    if (none(0, 1) && none(0, 2) && none(1, 2)) break;
     for (const auto& [i, j] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
       const T shear = a[i][j];
-      if (shear == T(0)) continue;
+      if (none(i, j)) continue;
       const T theta = (a[j][j] - a[i][i]) / (T(2) * shear);
       const T t = (theta < T(0) ? T(-1) : T(1)) / (std::abs(theta) + std::sqrt(theta * theta + T(1)));
       const T cosine = T(1) / std::sqrt(t * t + T(1)), sine = t * cosine;

@@ -150,8 +150,8 @@ TEST(Lanes, OfEveryLawInASolidAreAsNumbersAlone) { compare_every_law<Solid>(); }
 TEST(Lanes, OfEveryLawInPlaneStrainAreAsNumbersAlone) { compare_every_law<PlaneStrain>(); }
 
 // Single precision is the same law to its own round-off: of 20 steps, each of a hundred operations on what the stress
-// is the difference of, as TurnsWithItsPath (laws_test.cpp) has it for double. Soil that opens
-// has room or has none, a step in its dilation that round-off may decide: the path presses together.
+// is the difference of, as TurnsWithItsPath (laws_test.cpp) has it for double. Round-off may decide whether opened soil
+// has room left, and with it how it dilates: the path presses together.
 TEST(Lanes, OfSinglePrecisionFollowTheDouble) {
   for (const paths::Specimen& specimen : paths::zoo()) {
     std::visit(

@@ -29,6 +29,8 @@ int main(int argc, char** argv) {
   app.add_option("--csv", options.csv, "write tables (contact forces, bodies, solver state, particles) to this folder");
   app.add_option("--summary", options.summary, "write the run's numbers as JSON to this file");
   app.add_option("--threads", options.threads, "threads; 0: as many as the machine has")->check(CLI::Range(0, 1024));
+  app.add_option("--isa", options.isa,
+                 "instruction set of the kernels: plain, avx2 or avx512; auto: the widest one available");
   app.add_option("--end", options.end, "stop at this time, in seconds or with a unit (\"20 ms\")");
   app.add_option("--set", options.set, "change the scene: key.path=value, as in grid.cell=0.02; may be given often")
       ->allow_extra_args(false);

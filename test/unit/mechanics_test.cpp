@@ -11,7 +11,8 @@ using mpm::Vec3;
 
 // A block of particles on the lattice of the grid, shaken by `jitter` cells, with random velocities.
 struct Scene {
-  Scene(int dim, double jitter, const mpm::LawDefinition& law, int threads = 1)
+  Scene(int dim, double jitter, const mpm::LawDefinition& law, int threads = 1,
+        mpm::Isa isa = mpm::best_isa())
       : grid(mpm::GridLayout(dim, Vec3::Constant(cell), Vec3::Zero(), Vec3::Constant(2.0))) {
     laws.push_back(mpm::make_law({"m", 900.0, law}));
     sets.emplace_back();
@@ -41,9 +42,10 @@ struct Scene {
         rest /= edge;
       }
     }
-    EXPECT_FALSE(mpm::Sorter(threads).sort(sets, grid));
+    EXPECT_FALSE(mpm::Sorter(threads, mpm::kernel_grouping(dim, set.precision, isa)).sort(sets, grid));
     mpm::ContinuumSettings settings;
     settings.threads = threads;
+    settings.isa = isa;
     mechanics = mpm::make_mechanics(dim, sets, laws, settings);
   }
 
@@ -152,6 +154,7 @@ TEST_P(MechanicsTest, MotionKeepsMomentumForEveryFlipFraction) {
     Scene scene(GetParam(), 0.3, mpm::NeoHookeanDefinition{{1e6, 0.3}});
     mpm::ContinuumSettings settings;
     settings.flip = flip;
+    settings.isa = mpm::best_isa();
     scene.mechanics = mpm::make_mechanics(GetParam(), scene.sets, scene.laws, settings);
     mpm::ParticleSet& set = scene.sets[0];
     auto momentum = [&] {

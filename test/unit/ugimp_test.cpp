@@ -7,7 +7,8 @@
 #include <random>
 #include <sstream>
 
-#include "mpm/mechanics/stencil.hpp"
+#include "mpm/grid/grid_layout.hpp"
+#include "mpm/kernel/weights.hpp"
 
 namespace {
 
@@ -70,36 +71,32 @@ TEST(Ugimp, ReproducesConstantsAndLinearFields) {
   }
 }
 
-// The stencil of a tile puts the weights on the right nodes: sum of x_i S is x_p, sum of x_i G is 1.
-TEST(Stencil, FindsItsNodesInTheTile) {
+// The weights of a register of particles put them on the right nodes: sum of x_i S is x_p, sum of x_i G is 1.
+TEST(Weights, FindTheirNodesInTheTile) {
   const GridLayout layout(3, {0.1, 0.2, 0.25}, {-1.0, 0.0, 2.0}, {3.0, 4.0, 6.0});
-  mpm::ParticleSet set;
-  set.half = {0.25, 0.25, 0.25};
-  for (const double place : {0.431, 1.97, 3.08}) set.x.emplace_back(1, place);
-  std::array<int, 3> corner;
+  const double place[3][2] = {{0.431, 0.478}, {1.97, 2.02}, {3.08, 3.13}};  // two particles of one block
+  mpm::GridView grid{};
+  mpm::SetView<double> set{};
+  mpm::BlockView block{};
   for (int k = 0; k < 3; ++k) {
-    corner[k] = GridLayout::nearest(layout.in_cells(k, set.x[k][0])) / 4 * 4 - mpm::kTileMargin;
+    grid.origin[k] = layout.origin(k);
+    grid.inverse_cell[k] = layout.inverse_cell(k);
+    set.half[k] = 0.25;
+    set.x[k] = place[k];
+    block.corner[k] = GridLayout::nearest(layout.in_cells(k, place[k][0])) / 4 * 4 - mpm_kernel::kTileMargin;
   }
-  const mpm::Stencil<3, Ugimp> w(layout, set, corner, 0);
-  double sum = 0.0, x[3] = {}, gradient[3] = {};
-  w.each_row([&](int first, double s, const double* across) {
-    for (int n = 0; n < 3; ++n) {
-      const int node = first + n;
-      const int place[3] = {node / 64, node / 8 % 8, node % 8};
-      double position[3];
-      for (int k = 0; k < 3; ++k) position[k] = layout.origin(k) + (corner[k] + place[k]) * layout.cell(k);
-      const double weight = s * w.s[2][n];
-      sum += weight;
-      for (int k = 0; k < 3; ++k) x[k] += weight * position[k];
-      gradient[0] += across[0] * w.s[2][n] * position[0];
-      gradient[1] += across[1] * w.s[2][n] * position[1];
-      gradient[2] += s * w.g[2][n] * position[2];
+  const mpm::Weights<double, 3, Ugimp> w(grid, block, set, 0, 2);
+  for (int lane = 0; lane < 2; ++lane) {
+    for (int k = 0; k < 3; ++k) {
+      double x = 0.0, gradient = 0.0;
+      for (int n = 0; n < 3; ++n) {
+        const double node = layout.origin(k) + (block.corner[k] + w.nearest[k].v[lane] + n - 1) * layout.cell(k);
+        x += w.s[k][n].v[lane] * node;
+        gradient += w.g[k][n].v[lane] * node;
+      }
+      EXPECT_NEAR(x, place[k][lane], 1e-13);
+      EXPECT_NEAR(gradient, 1.0, 1e-13);
     }
-  });
-  EXPECT_NEAR(sum, 1.0, 1e-14);
-  for (int k = 0; k < 3; ++k) {
-    EXPECT_NEAR(x[k], set.x[k][0], 1e-13);
-    EXPECT_NEAR(gradient[k], 1.0, 1e-13);
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "mpm/grid/block_table.hpp"
@@ -15,6 +16,7 @@ class NodalField {
 
   int components() const { return components_; }
   void resize(int blocks) { data_.resize(static_cast<std::size_t>(blocks) * components_ * nodes_); }
+  double* data() { return data_.data(); }
   double* block(int b) { return data_.data() + static_cast<std::size_t>(b) * components_ * nodes_; }
   const double* block(int b) const { return data_.data() + static_cast<std::size_t>(b) * components_ * nodes_; }
   double& at(int b, int component, int node) { return block(b)[component * nodes_ + node]; }
@@ -41,6 +43,7 @@ struct Grid {
   void rebuild(const std::vector<std::uint64_t>& owner_keys) {
     blocks.rebuild(owner_keys);
     for (NodalField* field : {&mass, &momentum, &velocity, &force}) field->resize(blocks.size());
+    loose.assign(blocks.owners(), 0);
   }
 
   /// The node takes part in the step. What is lighter than least_mass is left out: a particle that reaches a node with
@@ -50,6 +53,8 @@ struct Grid {
   GridLayout layout;
   BlockTable blocks;
   double least_mass = 0.0;  ///< [kg]
+  /// Of each owner, whether some of its particles have moved beyond the block since they were sorted.
+  std::vector<std::uint8_t> loose;
   NodalField mass;          ///< m_i [kg]
   NodalField momentum;      ///< p_i as gathered, without conditions; kept through the step [N s]
   NodalField velocity;      ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]

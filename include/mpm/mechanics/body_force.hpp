@@ -14,6 +14,8 @@
 #include <optional>
 #include <vector>
 
+#include "mpm/kernel/isa.hpp"
+#include "mpm/material/law.hpp"
 #include "mpm/math/function.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/step/stage.hpp"
@@ -40,8 +42,8 @@ class BodyForce : public Stage {
   virtual double work() const = 0;
 };
 
-/// `sets` outlives the result; those that a term with X, Y or Z acts on have their start_x.
-std::unique_ptr<BodyForce> make_body_force(int dim, const std::vector<ParticleSet>& sets,
-                                           const std::vector<BodyForceTerm>& terms, int threads);
+/// `sets` and `laws`, one each, outlive the result; sets that a term with X, Y or Z acts on have their start_x.
+std::unique_ptr<BodyForce> make_body_force(int dim, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                                           const std::vector<BodyForceTerm>& terms, Isa isa, int threads);
 
 }  // namespace mpm

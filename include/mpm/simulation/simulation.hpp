@@ -7,9 +7,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "mpm/kernel/isa.hpp"
 #include "mpm/math/error.hpp"
 #include "mpm/simulation/definition.hpp"
 #include "mpm/simulation/report.hpp"
@@ -30,12 +32,13 @@ class PhysicsError : public Error {
 };
 
 struct SimulationOptions {
-  int threads = 0;  ///< 0: as many as the machine has and 4,000 particles each make worth while
+  int threads = 0;         ///< 0: as many as the machine has and 4,000 particles each make worth while
+  std::optional<Isa> isa = {};  ///< instruction set of the kernels; the widest one available without it
 };
 
 class Simulation {
  public:
-  /// @throws DefinitionError, GridError, MaterialError, RigidError
+  /// @throws DefinitionError, GridError, IsaError, MaterialError, RigidError
   explicit Simulation(const SimulationDefinition& definition, SimulationOptions options = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;

@@ -1,27 +1,171 @@
 #include "mpm/mechanics/continuum.hpp"
 
-#include "mpm/mechanics/instances.hpp"
+#include <algorithm>
+#include <atomic>
+
+#include "mpm/kernel/select.hpp"
+#include "mpm/mechanics/kernel_views.hpp"
 
 namespace mpm {
+namespace {
+
+/// T is the precision of the particles.
+template <class T>
+class Continuum final : public Mechanics {
+  using Kernels = mpm_kernel::KernelTable<T>;
+
+ public:
+  Continuum(const Kernels& kernels, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+            const ContinuumSettings& settings)
+      : kernels_(kernels), sets_(sets), laws_(laws), settings_(settings) {}
+
+  void scatter_momentum(StepContext& context) override {
+    failed_.reset();
+    look_at(context.grid);
+    clear(context.grid.mass, context.grid);
+    clear(context.grid.momentum, context.grid);
+    each_block(context.grid, [&](const mpm_kernel::BlockView& block) {
+      kernels_.scatter_momentum(grid_, block, views_.data(), sets());
+    });
+    velocity_from_momentum(context.grid);
+  }
+
+  void strain_and_force(StepContext& context, double dt) override {
+    clear(context.grid.force, context.grid);
+    strain(context.grid, {dt, settings_.gradient_terms, true});
+  }
+
+  void update_momentum(StepContext& context) override {
+    double gravity[3] = {};
+    for (int k = 0; k < context.grid.layout.dim(); ++k) gravity[k] = settings_.gravity[context.grid.layout.axis(k)];
+    each_node_range(context.grid, [&](int first, int last) {
+      kernels_.nodal_update(grid_, first, last, context.dt, gravity);
+    });
+  }
+
+  void move_particles(StepContext& context) override {
+    move(context, false);
+    context.grid.loose.swap(loose_);
+  }
+
+  void move_and_regather(StepContext& context) override {
+    clear(context.grid.momentum, context.grid);
+    move(context, true);
+    velocity_from_momentum(context.grid);
+  }
+
+  void strain_and_place(StepContext& context, double dt) override {
+    strain(context.grid, {dt, settings_.gradient_terms, false});
+    for (ParticleSet& set : sets_) set.x.swap(set.next_x);
+    context.grid.loose.swap(loose_);
+  }
+
+  std::optional<ParticleRef> failed() const override { return failed_; }
+  bool needs_sort() const override { return needs_sort_; }
+
+ private:
+  int sets() const { return static_cast<int>(views_.size()); }
+
+  // Fields and particles may have been sorted or swapped since the last step.
+  void look_at(Grid& grid) {
+    grid_ = view_of(grid);
+    views_.clear();
+    for (std::size_t s = 0; s < sets_.size(); ++s) views_.push_back(view_of<T>(sets_[s], laws_[s]));
+  }
+
+  template <class Pass>
+  void each_block(const Grid& grid, Pass&& pass) {
+    each_owner(grid, settings_.threads, pass);
+  }
+
+  // pass(first block, last block), the blocks in use shared out among the threads.
+  template <class Pass>
+  void each_node_range(const Grid& grid, Pass&& pass) {
+    constexpr int kBlocks = 16;  // a range
+    const int blocks = grid.blocks.size(), ranges = (blocks + kBlocks - 1) / kBlocks;
+#pragma omp parallel for schedule(static) num_threads(settings_.threads)
+    for (int r = 0; r < ranges; ++r) pass(r * kBlocks, std::min(blocks, (r + 1) * kBlocks));
+  }
+
+  void clear(NodalField& field, const Grid& grid) {
+    const int count = field.components() * grid.layout.nodes_per_block();
+    each_node_range(grid, [&](int first, int last) {
+      std::fill(field.block(first), field.block(first) + static_cast<std::ptrdiff_t>(last - first) * count, 0.0);
+    });
+  }
+
+  void velocity_from_momentum(Grid& grid) {
+    each_node_range(grid, [&](int first, int last) { kernels_.nodal_velocity(grid_, first, last); });
+  }
+
+  void strain(const Grid& grid, const mpm_kernel::StrainSettings& settings) {
+    each_block(grid, [&](const mpm_kernel::BlockView& block) {
+      const mpm_kernel::Failure failure = kernels_.strain(grid_, block, views_.data(), sets(), settings);
+      if (failure.set >= 0) note_failure({failure.set, failure.particle});
+    });
+  }
+
+  void move(StepContext& context, bool regather) {
+    const mpm_kernel::MoveSettings settings{context.dt, settings_.flip, regather};
+    loose_.resize(context.grid.blocks.owners());
+    std::atomic<bool> gone{false};
+    std::atomic<int> groups{0}, parts{0};
+    each_block(context.grid, [&](const mpm_kernel::BlockView& block) {
+      const mpm_kernel::Moved moved = kernels_.move(grid_, block, views_.data(), sets(), settings);
+      loose_[block.owner] = moved.loose;
+      if (moved.gone) gone.store(true, std::memory_order_relaxed);
+      groups.fetch_add(moved.groups, std::memory_order_relaxed);
+      parts.fetch_add(moved.parts, std::memory_order_relaxed);
+    });
+    if (generation_ != context.grid.blocks.generation()) {
+      generation_ = context.grid.blocks.generation();
+      parts_when_sorted_ = parts;
+    }
+    needs_sort_ = gone || parts - parts_when_sorted_ > kMixed * groups;
+  }
+
+  void note_failure(ParticleRef particle) {
+#pragma omp critical(mpm_failure)
+    {
+      const auto id = [this](ParticleRef p) { return sets_[p.set].id[p.index]; };
+      if (!failed_ || id(particle) < id(*failed_)) failed_ = particle;
+    }
+  }
+
+  /// Part of the groups that may be gathered twice before it pays to sort.
+  static constexpr double kMixed = 0.2;
+
+  const Kernels& kernels_;
+  std::vector<ParticleSet>& sets_;
+  const std::vector<Law>& laws_;
+  ContinuumSettings settings_;
+  mpm_kernel::GridView grid_{};
+  std::vector<mpm_kernel::SetView<T>> views_;
+  std::vector<std::uint8_t> loose_;  ///< of each owner, after the motion
+  std::optional<ParticleRef> failed_;
+  bool needs_sort_ = false;
+  std::uint64_t generation_ = 0;  ///< of the blocks that parts_when_sorted_ was counted with
+  int parts_when_sorted_ = 0;
+};
+
+template <class T>
+Grouping grouping(const mpm_kernel::KernelTable<T>& kernels) {
+  return {kernels.lanes, kernels.by_column ? Grouping::By::column : Grouping::By::node};
+}
+
+}  // namespace
 
 std::unique_ptr<Mechanics> make_mechanics(int dim, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
                                           const ContinuumSettings& settings) {
-  return dim == 3 ? make_solid_ugimp(sets, laws, settings) : make_plane_strain_ugimp(sets, laws, settings);
+  if (sets.front().precision == Precision::float32) {
+    return std::make_unique<Continuum<float>>(ugimp_kernels<float>(dim, settings.isa), sets, laws, settings);
+  }
+  return std::make_unique<Continuum<double>>(ugimp_kernels<double>(dim, settings.isa), sets, laws, settings);
 }
 
-std::unique_ptr<BodyForce> make_body_force(int dim, const std::vector<ParticleSet>& sets,
-                                           const std::vector<BodyForceTerm>& terms, int threads) {
-  return dim == 3 ? make_solid_ugimp_load(sets, terms, threads) : make_plane_strain_ugimp_load(sets, terms, threads);
-}
-
-const char* kernel_isa() {
-#if defined(__AVX512F__)
-  return "avx512";
-#elif defined(__AVX2__)
-  return "avx2";
-#else
-  return "x86-64";
-#endif
+Grouping kernel_grouping(int dim, Precision precision, Isa isa) {
+  return precision == Precision::float32 ? grouping(ugimp_kernels<float>(dim, isa))
+                                         : grouping(ugimp_kernels<double>(dim, isa));
 }
 
 }  // namespace mpm

@@ -151,6 +151,7 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
   for (const DeformableBody& body : definition.bodies) count += body.positions.size();
   s.threads = options.threads > 0 ? options.threads
                                   : std::clamp(static_cast<int>(count / kParticlesPerThread), 1, omp_get_max_threads());
+  s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
   const int dim = definition.geometry == GeometryKind::solid ? 3 : 2;
   if (dim == 2) make_planar(s.definition);
   s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));
@@ -218,7 +219,7 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
   }
 
   if (!s.definition.body_forces.empty()) {
-    auto load = make_body_force(dim, s.sets, make_body_force_terms(s.definition, s.sets), s.threads);
+    auto load = make_body_force(dim, s.sets, s.laws, make_body_force_terms(s.definition, s.sets), s.isa, s.threads);
     s.body_force = load.get();
     s.stages.push_back(std::move(load));
   }
@@ -228,11 +229,12 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
   settings.gradient_terms = definition.method.gradient_terms;
   settings.gravity = s.definition.gravity;
   settings.threads = s.threads;
+  settings.isa = s.isa;
   s.mechanics = make_mechanics(dim, s.sets, s.laws, settings);
   double lightest = s.sets.front().mass;
   for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.mass);
   s.grid->least_mass = 1e-30 * lightest;
-  s.sorter = std::make_unique<Sorter>(s.threads);
+  s.sorter = std::make_unique<Sorter>(s.threads, kernel_grouping(dim, definition.method.precision, s.isa));
   s.gravity.name = "gravity";
   s.sort(0.0);
   s.material_limit = s.previous_limit = s.survey_material();

@@ -183,7 +183,7 @@ void Simulation::State::settle() {
     wanted = std::min(wanted, body.geostatic->residual);
     names += (names.empty() ? "'" : ", '") + body.name + "'";
   }
-  Simulation run(part, {threads});
+  Simulation run(part, {threads, isa});
   State& r = *run.state_;
   const double g = definition.gravity.norm();
   double lightest = r.sets.front().mass;

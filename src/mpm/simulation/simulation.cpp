@@ -21,7 +21,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 const SimulationDefinition& Simulation::definition() const { return state_->definition; }
 int Simulation::threads() const { return state_->threads; }
-std::string Simulation::isa() const { return kernel_isa(); }
+std::string Simulation::isa() const { return isa_name(state_->isa); }
 std::vector<std::string> Simulation::warnings() const { return state_->warnings; }
 std::vector<std::string> Simulation::notes() const { return state_->notes; }
 std::int64_t Simulation::time() const { return state_->time; }

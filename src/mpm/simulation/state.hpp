@@ -27,6 +27,7 @@ struct StepLimit {
 struct Simulation::State {
   SimulationDefinition definition;
   int threads = 1;
+  Isa isa = Isa::plain;
   std::vector<std::string> warnings, notes;
 
   std::vector<ParticleSet> sets;

@@ -172,6 +172,7 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
                       {{"real_time", Pacing::real_time}, {"free", Pacing::free}, {"lockstep", Pacing::lockstep}});
   reader.read("real_time_factor", parameters.real_time_factor, 0.0, true);
   reader.read("threads", parameters.threads, 0);
+  reader.read("isa", parameters.isa);
   reader.read("record", parameters.record);
   reader.read<std::string>("record_compression", parameters.record_compression,
                            {{"none", "none"}, {"lz4", "lz4"}, {"bz2", "bz2"}});

@@ -93,6 +93,7 @@ SimulatorNode::~SimulatorNode() {
 RunOptions SimulatorNode::run_options() const {
   RunOptions options;
   options.threads = parameters_.threads;
+  options.isa = parameters_.isa;
   options.output = output_options(scene_);
   if (parameters_.particle_rate) options.output.particle_period = 1.0 / *parameters_.particle_rate;
   if (parameters_.particle_fields) options.output.particles.fields = *parameters_.particle_fields;

@@ -8,7 +8,7 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
     : scene_(scene),
       parameters_(options.parameters),
       stamps_(stamps),
-      simulation_(mpm::build(scene), mpm::SimulationOptions{options.threads}),
+      simulation_(mpm::build(scene), mpm::SimulationOptions{options.threads, mpm::choose_isa(options.isa)}),
       end_(std::llround(scene.definition.time.end * 1e9)),
       recorder_(options.bag.empty() ? nullptr : std::make_unique<BagRecorder>(options.bag, options.bag_options)),
       outputs_(simulation_, stamps_, options.output) {

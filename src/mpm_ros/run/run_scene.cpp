@@ -58,6 +58,7 @@ class OfflineRun {
     }
     RunOptions run_options;
     run_options.threads = options.threads;
+    run_options.isa = options.isa;
     run_options.output = output_options(scene_);
     check_fields(run_options.output);
     if (!options.bag.empty()) run_options.bag = bag_path(options.bag, scene_.definition.name, 1);
@@ -126,7 +127,7 @@ void explain_scene(const RunSceneOptions& options, std::ostream& out) {
   const mpm::Scene scene = load(options);
   const mpm::SimulationDefinition built = mpm::build(scene);
   out << mpm::explain(scene, built);
-  const mpm::Simulation simulation(built, {options.threads});
+  const mpm::Simulation simulation(built, {options.threads, mpm::choose_isa(options.isa)});
   for (const std::string& warning : simulation.warnings()) out << "warning: " << warning << "\n";
   for (const std::string& note : simulation.notes()) out << note << "\n";
 }

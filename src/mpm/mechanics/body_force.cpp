@@ -1,5 +1,4 @@
-// ParticleLoad: see body_force.hpp. Included by the files that instantiate it, one a geometry.
-#pragma once
+#include "mpm/mechanics/body_force.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>
@@ -8,21 +7,22 @@
 #include <limits>
 #include <string>
 
-#include "mpm/mechanics/block_kernels.hpp"
-#include "mpm/mechanics/body_force.hpp"
+#include "mpm/kernel/select.hpp"
+#include "mpm/mechanics/kernel_views.hpp"
 
 namespace mpm {
+namespace {
 
-template <class Geometry, template <class> class Shape>
+/// T is the precision of the particles.
+template <class T>
 class ParticleLoad final : public BodyForce {
-  using Kernels = BlockKernels<Geometry, Shape>;
-  static constexpr int kDim = Geometry::kDim;
   /// Particles whose sum is made in one go, so that it does not depend on the number of threads.
   static constexpr int kGroup = 1024;
 
  public:
-  ParticleLoad(const std::vector<ParticleSet>& sets, const std::vector<BodyForceTerm>& terms, int threads)
-      : sets_(sets), threads_(threads), nodal_(kDim, kDim == 3 ? 64 : 16) {
+  ParticleLoad(const mpm_kernel::KernelTable<T>& kernels, int dim, std::vector<ParticleSet>& sets,
+               const std::vector<Law>& laws, const std::vector<BodyForceTerm>& terms, int threads)
+      : kernels_(kernels), dim_(dim), sets_(sets), laws_(laws), threads_(threads), nodal_(dim, dim == 3 ? 64 : 16) {
     account_.name = "body_force";
     for (const BodyForceTerm& term : terms) {
       Term own{term.set, {}};
@@ -34,7 +34,7 @@ class ParticleLoad final : public BodyForce {
     }
     values_.resize(sets.size());
     for (std::size_t s = 0; s < sets.size(); ++s) {
-      if (acts_on(s)) values_[s].assign(kDim, std::vector<double>(sets[s].size(), 0.0));
+      if (acts_on(s)) values_[s].assign(dim_, PaddedArray<double>(sets[s].size(), 0.0));
     }
     int groups = 1;
     for (const ParticleSet& set : sets) groups = std::max(groups, (set.size() + kGroup - 1) / kGroup);
@@ -46,17 +46,17 @@ class ParticleLoad final : public BodyForce {
     Grid& grid = context.grid;
     evaluate(context);
     nodal_.resize(grid.blocks.size());
-    const int count = kDim * grid.layout.nodes_per_block();
+    const int count = dim_ * grid.layout.nodes_per_block();
 #pragma omp parallel for schedule(static) num_threads(threads_)
     for (int b = 0; b < grid.blocks.size(); ++b) std::fill_n(nodal_.block(b), count, 0.0);
-    Kernels::each_owner(grid, threads_, [&](const typename Kernels::Block& block, int owner, const int* neighbours) {
-      typename Kernels::VectorTile tile;
-      tile.clear();
-      for (std::size_t s = 0; s < sets_.size(); ++s) {
-        const int begin = static_cast<int>(sets_[s].begin[owner]), end = static_cast<int>(sets_[s].begin[owner + 1]);
-        if (begin < end && !values_[s].empty()) Kernels::scatter_load(block, sets_[s], values_[s], begin, end, tile);
-      }
-      tile.add_to(nodal_, neighbours, 0);
+    const mpm_kernel::GridView view = view_of(grid);
+    views_.clear();
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      views_.push_back(view_of<T>(sets_[s], laws_[s]));
+      for (std::size_t k = 0; k < values_[s].size(); ++k) views_.back().load[k] = values_[s][k].data();
+    }
+    each_owner(grid, threads_, [&](const mpm_kernel::BlockView& block) {
+      kernels_.scatter_load(view, block, views_.data(), static_cast<int>(views_.size()), nodal_.data());
     });
 #pragma omp parallel for schedule(static) num_threads(threads_)
     for (int b = 0; b < grid.blocks.size(); ++b) {
@@ -68,7 +68,7 @@ class ParticleLoad final : public BodyForce {
 
   void momentum_updated(StepContext& context) override {
     const Grid& grid = context.grid;
-    const int count = kDim * grid.layout.nodes_per_block();
+    const int count = dim_ * grid.layout.nodes_per_block();
     double power = 0.0;
     for (int b = 0; b < grid.blocks.size(); ++b) {
       const double *load = nodal_.block(b), *v = grid.velocity.block(b), *a = grid.force.block(b);
@@ -122,7 +122,7 @@ class ParticleLoad final : public BodyForce {
         std::min_element(faults_.begin(), faults_.end(), [](const Fault& a, const Fault& b) { return a.id < b.id; });
     if (!fault->text.empty()) throw LoadError(fault->text);
     Vec3 along = Vec3::Zero();  // a planar body has no momentum out of its plane
-    for (int k = 0; k < kDim; ++k) along[layout.axis(k)] = impulse[layout.axis(k)];
+    for (int k = 0; k < dim_; ++k) along[layout.axis(k)] = impulse[layout.axis(k)];
     account_.add(along);
   }
 
@@ -131,13 +131,13 @@ class ParticleLoad final : public BodyForce {
     const ParticleSet& set = sets_[s];
     const double half = 0.5 * context.dt;
     Vec3 place = Vec3::Zero(), start = Vec3::Zero(), b = Vec3::Zero();
-    for (int k = 0; k < kDim; ++k) {
+    for (int k = 0; k < dim_; ++k) {
       place[layout.axis(k)] = set.x[k][p] + half * set.v[k][p];
       if (!set.start_x.empty()) start[layout.axis(k)] = set.start_x[k][p];
     }
     for (Term& term : terms_) {
       if (term.set && *term.set != static_cast<int>(s)) continue;
-      for (int k = 0; k < kDim; ++k) {
+      for (int k = 0; k < dim_; ++k) {
         const int axis = layout.axis(k);
         try {
           b[axis] += term.copies[thread][axis](context.start + half, place, start);
@@ -148,19 +148,33 @@ class ParticleLoad final : public BodyForce {
         }
       }
     }
-    for (int k = 0; k < kDim; ++k) values_[s][k][p] = b[layout.axis(k)];
+    for (int k = 0; k < dim_; ++k) values_[s][k][p] = b[layout.axis(k)];
     return b;
   }
 
-  const std::vector<ParticleSet>& sets_;
+  const mpm_kernel::KernelTable<T>& kernels_;
+  int dim_;
+  std::vector<ParticleSet>& sets_;
+  const std::vector<Law>& laws_;
   int threads_;
   std::vector<Term> terms_;
-  std::vector<std::vector<std::vector<double>>> values_;  ///< acceleration of each set's particles, by axis [m/s^2]
-  NodalField nodal_;                                      ///< load of each node in this step [N]
+  std::vector<std::vector<PaddedArray<double>>> values_;  ///< acceleration of each set's particles, by axis [m/s^2]
+  std::vector<mpm_kernel::SetView<T>> views_;
+  NodalField nodal_;  ///< load of each node in this step [N]
   std::vector<Vec3> sums_;
   std::vector<Fault> faults_;
   ImpulseAccount account_;
   double work_ = 0.0;
 };
+
+}  // namespace
+
+std::unique_ptr<BodyForce> make_body_force(int dim, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                                           const std::vector<BodyForceTerm>& terms, Isa isa, int threads) {
+  if (sets.front().precision == Precision::float32) {
+    return std::make_unique<ParticleLoad<float>>(ugimp_kernels<float>(dim, isa), dim, sets, laws, terms, threads);
+  }
+  return std::make_unique<ParticleLoad<double>>(ugimp_kernels<double>(dim, isa), dim, sets, laws, terms, threads);
+}
 
 }  // namespace mpm

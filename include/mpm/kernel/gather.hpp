@@ -1,0 +1,151 @@
+// Gathers: lanes are particles, and a row of 8 nodes of one component is read for all of them at once.
+//
+// Where a row fits into a register (AVX-512, AVX2 in single precision) the particles share a column of nodes, and each
+// lane picks its own three nodes of the row; lanes stay full when particles lie irregularly. Where it does not, they
+// share their nearest node, whose numbers are spread over the lanes. Particles that have moved on since they were
+// sorted are gathered again with the others masked out, so groups need not be exact.
+#pragma once
+
+#include "mpm/kernel/weights.hpp"
+
+namespace mpm {
+
+template <class T>
+constexpr bool kByColumn = Wide<T>::kLanes >= kTileEdge;
+
+/// What a row has at the nodes of a particle: the value at the nearest one, and the steps to it and from it. With them,
+/// since S sums to 1 and G to 0, a sum over three nodes is two products: sum S v = v + S+ step+ - S- step-.
+template <class T>
+struct RowValues {
+  Wide<T> value, below, above;
+};
+
+/// Of each lane's own nodes.
+template <class T>
+class ColumnReader {
+  using W = Wide<T>;
+
+ public:
+  template <class AllWeights>
+  ColumnReader(const AllWeights& w, int) : at_(round_to_bits(w.nearest[AllWeights::kLast])), before_(at_ - 1) {}
+  template <class Row>
+  RowValues<T> read(const Row& row) const {
+    const W step = W::load(row.step);
+    return {permute(W::load(row.value), at_), permute(step, before_), permute(step, at_)};
+  }
+
+ private:
+  typename W::Integers at_, before_;
+};
+
+/// Of one node that all lanes share.
+template <class T>
+class NodeReader {
+  using B = typename Wide<T>::B;
+
+ public:
+  template <class AllWeights>
+  NodeReader(const AllWeights&, int node) : at_(node % kTileEdge) {}
+  template <class Row>
+  RowValues<T> read(const Row& row) const {
+    return {Wide<T>(B::set(row.value[at_])), Wide<T>(B::set(row.step[at_ - 1])), Wide<T>(B::set(row.step[at_]))};
+  }
+
+ private:
+  int at_;
+};
+
+template <class T, int Dim, template <class> class Shape>
+class Gather {
+  using W = Wide<T>;
+  using AllWeights = Weights<T, Dim, Shape>;
+
+ public:
+  /// visit(reader, number of the middle row, w): w are the weights, zero where a lane is of another part. Returns how
+  /// many parts there were.
+  template <class Visit>
+  static int each_part(const AllWeights& w, int count, Visit&& visit) {
+    const W place = kByColumn<T> ? w.row() : w.node();
+    const unsigned lanes = WideMask<T>::first(count).bits();
+    unsigned left = lanes;
+    int parts = 0;
+    do {
+      const T name = lane(place, __builtin_ctz(left));
+      const WideMask<T> same = equal(place, W(name));
+      const int number = static_cast<int>(name);
+      const int row = kByColumn<T> ? number : number / kTileEdge;
+      const unsigned here = same.bits() & left;
+      using Reader = std::conditional_t<kByColumn<T>, ColumnReader<T>, NodeReader<T>>;
+      const Reader reader(w, number);
+      if (here == lanes) {
+        visit(reader, row, w);
+      } else {
+        AllWeights masked = w;
+        for (int n = 0; n < 3; ++n) {
+          masked.s[0][n] = select(same, w.s[0][n], W(0.0));
+          masked.g[0][n] = select(same, w.g[0][n], W(0.0));
+        }
+        visit(reader, row, masked);
+      }
+      left &= ~here;
+      ++parts;
+    } while (left != 0);
+    return parts;
+  }
+
+  /// l[c][k] += d v_c / d x_k [1/s], GIMP notes (2.2).
+  template <class Tile, class Reader>
+  static void gradient(const Tile& tile, const Reader& reader, int row, const AllWeights& w, W (&l)[Dim][Dim]) {
+    each_row(row, [&](int r, int i, int j) {
+      W across[Dim];  // what each component of the gradient takes of the row
+      if constexpr (Dim == 3) {
+        across[0] = w.g[0][i] * w.s[1][j];
+        across[1] = w.s[0][i] * w.g[1][j];
+        across[2] = w.s[0][i] * w.s[1][j];
+      } else {
+        across[0] = w.g[0][i];
+        across[1] = w.s[0][i];
+      }
+      for (int c = 0; c < Dim; ++c) {
+        const RowValues<T> at = reader.read(tile.rows[c][r]);
+        const W plain = sum_of_s(w, at), along = w.g[Dim - 1][2] * at.above - w.g[Dim - 1][0] * at.below;
+        for (int k = 0; k < Dim - 1; ++k) l[c][k] += across[k] * plain;
+        l[c][Dim - 1] += across[Dim - 1] * along;
+      }
+    });
+  }
+
+  /// sum[c] += component c of the tile at the particles.
+  template <int Fields, class Tile, class Reader>
+  static void values(const Tile& tile, const Reader& reader, int row, const AllWeights& w, W (&sum)[Fields]) {
+    each_row(row, [&](int r, int i, int j) {
+      W across = w.s[0][i];
+      if constexpr (Dim == 3) across *= w.s[1][j];
+      for (int c = 0; c < Fields; ++c) {
+        sum[c] += across * sum_of_s(w, reader.read(tile.rows[c][r]));
+      }
+    });
+  }
+
+ private:
+  static W sum_of_s(const AllWeights& w, const RowValues<T>& at) {
+    return (at.value + w.s[Dim - 1][2] * at.above) - w.s[Dim - 1][0] * at.below;
+  }
+
+  // visit(row of the tile, its place along each axis but the last) for the rows around the middle one.
+  template <class Visit>
+  static void each_row(int middle, Visit&& visit) {
+    if constexpr (Dim == 3) {
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+#pragma GCC unroll 3
+        for (int j = 0; j < 3; ++j) visit(middle + (i - 1) * kTileEdge + j - 1, i, j);
+      }
+    } else {
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) visit(middle + i - 1, i, 0);
+    }
+  }
+};
+
+}  // namespace mpm

@@ -1,0 +1,68 @@
+#include "mpm/kernel/isa.hpp"
+
+#include <fmt/core.h>
+
+namespace mpm {
+namespace {
+
+constexpr Isa kAll[] = {Isa::plain, Isa::avx2, Isa::avx512};
+
+}  // namespace
+
+const char* isa_name(Isa isa) {
+  switch (isa) {
+    case Isa::avx2:
+      return "avx2";
+    case Isa::avx512:
+      return "avx512";
+    case Isa::plain:
+      break;
+  }
+  return "plain";
+}
+
+std::optional<Isa> find_isa(const std::string& name) {
+  for (const Isa isa : kAll) {
+    if (name == isa_name(isa)) return isa;
+  }
+  return std::nullopt;
+}
+
+bool isa_available(Isa isa) {
+#if defined(MPM_X86_KERNELS)
+  switch (isa) {
+    case Isa::avx2:
+      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+    case Isa::avx512:
+      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+             __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+             __builtin_cpu_supports("avx512cd") && isa_available(Isa::avx2);
+    case Isa::plain:
+      break;
+  }
+#endif
+  return isa == Isa::plain;
+}
+
+Isa best_isa() {
+  Isa best = Isa::plain;
+  for (const Isa isa : kAll) {
+    if (isa_available(isa)) best = isa;
+  }
+  return best;
+}
+
+Isa choose_isa(const std::string& name) {
+  if (name.empty() || name == "auto") return best_isa();
+  const std::optional<Isa> isa = find_isa(name);
+  if (isa && isa_available(*isa)) return *isa;
+  std::string there;
+  for (const Isa other : kAll) {
+    if (isa_available(other)) there += (there.empty() ? "" : ", ") + std::string(isa_name(other));
+  }
+  throw IsaError(fmt::format(isa ? "this machine does not have the instruction set '{}'; it has {}"
+                                 : "there is no instruction set '{}'; this machine has {}",
+                             name, there));
+}
+
+}  // namespace mpm

@@ -106,7 +106,10 @@ SolverState Simulation::state() const {
 
   report.min_j = std::numeric_limits<double>::infinity();
   for (const ParticleSet& set : s.sets) {
-    for (int p = 0; p < set.size(); ++p) report.min_j = std::min(report.min_j, particle_tensors(set, dim, p).j);
+    double least = report.min_j;
+#pragma omp parallel for schedule(static) num_threads(s.threads) reduction(min : least)
+    for (int p = 0; p < set.size(); ++p) least = std::min(least, particle_tensors(set, dim, p).j);
+    report.min_j = least;
   }
   return report;
 }

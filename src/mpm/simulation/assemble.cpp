@@ -248,7 +248,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.gravity.name = "gravity";
   s.sort(0.0);
   s.material_limit = s.previous_limit = s.survey_material();
-  s.initial_momentum = state().audit.momentum;
+  s.initial_momentum = s.momentum();
 }
 
 }  // namespace mpm

@@ -56,6 +56,7 @@ TEST_F(RunScene, WritesASummaryWithItsKeysAndTheRightNumbers) {
   for (const char* key : {"geometry", "shape", "update", "transfer", "precision", "isa"}) {
     EXPECT_TRUE(root["method"].contains(key)) << key;
   }
+  EXPECT_EQ(root["method"]["precision"], "double");
   for (const char* key : {"min", "max", "limited_by"}) EXPECT_TRUE(root["dt"].contains(key)) << key;
   EXPECT_EQ(root["scene"], "falling_block");
   EXPECT_EQ(root["particles"], 100);

@@ -1,6 +1,7 @@
 // The blocked grid: numbering, neighbours, colours.
 #include <gtest/gtest.h>
 
+#include <random>
 #include <set>
 
 #include "mpm/grid/nodal_fields.hpp"
@@ -73,6 +74,46 @@ TEST(BlockTable, KnowsNeighboursAndKeepsColoursApart) {
     }
   }
   EXPECT_EQ(seen, table.owners());
+}
+
+// Against the definition: the blocks in use are the owners' neighbours, each once and in order of their keys.
+TEST(BlockTable, HoldsTheNeighboursOfAnyOwners) {
+  for (const int dim : {2, 3}) {
+    const GridLayout layout(dim, {1, 1, 1}, {0, 0, 0}, {60, 60, 60});
+    std::mt19937 engine(2);
+    mpm::BlockTable table(layout);
+    for (const std::size_t count : {1, 5, 40, 300, 12}) {
+      std::set<std::uint64_t> owners, blocks;
+      for (std::size_t i = 0; i < count; ++i) {
+        std::array<int, 3> block{};
+        for (int k = 0; k < dim; ++k) block[k] = static_cast<int>(engine() % 16);
+        owners.insert(layout.key(block));
+      }
+      const int span = dim == 3 ? 27 : 9;
+      const auto neighbour = [&](std::uint64_t owner, int s) {
+        std::array<int, 3> block = layout.block(owner);
+        for (int k = dim - 1; k >= 0; --k, s /= 3) block[k] += s % 3 - 1;
+        return layout.key(block);
+      };
+      for (const std::uint64_t owner : owners) {
+        for (int s = 0; s < span; ++s) blocks.insert(neighbour(owner, s));
+      }
+      table.rebuild({owners.begin(), owners.end()}, 3);
+      ASSERT_EQ(static_cast<std::size_t>(table.size()), blocks.size());
+      int index = 0;
+      for (const std::uint64_t key : blocks) {
+        EXPECT_EQ(table.key(index), key);
+        EXPECT_EQ(table.block(index), layout.block(key));
+        EXPECT_EQ(table.find(key), index++);
+      }
+      int o = 0;
+      for (const std::uint64_t owner : owners) {
+        EXPECT_EQ(table.key(table.owner_block(o)), owner);
+        for (int s = 0; s < span; ++s) EXPECT_EQ(table.key(table.neighbours(o)[s]), neighbour(owner, s));
+        ++o;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -113,7 +113,6 @@ TEST(SceneBadInput, WhatIsNotBuiltYetSaysSo) {
   expect_refused(9, "  update: usl", "method.update: 'usl' is not built yet; use usavg or usf");
   expect_refused(10, "  transfer: apic", "method.transfer: 'apic' is not built yet; use flip");
   expect_refused(10, "  transfer: {xpic: 2}", "method.transfer.xpic: not built yet; use flip");
-  expect_refused(10, "  precision: single", "method.precision: 'single' is not built yet; use double");
   expect_refused(15, "    law: johnson_cook", "materials.soft.law: 'johnson_cook' is not built yet; use");
   expect_refused(27, "    drive: tf", "rigid_bodies.ball.drive: not built yet; use motion");
   expect_refused(21, "    shape: {mesh: {file: a.stl}}", "bodies.block.shape.mesh: not built yet; use box");
@@ -139,6 +138,7 @@ TEST(SceneBadInput, WrongUnitsAndValues) {
                  "method.particles_per_cell: 4 is not possible; a solid scene has 1, 8 or 27");
   expect_refused(10, "  gradient_terms: 0", "method.gradient_terms: write 1 to 12");
   expect_refused(10, "  gradient_terms: 2.5", "method.gradient_terms: '2.5' is not a whole number;");
+  expect_refused(10, "  precision: half", "method.precision: 'half' is not known; write one of double, single");
   expect_refused(10, "  damping: -1", "method.damping: '-1' is less than 0;");
   expect_refused(27, "    motion: {velocity: [0, 0, \"-0.1*tt\"]}",
                  "rigid_bodies.ball.motion.velocity.2: expression '-0.1*tt': unknown name 'tt'");

@@ -39,6 +39,7 @@ TEST(SceneReader, ASmallSceneHasSoundDefaults) {
   EXPECT_EQ(d.method.flip, 1.0);
   EXPECT_EQ(d.method.particles_per_direction, 2);
   EXPECT_EQ(d.method.gradient_terms, 2);
+  EXPECT_EQ(d.method.precision, Precision::float64);
   EXPECT_EQ(d.gravity, Vec3::Zero());
   for (const WallDefinition& wall : d.walls) EXPECT_EQ(wall.kind, WallKind::none);
   EXPECT_EQ(scene.output.particle_fields, (std::vector<std::string>{"vx", "vy", "vz", "p", "j"}));
@@ -51,7 +52,7 @@ units: si
 geometry: solid
 grid: {cell: [0.1, 10 cm, 100 mm], min: [-1, -1, -1], max: [1, 1, 1]}
 time: {end: 2 s, cfl: 0.4, step: 0.1 ms, sync: 10 ms}
-method: {shape: ugimp, update: usf, transfer: {flip: 0.9}, damping: 3, gradient_terms: 3, particles_per_cell: 27, precision: double}
+method: {shape: ugimp, update: usf, transfer: {flip: 0.9}, damping: 3, gradient_terms: 3, particles_per_cell: 27, precision: single}
 gravity: [0, 0, -9.81]
 materials:
   - {name: sand, density: 1600, law: drucker_prager, young: 0.5 MPa, poisson: 0.3, friction_angle: 35 deg,
@@ -88,6 +89,7 @@ metrics: {mean_szz: {mean: szz, of: soil}, widest: {max: vx}}
   EXPECT_EQ(d.method.flip, 0.9);
   EXPECT_EQ(d.method.damping, 3.0);
   EXPECT_EQ(d.method.gradient_terms, 3);
+  EXPECT_EQ(d.method.precision, Precision::float32);
   EXPECT_EQ(d.method.particles_per_direction, 3);
   const auto& sand = std::get<DruckerPragerDefinition>(d.materials.at(0).law);
   EXPECT_EQ(sand.elasticity.young, 5e5);

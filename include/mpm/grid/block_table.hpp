@@ -18,8 +18,8 @@ class BlockTable {
  public:
   explicit BlockTable(const GridLayout& layout) : layout_(&layout) {}
 
-  /// `owner_keys`: ascending, unique.
-  void rebuild(const std::vector<std::uint64_t>& owner_keys);
+  /// `owner_keys`: ascending, unique. Time is linear in the blocks in use.
+  void rebuild(const std::vector<std::uint64_t>& owner_keys, int threads = 1);
 
   const GridLayout& layout() const { return *layout_; }
   int size() const { return static_cast<int>(keys_.size()); }  ///< blocks in use
@@ -38,9 +38,13 @@ class BlockTable {
   std::uint64_t generation() const { return generation_; }
 
  private:
+  void widen(std::uint64_t stride);
+  void find_neighbours(const std::vector<std::uint64_t>& owner_keys, std::size_t begin, std::size_t end);
+
   const GridLayout* layout_;
   int span_ = 0;
-  std::vector<std::uint64_t> keys_;
+  std::array<std::uint64_t, 27> offset_{};  ///< of the key of each neighbour
+  std::vector<std::uint64_t> keys_, wider_;
   std::vector<std::array<int, 3>> coordinates_;
   std::vector<int> owner_block_, neighbours_;
   std::array<std::vector<int>, 8> colours_;

@@ -15,7 +15,16 @@ class NodalField {
   NodalField(int components, int nodes_per_block) : components_(components), nodes_(nodes_per_block) {}
 
   int components() const { return components_; }
-  void resize(int blocks) { data_.resize(static_cast<std::size_t>(blocks) * components_ * nodes_); }
+  /// Contents are not kept. Room for a few blocks more is made when there is too little: material that moves takes
+  /// new blocks a few at a time.
+  void resize(int blocks) {
+    const std::size_t size = static_cast<std::size_t>(blocks) * components_ * nodes_;
+    if (size > data_.capacity()) {
+      data_ = std::vector<double>();
+      data_.reserve(size + size / 16);
+    }
+    data_.resize(size);
+  }
   double* data() { return data_.data(); }
   double* block(int b) { return data_.data() + static_cast<std::size_t>(b) * components_ * nodes_; }
   const double* block(int b) const { return data_.data() + static_cast<std::size_t>(b) * components_ * nodes_; }
@@ -40,8 +49,8 @@ struct Grid {
   Grid& operator=(const Grid&) = delete;
 
   /// Takes the blocks in use from the sorted particles and makes room for their nodes.
-  void rebuild(const std::vector<std::uint64_t>& owner_keys) {
-    blocks.rebuild(owner_keys);
+  void rebuild(const std::vector<std::uint64_t>& owner_keys, int threads = 1) {
+    blocks.rebuild(owner_keys, threads);
     for (NodalField* field : {&mass, &momentum, &velocity, &force}) field->resize(blocks.size());
     loose.assign(blocks.owners(), 0);
   }

@@ -39,7 +39,8 @@ struct SimulationOptions {
 class Simulation {
  public:
   /// @throws DefinitionError, GridError, IsaError, MaterialError, RigidError
-  explicit Simulation(const SimulationDefinition& definition, SimulationOptions options = {});
+  /// Takes the definition over: what it holds of each particle is freed as soon as it has been read.
+  explicit Simulation(SimulationDefinition definition, SimulationOptions options = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

@@ -9,36 +9,66 @@ int BlockTable::find(std::uint64_t key) const {
   return it != keys_.end() && *it == key ? static_cast<int>(it - keys_.begin()) : -1;
 }
 
-void BlockTable::rebuild(const std::vector<std::uint64_t>& owner_keys) {
+// Adds to keys_ the neighbours of each block along one axis: three ascending lists become one.
+void BlockTable::widen(std::uint64_t stride) {
+  wider_.clear();
+  const std::size_t n = keys_.size();
+  std::size_t above = 0, here = 0, below = 0;  // next of key + stride, key, key - stride
+  while (above < n) {
+    std::uint64_t least = keys_[above] + stride;
+    if (here < n) least = std::min(least, keys_[here]);
+    if (below < n) least = std::min(least, keys_[below] - stride);
+    above += keys_[above] + stride == least;
+    here += here < n && keys_[here] == least;
+    below += below < n && keys_[below] - stride == least;
+    wider_.push_back(least);
+  }
+  keys_.swap(wider_);
+}
+
+// Owners and blocks are both in ascending order, and so are the neighbours on one side of all owners.
+void BlockTable::find_neighbours(const std::vector<std::uint64_t>& owner_keys, std::size_t begin, std::size_t end) {
+  for (int s = 0; s < span_; ++s) {
+    auto block = std::lower_bound(keys_.begin(), keys_.end(), owner_keys[begin] + offset_[s]);
+    for (std::size_t o = begin; o < end; ++o) {
+      const std::uint64_t key = owner_keys[o] + offset_[s];
+      while (*block < key) ++block;
+      neighbours_[o * span_ + s] = static_cast<int>(block - keys_.begin());
+    }
+  }
+  for (std::size_t o = begin; o < end; ++o) owner_block_[o] = neighbours_[o * span_ + span_ / 2];
+}
+
+void BlockTable::rebuild(const std::vector<std::uint64_t>& owner_keys, int threads) {
   const int dim = layout_->dim();
   span_ = dim == 3 ? 27 : 9;
-  std::array<std::int64_t, 27> offset{};
   for (int s = 0; s < span_; ++s) {
     int rest = s;
+    offset_[s] = 0;
     for (int k = dim - 1; k >= 0; --k) {
-      offset[s] += (rest % 3 - 1) * layout_->key_stride(k);
+      offset_[s] += static_cast<std::uint64_t>((rest % 3 - 1) * layout_->key_stride(k));
       rest /= 3;
     }
   }
 
-  keys_.clear();
-  for (const std::uint64_t key : owner_keys) {
-    for (int s = 0; s < span_; ++s) keys_.push_back(key + static_cast<std::uint64_t>(offset[s]));
-  }
-  std::sort(keys_.begin(), keys_.end());
-  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+  keys_ = owner_keys;
+  for (int k = dim - 1; k >= 0; --k) widen(static_cast<std::uint64_t>(layout_->key_stride(k)));
 
   coordinates_.resize(keys_.size());
+#pragma omp parallel for schedule(static) num_threads(threads)
   for (std::size_t i = 0; i < keys_.size(); ++i) coordinates_[i] = layout_->block(keys_[i]);
 
-  owner_block_.resize(owner_keys.size());
-  neighbours_.resize(owner_keys.size() * span_);
+  const std::size_t owners = owner_keys.size();
+  owner_block_.resize(owners);
+  neighbours_.resize(owners * span_);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (int t = 0; t < threads; ++t) {
+    const std::size_t begin = owners * t / threads, end = owners * (t + 1) / threads;
+    if (begin < end) find_neighbours(owner_keys, begin, end);
+  }
+
   for (auto& colour : colours_) colour.clear();
-  for (std::size_t o = 0; o < owner_keys.size(); ++o) {
-    for (int s = 0; s < span_; ++s) {
-      neighbours_[o * span_ + s] = find(owner_keys[o] + static_cast<std::uint64_t>(offset[s]));
-    }
-    owner_block_[o] = neighbours_[o * span_ + span_ / 2];
+  for (std::size_t o = 0; o < owners; ++o) {
     const std::array<int, 3>& c = coordinates_[owner_block_[o]];
     int colour = 0;
     for (int k = 0; k < dim; ++k) colour = 2 * colour + (c[k] & 1);

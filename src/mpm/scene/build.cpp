@@ -14,9 +14,6 @@ namespace {
 
 // Particles are numbered by signed 32-bit integers.
 constexpr double kMostParticles = 2147483647.0;
-// What a particle takes at least: position, velocity, deformation and stress, and its place in the definition.
-constexpr double kBytesOfParticle = 240.0;
-constexpr double kBytesOfPlanarParticle = 160.0;
 // A face this much of a cell beyond the grid's is on it: 0.1 is not a binary number.
 constexpr double kOnFace = 1e-6;
 
@@ -83,7 +80,7 @@ double fullness(const Region& region, bool planar) {
 /// Refuses what cannot be numbered or does not fit in memory, before any particle is made.
 void check_size(const Scene& scene) {
   const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
-  const double memory = usable_memory(), bytes = planar ? kBytesOfPlanarParticle : kBytesOfParticle;
+  const double memory = usable_memory(), bytes = least_bytes_of_particle(scene.definition.method, planar);
   double total = 0.0;
   for (const BodyDefinition& body : scene.bodies) {
     const Box bounds = body.region.bounds();
@@ -116,14 +113,21 @@ DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
   filled.material = body.material;
   filled.particle_volume = x.spacing * z.spacing * (planar ? scene.definition.thickness : y.spacing);
   // x runs fastest, as grid blocks are numbered.
-  for (std::int64_t k = z.first; k <= z.last; ++k) {
-    for (std::int64_t j = y.first; j <= y.last; ++j) {
-      for (std::int64_t i = x.first; i <= x.last; ++i) {
-        const Vec3 point(x.center(i), y.center(j), z.center(k));
-        if (body.region.contains(point)) filled.positions.push_back(point);
+  const auto each_place = [&](auto&& visit) {
+    for (std::int64_t k = z.first; k <= z.last; ++k) {
+      for (std::int64_t j = y.first; j <= y.last; ++j) {
+        for (std::int64_t i = x.first; i <= x.last; ++i) {
+          const Vec3 point(x.center(i), y.center(j), z.center(k));
+          if (body.region.contains(point)) visit(point);
+        }
       }
     }
-  }
+  };
+  // Counted first: a list that grows needs up to three times its room.
+  std::size_t count = 0;
+  each_place([&](const Vec3&) { ++count; });
+  filled.positions.reserve(count);
+  each_place([&](const Vec3& point) { filled.positions.push_back(point); });
   if (filled.positions.empty()) {
     throw SceneError(
         fmt::format("{}: body '{}' holds no particle; make it larger or grid.cell smaller", body.where, body.name));

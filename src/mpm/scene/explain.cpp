@@ -83,11 +83,13 @@ std::string explain(const Scene& scene, const SimulationDefinition& built) {
   const MethodDefinition& method = built.method;
   const bool planar = built.geometry == GeometryKind::plane_strain;
   std::string text = fmt::format("scene {} ({})\n", built.name, scene.path);
-  text += fmt::format("method: {}, uGIMP shape functions, {}, {}, {} term{} of the deformation's exponential{}\n",
-                      planar ? fmt::format("plane strain, {:g} m thick", built.thickness) : "solid",
-                      method.update == UpdateScheme::usavg ? "USAVG" : "USF", transfer_text(method.flip),
-                      method.gradient_terms, method.gradient_terms == 1 ? "" : "s",
-                      method.damping > 0.0 ? fmt::format(", grid damping {:g} 1/s", method.damping) : "");
+  text += fmt::format(
+      "method: {}, uGIMP shape functions, {}, {}, {} term{} of the deformation's exponential{}, {} precision\n",
+      planar ? fmt::format("plane strain, {:g} m thick", built.thickness) : "solid",
+      method.update == UpdateScheme::usavg ? "USAVG" : "USF", transfer_text(method.flip), method.gradient_terms,
+      method.gradient_terms == 1 ? "" : "s",
+      method.damping > 0.0 ? fmt::format(", grid damping {:g} 1/s", method.damping) : "",
+      precision_name(method.precision));
   text += "grid:";
   for (const int axis : axes_of(scene)) {
     const GridDefinition& grid = built.grid;

@@ -3,7 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+
+#include "mpm/math/dimension.hpp"
 
 namespace mpm {
 
@@ -16,6 +19,19 @@ double usable_memory() {
     if (file >> limit && limit > 0.0) bytes = std::min(bytes, limit);
   }
   return bytes;
+}
+
+double least_bytes_of_particle(const MethodDefinition& method, bool planar) {
+  const int dim = planar ? 2 : 3;
+  const int carried = planar ? PlaneStrain::kMatrix + PlaneStrain::kSymmetric : Solid::kMatrix + Solid::kSymmetric;
+  const double real = method.precision == Precision::float32 ? 4.0 : 8.0;
+  const double positions = 8.0 * dim * (method.update == UpdateScheme::usavg ? 2 : 1);
+  const double id = 4.0;
+  // step/sorter.hpp; the groups, a place each when they are of one particle.
+  const double sorter = (method.precision == Precision::float32 ? 29.0 : 25.0) + 4.0;
+  // grid/nodal_fields.hpp: mass and three vectors.
+  const double node = 8.0 * (1 + 3 * dim);
+  return positions + real * (dim + carried) + id + sorter + node / std::pow(method.particles_per_direction, dim);
 }
 
 }  // namespace mpm

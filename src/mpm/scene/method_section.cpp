@@ -171,7 +171,9 @@ void read_method(const Map& root, Scene& scene) {
     // 1/13! is below double precision's last digit for any step that the wave speed allows.
     if (method.gradient_terms < 1 || method.gradient_terms > 12) terms->fail("write 1 to 12 terms; 2 is the default");
   }
-  if (const auto precision = map.find("precision")) precision->choice({"double"}, {{"single", "use double"}});
+  if (const auto precision = map.find("precision")) {
+    method.precision = precision->choice({"double", "single"}) == 0 ? Precision::float64 : Precision::float32;
+  }
   read_particles(map, scene);
 }
 

@@ -62,6 +62,12 @@ ParticleTensors particle_tensors(const ParticleSet& set, int dim, int p) {
   return t;
 }
 
+Vec3 Simulation::State::momentum() const {
+  return sum_particles(sets, threads, Vec3(Vec3::Zero()), [&](const ParticleSet& set, int p) {
+    return Vec3(set.mass * particle_vector(set.v, grid->layout, p));
+  });
+}
+
 SolverState Simulation::state() const {
   const State& s = *state_;
   const GridLayout& layout = s.grid->layout;
@@ -86,9 +92,7 @@ SolverState Simulation::state() const {
   if (s.body_force != nullptr) report.energy.load_work = s.body_force->work();
 
   AuditReport& audit = report.audit;
-  audit.momentum = sum_particles(s.sets, s.threads, Vec3(Vec3::Zero()), [&](const ParticleSet& set, int p) {
-    return Vec3(set.mass * particle_vector(set.v, layout, p));
-  });
+  audit.momentum = s.momentum();
   audit.initial_momentum = s.initial_momentum;
   std::vector<ImpulseAccount> accounts{s.gravity};
   for (const auto& stage : s.stages) stage->accounts(accounts);
@@ -106,7 +110,10 @@ SolverState Simulation::state() const {
 
   report.min_j = std::numeric_limits<double>::infinity();
   for (const ParticleSet& set : s.sets) {
-    for (int p = 0; p < set.size(); ++p) report.min_j = std::min(report.min_j, particle_tensors(set, dim, p).j);
+    double least = report.min_j;
+#pragma omp parallel for schedule(static) num_threads(s.threads) reduction(min : least)
+    for (int p = 0; p < set.size(); ++p) least = std::min(least, particle_tensors(set, dim, p).j);
+    report.min_j = least;
   }
   return report;
 }

@@ -19,6 +19,13 @@ namespace {
 
 constexpr std::size_t kParticlesPerThread = 4000;  ///< fewer do not pay for the waiting at the end of every pass
 
+std::vector<ParticleScalar> zeros(int components, Precision precision, std::size_t particles) {
+  std::vector<ParticleScalar> field;
+  field.reserve(components);
+  for (int c = 0; c < components; ++c) field.emplace_back(precision, particles);
+  return field;
+}
+
 ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body,
                      const MaterialDefinition& material, const Law& law, const GridLayout& layout,
                      std::vector<std::string>& warnings) {
@@ -44,8 +51,9 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
   }
   set.id.resize(n);
   set.precision = definition.method.precision;
-  set.x.assign(dim, PaddedArray<double>(n));
-  set.v.assign(dim, ParticleScalar(set.precision, n));
+  set.x.resize(dim);
+  for (PaddedArray<double>& x : set.x) x.resize(n);
+  set.v = zeros(dim, set.precision, n);
   for (std::size_t p = 0; p < n; ++p) {
     for (int k = 0; k < dim; ++k) {
       const int axis = layout.axis(k);
@@ -58,11 +66,11 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
       }
     }
   }
-  set.f.assign(dim == 3 ? Solid::kMatrix : PlaneStrain::kMatrix, ParticleScalar(set.precision, n));
-  set.tau.assign(dim == 3 ? Solid::kSymmetric : PlaneStrain::kSymmetric, ParticleScalar(set.precision, n));
-  set.history.assign(history_size(law), ParticleScalar(set.precision, n));
+  set.f = zeros(dim == 3 ? Solid::kMatrix : PlaneStrain::kMatrix, set.precision, n);
+  set.tau = zeros(dim == 3 ? Solid::kSymmetric : PlaneStrain::kSymmetric, set.precision, n);
+  set.history = zeros(history_size(law), set.precision, n);
   start_particles(set, body, material, dim, warnings);
-  if (definition.method.update == UpdateScheme::usavg) set.next_x.assign(dim, PaddedArray<double>(n));
+  if (definition.method.update == UpdateScheme::usavg) set.next_x = set.x;
   return set;
 }
 
@@ -122,6 +130,14 @@ std::vector<BodyForceTerm> make_body_force_terms(const SimulationDefinition& def
   return terms;
 }
 
+// Not "= {}", which would keep the memory.
+void forget_particles(DeformableBody& body) {
+  body.positions = std::vector<Vec3>();
+  body.velocities = std::vector<Vec3>();
+  body.stresses = std::vector<Symmetric3<double>>();
+  body.temperatures = std::vector<double>();
+}
+
 }  // namespace
 
 const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body) {
@@ -142,11 +158,11 @@ Pose planar(const Pose& pose, const std::string& body) {
   return {{pose.position.x(), 0.0, pose.position.z()}, Quat(q.w() * scale, 0.0, q.y() * scale, 0.0)};
 }
 
-Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions options)
-    : state_(std::make_unique<State>()) {
+Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : state_(std::make_unique<State>()) {
   State& s = *state_;
-  check(definition);
-  s.definition = definition;
+  check(given);
+  s.definition = std::move(given);
+  const SimulationDefinition& definition = s.definition;
   std::size_t count = 0;
   for (const DeformableBody& body : definition.bodies) count += body.positions.size();
   s.threads = options.threads > 0 ? options.threads
@@ -162,7 +178,7 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
   if (geostatic) add_geostatic_stress(s.definition);
   std::uint32_t next_id = 0;
   s.sets.reserve(definition.bodies.size());
-  for (const DeformableBody& body : s.definition.bodies) {
+  for (DeformableBody& body : s.definition.bodies) {
     const MaterialDefinition& material = find_material(definition, body);
     s.laws.push_back(make_law(material));
     s.sets.push_back(make_set(definition, body, material, s.laws.back(), layout, s.warnings));
@@ -170,15 +186,11 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
     set.first_id = next_id;
     for (std::uint32_t& id : set.id) id = next_id++;
     s.total_mass += set.mass * set.size();
+    if (!geostatic) forget_particles(body);
   }
   if (s.sets.empty()) throw DefinitionError("there is no deformable body, so nothing to simulate; add one to 'bodies'");
   if (geostatic) s.settle();
-  for (DeformableBody& body : s.definition.bodies) {
-    body.positions = {};
-    body.velocities = {};
-    body.stresses = {};
-    body.temperatures = {};
-  }
+  for (DeformableBody& body : s.definition.bodies) forget_particles(body);
 
   if (definition.method.damping > 0.0) s.stages.push_back(std::make_unique<GridDamping>(definition.method.damping));
   // Walls that always hold act before contact, so that friction knows no velocity through them, and once more after it
@@ -238,7 +250,7 @@ Simulation::Simulation(const SimulationDefinition& definition, SimulationOptions
   s.gravity.name = "gravity";
   s.sort(0.0);
   s.material_limit = s.previous_limit = s.survey_material();
-  s.initial_momentum = state().audit.momentum;
+  s.initial_momentum = s.momentum();
 }
 
 }  // namespace mpm

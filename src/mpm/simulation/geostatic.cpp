@@ -175,7 +175,7 @@ void add_geostatic_stress(SimulationDefinition& definition) {
 }
 
 void Simulation::State::settle() {
-  const SimulationDefinition part = resting_part(definition);
+  SimulationDefinition part = resting_part(definition);
   double wanted = std::numeric_limits<double>::infinity();
   std::string names;
   for (const DeformableBody& body : definition.bodies) {
@@ -183,7 +183,7 @@ void Simulation::State::settle() {
     wanted = std::min(wanted, body.geostatic->residual);
     names += (names.empty() ? "'" : ", '") + body.name + "'";
   }
-  Simulation run(part, {threads, isa});
+  Simulation run(std::move(part), {threads, isa});
   State& r = *run.state_;
   const double g = definition.gravity.norm();
   double lightest = r.sets.front().mass;

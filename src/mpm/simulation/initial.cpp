@@ -20,25 +20,35 @@ void check_count(const DeformableBody& body, std::size_t per_particle, const cha
       fmt::format("body '{}': {} {} for {} particles", body.name, per_particle, what, body.positions.size()));
 }
 
-void store(const InitialState& state, int dim, ParticleSet& set, std::size_t p) {
-  const Matrix3<double>& f = state.f;
-  const Symmetric3<double>& t = state.tau;
-  double values[Solid::kMatrix] = {};
-  double* slots[Solid::kMatrix];
-  for (int c = 0; c < Solid::kMatrix; ++c) slots[c] = &values[c];
-  const auto keep = [&](std::vector<ParticleScalar>& field) {
-    for (std::size_t c = 0; c < field.size(); ++c) field[c].set(p, values[c]);
-  };
-  if (dim == 3) {
-    Solid::store_matrix(f, slots, 0);
-    keep(set.f);
-    Solid::store_symmetric(t, slots, 0);
-  } else {
-    PlaneStrain::store_matrix(MatrixPlane<double>{f.xx, f.xz, f.zx, f.zz, 1.0}, slots, 0);
-    keep(set.f);
-    PlaneStrain::store_symmetric(SymmetricPlane<double>{t.xx, t.zz, t.xz, t.yy}, slots, 0);
+/// The components of a state as a set stores them.
+struct Components {
+  Components(const InitialState& state, int dim) {
+    double *f_slots[Solid::kMatrix], *tau_slots[Solid::kSymmetric];
+    for (int c = 0; c < Solid::kMatrix; ++c) f_slots[c] = &f[c];
+    for (int c = 0; c < Solid::kSymmetric; ++c) tau_slots[c] = &tau[c];
+    const Matrix3<double>& m = state.f;
+    const Symmetric3<double>& t = state.tau;
+    if (dim == 3) {
+      Solid::store_matrix(m, f_slots, 0);
+      Solid::store_symmetric(t, tau_slots, 0);
+    } else {
+      PlaneStrain::store_matrix(MatrixPlane<double>{m.xx, m.xz, m.zx, m.zz, 1.0}, f_slots, 0);
+      PlaneStrain::store_symmetric(SymmetricPlane<double>{t.xx, t.zz, t.xz, t.yy}, tau_slots, 0);
+    }
   }
-  keep(set.tau);
+  double f[Solid::kMatrix] = {}, tau[Solid::kSymmetric] = {};
+};
+
+void store(const InitialState& state, int dim, ParticleSet& set, std::size_t p) {
+  const Components values(state, dim);
+  for (std::size_t c = 0; c < set.f.size(); ++c) set.f[c].set(p, values.f[c]);
+  for (std::size_t c = 0; c < set.tau.size(); ++c) set.tau[c].set(p, values.tau[c]);
+}
+
+void store_everywhere(const InitialState& state, int dim, ParticleSet& set) {
+  const Components values(state, dim);
+  for (std::size_t c = 0; c < set.f.size(); ++c) set.f[c].assign(set.f[c].size(), values.f[c]);
+  for (std::size_t c = 0; c < set.tau.size(); ++c) set.tau[c].assign(set.tau[c].size(), values.tau[c]);
 }
 
 }  // namespace
@@ -52,6 +62,7 @@ void start_particles(ParticleSet& set, const DeformableBody& body, const Materia
   const bool asked = !body.stresses.empty() || !body.temperatures.empty();
   InitialState state = states.find({});
   double least_j = 1.0, most_j = 1.0, inverse_j = 0.0;
+  if (!asked) store_everywhere(state, dim, set);
   for (std::size_t p = 0; p < n; ++p) {
     if (asked) {
       InitialRequest request;
@@ -66,8 +77,8 @@ void start_particles(ParticleSet& set, const DeformableBody& body, const Materia
                                           place.x(), place.y(), place.z(), error.what()));
       }
       if (const int index = states.temperature_index(); index >= 0) set.history[index].set(p, state.temperature_excess);
+      store(state, dim, set, p);
     }
-    store(state, dim, set, p);
     const double j = state.j();
     least_j = p == 0 ? j : std::min(least_j, j);
     most_j = p == 0 ? j : std::max(most_j, j);

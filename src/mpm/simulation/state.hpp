@@ -51,6 +51,8 @@ struct Simulation::State {
   StepLimit limit;           ///< of the last period's steps
   bool failed = false;
 
+  /// Of all particles [N s].
+  Vec3 momentum() const;
   /// What the material allows now.
   StepLimit survey_material() const;
   /// What material, tools and scene allow in the sync period that begins now.

@@ -5,122 +5,231 @@
 #include <type_traits>
 
 namespace mpm {
+namespace {
 
-void Sorter::radix_sort(std::vector<Entry>& entries) {
-  if (entries.size() < 2) return;
-  std::uint64_t low = entries[0].key, high = entries[0].key;
-  for (const Entry& e : entries) {
-    low = std::min(low, e.key);
-    high = std::max(high, e.key);
-  }
-  constexpr int kBits = 11;
-  constexpr std::uint64_t kMask = (1u << kBits) - 1;
-  other_.resize(entries.size());
-  for (int shift = 0; shift < 64 && ((high - low) >> shift) != 0; shift += kBits) {
-    std::array<std::uint32_t, kMask + 1> start{};
-    for (const Entry& e : entries) ++start[((e.key - low) >> shift) & kMask];
-    std::uint32_t sum = 0;
-    for (std::uint32_t& s : start) {
-      const std::uint32_t count = s;
-      s = sum;
-      sum += count;
-    }
-    for (const Entry& e : entries) other_[start[((e.key - low) >> shift) & kMask]++] = e;
-    entries.swap(other_);
-  }
-}
-
-void Sorter::permute(ParticleSet& set, const std::vector<Entry>& entries) {
-  const int n = set.size();
-  const auto reorder = [&](auto& values, auto& scratch) {
-    scratch.resize(n);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int i = 0; i < n; ++i) scratch[i] = values[entries[i].index];
-    values.swap(scratch);
+// The few blocks that particles in sequence lie in, with a value each.
+class RecentBlocks {
+ public:
+  struct Entry {
+    std::uint64_t key = ~std::uint64_t{0};
+    std::uint32_t value = 0;
   };
-  set.each_scalar([&](auto& values) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(values[0])>, double>) {
-      reorder(values, scratch_);
-    } else {
-      reorder(values, float_scratch_);
-    }
-  });
-  reorder(set.id, id_scratch_);
-}
+  Entry& at(std::uint64_t key) { return entries_[(key * 0x9E3779B97F4A7C15ull) >> (64 - kBits)]; }
 
-void Sorter::find_groups(ParticleSet& set, const std::vector<Entry>& entries) const {
-  const std::uint64_t span = grouping_.by == Grouping::By::column ? kBlockEdge : 1;
-  const std::uint32_t most = static_cast<std::uint32_t>(grouping_.lanes);
-  const std::size_t owners = set.begin.size() - 1;
-  set.group.clear();
-  set.group_begin.resize(owners + 1);
-  for (std::size_t o = 0; o < owners; ++o) {
-    set.group_begin[o] = static_cast<std::uint32_t>(set.group.size());
-    for (std::uint32_t first = set.begin[o], p = first; p < set.begin[o + 1]; ++p) {
-      if (p == set.begin[o] || p - first == most || entries[p].key / span != entries[first].key / span) {
-        set.group.push_back(first = p);
-      }
-    }
+ private:
+  static constexpr int kBits = 8;
+  std::array<Entry, std::size_t{1} << kBits> entries_;
+};
+
+}  // namespace
+
+Sorter::Sorter(int threads, Grouping grouping) : threads_(threads), grouping_(grouping), parts_(threads) {}
+
+template <int Dim>
+int Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout, Scratch& scratch) {
+  const std::size_t n = set.id.size();
+  scratch.code.resize(n);
+  struct Axis {
+    const double* x;
+    double lowest, highest;
+    std::uint64_t stride;
+  };
+  std::array<Axis, Dim> axes{};
+  std::uint64_t corner = 0;  // key of block (0, 0, 0)
+  for (int k = 0; k < Dim; ++k) {
+    axes[k] = {set.x[k].data(), set.lowest[k], set.highest[k], static_cast<std::uint64_t>(layout.key_stride(k))};
+    corner += axes[k].stride;
   }
-  set.group_begin[owners] = static_cast<std::uint32_t>(set.group.size());
-  set.group.push_back(static_cast<std::uint32_t>(set.size()));
-}
-
-std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Grid& grid) {
-  const GridLayout& layout = grid.layout;
-  const int dim = layout.dim();
-  entries_.resize(sets.size());
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    const ParticleSet& set = sets[s];
-    const int n = set.size();
-    std::vector<Entry>& entries = entries_[s];
-    entries.resize(n);
-    int outside = n;
+  int outside = set.size();
 #pragma omp parallel for schedule(static) num_threads(threads_) reduction(min : outside)
-    for (int i = 0; i < n; ++i) {
-      std::array<int, 3> block{};
-      std::uint32_t local = 0;
+  for (int t = 0; t < threads_; ++t) {
+    RecentBlocks recent;
+    std::vector<std::uint64_t>& blocks = parts_[t].blocks;
+    const std::size_t end = part_begin(n, t + 1);
+    for (std::size_t p = part_begin(n, t); p < end; ++p) {
+      std::uint64_t key = corner, local = 0;
       bool inside = true;
-      for (int k = 0; k < dim; ++k) {
-        const double cells = layout.in_cells(k, set.x[k][i]);
-        inside = inside && cells >= set.lowest[k] && cells <= set.highest[k];
-        const int node = inside ? GridLayout::nearest(cells) : 0;
-        block[k] = node / kBlockEdge;
+      for (int k = 0; k < Dim; ++k) {
+        const double cells = layout.in_cells(k, axes[k].x[p]);
+        inside = inside && cells >= axes[k].lowest && cells <= axes[k].highest;
+        const auto node = static_cast<std::uint32_t>(inside ? GridLayout::nearest(cells) : 0);
+        key += node / kBlockEdge * axes[k].stride;
         local = local * kBlockEdge + node % kBlockEdge;
       }
-      if (!inside) outside = std::min(outside, i);
-      entries[i] = {layout.key(block) * layout.nodes_per_block() + local, static_cast<std::uint32_t>(i)};
+      if (!inside) outside = std::min(outside, static_cast<int>(p));
+      scratch.code[p] = (key << node_bits_) + local;
+      RecentBlocks::Entry& entry = recent.at(key);
+      if (entry.key != key) {
+        entry.key = key;
+        blocks.push_back(key);
+      }
     }
-    if (outside < n) return ParticleRef{static_cast<int>(s), outside};
   }
+  return outside;
+}
 
+void Sorter::collect_owners() {
   owner_keys_.clear();
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    std::vector<Entry>& entries = entries_[s];
-    radix_sort(entries);
-    permute(sets[s], entries);
-    std::uint64_t last = ~std::uint64_t{0};
-    for (const Entry& e : entries) {
-      const std::uint64_t block = e.key / layout.nodes_per_block();
-      if (block != last) owner_keys_.push_back(last = block);
-    }
+  for (Part& part : parts_) {
+    std::sort(part.blocks.begin(), part.blocks.end());
+    part.blocks.erase(std::unique(part.blocks.begin(), part.blocks.end()), part.blocks.end());
+    owner_keys_.insert(owner_keys_.end(), part.blocks.begin(), part.blocks.end());
   }
   std::sort(owner_keys_.begin(), owner_keys_.end());
   owner_keys_.erase(std::unique(owner_keys_.begin(), owner_keys_.end()), owner_keys_.end());
+}
 
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    std::vector<std::uint32_t>& begin = sets[s].begin;
-    begin.resize(owner_keys_.size() + 1);
-    std::uint32_t next = 0;
-    const std::vector<Entry>& entries = entries_[s];
-    for (std::size_t o = 0; o < owner_keys_.size(); ++o) {
-      begin[o] = next;
-      while (next < entries.size() && entries[next].key / layout.nodes_per_block() == owner_keys_[o]) ++next;
+void Sorter::sort_by_block(ParticleSet& set, Scratch& scratch) {
+  const std::size_t n = set.id.size(), owners = owner_keys_.size();
+  const std::uint64_t node_mask = (std::uint64_t{1} << node_bits_) - 1;
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (int t = 0; t < threads_; ++t) {
+    RecentBlocks recent;
+    std::vector<std::uint32_t>& count = parts_[t].next;
+    count.assign(owners, 0);
+    const std::size_t end = part_begin(n, t + 1);
+    for (std::size_t p = part_begin(n, t); p < end; ++p) {
+      const std::uint64_t code = scratch.code[p], key = code >> node_bits_;
+      RecentBlocks::Entry& entry = recent.at(key);
+      if (entry.key != key) {
+        entry.key = key;
+        const auto found = std::lower_bound(owner_keys_.begin(), owner_keys_.end(), key);
+        entry.value = static_cast<std::uint32_t>(found - owner_keys_.begin());
+      }
+      scratch.code[p] = (std::uint64_t{entry.value} << node_bits_) + (code & node_mask);
+      ++count[entry.value];
     }
-    begin[owner_keys_.size()] = next;
-    find_groups(sets[s], entries);
   }
-  grid.rebuild(owner_keys_);
+
+  set.begin.resize(owners + 1);
+  std::uint32_t sum = 0;
+  for (std::size_t o = 0; o < owners; ++o) {
+    set.begin[o] = sum;
+    for (Part& part : parts_) {
+      const std::uint32_t count = part.next[o];
+      part.next[o] = sum;
+      sum += count;
+    }
+  }
+  set.begin[owners] = sum;
+
+  scratch.order.resize(n);
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (int t = 0; t < threads_; ++t) {
+    std::vector<std::uint32_t>& next = parts_[t].next;
+    const std::size_t end = part_begin(n, t + 1);
+    for (std::size_t p = part_begin(n, t); p < end; ++p) {
+      scratch.order[next[scratch.code[p] >> node_bits_]++] = static_cast<std::uint32_t>(p);
+    }
+  }
+}
+
+void Sorter::sort_by_node(ParticleSet& set, Scratch& scratch) {
+  const std::size_t n = set.id.size(), owners = owner_keys_.size();
+  const std::uint64_t node_mask = (std::uint64_t{1} << node_bits_) - 1;
+  const std::uint32_t lanes = static_cast<std::uint32_t>(grouping_.lanes);
+  const std::size_t span = grouping_.by == Grouping::By::column ? kBlockEdge : 1;  // nodes that may share a group
+  scratch.node.resize(n);
+  set.group_begin.resize(owners + 1);
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (int t = 0; t < threads_; ++t) {
+    std::vector<std::uint32_t>& sorted = parts_[t].order;
+    const std::size_t last = part_begin(owners, t + 1);
+    for (std::size_t o = part_begin(owners, t); o < last; ++o) {
+      const std::uint32_t begin = set.begin[o], count = set.begin[o + 1] - begin;
+      std::uint32_t* order = scratch.order.data() + begin;
+      std::uint8_t* node = scratch.node.data() + begin;
+      std::array<std::uint32_t, 65> first{};
+      for (std::uint32_t i = 0; i < count; ++i) {
+        node[i] = static_cast<std::uint8_t>(scratch.code[order[i]] & node_mask);
+        ++first[node[i] + 1];
+      }
+      std::uint32_t groups = 0;
+      for (std::size_t m = 0; m <= node_mask; m += span) {
+        std::uint32_t together = 0;
+        for (std::size_t k = m; k < m + span; ++k) together += first[k + 1];
+        groups += (together + lanes - 1) / lanes;
+      }
+      set.group_begin[o] = groups;
+      for (std::size_t m = 0; m <= node_mask; ++m) first[m + 1] += first[m];
+      if (sorted.size() < count) sorted.resize(count);
+      std::array<std::uint32_t, 64> next;
+      std::copy_n(first.begin(), 64, next.begin());
+      for (std::uint32_t i = 0; i < count; ++i) sorted[next[node[i]]++] = order[i];
+      std::copy_n(sorted.begin(), count, order);
+      for (std::size_t m = 0; m <= node_mask; ++m) {
+        std::fill(node + first[m], node + first[m + 1], static_cast<std::uint8_t>(m));
+      }
+    }
+  }
+  std::uint32_t sum = 0;
+  for (std::size_t o = 0; o < owners; ++o) {
+    const std::uint32_t groups = set.group_begin[o];
+    set.group_begin[o] = sum;
+    sum += groups;
+  }
+  set.group_begin[owners] = sum;
+}
+
+void Sorter::fill_groups(ParticleSet& set, const Scratch& scratch) const {
+  const std::size_t owners = owner_keys_.size();
+  const std::uint32_t lanes = static_cast<std::uint32_t>(grouping_.lanes);
+  static_assert(kBlockEdge == 4);
+  const int shift = grouping_.by == Grouping::By::column ? 2 : 0;
+  set.group.resize(set.group_begin[owners] + 1);
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::size_t o = 0; o < owners; ++o) {
+    std::uint32_t* group = set.group.data() + set.group_begin[o];
+    const std::uint32_t begin = set.begin[o], end = set.begin[o + 1];
+    int last = -1;  // where the particles of the current group are
+    for (std::uint32_t first = begin, p = begin; p < end; ++p) {
+      const int place = scratch.node[p] >> shift;
+      if (place == last && p - first < lanes) continue;
+      *group++ = first = p;
+      last = place;
+    }
+  }
+  set.group.back() = static_cast<std::uint32_t>(set.size());
+}
+
+void Sorter::permute(ParticleSet& set, Scratch& scratch) const {
+  const int n = set.size();
+  const std::uint32_t* order = scratch.order.data();
+  const auto reorder = [&](auto& values, auto& other) {
+    other.resize(n);
+    const auto* from = values.data();
+    auto* to = other.data();
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (int i = 0; i < n; ++i) to[i] = from[order[i]];
+    values.swap(other);
+  };
+  set.each_scalar([&](auto& values) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(values[0])>, double>) {
+      reorder(values, scratch.doubles);
+    } else {
+      reorder(values, scratch.floats);
+    }
+  });
+  reorder(set.id, scratch.ids);
+}
+
+std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Grid& grid) {
+  node_bits_ = grid.layout.dim() == 3 ? 6 : 4;
+  scratch_.resize(sets.size());
+  for (Part& part : parts_) part.blocks.clear();
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const int outside = grid.layout.dim() == 3 ? find_blocks<3>(sets[s], grid.layout, scratch_[s])
+                                               : find_blocks<2>(sets[s], grid.layout, scratch_[s]);
+    if (outside < sets[s].size()) return ParticleRef{static_cast<int>(s), outside};
+  }
+  collect_owners();
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    sort_by_block(sets[s], scratch_[s]);
+    sort_by_node(sets[s], scratch_[s]);
+    fill_groups(sets[s], scratch_[s]);
+    permute(sets[s], scratch_[s]);
+  }
+  grid.rebuild(owner_keys_, threads_);
   return std::nullopt;
 }
 

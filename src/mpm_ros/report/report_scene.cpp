@@ -26,10 +26,10 @@ std::string method_text(const mpm::SimulationDefinition& definition) {
       method.flip == 1.0 ? "FLIP" : (method.flip == 0.0 ? "PIC" : fmt::format("FLIP {:g}", method.flip));
   const int a_cell =
       method.particles_per_direction * method.particles_per_direction * (planar ? 1 : method.particles_per_direction);
-  return fmt::format("{}, uGIMP, {}, {}{}, cells of {:g} m, {} particles a cell", planar ? "plane strain" : "3D",
-                     method.update == mpm::UpdateScheme::usavg ? "USAVG" : "USF", transfer,
-                     method.damping > 0.0 ? fmt::format(", grid damping {:g}/s", method.damping) : "",
-                     definition.grid.cell.x(), a_cell);
+  return fmt::format("{}, uGIMP, {}, {}{}, {} precision, cells of {:g} m, {} particles a cell",
+                     planar ? "plane strain" : "3D", method.update == mpm::UpdateScheme::usavg ? "USAVG" : "USF",
+                     transfer, method.damping > 0.0 ? fmt::format(", grid damping {:g}/s", method.damping) : "",
+                     mpm::precision_name(method.precision), definition.grid.cell.x(), a_cell);
 }
 
 }  // namespace

@@ -125,9 +125,9 @@ void list_scenes(std::ostream& out) {
 
 void explain_scene(const RunSceneOptions& options, std::ostream& out) {
   const mpm::Scene scene = load(options);
-  const mpm::SimulationDefinition built = mpm::build(scene);
+  mpm::SimulationDefinition built = mpm::build(scene);
   out << mpm::explain(scene, built);
-  const mpm::Simulation simulation(built, {options.threads, mpm::choose_isa(options.isa)});
+  const mpm::Simulation simulation(std::move(built), {options.threads, mpm::choose_isa(options.isa)});
   for (const std::string& warning : simulation.warnings()) out << "warning: " << warning << "\n";
   for (const std::string& note : simulation.notes()) out << note << "\n";
 }

@@ -60,7 +60,7 @@ nlohmann::ordered_json RunSummary::json() const {
                     {"shape", "ugimp"},
                     {"update", definition.method.update == mpm::UpdateScheme::usavg ? "usavg" : "usf"},
                     {"transfer", transfer_name(definition.method.flip)},
-                    {"precision", "double"},
+                    {"precision", mpm::precision_name(definition.method.precision)},
                     {"isa", isa}};
   root["particles"] = state.particles;
   root["steps"] = state.step.steps;

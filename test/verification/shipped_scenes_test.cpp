@@ -34,8 +34,7 @@ double impulse(const mpm::SolverState& state, const std::string& name) {
 
 const std::vector<std::string> kCoarse = {"grid.cell=0.07"};
 
-// What measures speed is large for its own sake: eight or more times as coarse (four times in the soil) it is the same
-// motion of about 1,000 particles.
+// What measures speed is large for its own sake: on coarser cells it is the same motion of about 1,000 particles.
 std::vector<std::string> coarse(const std::string& name) {
   if (name == "blade_in_soil") return kCoarse;
   if (name == "speed_block_3d_million") return {"grid.cell=0.1"};

@@ -44,6 +44,38 @@ TEST(SceneBuild, AMovedLatticeOfTheBodyDoesNotMoveTheParticles) {
   for (const Vec3& p : d.bodies[0].positions) EXPECT_GT(p.x(), 0.0249);
 }
 
+TEST(SceneBuild, JitterMovesParticlesEvenlyWithinTheBody) {
+  const std::string box = "{box: {min: [-0.8, -0.8, -0.8], max: [0.8, 0.8, 0.8]}}";
+  const DeformableBody regular = built(solid(box)).bodies[0], moved = built(solid(box, ", jitter: 0.6")).bodies[0];
+  ASSERT_EQ(moved.positions.size(), regular.positions.size());
+  EXPECT_EQ(moved.particle_volume, regular.particle_volume);
+  double square = 0.0, farthest = 0.0;
+  int inner = 0;
+  for (std::size_t i = 0; i < moved.positions.size(); ++i) {
+    const Vec3 by = moved.positions[i] - regular.positions[i];
+    for (int axis = 0; axis < 3; ++axis) EXPECT_LT(std::abs(moved.positions[i][axis]), 0.8 + 1e-15);
+    farthest = std::max(farthest, by.cwiseAbs().maxCoeff());
+    if (regular.positions[i].cwiseAbs().maxCoeff() > 0.74) continue;  // drawn again at the faces
+    square += by.squaredNorm() / 3.0;
+    ++inner;
+  }
+  EXPECT_LE(farthest, 0.06 + 1e-15);
+  EXPECT_GT(farthest, 0.059);
+  // Even in [-a, a] the square is a^2 / 3 on average, with a deviation of a^2 sqrt(4 / 45) a number: four of them.
+  const double a2 = 0.06 * 0.06;
+  EXPECT_NEAR(square / inner, a2 / 3.0, 4.0 * a2 * std::sqrt(4.0 / 45.0 / (3.0 * inner)));
+  EXPECT_EQ(built(solid(box, ", jitter: 0.6")).bodies[0].positions, moved.positions);
+}
+
+TEST(SceneBuild, AJitteredPlanarBodyStaysInItsPlane) {
+  const auto d = built(
+      "geometry: plane_strain\n"
+      "grid: {cell: 0.1, min: [0, 0], max: [1, 1]}\n"
+      "materials: [{name: soft, density: 1000, law: neo_hookean, young: 1000, poisson: 0.25}]\n"
+      "bodies: [{name: body, material: soft, shape: {box: {min: [0, 0], max: [1, 1]}}, jitter: 1}]\n");
+  for (const Vec3& p : d.bodies[0].positions) EXPECT_EQ(p.y(), 0.0);
+}
+
 TEST(SceneBuild, SpheresAndCylindersHaveTheirVolume) {
   // A circle of 8 spacings in radius holds 208 centres for its area of 201 squares: the lattice's roughness is 4 %.
   const auto volume = [](const SimulationDefinition& d) {

@@ -34,11 +34,19 @@ double impulse(const mpm::SolverState& state, const std::string& name) {
 
 const std::vector<std::string> kCoarse = {"grid.cell=0.07"};
 
+// What measures speed is large for its own sake: on coarser cells it is the same motion of about 1,000 particles.
+std::vector<std::string> coarse(const std::string& name) {
+  if (name == "blade_in_soil") return kCoarse;
+  if (name == "speed_block_3d_million") return {"grid.cell=0.1"};
+  if (name.rfind("speed_", 0) == 0) return {"grid.cell=0.04"};
+  return {};
+}
+
 TEST(ShippedScenes, CloseTheAudit) {
   int scenes = 0;
   for (const auto& [name, about] : mpm::shipped_scenes()) {
     EXPECT_FALSE(about.empty()) << name << " does not say what it shows";
-    run(name, name == "blade_in_soil" ? kCoarse : std::vector<std::string>(), 1);
+    run(name, coarse(name), 1);
     ++scenes;
   }
   EXPECT_GE(scenes, 5);

@@ -36,6 +36,7 @@ struct BodyDefinition {
   std::string name;
   std::string material;
   Region region;
+  double jitter = 0.0;                            ///< farthest a particle starts from its lattice place [cells]
   std::array<Function, 3> velocity;               ///< initial, functions of place [m/s]
   std::optional<std::array<Function, 6>> stress;  ///< initial Cauchy stress, xx yy zz yz xz xy, of place [Pa]
   bool yy_follows = false;                        ///< planar: yy of it is what plane strain makes it

@@ -80,7 +80,7 @@ void read_bodies(const Map& root, Scene& scene) {
   std::vector<std::string> materials;
   for (const MaterialDefinition& material : scene.definition.materials) materials.push_back(material.name);
   for (const Value& value : list.elements()) {
-    const Map map(value, {"name", "material", "shape", "initial", "cut_out"});
+    const Map map(value, {"name", "material", "shape", "jitter", "initial", "cut_out"});
     BodyDefinition body;
     body.name = map.at("name").name();
     for (const BodyDefinition& other : scene.bodies) {
@@ -95,6 +95,10 @@ void read_bodies(const Map& root, Scene& scene) {
     const Value shape = map.at("shape");
     body.region = read_region(shape, planar);
     body.where = shape.where();
+    if (const auto jitter = map.find("jitter")) {
+      body.jitter = jitter->non_negative(kPlain);
+      if (body.jitter > 1.0) jitter->fail(fmt::format("{} cells; write at most 1", body.jitter));
+    }
     if (const auto cut_out = map.find("cut_out")) read_cut_out(*cut_out, body);
     if (const auto initial = map.find("initial")) {
       read_initial(*initial, scene.definition.materials[found - materials.begin()], scene, body);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "mpm/scene/memory.hpp"
 #include "mpm/scene/nearest.hpp"
@@ -102,6 +103,26 @@ void check_size(const Scene& scene) {
   }
 }
 
+/// Moves each particle by a number of cells drawn evenly from [-jitter, jitter] along each axis, but not out of the
+/// body. The same draws on every machine: a fixed seed, and of the standard library only what it defines to the bit.
+void jitter(const BodyDefinition& body, const Scene& scene, std::vector<Vec3>& points) {
+  constexpr int kMostDraws = 64;  // more than enough in a body of a cell or larger; then a particle stays in its place
+  std::mt19937_64 random;
+  const std::vector<int> axes = axes_of(scene);
+  for (Vec3& point : points) {
+    for (int draw = 0; draw < kMostDraws; ++draw) {
+      Vec3 moved = point;
+      for (const int axis : axes) {
+        const double unit = std::ldexp(static_cast<double>(random() >> 11), -52) - 1.0;  // [-1, 1)
+        moved[axis] += unit * body.jitter * scene.definition.grid.cell[axis];
+      }
+      if (!body.region.contains(moved)) continue;
+      point = moved;
+      break;
+    }
+  }
+}
+
 DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
   const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
   const Box bounds = body.region.bounds();
@@ -132,6 +153,7 @@ DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
     throw SceneError(
         fmt::format("{}: body '{}' holds no particle; make it larger or grid.cell smaller", body.where, body.name));
   }
+  if (body.jitter > 0.0) jitter(body, scene, filled.positions);
   return filled;
 }
 

@@ -1,0 +1,174 @@
+// What this machine can do, and what part of it a step of the solver does: multiply-adds and memory's bandwidth
+// measured in the same run as the kernels. benchmarks/roofline --json FILE writes everything, for scripts/benchmark.
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "counted_work.hpp"
+#include "loops.hpp"
+#include "mpm/scene/scene.hpp"
+#include "mpm/simulation/simulation.hpp"
+
+namespace roofline {
+namespace {
+
+using nlohmann::json;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// Seconds of `work(thread)` on all threads together, from the common start to the end of the last.
+double seconds(int threads, const std::function<void(int)>& work) {
+  double start = 0.0;
+#pragma omp parallel num_threads(threads)
+  {
+#pragma omp barrier
+#pragma omp master
+    start = now();
+#pragma omp barrier
+    work(omp_get_thread_num());
+  }
+  return now() - start;
+}
+
+/// Best of several tries, each long enough to time: what else runs can only slow it down.
+double best_rate(int threads, double least, const std::function<double(int, long)>& count_of) {
+  constexpr int kTries = 5;
+  double best = 0.0;
+  long turns = 1;
+  for (int tries = 0; tries < kTries;) {
+    std::vector<double> counts(threads);
+    const double time = seconds(threads, [&](int t) { counts[t] = count_of(t, turns); });
+    if (time < least) {
+      turns *= time < 0.1 * least ? 8 : 2;
+      continue;
+    }
+    double total = 0.0;
+    for (const double count : counts) total += count;
+    best = std::max(best, total / time);
+    ++tries;
+  }
+  return best;
+}
+
+/// Bytes a second of the triad, with `bytes` in its three arrays together on each thread.
+double triad_rate(const Loops& loops, int threads, double bytes, double least) {
+  const auto n = static_cast<std::size_t>(bytes / (3 * sizeof(double)));
+  std::vector<std::vector<double>> arrays(threads);
+  seconds(threads, [&](int t) { arrays[t].assign(3 * n + 64, 1.0); });  // each on its own thread, so near it
+  return best_rate(threads, least, [&](int t, long turns) {
+    double* a = arrays[t].data();
+    loops.triad(a, a + n + 16, a + 2 * n + 32, n, turns);
+    return 24.0 * static_cast<double>(n) * static_cast<double>(turns);
+  });
+}
+
+struct Case {
+  const char* scene;
+  const char* update;
+  int dim;
+};
+
+/// Particle-steps a second of a shipped scene, sorting and step control included.
+double step_rate(const Case& which, int threads, double least) {
+  const mpm::Scene scene = mpm::load_scene(which.scene, {std::string("method.update=") + which.update});
+  mpm::Simulation simulation(mpm::build(scene), {threads});
+  simulation.advance();  // the first period touches memory for the first time
+  const auto steps = simulation.state().step.steps;
+  const double start = now();
+  do {
+    simulation.advance();
+  } while (now() - start < least);
+  const double time = now() - start;
+  return static_cast<double>(simulation.state().step.steps - steps) * static_cast<double>(simulation.particles()) /
+         time;
+}
+
+json measure_machine(const std::vector<int>& threads, double least) {
+  json machine = json::array();
+  for (const Loops* loops : {&kPlain, &kAvx2, &kAvx512}) {
+    if (!loops->available()) continue;
+    for (const int count : threads) {
+      json row = {{"isa", loops->isa}, {"threads", count}};
+      row["double"] = best_rate(count, least, [&](int, long turns) { return loops->multiply_add_double(turns); });
+      row["single"] = best_rate(count, least, [&](int, long turns) { return loops->multiply_add_single(turns); });
+      // Half of the nearest caches of this kind of machine, then more than its last; on each thread.
+      row["triad_l1"] = triad_rate(*loops, count, 24e3, least);
+      row["triad_l2"] = triad_rate(*loops, count, 768e3, least);
+      row["triad_memory"] = triad_rate(*loops, count, 600e6 / count, least);
+      fmt::print(
+          "{:<7} {} threads   {:6.1f} double {:6.1f} single G multiply-adds/s   {:6.1f} L1 {:6.1f} L2 {:6.1f} "
+          "memory GB/s\n",
+          loops->isa, count, 1e-9 * row["double"].get<double>(), 1e-9 * row["single"].get<double>(),
+          1e-9 * row["triad_l1"].get<double>(), 1e-9 * row["triad_l2"].get<double>(),
+          1e-9 * row["triad_memory"].get<double>());
+      machine.push_back(row);
+    }
+  }
+  return machine;
+}
+
+json measure_steps(const json& machine, const std::vector<int>& threads, double least) {
+  json steps = json::array();
+  for (const Case& which : {Case{"speed_block_3d", "usf", 3}, Case{"speed_block_3d", "usavg", 3},
+                            Case{"speed_block_2d", "usf", 2}, Case{"speed_block_2d", "usavg", 2}}) {
+    double multiply_adds = 0.0, bytes = sizeof(double) * grid_reals(which.dim);
+    json kernels = json::array();
+    for (const Work& work : counted_work(which.dim, which.update == std::string("usavg"))) {
+      multiply_adds += work.multiply_adds;
+      bytes += sizeof(double) * work.particle_reals;
+      kernels.push_back({{"kernel", work.kernel},
+                         {"multiply_adds", work.multiply_adds},
+                         {"bytes", sizeof(double) * work.particle_reals}});
+    }
+    for (const int count : threads) {
+      const double rate = step_rate(which, count, 5.0 * least);
+      // The widest registers that there are set the limit, whatever the kernels use.
+      json limit;
+      for (const json& row : machine) {
+        if (row["threads"] == count) limit = row;
+      }
+      const double arithmetic = rate * multiply_adds / limit["double"].get<double>();
+      const double bandwidth = rate * bytes / limit["triad_memory"].get<double>();
+      fmt::print(
+          "{} {:<5} {} threads   {:6.2f} M particle-steps/s   {:4.1f} % of arithmetic ({:.0f} multiply-adds), "
+          "{:4.1f} % of memory's bandwidth ({:.0f} bytes)\n",
+          which.scene, which.update, count, 1e-6 * rate, 100.0 * arithmetic, multiply_adds, 100.0 * bandwidth, bytes);
+      steps.push_back({{"scene", which.scene},
+                       {"update", which.update},
+                       {"threads", count},
+                       {"particle_steps_per_second", rate},
+                       {"multiply_adds", multiply_adds},
+                       {"bytes", bytes},
+                       {"kernels", kernels},
+                       {"limit_isa", limit["isa"]},
+                       {"of_arithmetic", arithmetic},
+                       {"of_bandwidth", bandwidth}});
+    }
+  }
+  return steps;
+}
+
+}  // namespace
+}  // namespace roofline
+
+int main(int argc, char** argv) {
+  std::string file;
+  double least = 0.2;
+  CLI::App app("Measures this machine's multiply-adds and bandwidth, and a step's share of them.");
+  app.add_option("--json", file, "write everything to this file too");
+  app.add_option("--seconds", least, "least time of one try [s]")->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+  std::vector<int> threads = {1};
+  if (omp_get_num_procs() > 1) threads.push_back(2);
+  const nlohmann::json machine = roofline::measure_machine(threads, least);
+  const nlohmann::json steps = roofline::measure_steps(machine, threads, least);
+  if (!file.empty()) std::ofstream(file) << nlohmann::json{{"machine", machine}, {"steps", steps}}.dump(1) << "\n";
+  return 0;
+}

@@ -1,0 +1,204 @@
+#!/usr/bin/python3
+"""run_benchmarks.py BUILD RESULTS.json [--quick]: runs the whole scenes, the kernel benchmarks, the roofline and the
+count of instructions with the programs below BUILD, and writes what they found for make_performance.py."""
+
+import argparse
+import datetime
+import json
+import os
+import pathlib
+import platform
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+# What is run: a name for the table, the scene, what is changed in it, and its end [s].
+CASES = [
+    ("3D block, USF", "speed_block_3d", ["method.update=usf"], "0.04"),
+    ("3D block, USF, 1,000,000 particles", "speed_block_3d_million", ["method.update=usf"], "0.02"),
+    ("3D block, USF, irregular", "speed_block_3d_irregular", ["method.update=usf"], "0.04"),
+    ("3D block, USAVG", "speed_block_3d", ["method.update=usavg"], "0.04"),
+    ("3D soil, USAVG", "speed_soil_3d", ["method.update=usavg"], "0.06"),
+    ("3D block with a tool, USF", "speed_tool_3d", ["method.update=usf"], "0.04"),
+    ("the same without the tool", "speed_tool_3d", ["method.update=usf", "rigid_bodies=[]"], "0.04"),
+    ("plane strain block, USF", "speed_block_2d", ["method.update=usf"], "0.04"),
+    ("plane strain block, USAVG", "speed_block_2d", ["method.update=usavg"], "0.04"),
+]
+ENVIRONMENT = dict(os.environ, OMP_WAIT_POLICY="passive")
+
+
+def output_of(*command):
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, env=ENVIRONMENT, check=False)
+    if done.returncode != 0:
+        raise SystemExit(f"run_benchmarks: {' '.join(map(str, command))}: exit code {done.returncode}\n{done.stderr}")
+    return done.stdout
+
+
+def works(*command):
+    command = [str(part) for part in command]
+    return subprocess.run(command, capture_output=True, env=ENVIRONMENT, check=False).returncode == 0
+
+
+def describe_machine(build):
+    cpu = json.loads(output_of("lscpu", "-J"))
+    fields = {}
+
+    def gather(entries):
+        for entry in entries:
+            fields.setdefault(entry["field"].rstrip(":"), entry["data"])
+            gather(entry.get("children", []))
+
+    gather(cpu["lscpu"])
+    cache = (build / "CMakeCache.txt").read_text()
+    compiler = re.search(r"^CMAKE_CXX_COMPILER:\w+=(.+)$", cache, re.M).group(1)
+    memory = int(re.search(r"MemTotal:\s+(\d+)", pathlib.Path("/proc/meminfo").read_text()).group(1))
+    changed = output_of("git", "-C", ROOT, "status", "--porcelain", "--untracked-files=no").strip()
+    return {
+        "processor": "{} (family {}, model {})".format(*(fields.get(f) for f in ("Model name", "CPU family", "Model"))),
+        "cores": os.cpu_count(),
+        "caches": ", ".join(f"{name.split()[0]} {fields[name]}" for name in ("L1d cache", "L2 cache", "L3 cache")
+                            if name in fields),
+        "memory": f"{memory / 2**20:.0f} GiB",
+        "system": f"{platform.freedesktop_os_release()['PRETTY_NAME']}, Linux {platform.release()}",
+        "compiler": output_of(compiler, "--version").splitlines()[0],
+        "build": re.search(r"^CMAKE_BUILD_TYPE:\w+=(.*)$", cache, re.M).group(1),
+        "version": output_of("git", "-C", ROOT, "describe", "--always").strip() + (" and changes" if changed else ""),
+        "date": datetime.date.today().isoformat(),
+        "load": os.getloadavg()[0],
+    }
+
+
+class Scenes:
+    """run_scene, with what it can do found out first."""
+
+    def __init__(self, programs):
+        self.program = programs / "run_scene"
+        self.notes = []
+        has_isa = "--isa" in output_of(self.program, "--help")
+        self.isas = []
+        for isa in ("avx512", "avx2", "plain"):
+            if has_isa and works(self.program, "speed_block_2d", "--isa", isa, "--explain"):
+                self.isas.append(isa)
+        if not has_isa:
+            self.notes.append("run_scene has no choice of instruction set: one is measured.")
+        self.precisions = [p for p in ("double", "single")
+                           if works(self.program, "speed_block_2d", "--set", f"method.precision={p}", "--explain")]
+        if "single" not in self.precisions:
+            self.notes.append("Single precision is not built.")
+
+    def run(self, scene, changes, end, threads, isa=None, prefix=()):
+        with tempfile.TemporaryDirectory() as folder:
+            summary = pathlib.Path(folder) / "summary.json"
+            command = [*prefix, self.program, scene, "--end", end, "--threads", threads, "--summary", summary]
+            for change in changes:
+                command += ["--set", change]
+            if isa:
+                command += ["--isa", isa]
+            output_of(*command)
+            return json.loads(summary.read_text())
+
+
+def measure_scenes(scenes, quick):
+    runs = []
+    for name, scene, changes, end in CASES:
+        if quick and scene.endswith("_million"):
+            continue
+        for isa in (scenes.isas[:1] if quick else scenes.isas) or [None]:
+            for precision in scenes.precisions:
+                for threads in (1, 2):
+                    runs.append({"name": name, "scene": scene, "changes": changes + [f"method.precision={precision}"],
+                                 "end": "0.02" if quick else end, "threads": threads, "isa": isa, "rates": []})
+    # Interleaved, so that what disturbs the machine for a while disturbs all of them a little.
+    rounds = 1 if quick else 5
+    for turn in range(rounds):
+        for number, run in enumerate(runs):
+            print(f"\rscenes: round {turn + 1} of {rounds}, run {number + 1} of {len(runs)} ", end="", file=sys.stderr)
+            summary = scenes.run(run["scene"], run["changes"], run["end"], run["threads"], run["isa"])
+            run["rates"].append(summary["particle_steps_per_second"])
+            run["summary"] = {key: summary[key] for key in ("particles", "steps", "method", "peak_memory_bytes",
+                                                            "state_hash")}
+    print(file=sys.stderr)
+    return runs
+
+
+def function_costs(path):
+    """Instructions by function of a callgrind output file, without those of the functions called."""
+    names, costs, current, skip = {}, {}, None, False
+    for line in path.read_text().splitlines():
+        if line.startswith("fn="):
+            key, _, name = line[3:].partition(" ")
+            if name:
+                names[key] = name
+            current = names[key]
+        elif line.startswith("cfn="):
+            key, _, name = line[4:].partition(" ")
+            if name:
+                names[key] = name
+        elif line.startswith("calls="):
+            skip = True  # the next line is the cost of what was called
+        elif line[:1] in set("0123456789+-*"):
+            if not skip and current is not None:
+                costs[current] = costs.get(current, 0) + int(line.split()[-1])
+            skip = False
+    return costs
+
+
+def count_instructions(scenes, quick):
+    """Instructions a particle-step: two runs of 8,000 particles that differ in length alone, one less the other.
+    valgrind knows no AVX-512, so the kernels are those that such a processor would get, or AVX2."""
+    isa = "avx2" if "avx2" in scenes.isas else None
+    found = []
+    for name, scene, update in (("3D block, USF", "speed_block_3d", "usf"),
+                                ("3D block, USAVG", "speed_block_3d", "usavg"),
+                                ("plane strain block, USF", "speed_block_2d", "usf")):
+        period = 0.002 if quick else 0.01
+        changes = ["grid.cell=0.02", f"time.sync={period}", f"output.period={period}", f"method.update={update}"]
+        totals = []
+        for end in (period, 2 * period):
+            print(f"\rinstructions: {name}, {end} s   ", end="", file=sys.stderr)
+            with tempfile.TemporaryDirectory() as folder:
+                file = pathlib.Path(folder) / "callgrind"
+                summary = scenes.run(scene, changes, end, 1, isa,
+                                     ("valgrind", "--tool=callgrind", f"--callgrind-out-file={file}"))
+                totals.append((summary["steps"] * summary["particles"], function_costs(file), summary))
+        more = totals[1][0] - totals[0][0]
+        costs = {function: (cost - totals[0][1].get(function, 0)) / more for function, cost in totals[1][1].items()}
+        found.append({"name": name, "particles": totals[1][2]["particles"], "isa": totals[1][2]["method"]["isa"],
+                      "total": sum(costs.values()),
+                      "functions": sorted(((f, c) for f, c in costs.items() if c >= 1.0), key=lambda pair: -pair[1])})
+    print(file=sys.stderr)
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("results", type=pathlib.Path)
+    parser.add_argument("--quick", action="store_true")
+    options = parser.parse_args()
+    programs = options.build / "devel" / "lib" / "mpm_ros"
+    results = {"machine": describe_machine(options.build), "quick": options.quick}
+    if results["machine"]["load"] > 0.5:
+        print(f"warning: the machine is busy (load {results['machine']['load']:.1f}); figures will be too low",
+              file=sys.stderr)
+    scenes = Scenes(programs)
+    results["scenes"] = measure_scenes(scenes, options.quick)
+    print("roofline", file=sys.stderr)
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "roofline.json"
+        output_of(programs / "roofline", "--json", file, "--seconds", 0.05 if options.quick else 0.2)
+        results["roofline"] = json.loads(file.read_text())
+    print("kernels", file=sys.stderr)
+    kernels = output_of(
+        programs / "kernels", "--benchmark_format=json", f"--benchmark_min_time={0.02 if options.quick else 0.5}",
+        f"--benchmark_repetitions={1 if options.quick else 5}", "--benchmark_enable_random_interleaving=true")
+    results["kernels"] = json.loads(kernels)["benchmarks"]
+    results["instructions"] = count_instructions(scenes, options.quick)
+    results["notes"] = scenes.notes
+    options.results.write_text(json.dumps(results, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

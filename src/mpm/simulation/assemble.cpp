@@ -89,9 +89,6 @@ void check(const SimulationDefinition& d) {
   if (!(d.method.damping >= 0.0) || !std::isfinite(d.method.damping)) {
     throw DefinitionError(fmt::format("method.damping is {}, must be finite and not negative", d.method.damping));
   }
-  if (d.method.precision != Precision::float64) {
-    throw DefinitionError("method.precision: the kernels of this version work in double; write double");
-  }
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
   if (d.geometry != GeometryKind::solid && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
   if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");

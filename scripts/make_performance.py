@@ -170,6 +170,12 @@ def kernels_part(benchmarks):
     return lines + table(["benchmark", "ns"], sorted(rows))
 
 
+def short(function):
+    """A C++ function without its arguments."""
+    name = function.replace("(anonymous namespace)::", "").replace("|", "")
+    return (name.split("(")[0] or name)[:110]
+
+
 def instructions_part(counts):
     lines = ["## Instructions", "",
              "Instructions a particle-step on one thread, counted by callgrind, which knows no AVX-512: a longer run "
@@ -177,9 +183,12 @@ def instructions_part(counts):
              "here than in a long period.", ""]
     for count in counts:
         lines += [f"{count['name']}, {count['particles']:,} particles, {count['isa']}: **{count['total']:.0f}**", ""]
-        shown = [pair for pair in count["functions"] if pair[1] >= 0.01 * count["total"]]
+        costs = {}
+        for function, cost in count["functions"]:
+            costs[short(function)] = costs.get(short(function), 0) + cost
+        shown = sorted(((f, c) for f, c in costs.items() if c >= 0.01 * count["total"]), key=lambda pair: -pair[1])
         lines += table(["function", "instructions", "part"],
-                       [[f"`{function.replace('|', '')[:110]}`", f"{cost:.0f}", f"{100 * cost / count['total']:.0f} %"]
+                       [[f"`{function}`", f"{cost:.0f}", f"{100 * cost / count['total']:.0f} %"]
                         for function, cost in shown])
     return lines
 

@@ -32,13 +32,13 @@ void step(benchmark::State& state, const char* scene, const std::vector<std::str
       ->UseRealTime()                                 \
       ->Unit(benchmark::kMillisecond)
 
-MPM_STEP(solid_usf, "speed_block_3d");
+MPM_STEP(solid_usf, "speed_block_3d", "method.update=usf");
 MPM_STEP(solid_usavg, "speed_block_3d", "method.update=usavg");
-MPM_STEP(planar_usf, "speed_block_2d");
+MPM_STEP(planar_usf, "speed_block_2d", "method.update=usf");
 MPM_STEP(planar_usavg, "speed_block_2d", "method.update=usavg");
-MPM_STEP(soil, "speed_soil_3d");
-MPM_STEP(with_tool, "speed_tool_3d");
-MPM_STEP(without_tool, "speed_tool_3d", "rigid_bodies=[]");
+MPM_STEP(soil, "speed_soil_3d", "method.update=usavg");
+MPM_STEP(with_tool, "speed_tool_3d", "method.update=usf");
+MPM_STEP(without_tool, "speed_tool_3d", "method.update=usf", "rigid_bodies=[]");
 
 }  // namespace
 

@@ -23,7 +23,7 @@ struct Axis {
 std::pair<double, double> evaluate(const Axis& axis) {
   const double cells = axis.particle / axis.cell;
   const int nearest = GridLayout::nearest(cells);
-  const Ugimp<double> shape(cells - nearest, 0.5 * axis.l_p, 1.0 / axis.cell);
+  const Ugimp<double> shape(cells - nearest, {0.5 * axis.l_p, 1.0 / axis.cell});
   const int place = static_cast<int>(std::lround(axis.node / axis.cell)) - nearest + 1;
   if (place < 0 || place > 2) return {0.0, 0.0};
   return {shape.s[place], shape.g[place]};
@@ -63,7 +63,7 @@ TEST(Ugimp, ReproducesConstantsAndLinearFields) {
   std::uniform_real_distribution<double> offset(-0.5, 0.5), half(0.05, 0.5);
   for (int i = 0; i < 1000; ++i) {
     const double x = offset(engine), cell = 0.3;
-    const Ugimp<double> w(x, half(engine), 1.0 / cell);
+    const Ugimp<double> w(x, {half(engine), 1.0 / cell});
     EXPECT_NEAR(w.s[0] + w.s[1] + w.s[2], 1.0, 1e-15);
     EXPECT_NEAR(w.g[0] + w.g[1] + w.g[2], 0.0, 1e-14);
     EXPECT_NEAR(w.s[2] - w.s[0], x, 1e-15);
@@ -85,16 +85,18 @@ TEST(Weights, FindTheirNodesInTheTile) {
     set.x[k] = place[k];
     block.corner[k] = GridLayout::nearest(layout.in_cells(k, place[k][0])) / 4 * 4 - mpm_kernel::kTileMargin;
   }
-  const mpm::Weights<double, 3, Ugimp> w(grid, block, set, 0, 2);
-  for (int lane = 0; lane < 2; ++lane) {
+  mpm::Weights<double, 3, Ugimp> w;
+  w.fill(mpm::WeightFrame<double, 3, Ugimp>(grid, block, set), 0, 2);
+  for (int p = 0; p < 2; ++p) {
+    const int nearest[3] = {w.node[p] / 64, w.node[p] / 8 % 8, w.node[p] % 8};
     for (int k = 0; k < 3; ++k) {
       double x = 0.0, gradient = 0.0;
       for (int n = 0; n < 3; ++n) {
-        const double node = layout.origin(k) + (block.corner[k] + w.nearest[k].v[lane] + n - 1) * layout.cell(k);
-        x += w.s[k][n].v[lane] * node;
-        gradient += w.g[k][n].v[lane] * node;
+        const double node = layout.origin(k) + (block.corner[k] + nearest[k] + n - 1) * layout.cell(k);
+        x += w.s[k][n][p] * node;
+        gradient += w.g[k][n][p] * node;
       }
-      EXPECT_NEAR(x, place[k][lane], 1e-13);
+      EXPECT_NEAR(x, place[k][p], 1e-13);
       EXPECT_NEAR(gradient, 1.0, 1e-13);
     }
   }

@@ -10,9 +10,6 @@
 
 namespace mpm {
 
-template <class T>
-constexpr bool kByColumn = Wide<T>::kLanes >= kTileEdge;
-
 /// What a row has at the nodes of a particle: the value at the nearest one, and the steps to it and from it. With them,
 /// since S sums to 1 and G to 0, a sum over three nodes is two products: sum S v = v + S+ step+ - S- step-.
 template <class T>
@@ -26,15 +23,19 @@ class ColumnReader {
   using W = Wide<T>;
 
  public:
-  template <class AllWeights>
-  ColumnReader(const AllWeights& w, int) : at_(round_to_bits(w.nearest[AllWeights::kLast])), before_(at_ - 1) {}
+  /// `last`: nearest node of each lane along the last axis.
+  ColumnReader(W last, int) : at_(round_to_bits(last)), before_(at_ - 1) {}
   template <class Row>
   RowValues<T> read(const Row& row) const {
-    const W step = W::load(row.step);
-    return {permute(W::load(row.value), at_), permute(step, before_), permute(step, at_)};
+    const W step = W::load(numbers(row.step));
+    return {permute(W::load(numbers(row.value)), at_), permute(step, before_), permute(step, at_)};
   }
 
  private:
+  template <class Values>
+  static const T* numbers(const Values& values) {
+    return reinterpret_cast<const T*>(&values);
+  }
   typename W::Integers at_, before_;
 };
 
@@ -44,8 +45,7 @@ class NodeReader {
   using B = typename Wide<T>::B;
 
  public:
-  template <class AllWeights>
-  NodeReader(const AllWeights&, int node) : at_(node % kTileEdge) {}
+  NodeReader(Wide<T>, int node) : at_(node % kTileEdge) {}
   template <class Row>
   RowValues<T> read(const Row& row) const {
     return {Wide<T>(B::set(row.value[at_])), Wide<T>(B::set(row.step[at_ - 1])), Wide<T>(B::set(row.step[at_]))};
@@ -55,39 +55,51 @@ class NodeReader {
   int at_;
 };
 
+/// Weights of one register of particles.
+template <class T, int Dim, template <class> class Shape>
+struct LaneWeights {
+  using W = Wide<T>;
+  W s[Dim][3], g[Dim][3];
+  LaneWeights(const Weights<T, Dim, Shape>& w, int q) {
+    for (int k = 0; k < Dim; ++k) {
+      for (int n = 0; n < 3; ++n) {
+        s[k][n] = W::load(w.s[k][n] + q);
+        g[k][n] = W::load(w.g[k][n] + q);
+      }
+    }
+  }
+  /// Zero where a lane is not in `which`.
+  void keep(WideMask<T> which) {
+    for (int n = 0; n < 3; ++n) {
+      s[0][n] = select(which, s[0][n], W(0.0));
+      g[0][n] = select(which, g[0][n], W(0.0));
+    }
+  }
+};
+
 template <class T, int Dim, template <class> class Shape>
 class Gather {
   using W = Wide<T>;
-  using AllWeights = Weights<T, Dim, Shape>;
+  using Lanes = LaneWeights<T, Dim, Shape>;
 
  public:
-  /// visit(reader, number of the middle row, w): w are the weights, zero where a lane is of another part. Returns how
-  /// many parts there were.
+  /// visit(reader, number of the middle row, weights) for the lanes [q, q + count) of a chunk, by parts that share a
+  /// column or a node; the weights are zero where a lane is of another part. Returns how many parts there were.
   template <class Visit>
-  static int each_part(const AllWeights& w, int count, Visit&& visit) {
-    const W place = kByColumn<T> ? w.row() : w.node();
+  static int each_part(const Weights<T, Dim, Shape>& w, int q, int count, Visit&& visit) {
+    using Reader = std::conditional_t<kByColumn<T>, ColumnReader<T>, NodeReader<T>>;
+    const W place = W::load(w.place + q), last = W::load(w.last + q);
     const unsigned lanes = WideMask<T>::first(count).bits();
     unsigned left = lanes;
-    int parts = 0;
+    int parts = 0, lane = 0;
     do {
-      const T name = lane(place, __builtin_ctz(left));
-      const WideMask<T> same = equal(place, W(name));
-      const int number = static_cast<int>(name);
-      const int row = kByColumn<T> ? number : number / kTileEdge;
+      const WideMask<T> same = equal(place, W(W::B::set(w.place[q + lane])));
       const unsigned here = same.bits() & left;
-      using Reader = std::conditional_t<kByColumn<T>, ColumnReader<T>, NodeReader<T>>;
-      const Reader reader(w, number);
-      if (here == lanes) {
-        visit(reader, row, w);
-      } else {
-        AllWeights masked = w;
-        for (int n = 0; n < 3; ++n) {
-          masked.s[0][n] = select(same, w.s[0][n], W(0.0));
-          masked.g[0][n] = select(same, w.g[0][n], W(0.0));
-        }
-        visit(reader, row, masked);
-      }
+      Lanes weights(w, q);
+      if (here != lanes) weights.keep(same);
+      visit(Reader(last, w.node[q + lane]), w.node[q + lane] / kTileEdge, weights);
       left &= ~here;
+      lane = __builtin_ctz(left | 1U << 31);
       ++parts;
     } while (left != 0);
     return parts;
@@ -95,7 +107,7 @@ class Gather {
 
   /// l[c][k] += d v_c / d x_k [1/s], GIMP notes (2.2).
   template <class Tile, class Reader>
-  static void gradient(const Tile& tile, const Reader& reader, int row, const AllWeights& w, W (&l)[Dim][Dim]) {
+  static void gradient(const Tile& tile, const Reader& reader, int row, const Lanes& w, W (&l)[Dim][Dim]) {
     each_row(row, [&](int r, int i, int j) {
       W across[Dim];  // what each component of the gradient takes of the row
       if constexpr (Dim == 3) {
@@ -117,18 +129,16 @@ class Gather {
 
   /// sum[c] += component c of the tile at the particles.
   template <int Fields, class Tile, class Reader>
-  static void values(const Tile& tile, const Reader& reader, int row, const AllWeights& w, W (&sum)[Fields]) {
+  static void values(const Tile& tile, const Reader& reader, int row, const Lanes& w, W (&sum)[Fields]) {
     each_row(row, [&](int r, int i, int j) {
       W across = w.s[0][i];
       if constexpr (Dim == 3) across *= w.s[1][j];
-      for (int c = 0; c < Fields; ++c) {
-        sum[c] += across * sum_of_s(w, reader.read(tile.rows[c][r]));
-      }
+      for (int c = 0; c < Fields; ++c) sum[c] += across * sum_of_s(w, reader.read(tile.rows[c][r]));
     });
   }
 
  private:
-  static W sum_of_s(const AllWeights& w, const RowValues<T>& at) {
+  static W sum_of_s(const Lanes& w, const RowValues<T>& at) {
     return (at.value + w.s[Dim - 1][2] * at.above) - w.s[Dim - 1][0] * at.below;
   }
 

@@ -13,8 +13,10 @@ class Passes {
   static constexpr int kDim = Geometry::kDim;
   using W = Wide<T>;
   using AllWeights = Weights<T, kDim, Shape>;
+  using Frame = WeightFrame<T, kDim, Shape>;
   using Gathers = Gather<T, kDim, Shape>;
   using Scatters = Scatter<T, kDim, Shape>;
+  using Values = typename Scatters::Values;
   using Stresses = Stress<Geometry, Shape, T>;
   using Set = SetView<T>;
 
@@ -25,128 +27,126 @@ class Passes {
   }
 
  private:
-  static void scatter_momentum(const GridView& grid_view, const BlockView& block_view, const Set* sets, int count) {
-    const GridView grid = grid_view;
-    const BlockView block = block_view;
+  static void scatter_momentum(const GridView& grid, const BlockView& block, const Set* sets, int count) {
     ScatterTile<T, kDim> tile;
     tile.clear(block);
     for (int s = 0; s < count; ++s) {
       const Set set = sets[s];
       const W mass(set.mass);
-      scatter_values(grid, block, set, tile, [&](typename Scatters::Values& values, const AllWeights& w, int q, int p,
-                                                  int lanes) {
-        W momentum[3] = {mass, mass, mass};
+      scatter_values(grid, block, set, tile, [&](Values& values, int q, int p, int lanes) {
+        W momentum[3] = {mass, mass, mass};  // in a plane the mass is the third component
         for (int c = 0; c < kDim; ++c) momentum[c] = mass * W::load_first(set.v[c] + p, lanes);
-        // In a plane the mass is the third component.
-        values.set(w, q, momentum[0], momentum[1], momentum[2], mass);
+        values.set(q, momentum[0], momentum[1], momentum[2], mass);
       });
     }
     tile.template add_to<kDim>(grid.momentum, block, 0);
     tile.template add_to<1>(grid.mass, block, kDim);
   }
 
-  static void scatter_load(const GridView& grid_view, const BlockView& block_view, const Set* sets, int count, double* field) {
-    const GridView grid = grid_view;
-    const BlockView block = block_view;
+  static void scatter_load(const GridView& grid, const BlockView& block, const Set* sets, int count, double* field) {
     ScatterTile<T, kDim> tile;
     tile.clear(block);
     for (int s = 0; s < count; ++s) {
       const Set set = sets[s];
       if (set.load[0] == nullptr) continue;
-      scatter_values(grid, block, set, tile, [&](typename Scatters::Values& values, const AllWeights& w, int q, int p,
-                                                  int lanes) {
+      scatter_values(grid, block, set, tile, [&](Values& values, int q, int p, int lanes) {
         W force[3] = {W(0.0), W(0.0), W(0.0)};
-        for (int c = 0; c < kDim; ++c) {
-          force[c] = W(W::B::place(set.load[c] + p, lanes, 0.0, set.mass, 0.0));
-        }
-        values.set(w, q, force[0], force[1], force[2], W(0.0));
+        for (int c = 0; c < kDim; ++c) force[c] = W(W::B::place(set.load[c] + p, lanes, 0.0, set.mass, 0.0));
+        values.set(q, force[0], force[1], force[2], W(0.0));
       });
     }
     tile.template add_to<kDim>(field, block, 0);
   }
 
-  static mpm_kernel::Failure strain(const GridView& grid_view, const BlockView& block_view, const Set* sets, int count,
+  static mpm_kernel::Failure strain(const GridView& grid, const BlockView& block, const Set* sets, int count,
                                     const mpm_kernel::StrainSettings& settings) {
-    const GridView grid = grid_view;
-    const BlockView block = block_view;
     GatherTile<T, kDim, kDim> velocity;
     velocity.template load<kDim>(grid.velocity, block, 0);
     ScatterTile<T, kDim> force;
     if (settings.and_force) force.clear(block);
+    AllWeights w;
     typename Stresses::Gradients gradients;
     typename Stresses::Stresses stresses;
     mpm_kernel::Failure failure{-1, 0};
     for (int s = 0; s < count; ++s) {
       const Set set = sets[s];
+      const Frame frame(grid, block, set);
       const typename Stresses::Update update = Stresses::of_law(set.law_kind);
       each_chunk(set, block.owner, [&](int first, int g, int g_end) {
-        int q = 0;
-        for (; g < g_end; ++g) {
-          const int p = set.group[g], lanes = set.group[g + 1] - set.group[g];
-          const AllWeights w(grid, block, set, p, lanes);
+        const int particles = static_cast<int>(set.group[g_end]) - first;
+        w.fill(frame, first, particles);
+        each_group(set, first, g, g_end, [&](int q, int lanes) {
           W l[kDim][kDim];
           for (auto& row : l) {
             for (W& component : row) component = W(0.0);
           }
-          Gathers::each_part(w, lanes, [&](const auto& reader, int row, const AllWeights& part) {
-            Gathers::gradient(velocity, reader, row, part, l);
+          Gathers::each_part(w, q, lanes, [&](const auto& reader, int row, const auto& weights) {
+            Gathers::gradient(velocity, reader, row, weights, l);
           });
           for (int c = 0; c < kDim; ++c) {
             for (int k = 0; k < kDim; ++k) l[c][k].store(gradients.l[c][k] + q);
           }
-          if (settings.and_force) stresses.set(w, q);
-          q += lanes;
+        });
+        const int bad = update(sets[s], first, particles, gradients, settings, settings.and_force ? &stresses : nullptr);
+        if (bad < particles && failure.set < 0) failure = {s, first + bad};
+        if (settings.and_force) {
+          Scatters::scatter(w, stresses, particles, force.data());
         }
-        const int bad = update(sets[s], first, q, gradients, settings, settings.and_force ? &stresses : nullptr);
-        if (bad < q && failure.set < 0) failure = {s, first + bad};
-        if (settings.and_force) Scatters::scatter(stresses, q, force.data);
       });
     }
     if (settings.and_force) force.template add_to<kDim>(grid.force, block, 0);
     return failure;
   }
 
-  static mpm_kernel::Moved move(const GridView& grid_view, const BlockView& block_view, const Set* sets, int count,
-                                const mpm_kernel::MoveSettings& settings) {
-    const GridView grid = grid_view;
-    const BlockView block = block_view;
+  static mpm_kernel::Moved move(const GridView& grid, const BlockView& block, const Set* sets, int count,
+                                const mpm_kernel::MoveSettings& settings_view) {
+    const mpm_kernel::MoveSettings settings = settings_view;
     GatherTile<T, kDim, 2 * kDim> motion;  // velocity, acceleration
     motion.template load<kDim>(grid.velocity, block, 0);
     motion.template load<kDim>(grid.force, block, kDim);
     ScatterTile<T, kDim> momentum;
     if (settings.regather) momentum.clear(block);
-    typename Scatters::Values values;
+    AllWeights w;
+    Values values;
+    alignas(64) T gathered[2 * kDim][kBuffer];
     mpm_kernel::Moved moved{false, false, 0, 0};
     for (int s = 0; s < count; ++s) {
       const Set set = sets[s];
-      const Reach reach(block, set);
+      const Frame frame(grid, block, set);
+      const Reach reach(grid, block, set);
       WideMask<T> inside = reach.everywhere(), tight = inside;
-      each_chunk(set, block.owner, [&](int, int g, int g_end) {
-        int q = 0;
-        for (; g < g_end; ++g) {
-          const int p = set.group[g], lanes = set.group[g + 1] - set.group[g];
-          const AllWeights w(grid, block, set, p, lanes);
+      each_chunk(set, block.owner, [&](int first, int g, int g_end) {
+        const int particles = static_cast<int>(set.group[g_end]) - first;
+        w.fill(frame, first, particles);
+        moved.groups += g_end - g;
+        each_group(set, first, g, g_end, [&](int q, int lanes) {
           W sum[2 * kDim];
           for (W& component : sum) component = W(0.0);
-          moved.parts += Gathers::each_part(w, lanes, [&](const auto& reader, int row, const AllWeights& part) {
-            Gathers::values(motion, reader, row, part, sum);
+          moved.parts += Gathers::each_part(w, q, lanes, [&](const auto& reader, int row, const auto& weights) {
+            Gathers::values(motion, reader, row, weights, sum);
           });
-          ++moved.groups;
+          for (int c = 0; c < 2 * kDim; ++c) sum[c].store(gathered[c] + q);
+        });
+        for (int q = 0; q < particles; q += W::kLanes) {
+          const int p = first + q, lanes = particles - q;
           W velocity[3] = {W(0.0), W(0.0), W(0.0)};
           for (int c = 0; c < kDim; ++c) {
             velocity[c] = W::load_first(set.v[c] + p, lanes);
-            const W displacement = advance(sum[c], sum[kDim + c], settings, velocity[c]);
+            const W displacement =
+                advance(W::load(gathered[c] + q), W::load(gathered[kDim + c] + q), settings, velocity[c]);
             velocity[c].store_first(set.v[c] + p, lanes);
             W::B::displace(set.next_x[c] + p, set.x[c] + p, displacement.v, lanes);
-            reach.check(c, w.cells[c] + displacement * W(grid.inverse_cell[c]), lanes, inside, tight);
+            reach.check(c, W::load(w.cells[c] + q), displacement, lanes, inside, tight);
           }
           if (settings.regather) {
             const W mass(set.mass);
-            values.set(w, q, mass * velocity[0], mass * velocity[1], mass * velocity[2], W(0.0));
+            values.set(q, mass * velocity[0], mass * velocity[1], mass * velocity[2], W(0.0));
           }
-          q += lanes;
         }
-        if (settings.regather) Scatters::scatter(values, q, momentum.data);
+        if (settings.regather) {
+          values.set_weights(w, particles);
+          Scatters::scatter(w, values, particles, momentum.data());
+        }
       });
       moved.gone = moved.gone || !all(inside);
       moved.loose = moved.loose || !all(tight);
@@ -167,8 +167,9 @@ class Passes {
   /// How far particles of a set may go before they have to be sorted.
   class Reach {
    public:
-    Reach(const BlockView& block, const Set& set) {
+    Reach(const GridView& grid, const BlockView& block, const Set& set) {
       for (int k = 0; k < kDim; ++k) {
+        inverse_cell_[k] = W(grid.inverse_cell[k]);
         // The nearest node must keep a neighbour on each side in the tile, or in its six nodes.
         const double lowest = set.lowest[k] - block.corner[k], highest = set.highest[k] - block.corner[k];
         const double first = 0.5 + mpm_kernel::kSlack, last = kTileEdge - 1.5 - mpm_kernel::kSlack;
@@ -177,14 +178,16 @@ class Passes {
       }
     }
     static WideMask<T> everywhere() { return WideMask<T>::first(W::kLanes); }
-    void check(int k, W cells, int lanes, WideMask<T>& inside, WideMask<T>& tight) const {
+    /// `cells`: where they were in the tile; `displacement` [m].
+    void check(int k, W cells, W displacement, int lanes, WideMask<T>& inside, WideMask<T>& tight) const {
       const WideMask<T> beyond = !WideMask<T>::first(lanes);
+      cells += displacement * inverse_cell_[k];
       inside = inside & (((cells >= lowest_[k]) & (cells <= highest_[k])) | beyond);
       tight = tight & (((cells >= W(1.5 + mpm_kernel::kSlack)) & (cells <= W(5.5 - mpm_kernel::kSlack))) | beyond);
     }
 
    private:
-    W lowest_[kDim], highest_[kDim];
+    W lowest_[kDim], highest_[kDim], inverse_cell_[kDim];
   };
 
   // visit(first particle, groups) for the set's particles of one block, at most kChunk at a time.
@@ -200,19 +203,28 @@ class Passes {
     }
   }
 
-  // fill(buffer, weights, place in the buffer, first particle, lanes) for every group; then they go to the tile.
+  // visit(place in the chunk, lanes) for each of its groups.
+  template <class Visit>
+  static void each_group(const Set& set, int first, int g, int g_end, Visit&& visit) {
+    for (; g < g_end; ++g) {
+      const int p = static_cast<int>(set.group[g]);
+      visit(p - first, static_cast<int>(set.group[g + 1]) - p);
+    }
+  }
+
+  // fill(values, place in the chunk, first particle, lanes) for all particles; then they go to the tile.
   template <class Fill>
   static void scatter_values(const GridView& grid, const BlockView& block, const Set& set, ScatterTile<T, kDim>& tile,
                              Fill&& fill) {
-    typename Scatters::Values values;
-    each_chunk(set, block.owner, [&](int, int g, int g_end) {
-      int q = 0;
-      for (; g < g_end; ++g) {
-        const int p = set.group[g], lanes = set.group[g + 1] - set.group[g];
-        fill(values, AllWeights(grid, block, set, p, lanes), q, p, lanes);
-        q += lanes;
-      }
-      Scatters::scatter(values, q, tile.data);
+    const Frame frame(grid, block, set);
+    AllWeights w;
+    Values values;
+    each_chunk(set, block.owner, [&](int first, int, int g_end) {
+      const int particles = static_cast<int>(set.group[g_end]) - first;
+      w.fill(frame, first, particles);
+      values.set_weights(w, particles);
+      for (int q = 0; q < particles; q += W::kLanes) fill(values, q, first + q, particles - q);
+      Scatters::scatter(w, values, particles, tile.data());
     });
   }
 };

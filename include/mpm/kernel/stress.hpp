@@ -68,7 +68,7 @@ class Stress {
     const W dt(settings.dt), mass(-set.mass);
     int bad = count;
     for (int q = 0; q < count; q += W::kLanes) {
-      const int p = first + q, lanes = count - q < W::kLanes ? count - q : W::kLanes;
+      const int p = first + q, lanes = count - q;
       W l[kDim][kDim];
       for (int c = 0; c < kDim; ++c) {
         for (int k = 0; k < kDim; ++k) l[c][k] = W::load(gradients.l[c][k] + q) * dt;

@@ -41,13 +41,37 @@ struct TileShape {
   static constexpr int within(int node) { return (node + 2) % 4; }
 };
 
+/// A row of a nodal field's component: 8 nodes, of which the middle four and the first and last two lie in three blocks.
+struct FieldRow {
+  typedef double Two __attribute__((vector_size(16)));
+  typedef double Four __attribute__((vector_size(32)));
+  typedef double Eight __attribute__((vector_size(64)));
+
+  template <class V>
+  static V read(const double* from) {
+    V v;
+    __builtin_memcpy(&v, from, sizeof(V));
+    return v;
+  }
+  template <class V>
+  static void add(double* to, V v) {
+    v += read<V>(to);
+    __builtin_memcpy(to, &v, sizeof(V));
+  }
+  static Eight load(const double* before, const double* middle, const double* after) {
+    const Four ends = __builtin_shufflevector(read<Two>(before + 2), read<Two>(after), 0, 1, 2, 3);
+    return __builtin_shufflevector(ends, read<Four>(middle), 0, 1, 4, 5, 6, 7, 2, 3);
+  }
+};
+
 /// `Fields` components to gather from, and beside each node's value the step to the next one along the last axis.
 template <class T, int Dim, int Fields>
 struct GatherTile {
   using Shape = TileShape<Dim>;
+  typedef T Values __attribute__((vector_size(kTileEdge * sizeof(T))));
   struct Row {
-    T value[kTileEdge];
-    T step[kTileEdge];  ///< value[z + 1] - value[z]; without a meaning for the last
+    Values value;
+    Values step;  ///< value[z + 1] - value[z]; without a meaning for the last
   };
   alignas(64) Row rows[Fields][Shape::kRows];
   T beyond[kTileEdge];  ///< read by a register that is two rows long, and not used
@@ -56,20 +80,13 @@ struct GatherTile {
   template <int Components>
   void load(const double* field, const BlockView& block, int first) {
     Shape::each_row(block, [&](int row, const int* blocks, int node) {
+      const double* part[3];
+      for (int b = 0; b < 3; ++b) part[b] = field + blocks[b] * (Components * static_cast<long>(Shape::kBlockNodes)) + node;
       for (int c = 0; c < Components; ++c) {
-        const double* part[3];
-        for (int b = 0; b < 3; ++b) {
-          part[b] = field + (static_cast<long>(blocks[b]) * Components + c) * Shape::kBlockNodes + node;
-        }
-        double value[kTileEdge];
-        for (int z = 0; z < 2; ++z) value[z] = part[0][z + 2];
-        for (int z = 0; z < 4; ++z) value[z + 2] = part[1][z];
-        for (int z = 0; z < 2; ++z) value[z + 6] = part[2][z];
-        Row& to = rows[first + c][row];
-        for (int z = 0; z < kTileEdge; ++z) to.value[z] = static_cast<T>(value[z]);
-        for (int z = 0; z < kTileEdge; ++z) {
-          to.step[z] = static_cast<T>(z + 1 < kTileEdge ? value[z + 1] - value[z] : 0.0);
-        }
+        const int at = c * Shape::kBlockNodes;
+        const FieldRow::Eight value = FieldRow::load(part[0] + at, part[1] + at, part[2] + at);
+        const FieldRow::Eight next = __builtin_shufflevector(value, value, 1, 2, 3, 4, 5, 6, 7, 7);
+        rows[first + c][row] = {__builtin_convertvector(value, Values), __builtin_convertvector(next - value, Values)};
       }
     });
   }
@@ -80,12 +97,15 @@ template <class T, int Dim>
 struct ScatterTile {
   using Shape = TileShape<Dim>;
   static constexpr int kWidth = 4;
+  typedef T Node __attribute__((vector_size(kWidth * sizeof(T))));
   // A particle's row of three nodes is written as four: one more node, for the last row.
-  alignas(64) T data[(Shape::kRows * kTileEdge + 4) * kWidth];
+  alignas(64) Node nodes[Shape::kRows * kTileEdge + 4];
+
+  T* data() { return reinterpret_cast<T*>(nodes); }
 
   void clear(const BlockView& block) {
     Shape::each_row(block, [&](int row, const int*, int) {
-      __builtin_memset(data + row * kTileEdge * kWidth, 0, sizeof(T) * kTileEdge * kWidth);
+      for (int z = 0; z < kTileEdge; ++z) nodes[row * kTileEdge + z] = Node{};
     });
   }
 
@@ -93,19 +113,40 @@ struct ScatterTile {
   template <int Components>
   void add_to(double* field, const BlockView& block, int first) const {
     Shape::each_row(block, [&](int row, const int* blocks, int node) {
-      const T* from = data + row * kTileEdge * kWidth + first;
+      Field by_component[kWidth];
+      turn(nodes + row * kTileEdge, by_component);
+      double* part[3];
+      for (int b = 0; b < 3; ++b) part[b] = field + blocks[b] * (Components * static_cast<long>(Shape::kBlockNodes)) + node;
       for (int c = 0; c < Components; ++c) {
-        double* part[3];
-        for (int b = 0; b < 3; ++b) {
-          part[b] = field + (static_cast<long>(blocks[b]) * Components + c) * Shape::kBlockNodes + node;
-        }
-        if (block.loose) part[0][2] += from[c];
-        part[0][3] += from[kWidth + c];
-        for (int z = 0; z < 4; ++z) part[1][z] += from[(z + 2) * kWidth + c];
-        part[2][0] += from[6 * kWidth + c];
-        if (block.loose) part[2][1] += from[7 * kWidth + c];
+        const int at = c * Shape::kBlockNodes;
+        const Field value = by_component[first + c];
+        FieldRow::add(part[0] + at + 2, __builtin_shufflevector(value, value, 0, 1));
+        FieldRow::add(part[1] + at, __builtin_shufflevector(value, value, 2, 3, 4, 5));
+        FieldRow::add(part[2] + at, __builtin_shufflevector(value, value, 6, 7));
       }
     });
+  }
+
+ private:
+  using Field = FieldRow::Eight;
+
+  // Eight nodes of four components to four components of eight nodes.
+  static void turn(const Node* from, Field (&to)[kWidth]) {
+    typedef T Nodes __attribute__((vector_size(2 * kWidth * sizeof(T))));
+    Field pair[4];
+    for (int z = 0; z < 4; ++z) {
+      Nodes nodes;
+      __builtin_memcpy(&nodes, from + 2 * z, sizeof(nodes));
+      pair[z] = __builtin_convertvector(nodes, Field);
+    }
+    const Field low01 = __builtin_shufflevector(pair[0], pair[1], 0, 4, 8, 12, 1, 5, 9, 13);
+    const Field low23 = __builtin_shufflevector(pair[2], pair[3], 0, 4, 8, 12, 1, 5, 9, 13);
+    const Field high01 = __builtin_shufflevector(pair[0], pair[1], 2, 6, 10, 14, 3, 7, 11, 15);
+    const Field high23 = __builtin_shufflevector(pair[2], pair[3], 2, 6, 10, 14, 3, 7, 11, 15);
+    to[0] = __builtin_shufflevector(low01, low23, 0, 1, 2, 3, 8, 9, 10, 11);
+    to[1] = __builtin_shufflevector(low01, low23, 4, 5, 6, 7, 12, 13, 14, 15);
+    to[2] = __builtin_shufflevector(high01, high23, 0, 1, 2, 3, 8, 9, 10, 11);
+    to[3] = __builtin_shufflevector(high01, high23, 4, 5, 6, 7, 12, 13, 14, 15);
   }
 };
 

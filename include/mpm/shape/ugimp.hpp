@@ -12,20 +12,25 @@ namespace mpm {
 /// Values and gradients at the three nodes nearest-1, nearest, nearest+1.
 template <class T>
 struct Ugimp {
+  /// What all particles of a body have in common along one axis.
+  struct Axis {
+    T half, scale, slope;
+    /// `half`: w, half the box in cells, (0, 1/2]; `inverse_cell` [1/m].
+    Axis(double w, double inverse_cell) : half(w), scale(1.0 / (4.0 * w)), slope(inverse_cell / (2.0 * w)) {}
+  };
+
   T s[3];  ///< shape function, sums to 1
   T g[3];  ///< gradient [1/m], sums to 0
 
-  /// `offset`: particle minus its nearest node, in cells, in [-1/2, 1/2]; `half`: w, half the box in cells, (0, 1/2].
-  Ugimp(T offset, T half, T inverse_cell) {
-    const T a = max(offset + half, T(0)), b = max(offset - half, T(0));
-    const T c = min(offset - half, T(0)), d = min(offset + half, T(0));
-    const T scale = T(1) / (T(4) * half);
-    const T slope = T(2) * scale * inverse_cell;
-    s[0] = (c * c - d * d) * scale;
-    s[2] = (a * a - b * b) * scale;
+  /// `offset`: particle minus its nearest node, in cells, in [-1/2, 1/2].
+  Ugimp(T offset, const Axis& axis) {
+    const T a = max(offset + axis.half, T(0)), b = max(offset - axis.half, T(0));
+    const T c = min(offset - axis.half, T(0)), d = min(offset + axis.half, T(0));
+    s[0] = (c * c - d * d) * axis.scale;
+    s[2] = (a * a - b * b) * axis.scale;
     s[1] = T(1) - s[0] - s[2];
-    g[0] = (c - d) * slope;
-    g[2] = (a - b) * slope;
+    g[0] = (c - d) * axis.slope;
+    g[2] = (a - b) * axis.slope;
     g[1] = -g[0] - g[2];
   }
 };

@@ -20,6 +20,8 @@ struct Backend<double> {
 
   static Vector set(double value) { return _mm256_set1_pd(value); }
   static Vector load(const double* from) { return _mm256_loadu_pd(from); }
+  /// Four numbers, over and over.
+  static Vector repeat(const double* four) { return load(four); }
   static void store(double* to, Vector v) { _mm256_storeu_pd(to, v); }
   static Mask first(int count) {
     return reinterpret_cast<Mask>(_mm256_cmpgt_epi64(_mm256_set1_epi64x(count), _mm256_setr_epi64x(0, 1, 2, 3)));
@@ -63,6 +65,9 @@ struct Backend<float> {
 
   static Vector set(float value) { return _mm256_set1_ps(value); }
   static Vector load(const float* from) { return _mm256_loadu_ps(from); }
+  static Vector repeat(const float* four) {
+    return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(four));
+  }
   static void store(float* to, Vector v) { _mm256_storeu_ps(to, v); }
   static Mask first(int count) {
     return reinterpret_cast<Mask>(

@@ -22,6 +22,8 @@ struct Backend<double> {
   static Vector set(double value) { return _mm512_set1_pd(value); }
   static Vector load(const double* from) { return _mm512_loadu_pd(from); }
   static void store(double* to, Vector v) { _mm512_storeu_pd(to, v); }
+  /// Four numbers, over and over.
+  static Vector repeat(const double* four) { return _mm512_maskz_broadcast_f64x4(kAll, _mm256_loadu_pd(four)); }
   static Mask first(int count) { return count >= 8 ? Mask(0xFF) : count <= 0 ? Mask(0) : Mask((1U << count) - 1U); }
   static Vector load_first(const double* from, int count) { return _mm512_maskz_loadu_pd(first(count), from); }
   static void store_first(double* to, Vector v, int count) { _mm512_mask_storeu_pd(to, first(count), v); }
@@ -56,6 +58,7 @@ struct Backend<float> {
   static Vector set(float value) { return _mm512_set1_ps(value); }
   static Vector load(const float* from) { return _mm512_loadu_ps(from); }
   static void store(float* to, Vector v) { _mm512_storeu_ps(to, v); }
+  static Vector repeat(const float* four) { return _mm512_maskz_broadcast_f32x4(kAll, _mm_loadu_ps(four)); }
   static Mask first(int count) {
     return count >= 16 ? Mask(0xFFFF) : count <= 0 ? Mask(0) : Mask((1U << count) - 1U);
   }

@@ -74,7 +74,7 @@ class Passes {
       const typename Stresses::Update update = Stresses::of_law(set.law_kind);
       each_chunk(set, block.owner, [&](int first, int g, int g_end) {
         const int particles = static_cast<int>(set.group[g_end]) - first;
-        w.fill(frame, first, particles);
+        w.template fill<true>(frame, first, particles);
         each_group(set, first, g, g_end, [&](int q, int lanes) {
           W l[kDim][kDim];
           for (auto& row : l) {
@@ -117,7 +117,7 @@ class Passes {
       WideMask<T> inside = reach.everywhere(), tight = inside;
       each_chunk(set, block.owner, [&](int first, int g, int g_end) {
         const int particles = static_cast<int>(set.group[g_end]) - first;
-        w.fill(frame, first, particles);
+        w.template fill<false>(frame, first, particles);
         moved.groups += g_end - g;
         each_group(set, first, g, g_end, [&](int q, int lanes) {
           W sum[2 * kDim];
@@ -221,7 +221,7 @@ class Passes {
     Values values;
     each_chunk(set, block.owner, [&](int first, int, int g_end) {
       const int particles = static_cast<int>(set.group[g_end]) - first;
-      w.fill(frame, first, particles);
+      w.template fill<false>(frame, first, particles);
       values.set_weights(w, particles);
       for (int q = 0; q < particles; q += W::kLanes) fill(values, q, first + q, particles - q);
       Scatters::scatter(w, values, particles, tile.data());

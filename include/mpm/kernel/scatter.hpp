@@ -42,11 +42,6 @@ void interleave(T* to, Wide<T> a0, Wide<T> a1, Wide<T> a2, Wide<T> a3) {
   }
 }
 
-/// Lane l of a register of a row: its component.
-struct ComponentOf {
-  static constexpr int at(int l) { return l % 4; }
-};
-
 /// Four components of three nodes (and of a fourth, zero, where a register has room) in registers.
 template <class T>
 struct NodeRow {
@@ -60,7 +55,7 @@ struct NodeRow {
   static NodeRow outer(const T (&weight)[3][kBuffer], int p, const T* component) {
     NodeRow row;
     if constexpr (kLanes > 4) {
-      const W four = W::load(component), all = shuffle<ComponentOf>(four, four);
+      const W all(B::repeat(component));
       for (int k = 0; k < kRegisters; ++k) row.r[k] = weights(weight, p, k) * all;
     } else {
       for (int k = 0; k < kRegisters; ++k) {

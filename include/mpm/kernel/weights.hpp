@@ -63,7 +63,8 @@ struct Weights {
   alignas(64) T place[kBuffer];       ///< what lanes must share to be gathered together: number of a column or a node
   alignas(64) int node[kBuffer];      ///< number in the tile of the nearest node
 
-  /// Of particles [first, first + count); what follows them in the buffer has no meaning.
+  /// Of particles [first, first + count); what follows them in the buffer has no meaning. Gradients: g too.
+  template <bool Gradients>
   void fill(const WeightFrame<T, Dim, Shape>& frame, int first, int count) {
     for (int k = 0; k < Dim; ++k) {
       const typename Shape<W>::Axis axis = frame.axis(k);
@@ -73,7 +74,7 @@ struct Weights {
         const Shape<W> shape(x - nearest, axis);
         for (int n = 0; n < 3; ++n) {
           shape.s[n].store(s[k][n] + q);
-          shape.g[n].store(g[k][n] + q);
+          if constexpr (Gradients) shape.g[n].store(g[k][n] + q);
         }
         x.store(cells[k] + q);
         const W number = k == 0 ? nearest : W::load(place + q) * W(kTileEdge) + nearest;

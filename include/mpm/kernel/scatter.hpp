@@ -68,6 +68,17 @@ struct NodeRow {
   void add(const NodeRow& a, T number) {
     for (int k = 0; k < kRegisters; ++k) r[k] += W(W::B::set(number)) * a.r[k];
   }
+  void add(const NodeRow& a) {
+    for (int k = 0; k < kRegisters; ++k) r[k] += a.r[k];
+  }
+  void subtract(const NodeRow& a) {
+    for (int k = 0; k < kRegisters; ++k) r[k] -= a.r[k];
+  }
+  NodeRow times(T number) const {
+    NodeRow row;
+    for (int k = 0; k < kRegisters; ++k) row.r[k] = W(B::set(number)) * r[k];
+    return row;
+  }
   static NodeRow zero() {
     NodeRow row;
     for (int k = 0; k < kRegisters; ++k) row.r[k] = W(0.0);
@@ -143,7 +154,9 @@ class Scatter {
     }
   };
 
-  // Rows (i, j): S_x (S_y G_z tau_z + G_y S_z tau_y) + G_x S_y S_z tau_x.
+  // Rows (i, j): S_x (S_y G_z tau_z + G_y S_z tau_y) + G_x S_y S_z tau_x. Since S sums to 1 and G to 0, what all three
+  // nodes of an axis get together is cheaper than what the middle one gets: the middle sum is the total, less the outer
+  // two in the end.
   static void scatter(const AllWeights& weights, const Stresses& from, int count, T* tile) {
     each_run(weights, count, tile, [&](int p, int end, int j0, Row (&sum)[kBatch][3]) {
       for (; p < end; ++p) {
@@ -153,16 +166,20 @@ class Scatter {
           const Row second = Row::outer(weights.s[Dim - 1], p, from.column[1] + 4 * p);
 #pragma GCC unroll 3
           for (int j = 0; j < kBatch; ++j) {
-            Row u = Row::zero(), w = Row::zero();
-            u.add(along, weights.s[1][j0 + j][p]);
-            u.add(second, weights.g[1][j0 + j][p]);
-            w.add(first, weights.s[1][j0 + j][p]);
-            add_along_first(weights, p, u, w, sum[j]);
+            if (kBatch == 3 && j == 1) {
+              add_along_first(weights, p, along, first, sum[1]);
+            } else {
+              Row u = along.times(weights.s[1][j0 + j][p]);
+              u.add(second, weights.g[1][j0 + j][p]);
+              add_along_first(weights, p, u, first.times(weights.s[1][j0 + j][p]), sum[j]);
+            }
           }
         } else {
           add_along_first(weights, p, along, first, sum[0]);
         }
       }
+      for (int j = 0; j < kBatch; ++j) leave_middle(sum[j][0], sum[j][1], sum[j][2]);
+      for (int i = 0; kBatch == 3 && i < 3; ++i) leave_middle(sum[0][i], sum[1][i], sum[2][i]);
     });
   }
 
@@ -171,11 +188,16 @@ class Scatter {
     for (int n = 0; n < 3; ++n) to[n] = W::load(from[n] + q);
   }
   static void add_along_first(const AllWeights& weights, int p, const Row& by_s, const Row& by_g, Row (&sum)[3]) {
-#pragma GCC unroll 3
-    for (int i = 0; i < 3; ++i) {
+    sum[1].add(by_s);
+#pragma GCC unroll 2
+    for (int i = 0; i < 3; i += 2) {
       sum[i].add(by_s, weights.s[0][i][p]);
       sum[i].add(by_g, weights.g[0][i][p]);
     }
+  }
+  static void leave_middle(const Row& before, Row& total, const Row& after) {
+    total.subtract(before);
+    total.subtract(after);
   }
 
   // accumulate(first, end, second axis' first node, sums) for every run of particles with one nearest node; then the

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "mpm/kernel/kernels.hpp"
+#include "mpm/kernel/wide.hpp"
 
 namespace mpm {
 
@@ -40,6 +41,9 @@ struct TileShape {
   static constexpr int part(int node) { return (node + 2) / 4; }
   static constexpr int within(int node) { return (node + 2) % 4; }
 };
+
+/// Whether a row of a tile fits into a register of doubles.
+constexpr bool kRowInRegister = Backend<double>::kLanes >= kTileEdge;
 
 /// A row of a nodal field's component: 8 nodes, of which the middle four and the first and last two lie in three blocks.
 struct FieldRow {
@@ -84,9 +88,22 @@ struct GatherTile {
       for (int b = 0; b < 3; ++b) part[b] = field + blocks[b] * (Components * static_cast<long>(Shape::kBlockNodes)) + node;
       for (int c = 0; c < Components; ++c) {
         const int at = c * Shape::kBlockNodes;
-        const FieldRow::Eight value = FieldRow::load(part[0] + at, part[1] + at, part[2] + at);
-        const FieldRow::Eight next = __builtin_shufflevector(value, value, 1, 2, 3, 4, 5, 6, 7, 7);
-        rows[first + c][row] = {__builtin_convertvector(value, Values), __builtin_convertvector(next - value, Values)};
+        Row& to = rows[first + c][row];
+        if constexpr (kRowInRegister) {
+          const FieldRow::Eight value = FieldRow::load(part[0] + at, part[1] + at, part[2] + at);
+          const FieldRow::Eight next = __builtin_shufflevector(value, value, 1, 2, 3, 4, 5, 6, 7, 7);
+          to = {__builtin_convertvector(value, Values), __builtin_convertvector(next - value, Values)};
+        } else {
+          double value[kTileEdge + 1];
+          for (int z = 0; z < 2; ++z) value[z] = part[0][at + z + 2];
+          for (int z = 0; z < 4; ++z) value[z + 2] = part[1][at + z];
+          for (int z = 0; z < 2; ++z) value[z + 6] = part[2][at + z];
+          value[kTileEdge] = value[kTileEdge - 1];
+          for (int z = 0; z < kTileEdge; ++z) {
+            to.value[z] = static_cast<T>(value[z]);
+            to.step[z] = static_cast<T>(value[z + 1] - value[z]);
+          }
+        }
       }
     });
   }
@@ -113,16 +130,23 @@ struct ScatterTile {
   template <int Components>
   void add_to(double* field, const BlockView& block, int first) const {
     Shape::each_row(block, [&](int row, const int* blocks, int node) {
+      const Node* from = nodes + row * kTileEdge;
       Field by_component[kWidth];
-      turn(nodes + row * kTileEdge, by_component);
+      if constexpr (kRowInRegister) turn(from, by_component);
       double* part[3];
       for (int b = 0; b < 3; ++b) part[b] = field + blocks[b] * (Components * static_cast<long>(Shape::kBlockNodes)) + node;
       for (int c = 0; c < Components; ++c) {
-        const int at = c * Shape::kBlockNodes;
-        const Field value = by_component[first + c];
-        FieldRow::add(part[0] + at + 2, __builtin_shufflevector(value, value, 0, 1));
-        FieldRow::add(part[1] + at, __builtin_shufflevector(value, value, 2, 3, 4, 5));
-        FieldRow::add(part[2] + at, __builtin_shufflevector(value, value, 6, 7));
+        const int at = c * Shape::kBlockNodes, k = first + c;
+        if constexpr (kRowInRegister) {
+          const Field value = by_component[k];
+          FieldRow::add(part[0] + at + 2, __builtin_shufflevector(value, value, 0, 1));
+          FieldRow::add(part[1] + at, __builtin_shufflevector(value, value, 2, 3, 4, 5));
+          FieldRow::add(part[2] + at, __builtin_shufflevector(value, value, 6, 7));
+        } else {
+          for (int z = 0; z < 2; ++z) part[0][at + z + 2] += from[z][k];
+          for (int z = 0; z < 4; ++z) part[1][at + z] += from[z + 2][k];
+          for (int z = 0; z < 2; ++z) part[2][at + z] += from[z + 6][k];
+        }
       }
     });
   }

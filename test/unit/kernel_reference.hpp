@@ -56,7 +56,8 @@ struct ReferenceNode {
   double momentum[3] = {}, velocity[3] = {}, force[3] = {}, load[3] = {};
 };
 
-template <class Geometry>
+/// Of any shape function that touches the three nearest nodes along each axis (shape/ugimp.hpp).
+template <class Geometry, template <class> class Shape = Ugimp>
 class Reference {
   static constexpr int kDim = Geometry::kDim;
   static constexpr int kEdge = 40, kBefore = 8;  // nodes -8 to 31 along each axis
@@ -175,7 +176,7 @@ class Reference {
     for (int k = 0; k < kDim; ++k) {
       const double cells = (p.x[k] - origin_[k]) / cell_[k];
       nearest[k] = static_cast<int>(std::floor(cells + 0.5));
-      const Ugimp<double> along(cells - nearest[k], set.half[k], 1.0 / cell_[k]);
+      const Shape<double> along(cells - nearest[k], set.half[k], 1.0 / cell_[k]);
       std::copy(along.s, along.s + 3, s[k]);
       std::copy(along.g, along.g + 3, g[k]);
     }

@@ -38,15 +38,19 @@ inline std::vector<Isa> available_isas() {
   return there;
 }
 
-/// `T`: what particles carry. Cells differ along the axes; they are powers of two, so that half way is exactly so.
-template <class Geometry, class T>
+/// `T`: what particles carry; `Shape`: of the reference, which goes with the kernels. Cells differ along the axes; they
+/// are powers of two, so that half way is exactly so.
+template <class Geometry, class T, template <class> class Shape = Ugimp>
 struct KernelScene {
   static constexpr int kDim = Geometry::kDim;
   static constexpr Precision kPrecision = sizeof(T) == 4 ? Precision::float32 : Precision::float64;
   using Particle = ReferenceParticle<Geometry>;
 
-  KernelScene(const paths::Specimen& specimen, Places places_of, Isa isa_of, const ContinuumSettings& more = {})
+  /// With `table` in place of uGIMP's kernels, if there is one.
+  KernelScene(const paths::Specimen& specimen, Places places_of, Isa isa_of, const ContinuumSettings& more = {},
+              const mpm_kernel::KernelTable<T>* table = nullptr)
       : isa(isa_of),
+        kernels(table != nullptr ? *table : ugimp_kernels<T>(kDim, isa)),
         places(places_of),
         grid(GridLayout(kDim, Vec3(0.125, 0.25, 0.0625), Vec3::Zero(), Vec3(3.0, 6.0, 1.5))),
         reference({}, cells(grid.layout)),
@@ -69,16 +73,15 @@ struct KernelScene {
     settings = more;
     settings.isa = isa;
     settings.gravity = Vec3(0.3, -0.2, -9.81);
-    const auto gone = Sorter(settings.threads, kernel_grouping(kDim, kPrecision, isa)).sort(sets, grid);
+    const auto gone = Sorter(settings.threads, kernel_grouping(kernels)).sort(sets, grid);
     if (gone) throw Error("a particle of the test is out of place");
     if (places == Places::mixed || places == Places::loose) move_on();
     grid.least_mass = 1e-30 * sets[0].mass;
     read_particles();
-    mechanics = make_mechanics(kDim, sets, laws, settings);
+    mechanics = make_mechanics(kernels, sets, laws, settings);
   }
 
   double smallest_cell() const { return grid.layout.smallest_cell(); }
-  const mpm_kernel::KernelTable<T>& kernels() const { return ugimp_kernels<T>(kDim, isa); }
 
   /// The reference's particles become those of the sets, in their order.
   void read_particles() {
@@ -127,9 +130,10 @@ struct KernelScene {
   }
 
   Isa isa;
+  const mpm_kernel::KernelTable<T>& kernels;
   Places places;
   Grid grid;
-  Reference<Geometry> reference;
+  Reference<Geometry, Shape> reference;
   std::mt19937 random;
   std::vector<ParticleSet> sets;
   std::vector<Law> laws;

@@ -38,7 +38,7 @@ class Run {
 
   void advance(int steps) {
     StepContext context{scene_.grid, scene_.dt};
-    Sorter sorter(scene_.settings.threads, kernel_grouping(Geometry::kDim, scene_.kPrecision, scene_.isa));
+    Sorter sorter(scene_.settings.threads, kernel_grouping(scene_.kernels));
     Stages none;
     for (int n = 0; n < steps; ++n) {
       (usavg_ ? step_usavg : step_usf)(*scene_.mechanics, none, context);

@@ -176,7 +176,7 @@ class Reference {
     for (int k = 0; k < kDim; ++k) {
       const double cells = (p.x[k] - origin_[k]) / cell_[k];
       nearest[k] = static_cast<int>(std::floor(cells + 0.5));
-      const Shape<double> along(cells - nearest[k], set.half[k], 1.0 / cell_[k]);
+      const Shape<double> along(cells - nearest[k], {set.half[k], 1.0 / cell_[k]});
       std::copy(along.s, along.s + 3, s[k]);
       std::copy(along.g, along.g + 3, g[k]);
     }

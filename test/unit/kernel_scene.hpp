@@ -20,7 +20,7 @@ enum class Places {
   mixed,      ///< moved since they were sorted, inside their blocks: groups are not what they were
   loose,      ///< moved as far as their blocks' tiles reach
   bodies,     ///< three bodies that share all blocks, of different laws
-  half_way,   ///< half way between nodes along every axis, or the next number to it
+  half_way,   ///< half way between nodes along every axis, or next to it by less than a kernel's rounding
   lone        ///< each alone in its block
 };
 constexpr Places kAllPlaces[] = {Places::lattice, Places::irregular, Places::mixed, Places::loose,
@@ -164,8 +164,9 @@ struct KernelScene {
           break;
         case Places::half_way: {
           const double middle = 4.5 + i / 2;
-          const double sides[] = {middle, std::nextafter(middle, 0.0), std::nextafter(middle, 99.0)};
-          cells[k] = sides[random() % 3];
+          const double sides[] = {middle, std::nextafter(middle, 0.0), std::nextafter(middle, 99.0), middle - 1e-10,
+                                  middle + 1e-10};
+          cells[k] = sides[random() % 5];
           break;
         }
         default:

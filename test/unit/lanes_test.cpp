@@ -185,9 +185,9 @@ TEST(Lanes, OfSinglePrecisionFollowTheDouble) {
 TEST(Lanes, OfAShapeFunctionAreAsNumbersAlone) {
   Four<double> offset;
   for (int i = 0; i < kLanes; ++i) set_lane(offset, i, -0.4 + 0.3 * i);
-  const Ugimp<Four<double>> together(offset, Four<double>(0.25), Four<double>(10.0));
+  const Ugimp<Four<double>> together(offset, {0.25, 10.0});
   for (int i = 0; i < kLanes; ++i) {
-    const Ugimp<double> alone(lane(offset, i), 0.25, 10.0);
+    const Ugimp<double> alone(lane(offset, i), {0.25, 10.0});
     for (int n = 0; n < 3; ++n) {
       EXPECT_EQ(lane(together.s[n], i), alone.s[n]);
       EXPECT_EQ(lane(together.g[n], i), alone.g[n]);

@@ -38,9 +38,8 @@ class Continuum final : public Mechanics {
   void update_momentum(StepContext& context) override {
     double gravity[3] = {};
     for (int k = 0; k < context.grid.layout.dim(); ++k) gravity[k] = settings_.gravity[context.grid.layout.axis(k)];
-    each_node_range(context.grid, [&](int first, int last) {
-      kernels_.nodal_update(grid_, first, last, context.dt, gravity);
-    });
+    each_node_range(context.grid,
+                    [&](int first, int last) { kernels_.nodal_update(grid_, first, last, context.dt, gravity); });
   }
 
   void move_particles(StepContext& context) override {
@@ -148,24 +147,37 @@ class Continuum final : public Mechanics {
   int parts_when_sorted_ = 0;
 };
 
+}  // namespace
+
 template <class T>
-Grouping grouping(const mpm_kernel::KernelTable<T>& kernels) {
+std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>& kernels, std::vector<ParticleSet>& sets,
+                                          const std::vector<Law>& laws, const ContinuumSettings& settings) {
+  return std::make_unique<Continuum<T>>(kernels, sets, laws, settings);
+}
+
+template <class T>
+Grouping kernel_grouping(const mpm_kernel::KernelTable<T>& kernels) {
   return {kernels.lanes, kernels.by_column ? Grouping::By::column : Grouping::By::node};
 }
 
-}  // namespace
+template std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<double>&, std::vector<ParticleSet>&,
+                                                   const std::vector<Law>&, const ContinuumSettings&);
+template std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<float>&, std::vector<ParticleSet>&,
+                                                   const std::vector<Law>&, const ContinuumSettings&);
+template Grouping kernel_grouping(const mpm_kernel::KernelTable<double>&);
+template Grouping kernel_grouping(const mpm_kernel::KernelTable<float>&);
 
 std::unique_ptr<Mechanics> make_mechanics(int dim, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
                                           const ContinuumSettings& settings) {
   if (sets.front().precision == Precision::float32) {
-    return std::make_unique<Continuum<float>>(ugimp_kernels<float>(dim, settings.isa), sets, laws, settings);
+    return make_mechanics(ugimp_kernels<float>(dim, settings.isa), sets, laws, settings);
   }
-  return std::make_unique<Continuum<double>>(ugimp_kernels<double>(dim, settings.isa), sets, laws, settings);
+  return make_mechanics(ugimp_kernels<double>(dim, settings.isa), sets, laws, settings);
 }
 
 Grouping kernel_grouping(int dim, Precision precision, Isa isa) {
-  return precision == Precision::float32 ? grouping(ugimp_kernels<float>(dim, isa))
-                                         : grouping(ugimp_kernels<double>(dim, isa));
+  return precision == Precision::float32 ? kernel_grouping(ugimp_kernels<float>(dim, isa))
+                                         : kernel_grouping(ugimp_kernels<double>(dim, isa));
 }
 
 }  // namespace mpm

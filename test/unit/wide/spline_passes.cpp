@@ -1,0 +1,12 @@
+// Kernels of quadratic splines, as those of uGIMP are made (src/mpm/kernel/wide).
+#include "../quadratic_spline.hpp"
+#include "mpm/kernel/passes.hpp"
+
+namespace mpm {
+
+const mpm_kernel::KernelTable<double>& solid_spline_double() {
+  static constexpr mpm_kernel::KernelTable<double> kTable = Passes<Solid, QuadraticSpline, double>::table();
+  return kTable;
+}
+
+}  // namespace mpm

@@ -13,13 +13,15 @@
 // block works on a tile, its surroundings of 8 nodes along each axis in cache (tile.hpp): copied in, computed on,
 // added out; no two blocks of one colour touch the same node. Gathers fill the lanes of a register with particles of
 // one column of nodes (gather.hpp); scatters take a particle at a time and fill the lanes with nodes and components
-// (scatter.hpp). Weights are made for a register of particles at a time and never stored (weights.hpp).
+// (scatter.hpp). Weights are made anew for every pass, a chunk of particles at a time (weights.hpp); laws take a
+// register of particles at a time, whatever column they are of (stress.hpp).
 //
 // This file is the border: plain data and a table of functions. Behind it every file is compiled once an instruction
 // set, with the namespace mpm under another name, so that nothing inline is shared; the table is chosen at run time.
 // A shape function whose support is three nodes along each axis (uGIMP, quadratic splines) is a class as in
 // shape/ugimp.hpp; one whose nodes are scattered (CPDI) brings passes of its own and fills the same table. Neither
-// touches the schedule (mechanics/continuum_impl.hpp).
+// touches the schedule (mechanics/continuum.cpp); a test does both. In a plane, what happens out of it is the policy of
+// the geometry (math/dimension.hpp): the passes ask it for the gradient and the columns of a stress.
 #pragma once
 
 #include <cstdint>

@@ -10,6 +10,9 @@
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/kernel/wide.hpp"
 
+// Vectors of eight numbers where registers are shorter: how they are passed concerns callers in other files only.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace mpm {
 
 using mpm_kernel::BlockView;

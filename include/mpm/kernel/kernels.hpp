@@ -3,7 +3,8 @@
 //   scatter_momentum   tile of m v, m       <-  particles, by S                         (nodes: v = m v / m)
 //   strain             grad v               <-  tile of v, by G                         GIMP notes (2.2)
 //     (the law)        F, tau               <-  grad v dt, a register of particles at a time
-//     and force        tile of f            <-  -m tau G                                GIMP notes (1.26); nodes: a = f / m
+//     and force        tile of f            <-  -m tau G                                GIMP notes (1.26); nodes: a = f
+//     / m
 //   move               v, x of particles    <-  tiles of v and a, by S                  GIMP notes (2.15), (2.16)
 //
 // USAVG lets `move` scatter the new momentum as well, and strains once more, each time by half a step. Loads on
@@ -28,10 +29,10 @@
 
 namespace mpm_kernel {
 
-constexpr int kTileEdge = 8;      ///< nodes of a tile along an axis
-constexpr int kTileMargin = 2;    ///< of these, before the block's first
-constexpr int kMostHistory = 3;   ///< scalars of history that a law may have
-constexpr double kSlack = 1e-5;   ///< of the limits that `move` reports on [cells]
+constexpr int kTileEdge = 8;     ///< nodes of a tile along an axis
+constexpr int kTileMargin = 2;   ///< of these, before the block's first
+constexpr int kMostHistory = 3;  ///< scalars of history that a law may have
+constexpr double kSlack = 1e-5;  ///< of the limits that `move` reports on [cells]
 
 /// The grid: nodal fields are [block][component][node], 64 nodes a block (16 in a plane).
 struct GridView {

@@ -40,7 +40,8 @@ class CornerPasses {
     mpm_kernel::Failure failure{-1, 0};
     for (int s = 0; s < count; ++s) {
       const Set& set = sets[s];
-      for (int p = static_cast<int>(set.begin[block.owner]); p < static_cast<int>(set.begin[block.owner + 1]); ++p) {
+      for (int p = static_cast<int>(set.group[set.group_begin[block.owner]]);
+           p < static_cast<int>(set.group[set.group_begin[block.owner + 1]]); ++p) {
         double l[3][3] = {};
         each_node(grid, block, set, p, [&](long, long at, double, const double* g) {
           for (int c = 0; c < 3; ++c) {
@@ -75,7 +76,8 @@ class CornerPasses {
     mpm_kernel::Moved moved{false, false, 0, 0};
     for (int s = 0; s < count; ++s) {
       const Set& set = sets[s];
-      for (int p = static_cast<int>(set.begin[block.owner]); p < static_cast<int>(set.begin[block.owner + 1]); ++p) {
+      for (int p = static_cast<int>(set.group[set.group_begin[block.owner]]);
+           p < static_cast<int>(set.group[set.group_begin[block.owner + 1]]); ++p) {
         double after[3] = {}, a[3] = {};
         each_node(grid, block, set, p, [&](long, long at, double weight, const double*) {
           for (int c = 0; c < 3; ++c) {
@@ -113,7 +115,8 @@ class CornerPasses {
   static void each(const Grid& grid, const Block& block, const Set* sets, int count, Visit&& visit) {
     for (int s = 0; s < count; ++s) {
       const Set& set = sets[s];
-      for (std::uint32_t p = set.begin[block.owner]; p < set.begin[block.owner + 1]; ++p) {
+      for (std::uint32_t p = set.group[set.group_begin[block.owner]]; p < set.group[set.group_begin[block.owner + 1]];
+           ++p) {
         each_node(grid, block, set, static_cast<int>(p), [&](long mass_at, long at, double weight, const double* g) {
           visit(set, static_cast<int>(p), mass_at, at, weight, g);
         });

@@ -42,6 +42,13 @@ struct Backend<double> {
     return _mm256_blendv_pd(b, a, reinterpret_cast<__m256d>(which));
   }
   static unsigned bits(Mask m) { return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(m))); }
+  /// Lane l of the result is lane index[l] of a; only the bits of an index that number the lanes count. No kernel does
+  /// this where a row of nodes does not fit into a register.
+  static Vector permute(Vector a, Integers index) {
+    Vector v;
+    for (int l = 0; l < kLanes; ++l) v[l] = a[index[l] % kLanes];
+    return v;
+  }
   static Vector sqrt(Vector a) { return _mm256_sqrt_pd(a); }
   static Vector max(Vector a, Vector b) { return _mm256_max_pd(a, b); }
   static Vector min(Vector a, Vector b) { return _mm256_min_pd(a, b); }
@@ -85,6 +92,10 @@ struct Backend<float> {
     return _mm256_blendv_ps(b, a, reinterpret_cast<__m256>(which));
   }
   static unsigned bits(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(m))); }
+  /// Lane l of the result is lane index[l] of a; only the bits of an index that number the lanes count.
+  static Vector permute(Vector a, Integers index) {
+    return _mm256_permutevar8x32_ps(a, reinterpret_cast<__m256i>(index));
+  }
   static Vector sqrt(Vector a) { return _mm256_sqrt_ps(a); }
   static Vector max(Vector a, Vector b) { return _mm256_max_ps(a, b); }
   static Vector min(Vector a, Vector b) { return _mm256_min_ps(a, b); }

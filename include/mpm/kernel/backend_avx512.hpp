@@ -35,6 +35,10 @@ struct Backend<double> {
   static Mask invert(Mask a) { return static_cast<Mask>(~a); }
   static Vector select(Mask which, Vector a, Vector b) { return _mm512_mask_blend_pd(which, b, a); }
   static unsigned bits(Mask m) { return m; }
+  /// Lane l of the result is lane index[l] of a; only the bits of an index that number the lanes count.
+  static Vector permute(Vector a, Integers index) {
+    return _mm512_maskz_permutexvar_pd(kAll, reinterpret_cast<__m512i>(index), a);
+  }
   static Vector sqrt(Vector a) { return _mm512_maskz_sqrt_pd(kAll, a); }
   static Vector max(Vector a, Vector b) { return _mm512_maskz_max_pd(kAll, a, b); }
   static Vector min(Vector a, Vector b) { return _mm512_maskz_min_pd(kAll, a, b); }
@@ -70,6 +74,9 @@ struct Backend<float> {
   static Mask invert(Mask a) { return static_cast<Mask>(~a); }
   static Vector select(Mask which, Vector a, Vector b) { return _mm512_mask_blend_ps(which, b, a); }
   static unsigned bits(Mask m) { return m; }
+  static Vector permute(Vector a, Integers index) {
+    return _mm512_maskz_permutexvar_ps(kAll, reinterpret_cast<__m512i>(index), a);
+  }
   static Vector sqrt(Vector a) { return _mm512_maskz_sqrt_ps(kAll, a); }
   static Vector max(Vector a, Vector b) { return _mm512_maskz_max_ps(kAll, a, b); }
   static Vector min(Vector a, Vector b) { return _mm512_maskz_min_ps(kAll, a, b); }

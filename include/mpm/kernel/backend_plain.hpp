@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 namespace mpm {
 
@@ -56,6 +57,13 @@ struct Backend {
     unsigned result = 0;
     for (int l = 0; l < kLanes; ++l) result |= static_cast<unsigned>(m[l] & 1) << l;
     return result;
+  }
+  /// Lane l of the result is lane index[l] of a; only the bits of an index that number the lanes count. No kernel does
+  /// this where a row of nodes does not fit into a register.
+  static Vector permute(Vector a, Integers index) {
+    Vector v;
+    for (int l = 0; l < kLanes; ++l) v[l] = a[index[l] % kLanes];
+    return v;
   }
   static Vector sqrt(Vector a) {
     for (int l = 0; l < kLanes; ++l) a[l] = std::sqrt(a[l]);

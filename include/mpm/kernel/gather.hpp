@@ -55,7 +55,7 @@ class NodeReader {
   int at_;
 };
 
-/// Weights of one register of particles. What is not used of them is not loaded.
+/// Weights of one register of particles. What is not used of them is not loaded, once optimised.
 template <class T, int Dim, template <class> class Shape>
 struct LaneWeights {
   using W = Wide<T>;

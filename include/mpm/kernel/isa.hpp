@@ -1,5 +1,6 @@
 // The instruction sets that the kernels are compiled for. Results of two sets differ in the last bits, since sums are
-// grouped differently; on one set they do not depend on the machine or the number of threads.
+// grouped differently and some fuse products and sums; on one set they do not depend on the machine or the number of
+// threads.
 #pragma once
 
 #include <optional>

@@ -36,7 +36,7 @@ constexpr double kSlack = 1e-5;  ///< of the limits that `move` reports on [cell
 
 /// The grid: nodal fields are [block][component][node], 64 nodes a block (16 in a plane).
 struct GridView {
-  double origin[3], cell[3], inverse_cell[3];
+  double origin[3], inverse_cell[3];
   double least_mass;  ///< a node with less takes no part [kg]
   double* mass;       ///< [kg]
   double* momentum;   ///< as gathered [N s]
@@ -55,7 +55,6 @@ struct BlockView {
 /// The particles of one body. Arrays may be read a register beyond their end.
 template <class T>
 struct SetView {
-  const std::uint32_t* begin;        ///< first particle of each owner, and one past the last
   const std::uint32_t* group;        ///< first particle of each group, and one past the last
   const std::uint32_t* group_begin;  ///< first group of each owner, and one past the last
   double mass;                       ///< of a particle [kg]

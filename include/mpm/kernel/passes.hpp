@@ -31,6 +31,7 @@ class Passes {
     ScatterTile<T, kDim> tile;
     tile.clear(block);
     for (int s = 0; s < count; ++s) {
+      if (absent(sets[s], block)) continue;
       const Set set = sets[s];
       const W mass(set.mass);
       scatter_values(grid, block, set, tile, [&](Values& values, int q, int p, int lanes) {
@@ -47,8 +48,8 @@ class Passes {
     ScatterTile<T, kDim> tile;
     tile.clear(block);
     for (int s = 0; s < count; ++s) {
+      if (absent(sets[s], block) || sets[s].load[0] == nullptr) continue;
       const Set set = sets[s];
-      if (set.load[0] == nullptr) continue;
       scatter_values(grid, block, set, tile, [&](Values& values, int q, int p, int lanes) {
         W force[3] = {W(0.0), W(0.0), W(0.0)};
         for (int c = 0; c < kDim; ++c) force[c] = W(W::B::place(set.load[c] + p, lanes, 0.0, set.mass, 0.0));
@@ -69,6 +70,7 @@ class Passes {
     typename Stresses::Stresses stresses;
     mpm_kernel::Failure failure{-1, 0};
     for (int s = 0; s < count; ++s) {
+      if (absent(sets[s], block)) continue;
       const Set set = sets[s];
       const Frame frame(grid, block, set);
       const typename Stresses::Update update = Stresses::of_law(set.law_kind);
@@ -112,6 +114,7 @@ class Passes {
     alignas(64) T gathered[2 * kDim][kBuffer];
     mpm_kernel::Moved moved{false, false, 0, 0};
     for (int s = 0; s < count; ++s) {
+      if (absent(sets[s], block)) continue;
       const Set set = sets[s];
       const Frame frame(grid, block, set);
       const Reach reach(grid, block, set);
@@ -156,6 +159,10 @@ class Passes {
     return moved;
   }
 
+  static bool absent(const Set& set, const BlockView& block) {
+    return set.group_begin[block.owner] == set.group_begin[block.owner + 1];
+  }
+
   /// The particle's velocity gains what the grid's did, less the slip that the PIC fraction takes away. Returns the
   /// displacement. GIMP notes (2.15), (2.16); method reference 6.2.
   static W advance(W grid_velocity, W acceleration, const mpm_kernel::MoveSettings& settings, W& velocity) {
@@ -173,7 +180,7 @@ class Passes {
         inverse_cell_[k] = W(grid.inverse_cell[k]);
         // The nearest node must keep a neighbour on each side in the tile, or in its six nodes.
         const double lowest = set.lowest[k] - block.corner[k], highest = set.highest[k] - block.corner[k];
-        const double first = 0.5 + mpm_kernel::kSlack, last = kTileEdge - 1.5 - mpm_kernel::kSlack;
+        const double first = lowest_nearest(true) - kBeside, last = highest_nearest(true) + kBeside;
         lowest_[k] = W(lowest > first ? lowest : first);
         highest_[k] = W(highest < last ? highest : last);
       }
@@ -184,10 +191,13 @@ class Passes {
       const WideMask<T> beyond = !WideMask<T>::first(lanes);
       cells += displacement * inverse_cell_[k];
       inside = inside & (((cells >= lowest_[k]) & (cells <= highest_[k])) | beyond);
-      tight = tight & (((cells >= W(1.5 + mpm_kernel::kSlack)) & (cells <= W(5.5 - mpm_kernel::kSlack))) | beyond);
+      tight =
+          tight &
+          (((cells >= W(lowest_nearest(false) - kBeside)) & (cells <= W(highest_nearest(false) + kBeside))) | beyond);
     }
 
    private:
+    static constexpr double kBeside = 0.5 - mpm_kernel::kSlack;  ///< how far from its nearest node a particle may be
     W lowest_[kDim], highest_[kDim], inverse_cell_[kDim];
   };
 

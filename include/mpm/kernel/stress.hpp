@@ -1,6 +1,6 @@
 // Strain and stress of a chunk of particles of one body: F <- exp(grad v dt) F and the body's law, a register of
-// particles at a time. The law is chosen once a chunk, from a table made of the closed list of laws; inside the loop
-// there is no call and no branch on it.
+// particles at a time. The law is chosen once a block, from a table made of the closed list of laws, and called
+// once a chunk; inside the loop there is no call and no branch on it.
 // Source: Nairn & Guilkey (2015) eq. (9), (64); method reference 7.
 #pragma once
 
@@ -63,6 +63,7 @@ class Stress {
   template <class LawType>
   [[gnu::flatten]] static int update(const SetView<T>& set_view, int first, int count, const Gradients& gradients,
                                      const mpm_kernel::StrainSettings& settings, Stresses* out) {
+    static_assert(std::is_trivially_copyable_v<LawType>, "laws cross the border between instruction sets as bytes");
     const SetView<T> set = set_view;
     const LawType law = *static_cast<const LawType*>(set.law);
     const W dt(settings.dt), mass(-set.mass);

@@ -18,16 +18,21 @@ namespace mpm {
 using mpm_kernel::BlockView;
 using mpm_kernel::kTileEdge;
 
+/// The nearest node of a particle along an axis, at least and at most: in the block, or (loose) one node beyond it.
+constexpr double lowest_nearest(bool loose) { return loose ? 1.0 : 2.0; }
+constexpr double highest_nearest(bool loose) { return kTileEdge - 1 - lowest_nearest(loose); }
+
 template <int Dim>
 struct TileShape {
   static constexpr int kRows = Dim == 3 ? 64 : 8;
   static constexpr int kBlockNodes = Dim == 3 ? 64 : 16;
-  static constexpr int kLoosest[2] = {1, 0}, kEnd[2] = {7, 8};
+  static constexpr int kFirst[2] = {1, 0},
+                       kEnd[2] = {7, 8};  ///< rows in use along an axis: of a tight block, of a loose one
 
   /// visit(row of the tile, the three blocks that it runs through, its first node in each).
   template <class Visit>
   static void each_row(const BlockView& block, Visit&& visit) {
-    const int first = kLoosest[block.loose], end = kEnd[block.loose];
+    const int first = kFirst[block.loose], end = kEnd[block.loose];
     if constexpr (Dim == 3) {
       for (int i = first; i < end; ++i) {
         for (int j = first; j < end; ++j) {
@@ -82,7 +87,7 @@ struct GatherTile {
     Values step;  ///< value[z + 1] - value[z]; without a meaning for the last
   };
   alignas(64) Row rows[Fields][Shape::kRows];
-  T beyond[kTileEdge];  ///< read by a register that is two rows long, and not used
+  T beyond[kTileEdge];  ///< read by a register that is two rows long (16 lanes of single precision), and not used
 
   /// Copies the `components` of a nodal field into the tile's components `first`, ….
   template <int Components>
@@ -129,6 +134,7 @@ struct ScatterTile {
     Shape::each_row(block, [&](int row, const int*, int) {
       for (int z = 0; z < kTileEdge; ++z) nodes[row * kTileEdge + z] = Node{};
     });
+    for (int z = 0; z < 4; ++z) nodes[Shape::kRows * kTileEdge + z] = Node{};
   }
 
   /// Adds the tile's components `first`, … to the `Components` of a nodal field.

@@ -1,8 +1,8 @@
 // The weights of a chunk of particles: where they are in their block's tile, the nearest node, and the shape function
 // and its gradient at that node and its two neighbours along each axis. Made anew for every pass (to store them between
 // passes costs more than they do), a chunk at a time into a buffer in cache: the passes then know where to look before
-// they get there. A shape function is a class with s[3] and g[3], made from the offset from the nearest node and an
-// Axis, its constants for a body (shape/ugimp.hpp).
+// they get there. A shape function is a class with s[3], which sum to 1, and g[3], which sum to 0 (gathers and scatters
+// count on it), made from the offset from the nearest node and an Axis, its constants for a body (shape/ugimp.hpp).
 #pragma once
 
 #include "mpm/kernel/tile.hpp"
@@ -28,7 +28,7 @@ class WeightFrame {
  public:
   using Axis = typename Shape<W>::Axis;
   WeightFrame(const GridView& grid, const BlockView& block, const SetView<T>& set)
-      : lowest_(block.loose ? 1.0 : 2.0), highest_(block.loose ? kTileEdge - 2.0 : kTileEdge - 3.0) {
+      : lowest_(lowest_nearest(block.loose)), highest_(highest_nearest(block.loose)) {
     for (int k = 0; k < Dim; ++k) {
       x_[k] = set.x[k];
       origin_[k] = grid.origin[k];
@@ -42,10 +42,11 @@ class WeightFrame {
   W cells(int k, int p, int count) const {
     return W(W::B::place(x_[k] + p, count, origin_[k], inverse_cell_[k], corner_[k]));
   }
-  /// Half way between two nodes either will do, but rounding must not choose one that the tile does not hold.
-  W nearest(W cells) const { return max(min(round(cells), highest_), lowest_); }
+  /// Half way between two nodes the upper one, as the sorter has it; and none that the tile does not hold.
+  W nearest(W cells) const { return max(min(round(cells + W(kTie)), highest_), lowest_); }
 
  private:
+  static constexpr double kTie = sizeof(T) == 8 ? 1e-9 : 2e-6;  // beyond the round-off of a place in the tile
   const double* x_[Dim];
   double origin_[Dim], inverse_cell_[Dim], corner_[Dim], half_[Dim];
   W lowest_, highest_;

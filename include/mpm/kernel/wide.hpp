@@ -7,7 +7,6 @@
 // (kernels.hpp): no inline function of one is linked into another.
 #pragma once
 
-#include <cstdint>
 #include <type_traits>
 #include <utility>
 
@@ -102,7 +101,7 @@ Wide<T> shuffle(Wide<T> a, Wide<T> b) {
 /// Lane l of the result is lane index[l] of a; of an index only the bits that number the lanes count.
 template <class T>
 Wide<T> permute(Wide<T> a, typename Wide<T>::Integers index) {
-  return Wide<T>(__builtin_shuffle(a.v, index));
+  return Wide<T>(Backend<T>::permute(a.v, index));
 }
 
 }  // namespace mpm

@@ -80,7 +80,7 @@ class DruckerPrager : public LawTraits {
     opened += T(1.0 / bulk_) * max(mean - T(cutoff_), T(0));
     mean = min(mean, T(cutoff_));
     constexpr float kAlmostNothing = std::numeric_limits<float>::min();  // a quotient for no deviator too
-    deviator = scale_shift(deviator, left / max(root_j2, T(kAlmostNothing)), T(0));
+    deviator = scale_shift(deviator, select(shears, left / max(root_j2, T(kAlmostNothing)), T(1)), T(0));
     history[kOpening] += opened;
     history[kPlasticStrain] += multiplier;
     history[kPlasticWork] += (left * multiplier + mean * (dilation + opened)) * to_tau;

@@ -19,6 +19,22 @@ mpm_kernel::GridView view_of(Grid& grid);
 template <class T>
 mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law);
 
+inline mpm_kernel::BlockView view_of(const Grid& grid, int owner) {
+  const BlockTable& blocks = grid.blocks;
+  mpm_kernel::BlockView block{owner, blocks.neighbours(owner), {}, grid.loose[owner] != 0};
+  for (int k = 0; k < grid.layout.dim(); ++k) {
+    block.corner[k] = blocks.block(blocks.owner_block(owner))[k] * kBlockEdge - mpm_kernel::kTileMargin;
+  }
+  return block;
+}
+
+/// pass(block) for every block that holds particles, in their order: for what writes to no node.
+template <class Pass>
+void each_owner_at_once(const Grid& grid, int threads, Pass&& pass) {
+#pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
+  for (int owner = 0; owner < grid.blocks.owners(); ++owner) pass(view_of(grid, owner));
+}
+
 /// pass(block) for every block that holds particles, a colour after the other.
 template <class Pass>
 void each_owner(const Grid& grid, int threads, Pass&& pass) {
@@ -29,14 +45,7 @@ void each_owner(const Grid& grid, int threads, Pass&& pass) {
     const std::vector<int>& owners = blocks.owners_of_colour(colour);
     const int count = static_cast<int>(owners.size());
 #pragma omp for schedule(dynamic, 1)
-    for (int i = 0; i < count; ++i) {
-      const int owner = owners[i];
-      mpm_kernel::BlockView block{owner, blocks.neighbours(owner), {}, grid.loose[owner] != 0};
-      for (int k = 0; k < grid.layout.dim(); ++k) {
-        block.corner[k] = blocks.block(blocks.owner_block(owner))[k] * kBlockEdge - mpm_kernel::kTileMargin;
-      }
-      pass(block);
-    }
+    for (int i = 0; i < count; ++i) pass(view_of(grid, owners[i]));
   }
 }
 

@@ -1,7 +1,7 @@
 // A contiguous array that starts on a cache line and may be read a wide register beyond its end.
 //
-// A kernel that takes several particles at once loads a whole register at any of them, the last one included; what it
-// gets beyond the end is memory of this array, of no meaning to anyone.
+// A kernel takes a register of particles at any of them, the last one included. It masks those beyond the end, whose
+// addresses are still addresses of this array.
 #pragma once
 
 #include <algorithm>

@@ -28,7 +28,8 @@ class Mechanics {
   /// A particle whose J is not positive (or not finite), found in the step, if there is one; the same one for any
   /// number of threads.
   virtual std::optional<ParticleRef> failed() const = 0;
-  /// Particles have left the reach of their blocks, or the place where they may be.
+  /// Particles have left the reach of their blocks, or the place where they may be, or so many have left their groups
+  /// that it pays to sort.
   virtual bool needs_sort() const = 0;
 };
 

@@ -1,6 +1,6 @@
 // Sorts every set of particles by grid block, and inside a block by nearest node, and tells the grid which blocks are
-// in use. Done when a particle has left the reach of its block, not every step: the tile of a block reaches two nodes
-// beyond it, one more than a sorted particle needs.
+// in use. Done when a particle has left the reach of its block or too many have left their group, not every step: the
+// tile of a block reaches two nodes beyond it, one more than a sorted particle needs.
 //
 // A stable sort has one result, so it does not depend on the number of threads. It counts in two levels: particles by
 // block, a contiguous part of them a thread and the parts in order, then the particles of a block by node, in cache. In

@@ -36,8 +36,10 @@ void Wall::momentum_gathered(StepContext& context) {
     const int first = blocks.block(b)[axis] * kBlockEdge;
     if (upper ? first + kBlockEdge <= layout.last_node(axis) : first > 0) continue;
     for (int n = 0; n < layout.nodes_per_block(); ++n) {
+      // A centre is half a cell beyond the face at most, and reaches one node beyond it.
       const int node = layout.node(blocks.block(b), n)[axis];
-      if (upper ? node >= layout.last_node(axis) : node <= 0) {
+      const int beyond = upper ? node - layout.last_node(axis) : -node;
+      if (beyond == 0 || beyond == 1) {
         const std::uint64_t id = HeldNodes::id(blocks.key(b), n);
         nodes_.push_back({{b, n}, id, held_.find(id)});
       }
@@ -47,13 +49,19 @@ void Wall::momentum_gathered(StepContext& context) {
 
 void Wall::before_strain(StepContext& context) {
   Grid& grid = context.grid;
+  if (definition_.kind != WallKind::frictional) {
+    // What always holds needs no vectors: slip takes the component along the normal, fixed takes all.
+    const bool all = definition_.kind == WallKind::fixed;
+    const int first = all ? 0 : face_ / 2, end = all ? grid.layout.dim() : first + 1;
+    for (const Node& node : nodes_) {
+      for (int k = first; k < end; ++k) grid.velocity.at(node.ref.block, k, node.ref.node) = 0.0;
+    }
+    return;
+  }
   const Vec3 n = normal(grid.layout);
-  const bool lets_go = definition_.kind == WallKind::frictional;
   for (const Node& node : nodes_) {
     const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
-    add_nodal_vector(
-        grid.velocity, grid.layout, node.ref,
-        lets_go ? strain_change(velocity, n, definition_.friction, node.hold) : change(velocity, n).velocity);
+    add_nodal_vector(grid.velocity, grid.layout, node.ref, strain_change(velocity, n, definition_.friction, node.hold));
   }
 }
 

@@ -32,11 +32,9 @@ bool isa_available(Isa isa) {
 #if defined(MPM_X86_KERNELS)
   switch (isa) {
     case Isa::avx2:
-      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+      return __builtin_cpu_supports("x86-64-v3");
     case Isa::avx512:
-      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-             __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-             __builtin_cpu_supports("avx512cd") && isa_available(Isa::avx2);
+      return __builtin_cpu_supports("x86-64-v4");
     case Isa::plain:
       break;
   }

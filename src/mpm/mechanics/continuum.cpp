@@ -24,7 +24,7 @@ class Continuum final : public Mechanics {
     look_at(context.grid);
     clear(context.grid.mass, context.grid);
     clear(context.grid.momentum, context.grid);
-    each_block(context.grid, [&](const mpm_kernel::BlockView& block) {
+    each_block(context.grid, true, [&](const mpm_kernel::BlockView& block) {
       kernels_.scatter_momentum(grid_, block, views_.data(), sets());
     });
     velocity_from_momentum(context.grid);
@@ -72,9 +72,14 @@ class Continuum final : public Mechanics {
     for (std::size_t s = 0; s < sets_.size(); ++s) views_.push_back(view_of<T>(sets_[s], laws_[s]));
   }
 
+  // Colours are for what scatters to nodes.
   template <class Pass>
-  void each_block(const Grid& grid, Pass&& pass) {
-    each_owner(grid, settings_.threads, pass);
+  void each_block(const Grid& grid, bool scatters, Pass&& pass) {
+    if (scatters) {
+      each_owner(grid, settings_.threads, pass);
+    } else {
+      each_owner_at_once(grid, settings_.threads, pass);
+    }
   }
 
   // pass(first block, last block), the blocks in use shared out among the threads.
@@ -98,7 +103,7 @@ class Continuum final : public Mechanics {
   }
 
   void strain(const Grid& grid, const mpm_kernel::StrainSettings& settings) {
-    each_block(grid, [&](const mpm_kernel::BlockView& block) {
+    each_block(grid, settings.and_force, [&](const mpm_kernel::BlockView& block) {
       const mpm_kernel::Failure failure = kernels_.strain(grid_, block, views_.data(), sets(), settings);
       if (failure.set >= 0) note_failure({failure.set, failure.particle});
     });
@@ -109,7 +114,7 @@ class Continuum final : public Mechanics {
     loose_.resize(context.grid.blocks.owners());
     std::atomic<bool> gone{false};
     std::atomic<int> groups{0}, parts{0};
-    each_block(context.grid, [&](const mpm_kernel::BlockView& block) {
+    each_block(context.grid, regather, [&](const mpm_kernel::BlockView& block) {
       const mpm_kernel::Moved moved = kernels_.move(grid_, block, views_.data(), sets(), settings);
       loose_[block.owner] = moved.loose;
       if (moved.gone) gone.store(true, std::memory_order_relaxed);

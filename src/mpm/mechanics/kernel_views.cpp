@@ -8,7 +8,6 @@ mpm_kernel::GridView view_of(Grid& grid) {
   mpm_kernel::GridView view{};
   for (int k = 0; k < grid.layout.dim(); ++k) {
     view.origin[k] = grid.layout.origin(k);
-    view.cell[k] = grid.layout.cell(k);
     view.inverse_cell[k] = grid.layout.inverse_cell(k);
   }
   view.least_mass = grid.least_mass;
@@ -22,7 +21,6 @@ mpm_kernel::GridView view_of(Grid& grid) {
 template <class T>
 mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law) {
   mpm_kernel::SetView<T> view{};
-  view.begin = set.begin.data();
   view.group = set.group.data();
   view.group_begin = set.group_begin.data();
   view.mass = set.mass;

@@ -3,12 +3,11 @@
 //   scatter_momentum   tile of m v, m       <-  particles, by S                         (nodes: v = m v / m)
 //   strain             grad v               <-  tile of v, by G                         GIMP notes (2.2)
 //     (the law)        F, tau               <-  grad v dt, a register of particles at a time
-//     and force        tile of f            <-  -m tau G                                GIMP notes (1.26); nodes: a = f
-//     / m
+//     and force        tile of f            <-  -m tau G                                GIMP notes (1.26); nodes: a = f / m
 //   move               v, x of particles    <-  tiles of v and a, by S                  GIMP notes (2.15), (2.16)
 //
 // USAVG lets `move` scatter the new momentum as well, and strains once more, each time by half a step. Loads on
-// particles add `scatter_load`.
+// particles add `scatter_load`. Between periods `survey` finds what limits the time step (survey.hpp).
 //
 // Particles lie sorted by block (4 nodes along each axis), and inside a block by nearest node, the last axis fastest. A
 // block works on a tile, its surroundings of 8 nodes along each axis in cache (tile.hpp): copied in, computed on,
@@ -29,10 +28,10 @@
 
 namespace mpm_kernel {
 
-constexpr int kTileEdge = 8;     ///< nodes of a tile along an axis
-constexpr int kTileMargin = 2;   ///< of these, before the block's first
-constexpr int kMostHistory = 3;  ///< scalars of history that a law may have
-constexpr double kSlack = 1e-5;  ///< of the limits that `move` reports on [cells]
+constexpr int kTileEdge = 8;      ///< nodes of a tile along an axis
+constexpr int kTileMargin = 2;    ///< of these, before the block's first
+constexpr int kMostHistory = 3;   ///< scalars of history that a law may have
+constexpr double kSlack = 1e-5;   ///< of the limits that `move` reports on [cells]
 
 /// The grid: nodal fields are [block][component][node], 64 nodes a block (16 in a plane).
 struct GridView {
@@ -97,6 +96,12 @@ struct Failure {
   int particle;  ///< the first whose J is not positive
 };
 
+/// The particle that limits the time step, of several.
+struct Fastest {
+  double rate;   ///< of its waves, motion and viscosity, across a cell [1/s]; perhaps not a number
+  int particle;  ///< the first one of equal rates; one whose rate is not a number comes before all others
+};
+
 /// One geometry, shape function, precision and instruction set. Functions of a block work on all sets of particles.
 template <class T>
 struct KernelTable {
@@ -106,6 +111,8 @@ struct KernelTable {
   Failure (*strain)(const GridView&, const BlockView&, const SetView<T>*, int sets, const StrainSettings&);
   Moved (*move)(const GridView&, const BlockView&, const SetView<T>*, int sets, const MoveSettings&);
   void (*scatter_load)(const GridView&, const BlockView&, const SetView<T>*, int sets, double* field);
+  /// Of particles [first, last) of a set, fewer than 2^24 of them; `cell`: the smallest edge [m].
+  Fastest (*survey)(const SetView<T>&, int first, int last, double cell);
   /// v = p / m on the nodes of blocks [first, last).
   void (*nodal_velocity)(const GridView&, int first, int last);
   /// a = f / m + gravity, v = p / m + a dt on the nodes of blocks [first, last).

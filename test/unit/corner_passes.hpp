@@ -24,7 +24,15 @@ class CornerPasses {
  public:
   /// `nodes`: whose passes over nodes are used.
   static mpm_kernel::KernelTable<double> table(const mpm_kernel::KernelTable<double>& nodes) {
-    return {1, false, &scatter_momentum, &strain, &move, &scatter_load, nodes.nodal_velocity, nodes.nodal_update};
+    return {1,
+            false,
+            &scatter_momentum,
+            &strain,
+            &move,
+            &scatter_load,
+            nodes.survey,
+            nodes.nodal_velocity,
+            nodes.nodal_update};
   }
 
  private:

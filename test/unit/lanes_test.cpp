@@ -113,6 +113,8 @@ Seen compare(const paths::Specimen& specimen, const LawType& law) {
     seen.open_apart += open > 0 && open < kLanes ? 1 : 0;
     seen.loose_apart += loose > 0 && loose < kLanes ? 1 : 0;
     const auto wide = together.state();
+    const auto wide_speed = law.wave_speed(together.f, together.tau, determinant(together.f));
+    const auto wide_diffusivity = law.diffusivity(determinant(together.f));
     for (int i = 0; i < kLanes; ++i) {
       const auto expected = alone[i].state();
       for (std::size_t c = 0; c < expected.size(); ++c) {
@@ -121,6 +123,9 @@ Seen compare(const paths::Specimen& specimen, const LawType& law) {
         EXPECT_EQ(lane(wide[c], i), expected[c])
             << specimen.material.name << " lane " << i << " step " << n << " component " << c;
       }
+      const double j = determinant(alone[i].f);
+      EXPECT_EQ(lane(wide_speed, i), law.wave_speed(alone[i].f, alone[i].tau, j)) << specimen.material.name;
+      EXPECT_EQ(lane(wide_diffusivity, i), law.diffusivity(j)) << specimen.material.name;
       if (testing::Test::HasFailure()) return seen;
     }
   }

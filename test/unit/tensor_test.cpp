@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <limits>
 #include <random>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "mpm/math/exponential.hpp"
+#include "mpm/math/principal.hpp"
 
 namespace {
 
@@ -89,6 +91,61 @@ TYPED_TEST(TensorTest, ExponentialIsTheTaylorSumToTheTermAskedFor) {
 }
 
 // Method reference 7: a pure rotation by theta a step grows J by theta^2 (k = 1) or theta^4 / 4 (k = 2).
+// Jacobi's rotations give the values; what the bounds may be off by is stated with them. Tensors with two equal values
+// and nearly so, where the third of an angle is sensitive to round-off, among those of every shape.
+template <class T>
+void expect_bounds(double round_off, double loose) {
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int n = 0; n < 20000; ++n) {
+    const double size = std::pow(10.0, 6.0 * u(engine));
+    const Matrix3<double> l = {u(engine), u(engine), u(engine), u(engine), u(engine),
+                               u(engine), u(engine), u(engine), u(engine)};
+    mpm::Symmetric3<double> s = mpm::scale_shift(mpm::left_cauchy_green(l), size, size * u(engine));
+    if (n % 2 == 0) {  // nearly a multiple of a (x) a, of either sign
+      const double a = u(engine), b = u(engine), c = u(engine), off = std::pow(10.0, -16.0 * std::abs(u(engine)));
+      const double sign = n % 4 == 0 ? 1.0 : -1.0;
+      s = mpm::sum(mpm::scale_shift(s, off, 0.0), {sign * size * a * a, sign * size * b * b, sign * size * c * c,
+                                                   sign * size * b * c, sign * size * a * c, sign * size * a * b});
+    }
+    const mpm::Symmetric3<T> held = {T(s.xx), T(s.yy), T(s.zz), T(s.yz), T(s.xz), T(s.xy)};
+    s = {held.xx, held.yy, held.zz, held.yz, held.xz, held.xy};
+    const mpm::Principal<double> exact = mpm::principal(s);
+    const auto [largest, smallest] = mpm::principal_bounds(held);
+    const double norm = std::sqrt(mpm::squared_norm(s));
+    const double deviator = std::sqrt(mpm::squared_norm(mpm::scale_shift(s, 1.0, -mpm::trace(s) / 3.0)));
+    ASSERT_GE(largest, exact.largest() - round_off * norm) << n;
+    ASSERT_LE(smallest, exact.smallest() + round_off * norm) << n;
+    ASSERT_LE(largest, exact.largest() + loose * deviator + round_off * norm) << n;
+    ASSERT_GE(smallest, exact.smallest() - loose * deviator - round_off * norm) << n;
+  }
+}
+
+TEST(PrincipalBounds, HoldAndAreTight) {
+  // Round-off of a sum of a few terms.
+  expect_bounds<double>(4.0 * std::numeric_limits<double>::epsilon(), 1e-4);
+  expect_bounds<float>(4.0 * std::numeric_limits<float>::epsilon(), 2e-3);
+}
+
+TEST(PrincipalBounds, OfEqualValuesAreExact) {
+  const auto [largest, smallest] = mpm::principal_bounds(mpm::Symmetric3<double>::isotropic(3.0));
+  EXPECT_EQ(largest, 3.0);
+  EXPECT_EQ(smallest, 3.0);
+}
+
+// A plane's values are the solid's.
+TEST(PrincipalBounds, OfAPlaneAreItsValues) {
+  std::mt19937 engine(8);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int n = 0; n < 1000; ++n) {
+    const mpm::SymmetricPlane<double> s = {u(engine), u(engine), u(engine), u(engine)};
+    const mpm::Principal<double> exact = mpm::principal(mpm::Symmetric3<double>{s.xx, s.yy, s.zz, 0.0, s.xz, 0.0});
+    const auto [largest, smallest] = mpm::principal_bounds(s);
+    EXPECT_NEAR(largest, exact.largest(), 1e-14);  // round-off of numbers below 3
+    EXPECT_NEAR(smallest, exact.smallest(), 1e-14);
+  }
+}
+
 TEST(Exponential, GrowsVolumeUnderRotationAsTheorySays) {
   const double theta = 0.1;
   MatrixPlane<double> spin{0.0, theta, -theta, 0.0, 0.0};

@@ -8,7 +8,7 @@
 //   move               v, x of particles    <-  tiles of v and a, by S                  GIMP notes (2.15), (2.16)
 //
 // USAVG lets `move` scatter the new momentum as well, and strains once more, each time by half a step. Loads on
-// particles add `scatter_load`.
+// particles add `scatter_load`. Between periods `survey` finds what limits the time step (survey.hpp).
 //
 // Particles lie sorted by block (4 nodes along each axis), and inside a block by nearest node, the last axis fastest. A
 // block works on a tile, its surroundings of 8 nodes along each axis in cache (tile.hpp): copied in, computed on,
@@ -96,6 +96,12 @@ struct Failure {
   int particle;  ///< the first whose J is not positive
 };
 
+/// The particle that limits the time step, of several.
+struct Fastest {
+  double rate;   ///< of its waves, motion and viscosity, across a cell [1/s]; perhaps not a number
+  int particle;  ///< the first one of equal rates; one whose rate is not a number comes before all others
+};
+
 /// One geometry, shape function, precision and instruction set. Functions of a block work on all sets of particles.
 template <class T>
 struct KernelTable {
@@ -105,6 +111,8 @@ struct KernelTable {
   Failure (*strain)(const GridView&, const BlockView&, const SetView<T>*, int sets, const StrainSettings&);
   Moved (*move)(const GridView&, const BlockView&, const SetView<T>*, int sets, const MoveSettings&);
   void (*scatter_load)(const GridView&, const BlockView&, const SetView<T>*, int sets, double* field);
+  /// Of particles [first, last) of a set, fewer than 2^24 of them; `cell`: the smallest edge [m].
+  Fastest (*survey)(const SetView<T>&, int first, int last, double cell);
   /// v = p / m on the nodes of blocks [first, last).
   void (*nodal_velocity)(const GridView&, int first, int last);
   /// a = f / m + gravity, v = p / m + a dt on the nodes of blocks [first, last).

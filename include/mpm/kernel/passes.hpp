@@ -5,6 +5,7 @@
 #include "mpm/kernel/gather.hpp"
 #include "mpm/kernel/nodes.hpp"
 #include "mpm/kernel/stress.hpp"
+#include "mpm/kernel/survey.hpp"
 
 namespace mpm {
 
@@ -22,8 +23,15 @@ class Passes {
 
  public:
   static constexpr mpm_kernel::KernelTable<T> table() {
-    return {W::kLanes, kByColumn<T>,  &scatter_momentum,     &strain,
-            &move,     &scatter_load, &nodal_velocity<kDim>, &nodal_update<kDim>};
+    return {W::kLanes,
+            kByColumn<T>,
+            &scatter_momentum,
+            &strain,
+            &move,
+            &scatter_load,
+            &Survey<Geometry, T>::fastest,
+            &nodal_velocity<kDim>,
+            &nodal_update<kDim>};
   }
 
  private:

@@ -44,15 +44,15 @@ class DruckerPrager : public LawTraits {
     return LinearElastic::stress_energy(scale_shift(tau, density_ / j, 0.0), bulk_, shear_) * j / density_;
   }
 
-  double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double j) const {
-    const double mean = trace(tau) / 3.0 * density_ / j;
-    const double root_j2 = std::sqrt(0.5 * squared_norm(scale_shift(tau, 1.0, -trace(tau) / 3.0))) * density_ / j;
-    const bool flows = root_j2 >= kNearYield * (strength_ - eta_ * mean);
-    // |p - q| = K (eta - eta_bar), h = G + K eta eta_bar; opened soil, which never bears pressure, does not dilate.
-    const double eta_bar = mean > -kStressFree * bulk_ ? 0.0 : eta_bar_;
-    const double half = 0.5 * bulk_ * (eta_ - eta_bar);
-    const double flow = half * half / (shear_ + bulk_ * eta_ * eta_bar);
-    return soil_wave_speed(tau, j, bulk_, shear_, density_, flows ? flow : 0.0);
+  template <class T, class Matrix, class Symmetric>
+  T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
+    const T to_cauchy = T(density_) / j, third = T(1.0 / 3.0) * trace(tau);
+    const T mean = third * to_cauchy;
+    const T root_j2 = sqrt(T(0.5) * squared_norm(scale_shift(tau, T(1), -third))) * to_cauchy;
+    const auto flows = root_j2 >= T(kNearYield) * (T(strength_) - T(eta_) * mean);
+    // Opened soil, which never bears pressure, does not dilate.
+    const T flow = select(mean > T(-kStressFree * bulk_), T(flow_stiffness(0.0)), T(flow_stiffness(eta_bar_)));
+    return soil_wave_speed(tau, j, bulk_, shear_, density_, select(flows, flow, T(0)));
   }
   double density() const { return density_; }
   double eta() const { return eta_; }
@@ -61,6 +61,12 @@ class DruckerPrager : public LawTraits {
   double strength() const { return strength_; }
 
  private:
+  /// What flow may add to rho c^2 [Pa] (opening.hpp): |p - q| = K (eta - eta_bar), h = G + K eta eta_bar.
+  double flow_stiffness(double eta_bar) const {
+    const double half = 0.5 * bulk_ * (eta_ - eta_bar);
+    return half * half / (shear_ + bulk_ * eta_ * eta_bar);
+  }
+
   /// Returns `mean` and `deviator`: to the cone or its apex in the lanes where `shears`, in all to the cut-off.
   template <class T, class Mask, class Symmetric>
   void flow(const Mask& shears, T j2, T bears, T to_tau, T& mean, Symmetric& deviator, T* history) const {

@@ -52,17 +52,18 @@ class IdealGas : public LawTraits {
   }
 
   /// c^2 = g p / rho, with g = 1 when isothermal.
-  double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double j) const {
-    return std::sqrt((adiabatic_ ? ratio_ : 1.0) * whole_pressure(tau, j));
+  template <class T, class Matrix, class Symmetric>
+  T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
+    return sqrt(T(adiabatic_ ? ratio_ : 1.0) * whole_pressure(tau, j));
   }
   double density() const { return density_; }
   double reference_temperature() const { return temperature_; }
 
  private:
   /// p J / rho0 [J/kg]
-  template <class Symmetric>
-  double whole_pressure(const Symmetric& tau, double j) const {
-    return specific_ambient_ * j - trace(tau) / 3.0;
+  template <class T, class Symmetric>
+  T whole_pressure(const Symmetric& tau, T j) const {
+    return T(specific_ambient_) * j - T(1.0 / 3.0) * trace(tau);
   }
 
   double density_, temperature_;

@@ -25,8 +25,11 @@ struct LawTraits {
   /// Whether only J of the deformation gradient matters, so that it is kept as a pure change of volume: a fluid shears
   /// without end, and det F of what it has gone through would be a small difference of large numbers.
   static constexpr bool kForgetsShape = false;
-  /// Largest kinematic viscosity for any motion [m^2/s].
-  double diffusivity(double) const { return 0.0; }
+  /// Largest kinematic viscosity for any motion, of the present J [m^2/s].
+  template <class T>
+  T diffusivity(T) const {
+    return T(0);
+  }
   /// Temperature that history counts from [K].
   double reference_temperature() const { return 0.0; }
 };

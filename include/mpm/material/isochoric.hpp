@@ -8,7 +8,6 @@
 // finds it: the slope at the root is the second invariant of b, at least 3.
 #pragma once
 
-#include <algorithm>
 #include <limits>
 
 #include "mpm/math/principal.hpp"
@@ -60,28 +59,15 @@ Symmetric stretch_isochoric(const Matrix& df, T det, const Symmetric& deviator, 
   return scale_shift(b, scale, T(-1.0 / 3.0) * scale * trace(b));
 }
 
-/// Bounds over all directions n of a wave on the acoustic tensor of tau = G dev b,
+/// Bound on rho c^2 of all waves in all directions n [Pa], of the acoustic tensor of tau = G dev b,
 ///   (G/J) [(n.bn) I - 2/3 (bn n + n bn) + 5/9 tr(b) n n],
-/// by the parts along n, across it and between the two [Pa]. Add them for springs side by side.
-struct ShearWaves {
-  double along = 0.0, across = 0.0, coupling = 0.0;
-
-  ShearWaves() = default;
-  /// `shear`: G/J [Pa]
-  ShearWaves(const Symmetric3<double>& b, double shear) {
-    const auto [largest, smallest] = principal_extremes(b);
-    along = shear * (5.0 / 9.0 * trace(b) - smallest / 3.0);
-    across = shear * largest;
-    coupling = shear * (largest - smallest) / 3.0;
-  }
-  friend ShearWaves operator+(ShearWaves a, const ShearWaves& b) {
-    a.along += b.along;
-    a.across += b.across;
-    a.coupling += b.coupling;
-    return a;
-  }
-  /// No wave has a larger rho c^2 [Pa] (Gershgorin); `bulk` comes to the part along n.
-  double stiffest(double bulk) const { return std::max(bulk + along, across) + coupling; }
-};
+/// and of what comes to the part along n [Pa], `bulk`; by the parts along n, across it and between the two
+/// (Gershgorin). `gb`: (G/J) b [Pa], of springs side by side the sum.
+template <class T, class Symmetric>
+T stiffest_wave(const Symmetric& gb, T bulk) {
+  const auto [largest, smallest] = principal_bounds(gb);
+  const T along = bulk + T(5.0 / 9.0) * trace(gb) - T(1.0 / 3.0) * smallest;
+  return max(along, largest) + T(1.0 / 3.0) * (largest - smallest);
+}
 
 }  // namespace mpm

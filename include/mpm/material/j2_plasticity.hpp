@@ -60,10 +60,12 @@ class J2Plasticity : public LawTraits {
   }
 
   /// Of the elastic response; plastic flow is slower.
-  double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double j) const {
-    const Symmetric3<double> deviator = elastic_deviator<double>(tau);
-    const ShearWaves waves(scale_shift(deviator, 1.0, 1.0 + isochoric_excess(deviator)), shear_ / j);
-    return std::sqrt(waves.stiffest(NeoHookean::volume_stiffness(j, bulk_)) * j / density_);
+  template <class T, class Matrix, class Symmetric>
+  T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
+    const Symmetric deviator = elastic_deviator<T>(tau);
+    const T modulus = T(shear_) / j;
+    const Symmetric gb = scale_shift(deviator, modulus, modulus * (T(1) + isochoric_excess(deviator)));
+    return sqrt(stiffest_wave(gb, NeoHookean::volume_stiffness(j, bulk_)) * j * T(1.0 / density_));
   }
   double density() const { return density_; }
 

@@ -3,9 +3,6 @@
 // paths, and simple shear follows G sin(gamma) (exact-solutions 4). Source: method reference 10.1.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "mpm/material/definition.hpp"
 #include "mpm/material/increment.hpp"
 #include "mpm/math/tensor.hpp"
@@ -46,20 +43,25 @@ class LinearElastic : public LawTraits {
     return pressure * pressure / (2.0 * bulk) + deviator2 / (4.0 * shear);
   }
 
-  double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double j) const {
-    return tangent_wave_speed(tau, j, bulk_, shear_, density_);
+  template <class T, class Matrix, class Symmetric>
+  T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
+    return tangent_wave_speed(tau, j, bulk_, shear_, density_, T(0));
   }
   /// Bound on the fastest small wave: longitudinal, to which the stress that is there adds nothing (Jaumann rate of
   /// Cauchy stress), or transverse, G + (s1 - s3)/2 at most, with s1 - s3 <= sqrt(2) |dev s|.
   /// `flow`: what more there is [Pa].
-  static double tangent_wave_speed(const Symmetric3<double>& tau, double j, double bulk, double shear, double density,
-                                   double flow = 0.0) {
-    const double deviator = std::sqrt(squared_norm(scale_shift(tau, 1.0, -trace(tau) / 3.0))) * density / j;
-    return std::sqrt((std::max(bulk + 4.0 / 3.0 * shear, shear + deviator / std::sqrt(2.0)) + flow) * j / density);
+  template <class T, class Symmetric>
+  static T tangent_wave_speed(const Symmetric& tau, T j, double bulk, double shear, double density, T flow) {
+    const T deviator = sqrt(squared_norm(scale_shift(tau, T(1), T(-1.0 / 3.0) * trace(tau)))) * T(density) / j;
+    const T along = T(bulk + 4.0 / 3.0 * shear), across = T(shear) + T(1.0 / kRoot2) * deviator;
+    // Not max(): what is not a number must not pass unnoticed.
+    return sqrt((select(across <= along, along, across) + flow) * j * T(1.0 / density));
   }
   double density() const { return density_; }
 
  private:
+  static constexpr double kRoot2 = 1.4142135623730951;
+
   double density_, bulk_, shear_;
 };
 

@@ -88,14 +88,19 @@ class MohrCoulomb : public LawTraits {
     return LinearElastic::stress_energy(scale_shift(tau, density_ / j, 0.0), bulk_, shear_) * j / density_;
   }
 
-  double wave_speed(const Matrix3<double>&, const Symmetric3<double>& tau, double j) const {
-    const auto [largest, smallest] = principal_extremes(scale_shift(tau, density_ / j, 0.0));
-    const bool flows = largest - smallest >= kNearYield * (strength_ - (largest + smallest) * sin_friction_);
-    const bool open = trace(tau) / 3.0 * density_ / j > -kStressFree * bulk_;
-    double flow = flows ? flow_stiffness(open ? 0.0 : sin_dilation_) : 0.0;
+  template <class T, class Matrix, class Symmetric>
+  T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
+    const Symmetric cauchy = scale_shift(tau, T(density_) / j, T(0));
+    const auto [largest, smallest] = principal_bounds(cauchy);
+    const auto flows = largest - smallest >= T(kNearYield) * (T(strength_) - (largest + smallest) * T(sin_friction_));
+    const auto open = trace(cauchy) > T(-3.0 * kStressFree * bulk_);
+    T flow = select(flows, select(open, T(open_flow_), T(closed_flow_)), T(0));
     // use_room(): volume is free, 4/3 G for shear and (|p - q|/2)^2 / h = 3/4 G at most; more than elastic if K < 3/4
     // G.
-    if (open && !cutoff_is_apex_ && largest >= kNearYield * cutoff_) flow = std::max(flow, 0.75 * shear_ - bulk_);
+    if (!cutoff_is_apex_ && 0.75 * shear_ > bulk_) {
+      const auto has_room = open & (largest >= T(kNearYield * cutoff_));
+      flow = select(has_room, max(flow, T(0.75 * shear_ - bulk_)), flow);
+    }
     return soil_wave_speed(tau, j, bulk_, shear_, density_, flow);
   }
   double density() const { return density_; }
@@ -261,6 +266,7 @@ class MohrCoulomb : public LawTraits {
   double strength_;  ///< 2 c cos(phi) [Pa]
   double cutoff_;    ///< largest principal stress [Pa]
   bool cutoff_is_apex_;
+  double open_flow_, closed_flow_;  ///< flow_stiffness() of soil that has opened, and of other
 };
 
 }  // namespace mpm

@@ -33,16 +33,21 @@ class NeoHookean : public LawTraits {
   }
 
   /// Bound on the fastest small wave on the present state, exact without deviatoric stretch.
-  double wave_speed(const Matrix3<double>& f, const Symmetric3<double>&, double j) const {
-    const ShearWaves waves(left_cauchy_green(f), shear_ * std::pow(j, -5.0 / 3.0));
-    return std::sqrt(waves.stiffest(volume_stiffness(j, bulk_)) * j / density_);
+  template <class T, class Matrix, class Symmetric>
+  T wave_speed(const Matrix& f, const Symmetric&, T j) const {
+    const T root = inverse_cbrt(j), square = root * root;
+    const Symmetric gb = scale_shift(left_cauchy_green(f), T(shear_) * square * square * root, T(0));
+    return sqrt(stiffest_wave(gb, volume_stiffness(j, bulk_)) * j * T(1.0 / density_));
   }
   double density() const { return density_; }
 
   /// K/2 [(J^2 - 1)/2 - ln J] [Pa]: of all laws with this pressure.
   static double volume_energy(double j, double bulk) { return 0.5 * bulk * (0.5 * (j * j - 1.0) - std::log(j)); }
   /// Its part of rho c^2 along a wave [Pa].
-  static double volume_stiffness(double j, double bulk) { return 0.5 * bulk * (j + 1.0 / j); }
+  template <class T>
+  static T volume_stiffness(T j, double bulk) {
+    return T(0.5 * bulk) * (j + T(1) / j);
+  }
 
  private:
   double density_, bulk_, shear_;

@@ -6,7 +6,6 @@
 // Mach number is the user's to keep small. Source: Monaghan (1994), J. Comput. Phys. 110 (Tait's form).
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "mpm/material/definition.hpp"
@@ -56,12 +55,19 @@ class NewtonianFluid : public LawTraits {
 
   /// Of pressure. Where tension is cut there is none: that of the fluid's own density stands in, for it may close
   /// again.
-  double wave_speed(const Matrix3<double>&, const Symmetric3<double>&, double j) const {
-    const double closed = tension_ ? j : std::min(j, 1.0);
-    return std::sqrt(bulk_ * std::pow(closed, 1.0 - exponent_) / density_);
+  template <class T, class Matrix, class Symmetric>
+  T wave_speed(const Matrix&, const Symmetric&, T j) const {
+    const T closed = tension_ ? j : select(j > T(1), T(1), j);
+    const T power = whole_exponent_ == 1  ? T(1)
+                    : whole_exponent_ > 1 ? whole_power(T(1) / closed, whole_exponent_ - 1)
+                                          : pow(closed, T(1.0 - exponent_));
+    return sqrt(T(bulk_ / density_) * power);
   }
   /// Of the longitudinal motion, the fastest.
-  double diffusivity(double j) const { return 4.0 / 3.0 * viscosity_ * j / density_; }
+  template <class T>
+  T diffusivity(T j) const {
+    return T(4.0 / 3.0 * viscosity_ / density_) * j;
+  }
   double density() const { return density_; }
 
  private:

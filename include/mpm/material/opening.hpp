@@ -2,9 +2,6 @@
 // would turn into spurious stress on the way back. Shared by the laws of soil.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "mpm/material/linear_elastic.hpp"
 
 namespace mpm {
@@ -27,10 +24,11 @@ T close_opening(T mean, double bulk, T& opening) {
 /// as dense as at the start then. `flow`: what plastic flow adds to rho c^2 where it goes on [Pa]; more than nothing
 /// for a flow that is not associated: with p = C m n and q = C f n of the flow m and the yield surface's normal f, the
 /// acoustic tensor is Q - p q / h, h = f C m, whose eigenvalues exceed those of Q by (|p - q|/2)^2 / h at most.
-inline double soil_wave_speed(const Symmetric3<double>& tau, double j, double bulk, double shear, double density,
-                              double flow) {
-  const bool bears = std::abs(trace(tau)) / 3.0 * density > kStressFree * bulk;
-  return LinearElastic::tangent_wave_speed(tau, bears ? j : std::min(j, 1.0), bulk, shear, density, flow);
+template <class T, class Symmetric>
+T soil_wave_speed(const Symmetric& tau, T j, double bulk, double shear, double density, T flow) {
+  const auto bears = abs(trace(tau)) > T(3.0 * kStressFree * bulk / density);
+  const T closed = select((j > T(1)) & !bears, T(1), j);
+  return LinearElastic::tangent_wave_speed(tau, closed, bulk, shear, density, flow);
 }
 
 }  // namespace mpm

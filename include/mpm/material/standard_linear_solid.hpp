@@ -11,8 +11,6 @@
 // strain, the same to first order in the branch's strain.
 #pragma once
 
-#include <cmath>
-
 #include "mpm/material/definition.hpp"
 #include "mpm/material/increment.hpp"
 #include "mpm/material/isochoric.hpp"
@@ -60,11 +58,16 @@ class StandardLinearSolid : public LawTraits {
   }
 
   /// Of the response without time to relax.
-  double wave_speed(const Matrix3<double>& f, const Symmetric3<double>& tau, double j) const {
-    const Symmetric3<double> deviator = isochoric_deviator(f, j), branch = branch_deviator(deviator, tau);
-    const auto with_mean = [](const Symmetric3<double>& d) { return scale_shift(d, 1.0, 1.0 + isochoric_excess(d)); };
-    const ShearWaves waves = ShearWaves(with_mean(deviator), shear_ / j) + ShearWaves(with_mean(branch), branch_ / j);
-    return std::sqrt(waves.stiffest(NeoHookean::volume_stiffness(j, bulk_)) * j / density_);
+  template <class T, class Matrix, class Symmetric>
+  T wave_speed(const Matrix& f, const Symmetric& tau, T j) const {
+    const Symmetric strain = left_cauchy_green(f);
+    const T root = inverse_cbrt(j), scale = root * root, mean = T(1.0 / 3.0) * scale * trace(strain);
+    const T excess = isochoric_excess(branch_deviator(scale_shift(strain, scale, -mean), tau));
+    // The springs' deviators together are that of tau.
+    const T inverse = T(1) / j, stress = T(density_) * inverse;
+    const T means = (T(shear_) * mean + T(branch_) * (T(1) + excess)) * inverse;
+    const Symmetric gb = scale_shift(tau, stress, means - T(1.0 / 3.0) * stress * trace(tau));
+    return sqrt(stiffest_wave(gb, NeoHookean::volume_stiffness(j, bulk_)) * j * T(1.0 / density_));
   }
   double density() const { return density_; }
 

@@ -8,6 +8,12 @@
 
 namespace mpm {
 
+/// A particle that limits the time step.
+struct FastestParticle {
+  double rate = -1.0;  ///< of its waves, motion and viscosity, across a cell [1/s]; not a number if that of any is not
+  int index = 0;       ///< in its set
+};
+
 class Mechanics {
  public:
   virtual ~Mechanics() = default;
@@ -28,6 +34,8 @@ class Mechanics {
   /// A particle whose J is not positive (or not finite), found in the step, if there is one; the same one for any
   /// number of threads.
   virtual std::optional<ParticleRef> failed() const = 0;
+  /// Of the particles of a set, in their present state; of equal rates the first one. `cell`: the smallest edge [m].
+  virtual FastestParticle fastest(int set, double cell) const = 0;
   /// Particles have left the reach of their blocks, or the place where they may be, or so many have left their groups
   /// that it pays to sort.
   virtual bool needs_sort() const = 0;

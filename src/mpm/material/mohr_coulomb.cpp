@@ -15,6 +15,8 @@ MohrCoulomb::MohrCoulomb(const MohrCoulombDefinition& d, double density)
       sin_friction_ > 0.0 ? d.cohesion / std::tan(d.friction_angle) : std::numeric_limits<double>::infinity();
   cutoff_is_apex_ = d.tension_cutoff < 0.0 || d.tension_cutoff >= apex;
   cutoff_ = cutoff_is_apex_ ? apex : d.tension_cutoff;
+  open_flow_ = flow_stiffness(0.0);
+  closed_flow_ = flow_stiffness(sin_dilation_);
 }
 
 }  // namespace mpm

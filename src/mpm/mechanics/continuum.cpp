@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/kernel_views.hpp"
@@ -60,6 +61,20 @@ class Continuum final : public Mechanics {
   }
 
   std::optional<ParticleRef> failed() const override { return failed_; }
+  FastestParticle fastest(int set, double cell) const override {
+    const mpm_kernel::SetView<T> view = view_of<T>(sets_[set], laws_[set]);
+    const int count = sets_[set].size(), groups = (count + kSurveyed - 1) / kSurveyed;
+    std::vector<mpm_kernel::Fastest> of_group(groups);
+#pragma omp parallel for schedule(static) num_threads(settings_.threads)
+    for (int g = 0; g < groups; ++g) {
+      of_group[g] = kernels_.survey(view, g * kSurveyed, std::min(count, (g + 1) * kSurveyed), cell);
+    }
+    FastestParticle found;
+    for (const mpm_kernel::Fastest& one : of_group) {
+      if (!(one.rate <= found.rate) && !std::isnan(found.rate)) found = {one.rate, one.particle};
+    }
+    return found;
+  }
   bool needs_sort() const override { return needs_sort_; }
 
  private:
@@ -138,6 +153,7 @@ class Continuum final : public Mechanics {
 
   /// Part of the groups that may be gathered twice before it pays to sort.
   static constexpr double kMixed = 0.2;
+  static constexpr int kSurveyed = 4096;  ///< particles that a thread surveys in one go
 
   const Kernels& kernels_;
   std::vector<ParticleSet>& sets_;

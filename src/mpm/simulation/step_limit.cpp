@@ -1,7 +1,7 @@
 // The largest stable time step: a fraction cfl of the time in which a wave on a moving particle, or a point of a tool,
 // crosses a cell; viscosity and grid damping add their own rates. Every particle is looked at in its present state at
-// every sync point, and what got stiffer in the last period is expected to go on doing so in the next.
-// Source: method reference 11; Hirsch, Numerical Computation of Internal and External Flows, 7.3 (viscous rate).
+// every sync point (kernel/survey.hpp), and what got stiffer in the last period is expected to go on doing so in the
+// next. Source: method reference 11.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -15,40 +15,6 @@ namespace {
 constexpr double kMostForeseen = 0.5;  ///< the limit is not expected to fall below this part of itself in one period
 
 constexpr double kWorthTelling = 0.99;  ///< a trend below this is told with the limit
-
-/// How many times a second a particle's waves, motion and viscosity cross a cell.
-struct Fastest {
-  double rate = -1.0;  ///< [1/s]
-  int particle = 0;
-};
-
-// Of two equal rates the first particle, so that the place does not depend on the number of threads.
-Fastest faster(const Fastest& a, const Fastest& b) {
-  if (std::isnan(a.rate)) return a;
-  return !(b.rate <= a.rate) ? b : a;
-}
-#pragma omp declare reduction(faster:Fastest                                                            \
-                              : omp_out = omp_in.particle < omp_out.particle ? faster(omp_in, omp_out)  \
-                                                                             : faster(omp_out, omp_in)) \
-    initializer(omp_priv = Fastest{-1.0, 1 << 30})
-
-Fastest survey(const ParticleSet& set, const Law& law, int dim, double cell, int threads) {
-  Fastest found{-1.0, 1 << 30};
-  std::visit(
-      [&](const auto& kind) {
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(faster : found)
-        for (int p = 0; p < set.size(); ++p) {
-          const ParticleTensors t = particle_tensors(set, dim, p);
-          double speed2 = 0.0;
-          for (int k = 0; k < dim; ++k) speed2 += set.v[k][p] * set.v[k][p];
-          const double waves = (kind.wave_speed(t.f, t.tau, t.j) + std::sqrt(speed2)) / cell;
-          const double viscous = 2.0 * dim * kind.diffusivity(t.j) / (cell * cell);
-          found = faster(found, {waves + viscous, p});
-        }
-      },
-      law);
-  return found;
-}
 
 // Of the body's origin plus what its rotation adds at its farthest corner; endless axes do not count.
 double largest_speed(const RigidBody& body, double time) {
@@ -93,13 +59,13 @@ StepLimit Simulation::State::survey_material() const {
   const double cell = grid->layout.smallest_cell();
   StepLimit limit;
   for (std::size_t s = 0; s < sets.size(); ++s) {
-    const Fastest found = survey(sets[s], laws[s], dim, cell, threads);
+    const FastestParticle found = mechanics->fastest(static_cast<int>(s), cell);
     StepLimit material;
     material.dt = definition.time.cfl / found.rate;
     material.cause = StepLimit::Cause::material;
     material.name = &sets[s].name;
     material.speed = found.rate * cell;
-    for (int k = 0; k < dim; ++k) material.place[grid->layout.axis(k)] = sets[s].x[k][found.particle];
+    for (int k = 0; k < dim; ++k) material.place[grid->layout.axis(k)] = sets[s].x[k][found.index];
     tighten(limit, material);
   }
   return limit;

@@ -1,7 +1,6 @@
 #include "mpm_ros/command/command_log.hpp"
 
 #include <fmt/format.h>
-#include <mpm_ros/RunInfo.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
@@ -11,8 +10,7 @@
 
 namespace mpm_ros {
 
-CommandLog::CommandLog(std::vector<mpm_ros::Command> commands, std::string isa)
-    : commands_(std::move(commands)), isa_(std::move(isa)) {
+CommandLog::CommandLog(std::vector<mpm_ros::Command> commands) : commands_(std::move(commands)) {
   for (std::size_t i = 1; i < commands_.size(); ++i) {
     if (commands_[i].effect_ns < commands_[i - 1].effect_ns) {
       throw BagError(
@@ -38,21 +36,17 @@ std::vector<AppliedCommand> CommandLog::take(const mpm::Simulation& simulation) 
 
 CommandLog read_commands(const std::string& bag_path) {
   std::vector<mpm_ros::Command> commands;
-  std::string isa;
   try {
     rosbag::Bag bag(bag_path, rosbag::bagmode::Read);
-    const std::vector<std::string> types = {ros::message_traits::datatype<mpm_ros::Command>(),
-                                            ros::message_traits::datatype<mpm_ros::RunInfo>()};
-    rosbag::View view(bag, rosbag::TypeQuery(types));
+    rosbag::View view(bag, rosbag::TypeQuery(ros::message_traits::datatype<mpm_ros::Command>()));
     for (const rosbag::MessageInstance& instance : view) {
       if (const auto command = instance.instantiate<mpm_ros::Command>()) commands.push_back(*command);
-      if (const auto info = instance.instantiate<mpm_ros::RunInfo>()) isa = info->isa;
     }
   } catch (const rosbag::BagException& error) {
     throw BagError(fmt::format("bag {} cannot be read: {}", bag_path, error.what()));
   }
   if (commands.empty()) throw BagError(fmt::format("bag {} holds no commands (mpm_ros/Command)", bag_path));
-  return CommandLog(std::move(commands), isa);
+  return CommandLog(std::move(commands));
 }
 
 }  // namespace mpm_ros

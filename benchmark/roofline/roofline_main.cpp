@@ -114,18 +114,28 @@ json measure_machine(const std::vector<int>& threads, double least) {
   return machine;
 }
 
+/// The counts by kernel, and which kernels make a step, for each geometry.
+json counted_json() {
+  json counted;
+  for (const int dim : {2, 3}) {
+    json& geometry = counted[dim == 3 ? "solid" : "plane_strain"];
+    for (const Work& work : counted_kernels(dim)) {
+      geometry["kernels"][work.kernel] = {{"multiply_adds", work.multiply_adds},
+                                          {"bytes", {{"double", work.bytes(8)}, {"single", work.bytes(4)}}}};
+    }
+    geometry["steps"] = {{"usf", kernels_of_step(false)}, {"usavg", kernels_of_step(true)}};
+  }
+  return counted;
+}
+
 json measure_steps(const json& machine, const std::vector<int>& threads, double least) {
   json steps = json::array();
   for (const Case& which : {Case{"speed_block_3d", "usf", 3}, Case{"speed_block_3d", "usavg", 3},
                             Case{"speed_block_2d", "usf", 2}, Case{"speed_block_2d", "usavg", 2}}) {
-    double multiply_adds = 0.0, bytes = sizeof(double) * grid_reals(which.dim);
-    json kernels = json::array();
-    for (const Work& work : counted_work(which.dim, which.update == std::string("usavg"))) {
+    double multiply_adds = 0.0, bytes = 0.0;
+    for (const Work& work : counted_step(which.dim, which.update == std::string("usavg"))) {
       multiply_adds += work.multiply_adds;
-      bytes += sizeof(double) * work.particle_reals;
-      kernels.push_back({{"kernel", work.kernel},
-                         {"multiply_adds", work.multiply_adds},
-                         {"bytes", sizeof(double) * work.particle_reals}});
+      bytes += work.bytes(sizeof(double));
     }
     for (const int count : threads) {
       const double rate = step_rate(which, count, 5.0 * least);
@@ -146,7 +156,6 @@ json measure_steps(const json& machine, const std::vector<int>& threads, double 
                        {"particle_steps_per_second", rate},
                        {"multiply_adds", multiply_adds},
                        {"bytes", bytes},
-                       {"kernels", kernels},
                        {"limit_isa", limit["isa"]},
                        {"of_arithmetic", arithmetic},
                        {"of_bandwidth", bandwidth}});
@@ -169,6 +178,9 @@ int main(int argc, char** argv) {
   if (omp_get_num_procs() > 1) threads.push_back(2);
   const nlohmann::json machine = roofline::measure_machine(threads, least);
   const nlohmann::json steps = roofline::measure_steps(machine, threads, least);
-  if (!file.empty()) std::ofstream(file) << nlohmann::json{{"machine", machine}, {"steps", steps}}.dump(1) << "\n";
+  if (!file.empty()) {
+    const nlohmann::json all = {{"machine", machine}, {"steps", steps}, {"counted", roofline::counted_json()}};
+    std::ofstream(file) << all.dump(1) << "\n";
+  }
   return 0;
 }

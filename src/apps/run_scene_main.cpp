@@ -19,7 +19,7 @@ void on_signal(int signal) { stop_signal = signal; }
 }  // namespace
 
 int main(int argc, char** argv) {
-  mpm_ros::wait_without_spinning(argv);
+  mpm_ros::spin_only_briefly(argv);
   mpm_ros::RunSceneOptions options;
   bool list = false;
   bool explain = false;

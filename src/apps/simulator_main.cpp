@@ -45,7 +45,7 @@ int run() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  mpm_ros::wait_without_spinning(argv);
+  mpm_ros::spin_only_briefly(argv);
   // Our own handlers: roscpp's would take the connections away before the bag is closed.
   ros::init(argc, argv, "simulator", ros::init_options::NoSigintHandler);
   std::signal(SIGINT, on_signal);

@@ -66,6 +66,7 @@ std::uint64_t replay_run(const std::string& bag, int threads) {
   mpm_ros::Run run(scene, options_for(scene, "", threads), Stamps(), nullptr);
   CommandLog log = read_commands(bag);
   EXPECT_EQ(log.size(), 3U);
+  EXPECT_EQ(log.isa(), run.simulation().isa());
   run.begin();
   while (!run.ended()) {
     for (const AppliedCommand& command : log.take(run.simulation())) run.apply(command);

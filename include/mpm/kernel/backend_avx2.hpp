@@ -41,9 +41,7 @@ struct Backend<double> {
   static Vector select(Mask which, Vector a, Vector b) {
     return _mm256_blendv_pd(b, a, reinterpret_cast<__m256d>(which));
   }
-  static unsigned bits(Mask m) {
-    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(m)));
-  }
+  static unsigned bits(Mask m) { return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(m))); }
   static Vector sqrt(Vector a) { return _mm256_sqrt_pd(a); }
   static Vector max(Vector a, Vector b) { return _mm256_max_pd(a, b); }
   static Vector min(Vector a, Vector b) { return _mm256_min_pd(a, b); }
@@ -65,9 +63,7 @@ struct Backend<float> {
 
   static Vector set(float value) { return _mm256_set1_ps(value); }
   static Vector load(const float* from) { return _mm256_loadu_ps(from); }
-  static Vector repeat(const float* four) {
-    return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(four));
-  }
+  static Vector repeat(const float* four) { return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(four)); }
   static void store(float* to, Vector v) { _mm256_storeu_ps(to, v); }
   static Mask first(int count) {
     return reinterpret_cast<Mask>(
@@ -88,9 +84,7 @@ struct Backend<float> {
   static Vector select(Mask which, Vector a, Vector b) {
     return _mm256_blendv_ps(b, a, reinterpret_cast<__m256>(which));
   }
-  static unsigned bits(Mask m) {
-    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(m)));
-  }
+  static unsigned bits(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(m))); }
   static Vector sqrt(Vector a) { return _mm256_sqrt_ps(a); }
   static Vector max(Vector a, Vector b) { return _mm256_max_ps(a, b); }
   static Vector min(Vector a, Vector b) { return _mm256_min_ps(a, b); }

@@ -59,9 +59,7 @@ struct Backend<float> {
   static Vector load(const float* from) { return _mm512_loadu_ps(from); }
   static void store(float* to, Vector v) { _mm512_storeu_ps(to, v); }
   static Vector repeat(const float* four) { return _mm512_maskz_broadcast_f32x4(kAll, _mm_loadu_ps(four)); }
-  static Mask first(int count) {
-    return count >= 16 ? Mask(0xFFFF) : count <= 0 ? Mask(0) : Mask((1U << count) - 1U);
-  }
+  static Mask first(int count) { return count >= 16 ? Mask(0xFFFF) : count <= 0 ? Mask(0) : Mask((1U << count) - 1U); }
   static Vector load_first(const float* from, int count) { return _mm512_maskz_loadu_ps(first(count), from); }
   static void store_first(float* to, Vector v, int count) { _mm512_mask_storeu_ps(to, first(count), v); }
   static Mask less(Vector a, Vector b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
@@ -84,7 +82,8 @@ struct Backend<float> {
   static void displace(double* x_new, const double* x, Vector displacement, int count) {
     using Half = Backend<double>;
     Half::displace(x_new, x, _mm512_maskz_cvtps_pd(0xFF, _mm512_maskz_extractf32x8_ps(0xFF, displacement, 0)), count);
-    Half::displace(x_new + 8, x + 8, _mm512_maskz_cvtps_pd(0xFF, _mm512_maskz_extractf32x8_ps(0xFF, displacement, 1)), count - 8);
+    Half::displace(x_new + 8, x + 8, _mm512_maskz_cvtps_pd(0xFF, _mm512_maskz_extractf32x8_ps(0xFF, displacement, 1)),
+                   count - 8);
   }
 };
 

@@ -49,8 +49,7 @@ struct Backend {
   static Mask either(Mask a, Mask b) { return a | b; }
   static Mask invert(Mask a) { return ~a; }
   static Vector select(Mask which, Vector a, Vector b) {
-    return reinterpret_cast<Vector>((which & reinterpret_cast<Integers>(a)) |
-                                    (~which & reinterpret_cast<Integers>(b)));
+    return reinterpret_cast<Vector>((which & reinterpret_cast<Integers>(a)) | (~which & reinterpret_cast<Integers>(b)));
   }
   /// Lane l as bit l.
   static unsigned bits(Mask m) {

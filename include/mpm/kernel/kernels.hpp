@@ -3,7 +3,8 @@
 //   scatter_momentum   tile of m v, m       <-  particles, by S                         (nodes: v = m v / m)
 //   strain             grad v               <-  tile of v, by G                         GIMP notes (2.2)
 //     (the law)        F, tau               <-  grad v dt, a register of particles at a time
-//     and force        tile of f            <-  -m tau G                                GIMP notes (1.26); nodes: a = f / m
+//     and force        tile of f            <-  -m tau G                                GIMP notes (1.26); nodes: a = f
+//     / m
 //   move               v, x of particles    <-  tiles of v and a, by S                  GIMP notes (2.15), (2.16)
 //
 // USAVG lets `move` scatter the new momentum as well, and strains once more, each time by half a step. Loads on
@@ -13,23 +14,25 @@
 // block works on a tile, its surroundings of 8 nodes along each axis in cache (tile.hpp): copied in, computed on,
 // added out; no two blocks of one colour touch the same node. Gathers fill the lanes of a register with particles of
 // one column of nodes (gather.hpp); scatters take a particle at a time and fill the lanes with nodes and components
-// (scatter.hpp). Weights are made for a register of particles at a time and never stored (weights.hpp).
+// (scatter.hpp). Weights are made anew for every pass, a chunk of particles at a time (weights.hpp); laws take a
+// register of particles at a time, whatever column they are of (stress.hpp).
 //
 // This file is the border: plain data and a table of functions. Behind it every file is compiled once an instruction
 // set, with the namespace mpm under another name, so that nothing inline is shared; the table is chosen at run time.
 // A shape function whose support is three nodes along each axis (uGIMP, quadratic splines) is a class as in
 // shape/ugimp.hpp; one whose nodes are scattered (CPDI) brings passes of its own and fills the same table. Neither
-// touches the schedule (mechanics/continuum_impl.hpp).
+// touches the schedule (mechanics/continuum.cpp); a test does both. In a plane, what happens out of it is the policy of
+// the geometry (math/dimension.hpp): the passes ask it for the gradient and the columns of a stress.
 #pragma once
 
 #include <cstdint>
 
 namespace mpm_kernel {
 
-constexpr int kTileEdge = 8;      ///< nodes of a tile along an axis
-constexpr int kTileMargin = 2;    ///< of these, before the block's first
-constexpr int kMostHistory = 3;   ///< scalars of history that a law may have
-constexpr double kSlack = 1e-5;   ///< of the limits that `move` reports on [cells]
+constexpr int kTileEdge = 8;     ///< nodes of a tile along an axis
+constexpr int kTileMargin = 2;   ///< of these, before the block's first
+constexpr int kMostHistory = 3;  ///< scalars of history that a law may have
+constexpr double kSlack = 1e-5;  ///< of the limits that `move` reports on [cells]
 
 /// The grid: nodal fields are [block][component][node], 64 nodes a block (16 in a plane).
 struct GridView {

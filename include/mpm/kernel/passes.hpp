@@ -1,5 +1,5 @@
-// The passes over one block, as the table of kernels.hpp wants them. Particles pass through buffers in cache, a chunk of
-// whole groups at a time. What a pass is told it copies first: numbers that nothing points to stay in registers.
+// The passes over one block, as the table of kernels.hpp wants them. Particles pass through buffers in cache, a chunk
+// of whole groups at a time. What a pass is told it copies first: numbers that nothing points to stay in registers.
 #pragma once
 
 #include "mpm/kernel/gather.hpp"
@@ -22,8 +22,8 @@ class Passes {
 
  public:
   static constexpr mpm_kernel::KernelTable<T> table() {
-    return {W::kLanes,     kByColumn<T>,   &scatter_momentum, &strain, &move,
-            &scatter_load, &nodal_velocity<kDim>, &nodal_update<kDim>};
+    return {W::kLanes, kByColumn<T>,  &scatter_momentum,     &strain,
+            &move,     &scatter_load, &nodal_velocity<kDim>, &nodal_update<kDim>};
   }
 
  private:
@@ -87,7 +87,8 @@ class Passes {
             for (int k = 0; k < kDim; ++k) l[c][k].store(gradients.l[c][k] + q);
           }
         });
-        const int bad = update(sets[s], first, particles, gradients, settings, settings.and_force ? &stresses : nullptr);
+        const int bad =
+            update(sets[s], first, particles, gradients, settings, settings.and_force ? &stresses : nullptr);
         if (bad < particles && failure.set < 0) failure = {s, first + bad};
         if (settings.and_force) {
           Scatters::scatter(w, stresses, particles, force.data());

@@ -1,11 +1,11 @@
-// Scatters: a particle at a time, lanes are (node along the last axis, component). A particle's contribution to a row of
-// three nodes is an outer product, made once and added to 9 rows (3 in a plane) with the weights of the other axes. The
-// sums of a run of particles with one nearest node stay in registers; they go to the tile when the node changes.
+// Scatters: a particle at a time, lanes are (node along the last axis, component). A particle's contribution to a row
+// of three nodes is an outer product, made once and added to 9 rows (3 in a plane) with the weights of the other axes.
+// The sums of a run of particles with one nearest node stay in registers; they go to the tile when the node changes.
 //
 // What a particle brings was computed with particles in the lanes, and passes through a buffer in cache: components are
 // turned there (interleave), weights are read as numbers.
-// Weak: the fourth node of a row and, of a force, the fourth component are carried as zeros, since a register is a power
-// of two: 9 of 16 lanes of a force do work.
+// Weak: the fourth node of a row and, of a force, the fourth component are carried as zeros, since a register is a
+// power of two: 9 of 16 lanes of a force do work.
 #pragma once
 
 #include "mpm/kernel/weights.hpp"
@@ -129,7 +129,7 @@ class Scatter {
   };
 
   static void scatter(const AllWeights& w, const Values& from, int count, T* tile) {
-    each_run(w, count, tile, [&](int p, int end, int j0, Row (&sum)[kBatch][3]) {
+    each_run(w, count, tile, [&](int p, int end, int j0, Row(&sum)[kBatch][3]) {
       for (; p < end; ++p) {
         const Row row = Row::outer(w.s[Dim - 1], p, from.value + 4 * p);
 #pragma GCC unroll 3
@@ -158,7 +158,7 @@ class Scatter {
   // nodes of an axis get together is cheaper than what the middle one gets: the middle sum is the total, less the outer
   // two in the end.
   static void scatter(const AllWeights& weights, const Stresses& from, int count, T* tile) {
-    each_run(weights, count, tile, [&](int p, int end, int j0, Row (&sum)[kBatch][3]) {
+    each_run(weights, count, tile, [&](int p, int end, int j0, Row(&sum)[kBatch][3]) {
       for (; p < end; ++p) {
         const Row along = Row::outer(weights.g[Dim - 1], p, from.column[Dim - 1] + 4 * p);
         const Row first = Row::outer(weights.s[Dim - 1], p, from.column[0] + 4 * p);

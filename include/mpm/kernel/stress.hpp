@@ -62,7 +62,7 @@ class Stress {
   /// first particle whose J is not positive, or `count`.
   template <class LawType>
   [[gnu::flatten]] static int update(const SetView<T>& set_view, int first, int count, const Gradients& gradients,
-                    const mpm_kernel::StrainSettings& settings, Stresses* out) {
+                                     const mpm_kernel::StrainSettings& settings, Stresses* out) {
     const SetView<T> set = set_view;
     const LawType law = *static_cast<const LawType*>(set.law);
     const W dt(settings.dt), mass(-set.mass);

@@ -10,6 +10,9 @@
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/kernel/wide.hpp"
 
+// Vectors of eight numbers where registers are shorter: how they are passed concerns callers in other files only.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace mpm {
 
 using mpm_kernel::BlockView;
@@ -45,7 +48,8 @@ struct TileShape {
 /// Whether a row of a tile fits into a register of doubles.
 constexpr bool kRowInRegister = Backend<double>::kLanes >= kTileEdge;
 
-/// A row of a nodal field's component: 8 nodes, of which the middle four and the first and last two lie in three blocks.
+/// A row of a nodal field's component: 8 nodes, of which the middle four and the first and last two lie in three
+/// blocks.
 struct FieldRow {
   typedef double Two __attribute__((vector_size(16)));
   typedef double Four __attribute__((vector_size(32)));
@@ -85,7 +89,8 @@ struct GatherTile {
   void load(const double* field, const BlockView& block, int first) {
     Shape::each_row(block, [&](int row, const int* blocks, int node) {
       const double* part[3];
-      for (int b = 0; b < 3; ++b) part[b] = field + blocks[b] * (Components * static_cast<long>(Shape::kBlockNodes)) + node;
+      for (int b = 0; b < 3; ++b)
+        part[b] = field + blocks[b] * (Components * static_cast<long>(Shape::kBlockNodes)) + node;
       for (int c = 0; c < Components; ++c) {
         const int at = c * Shape::kBlockNodes;
         Row& to = rows[first + c][row];
@@ -134,7 +139,8 @@ struct ScatterTile {
       Field by_component[kWidth];
       if constexpr (kRowInRegister) turn(from, by_component);
       double* part[3];
-      for (int b = 0; b < 3; ++b) part[b] = field + blocks[b] * (Components * static_cast<long>(Shape::kBlockNodes)) + node;
+      for (int b = 0; b < 3; ++b)
+        part[b] = field + blocks[b] * (Components * static_cast<long>(Shape::kBlockNodes)) + node;
       for (int c = 0; c < Components; ++c) {
         const int at = c * Shape::kBlockNodes, k = first + c;
         if constexpr (kRowInRegister) {

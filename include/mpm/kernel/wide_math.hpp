@@ -56,7 +56,7 @@ Wide<T> inverse_cbrt(Wide<T> x) {
   constexpr int kDrop = sizeof(T) == 8 ? 32 : 9;  // bits below those that matter
   constexpr Bits kOne = Bits(Format<T>::kBias) << (Format<T>::kMantissa - kDrop);
   const W high = to_numbers<T>(x.integers() >> kDrop);
-  const W guess = W(4.0 / 3.0 * kOne - 0.024 * (Bits(1) << (Format<T>::kMantissa - kDrop))) - W(1.0 / 3.0) * high;
+  const W guess = W(4.0 / 3.0 * kOne - 0.067 * (Bits(1) << (Format<T>::kMantissa - kDrop))) - W(1.0 / 3.0) * high;
   W r = W::from_integers((guess + W(static_cast<T>(Bits(1) << Format<T>::kMantissa))).integers() << kDrop);
   for (int k = 0; k < 2; ++k) {
     const W h = W(1.0) - x * r * (r * r);

@@ -23,10 +23,12 @@ mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law);
 template <class Pass>
 void each_owner(const Grid& grid, int threads, Pass&& pass) {
   const BlockTable& blocks = grid.blocks;
+  // One team for all colours: between two of them its threads wait, and do not part and meet again.
+#pragma omp parallel num_threads(threads)
   for (int colour = 0; colour < blocks.colours(); ++colour) {
     const std::vector<int>& owners = blocks.owners_of_colour(colour);
     const int count = static_cast<int>(owners.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+#pragma omp for schedule(dynamic, 1)
     for (int i = 0; i < count; ++i) {
       const int owner = owners[i];
       mpm_kernel::BlockView block{owner, blocks.neighbours(owner), {}, grid.loose[owner] != 0};

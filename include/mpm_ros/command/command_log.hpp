@@ -1,5 +1,5 @@
 // The commands that a bag recorded, applied again at the simulated time at which they took effect: with the same scene
-// this gives the same state hash.
+// and on the same instruction set this gives the same state hash.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,13 @@ namespace mpm_ros {
 class CommandLog {
  public:
   CommandLog() = default;
-  /// In the order in which they were applied; effect_ns must not decrease. @throws BagError
-  explicit CommandLog(std::vector<mpm_ros::Command> commands);
+  /// In the order in which they were applied; effect_ns must not decrease. `isa`: instruction set of the kernels that
+  /// the run was recorded with, empty when not known. @throws BagError
+  explicit CommandLog(std::vector<mpm_ros::Command> commands, std::string isa = {});
 
   bool empty() const { return commands_.empty(); }
   std::size_t size() const { return commands_.size(); }
+  const std::string& isa() const { return isa_; }
   /// Commands whose time has come at simulation.time() and that were not taken before.
   /// @throws BagError for a body that the simulation does not have, or an effect between two sync points.
   std::vector<AppliedCommand> take(const mpm::Simulation& simulation);
@@ -27,6 +29,7 @@ class CommandLog {
 
  private:
   std::vector<mpm_ros::Command> commands_;
+  std::string isa_;
   std::size_t next_ = 0;
 };
 

@@ -49,6 +49,8 @@ class SimulatorNode {
  private:
   enum class Phase { running, paused, waiting, ended, failed };
 
+  /// The parameter's; without one, that of the commands' recording where there is one, so that the replay is exact.
+  std::string instruction_set() const;
   RunOptions run_options() const;
   Stamps first_stamps() const;
   void start_run(const Stamps& stamps);

@@ -1,6 +1,7 @@
 #include "mpm_ros/command/command_log.hpp"
 
 #include <fmt/format.h>
+#include <mpm_ros/RunInfo.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
@@ -10,7 +11,8 @@
 
 namespace mpm_ros {
 
-CommandLog::CommandLog(std::vector<mpm_ros::Command> commands) : commands_(std::move(commands)) {
+CommandLog::CommandLog(std::vector<mpm_ros::Command> commands, std::string isa)
+    : commands_(std::move(commands)), isa_(std::move(isa)) {
   for (std::size_t i = 1; i < commands_.size(); ++i) {
     if (commands_[i].effect_ns < commands_[i - 1].effect_ns) {
       throw BagError(
@@ -36,17 +38,21 @@ std::vector<AppliedCommand> CommandLog::take(const mpm::Simulation& simulation) 
 
 CommandLog read_commands(const std::string& bag_path) {
   std::vector<mpm_ros::Command> commands;
+  std::string isa;
   try {
     rosbag::Bag bag(bag_path, rosbag::bagmode::Read);
-    rosbag::View view(bag, rosbag::TypeQuery(ros::message_traits::datatype<mpm_ros::Command>()));
+    const std::vector<std::string> types = {ros::message_traits::datatype<mpm_ros::Command>(),
+                                            ros::message_traits::datatype<mpm_ros::RunInfo>()};
+    rosbag::View view(bag, rosbag::TypeQuery(types));
     for (const rosbag::MessageInstance& instance : view) {
       if (const auto command = instance.instantiate<mpm_ros::Command>()) commands.push_back(*command);
+      if (const auto info = instance.instantiate<mpm_ros::RunInfo>()) isa = info->isa;
     }
   } catch (const rosbag::BagException& error) {
     throw BagError(fmt::format("bag {} cannot be read: {}", bag_path, error.what()));
   }
   if (commands.empty()) throw BagError(fmt::format("bag {} holds no commands (mpm_ros/Command)", bag_path));
-  return CommandLog(std::move(commands));
+  return CommandLog(std::move(commands), isa);
 }
 
 }  // namespace mpm_ros

@@ -90,10 +90,21 @@ SimulatorNode::~SimulatorNode() {
   if (service_spinner_) service_spinner_->stop();
 }
 
+std::string SimulatorNode::instruction_set() const {
+  const std::string& recorded = log_.isa();
+  if (recorded.empty() || recorded == parameters_.isa) return parameters_.isa;
+  const std::optional<mpm::Isa> known = mpm::find_isa(recorded);
+  const bool free_to_choose = parameters_.isa.empty() || parameters_.isa == "auto";
+  if (free_to_choose && known && mpm::isa_available(*known)) return recorded;
+  ROS_WARN_STREAM("the commands of " << parameters_.commands << " were recorded on instruction set '" << recorded
+                                     << "', which this run does not use: its state will differ in the last digits");
+  return parameters_.isa;
+}
+
 RunOptions SimulatorNode::run_options() const {
   RunOptions options;
   options.threads = parameters_.threads;
-  options.isa = parameters_.isa;
+  options.isa = instruction_set();
   options.output = output_options(scene_);
   if (parameters_.particle_rate) options.output.particle_period = 1.0 / *parameters_.particle_rate;
   if (parameters_.particle_fields) options.output.particles.fields = *parameters_.particle_fields;

@@ -6,10 +6,11 @@
 
 namespace mpm_ros {
 
-void wait_without_spinning(char** argv) {
+void spin_only_briefly(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
   setenv("OMP_WAIT_POLICY", "passive", 1);
-  execv("/proc/self/exe", argv);  // returns only when it cannot: then the threads spin
+  setenv("GOMP_SPINCOUNT", "500", 0);  // some 20 us, longer than a block of the grid takes
+  execv("/proc/self/exe", argv);       // returns only when it cannot: then the threads spin
 }
 
 }  // namespace mpm_ros

@@ -239,7 +239,8 @@ def draw_scenes(runs, path):
 def roofline_part(roofline):
     lines = ["## What the machine can do, and a step's share", "",
              "Measured by `roofline` in one run: the best of five tries of independent multiply-adds in registers, and "
-             "of the triad a = b + s c (24 bytes a number) in arrays that fit the first cache, the second, and none.",
+             "of the triad a = b + s c (24 bytes a number) in arrays that fit the first cache, the second, and none. "
+             "One thread by its processor time, two by the wall clock, as the scenes.",
              ""]
     columns = ("double", "single", "triad_l1", "triad_l2", "triad_memory")
     lines += table(

@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -21,7 +21,13 @@ namespace {
 
 using nlohmann::json;
 
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+/// [s]: processor time of the process for one thread, which other programs on the machine disturb less; else the wall
+/// clock.
+double now(int threads) {
+  timespec t{};
+  clock_gettime(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 
 /// Seconds of `work(thread)` on all threads together, from the common start to the end of the last.
 double seconds(int threads, const std::function<void(int)>& work) {
@@ -30,11 +36,11 @@ double seconds(int threads, const std::function<void(int)>& work) {
   {
 #pragma omp barrier
 #pragma omp master
-    start = now();
+    start = now(threads);
 #pragma omp barrier
     work(omp_get_thread_num());
   }
-  return now() - start;
+  return now(threads) - start;
 }
 
 /// Best of several tries, each long enough to time: what else runs can only slow it down.
@@ -81,11 +87,11 @@ double step_rate(const Case& which, int threads, double least) {
   mpm::Simulation simulation(mpm::build(scene), {threads});
   simulation.advance();  // the first period touches memory for the first time
   const auto steps = simulation.state().step.steps;
-  const double start = now();
+  const double start = now(threads);
   do {
     simulation.advance();
-  } while (now() - start < least);
-  const double time = now() - start;
+  } while (now(threads) - start < least);
+  const double time = now(threads) - start;
   return static_cast<double>(simulation.state().step.steps - steps) * static_cast<double>(simulation.particles()) /
          time;
 }

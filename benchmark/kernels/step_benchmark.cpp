@@ -41,5 +41,3 @@ MPM_STEP(with_tool, "speed_tool_3d", "method.update=usf");
 MPM_STEP(without_tool, "speed_tool_3d", "method.update=usf", "rigid_bodies=[]");
 
 }  // namespace
-
-BENCHMARK_MAIN();

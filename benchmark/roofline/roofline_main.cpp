@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -21,7 +21,13 @@ namespace {
 
 using nlohmann::json;
 
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+/// [s]: processor time of the process for one thread, which other programs on the machine disturb less; else the wall
+/// clock.
+double now(int threads) {
+  timespec t{};
+  clock_gettime(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 
 /// Seconds of `work(thread)` on all threads together, from the common start to the end of the last.
 double seconds(int threads, const std::function<void(int)>& work) {
@@ -30,11 +36,11 @@ double seconds(int threads, const std::function<void(int)>& work) {
   {
 #pragma omp barrier
 #pragma omp master
-    start = now();
+    start = now(threads);
 #pragma omp barrier
     work(omp_get_thread_num());
   }
-  return now() - start;
+  return now(threads) - start;
 }
 
 /// Best of several tries, each long enough to time: what else runs can only slow it down.
@@ -81,11 +87,11 @@ double step_rate(const Case& which, int threads, double least) {
   mpm::Simulation simulation(mpm::build(scene), {threads});
   simulation.advance();  // the first period touches memory for the first time
   const auto steps = simulation.state().step.steps;
-  const double start = now();
+  const double start = now(threads);
   do {
     simulation.advance();
-  } while (now() - start < least);
-  const double time = now() - start;
+  } while (now(threads) - start < least);
+  const double time = now(threads) - start;
   return static_cast<double>(simulation.state().step.steps - steps) * static_cast<double>(simulation.particles()) /
          time;
 }
@@ -114,18 +120,28 @@ json measure_machine(const std::vector<int>& threads, double least) {
   return machine;
 }
 
+/// The counts by kernel, and which kernels make a step, for each geometry.
+json counted_json() {
+  json counted;
+  for (const int dim : {2, 3}) {
+    json& geometry = counted[dim == 3 ? "solid" : "plane_strain"];
+    for (const Work& work : counted_kernels(dim)) {
+      geometry["kernels"][work.kernel] = {{"multiply_adds", work.multiply_adds},
+                                          {"bytes", {{"double", work.bytes(8)}, {"single", work.bytes(4)}}}};
+    }
+    geometry["steps"] = {{"usf", kernels_of_step(false)}, {"usavg", kernels_of_step(true)}};
+  }
+  return counted;
+}
+
 json measure_steps(const json& machine, const std::vector<int>& threads, double least) {
   json steps = json::array();
   for (const Case& which : {Case{"speed_block_3d", "usf", 3}, Case{"speed_block_3d", "usavg", 3},
                             Case{"speed_block_2d", "usf", 2}, Case{"speed_block_2d", "usavg", 2}}) {
-    double multiply_adds = 0.0, bytes = sizeof(double) * grid_reals(which.dim);
-    json kernels = json::array();
-    for (const Work& work : counted_work(which.dim, which.update == std::string("usavg"))) {
+    double multiply_adds = 0.0, bytes = 0.0;
+    for (const Work& work : counted_step(which.dim, which.update == std::string("usavg"))) {
       multiply_adds += work.multiply_adds;
-      bytes += sizeof(double) * work.particle_reals;
-      kernels.push_back({{"kernel", work.kernel},
-                         {"multiply_adds", work.multiply_adds},
-                         {"bytes", sizeof(double) * work.particle_reals}});
+      bytes += work.bytes(sizeof(double));
     }
     for (const int count : threads) {
       const double rate = step_rate(which, count, 5.0 * least);
@@ -146,7 +162,6 @@ json measure_steps(const json& machine, const std::vector<int>& threads, double 
                        {"particle_steps_per_second", rate},
                        {"multiply_adds", multiply_adds},
                        {"bytes", bytes},
-                       {"kernels", kernels},
                        {"limit_isa", limit["isa"]},
                        {"of_arithmetic", arithmetic},
                        {"of_bandwidth", bandwidth}});
@@ -169,6 +184,9 @@ int main(int argc, char** argv) {
   if (omp_get_num_procs() > 1) threads.push_back(2);
   const nlohmann::json machine = roofline::measure_machine(threads, least);
   const nlohmann::json steps = roofline::measure_steps(machine, threads, least);
-  if (!file.empty()) std::ofstream(file) << nlohmann::json{{"machine", machine}, {"steps", steps}}.dump(1) << "\n";
+  if (!file.empty()) {
+    const nlohmann::json all = {{"machine", machine}, {"steps", steps}, {"counted", roofline::counted_json()}};
+    std::ofstream(file) << all.dump(1) << "\n";
+  }
   return 0;
 }

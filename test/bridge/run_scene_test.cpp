@@ -133,6 +133,13 @@ TEST_F(RunScene, BadInputEndsWithTwoAndOneLine) {
   options_.summary = (folder_ / "no/such/folder.json").string();
   refused("cannot be written");
   options_ = good;
+  std::ofstream(options_.summary) << "of an earlier run";
+  options_.isa = "sse9";
+  refused("--isa: there is no instruction set 'sse9'; this machine has plain");
+  std::ostringstream kept;
+  kept << std::ifstream(options_.summary).rdbuf();
+  EXPECT_EQ(kept.str(), "of an earlier run");
+  options_ = good;
   options_.bag = (folder_ / "no/such.bag").string();
   refused("no/such.bag");
   options_ = good;

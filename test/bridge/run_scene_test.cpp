@@ -70,6 +70,16 @@ TEST_F(RunScene, WritesASummaryWithItsKeysAndTheRightNumbers) {
   EXPECT_EQ(root["state_hash"].get<std::string>().size(), 16U);
 }
 
+TEST_F(RunScene, SaysOnWhatItRunsAndRan) {
+  options_.isa = "plain";
+  options_.set = {"method.precision=single"};
+  std::ostringstream explained;
+  explain_scene(options_, explained);
+  EXPECT_NE(explained.str().find("\nkernels: instruction set plain, 1 thread\n"), std::string::npos) << explained.str();
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  EXPECT_NE(out_.str().find("on 1 thread (plain, single precision)"), std::string::npos) << out_.str();
+}
+
 TEST_F(RunScene, AShorterRunIsTheBeginningOfALongerOne) {
   ASSERT_EQ(run(), RunSceneResult::done);
   const std::string whole = summary()["state_hash"];

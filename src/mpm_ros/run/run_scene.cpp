@@ -139,6 +139,8 @@ void explain_scene(const RunSceneOptions& options, std::ostream& out) {
   mpm::SimulationDefinition built = mpm::build(scene);
   out << mpm::explain(scene, built);
   const mpm::Simulation simulation(std::move(built), {options.threads, instruction_set(options)});
+  out << fmt::format("kernels: instruction set {}, {} thread{}\n", simulation.isa(), simulation.threads(),
+                     simulation.threads() == 1 ? "" : "s");
   for (const std::string& warning : simulation.warnings()) out << "warning: " << warning << "\n";
   for (const std::string& note : simulation.notes()) out << note << "\n";
 }

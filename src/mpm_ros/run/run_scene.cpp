@@ -131,7 +131,7 @@ class OfflineRun {
 }  // namespace
 
 void list_scenes(std::ostream& out) {
-  for (const auto& [name, line] : mpm::shipped_scenes()) out << fmt::format("{:<20} {}\n", name, line);
+  for (const auto& [name, line] : mpm::shipped_scenes()) out << fmt::format("{:<26} {}\n", name, line);
 }
 
 void explain_scene(const RunSceneOptions& options, std::ostream& out) {

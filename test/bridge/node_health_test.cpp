@@ -63,6 +63,15 @@ TEST(SolverHealth, WarnsWhenTheAuditDoesNotClose) {
   EXPECT_EQ(solver_status(solver).level, DiagnosticStatus::WARN);
 }
 
+TEST(SolverHealth, AuditInSinglePrecisionIsOffByTheRoundingOfFloats) {
+  SolverHealth solver = running();
+  solver.precision = mpm::Precision::float32;
+  solver.momentum_error = 6e-8;  // 2^-24
+  EXPECT_EQ(solver_status(solver).level, DiagnosticStatus::OK);
+  solver.momentum_error = 2e-7;
+  EXPECT_EQ(solver_status(solver).level, DiagnosticStatus::WARN);
+}
+
 TEST(SolverHealth, WarnsOfACrushedParticle) {
   SolverHealth solver = running();
   solver.min_j = 0.05;

@@ -55,6 +55,9 @@ TEST(NodeParameters, WrongTypesAndRangesNameTheParameter) {
   EXPECT_NE(error_of(with("real_time_factor", "fast")).find("~real_time_factor must be a number"), std::string::npos);
   EXPECT_NE(error_of(with("threads", -1)).find("~threads"), std::string::npos);
   EXPECT_NE(error_of(with("threads", 1.5)).find("~threads"), std::string::npos);
+  EXPECT_NE(error_of(with("isa", "sse9")).find("parameter ~isa: there is no instruction set 'sse9'"),
+            std::string::npos);
+  EXPECT_EQ(error_of(with("isa", "plain")), "");
   EXPECT_NE(error_of({{"scene", XmlRpc::XmlRpcValue(7)}}).find("~scene must be text"), std::string::npos);
   EXPECT_NE(error_of(with("command_timeout", -0.1)).find("~command_timeout"), std::string::npos);
   EXPECT_NE(error_of(with("on_timeout", "panic")).find("~on_timeout"), std::string::npos);

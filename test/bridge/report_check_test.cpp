@@ -18,11 +18,12 @@ using Names = std::vector<std::string>;
 class ReportCheckTest : public ::testing::Test {
  protected:
   /// Names of the checks that fail.
-  std::vector<std::string> failures_of(const HalfSineRun& run) const {
+  std::vector<std::string> failures_of(const HalfSineRun& run,
+                                       mpm::Precision precision = mpm::Precision::float64) const {
     const std::string path = folder_.path() + "/run.bag";
     run.write(path);
     RunBag bag(path, "");
-    RunChecks checks(bag.info() ? bag.info()->sync_period : 0.0, bag.missing());
+    RunChecks checks(bag.info() ? bag.info()->sync_period : 0.0, precision, bag.missing());
     bag.read({&checks});
     std::vector<std::string> names;
     for (const CheckResult& result : checks.results()) {
@@ -52,6 +53,30 @@ TEST_F(ReportCheckTest, CheckBelievesAnAuditThatReportsItsOwnFailure) {
     return true;
   };
   EXPECT_EQ(failures_of(run), Names{"audit"});
+}
+
+TEST_F(ReportCheckTest, AnAuditInSinglePrecisionMayBeOffByTheRoundingOfFloats) {
+  double error = 1e-8;
+  HalfSineRun run;
+  run.on_state = [&error](int i, SolverState& message) {
+    if (i == 60) message.momentum_error = error;
+    return true;
+  };
+  EXPECT_EQ(failures_of(run, mpm::Precision::float32), Names());
+  error = 2e-7;  // more than three roundings of a float, 2^-24 each, all the same way
+  EXPECT_EQ(failures_of(run, mpm::Precision::float32), Names{"audit"});
+}
+
+TEST_F(ReportCheckTest, ImpulsesOnBodiesAreDoubleInSinglePrecisionToo) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 30) {  // 1e-8 N s of about 0.5 N s; the material's balance still closes
+      message.impulses[0].impulse.z += 1e-8;
+      message.impulses[1].impulse.z -= 1e-8;
+    }
+    return true;
+  };
+  EXPECT_EQ(failures_of(run, mpm::Precision::float32), Names{"reaction"});
 }
 
 TEST_F(ReportCheckTest, CheckFindsAnEnergyThatIsNotFinite) {

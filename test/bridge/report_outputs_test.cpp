@@ -128,6 +128,7 @@ TEST_F(ReportOutputs, SeveralBagsAreSetSideBySide) {
     EXPECT_LT(line.find(" - "), line.find("2.572")) << line;  // impulse 2 A T / pi [N s] of the second
   }
   EXPECT_TRUE(found) << text;
+  EXPECT_TRUE(contains(text, "instruction set")) << text;
   for (const char* file :
        {"csv/one/contact_forces.csv", "csv/two/contact_forces.csv", "plots/compare_contact_tool.png",
         "plots/compare_contact_blade.png", "plots/compare_energies.png", "plots/compare_audit.png"}) {

@@ -72,6 +72,13 @@ TEST_F(ReportRecorded, ParticlesMoveAsForcesWeightAndWallsSay) {
   }
 }
 
+TEST_F(ReportRecorded, ARunInSinglePrecisionPassesByItsOwnLimit) {
+  const json report = report_of(record({"method.precision=single"}));
+  for (const auto& [name, result] : results_of(report))
+    EXPECT_EQ(result, "ok") << name << ": " << detail_of(report, name);
+  EXPECT_NE(detail_of(report, "audit").find("limit 1e-07"), std::string::npos) << detail_of(report, "audit");
+}
+
 TEST_F(ReportRecorded, MomentumFindsForcesThatAreWrongInAllBooks) {
   // Force, impulse, the audit's impulses and its momentum a thousandth larger: all that the run says of itself agrees.
   // What the particles did does not.

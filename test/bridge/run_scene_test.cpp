@@ -70,6 +70,16 @@ TEST_F(RunScene, WritesASummaryWithItsKeysAndTheRightNumbers) {
   EXPECT_EQ(root["state_hash"].get<std::string>().size(), 16U);
 }
 
+TEST_F(RunScene, SaysOnWhatItRunsAndRan) {
+  options_.isa = "plain";
+  options_.set = {"method.precision=single"};
+  std::ostringstream explained;
+  explain_scene(options_, explained);
+  EXPECT_NE(explained.str().find("\nkernels: instruction set plain, 1 thread\n"), std::string::npos) << explained.str();
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  EXPECT_NE(out_.str().find("on 1 thread (plain, single precision)"), std::string::npos) << out_.str();
+}
+
 TEST_F(RunScene, AShorterRunIsTheBeginningOfALongerOne) {
   ASSERT_EQ(run(), RunSceneResult::done);
   const std::string whole = summary()["state_hash"];
@@ -132,6 +142,13 @@ TEST_F(RunScene, BadInputEndsWithTwoAndOneLine) {
   options_ = good;
   options_.summary = (folder_ / "no/such/folder.json").string();
   refused("cannot be written");
+  options_ = good;
+  std::ofstream(options_.summary) << "of an earlier run";
+  options_.isa = "sse9";
+  refused("--isa: there is no instruction set 'sse9'; this machine has plain");
+  std::ostringstream kept;
+  kept << std::ifstream(options_.summary).rdbuf();
+  EXPECT_EQ(kept.str(), "of an earlier run");
   options_ = good;
   options_.bag = (folder_ / "no/such.bag").string();
   refused("no/such.bag");

@@ -2,12 +2,12 @@
 // LawTraits (increment.hpp) for the constants and functions that it does not define itself, with
 //
 //   void update(increment, tau, history) const;      tau: Kirchhoff stress over initial density [J/kg], in and out;
-//                                                    history[k]: its scalars, in and out
+//                                                    history[k]: in and out; k < kHistory <= mpm_kernel::kMostHistory
 //   double elastic_energy(F, tau, J) const;          [J/kg]
 //   T wave_speed(F, tau, J) const;                   [m/s], of the fastest small wave on the present state (tangent)
 //   double density() const;                          [kg/m^3], initial
 //
-// It is chosen once a block of particles of one material; inside the loop there is no virtual call and no branch on it.
+// It is chosen once a block's particles of one body (kernel/stress.hpp); inside, no virtual call and no branch on it.
 // update(), wave_speed() and diffusivity() are templates, written once for a number and for a wide register of as many
 // particles (math/lanes.hpp): no branch on a value, but selections and work that is skipped where no lane needs it. The
 // rest is for numbers alone.

@@ -13,6 +13,8 @@
 #include <mutex>
 #include <string>
 
+#include "mpm/particles/particle_scalar.hpp"
+
 namespace mpm_ros {
 
 /// How the run stands, for the status `solver`.
@@ -21,13 +23,14 @@ struct SolverHealth {
   bool failed = false;
   double time = 0.0;  ///< [s] simulated
   double real_time_factor = 0.0;
-  double asked_factor = 0.0;    ///< that pacing tries to keep; 0: none
-  std::uint64_t overruns = 0;   ///< sync periods that took longer than their wall time
-  std::uint64_t steps = 0;      ///< since the start
-  double step = 0.0;            ///< the last one [s]
-  std::string step_limited_by;  ///< what and where
-  double momentum_error = 0.0;  ///< residual of the audit over the momentum exchanged
-  double min_j = 1.0;           ///< smallest det F
+  double asked_factor = 0.0;                           ///< that pacing tries to keep; 0: none
+  std::uint64_t overruns = 0;                          ///< sync periods that took longer than their wall time
+  std::uint64_t steps = 0;                             ///< since the start
+  double step = 0.0;                                   ///< the last one [s]
+  std::string step_limited_by;                         ///< what and where
+  double momentum_error = 0.0;                         ///< residual of the audit over the momentum exchanged
+  mpm::Precision precision = mpm::Precision::float64;  ///< of the particles: how well the audit must close
+  double min_j = 1.0;                                  ///< smallest det F
   std::uint64_t particles = 0;
 };
 
@@ -64,8 +67,6 @@ class NodeHealth {
   /// True once after something was reported that should be published without delay.
   bool take_news();
 
-  /// A residual of the audit above this is no round-off (design rule: 1e-10 of the momentum exchanged).
-  static constexpr double kAuditTolerance = 1e-10;
   /// Below this part of its volume a particle is about to be crushed: a run fails at zero.
   static constexpr double kCrushed = 0.1;
   /// Of the pace that was asked for; less is behind.

@@ -37,7 +37,7 @@ struct NodeParameters {
   Pacing pacing = Pacing::real_time;
   double real_time_factor = 1.0;            ///< simulated over wall time, > 0
   int threads = 0;                          ///< 0: as many as the machine has
-  std::string isa;                          ///< instruction set; empty or "auto": the widest one available
+  std::string isa = "auto";                 ///< instruction set; auto: the widest one available
   std::string record;                       ///< bag to write; empty: none, "auto": named by scene and date
   std::string record_compression = "none";  ///< none, lz4, bz2
   std::string commands;                     ///< bag whose commands are replayed in place of live ones

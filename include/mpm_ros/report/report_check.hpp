@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm_ros/message/audit_limit.hpp"
 #include "mpm_ros/report/report_bag.hpp"
 #include "mpm_ros/report/report_messages.hpp"
 
@@ -24,13 +25,10 @@ struct CheckResult {
   bool made = true;    ///< false: could not be made, and `detail` says why; then `passed` is true
 };
 
-/// Largest residual of the momentum audit over the momentum exchanged, and of impulses over their own size.
-constexpr double kAuditLimit = 1e-10;
-
 class RunChecks : public RunVisitor {
  public:
-  /// `sync_period` [s] of the run; 0 when it is not known.
-  RunChecks(double sync_period, std::vector<std::string> missing);
+  /// `sync_period` [s] of the run; 0 when it is not known. `precision` of its particles: how well its audit must close.
+  RunChecks(double sync_period, mpm::Precision precision, std::vector<std::string> missing);
 
   void contact_forces(std::int64_t time, const ContactForces& message) override;
   void bodies(std::int64_t time, const BodyStates& message) override;
@@ -63,6 +61,7 @@ class RunChecks : public RunVisitor {
   void check_against_material(const std::string& body, std::int64_t time, const mpm::Vec3& impulse);
 
   std::int64_t sync_period_;  ///< [ns]
+  double audit_limit_;        ///< of the residual over the momentum exchanged
   std::vector<std::string> missing_;
   std::map<std::string, std::string> failures_;  ///< the first of each check, by its name
   std::vector<std::string> gaps_;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm_ros/message/audit_limit.hpp"
 #include "mpm_ros/report/report_bag.hpp"
 #include "mpm_ros/report/report_check.hpp"
 #include "mpm_ros/report/report_messages.hpp"
@@ -49,6 +50,7 @@ class MomentumCheck : public RunVisitor {
   double total_mass_ = 0.0;                ///< [kg]
   std::uint64_t count_ = 0;                ///< of all particles
   mpm::Vec3 gravity_ = mpm::Vec3::Zero();  ///< [m/s^2]
+  double audit_limit_ = 0.0;               ///< of the solver's own residual over the momentum exchanged
   std::string obstacle_;                   ///< why the check cannot be made; empty: it can
   std::string axes_;                       ///< along which velocities are recorded: "xz"
   std::optional<std::int64_t> contact_time_;

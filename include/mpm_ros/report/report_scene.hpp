@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mpm/math/geometry.hpp"
+#include "mpm/particles/particle_scalar.hpp"
 
 namespace mpm_ros {
 
@@ -23,6 +24,7 @@ struct SceneFacts {
   std::optional<double> end;              ///< [s] simulated time that the run was to reach; none: until stopped
   std::string method;                     ///< "3D, uGIMP, USAVG, FLIP 0.998, …"; empty: the text could not be read
   mpm::Vec3 gravity = mpm::Vec3::Zero();  ///< [m/s^2]
+  mpm::Precision precision = mpm::Precision::float64;  ///< of the particles
 };
 
 /// A text that this version does not read (or none) gives facts without values.

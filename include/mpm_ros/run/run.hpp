@@ -18,7 +18,7 @@ namespace mpm_ros {
 
 struct RunOptions {
   int threads = 0;
-  std::string isa;  ///< instruction set; empty or "auto": the widest one available
+  std::string isa = "auto";  ///< instruction set; auto: the widest one available
   OutputOptions output;
   std::string bag;  ///< path to write; empty: none
   BagOptions bag_options;

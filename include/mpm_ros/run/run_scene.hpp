@@ -13,7 +13,7 @@ struct RunSceneOptions {
   std::vector<std::string> set;  ///< overrides, "key.path=value"
   std::string end;               ///< a time in seconds or with a unit; empty: the scene's
   int threads = 0;               ///< 0: as many as the machine has
-  std::string isa;               ///< instruction set; empty or "auto": the widest one available
+  std::string isa = "auto";      ///< instruction set; auto: the widest one available
   std::string bag;               ///< path, "auto", or empty for none
   std::string csv;               ///< folder, or empty for none
   std::string summary;           ///< JSON file, or empty for none

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "mpm_ros/message/audit_limit.hpp"
+
 namespace mpm_ros {
 
 namespace {
@@ -134,7 +136,7 @@ void NodeHealth::fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status
     warn = true;
   };
   // Written so that what is not a number warns.
-  if (!(solver_.momentum_error <= kAuditTolerance)) {
+  if (!(solver_.momentum_error <= audit_limit(solver_.precision))) {
     add_warning(fmt::format("the momentum audit is off by {:.2g} of the momentum exchanged", solver_.momentum_error));
   }
   if (!(solver_.min_j >= kCrushed)) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "mpm/kernel/isa.hpp"
 #include "mpm/scene/nearest.hpp"
 
 namespace mpm_ros {
@@ -152,6 +153,14 @@ std::string to_yaml(const ParameterValues& values) {
   return out.c_str();
 }
 
+void check_isa(const std::string& isa) {
+  try {
+    mpm::choose_isa(isa);
+  } catch (const mpm::IsaError& error) {
+    throw ParameterError(fmt::format("parameter ~isa: {}", error.what()));
+  }
+}
+
 }  // namespace
 
 ParameterValues fetch_parameters(const ros::NodeHandle& private_node) {
@@ -173,6 +182,7 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   reader.read("real_time_factor", parameters.real_time_factor, 0.0, true);
   reader.read("threads", parameters.threads, 0);
   reader.read("isa", parameters.isa);
+  check_isa(parameters.isa);
   reader.read("record", parameters.record);
   reader.read<std::string>("record_compression", parameters.record_compression,
                            {{"none", "none"}, {"lz4", "lz4"}, {"bz2", "bz2"}});

@@ -307,6 +307,7 @@ void SimulatorNode::report() {
   solver.steps = state.steps;
   solver.step = state.dt;
   solver.step_limited_by = state.dt_limited_by;
+  solver.precision = run_->simulation().definition().method.precision;
   solver.momentum_error = state.momentum_error;
   solver.min_j = state.min_j;
   solver.particles = state.particles;

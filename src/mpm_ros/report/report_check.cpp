@@ -15,6 +15,8 @@ namespace {
 constexpr std::int64_t kStampRounding = 1;  // [ns]: a time in double precision is rounded to whole nanoseconds
 constexpr double kUnitLimit = 1e-9;         // of a quaternion's norm: it is renormalised every step
 constexpr std::size_t kGapsListed = 10;
+// Of impulses on bodies over their size: sums on the grid, which is double whatever the particles are.
+constexpr double kImpulseLimit = audit_limit(mpm::Precision::float64);
 
 bool finite(const mpm::Vec3& vector) { return vector.allFinite(); }
 
@@ -26,8 +28,10 @@ double relative(double difference, double scale) {
 
 }  // namespace
 
-RunChecks::RunChecks(double sync_period, std::vector<std::string> missing)
-    : sync_period_(std::llround(sync_period * 1e9)), missing_(std::move(missing)) {}
+RunChecks::RunChecks(double sync_period, mpm::Precision precision, std::vector<std::string> missing)
+    : sync_period_(std::llround(sync_period * 1e9)),
+      audit_limit_(audit_limit(precision)),
+      missing_(std::move(missing)) {}
 
 void RunChecks::fail(const std::string& name, std::int64_t time, const std::string& what) {
   failures_.emplace(name, fmt::format("at {} s: {}", seconds(time), what));
@@ -89,7 +93,7 @@ void RunChecks::contact_forces(std::int64_t time, const ContactForces& message) 
     if (whole) {
       const double error = relative((known.impulse + gained - report.impulse).norm(), known.exchanged);
       worst_impulse_ = std::max(worst_impulse_, error);
-      if (!(error <= kAuditLimit)) {
+      if (!(error <= kImpulseLimit)) {
         fail("impulse", time,
              fmt::format("the forces on {} add up to another impulse than is reported, by {:.3g} of it", report.body,
                          error));
@@ -114,7 +118,7 @@ void RunChecks::check_against_material(const std::string& body, std::int64_t tim
   }
   const double error = relative((impulse + on_material->impulse).norm(), state_->audit.exchanged);
   worst_reaction_ = std::max(worst_reaction_, error);
-  if (!(error <= kAuditLimit)) {
+  if (!(error <= kImpulseLimit)) {
     fail("reaction", time,
          fmt::format("impulse on {} and on the material differ by {:.3g} of the momentum exchanged", body, error));
   }
@@ -155,8 +159,8 @@ void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
   const double scale = std::max(audit.exchanged, audit.initial_momentum.norm());
   const double error = std::max(relative(residual.norm(), scale), audit.residual);
   worst_audit_ = std::max(worst_audit_, error);
-  if (!(error <= kAuditLimit)) {
-    fail("audit", time, fmt::format("residual {:.3g} of the momentum exchanged, limit {:.0e}", error, kAuditLimit));
+  if (!(error <= audit_limit_)) {
+    fail("audit", time, fmt::format("residual {:.3g} of the momentum exchanged, limit {:.0e}", error, audit_limit_));
   }
 
   const mpm::EnergyReport& energy = state.energy;
@@ -199,7 +203,7 @@ std::vector<CheckResult> RunChecks::results() const {
   const auto snapshots = spacing_.find("particles");
   const std::pair<const char*, std::string> passed[] = {
       {"audit",
-       fmt::format("residual at most {:.2g} of the momentum exchanged, limit {:.0e}", worst_audit_, kAuditLimit)},
+       fmt::format("residual at most {:.2g} of the momentum exchanged, limit {:.0e}", worst_audit_, audit_limit_)},
       {"energy", "finite throughout"},
       {"gaps", fmt::format("{} states, every {} s from {} s to {} s", states.count, seconds(states.interval),
                            seconds(states.first.value_or(0)), seconds(states.last))},

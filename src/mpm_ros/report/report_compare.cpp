@@ -18,6 +18,7 @@ Figures run_figures(const RecordedRun& run) {
   const RunStatistics& statistics = run.statistics;
   const SolverState& last = statistics.last_state();
   return {{"scene", run.scene_name()},
+          {"instruction set", run.info ? run.info->isa : "-"},
           {"simulated time [s]", number(last.time)},
           {"steps", std::to_string(last.steps)},
           {"smallest step [s]", number(last.dt_min)},

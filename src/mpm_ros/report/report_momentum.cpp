@@ -22,7 +22,9 @@ MomentumCheck::MomentumCheck(const std::optional<RunInfo>& info) {
   }
   try {
     masses_ = particle_masses(*info);
-    gravity_ = scene_facts(*info).gravity;
+    const SceneFacts facts = scene_facts(*info);
+    gravity_ = facts.gravity;
+    audit_limit_ = audit_limit(facts.precision);
   } catch (const mpm::Error& error) {
     obstacle_ = fmt::format("the particles' masses are not known: {}", error.what());
     return;
@@ -106,7 +108,7 @@ void MomentumCheck::compare() {
     const int axis = name - 'x';
     const double residual = std::abs(found[axis] - expected[axis]);
     const double allowed =
-        kHalfUnit * (now.sums.size[axis] + first_->sums.size[axis]) + kAuditLimit * state_->audit.exchanged;
+        kHalfUnit * (now.sums.size[axis] + first_->sums.size[axis]) + audit_limit_ * state_->audit.exchanged;
     const double scale = state_->audit.exchanged > 0.0 ? state_->audit.exchanged : 1.0;
     if (residual / scale > worst_) {
       worst_ = residual / scale;

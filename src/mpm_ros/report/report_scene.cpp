@@ -41,6 +41,7 @@ SceneFacts scene_facts(const RunInfo& info) {
     const mpm::Scene scene = scene_of(info);
     facts.method = method_text(scene.definition);
     facts.gravity = scene.definition.gravity;
+    facts.precision = scene.definition.method.precision;
     if (scene.definition.time.end > 0.0) facts.end = scene.definition.time.end;
     const YAML::Node parameters = YAML::Load(info.parameters);  // run_scene --end is there
     if (parameters.IsMap() && parameters["end"]) facts.end = parameters["end"].as<double>();

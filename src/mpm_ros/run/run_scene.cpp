@@ -17,7 +17,18 @@
 namespace mpm_ros {
 namespace {
 
+/// @throws mpm::SceneError that names the option
+mpm::Isa instruction_set(const RunSceneOptions& options) {
+  try {
+    return mpm::choose_isa(options.isa);
+  } catch (const mpm::IsaError& error) {
+    throw mpm::SceneError(fmt::format("--isa: {}", error.what()));
+  }
+}
+
+/// Before the summary is opened: what is refused here leaves that of an earlier run as it is.
 mpm::Scene load(const RunSceneOptions& options) {
+  instruction_set(options);
   mpm::Scene scene = mpm::load_scene(options.scene, options.set);
   if (options.end.empty()) return scene;
   // The sync and output periods stay the scene's: a shorter run is the beginning of the longer one, bit for bit.
@@ -120,14 +131,16 @@ class OfflineRun {
 }  // namespace
 
 void list_scenes(std::ostream& out) {
-  for (const auto& [name, line] : mpm::shipped_scenes()) out << fmt::format("{:<20} {}\n", name, line);
+  for (const auto& [name, line] : mpm::shipped_scenes()) out << fmt::format("{:<26} {}\n", name, line);
 }
 
 void explain_scene(const RunSceneOptions& options, std::ostream& out) {
   const mpm::Scene scene = load(options);
   mpm::SimulationDefinition built = mpm::build(scene);
   out << mpm::explain(scene, built);
-  const mpm::Simulation simulation(std::move(built), {options.threads, mpm::choose_isa(options.isa)});
+  const mpm::Simulation simulation(std::move(built), {options.threads, instruction_set(options)});
+  out << fmt::format("kernels: instruction set {}, {} thread{}\n", simulation.isa(), simulation.threads(),
+                     simulation.threads() == 1 ? "" : "s");
   for (const std::string& warning : simulation.warnings()) out << "warning: " << warning << "\n";
   for (const std::string& note : simulation.notes()) out << note << "\n";
 }

@@ -86,9 +86,10 @@ nlohmann::ordered_json RunSummary::json() const {
 std::string RunSummary::text() const {
   std::string text = fmt::format("{}: {:g} s simulated in {:.3g} s ({:.3g} times real time), {} steps\n", scene,
                                  seconds(), state.wall_seconds, real_time_factor(), state.step.steps);
-  text += fmt::format("  particles {}, {:.3g} million particle-steps a second on {} thread{} ({}), {:.0f} MB\n",
-                      state.particles, 1e-6 * particle_steps_per_second(), threads, threads == 1 ? "" : "s", isa,
-                      1e-6 * static_cast<double>(peak_memory));
+  text += fmt::format(
+      "  particles {}, {:.3g} million particle-steps a second on {} thread{} ({}, {} precision), {:.0f} MB\n",
+      state.particles, 1e-6 * particle_steps_per_second(), threads, threads == 1 ? "" : "s", isa,
+      mpm::precision_name(definition.method.precision), 1e-6 * static_cast<double>(peak_memory));
   text += fmt::format("  time step {:.4g} to {:.4g} s, limited by {}\n", state.step.dt_min, state.step.dt_max,
                       state.step.limited_by);
   text += fmt::format(

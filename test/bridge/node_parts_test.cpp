@@ -109,6 +109,7 @@ TEST(NodeParameters, TheTemplateHoldsEveryParameterWithItsDefault) {
   const NodeParameters plain = read_parameters({{"scene", XmlRpc::XmlRpcValue("press")}}, warnings);
   EXPECT_EQ(given.pacing, plain.pacing);
   EXPECT_EQ(given.real_time_factor, plain.real_time_factor);
+  EXPECT_EQ(given.isa, plain.isa);
   EXPECT_EQ(given.threads, plain.threads);
   EXPECT_EQ(given.record, plain.record);
   EXPECT_EQ(given.record_compression, plain.record_compression);

@@ -11,8 +11,7 @@ using mpm::Vec3;
 
 // A block of particles on the lattice of the grid, shaken by `jitter` cells, with random velocities.
 struct Scene {
-  Scene(int dim, double jitter, const mpm::LawDefinition& law, int threads = 1,
-        mpm::Isa isa = mpm::best_isa())
+  Scene(int dim, double jitter, const mpm::LawDefinition& law, int threads = 1, mpm::Isa isa = mpm::best_isa())
       : grid(mpm::GridLayout(dim, Vec3::Constant(cell), Vec3::Zero(), Vec3::Constant(2.0))) {
     laws.push_back(mpm::make_law({"m", 900.0, law}));
     sets.emplace_back();

@@ -64,10 +64,10 @@ struct Grid {
   double least_mass = 0.0;  ///< [kg]
   /// Of each owner, whether some of its particles have moved beyond the block since they were sorted.
   std::vector<std::uint8_t> loose;
-  NodalField mass;          ///< m_i [kg]
-  NodalField momentum;      ///< p_i as gathered, without conditions; kept through the step [N s]
-  NodalField velocity;      ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]
-  NodalField force;         ///< f_i while forces are gathered [N], then the acceleration a_i [m/s^2]
+  NodalField mass;      ///< m_i [kg]
+  NodalField momentum;  ///< p_i as gathered, without conditions; kept through the step [N s]
+  NodalField velocity;  ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]
+  NodalField force;     ///< f_i while forces are gathered [N], then the acceleration a_i [m/s^2]
 };
 
 }  // namespace mpm

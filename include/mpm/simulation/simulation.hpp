@@ -32,7 +32,7 @@ class PhysicsError : public Error {
 };
 
 struct SimulationOptions {
-  int threads = 0;         ///< 0: as many as the machine has and 4,000 particles each make worth while
+  int threads = 0;              ///< 0: as many as the machine has and 4,000 particles each make worth while
   std::optional<Isa> isa = {};  ///< instruction set of the kernels; the widest one available without it
 };
 

@@ -43,7 +43,7 @@ class GridLayout {
   /// Nearest node of a position in cells, for cells > -64 (a truncation: floor is a call on plain x86-64).
   static int nearest(double cells) { return static_cast<int>(cells + (64.5 + kTie)) - 64; }
   /// Half way between two nodes the upper one is nearest, round-off or not [cells].
-  static constexpr double kTie = 1e-9;
+  static constexpr double kTie = 1e-12;
 
   std::uint64_t key(const std::array<int, 3>& block) const;
   std::array<int, 3> block(std::uint64_t key) const;

@@ -46,7 +46,7 @@ class WeightFrame {
   W nearest(W cells) const { return max(min(round(cells + W(kTie)), highest_), lowest_); }
 
  private:
-  static constexpr double kTie = sizeof(T) == 8 ? 1e-9 : 2e-6;  // beyond the round-off of a place in the tile
+  static constexpr double kTie = sizeof(T) == 8 ? 1e-12 : 2e-6;  // beyond the round-off of a place in the tile
   const double* x_[Dim];
   double origin_[Dim], inverse_cell_[Dim], corner_[Dim], half_[Dim];
   W lowest_, highest_;

@@ -1,5 +1,7 @@
 // What the kernels (kernel/kernels.hpp) are handed: views of the grid, of the sets of particles and of the block at
-// work. Blocks are given out a colour after the other, so that no two at work at a time touch the same node.
+// work. Blocks are given out a colour after the other, so that no two at work at a time touch the same node. In every
+// colour and every pass a thread has the same part of space, whose nodes and particles stay in its core's cache: handed
+// out one by one, two threads took as long as one in a plane.
 #pragma once
 
 #include <vector>
@@ -31,7 +33,7 @@ inline mpm_kernel::BlockView view_of(const Grid& grid, int owner) {
 /// pass(block) for every block that holds particles, in their order: for what writes to no node.
 template <class Pass>
 void each_owner_at_once(const Grid& grid, int threads, Pass&& pass) {
-#pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
+#pragma omp parallel for schedule(static) num_threads(threads)
   for (int owner = 0; owner < grid.blocks.owners(); ++owner) pass(view_of(grid, owner));
 }
 
@@ -44,7 +46,7 @@ void each_owner(const Grid& grid, int threads, Pass&& pass) {
   for (int colour = 0; colour < blocks.colours(); ++colour) {
     const std::vector<int>& owners = blocks.owners_of_colour(colour);
     const int count = static_cast<int>(owners.size());
-#pragma omp for schedule(dynamic, 1)
+#pragma omp for schedule(static)
     for (int i = 0; i < count; ++i) pass(view_of(grid, owners[i]));
   }
 }

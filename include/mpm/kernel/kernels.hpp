@@ -3,8 +3,7 @@
 //   scatter_momentum   tile of m v, m       <-  particles, by S                         (nodes: v = m v / m)
 //   strain             grad v               <-  tile of v, by G                         GIMP notes (2.2)
 //     (the law)        F, tau               <-  grad v dt, a register of particles at a time
-//     and force        tile of f            <-  -m tau G                                GIMP notes (1.26); nodes: a = f
-//     / m
+//     and force        tile of f            <-  -m tau G, GIMP notes (1.26)             (nodes: a = f / m)
 //   move               v, x of particles    <-  tiles of v and a, by S                  GIMP notes (2.15), (2.16)
 //
 // USAVG lets `move` scatter the new momentum as well, and strains once more, each time by half a step. Loads on
@@ -52,7 +51,7 @@ struct BlockView {
   bool loose;             ///< particles have moved beyond it since they were sorted: the whole tile is in use
 };
 
-/// The particles of one body. Arrays may be read a register beyond their end.
+/// The particles of one body.
 template <class T>
 struct SetView {
   const std::uint32_t* group;        ///< first particle of each group, and one past the last

@@ -1,5 +1,6 @@
 // The passes over one block, as the table of kernels.hpp wants them. Particles pass through buffers in cache, a chunk
-// of whole groups at a time. What a pass is told it copies first: numbers that nothing points to stay in registers.
+// of whole groups at a time. What a pass is told of a body it copies first: numbers that nothing points to stay in
+// registers.
 #pragma once
 
 #include "mpm/kernel/gather.hpp"

@@ -1,4 +1,4 @@
-// A contiguous array that starts on a cache line and may be read a wide register beyond its end.
+// A contiguous array that starts on a cache line and has room for a wide register beyond its end.
 //
 // A kernel takes a register of particles at any of them, the last one included. It masks those beyond the end, whose
 // addresses are still addresses of this array.

@@ -232,7 +232,7 @@ def draw_scenes(runs, path):
     panels[1].set_xlabel("million particle-steps a second")
     rates = [1e-6 * rate_of(run) for run in runs]
     panels[0].set_xlim(min(0.4, 0.8 * min(rates)), max(10.0, 1.3 * max(rates)))
-    figure.savefig(path, dpi=110, metadata={"Software": None})
+    figure.savefig(path, dpi=110, bbox_inches="tight", metadata={"Software": None})
     plt.close(figure)
 
 

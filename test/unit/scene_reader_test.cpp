@@ -36,7 +36,7 @@ TEST(SceneReader, ASmallSceneHasSoundDefaults) {
   EXPECT_EQ(d.time.sync, 10'000'000);
   EXPECT_EQ(scene.output.period, 0.02);
   EXPECT_EQ(d.method.update, UpdateScheme::usavg);
-  EXPECT_EQ(d.method.flip, 1.0);
+  EXPECT_EQ(d.method.transfer.flip, 1.0);
   EXPECT_EQ(d.method.particles_per_direction, 2);
   EXPECT_EQ(d.method.gradient_terms, 2);
   EXPECT_EQ(d.method.precision, Precision::float64);
@@ -86,7 +86,7 @@ metrics: {mean_szz: {mean: szz, of: soil}, widest: {max: vx}}
   EXPECT_EQ(d.time.step, 1e-4);
   EXPECT_EQ(d.time.sync, 10'000'000);
   EXPECT_EQ(d.method.update, UpdateScheme::usf);
-  EXPECT_EQ(d.method.flip, 0.9);
+  EXPECT_EQ(d.method.transfer.flip, 0.9);
   EXPECT_EQ(d.method.damping, 3.0);
   EXPECT_EQ(d.method.gradient_terms, 3);
   EXPECT_EQ(d.method.precision, Precision::float32);

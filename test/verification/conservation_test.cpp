@@ -75,7 +75,7 @@ TEST_P(EveryMethod, AuditClosesWithWallsGravityDampingAndPic) {
   auto d = definition(mpm::DruckerPragerDefinition{{1e5, 0.3}, 0.6, 0.1, 50.0});
   d.gravity = {0.0, 0.0, -9.81};
   d.method.damping = 3.0;
-  d.method.flip = 0.99;
+  d.method.transfer.flip = 0.99;
   d.walls[4] = {mpm::WallKind::frictional, {0.4, false}};
   for (const int face : {0, 2, 3}) d.walls[face] = {mpm::WallKind::slip, {}};
   d.bodies[0].velocities.assign(d.bodies[0].positions.size(), Vec3(-4.0, 0.0, -4.0));

@@ -196,7 +196,7 @@ TEST(Limits, RefusesDefinitionsThatCannotBe) {
   refused([](auto& d) { d.time.cfl = 1.0; });
   refused([&](auto& d) { d.gravity.z() = nan; });
   refused([](auto& d) { d.method.damping = std::numeric_limits<double>::infinity(); });
-  refused([](auto& d) { d.method.flip = 1.1; });
+  refused([](auto& d) { d.method.transfer.flip = 1.1; });
   refused([](auto& d) { d.bodies.clear(); });
   refused([](auto& d) { d.bodies[0].material = "none"; });
   refused([](auto& d) { d.bodies[0].velocities.resize(3); });

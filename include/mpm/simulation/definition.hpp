@@ -13,11 +13,14 @@
 #include "mpm/math/tensor.hpp"
 #include "mpm/particles/particle_scalar.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/shape/kind.hpp"
+#include "mpm/step/schedule.hpp"
+#include "mpm/step/transfer.hpp"
 
 namespace mpm {
 
-enum class GeometryKind { plane_strain, solid };
-enum class UpdateScheme { usf, usavg };
+/// A line along x, a plane x-z, or all three axes. A line has no strain but along it.
+enum class GeometryKind { line, plane_strain, plane_stress, solid };
 
 struct GridDefinition {
   Vec3 cell = Vec3::Zero();  ///< cell size along each axis [m]
@@ -33,8 +36,10 @@ struct TimeDefinition {
 };
 
 struct MethodDefinition {
+  ShapeKind shape = ShapeKind::ugimp;
   UpdateScheme update = UpdateScheme::usavg;
-  double flip = 1.0;                         ///< fraction of FLIP, 0 is PIC; per step
+  Transfer transfer;
+  bool average_dilatation = false;           ///< volume changes averaged over the grid, against locking
   double damping = 0.0;                      ///< grid damping [1/s]
   int gradient_terms = 2;                    ///< terms of exp(grad v dt)
   int particles_per_direction = 2;           ///< particles along a cell's edge

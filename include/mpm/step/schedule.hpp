@@ -5,6 +5,7 @@
 // so nothing has to be undone before the update. Source: Nairn, GIMP notes 2.2; method reference 5.4.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -12,6 +13,11 @@
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
+
+enum class UpdateScheme { usf, usl, usavg };
+
+/// In the order of UpdateScheme.
+inline constexpr std::array<const char*, 3> kUpdateNames = {"usf", "usl", "usavg"};
 
 using Stages = std::vector<std::unique_ptr<Stage>>;
 

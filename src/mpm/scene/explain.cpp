@@ -86,8 +86,8 @@ std::string explain(const Scene& scene, const SimulationDefinition& built) {
   text += fmt::format(
       "method: {}, uGIMP shape functions, {}, {}, {} term{} of the deformation's exponential{}, {} precision\n",
       planar ? fmt::format("plane strain, {:g} m thick", built.thickness) : "solid",
-      method.update == UpdateScheme::usavg ? "USAVG" : "USF", transfer_text(method.flip), method.gradient_terms,
-      method.gradient_terms == 1 ? "" : "s",
+      method.update == UpdateScheme::usavg ? "USAVG" : "USF", transfer_text(method.transfer.flip),
+      method.gradient_terms, method.gradient_terms == 1 ? "" : "s",
       method.damping > 0.0 ? fmt::format(", grid damping {:g} 1/s", method.damping) : "",
       precision_name(method.precision));
   text += "grid:";

@@ -48,12 +48,12 @@ void read_transfer(const Value& value, MethodDefinition& method) {
                                            {"fmpm", "use flip, pic or {flip: 0.99}"},
                                            {"apic", "use flip, pic or {flip: 0.99}"}};
   if (value.is_text()) {
-    method.flip = value.choice({"flip", "pic"}, later) == 0 ? 1.0 : 0.0;
+    method.transfer.flip = value.choice({"flip", "pic"}, later) == 0 ? 1.0 : 0.0;
     return;
   }
   const auto [key, fraction] = only_key(value, {"flip"}, later);
-  method.flip = fraction.non_negative(kPlain);
-  if (method.flip > 1.0)
+  method.transfer.flip = fraction.non_negative(kPlain);
+  if (method.transfer.flip > 1.0)
     fraction.fail(fmt::format("'{}' is above 1; write a fraction from 0 (PIC) to 1 (FLIP)", fraction.text()));
 }
 

@@ -82,9 +82,13 @@ void check(const SimulationDefinition& d) {
   if (d.time.step && !(*d.time.step > 0.0)) {
     throw DefinitionError(fmt::format("time.step is {}, must be positive", *d.time.step));
   }
+  const bool built = d.method.shape == ShapeKind::ugimp && d.method.update != UpdateScheme::usl &&
+                     d.method.transfer.kind == TransferKind::flip && !d.method.average_dilatation &&
+                     (d.geometry == GeometryKind::plane_strain || d.geometry == GeometryKind::solid);
+  if (!built) throw DefinitionError("this method is not built yet");
   if (d.method.gradient_terms < 1) throw DefinitionError("method.gradient_terms must be at least 1");
-  if (!(d.method.flip >= 0.0 && d.method.flip <= 1.0)) {
-    throw DefinitionError(fmt::format("FLIP fraction {} must lie in [0, 1]", d.method.flip));
+  if (!(d.method.transfer.flip >= 0.0 && d.method.transfer.flip <= 1.0)) {
+    throw DefinitionError(fmt::format("FLIP fraction {} must lie in [0, 1]", d.method.transfer.flip));
   }
   if (!(d.method.damping >= 0.0) || !std::isfinite(d.method.damping)) {
     throw DefinitionError(fmt::format("method.damping is {}, must be finite and not negative", d.method.damping));
@@ -234,7 +238,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   }
 
   ContinuumSettings settings;
-  settings.flip = definition.method.flip;
+  settings.flip = definition.method.transfer.flip;
   settings.gradient_terms = definition.method.gradient_terms;
   settings.gravity = s.definition.gravity;
   settings.threads = s.threads;

@@ -23,7 +23,9 @@ std::string method_text(const mpm::SimulationDefinition& definition) {
   const mpm::MethodDefinition& method = definition.method;
   const bool planar = definition.geometry == mpm::GeometryKind::plane_strain;
   const std::string transfer =
-      method.flip == 1.0 ? "FLIP" : (method.flip == 0.0 ? "PIC" : fmt::format("FLIP {:g}", method.flip));
+      method.transfer.flip == 1.0
+          ? "FLIP"
+          : (method.transfer.flip == 0.0 ? "PIC" : fmt::format("FLIP {:g}", method.transfer.flip));
   const int a_cell =
       method.particles_per_direction * method.particles_per_direction * (planar ? 1 : method.particles_per_direction);
   return fmt::format("{}, uGIMP, {}, {}{}, {} precision, cells of {:g} m, {} particles a cell",

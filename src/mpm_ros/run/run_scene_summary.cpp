@@ -59,7 +59,7 @@ nlohmann::ordered_json RunSummary::json() const {
   root["method"] = {{"geometry", planar ? "plane_strain" : "solid"},
                     {"shape", "ugimp"},
                     {"update", definition.method.update == mpm::UpdateScheme::usavg ? "usavg" : "usf"},
-                    {"transfer", transfer_name(definition.method.flip)},
+                    {"transfer", transfer_name(definition.method.transfer.flip)},
                     {"precision", mpm::precision_name(definition.method.precision)},
                     {"isa", isa}};
   root["particles"] = state.particles;

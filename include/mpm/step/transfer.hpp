@@ -1,0 +1,25 @@
+// What of the grid's motion a particle takes over, and their names in a scene.
+//
+// flip: velocity gains the grid's acceleration; a fraction below 1 mixes in PIC, which takes the grid's velocity
+// itself. xpic, fmpm: PIC whose smoothing is undone to order m, from the velocity at the start or at the end of the
+// step: what the grid cannot see is filtered out, the rest is kept. apic: PIC, with the gradient of the velocity kept
+// on the particle. Source: method reference 6.2, 6.6; Hammerquist & Nairn (2017), Nairn & Hammerquist (2021), Jiang et
+// al. (2015).
+#pragma once
+
+#include <array>
+
+namespace mpm {
+
+enum class TransferKind { flip, xpic, fmpm, apic };
+
+/// In the order of TransferKind.
+inline constexpr std::array<const char*, 4> kTransferNames = {"flip", "xpic", "fmpm", "apic"};
+
+struct Transfer {
+  TransferKind kind = TransferKind::flip;
+  double flip = 1.0;  ///< fraction of FLIP, 0 is PIC; per step; flip only
+  int order = 2;      ///< m of XPIC(m), k of FMPM(k), from 1, which is PIC; these only
+};
+
+}  // namespace mpm

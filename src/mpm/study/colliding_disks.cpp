@@ -40,6 +40,7 @@ Suite colliding_disks() {
       "energy is kept, and momentum; there is no closed form for the impact itself (Sulsky, Chen and Schreyer 1994)";
   suite.measure_text = "largest drift of kinetic and elastic energy over the energy at the start";
   suite.geometry = GeometryKind::plane_strain;
+  suite.costly = true;
   suite.definition = definition;
   suite.measure = [] { return energy_drift(); };
   suite.quick = grids({8, 16, 32}, 16);

@@ -106,7 +106,7 @@ Suite manufactured(const std::string& name, GeometryKind geometry, double amplit
       amplitude);
   suite.measure_text = "largest RMS displacement error of the period over the amplitude";
   suite.geometry = geometry;
-  suite.costly = directions == 3;
+  suite.costly = directions == 3 || (directions == 2 && amplitude < 0.01);
   suite.definition = [problem](const MethodDefinition& method, const Discretisation& discretisation) {
     return make_definition(problem, method, discretisation);
   };
@@ -123,7 +123,7 @@ Suite manufactured(const std::string& name, GeometryKind geometry, double amplit
   };
   suite.quick = directions == 1   ? grids({8, 16, 32, 64}, 16)
                 : directions == 2 ? grids({8, 16, 32}, 16)
-                                  : std::vector<Discretisation>{{4}, {8}, {12}, {8, 0.2}, {8, 0.8}};
+                                  : std::vector<Discretisation>{{4}, {8}, {12}, {8, 0.8}};
   suite.full = directions == 1   ? grids({8, 16, 32, 64, 128, 256}, 32)
                : directions == 2 ? grids({8, 16, 32, 64}, 16)
                                  : grids({4, 8, 16}, 8);

@@ -84,6 +84,7 @@ Suite plate_compression() {
   suite.exact = "force of the homogeneous state with sides free of stress, neo-Hookean law (Nairn and Guilkey 2015)";
   suite.measure_text = "RMS over the 4 s of holding of the error of the force on the plate, over the exact force";
   suite.geometry = GeometryKind::plane_strain;
+  suite.costly = true;
   suite.definition = definition;
   suite.measure = [] { return std::make_unique<ForceError>(); };
   suite.quick = grids({8, 16, 32}, 16);

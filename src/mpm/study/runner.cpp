@@ -73,15 +73,15 @@ Cost Runner::cost(const Suite& suite, const MethodChoice& choice, const Discreti
   const std::string place =
       fmt::format("{} {} {}", suite.name, discretisation.cells, discretisation.particles_per_direction);
   if (place != place_) {
+    place_ = place;
     reference_.reset();
     costs_.clear();
-    reference_ = std::make_unique<Twin>(define(suite, reference_method(), discretisation));
-    place_ = place;
   }
   const auto known = costs_.find(choice.label);
   if (known != costs_.end()) return known->second;
   Cost cost;
   try {
+    if (!reference_) reference_ = std::make_unique<Twin>(define(suite, reference_method(), discretisation));
     Twin twin(define(suite, choice, discretisation));
     std::vector<double> seconds, ratios;
     for (int turn = 0; turn < settings_.turns; ++turn) {
@@ -91,7 +91,7 @@ Cost Runner::cost(const Suite& suite, const MethodChoice& choice, const Discreti
     }
     cost = {median(seconds), median(ratios)};
   } catch (const PhysicsError&) {
-    // A method that fails even without load has no cost to speak of.
+    reference_.reset();  // it may be the one that failed: what does so even without load has no cost to speak of
   }
   costs_[choice.label] = cost;
   return cost;

@@ -73,6 +73,7 @@ Suite sliding_block() {
   suite.exact = "s = v₀t + at²/2 with a = g(sin 30° - 0.3 cos 30°) = 2.356 m/s², Coulomb's law";
   suite.measure_text = "largest error of the mean way down the incline, over the way at the end";
   suite.geometry = GeometryKind::plane_strain;
+  suite.costly = true;
   suite.definition = definition;
   suite.measure = [] { return std::make_unique<SlideError>(); };
   suite.quick = grids({4, 8, 16}, 8);

@@ -13,7 +13,7 @@ struct StudyOptions {
   std::vector<std::string> suites;   ///< names; all when empty
   std::vector<std::string> methods;  ///< labels; those of each suite when empty
   bool full = false;                 ///< finer grids, every method on every suite, longer timing
-  std::string folder;                ///< for work_precision.csv and summary.csv; made when it does not exist
+  std::string folder;                ///< for work_precision.csv, summary.csv and suites.csv; made if need be
 };
 
 /// @param progress is given one line a run

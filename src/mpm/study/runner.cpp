@@ -81,15 +81,22 @@ Cost Runner::cost(const Suite& suite, const MethodChoice& choice, const Discreti
   if (known != costs_.end()) return known->second;
   Cost cost;
   try {
-    if (!reference_) reference_ = std::make_unique<Twin>(define(suite, reference_method(), discretisation));
+    if (!reference_) {
+      reference_ = std::make_unique<Twin>(define(suite, reference_method(), discretisation));
+      std::vector<double> seconds;
+      for (int turn = 0; turn < 2 * settings_.turns; ++turn) {
+        seconds.push_back(reference_->seconds_per_step(settings_.slice));
+      }
+      reference_seconds_ = median(seconds);
+    }
     Twin twin(define(suite, choice, discretisation));
-    std::vector<double> seconds, ratios;
+    std::vector<double> ratios;
     for (int turn = 0; turn < settings_.turns; ++turn) {
       const double reference = reference_->seconds_per_step(settings_.slice);
-      seconds.push_back(twin.seconds_per_step(settings_.slice));
-      ratios.push_back(seconds.back() / reference);
+      ratios.push_back(twin.seconds_per_step(settings_.slice) / reference);
     }
-    cost = {median(seconds), median(ratios)};
+    cost.relative = median(ratios);
+    cost.seconds_per_step = cost.relative * reference_seconds_;
   } catch (const PhysicsError&) {
     reference_.reset();  // it may be the one that failed: what does so even without load has no cost to speak of
   }

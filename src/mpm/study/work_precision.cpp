@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr CostSettings kQuickCost = {3, 4e-3};
+constexpr CostSettings kQuickCost = {5, 3e-3};
 constexpr CostSettings kFullCost = {7, 20e-3};
 
 std::ofstream create(const fs::path& path) {
@@ -22,6 +22,14 @@ std::ofstream create(const fs::path& path) {
     throw StudyError(fmt::format("{}: cannot be written; check the folder and its permissions", path.string()));
   }
   return file;
+}
+
+void write_texts(std::ostream& out, const std::vector<const Suite*>& chosen) {
+  out << "suite,title,geometry,problem,exact,measure\n";
+  for (const Suite* suite : chosen) {
+    out << quoted(suite->name) << ',' << quoted(suite->title) << ',' << geometry_name(suite->geometry) << ','
+        << quoted(suite->problem) << ',' << quoted(suite->exact) << ',' << quoted(suite->measure_text) << '\n';
+  }
 }
 
 std::string told(const Row& row) {
@@ -46,6 +54,8 @@ void run_study(const StudyOptions& options, const std::function<void(const std::
   fs::create_directories(options.folder, error);
   const fs::path folder(options.folder);
   std::ofstream file = create(folder / "work_precision.csv"), summary = create(folder / "summary.csv");
+  std::ofstream texts = create(folder / "suites.csv");
+  write_texts(texts, chosen);
 
   Runner runner(options.full ? kFullCost : kQuickCost);
   std::vector<Row> rows;
@@ -64,7 +74,8 @@ void run_study(const StudyOptions& options, const std::function<void(const std::
     }
   }
   write_summary(summary, summarise(rows));
-  if (!file || !summary) throw StudyError(options.folder + ": not all could be written; is there space left?");
+  if (!file || !summary || !texts)
+    throw StudyError(options.folder + ": not all could be written; is there space left?");
 }
 
 }  // namespace mpm::study

@@ -133,24 +133,25 @@ template <int Dim, class Points>
 void check_lanes() {
   std::mt19937 engine(6);
   std::uniform_real_distribution<double> component(-0.2, 0.2);
-  double alone[4][Dim][Dim];
   Four<double> together[Dim][Dim], x[Points::kPoints][Dim], g[Points::kPoints][Dim];
   for (int k = 0; k < Dim; ++k) {
     for (int c = 0; c < Dim; ++c) {
-      for (int i = 0; i < 4; ++i) {
-        alone[i][k][c] = (k == c ? 0.5 : 0.0) + component(engine);
-        set_lane(together[k][c], i, alone[i][k][c]);
-      }
+      for (int i = 0; i < 4; ++i) set_lane(together[k][c], i, (k == c ? 0.5 : 0.0) + component(engine));
     }
   }
   Points::offsets(together, x);
   Points::gradients(together, g);
   for (int i = 0; i < 4; ++i) {
-    double x_alone[Points::kPoints][Dim], g_alone[Points::kPoints][Dim];
+    double alone[Dim][Dim], x_alone[Points::kPoints][Dim], g_alone[Points::kPoints][Dim];
     float d_single[Dim][Dim], g_single[Points::kPoints][Dim];
-    for (int k = 0; k < Dim; ++k) std::copy(alone[i][k], alone[i][k] + Dim, d_single[k]);
-    Points::offsets(alone[i], x_alone);
-    Points::gradients(alone[i], g_alone);
+    for (int k = 0; k < Dim; ++k) {
+      for (int c = 0; c < Dim; ++c) {
+        alone[k][c] = lane(together[k][c], i);
+        d_single[k][c] = static_cast<float>(alone[k][c]);
+      }
+    }
+    Points::offsets(alone, x_alone);
+    Points::gradients(alone, g_alone);
     Points::gradients(d_single, g_single);
     for (int a = 0; a < Points::kPoints; ++a) {
       for (int c = 0; c < Dim; ++c) {

@@ -10,6 +10,7 @@
 #include "mpm/boundary/wall.hpp"
 #include "mpm/material/definition.hpp"
 #include "mpm/math/geometry.hpp"
+#include "mpm/math/geometry_kind.hpp"
 #include "mpm/math/tensor.hpp"
 #include "mpm/particles/particle_scalar.hpp"
 #include "mpm/rigid/rigid_body.hpp"
@@ -18,9 +19,6 @@
 #include "mpm/step/transfer.hpp"
 
 namespace mpm {
-
-/// A line along x, a plane x-z, or all three axes. A line has no strain but along it.
-enum class GeometryKind { line, plane_strain, plane_stress, solid };
 
 struct GridDefinition {
   Vec3 cell = Vec3::Zero();  ///< cell size along each axis [m]

@@ -63,11 +63,6 @@ const std::vector<Suite>& suites();
 /// @throws StudyError that lists the names there are
 const Suite& find_suite(const std::string& name);
 
-/// "line", "plane_strain", "plane_stress", "solid".
-std::string geometry_name(GeometryKind kind);
-/// Axes of the world that material moves along in this geometry: {0}, {0, 2} or {0, 1, 2}.
-std::vector<int> axes_of(GeometryKind kind);
-
 /// Grids one after another at Courant number 0.5 and two particles an edge, then on the grid `varied` the Courant
 /// numbers 0.2 and 0.8, and three particles an edge.
 std::vector<Discretisation> grids(const std::vector<int>& cells, int varied);

@@ -30,26 +30,6 @@ const Suite& find_suite(const std::string& name) {
   throw StudyError(fmt::format("no suite is called '{}'; there are {}", name, names));
 }
 
-std::string geometry_name(GeometryKind kind) {
-  switch (kind) {
-    case GeometryKind::line:
-      return "line";
-    case GeometryKind::plane_strain:
-      return "plane_strain";
-    case GeometryKind::plane_stress:
-      return "plane_stress";
-    case GeometryKind::solid:
-      return "solid";
-  }
-  return {};
-}
-
-std::vector<int> axes_of(GeometryKind kind) {
-  if (kind == GeometryKind::line) return {0};
-  if (kind == GeometryKind::solid) return {0, 1, 2};
-  return {0, 2};
-}
-
 std::vector<Discretisation> grids(const std::vector<int>& cells, int varied) {
   std::vector<Discretisation> list;
   for (const int count : cells) list.push_back({count, 0.5, 2});

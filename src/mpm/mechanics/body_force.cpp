@@ -22,7 +22,7 @@ class ParticleLoad final : public BodyForce {
  public:
   ParticleLoad(const mpm_kernel::KernelTable<T>& kernels, int dim, std::vector<ParticleSet>& sets,
                const std::vector<Law>& laws, const std::vector<BodyForceTerm>& terms, int threads)
-      : kernels_(kernels), dim_(dim), sets_(sets), laws_(laws), threads_(threads), nodal_(dim, dim == 3 ? 64 : 16) {
+      : kernels_(kernels), dim_(dim), sets_(sets), laws_(laws), threads_(threads), nodal_(dim, nodes_of_block(dim)) {
     account_.name = "body_force";
     for (const BodyForceTerm& term : terms) {
       Term own{term.set, {}};
@@ -121,7 +121,7 @@ class ParticleLoad final : public BodyForce {
     const auto fault =
         std::min_element(faults_.begin(), faults_.end(), [](const Fault& a, const Fault& b) { return a.id < b.id; });
     if (!fault->text.empty()) throw LoadError(fault->text);
-    Vec3 along = Vec3::Zero();  // a planar body has no momentum out of its plane
+    Vec3 along = Vec3::Zero();  // no momentum along axes that the grid does not have
     for (int k = 0; k < dim_; ++k) along[layout.axis(k)] = impulse[layout.axis(k)];
     account_.add(along);
   }

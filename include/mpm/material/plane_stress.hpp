@@ -3,17 +3,18 @@
 // The law is asked for its stress again and again, each time from the state at the increment's start, with other values
 // of the strain along y, e = (grad v dt)_yy: first e = 0, then a step with the stiffness c^2 of the fastest wave, then
 // the secant through the last two. tau_yy rises with e, so its signs bracket the root: a secant that leaves the bracket
-// is replaced by its middle. Where tau_yy does not rise (soil that has opened) steps grow until it does.
+// is replaced by its middle, and so is every second one when there have been kManySteps. Where tau_yy does not rise
+// (soil that has opened) steps grow until it does.
 //
 // Lanes go on together until all have found their e. One that has keeps it, so that it gets the bits it would get
 // alone. One that is not a number is left as it is: the caller looks at J.
 //
 // Weak: takes the law's work three or four times in an elastic step, more where it begins to flow. What cannot be
-// brought to zero within one increment (a thickness that would change by more than kMost) stays in tau_yy, and the next
-// increment goes on from there. The wave speed that limits the time step is that of a solid: a wave in a plate is
-// slower, sqrt(1 - 2 nu) / (1 - nu) of it where the material is unstrained. Source: de Borst (1991), Eng. Comput. 8,
-// 23-33, for finding the free strain beside any law; he takes Newton's steps with the law's tangent, which laws here do
-// not have.
+// brought to zero within one increment stays in tau_yy, and the next one goes on from there: a thickness that would
+// change by more than kMost, or the jump in the stress of soil that has opened and closes. The wave speed that limits
+// the time step is that of a solid: a wave in a plate is slower, sqrt(1 - 2 nu) / (1 - nu) of it where the material is
+// unstrained. Source: de Borst (1991), Eng. Comput. 8, 23-33, for finding the free strain beside any law; he takes
+// Newton's steps with the law's tangent, which laws here do not have.
 #pragma once
 
 #include <type_traits>
@@ -37,7 +38,7 @@ inline constexpr double kFreeStress = std::is_same_v<Scalar, double> ? 1e-12 : 2
 template <class Law, class T>
 void plane_stress_update(const Law& law, const T (&du)[2][2], int terms, const MatrixPlane<T>& old_f, T dt,
                          SymmetricPlane<T>& stress, T* history, MatrixPlane<T>& now_f, T j_old, T& j) {
-  constexpr int kSteps = 30;
+  constexpr int kSteps = 30, kManySteps = 6;
   constexpr double kMost = 0.5;     // largest |e| of an increment
   constexpr double kGrowth = 10.0;  // of a step over the one before
   const SymmetricPlane<T> old_stress = stress;
@@ -69,7 +70,9 @@ void plane_stress_update(const Law& law, const T (&du)[2][2], int terms, const M
     }
     const T reach = T(kGrowth) * max(abs(step), abs(miss) / stiffness);
     const T next = e - min(max(miss / slope, -reach), reach);
-    const T kept = select((next > low) & (next < high), next, T(0.5) * (low + high));
+    auto inside = (next > low) & (next < high);
+    if (i >= kManySteps && i % 2 == 0) inside = inside & ((low <= T(-kMost)) | (high >= T(kMost)));
+    const T kept = select(inside, next, T(0.5) * (low + high));
     open = open & (abs(kept - e) > tolerance);
     if (!any(open)) return;
     before = select(open, miss, before);

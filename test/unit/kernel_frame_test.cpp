@@ -2,8 +2,8 @@
 // and no more, and one whose nodes are scattered, which brings passes of its own. The schedule is the same.
 #include "corner_passes.hpp"
 #include "kernel_check.hpp"
+#include "mpm/shape/bspline.hpp"
 #include "mpm/step/schedule.hpp"
-#include "quadratic_spline.hpp"
 
 namespace mpm_plain {
 const mpm_kernel::KernelTable<double>& solid_spline_double();

@@ -9,7 +9,7 @@ namespace mpm {
 
 template <int Dim>
 struct NodeRange {
-  static constexpr int kNodes = Dim == 3 ? 64 : 16;
+  static constexpr int kNodes = Dim == 3 ? 64 : Dim == 2 ? 16 : 4;
   using W = Wide<double>;
 
   // visit(offset of a register of nodes in a nodal field's first component, 1 / mass there).

@@ -1,6 +1,6 @@
 // Kernels of quadratic splines, as those of uGIMP are made (src/mpm/kernel/wide).
-#include "../quadratic_spline.hpp"
 #include "mpm/kernel/passes.hpp"
+#include "mpm/shape/bspline.hpp"
 
 namespace mpm {
 

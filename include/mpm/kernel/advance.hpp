@@ -4,7 +4,8 @@
 // kIncrement   velocity gains a dt, less the slip that the PIC fraction takes away. GIMP notes (2.15), (2.16).
 // kAdopt       velocity becomes the grid's; x += (V^n + V^{n+1}) dt / 2. Method reference 6.6 (XPIC, FMPM).
 // kAffine      velocity becomes the grid's; x += V^{n+1} dt, without which angular momentum is not kept.
-// Damped: less (alpha_g v0 + alpha_p V^n) dt, v0 the grid's velocity before the step; GIMP notes (2.31)-(2.34).
+// Damped: less (alpha_g v0 + alpha_p V^n) dt, v0 the grid's velocity before the step, or of what is adopted that one;
+// GIMP notes (2.31)-(2.34), method reference 6.6.
 #pragma once
 
 #include "mpm/kernel/weights.hpp"
@@ -21,7 +22,7 @@ class Advance {
         dt_(settings.dt),
         half_dt_(0.5 * settings.dt),
         pic_(1.0 - settings.flip),
-        rate_{settings.grid_damping, settings.particle_damping} {}
+        rate_{W(settings.grid_damping), W(settings.particle_damping)} {}
 
   /// Component c of particles [p, p + lanes), of which the grid says velocity and acceleration. Moves them; returns
   /// their displacement [m].
@@ -45,7 +46,7 @@ class Advance {
   W advance(int c, int p, int lanes, W grid_velocity, W acceleration, W& velocity) {
     const W old = velocity;
     W drag(0.0);
-    if constexpr (Damped) drag = damping(c, p, lanes, grid_velocity - acceleration * dt_, old);
+    if constexpr (Damped) drag = damping(c, p, lanes, seen(grid_velocity, acceleration), old);
     if constexpr (Kind == mpm_kernel::kIncrement) {
       const W slip = pic_ * (velocity - (grid_velocity - acceleration * dt_));
       velocity += acceleration * dt_ - slip;
@@ -58,6 +59,10 @@ class Advance {
     return Kind == mpm_kernel::kAdopt ? half_dt_ * (old + velocity) : dt_ * velocity;
   }
 
+  // The grid's velocity that damping acts on: of the step's start, or the one that is adopted.
+  W seen(W grid_velocity, W acceleration) const {
+    return Kind == mpm_kernel::kIncrement ? grid_velocity - acceleration * dt_ : grid_velocity;
+  }
   W damping(int c, int p, int lanes, W grid_velocity, W own) {
     const double* const* of_place = set_.damping;
     const W on_grid = of_place[0] == nullptr ? rate_[0] : W(W::B::place(of_place[0] + p, lanes, 0.0, 1.0, 0.0));
@@ -103,9 +108,8 @@ class Reach {
     const WideMask<T> beyond = !WideMask<T>::first(lanes);
     cells += displacement * inverse_cell_[k];
     inside = inside & (((cells >= lowest_[k]) & (cells <= highest_[k])) | beyond);
-    tight =
-        tight &
-        (((cells >= W(lowest_nearest(false) - kBeside)) & (cells <= W(highest_nearest(false) + kBeside))) | beyond);
+    tight = tight &
+            (((cells >= W(lowest_nearest(false) - kBeside)) & (cells <= W(highest_nearest(false) + kBeside))) | beyond);
   }
 
  private:

@@ -1,6 +1,7 @@
-// APIC with the points of a domain: the affine field of a particle, v + C (x_i - x_p), to the nodes of its points' cells,
-// and C = B D^-1 from them, B = sum S v_i (x_i - x_p)^T, D = sum S (x_i - x_p) (x_i - x_p)^T, which is not diagonal for a
-// sheared domain. Source: Jiang, Schroeder, Selle, Teran & Stomakhin (2015) eq. (4) to (6); method reference 6.6.
+// APIC with the points of a domain: the affine field of a particle, v + C (x_i - x_p), to the nodes of its points'
+// cells, and C = B D^-1 from them, B = sum S v_i (x_i - x_p)^T, D = sum S (x_i - x_p) (x_i - x_p)^T, which is not
+// diagonal for a sheared domain. Source: Jiang, Schroeder, Selle, Teran & Stomakhin (2015) eq. (4) to (6); method
+// reference 6.6.
 #pragma once
 
 #include "mpm/kernel/point_tile.hpp"

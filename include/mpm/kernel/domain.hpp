@@ -1,8 +1,9 @@
-// The points of the deformed domains of a chunk of particles (shape/cpdi.hpp): where they are in the tile, and their part
-// in the gradient. Made anew for every pass, as weights.hpp makes those of other shape functions.
+// The points of the deformed domains of a chunk of particles (shape/cpdi.hpp): where they are in the tile, and their
+// part in the gradient. Made anew for every pass, as weights.hpp makes those of other shape functions.
 //
-// A point farther than 1.5 cells from its particle could lie outside the tile: such a domain is shrunk as a whole, which
-// keeps all sums that a shape function must have (Homel, Brannon & Guilkey (2016) scale CPDI domains for the same end).
+// A point farther than 1.5 cells from its particle could lie outside the tile: such a domain is shrunk as a whole,
+// which keeps all sums that a shape function must have (Homel, Brannon & Guilkey (2016) scale CPDI domains for the same
+// end).
 #pragma once
 
 #include "mpm/kernel/point_tile.hpp"

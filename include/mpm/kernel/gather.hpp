@@ -176,8 +176,7 @@ class Gather {
     if constexpr (kNodes == 3) {
       return g[2] * at.above[0] - g[0] * at.below[0];
     } else {
-      return ((g[3] + g[4]) * at.above[0] + g[4] * at.above[1]) -
-             ((g[1] + g[0]) * at.below[0] + g[0] * at.below[1]);
+      return ((g[3] + g[4]) * at.above[0] + g[4] * at.above[1]) - ((g[1] + g[0]) * at.below[0] + g[0] * at.below[1]);
     }
   }
 

@@ -23,18 +23,18 @@
 // Shape functions and laws do not know each other: a table of passes belongs to a number of axes and a shape function,
 // a table of laws to a geometry, and chunks of velocity gradients and stresses pass between the two.
 // A shape function that is a product of three or five values along each axis (uGIMP, splines) is a class as in
-// shape/ugimp.hpp, and passes.hpp does the rest; one that is a sum over points of a deformed domain (CPDI) is a class as
-// in shape/cpdi.hpp, and point_passes.hpp does.
+// shape/ugimp.hpp, and passes.hpp does the rest; one that is a sum over points of a deformed domain (CPDI) is a class
+// as in shape/cpdi.hpp, and point_passes.hpp does.
 #pragma once
 
 #include <cstdint>
 
 namespace mpm_kernel {
 
-constexpr int kTileEdge = 8;     ///< nodes of a tile along an axis
-constexpr int kTileMargin = 2;   ///< of these, before the block's first
-constexpr int kMostHistory = 3;  ///< scalars of history that a law may have
-constexpr double kSlack = 1e-5;  ///< of the limits that `move` reports on [cells]
+constexpr int kTileEdge = 8;          ///< nodes of a tile along an axis
+constexpr int kTileMargin = 2;        ///< of these, before the block's first
+constexpr int kMostHistory = 3;       ///< scalars of history that a law may have
+constexpr double kSlack = 1e-5;       ///< of the limits that `move` reports on [cells]
 constexpr int kChunk = 64;            ///< particles at a time
 constexpr int kBuffer = kChunk + 16;  ///< and what the last register writes beyond them
 constexpr double kNoWall = 1e9;       ///< node number of a wall that there is not
@@ -43,11 +43,11 @@ constexpr double kNoWall = 1e9;       ///< node number of a wall that there is n
 struct GridView {
   double origin[3], inverse_cell[3];
   double low_wall[3], high_wall[3];  ///< node numbers of the domain's faces that are walls
-  double least_mass;  ///< a node with less takes no part [kg]
-  double* mass;       ///< [kg]
-  double* momentum;   ///< as gathered [N s]
-  double* velocity;   ///< [m/s]
-  double* force;      ///< force [N], then acceleration [m/s^2]
+  double least_mass;                 ///< a node with less takes no part [kg]
+  double* mass;                      ///< [kg]
+  double* momentum;                  ///< as gathered [N s]
+  double* velocity;                  ///< [m/s]
+  double* force;                     ///< force [N], then acceleration [m/s^2]
 };
 
 /// The block at work.
@@ -75,11 +75,12 @@ struct SetView {
   T* f[9];                           ///< deformation gradient
   T* tau[6];                         ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
-  T* domain[9];              ///< F in the grid's axes (of a stretching box: its diagonal) as the step began
-  T* affine[9];              ///< APIC: gradient of the particle's velocity, [component][axis] [1/s]
-  const double* load[3];     ///< acceleration by a load; null without one [m/s^2]
-  const double* damping[2];  ///< of place: rates on the grid's and on the particle's velocity [1/s]; null where constant
-  const void* law;           ///< the law
+  T* domain[9];           ///< F in the grid's axes (of a stretching box: its diagonal) as the step began
+  T* affine[9];           ///< APIC: gradient of the particle's velocity, [component][axis] [1/s]
+  const double* load[3];  ///< acceleration by a load; null without one [m/s^2]
+  const double*
+      damping[2];   ///< of place: rates on the grid's and on the particle's velocity [1/s]; null where constant
+  const void* law;  ///< the law
   const LawKernels<T>* law_kernels;
 };
 
@@ -90,11 +91,11 @@ struct StrainSettings {
 };
 
 struct MoveSettings {
-  double dt;                       ///< [s]
-  double flip;                     ///< FLIP fraction
-  bool regather;                   ///< the new momentum goes to the grid
-  double grid_damping = 0.0;       ///< rate on the grid's velocity at the particle, where it is constant [1/s]
-  double particle_damping = 0.0;   ///< rate on the particle's own velocity [1/s]
+  double dt;                      ///< [s]
+  double flip;                    ///< FLIP fraction
+  bool regather;                  ///< the new momentum goes to the grid
+  double grid_damping = 0.0;      ///< rate on the grid's velocity at the particle, where it is constant [1/s]
+  double particle_damping = 0.0;  ///< rate on the particle's own velocity [1/s]
 };
 
 /// Where particles are after `move`.
@@ -103,9 +104,9 @@ struct Moved {
   bool gone;   ///< some have left the tile's reach or the place where they may be, or are not finite
   int groups;  ///< groups of particles, and how often they were gathered: once when all lanes share a column
   int parts;
-  double drag[3] = {};           ///< damped: momentum that damping took [N s]
-  double grid_kinetic = 0.0;     ///< damped: sum of m |v0|^2 / 2, of the grid's velocity before the step [J]
-  double particle_kinetic = 0.0; ///< damped: the same of the particles' own [J]
+  double drag[3] = {};            ///< damped: momentum that damping took [N s]
+  double grid_kinetic = 0.0;      ///< damped: sum of m |v0|^2 / 2, of the grid's velocity before the step [J]
+  double particle_kinetic = 0.0;  ///< damped: the same of the particles' own [J]
 };
 
 /// Velocity gradients of a chunk [1/s]: d v_c / d x_k of dim axes is l[c * dim + k].
@@ -154,20 +155,21 @@ enum Motion {
 template <class T>
 using MovePass = Moved (*)(const GridView&, const BlockView&, const SetView<T>*, int sets, const MoveSettings&);
 
-/// One number of axes, shape function, precision and instruction set, and the laws of one geometry. Functions of a block
-/// work on all sets of particles.
+/// One number of axes, shape function, precision and instruction set, and the laws of one geometry. Functions of a
+/// block work on all sets of particles.
 template <class T>
 struct KernelTable {
   using Scatter = void (*)(const GridView&, const BlockView&, const SetView<T>*, int sets);
 
-  int lanes;                  ///< particles of a register: the largest group
-  bool by_column;             ///< a group's particles share a column of nodes; else their nearest node
-  bool follows_deformation;   ///< sets have a domain, noted by the first pass of a step
-  const LawKernels<T>* laws;  ///< by index in the list of laws (material/law.hpp)
+  int lanes;                    ///< particles of a register: the largest group
+  bool by_column;               ///< a group's particles share a column of nodes; else their nearest node
+  bool follows_deformation;     ///< sets have a domain, noted by the first pass of a step
+  const LawKernels<T>* laws;    ///< by index in the list of laws (material/law.hpp)
   Scatter scatter_momentum[2];  ///< m v and m; with the affine field of APIC
   Failure (*strain)(const GridView&, const BlockView&, const SetView<T>*, int sets, const StrainSettings&);
-  Scatter force;                    ///< of the stress as it is
-  MovePass<T> move[kMotions][2];  ///< without damping in the particles' update, and with it
+  Scatter force;  ///< of the stress as it is
+  MovePass<T> move[kMotions]
+                  [2];  ///< without damping in the particles' update, and with it (the same but for kIncrement)
   void (*scatter_load)(const GridView&, const BlockView&, const SetView<T>*, int sets, double* field);
   /// `to` += m S (S `from`): what the particles make of a field of velocities, as momentum.
   void (*project)(const GridView&, const BlockView&, const SetView<T>*, int sets, const double* from, double* to);
@@ -177,6 +179,18 @@ struct KernelTable {
   void (*nodal_velocity)(const GridView&, int first, int last);
   /// a = f / m + gravity, v = p / m + a dt on the nodes of blocks [first, last).
   void (*nodal_update)(const GridView&, int first, int last, double dt, const double* gravity);
+};
+
+/// The tables of a shape function by number of axes, less one; without laws. One that there is not is empty.
+struct PassFamily {
+  KernelTable<double> in_double[3];
+  KernelTable<float> in_single[3];
+};
+
+/// The laws of a geometry, by their index in the list of laws.
+struct LawFamily {
+  const LawKernels<double>* in_double;
+  const LawKernels<float>* in_single;
 };
 
 }  // namespace mpm_kernel

@@ -33,8 +33,8 @@ class Passes {
             &strain,
             &force,
             {{&move<mpm_kernel::kIncrement, false>, &move<mpm_kernel::kIncrement, true>},
-             {&move<mpm_kernel::kAdopt, false>, &move<mpm_kernel::kAdopt, true>},
-             {&move<mpm_kernel::kAffine, false>, &move<mpm_kernel::kAffine, true>}},
+             {&move<mpm_kernel::kAdopt, true>, &move<mpm_kernel::kAdopt, true>},
+             {&move<mpm_kernel::kAffine, true>, &move<mpm_kernel::kAffine, true>}},
             &scatter_load,
             &project,
             nullptr,
@@ -58,9 +58,8 @@ class Passes {
       if (absent(sets[s], block)) continue;
       const Set set = sets[s];
       if constexpr (Shape<W>::kStretches) note_stretch(set, block.owner);
-      scatter_values(grid, block, set, tile, [&](Values& values, int q, int p, int lanes) {
-        put_momentum(set, values, q, p, lanes);
-      });
+      scatter_values(grid, block, set, tile,
+                     [&](Values& values, int q, int p, int lanes) { put_momentum(set, values, q, p, lanes); });
       if constexpr (Affine) scatter_affine(grid, block, set, tile);
     }
     tile.template add_to<kDim>(grid.momentum, block, 0);
@@ -141,7 +140,7 @@ class Passes {
   template <mpm_kernel::Motion Kind, bool Damped>
   static mpm_kernel::Moved move(const GridView& grid, const BlockView& given, const Set* sets, int count,
                                 const mpm_kernel::MoveSettings& settings_view) {
-    constexpr int kFields = Kind == mpm_kernel::kIncrement || Damped ? 2 * kDim : kDim;  // velocity, acceleration
+    constexpr int kFields = Kind == mpm_kernel::kIncrement ? 2 * kDim : kDim;  // velocity, acceleration
     const BlockView block = whole(given);
     const mpm_kernel::MoveSettings settings = settings_view;
     GatherTile<T, kDim, kFields> motion;
@@ -302,5 +301,12 @@ class Passes {
     });
   }
 };
+
+/// Of a shape function, for each number of axes and either precision.
+template <template <class> class Shape>
+constexpr mpm_kernel::PassFamily passes_of() {
+  return {{Passes<1, Shape, double>::table(), Passes<2, Shape, double>::table(), Passes<3, Shape, double>::table()},
+          {Passes<1, Shape, float>::table(), Passes<2, Shape, float>::table(), Passes<3, Shape, float>::table()}};
+}
 
 }  // namespace mpm

@@ -37,8 +37,8 @@ class PointPasses {
             &strain,
             &force,
             {{&move<mpm_kernel::kIncrement, false>, &move<mpm_kernel::kIncrement, true>},
-             {&move<mpm_kernel::kAdopt, false>, &move<mpm_kernel::kAdopt, true>},
-             {&move<mpm_kernel::kAffine, false>, &move<mpm_kernel::kAffine, true>}},
+             {&move<mpm_kernel::kAdopt, true>, &move<mpm_kernel::kAdopt, true>},
+             {&move<mpm_kernel::kAffine, true>, &move<mpm_kernel::kAffine, true>}},
             &scatter_load,
             &project,
             &outgrown,
@@ -181,7 +181,7 @@ class PointPasses {
   static mpm_kernel::Moved move(const GridView& grid, const BlockView& given, const Set* sets, int count,
                                 const mpm_kernel::MoveSettings& settings_view) {
     constexpr bool kAffine = Kind == mpm_kernel::kAffine;
-    constexpr bool kAccelerates = Kind == mpm_kernel::kIncrement || Damped;
+    constexpr bool kAccelerates = Kind == mpm_kernel::kIncrement;
     const BlockView block = whole(given);
     const mpm_kernel::MoveSettings settings = settings_view;
     PointTile<T, Dim> velocity, acceleration;
@@ -259,5 +259,14 @@ class PointPasses {
     return false;
   }
 };
+
+/// Of a set of points, for each number of axes and either precision.
+template <template <int> class Points>
+constexpr mpm_kernel::PassFamily passes_of() {
+  return {{PointPasses<1, Points, double>::table(), PointPasses<2, Points, double>::table(),
+           PointPasses<3, Points, double>::table()},
+          {PointPasses<1, Points, float>::table(), PointPasses<2, Points, float>::table(),
+           PointPasses<3, Points, float>::table()}};
+}
 
 }  // namespace mpm

@@ -98,7 +98,8 @@ class Scatter {
         load(w.s[0], q, first);
         if constexpr (Dim == 3) load(w.s[1], q, second);
         for (int j = 0; j < kSecond; ++j) {
-          for (int i = 0; i < kFirst; ++i) (Dim == 3 ? first[i] * second[j] : first[i]).store(across[kFirst * j + i] + q);
+          for (int i = 0; i < kFirst; ++i)
+            (Dim == 3 ? first[i] * second[j] : first[i]).store(across[kFirst * j + i] + q);
         }
       }
     }
@@ -183,8 +184,7 @@ class Scatter {
   template <class Accumulate>
   static void each_run(const AllWeights& w, int count, T* tile, Accumulate&& accumulate) {
     constexpr int kReach = kNodes / 2;
-    constexpr int kCorner =
-        kReach * (Dim == 3 ? kTileEdge * kTileEdge + kTileEdge + 1 : Dim == 2 ? kTileEdge + 1 : 1);
+    constexpr int kCorner = kReach * (Dim == 3 ? kTileEdge * kTileEdge + kTileEdge + 1 : Dim == 2 ? kTileEdge + 1 : 1);
     for (int p = 0; p < count;) {
       int end = p + 1;
       while (end < count && w.node[end] == w.node[p]) ++end;

@@ -88,8 +88,8 @@ struct Weights {
   alignas(64) T g[Dim][kNodes][kBuffer];  ///< its gradient [1/m], or what stands beside the values
   alignas(64) T cells[Dim][kBuffer];      ///< place in the tile
   alignas(64) T last[kBuffer];            ///< nearest node along the last axis
-  alignas(64) T place[kBuffer];       ///< what lanes must share to be gathered together: number of a column or a node
-  alignas(64) int node[kBuffer];      ///< number in the tile of the nearest node
+  alignas(64) T place[kBuffer];   ///< what lanes must share to be gathered together: number of a column or a node
+  alignas(64) int node[kBuffer];  ///< number in the tile of the nearest node
 
   /// Of particles [first, first + count); what follows them in the buffer has no meaning.
   template <Beside What>
@@ -122,6 +122,7 @@ struct Weights {
   }
 
  private:
+  static constexpr double kLeastMoment = 1e-10;  ///< [cells^2]
   // A product of values that each reproduce a linear field has a diagonal second moment, sum of S (x_i - x_p)^2.
   static void put_moments(Shape<W>& shape, W offset, double cell, bool over_second) {
     W second(0.0);
@@ -131,6 +132,8 @@ struct Weights {
       second += shape.g[n] * arm;
     }
     if (!over_second) return;
+    // A spline folded at a wall has no second moment on the wall: all weight is the wall node's, and moments are zero.
+    second = max(second, W(kLeastMoment * cell * cell));
     for (int n = 0; n < kNodes; ++n) shape.g[n] /= second;
   }
 };

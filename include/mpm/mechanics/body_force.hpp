@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "mpm/kernel/isa.hpp"
+#include "mpm/kernel/kernels.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/math/function.hpp"
 #include "mpm/particles/particle_set.hpp"
@@ -43,7 +43,10 @@ class BodyForce : public Stage {
 };
 
 /// `sets` and `laws`, one each, outlive the result; sets that a term with X, Y or Z acts on have their start_x.
-std::unique_ptr<BodyForce> make_body_force(int dim, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
-                                           const std::vector<BodyForceTerm>& terms, Isa isa, int threads);
+/// `kernels`: of the sets' precision; their shape function spreads the load.
+template <class T>
+std::unique_ptr<BodyForce> make_body_force(const mpm_kernel::KernelTable<T>& kernels, std::vector<ParticleSet>& sets,
+                                           const std::vector<Law>& laws, const std::vector<BodyForceTerm>& terms,
+                                           int threads);
 
 }  // namespace mpm

@@ -7,7 +7,6 @@
 #include <limits>
 #include <string>
 
-#include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/kernel_views.hpp"
 
 namespace mpm {
@@ -20,9 +19,14 @@ class ParticleLoad final : public BodyForce {
   static constexpr int kGroup = 1024;
 
  public:
-  ParticleLoad(const mpm_kernel::KernelTable<T>& kernels, int dim, std::vector<ParticleSet>& sets,
-               const std::vector<Law>& laws, const std::vector<BodyForceTerm>& terms, int threads)
-      : kernels_(kernels), dim_(dim), sets_(sets), laws_(laws), threads_(threads), nodal_(dim, nodes_of_block(dim)) {
+  ParticleLoad(const mpm_kernel::KernelTable<T>& kernels, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+               const std::vector<BodyForceTerm>& terms, int threads)
+      : kernels_(kernels),
+        dim_(static_cast<int>(sets.front().x.size())),
+        sets_(sets),
+        laws_(laws),
+        threads_(threads),
+        nodal_(dim_, nodes_of_block(dim_)) {
     account_.name = "body_force";
     for (const BodyForceTerm& term : terms) {
       Term own{term.set, {}};
@@ -52,7 +56,7 @@ class ParticleLoad final : public BodyForce {
     const mpm_kernel::GridView view = view_of(grid);
     views_.clear();
     for (std::size_t s = 0; s < sets_.size(); ++s) {
-      views_.push_back(view_of<T>(sets_[s], laws_[s]));
+      views_.push_back(view_of<T>(sets_[s], laws_[s], kernels_.laws));
       for (std::size_t k = 0; k < values_[s].size(); ++k) views_.back().load[k] = values_[s][k].data();
     }
     each_owner(grid, threads_, [&](const mpm_kernel::BlockView& block) {
@@ -152,7 +156,7 @@ class ParticleLoad final : public BodyForce {
     return b;
   }
 
-  const mpm_kernel::KernelTable<T>& kernels_;
+  mpm_kernel::KernelTable<T> kernels_;
   int dim_;
   std::vector<ParticleSet>& sets_;
   const std::vector<Law>& laws_;
@@ -169,12 +173,16 @@ class ParticleLoad final : public BodyForce {
 
 }  // namespace
 
-std::unique_ptr<BodyForce> make_body_force(int dim, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
-                                           const std::vector<BodyForceTerm>& terms, Isa isa, int threads) {
-  if (sets.front().precision == Precision::float32) {
-    return std::make_unique<ParticleLoad<float>>(ugimp_kernels<float>(dim, isa), dim, sets, laws, terms, threads);
-  }
-  return std::make_unique<ParticleLoad<double>>(ugimp_kernels<double>(dim, isa), dim, sets, laws, terms, threads);
+template <class T>
+std::unique_ptr<BodyForce> make_body_force(const mpm_kernel::KernelTable<T>& kernels, std::vector<ParticleSet>& sets,
+                                           const std::vector<Law>& laws, const std::vector<BodyForceTerm>& terms,
+                                           int threads) {
+  return std::make_unique<ParticleLoad<T>>(kernels, sets, laws, terms, threads);
 }
+
+template std::unique_ptr<BodyForce> make_body_force(const mpm_kernel::KernelTable<double>&, std::vector<ParticleSet>&,
+                                                    const std::vector<Law>&, const std::vector<BodyForceTerm>&, int);
+template std::unique_ptr<BodyForce> make_body_force(const mpm_kernel::KernelTable<float>&, std::vector<ParticleSet>&,
+                                                    const std::vector<Law>&, const std::vector<BodyForceTerm>&, int);
 
 }  // namespace mpm

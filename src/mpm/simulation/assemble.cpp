@@ -8,6 +8,7 @@
 #include "initial.hpp"
 #include "mpm/boundary/grid_damping.hpp"
 #include "mpm/boundary/wall.hpp"
+#include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "state.hpp"
@@ -76,7 +77,7 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
   });
   set.history = zeros(history_size(law), set.precision, n);
   start_particles(set, body, material, definition.geometry, warnings);
-  if (definition.method.update == UpdateScheme::usavg) set.next_x = set.x;
+  if (definition.method.update != UpdateScheme::usf) set.next_x = set.x;
   return set;
 }
 
@@ -88,9 +89,8 @@ void check(const SimulationDefinition& d) {
   if (d.time.step && !(*d.time.step > 0.0)) {
     throw DefinitionError(fmt::format("time.step is {}, must be positive", *d.time.step));
   }
-  const bool built = d.method.shape == ShapeKind::ugimp && d.method.update != UpdateScheme::usl &&
-                     d.method.transfer.kind == TransferKind::flip && !d.method.average_dilatation &&
-                     (d.geometry == GeometryKind::plane_strain || d.geometry == GeometryKind::solid);
+  const bool built =
+      !d.method.average_dilatation && (d.geometry == GeometryKind::plane_strain || d.geometry == GeometryKind::solid);
   if (!built) throw DefinitionError("this method is not built yet");
   if (d.method.gradient_terms < 1) throw DefinitionError("method.gradient_terms must be at least 1");
   if (!(d.method.transfer.flip >= 0.0 && d.method.transfer.flip <= 1.0)) {
@@ -184,6 +184,26 @@ Pose projected(const Pose& pose, GeometryKind geometry, const std::string& body)
   return {{pose.position.x(), 0.0, pose.position.z()}, Quat(q.w() * scale, 0.0, q.y() * scale, 0.0)};
 }
 
+// The kernels, and what runs on them: T is the precision of the particles.
+template <class T>
+void Simulation::State::add_mechanics() {
+  const MethodDefinition& method = definition.method;
+  const auto kernels = kernel_table<T>(method.shape, definition.geometry, isa);
+  for (ParticleSet& set : sets) prepare(set, kernels, method.shape, method.transfer);
+  if (!definition.body_forces.empty()) {
+    auto load = make_body_force(kernels, sets, laws, make_body_force_terms(definition, sets), threads);
+    body_force = load.get();
+    stages.push_back(std::move(load));
+  }
+  ContinuumSettings settings;
+  settings.transfer = method.transfer;
+  settings.gradient_terms = method.gradient_terms;
+  settings.gravity = definition.gravity;
+  settings.threads = threads;
+  mechanics = make_mechanics(kernels, sets, laws, settings);
+  sorter = std::make_unique<Sorter>(threads, kernel_grouping(kernels));
+}
+
 Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : state_(std::make_unique<State>()) {
   State& s = *state_;
   check(given);
@@ -198,6 +218,11 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   project(s.definition);
   s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));
   const GridLayout& layout = s.grid->layout;
+  for (int k = 0; k < dim; ++k) {
+    for (const int upper : {0, 1}) {
+      s.grid->has_wall[2 * k + upper] = definition.walls[2 * layout.axis(k) + upper].kind != WallKind::none;
+    }
+  }
 
   const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
                                      [](const DeformableBody& body) { return body.geostatic.has_value(); });
@@ -254,23 +279,14 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     for (Wall* wall : holding) s.stages.push_back(std::make_unique<WallAgain>(*wall));
   }
 
-  if (!s.definition.body_forces.empty()) {
-    auto load = make_body_force(dim, s.sets, s.laws, make_body_force_terms(s.definition, s.sets), s.isa, s.threads);
-    s.body_force = load.get();
-    s.stages.push_back(std::move(load));
+  if (definition.method.precision == Precision::float32) {
+    s.add_mechanics<float>();
+  } else {
+    s.add_mechanics<double>();
   }
-
-  ContinuumSettings settings;
-  settings.flip = definition.method.transfer.flip;
-  settings.gradient_terms = definition.method.gradient_terms;
-  settings.gravity = s.definition.gravity;
-  settings.threads = s.threads;
-  settings.isa = s.isa;
-  s.mechanics = make_mechanics(dim, s.sets, s.laws, settings);
   double lightest = s.sets.front().mass;
   for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.mass);
   s.grid->least_mass = 1e-30 * lightest;
-  s.sorter = std::make_unique<Sorter>(s.threads, kernel_grouping(dim, definition.method.precision, s.isa));
   s.gravity.name = "gravity";
   s.sort(0.0);
   s.material_limit = s.previous_limit = s.survey_material();

@@ -51,6 +51,8 @@ struct Simulation::State {
   StepLimit limit;           ///< of the last period's steps
   bool failed = false;
 
+  template <class T>
+  void add_mechanics();
   /// Of all particles [N s].
   Vec3 momentum() const;
   /// What the material allows now.

@@ -197,6 +197,7 @@ void Simulation::State::add_mechanics() {
   }
   ContinuumSettings settings;
   settings.transfer = method.transfer;
+  settings.average_dilatation = method.average_dilatation;
   settings.gradient_terms = method.gradient_terms;
   settings.gravity = definition.gravity;
   settings.threads = threads;

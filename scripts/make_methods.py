@@ -2,6 +2,8 @@
 """make_methods.py RUNS DOC [PAGES]: writes DOC/methods.md, DOC/methods/*.png and copies of the tables from RUNS, the
 folder that work_precision filled, and from PAGES, the folder where the stability tests left their pages.
 
+    make_methods.py --check DOC     the page says what its text makes of the tables beside it, the last chapter aside
+
 The text is benchmark/work_precision/methods.md. What stands in {{ }} there is computed from the tables:
 
     {{ percent(error("square_large", "ugimp/usavg/flip", 32)) }}   a number of a row
@@ -25,6 +27,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 TEMPLATE = ROOT / "benchmark" / "work_precision" / "methods.md"
 TABLES = ("work_precision.csv", "summary.csv", "suites.csv")
 CLAIMS = "## What the charts say"
+LAST = "## Where methods stop working"  # made from the stability tests' pages, which are not kept
 
 
 class ClaimError(Exception):
@@ -34,12 +37,13 @@ class ClaimError(Exception):
 class Study:
     """The tables, and what the text may ask of them."""
 
-    def __init__(self, runs, doc, pages):
+    def __init__(self, runs, doc=None, pages=None):
         self.rows, self.texts = plots.read_rows(runs), plots.read_texts(runs)
         with open(runs / "summary.csv", newline="", encoding="utf-8") as file:
             self.lines = list(csv.DictReader(file))
         self.doc, self.pages = doc, pages
-        self.drawn = plots.draw_all(runs, doc / "methods")
+        self.drawn = [suite for suite in dict.fromkeys(row["suite"] for row in self.rows)
+                      if plots.good([row for row in self.rows if row["suite"] == suite])]
 
     def run(self, suite, method, cells, cfl=plots.USUAL_CFL, ppc=None):
         """The row of one run; without `ppc` that of the usual number of particles."""
@@ -197,26 +201,43 @@ def check_points(text):
             raise ClaimError(f"{TEMPLATE.name}:{number}: a point without a check")
 
 
-def main():
-    if len(sys.argv) not in (3, 4):
-        raise SystemExit("usage: make_methods.py RUNS DOC [PAGES]")
-    runs, doc = map(pathlib.Path, sys.argv[1:3])
-    pages = pathlib.Path(sys.argv[3]) if len(sys.argv) == 4 else None
+def make(runs, doc, pages):
     text = TEMPLATE.read_text(encoding="utf-8")
+    check_points(text)
+    study = Study(runs, doc, pages)
+    filled = fill(text, study.names())
+    (doc / "methods").mkdir(parents=True, exist_ok=True)
+    for old in (doc / "methods").glob("*.png"):
+        old.unlink()
+    plots.draw_all(runs, doc / "methods")
+    for table in TABLES:
+        shutil.copyfile(runs / table, doc / "methods" / table)
+    (doc / "methods.md").write_text(filled.rstrip() + "\n", encoding="utf-8")
+    print(f"{len(study.drawn)} charts, {len(study.rows)} runs: {doc / 'methods.md'}")
+
+
+def compare(doc):
+    text = TEMPLATE.read_text(encoding="utf-8")
+    check_points(text)
+    made = fill(text.split(LAST)[0], Study(doc / "methods").names()).rstrip()
+    kept = (doc / "methods.md").read_text(encoding="utf-8").split(LAST)[0].rstrip()
+    for number, (one, other) in enumerate(zip(made.splitlines() + [""], kept.splitlines() + [""]), 1):
+        if one != other:
+            raise ClaimError(f"{doc / 'methods.md'}:{number}: '{other}' in place of '{one}'; run scripts/methods")
+
+
+def main():
+    words = sys.argv[1:]
     try:
-        check_points(text)
-        (doc / "methods").mkdir(parents=True, exist_ok=True)
-        for old in (doc / "methods").glob("*.png"):
-            old.unlink()
-        study = Study(runs, doc, pages)
-        filled = fill(text, study.names())
-        for table in TABLES:
-            shutil.copyfile(runs / table, doc / "methods" / table)
+        if len(words) == 2 and words[0] == "--check":
+            compare(pathlib.Path(words[1]))
+        elif len(words) in (2, 3) and not words[0].startswith("-"):
+            make(pathlib.Path(words[0]), pathlib.Path(words[1]), pathlib.Path(words[2]) if words[2:] else None)
+        else:
+            raise SystemExit("usage: make_methods.py RUNS DOC [PAGES] | --check DOC")
     except (ClaimError, plots.TableError, OSError) as error:
         print(f"make_methods.py: {error}", file=sys.stderr)
         return 2
-    (doc / "methods.md").write_text(filled.rstrip() + "\n", encoding="utf-8")
-    print(f"{len(study.drawn)} charts, {len(study.rows)} runs: {doc / 'methods.md'}")
     return 0
 
 

@@ -147,13 +147,18 @@ def not_drawn(rows):
     return " ".join(parts)
 
 
+def good(rows):
+    """Those that can be drawn."""
+    return [row for row in rows if row["status"] == "ok" and row["error"] > 0]
+
+
 def draw_suite(title, rows, path):
-    good = [row for row in rows if row["status"] == "ok" and row["error"] > 0]
-    if not good:
+    drawn = good(rows)
+    if not drawn:
         return False
     figure, panels = plt.subplots(2, 2, figsize=(11.5, 9.2), layout="constrained", sharey=True, sharex="col")
     for column, (cost, label) in enumerate(COSTS.items()):
-        best = front([(row[cost], row["error"]) for row in good if row[cost] > 0])
+        best = front([(row[cost], row["error"]) for row in drawn if row[cost] > 0])
         for axes, look in zip(panels[:, column], (shape_look, transfer_look)):
             axes.plot(*zip(*best), color="#dddddd", linewidth=7, solid_capstyle="round", solid_joinstyle="round",
                       zorder=1)
@@ -161,7 +166,7 @@ def draw_suite(title, rows, path):
             axes.set_xscale("log")
             axes.set_yscale("log")
         panels[1, column].set_xlabel(label)
-    errors = [row["error"] for row in good]
+    errors = [row["error"] for row in drawn]
     panels[0, 0].set_ylim(0.6 * min(errors), 1.6 * min(SOME, max(errors)))
     for axes in panels[:, 0]:
         axes.yaxis.set_major_locator(LogLocator(subs=(1, 3)))

@@ -155,13 +155,14 @@ TEST(StudyRunner, MeasuresARunAndItsCost) {
   Runner runner({1, 1e-4});
   const Row row = runner.run(find_suite("bar_small"), find_method("ugimp/usavg/flip"), {8});
   EXPECT_EQ(row.status, "ok");
-  EXPECT_EQ(row.particles, 8u * 2u * 4u);
-  EXPECT_EQ(row.geometry, "plane_strain");
+  EXPECT_EQ(row.particles, 8u * 2u);
+  EXPECT_EQ(row.geometry, "line");
+  EXPECT_EQ(row.particles_per_cell, 2);
   EXPECT_GT(row.error, 0.0);
   EXPECT_LT(row.error, 1.0);  // of a bar that does not move at all it would be 1/sqrt(2)
-  EXPECT_EQ(row.work, 64.0 * static_cast<double>(row.steps) * 9.0 * 6.0);
+  EXPECT_EQ(row.work, 16.0 * static_cast<double>(row.steps) * 3.0 * 6.0);
   EXPECT_GT(row.relative_cost, 0.0);
-  EXPECT_DOUBLE_EQ(row.cost, row.relative_cost * 64.0 * static_cast<double>(row.steps));
+  EXPECT_DOUBLE_EQ(row.cost, row.relative_cost * 16.0 * static_cast<double>(row.steps));
 }
 
 TEST(StudyRunner, ReportsWhatIsRefusedAndWhatFails) {

@@ -7,7 +7,7 @@ namespace mpm::study {
 const std::vector<Suite>& suites() {
   static const std::vector<Suite> list = {
       vibrating_bar(),
-      manufactured("bar_crossing", GeometryKind::plane_strain, 0.05),
+      manufactured("bar_crossing", GeometryKind::line, 0.05),
       manufactured("square_small", GeometryKind::plane_strain, 0.001),
       manufactured("square_large", GeometryKind::plane_strain, 0.05),
       manufactured("cube_small", GeometryKind::solid, 0.001),

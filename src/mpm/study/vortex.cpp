@@ -102,7 +102,7 @@ Suite vortex(const std::string& name, double turn) {
   suite.measure = [motion = suite.motion, turn] {
     return displacement_error(GeometryKind::plane_strain, motion, 2.0 * std::sin(0.5 * turn));
   };
-  suite.quick = {{8}, {16}, {24}, {16, 0.2}, {16, 0.8}};
+  suite.quick = {{8}, {12}, {16}, {20}, {16, 0.8}};
   suite.full = grids({8, 16, 32, 48}, 16);
   return suite;
 }

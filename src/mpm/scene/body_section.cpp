@@ -51,16 +51,6 @@ Region read_cylinder(const Value& value, bool planar) {
   return region;
 }
 
-Region read_region(const Value& value, bool planar) {
-  const std::string advice = "use box, sphere or cylinder";
-  const auto [kind, shape] =
-      only_key(value, {"box", "sphere", "cylinder"},
-               {{"mesh", advice}, {"polygon", advice}, {"capsule", advice}, {"disk", "use sphere"}});
-  if (kind == "box") return read_box(shape, planar);
-  if (kind == "sphere") return read_sphere(shape);
-  return read_cylinder(shape, planar);
-}
-
 /// Rigid bodies by name; that they exist is known when the body is filled.
 void read_cut_out(const Value& value, BodyDefinition& body) {
   body.cut_out_where = value.where();
@@ -73,6 +63,16 @@ void read_cut_out(const Value& value, BodyDefinition& body) {
 }
 
 }  // namespace
+
+Region read_region(const Value& value, bool planar) {
+  const std::string advice = "use box, sphere or cylinder";
+  const auto [kind, shape] =
+      only_key(value, {"box", "sphere", "cylinder"},
+               {{"mesh", advice}, {"polygon", advice}, {"capsule", advice}, {"disk", "use sphere"}});
+  if (kind == "box") return read_box(shape, planar);
+  if (kind == "sphere") return read_sphere(shape);
+  return read_cylinder(shape, planar);
+}
 
 void read_bodies(const Map& root, Scene& scene) {
   const bool planar = scene.definition.geometry == GeometryKind::plane_strain;

@@ -7,16 +7,12 @@
 
 #include "mpm/material/material_point.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/simulation/method_text.hpp"
 
 namespace mpm {
 namespace {
 
 constexpr double kNanosecond = 1e-9;
-
-std::string transfer_text(double flip) {
-  if (flip == 1.0) return "FLIP";
-  return flip == 0.0 ? "PIC" : fmt::format("{:g} FLIP, {:g} PIC", flip, 1.0 - flip);
-}
 
 double smallest_cell(const Scene& scene) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -80,16 +76,10 @@ void add_steps(const Scene& scene, const SimulationDefinition& built, std::strin
 }  // namespace
 
 std::string explain(const Scene& scene, const SimulationDefinition& built) {
-  const MethodDefinition& method = built.method;
   const bool planar = built.geometry == GeometryKind::plane_strain;
   std::string text = fmt::format("scene {} ({})\n", built.name, scene.path);
-  text += fmt::format(
-      "method: {}, uGIMP shape functions, {}, {}, {} term{} of the deformation's exponential{}, {} precision\n",
-      planar ? fmt::format("plane strain, {:g} m thick", built.thickness) : "solid",
-      method.update == UpdateScheme::usavg ? "USAVG" : "USF", transfer_text(method.transfer.flip),
-      method.gradient_terms, method.gradient_terms == 1 ? "" : "s",
-      method.damping > 0.0 ? fmt::format(", grid damping {:g} 1/s", method.damping) : "",
-      precision_name(method.precision));
+  text += fmt::format("method: {}, {}\n", planar ? fmt::format("plane strain, {:g} m thick", built.thickness) : "solid",
+                      method_text(built.method));
   text += "grid:";
   for (const int axis : axes_of(scene)) {
     const GridDefinition& grid = built.grid;

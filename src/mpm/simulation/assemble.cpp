@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "initial.hpp"
-#include "mpm/boundary/grid_damping.hpp"
 #include "mpm/boundary/wall.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/simulation/method_rules.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -82,17 +82,14 @@ void check(const SimulationDefinition& d) {
   if (d.time.step && !(*d.time.step > 0.0)) {
     throw DefinitionError(fmt::format("time.step is {}, must be positive", *d.time.step));
   }
+  if (const auto fault = method_fault(d.method, d.geometry)) {
+    throw DefinitionError(fmt::format("method.{}: {}", fault->key, fault->text));
+  }
   const bool built = d.method.shape == ShapeKind::ugimp && d.method.update != UpdateScheme::usl &&
                      d.method.transfer.kind == TransferKind::flip && !d.method.average_dilatation &&
+                     !d.method.damping.in_update() && !d.method.damping.feedback &&
                      (d.geometry == GeometryKind::plane_strain || d.geometry == GeometryKind::solid);
   if (!built) throw DefinitionError("this method is not built yet");
-  if (d.method.gradient_terms < 1) throw DefinitionError("method.gradient_terms must be at least 1");
-  if (!(d.method.transfer.flip >= 0.0 && d.method.transfer.flip <= 1.0)) {
-    throw DefinitionError(fmt::format("FLIP fraction {} must lie in [0, 1]", d.method.transfer.flip));
-  }
-  if (!(d.method.damping >= 0.0) || !std::isfinite(d.method.damping)) {
-    throw DefinitionError(fmt::format("method.damping is {}, must be finite and not negative", d.method.damping));
-  }
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
   if (d.geometry != GeometryKind::solid && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
   if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");
@@ -105,28 +102,54 @@ void make_planar(SimulationDefinition& definition) {
     body.velocity[1] = body.rotation_rate[0] = body.rotation_rate[2] = Function();
   }
   for (BodyForceDefinition& load : definition.body_forces) load.acceleration[1] = Function();
+  for (ParticleForceDefinition& load : definition.particle_forces) load.force[1] = Function();
+}
+
+int find_set(const std::vector<ParticleSet>& sets, const std::string& body, const char* load) {
+  const auto set = std::find_if(sets.begin(), sets.end(), [&](const auto& s) { return s.name == body; });
+  if (set != sets.end()) return static_cast<int>(set - sets.begin());
+  throw DefinitionError(fmt::format("{}: no deformable body is called '{}'; name one of 'bodies'", load, body));
+}
+
+ParticleLoadTerm make_term(const ParticleForceDefinition& load, const std::vector<ParticleSet>& sets) {
+  ParticleLoadTerm term{ParticleLoadTerm::Kind::particle_force,
+                        find_set(sets, load.body, "particle force"),
+                        load.force,
+                        1.0,
+                        load.spread,
+                        {}};
+  const ParticleSet& set = sets[*term.set];
+  auto count = static_cast<double>(set.size());
+  if (!load.particles.empty()) {
+    term.chosen.assign(set.size(), 0);
+    for (const std::uint32_t p : load.particles) {
+      if (p >= term.chosen.size()) {
+        throw DefinitionError(
+            fmt::format("particle force on '{}': it has no particle {}, but {}", load.body, p, set.size()));
+      }
+      term.chosen[p] = 1;
+    }
+    count = static_cast<double>(std::count(term.chosen.begin(), term.chosen.end(), 1));
+  }
+  term.factor = 1.0 / (set.mass * (load.shared ? count : 1.0));
+  return term;
 }
 
 // Sets that a term with X, Y or Z acts on remember where their particles start.
-std::vector<BodyForceTerm> make_body_force_terms(const SimulationDefinition& definition,
-                                                 std::vector<ParticleSet>& sets) {
-  std::vector<BodyForceTerm> terms;
+std::vector<ParticleLoadTerm> make_load_terms(const SimulationDefinition& definition, std::vector<ParticleSet>& sets) {
+  std::vector<ParticleLoadTerm> terms;
   for (const BodyForceDefinition& load : definition.body_forces) {
-    BodyForceTerm term{std::nullopt, load.acceleration};
-    if (!load.body.empty()) {
-      const auto set = std::find_if(sets.begin(), sets.end(), [&](const auto& s) { return s.name == load.body; });
-      if (set == sets.end()) {
-        throw DefinitionError(
-            fmt::format("body force: no deformable body is called '{}'; name one of 'bodies'", load.body));
-      }
-      term.set = static_cast<int>(set - sets.begin());
-    }
-    const bool uses_start = std::any_of(load.acceleration.begin(), load.acceleration.end(),
+    ParticleLoadTerm term{ParticleLoadTerm::Kind::body_force, std::nullopt, load.acceleration, 1.0, load.spread, {}};
+    if (!load.body.empty()) term.set = find_set(sets, load.body, "body force");
+    terms.push_back(std::move(term));
+  }
+  for (const ParticleForceDefinition& load : definition.particle_forces) terms.push_back(make_term(load, sets));
+  for (const ParticleLoadTerm& term : terms) {
+    const bool uses_start = std::any_of(term.value.begin(), term.value.end(),
                                         [](const Function& component) { return component.uses_start(); });
     for (std::size_t s = 0; s < sets.size(); ++s) {
       if (uses_start && (!term.set || *term.set == static_cast<int>(s))) sets[s].start_x = sets[s].x;
     }
-    terms.push_back(std::move(term));
   }
   return terms;
 }
@@ -193,7 +216,12 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (geostatic) s.settle();
   for (DeformableBody& body : s.definition.bodies) forget_particles(body);
 
-  if (definition.method.damping > 0.0) s.stages.push_back(std::make_unique<GridDamping>(definition.method.damping));
+  if (definition.method.damping.any()) {
+    auto damping =
+        std::make_unique<DampingControl>(definition.method.damping, definition.method.transfer.flip, s.sets, s.threads);
+    s.damping = damping.get();
+    s.stages.push_back(std::move(damping));
+  }
   // Walls that always hold act before contact, so that friction knows no velocity through them, and once more after it
   // (method reference 5.4, steps 7 to 9).
   std::vector<Wall*> holding;
@@ -231,10 +259,10 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     for (Wall* wall : holding) s.stages.push_back(std::make_unique<WallAgain>(*wall));
   }
 
-  if (!s.definition.body_forces.empty()) {
-    auto load = make_body_force(dim, s.sets, s.laws, make_body_force_terms(s.definition, s.sets), s.isa, s.threads);
-    s.body_force = load.get();
-    s.stages.push_back(std::move(load));
+  if (const std::vector<ParticleLoadTerm> terms = make_load_terms(s.definition, s.sets); !terms.empty()) {
+    auto loads = make_particle_loads(dim, s.sets, s.laws, terms, s.isa, s.threads);
+    s.loads = loads.get();
+    s.stages.push_back(std::move(loads));
   }
 
   ContinuumSettings settings;

@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "mpm/scene/scene.hpp"
+#include "mpm/simulation/method_text.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -19,19 +20,12 @@ mpm::Scene scene_of(const RunInfo& info) {
   }
 }
 
-std::string method_text(const mpm::SimulationDefinition& definition) {
-  const mpm::MethodDefinition& method = definition.method;
+std::string text_of(const mpm::SimulationDefinition& definition) {
   const bool planar = definition.geometry == mpm::GeometryKind::plane_strain;
-  const std::string transfer =
-      method.transfer.flip == 1.0
-          ? "FLIP"
-          : (method.transfer.flip == 0.0 ? "PIC" : fmt::format("FLIP {:g}", method.transfer.flip));
-  const int a_cell =
-      method.particles_per_direction * method.particles_per_direction * (planar ? 1 : method.particles_per_direction);
-  return fmt::format("{}, uGIMP, {}, {}{}, {} precision, cells of {:g} m, {} particles a cell",
-                     planar ? "plane strain" : "3D", method.update == mpm::UpdateScheme::usavg ? "USAVG" : "USF",
-                     transfer, method.damping > 0.0 ? fmt::format(", grid damping {:g}/s", method.damping) : "",
-                     mpm::precision_name(method.precision), definition.grid.cell.x(), a_cell);
+  const int along = definition.method.particles_per_direction;
+  return fmt::format("{}, {}, cells of {:g} m, {} particles a cell", planar ? "plane strain" : "3D",
+                     mpm::method_text(definition.method), definition.grid.cell.x(),
+                     along * along * (planar ? 1 : along));
 }
 
 }  // namespace
@@ -41,7 +35,7 @@ SceneFacts scene_facts(const RunInfo& info) {
   if (info.scene_text.empty()) return facts;
   try {
     const mpm::Scene scene = scene_of(info);
-    facts.method = method_text(scene.definition);
+    facts.method = text_of(scene.definition);
     facts.gravity = scene.definition.gravity;
     facts.precision = scene.definition.method.precision;
     if (scene.definition.time.end > 0.0) facts.end = scene.definition.time.end;

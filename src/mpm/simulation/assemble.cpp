@@ -90,6 +90,11 @@ void check(const SimulationDefinition& d) {
                      !d.method.damping.in_update() && !d.method.damping.feedback &&
                      (d.geometry == GeometryKind::plane_strain || d.geometry == GeometryKind::solid);
   if (!built) throw DefinitionError("this method is not built yet");
+  const auto central = [](const auto& load) { return load.spread == LoadSpread::center; };
+  if (std::any_of(d.body_forces.begin(), d.body_forces.end(), central) ||
+      std::any_of(d.particle_forces.begin(), d.particle_forces.end(), central)) {
+    throw DefinitionError("loads at the centre of particles are not built yet");
+  }
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
   if (d.geometry != GeometryKind::solid && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
   if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");

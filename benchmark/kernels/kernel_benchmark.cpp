@@ -44,7 +44,7 @@ class Subject {
 
   Subject(const Place& place, mpm::Isa isa)
       : block_(place.scene, {fmt::format("bodies.block.jitter={}", place.jitter)}, kPrecision<T>),
-        kernels_(mpm::ugimp_kernels<T>(block_.dim(), isa)) {
+        kernels_(mpm::kernel_table<T>(mpm::ShapeKind::ugimp, block_.definition.geometry, isa)) {
     block_.sort(1, mpm::kernel_grouping(kernels_));
     look();
   }
@@ -73,18 +73,20 @@ class Subject {
       std::fill_n(field->data(), static_cast<std::size_t>(blocks) * field->components() * nodes, 0.0);
     }
     grid_ = mpm::view_of(grid);
-    set_ = mpm::view_of<T>(block_.sets.front(), block_.law);
+    set_ = mpm::view_of<T>(block_.sets.front(), block_.law, kernels_.laws);
     scatter_momentum();
     nodal_velocity();
   }
   void scatter_momentum() {
-    each([&](const auto& b) { kernels_.scatter_momentum(grid_, b, &set_, 1); });
+    each([&](const auto& b) { kernels_.scatter_momentum[0](grid_, b, &set_, 1); });
   }
   void strain(const mpm_kernel::StrainSettings& settings) {
     each([&](const auto& b) { kernels_.strain(grid_, b, &set_, 1, settings); });
   }
   void move(bool regather) {
-    each([&](const auto& b) { kernels_.move(grid_, b, &set_, 1, {kHardlyAny, 1.0, regather}); });
+    each([&](const auto& b) {
+      kernels_.move[mpm_kernel::kIncrement][0](grid_, b, &set_, 1, {kHardlyAny, 1.0, regather});
+    });
   }
   void nodal_velocity() { kernels_.nodal_velocity(grid_, 0, block_.grid.blocks.size()); }
   void nodal_update() {
@@ -99,7 +101,7 @@ class Subject {
     mpm::each_owner(block_.grid, 1, pass);
   }
   Block block_;
-  const Kernels& kernels_;
+  Kernels kernels_;
   mpm_kernel::GridView grid_{};
   mpm_kernel::SetView<T> set_{};
 };

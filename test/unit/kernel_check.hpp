@@ -99,7 +99,7 @@ class Kernels {
   void move_particles() {
     scene_.read_nodes();
     scene_.mechanics->move_particles(context_);
-    scene_.reference.move(scene_.dt, scene_.settings.flip);
+    scene_.reference.move(scene_.dt, scene_.settings.transfer.flip);
     compare_motion(&ParticleSet::x);
     check_reach(&ParticleSet::x);
   }
@@ -107,7 +107,7 @@ class Kernels {
   void move_and_regather() {
     scene_.read_nodes();
     scene_.mechanics->move_and_regather(context_);
-    scene_.reference.move(scene_.dt, scene_.settings.flip);
+    scene_.reference.move(scene_.dt, scene_.settings.transfer.flip);
     compare_motion(&ParticleSet::next_x);
     scene_.reference.gather_momentum();
     compare_nodes("momentum", scene_.grid.momentum, [](const ReferenceNode& n, int c) { return n.momentum[c]; });
@@ -139,7 +139,7 @@ class Kernels {
     std::vector<mpm_kernel::SetView<T>> views;
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     for (std::size_t s = 0; s < scene_.sets.size(); ++s) {
-      views.push_back(view_of<T>(scene_.sets[s], scene_.laws[s]));
+      views.push_back(view_of<T>(scene_.sets[s], scene_.laws[s], scene_.kernels.laws));
       loads.emplace_back(kDim, PaddedArray<double>(scene_.sets[s].size()));
       if (s == 1) continue;  // the second body has no load
       for (int k = 0; k < kDim; ++k) {
@@ -164,7 +164,7 @@ class Kernels {
  private:
   static ContinuumSettings settings(double flip) {
     ContinuumSettings settings;
-    settings.flip = flip;
+    settings.transfer.flip = flip;
     return settings;
   }
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kernel_reference.hpp"
+#include "kernel_tables.hpp"
 #include "material_zoo.hpp"
-#include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/continuum.hpp"
 
 namespace mpm::test {
@@ -71,7 +71,6 @@ struct KernelScene {
     dt = std::min(specimen.time, 0.3 * smallest_cell() / speed);
     for (int s = 0; s < count; ++s) add_body(*of[s], s, count);
     settings = more;
-    settings.isa = isa;
     settings.gravity = Vec3(0.3, -0.2, -9.81);
     const auto gone = Sorter(settings.threads, kernel_grouping(kernels)).sort(sets, grid);
     if (gone) throw Error("a particle of the test is out of place");
@@ -130,7 +129,7 @@ struct KernelScene {
   }
 
   Isa isa;
-  const mpm_kernel::KernelTable<T>& kernels;
+  mpm_kernel::KernelTable<T> kernels;
   Places places;
   Grid grid;
   Reference<Geometry, Shape> reference;

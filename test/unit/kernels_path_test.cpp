@@ -62,7 +62,7 @@ class Run {
       r.strain(strain_dt, terms);
       r.force();
       r.nodal_update(dt, gravity, least);
-      r.move(dt, scene_.settings.flip);
+      r.move(dt, scene_.settings.transfer.flip);
       if (usavg_) {
         r.gather_momentum();
         r.nodal_velocity(least);
@@ -106,7 +106,7 @@ class Run {
   static ContinuumSettings settings(int threads, double flip) {
     ContinuumSettings settings;
     settings.threads = threads;
-    settings.flip = flip;
+    settings.transfer.flip = flip;
     return settings;
   }
   State empty() {

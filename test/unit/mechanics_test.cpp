@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "kernel_tables.hpp"
 #include "mpm/mechanics/continuum.hpp"
 
 namespace {
@@ -41,11 +42,11 @@ struct Scene {
         rest /= edge;
       }
     }
-    EXPECT_FALSE(mpm::Sorter(threads, mpm::kernel_grouping(dim, set.precision, isa)).sort(sets, grid));
+    EXPECT_FALSE(
+        mpm::Sorter(threads, mpm::kernel_grouping(mpm::test::ugimp_kernels<double>(dim, isa))).sort(sets, grid));
     mpm::ContinuumSettings settings;
     settings.threads = threads;
-    settings.isa = isa;
-    mechanics = mpm::make_mechanics(dim, sets, laws, settings);
+    mechanics = mpm::make_mechanics(mpm::test::ugimp_kernels<double>(dim, isa), sets, laws, settings);
   }
 
   template <class Visit>
@@ -152,9 +153,9 @@ TEST_P(MechanicsTest, MotionKeepsMomentumForEveryFlipFraction) {
   for (const double flip : {1.0, 0.95, 0.0}) {
     Scene scene(GetParam(), 0.3, mpm::NeoHookeanDefinition{{1e6, 0.3}});
     mpm::ContinuumSettings settings;
-    settings.flip = flip;
-    settings.isa = mpm::best_isa();
-    scene.mechanics = mpm::make_mechanics(GetParam(), scene.sets, scene.laws, settings);
+    settings.transfer.flip = flip;
+    scene.mechanics = mpm::make_mechanics(mpm::test::ugimp_kernels<double>(GetParam(), mpm::best_isa()), scene.sets,
+                                          scene.laws, settings);
     mpm::ParticleSet& set = scene.sets[0];
     auto momentum = [&] {
       Vec3 sum = Vec3::Zero();

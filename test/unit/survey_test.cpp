@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel_tables.hpp"
 #include "material_zoo.hpp"
-#include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/mechanics/kernel_views.hpp"
@@ -78,9 +78,9 @@ void survey_every_law(Precision precision, double below, double above) {
   for (const paths::Specimen& specimen : paths::zoo()) {
     const Law law = make_law(specimen.material);
     ParticleSet set = worked_particles<Geometry>(specimen, precision, 61);
-    const mpm_kernel::SetView<T> view = view_of<T>(set, law);
+    const mpm_kernel::SetView<T> view = view_of<T>(set, law, static_cast<const mpm_kernel::LawKernels<T>*>(nullptr));
     for (const Isa isa : instruction_sets()) {
-      const auto survey = ugimp_kernels<T>(Geometry::kDim, isa).survey;
+      const auto survey = ugimp_kernels<T>(Geometry::kDim, isa).laws[law.index()].survey;
       // Single particles, part registers, and all.
       for (const auto& [first, last] : {std::pair{0, 1}, std::pair{7, 8}, std::pair{3, 36}, std::pair{0, 61}}) {
         int expected = first;
@@ -122,9 +122,9 @@ TEST(Survey, NamesTheFirstOfEqualRates) {
     }
   }
   for (const Isa isa : instruction_sets()) {
-    const auto survey = ugimp_kernels<double>(3, isa).survey;
-    EXPECT_EQ(survey(view_of<double>(set, law), 0, 50, kCell).particle, 13) << isa_name(isa);
-    EXPECT_EQ(survey(view_of<double>(set, law), 14, 50, kCell).particle, 22) << isa_name(isa);
+    const auto survey = ugimp_kernels<double>(3, isa).laws[law.index()].survey;
+    EXPECT_EQ(survey(view_of<double>(set, law, nullptr), 0, 50, kCell).particle, 13) << isa_name(isa);
+    EXPECT_EQ(survey(view_of<double>(set, law, nullptr), 14, 50, kCell).particle, 22) << isa_name(isa);
   }
 }
 
@@ -136,7 +136,8 @@ TEST(Survey, TellsWhatIsNotANumberOfEveryStress) {
     for (const Isa isa : instruction_sets()) {
       ParticleSet set = worked_particles<Solid>(specimen, Precision::float64, 30);
       for (const int p : {25, 18}) set.tau[0].set(p, std::numeric_limits<double>::quiet_NaN());
-      const mpm_kernel::Fastest found = ugimp_kernels<double>(3, isa).survey(view_of<double>(set, law), 0, 30, kCell);
+      const mpm_kernel::Fastest found =
+          ugimp_kernels<double>(3, isa).laws[law.index()].survey(view_of<double>(set, law, nullptr), 0, 30, kCell);
       EXPECT_TRUE(std::isnan(found.rate)) << specimen.material.name << ' ' << isa_name(isa);
       EXPECT_EQ(found.particle, 18) << specimen.material.name << ' ' << isa_name(isa);
     }
@@ -151,7 +152,7 @@ TEST(Survey, DoesNotDependOnTheNumberOfThreads) {
   const auto fastest = [&](int threads) {
     ContinuumSettings settings;
     settings.threads = threads;
-    return make_mechanics(2, sets, laws, settings)->fastest(0, kCell);
+    return make_mechanics(ugimp_kernels<double>(2, best_isa()), sets, laws, settings)->fastest(0, kCell);
   };
   int expected = 0;
   for (int p = 1; p < sets[0].size(); ++p) {

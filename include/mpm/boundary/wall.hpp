@@ -31,6 +31,7 @@ class Wall final : public Stage {
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
+  void increment_found(StepContext& context, NodalField& increment) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
 
  private:
@@ -58,6 +59,9 @@ class WallAgain final : public Stage {
 
   void before_strain(StepContext& context) override { wall_.before_strain(context); }
   void momentum_updated(StepContext& context) override { wall_.momentum_updated(context); }
+  void increment_found(StepContext& context, NodalField& increment) override {
+    wall_.increment_found(context, increment);
+  }
 
  private:
   Wall& wall_;

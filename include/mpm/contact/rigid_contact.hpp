@@ -26,6 +26,7 @@ class RigidContact final : public Stage {
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
+  void increment_found(StepContext& context, NodalField& increment) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
 
   /// What the material did to the body since the last call; `now` [s].
@@ -43,6 +44,9 @@ class RigidContact final : public Stage {
   };
   template <class Visit>
   void each_node(Visit&& visit);
+  /// Books what one node was given, and adds it to the sums of the step.
+  void give(const Node& node, const Vec3& impulse, Vec3& given, Vec3& angular);
+  void close(const Vec3& given, const Vec3& angular, double dt);
 
   const RigidBody& body_;
   int threads_;

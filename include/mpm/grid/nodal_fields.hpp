@@ -2,6 +2,7 @@
 // component after the other: [block][component][node].
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -61,7 +62,8 @@ struct Grid {
 
   GridLayout layout;
   BlockTable blocks;
-  double least_mass = 0.0;  ///< [kg]
+  double least_mass = 0.0;         ///< [kg]
+  std::array<bool, 6> has_wall{};  ///< faces of the domain that are walls: 2 * axis, + 1 for the upper one
   /// Of each owner, whether some of its particles have moved beyond the block since they were sorted.
   std::vector<std::uint8_t> loose;
   NodalField mass;      ///< m_i [kg]

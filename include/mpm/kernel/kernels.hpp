@@ -6,8 +6,10 @@
 //     and force        tile of f            <-  -m tau G, GIMP notes (1.26)             (nodes: a = f / m)
 //   move               v, x of particles    <-  tiles of v and a, by S                  GIMP notes (2.15), (2.16)
 //
-// USAVG lets `move` scatter the new momentum as well, and strains once more, each time by half a step. Loads on
-// particles add `scatter_load`. Between periods `survey` finds what limits the time step (survey.hpp).
+// USAVG lets `move` scatter the new momentum as well, and strains once more, each time by half a step; USL strains only
+// then, and begins with `force`. XPIC and FMPM `project` velocities to and fro before particles adopt them; APIC
+// scatters and gathers an affine field. Loads on particles add `scatter_load`. Between periods a law's `survey` finds
+// what limits the time step (survey.hpp).
 //
 // Particles lie sorted by block (4 nodes along each axis), and inside a block by nearest node, the last axis fastest. A
 // block works on a tile, its surroundings of 8 nodes along each axis in cache (tile.hpp): copied in, computed on,
@@ -16,31 +18,36 @@
 // (scatter.hpp). Weights are made anew for every pass, a chunk of particles at a time (weights.hpp); laws take a
 // register of particles at a time, whatever column they are of (stress.hpp).
 //
-// This file is the border: plain data and a table of functions. Behind it every file is compiled once an instruction
-// set, with the namespace mpm under another name, so that nothing inline is shared; the table is chosen at run time.
-// A shape function whose support is three nodes along each axis (uGIMP, quadratic splines) is a class as in
-// shape/ugimp.hpp; one whose nodes are scattered (CPDI) brings passes of its own and fills the same table. Neither
-// touches the schedule (mechanics/continuum.cpp); a test does both. In a plane, what happens out of it is the policy of
-// the geometry (math/dimension.hpp): the passes ask it for the gradient and the columns of a stress.
+// This file is the border: plain data and tables of functions. Behind it every file is compiled once an instruction
+// set, with the namespace mpm under another name, so that nothing inline is shared; tables are chosen at run time.
+// Shape functions and laws do not know each other: a table of passes belongs to a number of axes and a shape function,
+// a table of laws to a geometry, and chunks of velocity gradients and stresses pass between the two.
+// A shape function that is a product of three or five values along each axis (uGIMP, splines) is a class as in
+// shape/ugimp.hpp, and passes.hpp does the rest; one that is a sum over points of a deformed domain (CPDI) is a class
+// as in shape/cpdi.hpp, and point_passes.hpp does.
 #pragma once
 
 #include <cstdint>
 
 namespace mpm_kernel {
 
-constexpr int kTileEdge = 8;     ///< nodes of a tile along an axis
-constexpr int kTileMargin = 2;   ///< of these, before the block's first
-constexpr int kMostHistory = 3;  ///< scalars of history that a law may have
-constexpr double kSlack = 1e-5;  ///< of the limits that `move` reports on [cells]
+constexpr int kTileEdge = 8;          ///< nodes of a tile along an axis
+constexpr int kTileMargin = 2;        ///< of these, before the block's first
+constexpr int kMostHistory = 3;       ///< scalars of history that a law may have
+constexpr double kSlack = 1e-5;       ///< of the limits that `move` reports on [cells]
+constexpr int kChunk = 64;            ///< particles at a time
+constexpr int kBuffer = kChunk + 16;  ///< and what the last register writes beyond them
+constexpr double kNoWall = 1e9;       ///< node number of a wall that there is not
 
 /// The grid: nodal fields are [block][component][node], 64 nodes a block (16 in a plane).
 struct GridView {
   double origin[3], inverse_cell[3];
-  double least_mass;  ///< a node with less takes no part [kg]
-  double* mass;       ///< [kg]
-  double* momentum;   ///< as gathered [N s]
-  double* velocity;   ///< [m/s]
-  double* force;      ///< force [N], then acceleration [m/s^2]
+  double low_wall[3], high_wall[3];  ///< node numbers of the domain's faces that are walls
+  double least_mass;                 ///< a node with less takes no part [kg]
+  double* mass;                      ///< [kg]
+  double* momentum;                  ///< as gathered [N s]
+  double* velocity;                  ///< [m/s]
+  double* force;                     ///< force [N], then acceleration [m/s^2]
 };
 
 /// The block at work.
@@ -50,6 +57,9 @@ struct BlockView {
   int corner[3];          ///< node numbers of the tile's lower corner
   bool loose;             ///< particles have moved beyond it since they were sorted: the whole tile is in use
 };
+
+template <class T>
+struct LawKernels;
 
 /// The particles of one body.
 template <class T>
@@ -65,9 +75,13 @@ struct SetView {
   T* f[9];                           ///< deformation gradient
   T* tau[6];                         ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
+  T* domain[9];           ///< F in the grid's axes (of a stretching box: its diagonal) as the step began
+  T* affine[9];           ///< APIC: gradient of the particle's velocity, [component][axis] [1/s]
   const double* load[3];  ///< acceleration by a load; null without one [m/s^2]
-  const void* law;        ///< the law
-  int law_kind;           ///< its index in the list of laws (material/law.hpp)
+  const double*
+      damping[2];   ///< of place: rates on the grid's and on the particle's velocity [1/s]; null where constant
+  const void* law;  ///< the law
+  const LawKernels<T>* law_kernels;
 };
 
 struct StrainSettings {
@@ -77,9 +91,11 @@ struct StrainSettings {
 };
 
 struct MoveSettings {
-  double dt;      ///< [s]
-  double flip;    ///< FLIP fraction
-  bool regather;  ///< the new momentum goes to the grid
+  double dt;                      ///< [s]
+  double flip;                    ///< FLIP fraction
+  bool regather;                  ///< the new momentum goes to the grid
+  double grid_damping = 0.0;      ///< rate on the grid's velocity at the particle, where it is constant [1/s]
+  double particle_damping = 0.0;  ///< rate on the particle's own velocity [1/s]
 };
 
 /// Where particles are after `move`.
@@ -88,6 +104,20 @@ struct Moved {
   bool gone;   ///< some have left the tile's reach or the place where they may be, or are not finite
   int groups;  ///< groups of particles, and how often they were gathered: once when all lanes share a column
   int parts;
+  double drag[3] = {};            ///< damped: momentum that damping took [N s]
+  double grid_kinetic = 0.0;      ///< damped: sum of m |v0|^2 / 2, of the grid's velocity before the step [J]
+  double particle_kinetic = 0.0;  ///< damped: the same of the particles' own [J]
+};
+
+/// Velocity gradients of a chunk [1/s]: d v_c / d x_k of dim axes is l[c * dim + k].
+template <class T>
+struct ChunkGradients {
+  alignas(64) T l[9][kBuffer];
+};
+/// Columns of -m tau of every particle of a chunk [J]: the force through a face, four numbers a particle.
+template <class T>
+struct ChunkStresses {
+  alignas(64) T column[3][4 * kBuffer];
 };
 
 struct Failure {
@@ -101,21 +131,66 @@ struct Fastest {
   int particle;  ///< the first one of equal rates; one whose rate is not a number comes before all others
 };
 
-/// One geometry, shape function, precision and instruction set. Functions of a block work on all sets of particles.
+/// One law in one geometry and precision (stress.hpp, survey.hpp).
+template <class T>
+struct LawKernels {
+  /// Particles [first, first + count): F <- exp(grad v dt) F, then the law; with `out`, the new stress's columns too.
+  /// Returns the place in the chunk of the first particle whose J is not positive, or `count`.
+  int (*update)(const SetView<T>&, int first, int count, const ChunkGradients<T>&, const StrainSettings&,
+                ChunkStresses<T>* out);
+  /// Columns of the stress as it is.
+  void (*columns)(const SetView<T>&, int first, int count, ChunkStresses<T>& out);
+  /// Of particles [first, last), fewer than 2^24 of them; `cell`: the smallest edge [m].
+  Fastest (*survey)(const SetView<T>&, int first, int last, double cell);
+};
+
+/// How particles take over the grid's motion.
+enum Motion {
+  kIncrement,  ///< FLIP, PIC: velocity gains the acceleration
+  kAdopt,      ///< XPIC, FMPM: velocity becomes the grid's
+  kAffine,     ///< APIC: the same, and the affine matrix
+  kMotions
+};
+
+template <class T>
+using MovePass = Moved (*)(const GridView&, const BlockView&, const SetView<T>*, int sets, const MoveSettings&);
+
+/// One number of axes, shape function, precision and instruction set, and the laws of one geometry. Functions of a
+/// block work on all sets of particles.
 template <class T>
 struct KernelTable {
-  int lanes;       ///< particles of a register: the largest group
-  bool by_column;  ///< a group's particles share a column of nodes; else their nearest node
-  void (*scatter_momentum)(const GridView&, const BlockView&, const SetView<T>*, int sets);
+  using Scatter = void (*)(const GridView&, const BlockView&, const SetView<T>*, int sets);
+
+  int lanes;                    ///< particles of a register: the largest group
+  bool by_column;               ///< a group's particles share a column of nodes; else their nearest node
+  bool follows_deformation;     ///< sets have a domain, noted by the first pass of a step
+  const LawKernels<T>* laws;    ///< by index in the list of laws (material/law.hpp)
+  Scatter scatter_momentum[2];  ///< m v and m; with the affine field of APIC
   Failure (*strain)(const GridView&, const BlockView&, const SetView<T>*, int sets, const StrainSettings&);
-  Moved (*move)(const GridView&, const BlockView&, const SetView<T>*, int sets, const MoveSettings&);
+  Scatter force;  ///< of the stress as it is
+  MovePass<T> move[kMotions]
+                  [2];  ///< without damping in the particles' update, and with it (the same but for kIncrement)
   void (*scatter_load)(const GridView&, const BlockView&, const SetView<T>*, int sets, double* field);
-  /// Of particles [first, last) of a set, fewer than 2^24 of them; `cell`: the smallest edge [m].
-  Fastest (*survey)(const SetView<T>&, int first, int last, double cell);
+  /// `to` += m S (S `from`): what the particles make of a field of velocities, as momentum.
+  void (*project)(const GridView&, const BlockView&, const SetView<T>*, int sets, const double* from, double* to);
+  /// Whether a domain leaves the tile as particles now are; null where `move` knows.
+  bool (*outgrown)(const GridView&, const BlockView&, const SetView<T>*, int sets);
   /// v = p / m on the nodes of blocks [first, last).
   void (*nodal_velocity)(const GridView&, int first, int last);
   /// a = f / m + gravity, v = p / m + a dt on the nodes of blocks [first, last).
   void (*nodal_update)(const GridView&, int first, int last, double dt, const double* gravity);
+};
+
+/// The tables of a shape function by number of axes, less one; without laws. One that there is not is empty.
+struct PassFamily {
+  KernelTable<double> in_double[3];
+  KernelTable<float> in_single[3];
+};
+
+/// The laws of a geometry, by their index in the list of laws.
+struct LawFamily {
+  const LawKernels<double>* in_double;
+  const LawKernels<float>* in_single;
 };
 
 }  // namespace mpm_kernel

@@ -1,13 +1,21 @@
-// The table of kernels for a geometry, a precision and an instruction set.
+// The table of kernels for a geometry, a shape function, a precision and an instruction set.
 #pragma once
 
 #include "mpm/kernel/isa.hpp"
 #include "mpm/kernel/kernels.hpp"
+#include "mpm/math/geometry_kind.hpp"
+#include "mpm/shape/kind.hpp"
 
 namespace mpm {
 
-/// Of uGIMP in a plane (`dim` 2) or a solid (`dim` 3). T: double or float. `isa` must be available.
+/// T: double or float. `isa` must be available. A shape function that the geometry has not gives a table without
+/// passes (has_shape).
 template <class T>
-const mpm_kernel::KernelTable<T>& ugimp_kernels(int dim, Isa isa);
+mpm_kernel::KernelTable<T> kernel_table(ShapeKind shape, GeometryKind geometry, Isa isa);
+
+/// Whether there are kernels of this shape function in this geometry: qCPDI is planar.
+constexpr bool has_shape(ShapeKind shape, GeometryKind geometry) {
+  return shape != ShapeKind::qcpdi || dimensions(geometry) == 2;
+}
 
 }  // namespace mpm

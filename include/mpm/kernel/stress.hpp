@@ -1,13 +1,15 @@
 // Strain and stress of a chunk of particles of one body: F <- exp(grad v dt) F and the body's law, a register of
-// particles at a time. The law is chosen once a block, from a table made of the closed list of laws, and called
-// once a chunk; inside the loop there is no call and no branch on it.
+// particles at a time. The law is chosen once a body, from a table made of the closed list of laws, and called
+// once a chunk; inside the loop there is no call and no branch on it. Nothing here depends on the shape function.
 // Source: Nairn & Guilkey (2015) eq. (9), (64); method reference 7.
 #pragma once
 
-#include <variant>
+#include <type_traits>
 
-#include "mpm/kernel/scatter.hpp"
-#include "mpm/material/law.hpp"
+#include "mpm/kernel/interleave.hpp"
+#include "mpm/kernel/kernels.hpp"
+#include "mpm/kernel/wide_math.hpp"
+#include "mpm/material/increment.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/math/exponential.hpp"
 
@@ -44,27 +46,20 @@ struct WideWriter {
   Component operator[](int c) const { return {arrays[c], count}; }
 };
 
-template <class Geometry, template <class> class Shape, class T>
+template <class Geometry, class T>
 class Stress {
   using W = Wide<T>;
+  using Set = mpm_kernel::SetView<T>;
+  using Columns = mpm_kernel::ChunkStresses<T>;
   static constexpr int kDim = Geometry::kDim;
 
  public:
-  using Stresses = typename Scatter<T, kDim, Shape>::Stresses;
-  /// Velocity gradients of a chunk [1/s].
-  struct Gradients {
-    alignas(64) T l[kDim][kDim][kBuffer];
-  };
-  using Update = int (*)(const SetView<T>&, int first, int count, const Gradients&, const mpm_kernel::StrainSettings&,
-                         Stresses*);
-
-  /// Particles [first, first + count); with `out`, the columns of -m tau too. Returns the place in the chunk of the
-  /// first particle whose J is not positive, or `count`.
   template <class LawType>
-  [[gnu::flatten]] static int update(const SetView<T>& set_view, int first, int count, const Gradients& gradients,
-                                     const mpm_kernel::StrainSettings& settings, Stresses* out) {
+  [[gnu::flatten]] static int update(const Set& set_view, int first, int count,
+                                     const mpm_kernel::ChunkGradients<T>& gradients,
+                                     const mpm_kernel::StrainSettings& settings, Columns* out) {
     static_assert(std::is_trivially_copyable_v<LawType>, "laws cross the border between instruction sets as bytes");
-    const SetView<T> set = set_view;
+    const Set set = set_view;
     const LawType law = *static_cast<const LawType*>(set.law);
     const W dt(settings.dt), mass(-set.mass);
     int bad = count;
@@ -72,7 +67,7 @@ class Stress {
       const int p = first + q, lanes = count - q;
       W l[kDim][kDim];
       for (int c = 0; c < kDim; ++c) {
-        for (int k = 0; k < kDim; ++k) l[c][k] = W::load(gradients.l[c][k] + q) * dt;
+        for (int k = 0; k < kDim; ++k) l[c][k] = W::load(gradients.l[c * kDim + k] + q) * dt;
       }
       const auto du = Geometry::gradient(l);
       const auto old = Geometry::load_matrix(WideReader<T>{set.f, lanes}, p);
@@ -88,29 +83,31 @@ class Stress {
       Geometry::store_matrix(now, WideWriter<T>{set.f, lanes}, p);
       Geometry::store_symmetric(stress, WideWriter<T>{set.tau, lanes}, p);
       for (int h = 0; h < LawType::kHistory; ++h) history[h].store_first(set.history[h] + p, lanes);
-      if (out != nullptr) {
-        for (int k = 0; k < kDim; ++k) {
-          W column[kDim];
-          Geometry::column(stress, k, column);
-          for (int c = 0; c < kDim; ++c) column[c] *= mass;
-          out->set_column(k, q, column);
-        }
-      }
+      if (out != nullptr) put_columns(stress, mass, q, *out);
       const unsigned failed = WideMask<T>::first(lanes).bits() & ~(j > W(0.0)).bits();
       if (failed != 0 && bad == count) bad = q + __builtin_ctz(failed);
     }
     return bad;
   }
 
-  static Update of_law(int kind) { return Table<Law>::updates[kind]; }
+  /// Columns of the stress as it is, whatever the law.
+  static void columns(const Set& set, int first, int count, Columns& out) {
+    const W mass(-set.mass);
+    for (int q = 0; q < count; q += W::kLanes) {
+      put_columns(Geometry::load_symmetric(WideReader<T>{set.tau, count - q}, first + q), mass, q, out);
+    }
+  }
 
  private:
-  template <class Laws>
-  struct Table;
-  template <class... Laws>
-  struct Table<std::variant<Laws...>> {
-    static constexpr Update updates[] = {&update<Laws>...};
-  };
+  template <class Symmetric>
+  static void put_columns(const Symmetric& stress, W mass, int q, Columns& out) {
+    for (int k = 0; k < kDim; ++k) {
+      W column[kDim], four[4] = {W(0.0), W(0.0), W(0.0), W(0.0)};
+      Geometry::column(stress, k, column);
+      for (int c = 0; c < kDim; ++c) four[c] = column[c] * mass;
+      interleave(out.column[k] + 4 * q, four[0], four[1], four[2], four[3]);
+    }
+  }
 };
 
 }  // namespace mpm

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <limits>
-#include <variant>
 
 #include "mpm/kernel/stress.hpp"
 
@@ -17,15 +16,9 @@ class Survey {
   static constexpr int kDim = Geometry::kDim;
 
  public:
-  /// Of particles [first, last), fewer than 2^24 of them; `cell`: the smallest edge [m].
-  static Fastest fastest(const SetView<T>& set, int first, int last, double cell) {
-    return Table<Law>::surveys[set.law_kind](set, first, last, cell);
-  }
-
- private:
   template <class LawType>
-  [[gnu::flatten]] static Fastest survey(const SetView<T>& set_view, int first, int last, double cell) {
-    const SetView<T> set = set_view;
+  [[gnu::flatten]] static Fastest fastest(const mpm_kernel::SetView<T>& set_view, int first, int last, double cell) {
+    const mpm_kernel::SetView<T> set = set_view;
     const LawType law = *static_cast<const LawType*>(set.law);
     const W per_cell(1.0 / cell), viscous(2.0 * kDim / (cell * cell));
     const W endless(std::numeric_limits<T>::infinity());
@@ -60,13 +53,6 @@ class Survey {
     }
     return {static_cast<double>(rate[best]), first + static_cast<int>(number[best])};
   }
-
-  template <class Laws>
-  struct Table;
-  template <class... Laws>
-  struct Table<std::variant<Laws...>> {
-    static constexpr Fastest (*surveys[])(const SetView<T>&, int, int, double) = {&survey<Laws>...};
-  };
 };
 
 }  // namespace mpm

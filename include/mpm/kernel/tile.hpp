@@ -18,20 +18,32 @@ namespace mpm {
 using mpm_kernel::BlockView;
 using mpm_kernel::kTileEdge;
 
-/// The nearest node of a particle along an axis, at least and at most: in the block, or (loose) one node beyond it.
-constexpr double lowest_nearest(bool loose) { return loose ? 1.0 : 2.0; }
-constexpr double highest_nearest(bool loose) { return kTileEdge - 1 - lowest_nearest(loose); }
+/// The node that a stencil of `Nodes` is laid around, at least and at most: a particle's nearest node, in the block or
+/// (loose) one node beyond it. A stencil of five has no room beyond the block: there it is laid around the block's last
+/// node, and its own outermost weight is zero up to half a cell farther.
+template <int Nodes = 3>
+constexpr double lowest_nearest(bool loose) {
+  return loose && Nodes == 3 ? 1.0 : 2.0;
+}
+template <int Nodes = 3>
+constexpr double highest_nearest(bool loose) {
+  return kTileEdge - 1 - lowest_nearest<Nodes>(loose);
+}
 
 template <int Dim>
 struct TileShape {
-  static constexpr int kRows = Dim == 3 ? 64 : 8;
-  static constexpr int kBlockNodes = Dim == 3 ? 64 : 16;
+  static constexpr int kRows = Dim == 3 ? 64 : Dim == 2 ? 8 : 1;
+  static constexpr int kBlockNodes = Dim == 3 ? 64 : Dim == 2 ? 16 : 4;
   static constexpr int kFirst[2] = {1, 0},
                        kEnd[2] = {7, 8};  ///< rows in use along an axis: of a tight block, of a loose one
 
   /// visit(row of the tile, the three blocks that it runs through, its first node in each).
   template <class Visit>
   static void each_row(const BlockView& block, Visit&& visit) {
+    if constexpr (Dim == 1) {
+      visit(0, block.neighbours, 0);
+      return;
+    }
     const int first = kFirst[block.loose], end = kEnd[block.loose];
     if constexpr (Dim == 3) {
       for (int i = first; i < end; ++i) {
@@ -39,7 +51,7 @@ struct TileShape {
           visit(i * kTileEdge + j, block.neighbours + (part(i) * 3 + part(j)) * 3, (within(i) * 4 + within(j)) * 4);
         }
       }
-    } else {
+    } else if constexpr (Dim == 2) {
       for (int i = first; i < end; ++i) visit(i, block.neighbours + part(i) * 3, within(i) * 4);
     }
   }
@@ -125,8 +137,9 @@ struct ScatterTile {
   using Shape = TileShape<Dim>;
   static constexpr int kWidth = 4;
   typedef T Node __attribute__((vector_size(kWidth * sizeof(T))));
-  // A particle's row of three nodes is written as four: one more node, for the last row.
-  alignas(64) Node nodes[Shape::kRows * kTileEdge + 4];
+  // A particle's row of nodes is written as whole registers: a node more, or a few, for the last row.
+  static constexpr int kBeyond = 4;
+  alignas(64) Node nodes[Shape::kRows * kTileEdge + kBeyond];
 
   T* data() { return reinterpret_cast<T*>(nodes); }
 
@@ -134,7 +147,7 @@ struct ScatterTile {
     Shape::each_row(block, [&](int row, const int*, int) {
       for (int z = 0; z < kTileEdge; ++z) nodes[row * kTileEdge + z] = Node{};
     });
-    for (int z = 0; z < 4; ++z) nodes[Shape::kRows * kTileEdge + z] = Node{};
+    for (int z = 0; z < kBeyond; ++z) nodes[Shape::kRows * kTileEdge + z] = Node{};
   }
 
   /// Adds the tile's components `first`, … to the `Components` of a nodal field.

@@ -1,8 +1,12 @@
 // The weights of a chunk of particles: where they are in their block's tile, the nearest node, and the shape function
-// and its gradient at that node and its two neighbours along each axis. Made anew for every pass (to store them between
-// passes costs more than they do), a chunk at a time into a buffer in cache: the passes then know where to look before
-// they get there. A shape function is a class with s[3], which sum to 1, and g[3], which sum to 0 (gathers and scatters
-// count on it), made from the offset from the nearest node and an Axis, its constants for a body (shape/ugimp.hpp).
+// and its gradient at the nodes around it along each axis. Made anew for every pass (to store them between passes costs
+// more than they do), a chunk at a time into a buffer in cache: the passes then know where to look before they get
+// there.
+//
+// A shape function is a class with kNodes, 3 or 5, values s[kNodes], which sum to 1, and g[kNodes], which sum to 0
+// (gathers and scatters count on it), made from the offset from the nearest node and an Axis, its constants for a body
+// (shape/ugimp.hpp). With kStretches its box is the particle's own; with kFoldsAtWalls it keeps to the nodes inside
+// walls.
 #pragma once
 
 #include "mpm/kernel/tile.hpp"
@@ -11,44 +15,66 @@
 namespace mpm {
 
 using mpm_kernel::GridView;
+using mpm_kernel::kBuffer;
+using mpm_kernel::kChunk;
 using mpm_kernel::SetView;
-
-constexpr int kChunk = 64;            ///< particles at a time
-constexpr int kBuffer = kChunk + 16;  ///< and what the last register writes beyond them
 
 /// Lanes that share a row of nodes along the last axis are gathered together; else those that share their nearest node.
 template <class T>
 constexpr bool kByColumn = Wide<T>::kLanes >= kTileEdge;
 
+/// What stands in for the gradient beside the values: nothing; the gradient [1/m]; the values' first moments about the
+/// particle S (x_i - x_p) [m]; these over their second moment, which give the affine matrix of APIC [1/m].
+enum class Beside { nothing, gradient, moment, affine };
+
 /// What the weights of a body's particles depend on beside their places.
 template <class T, int Dim, template <class> class Shape>
 class WeightFrame {
   using W = Wide<T>;
+  static constexpr int kNodes = Shape<W>::kNodes;
 
  public:
   using Axis = typename Shape<W>::Axis;
   WeightFrame(const GridView& grid, const BlockView& block, const SetView<T>& set)
-      : lowest_(lowest_nearest(block.loose)), highest_(highest_nearest(block.loose)) {
+      : lowest_(lowest_nearest<kNodes>(block.loose)), highest_(highest_nearest<kNodes>(block.loose)) {
     for (int k = 0; k < Dim; ++k) {
       x_[k] = set.x[k];
       origin_[k] = grid.origin[k];
       inverse_cell_[k] = grid.inverse_cell[k];
       corner_[k] = block.corner[k];
       half_[k] = set.half[k];
+      if constexpr (Shape<W>::kStretches) stretch_[k] = set.domain[k];
+      if constexpr (Shape<W>::kFoldsAtWalls) {
+        low_wall_[k] = grid.low_wall[k] - corner_[k];
+        high_wall_[k] = grid.high_wall[k] - corner_[k];
+      }
     }
   }
   Axis axis(int k) const { return Axis(half_[k], inverse_cell_[k]); }
+  double cell(int k) const { return 1.0 / inverse_cell_[k]; }
   /// Of particles [p, p + count) along axis k, in the tile: its node i lies at i.
   W cells(int k, int p, int count) const {
     return W(W::B::place(x_[k] + p, count, origin_[k], inverse_cell_[k], corner_[k]));
   }
   /// Half way between two nodes the upper one, as the sorter has it; and none that the tile does not hold.
   W nearest(W cells) const { return max(min(round(cells + W(kTie)), highest_), lowest_); }
+  /// Of particles [p, p + count) along axis k, around their nearest nodes.
+  Shape<W> shape(int k, int p, int count, W cells, W nearest, const Axis& axis) const {
+    if constexpr (Shape<W>::kStretches) {
+      return Shape<W>(cells - nearest, Shape<W>::half(W::load_first(stretch_[k] + p, count), axis), axis);
+    } else {
+      Shape<W> shape(cells - nearest, axis);
+      if constexpr (Shape<W>::kFoldsAtWalls) shape.fold(nearest - W(low_wall_[k]), W(high_wall_[k]) - nearest);
+      return shape;
+    }
+  }
 
  private:
   static constexpr double kTie = sizeof(T) == 8 ? 1e-12 : 2e-6;  // beyond the round-off of a place in the tile
   const double* x_[Dim];
+  const T* stretch_[Shape<W>::kStretches ? Dim : 1];
   double origin_[Dim], inverse_cell_[Dim], corner_[Dim], half_[Dim];
+  double low_wall_[Shape<W>::kFoldsAtWalls ? Dim : 1], high_wall_[Shape<W>::kFoldsAtWalls ? Dim : 1];
   W lowest_, highest_;
 };
 
@@ -56,30 +82,35 @@ template <class T, int Dim, template <class> class Shape>
 struct Weights {
   using W = Wide<T>;
   static constexpr int kLast = Dim - 1;
+  static constexpr int kNodes = Shape<W>::kNodes;
 
-  alignas(64) T s[Dim][3][kBuffer];   ///< shape function along each axis
-  alignas(64) T g[Dim][3][kBuffer];   ///< its gradient [1/m]
-  alignas(64) T cells[Dim][kBuffer];  ///< place in the tile
-  alignas(64) T last[kBuffer];        ///< nearest node along the last axis
-  alignas(64) T place[kBuffer];       ///< what lanes must share to be gathered together: number of a column or a node
-  alignas(64) int node[kBuffer];      ///< number in the tile of the nearest node
+  alignas(64) T s[Dim][kNodes][kBuffer];  ///< shape function along each axis
+  alignas(64) T g[Dim][kNodes][kBuffer];  ///< its gradient [1/m], or what stands beside the values
+  alignas(64) T cells[Dim][kBuffer];      ///< place in the tile
+  alignas(64) T last[kBuffer];            ///< nearest node along the last axis
+  alignas(64) T place[kBuffer];   ///< what lanes must share to be gathered together: number of a column or a node
+  alignas(64) int node[kBuffer];  ///< number in the tile of the nearest node
 
-  /// Of particles [first, first + count); what follows them in the buffer has no meaning. Gradients: g too.
-  template <bool Gradients>
+  /// Of particles [first, first + count); what follows them in the buffer has no meaning.
+  template <Beside What>
   void fill(const WeightFrame<T, Dim, Shape>& frame, int first, int count) {
     for (int k = 0; k < Dim; ++k) {
       const typename Shape<W>::Axis axis = frame.axis(k);
       for (int q = 0; q < count; q += W::kLanes) {
         const W x = frame.cells(k, first + q, count - q);
         const W nearest = frame.nearest(x);
-        const Shape<W> shape(x - nearest, axis);
-        for (int n = 0; n < 3; ++n) {
+        Shape<W> shape = frame.shape(k, first + q, count - q, x, nearest, axis);
+        if constexpr (What == Beside::moment || What == Beside::affine) {
+          put_moments(shape, x - nearest, frame.cell(k), What == Beside::affine);
+        }
+        for (int n = 0; n < kNodes; ++n) {
           shape.s[n].store(s[k][n] + q);
-          if constexpr (Gradients) shape.g[n].store(g[k][n] + q);
+          if constexpr (What != Beside::nothing) shape.g[n].store(g[k][n] + q);
         }
         x.store(cells[k] + q);
         const W number = k == 0 ? nearest : W::load(place + q) * W(kTileEdge) + nearest;
         if (k < kLast || !kByColumn<T>) number.store(place + q);
+        if (Dim == 1 && kByColumn<T>) W(0.0).store(place + q);  // a line is one column
         if (k == kLast) {
           nearest.store(last + q);
           typedef int Numbers __attribute__((vector_size(4 * W::kLanes)));
@@ -88,6 +119,22 @@ struct Weights {
         }
       }
     }
+  }
+
+ private:
+  static constexpr double kLeastMoment = 1e-10;  ///< [cells^2]
+  // A product of values that each reproduce a linear field has a diagonal second moment, sum of S (x_i - x_p)^2.
+  static void put_moments(Shape<W>& shape, W offset, double cell, bool over_second) {
+    W second(0.0);
+    for (int n = 0; n < kNodes; ++n) {
+      const W arm = (W(n - kNodes / 2) - offset) * W(cell);
+      shape.g[n] = shape.s[n] * arm;
+      second += shape.g[n] * arm;
+    }
+    if (!over_second) return;
+    // A spline folded at a wall has no second moment on the wall: all weight is the wall node's, and moments are zero.
+    second = max(second, W(kLeastMoment * cell * cell));
+    for (int n = 0; n < kNodes; ++n) shape.g[n] /= second;
   }
 };
 

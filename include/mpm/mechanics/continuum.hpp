@@ -5,35 +5,34 @@
 #include <memory>
 #include <vector>
 
-#include "mpm/kernel/isa.hpp"
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/shape/kind.hpp"
 #include "mpm/step/mechanics.hpp"
+#include "mpm/step/transfer.hpp"
 
 namespace mpm {
 
 /// What the kernels are told once.
 struct ContinuumSettings {
-  double flip = 1.0;            ///< FLIP fraction
+  Transfer transfer;
   int gradient_terms = 2;       ///< of exp(grad v dt)
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
   int threads = 1;
-  Isa isa = Isa::plain;  ///< must be available
 };
 
-/// Kernels of a planar (`dim` 2, plane strain) or solid (`dim` 3) scene with uGIMP, in the sets' precision, which is
-/// the same for all. `laws`: of each set; both outlive the result.
-std::unique_ptr<Mechanics> make_mechanics(int dim, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
-                                          const ContinuumSettings& settings);
-
-/// How its particles have to be grouped (step/sorter.hpp).
-Grouping kernel_grouping(int dim, Precision precision, Isa isa);
-
-/// The same with kernels of any shape function, which outlive the result. T: double or float, the sets' precision.
+/// `kernels`: of the sets' precision, T double or float. `laws`: of each set; both outlive the result. Sets have what
+/// the kernels keep on particles (prepare()).
 template <class T>
 std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>& kernels, std::vector<ParticleSet>& sets,
                                           const std::vector<Law>& laws, const ContinuumSettings& settings);
+
+/// Makes room on the particles for what kernels and transfer keep there: domains, affine matrices.
+template <class T>
+void prepare(ParticleSet& set, const mpm_kernel::KernelTable<T>& kernels, ShapeKind shape, const Transfer& transfer);
+
+/// How particles have to be grouped for these kernels (step/sorter.hpp).
 template <class T>
 Grouping kernel_grouping(const mpm_kernel::KernelTable<T>& kernels);
 

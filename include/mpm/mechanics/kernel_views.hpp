@@ -17,9 +17,9 @@ static_assert(mpm_kernel::kTileEdge == kBlockEdge + 2 * mpm_kernel::kTileMargin)
 
 mpm_kernel::GridView view_of(Grid& grid);
 
-/// `law` outlives the view. T is the precision of the set.
+/// `law` outlives the view. T is the precision of the set; `laws`: of the kernels at work.
 template <class T>
-mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law);
+mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kernel::LawKernels<T>* laws);
 
 inline mpm_kernel::BlockView view_of(const Grid& grid, int owner) {
   const BlockTable& blocks = grid.blocks;

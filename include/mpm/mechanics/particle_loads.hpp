@@ -20,7 +20,6 @@
 #include <optional>
 #include <vector>
 
-#include "mpm/kernel/isa.hpp"
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/math/function.hpp"
@@ -62,23 +61,19 @@ class ParticleLoads : public Stage {
   virtual double work() const = 0;
 };
 
-/// Kernels that scatter a load, by its spread: those of the scene's shape function, and of the hat function.
+/// Kernels that scatter a load, by its spread: those of the scene's shape function, and those of dirac, whose hat
+/// functions are at the centre.
 template <class T>
 struct LoadKernels {
-  const mpm_kernel::KernelTable<T>* domain = nullptr;
-  const mpm_kernel::KernelTable<T>* center = nullptr;  ///< may be null when no term is at the centre
+  mpm_kernel::KernelTable<T> domain;
+  mpm_kernel::KernelTable<T> center;
 };
 
-/// `sets` and `laws`, one each, outlive the result, as the kernels do; sets that a term with X, Y or Z acts on have
-/// their start_x. T: double or float, the sets' precision.
+/// `sets` and `laws`, one each, outlive the result; sets that a term with X, Y or Z acts on have their start_x. T:
+/// double or float, the sets' precision.
 template <class T>
-std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<T>& kernels, int dim,
-                                                   std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
-                                                   const std::vector<ParticleLoadTerm>& terms, int threads);
-
-/// The same with uGIMP's kernels.
-std::unique_ptr<ParticleLoads> make_particle_loads(int dim, std::vector<ParticleSet>& sets,
+std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<T>& kernels, std::vector<ParticleSet>& sets,
                                                    const std::vector<Law>& laws,
-                                                   const std::vector<ParticleLoadTerm>& terms, Isa isa, int threads);
+                                                   const std::vector<ParticleLoadTerm>& terms, int threads);
 
 }  // namespace mpm

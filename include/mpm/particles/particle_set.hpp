@@ -1,7 +1,8 @@
 // The particles of one deformable body: structure of arrays, one material, equal mass, kept sorted by grid block.
 //
 // What a body's scene does not need is not stored: history exists as its law asks for it, the second position only when
-// the update scheme updates strain after the motion, the place at the start only when a load is a function of it.
+// the update scheme updates strain after the motion, a domain when the shape function follows the deformation, an
+// affine matrix for APIC, the place at the start only when a load is a function of it.
 #pragma once
 
 #include <array>
@@ -29,6 +30,8 @@ struct ParticleSet {
   std::vector<ParticleScalar> tau;           ///< Kirchhoff stress over initial density [J/kg]; GIMP notes (1.24)
   std::vector<ParticleScalar> history;       ///< what the law keeps
   std::vector<PaddedArray<double>> start_x;  ///< position at the start of the run [m]
+  std::vector<ParticleScalar> affine;        ///< APIC: gradient of the velocity, [component][axis] [1/s]
+  std::vector<ParticleScalar> domain;        ///< F of the step's start, where the shape function follows it
   std::vector<PaddedArray<double>> next_x;   ///< position at the end of the step, when strain is updated after motion
 
   /// First particle of each owner block, and one past the last particle.
@@ -39,11 +42,11 @@ struct ParticleSet {
   std::vector<std::uint32_t> group_begin;
 
   int size() const { return static_cast<int>(id.size()); }
-  /// visit(PaddedArray<double>&) or visit(PaddedArray<float>&) for every stored scalar but next_x.
+  /// visit(PaddedArray<double>&) or visit(PaddedArray<float>&) for every stored scalar but domain and next_x.
   template <class Visit>
   void each_scalar(Visit&& visit) {
     for (auto& scalar : x) visit(scalar);
-    for (auto* fields : {&v, &f, &tau, &history}) {
+    for (auto* fields : {&v, &f, &tau, &history, &affine}) {
       for (ParticleScalar& scalar : *fields) scalar.visit(visit);
     }
     for (auto& scalar : start_x) visit(scalar);

@@ -12,11 +12,17 @@ namespace mpm {
 /// Values and gradients at the three nodes nearest-1, nearest, nearest+1.
 template <class T>
 struct Ugimp {
+  static constexpr int kNodes = 3;              ///< along an axis
+  static constexpr bool kStretches = false;     ///< a particle has a half-width of its own
+  static constexpr bool kFoldsAtWalls = false;  ///< has fold(), which leaves no weight beyond the walls of the domain
+
   /// What all particles of a body have in common along one axis.
   struct Axis {
     T half, scale, slope;
     /// `half`: w, half the box in cells, (0, 1/2]; `inverse_cell` [1/m].
     Axis(double w, double inverse_cell) : half(w), scale(1.0 / (4.0 * w)), slope(inverse_cell / (2.0 * w)) {}
+    /// Where particles differ: w, 1/(4 w), and 1/(2 w) of the inverse cell [1/m].
+    Axis(T w, T quarter_over_w, T per_box) : half(w), scale(quarter_over_w), slope(per_box) {}
   };
 
   T s[3];  ///< shape function, sums to 1

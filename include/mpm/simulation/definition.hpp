@@ -10,6 +10,7 @@
 #include "mpm/boundary/wall.hpp"
 #include "mpm/material/definition.hpp"
 #include "mpm/math/geometry.hpp"
+#include "mpm/math/geometry_kind.hpp"
 #include "mpm/math/tensor.hpp"
 #include "mpm/mechanics/particle_loads.hpp"
 #include "mpm/particles/particle_scalar.hpp"
@@ -20,9 +21,6 @@
 #include "mpm/step/transfer.hpp"
 
 namespace mpm {
-
-/// A line along x, a plane x-z, or all three axes. A line has no strain but along it.
-enum class GeometryKind { line, plane_strain, plane_stress, solid };
 
 struct GridDefinition {
   Vec3 cell = Vec3::Zero();  ///< cell size along each axis [m]
@@ -69,14 +67,14 @@ struct DeformableBody {
   double particle_volume = 0.0;  ///< volume of one particle at the start [m^3]
 };
 
-/// An acceleration of the material as a function of time, place and place at the start (mechanics/body_force.hpp).
+/// An acceleration of the material as a function of time, place and place at the start (mechanics/particle_loads.hpp).
 struct BodyForceDefinition {
   std::string body;                      ///< deformable body that it acts on; all when empty
   std::array<Function, 3> acceleration;  ///< [m/s^2]
   LoadSpread spread = LoadSpread::domain;
 };
 
-/// A force on particles of a body, as a function of time, place and place at the start (mechanics/body_force.hpp).
+/// A force on particles of a body, as a function of time, place and place at the start (mechanics/particle_loads.hpp).
 struct ParticleForceDefinition {
   std::string body;                      ///< deformable body that it acts on
   std::vector<std::uint32_t> particles;  ///< which of its positions; all when empty

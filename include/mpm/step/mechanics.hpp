@@ -22,8 +22,15 @@ class Mechanics {
   virtual void scatter_momentum(StepContext&) = 0;
   /// Strain and stress advance by `dt` with the grid's velocity; then the internal force goes to the grid.
   virtual void strain_and_force(StepContext&, double dt) = 0;
+  /// The internal force of the stress as it is goes to the grid.
+  virtual void internal_force(StepContext&) = 0;
   /// velocity = v^{n+1}, force = acceleration, from momentum, force and gravity.
   virtual void update_momentum(StepContext&) = 0;
+  /// XPIC and FMPM: how many increments the velocity that particles adopt takes, after momentum was updated.
+  virtual int increments() const = 0;
+  /// The next one [m/s]; conditions may act on it before it is added to the grid's velocity.
+  virtual NodalField& find_increment(StepContext&) = 0;
+  virtual void add_increment(StepContext&) = 0;
   /// Velocity and position of the particles.
   virtual void move_particles(StepContext&) = 0;
   /// Velocity of the particles; their new momentum to the grid with this step's weights; velocity = momentum / mass.

@@ -1,8 +1,9 @@
-// The order of a step: update strain first (USF) or half first and half last (USAVG).
+// The order of a step: update strain first (USF), last (USL) or half first and half last (USAVG).
 //
-// USF costs least and conserves energy less well; USAVG re-extrapolates momentum and doubles the strain update for the
-// smallest energy drift. Contact and walls act on velocities beside the gathered momentum, which stays as it was,
-// so nothing has to be undone before the update. Source: Nairn, GIMP notes 2.2; method reference 5.4.
+// USF costs least and conserves energy less well; USL takes strain from the momentum that the particles end the step
+// with (the modified form, re-extrapolated) and loses energy; USAVG does both and has the smallest energy drift.
+// Contact and walls act on velocities beside the gathered momentum, which stays as it was, so nothing has to be undone
+// before the update. Source: Nairn, GIMP notes 2.2; method reference 5.4.
 #pragma once
 
 #include <array>
@@ -22,6 +23,7 @@ inline constexpr std::array<const char*, 3> kUpdateNames = {"usf", "usl", "usavg
 using Stages = std::vector<std::unique_ptr<Stage>>;
 
 void step_usf(Mechanics& mechanics, Stages& stages, StepContext& context);
+void step_usl(Mechanics& mechanics, Stages& stages, StepContext& context);
 void step_usavg(Mechanics& mechanics, Stages& stages, StepContext& context);
 
 }  // namespace mpm

@@ -34,6 +34,11 @@ class Stage {
   /// Grid.velocity is v^{n+1}, Grid.force the acceleration: whoever adds dv to the one adds dv/dt to the other.
   virtual void momentum_updated(StepContext&) {}
 
+  /// XPIC, FMPM: `increment` [m/s] is about to be added to the velocity that particles adopt; what holds a node along
+  /// some direction takes that part away, and owns up to the momentum. The sum of the increments' momentum is zero
+  /// before.
+  virtual void increment_found(StepContext&, NodalField& /*increment*/) {}
+
   /// What this stage gave to the material, under its names.
   virtual void accounts(std::vector<ImpulseAccount>&) const {}
 };

@@ -84,4 +84,17 @@ void Wall::momentum_updated(StepContext& context) {
   account_.add(given);
 }
 
+void Wall::increment_found(StepContext& context, NodalField& increment) {
+  const Grid& grid = context.grid;
+  const Vec3 n = normal(grid.layout);
+  Vec3 given = Vec3::Zero();
+  for (const Node& node : nodes_) {
+    if (!grid.carries(node.ref.block, node.ref.node)) continue;
+    const Vec3 change = held_part(nodal_vector(increment, grid.layout, node.ref), n, node.hold);
+    add_nodal_vector(increment, grid.layout, node.ref, change);
+    given += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
+  }
+  account_.add(given);
+}
+
 }  // namespace mpm

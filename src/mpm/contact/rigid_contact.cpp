@@ -83,7 +83,7 @@ void RigidContact::before_strain(StepContext& context) {
 
 void RigidContact::momentum_updated(StepContext& context) {
   Grid& grid = context.grid;
-  Vec3 given = Vec3::Zero(), angular = Vec3::Zero(), along = Vec3::Zero();
+  Vec3 given = Vec3::Zero(), angular = Vec3::Zero();
   int touching = 0;
   held_.clear();
   each_node([&](Node& node) {
@@ -94,22 +94,39 @@ void RigidContact::momentum_updated(StepContext& context) {
     held_.add(HeldNodes::id(grid.blocks.key(node.ref.block), node.ref.node), hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
     add_nodal_vector(grid.force, grid.layout, node.ref, change / context.dt);
-    const Vec3 impulse = grid.mass.at(node.ref.block, 0, node.ref.node) * change;
-    const double normal = impulse.dot(node.normal);
-    given += impulse;
-    angular += node.arm.cross(impulse);
-    along += impulse - normal * node.normal;
-    pressed_ += normal;
-    pressed_arm_ += normal * node.arm;
-    work_ += impulse.dot(node.velocity);
+    give(node, grid.mass.at(node.ref.block, 0, node.ref.node) * change, given, angular);
     ++touching;
   });
+  close(given, angular, context.dt);
+  touching_ = touching;
+}
+
+void RigidContact::increment_found(StepContext& context, NodalField& increment) {
+  const Grid& grid = context.grid;
+  Vec3 given = Vec3::Zero(), angular = Vec3::Zero();
+  each_node([&](const Node& node) {
+    const Vec3 change = held_part(nodal_vector(increment, grid.layout, node.ref), node.normal, node.hold);
+    add_nodal_vector(increment, grid.layout, node.ref, change);
+    give(node, grid.mass.at(node.ref.block, 0, node.ref.node) * change, given, angular);
+  });
+  close(given, angular, context.dt);
+}
+
+void RigidContact::give(const Node& node, const Vec3& impulse, Vec3& given, Vec3& angular) {
+  const double normal = impulse.dot(node.normal);
+  given += impulse;
+  angular += node.arm.cross(impulse);
+  friction_ -= impulse - normal * node.normal;
+  pressed_ += normal;
+  pressed_arm_ += normal * node.arm;
+  work_ += impulse.dot(node.velocity);
+}
+
+void RigidContact::close(const Vec3& given, const Vec3& angular, double dt) {
   account_.add(given);
   impulse_ -= given;
   angular_impulse_ -= angular;
-  friction_ -= along;
-  touching_ = touching;
-  const Wrench wrench{-given / context.dt, -angular / context.dt};
+  const Wrench wrench{-given / dt, -angular / dt};
   if (wrench.force.squaredNorm() > peak_.force.squaredNorm()) peak_ = wrench;
 }
 

@@ -1,12 +1,17 @@
 #include "mpm/kernel/select.hpp"
 
-// One function a table, in the namespace of its instruction set; defined in wide/*.cpp.
-#define MPM_DECLARE_KERNELS(space)                                    \
-  namespace space {                                                   \
-  const mpm_kernel::KernelTable<double>& plane_strain_ugimp_double(); \
-  const mpm_kernel::KernelTable<double>& solid_ugimp_double();        \
-  const mpm_kernel::KernelTable<float>& plane_strain_ugimp_single();  \
-  const mpm_kernel::KernelTable<float>& solid_ugimp_single();         \
+// One function a family of tables, in the namespace of its instruction set; defined in wide/*.cpp.
+#define MPM_DECLARE_KERNELS(space)                      \
+  namespace space {                                     \
+  const mpm_kernel::PassFamily& dirac_passes();         \
+  const mpm_kernel::PassFamily& ugimp_passes();         \
+  const mpm_kernel::PassFamily& ugimp_stretch_passes(); \
+  const mpm_kernel::PassFamily& cpdi_passes();          \
+  const mpm_kernel::PassFamily& qcpdi_passes();         \
+  const mpm_kernel::PassFamily& bspline2_passes();      \
+  const mpm_kernel::PassFamily& bspline3_passes();      \
+  const mpm_kernel::LawFamily& plane_strain_laws();     \
+  const mpm_kernel::LawFamily& solid_laws();            \
   }
 MPM_DECLARE_KERNELS(mpm_plain)
 MPM_DECLARE_KERNELS(mpm_avx2)
@@ -15,30 +20,36 @@ MPM_DECLARE_KERNELS(mpm_avx512)
 namespace mpm {
 namespace {
 
-template <class T>
-using Maker = const mpm_kernel::KernelTable<T>& (*)();
-
 #if defined(MPM_X86_KERNELS)
-#define MPM_KERNELS(name) mpm_plain::name, mpm_avx2::name, mpm_avx512::name
+#define MPM_KERNELS(name) \
+  { mpm_plain::name, mpm_avx2::name, mpm_avx512::name }
 #else
-#define MPM_KERNELS(name) mpm_plain::name
+#define MPM_KERNELS(name) \
+  { mpm_plain::name, nullptr, nullptr }
 #endif
-// By instruction set, in the order of Isa.
-constexpr Maker<double> kSolidDouble[] = {MPM_KERNELS(solid_ugimp_double)};
-constexpr Maker<double> kPlaneDouble[] = {MPM_KERNELS(plane_strain_ugimp_double)};
-constexpr Maker<float> kSolidSingle[] = {MPM_KERNELS(solid_ugimp_single)};
-constexpr Maker<float> kPlaneSingle[] = {MPM_KERNELS(plane_strain_ugimp_single)};
+// By shape function or geometry, then by instruction set.
+constexpr const mpm_kernel::PassFamily& (*kPasses[][3])() = {
+    MPM_KERNELS(dirac_passes),   MPM_KERNELS(ugimp_passes), MPM_KERNELS(ugimp_stretch_passes),
+    MPM_KERNELS(cpdi_passes),    MPM_KERNELS(qcpdi_passes), MPM_KERNELS(bspline2_passes),
+    MPM_KERNELS(bspline3_passes)};
+constexpr const mpm_kernel::LawFamily& (*kLaws[][3])() = {MPM_KERNELS(plane_strain_laws),
+                                                          MPM_KERNELS(plane_strain_laws),
+                                                          MPM_KERNELS(plane_strain_laws), MPM_KERNELS(solid_laws)};
 
 }  // namespace
 
 template <>
-const mpm_kernel::KernelTable<double>& ugimp_kernels<double>(int dim, Isa isa) {
-  return (dim == 3 ? kSolidDouble : kPlaneDouble)[static_cast<int>(isa)]();
+mpm_kernel::KernelTable<double> kernel_table<double>(ShapeKind shape, GeometryKind geometry, Isa isa) {
+  auto table = kPasses[static_cast<int>(shape)][static_cast<int>(isa)]().in_double[dimensions(geometry) - 1];
+  table.laws = kLaws[static_cast<int>(geometry)][static_cast<int>(isa)]().in_double;
+  return table;
 }
 
 template <>
-const mpm_kernel::KernelTable<float>& ugimp_kernels<float>(int dim, Isa isa) {
-  return (dim == 3 ? kSolidSingle : kPlaneSingle)[static_cast<int>(isa)]();
+mpm_kernel::KernelTable<float> kernel_table<float>(ShapeKind shape, GeometryKind geometry, Isa isa) {
+  auto table = kPasses[static_cast<int>(shape)][static_cast<int>(isa)]().in_single[dimensions(geometry) - 1];
+  table.laws = kLaws[static_cast<int>(geometry)][static_cast<int>(isa)]().in_single;
+  return table;
 }
 
 }  // namespace mpm

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 
-#include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/kernel_views.hpp"
 
 namespace mpm {
@@ -16,9 +15,16 @@ class Continuum final : public Mechanics {
   using Kernels = mpm_kernel::KernelTable<T>;
 
  public:
-  Continuum(const Kernels& kernels, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+  Continuum(Kernels kernels, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
             const ContinuumSettings& settings)
-      : kernels_(kernels), sets_(sets), laws_(laws), settings_(settings) {}
+      : kernels_(kernels),
+        sets_(sets),
+        laws_(laws),
+        settings_(settings),
+        motion_(settings.transfer.kind == TransferKind::apic   ? mpm_kernel::kAffine
+                : settings.transfer.kind == TransferKind::flip ? mpm_kernel::kIncrement
+                                                               : mpm_kernel::kAdopt),
+        increment_(static_cast<int>(sets.front().x.size()), 1 << 2 * sets.front().x.size()) {}
 
   void scatter_momentum(StepContext& context) override {
     failed_.reset();
@@ -26,7 +32,7 @@ class Continuum final : public Mechanics {
     clear(context.grid.mass, context.grid);
     clear(context.grid.momentum, context.grid);
     each_block(context.grid, true, [&](const mpm_kernel::BlockView& block) {
-      kernels_.scatter_momentum(grid_, block, views_.data(), sets());
+      kernels_.scatter_momentum[motion_ == mpm_kernel::kAffine](grid_, block, views_.data(), sets());
     });
     velocity_from_momentum(context.grid);
   }
@@ -36,6 +42,12 @@ class Continuum final : public Mechanics {
     strain(context.grid, {dt, settings_.gradient_terms, true});
   }
 
+  void internal_force(StepContext& context) override {
+    clear(context.grid.force, context.grid);
+    each_block(context.grid, true,
+               [&](const mpm_kernel::BlockView& block) { kernels_.force(grid_, block, views_.data(), sets()); });
+  }
+
   void update_momentum(StepContext& context) override {
     double gravity[3] = {};
     for (int k = 0; k < context.grid.layout.dim(); ++k) gravity[k] = settings_.gravity[context.grid.layout.axis(k)];
@@ -43,9 +55,51 @@ class Continuum final : public Mechanics {
                     [&](int first, int last) { kernels_.nodal_update(grid_, first, last, context.dt, gravity); });
   }
 
+  int increments() const override { return motion_ == mpm_kernel::kAdopt ? settings_.transfer.order - 1 : 0; }
+
+  // v(m) is a sum of increments, the first of them the velocity itself, each the part of the one before that particles
+  // and grid, passing it to and fro, lose: dv(j+1) = dv(j) - S+ S dv(j), method reference 6.6. XPIC begins with the
+  // velocity of the step's start, FMPM with that of its end; conditions hold in the first one.
+  NodalField& find_increment(StepContext& context) override {
+    Grid& grid = context.grid;
+    if (found_ == 0) {
+      increment_.resize(grid.blocks.size());
+      const bool from_start = settings_.transfer.kind == TransferKind::xpic;
+      const int nodes = grid.layout.nodes_per_block();
+      each_carrying(grid, [&](int b, int n, double inverse_mass) {
+        for (int k = 0; k < grid.layout.dim(); ++k) {
+          const double start = grid.momentum.block(b)[k * nodes + n] * inverse_mass;
+          increment_.block(b)[k * nodes + n] = from_start ? start : grid.velocity.block(b)[k * nodes + n];
+        }
+      });
+    }
+    clear(grid.momentum, grid);
+    each_block(grid, true, [&](const mpm_kernel::BlockView& block) {
+      kernels_.project(grid_, block, views_.data(), sets(), increment_.data(), grid.momentum.data());
+    });
+    each_carrying(grid, [&](int b, int n, double inverse_mass) {
+      for (int k = 0; k < grid.layout.dim(); ++k) {
+        const int i = k * grid.layout.nodes_per_block() + n;
+        increment_.block(b)[i] -= grid.momentum.block(b)[i] * inverse_mass;
+      }
+    });
+    if (++found_ == increments()) found_ = 0;
+    return increment_;
+  }
+
+  void add_increment(StepContext& context) override {
+    NodalField& velocity = context.grid.velocity;
+    const std::ptrdiff_t count = velocity.components() * context.grid.layout.nodes_per_block();
+    each_node_range(context.grid, [&](int first, int last) {
+      const double* from = increment_.block(first);
+      double* to = velocity.block(first);
+      for (std::ptrdiff_t i = 0; i < (last - first) * count; ++i) to[i] += from[i];
+    });
+  }
+
   void move_particles(StepContext& context) override {
     move(context, false);
-    context.grid.loose.swap(loose_);
+    end_step(context.grid);
   }
 
   void move_and_regather(StepContext& context) override {
@@ -57,17 +111,17 @@ class Continuum final : public Mechanics {
   void strain_and_place(StepContext& context, double dt) override {
     strain(context.grid, {dt, settings_.gradient_terms, false});
     for (ParticleSet& set : sets_) set.x.swap(set.next_x);
-    context.grid.loose.swap(loose_);
+    end_step(context.grid);
   }
 
   std::optional<ParticleRef> failed() const override { return failed_; }
   FastestParticle fastest(int set, double cell) const override {
-    const mpm_kernel::SetView<T> view = view_of<T>(sets_[set], laws_[set]);
+    const mpm_kernel::SetView<T> view = view_of<T>(sets_[set], laws_[set], kernels_.laws);
     const int count = sets_[set].size(), groups = (count + kSurveyed - 1) / kSurveyed;
     std::vector<mpm_kernel::Fastest> of_group(groups);
 #pragma omp parallel for schedule(static) num_threads(settings_.threads)
     for (int g = 0; g < groups; ++g) {
-      of_group[g] = kernels_.survey(view, g * kSurveyed, std::min(count, (g + 1) * kSurveyed), cell);
+      of_group[g] = view.law_kernels->survey(view, g * kSurveyed, std::min(count, (g + 1) * kSurveyed), cell);
     }
     FastestParticle found;
     for (const mpm_kernel::Fastest& one : of_group) {
@@ -84,7 +138,7 @@ class Continuum final : public Mechanics {
   void look_at(Grid& grid) {
     grid_ = view_of(grid);
     views_.clear();
-    for (std::size_t s = 0; s < sets_.size(); ++s) views_.push_back(view_of<T>(sets_[s], laws_[s]));
+    for (std::size_t s = 0; s < sets_.size(); ++s) views_.push_back(view_of<T>(sets_[s], laws_[s], kernels_.laws));
   }
 
   // Colours are for what scatters to nodes.
@@ -125,12 +179,13 @@ class Continuum final : public Mechanics {
   }
 
   void move(StepContext& context, bool regather) {
-    const mpm_kernel::MoveSettings settings{context.dt, settings_.flip, regather};
+    const mpm_kernel::MoveSettings settings{context.dt, settings_.transfer.flip, regather};
+    const mpm_kernel::MovePass<T> pass = kernels_.move[motion_][0];
     loose_.resize(context.grid.blocks.owners());
     std::atomic<bool> gone{false};
     std::atomic<int> groups{0}, parts{0};
     each_block(context.grid, regather, [&](const mpm_kernel::BlockView& block) {
-      const mpm_kernel::Moved moved = kernels_.move(grid_, block, views_.data(), sets(), settings);
+      const mpm_kernel::Moved moved = pass(grid_, block, views_.data(), sets(), settings);
       loose_[block.owner] = moved.loose;
       if (moved.gone) gone.store(true, std::memory_order_relaxed);
       groups.fetch_add(moved.groups, std::memory_order_relaxed);
@@ -141,6 +196,30 @@ class Continuum final : public Mechanics {
       parts_when_sorted_ = parts;
     }
     needs_sort_ = gone || parts - parts_when_sorted_ > kMixed * groups;
+  }
+
+  // visit(block, node, 1 / mass): zero where no particle is.
+  template <class Visit>
+  void each_carrying(const Grid& grid, Visit&& visit) {
+    each_node_range(grid, [&](int first, int last) {
+      for (int b = first; b < last; ++b) {
+        for (int n = 0; n < grid.layout.nodes_per_block(); ++n) {
+          visit(b, n, grid.carries(b, n) ? 1.0 / grid.mass.at(b, 0, n) : 0.0);
+        }
+      }
+    });
+  }
+
+  // Domains have grown, and particles with them moved: will the next step's tiles hold them?
+  void end_step(Grid& grid) {
+    grid.loose.swap(loose_);
+    if (kernels_.outgrown == nullptr || needs_sort_) return;
+    look_at(grid);
+    std::atomic<bool> outgrown{false};
+    each_block(grid, false, [&](const mpm_kernel::BlockView& block) {
+      if (kernels_.outgrown(grid_, block, views_.data(), sets())) outgrown.store(true, std::memory_order_relaxed);
+    });
+    needs_sort_ = outgrown;
   }
 
   void note_failure(ParticleRef particle) {
@@ -155,10 +234,13 @@ class Continuum final : public Mechanics {
   static constexpr double kMixed = 0.2;
   static constexpr int kSurveyed = 4096;  ///< particles that a thread surveys in one go
 
-  const Kernels& kernels_;
+  Kernels kernels_;
   std::vector<ParticleSet>& sets_;
   const std::vector<Law>& laws_;
   ContinuumSettings settings_;
+  mpm_kernel::Motion motion_;
+  NodalField increment_;
+  int found_ = 0;  ///< increments of this step
   mpm_kernel::GridView grid_{};
   std::vector<mpm_kernel::SetView<T>> views_;
   std::vector<std::uint8_t> loose_;  ///< of each owner, after the motion
@@ -177,28 +259,28 @@ std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>& kern
 }
 
 template <class T>
+void prepare(ParticleSet& set, const mpm_kernel::KernelTable<T>& kernels, ShapeKind shape, const Transfer& transfer) {
+  const std::size_t dim = set.x.size(), size = set.id.size();
+  const auto room = [&](std::size_t components) {
+    std::vector<ParticleScalar> field;
+    for (std::size_t c = 0; c < components; ++c) field.emplace_back(set.precision, size);
+    return field;
+  };
+  if (kernels.follows_deformation) set.domain = room(shape == ShapeKind::ugimp_stretch ? dim : dim * dim);
+  if (transfer.kind == TransferKind::apic) set.affine = room(dim * dim);
+}
+
+template <class T>
 Grouping kernel_grouping(const mpm_kernel::KernelTable<T>& kernels) {
   return {kernels.lanes, kernels.by_column ? Grouping::By::column : Grouping::By::node};
 }
 
-template std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<double>&, std::vector<ParticleSet>&,
-                                                   const std::vector<Law>&, const ContinuumSettings&);
-template std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<float>&, std::vector<ParticleSet>&,
-                                                   const std::vector<Law>&, const ContinuumSettings&);
-template Grouping kernel_grouping(const mpm_kernel::KernelTable<double>&);
-template Grouping kernel_grouping(const mpm_kernel::KernelTable<float>&);
-
-std::unique_ptr<Mechanics> make_mechanics(int dim, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
-                                          const ContinuumSettings& settings) {
-  if (sets.front().precision == Precision::float32) {
-    return make_mechanics(ugimp_kernels<float>(dim, settings.isa), sets, laws, settings);
-  }
-  return make_mechanics(ugimp_kernels<double>(dim, settings.isa), sets, laws, settings);
-}
-
-Grouping kernel_grouping(int dim, Precision precision, Isa isa) {
-  return precision == Precision::float32 ? kernel_grouping(ugimp_kernels<float>(dim, isa))
-                                         : kernel_grouping(ugimp_kernels<double>(dim, isa));
-}
+#define MPM_INSTANTIATE(T)                                                                                         \
+  template std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>&, std::vector<ParticleSet>&, \
+                                                     const std::vector<Law>&, const ContinuumSettings&);           \
+  template void prepare(ParticleSet&, const mpm_kernel::KernelTable<T>&, ShapeKind, const Transfer&);              \
+  template Grouping kernel_grouping(const mpm_kernel::KernelTable<T>&);
+MPM_INSTANTIATE(double)
+MPM_INSTANTIATE(float)
 
 }  // namespace mpm

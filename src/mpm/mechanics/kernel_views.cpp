@@ -9,6 +9,8 @@ mpm_kernel::GridView view_of(Grid& grid) {
   for (int k = 0; k < grid.layout.dim(); ++k) {
     view.origin[k] = grid.layout.origin(k);
     view.inverse_cell[k] = grid.layout.inverse_cell(k);
+    view.low_wall[k] = grid.has_wall[2 * k] ? 0.0 : -mpm_kernel::kNoWall;
+    view.high_wall[k] = grid.has_wall[2 * k + 1] ? grid.layout.last_node(k) : mpm_kernel::kNoWall;
   }
   view.least_mass = grid.least_mass;
   view.mass = grid.mass.data();
@@ -19,7 +21,7 @@ mpm_kernel::GridView view_of(Grid& grid) {
 }
 
 template <class T>
-mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law) {
+mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kernel::LawKernels<T>* laws) {
   mpm_kernel::SetView<T> view{};
   view.group = set.group.data();
   view.group_begin = set.group_begin.data();
@@ -35,17 +37,19 @@ mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law) {
   for (std::size_t c = 0; c < set.f.size(); ++c) view.f[c] = set.f[c].template data<T>();
   for (std::size_t c = 0; c < set.tau.size(); ++c) view.tau[c] = set.tau[c].template data<T>();
   for (std::size_t c = 0; c < set.history.size(); ++c) view.history[c] = set.history[c].template data<T>();
+  for (std::size_t c = 0; c < set.affine.size(); ++c) view.affine[c] = set.affine[c].template data<T>();
+  for (std::size_t c = 0; c < set.domain.size(); ++c) view.domain[c] = set.domain[c].template data<T>();
   std::visit(
       [&](const auto& kind) {
         static_assert(std::decay_t<decltype(kind)>::kHistory <= mpm_kernel::kMostHistory);
         view.law = &kind;
       },
       law);
-  view.law_kind = static_cast<int>(law.index());
+  view.law_kernels = laws + law.index();
   return view;
 }
 
-template mpm_kernel::SetView<double> view_of<double>(ParticleSet&, const Law&);
-template mpm_kernel::SetView<float> view_of<float>(ParticleSet&, const Law&);
+template mpm_kernel::SetView<double> view_of(ParticleSet&, const Law&, const mpm_kernel::LawKernels<double>*);
+template mpm_kernel::SetView<float> view_of(ParticleSet&, const Law&, const mpm_kernel::LawKernels<float>*);
 
 }  // namespace mpm

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <string>
 
-#include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/first_fault.hpp"
 #include "mpm/mechanics/kernel_views.hpp"
 
@@ -24,14 +23,14 @@ class ParticleLoadsOf final : public ParticleLoads {
   static constexpr int kGroup = 1024;
 
  public:
-  ParticleLoadsOf(const LoadKernels<T>& kernels, int dim, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+  ParticleLoadsOf(const LoadKernels<T>& kernels, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
                   const std::vector<ParticleLoadTerm>& terms, int threads)
       : kernels_{kernels.domain, kernels.center},
-        dim_(dim),
+        dim_(static_cast<int>(sets.front().x.size())),
         sets_(sets),
         laws_(laws),
         threads_(threads),
-        nodal_(dim, 1 << (2 * dim)),
+        nodal_(dim_, 1 << 2 * dim_),
         fault_(threads) {
     for (const ParticleLoadTerm& term : terms) terms_.emplace_back(term, threads);
     values_.resize(sets.size());
@@ -167,16 +166,16 @@ class ParticleLoadsOf final : public ParticleLoads {
     const mpm_kernel::GridView view = view_of(grid);
     views_.clear();
     for (std::size_t s = 0; s < sets_.size(); ++s) {
-      views_.push_back(view_of<T>(sets_[s], laws_[s]));
+      views_.push_back(view_of<T>(sets_[s], laws_[s], kernels_[spread].laws));
       const auto& values = values_[s][spread];
       for (std::size_t k = 0; k < values.size(); ++k) views_.back().load[k] = values[k].data();
     }
     each_owner(grid, threads_, [&](const mpm_kernel::BlockView& block) {
-      kernels_[spread]->scatter_load(view, block, views_.data(), static_cast<int>(views_.size()), nodal_.data());
+      kernels_[spread].scatter_load(view, block, views_.data(), static_cast<int>(views_.size()), nodal_.data());
     });
   }
 
-  std::array<const mpm_kernel::KernelTable<T>*, kSpreads> kernels_;
+  std::array<mpm_kernel::KernelTable<T>, kSpreads> kernels_;  ///< by spread
   int dim_;
   std::vector<ParticleSet>& sets_;
   const std::vector<Law>& laws_;
@@ -196,26 +195,17 @@ class ParticleLoadsOf final : public ParticleLoads {
 }  // namespace
 
 template <class T>
-std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<T>& kernels, int dim,
-                                                   std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
-                                                   const std::vector<ParticleLoadTerm>& terms, int threads) {
-  return std::make_unique<ParticleLoadsOf<T>>(kernels, dim, sets, laws, terms, threads);
-}
-
-template std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<double>&, int, std::vector<ParticleSet>&,
-                                                            const std::vector<Law>&,
-                                                            const std::vector<ParticleLoadTerm>&, int);
-template std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<float>&, int, std::vector<ParticleSet>&,
-                                                            const std::vector<Law>&,
-                                                            const std::vector<ParticleLoadTerm>&, int);
-
-std::unique_ptr<ParticleLoads> make_particle_loads(int dim, std::vector<ParticleSet>& sets,
+std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<T>& kernels, std::vector<ParticleSet>& sets,
                                                    const std::vector<Law>& laws,
-                                                   const std::vector<ParticleLoadTerm>& terms, Isa isa, int threads) {
-  if (sets.front().precision == Precision::float32) {
-    return make_particle_loads<float>({&ugimp_kernels<float>(dim, isa), nullptr}, dim, sets, laws, terms, threads);
-  }
-  return make_particle_loads<double>({&ugimp_kernels<double>(dim, isa), nullptr}, dim, sets, laws, terms, threads);
+                                                   const std::vector<ParticleLoadTerm>& terms, int threads) {
+  return std::make_unique<ParticleLoadsOf<T>>(kernels, sets, laws, terms, threads);
 }
+
+template std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<double>&, std::vector<ParticleSet>&,
+                                                            const std::vector<Law>&,
+                                                            const std::vector<ParticleLoadTerm>&, int);
+template std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<float>&, std::vector<ParticleSet>&,
+                                                            const std::vector<Law>&,
+                                                            const std::vector<ParticleLoadTerm>&, int);
 
 }  // namespace mpm

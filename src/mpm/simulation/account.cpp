@@ -194,7 +194,7 @@ std::uint64_t Simulation::state_hash() const {
       for (const int p : place) hash.add(values[p]);
     };
     for (const PaddedArray<double>& scalar : set.x) add(scalar);
-    for (const auto* fields : {&set.v, &set.f, &set.tau, &set.history}) {
+    for (const auto* fields : {&set.v, &set.f, &set.tau, &set.history, &set.affine}) {
       for (const ParticleScalar& scalar : *fields) scalar.visit(add);
     }
   }

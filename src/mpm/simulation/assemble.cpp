@@ -7,6 +7,7 @@
 
 #include "initial.hpp"
 #include "mpm/boundary/wall.hpp"
+#include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "state.hpp"
@@ -70,7 +71,7 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
   set.tau = zeros(dim == 3 ? Solid::kSymmetric : PlaneStrain::kSymmetric, set.precision, n);
   set.history = zeros(history_size(law), set.precision, n);
   start_particles(set, body, material, dim, warnings);
-  if (definition.method.update == UpdateScheme::usavg) set.next_x = set.x;
+  if (definition.method.update != UpdateScheme::usf) set.next_x = set.x;
   return set;
 }
 
@@ -85,16 +86,9 @@ void check(const SimulationDefinition& d) {
   if (const auto fault = method_fault(d.method, d.geometry)) {
     throw DefinitionError(fmt::format("method.{}: {}", fault->key, fault->text));
   }
-  const bool built = d.method.shape == ShapeKind::ugimp && d.method.update != UpdateScheme::usl &&
-                     d.method.transfer.kind == TransferKind::flip && !d.method.average_dilatation &&
-                     !d.method.damping.in_update() && !d.method.damping.feedback &&
+  const bool built = !d.method.average_dilatation && !d.method.damping.in_update() && !d.method.damping.feedback &&
                      (d.geometry == GeometryKind::plane_strain || d.geometry == GeometryKind::solid);
   if (!built) throw DefinitionError("this method is not built yet");
-  const auto central = [](const auto& load) { return load.spread == LoadSpread::center; };
-  if (std::any_of(d.body_forces.begin(), d.body_forces.end(), central) ||
-      std::any_of(d.particle_forces.begin(), d.particle_forces.end(), central)) {
-    throw DefinitionError("loads at the centre of particles are not built yet");
-  }
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
   if (d.geometry != GeometryKind::solid && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
   if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");
@@ -187,6 +181,27 @@ Pose planar(const Pose& pose, const std::string& body) {
   return {{pose.position.x(), 0.0, pose.position.z()}, Quat(q.w() * scale, 0.0, q.y() * scale, 0.0)};
 }
 
+// The kernels, and what runs on them: T is the precision of the particles.
+template <class T>
+void Simulation::State::add_mechanics() {
+  const MethodDefinition& method = definition.method;
+  const auto kernels = kernel_table<T>(method.shape, definition.geometry, isa);
+  for (ParticleSet& set : sets) prepare(set, kernels, method.shape, method.transfer);
+  if (const std::vector<ParticleLoadTerm> terms = make_load_terms(definition, sets); !terms.empty()) {
+    const LoadKernels<T> load_kernels{kernels, kernel_table<T>(ShapeKind::dirac, definition.geometry, isa)};
+    auto all = make_particle_loads(load_kernels, sets, laws, terms, threads);
+    loads = all.get();
+    stages.push_back(std::move(all));
+  }
+  ContinuumSettings settings;
+  settings.transfer = method.transfer;
+  settings.gradient_terms = method.gradient_terms;
+  settings.gravity = definition.gravity;
+  settings.threads = threads;
+  mechanics = make_mechanics(kernels, sets, laws, settings);
+  sorter = std::make_unique<Sorter>(threads, kernel_grouping(kernels));
+}
+
 Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : state_(std::make_unique<State>()) {
   State& s = *state_;
   check(given);
@@ -201,6 +216,11 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (dim == 2) make_planar(s.definition);
   s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));
   const GridLayout& layout = s.grid->layout;
+  for (int k = 0; k < dim; ++k) {
+    for (const int upper : {0, 1}) {
+      s.grid->has_wall[2 * k + upper] = definition.walls[2 * layout.axis(k) + upper].kind != WallKind::none;
+    }
+  }
 
   const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
                                      [](const DeformableBody& body) { return body.geostatic.has_value(); });
@@ -264,23 +284,14 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     for (Wall* wall : holding) s.stages.push_back(std::make_unique<WallAgain>(*wall));
   }
 
-  if (const std::vector<ParticleLoadTerm> terms = make_load_terms(s.definition, s.sets); !terms.empty()) {
-    auto loads = make_particle_loads(dim, s.sets, s.laws, terms, s.isa, s.threads);
-    s.loads = loads.get();
-    s.stages.push_back(std::move(loads));
+  if (definition.method.precision == Precision::float32) {
+    s.add_mechanics<float>();
+  } else {
+    s.add_mechanics<double>();
   }
-
-  ContinuumSettings settings;
-  settings.flip = definition.method.transfer.flip;
-  settings.gradient_terms = definition.method.gradient_terms;
-  settings.gravity = s.definition.gravity;
-  settings.threads = s.threads;
-  settings.isa = s.isa;
-  s.mechanics = make_mechanics(dim, s.sets, s.laws, settings);
   double lightest = s.sets.front().mass;
   for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.mass);
   s.grid->least_mass = 1e-30 * lightest;
-  s.sorter = std::make_unique<Sorter>(s.threads, kernel_grouping(dim, definition.method.precision, s.isa));
   s.gravity.name = "gravity";
   s.sort(0.0);
   s.material_limit = s.previous_limit = s.survey_material();

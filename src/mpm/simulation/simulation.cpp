@@ -48,11 +48,8 @@ void Simulation::State::sort(double now) {
 void Simulation::State::step(double start, double dt) {
   for (RigidBody& body : bodies) body.begin_step(start, dt);
   StepContext context{*grid, dt, start};
-  if (definition.method.update == UpdateScheme::usavg) {
-    step_usavg(*mechanics, stages, context);
-  } else {
-    step_usf(*mechanics, stages, context);
-  }
+  constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg};  // in the order of UpdateScheme
+  kSchedules[static_cast<int>(definition.method.update)](*mechanics, stages, context);
   gravity.add(definition.gravity * (total_mass * dt));
   for (RigidBody& body : bodies) body.end_step(dt);
   ++steps.steps;

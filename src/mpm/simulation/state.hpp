@@ -53,6 +53,8 @@ struct Simulation::State {
   StepLimit limit;           ///< of the last period's steps
   bool failed = false;
 
+  template <class T>
+  void add_mechanics();
   /// Of all particles [N s].
   Vec3 momentum() const;
   /// Of all particles [J].

@@ -1,0 +1,127 @@
+// The points of the deformed domains of a chunk of particles (shape/cpdi.hpp): where they are in the tile, and their
+// part in the gradient. Made anew for every pass, as weights.hpp makes those of other shape functions.
+//
+// A point farther than 1.5 cells from its particle could lie outside the tile: such a domain is shrunk as a whole,
+// which keeps all sums that a shape function must have (Homel, Brannon & Guilkey (2016) scale CPDI domains for the same
+// end).
+#pragma once
+
+#include "mpm/kernel/point_tile.hpp"
+#include "mpm/kernel/wide_math.hpp"
+
+namespace mpm {
+
+constexpr int kDomainChunk = 16;  ///< particles at a time
+/// How far from its particle a point may be, along an axis [cells]: within the tile for all particles of a block.
+constexpr double kDomainReach = 1.5 - 1e-4;
+
+template <class T, int Dim, template <int> class Points>
+class Domains {
+  using W = Wide<T>;
+  using Set = mpm_kernel::SetView<T>;
+  static constexpr int kPoints = Points<Dim>::kPoints;
+  static constexpr int kRoom = kDomainChunk + 16;  // and what the last register writes beyond it
+
+ public:
+  Domains(const mpm_kernel::GridView& grid, const BlockView& block, const Set& set) : set_(set) {
+    for (int k = 0; k < Dim; ++k) {
+      origin_[k] = grid.origin[k];
+      inverse_cell_[k] = grid.inverse_cell[k];
+      corner_[k] = block.corner[k];
+      half_[k] = W(set.half[k] / grid.inverse_cell[k]);
+    }
+  }
+
+  /// Of particles [first, first + count).
+  void fill(int first, int count) {
+    for (int q = 0; q < count; q += W::kLanes) {
+      W d[Dim][Dim], offset[kPoints][Dim], gradient[kPoints][Dim];
+      vectors(first + q, count - q, d);
+      Points<Dim>::offsets(d, offset);
+      Points<Dim>::gradients(d, gradient);
+      for (int c = 0; c < Dim; ++c) place(c, first + q, count - q).store(place_[c] + q);
+      for (int a = 0; a < kPoints; ++a) {
+        W number(0.0);
+        for (int c = 0; c < Dim; ++c) {
+          const W at = W::load(place_[c] + q) + offset[a][c] * W(inverse_cell_[c]);
+          const W cell = max(min(round(at - W(0.5)), W(kTileEdge - 2.0)), W(0.0));
+          (at - cell).store(along_[a][c] + q);
+          gradient[a][c].store(gradient_[a][c] + q);
+          number = number * W(kTileEdge) + cell;
+        }
+        typedef int Numbers __attribute__((vector_size(4 * W::kLanes)));
+        const Numbers numbers = __builtin_convertvector(number.v, Numbers);
+        __builtin_memcpy(node_[a] + q, &numbers, sizeof(numbers));
+      }
+    }
+  }
+
+  /// Point a of the particle at place q of the chunk.
+  CellPoint<T, Dim> point(int a, int q) const {
+    CellPoint<T, Dim> at;
+    at.node = node_[a][q];
+    for (int c = 0; c < Dim; ++c) at.along[c] = along_[a][c][q];
+    return at;
+  }
+  W cells(int c, int q) const { return W::load(place_[c] + q); }  ///< where particles are in the tile
+  T weight(int a) const { return static_cast<T>(Points<Dim>::weight(a)); }
+  T gradient(int a, int c, int q) const { return gradient_[a][c][q]; }  ///< [1/m]
+  T cell(int c) const { return static_cast<T>(1.0 / inverse_cell_[c]); }
+  /// From the particle to the lower corner of the cell of point a along axis c [m].
+  T arm(int a, int c, int q) const {
+    const int node = node_[a][q] / kStride[Dim - 1 - c] % kTileEdge;
+    return (static_cast<T>(node) - place_[c][q]) * cell(c);
+  }
+
+  /// Whether points of particles [first, first + count) lie outside the tile, where particles are and with the domains
+  /// that they have now.
+  bool outgrown(int first, int count) const {
+    WideMask<T> inside = WideMask<T>::first(W::kLanes);
+    for (int q = 0; q < count; q += W::kLanes) {
+      W d[Dim][Dim];
+      vectors(first + q, count - q, d);
+      const WideMask<T> beyond = !WideMask<T>::first(count - q);
+      for (int c = 0; c < Dim; ++c) {
+        W reach(0.0);
+        for (int k = 0; k < Dim; ++k) reach += abs(d[k][c]) * W(inverse_cell_[c]);
+        const W at = place(c, first + q, count - q);
+        inside = inside & (((at - reach >= W(0.0)) & (at + reach <= W(kTileEdge - 1.0))) | beyond);
+      }
+    }
+    return !all(inside);
+  }
+
+ private:
+  W place(int c, int p, int count) const {
+    return W(W::B::place(set_.x[c] + p, count, origin_[c], inverse_cell_[c], corner_[c]));
+  }
+  // Half vectors of the domains [m], columns of F times half the box; those beyond the reach made shorter.
+  void vectors(int p, int count, W (&d)[Dim][Dim]) const {
+    W reach(0.0);
+    for (int c = 0; c < Dim; ++c) {
+      W along(0.0);
+      for (int k = 0; k < Dim; ++k) {
+        const W one = select(WideMask<T>::first(count), W::load_first(set_.domain[c * Dim + k] + p, count),
+                             W(c == k ? 1.0 : 0.0));
+        d[k][c] = one * half_[k];
+        along += abs(d[k][c]) * W(inverse_cell_[c]);
+      }
+      reach = max(reach, along);
+    }
+    const W scale = W(kDomainReach) / max(reach, W(kDomainReach));
+    for (auto& vector : d) {
+      for (W& component : vector) component *= scale;
+    }
+  }
+
+  static constexpr int kStride[3] = {1, kTileEdge, kTileEdge* kTileEdge};
+  const Set& set_;
+  double origin_[Dim], inverse_cell_[Dim], corner_[Dim];
+  W half_[Dim];
+  alignas(64) T place_[Dim][kRoom];  ///< of the particles in the tile
+  alignas(64) T along_[kPoints][Dim][kRoom];
+  alignas(64) T gradient_[kPoints][Dim][kRoom];
+  alignas(64) int node_[kPoints][kRoom];
+};
+
+}  // namespace mpm

@@ -1,0 +1,11 @@
+#include "mpm/kernel/point_passes.hpp"
+#include "mpm/shape/cpdi.hpp"
+
+namespace mpm {
+
+const mpm_kernel::PassFamily& cpdi_passes() {
+  static constexpr mpm_kernel::PassFamily kFamily = passes_of<Cpdi>();
+  return kFamily;
+}
+
+}  // namespace mpm

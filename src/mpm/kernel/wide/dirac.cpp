@@ -1,0 +1,11 @@
+#include "mpm/kernel/passes.hpp"
+#include "mpm/shape/dirac.hpp"
+
+namespace mpm {
+
+const mpm_kernel::PassFamily& dirac_passes() {
+  static constexpr mpm_kernel::PassFamily kFamily = passes_of<Dirac>();
+  return kFamily;
+}
+
+}  // namespace mpm

@@ -7,6 +7,7 @@
 
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/material/law.hpp"
+#include "mpm/mechanics/damping.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/step/mechanics.hpp"
@@ -20,6 +21,7 @@ struct ContinuumSettings {
   int gradient_terms = 2;       ///< of exp(grad v dt)
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
   int threads = 1;
+  DampingControl* damping = nullptr;  ///< outlives the mechanics; null without damping
 };
 
 /// `kernels`: of the sets' precision, T double or float. `laws`: of each set; both outlive the result. Sets have what

@@ -179,23 +179,54 @@ class Continuum final : public Mechanics {
   }
 
   void move(StepContext& context, bool regather) {
-    const mpm_kernel::MoveSettings settings{context.dt, settings_.transfer.flip, regather};
-    const mpm_kernel::MovePass<T> pass = kernels_.move[motion_][0];
+    mpm_kernel::MoveSettings settings{context.dt, settings_.transfer.flip, regather};
+    const bool damped = damp(settings);
+    const mpm_kernel::MovePass<T> pass = kernels_.move[motion_][damped];
     loose_.resize(context.grid.blocks.owners());
+    if (damped) damped_.resize(context.grid.blocks.owners());
     std::atomic<bool> gone{false};
     std::atomic<int> groups{0}, parts{0};
     each_block(context.grid, regather, [&](const mpm_kernel::BlockView& block) {
       const mpm_kernel::Moved moved = pass(grid_, block, views_.data(), sets(), settings);
       loose_[block.owner] = moved.loose;
+      if (damped) damped_[block.owner] = moved;
       if (moved.gone) gone.store(true, std::memory_order_relaxed);
       groups.fetch_add(moved.groups, std::memory_order_relaxed);
       parts.fetch_add(moved.parts, std::memory_order_relaxed);
     });
+    if (damped) report_damping(context);
     if (generation_ != context.grid.blocks.generation()) {
       generation_ = context.grid.blocks.generation();
       parts_when_sorted_ = parts;
     }
     needs_sort_ = gone || parts - parts_when_sorted_ > kMixed * groups;
+  }
+
+  // What the particles' update is told of this step's damping; whether there is anything for it to do.
+  bool damp(mpm_kernel::MoveSettings& settings) {
+    DampingControl* control = settings_.damping;
+    if (control == nullptr) return false;
+    settings.flip = control->flip();
+    if (!control->in_update() && !control->needs_energy()) return false;
+    for (int s = 0; s < sets(); ++s) {
+      const DampingRates rates = control->rates(s);
+      settings.grid_damping = rates.grid;  // the same of all sets
+      settings.particle_damping = rates.particle;
+      views_[s].damping[0] = rates.grid_of_particle;
+      views_[s].damping[1] = rates.particle_of_particle;
+    }
+    return true;
+  }
+
+  // Summed in the order of the blocks: the same for any number of threads.
+  void report_damping(const StepContext& context) {
+    Damped all;
+    for (const mpm_kernel::Moved& moved : damped_) {
+      for (int k = 0; k < context.grid.layout.dim(); ++k) all.momentum[context.grid.layout.axis(k)] += moved.drag[k];
+      all.grid_energy += moved.grid_kinetic;
+      all.particle_energy += moved.particle_kinetic;
+    }
+    settings_.damping->end_step(context, all);
   }
 
   // visit(block, node, 1 / mass): zero where no particle is.
@@ -243,7 +274,8 @@ class Continuum final : public Mechanics {
   int found_ = 0;  ///< increments of this step
   mpm_kernel::GridView grid_{};
   std::vector<mpm_kernel::SetView<T>> views_;
-  std::vector<std::uint8_t> loose_;  ///< of each owner, after the motion
+  std::vector<mpm_kernel::Moved> damped_;  ///< of each owner, with damping
+  std::vector<std::uint8_t> loose_;        ///< of each owner, after the motion
   std::optional<ParticleRef> failed_;
   bool needs_sort_ = false;
   std::uint64_t generation_ = 0;  ///< of the blocks that parts_when_sorted_ was counted with

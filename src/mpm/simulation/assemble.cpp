@@ -86,8 +86,8 @@ void check(const SimulationDefinition& d) {
   if (const auto fault = method_fault(d.method, d.geometry)) {
     throw DefinitionError(fmt::format("method.{}: {}", fault->key, fault->text));
   }
-  const bool built = !d.method.average_dilatation && !d.method.damping.in_update() && !d.method.damping.feedback &&
-                     (d.geometry == GeometryKind::plane_strain || d.geometry == GeometryKind::solid);
+  const bool built =
+      !d.method.average_dilatation && (d.geometry == GeometryKind::plane_strain || d.geometry == GeometryKind::solid);
   if (!built) throw DefinitionError("this method is not built yet");
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
   if (d.geometry != GeometryKind::solid && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
@@ -198,6 +198,7 @@ void Simulation::State::add_mechanics() {
   settings.gradient_terms = method.gradient_terms;
   settings.gravity = definition.gravity;
   settings.threads = threads;
+  settings.damping = damping;
   mechanics = make_mechanics(kernels, sets, laws, settings);
   sorter = std::make_unique<Sorter>(threads, kernel_grouping(kernels));
 }

@@ -96,16 +96,12 @@ TEST(SceneMethod, BadTransfersSayWhatToWrite) {
 TEST(SceneMethod, CombinationsThatCannotWork) {
   EXPECT_NO_THROW(method_of("shape: qcpdi"));
   expect_refused("shape: qcpdi", "shape: qcpdi has the nine points of a parallelogram and is planar; use cpdi", kSolid);
-  for (const char* shape : {"ugimp", "ugimp_stretch", "bspline2", "bspline3"}) {
+  for (const char* shape : {"ugimp", "ugimp_stretch", "cpdi", "qcpdi", "bspline2", "bspline3"}) {
     EXPECT_NO_THROW(method_of(std::string("transfer: apic, shape: ") + shape)) << shape;
   }
   expect_refused("shape: dirac, transfer: apic", "transfer: apic needs the inverse");
-  for (const char* shape : {"cpdi", "qcpdi"}) {
-    expect_refused(std::string("shape: ") + shape + ", transfer: apic", "transfer: apic is not built for");
-  }
   expect_said("shape: dirac, transfer: apic",
               "use shape ugimp, ugimp_stretch, bspline2 or bspline3, or transfer {xpic");
-  expect_said("shape: cpdi, transfer: apic", "use shape ugimp, ugimp_stretch, bspline2 or bspline3, or transfer {xpic");
   // A planar scene of 9 particles a cell is one of 3 along an edge; a solid one is not.
   EXPECT_EQ(method_of("particles_per_cell: 9").particles_per_direction, 3);
   expect_refused("particles_per_cell: 9", "particles_per_cell: 9 is not possible; a solid scene has 1, 8 or 27",

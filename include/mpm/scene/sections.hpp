@@ -23,7 +23,7 @@ void read_materials(const Map& root, Scene& scene);
 /// `bodies`, after materials
 void read_bodies(const Map& root, Scene& scene);
 /// A `shape` of a body, or the `region` of a load.
-Region read_region(const Value& value, bool planar);
+Region read_region(const Value& value, GeometryKind geometry);
 /// `bodies.<name>.initial`
 void read_initial(const Value& value, const MaterialDefinition& material, Scene& scene, BodyDefinition& body);
 /// `rigid_bodies` and `contact`, after bodies
@@ -45,7 +45,9 @@ std::string read_particle_field(const Value& value);
 double particle_spacing(const Scene& scene, int axis);
 /// Name of the world's axis.
 const char* axis_name(int axis);
-/// Axes of the scene's space: x, z or x, y, z.
+/// World axes of the scene's grid (math/geometry_kind.hpp).
 std::vector<int> axes_of(const Scene& scene);
+/// "a line", "a planar scene", "a solid scene".
+const char* scene_kind(GeometryKind geometry);
 
 }  // namespace mpm

@@ -30,7 +30,7 @@ class ParticleLoadsOf final : public ParticleLoads {
         sets_(sets),
         laws_(laws),
         threads_(threads),
-        nodal_(dim_, 1 << 2 * dim_),
+        nodal_(dim_, nodes_of_block(dim_)),
         fault_(threads) {
     for (const ParticleLoadTerm& term : terms) terms_.emplace_back(term, threads);
     values_.resize(sets.size());
@@ -140,7 +140,7 @@ class ParticleLoadsOf final : public ParticleLoads {
     for (Term& term : terms_) {
       if (!term.acts_on(s)) continue;
       if (!term.of.chosen.empty() && term.of.chosen[set.id[p] - set.first_id] == 0) continue;
-      for (int k = 0; k < dim_; ++k) {  // a planar body has no momentum out of its plane
+      for (int k = 0; k < dim_; ++k) {  // no momentum along axes that the grid does not have
         const int axis = layout.axis(k);
         try {
           const double value = term.copies[thread][axis](context.start + half, place, start) * term.of.factor;

@@ -14,6 +14,13 @@ namespace {
 
 constexpr double kNanosecond = 1e-9;
 
+std::string geometry_text(const SimulationDefinition& definition) {
+  if (definition.geometry == GeometryKind::line) return fmt::format("line, {:g} m^2 across", definition.area);
+  std::string text = spoken_name(definition.geometry);
+  if (planar(definition.geometry)) text += fmt::format(", {:g} m thick", definition.thickness);
+  return text;
+}
+
 double smallest_cell(const Scene& scene) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const int axis : axes_of(scene)) smallest = std::min(smallest, scene.definition.grid.cell[axis]);
@@ -76,15 +83,13 @@ void add_steps(const Scene& scene, const SimulationDefinition& built, std::strin
 }  // namespace
 
 std::string explain(const Scene& scene, const SimulationDefinition& built) {
-  const bool planar = built.geometry == GeometryKind::plane_strain;
   std::string text = fmt::format("scene {} ({})\n", built.name, scene.path);
-  text += fmt::format("method: {}, {}\n", planar ? fmt::format("plane strain, {:g} m thick", built.thickness) : "solid",
-                      method_text(built.method));
+  text += fmt::format("method: {}, {}\n", geometry_text(built), method_text(built.method));
   text += "grid:";
   for (const int axis : axes_of(scene)) {
     const GridDefinition& grid = built.grid;
     text += fmt::format(" {} {:g} to {:g} m by {:g} m{}", axis_name(axis), grid.min[axis], grid.max[axis],
-                        grid.cell[axis], axis == 2 ? "\n" : ",");
+                        grid.cell[axis], axis == axes_of(scene).back() ? "\n" : ",");
   }
   add_bodies(scene, built, text);
   add_steps(scene, built, text);

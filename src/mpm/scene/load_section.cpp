@@ -50,7 +50,7 @@ void read_particle_force(const Value& value, Scene& scene) {
   load.spread = read_spread(map);
   LoadRegion chosen;
   if (const auto region = map.find("region")) {
-    chosen.region = read_region(*region, scene.definition.geometry == GeometryKind::plane_strain);
+    chosen.region = read_region(*region, scene.definition.geometry);
     chosen.where = region->where();
   }
   scene.definition.particle_forces.push_back(std::move(load));

@@ -46,12 +46,6 @@ Fault transfer_fault(const MethodDefinition& method) {
                        "particle on a line of the grid; use shape ugimp, ugimp_stretch, bspline2 or bspline3, or "
                        "transfer {xpic: 2}"};
   }
-  if (method.shape == ShapeKind::cpdi || method.shape == ShapeKind::qcpdi) {
-    return MethodFault{"transfer",
-                       fmt::format("apic is not built for {}, whose nodes follow the deformed domain; use shape ugimp, "
-                                   "ugimp_stretch, bspline2 or bspline3, or transfer {{xpic: 2}}",
-                                   shape_name(method.shape))};
-  }
   return {};
 }
 

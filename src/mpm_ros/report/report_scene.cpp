@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "mpm/math/lanes.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/method_text.hpp"
 
@@ -21,11 +22,10 @@ mpm::Scene scene_of(const RunInfo& info) {
 }
 
 std::string text_of(const mpm::SimulationDefinition& definition) {
-  const bool planar = definition.geometry == mpm::GeometryKind::plane_strain;
-  const int along = definition.method.particles_per_direction;
-  return fmt::format("{}, {}, cells of {:g} m, {} particles a cell", planar ? "plane strain" : "3D",
+  const mpm::GeometryKind geometry = definition.geometry;
+  return fmt::format("{}, {}, cells of {:g} m, {} particles a cell", mpm::spoken_name(geometry),
                      mpm::method_text(definition.method), definition.grid.cell.x(),
-                     along * along * (planar ? 1 : along));
+                     mpm::whole_power(definition.method.particles_per_direction, mpm::dimensions(geometry)));
 }
 
 }  // namespace

@@ -48,10 +48,9 @@ double RunSummary::particle_steps_per_second() const {
 double RunSummary::real_time_factor() const { return state.wall_seconds > 0.0 ? seconds() / state.wall_seconds : 0.0; }
 
 nlohmann::ordered_json RunSummary::json() const {
-  const bool planar = definition.geometry == mpm::GeometryKind::plane_strain;
   nlohmann::ordered_json root;
   root["scene"] = scene;
-  root["method"] = {{"geometry", planar ? "plane_strain" : "solid"},
+  root["method"] = {{"geometry", mpm::geometry_name(definition.geometry)},
                     {"shape", mpm::shape_name(definition.method.shape)},
                     {"update", mpm::update_name(definition.method.update)},
                     {"transfer", mpm::transfer_text(definition.method.transfer)},

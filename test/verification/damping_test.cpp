@@ -97,6 +97,58 @@ TEST_P(Damping, SlowsRigidTranslation) {
   }
 }
 
+// So it is whatever particles take over of the grid's motion: of the velocity that XPIC and FMPM adopt, too (method
+// reference 6.6). APIC is damped on the nodes.
+TEST_P(Damping, SlowsWhateverIsTransferred) {
+  using mpm::TransferKind;
+  const double k = 3.0;
+  DampingDefinition on_nodes(k), in_update;
+  in_update.grid = 2.0;
+  in_update.particle = k - 2.0;
+  in_update.in_force = false;
+  for (const mpm::Transfer transfer :
+       {mpm::Transfer{TransferKind::flip, 0.9, 0}, mpm::Transfer{TransferKind::flip, 0.0},
+        mpm::Transfer{TransferKind::xpic, 1.0, 3}, mpm::Transfer{TransferKind::fmpm, 1.0, 2},
+        mpm::Transfer{TransferKind::apic}}) {
+    for (const DampingDefinition& damping : {on_nodes, in_update}) {
+      if (transfer.kind == TransferKind::apic && !damping.in_force) continue;
+      auto d = definition();
+      d.method.transfer = transfer;
+      d.method.damping = damping;
+      move(d, {1.0, 0.0, -0.5});
+      mpm::Simulation simulation(d, {1});
+      const double before = simulation.state().audit.momentum.x();
+      for (int i = 0; i < 10; ++i) simulation.advance();
+      const mpm::SolverState state = simulation.state();
+      const double kept = std::pow(1.0 - k * state.step.dt_last, static_cast<double>(state.step.steps));
+      const auto which = testing::Message() << "transfer " << static_cast<int>(transfer.kind) << ", in the "
+                                            << (damping.in_force ? "force" : "update");
+      EXPECT_NEAR(state.audit.momentum.x() / before, kept, 1e-11) << which;
+      EXPECT_LT(state.audit.residual, 1e-10) << which;
+    }
+  }
+}
+
+// A body that deforms, damped in every way that a transfer has: the account holds what was taken.
+TEST_P(Damping, AuditClosesForEveryTransfer) {
+  using mpm::TransferKind;
+  for (const TransferKind kind : {TransferKind::flip, TransferKind::xpic, TransferKind::fmpm, TransferKind::apic}) {
+    auto d = definition();
+    d.method.transfer = {kind, 1.0, 3};
+    d.method.damping.grid = 4.0;
+    if (kind != TransferKind::apic) {
+      d.method.damping.particle = Function::parse("3*x");
+      d.method.damping.in_force = false;
+    }
+    d.method.damping.feedback = mpm::FeedbackDefinition{0.5, 0.0, 50.0};
+    shake(d);
+    mpm::Simulation simulation(d, {2});
+    for (int i = 0; i < 10; ++i) simulation.advance();
+    EXPECT_GT(impulse(simulation.state(), "damping").norm(), 0.0);
+    EXPECT_LT(simulation.state().audit.residual, 1e-10) << static_cast<int>(kind);
+  }
+}
+
 // A rate of time is read at the middle of each step.
 TEST_P(Damping, FollowsAFunctionOfTime) {
   DampingDefinition on_nodes, in_update, of_particles;

@@ -107,10 +107,6 @@ TEST(SceneBadInput, WhatIsNotBuiltYetSaysSo) {
   expect_refused(28, "transport: {}", "transport: not built yet;");
   expect_refused(28, "cracks: {}", "cracks: not built yet;");
   expect_refused(1, "geometry: axisymmetric", "geometry: 'axisymmetric' is not built yet; use solid");
-  expect_refused(8, "  shape: cpdi", "method.shape: 'cpdi' is not built yet; use ugimp");
-  expect_refused(9, "  update: usl", "method.update: 'usl' is not built yet; use usavg or usf");
-  expect_refused(10, "  transfer: apic", "method.transfer: 'apic' is not built yet; use flip");
-  expect_refused(10, "  transfer: {xpic: 2}", "method.transfer.xpic: not built yet; use flip");
   expect_refused(15, "    law: johnson_cook", "materials.soft.law: 'johnson_cook' is not built yet; use");
   expect_refused(27, "    drive: tf", "rigid_bodies.ball.drive: not built yet; use motion");
   expect_refused(21, "    shape: {mesh: {file: a.stl}}", "bodies.block.shape.mesh: not built yet; use box");
@@ -131,7 +127,7 @@ TEST(SceneBadInput, WrongUnitsAndValues) {
   expect_refused(6, "time: {end: -1}", "time.end: '-1' is not greater than 0;");
   expect_refused(11, "gravity: [0, -9.81]", "gravity: found 2 components; write three components, [x, y, z]");
   expect_refused(11, "gravity: -9.81", "gravity: found one value; write three components");
-  expect_refused(10, "  transfer: {flip: 1.5}", "method.transfer.flip: '1.5' is above 1;");
+  expect_refused(10, "  transfer: {flip: 1.5}", "method.transfer.flip: '1.5' is not a fraction;");
   expect_refused(10, "  particles_per_cell: 4",
                  "method.particles_per_cell: 4 is not possible; a solid scene has 1, 8 or 27");
   expect_refused(10, "  gradient_terms: 0", "method.gradient_terms: write 1 to 12");

@@ -150,7 +150,8 @@ bool shorten_period(SimulationDefinition& definition) {
     rate = std::max(rate, (norm_at_start(body.velocity) + norm_at_start(body.rotation_rate) * size) / cell);
   }
   double step = definition.time.cfl / rate;
-  if (definition.method.damping > 0.0) step = std::min(step, definition.time.cfl / definition.method.damping);
+  const double damping = definition.method.damping.grid(0.0);
+  if (damping > 0.0) step = std::min(step, definition.time.cfl / damping);
   if (definition.time.step) step = std::min(step, *definition.time.step);
   const double period = std::max(1.0, kStepsAPeriod * step * 1e9);
   if (period < static_cast<double>(definition.time.sync)) definition.time.sync = static_cast<std::int64_t>(period);

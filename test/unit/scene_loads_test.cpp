@@ -1,6 +1,8 @@
 // loads: what is read, and each refusal with its place.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {
@@ -52,7 +54,8 @@ TEST(SceneLoads, AreRefusedWhenWrong) {
   expect_refused("loads: {}", "bad.yaml:5: loads: found a map of keys; write a list");
   expect_refused("loads: [{body_forc: {}}]",
                  "bad.yaml:5: loads.0.body_forc: unknown key 'body_forc'; did you mean 'body_force'?");
-  expect_refused("loads: [{traction: {}}]", "bad.yaml:5: loads.0.traction: not built yet; use body_force");
+  expect_refused("loads: [{traction: {}}]",
+                 "bad.yaml:5: loads.0.traction: not built yet; use particle_force, body_force");
   expect_refused("loads: [{body_force: {}}]",
                  "bad.yaml:5: loads.0.body_force: the key 'acceleration' is missing; add it");
   const std::string at = "bad.yaml:5: loads.0.body_force.";
@@ -67,6 +70,53 @@ TEST(SceneLoads, AreRefusedWhenWrong) {
                  at + "acceleration.1: expression '2*(t' does not parse");
   expect_refused("loads: [{body_force: {acceleration: [0, 1], body: blok}}]",
                  at + "body: no deformable body 'blok'; did you mean 'block'?");
+}
+
+// A force of 6 N on all of a region together, or on each of its particles; numbers of those whose centres lie in it.
+TEST(SceneLoads, ForcesOnParticles) {
+  const std::string loads =
+      "loads:\n"
+      "  - {particle_force: {force: [6, \"X\"], body: block, region: {box: {min: [0.5, 0], max: [1, 1]}}}}\n"
+      "  - {particle_force: {each: [0, 2 kN], body: block, spread: center}}\n"
+      "  - {body_force: {acceleration: [0, 1], spread: center}}\n"
+      "  - {body_force: {acceleration: [0, 1], spread: domain}}\n";
+  const SimulationDefinition d = build(parse_scene(kPlanar + loads, "test.yaml"));
+  ASSERT_EQ(d.particle_forces.size(), 2u);
+  const ParticleForceDefinition &total = d.particle_forces[0], &each = d.particle_forces[1];
+  EXPECT_EQ(total.body, "block");
+  EXPECT_TRUE(total.shared);
+  EXPECT_EQ(total.spread, LoadSpread::domain);
+  EXPECT_EQ(total.force[0](0.0), 6.0);
+  EXPECT_TRUE(total.force[2].uses_start());
+  EXPECT_EQ(total.particles.size(), 2u * 8u);  // two columns of the 8 by 8 in 0.4 m
+  for (std::size_t p = 0; p < d.bodies[0].positions.size(); ++p) {
+    const bool listed = std::count(total.particles.begin(), total.particles.end(), p) > 0;
+    EXPECT_EQ(listed, d.bodies[0].positions[p].x() > 0.5) << p;
+  }
+  EXPECT_FALSE(each.shared);
+  EXPECT_TRUE(each.particles.empty());
+  EXPECT_EQ(each.spread, LoadSpread::center);
+  EXPECT_EQ(each.force[2](0.0), 2000.0);
+  EXPECT_EQ(d.body_forces[0].spread, LoadSpread::center);
+  EXPECT_EQ(d.body_forces[1].spread, LoadSpread::domain);
+}
+
+TEST(SceneLoads, ForcesOnParticlesAreRefusedWhenWrong) {
+  const std::string at = "bad.yaml:5: loads.0.particle_force";
+  const std::string both =
+      at + ": write force, which all chosen particles carry together, or each, which every one of them carries";
+  expect_refused("loads: [{particle_force: {body: block}}]", both);
+  expect_refused("loads: [{particle_force: {force: [0, 1], each: [0, 1], body: block}}]", both);
+  expect_refused("loads: [{particle_force: {force: [0, 1]}}]", at + ": the key 'body' is missing; add it");
+  expect_refused("loads: [{particle_force: {force: [0, 1 m], body: block}}]",
+                 at + ".force.1: '1 m' is a length, but a force is expected");
+  expect_refused("loads: [{particle_force: {force: [0, 1], body: blok}}]",
+                 at + ".body: no deformable body 'blok'; did you mean 'block'?");
+  expect_refused("loads: [{particle_force: {force: [0, 1], body: block, spread: node}}]",
+                 at + ".spread: 'node' is not known; write one of domain, center");
+  expect_refused(
+      "loads: [{particle_force: {force: [0, 1], body: block, region: {sphere: {center: [0.9, 0.9], radius: 0.1}}}}]",
+      at + ".region: no particle of body 'block' has its centre in it; make it larger, or move it");
 }
 
 }  // namespace

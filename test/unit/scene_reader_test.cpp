@@ -87,7 +87,7 @@ metrics: {mean_szz: {mean: szz, of: soil}, widest: {max: vx}}
   EXPECT_EQ(d.time.sync, 10'000'000);
   EXPECT_EQ(d.method.update, UpdateScheme::usf);
   EXPECT_EQ(d.method.transfer.flip, 0.9);
-  EXPECT_EQ(d.method.damping, 3.0);
+  EXPECT_EQ(d.method.damping.grid(0.0), 3.0);
   EXPECT_EQ(d.method.gradient_terms, 3);
   EXPECT_EQ(d.method.precision, Precision::float32);
   EXPECT_EQ(d.method.particles_per_direction, 3);

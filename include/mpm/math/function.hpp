@@ -45,8 +45,12 @@ class Function {
   /// The same where `start` [m] is the place at the start: X, Y, Z.
   double operator()(double t, const Vec3& place, const Vec3& start) const;
   bool is_constant() const { return expression_ == nullptr; }
+  /// The constant 0.
+  bool is_zero() const { return is_constant() && constant_ == 0.0; }
   /// Whether the value depends on X, Y or Z.
   bool uses_start() const;
+  /// Whether the value depends on the place at all: x, y, z or X, Y, Z.
+  bool uses_place() const;
   /// The same function with a parsed expression of its own.
   Function own_copy() const;
   /// The expression, or the constant in SI, as text.

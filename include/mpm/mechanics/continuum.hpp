@@ -7,6 +7,7 @@
 
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/material/law.hpp"
+#include "mpm/mechanics/damping.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/step/mechanics.hpp"
@@ -17,9 +18,11 @@ namespace mpm {
 /// What the kernels are told once.
 struct ContinuumSettings {
   Transfer transfer;
-  int gradient_terms = 2;       ///< of exp(grad v dt)
-  Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
+  bool average_dilatation = false;  ///< volume changes and pressures averaged over the grid (kernel/mean.hpp)
+  int gradient_terms = 2;           ///< of exp(grad v dt)
+  Vec3 gravity = Vec3::Zero();      ///< [m/s^2]
   int threads = 1;
+  DampingControl* damping = nullptr;  ///< of a scene that has any; outlives the mechanics
 };
 
 /// `kernels`: of the sets' precision, T double or float. `laws`: of each set; both outlive the result. Sets have what

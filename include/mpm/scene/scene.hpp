@@ -48,6 +48,12 @@ struct BodyDefinition {
   std::string initial_where, cut_out_where;
 };
 
+/// Which particles of its body a force acts on: those whose centres lie in it at the start; all without one.
+struct LoadRegion {
+  std::optional<Region> region;
+  std::string where;  ///< "file:line: key.path"
+};
+
 /// What is written out, beside the sync period that carries it.
 struct OutputDefinition {
   double period = 0.0;                       ///< [s] between particle snapshots; a multiple of the sync period
@@ -58,6 +64,7 @@ struct OutputDefinition {
 struct Scene {
   SimulationDefinition definition;  ///< all but the particles of the bodies
   std::vector<BodyDefinition> bodies;
+  std::vector<LoadRegion> load_regions;  ///< of each of definition.particle_forces
   OutputDefinition output;
   std::string path;                                          ///< of the file
   std::string text;                                          ///< as loaded, overrides applied, for the record

@@ -16,10 +16,14 @@ UnitSystem read_units(const Value& value);
 void read_grid(const Map& root, Scene& scene);
 /// `method`
 void read_method(const Map& root, Scene& scene);
+/// `method.damping`
+void read_damping(const Value& value, Scene& scene);
 /// `materials`
 void read_materials(const Map& root, Scene& scene);
 /// `bodies`, after materials
 void read_bodies(const Map& root, Scene& scene);
+/// A `shape` of a body, or the `region` of a load.
+Region read_region(const Value& value, GeometryKind geometry);
 /// `bodies.<name>.initial`
 void read_initial(const Value& value, const MaterialDefinition& material, Scene& scene, BodyDefinition& body);
 /// `rigid_bodies` and `contact`, after bodies

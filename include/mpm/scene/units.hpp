@@ -37,6 +37,8 @@ inline constexpr Dimension kAngularRate{0, 0, -1, 1};
 inline constexpr Dimension kVelocity{1, 0, -1, 0};
 inline constexpr Dimension kAcceleration{1, 0, -2, 0};
 inline constexpr Dimension kDensity{-3, 1, 0, 0};
+inline constexpr Dimension kForce{1, 1, -2, 0};
+inline constexpr Dimension kEnergy{2, 1, -2, 0};
 inline constexpr Dimension kPressure{-1, 1, -2, 0};
 inline constexpr Dimension kViscosity{-1, 1, -1, 0};
 inline constexpr Dimension kTemperature{0, 0, 0, 0, 1};

@@ -13,9 +13,11 @@
 #include "mpm/math/geometry.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/math/tensor.hpp"
+#include "mpm/mechanics/particle_loads.hpp"
 #include "mpm/particles/particle_scalar.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/shape/kind.hpp"
+#include "mpm/step/damping.hpp"
 #include "mpm/step/schedule.hpp"
 #include "mpm/step/transfer.hpp"
 
@@ -38,8 +40,8 @@ struct MethodDefinition {
   ShapeKind shape = ShapeKind::ugimp;
   UpdateScheme update = UpdateScheme::usavg;
   Transfer transfer;
-  bool average_dilatation = false;           ///< volume changes averaged over the grid, against locking
-  double damping = 0.0;                      ///< grid damping [1/s]
+  bool average_dilatation = false;  ///< volume changes averaged over the grid, against locking
+  DampingDefinition damping;
   int gradient_terms = 2;                    ///< terms of exp(grad v dt)
   int particles_per_direction = 2;           ///< particles along a cell's edge
   Precision precision = Precision::float64;  ///< of what particles carry but their positions
@@ -67,10 +69,20 @@ struct DeformableBody {
   double particle_volume = 0.0;  ///< volume of one particle at the start [m^3]
 };
 
-/// An acceleration of the material as a function of time, place and place at the start (mechanics/body_force.hpp).
+/// An acceleration of the material as a function of time, place and place at the start (mechanics/particle_loads.hpp).
 struct BodyForceDefinition {
   std::string body;                      ///< deformable body that it acts on; all when empty
   std::array<Function, 3> acceleration;  ///< [m/s^2]
+  LoadSpread spread = LoadSpread::domain;
+};
+
+/// A force on particles of a body, as a function of time, place and place at the start (mechanics/particle_loads.hpp).
+struct ParticleForceDefinition {
+  std::string body;                      ///< deformable body that it acts on
+  std::vector<std::uint32_t> particles;  ///< which of its positions; all when empty
+  std::array<Function, 3> force;         ///< [N]
+  bool shared = true;                    ///< the force is on all of them together, in equal parts; else on each
+  LoadSpread spread = LoadSpread::domain;
 };
 
 enum class Statistic { mean, std_dev, min, max };
@@ -96,6 +108,7 @@ struct SimulationDefinition {
   std::vector<RigidBodyDefinition> rigid_bodies;
   std::array<WallDefinition, 6> walls;
   std::vector<BodyForceDefinition> body_forces;
+  std::vector<ParticleForceDefinition> particle_forces;
   std::vector<MetricDefinition> metrics;
 
   /// What a particle has beyond the grid's axes: thickness [m] of a plane, area [m^2] of a line, 1 of a solid.

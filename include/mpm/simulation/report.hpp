@@ -25,13 +25,13 @@ struct EnergyReport {
   double plastic = 0.0;       ///< dissipated by plastic flow since the start
   double potential = 0.0;     ///< -sum m g.x
   double contact_work = 0.0;  ///< done by rigid bodies on the material since the start
-  double load_work = 0.0;     ///< done by body forces on the material since the start
+  double load_work = 0.0;     ///< done by loads on the material since the start
   double total() const { return kinetic + elastic + potential; }
 };
 
 /// One external impulse on the material since the start [N s].
 struct NamedImpulse {
-  std::string name;  ///< "gravity", "contact/blade", "wall/z_min", "damping", "body_force"
+  std::string name;  ///< "gravity", "contact/blade", "wall/z_min", "damping", "body_force", "particle_force"
   Vec3 impulse = Vec3::Zero();
 };
 

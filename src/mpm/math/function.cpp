@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <muParser.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -12,7 +13,7 @@ struct Function::Expression {
   std::string text;
   FunctionUnits units;
   FunctionPlaces places;
-  bool uses_start = false;
+  bool uses_start = false, uses_place = false;
   double t = 0.0;  // the parser reads these through pointers
   std::array<double, 3> place{}, start{};
   mu::Parser parser;
@@ -63,7 +64,9 @@ Function Function::parse(const std::string& expression, const FunctionUnits& uni
     parser.DefineConst("e", M_E);
     parser.SetExpr(expression);
     parser.Eval();
-    for (const char* name : kStart) parsed->uses_start = parsed->uses_start || parser.GetUsedVar().count(name) > 0;
+    const auto uses = [&parser](const char* name) { return parser.GetUsedVar().count(name) > 0; };
+    parsed->uses_start = std::any_of(kStart.begin(), kStart.end(), uses);
+    parsed->uses_place = parsed->uses_start || std::any_of(kPlace.begin(), kPlace.end(), uses);
   } catch (const mu::ParserError& error) {
     if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN && !error.GetToken().empty()) {
       throw FunctionError(fmt::format("expression '{}': unknown name '{}'; {}", expression, error.GetToken(),
@@ -105,6 +108,7 @@ double Function::operator()(double t, const Vec3& place, const Vec3& start) cons
 }
 
 bool Function::uses_start() const { return expression_ != nullptr && expression_->uses_start; }
+bool Function::uses_place() const { return expression_ != nullptr && expression_->uses_place; }
 
 Function Function::own_copy() const {
   return is_constant() ? *this : parse(expression_->text, expression_->units, expression_->places);

@@ -24,7 +24,8 @@ class Continuum final : public Mechanics {
         motion_(settings.transfer.kind == TransferKind::apic   ? mpm_kernel::kAffine
                 : settings.transfer.kind == TransferKind::flip ? mpm_kernel::kIncrement
                                                                : mpm_kernel::kAdopt),
-        increment_(static_cast<int>(sets.front().x.size()), 1 << 2 * sets.front().x.size()) {}
+        increment_(static_cast<int>(sets.front().x.size()), nodes_of_block(static_cast<int>(sets.front().x.size()))),
+        mean_(1, nodes_of_block(static_cast<int>(sets.front().x.size()))) {}
 
   void scatter_momentum(StepContext& context) override {
     failed_.reset();
@@ -38,14 +39,21 @@ class Continuum final : public Mechanics {
   }
 
   void strain_and_force(StepContext& context, double dt) override {
+    if (settings_.average_dilatation) {
+      strain(context.grid, {dt, settings_.gradient_terms, false, mean_of(context.grid, false)});
+      internal_force(context);
+      return;
+    }
     clear(context.grid.force, context.grid);
     strain(context.grid, {dt, settings_.gradient_terms, true});
   }
 
   void internal_force(StepContext& context) override {
+    const double* pressure = settings_.average_dilatation ? mean_of(context.grid, true) : nullptr;
     clear(context.grid.force, context.grid);
-    each_block(context.grid, true,
-               [&](const mpm_kernel::BlockView& block) { kernels_.force(grid_, block, views_.data(), sets()); });
+    each_block(context.grid, true, [&](const mpm_kernel::BlockView& block) {
+      kernels_.force(grid_, block, views_.data(), sets(), pressure);
+    });
   }
 
   void update_momentum(StepContext& context) override {
@@ -109,7 +117,8 @@ class Continuum final : public Mechanics {
   }
 
   void strain_and_place(StepContext& context, double dt) override {
-    strain(context.grid, {dt, settings_.gradient_terms, false});
+    const double* dilatation = settings_.average_dilatation ? mean_of(context.grid, false) : nullptr;
+    strain(context.grid, {dt, settings_.gradient_terms, false, dilatation});
     for (ParticleSet& set : sets_) set.x.swap(set.next_x);
     end_step(context.grid);
   }
@@ -179,8 +188,10 @@ class Continuum final : public Mechanics {
   }
 
   void move(StepContext& context, bool regather) {
-    const mpm_kernel::MoveSettings settings{context.dt, settings_.transfer.flip, regather};
-    const mpm_kernel::MovePass<T> pass = kernels_.move[motion_][0];
+    mpm_kernel::MoveSettings settings{context.dt, settings_.transfer.flip, regather};
+    const bool damped = look_at_damping(settings);
+    const mpm_kernel::MovePass<T> pass = kernels_.move[motion_][damped];
+    if (damped) taken_.assign(context.grid.blocks.owners(), {});
     loose_.resize(context.grid.blocks.owners());
     std::atomic<bool> gone{false};
     std::atomic<int> groups{0}, parts{0};
@@ -188,6 +199,7 @@ class Continuum final : public Mechanics {
       const mpm_kernel::Moved moved = pass(grid_, block, views_.data(), sets(), settings);
       loose_[block.owner] = moved.loose;
       if (moved.gone) gone.store(true, std::memory_order_relaxed);
+      if (damped) taken_[block.owner] = moved;
       groups.fetch_add(moved.groups, std::memory_order_relaxed);
       parts.fetch_add(moved.parts, std::memory_order_relaxed);
     });
@@ -196,6 +208,45 @@ class Continuum final : public Mechanics {
       parts_when_sorted_ = parts;
     }
     needs_sort_ = gone || parts - parts_when_sorted_ > kMixed * groups;
+    if (damped) close_damping(context);
+  }
+
+  // Tells the kernels the rates of this step; whether there are any in the update of the particles.
+  bool look_at_damping(mpm_kernel::MoveSettings& settings) {
+    const DampingControl* damping = settings_.damping;
+    if (damping == nullptr) return false;
+    settings.flip = damping->flip();
+    if (!damping->in_update() && !damping->needs_energy()) return false;
+    for (std::size_t s = 0; s < views_.size(); ++s) {
+      const DampingRates rates = damping->rates(static_cast<int>(s));
+      settings.grid_damping = rates.grid;
+      settings.particle_damping = rates.particle;
+      views_[s].damping[0] = rates.grid_of_particle;
+      views_[s].damping[1] = rates.particle_of_particle;
+    }
+    return true;
+  }
+
+  // Sums over blocks in their order: the same bits for any number of threads.
+  void close_damping(const StepContext& context) {
+    Damped sum;
+    for (const mpm_kernel::Moved& moved : taken_) {
+      for (int k = 0; k < context.grid.layout.dim(); ++k) sum.momentum[context.grid.layout.axis(k)] += moved.drag[k];
+      sum.grid_energy += moved.grid_kinetic;
+      sum.particle_energy += moved.particle_kinetic;
+    }
+    settings_.damping->end_step(context, sum);
+  }
+
+  // Of the particles' dilatation or mean stress, the mass-weighted mean at the nodes.
+  const double* mean_of(const Grid& grid, bool of_stress) {
+    mean_.resize(grid.blocks.size());
+    clear(mean_, grid);
+    each_block(grid, true, [&](const mpm_kernel::BlockView& block) {
+      kernels_.spread_mean[of_stress](grid_, block, views_.data(), sets(), mean_.data());
+    });
+    each_carrying(grid, [&](int b, int n, double inverse_mass) { mean_.block(b)[n] *= inverse_mass; });
+    return mean_.data();
   }
 
   // visit(block, node, 1 / mass): zero where no particle is.
@@ -240,10 +291,12 @@ class Continuum final : public Mechanics {
   ContinuumSettings settings_;
   mpm_kernel::Motion motion_;
   NodalField increment_;
+  NodalField mean_;
   int found_ = 0;  ///< increments of this step
   mpm_kernel::GridView grid_{};
   std::vector<mpm_kernel::SetView<T>> views_;
-  std::vector<std::uint8_t> loose_;  ///< of each owner, after the motion
+  std::vector<mpm_kernel::Moved> taken_;  ///< by damping, of each owner
+  std::vector<std::uint8_t> loose_;       ///< of each owner, after the motion
   std::optional<ParticleRef> failed_;
   bool needs_sort_ = false;
   std::uint64_t generation_ = 0;  ///< of the blocks that parts_when_sorted_ was counted with

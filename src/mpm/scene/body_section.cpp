@@ -55,16 +55,6 @@ Region read_cylinder(const Value& value, GeometryKind geometry) {
   return region;
 }
 
-Region read_region(const Value& value, GeometryKind geometry) {
-  const std::string advice = "use box, sphere or cylinder";
-  const auto [kind, shape] =
-      only_key(value, {"box", "sphere", "cylinder"},
-               {{"mesh", advice}, {"polygon", advice}, {"capsule", advice}, {"disk", "use sphere"}});
-  if (kind == "box") return read_box(shape, geometry);
-  if (kind == "sphere") return read_sphere(shape);
-  return read_cylinder(shape, geometry);
-}
-
 /// Rigid bodies by name; that they exist is known when the body is filled.
 void read_cut_out(const Value& value, BodyDefinition& body) {
   body.cut_out_where = value.where();
@@ -77,6 +67,16 @@ void read_cut_out(const Value& value, BodyDefinition& body) {
 }
 
 }  // namespace
+
+Region read_region(const Value& value, GeometryKind geometry) {
+  const std::string advice = "use box, sphere or cylinder";
+  const auto [kind, shape] =
+      only_key(value, {"box", "sphere", "cylinder"},
+               {{"mesh", advice}, {"polygon", advice}, {"capsule", advice}, {"disk", "use sphere"}});
+  if (kind == "box") return read_box(shape, geometry);
+  if (kind == "sphere") return read_sphere(shape);
+  return read_cylinder(shape, geometry);
+}
 
 void read_bodies(const Map& root, Scene& scene) {
   const GeometryKind geometry = scene.definition.geometry;

@@ -272,6 +272,19 @@ void cut_out(const BodyDefinition& body, const Scene& scene, DeformableBody& fil
   }
 }
 
+/// Numbers of the particles of `body` that a force is for.
+std::vector<std::uint32_t> choose(const LoadRegion& chosen, const DeformableBody& body) {
+  std::vector<std::uint32_t> particles;
+  for (std::size_t p = 0; p < body.positions.size(); ++p) {
+    if (chosen.region->contains(body.positions[p])) particles.push_back(static_cast<std::uint32_t>(p));
+  }
+  if (particles.empty()) {
+    throw SceneError(fmt::format("{}: no particle of body '{}' has its centre in it; make it larger, or move it",
+                                 chosen.where, body.name));
+  }
+  return particles;
+}
+
 }  // namespace
 
 bool Region::contains(const Vec3& point) const {
@@ -307,6 +320,12 @@ SimulationDefinition build(const Scene& scene) {
     for (const RigidBodyDefinition& rigid : definition.rigid_bodies) check_rigid(body, filled, rigid, half_spacing);
     set_initial(body, filled);
     definition.bodies.push_back(std::move(filled));
+  }
+  for (std::size_t i = 0; i < scene.load_regions.size(); ++i) {
+    ParticleForceDefinition& load = definition.particle_forces[i];
+    const auto body = std::find_if(definition.bodies.begin(), definition.bodies.end(),
+                                   [&](const DeformableBody& b) { return b.name == load.body; });
+    if (scene.load_regions[i].region) load.particles = choose(scene.load_regions[i], *body);
   }
   return definition;
 }

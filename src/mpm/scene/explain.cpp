@@ -7,16 +7,12 @@
 
 #include "mpm/material/material_point.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/simulation/method_text.hpp"
 
 namespace mpm {
 namespace {
 
 constexpr double kNanosecond = 1e-9;
-
-std::string transfer_text(double flip) {
-  if (flip == 1.0) return "FLIP";
-  return flip == 0.0 ? "PIC" : fmt::format("{:g} FLIP, {:g} PIC", flip, 1.0 - flip);
-}
 
 std::string geometry_text(const SimulationDefinition& definition) {
   if (definition.geometry == GeometryKind::line) return fmt::format("line, {:g} m^2 across", definition.area);
@@ -87,14 +83,8 @@ void add_steps(const Scene& scene, const SimulationDefinition& built, std::strin
 }  // namespace
 
 std::string explain(const Scene& scene, const SimulationDefinition& built) {
-  const MethodDefinition& method = built.method;
   std::string text = fmt::format("scene {} ({})\n", built.name, scene.path);
-  text += fmt::format(
-      "method: {}, uGIMP shape functions, {}, {}, {} term{} of the deformation's exponential{}, {} precision\n",
-      geometry_text(built), method.update == UpdateScheme::usavg ? "USAVG" : "USF", transfer_text(method.transfer.flip),
-      method.gradient_terms, method.gradient_terms == 1 ? "" : "s",
-      method.damping > 0.0 ? fmt::format(", grid damping {:g} 1/s", method.damping) : "",
-      precision_name(method.precision));
+  text += fmt::format("method: {}, {}\n", geometry_text(built), method_text(built.method));
   text += "grid:";
   for (const int axis : axes_of(scene)) {
     const GridDefinition& grid = built.grid;

@@ -7,6 +7,8 @@
 
 #include "mpm/math/lanes.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/simulation/method_rules.hpp"
+#include "mpm/simulation/method_text.hpp"
 
 namespace mpm {
 namespace {
@@ -46,18 +48,53 @@ void check_extent(const Value& max, const Scene& scene) {
   }
 }
 
-void read_transfer(const Value& value, MethodDefinition& method) {
-  static const std::vector<Later> later = {{"xpic", "use flip, pic or {flip: 0.99}"},
-                                           {"fmpm", "use flip, pic or {flip: 0.99}"},
-                                           {"apic", "use flip, pic or {flip: 0.99}"}};
+/// The words of a scene for one of the enums: its names, and others that stand for one of them.
+template <std::size_t N>
+std::size_t read_name(const Value& value, const std::array<const char*, N>& names,
+                      const std::vector<std::pair<std::string, std::size_t>>& aliases = {}) {
+  std::vector<std::string> words(names.begin(), names.end());
+  for (const auto& [alias, index] : aliases) words.push_back(alias);
+  const std::size_t found = value.choice(words);
+  return found < N ? found : aliases[found - N].second;
+}
+
+Transfer read_transfer(const Value& value) {
+  Transfer transfer;
   if (value.is_text()) {
-    method.transfer.flip = value.choice({"flip", "pic"}, later) == 0 ? 1.0 : 0.0;
-    return;
+    constexpr std::size_t kPic = kTransferNames.size();
+    const std::size_t found = read_name(value, kTransferNames, {{"pic", kPic}});
+    if (found == kPic) {
+      transfer.flip = 0.0;
+      return transfer;
+    }
+    transfer.kind = static_cast<TransferKind>(found);
+    if (transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm) {
+      value.fail(fmt::format("give its order, as in {{{}: 2}}", value.text()));
+    }
+    return transfer;
   }
-  const auto [key, fraction] = only_key(value, {"flip"}, later);
-  method.transfer.flip = fraction.non_negative(kPlain);
-  if (method.transfer.flip > 1.0)
-    fraction.fail(fmt::format("'{}' is above 1; write a fraction from 0 (PIC) to 1 (FLIP)", fraction.text()));
+  const auto [key, number] = only_key(value, {"flip", "xpic", "fmpm"});
+  if (key == "flip") {
+    transfer.flip = number.non_negative(kPlain);
+  } else {
+    transfer.kind = key == "xpic" ? TransferKind::xpic : TransferKind::fmpm;
+    transfer.order = number.integer();
+  }
+  return transfer;
+}
+
+/// At the deepest part of the fault's key that the scene has written.
+[[noreturn]] void refuse(const Value& method, const MethodFault& fault) {
+  Value at = method;
+  for (std::size_t start = 0; start < fault.key.size() && at.is_map();) {
+    const std::size_t dot = std::min(fault.key.find('.', start), fault.key.size());
+    const std::string part = fault.key.substr(start, dot - start);
+    const YAML::Node node = at.node()[part];
+    if (!node) break;
+    at = at.child(node, part);
+    start = dot + 1;
+  }
+  at.fail(fault.text);
 }
 
 void read_particles(const Map& method, Scene& scene) {
@@ -140,47 +177,40 @@ void read_method(const Map& root, Scene& scene) {
   const auto section = root.find("method");
   if (!section) {
     method.particles_per_direction = 2;
-    scene.choices.emplace_back("method", "uGIMP, USAVG, FLIP, two particles along each edge of a cell: the defaults");
+    scene.choices.emplace_back("method",
+                               method_text(method) + ", two particles along each edge of a cell: the defaults");
     return;
   }
   const Map map(*section,
-                {"shape", "update", "transfer", "damping", "gradient_terms", "particles_per_cell", "precision"},
-                {{"feedback_damping", "use damping"},
-                 {"particle_damping", "use damping, or transfer {flip: 0.99}"},
-                 {"leave_limit", "a particle that leaves the grid ends the run; use boundaries"}});
+                {"shape", "update", "transfer", "average_dilatation", "damping", "gradient_terms", "particles_per_cell",
+                 "precision"},
+                {{"leave_limit", "a particle that leaves the grid ends the run; use boundaries"}});
   if (const auto shape = map.find("shape")) {
-    const std::string advice = "use ugimp";
-    shape->choice({"ugimp"}, {{"dirac", advice},
-                              {"classic", advice},
-                              {"cpdi", advice},
-                              {"lcpdi", advice},
-                              {"qcpdi", advice},
-                              {"bspline2", advice},
-                              {"bspline3", advice},
-                              {"gimp", "its uniform form is: write ugimp"}});
+    const auto index = [](ShapeKind kind) { return static_cast<std::size_t>(kind); };
+    method.shape = static_cast<ShapeKind>(
+        read_name(*shape, kShapeNames, {{"classic", index(ShapeKind::dirac)}, {"lcpdi", index(ShapeKind::cpdi)}}));
   }
   if (const auto update = map.find("update")) {
-    const std::size_t kind =
-        update->choice({"usavg", "usf"}, {{"usl", "use usavg or usf"}, {"musl", "use usavg or usf"}});
-    method.update = kind == 0 ? UpdateScheme::usavg : UpdateScheme::usf;
+    method.update = static_cast<UpdateScheme>(
+        read_name(*update, kUpdateNames, {{"musl", static_cast<std::size_t>(UpdateScheme::usl)}}));
   } else {
     scene.choices.emplace_back("method.update", "usavg: strain updated in both halves of a step, least dissipation");
   }
   if (const auto transfer = map.find("transfer")) {
-    read_transfer(*transfer, method);
+    method.transfer = read_transfer(*transfer);
   } else {
     scene.choices.emplace_back("method.transfer", "flip: no numerical viscosity; write {flip: 0.99} to calm noise");
   }
-  if (const auto damping = map.find("damping")) method.damping = damping->non_negative(kRate);
-  if (const auto terms = map.find("gradient_terms")) {
-    method.gradient_terms = terms->integer();
-    // 1/13! is below double precision's last digit for any step that the wave speed allows.
-    if (method.gradient_terms < 1 || method.gradient_terms > 12) terms->fail("write 1 to 12 terms; 2 is the default");
+  if (const auto average = map.find("average_dilatation")) {
+    method.average_dilatation = average->choice({"false", "true"}) == 1;
   }
+  if (const auto damping = map.find("damping")) read_damping(*damping, scene);
+  if (const auto terms = map.find("gradient_terms")) method.gradient_terms = terms->integer();
   if (const auto precision = map.find("precision")) {
     method.precision = precision->choice({"double", "single"}) == 0 ? Precision::float64 : Precision::float32;
   }
   read_particles(map, scene);
+  if (const auto fault = method_fault(method, scene.definition.geometry)) refuse(*section, *fault);
 }
 
 void read_boundaries(const Map& root, Scene& scene) {

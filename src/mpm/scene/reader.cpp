@@ -117,9 +117,10 @@ Function Value::function(const Dimension& dimension, FunctionPlaces places) cons
   const std::string word = text();
   double number = 0.0;
   std::string rest;
-  // A number with a word behind it is a quantity; anything else that is more than a number is an expression.
+  // A number with a word, 1/s or % behind it is a quantity; anything else that is more than a number is an expression.
   const bool starts_with_number = split_number(word, number, rest);
-  const bool has_unit = starts_with_number && !rest.empty() && std::isalpha(static_cast<unsigned char>(rest[0]));
+  const bool has_unit =
+      starts_with_number && !rest.empty() && (std::isalnum(static_cast<unsigned char>(rest[0])) || rest == "%");
   if (starts_with_number && (rest.empty() || has_unit)) return {this->number(dimension)};
   const UnitSystem& units = context_->units;
   try {

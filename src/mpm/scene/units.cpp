@@ -17,8 +17,6 @@ struct NamedUnit {
   Unit unit;
 };
 
-constexpr Dimension kForce{1, 1, -2, 0};
-constexpr Dimension kEnergy{2, 1, -2, 0};
 constexpr Dimension kPower{2, 1, -3, 0};
 
 // Inch, foot, pound, ounce, pound-force: international definitions (NIST SP 811, appendix B).

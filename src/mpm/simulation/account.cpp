@@ -109,6 +109,14 @@ Vec3 Simulation::State::momentum() const {
   });
 }
 
+double Simulation::State::kinetic_energy() const {
+  return sum_particles(sets, threads, 0.0, [](const ParticleSet& set, int p) {
+    double squared = 0.0;
+    for (const auto& component : set.v) squared += component[p] * component[p];
+    return 0.5 * set.mass * squared;
+  });
+}
+
 SolverState Simulation::state() const {
   const State& s = *state_;
   const GridLayout& layout = s.grid->layout;
@@ -133,7 +141,7 @@ SolverState Simulation::state() const {
   report.energy.plastic = totals.plastic;
   report.min_j = totals.min_j;
   for (const RigidContact* contact : s.contacts) report.energy.contact_work += contact->work();
-  if (s.body_force != nullptr) report.energy.load_work = s.body_force->work();
+  if (s.loads != nullptr) report.energy.load_work = s.loads->work();
 
   AuditReport& audit = report.audit;
   audit.momentum = s.momentum();
@@ -191,6 +199,7 @@ std::uint64_t Simulation::state_hash() const {
       for (const ParticleScalar& scalar : *fields) scalar.visit(add);
     }
   }
+  if (s.damping != nullptr && s.damping->needs_energy()) hash.add(s.damping->alpha());
   for (const RigidBody& body : s.bodies) {
     for (int k = 0; k < 3; ++k) hash.add(body.pose().position[k]);
     for (int k = 0; k < 4; ++k) hash.add(body.pose().orientation.coeffs()[k]);

@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "initial.hpp"
-#include "mpm/boundary/grid_damping.hpp"
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
+#include "mpm/simulation/method_rules.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -89,15 +89,8 @@ void check(const SimulationDefinition& d) {
   if (d.time.step && !(*d.time.step > 0.0)) {
     throw DefinitionError(fmt::format("time.step is {}, must be positive", *d.time.step));
   }
-  const bool built =
-      !d.method.average_dilatation && (d.geometry == GeometryKind::plane_strain || d.geometry == GeometryKind::solid);
-  if (!built) throw DefinitionError("this method is not built yet");
-  if (d.method.gradient_terms < 1) throw DefinitionError("method.gradient_terms must be at least 1");
-  if (!(d.method.transfer.flip >= 0.0 && d.method.transfer.flip <= 1.0)) {
-    throw DefinitionError(fmt::format("FLIP fraction {} must lie in [0, 1]", d.method.transfer.flip));
-  }
-  if (!(d.method.damping >= 0.0) || !std::isfinite(d.method.damping)) {
-    throw DefinitionError(fmt::format("method.damping is {}, must be finite and not negative", d.method.damping));
+  if (const auto fault = method_fault(d.method, d.geometry)) {
+    throw DefinitionError(fmt::format("method.{}: {}", fault->key, fault->text));
   }
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
   if (planar(d.geometry) && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
@@ -112,6 +105,7 @@ void project(SimulationDefinition& definition) {
     definition.gravity[axis] = 0.0;
     for (RigidBodyDefinition& body : definition.rigid_bodies) body.velocity[axis] = Function();
     for (BodyForceDefinition& load : definition.body_forces) load.acceleration[axis] = Function();
+    for (ParticleForceDefinition& load : definition.particle_forces) load.force[axis] = Function();
   }
   for (RigidBodyDefinition& body : definition.rigid_bodies) {
     body.pose = projected(body.pose, geometry, body.name);
@@ -121,26 +115,51 @@ void project(SimulationDefinition& definition) {
   }
 }
 
-// Sets that a term with X, Y or Z acts on remember where their particles start.
-std::vector<BodyForceTerm> make_body_force_terms(const SimulationDefinition& definition,
-                                                 std::vector<ParticleSet>& sets) {
-  std::vector<BodyForceTerm> terms;
-  for (const BodyForceDefinition& load : definition.body_forces) {
-    BodyForceTerm term{std::nullopt, load.acceleration};
-    if (!load.body.empty()) {
-      const auto set = std::find_if(sets.begin(), sets.end(), [&](const auto& s) { return s.name == load.body; });
-      if (set == sets.end()) {
+int find_set(const std::vector<ParticleSet>& sets, const std::string& body, const char* load) {
+  const auto set = std::find_if(sets.begin(), sets.end(), [&](const auto& s) { return s.name == body; });
+  if (set != sets.end()) return static_cast<int>(set - sets.begin());
+  throw DefinitionError(fmt::format("{}: no deformable body is called '{}'; name one of 'bodies'", load, body));
+}
+
+ParticleLoadTerm make_term(const ParticleForceDefinition& load, const std::vector<ParticleSet>& sets) {
+  ParticleLoadTerm term{ParticleLoadTerm::Kind::particle_force,
+                        find_set(sets, load.body, "particle force"),
+                        load.force,
+                        1.0,
+                        load.spread,
+                        {}};
+  const ParticleSet& set = sets[*term.set];
+  auto count = static_cast<double>(set.size());
+  if (!load.particles.empty()) {
+    term.chosen.assign(set.size(), 0);
+    for (const std::uint32_t p : load.particles) {
+      if (p >= term.chosen.size()) {
         throw DefinitionError(
-            fmt::format("body force: no deformable body is called '{}'; name one of 'bodies'", load.body));
+            fmt::format("particle force on '{}': it has no particle {}, but {}", load.body, p, set.size()));
       }
-      term.set = static_cast<int>(set - sets.begin());
+      term.chosen[p] = 1;
     }
-    const bool uses_start = std::any_of(load.acceleration.begin(), load.acceleration.end(),
+    count = static_cast<double>(std::count(term.chosen.begin(), term.chosen.end(), 1));
+  }
+  term.factor = 1.0 / (set.mass * (load.shared ? count : 1.0));
+  return term;
+}
+
+// Sets that a term with X, Y or Z acts on remember where their particles start.
+std::vector<ParticleLoadTerm> make_load_terms(const SimulationDefinition& definition, std::vector<ParticleSet>& sets) {
+  std::vector<ParticleLoadTerm> terms;
+  for (const BodyForceDefinition& load : definition.body_forces) {
+    ParticleLoadTerm term{ParticleLoadTerm::Kind::body_force, std::nullopt, load.acceleration, 1.0, load.spread, {}};
+    if (!load.body.empty()) term.set = find_set(sets, load.body, "body force");
+    terms.push_back(std::move(term));
+  }
+  for (const ParticleForceDefinition& load : definition.particle_forces) terms.push_back(make_term(load, sets));
+  for (const ParticleLoadTerm& term : terms) {
+    const bool uses_start = std::any_of(term.value.begin(), term.value.end(),
                                         [](const Function& component) { return component.uses_start(); });
     for (std::size_t s = 0; s < sets.size(); ++s) {
       if (uses_start && (!term.set || *term.set == static_cast<int>(s))) sets[s].start_x = sets[s].x;
     }
-    terms.push_back(std::move(term));
   }
   return terms;
 }
@@ -190,16 +209,21 @@ void Simulation::State::add_mechanics() {
   const MethodDefinition& method = definition.method;
   const auto kernels = kernel_table<T>(method.shape, definition.geometry, isa);
   for (ParticleSet& set : sets) prepare(set, kernels, method.shape, method.transfer);
-  if (!definition.body_forces.empty()) {
-    auto load = make_body_force(kernels, sets, laws, make_body_force_terms(definition, sets), threads);
-    body_force = load.get();
-    stages.push_back(std::move(load));
+  if (const std::vector<ParticleLoadTerm> terms = make_load_terms(definition, sets); !terms.empty()) {
+    const LoadKernels<T> load_kernels{kernels, kernel_table<T>(ShapeKind::dirac, definition.geometry, isa)};
+    auto all = make_particle_loads(load_kernels, sets, laws, terms, threads);
+    loads = all.get();
+    stages.push_back(std::move(all));
   }
   ContinuumSettings settings;
   settings.transfer = method.transfer;
+  const bool filters = method.transfer.kind == TransferKind::xpic || method.transfer.kind == TransferKind::fmpm;
+  if (filters && method.transfer.order == 1) settings.transfer = {TransferKind::flip, 0.0, 1};  // PIC, by definition
+  settings.average_dilatation = method.average_dilatation;
   settings.gradient_terms = method.gradient_terms;
   settings.gravity = definition.gravity;
   settings.threads = threads;
+  settings.damping = damping;
   mechanics = make_mechanics(kernels, sets, laws, settings);
   sorter = std::make_unique<Sorter>(threads, kernel_grouping(kernels));
 }
@@ -243,7 +267,12 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (geostatic) s.settle();
   for (DeformableBody& body : s.definition.bodies) forget_particles(body);
 
-  if (definition.method.damping > 0.0) s.stages.push_back(std::make_unique<GridDamping>(definition.method.damping));
+  if (definition.method.damping.any()) {
+    auto damping =
+        std::make_unique<DampingControl>(definition.method.damping, definition.method.transfer.flip, s.sets, s.threads);
+    s.damping = damping.get();
+    s.stages.push_back(std::move(damping));
+  }
   // Walls that always hold act before contact, so that friction knows no velocity through them, and once more after it
   // (method reference 5.4, steps 7 to 9).
   std::vector<Wall*> holding;

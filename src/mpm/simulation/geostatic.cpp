@@ -85,14 +85,6 @@ Unbalanced unbalanced(const Grid& grid, double weight, double g, double half_par
   return found;
 }
 
-double kinetic_energy(const std::vector<ParticleSet>& sets, int threads) {
-  return sum_particles(sets, threads, 0.0, [](const ParticleSet& set, int p) {
-    double squared = 0.0;
-    for (const auto& component : set.v) squared += component[p] * component[p];
-    return 0.5 * set.mass * squared;
-  });
-}
-
 void stop(std::vector<ParticleSet>& sets) {
   for (ParticleSet& set : sets) {
     for (ParticleScalar& component : set.v) component.assign(component.size(), 0.0);
@@ -104,17 +96,20 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
   SimulationDefinition part = definition;
   part.bodies.clear();
   part.metrics.clear();
-  part.body_forces.clear();
+  part.method.damping.feedback.reset();  // it would remember the fall
   for (const DeformableBody& body : definition.bodies) {
     if (!body.geostatic) continue;
     part.bodies.push_back(body);
     part.bodies.back().geostatic.reset();
   }
-  for (const BodyForceDefinition& load : definition.body_forces) {
-    const bool here = std::any_of(part.bodies.begin(), part.bodies.end(),
-                                  [&](const DeformableBody& body) { return body.name == load.body; });
-    if (load.body.empty() || here) part.body_forces.push_back(load);
-  }
+  const auto elsewhere = [&](const auto& load) {
+    return !load.body.empty() && std::none_of(part.bodies.begin(), part.bodies.end(),
+                                              [&](const DeformableBody& body) { return body.name == load.body; });
+  };
+  auto& body_forces = part.body_forces;
+  body_forces.erase(std::remove_if(body_forces.begin(), body_forces.end(), elsewhere), body_forces.end());
+  auto& forces = part.particle_forces;
+  forces.erase(std::remove_if(forces.begin(), forces.end(), elsewhere), forces.end());
   for (RigidBodyDefinition& body : part.rigid_bodies) body.velocity = body.rotation_rate = {};
   return part;
 }
@@ -201,7 +196,7 @@ void Simulation::State::settle() {
       if (count % kSurveyEvery == 0) r.previous_limit = r.material_limit = r.survey_material();
       r.step(0.0, std::min(r.step_limit().dt, period));
       if (at_rest) residual = unbalanced(*r.grid, r.total_mass * g, g, 0.5 * lightest);
-      const double now = kinetic_energy(r.sets, r.threads);
+      const double now = r.kinetic_energy();
       at_rest = now < before;
       if (at_rest) stop(r.sets);
       before = at_rest ? 0.0 : now;

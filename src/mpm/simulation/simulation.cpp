@@ -99,6 +99,8 @@ void Simulation::advance() {
     s.run_period();
   } catch (const LoadError& error) {
     throw PhysicsError(error.what());
+  } catch (const DampingError& error) {
+    throw PhysicsError(error.what());
   } catch (const FunctionError& error) {
     throw PhysicsError(fmt::format("motion of a rigid body at t = {:.6g} s: {}", s.time * kNanosecond, error.what()));
   }

@@ -5,8 +5,9 @@
 #include <limits>
 
 #include "mpm/contact/rigid_contact.hpp"
-#include "mpm/mechanics/body_force.hpp"
 #include "mpm/mechanics/continuum.hpp"
+#include "mpm/mechanics/damping.hpp"
+#include "mpm/mechanics/particle_loads.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/step/schedule.hpp"
 
@@ -38,7 +39,8 @@ struct Simulation::State {
   std::vector<RigidBody> bodies;
   Stages stages;
   std::vector<RigidContact*> contacts;  ///< of each body, owned by stages
-  BodyForce* body_force = nullptr;      ///< owned by stages, when the scene has one
+  ParticleLoads* loads = nullptr;       ///< owned by stages, when the scene has any
+  DampingControl* damping = nullptr;    ///< the same
 
   std::int64_t time = 0;  ///< [ns]
   StepReport steps;
@@ -55,11 +57,13 @@ struct Simulation::State {
   void add_mechanics();
   /// Of all particles [N s].
   Vec3 momentum() const;
+  /// Of all particles [J].
+  double kinetic_energy() const;
   /// What the material allows now.
   StepLimit survey_material() const;
-  /// What material, tools and scene allow in the sync period that begins now.
+  /// What material, tools, damping and scene allow in the sync period that begins now. @throws DampingError
   StepLimit step_limit() const;
-  /// Runs to the next sync point. @throws PhysicsError, FunctionError
+  /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError
   void run_period();
   /// One step of the schedule, with the checks after it; it begins at `start` [s].
   void step(double start, double dt);

@@ -1,5 +1,5 @@
 // The largest stable time step: a fraction cfl of the time in which a wave on a moving particle, or a point of a tool,
-// crosses a cell; viscosity and grid damping add their own rates. Every particle is looked at in its present state at
+// crosses a cell; viscosity and damping have their own rates. Every particle is looked at in its present state at
 // every sync point (kernel/survey.hpp), and what got stiffer in the last period is expected to go on doing so in the
 // next. A law's wave speed is that of a solid: in plane stress, where thickness gives way, it is an upper bound.
 // Source: method reference 11.
@@ -89,11 +89,13 @@ StepLimit Simulation::State::step_limit() const {
     tool.name = &body.name();
     if (tool.speed > 0.0) tighten(limit, tool);
   }
-  if (definition.method.damping > 0.0) {
-    StepLimit damping;
-    damping.dt = definition.time.cfl / definition.method.damping;
-    damping.cause = StepLimit::Cause::damping;
-    tighten(limit, damping);
+  if (damping != nullptr) {
+    const double energy = damping->needs_energy() ? kinetic_energy() : 0.0;
+    const double rate = damping->largest_rate(start, period, energy, grid->layout);
+    StepLimit damped;
+    damped.dt = definition.time.cfl / rate;
+    damped.cause = StepLimit::Cause::damping;
+    if (rate > 0.0) tighten(limit, damped);
   }
   if (definition.time.step) {
     StepLimit scene;

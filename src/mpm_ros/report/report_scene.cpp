@@ -5,6 +5,7 @@
 
 #include "mpm/math/lanes.hpp"
 #include "mpm/scene/scene.hpp"
+#include "mpm/simulation/method_text.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -20,17 +21,11 @@ mpm::Scene scene_of(const RunInfo& info) {
   }
 }
 
-std::string method_text(const mpm::SimulationDefinition& definition) {
-  const mpm::MethodDefinition& method = definition.method;
-  const std::string transfer =
-      method.transfer.flip == 1.0
-          ? "FLIP"
-          : (method.transfer.flip == 0.0 ? "PIC" : fmt::format("FLIP {:g}", method.transfer.flip));
-  const int a_cell = mpm::whole_power(method.particles_per_direction, mpm::dimensions(definition.geometry));
-  return fmt::format("{}, uGIMP, {}, {}{}, {} precision, cells of {:g} m, {} particles a cell",
-                     mpm::spoken_name(definition.geometry), method.update == mpm::UpdateScheme::usavg ? "USAVG" : "USF",
-                     transfer, method.damping > 0.0 ? fmt::format(", grid damping {:g}/s", method.damping) : "",
-                     mpm::precision_name(method.precision), definition.grid.cell.x(), a_cell);
+std::string text_of(const mpm::SimulationDefinition& definition) {
+  const mpm::GeometryKind geometry = definition.geometry;
+  return fmt::format("{}, {}, cells of {:g} m, {} particles a cell", mpm::spoken_name(geometry),
+                     mpm::method_text(definition.method), definition.grid.cell.x(),
+                     mpm::whole_power(definition.method.particles_per_direction, mpm::dimensions(geometry)));
 }
 
 }  // namespace
@@ -40,7 +35,7 @@ SceneFacts scene_facts(const RunInfo& info) {
   if (info.scene_text.empty()) return facts;
   try {
     const mpm::Scene scene = scene_of(info);
-    facts.method = method_text(scene.definition);
+    facts.method = text_of(scene.definition);
     facts.gravity = scene.definition.gravity;
     facts.precision = scene.definition.method.precision;
     if (scene.definition.time.end > 0.0) facts.end = scene.definition.time.end;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "mpm/simulation/method_text.hpp"
 #include "mpm_ros/message/conversions.hpp"
 
 namespace mpm_ros {
@@ -14,12 +15,6 @@ std::uint64_t peak_memory_bytes() {
   rusage usage{};
   if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;  // Linux counts kibibytes
-}
-
-/// As scenes spell it.
-std::string transfer_name(double flip) {
-  if (flip == 1.0) return "flip";
-  return flip == 0.0 ? "pic" : fmt::format("flip {:g}", flip);
 }
 
 nlohmann::ordered_json energy_json(const mpm::EnergyReport& energy) {
@@ -56,9 +51,9 @@ nlohmann::ordered_json RunSummary::json() const {
   nlohmann::ordered_json root;
   root["scene"] = scene;
   root["method"] = {{"geometry", mpm::geometry_name(definition.geometry)},
-                    {"shape", "ugimp"},
-                    {"update", definition.method.update == mpm::UpdateScheme::usavg ? "usavg" : "usf"},
-                    {"transfer", transfer_name(definition.method.transfer.flip)},
+                    {"shape", mpm::shape_name(definition.method.shape)},
+                    {"update", mpm::update_name(definition.method.update)},
+                    {"transfer", mpm::transfer_text(definition.method.transfer)},
                     {"precision", mpm::precision_name(definition.method.precision)},
                     {"isa", isa}};
   root["particles"] = state.particles;

@@ -1,0 +1,111 @@
+// Damping of a run: what it is in each step, and the account of what it took. A step with it:
+//
+//   momentum_gathered   rates of this step, per particle where they are functions of place
+//   forces_gathered     f -= alpha_g p on the nodes, when the scene places it there; method reference 6.3
+//   (move)              reads rates() and flip(), and hands end_step() what it took; method reference 6.1
+//   end_step            the feedback's alpha for the next step; method reference 6.5
+//
+// When and where rates are read: at the middle of the step, t + dt/2, and at the place of the particle at its start
+// (GIMP notes (2.45)). The update takes (1 - alpha dt) a step, which is first order; the middle costs nothing and makes
+// the impulse of a rate that changes with time, not with place, second order.
+// Feedback is integrated once a step, alpha += dt d alpha/dt, with the energy at the start of the step: first order.
+// PIC of time alone is a FLIP fraction; as a function of place it becomes rates, -(1-beta)/dt of the grid and
+// +(1-beta)/dt of the particle (method reference 6.2), which then exchange momentum with the outside: it is in the
+// account. A rate below 0, or one that would turn a velocity round in a step, ends the run.
+// Source: Nairn, GIMP notes (2.15)-(2.45).
+#pragma once
+
+#include <vector>
+
+#include "mpm/mechanics/first_fault.hpp"
+#include "mpm/particles/particle_set.hpp"
+#include "mpm/step/damping.hpp"
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+/// Damping that has no value somewhere, or one that cannot be. what() names the key, the time and the remedy.
+class DampingError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// What the update of one set's particles is told [1/s]: two numbers, or two arrays in place of them with the whole
+/// rates of each particle, in the order of this step.
+struct DampingRates {
+  double grid = 0.0, particle = 0.0;
+  const double* grid_of_particle = nullptr;
+  const double* particle_of_particle = nullptr;
+};
+
+/// What the update of all particles found.
+struct Damped {
+  Vec3 momentum = Vec3::Zero();  ///< taken: sum of m (alpha_g v0 + alpha_p v) dt, world axes [N s]
+  double grid_energy = 0.0;      ///< sum of m |v0|^2 / 2 [J]
+  double particle_energy = 0.0;  ///< sum of m |v|^2 / 2, v before the update [J]
+};
+
+/// Audit: "damping", on the nodes and on the particles together.
+class DampingControl final : public Stage {
+ public:
+  /// `flip`: the transfer's fraction, for a scene without a part of PIC of its own. `sets` outlives it.
+  DampingControl(const DampingDefinition& definition, double flip, const std::vector<ParticleSet>& sets, int threads);
+
+  /// Whether move has to damp, and whether it has to find the energies; end_step() goes with either.
+  bool in_update() const { return definition().in_update(); }
+  bool needs_energy() const { return definition().feedback.has_value(); }
+
+  /// Rates of the step that begins. @throws DampingError
+  void begin_step(const StepContext& context);
+  DampingRates rates(int set) const;
+  /// FLIP fraction of this step.
+  double flip() const { return flip_; }
+  void end_step(const StepContext& context, const Damped& damped);
+
+  void momentum_gathered(StepContext& context) override { begin_step(context); }
+  void forces_gathered(StepContext& context) override;
+  void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+
+  /// Of the feedback, now [1/s].
+  double alpha() const { return alpha_; }
+  /// The largest rate between `start` and `start` + `period` [s], as far as it can be foreseen: functions at the
+  /// beginning, the middle and the end, where the particles are now, and feedback as it grows with the kinetic `energy`
+  /// of now [J]. Grid's and particles' together [1/s]. @throws DampingError
+  double largest_rate(double start, double period, double energy, const GridLayout& layout) const;
+
+ private:
+  const DampingDefinition& definition() const { return of_thread_.front(); }
+  /// What is read at a time and a place.
+  struct Sample {
+    double grid = 0.0, particle = 0.0;  ///< [1/s]
+    double pic = 0.0;
+  };
+  /// Without a place functions of place are left out. `alpha`: of the feedback. @throws DampingError, FunctionError
+  Sample sample(int thread, double t, double alpha, const Vec3* place) const;
+  /// visit(sample) of what is the same everywhere. @throws DampingError
+  template <class Visit>
+  void everywhere(double t, double alpha, Visit&& visit) const;
+  /// visit(thread, set, particle, sample) for all particles. @throws DampingError, that of the smallest id
+  template <class Visit>
+  void each_particle(double t, double alpha, const GridLayout& layout, Visit&& visit) const;
+  /// d alpha/dt [1/s^2]. @throws DampingError
+  double growth(double energy, double t) const;
+
+  std::vector<DampingDefinition> of_thread_;  ///< an expression holds one evaluation at a time
+  const std::vector<ParticleSet>& sets_;
+  int threads_;
+  double total_mass_ = 0.0;
+  bool of_place_;
+
+  double force_rate_ = 0.0;  ///< on the nodes in this step [1/s]
+  DampingRates rates_;       ///< of all particles in this step
+  double given_flip_, flip_;
+  std::vector<PaddedArray<double>> grid_values_, particle_values_;  ///< of each set's particles [1/s]
+  mutable FirstFault fault_;
+  std::vector<Vec3> block_sums_;  ///< force on the nodes of each block [N]
+
+  double alpha_ = 0.0;  ///< [1/s]
+  ImpulseAccount account_;
+};
+
+}  // namespace mpm

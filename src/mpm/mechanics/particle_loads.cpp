@@ -1,0 +1,211 @@
+#include "mpm/mechanics/particle_loads.hpp"
+
+#include <fmt/core.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <string>
+
+#include "mpm/mechanics/first_fault.hpp"
+#include "mpm/mechanics/kernel_views.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr int kSpreads = 2, kKinds = 2;
+constexpr std::array<const char*, kKinds> kKindNames = {"body_force", "particle_force"};
+constexpr std::array<const char*, kKinds> kKindTexts = {"body force", "particle force"};
+
+/// T is the precision of the particles.
+template <class T>
+class ParticleLoadsOf final : public ParticleLoads {
+  /// Particles whose sum is made in one go, so that it does not depend on the number of threads.
+  static constexpr int kGroup = 1024;
+
+ public:
+  ParticleLoadsOf(const LoadKernels<T>& kernels, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                  const std::vector<ParticleLoadTerm>& terms, int threads)
+      : kernels_{kernels.domain, kernels.center},
+        dim_(static_cast<int>(sets.front().x.size())),
+        sets_(sets),
+        laws_(laws),
+        threads_(threads),
+        nodal_(dim_, nodes_of_block(dim_)),
+        fault_(threads) {
+    for (const ParticleLoadTerm& term : terms) terms_.emplace_back(term, threads);
+    values_.resize(sets.size());
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      for (const Term& term : terms_) {
+        if (!term.acts_on(s)) continue;
+        values_[s][term.spread()].assign(dim_, PaddedArray<double>(sets[s].size(), 0.0));
+        there_[term.kind()] = true;
+      }
+    }
+    for (int kind = 0; kind < kKinds; ++kind) accounts_[kind].name = kKindNames[kind];
+    int groups = 1;
+    for (const ParticleSet& set : sets) groups = std::max(groups, (set.size() + kGroup - 1) / kGroup);
+    sums_.resize(groups);
+  }
+
+  void forces_gathered(StepContext& context) override {
+    Grid& grid = context.grid;
+    evaluate(context);
+    nodal_.resize(grid.blocks.size());
+    const int count = dim_ * grid.layout.nodes_per_block();
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (int b = 0; b < grid.blocks.size(); ++b) std::fill_n(nodal_.block(b), count, 0.0);
+    for (int spread = 0; spread < kSpreads; ++spread) scatter(grid, spread);
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (int b = 0; b < grid.blocks.size(); ++b) {
+      double* force = grid.force.block(b);
+      const double* load = nodal_.block(b);
+      for (int n = 0; n < count; ++n) force[n] += load[n];
+    }
+  }
+
+  void momentum_updated(StepContext& context) override {
+    const Grid& grid = context.grid;
+    const int count = dim_ * grid.layout.nodes_per_block();
+    double power = 0.0;
+    for (int b = 0; b < grid.blocks.size(); ++b) {
+      const double *load = nodal_.block(b), *v = grid.velocity.block(b), *a = grid.force.block(b);
+      // The displacement of a particle in the step: v^{n+1} dt - a dt^2 / 2, GIMP notes (2.16).
+      for (int n = 0; n < count; ++n) power += load[n] * (v[n] - 0.5 * context.dt * a[n]);
+    }
+    work_ += power * context.dt;
+  }
+
+  void accounts(std::vector<ImpulseAccount>& list) const override {
+    for (int kind = 0; kind < kKinds; ++kind) {
+      if (there_[kind]) list.push_back(accounts_[kind]);
+    }
+  }
+  double work() const override { return work_; }
+
+ private:
+  struct Term {
+    Term(const ParticleLoadTerm& given, int threads) : of(given) {
+      for (int thread = 0; thread < threads; ++thread) {
+        copies.push_back({of.value[0].own_copy(), of.value[1].own_copy(), of.value[2].own_copy()});
+      }
+    }
+    bool acts_on(std::size_t set) const { return !of.set || *of.set == static_cast<int>(set); }
+    int spread() const { return static_cast<int>(of.spread); }
+    int kind() const { return static_cast<int>(of.kind); }
+
+    ParticleLoadTerm of;
+    std::vector<std::array<Function, 3>> copies;  ///< of each thread: an expression holds one evaluation at a time
+  };
+  using ByKind = std::array<Vec3, kKinds>;
+
+  static ByKind nothing() { return {Vec3::Zero(), Vec3::Zero()}; }
+
+  // Acceleration of every particle, and the impulse that it is.
+  void evaluate(const StepContext& context) {
+    ByKind impulse = nothing();
+    fault_.clear();
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      if (values_[s][0].empty() && values_[s][1].empty()) continue;
+      const ParticleSet& set = sets_[s];
+      const int groups = (set.size() + kGroup - 1) / kGroup;
+#pragma omp parallel num_threads(threads_)
+      {
+        const int thread = omp_get_thread_num();
+#pragma omp for schedule(static)
+        for (int g = 0; g < groups; ++g) {
+          sums_[g] = nothing();
+          const int end = std::min(set.size(), (g + 1) * kGroup);
+          for (int p = g * kGroup; p < end; ++p) at_particle(context, s, p, thread, sums_[g]);
+        }
+      }
+      for (int g = 0; g < groups; ++g) {
+        for (int kind = 0; kind < kKinds; ++kind) impulse[kind] += sums_[g][kind] * (set.mass * context.dt);
+      }
+    }
+    fault_.check<LoadError>();
+    for (int kind = 0; kind < kKinds; ++kind) accounts_[kind].add(impulse[kind]);
+  }
+
+  // The accelerations of one particle, added to `sum` as well.
+  void at_particle(const StepContext& context, std::size_t s, int p, int thread, ByKind& sum) {
+    const GridLayout& layout = context.grid.layout;
+    const ParticleSet& set = sets_[s];
+    const double half = 0.5 * context.dt;
+    Vec3 place = Vec3::Zero(), start = Vec3::Zero();
+    for (int k = 0; k < dim_; ++k) {
+      place[layout.axis(k)] = set.x[k][p] + half * set.v[k][p];
+      if (!set.start_x.empty()) start[layout.axis(k)] = set.start_x[k][p];
+    }
+    std::array<Vec3, kSpreads> b = {Vec3::Zero(), Vec3::Zero()};
+    for (Term& term : terms_) {
+      if (!term.acts_on(s)) continue;
+      if (!term.of.chosen.empty() && term.of.chosen[set.id[p] - set.first_id] == 0) continue;
+      for (int k = 0; k < dim_; ++k) {  // no momentum along axes that the grid does not have
+        const int axis = layout.axis(k);
+        try {
+          const double value = term.copies[thread][axis](context.start + half, place, start) * term.of.factor;
+          b[term.spread()][axis] += value;
+          sum[term.kind()][axis] += value;
+        } catch (const FunctionError& error) {
+          fault_.note(thread, set.id[p], [&] {
+            return fmt::format("{} on '{}', along {}: {}", kKindTexts[term.kind()], set.name, "xyz"[axis],
+                               error.what());
+          });
+        }
+      }
+    }
+    for (int spread = 0; spread < kSpreads; ++spread) {
+      auto& values = values_[s][spread];
+      for (std::size_t k = 0; k < values.size(); ++k) values[k][p] = b[spread][layout.axis(static_cast<int>(k))];
+    }
+  }
+
+  void scatter(Grid& grid, int spread) {
+    const auto used = [spread](const auto& values) { return !values[spread].empty(); };
+    if (std::none_of(values_.begin(), values_.end(), used)) return;
+    const mpm_kernel::GridView view = view_of(grid);
+    views_.clear();
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      views_.push_back(view_of<T>(sets_[s], laws_[s], kernels_[spread].laws));
+      const auto& values = values_[s][spread];
+      for (std::size_t k = 0; k < values.size(); ++k) views_.back().load[k] = values[k].data();
+    }
+    each_owner(grid, threads_, [&](const mpm_kernel::BlockView& block) {
+      kernels_[spread].scatter_load(view, block, views_.data(), static_cast<int>(views_.size()), nodal_.data());
+    });
+  }
+
+  std::array<mpm_kernel::KernelTable<T>, kSpreads> kernels_;  ///< by spread
+  int dim_;
+  std::vector<ParticleSet>& sets_;
+  const std::vector<Law>& laws_;
+  int threads_;
+  std::vector<Term> terms_;
+  /// Acceleration of each set's particles by spread and axis [m/s^2].
+  std::vector<std::array<std::vector<PaddedArray<double>>, kSpreads>> values_;
+  std::vector<mpm_kernel::SetView<T>> views_;
+  NodalField nodal_;  ///< load of each node in this step [N]
+  std::vector<ByKind> sums_;
+  FirstFault fault_;
+  std::array<bool, kKinds> there_{};
+  std::array<ImpulseAccount, kKinds> accounts_;
+  double work_ = 0.0;
+};
+
+}  // namespace
+
+template <class T>
+std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<T>& kernels, std::vector<ParticleSet>& sets,
+                                                   const std::vector<Law>& laws,
+                                                   const std::vector<ParticleLoadTerm>& terms, int threads) {
+  return std::make_unique<ParticleLoadsOf<T>>(kernels, sets, laws, terms, threads);
+}
+
+template std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<double>&, std::vector<ParticleSet>&,
+                                                            const std::vector<Law>&,
+                                                            const std::vector<ParticleLoadTerm>&, int);
+template std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<float>&, std::vector<ParticleSet>&,
+                                                            const std::vector<Law>&,
+                                                            const std::vector<ParticleLoadTerm>&, int);
+
+}  // namespace mpm

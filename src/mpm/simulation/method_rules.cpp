@@ -1,0 +1,145 @@
+#include "mpm/simulation/method_rules.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace mpm {
+namespace {
+
+using Fault = std::optional<MethodFault>;
+
+constexpr int kMostOrder = 20;  ///< a pass over all particles each; the series has long converged
+constexpr int kMostTerms = 12;  ///< 1/13! is below double precision's last digit for any step that the waves allow
+
+Fault shape_fault(const MethodDefinition& method, GeometryKind geometry) {
+  if (method.shape == ShapeKind::qcpdi && geometry == GeometryKind::solid) {
+    return MethodFault{"shape", "qcpdi has the nine points of a parallelogram and is planar; use cpdi"};
+  }
+  if (method.shape == ShapeKind::qcpdi && geometry == GeometryKind::line) {
+    return MethodFault{"shape",
+                       "qcpdi has the nine points of a parallelogram and is planar; use cpdi or ugimp_stretch"};
+  }
+  return {};
+}
+
+Fault transfer_fault(const MethodDefinition& method) {
+  const Transfer& transfer = method.transfer;
+  switch (transfer.kind) {
+    case TransferKind::flip:
+      if (transfer.flip >= 0.0 && transfer.flip <= 1.0) return {};
+      return MethodFault{"transfer.flip",
+                         fmt::format("'{:g}' is not a fraction; write one from 0 (PIC) to 1 (FLIP)", transfer.flip)};
+    case TransferKind::xpic:
+    case TransferKind::fmpm: {
+      if (transfer.order >= 1 && transfer.order <= kMostOrder) return {};
+      const std::string name = kTransferNames[static_cast<int>(transfer.kind)];
+      return MethodFault{"transfer." + name, fmt::format("order {} is not possible; write 1 (which is PIC) to {}",
+                                                         transfer.order, kMostOrder)};
+    }
+    case TransferKind::apic:
+      break;
+  }
+  if (method.shape == ShapeKind::dirac) {
+    return MethodFault{"transfer",
+                       "apic needs the inverse of sum S (x_i - x_p)(x_i - x_p), which dirac does not have for a "
+                       "particle on a line of the grid; use shape ugimp, ugimp_stretch, bspline2 or bspline3, or "
+                       "transfer {xpic: 2}"};
+  }
+  return {};
+}
+
+Fault dilatation_fault(const MethodDefinition& method, GeometryKind geometry) {
+  if (!method.average_dilatation) return {};
+  if (geometry == GeometryKind::line) {
+    return MethodFault{"average_dilatation", "a line has one strain, and nothing in it locks; leave it out"};
+  }
+  if (geometry == GeometryKind::plane_stress) {
+    return MethodFault{"average_dilatation",
+                       "in plane stress the thickness follows, and nothing locks; leave it out, or use plane_strain"};
+  }
+  return {};
+}
+
+Fault rate_fault(const char* key, const Function& rate) {
+  const std::string path = std::string("damping.") + key;
+  if (rate.uses_start()) return MethodFault{path, "damping is a function of t, x, y, z; X, Y, Z are not kept for it"};
+  if (rate.is_constant() && !(rate(0.0) >= 0.0 && std::isfinite(rate(0.0)))) {
+    return MethodFault{path, fmt::format("{:g} 1/s is not possible; write a finite rate, 0 or more", rate(0.0))};
+  }
+  return {};
+}
+
+Fault feedback_fault(const FeedbackDefinition& feedback) {
+  if (!(feedback.gain > 0.0) || !std::isfinite(feedback.gain)) {
+    return MethodFault{"damping.feedback",
+                       "feedback without a gain does nothing; write gain: 100 1/m^2, or grid: 20 1/s for a rate that "
+                       "does not steer itself"};
+  }
+  if (!(feedback.limit > 0.0)) {
+    return MethodFault{"damping.feedback.limit",
+                       fmt::format("{:g} 1/s is not greater than 0; leave it out for no limit", feedback.limit)};
+  }
+  if (feedback.target.uses_place()) {
+    return MethodFault{"damping.feedback.target",
+                       "the target is the energy of all bodies; write a function of t alone"};
+  }
+  return {};
+}
+
+// PIC and FLIP are two ends of one transfer; others have no such fraction.
+Fault pic_fault(const MethodDefinition& method) {
+  const Function& pic = method.damping.pic;
+  if (pic.is_zero()) return {};
+  if (pic.uses_start()) return rate_fault("pic", pic);
+  if (pic.is_constant() && !(pic(0.0) > 0.0 && pic(0.0) <= 1.0)) {
+    return MethodFault{"damping.pic",
+                       fmt::format("'{:g}' is not a fraction; write one from 0 (FLIP) to 1 (PIC)", pic(0.0))};
+  }
+  if (method.transfer.kind != TransferKind::flip) {
+    return MethodFault{"damping.pic", fmt::format("transfer {} has no part of PIC to change; use transfer flip",
+                                                  kTransferNames[static_cast<int>(method.transfer.kind)])};
+  }
+  if (method.transfer.flip != 1.0) {
+    return MethodFault{"damping.pic",
+                       fmt::format("transfer says it too, with a FLIP fraction of {:g}; write transfer flip, or leave "
+                                   "pic out",
+                                   method.transfer.flip)};
+  }
+  return {};
+}
+
+Fault damping_fault(const MethodDefinition& method) {
+  const DampingDefinition& damping = method.damping;
+  if (const Fault fault = rate_fault("grid", damping.grid)) return fault;
+  if (const Fault fault = rate_fault("particle", damping.particle)) return fault;
+  if (damping.feedback) {
+    if (const Fault fault = feedback_fault(*damping.feedback)) return fault;
+  }
+  if (const Fault fault = pic_fault(method)) return fault;
+  if (damping.in_force && damping.grid.uses_place()) {
+    return MethodFault{"damping.placement",
+                       "a rate that is a function of place is read at the particles, not at the nodes; use placement: "
+                       "update"};
+  }
+  if (method.transfer.kind == TransferKind::apic && damping.in_update()) {
+    return MethodFault{"damping",
+                       "apic keeps a part of the motion in a matrix that damping of the particles' velocity does not "
+                       "reach; use {grid: 20 1/s, placement: force}, with feedback of the grid, or transfer flip"};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry) {
+  if (const Fault fault = shape_fault(method, geometry)) return fault;
+  if (const Fault fault = transfer_fault(method)) return fault;
+  if (const Fault fault = dilatation_fault(method, geometry)) return fault;
+  if (method.gradient_terms < 1 || method.gradient_terms > kMostTerms) {
+    return MethodFault{"gradient_terms", fmt::format("write 1 to {} terms; 2 is the default", kMostTerms)};
+  }
+  return damping_fault(method);
+}
+
+}  // namespace mpm

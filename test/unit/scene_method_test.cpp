@@ -1,0 +1,239 @@
+// method: every word and form that is read, what goes with what, and each refusal with its place. Expected texts are
+// written by hand from the rule "file:line: key.path: what; what to write instead".
+#include <gtest/gtest.h>
+
+#include "mpm/scene/explain.hpp"
+#include "mpm/scene/scene.hpp"
+#include "mpm/simulation/method_rules.hpp"
+#include "mpm/simulation/method_text.hpp"
+#include "mpm/simulation/simulation.hpp"
+
+namespace mpm {
+namespace {
+
+using Of = FeedbackDefinition::Of;
+
+const char* const kPlanar =
+    "geometry: plane_strain\n"
+    "grid: {cell: 0.1, min: [0, 0], max: [1, 1]}\n"
+    "materials: [{name: soft, density: 1000, law: neo_hookean, young: 1000, poisson: 0.3}]\n"
+    "bodies: [{name: block, material: soft, shape: {box: {min: [0.2, 0.2], max: [0.6, 0.6]}}}]\n";
+const char* const kSolid =
+    "geometry: solid\n"
+    "grid: {cell: 0.1, min: [0, 0, 0], max: [1, 1, 1]}\n"
+    "materials: [{name: soft, density: 1000, law: neo_hookean, young: 1000, poisson: 0.3}]\n"
+    "bodies: [{name: block, material: soft, shape: {box: {min: [0.2, 0.2, 0.2], max: [0.6, 0.6, 0.6]}}}]\n";
+
+MethodDefinition method_of(const std::string& keys, const char* scene = kPlanar) {
+  return parse_scene(scene + ("method: {" + keys + "}\n"), "test.yaml").definition.method;
+}
+
+void expect_refused(const std::string& keys, const std::string& expected, const char* scene = kPlanar) {
+  std::string found = "no error";
+  try {
+    parse_scene(scene + ("method: {" + keys + "}\n"), "bad.yaml");
+  } catch (const SceneError& error) {
+    found = error.what();
+  }
+  EXPECT_EQ(found.find('\n'), std::string::npos) << found;
+  const std::string start = "bad.yaml:5: method." + expected;
+  EXPECT_EQ(found.substr(0, start.size()), start) << "whole text: " << found;
+}
+
+void expect_said(const std::string& keys, const std::string& part, const char* scene = kPlanar) {
+  try {
+    parse_scene(scene + ("method: {" + keys + "}\n"), "bad.yaml");
+    ADD_FAILURE() << keys << " is not refused";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << part << "\nnot in: " << error.what();
+  }
+}
+
+TEST(SceneMethod, EveryShapeAndItsOtherName) {
+  for (std::size_t i = 0; i < kShapeNames.size(); ++i) {
+    EXPECT_EQ(method_of(std::string("shape: ") + kShapeNames[i]).shape, static_cast<ShapeKind>(i)) << kShapeNames[i];
+  }
+  EXPECT_EQ(method_of("shape: classic").shape, ShapeKind::dirac);
+  EXPECT_EQ(method_of("shape: lcpdi").shape, ShapeKind::cpdi);
+  expect_refused("shape: gimp", "shape: 'gimp' is not known; did you mean 'ugimp'?");
+}
+
+TEST(SceneMethod, EveryUpdateAndItsOtherName) {
+  EXPECT_EQ(method_of("update: usf").update, UpdateScheme::usf);
+  EXPECT_EQ(method_of("update: usl").update, UpdateScheme::usl);
+  EXPECT_EQ(method_of("update: musl").update, UpdateScheme::usl);
+  EXPECT_EQ(method_of("update: usavg").update, UpdateScheme::usavg);
+}
+
+TEST(SceneMethod, EveryTransfer) {
+  EXPECT_EQ(method_of("transfer: flip").transfer.flip, 1.0);
+  EXPECT_EQ(method_of("transfer: pic").transfer.kind, TransferKind::flip);
+  EXPECT_EQ(method_of("transfer: pic").transfer.flip, 0.0);
+  EXPECT_EQ(method_of("transfer: {flip: 0.99}").transfer.flip, 0.99);
+  EXPECT_EQ(method_of("transfer: apic").transfer.kind, TransferKind::apic);
+  EXPECT_EQ(method_of("transfer: {xpic: 3}").transfer.kind, TransferKind::xpic);
+  EXPECT_EQ(method_of("transfer: {xpic: 3}").transfer.order, 3);
+  EXPECT_EQ(method_of("transfer: {fmpm: 20}").transfer.kind, TransferKind::fmpm);
+  EXPECT_EQ(method_of("transfer: {fmpm: 20}").transfer.order, 20);
+  EXPECT_FALSE(method_of("transfer: apic").average_dilatation);
+  EXPECT_TRUE(method_of("average_dilatation: true").average_dilatation);
+  EXPECT_FALSE(method_of("average_dilatation: false").average_dilatation);
+}
+
+TEST(SceneMethod, BadTransfersSayWhatToWrite) {
+  expect_refused("transfer: xpic", "transfer: give its order, as in {xpic: 2}");
+  expect_refused("transfer: fmpm", "transfer: give its order, as in {fmpm: 2}");
+  expect_refused("transfer: {xpic: 0}", "transfer.xpic: order 0 is not possible; write 1 (which is PIC) to 20");
+  expect_refused("transfer: {fmpm: 21}", "transfer.fmpm: order 21 is not possible;");
+  expect_refused("transfer: {xpic: 2.5}", "transfer.xpic: '2.5' is not a whole number;");
+  expect_refused("transfer: {flip: 1.01}", "transfer.flip: '1.01' is not a fraction; write one from 0 (PIC) to 1");
+  expect_refused("transfer: {flip: -0.1}", "transfer.flip: '-0.1' is less than 0;");
+  expect_refused("average_dilatation: yse", "average_dilatation: 'yse' is not known;");
+  expect_refused("gradient_terms: 13", "gradient_terms: write 1 to 12 terms;");
+}
+
+// What cannot work is refused with what can be used in its place; in the same words for a definition made by hand.
+TEST(SceneMethod, CombinationsThatCannotWork) {
+  EXPECT_NO_THROW(method_of("shape: qcpdi"));
+  expect_refused("shape: qcpdi", "shape: qcpdi has the nine points of a parallelogram and is planar; use cpdi", kSolid);
+  for (const char* shape : {"ugimp", "ugimp_stretch", "cpdi", "qcpdi", "bspline2", "bspline3"}) {
+    EXPECT_NO_THROW(method_of(std::string("transfer: apic, shape: ") + shape)) << shape;
+  }
+  expect_refused("shape: dirac, transfer: apic", "transfer: apic needs the inverse");
+  expect_said("shape: dirac, transfer: apic",
+              "use shape ugimp, ugimp_stretch, bspline2 or bspline3, or transfer {xpic");
+  // A planar scene of 9 particles a cell is one of 3 along an edge; a solid one is not.
+  EXPECT_EQ(method_of("particles_per_cell: 9").particles_per_direction, 3);
+  expect_refused("particles_per_cell: 9", "particles_per_cell: 9 is not possible; a solid scene has 1, 8 or 27",
+                 kSolid);
+
+  MethodDefinition method;
+  method.average_dilatation = true;
+  EXPECT_EQ(method_fault(method, GeometryKind::line)->key, "average_dilatation");
+  EXPECT_EQ(method_fault(method, GeometryKind::plane_stress)->key, "average_dilatation");
+  EXPECT_FALSE(method_fault(method, GeometryKind::plane_strain));
+  EXPECT_FALSE(method_fault(method, GeometryKind::solid));
+  method = {};
+  method.shape = ShapeKind::qcpdi;
+  EXPECT_EQ(method_fault(method, GeometryKind::line)->key, "shape");
+  EXPECT_FALSE(method_fault(method, GeometryKind::plane_stress));
+
+  SimulationDefinition by_hand = build(parse_scene(kSolid, "hand.yaml"));
+  by_hand.method.shape = ShapeKind::qcpdi;
+  try {
+    Simulation simulation(by_hand);
+    FAIL() << "qcpdi was built in three dimensions";
+  } catch (const DefinitionError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "method.shape: qcpdi has the nine points of a parallelogram and is planar; use cpdi");
+  }
+}
+
+TEST(SceneMethod, DampingIsANumberAFunctionOrAMap) {
+  const DampingDefinition number = method_of("damping: 5").damping;
+  EXPECT_EQ(number.grid(0.0), 5.0);
+  EXPECT_TRUE(number.in_force && number.any() && !number.in_update());
+  EXPECT_FALSE(method_of("damping: 0").damping.any());
+  const DampingDefinition of_time = method_of("damping: \"10*(t<1)\"").damping;
+  EXPECT_EQ(of_time.grid(0.5), 10.0);
+  EXPECT_EQ(of_time.grid(1.5), 0.0);
+  EXPECT_TRUE(of_time.in_force);
+  // A rate of place is read at the particles.
+  const DampingDefinition of_place = method_of("damping: \"10*x\"").damping;
+  EXPECT_FALSE(of_place.in_force);
+  EXPECT_TRUE(of_place.in_update());
+
+  const DampingDefinition all = method_of(
+                                    "damping: {grid: 20 1/s, particle: \"t\", pic: 1 %, placement: update, "
+                                    "feedback: {gain: 4 1/mm^2, target: \"2*t\", limit: 100, of: particle}}")
+                                    .damping;
+  EXPECT_EQ(all.grid(0.0), 20.0);
+  EXPECT_EQ(all.particle(3.0), 3.0);
+  EXPECT_EQ(all.pic(0.0), 0.01);
+  EXPECT_FALSE(all.in_force);
+  ASSERT_TRUE(all.feedback);
+  EXPECT_NEAR(all.feedback->gain, 4e6, 1e-8);  // round-off of (1 mm)^-2
+  EXPECT_EQ(all.feedback->target(3.0), 6.0);
+  EXPECT_EQ(all.feedback->limit, 100.0);
+  EXPECT_EQ(all.feedback->of, Of::particle);
+  const DampingDefinition feedback = method_of("damping: {feedback: {gain: 7}}").damping;
+  EXPECT_EQ(feedback.feedback->target(1.0), 0.0);
+  EXPECT_EQ(feedback.feedback->limit, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(feedback.feedback->of, Of::grid);
+  EXPECT_TRUE(feedback.any() && feedback.in_force && !feedback.in_update());
+}
+
+// mm-g-s: a rate stays, a gain is per mm^2, an energy is g mm^2/s^2 = 1e-9 J.
+TEST(SceneMethod, DampingIsInTheUnitsOfTheScene) {
+  const DampingDefinition damping =
+      parse_scene(std::string("units: mm-g-s\n") + kPlanar +
+                      "method: {damping: {grid: 3, feedback: {gain: 2, target: \"5*t\", limit: 9}}}\n",
+                  "test.yaml")
+          .definition.method.damping;
+  EXPECT_EQ(damping.grid(0.0), 3.0);
+  EXPECT_NEAR(damping.feedback->gain, 2e6, 1e-8);
+  EXPECT_NEAR(damping.feedback->target(2.0), 1e-8, 1e-22);
+  EXPECT_EQ(damping.feedback->limit, 9.0);
+}
+
+TEST(SceneMethod, BadDampingSaysWhatToWrite) {
+  expect_refused("damping: -1", "damping: '-1' is less than 0;");
+  expect_refused("damping: 5 m", "damping: '5 m' is a length, but a rate is expected;");
+  expect_refused("damping: {grd: 5}", "damping.grd: unknown key 'grd'; did you mean 'grid'?");
+  expect_refused("damping: {particle: -2}", "damping.particle: '-2' is less than 0;");
+  expect_refused("damping: {grid: \"5*X\"}", "damping.grid: expression '5*X': unknown name 'X'; write 'x'");
+  expect_refused("damping: {pic: 1.5}", "damping.pic: '1.5' is not a fraction; write one from 0 (FLIP) to 1 (PIC)");
+  expect_refused("damping: {grid: 5, placement: node}", "damping.placement: 'node' is not known; write one of update");
+  expect_refused("damping: {grid: \"5*x\", placement: force}",
+                 "damping.placement: a rate that is a function of place is read at the particles, not at the nodes; "
+                 "use placement: update");
+  expect_refused("damping: {feedback: {}}", "damping.feedback: feedback without a gain does nothing; write gain:");
+  expect_refused("damping: {feedback: {target: 1}}", "damping.feedback: feedback without a gain does nothing;");
+  expect_refused("damping: {feedback: {gain: 0}}", "damping.feedback.gain: '0' is not greater than 0;");
+  expect_refused("damping: {feedback: {gain: 1, limit: 0}}", "damping.feedback.limit: '0' is not greater than 0;");
+  expect_refused("damping: {feedback: {gain: 1, target: \"x\"}}",
+                 "damping.feedback.target: the target is the energy of all bodies; write a function of t alone");
+}
+
+// PIC is one end of FLIP; other transfers have no such part, and a fraction is said once.
+TEST(SceneMethod, PartsOfPicGoWithFlipAlone) {
+  EXPECT_NO_THROW(method_of("damping: {pic: \"0.1*(t<1)\"}"));
+  EXPECT_NO_THROW(method_of("transfer: flip, damping: {pic: \"0.1*x\"}"));
+  expect_refused("transfer: {flip: 0.9}, damping: {pic: 0.1}", "damping.pic: transfer says it too, with a FLIP");
+  for (const char* transfer : {"{xpic: 2}", "{fmpm: 2}", "apic"}) {
+    expect_refused(std::string("transfer: ") + transfer + ", damping: {pic: 0.1}",
+                   "damping.pic: transfer " + std::string(transfer).substr(transfer[0] == '{' ? 1 : 0, 4));
+  }
+}
+
+// Damping of the particles' velocity would leave APIC's matrix as it is: rotation and shear would go on.
+TEST(SceneMethod, ApicIsDampedOnTheNodes) {
+  EXPECT_NO_THROW(method_of("transfer: apic, damping: 5"));
+  EXPECT_NO_THROW(method_of("transfer: apic, damping: {feedback: {gain: 1}}"));
+  for (const char* damping : {"{particle: 5}", "{grid: 5, placement: update}", "\"5*x\"",
+                              "{feedback: {gain: 1, of: particle}}", "{feedback: {gain: 1}, placement: update}"}) {
+    expect_refused(std::string("transfer: apic, damping: ") + damping, "damping: apic keeps a part of the motion");
+  }
+}
+
+TEST(SceneMethod, IsSaidAsScenesSpellIt) {
+  EXPECT_EQ(method_text(MethodDefinition{}),
+            "ugimp, usavg, flip, double precision, 2 terms of the deformation's exponential");
+  EXPECT_EQ(method_text(method_of("shape: cpdi, update: usl, transfer: {fmpm: 3}, gradient_terms: 1, "
+                                  "precision: single, average_dilatation: true, damping: 5")),
+            "cpdi, usl, fmpm 3, single precision, 1 term of the deformation's exponential, averaged dilatation, "
+            "damping: grid 5 1/s in the force");
+  EXPECT_EQ(transfer_text(method_of("transfer: pic").transfer), "pic");
+  EXPECT_EQ(transfer_text(method_of("transfer: {flip: 0.99}").transfer), "flip 0.99");
+  EXPECT_EQ(transfer_text(method_of("transfer: apic").transfer), "apic");
+  EXPECT_EQ(
+      damping_text(method_of("damping: {grid: \"5*x\", particle: 2, pic: 0.1, feedback: {gain: 3, limit: 9}}").damping),
+      "grid \"5*x\" in the update, particle 2 1/s, pic 0.1 a step, feedback of the grid, gain 3 1/m^2, target "
+      "0 J, at most 9 1/s, in the update");
+  const Scene scene = parse_scene(std::string(kPlanar) + "method: {transfer: {flip: 0.5}}\n", "test.yaml");
+  EXPECT_NE(explain(scene, build(scene)).find("method: plane strain, 1 m thick, ugimp, usavg, flip 0.5,"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace mpm

@@ -1,14 +1,18 @@
 // The blocked grid: numbering, neighbours, colours.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
 
 #include "mpm/grid/nodal_fields.hpp"
+#include "mpm/math/lanes.hpp"
 
 namespace {
 
 using mpm::GridLayout;
+using mpm::Vec3;
+using mpm::whole_power;
 
 TEST(GridLayout, NumbersBlocksBothWays) {
   const GridLayout layout(3, {0.1, 0.1, 0.1}, {0, 0, 0}, {1.0, 2.0, 3.0});
@@ -30,6 +34,43 @@ TEST(GridLayout, PlanarAxesAreXAndZ) {
   EXPECT_EQ(layout.last_node(1), 8);
   const mpm::Vec3 position = layout.node_position({1, 1}, 4 * 2 + 3);  // node (6, 7)
   EXPECT_TRUE(position.isApprox(mpm::Vec3(1.6, 0.0, 5.5), 1e-14));
+}
+
+TEST(GridLayout, ALinesAxisIsX) {
+  const GridLayout layout(1, {0.1, 9.0, 0.5}, {1.0, -7.0, 2.0}, {3.0, 7.0, 6.0});
+  EXPECT_EQ(layout.axis(0), 0);
+  EXPECT_EQ(layout.nodes_per_block(), 4);
+  EXPECT_EQ(layout.last_node(0), 20);
+  EXPECT_EQ(layout.smallest_cell(), 0.1);
+  EXPECT_EQ(layout.node({2}, 3)[0], 11);
+  EXPECT_TRUE(layout.node_position({2}, 3).isApprox(mpm::Vec3(2.1, 0.0, 0.0), 1e-14));
+  for (int block = -1; block <= 20 / 4 + 1; ++block) EXPECT_EQ(layout.block(layout.key({block}))[0], block);
+}
+
+TEST(BlockTable, OfALineHasTwoColoursAndThreeNeighbours) {
+  const GridLayout layout(1, {1, 1, 1}, {0, 0, 0}, {40, 1, 1});
+  mpm::BlockTable table(layout);
+  table.rebuild({layout.key({2}), layout.key({3}), layout.key({6})});
+  EXPECT_EQ(table.size(), 7);  // blocks 1 to 7
+  EXPECT_EQ(table.colours(), 2);
+  EXPECT_EQ(table.owners_of_colour(0), (std::vector<int>{0, 2}));
+  EXPECT_EQ(table.owners_of_colour(1), (std::vector<int>{1}));
+  for (int owner = 0; owner < table.owners(); ++owner) {
+    const int* near = table.neighbours(owner);
+    for (int s = 0; s < 3; ++s) EXPECT_EQ(table.block(near[s])[0], table.block(table.owner_block(owner))[0] + s - 1);
+  }
+}
+
+// A block of a line is shorter than a wide register: what lies behind the last one is there, and zero after each
+// resize.
+TEST(NodalField, HasRoomForARegisterBehindItsLastBlock) {
+  mpm::NodalField field(1, 4);
+  for (const int blocks : {3, 2, 40, 1}) {
+    field.resize(blocks);
+    double* end = field.block(blocks);
+    for (std::size_t i = 0; i < mpm::NodalField::kPadding; ++i) EXPECT_EQ(end[i], 0.0) << blocks;
+    std::fill(field.data(), end + mpm::NodalField::kPadding, 7.0);
+  }
 }
 
 TEST(GridLayout, RefusesWhatCannotBe) {
@@ -78,18 +119,18 @@ TEST(BlockTable, KnowsNeighboursAndKeepsColoursApart) {
 
 // Against the definition: the blocks in use are the owners' neighbours, each once and in order of their keys.
 TEST(BlockTable, HoldsTheNeighboursOfAnyOwners) {
-  for (const int dim : {2, 3}) {
-    const GridLayout layout(dim, {1, 1, 1}, {0, 0, 0}, {60, 60, 60});
+  for (const int dim : {1, 2, 3}) {
+    const GridLayout layout(dim, {1, 1, 1}, {0, 0, 0}, Vec3::Constant(dim == 1 ? 2400 : 60));
     std::mt19937 engine(2);
     mpm::BlockTable table(layout);
     for (const std::size_t count : {1, 5, 40, 300, 12}) {
       std::set<std::uint64_t> owners, blocks;
       for (std::size_t i = 0; i < count; ++i) {
         std::array<int, 3> block{};
-        for (int k = 0; k < dim; ++k) block[k] = static_cast<int>(engine() % 16);
+        for (int k = 0; k < dim; ++k) block[k] = static_cast<int>(engine() % (dim == 1 ? 600 : 16));
         owners.insert(layout.key(block));
       }
-      const int span = dim == 3 ? 27 : 9;
+      const int span = whole_power(3, dim);
       const auto neighbour = [&](std::uint64_t owner, int s) {
         std::array<int, 3> block = layout.block(owner);
         for (int k = dim - 1; k >= 0; --k, s /= 3) block[k] += s % 3 - 1;

@@ -28,14 +28,15 @@ Mat3 full(const Matrix3<double>& f) {
 /// Cauchy stress that the state carries, by its definition.
 Mat3 cauchy(const InitialState& state) { return full(state.tau) * kDensity / state.j(); }
 
-InitialState under(const LawDefinition& law, const Symmetric3<double>& stress, bool planar = false,
-                   bool yy_follows = false) {
-  return InitialStates({"m", kDensity, law}, planar).find({stress, yy_follows, std::nullopt});
+InitialState under(const LawDefinition& law, const Symmetric3<double>& stress,
+                   GeometryKind geometry = GeometryKind::solid, bool yy_follows = false) {
+  return InitialStates({"m", kDensity, law}, geometry).find({stress, yy_follows, std::nullopt});
 }
 
-std::string refusal(const LawDefinition& law, const InitialRequest& request, bool planar = false) {
+std::string refusal(const LawDefinition& law, const InitialRequest& request,
+                    GeometryKind geometry = GeometryKind::solid) {
   try {
-    InitialStates({"m", kDensity, law}, planar).find(request);
+    InitialStates({"m", kDensity, law}, geometry).find(request);
   } catch (const InitialStateError& error) {
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     return error.what();
@@ -82,7 +83,7 @@ TEST(InitialState, NeoHookeanIsStretchedAsItsFormulaSays) {
 TEST(InitialState, PlaneStrainDecidesTheStressAlongY) {
   const double k = kElasticity.bulk(), g = kElasticity.shear();
   const Symmetric3<double> asked{-3e4, 0.0, -5e4, 0.0, 1e4, 0.0};
-  const InitialState state = under(NeoHookeanDefinition{kElasticity}, asked, true, true);
+  const InitialState state = under(NeoHookeanDefinition{kElasticity}, asked, GeometryKind::plane_strain, true);
   const Mat3 f = full(state.f), s = neo_hookean(f, k, g);
   EXPECT_EQ(f(1, 1), 1.0);
   EXPECT_NEAR(s(0, 0), -3e4, 1e-4);
@@ -90,17 +91,61 @@ TEST(InitialState, PlaneStrainDecidesTheStressAlongY) {
   EXPECT_NEAR(s(0, 2), 1e4, 1e-4);
   EXPECT_NEAR(cauchy(state)(1, 1), s(1, 1), 1e-4);
   // Where the strain is small, nu (sxx + szz), to the order of the strain, 5e-4.
-  const InitialState slight = under(NeoHookeanDefinition{kElasticity}, {-30.0, 0, -50.0, 0, 10.0, 0}, true, true);
+  const InitialState slight =
+      under(NeoHookeanDefinition{kElasticity}, {-30.0, 0, -50.0, 0, 10.0, 0}, GeometryKind::plane_strain, true);
   EXPECT_NEAR(cauchy(slight)(1, 1), -24.0, 1e-3 * 24.0);
   Symmetric3<double> whole = asked;
   whole.yy = s(1, 1);
-  EXPECT_EQ(refusal(NeoHookeanDefinition{kElasticity}, {whole, false, std::nullopt}, true), "no error");
+  EXPECT_EQ(refusal(NeoHookeanDefinition{kElasticity}, {whole, false, std::nullopt}, GeometryKind::plane_strain),
+            "no error");
   whole.yy = -1e4;
-  EXPECT_NE(refusal(NeoHookeanDefinition{kElasticity}, {whole, false, std::nullopt}, true)
+  EXPECT_NE(refusal(NeoHookeanDefinition{kElasticity}, {whole, false, std::nullopt}, GeometryKind::plane_strain)
                 .find("material 'm' (neo_hookean) cannot have yy = -10000 Pa in plane strain"),
             std::string::npos);
   // Elastic laws in rate form: nu (sxx + szz).
-  EXPECT_NEAR(cauchy(under(LinearElasticDefinition{kElasticity}, asked, true, true))(1, 1), -2.4e4, 1e-9);
+  EXPECT_NEAR(cauchy(under(LinearElasticDefinition{kElasticity}, asked, GeometryKind::plane_strain, true))(1, 1),
+              -2.4e4, 1e-9);
+}
+
+// F_yy is free: under uniaxial stress it is what F_zz is.
+TEST(InitialState, PlaneStressHasNoStressAlongY) {
+  const double k = kElasticity.bulk(), g = kElasticity.shear();
+  const Symmetric3<double> asked{-3e4, 0.0, -5e4, 0.0, 1e4, 0.0}, along_x{4e4, 0, 0, 0, 0, 0};
+  const Mat3 f = full(under(NeoHookeanDefinition{kElasticity}, asked, GeometryKind::plane_stress).f);
+  EXPECT_LT((neo_hookean(f, k, g) - full(asked)).norm(), 1e-8 * full(asked).norm());
+  const InitialState uniaxial = under(NeoHookeanDefinition{kElasticity}, along_x, GeometryKind::plane_stress);
+  EXPECT_NEAR(uniaxial.f.yy, uniaxial.f.zz, 1e-9);
+  EXPECT_LT(uniaxial.f.yy, 1.0);
+  EXPECT_NE(refusal(NeoHookeanDefinition{kElasticity}, {{{0, 1e3, 0, 0, 0, 0}}, false, std::nullopt},
+                    GeometryKind::plane_stress)
+                .find("material 'm' (neo_hookean) cannot have yy = 1000 Pa in plane stress"),
+            std::string::npos);
+}
+
+// Uniaxial strain: F = diag(l, 1, 1), with stress of eq. (64) for neo-Hookean and nu / (1 - nu) across for small
+// strain.
+TEST(InitialState, ALineHasNoStrainAcrossIt) {
+  const double k = kElasticity.bulk(), g = kElasticity.shear(), ratio = 0.3 / 0.7;
+  const Symmetric3<double> asked{-3e4, 0, 0, 0, 0, 0};
+  const InitialState state = under(NeoHookeanDefinition{kElasticity}, asked, GeometryKind::line);
+  EXPECT_EQ(state.f.yy, 1.0);
+  EXPECT_EQ(state.f.zz, 1.0);
+  const Mat3 s = neo_hookean(full(state.f), k, g);
+  EXPECT_NEAR(s(0, 0), -3e4, 1e-4);
+  EXPECT_NEAR(cauchy(state)(2, 2), s(2, 2), 1e-4);
+  const InitialState rate = under(LinearElasticDefinition{kElasticity}, asked, GeometryKind::line);
+  EXPECT_NEAR(cauchy(rate)(1, 1), -3e4 * ratio, 1e-9);
+  EXPECT_NEAR(cauchy(rate)(2, 2), -3e4 * ratio, 1e-9);
+  J2PlasticityDefinition metal;
+  metal.elasticity = kElasticity;
+  metal.yield_stress = 5e4;
+  const InitialState squeezed = under(metal, asked, GeometryKind::line);
+  EXPECT_EQ(squeezed.f.zz, 1.0);
+  EXPECT_NEAR(squeezed.f.xx, squeezed.j(), 1e-14);
+  EXPECT_NEAR(cauchy(squeezed)(0, 0), -3e4, 1e-3);
+  const InitialState fluid = under(NewtonianFluidDefinition{2e6, 7.0, 0.0, true}, asked, GeometryKind::line);
+  EXPECT_LT((cauchy(fluid) + 3e4 * Mat3::Identity()).norm(), 1e-4);
+  EXPECT_NEAR(fluid.f.xx, std::pow(1.0 + 7.0 * 3e4 / 2e6, -1.0 / 7.0), 1e-10);  // Tait
 }
 
 TEST(InitialState, ViscoelasticSolidsStartRelaxed) {
@@ -117,13 +162,13 @@ TEST(InitialState, MetalCarriesTheDeviatorAndItsVolumeThePressure) {
   J2PlasticityDefinition law;
   law.elasticity = kElasticity;
   law.yield_stress = 5e4;
-  for (const bool planar : {false, true}) {
+  for (const GeometryKind geometry : {GeometryKind::solid, GeometryKind::plane_strain}) {
     const Symmetric3<double> s{-2e4, 1e4, -2e4, 0.0, 5e3, 0.0};
-    const InitialState state = under(law, s, planar);
+    const InitialState state = under(law, s, geometry);
     const double mean = -1e4 / k;
-    EXPECT_NEAR(state.j(), mean + std::sqrt(mean * mean + 1.0), 1e-9) << planar;
-    EXPECT_LT((cauchy(state) - full(s)).norm(), 1e-8 * full(s).norm()) << planar;
-    if (planar) {
+    EXPECT_NEAR(state.j(), mean + std::sqrt(mean * mean + 1.0), 1e-9) << geometry_name(geometry);
+    EXPECT_LT((cauchy(state) - full(s)).norm(), 1e-8 * full(s).norm()) << geometry_name(geometry);
+    if (geometry == GeometryKind::plane_strain) {
       EXPECT_EQ(state.f.yy, 1.0);
     }
   }
@@ -138,11 +183,11 @@ TEST(InitialState, FluidsTakeAPressure) {
   law.bulk_modulus = 2e6;
   law.exponent = 7.0;
   law.viscosity = 0.5;
-  for (const bool planar : {false, true}) {
-    const InitialState state = under(law, {-5e4, -5e4, -5e4, 0, 0, 0}, planar);
+  for (const GeometryKind geometry : {GeometryKind::solid, GeometryKind::plane_strain}) {
+    const InitialState state = under(law, {-5e4, -5e4, -5e4, 0, 0, 0}, geometry);
     // Tait: J = (1 + n p / K)^(-1/n).
-    EXPECT_NEAR(state.j(), std::pow(1.0 + 7.0 * 5e4 / 2e6, -1.0 / 7.0), 1e-10) << planar;
-    EXPECT_LT((cauchy(state) + 5e4 * Mat3::Identity()).norm(), 1e-4) << planar;
+    EXPECT_NEAR(state.j(), std::pow(1.0 + 7.0 * 5e4 / 2e6, -1.0 / 7.0), 1e-10) << geometry_name(geometry);
+    EXPECT_LT((cauchy(state) + 5e4 * Mat3::Identity()).norm(), 1e-4) << geometry_name(geometry);
   }
   EXPECT_NE(refusal(law, {Symmetric3<double>{-5e4, -5e4, -4e4, 0, 0, 0}, false, std::nullopt})
                 .find("is a fluid and carries pressure alone"),
@@ -156,7 +201,7 @@ TEST(InitialState, GasesTakeATemperature) {
   IdealGasDefinition law;
   law.pressure = 1e5;
   law.temperature = 300.0;
-  const InitialStates states({"m", kDensity, law}, false);
+  const InitialStates states({"m", kDensity, law}, GeometryKind::solid);
   // p = p0 (T/T0) / J
   EXPECT_LT((cauchy(states.find({})) + 1e5 * Mat3::Identity()).norm(), 1e-6);
   EXPECT_LT((cauchy(states.find({std::nullopt, false, 450.0})) + 1.5e5 * Mat3::Identity()).norm(), 1e-6);

@@ -107,8 +107,6 @@ TEST(SceneBadInput, WhatIsNotBuiltYetSaysSo) {
   expect_refused(28, "transport: {}", "transport: not built yet;");
   expect_refused(28, "cracks: {}", "cracks: not built yet;");
   expect_refused(1, "geometry: axisymmetric", "geometry: 'axisymmetric' is not built yet; use solid");
-  expect_refused(1, "geometry: plane_stress", "geometry: 'plane_stress' is not built yet; use plane_strain");
-  expect_refused(1, "geometry: line", "geometry: 'line' is not built yet; use plane_strain");
   expect_refused(8, "  shape: cpdi", "method.shape: 'cpdi' is not built yet; use ugimp");
   expect_refused(9, "  update: usl", "method.update: 'usl' is not built yet; use usavg or usf");
   expect_refused(10, "  transfer: apic", "method.transfer: 'apic' is not built yet; use flip");

@@ -61,7 +61,8 @@ class SorterTest : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Groupings, SorterTest,
                          testing::Values(Case{3, {1, Grouping::By::node}}, Case{3, {4, Grouping::By::node}},
                                          Case{3, {8, Grouping::By::column}}, Case{2, {4, Grouping::By::column}},
-                                         Case{2, {3, Grouping::By::node}}));
+                                         Case{2, {3, Grouping::By::node}}, Case{1, {4, Grouping::By::column}},
+                                         Case{1, {8, Grouping::By::node}}));
 
 TEST_P(SorterTest, IsTheStableSortByBlockAndNodeForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 3}) {

@@ -247,6 +247,15 @@ TEST(Surface, WithoutEndAlongY) {
   EXPECT_EQ(box->thickness(), 0.5);
   EXPECT_EQ(disc->thickness(), 1.0);
   EXPECT_EQ(box->bounds().max.y(), kInfinity);
+  // In a line: the distance along x, whatever y and z are; drawn as a cube.
+  const auto interval = make_box({1.0, kInfinity, kInfinity});
+  EXPECT_EQ(interval->at({0.7, 3.0, -9.0}).distance, 0.7 - 0.5);
+  EXPECT_EQ(interval->at({-0.4, 3.0, -9.0}).distance, 0.4 - 0.5);
+  EXPECT_EQ(interval->at({-0.4, 3.0, -9.0}).normal, Vec3(-1, 0, 0));
+  EXPECT_EQ(interval->thickness(), 1.0);
+  for (const auto& triangle : interval->triangles()) {
+    for (const Vec3& corner : triangle) EXPECT_EQ(corner.cwiseAbs(), Vec3::Constant(0.5));
+  }
   EXPECT_TRUE(disc->bounds().contains({0.0, 1e9, 0.0}));
   for (const Surface* surface : {box.get(), disc.get()}) {
     for (const auto& triangle : surface->triangles()) {
@@ -266,7 +275,7 @@ TEST(Surface, ImpossibleSizesAreRefused) {
   EXPECT_THROW(make_sphere(kInfinity), RigidError);
   EXPECT_THROW(make_cylinder(kInfinity, 1.0), RigidError);
   EXPECT_THROW(make_cylinder(1.0, 1.0, 3), RigidError);
-  EXPECT_THROW(make_box({1.0, kInfinity, kInfinity}), RigidError);
+  EXPECT_THROW(make_box({kInfinity, kInfinity, kInfinity}), RigidError);
   try {
     make_box({1.0, -2.0, 1.0});
     FAIL();

@@ -8,15 +8,15 @@
 #include <algorithm>
 
 #include "page.hpp"
+#include "ring_stress.hpp"
 #include "scene_run.hpp"
 
 namespace verification {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kRate = 2.0 * kPi;                      // [rad/s]
-constexpr double kDensity = 1000.0, kRatio = 0.3 / 0.7;  // of the scene; n above
-constexpr double kScale = kDensity * kRate * kRate / 8.0;
+constexpr double kRate = 2.0 * kPi;                // [rad/s]
+const SteadyDisk kDisk{1000.0, kRate, 0.3 / 0.7};  // of the scene; n above
 
 double angular_momentum(const mpm::Simulation& simulation) {  // over the mass of a particle
   const std::vector<double> x = field(simulation, "x"), z = field(simulation, "z");
@@ -24,60 +24,6 @@ double angular_momentum(const mpm::Simulation& simulation) {  // over the mass o
   double sum = 0.0;
   for (std::size_t p = 0; p < x.size(); ++p) sum += z[p] * vx[p] - x[p] * vz[p];
   return sum;
-}
-
-/// Stress in rings about the centre, the mean over a turn: the disk also swings along its radius.
-class RingStress {
- public:
-  static constexpr int kRings = 10;
-  void add(const mpm::Simulation& simulation) {
-    const std::vector<double> x = field(simulation, "x"), z = field(simulation, "z");
-    const std::vector<double> sxx = field(simulation, "sxx"), szz = field(simulation, "szz");
-    const std::vector<double> sxz = field(simulation, "sxz");
-    for (std::size_t p = 0; p < x.size(); ++p) {
-      const double r2 = x[p] * x[p] + z[p] * z[p], r = std::sqrt(r2);
-      const int ring = std::min(kRings - 1, static_cast<int>(r * kRings));
-      const double radial = (x[p] * x[p] * sxx[p] + 2.0 * x[p] * z[p] * sxz[p] + z[p] * z[p] * szz[p]) / r2;
-      count_[ring] += 1.0;
-      radius_[ring] += r;
-      radial_[ring] += radial;
-      hoop_[ring] += sxx[p] + szz[p] - radial;
-    }
-  }
-  Numbers radius() const { return mean(radius_, 1.0); }
-  Numbers radial() const { return mean(radial_, 1e-3); }  // [kPa]
-  Numbers hoop() const { return mean(hoop_, 1e-3); }
-  /// Of radial + hoop stress over the disk [kPa].
-  double mean_sum() const {
-    double sum = 0.0, count = 0.0;
-    for (int i = 0; i < kRings; ++i) {
-      sum += radial_[i] + hoop_[i];
-      count += count_[i];
-    }
-    return 1e-3 * sum / count;
-  }
-
- private:
-  Numbers mean(const Numbers& sum, double factor) const {
-    Numbers values;
-    for (int i = 0; i < kRings; ++i) values.push_back(factor * sum[i] / count_[i]);
-    return values;
-  }
-  Numbers count_ = Numbers(kRings), radius_ = Numbers(kRings), radial_ = Numbers(kRings), hoop_ = Numbers(kRings);
-};
-
-double exact_radial(double r) { return 1e-3 * (3.0 + kRatio) * kScale * (1.0 - r * r); }                 // [kPa]
-double exact_hoop(double r) { return 1e-3 * kScale * ((3.0 + kRatio) - (1.0 + 3.0 * kRatio) * r * r); }  // [kPa]
-
-/// Largest difference of a ring's stress from the exact one, in percent of the stress at the centre.
-double ring_error(const RingStress& stress) {
-  double worst = 0.0;
-  for (int i = 0; i < RingStress::kRings; ++i) {
-    const double r = stress.radius()[i];
-    worst =
-        std::max({worst, std::abs(stress.radial()[i] - exact_radial(r)), std::abs(stress.hoop()[i] - exact_hoop(r))});
-  }
-  return 100.0 * worst / exact_radial(0.0);
 }
 
 struct Turn {
@@ -162,10 +108,10 @@ TEST(SpinningDisk, AngularMomentumOfATurn) {
   page.report("growth of the energy, USAVG, 20 cells, gradient_terms 1", 100.0 * (one_term.most_energy - 1.0), "%");
   // The virial theorem: half of rho omega^2 R^2. 3 %: the strain, rho omega^2 R^2 / E = 2 %, and the lattice's area,
   // 0.6 %.
-  page.near("mean of σr + σθ, USAVG, 20 cells", usavg.stress.mean_sum(), 4e-3 * kScale, 0.03, "kPa");
-  page.near("mean of σr + σθ, USAVG, 40 cells", fine.stress.mean_sum(), 4e-3 * kScale, 0.03, "kPa");
-  page.report("largest error of a ring's stress, USAVG, 20 cells", ring_error(usavg.stress), "% of the centre's");
-  page.report("largest error of a ring's stress, USAVG, 40 cells", ring_error(fine.stress), "% of the centre's");
+  page.near("mean of σr + σθ, USAVG, 20 cells", usavg.stress.mean_sum(), 4e-3 * kDisk.scale(), 0.03, "kPa");
+  page.near("mean of σr + σθ, USAVG, 40 cells", fine.stress.mean_sum(), 4e-3 * kDisk.scale(), 0.03, "kPa");
+  page.report("largest error of a ring's stress, USAVG, 20 cells", usavg.stress.error(kDisk), "% of the centre's");
+  page.report("largest error of a ring's stress, USAVG, 40 cells", fine.stress.error(kDisk), "% of the centre's");
 
   page.figure()
       .panel("Angular momentum", "time [s]", "over the start")
@@ -177,8 +123,8 @@ TEST(SpinningDisk, AngularMomentumOfATurn) {
   Numbers radius, radial, hoop;
   for (int i = 0; i <= 40; ++i) {
     radius.push_back(i / 40.0);
-    radial.push_back(exact_radial(radius.back()));
-    hoop.push_back(exact_hoop(radius.back()));
+    radial.push_back(kDisk.radial(radius.back()));
+    hoop.push_back(kDisk.hoop(radius.back()));
   }
   page.figure()
       .panel("Stress, mean over the turn and over rings", "radius [m]", "stress [kPa]")

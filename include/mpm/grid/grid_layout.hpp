@@ -1,8 +1,9 @@
 // Where the nodes of the background grid are, and how they are grouped into blocks of 4 nodes along each axis.
 //
 // Nodes are numbered by integers along each axis, node 0 on the domain's lower corner. A planar grid has two axes, the
-// world's x and z. A particle belongs to the block of its nearest node; a block is named by a key, its position in the
-// box of all blocks that the domain could need, so memory follows the blocks in use and never that box.
+// world's x and z; a line has one, x. A particle belongs to the block of its nearest node; a block is named by a key,
+// its position in the box of all blocks that the domain could need, so memory follows the blocks in use and never that
+// box.
 #pragma once
 
 #include <array>
@@ -21,14 +22,16 @@ class GridError : public Error {
 };
 
 inline constexpr int kBlockEdge = 4;  ///< nodes of a block along an axis
+/// Nodes of a block of a grid with `dim` axes.
+constexpr int nodes_of_block(int dim) { return dim == 1 ? kBlockEdge : kBlockEdge * nodes_of_block(dim - 1); }
 
 class GridLayout {
  public:
-  /// `dim` 2 (x, z) or 3; cell sizes [m] > 0. @throws GridError
+  /// `dim` 1 (x), 2 (x, z) or 3; cell sizes [m] > 0. @throws GridError
   GridLayout(int dim, const Vec3& cell, const Vec3& min, const Vec3& max);
 
   int dim() const { return dim_; }
-  int nodes_per_block() const { return dim_ == 3 ? 64 : 16; }
+  int nodes_per_block() const { return nodes_of_block(dim_); }
   /// World axis of grid axis k.
   int axis(int k) const { return dim_ == 3 ? k : 2 * k; }
   double cell(int k) const { return cell_[k]; }
@@ -49,7 +52,7 @@ class GridLayout {
   std::array<int, 3> block(std::uint64_t key) const;
   std::int64_t key_stride(int k) const { return stride_[k]; }
 
-  /// World position of a node of a block; y = 0 in a planar grid.
+  /// World position of a node of a block; 0 along axes that the grid does not have.
   Vec3 node_position(const std::array<int, 3>& block, int local) const;
   /// Node numbers along each axis.
   std::array<int, 3> node(const std::array<int, 3>& block, int local) const;

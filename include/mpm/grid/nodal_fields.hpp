@@ -1,7 +1,9 @@
 // The fields of the grid's nodes that every scene has. One array a field, a block after the other, within a block one
-// component after the other: [block][component][node].
+// component after the other: [block][component][node]. Behind the last block is room for a wide register, since a block
+// of a line, 4 nodes, is shorter than one.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,18 +15,21 @@ namespace mpm {
 
 class NodalField {
  public:
+  static constexpr std::size_t kPadding = 8;  ///< doubles behind the last block that may be read and written
+
   NodalField(int components, int nodes_per_block) : components_(components), nodes_(nodes_per_block) {}
 
   int components() const { return components_; }
-  /// Contents are not kept. Room for a few blocks more is made when there is too little: material that moves takes
-  /// new blocks a few at a time.
+  /// Contents are not kept; the padding is set to zero. Room for a few blocks more is made when there is too little:
+  /// material that moves takes new blocks a few at a time.
   void resize(int blocks) {
-    const std::size_t size = static_cast<std::size_t>(blocks) * components_ * nodes_;
+    const std::size_t used = static_cast<std::size_t>(blocks) * components_ * nodes_, size = used + kPadding;
     if (size > data_.capacity()) {
       data_ = std::vector<double>();
       data_.reserve(size + size / 16);
     }
     data_.resize(size);
+    std::fill_n(data_.begin() + static_cast<std::ptrdiff_t>(used), kPadding, 0.0);
   }
   double* data() { return data_.data(); }
   double* block(int b) { return data_.data() + static_cast<std::size_t>(b) * components_ * nodes_; }

@@ -180,22 +180,30 @@ class Gather {
     }
   }
 
-  // visit(row of the tile, its place along each axis but the last) for the rows around the middle one.
+  // visit(row of the tile, its place along each axis but the last) for the rows around the middle one. Five rows along
+  // an axis are a loop: unrolled, they would take a compiler minutes.
   template <class Visit>
   static void each_row(int middle, Visit&& visit) {
-    if constexpr (Dim == 3) {
-#pragma GCC unroll 5
+    if constexpr (Dim == 1) {
+      visit(middle, 0, 0);
+    } else if constexpr (kNodes == 3 && Dim == 3) {
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+#pragma GCC unroll 3
+        for (int j = 0; j < 3; ++j) visit(middle + (i - 1) * kTileEdge + j - 1, i, j);
+      }
+    } else if constexpr (kNodes == 3) {
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) visit(middle + i - 1, i, 0);
+    } else {
+      constexpr int kReach = kNodes / 2;
       for (int i = 0; i < kNodes; ++i) {
-#pragma GCC unroll 5
-        for (int j = 0; j < kNodes; ++j) {
-          visit(middle + (i - kNodes / 2) * kTileEdge + j - kNodes / 2, i, j);
+        if constexpr (Dim == 3) {
+          for (int j = 0; j < kNodes; ++j) visit(middle + (i - kReach) * kTileEdge + j - kReach, i, j);
+        } else {
+          visit(middle + i - kReach, i, 0);
         }
       }
-    } else if constexpr (Dim == 2) {
-#pragma GCC unroll 5
-      for (int i = 0; i < kNodes; ++i) visit(middle + i - kNodes / 2, i, 0);
-    } else {
-      visit(middle, 0, 0);
     }
   }
 };

@@ -85,9 +85,10 @@ struct SetView {
 };
 
 struct StrainSettings {
-  double dt;       ///< [s]
-  int terms;       ///< of exp(grad v dt)
-  bool and_force;  ///< the internal force goes to the grid
+  double dt;                           ///< [s]
+  int terms;                           ///< of exp(grad v dt)
+  bool and_force;                      ///< the internal force goes to the grid
+  const double* dilatation = nullptr;  ///< on the nodes, to take in place of the particles' own (mean.hpp) [1/s]
 };
 
 struct MoveSettings {
@@ -167,7 +168,10 @@ struct KernelTable {
   const LawKernels<T>* laws;    ///< by index in the list of laws (material/law.hpp)
   Scatter scatter_momentum[2];  ///< m v and m; with the affine field of APIC
   Failure (*strain)(const GridView&, const BlockView&, const SetView<T>*, int sets, const StrainSettings&);
-  Scatter force;  ///< of the stress as it is
+  /// The internal force of the stress as it is; with `pressure` on the nodes in place of the particles' own (mean.hpp).
+  void (*force)(const GridView&, const BlockView&, const SetView<T>*, int sets, const double* pressure);
+  /// `to` += m S times the particles' dilatation tr(grad v) [kg/s], or mean stress in the grid's axes [J].
+  void (*spread_mean[2])(const GridView&, const BlockView&, const SetView<T>*, int sets, double* to);
   MovePass<T> move[kMotions]
                   [2];  ///< without damping in the particles' update, and with it (the same but for kIncrement)
   void (*scatter_load)(const GridView&, const BlockView&, const SetView<T>*, int sets, double* field);

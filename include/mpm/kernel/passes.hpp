@@ -6,6 +6,7 @@
 #include "mpm/kernel/advance.hpp"
 #include "mpm/kernel/chunks.hpp"
 #include "mpm/kernel/gather.hpp"
+#include "mpm/kernel/mean.hpp"
 #include "mpm/kernel/nodes.hpp"
 #include "mpm/kernel/scatter.hpp"
 
@@ -32,6 +33,7 @@ class Passes {
             {&scatter_momentum<false>, &scatter_momentum<true>},
             &strain,
             &force,
+            {&spread_mean<false>, &spread_mean<true>},
             {{&move<mpm_kernel::kIncrement, false>, &move<mpm_kernel::kIncrement, true>},
              {&move<mpm_kernel::kAdopt, true>, &move<mpm_kernel::kAdopt, true>},
              {&move<mpm_kernel::kAffine, true>, &move<mpm_kernel::kAffine, true>}},
@@ -87,6 +89,8 @@ class Passes {
     const BlockView block = whole(given);
     GatherTile<T, kDim, kDim> velocity;
     velocity.template load<kDim>(grid.velocity, block, 0);
+    GatherTile<T, kDim, 1> dilatation;
+    if (settings.dilatation != nullptr) dilatation.template load<1>(settings.dilatation, block, 0);
     ScatterTile<T, kDim> force;
     if (settings.and_force) force.clear(block);
     AllWeights w;
@@ -100,13 +104,14 @@ class Passes {
       each_chunk(set, block.owner, [&](int first, int g, int g_end) {
         const int particles = static_cast<int>(set.group[g_end]) - first;
         w.template fill<Beside::gradient>(frame, first, particles);
-        each_group(set, first, g, g_end, [&](int q, int lanes) {
-          W l[kDim][kDim];
-          gather_gradient(velocity, w, q, lanes, l);
-          for (int c = 0; c < kDim; ++c) {
-            for (int k = 0; k < kDim; ++k) l[c][k].store(gradients.l[c * kDim + k] + q);
+        gather_gradients(velocity, w, set, first, g, g_end, gradients);
+        if (settings.dilatation != nullptr) {
+          alignas(64) T mean[kBuffer];
+          gather_scalar(dilatation, w, set, first, g, g_end, mean);
+          for (int q = 0; q < particles; q += W::kLanes) {
+            Mean<T, kDim>::set_dilatation(gradients, q, W::load(mean + q));
           }
-        });
+        }
         const int bad = set.law_kernels->update(sets[s], first, particles, gradients, settings,
                                                 settings.and_force ? &stresses : nullptr);
         if (bad < particles && failure.set < 0) failure = {s, first + bad};
@@ -117,8 +122,10 @@ class Passes {
     return failure;
   }
 
-  static void force(const GridView& grid, const BlockView& given, const Set* sets, int count) {
+  static void force(const GridView& grid, const BlockView& given, const Set* sets, int count, const double* pressure) {
     const BlockView block = whole(given);
+    GatherTile<T, kDim, 1> means;
+    if (pressure != nullptr) means.template load<1>(pressure, block, 0);
     ScatterTile<T, kDim> tile;
     tile.clear(block);
     AllWeights w;
@@ -127,14 +134,60 @@ class Passes {
       if (absent(sets[s], block)) continue;
       const Set set = sets[s];
       const Frame frame(grid, block, set);
-      each_chunk(set, block.owner, [&](int first, int, int g_end) {
+      each_chunk(set, block.owner, [&](int first, int g, int g_end) {
         const int particles = static_cast<int>(set.group[g_end]) - first;
         w.template fill<Beside::gradient>(frame, first, particles);
         set.law_kernels->columns(sets[s], first, particles, stresses);
+        if (pressure != nullptr) {
+          alignas(64) T mean[kBuffer];
+          gather_scalar(means, w, set, first, g, g_end, mean);
+          for (int q = 0; q < particles; ++q) {
+            Mean<T, kDim>::set_mean(stresses, q, static_cast<T>(-set.mass) * mean[q]);
+          }
+        }
         Scatters::scatter(w, stresses, particles, tile.data());
       });
     }
     tile.template add_to<kDim>(grid.force, block, 0);
+  }
+
+  template <bool OfStress>
+  static void spread_mean(const GridView& grid, const BlockView& given, const Set* sets, int count, double* to) {
+    const BlockView block = whole(given);
+    GatherTile<T, kDim, kDim> velocity;
+    if constexpr (!OfStress) velocity.template load<kDim>(grid.velocity, block, 0);
+    ScatterTile<T, kDim> tile;
+    tile.clear(block);
+    AllWeights w;
+    Values values;
+    mpm_kernel::ChunkGradients<T> gradients;
+    mpm_kernel::ChunkStresses<T> stresses;
+    for (int s = 0; s < count; ++s) {
+      if (absent(sets[s], block)) continue;
+      const Set set = sets[s];
+      const Frame frame(grid, block, set);
+      const W mass(set.mass);
+      each_chunk(set, block.owner, [&](int first, int g, int g_end) {
+        const int particles = static_cast<int>(set.group[g_end]) - first;
+        w.template fill<OfStress ? Beside::nothing : Beside::gradient>(frame, first, particles);
+        alignas(64) T mean[kBuffer] = {};
+        if constexpr (OfStress) {
+          set.law_kernels->columns(sets[s], first, particles, stresses);
+          for (int q = 0; q < particles; ++q) mean[q] = -Mean<T, kDim>::mean(stresses, q);
+        } else {
+          gather_gradients(velocity, w, set, first, g, g_end, gradients);
+          for (int q = 0; q < particles; q += W::kLanes) {
+            (mass * Mean<T, kDim>::dilatation(gradients, q)).store(mean + q);
+          }
+        }
+        for (int q = 0; q < particles; q += W::kLanes) {
+          values.set(q, W::load(mean + q), W(0.0), W(0.0), W(0.0));
+        }
+        values.set_weights(w, particles);
+        Scatters::scatter(w, values, particles, tile.data());
+      });
+    }
+    tile.template add_to<1>(to, block, 0);
   }
 
   template <mpm_kernel::Motion Kind, bool Damped>
@@ -252,6 +305,30 @@ class Passes {
     }
     Gathers::each_part(w, q, lanes, [&](const auto& reader, int row, const auto& weights) {
       Gathers::gradient(tile, reader, row, weights, l);
+    });
+  }
+
+  // Gradients of a chunk's groups.
+  template <class Tile>
+  static void gather_gradients(const Tile& tile, const AllWeights& w, const Set& set, int first, int g, int g_end,
+                               mpm_kernel::ChunkGradients<T>& gradients) {
+    each_group(set, first, g, g_end, [&](int q, int lanes) {
+      W l[kDim][kDim];
+      gather_gradient(tile, w, q, lanes, l);
+      for (int c = 0; c < kDim; ++c) {
+        for (int k = 0; k < kDim; ++k) l[c][k].store(gradients.l[c * kDim + k] + q);
+      }
+    });
+  }
+  // A scalar field at a chunk's particles.
+  static void gather_scalar(const GatherTile<T, kDim, 1>& tile, const AllWeights& w, const Set& set, int first, int g,
+                            int g_end, T* to) {
+    each_group(set, first, g, g_end, [&](int q, int lanes) {
+      W sum[1] = {W(0.0)};
+      Gathers::each_part(w, q, lanes, [&](const auto& reader, int row, const auto& weights) {
+        Gathers::values(tile, reader, row, weights, sum);
+      });
+      sum[0].store(to + q);
     });
   }
 

@@ -12,6 +12,7 @@
 #include "mpm/kernel/chunks.hpp"
 #include "mpm/kernel/domain.hpp"
 #include "mpm/kernel/interleave.hpp"
+#include "mpm/kernel/mean.hpp"
 #include "mpm/kernel/nodes.hpp"
 
 namespace mpm {
@@ -36,6 +37,7 @@ class PointPasses {
             {&scatter_momentum<false>, &scatter_momentum<true>},
             &strain,
             &force,
+            {&spread_mean<false>, &spread_mean<true>},
             {{&move<mpm_kernel::kIncrement, false>, &move<mpm_kernel::kIncrement, true>},
              {&move<mpm_kernel::kAdopt, true>, &move<mpm_kernel::kAdopt, true>},
              {&move<mpm_kernel::kAffine, true>, &move<mpm_kernel::kAffine, true>}},
@@ -125,6 +127,8 @@ class PointPasses {
     const BlockView block = whole(given);
     PointTile<T, Dim> velocity;
     velocity.template load<Dim>(grid.velocity, block);
+    PointTile<T, Dim> dilatation;
+    if (settings.dilatation != nullptr) dilatation.template load<1>(settings.dilatation, block);
     Tile tile;
     if (settings.and_force) tile.clear(block);
     mpm_kernel::ChunkGradients<T> gradients;
@@ -132,15 +136,11 @@ class PointPasses {
     mpm_kernel::Failure failure{-1, 0};
     each(grid, block, sets, count, [&](const Set& set, int number, Frame& frame, int first, int particles) {
       frame.fill(first, particles);
-      for (int q = 0; q < particles; ++q) {
-        Four by_axis[Dim] = {};  // d v / d x_k
-        for (int a = 0; a < kPoints; ++a) {
-          const Four v = velocity.at(frame.point(a, q));
-          for (int k = 0; k < Dim; ++k) by_axis[k] += frame.gradient(a, k, q) * v;
-        }
-        for (int c = 0; c < Dim; ++c) {
-          for (int k = 0; k < Dim; ++k) gradients.l[c * Dim + k][q] = by_axis[k][c];
-        }
+      gather_gradients(frame, velocity, particles, gradients);
+      if (settings.dilatation != nullptr) {
+        alignas(64) T mean[kRoom] = {};
+        for (int q = 0; q < particles; ++q) mean[q] = gather(frame, dilatation, q)[0];
+        for (int q = 0; q < particles; q += W::kLanes) Mean<T, Dim>::set_dilatation(gradients, q, W::load(mean + q));
       }
       const int bad =
           set.law_kernels->update(set, first, particles, gradients, settings, settings.and_force ? &stresses : nullptr);
@@ -151,17 +151,72 @@ class PointPasses {
     return failure;
   }
 
-  static void force(const GridView& grid, const BlockView& given, const Set* sets, int count) {
+  static void gather_gradients(const Frame& frame, const PointTile<T, Dim>& velocity, int particles,
+                               mpm_kernel::ChunkGradients<T>& gradients) {
+    for (int q = 0; q < particles; ++q) {
+      Four by_axis[Dim] = {};  // d v / d x_k
+      for (int a = 0; a < kPoints; ++a) {
+        const Four v = velocity.at(frame.point(a, q));
+        for (int k = 0; k < Dim; ++k) by_axis[k] += frame.gradient(a, k, q) * v;
+      }
+      for (int c = 0; c < Dim; ++c) {
+        for (int k = 0; k < Dim; ++k) gradients.l[c * Dim + k][q] = by_axis[k][c];
+      }
+    }
+  }
+  static Four gather(const Frame& frame, const PointTile<T, Dim>& tile, int q) {
+    Four sum{};
+    for (int a = 0; a < kPoints; ++a) sum += frame.weight(a) * tile.at(frame.point(a, q));
+    return sum;
+  }
+
+  static void force(const GridView& grid, const BlockView& given, const Set* sets, int count, const double* pressure) {
     const BlockView block = whole(given);
+    PointTile<T, Dim> means;
+    if (pressure != nullptr) means.template load<1>(pressure, block);
     Tile tile;
     tile.clear(block);
     mpm_kernel::ChunkStresses<T> stresses;
     each(grid, block, sets, count, [&](const Set& set, int, Frame& frame, int first, int particles) {
       frame.fill(first, particles);
       set.law_kernels->columns(set, first, particles, stresses);
+      for (int q = 0; pressure != nullptr && q < particles; ++q) {
+        Mean<T, Dim>::set_mean(stresses, q, static_cast<T>(-set.mass) * gather(frame, means, q)[0]);
+      }
       spread_stresses(frame, stresses, particles, tile);
     });
     tile.template add_to<Dim>(grid.force, block, 0);
+  }
+
+  template <bool OfStress>
+  static void spread_mean(const GridView& grid, const BlockView& given, const Set* sets, int count, double* to) {
+    const BlockView block = whole(given);
+    PointTile<T, Dim> velocity;
+    if constexpr (!OfStress) velocity.template load<Dim>(grid.velocity, block);
+    Tile tile;
+    tile.clear(block);
+    mpm_kernel::ChunkGradients<T> gradients;
+    mpm_kernel::ChunkStresses<T> stresses;
+    each(grid, block, sets, count, [&](const Set& set, int, Frame& frame, int first, int particles) {
+      frame.fill(first, particles);
+      if constexpr (OfStress) {
+        set.law_kernels->columns(set, first, particles, stresses);
+      } else {
+        gather_gradients(frame, velocity, particles, gradients);
+      }
+      for (int q = 0; q < particles; ++q) {
+        Four value{};
+        if constexpr (OfStress) {
+          value[0] = -Mean<T, Dim>::mean(stresses, q);
+        } else {
+          T trace = 0;
+          for (int k = 0; k < Dim; ++k) trace += gradients.l[k * (Dim + 1)][q];
+          value[0] = static_cast<T>(set.mass) * trace;
+        }
+        spread_all(frame, q, value, tile);
+      }
+    });
+    tile.template add_to<1>(to, block, 0);
   }
 
   static void spread_stresses(const Frame& frame, const mpm_kernel::ChunkStresses<T>& stresses, int particles,
@@ -238,9 +293,7 @@ class PointPasses {
     each(grid, block, sets, count, [&](const Set& set, int, Frame& frame, int first, int particles) {
       frame.fill(first, particles);
       for (int q = 0; q < particles; ++q) {
-        Four v{};
-        for (int a = 0; a < kPoints; ++a) v += frame.weight(a) * field.at(frame.point(a, q));
-        spread_all(frame, q, static_cast<T>(set.mass) * v, tile);
+        spread_all(frame, q, static_cast<T>(set.mass) * gather(frame, field, q), tile);
       }
     });
     tile.template add_to<Dim>(to, block, 0);

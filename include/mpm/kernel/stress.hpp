@@ -10,6 +10,7 @@
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/kernel/wide_math.hpp"
 #include "mpm/material/increment.hpp"
+#include "mpm/material/plane_stress.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/math/exponential.hpp"
 
@@ -69,17 +70,23 @@ class Stress {
       for (int c = 0; c < kDim; ++c) {
         for (int k = 0; k < kDim; ++k) l[c][k] = W::load(gradients.l[c * kDim + k] + q) * dt;
       }
-      const auto du = Geometry::gradient(l);
       const auto old = Geometry::load_matrix(WideReader<T>{set.f, lanes}, p);
-      const auto df = exponential(du, settings.terms);
       const W j_old = determinant(old);
-      auto now = product(df, old);
-      if constexpr (LawType::kForgetsShape) now = Geometry::dilatation(j_old * determinant(df));
-      const W j = determinant(now);
+      auto now = old;
+      W j;
       auto stress = Geometry::load_symmetric(WideReader<T>{set.tau, lanes}, p);
       W history[LawType::kHistory + 1];
       for (int h = 0; h < LawType::kHistory; ++h) history[h] = W::load_first(set.history[h] + p, lanes);
-      law.update(Increment<W, std::decay_t<decltype(du)>>{du, df, now, j_old, j, dt}, stress, history);
+      if constexpr (std::is_same_v<Geometry, PlaneStress>) {
+        plane_stress_update(law, l, settings.terms, old, dt, stress, history, now, j_old, j);
+      } else {
+        const auto du = Geometry::gradient(l);
+        const auto df = exponential(du, settings.terms);
+        now = product(df, old);
+        if constexpr (LawType::kForgetsShape) now = Geometry::dilatation(j_old * determinant(df));
+        j = determinant(now);
+        law.update(Increment<W, std::decay_t<decltype(du)>>{du, df, now, j_old, j, dt}, stress, history);
+      }
       Geometry::store_matrix(now, WideWriter<T>{set.f, lanes}, p);
       Geometry::store_symmetric(stress, WideWriter<T>{set.tau, lanes}, p);
       for (int h = 0; h < LawType::kHistory; ++h) history[h].store_first(set.history[h] + p, lanes);

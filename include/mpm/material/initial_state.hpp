@@ -2,10 +2,14 @@
 // means the same in every law; what differs is what the law keeps it in:
 //
 //   the stress itself    linear_elastic, drucker_prager, mohr_coulomb: F = I
-//   J and the stress     j2_plasticity: pressure by a change of volume, the deviator is carried; F = J^(1/dim) I
+//   J and the stress     j2_plasticity: pressure by a change of volume along the axes that can strain, the deviator is
+//                        carried
 //   J alone              newtonian_fluid, ideal_gas: pressure; a deviator cannot be carried
 //   F                    neo_hookean, viscoelastic: F is the pure stretch that has this stress, found in principal
 //                        axes by Newton's method. In plane strain F_yy = 1, so yy follows from the rest.
+//
+// In a line F_yy = F_zz = 1 and the stress has one free component, xx; in plane stress yy is zero and F_yy is found as
+// the rest of F is, where a law keeps it in F.
 //
 // Found from the laws themselves, by a step without motion that lasts for ever: what relaxes has relaxed, what flows
 // has come to rest. A stress that such a step changes cannot be carried, above all one outside a yield surface.
@@ -15,6 +19,7 @@
 #include <string>
 
 #include "mpm/material/law.hpp"
+#include "mpm/math/geometry_kind.hpp"
 #include "mpm/math/tensor.hpp"
 
 namespace mpm {
@@ -35,14 +40,14 @@ struct InitialState {
 /// What a particle is asked to start in.
 struct InitialRequest {
   std::optional<Symmetric3<double>> cauchy;  ///< [Pa], tension positive
-  bool yy_follows = false;                   ///< planar: cauchy.yy is what plane strain makes it
+  bool yy_follows = false;                   ///< plane strain: cauchy.yy is what it makes it; always so in a line
   std::optional<double> temperature;         ///< [K]
 };
 
 class InitialStates {
  public:
-  /// `planar`: no strain along y. @throws MaterialError
-  InitialStates(const MaterialDefinition& material, bool planar);
+  /// @throws MaterialError
+  InitialStates(const MaterialDefinition& material, GeometryKind geometry);
 
   /// @throws InitialStateError
   InitialState find(const InitialRequest& request) const;
@@ -63,7 +68,7 @@ class InitialStates {
 
   MaterialDefinition material_;
   Law law_;
-  bool planar_;
+  GeometryKind geometry_;
   double least_ = 0.0;  ///< stress that is round-off of the stiffness [Pa]
 };
 

@@ -1,11 +1,14 @@
 // The geometries that the kernels are compiled for: number of axes, which world axes they are, and how the tensors of
 // a particle lie in structure-of-arrays storage. The one place that an out-of-plane policy is stated.
 //
-// Storage is whatever gives component c of particle p as a[c][p]: arrays of numbers, or views of them as registers.
+// In every geometry the first kDim x kDim stored components of the deformation gradient are its rows in the grid's
+// axes. Storage is whatever gives component c of particle p as a[c][p]: arrays of numbers, or views of them as
+// registers.
 #pragma once
 
 #include <type_traits>
 
+#include "mpm/math/geometry_kind.hpp"
 #include "mpm/math/tensor.hpp"
 
 namespace mpm {
@@ -110,5 +113,74 @@ struct PlaneStrain {
     }
   }
 };
+
+/// Two dimensions, x and z; no stress along y: a thin plate with free faces. The strain along y is what the law makes
+/// it (material/plane_stress.hpp) and is stored beside the others.
+struct PlaneStress : PlaneStrain {
+  static constexpr int kMatrix = 5;
+
+  template <class Arrays>
+  static auto load_matrix(const Arrays& a, int p) {
+    using T = std::decay_t<decltype(a[0][p])>;
+    return MatrixPlane<T>{a[0][p], a[1][p], a[2][p], a[3][p], a[4][p]};
+  }
+  template <class T, class Arrays>
+  static void store_matrix(const MatrixPlane<T>& m, const Arrays& a, int p) {
+    PlaneStrain::store_matrix(m, a, p);
+    a[4][p] = m.yy;
+  }
+};
+
+/// One dimension, x; no strain along y and z, whose stresses follow from the law: a column between smooth stiff walls.
+/// A bar with free sides is a line of a material whose Poisson's ratio is 0.
+struct Line {
+  static constexpr int kDim = 1;
+  static constexpr int kMatrix = 1;
+  static constexpr int kSymmetric = 3;
+  template <class T>
+  using Matrix = MatrixPlane<T>;
+  template <class T>
+  using Symmetric = SymmetricPlane<T>;
+
+  template <class Arrays>
+  static auto load_matrix(const Arrays& a, int p) {
+    using T = std::decay_t<decltype(a[0][p])>;
+    return MatrixPlane<T>{a[0][p], T(0), T(0), T(1), T(1)};
+  }
+  template <class T, class Arrays>
+  static void store_matrix(const MatrixPlane<T>& m, const Arrays& a, int p) {
+    a[0][p] = m.xx;
+  }
+  template <class Arrays>
+  static auto load_symmetric(const Arrays& a, int p) {
+    using T = std::decay_t<decltype(a[0][p])>;
+    return SymmetricPlane<T>{a[0][p], a[2][p], T(0), a[1][p]};
+  }
+  template <class T, class Arrays>
+  static void store_symmetric(const SymmetricPlane<T>& s, const Arrays& a, int p) {
+    a[0][p] = s.xx, a[1][p] = s.yy, a[2][p] = s.zz;
+  }
+  template <class T>
+  static MatrixPlane<T> gradient(const T (&l)[1][1]) {
+    return {l[0][0], T(0), T(0), T(0), T(0)};
+  }
+  template <class T>
+  static MatrixPlane<T> dilatation(T j) {
+    return {j, T(0), T(0), T(1), T(1)};
+  }
+  template <class T>
+  static void column(const SymmetricPlane<T>& s, int, T (&c)[1]) {
+    c[0] = s.xx;
+  }
+};
+
+/// visit(Line()), visit(PlaneStrain()), … as `kind` says.
+template <class Visit>
+decltype(auto) with_geometry(GeometryKind kind, Visit&& visit) {
+  if (kind == GeometryKind::line) return visit(Line());
+  if (kind == GeometryKind::plane_strain) return visit(PlaneStrain());
+  if (kind == GeometryKind::plane_stress) return visit(PlaneStress());
+  return visit(Solid());
+}
 
 }  // namespace mpm

@@ -17,8 +17,9 @@ namespace mpm {
 /// What the kernels are told once.
 struct ContinuumSettings {
   Transfer transfer;
-  int gradient_terms = 2;       ///< of exp(grad v dt)
-  Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
+  bool average_dilatation = false;  ///< volume changes and pressures averaged over the grid (kernel/mean.hpp)
+  int gradient_terms = 2;           ///< of exp(grad v dt)
+  Vec3 gravity = Vec3::Zero();      ///< [m/s^2]
   int threads = 1;
 };
 

@@ -49,7 +49,8 @@ struct TriangleMesh {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// Edge lengths [m], all positive (one may be infinite: y in planar scenes), centred on the origin.
+/// Edge lengths [m], all positive (infinite along axes that the scene does not have: y in a plane, y and z in a line),
+/// centred on the origin.
 /// @throws RigidError
 std::unique_ptr<Surface> make_box(const Vec3& size);
 /// @throws RigidError

@@ -10,6 +10,6 @@ double usable_memory();
 
 /// What a run holds of each particle at least, while it sorts [bytes]: what the particle carries, scratch, and its
 /// share of the grid's nodes. History, outputs and nodes that few particles share come on top.
-double least_bytes_of_particle(const MethodDefinition& method, bool planar);
+double least_bytes_of_particle(const MethodDefinition& method, GeometryKind geometry);
 
 }  // namespace mpm

@@ -12,6 +12,7 @@
 
 #include "mpm/math/function.hpp"
 #include "mpm/math/geometry.hpp"
+#include "mpm/math/geometry_kind.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/scene/source.hpp"
 #include "mpm/scene/units.hpp"
@@ -22,7 +23,7 @@ namespace mpm {
 struct ReadContext {
   const Source* source = nullptr;
   UnitSystem units;
-  bool planar = false;  ///< vectors have two components (x, z)
+  GeometryKind geometry = GeometryKind::solid;  ///< says which components vectors have
 };
 
 /// A key or word of a feature that is not built yet, and what can be used.
@@ -59,7 +60,7 @@ class Value {
   std::size_t choice(const std::vector<std::string>& words, const std::vector<Later>& later = {}) const;
   /// A number, a quantity, or an expression of t, x, y, z (and X, Y, Z where told) in the scene's units.
   Function function(const Dimension& dimension, FunctionPlaces places = FunctionPlaces::present) const;
-  /// Three components, or two (x, z) in planar scenes, where y is 0.
+  /// Three components; two (x, z) in planar scenes; one, with or without brackets, in a line. The others are 0.
   Vec3 vector(const Dimension& dimension) const;
   std::array<Function, 3> functions(const Dimension& dimension, FunctionPlaces places = FunctionPlaces::present) const;
   /// Exactly three components, in planar scenes too (rotations).

@@ -41,7 +41,9 @@ std::string read_particle_field(const Value& value);
 double particle_spacing(const Scene& scene, int axis);
 /// Name of the world's axis.
 const char* axis_name(int axis);
-/// Axes of the scene's space: x, z or x, y, z.
+/// World axes of the scene's grid (math/geometry_kind.hpp).
 std::vector<int> axes_of(const Scene& scene);
+/// "a line", "a planar scene", "a solid scene".
+const char* scene_kind(GeometryKind geometry);
 
 }  // namespace mpm

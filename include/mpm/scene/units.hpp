@@ -28,6 +28,7 @@ struct Dimension {
 
 inline constexpr Dimension kPlain{};
 inline constexpr Dimension kLength{1, 0, 0, 0};
+inline constexpr Dimension kArea{2, 0, 0, 0};
 inline constexpr Dimension kMass{0, 1, 0, 0};
 inline constexpr Dimension kTime{0, 0, 1, 0};
 inline constexpr Dimension kAngle{0, 0, 0, 1};

@@ -1,5 +1,6 @@
 // Everything a Simulation is made from, in SI, with its defaults. A Scene fills this in; tests may do so by hand.
-// Planar scenes lie in the x-z plane: y components are ignored, `thickness` is along y.
+// Planar scenes lie in the x-z plane: y components are ignored, `thickness` is along y. A line lies along x: y and z
+// components are ignored, `area` is across it.
 #pragma once
 
 #include <array>
@@ -59,8 +60,9 @@ struct DeformableBody {
   std::vector<Vec3> positions;               ///< particle centres [m]
   std::vector<Vec3> velocities;              ///< one each, or empty for rest [m/s]
   std::vector<Symmetric3<double>> stresses;  ///< Cauchy stress to start under, one each, or empty [Pa]
-  bool yy_follows = false;                   ///< planar: yy of these is what plane strain makes it
-  std::vector<double> temperatures;          ///< to start at, one each, or empty for the material's own [K]
+  /// Plane strain: yy of these is what plane strain makes it. Always so of a line's yy and zz; plane stress has none.
+  bool yy_follows = false;
+  std::vector<double> temperatures;  ///< to start at, one each, or empty for the material's own [K]
   std::optional<GeostaticDefinition> geostatic;
   double particle_volume = 0.0;  ///< volume of one particle at the start [m^3]
 };
@@ -84,6 +86,7 @@ struct SimulationDefinition {
   std::string name;
   GeometryKind geometry = GeometryKind::solid;
   double thickness = 1.0;  ///< of a planar scene, along y [m]
+  double area = 1.0;       ///< of a line, across x [m^2]
   GridDefinition grid;
   TimeDefinition time;
   MethodDefinition method;
@@ -94,6 +97,9 @@ struct SimulationDefinition {
   std::array<WallDefinition, 6> walls;
   std::vector<BodyForceDefinition> body_forces;
   std::vector<MetricDefinition> metrics;
+
+  /// What a particle has beyond the grid's axes: thickness [m] of a plane, area [m^2] of a line, 1 of a solid.
+  double across() const { return planar(geometry) ? thickness : (geometry == GeometryKind::line ? area : 1.0); }
 };
 
 }  // namespace mpm

@@ -16,7 +16,7 @@ struct RunSummary {
   RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::EnergyReport& start_energy,
              const std::vector<mpm::ContactReport>& contacts);
 
-  /// Keys and units as doc/scene.md lists them; the order of the keys is kept.
+  /// Keys and units as doc/analysis.md lists them; the order of the keys is kept.
   nlohmann::ordered_json json() const;
   /// A few lines, each ended.
   std::string text() const;

@@ -10,6 +10,8 @@
   const mpm_kernel::PassFamily& qcpdi_passes();         \
   const mpm_kernel::PassFamily& bspline2_passes();      \
   const mpm_kernel::PassFamily& bspline3_passes();      \
+  const mpm_kernel::LawFamily& line_laws();             \
+  const mpm_kernel::LawFamily& plane_stress_laws();     \
   const mpm_kernel::LawFamily& plane_strain_laws();     \
   const mpm_kernel::LawFamily& solid_laws();            \
   }
@@ -32,9 +34,8 @@ constexpr const mpm_kernel::PassFamily& (*kPasses[][3])() = {
     MPM_KERNELS(dirac_passes),   MPM_KERNELS(ugimp_passes), MPM_KERNELS(ugimp_stretch_passes),
     MPM_KERNELS(cpdi_passes),    MPM_KERNELS(qcpdi_passes), MPM_KERNELS(bspline2_passes),
     MPM_KERNELS(bspline3_passes)};
-constexpr const mpm_kernel::LawFamily& (*kLaws[][3])() = {MPM_KERNELS(plane_strain_laws),
-                                                          MPM_KERNELS(plane_strain_laws),
-                                                          MPM_KERNELS(plane_strain_laws), MPM_KERNELS(solid_laws)};
+constexpr const mpm_kernel::LawFamily& (*kLaws[][3])() = {MPM_KERNELS(line_laws), MPM_KERNELS(plane_strain_laws),
+                                                          MPM_KERNELS(plane_stress_laws), MPM_KERNELS(solid_laws)};
 
 }  // namespace
 

@@ -63,14 +63,19 @@ std::string text(const Symmetric3<double>& s) {
 
 bool finite(const Symmetric3<double>& s) { return std::isfinite(s.xx + s.yy + s.zz + s.yz + s.xz + s.xy); }
 
-Matrix3<double> dilatation(double j, bool planar) {
-  if (!planar) return Solid::dilatation(j);
-  const double edge = std::sqrt(j);
-  return {edge, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, edge};
+/// Axes along which the material can strain. In principal axes they are the first ones.
+int free_axes(GeometryKind geometry) { return geometry == GeometryKind::plane_stress ? 3 : dimensions(geometry); }
+
+Matrix3<double> dilatation(double j, GeometryKind geometry) {
+  const int axes = free_axes(geometry);
+  if (axes == 3) return Solid::dilatation(j);
+  const double edge = axes == 1 ? j : std::sqrt(j);
+  return {edge, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, axes == 1 ? 1.0 : edge};
 }
 
-Principal<double> axes_of(const Symmetric3<double>& s, bool planar) {
-  return planar ? principal(SymmetricPlane<double>{s.xx, s.zz, s.xz, s.yy}) : principal(s);
+/// x, z or, turned in the plane, what is principal there; then y.
+Principal<double> principal_axes(const Symmetric3<double>& s, GeometryKind geometry) {
+  return free_axes(geometry) == 3 ? principal(s) : principal(SymmetricPlane<double>{s.xx, s.zz, s.xz, s.yy});
 }
 
 Matrix3<double> stretch(const Principal<double>& axes) {
@@ -80,8 +85,8 @@ Matrix3<double> stretch(const Principal<double>& axes) {
 
 }  // namespace
 
-InitialStates::InitialStates(const MaterialDefinition& material, bool planar)
-    : material_(material), law_(make_law(material)), planar_(planar) {
+InitialStates::InitialStates(const MaterialDefinition& material, GeometryKind geometry)
+    : material_(material), law_(make_law(material)), geometry_(geometry) {
   const double speed =
       std::visit([&](const auto& law) { return law.wave_speed(Matrix3<double>::identity(), held({}), 1.0); }, law_);
   least_ = kRoundOff * material.density * speed * speed;
@@ -95,7 +100,9 @@ int InitialStates::temperature_index() const {
   return std::visit([](const auto& law) { return law.kTemperature; }, law_);
 }
 
-bool InitialStates::yy_is_bound() const { return planar_ && std::visit(WhatIsKept(), law_) == Keeps::deformation; }
+bool InitialStates::yy_is_bound() const {
+  return geometry_ == GeometryKind::plane_strain && std::visit(WhatIsKept(), law_) == Keeps::deformation;
+}
 
 Symmetric3<double> InitialStates::held(const InitialState& state) const {
   return std::visit(
@@ -133,10 +140,19 @@ InitialState InitialStates::find(const InitialRequest& request) const {
   }
   Symmetric3<double> cauchy = *request.cauchy;
   if (!finite(cauchy)) refuse(fmt::format("cannot start under a stress that is not finite: {}", text(cauchy)));
+  if (geometry_ == GeometryKind::plane_stress && cauchy.yy != 0.0) {
+    refuse(fmt::format("cannot have yy = {:.6g} Pa in plane stress, which has none; leave yy out", cauchy.yy));
+  }
   const Keeps keeps = std::visit(WhatIsKept(), law_);
-  if (request.yy_follows && keeps != Keeps::deformation) {
-    // No strain along y from the state without stress; a fluid has the same pressure in all directions.
-    cauchy.yy = std::visit(PoissonRatio(), material_.law).value_or(0.5) * (cauchy.xx + cauchy.zz);
+  // No strain along an axis from the state without stress; a fluid has the same pressure in all directions.
+  const double ratio = std::visit(PoissonRatio(), material_.law).value_or(0.5);
+  const bool follows =
+      geometry_ == GeometryKind::line || (geometry_ == GeometryKind::plane_strain && request.yy_follows);
+  if (geometry_ == GeometryKind::line) {
+    const double across = ratio / (1.0 - ratio) * cauchy.xx;
+    cauchy = {cauchy.xx, across, across, 0.0, 0.0, 0.0};
+  } else if (follows && keeps != Keeps::deformation) {
+    cauchy.yy = ratio * (cauchy.xx + cauchy.zz);
   }
   switch (keeps) {
     case Keeps::stress:
@@ -147,7 +163,7 @@ InitialState InitialStates::find(const InitialRequest& request) const {
       state = volume_for(cauchy, state.temperature_excess);
       break;
     case Keeps::deformation:
-      state = stretch_for(cauchy, request.yy_follows);
+      state = stretch_for(cauchy, follows);
       cauchy = cauchy_of(state);
       break;
   }
@@ -181,7 +197,7 @@ InitialState InitialStates::volume_for(const Symmetric3<double>& cauchy, double 
   const double target = trace(cauchy) / 3.0;
   const auto at = [&](double e) {
     InitialState state;
-    state.f = dilatation(std::exp(e), planar_);
+    state.f = dilatation(std::exp(e), geometry_);
     state.tau = scale_shift(cauchy, std::exp(e) / material_.density, 0.0);
     state.temperature_excess = excess;
     return state;
@@ -204,8 +220,8 @@ InitialState InitialStates::volume_for(const Symmetric3<double>& cauchy, double 
 }
 
 InitialState InitialStates::stretch_for(const Symmetric3<double>& cauchy, bool yy_follows) const {
-  const Principal<double> axes = axes_of(cauchy, planar_);
-  const int unknowns = planar_ ? 2 : 3;  // the third direction of a plane tensor is y
+  const Principal<double> axes = principal_axes(cauchy, geometry_);
+  const int unknowns = free_axes(geometry_);
   using Vector = Eigen::Vector3d;
   const Vector target(axes.value[0], axes.value[1], axes.value[2]);
   const auto principal_stress = [&](const Vector& e) {
@@ -236,7 +252,7 @@ InitialState InitialStates::stretch_for(const Symmetric3<double>& cauchy, bool y
     refuse(fmt::format("has no stretch under which its stress is {}; give a smaller stress or a stiffer material",
                        text(cauchy)));
   }
-  if (planar_ && !yy_follows) {
+  if (geometry_ == GeometryKind::plane_strain && !yy_follows) {
     const double yy = principal_stress(e)[2];
     if (!(std::abs(yy - cauchy.yy) <= kCompatible * std::max(largest(cauchy), std::abs(yy)))) {
       refuse(

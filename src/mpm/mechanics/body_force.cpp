@@ -26,7 +26,7 @@ class ParticleLoad final : public BodyForce {
         sets_(sets),
         laws_(laws),
         threads_(threads),
-        nodal_(dim_, 1 << 2 * dim_) {
+        nodal_(dim_, nodes_of_block(dim_)) {
     account_.name = "body_force";
     for (const BodyForceTerm& term : terms) {
       Term own{term.set, {}};
@@ -125,7 +125,7 @@ class ParticleLoad final : public BodyForce {
     const auto fault =
         std::min_element(faults_.begin(), faults_.end(), [](const Fault& a, const Fault& b) { return a.id < b.id; });
     if (!fault->text.empty()) throw LoadError(fault->text);
-    Vec3 along = Vec3::Zero();  // a planar body has no momentum out of its plane
+    Vec3 along = Vec3::Zero();  // no momentum along axes that the grid does not have
     for (int k = 0; k < dim_; ++k) along[layout.axis(k)] = impulse[layout.axis(k)];
     account_.add(along);
   }

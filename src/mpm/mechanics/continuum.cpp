@@ -24,7 +24,8 @@ class Continuum final : public Mechanics {
         motion_(settings.transfer.kind == TransferKind::apic   ? mpm_kernel::kAffine
                 : settings.transfer.kind == TransferKind::flip ? mpm_kernel::kIncrement
                                                                : mpm_kernel::kAdopt),
-        increment_(static_cast<int>(sets.front().x.size()), 1 << 2 * sets.front().x.size()) {}
+        increment_(static_cast<int>(sets.front().x.size()), 1 << 2 * sets.front().x.size()),
+        mean_(1, 1 << 2 * sets.front().x.size()) {}
 
   void scatter_momentum(StepContext& context) override {
     failed_.reset();
@@ -38,14 +39,21 @@ class Continuum final : public Mechanics {
   }
 
   void strain_and_force(StepContext& context, double dt) override {
+    if (settings_.average_dilatation) {
+      strain(context.grid, {dt, settings_.gradient_terms, false, mean_of(context.grid, false)});
+      internal_force(context);
+      return;
+    }
     clear(context.grid.force, context.grid);
     strain(context.grid, {dt, settings_.gradient_terms, true});
   }
 
   void internal_force(StepContext& context) override {
+    const double* pressure = settings_.average_dilatation ? mean_of(context.grid, true) : nullptr;
     clear(context.grid.force, context.grid);
-    each_block(context.grid, true,
-               [&](const mpm_kernel::BlockView& block) { kernels_.force(grid_, block, views_.data(), sets()); });
+    each_block(context.grid, true, [&](const mpm_kernel::BlockView& block) {
+      kernels_.force(grid_, block, views_.data(), sets(), pressure);
+    });
   }
 
   void update_momentum(StepContext& context) override {
@@ -109,7 +117,8 @@ class Continuum final : public Mechanics {
   }
 
   void strain_and_place(StepContext& context, double dt) override {
-    strain(context.grid, {dt, settings_.gradient_terms, false});
+    const double* dilatation = settings_.average_dilatation ? mean_of(context.grid, false) : nullptr;
+    strain(context.grid, {dt, settings_.gradient_terms, false, dilatation});
     for (ParticleSet& set : sets_) set.x.swap(set.next_x);
     end_step(context.grid);
   }
@@ -198,6 +207,17 @@ class Continuum final : public Mechanics {
     needs_sort_ = gone || parts - parts_when_sorted_ > kMixed * groups;
   }
 
+  // Of the particles' dilatation or mean stress, the mass-weighted mean at the nodes.
+  const double* mean_of(const Grid& grid, bool of_stress) {
+    mean_.resize(grid.blocks.size());
+    clear(mean_, grid);
+    each_block(grid, true, [&](const mpm_kernel::BlockView& block) {
+      kernels_.spread_mean[of_stress](grid_, block, views_.data(), sets(), mean_.data());
+    });
+    each_carrying(grid, [&](int b, int n, double inverse_mass) { mean_.block(b)[n] *= inverse_mass; });
+    return mean_.data();
+  }
+
   // visit(block, node, 1 / mass): zero where no particle is.
   template <class Visit>
   void each_carrying(const Grid& grid, Visit&& visit) {
@@ -240,6 +260,7 @@ class Continuum final : public Mechanics {
   ContinuumSettings settings_;
   mpm_kernel::Motion motion_;
   NodalField increment_;
+  NodalField mean_;
   int found_ = 0;  ///< increments of this step
   mpm_kernel::GridView grid_{};
   std::vector<mpm_kernel::SetView<T>> views_;

@@ -1,4 +1,4 @@
-// A box about the origin, perhaps without end along an axis (planar scenes).
+// A box about the origin, perhaps without end along an axis (planar scenes) or two (lines).
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -92,7 +92,7 @@ std::unique_ptr<Surface> make_box(const Vec3& size) {
     }
     if (std::isinf(size[i])) ++endless;
   }
-  if (endless > 1) throw RigidError("box: more than one edge length is infinite; at most one may be");
+  if (endless > 2) throw RigidError("box: all edge lengths are infinite; at most two may be");
   return std::make_unique<BoxSurface>(size);
 }
 

@@ -6,20 +6,21 @@
 
 #include "mpm/scene/nearest.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/simulation/geometry_rules.hpp"
 
 namespace mpm {
 namespace {
 
-Region read_box(const Value& value, bool planar) {
+Region read_box(const Value& value, GeometryKind geometry) {
   const Map map(value, {"min", "max"}, {{"size", "write the corners min and max"}});
   Region region;
   region.kind = Region::Kind::box;
   region.box.min = map.at("min").vector(kLength);
   const Value max = map.at("max");
   region.box.max = max.vector(kLength);
-  if (planar) {
-    region.box.min.y() = -std::numeric_limits<double>::infinity();
-    region.box.max.y() = std::numeric_limits<double>::infinity();
+  for (const int axis : axes_beside(geometry)) {
+    region.box.min[axis] = -std::numeric_limits<double>::infinity();
+    region.box.max[axis] = std::numeric_limits<double>::infinity();
   }
   for (int axis = 0; axis < 3; ++axis) {
     if (!(region.box.max[axis] > region.box.min[axis])) {
@@ -39,9 +40,12 @@ Region read_sphere(const Value& value) {
   return region;
 }
 
-Region read_cylinder(const Value& value, bool planar) {
+Region read_cylinder(const Value& value, GeometryKind geometry) {
   const Map map(value, {"center", "radius", "height", "axis"});
-  if (planar) value.fail("a planar scene has no cylinder; write sphere, which is a disk there, or box");
+  if (geometry != GeometryKind::solid) {
+    value.fail(fmt::format("{} has no cylinder; write sphere, which is {} there, or box", scene_kind(geometry),
+                           planar(geometry) ? "a disk" : "an interval"));
+  }
   Region region;
   region.kind = Region::Kind::cylinder;
   region.center = map.at("center").vector(kLength);
@@ -51,14 +55,14 @@ Region read_cylinder(const Value& value, bool planar) {
   return region;
 }
 
-Region read_region(const Value& value, bool planar) {
+Region read_region(const Value& value, GeometryKind geometry) {
   const std::string advice = "use box, sphere or cylinder";
   const auto [kind, shape] =
       only_key(value, {"box", "sphere", "cylinder"},
                {{"mesh", advice}, {"polygon", advice}, {"capsule", advice}, {"disk", "use sphere"}});
-  if (kind == "box") return read_box(shape, planar);
+  if (kind == "box") return read_box(shape, geometry);
   if (kind == "sphere") return read_sphere(shape);
-  return read_cylinder(shape, planar);
+  return read_cylinder(shape, geometry);
 }
 
 /// Rigid bodies by name; that they exist is known when the body is filled.
@@ -75,7 +79,7 @@ void read_cut_out(const Value& value, BodyDefinition& body) {
 }  // namespace
 
 void read_bodies(const Map& root, Scene& scene) {
-  const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
+  const GeometryKind geometry = scene.definition.geometry;
   const Value list = root.at("bodies");
   std::vector<std::string> materials;
   for (const MaterialDefinition& material : scene.definition.materials) materials.push_back(material.name);
@@ -92,8 +96,10 @@ void read_bodies(const Map& root, Scene& scene) {
     if (found == materials.end()) {
       material.fail(fmt::format("no material '{}'; {}", body.material, suggest(body.material, materials)));
     }
+    const MaterialDefinition& made_of = scene.definition.materials[found - materials.begin()];
+    if (const std::string reason = refused_material(geometry, made_of); !reason.empty()) material.fail(reason);
     const Value shape = map.at("shape");
-    body.region = read_region(shape, planar);
+    body.region = read_region(shape, geometry);
     body.where = shape.where();
     if (const auto jitter = map.find("jitter")) {
       body.jitter = jitter->non_negative(kPlain);
@@ -101,7 +107,7 @@ void read_bodies(const Map& root, Scene& scene) {
     }
     if (const auto cut_out = map.find("cut_out")) read_cut_out(*cut_out, body);
     if (const auto initial = map.find("initial")) {
-      read_initial(*initial, scene.definition.materials[found - materials.begin()], scene, body);
+      read_initial(*initial, made_of, scene, body);
     }
     scene.bodies.push_back(std::move(body));
   }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -71,21 +72,21 @@ Lattice lattice(const Scene& scene, const Box& bounds, int axis) {
           static_cast<std::int64_t>(std::min(all - 1.0, last))};
 }
 
-/// Volume over that of the bounds; area in planar scenes, where a sphere is a disk.
-double fullness(const Region& region, bool planar) {
+/// Volume over that of the bounds; area in planar scenes, where a sphere is a disk, length in a line.
+double fullness(const Region& region, GeometryKind geometry) {
   constexpr double kPi = 3.14159265358979323846;
-  if (region.kind == Region::Kind::box) return 1.0;
-  return region.kind == Region::Kind::sphere && !planar ? kPi / 6.0 : kPi / 4.0;
+  if (region.kind == Region::Kind::box || geometry == GeometryKind::line) return 1.0;
+  return region.kind == Region::Kind::sphere && geometry == GeometryKind::solid ? kPi / 6.0 : kPi / 4.0;
 }
 
 /// Refuses what cannot be numbered or does not fit in memory, before any particle is made.
 void check_size(const Scene& scene) {
-  const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
-  const double memory = usable_memory(), bytes = least_bytes_of_particle(scene.definition.method, planar);
+  const GeometryKind geometry = scene.definition.geometry;
+  const double memory = usable_memory(), bytes = least_bytes_of_particle(scene.definition.method, geometry);
   double total = 0.0;
   for (const BodyDefinition& body : scene.bodies) {
     const Box bounds = body.region.bounds();
-    double places = fullness(body.region, planar);
+    double places = fullness(body.region, geometry);
     for (const int axis : axes_of(scene))
       places *= (bounds.max[axis] - bounds.min[axis]) / particle_spacing(scene, axis);
     total += places;
@@ -124,17 +125,21 @@ void jitter(const BodyDefinition& body, const Scene& scene, std::vector<Vec3>& p
 }
 
 DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
-  const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
   const Box bounds = body.region.bounds();
-  const Lattice x = lattice(scene, bounds, 0);
-  const Lattice y = planar ? Lattice{0.0, 0.0, 0, 0} : lattice(scene, bounds, 1);
-  const Lattice z = lattice(scene, bounds, 2);
+  const Lattice at_zero{0.0, 0.0, 0, 0};
+  std::array<Lattice, 3> lattices = {at_zero, at_zero, at_zero};
   DeformableBody filled;
   filled.name = body.name;
   filled.material = body.material;
-  filled.particle_volume = x.spacing * z.spacing * (planar ? scene.definition.thickness : y.spacing);
+  filled.particle_volume = 1.0;
+  for (const int axis : axes_of(scene)) {
+    lattices[axis] = lattice(scene, bounds, axis);
+    filled.particle_volume *= lattices[axis].spacing;
+  }
+  filled.particle_volume *= scene.definition.across();
   // x runs fastest, as grid blocks are numbered.
-  const auto each_place = [&](auto&& visit) {
+  const auto each_place = [&body, &lattices](auto&& visit) {
+    const Lattice &x = lattices[0], &y = lattices[1], &z = lattices[2];
     for (std::int64_t k = z.first; k <= z.last; ++k) {
       for (std::int64_t j = y.first; j <= y.last; ++j) {
         for (std::int64_t i = x.first; i <= x.last; ++i) {
@@ -214,7 +219,8 @@ Box world_bounds(const RigidBodyDefinition& rigid) {
     const Vec3 point((corner & 1) != 0 ? local.max.x() : local.min.x(),
                      (corner & 2) != 0 ? local.max.y() : local.min.y(),
                      (corner & 4) != 0 ? local.max.z() : local.min.z());
-    // A body without end along y turns about y alone: its other extents are finite.
+    // A body without end along y turns about y alone, one without end along y and z not at all: its other extents are
+    // finite.
     const Vec3 finite = point.unaryExpr([](double c) { return std::isfinite(c) ? c : std::copysign(1e9, c); });
     world.add(rigid.pose.to_world(finite));
   }

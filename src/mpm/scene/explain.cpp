@@ -18,6 +18,13 @@ std::string transfer_text(double flip) {
   return flip == 0.0 ? "PIC" : fmt::format("{:g} FLIP, {:g} PIC", flip, 1.0 - flip);
 }
 
+std::string geometry_text(const SimulationDefinition& definition) {
+  if (definition.geometry == GeometryKind::line) return fmt::format("line, {:g} m^2 across", definition.area);
+  std::string text = spoken_name(definition.geometry);
+  if (planar(definition.geometry)) text += fmt::format(", {:g} m thick", definition.thickness);
+  return text;
+}
+
 double smallest_cell(const Scene& scene) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const int axis : axes_of(scene)) smallest = std::min(smallest, scene.definition.grid.cell[axis]);
@@ -81,12 +88,10 @@ void add_steps(const Scene& scene, const SimulationDefinition& built, std::strin
 
 std::string explain(const Scene& scene, const SimulationDefinition& built) {
   const MethodDefinition& method = built.method;
-  const bool planar = built.geometry == GeometryKind::plane_strain;
   std::string text = fmt::format("scene {} ({})\n", built.name, scene.path);
   text += fmt::format(
       "method: {}, uGIMP shape functions, {}, {}, {} term{} of the deformation's exponential{}, {} precision\n",
-      planar ? fmt::format("plane strain, {:g} m thick", built.thickness) : "solid",
-      method.update == UpdateScheme::usavg ? "USAVG" : "USF", transfer_text(method.transfer.flip),
+      geometry_text(built), method.update == UpdateScheme::usavg ? "USAVG" : "USF", transfer_text(method.transfer.flip),
       method.gradient_terms, method.gradient_terms == 1 ? "" : "s",
       method.damping > 0.0 ? fmt::format(", grid damping {:g} 1/s", method.damping) : "",
       precision_name(method.precision));
@@ -94,7 +99,7 @@ std::string explain(const Scene& scene, const SimulationDefinition& built) {
   for (const int axis : axes_of(scene)) {
     const GridDefinition& grid = built.grid;
     text += fmt::format(" {} {:g} to {:g} m by {:g} m{}", axis_name(axis), grid.min[axis], grid.max[axis],
-                        grid.cell[axis], axis == 2 ? "\n" : ",");
+                        grid.cell[axis], axis == axes_of(scene).back() ? "\n" : ",");
   }
   add_bodies(scene, built, text);
   add_steps(scene, built, text);

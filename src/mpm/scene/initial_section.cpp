@@ -1,33 +1,62 @@
 // bodies.<name>.initial: what a body starts with, checked against its material.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mpm/material/initial_state.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/simulation/geometry_rules.hpp"
 
 namespace mpm {
 namespace {
 
 const std::array<const char*, 6> kComponents = {"xx", "yy", "zz", "yz", "xz", "xy"};
 
-void read_stress(const Value& value, bool planar, BodyDefinition& body) {
-  if (!value.is_map()) {
-    value.fail(planar ? "name its components, as in {xx: -1 kPa, zz: -2 kPa}; yy, left out, follows from plane strain"
-                      : "name its components, as in {xx: -1 kPa, yy: -1 kPa, zz: -2 kPa}; those left out are 0");
+/// Those that a scene may give; the others are zero, or follow.
+std::vector<std::string> free_components(GeometryKind geometry) {
+  switch (geometry) {
+    case GeometryKind::line:
+      return {"xx"};
+    case GeometryKind::plane_strain:
+      return {"xx", "yy", "zz", "xz"};
+    case GeometryKind::plane_stress:
+      return {"xx", "zz", "xz"};
+    case GeometryKind::solid:
+      break;
   }
-  const Map map(value, planar ? std::vector<std::string>{"xx", "yy", "zz", "xz"}
-                              : std::vector<std::string>(kComponents.begin(), kComponents.end()));
+  return {kComponents.begin(), kComponents.end()};
+}
+
+const char* stress_example(GeometryKind geometry) {
+  switch (geometry) {
+    case GeometryKind::line:
+      return "{xx: -1 kPa}; yy and zz follow, for a line has no strain across it";
+    case GeometryKind::plane_strain:
+      return "{xx: -1 kPa, zz: -2 kPa}; yy, left out, follows from plane strain";
+    case GeometryKind::plane_stress:
+      return "{xx: -1 kPa, zz: -2 kPa}; yy is 0";
+    case GeometryKind::solid:
+      break;
+  }
+  return "{xx: -1 kPa, yy: -1 kPa, zz: -2 kPa}; those left out are 0";
+}
+
+void read_stress(const Value& value, GeometryKind geometry, BodyDefinition& body) {
+  if (!value.is_map()) value.fail(fmt::format("name its components, as in {}", stress_example(geometry)));
+  const std::vector<std::string> names = free_components(geometry);
+  const Map map(value, names);
   std::array<Function, 6> stress;
   for (std::size_t k = 0; k < kComponents.size(); ++k) {
-    if (planar && (k == 3 || k == 5)) continue;
+    if (std::find(names.begin(), names.end(), kComponents[k]) == names.end()) continue;
     if (const auto component = map.find(kComponents[k])) stress[k] = component->function(kPressure);
   }
   body.stress = stress;
-  body.yy_follows = planar && !map.find("yy");
+  body.yy_follows = geometry == GeometryKind::plane_strain && !map.find("yy");
 }
 
 void read_geostatic(const Value& value, const MaterialDefinition& material, Scene& scene, BodyDefinition& body) {
+  if (const std::string reason = refused_geostatic(scene.definition.geometry); !reason.empty()) value.fail(reason);
   GeostaticDefinition geostatic;
   if (!value.is_text()) {
     const Map map(value, {"k0", "residual"},
@@ -67,10 +96,10 @@ void read_initial(const Value& value, const MaterialDefinition& material, Scene&
       {{"concentration", "a run has no diffusion"}, {"pore_pressure", "a run has no pore pressure; write stress"}});
   if (const auto velocity = map.find("velocity")) body.velocity = velocity->functions(kVelocity);
   if (const auto stress = map.find("stress")) {
-    read_stress(*stress, scene.definition.geometry == GeometryKind::plane_strain, body);
+    read_stress(*stress, scene.definition.geometry, body);
   }
   if (const auto temperature = map.find("temperature")) {
-    if (InitialStates(material, false).temperature_index() < 0) {
+    if (InitialStates(material, scene.definition.geometry).temperature_index() < 0) {
       temperature->fail(
           fmt::format("material '{}' ({}) has no temperature; leave it out", material.name, law_name(material.law)));
     }

@@ -21,9 +21,9 @@ double usable_memory() {
   return bytes;
 }
 
-double least_bytes_of_particle(const MethodDefinition& method, bool planar) {
-  const int dim = planar ? 2 : 3;
-  const int carried = planar ? PlaneStrain::kMatrix + PlaneStrain::kSymmetric : Solid::kMatrix + Solid::kSymmetric;
+double least_bytes_of_particle(const MethodDefinition& method, GeometryKind geometry) {
+  const int dim = dimensions(geometry);
+  const int carried = with_geometry(geometry, [](auto kind) { return kind.kMatrix + kind.kSymmetric; });
   const double real = method.precision == Precision::float32 ? 4.0 : 8.0;
   const double positions = 8.0 * dim * (method.update == UpdateScheme::usavg ? 2 : 1);
   const double id = 4.0;

@@ -1,8 +1,11 @@
 // units, grid, method, boundaries: how the space is divided and stepped, and what its faces do.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "mpm/math/lanes.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -58,21 +61,22 @@ void read_transfer(const Value& value, MethodDefinition& method) {
 }
 
 void read_particles(const Map& method, Scene& scene) {
-  const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
+  const GeometryKind geometry = scene.definition.geometry;
+  const int dim = dimensions(geometry);
   int& along = scene.definition.method.particles_per_direction;
   const auto value = method.find("particles_per_cell");
   if (!value) {
     along = 2;
-    scene.choices.emplace_back("method.particles_per_cell",
-                               planar ? "4: two along each edge" : "8: two along each edge");
+    scene.choices.emplace_back("method.particles_per_cell", fmt::format("{}: two along each edge", 1 << dim));
     return;
   }
   const int wanted = value->integer();
-  for (along = 1; along <= (planar ? 5 : 3); ++along) {
-    if (wanted == (planar ? along * along : along * along * along)) return;
+  for (along = 1; along <= (dim == 3 ? 3 : 5); ++along) {
+    if (wanted == whole_power(along, dim)) return;
   }
-  value->fail(fmt::format("{} is not possible; a {} scene has {} particles a cell", wanted, planar ? "planar" : "solid",
-                          planar ? "1, 4, 9, 16 or 25" : "1, 8 or 27"));
+  static constexpr std::array<const char*, 3> kPossible = {"1, 2, 3, 4 or 5", "1, 4, 9, 16 or 25", "1, 8 or 27"};
+  value->fail(
+      fmt::format("{} is not possible; {} has {} particles a cell", wanted, scene_kind(geometry), kPossible[dim - 1]));
 }
 
 WallDefinition read_wall(const Value& value) {
@@ -121,11 +125,13 @@ void read_grid(const Map& root, Scene& scene) {
   const Value max = map.at("max");
   grid.max = max.vector(kLength);
   check_extent(max, scene);
-  if (scene.definition.geometry == GeometryKind::plane_strain) {
-    // One cell along y, as thick as the scene, about y = 0.
-    grid.cell.y() = scene.definition.thickness;
-    grid.min.y() = -0.5 * scene.definition.thickness;
-    grid.max.y() = 0.5 * scene.definition.thickness;
+  // One cell beside the grid's axes, as thick as the scene (of a line a square), about 0.
+  const GeometryKind geometry = scene.definition.geometry;
+  const double width = planar(geometry) ? scene.definition.thickness : std::sqrt(scene.definition.area);
+  for (const int axis : axes_beside(geometry)) {
+    grid.cell[axis] = width;
+    grid.min[axis] = -0.5 * width;
+    grid.max[axis] = 0.5 * width;
   }
 }
 
@@ -183,15 +189,16 @@ void read_boundaries(const Map& root, Scene& scene) {
     scene.choices.emplace_back("boundaries", "none: a particle that reaches the edge of the grid ends the run");
     return;
   }
-  const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
+  const GeometryKind geometry = scene.definition.geometry;
+  const std::vector<int> beside = axes_beside(geometry);
   std::vector<std::string> keys = {"all"};
   for (const char* name : kWallNames) keys.emplace_back(name);
   const Map map(*section, keys);
   for (std::size_t i = 0; i < kWallNames.size(); ++i) {
-    const bool along_y = i / 2 == 1;
+    const int axis = static_cast<int>(i / 2);
     const auto own = map.find(kWallNames[i]);
-    if (planar && along_y) {
-      if (own) own->fail("a planar scene has no face along y; leave it out");
+    if (std::find(beside.begin(), beside.end(), axis) != beside.end()) {
+      if (own) own->fail(fmt::format("{} has no face along {}; leave it out", scene_kind(geometry), axis_name(axis)));
       continue;
     }
     if (const auto value = own ? own : map.find("all")) scene.definition.walls[i] = read_wall(*value);

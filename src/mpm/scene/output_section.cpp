@@ -131,9 +131,8 @@ std::string read_particle_field(const Value& value) {
 
 void read_time_and_output(const Map& root, Scene& scene) {
   OutputDefinition& output = scene.output;
-  output.particle_fields = scene.definition.geometry == GeometryKind::plane_strain
-                               ? std::vector<std::string>{"vx", "vz", "p", "j"}
-                               : std::vector<std::string>{"vx", "vy", "vz", "p", "j"};
+  for (const int axis : axes_of(scene)) output.particle_fields.push_back(std::string("v") + axis_name(axis));
+  output.particle_fields.insert(output.particle_fields.end(), {"p", "j"});
   std::optional<Value> sync, period;
   read_time(root, scene, sync);
   if (const auto section = root.find("output")) {

@@ -16,27 +16,32 @@ const std::vector<Later>& later_sections() {
 }
 
 const std::vector<Later>& later_geometries() {
-  static const std::vector<Later> geometries = {{"line", "use plane_strain with a grid one cell high"},
-                                                {"plane_stress", "use plane_strain, or solid with a thin body"},
-                                                {"axisymmetric", "use solid with a cylinder"}};
+  static const std::vector<Later> geometries = {{"axisymmetric", "use solid with a cylinder"}};
   return geometries;
 }
 
 void read_geometry(const Map& root, ReadContext& context, Scene& scene) {
   SimulationDefinition& definition = scene.definition;
   if (const auto geometry = root.find("geometry")) {
-    const std::size_t kind = geometry->choice({"plane_strain", "solid"}, later_geometries());
-    definition.geometry = kind == 0 ? GeometryKind::plane_strain : GeometryKind::solid;
+    const std::vector<std::string> names(kGeometryNames.begin(), kGeometryNames.end());
+    definition.geometry = static_cast<GeometryKind>(geometry->choice(names, later_geometries()));
   } else {
-    scene.choices.emplace_back("geometry", "solid: three dimensions unless the scene says plane_strain");
+    scene.choices.emplace_back("geometry", "solid: three dimensions unless the scene says otherwise");
   }
-  context.planar = definition.geometry == GeometryKind::plane_strain;
+  context.geometry = definition.geometry;
   if (const auto thickness = root.find("thickness")) {
-    if (!context.planar) thickness->fail("only a planar scene has a thickness; leave it out");
+    if (!planar(definition.geometry)) thickness->fail("only a planar scene has a thickness; leave it out");
     definition.thickness = thickness->positive(kLength);
-  } else if (context.planar) {
+  } else if (planar(definition.geometry)) {
     definition.thickness = context.units.factor(kLength);
     scene.choices.emplace_back("thickness", fmt::format("{} m: one unit of length along y", definition.thickness));
+  }
+  if (const auto area = root.find("area")) {
+    if (definition.geometry != GeometryKind::line) area->fail("only a line has an area across it; leave it out");
+    definition.area = area->positive(kArea);
+  } else if (definition.geometry == GeometryKind::line) {
+    definition.area = context.units.factor(kArea);
+    scene.choices.emplace_back("area", fmt::format("{} m^2: one unit of length squared, across x", definition.area));
   }
 }
 
@@ -47,8 +52,10 @@ const char* axis_name(int axis) {
   return kNames.at(static_cast<std::size_t>(axis));
 }
 
-std::vector<int> axes_of(const Scene& scene) {
-  return scene.definition.geometry == GeometryKind::plane_strain ? std::vector<int>{0, 2} : std::vector<int>{0, 1, 2};
+std::vector<int> axes_of(const Scene& scene) { return axes_of(scene.definition.geometry); }
+
+const char* scene_kind(GeometryKind geometry) {
+  return geometry == GeometryKind::line ? "a line" : (planar(geometry) ? "a planar scene" : "a solid scene");
 }
 
 double particle_spacing(const Scene& scene, int axis) {
@@ -61,8 +68,8 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   context.source = &source;
   const Value top(context, source.root(), "");
   const Map root(top,
-                 {"name", "units", "geometry", "thickness", "grid", "time", "method", "gravity", "materials", "bodies",
-                  "rigid_bodies", "contact", "boundaries", "loads", "output", "metrics"},
+                 {"name", "units", "geometry", "thickness", "area", "grid", "time", "method", "gravity", "materials",
+                  "bodies", "rigid_bodies", "contact", "boundaries", "loads", "output", "metrics"},
                  later_sections());
   Scene scene;
   scene.path = label;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <stdexcept>
@@ -130,26 +131,32 @@ Function Value::function(const Dimension& dimension, FunctionPlaces places) cons
 }
 
 std::vector<Value> Value::components() const {
-  const std::size_t expected = context_->planar ? 2 : 3;
-  if (!is_list() || node_.size() != expected) {
+  const int expected = dimensions(context_->geometry);
+  if (expected == 1 && is_text()) return {*this};
+  if (!is_list() || node_.size() != static_cast<std::size_t>(expected)) {
     const std::string found = is_list() ? fmt::format("{} components", node_.size()) : kind_of(node_);
-    fail(context_->planar ? fmt::format("found {}; write two components, [x, z], for the scene is planar", found)
-                          : fmt::format("found {}; write three components, [x, y, z]", found));
+    static constexpr std::array<const char*, 3> kWanted = {"one component, x, for the scene is a line",
+                                                           "two components, [x, z], for the scene is planar",
+                                                           "three components, [x, y, z]"};
+    fail(fmt::format("found {}; write {}", found, kWanted[expected - 1]));
   }
   return elements();
 }
 
 Vec3 Value::vector(const Dimension& dimension) const {
   const std::vector<Value> parts = components();
-  if (context_->planar) return {parts[0].number(dimension), 0.0, parts[1].number(dimension)};
-  return {parts[0].number(dimension), parts[1].number(dimension), parts[2].number(dimension)};
+  const std::vector<int> axes = axes_of(context_->geometry);
+  Vec3 vector = Vec3::Zero();
+  for (std::size_t k = 0; k < axes.size(); ++k) vector[axes[k]] = parts[k].number(dimension);
+  return vector;
 }
 
 std::array<Function, 3> Value::functions(const Dimension& dimension, FunctionPlaces places) const {
   const std::vector<Value> parts = components();
-  const auto read = [&](std::size_t i) { return parts[i].function(dimension, places); };
-  if (context_->planar) return {read(0), Function(), read(1)};
-  return {read(0), read(1), read(2)};
+  const std::vector<int> axes = axes_of(context_->geometry);
+  std::array<Function, 3> functions;
+  for (std::size_t k = 0; k < axes.size(); ++k) functions[axes[k]] = parts[k].function(dimension, places);
+  return functions;
 }
 
 std::array<Function, 3> Value::three_functions(const Dimension& dimension) const {

@@ -12,8 +12,10 @@ namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-std::unique_ptr<Surface> read_mesh(const Value& value, bool planar) {
-  if (planar) value.fail("a planar scene has no mesh; write box, sphere or cylinder, each without end along y");
+std::unique_ptr<Surface> read_mesh(const Value& value, GeometryKind geometry) {
+  if (planar(geometry))
+    value.fail("a planar scene has no mesh; write box, sphere or cylinder, each without end along y");
+  if (geometry == GeometryKind::line) value.fail("a line has no mesh; write box or sphere, each an interval of it");
   const Map map(value, {"file", "scale"});
   const Value file = map.at("file");
   std::string path = file.text();
@@ -29,26 +31,28 @@ std::unique_ptr<Surface> read_mesh(const Value& value, bool planar) {
   }
 }
 
-std::unique_ptr<Surface> read_box(const Value& value, bool planar) {
+std::unique_ptr<Surface> read_box(const Value& value, GeometryKind geometry) {
   const Value size_value = Map(value, {"size"}, {{"min", "write size, and put the body by its pose"}}).at("size");
   Vec3 size = size_value.vector(kLength);
-  if (planar) size.y() = kEndless;
+  for (const int axis : axes_beside(geometry)) size[axis] = kEndless;
   if (!(size.array() > 0.0).all()) size_value.fail("an edge is not greater than 0; write the lengths of its edges");
   return make_box(size);
 }
 
-std::unique_ptr<Surface> read_sphere(const Value& value, bool planar) {
+std::unique_ptr<Surface> read_sphere(const Value& value, GeometryKind geometry) {
   const double radius = Map(value, {"radius"}).at("radius").positive(kLength);
-  if (planar) return make_cylinder(radius, kEndless, 1);
+  if (geometry == GeometryKind::line) return make_box({2.0 * radius, kEndless, kEndless});
+  if (planar(geometry)) return make_cylinder(radius, kEndless, 1);
   return make_sphere(radius);
 }
 
-std::unique_ptr<Surface> read_cylinder(const Value& value, bool planar) {
+std::unique_ptr<Surface> read_cylinder(const Value& value, GeometryKind geometry) {
+  if (geometry == GeometryKind::line) value.fail("a line has no cylinder; write box or sphere, each an interval of it");
   const Map map(value, {"radius", "height", "axis"});
   const double radius = map.at("radius").positive(kLength);
   const auto axis_key = map.find("axis");
   const auto height = map.find("height");
-  if (planar) {
+  if (planar(geometry)) {
     if (axis_key && axis_key->choice({"x", "y", "z"}) != 1)
       axis_key->fail("a planar scene's cylinder lies along y; write y");
     if (height) height->fail("a planar scene's cylinder has no end along y; leave it out");
@@ -58,14 +62,14 @@ std::unique_ptr<Surface> read_cylinder(const Value& value, bool planar) {
   return make_cylinder(radius, map.at("height").positive(kLength), axis);
 }
 
-std::unique_ptr<Surface> read_surface(const Value& value, bool planar) {
+std::unique_ptr<Surface> read_surface(const Value& value, GeometryKind geometry) {
   const auto [kind, shape] = only_key(value, {"mesh", "box", "sphere", "cylinder"},
                                       {{"capsule", "use cylinder or mesh"}, {"plane", "use boundaries or box"}});
   try {
-    if (kind == "mesh") return read_mesh(shape, planar);
-    if (kind == "box") return read_box(shape, planar);
-    if (kind == "sphere") return read_sphere(shape, planar);
-    return read_cylinder(shape, planar);
+    if (kind == "mesh") return read_mesh(shape, geometry);
+    if (kind == "box") return read_box(shape, geometry);
+    if (kind == "sphere") return read_sphere(shape, geometry);
+    return read_cylinder(shape, geometry);
   } catch (const RigidError& error) {
     shape.fail(error.what());
   }
@@ -91,7 +95,7 @@ Quat read_quaternion(const Value& value) {
   return given.normalized();
 }
 
-Pose read_pose(const Value& value, bool planar) {
+Pose read_pose(const Value& value, GeometryKind geometry) {
   const Map map(value, {"position", "rpy", "quaternion"}, {{"frame", "poses are in the world frame"}});
   Pose pose;
   if (const auto position = map.find("position")) pose.position = position->vector(kLength);
@@ -100,26 +104,30 @@ Pose read_pose(const Value& value, bool planar) {
   if (rpy && quaternion) quaternion->fail("a pose has rpy or quaternion, not both; leave one out");
   if (rpy) pose.orientation = read_rpy(*rpy);
   if (quaternion) pose.orientation = read_quaternion(*quaternion);
+  if (geometry == GeometryKind::line && (rpy || quaternion)) {
+    (rpy ? *rpy : *quaternion).fail("nothing turns in a line; leave it out");
+  }
   // In a planar scene the body's y axis stays the world's.
-  if (planar && (pose.orientation * Vec3::UnitY() - Vec3::UnitY()).norm() > 1e-9) {
+  if (planar(geometry) && (pose.orientation * Vec3::UnitY() - Vec3::UnitY()).norm() > 1e-9) {
     (rpy ? *rpy : *quaternion)
         .fail("turns the body out of the plane; a planar scene turns about y alone: rpy: [0, pitch, 0]");
   }
   return pose;
 }
 
-std::array<Function, 3> read_rotation_rate(const Value& value, bool planar) {
-  if (!planar) return value.three_functions(kAngularRate);
+std::array<Function, 3> read_rotation_rate(const Value& value, GeometryKind geometry) {
+  if (geometry == GeometryKind::line) value.fail("nothing turns in a line; leave it out");
+  if (!planar(geometry)) return value.three_functions(kAngularRate);
   if (!value.is_text()) value.fail("a planar scene turns about y alone; write one number or expression");
   return {Function(), value.function(kAngularRate), Function()};
 }
 
-void read_motion(const Value& value, bool planar, RigidBodyDefinition& body) {
+void read_motion(const Value& value, GeometryKind geometry, RigidBodyDefinition& body) {
   const Map map(value, {"velocity", "rotation_rate"},
                 {{"pose", "use velocity and rotation_rate, or pose commands on a topic"},
                  {"file", "use velocity and rotation_rate, or commands from a bag"}});
   if (const auto velocity = map.find("velocity")) body.velocity = velocity->functions(kVelocity);
-  if (const auto rate = map.find("rotation_rate")) body.rotation_rate = read_rotation_rate(*rate, planar);
+  if (const auto rate = map.find("rotation_rate")) body.rotation_rate = read_rotation_rate(*rate, geometry);
 }
 
 FrictionLaw read_contact(const Map& root, Scene& scene, bool needed) {
@@ -142,7 +150,7 @@ FrictionLaw read_contact(const Map& root, Scene& scene, bool needed) {
 }  // namespace
 
 void read_rigid_bodies(const Map& root, Scene& scene) {
-  const bool planar = scene.definition.geometry == GeometryKind::plane_strain;
+  const GeometryKind geometry = scene.definition.geometry;
   const auto section = root.find("rigid_bodies");
   const FrictionLaw friction = read_contact(root, scene, section.has_value());
   if (!section) return;
@@ -162,9 +170,9 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
         value.fail(fmt::format("'{}' is already the name of a deformable body; give each its own name", body.name));
       }
     }
-    body.surface = read_surface(map.at("shape"), planar);
-    if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, planar);
-    if (const auto motion = map.find("motion")) read_motion(*motion, planar, body);
+    body.surface = read_surface(map.at("shape"), geometry);
+    if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, geometry);
+    if (const auto motion = map.find("motion")) read_motion(*motion, geometry, body);
     const auto own_friction = map.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;
     scene.definition.rigid_bodies.push_back(std::move(body));

@@ -87,6 +87,7 @@ struct DimensionText {
 const std::array kDimensions = {
     DimensionText{kPlain, "a number without a unit", "0.3"},
     DimensionText{kLength, "a length", "10 mm"},
+    DimensionText{kArea, "an area", "1 cm^2"},
     DimensionText{kMass, "a mass", "2 kg"},
     DimensionText{kTime, "a time", "0.2 s"},
     DimensionText{kAngle, "an angle", "35 deg"},

@@ -37,8 +37,8 @@ struct Totals {
 // In one pass, since most of the time goes into fetching the particles; grouped so that the result does not depend on
 // the number of threads.
 template <class LawType>
-Totals totals_of(const ParticleSet& set, const LawType& law, const GridLayout& layout, const Vec3& gravity,
-                 int threads) {
+Totals totals_of(const ParticleSet& set, const LawType& law, const GridLayout& layout, GeometryKind geometry,
+                 const Vec3& gravity, int threads) {
   constexpr int kGroup = 4096;
   const int groups = (set.size() + kGroup - 1) / kGroup, dim = layout.dim();
   std::vector<Totals> partial(groups);
@@ -47,7 +47,7 @@ Totals totals_of(const ParticleSet& set, const LawType& law, const GridLayout& l
     Totals& sum = partial[g];
     const int end = std::min(set.size(), (g + 1) * kGroup);
     for (int p = g * kGroup; p < end; ++p) {
-      const ParticleTensors t = particle_tensors(set, dim, p);
+      const ParticleTensors t = particle_tensors(set, geometry, p);
       double speed2 = 0.0, height = 0.0;
       for (int k = 0; k < dim; ++k) {
         const double v = set.v[k][p];
@@ -88,21 +88,19 @@ class Hash {
   std::uint64_t value_ = 14695981039346656037ull;
 };
 
+const Matrix3<double>& full(const Matrix3<double>& m) { return m; }
+Matrix3<double> full(const MatrixPlane<double>& m) { return {m.xx, 0.0, m.xz, 0.0, m.yy, 0.0, m.zx, 0.0, m.zz}; }
+const Symmetric3<double>& full(const Symmetric3<double>& s) { return s; }
+Symmetric3<double> full(const SymmetricPlane<double>& s) { return {s.xx, s.yy, s.zz, 0.0, s.xz, 0.0}; }
+
 }  // namespace
 
-ParticleTensors particle_tensors(const ParticleSet& set, int dim, int p) {
-  ParticleTensors t{};
-  if (dim == 3) {
-    t.f = Solid::load_matrix(set.f, p);
-    t.tau = Solid::load_symmetric(set.tau, p);
-  } else {
-    const auto f = PlaneStrain::load_matrix(set.f, p);
-    const auto tau = PlaneStrain::load_symmetric(set.tau, p);
-    t.f = {f.xx, 0.0, f.xz, 0.0, f.yy, 0.0, f.zx, 0.0, f.zz};
-    t.tau = {tau.xx, tau.yy, tau.zz, 0.0, tau.xz, 0.0};
-  }
-  t.j = determinant(t.f);
-  return t;
+ParticleTensors particle_tensors(const ParticleSet& set, GeometryKind geometry, int p) {
+  return with_geometry(geometry, [&](auto kind) {
+    ParticleTensors t{full(kind.load_matrix(set.f, p)), full(kind.load_symmetric(set.tau, p)), 0.0};
+    t.j = determinant(t.f);
+    return t;
+  });
 }
 
 Vec3 Simulation::State::momentum() const {
@@ -124,7 +122,10 @@ SolverState Simulation::state() const {
   Totals totals;
   for (std::size_t i = 0; i < s.sets.size(); ++i) {
     totals += std::visit(
-        [&](const auto& law) { return totals_of(s.sets[i], law, layout, s.definition.gravity, s.threads); }, s.laws[i]);
+        [&](const auto& law) {
+          return totals_of(s.sets[i], law, layout, s.definition.geometry, s.definition.gravity, s.threads);
+        },
+        s.laws[i]);
   }
   report.energy.kinetic = totals.kinetic;
   report.energy.potential = totals.potential;

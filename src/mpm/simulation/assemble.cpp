@@ -10,6 +10,7 @@
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/simulation/geometry_rules.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -33,6 +34,9 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
   const std::size_t n = body.positions.size();
   const std::string start = fmt::format("body '{}': ", body.name);
   if (n == 0) throw DefinitionError(start + "it has no particle");
+  if (const std::string reason = refused_material(definition.geometry, material); !reason.empty()) {
+    throw DefinitionError(start + reason);
+  }
   if (!body.velocities.empty() && body.velocities.size() != n) {
     throw DefinitionError(fmt::format("{}{} velocities for {} particles", start, body.velocities.size(), n));
   }
@@ -67,10 +71,12 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
       }
     }
   }
-  set.f = zeros(dim == 3 ? Solid::kMatrix : PlaneStrain::kMatrix, set.precision, n);
-  set.tau = zeros(dim == 3 ? Solid::kSymmetric : PlaneStrain::kSymmetric, set.precision, n);
+  with_geometry(definition.geometry, [&](auto geometry) {
+    set.f = zeros(geometry.kMatrix, set.precision, n);
+    set.tau = zeros(geometry.kSymmetric, set.precision, n);
+  });
   set.history = zeros(history_size(law), set.precision, n);
-  start_particles(set, body, material, dim, warnings);
+  start_particles(set, body, material, definition.geometry, warnings);
   if (definition.method.update != UpdateScheme::usf) set.next_x = set.x;
   return set;
 }
@@ -94,17 +100,25 @@ void check(const SimulationDefinition& d) {
     throw DefinitionError(fmt::format("method.damping is {}, must be finite and not negative", d.method.damping));
   }
   if (d.method.particles_per_direction < 1) throw DefinitionError("at least one particle along a cell's edge");
-  if (d.geometry != GeometryKind::solid && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
+  if (planar(d.geometry) && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
+  if (d.geometry == GeometryKind::line && !(d.area > 0.0)) throw DefinitionError("area must be positive");
   if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");
 }
 
-void make_planar(SimulationDefinition& definition) {
-  definition.gravity.y() = 0.0;
-  for (RigidBodyDefinition& body : definition.rigid_bodies) {
-    body.pose = planar(body.pose, body.name);
-    body.velocity[1] = body.rotation_rate[0] = body.rotation_rate[2] = Function();
+// Leaves only what is along the grid's axes.
+void project(SimulationDefinition& definition) {
+  const GeometryKind geometry = definition.geometry;
+  for (const int axis : axes_beside(geometry)) {
+    definition.gravity[axis] = 0.0;
+    for (RigidBodyDefinition& body : definition.rigid_bodies) body.velocity[axis] = Function();
+    for (BodyForceDefinition& load : definition.body_forces) load.acceleration[axis] = Function();
   }
-  for (BodyForceDefinition& load : definition.body_forces) load.acceleration[1] = Function();
+  for (RigidBodyDefinition& body : definition.rigid_bodies) {
+    body.pose = projected(body.pose, geometry, body.name);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!turns_about(geometry, axis)) body.rotation_rate[axis] = Function();
+    }
+  }
 }
 
 // Sets that a term with X, Y or Z acts on remember where their particles start.
@@ -148,7 +162,18 @@ const MaterialDefinition& find_material(const SimulationDefinition& definition, 
   throw DefinitionError(fmt::format("body '{}': no material is called '{}'", body.name, body.material));
 }
 
-Pose planar(const Pose& pose, const std::string& body) {
+Twist projected(const Twist& twist, GeometryKind geometry) {
+  Twist kept = twist;
+  for (const int axis : axes_beside(geometry)) kept.linear[axis] = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!turns_about(geometry, axis)) kept.angular[axis] = 0.0;
+  }
+  return kept;
+}
+
+Pose projected(const Pose& pose, GeometryKind geometry, const std::string& body) {
+  if (geometry == GeometryKind::solid) return pose;
+  if (geometry == GeometryKind::line) return {{pose.position.x(), 0.0, 0.0}, Quat::Identity()};
   const Quat& q = pose.orientation;
   const double about_y = std::hypot(q.w(), q.y());
   if (!(about_y >= 1e-3 * q.norm())) {
@@ -172,6 +197,7 @@ void Simulation::State::add_mechanics() {
   }
   ContinuumSettings settings;
   settings.transfer = method.transfer;
+  settings.average_dilatation = method.average_dilatation;
   settings.gradient_terms = method.gradient_terms;
   settings.gravity = definition.gravity;
   settings.threads = threads;
@@ -189,8 +215,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.threads = options.threads > 0 ? options.threads
                                   : std::clamp(static_cast<int>(count / kParticlesPerThread), 1, omp_get_max_threads());
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
-  const int dim = definition.geometry == GeometryKind::solid ? 3 : 2;
-  if (dim == 2) make_planar(s.definition);
+  const int dim = dimensions(definition.geometry);
+  project(s.definition);
   s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));
   const GridLayout& layout = s.grid->layout;
   for (int k = 0; k < dim; ++k) {
@@ -223,13 +249,11 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   // (method reference 5.4, steps 7 to 9).
   std::vector<Wall*> holding;
   const auto add_walls = [&](bool lets_go) {
-    for (int face = 0; face < 6; ++face) {
+    for (int grid_face = 0; grid_face < 2 * dim; ++grid_face) {
+      const int face = 2 * layout.axis(grid_face / 2) + grid_face % 2;
       const WallKind kind = definition.walls[face].kind;
       if (kind == WallKind::none || (kind == WallKind::frictional) != lets_go) continue;
-      const int world_axis = face / 2;
-      if (dim == 2 && world_axis == 1) continue;
-      const int grid_axis = dim == 3 ? world_axis : world_axis / 2;
-      auto wall = std::make_unique<Wall>(2 * grid_axis + face % 2, definition.walls[face], kWallNames[face]);
+      auto wall = std::make_unique<Wall>(grid_face, definition.walls[face], kWallNames[face]);
       if (!lets_go) holding.push_back(wall.get());
       s.stages.push_back(std::move(wall));
     }

@@ -14,6 +14,7 @@
 #include <functional>
 
 #include "initial.hpp"
+#include "mpm/simulation/geometry_rules.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -121,11 +122,14 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
 }  // namespace
 
 void add_geostatic_stress(SimulationDefinition& definition) {
+  if (const std::string reason = refused_geostatic(definition.geometry); !reason.empty()) {
+    throw DefinitionError("a geostatic start is not possible: " + reason);
+  }
   const int up = axis_of(definition.gravity);
   const double g = definition.gravity.norm(), down = definition.gravity[up] > 0.0 ? 1.0 : -1.0;
-  const bool planar = definition.geometry == GeometryKind::plane_strain;
+  const bool plane = planar(definition.geometry);
   Vec3 spacing = definition.grid.cell / definition.method.particles_per_direction;
-  if (planar) spacing.y() = definition.thickness;
+  if (plane) spacing.y() = definition.thickness;
   const double area = spacing.prod() / spacing[up];
 
   std::vector<Part> parts;
@@ -137,7 +141,7 @@ void add_geostatic_stress(SimulationDefinition& definition) {
       const Vec3 cells = (body.positions[p] - definition.grid.min).cwiseQuotient(spacing);
       std::int64_t column = 0;
       for (int axis = 0; axis < 3; ++axis) {
-        if (axis != up && !(planar && axis == 1))
+        if (axis != up && !(plane && axis == 1))
           column = column * (std::int64_t{1} << 31) + std::llround(std::floor(cells[axis]));
       }
       parts.push_back({column, down * body.positions[p][up], weight, b, p});
@@ -165,10 +169,10 @@ void add_geostatic_stress(SimulationDefinition& definition) {
     DeformableBody& body = definition.bodies[b];
     if (!body.geostatic || vertical[b].empty()) continue;
     const MaterialDefinition& material = find_material(definition, body);
-    const InitialStates states(material, planar);
+    const InitialStates states(material, definition.geometry);
     const double deepest = *std::min_element(vertical[b].begin(), vertical[b].end());
     const double ratio = ratio_at_rest(body, material, states, deepest, stress);
-    body.yy_follows = planar && states.yy_is_bound();
+    body.yy_follows = plane && states.yy_is_bound();
     body.stresses.clear();
     for (const double along : vertical[b]) body.stresses.push_back(stress(along, ratio));
   }

@@ -22,52 +22,54 @@ void check_count(const DeformableBody& body, std::size_t per_particle, const cha
 
 /// The components of a state as a set stores them.
 struct Components {
-  Components(const InitialState& state, int dim) {
+  Components(const InitialState& state, GeometryKind geometry) {
     double *f_slots[Solid::kMatrix], *tau_slots[Solid::kSymmetric];
     for (int c = 0; c < Solid::kMatrix; ++c) f_slots[c] = &f[c];
     for (int c = 0; c < Solid::kSymmetric; ++c) tau_slots[c] = &tau[c];
     const Matrix3<double>& m = state.f;
     const Symmetric3<double>& t = state.tau;
-    if (dim == 3) {
-      Solid::store_matrix(m, f_slots, 0);
-      Solid::store_symmetric(t, tau_slots, 0);
-    } else {
-      PlaneStrain::store_matrix(MatrixPlane<double>{m.xx, m.xz, m.zx, m.zz, 1.0}, f_slots, 0);
-      PlaneStrain::store_symmetric(SymmetricPlane<double>{t.xx, t.zz, t.xz, t.yy}, tau_slots, 0);
-    }
+    with_geometry(geometry, [&](auto kind) {
+      if constexpr (kind.kDim == 3) {
+        kind.store_matrix(m, f_slots, 0);
+        kind.store_symmetric(t, tau_slots, 0);
+      } else {
+        kind.store_matrix(MatrixPlane<double>{m.xx, m.xz, m.zx, m.zz, m.yy}, f_slots, 0);
+        kind.store_symmetric(SymmetricPlane<double>{t.xx, t.zz, t.xz, t.yy}, tau_slots, 0);
+      }
+    });
   }
   double f[Solid::kMatrix] = {}, tau[Solid::kSymmetric] = {};
 };
 
-void store(const InitialState& state, int dim, ParticleSet& set, std::size_t p) {
-  const Components values(state, dim);
+void store(const InitialState& state, GeometryKind geometry, ParticleSet& set, std::size_t p) {
+  const Components values(state, geometry);
   for (std::size_t c = 0; c < set.f.size(); ++c) set.f[c].set(p, values.f[c]);
   for (std::size_t c = 0; c < set.tau.size(); ++c) set.tau[c].set(p, values.tau[c]);
 }
 
-void store_everywhere(const InitialState& state, int dim, ParticleSet& set) {
-  const Components values(state, dim);
+void store_everywhere(const InitialState& state, GeometryKind geometry, ParticleSet& set) {
+  const Components values(state, geometry);
   for (std::size_t c = 0; c < set.f.size(); ++c) set.f[c].assign(set.f[c].size(), values.f[c]);
   for (std::size_t c = 0; c < set.tau.size(); ++c) set.tau[c].assign(set.tau[c].size(), values.tau[c]);
 }
 
 }  // namespace
 
-void start_particles(ParticleSet& set, const DeformableBody& body, const MaterialDefinition& material, int dim,
-                     std::vector<std::string>& warnings) {
+void start_particles(ParticleSet& set, const DeformableBody& body, const MaterialDefinition& material,
+                     GeometryKind geometry, std::vector<std::string>& warnings) {
   check_count(body, body.stresses.size(), "stresses");
   check_count(body, body.temperatures.size(), "temperatures");
   const std::size_t n = body.positions.size();
-  const InitialStates states(material, dim == 2);
+  const InitialStates states(material, geometry);
   const bool asked = !body.stresses.empty() || !body.temperatures.empty();
   InitialState state = states.find({});
   double least_j = 1.0, most_j = 1.0, inverse_j = 0.0;
-  if (!asked) store_everywhere(state, dim, set);
+  if (!asked) store_everywhere(state, geometry, set);
   for (std::size_t p = 0; p < n; ++p) {
     if (asked) {
       InitialRequest request;
       if (!body.stresses.empty()) request.cauchy = body.stresses[p];
-      request.yy_follows = dim == 2 && body.yy_follows;
+      request.yy_follows = body.yy_follows;
       if (!body.temperatures.empty()) request.temperature = body.temperatures[p];
       try {
         state = states.find(request);
@@ -77,7 +79,7 @@ void start_particles(ParticleSet& set, const DeformableBody& body, const Materia
                                           place.x(), place.y(), place.z(), error.what()));
       }
       if (const int index = states.temperature_index(); index >= 0) set.history[index].set(p, state.temperature_excess);
-      store(state, dim, set, p);
+      store(state, geometry, set, p);
     }
     const double j = state.j();
     least_j = p == 0 ? j : std::min(least_j, j);

@@ -12,8 +12,8 @@ namespace mpm {
 
 /// Deformation gradient, stress, history and mass of a set whose places are known, as its body asks for. Adds to
 /// `warnings`. @throws DefinitionError naming the body and the particle's place.
-void start_particles(ParticleSet& set, const DeformableBody& body, const MaterialDefinition& material, int dim,
-                     std::vector<std::string>& warnings);
+void start_particles(ParticleSet& set, const DeformableBody& body, const MaterialDefinition& material,
+                     GeometryKind geometry, std::vector<std::string>& warnings);
 
 /// Gives the bodies that start geostatic the stress of the weight above them: vertical from the columns of particles
 /// over each particle down to its centre, whatever geostatic bodies they belong to, horizontal by k0. A gap in a column

@@ -14,6 +14,7 @@ struct Particle {
   const Law& law;
   int set_index;
   const GridLayout& layout;
+  GeometryKind geometry;
   int p;
 
   template <class Values>
@@ -23,7 +24,7 @@ struct Particle {
     }
     return 0.0;
   }
-  ParticleTensors tensors() const { return particle_tensors(set, layout.dim(), p); }
+  ParticleTensors tensors() const { return particle_tensors(set, geometry, p); }
   double density() const {
     return std::visit([](const auto& l) { return l.density(); }, law);
   }
@@ -96,13 +97,13 @@ const Field& find_field(const std::string& name) {
 }
 
 template <class T>
-void fill(const std::vector<ParticleSet>& sets, const std::vector<Law>& laws, const GridLayout& layout, int threads,
-          const Field& field, std::vector<T>& values) {
+void fill(const std::vector<ParticleSet>& sets, const std::vector<Law>& laws, const GridLayout& layout,
+          GeometryKind geometry, int threads, const Field& field, std::vector<T>& values) {
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const ParticleSet& set = sets[s];
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int p = 0; p < set.size(); ++p) {
-      values[set.id[p]] = static_cast<T>(field.value({set, laws[s], static_cast<int>(s), layout, p}));
+      values[set.id[p]] = static_cast<T>(field.value({set, laws[s], static_cast<int>(s), layout, geometry, p}));
     }
   }
 }
@@ -118,13 +119,13 @@ std::vector<std::pair<std::string, std::string>> Simulation::particle_fields() {
 void Simulation::particle_field(const std::string& name, std::vector<float>& values) const {
   const Field& field = find_field(name);
   values.resize(particles());
-  fill(state_->sets, state_->laws, state_->grid->layout, state_->threads, field, values);
+  fill(state_->sets, state_->laws, state_->grid->layout, state_->definition.geometry, state_->threads, field, values);
 }
 
 void Simulation::particle_field(const std::string& name, std::vector<double>& values) const {
   const Field& field = find_field(name);
   values.resize(particles());
-  fill(state_->sets, state_->laws, state_->grid->layout, state_->threads, field, values);
+  fill(state_->sets, state_->laws, state_->grid->layout, state_->definition.geometry, state_->threads, field, values);
 }
 
 }  // namespace mpm

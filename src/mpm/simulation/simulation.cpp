@@ -114,16 +114,11 @@ int Simulation::find_body(const std::string& name) const {
 }
 
 void Simulation::command_velocity(int body, const Twist& twist) {
-  Twist applied = twist;
-  if (state_->grid->layout.dim() == 2) {
-    applied.linear.y() = 0.0;
-    applied.angular.x() = applied.angular.z() = 0.0;
-  }
-  state_->bodies.at(body).command_velocity(applied);
+  state_->bodies.at(body).command_velocity(projected(twist, state_->definition.geometry));
 }
 
 void Simulation::command_pose(int body, const Pose& target, std::int64_t arrival) {
-  const Pose applied = state_->grid->layout.dim() == 2 ? planar(target, state_->bodies.at(body).name()) : target;
+  const Pose applied = projected(target, state_->definition.geometry, state_->bodies.at(body).name());
   state_->bodies.at(body).command_pose(applied, state_->time, arrival);
 }
 

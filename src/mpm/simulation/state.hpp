@@ -74,9 +74,11 @@ struct Simulation::State {
 /// @throws DefinitionError when there is none of that name
 const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body);
 
-/// What a planar scene keeps of a pose: the plane's position, and of the rotation its part about y (swing and twist),
-/// so that zeros stay exact zeros. @throws RigidError for a pose that is turned over.
-Pose planar(const Pose& pose, const std::string& body);
+/// What a geometry keeps of a motion: what is along its axes, and rotation about y in a plane, none in a line.
+Twist projected(const Twist& twist, GeometryKind geometry);
+/// The same of a pose; in a plane the part of the rotation that is about y (swing and twist), so that zeros stay exact
+/// zeros. @throws RigidError for a pose that is turned over in a plane.
+Pose projected(const Pose& pose, GeometryKind geometry, const std::string& body);
 
 /// Sums over all particles of `term(set, index)`, grouped so that the result does not depend on the number of threads.
 template <class Value, class Term>
@@ -96,12 +98,13 @@ Value sum_particles(const std::vector<ParticleSet>& sets, int threads, Value zer
   return total;
 }
 
-/// Deformation gradient and stress of one particle as full tensors (planar: yy filled in), for what is not a kernel.
+/// Deformation gradient and stress of one particle as full tensors (what a geometry does not store filled in), for what
+/// is not a kernel.
 struct ParticleTensors {
   Matrix3<double> f;
   Symmetric3<double> tau;  ///< Kirchhoff stress over initial density [J/kg]
   double j;                ///< det f
 };
-ParticleTensors particle_tensors(const ParticleSet& set, int dim, int p);
+ParticleTensors particle_tensors(const ParticleSet& set, GeometryKind geometry, int p);
 
 }  // namespace mpm

@@ -1,7 +1,8 @@
 // The largest stable time step: a fraction cfl of the time in which a wave on a moving particle, or a point of a tool,
 // crosses a cell; viscosity and grid damping add their own rates. Every particle is looked at in its present state at
 // every sync point (kernel/survey.hpp), and what got stiffer in the last period is expected to go on doing so in the
-// next. Source: method reference 11.
+// next. A law's wave speed is that of a solid: in plane stress, where thickness gives way, it is an upper bound.
+// Source: method reference 11.
 #include <fmt/core.h>
 
 #include <algorithm>

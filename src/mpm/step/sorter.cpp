@@ -214,12 +214,15 @@ void Sorter::permute(ParticleSet& set, Scratch& scratch) const {
 }
 
 std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Grid& grid) {
-  node_bits_ = grid.layout.dim() == 3 ? 6 : 4;
+  static_assert(kBlockEdge == 4);
+  const int dim = grid.layout.dim();
+  node_bits_ = 2 * static_cast<unsigned>(dim);
   scratch_.resize(sets.size());
   for (Part& part : parts_) part.blocks.clear();
   for (std::size_t s = 0; s < sets.size(); ++s) {
-    const int outside = grid.layout.dim() == 3 ? find_blocks<3>(sets[s], grid.layout, scratch_[s])
-                                               : find_blocks<2>(sets[s], grid.layout, scratch_[s]);
+    const int outside = dim == 3   ? find_blocks<3>(sets[s], grid.layout, scratch_[s])
+                        : dim == 2 ? find_blocks<2>(sets[s], grid.layout, scratch_[s])
+                                   : find_blocks<1>(sets[s], grid.layout, scratch_[s]);
     if (outside < sets[s].size()) return ParticleRef{static_cast<int>(s), outside};
   }
   collect_owners();

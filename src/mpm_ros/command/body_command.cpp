@@ -32,7 +32,7 @@ double travel_of(const AppliedCommand& command, const mpm::Simulation& simulatio
 
 void check_travel(const AppliedCommand& command, const mpm::Simulation& simulation) {
   mpm::Vec3 size = simulation.definition().grid.max - simulation.definition().grid.min;
-  if (simulation.definition().geometry != mpm::GeometryKind::solid) size.y() = 0.0;  // nothing moves out of the plane
+  for (const int axis : mpm::axes_beside(simulation.definition().geometry)) size[axis] = 0.0;  // nothing moves there
   const double longest = size.norm(), travel = travel_of(command, simulation);
   // Not "travel > longest": what is not a number is left to the body's own check.
   if (!(travel > longest)) return;

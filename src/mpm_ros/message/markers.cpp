@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "mpm_ros/message/conversions.hpp"
@@ -27,10 +26,10 @@ std_msgs::ColorRGBA color(float red, float green, float blue, float alpha) {
 
 visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation) {
   visualization_msgs::MarkerArray markers;
-  // Bodies of a planar scene are endless along y: drawn as slices of a cell, so that they do not hide the material.
-  const bool planar = simulation.definition().geometry != mpm::GeometryKind::solid;
-  const double half_slice =
-      planar ? 0.5 * simulation.definition().grid.cell.x() : std::numeric_limits<double>::infinity();
+  // Bodies are endless along axes that the scene does not have: drawn as slices of a cell, so that they do not hide the
+  // material.
+  const std::vector<int> beside = mpm::axes_beside(simulation.definition().geometry);
+  const double half_slice = 0.5 * simulation.definition().grid.cell.x();
   const int count = static_cast<int>(simulation.bodies().size());
   for (int body = 0; body < count; ++body) {
     const mpm::RigidBody& rigid = simulation.rigid_body(body);
@@ -47,7 +46,7 @@ visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation)
     marker.frame_locked = 1;
     for (const std::array<mpm::Vec3, 3>& triangle : rigid.surface().triangles()) {
       for (mpm::Vec3 vertex : triangle) {
-        vertex.y() = std::clamp(vertex.y(), -half_slice, half_slice);
+        for (const int axis : beside) vertex[axis] = std::clamp(vertex[axis], -half_slice, half_slice);
         marker.points.push_back(to_point(vertex));
       }
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "mpm/math/lanes.hpp"
 #include "mpm/scene/scene.hpp"
 
 namespace mpm_ros {
@@ -21,15 +22,13 @@ mpm::Scene scene_of(const RunInfo& info) {
 
 std::string method_text(const mpm::SimulationDefinition& definition) {
   const mpm::MethodDefinition& method = definition.method;
-  const bool planar = definition.geometry == mpm::GeometryKind::plane_strain;
   const std::string transfer =
       method.transfer.flip == 1.0
           ? "FLIP"
           : (method.transfer.flip == 0.0 ? "PIC" : fmt::format("FLIP {:g}", method.transfer.flip));
-  const int a_cell =
-      method.particles_per_direction * method.particles_per_direction * (planar ? 1 : method.particles_per_direction);
+  const int a_cell = mpm::whole_power(method.particles_per_direction, mpm::dimensions(definition.geometry));
   return fmt::format("{}, uGIMP, {}, {}{}, {} precision, cells of {:g} m, {} particles a cell",
-                     planar ? "plane strain" : "3D", method.update == mpm::UpdateScheme::usavg ? "USAVG" : "USF",
+                     mpm::spoken_name(definition.geometry), method.update == mpm::UpdateScheme::usavg ? "USAVG" : "USF",
                      transfer, method.damping > 0.0 ? fmt::format(", grid damping {:g}/s", method.damping) : "",
                      mpm::precision_name(method.precision), definition.grid.cell.x(), a_cell);
 }

@@ -53,10 +53,9 @@ double RunSummary::particle_steps_per_second() const {
 double RunSummary::real_time_factor() const { return state.wall_seconds > 0.0 ? seconds() / state.wall_seconds : 0.0; }
 
 nlohmann::ordered_json RunSummary::json() const {
-  const bool planar = definition.geometry == mpm::GeometryKind::plane_strain;
   nlohmann::ordered_json root;
   root["scene"] = scene;
-  root["method"] = {{"geometry", planar ? "plane_strain" : "solid"},
+  root["method"] = {{"geometry", mpm::geometry_name(definition.geometry)},
                     {"shape", "ugimp"},
                     {"update", definition.method.update == mpm::UpdateScheme::usavg ? "usavg" : "usf"},
                     {"transfer", transfer_name(definition.method.transfer.flip)},

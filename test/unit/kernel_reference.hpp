@@ -58,6 +58,7 @@ struct ReferenceNode {
   double mass = 0.0;
   double momentum[3] = {}, velocity[3] = {}, force[3] = {}, load[3] = {};
   double from[3] = {}, to[3] = {};  ///< what is projected [m/s], and the momentum that becomes of it
+  double mean = 0.0;                ///< of a trace
 };
 
 /// What damping took away in a motion (mpm_kernel::Moved).
@@ -168,22 +169,50 @@ class Reference {
       }
     }
   }
-  void strain(double dt, int terms) {
-    each([&](const Set& set, Particle& p) {
-      double l[kDim][kDim] = {};
+  /// With dilatation averaged over the grid (kernel/mean.hpp), or each particle's own.
+  void strain(double dt, int terms, bool average = false) {
+    using Gradient = double[kDim][kDim];
+    const auto gradient = [&](const Set& set, const Particle& p, Gradient& l) {
       each_node(set, p, [&](ReferenceNode& n, double, const double* g, const double*) {
         for (int c = 0; c < kDim; ++c) {
-          for (int k = 0; k < kDim; ++k) l[c][k] += dt * n.velocity[c] * g[k];
+          for (int k = 0; k < kDim; ++k) l[c][k] += n.velocity[c] * g[k];
         }
       });
+    };
+    if (average) {
+      find_mean([&](const Set& set, const Particle& p) {
+        Gradient l = {};
+        gradient(set, p, l);
+        return trace(l);
+      });
+    }
+    each([&](const Set& set, Particle& p) {
+      Gradient l = {};
+      gradient(set, p, l);
+      if (average) set_trace(l, mean_at(set, p));
+      for (auto& row : l) {
+        for (double& component : row) component *= dt;
+      }
       p.deform(*set.law, Geometry::gradient(l), dt, terms);
     });
   }
-  void force() {
+  void force(bool average = false) {
+    using Columns = double[kDim][kDim];
+    const auto fill = [](const Particle& p, Columns& columns) {
+      for (int k = 0; k < kDim; ++k) Geometry::column(p.tau, k, columns[k]);
+    };
+    if (average) {
+      find_mean([&](const Set&, const Particle& p) {
+        Columns columns;
+        fill(p, columns);
+        return trace(columns);
+      });
+    }
     clear(&ReferenceNode::force);
     each([&](const Set& set, const Particle& p) {
-      double columns[kDim][kDim];
-      for (int k = 0; k < kDim; ++k) Geometry::column(p.tau, k, columns[k]);
+      Columns columns;
+      fill(p, columns);
+      if (average) set_trace(columns, mean_at(set, p));
       each_node(set, p, [&](ReferenceNode& n, double, const double* g, const double*) {
         for (int c = 0; c < kDim; ++c) {
           for (int k = 0; k < kDim; ++k) n.force[c] -= set.mass * columns[k][c] * g[k];
@@ -259,6 +288,31 @@ class Reference {
   const ReferenceGrid& grid() const { return grid_; }
 
  private:
+  static double trace(const double (&a)[kDim][kDim]) {
+    double sum = 0.0;
+    for (int k = 0; k < kDim; ++k) sum += a[k][k];
+    return sum;
+  }
+  static void set_trace(double (&a)[kDim][kDim], double wanted) {
+    const double change = (wanted - trace(a)) / kDim;
+    for (int k = 0; k < kDim; ++k) a[k][k] += change;
+  }
+  // The mean of of(set, particle) at the nodes, by mass.
+  template <class Of>
+  void find_mean(Of&& of) {
+    for (ReferenceNode& n : nodes_) n.mean = 0.0;
+    each([&](const Set& set, const Particle& p) {
+      const double value = of(set, p);
+      each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) {
+        n.mean += n.mass > 0.0 ? set.mass * s * value / n.mass : 0.0;
+      });
+    });
+  }
+  double mean_at(const Set& set, const Particle& p) {
+    double mean = 0.0;
+    each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) { mean += s * n.mean; });
+    return mean;
+  }
   // B D^-1 [1/s], D = sum of S (x_i - x_p) (x_i - x_p)^T.
   void affine_gradient(const Set& set, const Particle& p, double (&gradient)[3][3]) {
     using Matrix = Eigen::Matrix<double, kDim, kDim>;

@@ -245,12 +245,13 @@ struct KernelScene {
     if (follows_deformation(shape)) particle.f = stretched();
     for (int n = 0; n < 8; ++n) {
       const Matrix3<double> m = paths::random_gradient(random, size);
-      const double press = specimen.pressing / 8.0;
-      if constexpr (kDim == 3) {
-        particle.deform(law, {m.xx + press, m.xy, m.xz, m.yx, m.yy + press, m.yz, m.zx, m.zy, m.zz + press}, dt, 4);
-      } else {
-        particle.deform(law, {m.xx + press, m.xz, m.zx, m.zz + press, 0.0}, dt, 4);
+      const double all[3][3] = {{m.xx, m.xy, m.xz}, {m.yx, m.yy, m.yz}, {m.zx, m.zy, m.zz}};
+      double l[kDim][kDim];
+      for (int c = 0; c < kDim; ++c) {
+        for (int k = 0; k < kDim; ++k) l[c][k] = all[grid.layout.axis(c)][grid.layout.axis(k)];
+        l[c][c] += specimen.pressing / 8.0;
       }
+      particle.deform(law, Geometry::gradient(l), dt, 4);
     }
     return particle;
   }

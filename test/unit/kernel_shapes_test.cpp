@@ -38,6 +38,9 @@ void check_shape(const Case& of) {
       ++n;
     }
   }
+  for (const Places places : {Places::mixed, Places::bodies}) {
+    Kernels<Geometry, T>(of.shape, zoo[2], places, of.isa, flip(1.0), true).check(true);
+  }
   for (const Places places : {Places::bodies, Places::loose, Places::walled}) {
     Kernels<Geometry, T>(of.shape, zoo[2], places, of.isa, kAllTransfers[4]).check_moves();
     Kernels<Geometry, T>(of.shape, zoo[2], places, of.isa, flip(1.0)).scatter_load();
@@ -52,6 +55,8 @@ TEST_P(KernelShapesTest, OfASolidInDouble) { check_shape<Solid, double>(GetParam
 TEST_P(KernelShapesTest, OfAPlaneInDouble) { check_shape<PlaneStrain, double>(GetParam()); }
 TEST_P(KernelShapesTest, OfASolidInSingle) { check_shape<Solid, float>(GetParam()); }
 TEST_P(KernelShapesTest, OfAPlaneInSingle) { check_shape<PlaneStrain, float>(GetParam()); }
+TEST_P(KernelShapesTest, OfALineInDouble) { check_shape<Line, double>(GetParam()); }
+TEST_P(KernelShapesTest, OfALineInSingle) { check_shape<Line, float>(GetParam()); }
 
 }  // namespace
 }  // namespace mpm::test

@@ -48,11 +48,7 @@ void check_momentum(int steps) {
     StepScene<Geometry> scene(method);
     shake(scene);
     const Momentum before = momentum_of(scene);
-    try {
-      scene.advance(steps);
-    } catch (const std::exception& e) {
-      std::printf("%s: %s\n", method.name().c_str(), e.what());
-    }
+    scene.advance(steps);
     const Momentum after = momentum_of(scene);
     for (int k = 0; k < Geometry::kDim; ++k) {
       EXPECT_NEAR(after.sum[k], before.sum[k], 1e-13 * before.size) << method.name();
@@ -263,73 +259,6 @@ void check_affine() {
 }
 TEST(StepIdentities, ApicKeepsALinearFieldInAPlane) { check_affine<PlaneStrain>(); }
 TEST(StepIdentities, ApicKeepsALinearFieldInASolid) { check_affine<Solid>(); }
-
-/// About the axis normal to the first two, of what particles hand to the grid in the next step:
-/// sum of m [x v + sum over nodes of S (x_i - x_p) C (x_i - x_p)], the cross product's components.
-template <class Scene>
-double angular_momentum(Scene& scene) {
-  ParticleSet& set = scene.set();
-  double sum = 0.0;
-  for (int p = 0; p < set.size(); ++p) {
-    const Vector x = scene.place(p);
-    sum += x[0] * set.v[1][p] - x[1] * set.v[0][p];
-    if (set.affine.empty()) continue;
-    for (const NodeWeight& n : scene.stencil(p)) {
-      double arm[2], v[2] = {};
-      for (int k = 0; k < 2; ++k) arm[k] = scene.node_position(n.at[k]) - x[k];
-      for (int c = 0; c < 2; ++c) {
-        for (int k = 0; k < 2; ++k) v[c] += set.affine[c * Scene::kDim + k][p] * arm[k];
-      }
-      sum += n.s * (arm[0] * v[1] - arm[1] * v[0]);
-    }
-  }
-  return set.mass * sum;
-}
-
-/// How the angular momentum of a spinning disk changes in a turn: in the end, and the largest departure on the way, as
-/// parts of what there was.
-struct Spin {
-  double end, largest;
-};
-Spin spin(const StepMethod& method) {
-  using Scene = StepScene<PlaneStrain>;
-  Scene::Body body;
-  body.cells = 10;
-  body.jitter = 0.0;
-  body.keep = [](const Vector& x) { return std::hypot(x[0] - 1.5, x[1] - 1.5) < 0.55; };
-  Scene scene(method, body);
-  const double rate = 2.0;
-  scene.set_velocity([&](const Vector& x) { return Vector{-rate * (x[1] - 1.5) + 0.1, rate * (x[0] - 1.5), 0.0}; });
-  const double turn[3][3] = {{0.0, -rate, 0.0}, {rate, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-  if (method.transfer.kind == TransferKind::apic) scene.set_affine(turn);
-  const double start = angular_momentum(scene);
-  const int steps = static_cast<int>(2.0 * 3.14159 / rate / scene.dt);
-  Spin spin{0.0, 0.0};
-  for (int n = 0; n < steps; ++n) {
-    scene.step();
-    spin.end = angular_momentum(scene) / start - 1.0;
-    spin.largest = std::max(spin.largest, std::abs(spin.end));
-  }
-  return spin;
-}
-
-TEST(StepIdentities, AngularMomentum) {
-  for (const ShapeKind shape : kAllShapes) {
-    for (const UpdateScheme update : kAllUpdates) {
-      for (const Transfer& transfer : {Transfer{TransferKind::apic, 1.0, 2}, Transfer{TransferKind::flip, 1.0, 2},
-                                       Transfer{TransferKind::flip, 0.0, 2}, Transfer{TransferKind::xpic, 1.0, 3}}) {
-        const StepMethod method{shape, update, transfer};
-        Spin found{9, 9};
-        try {
-          found = spin(method);
-        } catch (const std::exception& e) {
-          std::printf("%s ", e.what());
-        }
-        std::printf("%-40s %12.3e %12.3e\n", method.name().c_str(), found.end, found.largest);
-      }
-    }
-  }
-}
 
 }  // namespace
 }  // namespace mpm::test

@@ -61,6 +61,7 @@ class StepScene {
     double jitter = 0.2;            ///< [cells]
     Vector centre{1.5, 1.5, 1.5};   ///< [m]
     std::function<bool(const Vector&)> keep = [](const Vector&) { return true; };
+    bool walls = false;  ///< at the domain's lower corner
   };
 
   explicit StepScene(const StepMethod& method, const Body& body = {}, int threads = 1, Isa isa = best_isa())
@@ -69,6 +70,7 @@ class StepScene {
         grid(GridLayout(kDim, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Constant(24 * kCell))),
         sorter_(threads, kernel_grouping(kernels_)) {
     laws_.push_back(make_law({"rubber", kDensity, NeoHookeanDefinition{{kStiffness, 0.3}}}));
+    for (int k = 0; k < kDim; ++k) grid.has_wall[2 * k] = body.walls;
     fill(body);
     settings_.transfer = method.transfer;
     settings_.threads = threads;
@@ -179,6 +181,7 @@ class StepScene {
     set.precision = sizeof(T) == 4 ? Precision::float32 : Precision::float64;
     set.mass = kDensity * std::pow(0.5 * kCell, kDim);
     set.half = {0.25, 0.25, 0.25};
+    if (body.walls) set.lowest = {-0.25, -0.25, -0.25};
     set.highest = {24.0, 24.0, 24.0};
     std::mt19937 random(5);
     std::uniform_real_distribution<double> shake(-body.jitter * kCell, body.jitter * kCell);

@@ -65,7 +65,7 @@ Spin spin(const StepMethod& method) {
     spin.left = angular_momentum(disk) / start;
     spin.change = std::max(spin.change, std::abs(spin.left - 1.0));
   }
-  EXPECT_GT(disk.sorts, 3) << method.name();  // it has crossed cells
+  EXPECT_GT(disk.sorts, 1) << method.name();  // particles have gone from block to block
   return spin;
 }
 
@@ -100,18 +100,17 @@ TEST(AngularMomentum, IsWhatApicHandsToTheGrid) {
   }
 }
 
-// PIC smears velocities over a cell in every step: the rotation of a particle's surroundings is lost each time, and of
-// the whole within a few dozens of steps. FLIP keeps what the grid does not see, and loses what the new weights see of
-// it: PLACEHOLDER in a turn with these shape functions.
+// PIC smears velocities over a cell in every step: the rotation of a particle's surroundings is lost each time, and
+// that of the whole before the turn ends (measured: 0.2 % left). FLIP keeps what the grid does not see; what the next
+// step's weights see of it loses 3 to 5 % in the turn here, which no theory bounds: asserted twice as wide.
 TEST(AngularMomentum, IsLostByPicAndLessByFlip) {
   for (const ShapeKind shape : kAllShapes) {
     const StepMethod pic{shape, UpdateScheme::usavg, {TransferKind::flip, 0.0, 2}};
     const StepMethod flip{shape, UpdateScheme::usavg, {TransferKind::flip, 1.0, 2}};
-    const double left_by_pic = spin(pic).left, left_by_flip = spin(flip).left;
-    std::printf("%s PIC %g FLIP %g\n", shape_name(shape), left_by_pic, left_by_flip);
-    EXPECT_LT(std::abs(left_by_pic), 0.1) << pic.name();
-    EXPECT_LT(left_by_flip, 0.99) << flip.name();
-    EXPECT_GT(left_by_flip, 0.8) << flip.name();
+    EXPECT_LT(std::abs(spin(pic).left), 0.01) << pic.name();
+    const double left = spin(flip).left;
+    EXPECT_GT(left, 0.9) << flip.name();
+    EXPECT_LT(left, 0.99) << flip.name();
   }
 }
 

@@ -152,7 +152,6 @@ TEST(Allocation, StepsOfEveryMethodDoNotAllocate) {
         method.shape = static_cast<mpm::ShapeKind>(shape);
         method.update = static_cast<mpm::UpdateScheme>(update);
         method.transfer = {kind, 1.0, 3};
-        method.average_dilatation = kind == TransferKind::flip;
         EXPECT_EQ(allocations_of_a_period(4, material, method, mpm::best_isa(), true),
                   allocations_of_a_period(16, material, method, mpm::best_isa(), true))
             << mpm::kShapeNames[shape] << ", " << mpm::kUpdateNames[update] << ", "

@@ -29,7 +29,7 @@ template <class Geometry, class T>
 class Run {
  public:
   Run(const paths::Specimen& specimen, Places places, Isa isa, bool usavg, int threads = 1, double flip = 1.0)
-      : usavg_(usavg), scene_(specimen, places, isa, settings(threads, flip)) {
+      : usavg_(usavg), scene_(ShapeKind::ugimp, specimen, places, isa, settings(threads, flip)) {
     for (ParticleSet& set : scene_.sets) {
       if (!usavg) set.next_x.clear();
     }

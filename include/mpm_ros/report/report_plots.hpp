@@ -1,5 +1,6 @@
-// Pictures of runs: calls scripts/plot_report.py, which lies beside the program (in the devel and the install space
-// alike), on the folders that report_csv.hpp writes.
+// Pictures of runs and of studies: calls scripts/plot_report.py on the folders that report_csv.hpp writes, and
+// scripts/plot_work_precision.py on those of mpm/study. They lie beside the program, in the devel and the install space
+// alike.
 #pragma once
 
 #include <string>
@@ -19,7 +20,11 @@ struct PlotOptions {
 /// @throws ReportError when the script is not found or fails
 void make_plots(const PlotOptions& options);
 
-/// Path of plot_report.py. @throws ReportError when it is not there
-std::string plot_script();
+/// Charts of a study, in its own folder.
+/// @throws ReportError when the script is not found or fails
+void make_work_precision_plots(const std::string& folder);
+
+/// Path of a script beside the program. @throws ReportError when it is not there
+std::string plot_script(const std::string& name = "plot_report.py");
 
 }  // namespace mpm_ros

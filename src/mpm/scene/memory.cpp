@@ -25,7 +25,7 @@ double least_bytes_of_particle(const MethodDefinition& method, GeometryKind geom
   const int dim = dimensions(geometry);
   const int carried = with_geometry(geometry, [](auto kind) { return kind.kMatrix + kind.kSymmetric; });
   const double real = method.precision == Precision::float32 ? 4.0 : 8.0;
-  const double positions = 8.0 * dim * (method.update == UpdateScheme::usavg ? 2 : 1);
+  const double positions = 8.0 * dim * (method.update == UpdateScheme::usf ? 1 : 2);
   const double id = 4.0;
   // step/sorter.hpp; the groups, a place each when they are of one particle.
   const double sorter = (method.precision == Precision::float32 ? 29.0 : 25.0) + 4.0;

@@ -242,6 +242,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   project(s.definition);
   s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));
   const GridLayout& layout = s.grid->layout;
+  const ShapeKind shape = definition.method.shape;
+  if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) s.grid->wall_layers = 2;
   for (int k = 0; k < dim; ++k) {
     for (const int upper : {0, 1}) {
       s.grid->has_wall[2 * k + upper] = definition.walls[2 * layout.axis(k) + upper].kind != WallKind::none;

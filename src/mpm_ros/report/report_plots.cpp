@@ -10,17 +10,18 @@
 namespace mpm_ros {
 namespace {
 
-constexpr const char* kScript = "plot_report.py";
+void call(const std::vector<std::string>& words) {
+  if (Script(words, {}).finish() != 0) throw ReportError(fmt::format("{} failed; its own message is above", words[0]));
+}
 
 }  // namespace
 
-std::string plot_script() {
+std::string plot_script(const std::string& name) {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::filesystem::path script = program.parent_path() / kScript;
+  const std::filesystem::path script = program.parent_path() / name;
   if (!std::filesystem::exists(script, error)) {
-    throw ReportError(
-        fmt::format("{} is not beside {}; build and install the package again", kScript, program.string()));
+    throw ReportError(fmt::format("{} is not beside {}; build and install the package again", name, program.string()));
   }
   return script.string();
 }
@@ -30,7 +31,9 @@ void make_plots(const PlotOptions& options) {
   words.insert(words.end(), options.csv.begin(), options.csv.end());
   words.push_back(options.plots);
   if (!options.field.empty()) words.push_back("--field=" + options.field);
-  if (Script(words, {}).finish() != 0) throw ReportError(fmt::format("{} failed; its own message is above", words[0]));
+  call(words);
 }
+
+void make_work_precision_plots(const std::string& folder) { call({plot_script("plot_work_precision.py"), folder}); }
 
 }  // namespace mpm_ros

@@ -1,0 +1,245 @@
+#!/usr/bin/python3
+"""make_methods.py RUNS DOC [PAGES]: writes DOC/methods.md, DOC/methods/*.png and copies of the tables from RUNS, the
+folder that work_precision filled, and from PAGES, the folder where the stability tests left their pages.
+
+    make_methods.py --check DOC     the page says what its text makes of the tables beside it, the last chapter aside
+
+The text is benchmark/work_precision/methods.md. What stands in {{ }} there is computed from the tables:
+
+    {{ percent(error("square_large", "ugimp/usavg/flip", 32)) }}   a number of a row
+    {{ check(error(...) < 0.5 * error(...)) }}                     nothing, but the page is not made unless it holds
+    {{ charts() }} {{ summary() }} {{ refused() }} {{ stability() }}
+
+A row that is not there, or a check that does not hold, ends this script with the line of the text, so that no claim
+outlives its figures. In the chapter "What the charts say" every point needs a check."""
+import csv
+import importlib
+import math
+import pathlib
+import re
+import shutil
+import sys
+
+sys.dont_write_bytecode = True  # nothing is left among the sources
+import plot_work_precision as plots  # noqa: E402
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TEMPLATE = ROOT / "benchmark" / "work_precision" / "methods.md"
+TABLES = ("work_precision.csv", "summary.csv", "suites.csv")
+CLAIMS = "## What the charts say"
+LAST = "## Where methods stop working"  # made from the stability tests' pages, which are not kept
+
+
+class ClaimError(Exception):
+    """A claim of the text that the tables do not bear out; one line."""
+
+
+class Study:
+    """The tables, and what the text may ask of them."""
+
+    def __init__(self, runs, doc=None, pages=None):
+        self.rows, self.texts = plots.read_rows(runs), plots.read_texts(runs)
+        with open(runs / "summary.csv", newline="", encoding="utf-8") as file:
+            self.lines = list(csv.DictReader(file))
+        self.doc, self.pages = doc, pages
+        self.drawn = [suite for suite in dict.fromkeys(row["suite"] for row in self.rows)
+                      if plots.good([row for row in self.rows if row["suite"] == suite])]
+
+    def run(self, suite, method, cells, cfl=plots.USUAL_CFL, ppc=None):
+        """The row of one run; without `ppc` that of the usual number of particles."""
+        found = [row for row in self.rows
+                 if (row["suite"], row["method"], row["cells"], row["cfl"]) == (suite, method, cells, cfl)
+                 and (row["ppc"] == ppc if ppc else plots.usual_particles(row))]
+        if len(found) != 1:
+            raise ClaimError(f"{len(found)} runs of {method} on {suite}, {cells} cells, Courant {cfl}")
+        return found[0]
+
+    def number(self, column, *which, **more):
+        row = self.run(*which, **more)
+        if row["status"] != "ok" or math.isnan(row[column]):
+            raise ClaimError(f"{row['method']} on {row['suite']}, {row['cells']:g} cells: {row['status']}, "
+                             f"{row['message'] or 'no ' + column}")
+        return row[column]
+
+    def error(self, *which, **more):
+        return self.number("error", *which, **more)
+
+    def relative_cost(self, *which, **more):
+        return self.number("relative_cost", *which, **more)
+
+    def status(self, *which, **more):
+        return self.run(*which, **more)["status"]
+
+    def order(self, suite, method, coarse, fine):
+        """Of the error, from one grid to another."""
+        return math.log(self.error(suite, method, coarse) / self.error(suite, method, fine)) / math.log(fine / coarse)
+
+    def best(self, suite, target, by="work"):
+        """Label of the cheapest method for an error."""
+        for line in self.lines:
+            if (line["suite"], line["by"]) == (suite, by) and float(line["target_error"]) == target:
+                return line["method"]
+        raise ClaimError(f"the summary has no line for {suite}, {target}")
+
+    def charts(self):
+        parts = []
+        for suite in self.drawn:
+            text = self.texts[suite]
+            parts += [f"### {text['title']}", "", f"`{suite}`, {text['geometry'].replace('_', ' ')}. {text['problem']}",
+                      "", f"*Exact:* {text['exact']}. *Error:* {text['measure']}.", "",
+                      f"![{text['title']}](methods/{suite}.png)", ""]
+        return "\n".join(parts).rstrip()
+
+    def summary(self):
+        """Cheapest method by relative cost and by counted work: a row a suite, a column an error."""
+        targets = list(dict.fromkeys(line["target_error"] for line in self.lines))
+        parts = []
+        for by, head in (("cost", "By processor time, relative to uGIMP/USF on the same grid"),
+                         ("work", "By counted work")):
+            parts += [f"**{head}**", "",
+                      "| problem | " + " | ".join(f"{100 * float(target):g} %" for target in targets) + " |",
+                      "|---|" + "---|" * len(targets)]
+            for suite in dict.fromkeys(line["suite"] for line in self.lines):
+                own = {line["target_error"]: line for line in self.lines
+                       if line["suite"] == suite and line["by"] == by}
+                parts.append(f"| {suite} | " + " | ".join(self.cell(own[target]) for target in targets) + " |")
+            parts.append("")
+        return "\n".join(parts).rstrip()
+
+    @staticmethod
+    def cell(line):
+        if not line["method"]:
+            return "none"
+        text = f"{line['method']}, {float(line['value']):.2g}"
+        if line["ugimp_usf_value"]:
+            return f"{text} ({float(line['value']) / float(line['ugimp_usf_value']):.2f})"
+        return text + " (-)"
+
+    def refused(self):
+        reasons = {}
+        for row in self.rows:
+            if row["status"] == "refused":
+                reasons.setdefault((row["method"], row["message"]), set()).add(row["suite"])
+        if not reasons:
+            return "None was refused."
+        every = {row["suite"] for row in self.rows}
+        lines = ["| method | on | why |", "|---|---|---|"]
+        for (method, message), suites in reasons.items():
+            on = "all" if suites == every else ", ".join(s for s in self.texts if s in suites)
+            lines.append(f"| {method} | {on} | {message.replace('|', chr(92) + '|')} |")
+        return "\n".join(lines)
+
+    def failures(self):
+        counts = {}
+        for row in self.rows:
+            if row["status"] == "failed":
+                counts.setdefault((row["suite"], row["method"]), []).append(f"{row['cells']:g}")
+        if not counts:
+            return "No run failed."
+        lines = ["| problem | method | grids |", "|---|---|---|"]
+        lines += [f"| {suite} | {method} | {', '.join(dict.fromkeys(cells))} |"
+                  for (suite, method), cells in counts.items()]
+        return "\n".join(lines)
+
+    def stability(self):
+        """What stability_pages.py makes of the stability tests' pages, where there are any."""
+        if self.pages is None or not any(self.pages.glob("*.json")):
+            return "The stability tests have left no page; run `scripts/methods` to make them."
+        pages = importlib.import_module("stability_pages")
+        pictures = self.doc / "methods" / "stability"
+        pictures.mkdir(parents=True, exist_ok=True)
+        return pages.sections(self.pages, pictures, link="methods/stability").rstrip()
+
+    def names(self):
+        """What the text may use."""
+        return {"error": self.error, "relative_cost": self.relative_cost, "status": self.status, "order": self.order,
+                "best": self.best, "charts": self.charts, "summary": self.summary, "refused": self.refused,
+                "failures": self.failures, "stability": self.stability, "runs": lambda: len(self.rows),
+                "percent": lambda value: f"{100 * value:.2g} %", "times": lambda value: f"{value:.2g}",
+                "check": check, "min": min, "max": max, "abs": abs}
+
+
+def check(holds):
+    if not holds:
+        raise ClaimError("the claim does not hold")
+    return ""
+
+
+def fill(text, names, first_line=1):
+    """The text with every {{ expression }} replaced by its value."""
+    def value(match):
+        line = first_line + text.count("\n", 0, match.start())
+        try:
+            # The text is our own file, and sees nothing but these names.
+            return str(eval(match.group(1).strip(), {"__builtins__": {}}, names))  # pylint: disable=eval-used
+        except (ClaimError, NameError, SyntaxError, TypeError) as error:
+            raise ClaimError(f"{TEMPLATE.name}:{line}: {match.group(1).strip()}: {error}") from error
+
+    return re.sub(r" ?\{\{(.+?)\}\}", lambda match: (" " if match.group(0)[0] == " " and value(match) else "") +
+                  value(match), text, flags=re.DOTALL)
+
+
+def points(text):
+    """Each point of the chapter of claims, with its line."""
+    inside, found = False, []
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.startswith("## "):
+            inside = line == CLAIMS
+        elif inside and line.startswith("- "):
+            found.append([number, line])
+        elif inside and found and line.startswith("  "):
+            found[-1][1] += "\n" + line
+    return found
+
+
+def check_points(text):
+    found = points(text)
+    if not found:
+        raise ClaimError(f"{TEMPLATE.name}: no points below '{CLAIMS}'")
+    for number, point in found:
+        if "check(" not in point:
+            raise ClaimError(f"{TEMPLATE.name}:{number}: a point without a check")
+
+
+def make(runs, doc, pages):
+    text = TEMPLATE.read_text(encoding="utf-8")
+    check_points(text)
+    study = Study(runs, doc, pages)
+    filled = fill(text, study.names())
+    (doc / "methods").mkdir(parents=True, exist_ok=True)
+    for old in (doc / "methods").glob("*.png"):
+        old.unlink()
+    plots.draw_all(runs, doc / "methods")
+    for table in TABLES:
+        shutil.copyfile(runs / table, doc / "methods" / table)
+    (doc / "methods.md").write_text(filled.rstrip() + "\n", encoding="utf-8")
+    print(f"{len(study.drawn)} charts, {len(study.rows)} runs: {doc / 'methods.md'}")
+
+
+def compare(doc):
+    text = TEMPLATE.read_text(encoding="utf-8")
+    check_points(text)
+    made = fill(text.split(LAST)[0], Study(doc / "methods").names()).rstrip()
+    kept = (doc / "methods.md").read_text(encoding="utf-8").split(LAST)[0].rstrip()
+    for number, (one, other) in enumerate(zip(made.splitlines() + [""], kept.splitlines() + [""]), 1):
+        if one != other:
+            raise ClaimError(f"{doc / 'methods.md'}:{number}: '{other}' in place of '{one}'; run scripts/methods")
+
+
+def main():
+    words = sys.argv[1:]
+    try:
+        if len(words) == 2 and words[0] == "--check":
+            compare(pathlib.Path(words[1]))
+        elif len(words) in (2, 3) and not words[0].startswith("-"):
+            make(pathlib.Path(words[0]), pathlib.Path(words[1]), pathlib.Path(words[2]) if words[2:] else None)
+        else:
+            raise SystemExit("usage: make_methods.py RUNS DOC [PAGES] | --check DOC")
+    except (ClaimError, plots.TableError, OSError) as error:
+        print(f"make_methods.py: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

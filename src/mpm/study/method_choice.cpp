@@ -1,0 +1,116 @@
+#include "mpm/study/method_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mpm/study/suite.hpp"
+
+namespace mpm::study {
+namespace {
+
+constexpr Transfer kFlip = {TransferKind::flip, 1.0, 2};
+
+/// What is charted beside FLIP.
+const std::vector<Transfer>& other_transfers() {
+  static const std::vector<Transfer> list = {{TransferKind::flip, 0.99, 2}, {TransferKind::flip, 0.0, 2},
+                                             {TransferKind::xpic, 1.0, 2},  {TransferKind::xpic, 1.0, 3},
+                                             {TransferKind::fmpm, 1.0, 2},  {TransferKind::fmpm, 1.0, 3},
+                                             {TransferKind::fmpm, 1.0, 5},  {TransferKind::apic, 1.0, 2}};
+  return list;
+}
+
+constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
+
+}  // namespace
+
+std::string transfer_label(const Transfer& transfer) {
+  switch (transfer.kind) {
+    case TransferKind::flip:
+      if (transfer.flip == 1.0) return "flip";
+      return transfer.flip == 0.0 ? "pic" : fmt::format("flip{:g}", transfer.flip);
+    case TransferKind::apic:
+      return "apic";
+    case TransferKind::xpic:
+    case TransferKind::fmpm:
+      break;
+  }
+  return fmt::format("{}{}", kTransferNames[static_cast<int>(transfer.kind)], transfer.order);
+}
+
+MethodChoice choose(ShapeKind shape, UpdateScheme update, const Transfer& transfer, Precision precision) {
+  MethodChoice choice;
+  choice.label = fmt::format("{}/{}/{}{}", shape_name(shape), kUpdateNames[static_cast<int>(update)],
+                             transfer_label(transfer), precision == Precision::float32 ? "/single" : "");
+  choice.method.shape = shape;
+  choice.method.update = update;
+  choice.method.transfer = transfer;
+  choice.method.precision = precision;
+  return choice;
+}
+
+std::vector<MethodChoice> charted_methods() {
+  std::vector<MethodChoice> list = {choose(ShapeKind::ugimp, UpdateScheme::usf, kFlip)};
+  for (std::size_t s = 0; s < kShapeNames.size(); ++s) {
+    const auto shape = static_cast<ShapeKind>(s);
+    for (const UpdateScheme update : {UpdateScheme::usavg, UpdateScheme::usf, UpdateScheme::usl}) {
+      if (shape != ShapeKind::ugimp || update != UpdateScheme::usf) list.push_back(choose(shape, update, kFlip));
+    }
+  }
+  for (const ShapeKind shape : {ShapeKind::ugimp, ShapeKind::cpdi}) {
+    for (const Transfer& transfer : other_transfers()) list.push_back(choose(shape, UpdateScheme::usavg, transfer));
+  }
+  list.push_back(choose(ShapeKind::bspline2, UpdateScheme::usavg, {TransferKind::apic, 1.0, 2}));
+  list.push_back(choose(ShapeKind::bspline2, UpdateScheme::usavg, {TransferKind::fmpm, 1.0, 2}));
+  list.push_back(choose(ShapeKind::ugimp, UpdateScheme::usavg, kFlip, Precision::float32));
+  return list;
+}
+
+std::vector<MethodChoice> main_methods() {
+  std::vector<MethodChoice> list;
+  for (const MethodChoice& choice : charted_methods()) {
+    const MethodDefinition& method = choice.method;
+    const bool plain = method.update == UpdateScheme::usavg && transfer_label(method.transfer) == "flip";
+    if (plain || method.shape == ShapeKind::ugimp) list.push_back(choice);
+  }
+  return list;
+}
+
+MethodChoice find_method(const std::string& label) {
+  std::string labels;
+  for (const MethodChoice& choice : charted_methods()) {
+    if (choice.label == label) return choice;
+    labels += (labels.empty() ? "" : ", ") + choice.label;
+  }
+  throw StudyError(fmt::format("no method is called '{}'; there are {}", label, labels));
+}
+
+int passes(UpdateScheme update, const Transfer& transfer) {
+  const int plain = update == UpdateScheme::usf ? 4 : update == UpdateScheme::usl ? 5 : 6;
+  const bool filtered = transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm;
+  return plain + (filtered ? 2 * (transfer.order - 1) : 0);
+}
+
+int visits(ShapeKind shape, int dim) {
+  switch (shape) {
+    case ShapeKind::dirac:
+      return power(2, dim);
+    case ShapeKind::ugimp:
+    case ShapeKind::ugimp_stretch:
+    case ShapeKind::bspline2:
+      return power(3, dim);
+    case ShapeKind::bspline3:
+      return power(4, dim);
+    case ShapeKind::cpdi:
+      return power(4, dim);
+    case ShapeKind::qcpdi:
+      return power(6, dim);
+  }
+  return 0;
+}
+
+double counted_work(const MethodDefinition& method, int dim) {
+  return static_cast<double>(visits(method.shape, dim) * passes(method.update, method.transfer));
+}
+
+}  // namespace mpm::study

@@ -114,6 +114,7 @@ class Kernels {
     const bool adopts = transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm;
     ASSERT_EQ(scene_.mechanics->increments(), adopts ? transfer.order - 1 : 0) << name_;
     if (!adopts) return;
+    scene_.mechanics->begin_increments(context_);
     for (int n = 1; n < transfer.order; ++n) {
       scene_.mechanics->find_increment(context_);
       scene_.mechanics->add_increment(context_);

@@ -204,6 +204,7 @@ TEST(StepIdentities, XpicAndFmpmAreTheirMatrices) {
             a(i, c) = scene.grid.force.at(dense.nodes[i].block, c, dense.nodes[i].node);
           }
         }
+        if (scene.mechanics->increments() > 0) scene.mechanics->begin_increments(context);
         for (int n = 0; n < scene.mechanics->increments(); ++n) {
           scene.mechanics->find_increment(context);
           scene.mechanics->add_increment(context);

@@ -62,7 +62,7 @@ class Run {
       r.strain(strain_dt, terms);
       r.force();
       r.nodal_update(dt, gravity, least);
-      r.move(dt, scene_.settings.transfer.flip);
+      r.move(mpm_kernel::kIncrement, dt, scene_.settings.transfer.flip);
       if (usavg_) {
         r.gather_momentum();
         r.nodal_velocity(least);

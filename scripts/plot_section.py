@@ -84,7 +84,7 @@ class Section:
         self.aspect = float((high - low)[0] / (high - low)[1])
         self.room = 1.1 if self.tool else 0.9
         where = f"slice through {self.tool}" if self.tool else f"slice at the middle of {'xyz'[self.axis]}"
-        self.where = "plane strain" if self.flat else where
+        self.where = "the whole plane" if self.flat else where
 
     def draw(self, panel, time, positions, colors):
         run, gap, shown, axis = self.run, self.gap, self.shown, self.axis

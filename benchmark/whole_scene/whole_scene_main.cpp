@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mpm/scene/scene.hpp"
+#include "mpm/simulation/method_text.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace {
@@ -64,7 +65,7 @@ nlohmann::ordered_json run(const Options& options) {
   return {{"scene", options.scene},
           {"method",
            {{"geometry", planar ? "plane_strain" : "solid"},
-            {"update", definition.method.update == mpm::UpdateScheme::usavg ? "usavg" : "usf"},
+            {"update", mpm::update_name(definition.method.update)},
             {"precision", mpm::precision_name(definition.method.precision)},
             {"isa", simulation->isa()}}},
           {"particles", state.particles},

@@ -192,7 +192,7 @@ TEST(DampingControl, ForeseesTheLargestRateOfAPeriod) {
 // f -= alpha p on every node, and the account holds its sum.
 TEST(DampingControl, TheForceIsAPartOfTheMomentum) {
   Plane plane;
-  plane.grid.rebuild({0, 1});
+  plane.grid.rebuild({plane.grid.layout.key({0, 0}), plane.grid.layout.key({0, 1})});
   const int count = 2 * plane.grid.layout.nodes_per_block();
   for (int b = 0; b < plane.grid.blocks.size(); ++b) {
     for (int n = 0; n < count; ++n) {

@@ -132,8 +132,9 @@ double norm_at_start(const std::array<Function, 3>& motion) {
 /// A period of few steps, whatever the material's stiffness: the real one may be thousands of steps long. False when a
 /// nanosecond already is.
 bool shorten_period(SimulationDefinition& definition) {
-  double cell = std::min(definition.grid.cell.x(), definition.grid.cell.z());
-  if (definition.geometry == GeometryKind::solid) cell = std::min(cell, definition.grid.cell.y());
+  const std::vector<int> axes = axes_of(definition.geometry);
+  double cell = definition.grid.cell.x();
+  for (const int axis : axes) cell = std::min(cell, definition.grid.cell[axis]);
   double rate = 1.0;  // how often a second the fastest crosses a cell
   for (const MaterialDefinition& material : definition.materials) {
     const MaterialPoint point(material);
@@ -145,7 +146,7 @@ bool shorten_period(SimulationDefinition& definition) {
   }
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {
     const Box bounds = body.surface->bounds();
-    const double size = std::max(bounds.max.x() - bounds.min.x(), bounds.max.z() - bounds.min.z());
+    const double size = bounds.max[axes.back()] - bounds.min[axes.back()] + bounds.max.x() - bounds.min.x();
     rate = std::max(rate, (norm_at_start(body.velocity) + norm_at_start(body.rotation_rate) * size) / cell);
   }
   double step = definition.time.cfl / rate;

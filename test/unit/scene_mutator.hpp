@@ -166,6 +166,8 @@ class SceneMutator {
                              "stick",
                              "slip",
                              "plane_strain",
+                             "plane_stress",
+                             "line",
                              "solid",
                              "usf",
                              "pic",

@@ -38,6 +38,7 @@ std::string level_bed(const std::string& law) {
   return "geometry: plane_strain\n"
          "grid: {cell: 0.05, min: [0, 0], max: [0.6, 0.8]}\n"
          "time: {end: 1, sync: 0.01}\n"
+         "method: {shape: ugimp, update: usavg, transfer: flip}\n"
          "gravity: [0, -9.81]\n"
          "materials: [{name: ground, density: 1600, " +
          law +
@@ -94,6 +95,7 @@ TEST(Geostatic, LayersCarryEachOther) {
   const std::string scene =
       "grid: {cell: 0.1, min: [0, 0, 0], max: [0.4, 0.4, 1]}\n"
       "time: {end: 1, sync: 0.01}\n"
+      "method: {shape: ugimp, update: usavg, transfer: flip}\n"
       "gravity: [0, 0, -9.81]\n"
       "materials:\n"
       "  - {name: sand, density: 1500, law: drucker_prager, young: 2 MPa, poisson: 0.3, friction_angle: 30 deg}\n"
@@ -139,6 +141,7 @@ TEST(Geostatic, AFreeBlockSettlesToTheResidualAskedFor) {
       "geometry: plane_strain\n"
       "grid: {cell: 0.05, min: [0, 0], max: [1, 1]}\n"
       "time: {end: 1, sync: 0.01}\n"
+      "method: {shape: ugimp, update: usavg, transfer: flip}\n"
       "gravity: [0, -9.81]\n"
       "materials: [{name: rubber, density: 1000, law: neo_hookean, young: 0.2 MPa, poisson: 0.3}]\n"
       "bodies: [{name: block, material: rubber, shape: {box: {min: [0.3, 0], max: [0.7, 0.4]}}, initial: geostatic}]\n"
@@ -169,6 +172,7 @@ TEST(Geostatic, ToolsAreHeldAndAPileSlidesFirst) {
       "geometry: plane_strain\n"
       "grid: {cell: 0.05, min: [0, 0], max: [2, 1]}\n"
       "time: {end: 1, sync: 0.01}\n"
+      "method: {shape: ugimp, update: usavg, transfer: flip}\n"
       "gravity: [0, -9.81]\n"
       "materials: [{name: sand, density: 1600, " +
       kSand +

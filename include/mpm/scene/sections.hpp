@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "mpm/scene/auto_method.hpp"
 #include "mpm/scene/reader.hpp"
 #include "mpm/scene/scene.hpp"
 
@@ -14,8 +16,8 @@ namespace mpm {
 UnitSystem read_units(const Value& value);
 /// `grid`
 void read_grid(const Map& root, Scene& scene);
-/// `method`
-void read_method(const Map& root, Scene& scene);
+/// `method`; what it leaves to be chosen once the rest is read, if anything.
+std::optional<AutoMethod> read_method(const Map& root, Scene& scene);
 /// `method.damping`
 void read_damping(const Value& value, Scene& scene);
 /// `materials`

@@ -36,10 +36,10 @@ void Wall::momentum_gathered(StepContext& context) {
     const int first = blocks.block(b)[axis] * kBlockEdge;
     if (upper ? first + kBlockEdge <= layout.last_node(axis) : first > 0) continue;
     for (int n = 0; n < layout.nodes_per_block(); ++n) {
-      // A centre is half a cell beyond the face at most, and reaches one node beyond it.
+      // A centre is half a cell beyond the face at most, and reaches one node beyond it; of a deformed domain, two.
       const int node = layout.node(blocks.block(b), n)[axis];
       const int beyond = upper ? node - layout.last_node(axis) : -node;
-      if (beyond == 0 || beyond == 1) {
+      if (beyond >= 0 && beyond <= context.grid.wall_layers) {
         const std::uint64_t id = HeldNodes::id(blocks.key(b), n);
         nodes_.push_back({{b, n}, id, held_.find(id)});
       }
@@ -82,6 +82,14 @@ void Wall::momentum_updated(StepContext& context) {
     given += grid.mass.at(node.ref.block, 0, node.ref.node) * dv;
   }
   account_.add(given);
+}
+
+void Wall::velocity_found(StepContext& context, NodalField& velocity) {
+  const GridLayout& layout = context.grid.layout;
+  const Vec3 n = normal(layout);
+  for (const Node& node : nodes_) {
+    add_nodal_vector(velocity, layout, node.ref, held_part(nodal_vector(velocity, layout, node.ref), n, node.hold));
+  }
 }
 
 void Wall::increment_found(StepContext& context, NodalField& increment) {

@@ -116,6 +116,22 @@ void read_particles(const Map& method, Scene& scene) {
       fmt::format("{} is not possible; {} has {} particles a cell", wanted, scene_kind(geometry), kPossible[dim - 1]));
 }
 
+AutoMethod read_auto(const Value& value, const Scene& scene) {
+  const Map map(value, {"strain", "turn", "error", "cost"});
+  AutoMethod asked;
+  if (const auto strain = map.find("strain")) asked.strain = strain->non_negative(kPlain);
+  if (const auto turn = map.find("turn")) {
+    if (scene.definition.geometry == GeometryKind::line) turn->fail("nothing turns in a line; leave it out");
+    asked.turn = turn->non_negative(kAngle);
+  }
+  const auto error = map.find("error");
+  const auto cost = map.find("cost");
+  if (error && cost) cost->fail("a budget is an error or a cost, not both; leave one out");
+  if (error) asked.budget = {error->positive(kPlain), {}};
+  if (cost) asked.budget = {{}, cost->positive(kPlain)};
+  return asked;
+}
+
 WallDefinition read_wall(const Value& value) {
   static const std::vector<Later> later = {{"absorbing", "use none, fixed, slip or {friction: 0.5}"},
                                            {"velocity", "use a rigid body with a motion"},
@@ -172,34 +188,44 @@ void read_grid(const Map& root, Scene& scene) {
   }
 }
 
-void read_method(const Map& root, Scene& scene) {
+std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   MethodDefinition& method = scene.definition.method;
   const auto section = root.find("method");
-  if (!section) {
+  if (!section || section->is_text()) {
+    if (section) section->choice({"auto"});
     method.particles_per_direction = 2;
-    scene.choices.emplace_back("method",
-                               method_text(method) + ", two particles along each edge of a cell: the defaults");
-    return;
+    scene.choices.emplace_back("method.particles_per_cell", "two along each edge");
+    return AutoMethod{};
   }
   const Map map(*section,
-                {"shape", "update", "transfer", "average_dilatation", "damping", "gradient_terms", "particles_per_cell",
-                 "precision"},
+                {"auto", "shape", "update", "transfer", "average_dilatation", "damping", "gradient_terms",
+                 "particles_per_cell", "precision"},
                 {{"leave_limit", "a particle that leaves the grid ends the run; use boundaries"}});
-  if (const auto shape = map.find("shape")) {
+  std::optional<AutoMethod> chosen_later;
+  if (const auto value = map.find("auto")) chosen_later = read_auto(*value, scene);
+  const auto shape = map.find("shape");
+  if (shape) {
     const auto index = [](ShapeKind kind) { return static_cast<std::size_t>(kind); };
     method.shape = static_cast<ShapeKind>(
         read_name(*shape, kShapeNames, {{"classic", index(ShapeKind::dirac)}, {"lcpdi", index(ShapeKind::cpdi)}}));
   }
-  if (const auto update = map.find("update")) {
+  const auto update = map.find("update");
+  if (update) {
     method.update = static_cast<UpdateScheme>(
         read_name(*update, kUpdateNames, {{"musl", static_cast<std::size_t>(UpdateScheme::usl)}}));
-  } else {
+  } else if (!chosen_later) {
     scene.choices.emplace_back("method.update", "usavg: strain updated in both halves of a step, least dissipation");
   }
-  if (const auto transfer = map.find("transfer")) {
+  const auto transfer = map.find("transfer");
+  if (transfer) {
     method.transfer = read_transfer(*transfer);
-  } else {
+  } else if (!chosen_later) {
     scene.choices.emplace_back("method.transfer", "flip: no numerical viscosity; write {flip: 0.99} to calm noise");
+  }
+  if (chosen_later) {
+    chosen_later->keep_shape = shape.has_value();
+    chosen_later->keep_update = update.has_value();
+    chosen_later->keep_transfer = transfer.has_value();
   }
   if (const auto average = map.find("average_dilatation")) {
     method.average_dilatation = average->choice({"false", "true"}) == 1;
@@ -210,7 +236,9 @@ void read_method(const Map& root, Scene& scene) {
     method.precision = precision->choice({"double", "single"}) == 0 ? Precision::float64 : Precision::float32;
   }
   read_particles(map, scene);
+  // What is left to be chosen stands at its default here, which goes with everything that goes with anything.
   if (const auto fault = method_fault(method, scene.definition.geometry)) refuse(*section, *fault);
+  return chosen_later;
 }
 
 void read_boundaries(const Map& root, Scene& scene) {

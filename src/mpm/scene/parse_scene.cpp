@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "mpm/scene/sections.hpp"
+#include "mpm/simulation/method_text.hpp"
 
 namespace mpm {
 namespace {
@@ -45,6 +46,29 @@ void read_geometry(const Map& root, ReadContext& context, Scene& scene) {
   }
 }
 
+/// The scene's text with the method that was chosen in the place of `auto`: a record runs again to the same bits,
+/// whatever figures a later choice would be made from.
+std::string with_method(const YAML::Node& tree, const MethodDefinition& chosen) {
+  YAML::Node root = YAML::Clone(tree);
+  if (!root["method"] || !root["method"].IsMap()) root["method"] = YAML::Node(YAML::NodeType::Map);
+  YAML::Node method = root["method"];
+  method.remove("auto");
+  method["shape"] = shape_name(chosen.shape);
+  method["update"] = update_name(chosen.update);
+  const Transfer& transfer = chosen.transfer;
+  const std::string kind = kTransferNames[static_cast<int>(transfer.kind)];
+  YAML::Node value(kind);
+  if (transfer.kind == TransferKind::flip && transfer.flip != 1.0) {
+    value = YAML::Node(YAML::NodeType::Map);
+    value[kind] = fmt::format("{}", transfer.flip);
+  } else if (transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm) {
+    value = YAML::Node(YAML::NodeType::Map);
+    value[kind] = transfer.order;
+  }
+  method["transfer"] = value;
+  return YAML::Dump(root);
+}
+
 }  // namespace
 
 const char* axis_name(int axis) {
@@ -73,7 +97,6 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
                  later_sections());
   Scene scene;
   scene.path = label;
-  scene.text = source.dump();
   SimulationDefinition& definition = scene.definition;
   if (const auto name = root.find("name")) {
     definition.name = name->text();
@@ -85,7 +108,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   }
   read_geometry(root, context, scene);
   read_grid(root, scene);
-  read_method(root, scene);
+  const std::optional<AutoMethod> asked = read_method(root, scene);
   if (const auto gravity = root.find("gravity")) {
     definition.gravity = gravity->vector(kAcceleration);
   } else {
@@ -98,6 +121,8 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_loads(root, scene);
   read_time_and_output(root, scene);
   read_metrics(root, scene);
+  if (asked) choose_method(*asked, load_method_costs(), scene);
+  scene.text = asked ? with_method(source.root(), definition.method) : source.dump();
   return scene;
 }
 

@@ -203,6 +203,17 @@ Pose projected(const Pose& pose, GeometryKind geometry, const std::string& body)
   return {{pose.position.x(), 0.0, pose.position.z()}, Quat(q.w() * scale, 0.0, q.y() * scale, 0.0)};
 }
 
+// A transfer can make the largest stable step smaller than a cell over the wave speed: doc/methods.md, the time step.
+std::string step_warning(const SimulationDefinition& definition) {
+  const Transfer& transfer = definition.method.transfer;
+  const bool affine = transfer.kind == TransferKind::apic;
+  const bool high = transfer.kind == TransferKind::fmpm && transfer.order >= 5;
+  const double most = affine ? 0.7 : 0.9;
+  if (!(affine || high) || definition.time.cfl <= most) return {};
+  return fmt::format("time.cfl is {:g}: with {} steps that long may be unstable; use at most {:g}", definition.time.cfl,
+                     affine ? "apic" : fmt::format("fmpm {}", transfer.order), most);
+}
+
 // The kernels, and what runs on them: T is the precision of the particles.
 template <class T>
 void Simulation::State::add_mechanics() {
@@ -242,6 +253,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   project(s.definition);
   s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));
   const GridLayout& layout = s.grid->layout;
+  const ShapeKind shape = definition.method.shape;
+  if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) s.grid->wall_layers = 2;
   for (int k = 0; k < dim; ++k) {
     for (const int upper : {0, 1}) {
       s.grid->has_wall[2 * k + upper] = definition.walls[2 * layout.axis(k) + upper].kind != WallKind::none;
@@ -304,6 +317,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     }
   }
   add_walls(true);
+  if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);
   if (s.stages.size() > before_contact) {
     for (Wall* wall : holding) s.stages.push_back(std::make_unique<WallAgain>(*wall));
   }

@@ -1,0 +1,166 @@
+#include "mpm/scene/auto_method.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "mpm/scene/expected_motion.hpp"
+#include "mpm/simulation/method_rules.hpp"
+#include "mpm/simulation/method_text.hpp"
+#include "mpm/study/method_choice.hpp"
+
+namespace mpm {
+namespace {
+
+using study::Judged;
+using study::Preference;
+using study::Standing;
+
+constexpr double kLargeStrain = 0.02;  // see the header
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kTurned = 10.0 * kDegree;
+const char* const kDefault = "ugimp/usavg/flip";
+
+std::vector<std::string> suites_like(const ExpectedMotion& expected, GeometryKind geometry,
+                                     const study::MethodCosts& costs) {
+  std::vector<std::string> suites;
+  const bool large = expected.strain > kLargeStrain;
+  // A table without the cube has the square, whose answer is of the same kind.
+  const bool cube = geometry == GeometryKind::solid && costs.count(large ? "cube_large" : "cube_small") > 0;
+  if (!large) suites.emplace_back("bar_small");
+  if (geometry == GeometryKind::line) {
+    if (large) suites.emplace_back("bar_crossing");
+  } else {
+    suites.emplace_back(fmt::format("{}_{}", cube ? "cube" : "square", large ? "large" : "small"));
+  }
+  if (expected.turn >= kTurned) suites.insert(suites.end(), {"rotation", "vortex"});
+  if (expected.contact) suites.insert(suites.end(), {"plate_compression", "sliding_block"});
+  if (expected.free) suites.emplace_back("colliding_disks");
+  return suites;
+}
+
+/// Shape, update and transfer of `measured` where the scene has not said them.
+MethodDefinition filled(MethodDefinition method, const MethodDefinition& measured, const AutoMethod& asked) {
+  if (!asked.keep_shape) method.shape = measured.shape;
+  if (!asked.keep_update) method.update = measured.update;
+  if (!asked.keep_transfer) method.transfer = measured.transfer;
+  return method;
+}
+
+/// Whether a measured method may stand for this scene's, which keeps `transfer`.
+bool eligible(const MethodDefinition& measured, const AutoMethod& asked, const std::string& transfer, bool flows,
+              const SimulationDefinition& definition) {
+  const MethodDefinition& said = definition.method;
+  if (measured.precision != Precision::float64) return false;
+  if (asked.keep_shape ? measured.shape != said.shape
+                       : measured.shape == ShapeKind::dirac || (flows && follows_deformation(measured.shape))) {
+    return false;
+  }
+  if (asked.keep_update && measured.update != said.update) return false;
+  if (asked.keep_transfer && study::transfer_label(measured.transfer) != transfer) return false;
+  return !method_fault(filled(said, measured, asked), definition.geometry);
+}
+
+std::vector<std::string> candidates_for(const AutoMethod& asked, bool flows, const study::MethodCosts& costs,
+                                        const SimulationDefinition& definition) {
+  std::set<std::string> labels;
+  for (const auto& [suite, methods] : costs) {
+    for (const auto& [label, points] : methods) labels.insert(label);
+  }
+  std::vector<std::string> found;
+  // What the study has not run, as a fraction of FLIP, is judged as if it were FLIP.
+  for (const std::string& transfer : {study::transfer_label(definition.method.transfer), std::string("flip")}) {
+    for (const std::string& label : labels) {
+      if (eligible(study::find_method(label).method, asked, transfer, flows, definition)) found.push_back(label);
+    }
+    if (!found.empty()) break;
+  }
+  return found;
+}
+
+std::string name_of(const std::string& label) {
+  const MethodDefinition method = study::find_method(label).method;
+  return fmt::format("{}, {}, {}", shape_name(method.shape), update_name(method.update),
+                     transfer_text(method.transfer));
+}
+
+std::string percent(double part) { return fmt::format("{:.3g} %", 100.0 * part); }
+
+/// "1.05 in square_large, 1.2 in rotation"
+std::string numbers(const Preference& preference) {
+  std::vector<std::string> parts;
+  for (std::size_t s = 0; s < preference.suites.size(); ++s) {
+    const double number = preference.chosen.by_suite[s];
+    parts.push_back(fmt::format(
+        "{} in {}", preference.judged == Judged::smallest_error ? percent(number) : fmt::format("{:.2f}", number),
+        preference.suites[s]));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string reasons(const Preference& preference, const study::Budget& budget) {
+  std::string text;
+  const auto worst = [&](const Standing& standing) {
+    return preference.judged == Judged::smallest_error ? percent(standing.worst)
+                                                       : fmt::format("{:.2f}", standing.worst);
+  };
+  switch (preference.judged) {
+    case Judged::cost:
+      text = fmt::format("reaches {} at {} times the least cost", percent(*budget.error), numbers(preference));
+      break;
+    case Judged::smallest_error:
+      text = fmt::format("no method that was measured reaches {} in all suites; this one comes to {}",
+                         percent(*budget.error), numbers(preference));
+      break;
+    case Judged::error_at_cost:
+      text = fmt::format("for {:g} times the cost of ugimp, usf, flip for 1 % its error is {} times the least",
+                         *budget.cost, numbers(preference));
+      break;
+  }
+  if (preference.others.empty()) return text;
+  const Standing& next = preference.others.front();
+  text +=
+      fmt::format("; {} {}{} in its worst", name_of(next.method),
+                  next.worst < preference.chosen.worst ? "is less simple, with " : "comes next, with ", worst(next));
+  if (preference.chosen.method == kDefault || next.method == kDefault) return text;
+  const auto usual = std::find_if(preference.others.begin(), preference.others.end(),
+                                  [](const Standing& standing) { return standing.method == kDefault; });
+  if (usual != preference.others.end()) text += fmt::format("; {} has {}", name_of(kDefault), worst(*usual));
+  return text;
+}
+
+}  // namespace
+
+void choose_method(const AutoMethod& asked, const MethodCostsFile& file, Scene& scene) {
+  SimulationDefinition& definition = scene.definition;
+  MethodDefinition& method = definition.method;
+  const auto say = [&](const std::string& why) {
+    scene.choices.emplace_back("method", fmt::format("{}, {}, {}: {}", shape_name(method.shape),
+                                                     update_name(method.update), transfer_text(method.transfer), why));
+  };
+  if (asked.keep_shape && asked.keep_update && asked.keep_transfer) return say("the scene says all of it");
+  if (!file.fault.empty()) return say(fmt::format("the default, for {}", file.fault));
+
+  ExpectedMotion expected = expected_motion(scene);
+  if (asked.strain) {
+    expected.strain = *asked.strain;
+  } else {
+    scene.choices.emplace_back("method.auto.strain",
+                               fmt::format("{}: {}", percent(expected.strain), expected.strain_why));
+  }
+  if (asked.turn) {
+    expected.turn = *asked.turn;
+  } else {
+    scene.choices.emplace_back("method.auto.turn",
+                               fmt::format("{:.3g} deg: {}", expected.turn / kDegree, expected.turn_why));
+  }
+  const auto preference = study::prefer(file.costs, suites_like(expected, definition.geometry, file.costs),
+                                        candidates_for(asked, expected.flows, file.costs, definition), asked.budget);
+  if (!preference) return say("the default, for no measured method fits what the scene keeps and its budget");
+  method = filled(method, study::find_method(preference->chosen.method).method, asked);
+  say(reasons(*preference, asked.budget));
+}
+
+}  // namespace mpm

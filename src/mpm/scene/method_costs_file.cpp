@@ -1,0 +1,34 @@
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "mpm/scene/auto_method.hpp"
+
+namespace mpm {
+
+MethodCostsFile load_method_costs(const std::string& path) {
+  MethodCostsFile file;
+  file.path = path;
+  std::ifstream stream(path);
+  if (!stream) {
+    file.fault = path + " cannot be read";
+    return file;
+  }
+  try {
+    file.costs = study::read_method_costs(stream);
+  } catch (const study::StudyError& error) {
+    file.fault = path + ": " + error.what();
+  }
+  return file;
+}
+
+MethodCostsFile load_method_costs() {
+  if (const char* variable = std::getenv("MPM_ROS_METHOD_COSTS")) return load_method_costs(std::string(variable));
+  namespace fs = std::filesystem;
+  const fs::path beside = fs::path(MPM_SCENE_DIR).parent_path() / "method_costs.csv";
+  const fs::path installed = fs::path(MPM_INSTALLED_SCENE_DIR).parent_path() / "method_costs.csv";
+  std::error_code ignored;
+  return load_method_costs(fs::is_regular_file(beside, ignored) ? beside.string() : installed.string());
+}
+
+}  // namespace mpm

@@ -1,0 +1,62 @@
+#include "mpm/study/method_costs.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <istream>
+
+#include "mpm/study/method_choice.hpp"
+
+namespace mpm::study {
+namespace {
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells = {""};
+  for (const char c : line) {
+    if (c == ',') {
+      cells.emplace_back();
+    } else if (c != '\r') {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+double positive(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(value > 0.0) || !std::isfinite(value)) {
+    throw StudyError("'" + text + "' is not a number greater than 0");
+  }
+  return value;
+}
+
+}  // namespace
+
+MethodCosts read_method_costs(std::istream& in) {
+  std::string line;
+  std::getline(in, line);
+  if (cells_of(line) != std::vector<std::string>{"suite", "method", "error", "cost"}) {
+    throw StudyError("line 1: not the header suite,method,error,cost");
+  }
+  MethodCosts costs;
+  for (int number = 2; std::getline(in, line); ++number) {
+    const std::vector<std::string> cells = cells_of(line);
+    try {
+      if (cells.size() != 4) throw StudyError(fmt::format("{} cells, not 4", cells.size()));
+      find_suite(cells[0]);
+      find_method(cells[1]);
+      costs[cells[0]][cells[1]].push_back({positive(cells[3]), positive(cells[2])});
+    } catch (const StudyError& error) {
+      throw StudyError(fmt::format("line {}: {}", number, error.what()));
+    }
+  }
+  if (costs.empty()) throw StudyError("no run");
+  for (auto& [suite, methods] : costs) {
+    for (auto& [method, points] : methods) points = front(std::move(points));
+  }
+  return costs;
+}
+
+}  // namespace mpm::study

@@ -1,12 +1,15 @@
 // Which method to take: the rule that chooses among measured methods, by suites that look like the task.
 //
-// For an error: of the methods that come below it on every suite, the one whose cost is least in its worst suite, as a
-// factor over the least cost there. Where none does on every suite: the one whose smallest error, in its worst suite,
-// is smallest. For a cost: the same with errors in the place of costs, at so many times the cost at which
-// uGIMP/USF/FLIP reaches 1 % on the suite (or of its dearest run, where it does not). Differences under 10 % count as
-// none, for the study's timing is no finer: then the simpler method is taken, that has fewer parts other than uGIMP,
-// USAVG and FLIP, in this order of weight. Weak: the worst suite decides, though a scene may be little like it. Source:
-// own; a minimax choice.
+// For an error: a method's number on a suite is its cost of coming below the error there, over the least cost that any
+// candidate has. On a suite where no candidate comes below it, the number is the method's smallest error over the
+// smallest of all. Of the methods that come below the error wherever one does, that is taken whose largest number is
+// least. Where there is none of these, numbers are smallest errors over the smallest of all or, where that is more,
+// over the error asked for; what is below that counts as 1. For a cost: numbers are errors over the least one, at so
+// many times the cost at which uGIMP/USF/FLIP reaches 1 % on the suite (or of its dearest run, where it does not).
+// Differences under 10 % count as none, for the study's timing is no finer: then the simpler method is taken, that has
+// fewer parts other than uGIMP, USAVG and FLIP; of as many, one with another transfer before one with another update
+// and that before one with another shape.
+// Weak: the worst suite decides, though a scene may be little like it. Source: own; a minimax choice.
 #pragma once
 
 #include <optional>
@@ -23,22 +26,27 @@ struct Budget {
   std::optional<double> cost;   ///< over that of uGIMP/USF/FLIP for 1 %
 };
 
-/// What the numbers of a standing are.
+/// What the numbers of a suite are.
 enum class Judged {
-  cost,            ///< of reaching the error, over the least of the suite
-  smallest_error,  ///< none reaches the error everywhere: the smallest that was measured
-  error_at_cost,   ///< over the least of the suite
+  cost,            ///< of reaching the error
+  smallest_error,  ///< that was measured; the error is not reached
+  error_at_cost,
 };
 
 struct Standing {
   std::string method;            ///< label
-  std::vector<double> by_suite;  ///< in the order of Preference::suites
+  std::vector<double> by_suite;  ///< numbers as above, in the order of Preference::suites
   double worst = 0.0;            ///< largest of them
 };
 
+struct JudgedSuite {
+  std::string name;
+  Judged by = Judged::cost;
+  double least = 0.0;  ///< what numbers are relative to: a cost, or an error
+};
+
 struct Preference {
-  Judged judged = Judged::cost;
-  std::vector<std::string> suites;  ///< that decided
+  std::vector<JudgedSuite> suites;  ///< that decided
   Standing chosen;
   std::vector<Standing> others;  ///< that could have been, best first
 };

@@ -88,47 +88,40 @@ std::string name_of(const std::string& label) {
 
 std::string percent(double part) { return fmt::format("{:.3g} %", 100.0 * part); }
 
-/// "1.05 in square_large, 1.2 in rotation"
-std::string numbers(const Preference& preference) {
+/// "1.05 in square_large, 1.20 in rotation" of the suites that are judged so; empty without any.
+std::string numbers(const Preference& preference, Judged by) {
   std::vector<std::string> parts;
   for (std::size_t s = 0; s < preference.suites.size(); ++s) {
-    const double number = preference.chosen.by_suite[s];
-    parts.push_back(fmt::format(
-        "{} in {}", preference.judged == Judged::smallest_error ? percent(number) : fmt::format("{:.2f}", number),
-        preference.suites[s]));
+    const study::JudgedSuite& suite = preference.suites[s];
+    if (suite.by == by) parts.push_back(fmt::format("{:.2f} in {}", preference.chosen.by_suite[s], suite.name));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string reasons(const Preference& preference, const study::Budget& budget) {
-  std::string text;
-  const auto worst = [&](const Standing& standing) {
-    return preference.judged == Judged::smallest_error ? percent(standing.worst)
-                                                       : fmt::format("{:.2f}", standing.worst);
-  };
-  switch (preference.judged) {
-    case Judged::cost:
-      text = fmt::format("reaches {} at {} times the least cost", percent(*budget.error), numbers(preference));
-      break;
-    case Judged::smallest_error:
-      text = fmt::format("no method that was measured reaches {} in all suites; this one comes to {}",
-                         percent(*budget.error), numbers(preference));
-      break;
-    case Judged::error_at_cost:
-      text = fmt::format("for {:g} times the cost of ugimp, usf, flip for 1 % its error is {} times the least",
-                         *budget.cost, numbers(preference));
-      break;
+  std::vector<std::string> parts;
+  if (const std::string list = numbers(preference, Judged::cost); !list.empty()) {
+    parts.push_back(fmt::format("reaches {} at a cost over the least of {}", percent(*budget.error), list));
   }
-  if (preference.others.empty()) return text;
-  const Standing& next = preference.others.front();
-  text +=
-      fmt::format("; {} {}{} in its worst", name_of(next.method),
-                  next.worst < preference.chosen.worst ? "is less simple, with " : "comes next, with ", worst(next));
-  if (preference.chosen.method == kDefault || next.method == kDefault) return text;
-  const auto usual = std::find_if(preference.others.begin(), preference.others.end(),
-                                  [](const Standing& standing) { return standing.method == kDefault; });
-  if (usual != preference.others.end()) text += fmt::format("; {} has {}", name_of(kDefault), worst(*usual));
-  return text;
+  if (const std::string list = numbers(preference, Judged::smallest_error); !list.empty()) {
+    parts.push_back(fmt::format("its smallest error over the least, or over {}, is {}", percent(*budget.error), list));
+  }
+  if (const std::string list = numbers(preference, Judged::error_at_cost); !list.empty()) {
+    parts.push_back(fmt::format("at {:g} times the cost of 1 % with ugimp, usf, flip its error over the least is {}",
+                                *budget.cost, list));
+  }
+  if (!preference.others.empty()) {
+    const Standing& next = preference.others.front();
+    parts.push_back(fmt::format("{} {} {:.2f} at worst", name_of(next.method),
+                                next.worst < preference.chosen.worst ? "is less simple, with" : "comes next, with",
+                                next.worst));
+    const auto usual = std::find_if(preference.others.begin() + 1, preference.others.end(),
+                                    [](const Standing& standing) { return standing.method == kDefault; });
+    if (usual != preference.others.end()) {
+      parts.push_back(fmt::format("{} has {:.2f} at worst", name_of(kDefault), usual->worst));
+    }
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 }  // namespace

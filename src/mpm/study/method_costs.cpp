@@ -49,7 +49,8 @@ MethodCosts read_method_costs(std::istream& in) {
       find_method(cells[1]);
       costs[cells[0]][cells[1]].push_back({positive(cells[3]), positive(cells[2])});
     } catch (const StudyError& error) {
-      throw StudyError(fmt::format("line {}: {}", number, error.what()));
+      const std::string what = error.what();  // without the list of all names that there are
+      throw StudyError(fmt::format("line {}: {}", number, what.substr(0, what.find(';'))));
     }
   }
   if (costs.empty()) throw StudyError("no run");

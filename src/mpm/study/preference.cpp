@@ -14,10 +14,7 @@ constexpr double kTie = 1.1;              // see the header
 constexpr double kReferenceError = 0.01;  // that costs are relative to
 const char* const kReference = "ugimp/usf/flip";
 
-using Numbers = std::vector<std::optional<double>>;  // one a suite
-
-/// Parts that differ from uGIMP, USAVG, FLIP, a shape function weighing more than an update, and that more than a
-/// transfer.
+/// Parts that differ from uGIMP, USAVG, FLIP; then which.
 std::array<int, 4> complexity(const std::string& label) {
   const MethodDefinition method = find_method(label).method;
   const int shape = method.shape != ShapeKind::ugimp, update = method.update != UpdateScheme::usavg;
@@ -32,23 +29,36 @@ std::optional<double> spending(const std::map<std::string, std::vector<FrontPoin
   return times * cost_at(reference->second, kReferenceError).value_or(reference->second.back().cost);
 }
 
-/// The candidates that have a number everywhere, as factors over the least number that any candidate has on the suite.
-std::vector<Standing> standings(const std::vector<std::string>& candidates, const std::vector<Numbers>& numbers,
-                                bool factors) {
+/// Numbers of all candidates on one suite, before they are made relative; nothing for who has none.
+struct Column {
+  JudgedSuite suite;
+  std::vector<std::optional<double>> numbers;
+
+  /// Takes the least number, but not below `floor`, as the unit.
+  void relate(double floor = 0.0) {
+    suite.least = std::numeric_limits<double>::infinity();
+    for (const auto& number : numbers) suite.least = std::min(suite.least, number.value_or(suite.least));
+    suite.least = std::max(suite.least, floor);
+    for (auto& number : numbers) {
+      if (number) *number = std::max(*number / suite.least, 1.0);
+    }
+  }
+  bool empty() const {
+    return std::none_of(numbers.begin(), numbers.end(), [](const auto& number) { return number.has_value(); });
+  }
+};
+
+/// The candidates that have a number on every suite.
+std::vector<Standing> standings(const std::vector<std::string>& candidates, const std::vector<Column>& columns) {
   std::vector<Standing> list;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const auto known = [](const std::optional<double>& number) { return number.has_value(); };
-    if (!std::all_of(numbers[i].begin(), numbers[i].end(), known)) continue;
     Standing standing{candidates[i], {}, 0.0};
-    for (std::size_t s = 0; s < numbers[i].size(); ++s) {
-      double least = factors ? std::numeric_limits<double>::infinity() : 1.0;
-      for (const Numbers& other : numbers) {
-        if (factors && other[s]) least = std::min(least, *other[s]);
-      }
-      standing.by_suite.push_back(*numbers[i][s] / least);
-      standing.worst = std::max(standing.worst, standing.by_suite.back());
+    for (const Column& column : columns) {
+      if (!column.numbers[i]) break;
+      standing.by_suite.push_back(*column.numbers[i]);
+      standing.worst = std::max(standing.worst, *column.numbers[i]);
     }
-    list.push_back(std::move(standing));
+    if (standing.by_suite.size() == columns.size()) list.push_back(std::move(standing));
   }
   return list;
 }
@@ -78,38 +88,44 @@ std::optional<double> error_at(const std::vector<FrontPoint>& front, double cost
 
 std::optional<Preference> prefer(const MethodCosts& costs, const std::vector<std::string>& suites,
                                  const std::vector<std::string>& candidates, const Budget& budget) {
-  Preference preference;
-  std::vector<std::string> left = candidates;
+  std::vector<std::string> left = candidates, counted;
   for (const std::string& suite : suites) {
     const auto found = costs.find(suite);
     if (found == costs.end() || (budget.cost && !spending(found->second, *budget.cost))) continue;
     const auto measured = [&](const std::string& label) { return found->second.count(label) > 0; };
-    if (std::any_of(candidates.begin(), candidates.end(), measured)) preference.suites.push_back(suite);
+    if (std::any_of(candidates.begin(), candidates.end(), measured)) counted.push_back(suite);
   }
-  for (const std::string& suite : preference.suites) {
+  for (const std::string& suite : counted) {
     const auto missing = [&](const std::string& label) { return costs.at(suite).count(label) == 0; };
     left.erase(std::remove_if(left.begin(), left.end(), missing), left.end());
   }
-  if (preference.suites.empty() || left.empty()) return std::nullopt;
+  if (counted.empty() || left.empty()) return std::nullopt;
 
-  std::vector<Numbers> numbers(left.size()), smallest(left.size());
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    for (const std::string& suite : preference.suites) {
-      const auto& methods = costs.at(suite);
-      const std::vector<FrontPoint>& points = methods.at(left[i]);
-      numbers[i].push_back(budget.cost ? error_at(points, *spending(methods, *budget.cost))
-                                       : cost_at(points, *budget.error));
-      smallest[i].push_back(points.back().error);
+  std::vector<Column> columns, smallest;
+  for (const std::string& suite : counted) {
+    const auto& methods = costs.at(suite);
+    Column asked{{suite, budget.cost ? Judged::error_at_cost : Judged::cost, 0.0}, {}};
+    Column error{{suite, Judged::smallest_error, 0.0}, {}};
+    for (const std::string& label : left) {
+      const std::vector<FrontPoint>& points = methods.at(label);
+      asked.numbers.push_back(budget.cost ? error_at(points, *spending(methods, *budget.cost))
+                                          : cost_at(points, *budget.error));
+      error.numbers.emplace_back(points.back().error);
     }
+    smallest.push_back(error);
+    columns.push_back(budget.error && asked.empty() ? error : asked);
+    columns.back().relate();
   }
-  preference.judged = budget.cost ? Judged::error_at_cost : Judged::cost;
-  std::vector<Standing> list = standings(left, numbers, true);
+  std::vector<Standing> list = standings(left, columns);
   if (list.empty() && budget.error) {
-    preference.judged = Judged::smallest_error;
-    list = standings(left, smallest, false);
+    columns = smallest;
+    for (Column& column : columns) column.relate(*budget.error);
+    list = standings(left, columns);
   }
   if (list.empty()) return std::nullopt;
   rank(list);
+  Preference preference;
+  for (const Column& column : columns) preference.suites.push_back(column.suite);
   preference.chosen = list.front();
   preference.others.assign(list.begin() + 1, list.end());
   return preference;

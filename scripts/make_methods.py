@@ -119,6 +119,14 @@ class Study:
                 return line["method"]
         raise ClaimError(f"the summary has no line for {suite}, {target}")
 
+    def main_suites(self):
+        """Says on which problems the main methods alone are run."""
+        names = [f"`{suite}`" for suite, text in self.texts.items() if text["methods"] == "main"]
+        if not names:
+            return "Every one of them is run on every problem."
+        return textwrap.fill(f"On {', '.join(names)} a run is long, and only uGIMP's combinations and those of USAVG and "
+                             "FLIP are run.", 120, break_on_hyphens=False)
+
     def charts(self):
         parts = []
         for suite in self.drawn:
@@ -192,7 +200,7 @@ class Study:
         """What the text may use."""
         return {"error": self.error, "relative_cost": self.relative_cost, "status": self.status, "order": self.order,
                 "best": self.best, "worst": self.worst, "charts": self.charts, "summary": self.summary, "refused": self.refused,
-                "failures": self.failures, "stability": self.stability, "runs": lambda: len(self.rows),
+                "failures": self.failures, "main_suites": self.main_suites, "stability": self.stability, "runs": lambda: len(self.rows),
                 "percent": lambda value: digits(100 * value) + " %", "times": digits, "plain": lambda value: f"{value:g}",
                 "check": check, "min": min, "max": max, "abs": abs}
 

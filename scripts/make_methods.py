@@ -65,7 +65,7 @@ class Study:
                     if row["suite"] == suite and row["cfl"] == plots.USUAL_CFL and plots.usual_particles(row)]
             run = {(row["method"], row["cells"]) for row in rows}
             if text.get("methods") not in RUN_THERE:
-                raise ClaimError("suites.csv: no column that says which methods are run; run work_precision again")
+                raise ClaimError(f"suites.csv: {suite} was not run with all methods or the main ones; run scripts/methods")
             expected = [label for label, row in methods.items() if RUN_THERE[text["methods"]](row)]
             missing = [(label, cells) for label in expected for cells in sorted({row["cells"] for row in rows})
                        if (label, cells) not in run]

@@ -218,6 +218,30 @@ TEST(AutoMethod, SuitesFollowTheScene) {
   EXPECT_EQ(said(chosen(block(), rows), "method.auto.strain"), "0 %: nothing moves it");
 }
 
+// For what uGIMP/USF takes for 1 %, CPDI has 0.5 % and uGIMP/USAVG 2 % on the one suite, both the same on the other.
+// For an error that nobody reaches, what is told are errors.
+TEST(AutoMethod, SaysWhatABudgetBuys) {
+  const std::string rows =
+      "bar_small,ugimp/usf/flip,0.01,100\nbar_small,ugimp/usavg/flip,0.02,100\nbar_small,cpdi/usavg/flip,0.005,100\n"
+      "square_small,ugimp/usf/flip,0.01,100\nsquare_small,ugimp/usavg/flip,0.01,100\n"
+      "square_small,cpdi/usavg/flip,0.01,100\n";
+  AutoMethod asked;
+  asked.budget = {{}, 1.0};
+  const Scene scene = chosen(block(), rows, asked);
+  EXPECT_EQ(
+      said(scene),
+      "cpdi, usavg, flip: comes, for 1 times what ugimp, usf, flip takes for 1 %, to 1.00 times the least error in "
+      "bar_small, 1.00 in square_small; ugimp, usf, flip comes next, with 2.00 at worst; ugimp, usavg, flip has 4.00 "
+      "at worst");
+  asked.budget = {0.001, {}};
+  EXPECT_EQ(
+      said(chosen(block(), rows, asked)),
+      "cpdi, usavg, flip: comes, where not all reach 0.1 %, to 1.00 times the smallest error or 0.1 % in bar_small, "
+      "1.00 in square_small; ugimp, usf, flip comes next, with 2.00 at worst; ugimp, usavg, flip has 4.00 at worst");
+  asked.budget = {{}, 0.5};
+  EXPECT_EQ(said(chosen(block(), rows, asked)).find("ugimp, usavg, flip: the default, for no measured method"), 0U);
+}
+
 // At 2 % the smaller error on the cube is no reason, and the square counts; at 1 % the cube does.
 TEST(AutoMethod, ACubeCountsWhereItIsSolved) {
   const std::string rows =

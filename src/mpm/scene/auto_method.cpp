@@ -110,15 +110,17 @@ std::string numbers(const Preference& preference, Judged by, const std::string& 
 
 std::string reasons(const Preference& preference, const study::Budget& budget) {
   std::vector<std::string> parts;
-  if (const std::string list = numbers(preference, Judged::cost, "the least cost"); !list.empty()) {
-    parts.push_back(fmt::format("reaches {} at {}", percent(*budget.error), list));
-  }
-  if (const std::string list = numbers(preference, Judged::smallest_error, "the smallest error or " + percent(*budget.error)); !list.empty()) {
-    parts.push_back(fmt::format("comes, where not all reach {}, to {}", percent(*budget.error), list));
-  }
-  if (const std::string list = numbers(preference, Judged::error_at_cost, "the least error"); !list.empty()) {
-    parts.push_back(
-        fmt::format("comes, for {:g} times what ugimp, usf, flip takes for 1 %, to {}", *budget.cost, list));
+  const auto add = [&](Judged by, const std::string& start, const std::string& unit) {
+    if (const std::string list = numbers(preference, by, unit); !list.empty()) parts.push_back(start + list);
+  };
+  if (budget.error) {
+    const std::string error = percent(*budget.error);
+    add(Judged::cost, fmt::format("reaches {} at ", error), "the least cost");
+    add(Judged::smallest_error, fmt::format("comes, where not all reach {}, to ", error),
+        "the smallest error or " + error);
+  } else {
+    add(Judged::error_at_cost,
+        fmt::format("comes, for {:g} times what ugimp, usf, flip takes for 1 %, to ", *budget.cost), "the least error");
   }
   if (!preference.others.empty()) {
     const Standing& next = preference.others.front();

@@ -19,6 +19,7 @@ import pathlib
 import re
 import shutil
 import sys
+import textwrap
 
 sys.dont_write_bytecode = True  # nothing is left among the sources
 import plot_work_precision as plots  # noqa: E402
@@ -155,8 +156,13 @@ class Study:
         return {"error": self.error, "relative_cost": self.relative_cost, "status": self.status, "order": self.order,
                 "best": self.best, "charts": self.charts, "summary": self.summary, "refused": self.refused,
                 "failures": self.failures, "stability": self.stability, "runs": lambda: len(self.rows),
-                "percent": lambda value: f"{100 * value:.2g} %", "times": lambda value: f"{value:.2g}",
+                "percent": lambda value: digits(100 * value) + " %", "times": digits,
                 "check": check, "min": min, "max": max, "abs": abs}
+
+
+def digits(value):
+    """Two that count."""
+    return f"{value:#.2g}".rstrip(".")
 
 
 def check(holds):
@@ -175,8 +181,17 @@ def fill(text, names, first_line=1):
         except (ClaimError, NameError, SyntaxError, TypeError) as error:
             raise ClaimError(f"{TEMPLATE.name}:{line}: {match.group(1).strip()}: {error}") from error
 
-    return re.sub(r" ?\{\{(.+?)\}\}", lambda match: (" " if match.group(0)[0] == " " and value(match) else "") +
-                  value(match), text, flags=re.DOTALL)
+    return re.sub(r"\{\{(.+?)\}\}", value, text, flags=re.DOTALL)
+
+
+def wrap_points(text):
+    """The points of the chapter of claims, which are full of gaps where a formula stood, in even lines."""
+    head, rest = text.split(CLAIMS + "\n", 1)
+    chapter, tail = rest.split("\n## ", 1)
+    wrapped = ["" if not point.strip() else textwrap.fill(
+        "- " + " ".join(point.split()), 118, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
+        for point in re.split(r"^- ", chapter, flags=re.MULTILINE)]
+    return head + CLAIMS + "\n\n" + "\n".join(wrapped).strip() + "\n\n## " + tail
 
 
 def points(text):
@@ -205,7 +220,7 @@ def make(runs, doc, pages):
     text = TEMPLATE.read_text(encoding="utf-8")
     check_points(text)
     study = Study(runs, doc, pages)
-    filled = fill(text, study.names())
+    filled = wrap_points(fill(text, study.names()))
     (doc / "methods").mkdir(parents=True, exist_ok=True)
     for old in (doc / "methods").glob("*.png"):
         old.unlink()
@@ -219,7 +234,7 @@ def make(runs, doc, pages):
 def compare(doc):
     text = TEMPLATE.read_text(encoding="utf-8")
     check_points(text)
-    made = fill(text.split(LAST)[0], Study(doc / "methods").names()).rstrip()
+    made = wrap_points(fill(text.split(LAST)[0], Study(doc / "methods").names())).rstrip()
     kept = (doc / "methods.md").read_text(encoding="utf-8").split(LAST)[0].rstrip()
     for number, (one, other) in enumerate(zip(made.splitlines() + [""], kept.splitlines() + [""]), 1):
         if one != other:

@@ -33,9 +33,10 @@ def draw_series(axes, series, number, figure):
     if kind == "exact":
         axes.plot(x, y, color="black", lw=1.4, label=label, zorder=2)
     elif kind == "line":
-        axes.plot(x, y, color=colour, lw=1.4, label=label, zorder=3)
+        style = ["-", "--", ":"][number // len(COLOURS) % 3]
+        axes.plot(x, y, style, color=colour, lw=1.4, label=label, zorder=3)
     elif kind == "points":
-        mark = MARKS[number % len(MARKS)] if len(x) < 400 else "."
+        mark = MARKS[(number + number // len(MARKS)) % len(MARKS)] if len(x) < 400 else "."
         axes.plot(x, y, mark, color=colour, ms=4 if len(x) < 400 else 1.5, label=label, zorder=3)
     elif kind == "published":
         axes.plot(x, y, MARKS[number % len(MARKS)], mfc="none", color="#666666", ms=6, label=label, zorder=4)
@@ -60,28 +61,32 @@ def draw_order(axes, order):
     axes.text(b, bottom * (b / a) ** (order / 2), f" order {order:g}", fontsize=8, color="#666666", va="center")
 
 
+def draw_panel(axes, panel, figure):
+    number = 0
+    for series in panel["series"]:
+        draw_series(axes, series, number, figure)
+        number += series["kind"] in ("line", "points", "published")
+    if panel.get("log_x"):
+        axes.set_xscale("log")
+    if panel.get("log_y"):
+        axes.set_yscale("log")
+    if "order" in panel:
+        draw_order(axes, panel["order"])
+    axes.set_title(panel["title"], fontsize=10)
+    axes.set_xlabel(panel["x"])
+    axes.set_ylabel(panel["y"])
+    axes.grid(alpha=0.25)
+    if any(series["kind"] != "particles" for series in panel["series"]):
+        axes.legend(fontsize=8, frameon=any(series["kind"] == "particles" for series in panel["series"]))
+
+
 def draw(page, path):
     panels = page["figure"]
     figure, all_axes = plt.subplots(
         1, len(panels), figsize=(4.6 * len(panels) + 0.4, 3.5), squeeze=False, layout="constrained"
     )
     for axes, panel in zip(all_axes[0], panels):
-        number = 0
-        for series in panel["series"]:
-            draw_series(axes, series, number, figure)
-            number += series["kind"] in ("line", "points", "published")
-        if panel.get("log_x"):
-            axes.set_xscale("log")
-        if panel.get("log_y"):
-            axes.set_yscale("log")
-        if "order" in panel:
-            draw_order(axes, panel["order"])
-        axes.set_title(panel["title"], fontsize=10)
-        axes.set_xlabel(panel["x"])
-        axes.set_ylabel(panel["y"])
-        axes.grid(alpha=0.25)
-        if any(series["kind"] != "particles" for series in panel["series"]):
-            axes.legend(fontsize=8, frameon=any(series["kind"] == "particles" for series in panel["series"]))
+        draw_panel(axes, panel, figure)
     figure.savefig(path, dpi=110, metadata={"Software": None})
     plt.close(figure)
 

@@ -1,20 +1,20 @@
-// The passes of a step once more, the shortest way: a loop over the particles, over all 3^dim nodes of each, in double
-// precision, on a dense grid. No blocks, no tiles, no registers; of the kernels it shares the shape function and the
+// The passes of a step once more, the shortest way: a loop over the particles, over all nodes of each, in double
+// precision, on a dense grid. No blocks, no tiles, no registers; of the kernels it shares the shape functions and the
 // laws alone, both with tests of their own. Weak: slow, and a small box of nodes.
-// Source: GIMP notes (2.2), (2.8), (2.14), (1.26); method reference 6.2, 7.
+// Source: GIMP notes (2.2), (2.8), (2.14), (1.26); method reference 6.1, 6.2, 6.6, 7.
 #pragma once
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "kernel_stencil.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/math/exponential.hpp"
-#include "mpm/particles/particle_set.hpp"
-#include "mpm/shape/ugimp.hpp"
 
 namespace mpm::test {
 
@@ -24,6 +24,9 @@ struct ReferenceParticle {
   using Matrix = typename Geometry::template Matrix<double>;
   using Symmetric = typename Geometry::template Symmetric<double>;
   double x[3] = {}, next_x[3] = {}, v[3] = {}, load[3] = {};
+  double damping[2] = {};    ///< rates on the grid's and on its own velocity [1/s]
+  double affine[3][3] = {};  ///< APIC: B [m^2/s]
+  double domain[3][3] = {};  ///< F as the step began
   Matrix f = Matrix::identity();
   Symmetric tau = Symmetric::isotropic(0.0);
   double history[4] = {};
@@ -54,10 +57,17 @@ struct ReferenceSet {
 struct ReferenceNode {
   double mass = 0.0;
   double momentum[3] = {}, velocity[3] = {}, force[3] = {}, load[3] = {};
+  double from[3] = {}, to[3] = {};  ///< what is projected [m/s], and the momentum that becomes of it
+  double mean = 0.0;                ///< of a trace
 };
 
-/// Of any shape function that touches the three nearest nodes along each axis (shape/ugimp.hpp).
-template <class Geometry, template <class> class Shape = Ugimp>
+/// What damping took away in a motion (mpm_kernel::Moved).
+struct ReferenceDrag {
+  double drag[3] = {};  ///< [N s]
+  double grid_kinetic = 0.0, particle_kinetic = 0.0;
+};
+
+template <class Geometry>
 class Reference {
   static constexpr int kDim = Geometry::kDim;
   static constexpr int kEdge = 40, kBefore = 8;  // nodes -8 to 31 along each axis
@@ -66,8 +76,12 @@ class Reference {
   using Set = ReferenceSet<Geometry>;
   using Particle = ReferenceParticle<Geometry>;
 
-  Reference(const std::array<double, 3>& origin, const std::array<double, 3>& cell)
-      : origin_(origin), cell_(cell), nodes_(kDim == 3 ? kEdge * kEdge * kEdge : kEdge * kEdge) {}
+  Reference(ShapeKind shape, const ReferenceGrid& grid)
+      : shape_(shape),
+        grid_(grid),
+        nodes_(kDim == 3   ? kEdge * kEdge * kEdge
+               : kDim == 2 ? kEdge * kEdge
+                           : kEdge) {}
 
   std::vector<Set> sets;
 
@@ -78,27 +92,48 @@ class Reference {
   }
   std::vector<ReferenceNode>& nodes() { return nodes_; }
 
-  void scatter_momentum() {
+  /// The step's domains are those of now; with the affine field of APIC.
+  void scatter_momentum(bool affine = false) {
     for (ReferenceNode& n : nodes_) n = {};
+    each([&](const Set&, Particle& p) { note_domain(p); });
     each([&](const Set& set, const Particle& p) {
-      each_node(set, p, [&](ReferenceNode& n, double s, const double*) { n.mass += set.mass * s; });
+      each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) { n.mass += set.mass * s; });
     });
-    gather_momentum();
+    gather_momentum(affine);
   }
   /// Momentum alone, as after the motion.
-  void gather_momentum() {
-    for (ReferenceNode& n : nodes_) std::fill(n.momentum, n.momentum + 3, 0.0);
+  void gather_momentum(bool affine = false) {
+    clear(&ReferenceNode::momentum);
     each([&](const Set& set, const Particle& p) {
-      each_node(set, p, [&](ReferenceNode& n, double s, const double*) {
-        for (int c = 0; c < kDim; ++c) n.momentum[c] += set.mass * s * p.v[c];
+      double gradient[3][3] = {};
+      if (affine) affine_gradient(set, p, gradient);
+      each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double* arm) {
+        for (int c = 0; c < kDim; ++c) {
+          double v = p.v[c];
+          for (int k = 0; k < kDim; ++k) v += gradient[c][k] * arm[k];
+          n.momentum[c] += set.mass * s * v;
+        }
       });
     });
   }
   void scatter_load() {
-    for (ReferenceNode& n : nodes_) std::fill(n.load, n.load + 3, 0.0);
+    clear(&ReferenceNode::load);
     each([&](const Set& set, const Particle& p) {
-      each_node(set, p, [&](ReferenceNode& n, double s, const double*) {
+      each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) {
         for (int c = 0; c < kDim; ++c) n.load[c] += set.mass * s * p.load[c];
+      });
+    });
+  }
+  /// to = sum of m S (S from).
+  void project() {
+    clear(&ReferenceNode::to);
+    each([&](const Set& set, const Particle& p) {
+      double v[3] = {};
+      each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) {
+        for (int c = 0; c < kDim; ++c) v[c] += s * n.from[c];
+      });
+      each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) {
+        for (int c = 0; c < kDim; ++c) n.to[c] += set.mass * s * v[c];
       });
     });
   }
@@ -116,45 +151,106 @@ class Reference {
       }
     }
   }
-  void strain(double dt, int terms) {
-    each([&](const Set& set, Particle& p) {
-      double l[kDim][kDim] = {};
-      each_node(set, p, [&](ReferenceNode& n, double, const double* g) {
+  /// XPIC (from the start's velocity) or FMPM of this order: what nodal velocities gain, method reference 6.6.
+  void add_increments(int order, bool from_start, double least_mass) {
+    for (ReferenceNode& n : nodes_) {
+      for (int c = 0; c < kDim; ++c) {
+        const double start = n.mass > least_mass ? n.momentum[c] / n.mass : 0.0;
+        n.from[c] = from_start ? start : n.velocity[c];
+      }
+    }
+    for (int j = 1; j < order; ++j) {
+      project();
+      for (ReferenceNode& n : nodes_) {
         for (int c = 0; c < kDim; ++c) {
-          for (int k = 0; k < kDim; ++k) l[c][k] += dt * n.velocity[c] * g[k];
+          if (n.mass > least_mass) n.from[c] -= n.to[c] / n.mass;
+          n.velocity[c] += n.from[c];
+        }
+      }
+    }
+  }
+  /// With dilatation averaged over the grid (kernel/mean.hpp), or each particle's own.
+  void strain(double dt, int terms, bool average = false) {
+    using Gradient = double[kDim][kDim];
+    const auto gradient = [&](const Set& set, const Particle& p, Gradient& l) {
+      each_node(set, p, [&](ReferenceNode& n, double, const double* g, const double*) {
+        for (int c = 0; c < kDim; ++c) {
+          for (int k = 0; k < kDim; ++k) l[c][k] += n.velocity[c] * g[k];
         }
       });
+    };
+    if (average) {
+      find_mean([&](const Set& set, const Particle& p) {
+        Gradient l = {};
+        gradient(set, p, l);
+        return trace(l);
+      });
+    }
+    each([&](const Set& set, Particle& p) {
+      Gradient l = {};
+      gradient(set, p, l);
+      if (average) set_trace(l, mean_at(set, p));
+      for (auto& row : l) {
+        for (double& component : row) component *= dt;
+      }
       p.deform(*set.law, Geometry::gradient(l), dt, terms);
     });
   }
-  void force() {
-    for (ReferenceNode& n : nodes_) std::fill(n.force, n.force + 3, 0.0);
-    each([&](const Set& set, const Particle& p) {
-      double columns[kDim][kDim];
+  void force(bool average = false) {
+    using Columns = double[kDim][kDim];
+    const auto fill = [](const Particle& p, Columns& columns) {
       for (int k = 0; k < kDim; ++k) Geometry::column(p.tau, k, columns[k]);
-      each_node(set, p, [&](ReferenceNode& n, double, const double* g) {
+    };
+    if (average) {
+      find_mean([&](const Set&, const Particle& p) {
+        Columns columns;
+        fill(p, columns);
+        return trace(columns);
+      });
+    }
+    clear(&ReferenceNode::force);
+    each([&](const Set& set, const Particle& p) {
+      Columns columns;
+      fill(p, columns);
+      if (average) set_trace(columns, mean_at(set, p));
+      each_node(set, p, [&](ReferenceNode& n, double, const double* g, const double*) {
         for (int c = 0; c < kDim; ++c) {
           for (int k = 0; k < kDim; ++k) n.force[c] -= set.mass * columns[k][c] * g[k];
         }
       });
     });
   }
-  /// Velocities, and the new positions beside the old ones: method reference 6.2, beta = `flip`.
-  void move(double dt, double flip) {
+  /// Velocities, and the new positions beside the old ones. kIncrement: method reference 6.2, beta = `flip`; the
+  /// others: 6.6. Damped by each particle's rates, 6.1.
+  ReferenceDrag move(mpm_kernel::Motion motion, double dt, double flip) {
+    ReferenceDrag taken;
     each([&](const Set& set, Particle& p) {
-      double after[3] = {}, a[3] = {};
-      each_node(set, p, [&](ReferenceNode& n, double s, const double*) {
+      double after[3] = {}, a[3] = {}, b[3][3] = {};
+      each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double* arm) {
         for (int c = 0; c < kDim; ++c) {
           after[c] += s * n.velocity[c];
           a[c] += s * n.force[c];
+          for (int k = 0; k < kDim; ++k) b[c][k] += s * n.velocity[c] * arm[k];
         }
       });
       for (int c = 0; c < kDim; ++c) {
-        const double slip = p.v[c] - (after[c] - a[c] * dt);
-        p.next_x[c] = p.x[c] + (after[c] - 0.5 * (1.0 - flip) * slip) * dt - 0.5 * a[c] * dt * dt;
-        p.v[c] += a[c] * dt - (1.0 - flip) * slip;
+        const double old = p.v[c], seen = motion == mpm_kernel::kIncrement ? after[c] - a[c] * dt : after[c];
+        const double drag = p.damping[0] * seen + p.damping[1] * old;
+        taken.drag[c] += set.mass * drag * dt;
+        taken.grid_kinetic += 0.5 * set.mass * seen * seen;
+        taken.particle_kinetic += 0.5 * set.mass * old * old;
+        if (motion == mpm_kernel::kIncrement) {
+          const double slip = old - seen;
+          p.next_x[c] = p.x[c] + (after[c] - 0.5 * (1.0 - flip) * slip) * dt - 0.5 * (a[c] + drag) * dt * dt;
+          p.v[c] += a[c] * dt - (1.0 - flip) * slip - drag * dt;
+          continue;
+        }
+        p.v[c] = after[c] - drag * dt;
+        p.next_x[c] = p.x[c] + (motion == mpm_kernel::kAdopt ? 0.5 * (old + p.v[c]) : p.v[c]) * dt;
+        if (motion == mpm_kernel::kAffine) std::copy(b[c], b[c] + 3, p.affine[c]);
       }
     });
+    return taken;
   }
   void place() {
     each([&](const Set&, Particle& p) { std::copy(p.next_x, p.next_x + 3, p.x); });
@@ -167,33 +263,79 @@ class Reference {
     }
   }
 
- private:
-  // visit(node, S, grad S [1/m]) for the 3^dim nodes around a particle.
+  /// visit(node, S, grad S [1/m], x_i - x_p [m]) for all nodes that a particle reaches.
   template <class Visit>
   void each_node(const Set& set, const Particle& p, Visit&& visit) {
-    int nearest[3] = {};
-    double s[3][3], g[3][3];
-    for (int k = 0; k < kDim; ++k) {
-      const double cells = (p.x[k] - origin_[k]) / cell_[k];
-      nearest[k] = static_cast<int>(std::floor(cells + 0.5));
-      const Shape<double> along(cells - nearest[k], {set.half[k], 1.0 / cell_[k]});
-      std::copy(along.s, along.s + 3, s[k]);
-      std::copy(along.g, along.g + 3, g[k]);
-    }
-    for (int m = 0; m < (kDim == 3 ? 27 : 9); ++m) {
-      const int of[3] = {m % 3, m / 3 % 3, m / 9};
-      std::array<int, 3> at{};
-      double value = 1.0, gradient[3] = {1.0, 1.0, 1.0};
-      for (int k = 0; k < kDim; ++k) {
-        at[k] = nearest[k] + of[k] - 1;
-        value *= s[k][of[k]];
-        for (int j = 0; j < kDim; ++j) gradient[j] *= j == k ? g[k][of[k]] : s[k][of[k]];
-      }
-      visit(node(at), value, gradient);
+    const ReferenceStencil<kDim> stencil(shape_, grid_, place_of(set, p));
+    for (const NodeWeight& n : stencil.nodes()) {
+      double arm[3] = {};
+      for (int k = 0; k < kDim; ++k) arm[k] = grid_.position(k, n.at[k]) - p.x[k];
+      visit(node(n.at), n.s, n.g, arm);
     }
   }
+  static ReferencePlace place_of(const Set& set, const Particle& p) {
+    ReferencePlace place{{p.x[0], p.x[1], p.x[2]}, set.half, {}};
+    std::copy(&p.domain[0][0], &p.domain[0][0] + 9, &place.f[0][0]);
+    return place;
+  }
+  static void note_domain(Particle& p) {
+    double m[Geometry::kMatrix], *to[Geometry::kMatrix];
+    for (int c = 0; c < Geometry::kMatrix; ++c) to[c] = m + c;
+    Geometry::store_matrix(p.f, to, 0);
+    for (int c = 0; c < kDim; ++c) std::copy(m + c * kDim, m + (c + 1) * kDim, p.domain[c]);
+  }
+  ShapeKind shape() const { return shape_; }
+  const ReferenceGrid& grid() const { return grid_; }
 
-  std::array<double, 3> origin_, cell_;
+ private:
+  static double trace(const double (&a)[kDim][kDim]) {
+    double sum = 0.0;
+    for (int k = 0; k < kDim; ++k) sum += a[k][k];
+    return sum;
+  }
+  static void set_trace(double (&a)[kDim][kDim], double wanted) {
+    const double change = (wanted - trace(a)) / kDim;
+    for (int k = 0; k < kDim; ++k) a[k][k] += change;
+  }
+  // The mean of of(set, particle) at the nodes, by mass.
+  template <class Of>
+  void find_mean(Of&& of) {
+    for (ReferenceNode& n : nodes_) n.mean = 0.0;
+    each([&](const Set& set, const Particle& p) {
+      const double value = of(set, p);
+      each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) {
+        n.mean += n.mass > 0.0 ? set.mass * s * value / n.mass : 0.0;
+      });
+    });
+  }
+  double mean_at(const Set& set, const Particle& p) {
+    double mean = 0.0;
+    each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) { mean += s * n.mean; });
+    return mean;
+  }
+  // B D^-1 [1/s], D = sum of S (x_i - x_p) (x_i - x_p)^T.
+  void affine_gradient(const Set& set, const Particle& p, double (&gradient)[3][3]) {
+    using Matrix = Eigen::Matrix<double, kDim, kDim>;
+    Matrix b, d = Matrix::Zero();
+    each_node(set, p, [&](ReferenceNode&, double s, const double*, const double* arm) {
+      for (int c = 0; c < kDim; ++c) {
+        for (int k = 0; k < kDim; ++k) d(c, k) += s * arm[c] * arm[k];
+      }
+    });
+    for (int c = 0; c < kDim; ++c) {
+      for (int k = 0; k < kDim; ++k) b(c, k) = p.affine[c][k];
+    }
+    const Matrix l = b * d.inverse();
+    for (int c = 0; c < kDim; ++c) {
+      for (int k = 0; k < kDim; ++k) gradient[c][k] = l(c, k);
+    }
+  }
+  void clear(double (ReferenceNode::*field)[3]) {
+    for (ReferenceNode& n : nodes_) std::fill(n.*field, n.*field + 3, 0.0);
+  }
+
+  ShapeKind shape_;
+  ReferenceGrid grid_;
   std::vector<ReferenceNode> nodes_;
 };
 

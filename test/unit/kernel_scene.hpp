@@ -21,12 +21,13 @@ enum class Places {
   loose,      ///< moved as far as their blocks' tiles reach
   bodies,     ///< three bodies that share all blocks, of different laws
   half_way,   ///< half way between nodes along every axis, or next to it by less than a kernel's rounding
-  lone        ///< each alone in its block
+  lone,       ///< each alone in its block
+  walled      ///< in a box of walls that they fill, some a little beyond them
 };
 constexpr Places kAllPlaces[] = {Places::lattice, Places::irregular, Places::mixed, Places::loose,
-                                 Places::bodies,  Places::half_way,  Places::lone};
+                                 Places::bodies,  Places::half_way,  Places::lone,  Places::walled};
 inline const char* name_of(Places places) {
-  constexpr const char* kNames[] = {"lattice", "irregular", "mixed", "loose", "bodies", "half way", "lone"};
+  constexpr const char* kNames[] = {"lattice", "irregular", "mixed", "loose", "bodies", "half way", "lone", "walled"};
   return kNames[static_cast<int>(places)];
 }
 
@@ -38,23 +39,23 @@ inline std::vector<Isa> available_isas() {
   return there;
 }
 
-/// `T`: what particles carry; `Shape`: of the reference, which goes with the kernels. Cells differ along the axes; they
-/// are powers of two, so that half way is exactly so.
-template <class Geometry, class T, template <class> class Shape = Ugimp>
+/// `T`: what particles carry. Cells differ along the axes; they are powers of two, so that half way is exactly so.
+template <class Geometry, class T>
 struct KernelScene {
   static constexpr int kDim = Geometry::kDim;
   static constexpr Precision kPrecision = sizeof(T) == 4 ? Precision::float32 : Precision::float64;
   using Particle = ReferenceParticle<Geometry>;
 
-  /// With `table` in place of uGIMP's kernels, if there is one.
-  KernelScene(const paths::Specimen& specimen, Places places_of, Isa isa_of, const ContinuumSettings& more = {},
-              const mpm_kernel::KernelTable<T>* table = nullptr)
-      : isa(isa_of),
-        kernels(table != nullptr ? *table : ugimp_kernels<T>(kDim, isa)),
+  KernelScene(ShapeKind shape_of, const paths::Specimen& specimen, Places places_of, Isa isa_of,
+              const ContinuumSettings& more = {})
+      : shape(shape_of),
+        isa(isa_of),
+        kernels(kernels_of<Geometry, T>(shape, isa)),
         places(places_of),
-        grid(GridLayout(kDim, Vec3(0.125, 0.25, 0.0625), Vec3::Zero(), Vec3(3.0, 6.0, 1.5))),
-        reference({}, cells(grid.layout)),
+        grid(layout(places)),
+        reference(shape, reference_grid(grid.layout, places == Places::walled)),
         random(7) {
+    grid.has_wall.fill(places == Places::walled);
     const int count = places == Places::bodies ? 3 : 1;
     const paths::Specimen rubber{{"rubber", 1200.0, NeoHookeanDefinition{{2e5, 0.25}}}, 0.05, 0.0, 1.0};
     const paths::Specimen soil{
@@ -71,6 +72,8 @@ struct KernelScene {
     dt = std::min(specimen.time, 0.3 * smallest_cell() / speed);
     for (int s = 0; s < count; ++s) add_body(*of[s], s, count);
     settings = more;
+    for (ParticleSet& set : sets) prepare(set, kernels, shape, settings.transfer);
+    if (settings.transfer.kind == TransferKind::apic) turn_particles();
     settings.gravity = Vec3(0.3, -0.2, -9.81);
     const auto gone = Sorter(settings.threads, kernel_grouping(kernels)).sort(sets, grid);
     if (gone) throw Error("a particle of the test is out of place");
@@ -101,11 +104,17 @@ struct KernelScene {
         one.f = Geometry::load_matrix(set.f, p);
         one.tau = Geometry::load_symmetric(set.tau, p);
         for (std::size_t h = 0; h < set.history.size(); ++h) one.history[h] = set.history[h][p];
+        for (std::size_t c = 0; c < set.affine.size(); ++c) one.affine[c / kDim][c % kDim] = set.affine[c][p];
         one.id = set.id[p];
       }
     }
   }
 
+  /// visit(particle of the reference) for all of them.
+  template <class Visit>
+  void each_reference(Visit&& visit) {
+    reference.each([&](const auto&, auto& p) { visit(p); });
+  }
   /// visit(block, node of it, the reference's node).
   template <class Visit>
   void each_node(Visit&& visit) {
@@ -128,11 +137,12 @@ struct KernelScene {
     });
   }
 
+  ShapeKind shape;
   Isa isa;
   mpm_kernel::KernelTable<T> kernels;
   Places places;
   Grid grid;
-  Reference<Geometry, Shape> reference;
+  Reference<Geometry> reference;
   std::mt19937 random;
   std::vector<ParticleSet> sets;
   std::vector<Law> laws;
@@ -142,16 +152,25 @@ struct KernelScene {
   double stiffness = 0.0;  ///< of the first law: squared wave speed [J/kg]
 
  private:
-  static std::array<double, 3> cells(const GridLayout& layout) {
-    std::array<double, 3> cell{1.0, 1.0, 1.0};
-    for (int k = 0; k < kDim; ++k) cell[k] = layout.cell(k);
-    return cell;
+  static constexpr int kEdge = kDim == 3 ? 9 : 20;  ///< particles along an axis, two a cell
+  static GridLayout layout(Places places) {
+    const double cells = places == Places::walled ? 0.5 * (kEdge + 1) : 24.0;
+    return {kDim, Vec3(0.125, 0.25, 0.0625), Vec3::Zero(), cells * Vec3(0.125, 0.25, 0.0625)};
+  }
+  static ReferenceGrid reference_grid(const GridLayout& layout, bool walls) {
+    ReferenceGrid grid;
+    for (int k = 0; k < kDim; ++k) {
+      grid.cell[k] = layout.cell(k);
+      if (walls) grid.low_wall[k] = 0.0;
+      if (walls) grid.high_wall[k] = layout.last_node(k);
+    }
+    return grid;
   }
   double uniform(double size) { return std::uniform_real_distribution<double>(-size, size)(random); }
 
   // A place in cells, particle `p` of all.
   bool place(int p, double (&cells)[3]) {
-    const int edge = places == Places::lone ? 3 : kDim == 3 ? 9 : 20;
+    const int edge = places == Places::lone ? 3 : kEdge;
     int count = 1;
     for (int k = 0; k < kDim; ++k) count *= edge;
     if (p >= count) return false;
@@ -168,6 +187,9 @@ struct KernelScene {
           cells[k] = sides[random() % 5];
           break;
         }
+        case Places::walled:
+          cells[k] = std::clamp(0.25 + 0.5 * i + uniform(0.6), -0.15, grid.layout.last_node(k) + 0.15);
+          break;
         default:
           cells[k] = 4.25 + 0.5 * i + (places == Places::lattice ? 0.0 : uniform(0.6));
       }
@@ -183,8 +205,10 @@ struct KernelScene {
     set.mass = specimen.material.density;
     for (int k = 0; k < kDim; ++k) set.mass *= 0.5 * grid.layout.cell(k);
     set.half = {0.25, 0.2, 0.5};
-    set.lowest = {0.5, 0.5, 0.5};
-    set.highest = {23.5, 23.5, 23.5};
+    for (int k = 0; k < kDim; ++k) {
+      set.lowest[k] = places == Places::walled ? -0.2 : 0.5;
+      set.highest[k] = grid.layout.last_node(k) - set.lowest[k];
+    }
     std::vector<std::array<double, 3>> at;
     double where[3] = {};
     for (int p = 0; place(p, where); ++p) {
@@ -218,16 +242,37 @@ struct KernelScene {
   Particle worked(const paths::Specimen& specimen, const Law& law) {
     Particle particle;
     const double size = specimen.strain * std::pow(10.0, uniform(1.0) - 0.7);
+    if (follows_deformation(shape)) particle.f = stretched();
     for (int n = 0; n < 8; ++n) {
       const Matrix3<double> m = paths::random_gradient(random, size);
-      const double press = specimen.pressing / 8.0;
-      if constexpr (kDim == 3) {
-        particle.deform(law, {m.xx + press, m.xy, m.xz, m.yx, m.yy + press, m.yz, m.zx, m.zy, m.zz + press}, dt, 4);
-      } else {
-        particle.deform(law, {m.xx + press, m.xz, m.zx, m.zz + press, 0.0}, dt, 4);
+      const double all[3][3] = {{m.xx, m.xy, m.xz}, {m.yx, m.yy, m.yz}, {m.zx, m.zy, m.zz}};
+      double l[kDim][kDim];
+      for (int c = 0; c < kDim; ++c) {
+        for (int k = 0; k < kDim; ++k) l[c][k] = all[grid.layout.axis(c)][grid.layout.axis(k)];
+        l[c][c] += specimen.pressing / 8.0;
       }
+      particle.deform(law, Geometry::gradient(l), dt, 4);
     }
     return particle;
+  }
+  // Domains that are stretched, compressed and sheared, some beyond their reach.
+  typename Geometry::template Matrix<double> stretched() {
+    double m[Geometry::kMatrix], *at[Geometry::kMatrix];
+    for (int c = 0; c < Geometry::kMatrix; ++c) at[c] = m + c;
+    Geometry::store_matrix(Particle().f, at, 0);
+    for (int k = 0; k < kDim; ++k) {
+      const double stretch = std::pow(2.0, 0.25 + uniform(1.25));
+      for (int c = 0; c < kDim; ++c) m[c * kDim + k] = stretch * (m[c * kDim + k] + uniform(0.3));
+    }
+    return Geometry::load_matrix(at, 0);
+  }
+  // The affine fields of APIC, of gradients of up to 0.1 a step.
+  void turn_particles() {
+    for (ParticleSet& set : sets) {
+      for (ParticleScalar& component : set.affine) {
+        for (int p = 0; p < set.size(); ++p) component.set(p, uniform(0.02 * smallest_cell() * smallest_cell() / dt));
+      }
+    }
   }
   static void store(ParticleSet& set, int p, const Particle& particle) {
     double m[Geometry::kMatrix], s[Geometry::kSymmetric];
@@ -243,20 +288,41 @@ struct KernelScene {
 
   // As after some steps without a sort: anywhere in the block, or in what its tile reaches.
   void move_on() {
-    const double first = places == Places::loose ? -1.49 : -0.49, last = places == Places::loose ? 4.49 : 3.49;
-    for (ParticleSet& set : sets) {
+    const bool far = places == Places::loose;
+    const double reach = far ? (shape == ShapeKind::bspline3 ? 0.99 : 1.49) : 0.49;  // beyond the block
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      ParticleSet& set = sets[s];
       for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
         const auto& block = grid.blocks.block(grid.blocks.owner_block(owner));
         for (std::uint32_t p = set.begin[owner]; p < set.begin[owner + 1]; ++p) {
           if (random() % 4 == 0) continue;  // some have stayed
+          const std::array<double, 3> room = room_of(set, static_cast<int>(p));
           for (int k = 0; k < kDim; ++k) {
-            const double place = std::uniform_real_distribution<double>(first, last)(random);
+            const double most = std::min(reach, room[k]);
+            const double place = std::uniform_real_distribution<double>(-most, kBlockEdge - 1 + most)(random);
             set.x[k][p] = (block[k] * kBlockEdge + place) * grid.layout.cell(k);
           }
         }
-        grid.loose[owner] = places == Places::loose ? 1 : 0;
+        grid.loose[owner] = far ? 1 : 0;
       }
     }
+  }
+  // How far beyond its block a particle may be before its domain leaves the block's tile [cells].
+  std::array<double, 3> room_of(ParticleSet& set, int p) {
+    std::array<double, 3> room{9.0, 9.0, 9.0};
+    if (!follows_deformation(shape) || shape == ShapeKind::ugimp_stretch) return room;
+    Particle particle;
+    particle.f = Geometry::load_matrix(set.f, p);
+    Reference<Geometry>::note_domain(particle);
+    ReferenceSet<Geometry> one;
+    one.half = set.half;
+    double d[kDim][kDim];
+    reference_domain(reference.grid(), Reference<Geometry>::place_of(one, particle), d);
+    for (int k = 0; k < kDim; ++k) {
+      room[k] = mpm_kernel::kTileMargin - 1e-3;
+      for (const auto& vector : d) room[k] -= std::abs(vector[k]) / grid.layout.cell(k);
+    }
+    return room;
   }
 };
 

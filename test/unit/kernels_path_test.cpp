@@ -29,7 +29,7 @@ template <class Geometry, class T>
 class Run {
  public:
   Run(const paths::Specimen& specimen, Places places, Isa isa, bool usavg, int threads = 1, double flip = 1.0)
-      : usavg_(usavg), scene_(specimen, places, isa, settings(threads, flip)) {
+      : usavg_(usavg), scene_(ShapeKind::ugimp, specimen, places, isa, settings(threads, flip)) {
     for (ParticleSet& set : scene_.sets) {
       if (!usavg) set.next_x.clear();
     }
@@ -62,7 +62,7 @@ class Run {
       r.strain(strain_dt, terms);
       r.force();
       r.nodal_update(dt, gravity, least);
-      r.move(dt, scene_.settings.transfer.flip);
+      r.move(mpm_kernel::kIncrement, dt, scene_.settings.transfer.flip);
       if (usavg_) {
         r.gather_momentum();
         r.nodal_velocity(least);

@@ -100,8 +100,7 @@ TEST(SceneMethod, CombinationsThatCannotWork) {
     EXPECT_NO_THROW(method_of(std::string("transfer: apic, shape: ") + shape)) << shape;
   }
   expect_refused("shape: dirac, transfer: apic", "transfer: apic needs the inverse");
-  expect_said("shape: dirac, transfer: apic",
-              "use shape ugimp, ugimp_stretch, bspline2 or bspline3, or transfer {xpic");
+  expect_said("shape: dirac, transfer: apic", "use another shape, such as ugimp, or transfer {xpic: 2}");
   // A planar scene of 9 particles a cell is one of 3 along an edge; a solid one is not.
   EXPECT_EQ(method_of("particles_per_cell: 9").particles_per_direction, 3);
   expect_refused("particles_per_cell: 9", "particles_per_cell: 9 is not possible; a solid scene has 1, 8 or 27",

@@ -46,9 +46,10 @@ using mpm::Vec3;
 
 // A box full of material under gravity, touched by a tool that moves along its surface and shaken by a load that is a
 // function; a sync period is the time in which the fastest wave crosses 0.4 cells, `steps` of them.
-long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material, mpm::Precision precision, mpm::Isa isa,
-                             mpm::UpdateScheme update) {
+long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material, const mpm::MethodDefinition& method,
+                             mpm::Isa isa, bool planar = false) {
   mpm::SimulationDefinition d;
+  if (planar) d.geometry = mpm::GeometryKind::plane_strain;
   const double h = 0.1;
   const int edge = 8;
   const double side = edge * h / 2;
@@ -57,23 +58,23 @@ long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material,
   d.time.sync = std::llround(1e9 * 0.4 * h / rest.wave_speed());
   d.time.step = 1e-9 * static_cast<double>(d.time.sync) / steps;
   d.grid = {Vec3::Constant(h), Vec3::Zero(), Vec3::Constant(side)};
-  d.method.precision = precision;
-  d.method.update = update;
+  d.method = method;
   d.gravity = {0.0, 0.0, -9.81};
   d.materials = {material};
   mpm::DeformableBody body;
   body.name = "body";
   body.material = material.name;
   body.particle_volume = h * h * h / 8.0;
-  for (int p = 0; p < edge * edge * edge; ++p) {
-    body.positions.push_back(0.5 * h * Vec3(p / edge / edge + 0.5, p / edge % edge + 0.5, p % edge + 0.5));
+  for (int p = 0; p < edge * edge * (planar ? 1 : edge); ++p) {
+    const double y = planar ? 0.0 : p / edge / edge + 0.5;
+    body.positions.push_back(0.5 * h * Vec3(p / edge % edge + 0.5, y, p % edge + 0.5));
   }
   d.bodies = {body};
   for (mpm::WallDefinition& wall : d.walls) wall.kind = mpm::WallKind::slip;
   mpm::RigidBodyDefinition tool;
   tool.name = "tool";
   tool.surface = mpm::make_box({0.2, 0.2, 0.2});
-  tool.pose.position = {0.5 * side, 0.5 * side, side + 0.09};
+  tool.pose.position = {0.5 * side, planar ? 0.0 : 0.5 * side, side + 0.09};
   tool.velocity[0] = mpm::Function(0.1);
   d.rigid_bodies = {tool};
   d.body_forces = {{"", {mpm::Function::parse("sin(9*t)*X", {}, mpm::FunctionPlaces::present_and_start)}}};
@@ -127,11 +128,34 @@ TEST(Allocation, StepsOfEveryLawDoNotAllocate) {
     if (!mpm::isa_available(isa)) continue;
     for (const mpm::Precision precision : {mpm::Precision::float32, mpm::Precision::float64}) {
       for (const mpm::UpdateScheme update : {mpm::UpdateScheme::usf, mpm::UpdateScheme::usavg}) {
+        mpm::MethodDefinition method;
+        method.precision = precision;
+        method.update = update;
         for (const mpm::paths::Specimen& specimen : mpm::paths::zoo()) {
-          EXPECT_EQ(allocations_of_a_period(4, specimen.material, precision, isa, update),
-                    allocations_of_a_period(16, specimen.material, precision, isa, update))
+          EXPECT_EQ(allocations_of_a_period(4, specimen.material, method, isa),
+                    allocations_of_a_period(16, specimen.material, method, isa))
               << specimen.material.name << ", " << mpm::precision_name(precision) << ", " << mpm::isa_name(isa);
         }
+      }
+    }
+  }
+}
+
+// The same of every shape function, update and transfer, in a plane, which has them all.
+TEST(Allocation, StepsOfEveryMethodDoNotAllocate) {
+  using mpm::TransferKind;
+  const mpm::MaterialDefinition material = mpm::paths::zoo()[2].material;
+  for (std::size_t shape = 0; shape < mpm::kShapeNames.size(); ++shape) {
+    for (std::size_t update = 0; update < mpm::kUpdateNames.size(); ++update) {
+      for (const TransferKind kind : {TransferKind::flip, TransferKind::xpic, TransferKind::fmpm, TransferKind::apic}) {
+        mpm::MethodDefinition method;
+        method.shape = static_cast<mpm::ShapeKind>(shape);
+        method.update = static_cast<mpm::UpdateScheme>(update);
+        method.transfer = {kind, 1.0, 3};
+        EXPECT_EQ(allocations_of_a_period(4, material, method, mpm::best_isa(), true),
+                  allocations_of_a_period(16, material, method, mpm::best_isa(), true))
+            << mpm::kShapeNames[shape] << ", " << mpm::kUpdateNames[update] << ", "
+            << mpm::kTransferNames[static_cast<int>(kind)];
       }
     }
   }

@@ -31,6 +31,7 @@ class Wall final : public Stage {
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
+  void velocity_found(StepContext& context, NodalField& velocity) override;
   void increment_found(StepContext& context, NodalField& increment) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
 

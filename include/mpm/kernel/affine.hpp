@@ -1,7 +1,7 @@
-// APIC with the points of a domain: the affine field of a particle, v + C (x_i - x_p), to the nodes of its points'
-// cells, and C = B D^-1 from them, B = sum S v_i (x_i - x_p)^T, D = sum S (x_i - x_p) (x_i - x_p)^T, which is not
-// diagonal for a sheared domain. Source: Jiang, Schroeder, Selle, Teran & Stomakhin (2015) eq. (4) to (6); method
-// reference 6.6.
+// APIC with the points of a domain: a particle keeps B = sum S v_i (x_i - x_p)^T and gives the nodes of its points'
+// cells the affine field v + B D^-1 (x_i - x_p), D = sum S (x_i - x_p) (x_i - x_p)^T, which is not diagonal for a
+// sheared domain. B is kept and not its gradient B D^-1: D changes as the particle moves on, and angular momentum is
+// that of B. Source: Jiang, Schroeder, Selle, Teran & Stomakhin (2015) eq. (4) to (6); method reference 6.6.
 #pragma once
 
 #include "mpm/kernel/point_tile.hpp"
@@ -28,14 +28,43 @@ void invert_symmetric(T (&a)[Dim][Dim]) {
   }
 }
 
-/// m S (v + C (x_i - x_p)) of particle p, at place q of its chunk; `value` is m v, with m as the component after it.
+/// D of the particle at place q of its chunk [m^2].
+template <int Dim, int Points, class Frame, class T>
+void second_moment(const Frame& frame, int q, T (&d)[Dim][Dim]) {
+  for (auto& row : d) {
+    for (T& component : row) component = T(0);
+  }
+  for (int a = 0; a < Points; ++a) {
+    const CellPoint<T, Dim> at = frame.point(a, q);
+    const T weight = frame.weight(a);
+    // Of the hat functions at a point the mean place is the point, the variance f (1 - f) of a cell squared.
+    T offset[Dim];
+    for (int c = 0; c < Dim; ++c) {
+      offset[c] = frame.arm(a, c, q) + at.along[c] * frame.cell(c);
+      d[c][c] += weight * at.along[c] * (T(1) - at.along[c]) * frame.cell(c) * frame.cell(c);
+    }
+    for (int c = 0; c < Dim; ++c) {
+      for (int k = 0; k < Dim; ++k) d[c][k] += weight * offset[c] * offset[k];
+    }
+  }
+}
+
+/// m S (v + B D^-1 (x_i - x_p)) of particle p, at place q of its chunk; `value` is m v, with m as the component after
+/// it.
 template <int Dim, int Points, class Frame, class T>
 void spread_affine(const Frame& frame, int q, typename PointVectors<T>::Four value, const SetView<T>& set, int p,
                    T* nodes) {
   using V = PointVectors<T>;
-  typename V::Four column[Dim] = {};  // m C
-  for (int c = 0; c < Dim; ++c) {
-    for (int k = 0; k < Dim; ++k) column[k][c] = static_cast<T>(set.mass) * set.affine[c * Dim + k][p];
+  T inverse[Dim][Dim];
+  second_moment<Dim, Points>(frame, q, inverse);
+  invert_symmetric<T, Dim>(inverse);
+  typename V::Four column[Dim] = {};  // m B D^-1
+  for (int k = 0; k < Dim; ++k) {
+    for (int c = 0; c < Dim; ++c) {
+      T sum = 0;
+      for (int m = 0; m < Dim; ++m) sum += set.affine[c * Dim + m][p] * inverse[m][k];
+      column[k][c] = static_cast<T>(set.mass) * sum;
+    }
   }
   for (int a = 0; a < Points; ++a) {
     const CellPoint<T, Dim> at = frame.point(a, q);
@@ -50,12 +79,11 @@ void spread_affine(const Frame& frame, int q, typename PointVectors<T>::Four val
   }
 }
 
-/// C of particle p from the tile of velocities.
+/// B of particle p from the tile of velocities.
 template <int Dim, int Points, class Frame, class T>
 void gather_affine(const Frame& frame, int q, const PointTile<T, Dim>& velocity, const SetView<T>& set, int p) {
   using V = PointVectors<T>;
   typename V::Four b[Dim] = {};  // by axis
-  T d[Dim][Dim] = {};
   for (int a = 0; a < Points; ++a) {
     const CellPoint<T, Dim> at = frame.point(a, q);
     const T along = at.along[Dim - 1], arm = frame.arm(a, Dim - 1, q), weight = frame.weight(a);
@@ -67,23 +95,9 @@ void gather_affine(const Frame& frame, int q, const PointTile<T, Dim>& velocity,
       if constexpr (Dim > 2) b[1] += (frame.arm(a, 1, q) + static_cast<T>(j) * frame.cell(1)) * (low + high);
       b[Dim - 1] += arm * low + (arm + frame.cell(Dim - 1)) * high;
     });
-    // Of the hat functions at a point the mean place is the point, the variance f (1 - f) of a cell squared.
-    T offset[Dim];
-    for (int c = 0; c < Dim; ++c) {
-      offset[c] = frame.arm(a, c, q) + at.along[c] * frame.cell(c);
-      d[c][c] += weight * at.along[c] * (T(1) - at.along[c]) * frame.cell(c) * frame.cell(c);
-    }
-    for (int c = 0; c < Dim; ++c) {
-      for (int k = 0; k < Dim; ++k) d[c][k] += weight * offset[c] * offset[k];
-    }
   }
-  invert_symmetric<T, Dim>(d);
   for (int c = 0; c < Dim; ++c) {
-    for (int k = 0; k < Dim; ++k) {
-      T sum = 0;
-      for (int m = 0; m < Dim; ++m) sum += b[m][c] * d[m][k];
-      set.affine[c * Dim + k][p] = sum;
-    }
+    for (int k = 0; k < Dim; ++k) set.affine[c * Dim + k][p] = b[k][c];
   }
 }
 

@@ -76,7 +76,7 @@ struct SetView {
   T* tau[6];                         ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
   T* domain[9];           ///< F in the grid's axes (of a stretching box: its diagonal) as the step began
-  T* affine[9];           ///< APIC: gradient of the particle's velocity, [component][axis] [1/s]
+  T* affine[9];           ///< APIC: B, sum of S v_c (x_i - x_p)_k, [component][axis] [m^2/s]
   const double* load[3];  ///< acceleration by a load; null without one [m/s^2]
   const double*
       damping[2];   ///< of place: rates on the grid's and on the particle's velocity [1/s]; null where constant
@@ -149,7 +149,7 @@ struct LawKernels {
 enum Motion {
   kIncrement,  ///< FLIP, PIC: velocity gains the acceleration
   kAdopt,      ///< XPIC, FMPM: velocity becomes the grid's
-  kAffine,     ///< APIC: the same, and the affine matrix
+  kAffine,     ///< APIC: the same, and the first moment of the grid's velocity
   kMotions
 };
 

@@ -214,7 +214,7 @@ class Passes {
       WideMask<T> inside = reach.everywhere(), tight = inside;
       each_chunk(set, block.owner, [&](int first, int g, int g_end) {
         const int particles = static_cast<int>(set.group[g_end]) - first;
-        w.template fill<Kind == mpm_kernel::kAffine ? Beside::affine : Beside::nothing>(frame, first, particles);
+        w.template fill<Kind == mpm_kernel::kAffine ? Beside::moment : Beside::nothing>(frame, first, particles);
         moved.groups += g_end - g;
         each_group(set, first, g, g_end, [&](int q, int lanes) {
           W sum[kFields];
@@ -224,10 +224,10 @@ class Passes {
           });
           for (int c = 0; c < kFields; ++c) sum[c].store(gathered[c] + q);
           if constexpr (Kind == mpm_kernel::kAffine) {
-            W c_matrix[kDim][kDim];
-            gather_gradient(motion, w, q, lanes, c_matrix);
+            W b[kDim][kDim];
+            gather_gradient(motion, w, q, lanes, b);
             for (int c = 0; c < kDim; ++c) {
-              for (int k = 0; k < kDim; ++k) c_matrix[c][k].store_first(set.affine[c * kDim + k] + first + q, lanes);
+              for (int k = 0; k < kDim; ++k) b[c][k].store_first(set.affine[c * kDim + k] + first + q, lanes);
             }
           }
         });
@@ -340,7 +340,8 @@ class Passes {
     values.set(q, momentum[0], momentum[1], momentum[2], mass);
   }
 
-  // m C (x_i - x_p) S of every particle: as a force's columns go by G, the columns of m C go by S (x_i - x_p).
+  // m B D^-1 (x_i - x_p) S of every particle, D as it is in its present place: as a force's columns go by G, the
+  // columns of m B go by D^-1 (x_i - x_p) S.
   static void scatter_affine(const GridView& grid, const BlockView& block, const Set& set, ScatterTile<T, kDim>& tile) {
     const Frame frame(grid, block, set);
     const W mass(set.mass);
@@ -348,7 +349,7 @@ class Passes {
     mpm_kernel::ChunkStresses<T> columns;
     each_chunk(set, block.owner, [&](int first, int, int g_end) {
       const int particles = static_cast<int>(set.group[g_end]) - first;
-      w.template fill<Beside::moment>(frame, first, particles);
+      w.template fill<Beside::affine>(frame, first, particles);
       for (int q = 0; q < particles; q += W::kLanes) {
         for (int k = 0; k < kDim; ++k) {
           W four[4] = {W(0.0), W(0.0), W(0.0), W(0.0)};

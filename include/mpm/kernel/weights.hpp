@@ -24,7 +24,8 @@ template <class T>
 constexpr bool kByColumn = Wide<T>::kLanes >= kTileEdge;
 
 /// What stands in for the gradient beside the values: nothing; the gradient [1/m]; the values' first moments about the
-/// particle S (x_i - x_p) [m]; these over their second moment, which give the affine matrix of APIC [1/m].
+/// particle S (x_i - x_p) [m], which give B of APIC; these over their second moment D [1/m], by which B D^-1 (x_i -
+/// x_p) goes to the grid.
 enum class Beside { nothing, gradient, moment, affine };
 
 /// What the weights of a body's particles depend on beside their places.
@@ -132,8 +133,10 @@ struct Weights {
       second += shape.g[n] * arm;
     }
     if (!over_second) return;
-    // A spline folded at a wall has no second moment on the wall: all weight is the wall node's, and moments are zero.
-    second = max(second, W(kLeastMoment * cell * cell));
+    // A spline folded at a wall has no second moment on the wall, where all weight is the wall node's and moments are
+    // zero, and a negative one beyond it.
+    const W least(kLeastMoment * cell * cell);
+    second = select(second < W(0.0), min(second, -least), max(second, least));
     for (int n = 0; n < kNodes; ++n) shape.g[n] /= second;
   }
 };

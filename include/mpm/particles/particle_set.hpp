@@ -30,7 +30,7 @@ struct ParticleSet {
   std::vector<ParticleScalar> tau;           ///< Kirchhoff stress over initial density [J/kg]; GIMP notes (1.24)
   std::vector<ParticleScalar> history;       ///< what the law keeps
   std::vector<PaddedArray<double>> start_x;  ///< position at the start of the run [m]
-  std::vector<ParticleScalar> affine;        ///< APIC: gradient of the velocity, [component][axis] [1/s]
+  std::vector<ParticleScalar> affine;        ///< APIC: B, moment of the velocity, [component][axis] [m^2/s]
   std::vector<ParticleScalar> domain;        ///< F of the step's start, where the shape function follows it
   std::vector<PaddedArray<double>> next_x;   ///< position at the end of the step, when strain is updated after motion
 

@@ -86,6 +86,7 @@ class Simulation {
   std::uint64_t state_hash() const;
 
  private:
+  friend class SimulationProbe;  // of tests: single steps, of any size
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -28,6 +28,8 @@ class Mechanics {
   virtual void update_momentum(StepContext&) = 0;
   /// XPIC and FMPM: how many increments the velocity that particles adopt takes, after momentum was updated.
   virtual int increments() const = 0;
+  /// The velocity that they are made of [m/s]; conditions may act on it before.
+  virtual NodalField& begin_increments(StepContext&) = 0;
   /// The next one [m/s]; conditions may act on it before it is added to the grid's velocity.
   virtual NodalField& find_increment(StepContext&) = 0;
   virtual void add_increment(StepContext&) = 0;

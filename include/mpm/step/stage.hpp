@@ -34,6 +34,9 @@ class Stage {
   /// Grid.velocity is v^{n+1}, Grid.force the acceleration: whoever adds dv to the one adds dv/dt to the other.
   virtual void momentum_updated(StepContext&) {}
 
+  /// XPIC: `velocity` [m/s], of the step's start, is about to be filtered: what holds a node gives it the velocity that
+  /// it holds it at. It gives no momentum with that; the filter only must not see what the condition takes away anyhow.
+  virtual void velocity_found(StepContext&, NodalField& /*velocity*/) {}
   /// XPIC, FMPM: `increment` [m/s] is about to be added to the velocity that particles adopt; what holds a node along
   /// some direction takes that part away, and owns up to the momentum. The sum of the increments' momentum is zero
   /// before.

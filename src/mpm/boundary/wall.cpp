@@ -84,6 +84,14 @@ void Wall::momentum_updated(StepContext& context) {
   account_.add(given);
 }
 
+void Wall::velocity_found(StepContext& context, NodalField& velocity) {
+  const GridLayout& layout = context.grid.layout;
+  const Vec3 n = normal(layout);
+  for (const Node& node : nodes_) {
+    add_nodal_vector(velocity, layout, node.ref, held_part(nodal_vector(velocity, layout, node.ref), n, node.hold));
+  }
+}
+
 void Wall::increment_found(StepContext& context, NodalField& increment) {
   const Grid& grid = context.grid;
   const Vec3 n = normal(grid.layout);

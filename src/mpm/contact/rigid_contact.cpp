@@ -101,6 +101,14 @@ void RigidContact::momentum_updated(StepContext& context) {
   touching_ = touching;
 }
 
+void RigidContact::velocity_found(StepContext& context, NodalField& velocity) {
+  const GridLayout& layout = context.grid.layout;
+  each_node([&](const Node& node) {
+    const Vec3 relative = nodal_vector(velocity, layout, node.ref) - node.velocity;
+    add_nodal_vector(velocity, layout, node.ref, held_part(relative, node.normal, node.hold));
+  });
+}
+
 void RigidContact::increment_found(StepContext& context, NodalField& increment) {
   const Grid& grid = context.grid;
   Vec3 given = Vec3::Zero(), angular = Vec3::Zero();

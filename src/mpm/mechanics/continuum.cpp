@@ -67,20 +67,23 @@ class Continuum final : public Mechanics {
 
   // v(m) is a sum of increments, the first of them the velocity itself, each the part of the one before that particles
   // and grid, passing it to and fro, lose: dv(j+1) = dv(j) - S+ S dv(j), method reference 6.6. XPIC begins with the
-  // velocity of the step's start, FMPM with that of its end; conditions hold in the first one.
+  // velocity of the step's start, FMPM with that of its end, in which conditions hold.
+  NodalField& begin_increments(StepContext& context) override {
+    Grid& grid = context.grid;
+    increment_.resize(grid.blocks.size());
+    const bool from_start = settings_.transfer.kind == TransferKind::xpic;
+    const int nodes = grid.layout.nodes_per_block();
+    each_carrying(grid, [&](int b, int n, double inverse_mass) {
+      for (int k = 0; k < grid.layout.dim(); ++k) {
+        const double start = grid.momentum.block(b)[k * nodes + n] * inverse_mass;
+        increment_.block(b)[k * nodes + n] = from_start ? start : grid.velocity.block(b)[k * nodes + n];
+      }
+    });
+    return increment_;
+  }
+
   NodalField& find_increment(StepContext& context) override {
     Grid& grid = context.grid;
-    if (found_ == 0) {
-      increment_.resize(grid.blocks.size());
-      const bool from_start = settings_.transfer.kind == TransferKind::xpic;
-      const int nodes = grid.layout.nodes_per_block();
-      each_carrying(grid, [&](int b, int n, double inverse_mass) {
-        for (int k = 0; k < grid.layout.dim(); ++k) {
-          const double start = grid.momentum.block(b)[k * nodes + n] * inverse_mass;
-          increment_.block(b)[k * nodes + n] = from_start ? start : grid.velocity.block(b)[k * nodes + n];
-        }
-      });
-    }
     clear(grid.momentum, grid);
     each_block(grid, true, [&](const mpm_kernel::BlockView& block) {
       kernels_.project(grid_, block, views_.data(), sets(), increment_.data(), grid.momentum.data());
@@ -91,7 +94,6 @@ class Continuum final : public Mechanics {
         increment_.block(b)[i] -= grid.momentum.block(b)[i] * inverse_mass;
       }
     });
-    if (++found_ == increments()) found_ = 0;
     return increment_;
   }
 
@@ -292,7 +294,6 @@ class Continuum final : public Mechanics {
   mpm_kernel::Motion motion_;
   NodalField increment_;
   NodalField mean_;
-  int found_ = 0;  ///< increments of this step
   mpm_kernel::GridView grid_{};
   std::vector<mpm_kernel::SetView<T>> views_;
   std::vector<mpm_kernel::Moved> taken_;  ///< by damping, of each owner

@@ -26,12 +26,15 @@ double least_bytes_of_particle(const MethodDefinition& method, GeometryKind geom
   const int carried = with_geometry(geometry, [](auto kind) { return kind.kMatrix + kind.kSymmetric; });
   const double real = method.precision == Precision::float32 ? 4.0 : 8.0;
   const double positions = 8.0 * dim * (method.update == UpdateScheme::usf ? 1 : 2);
+  // mechanics/continuum.hpp: the domain of the step's start, and APIC's matrix.
+  int kept = follows_deformation(method.shape) ? (method.shape == ShapeKind::ugimp_stretch ? dim : dim * dim) : 0;
+  if (method.transfer.kind == TransferKind::apic) kept += dim * dim;
   const double id = 4.0;
   // step/sorter.hpp; the groups, a place each when they are of one particle.
   const double sorter = (method.precision == Precision::float32 ? 29.0 : 25.0) + 4.0;
   // grid/nodal_fields.hpp: mass and three vectors.
   const double node = 8.0 * (1 + 3 * dim);
-  return positions + real * (dim + carried) + id + sorter + node / std::pow(method.particles_per_direction, dim);
+  return positions + real * (dim + carried + kept) + id + sorter + node / std::pow(method.particles_per_direction, dim);
 }
 
 }  // namespace mpm

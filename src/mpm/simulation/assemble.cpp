@@ -203,6 +203,17 @@ Pose projected(const Pose& pose, GeometryKind geometry, const std::string& body)
   return {{pose.position.x(), 0.0, pose.position.z()}, Quat(q.w() * scale, 0.0, q.y() * scale, 0.0)};
 }
 
+// A transfer can make the largest stable step smaller than a cell over the wave speed: doc/methods.md, the time step.
+std::string step_warning(const SimulationDefinition& definition) {
+  const Transfer& transfer = definition.method.transfer;
+  const bool affine = transfer.kind == TransferKind::apic;
+  const bool high = transfer.kind == TransferKind::fmpm && transfer.order >= 5;
+  const double most = affine ? 0.7 : 0.9;
+  if (!(affine || high) || definition.time.cfl <= most) return {};
+  return fmt::format("time.cfl is {:g}: with {} steps that long may be unstable; use at most {:g}", definition.time.cfl,
+                     affine ? "apic" : fmt::format("fmpm {}", transfer.order), most);
+}
+
 // The kernels, and what runs on them: T is the precision of the particles.
 template <class T>
 void Simulation::State::add_mechanics() {
@@ -306,6 +317,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     }
   }
   add_walls(true);
+  if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);
   if (s.stages.size() > before_contact) {
     for (Wall* wall : holding) s.stages.push_back(std::make_unique<WallAgain>(*wall));
   }

@@ -43,8 +43,8 @@ Fault transfer_fault(const MethodDefinition& method) {
   if (method.shape == ShapeKind::dirac) {
     return MethodFault{"transfer",
                        "apic needs the inverse of sum S (x_i - x_p)(x_i - x_p), which dirac does not have for a "
-                       "particle on a line of the grid; use shape ugimp, ugimp_stretch, bspline2 or bspline3, or "
-                       "transfer {xpic: 2}"};
+                       "particle on a line of the grid; use another shape, such as ugimp, or transfer "
+                       "{xpic: 2}"};
   }
   return {};
 }

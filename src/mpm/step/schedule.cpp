@@ -19,6 +19,9 @@ void advance_grid(Mechanics& mechanics, Stages& stages, StepContext& context) {
   join(stages, &Stage::forces_gathered, context);
   mechanics.update_momentum(context);
   join(stages, &Stage::momentum_updated, context);
+  if (mechanics.increments() == 0) return;
+  NodalField& velocity = mechanics.begin_increments(context);
+  for (auto& stage : stages) stage->velocity_found(context, velocity);
   for (int n = 0; n < mechanics.increments(); ++n) {
     NodalField& increment = mechanics.find_increment(context);
     for (auto& stage : stages) stage->increment_found(context, increment);

@@ -88,16 +88,16 @@ Suite manufactured(const std::string& name, GeometryKind geometry, double amplit
   const char* body = directions == 1 ? "bar" : directions == 2 ? "square" : "cube";
   Suite suite;
   suite.name = name;
+  const char* axes = directions == 1 ? "its axis" : "its axes";
   suite.title =
-      fmt::format("A {} that is driven along its axes, {} strain", body, amplitude > 0.01 ? "large" : "small");
+      fmt::format("A {} that is driven along {}, {} strain", body, axes, amplitude > 0.01 ? "large" : "small");
   suite.problem = fmt::format(
       "A unit {} between smooth walls is driven by a body force along {}, for one period of 2 s; the strain reaches "
       "{:.2g}. Neo-Hookean, E = 1000 Pa, 1000 kg/m³, Poisson's ratio {}. Cells: along an edge.",
-      body, directions == 1 ? "its axis" : "its axes", amplitude * kPi, kElasticity.poisson);
+      body, axes, amplitude * kPi, kElasticity.poisson);
   suite.exact = fmt::format(
-      "u = ± {} sin(πX) sin(πt) along each axis; the body force follows from ρ₀ü = Div P + ρ₀b, the kind of problem "
-      "that "
-      "Wallstedt and Guilkey (2008) use",
+      "u = ± {} sin(πX) sin(πt) along each axis; the body force follows from ρ₀ü = Div P + ρ₀b, as in the problems of "
+      "Wallstedt and Guilkey (2008)",
       amplitude);
   suite.measure_text = "largest RMS displacement error of the period over the amplitude";
   suite.geometry = geometry;

@@ -30,6 +30,7 @@ void write_texts(std::ostream& out, const std::vector<const Suite*>& chosen) {
     out << quoted(suite->name) << ',' << quoted(suite->title) << ',' << geometry_name(suite->geometry) << ','
         << quoted(suite->problem) << ',' << quoted(suite->exact) << ',' << quoted(suite->measure_text) << '\n';
   }
+  out << std::flush;
 }
 
 std::string told(const Row& row) {

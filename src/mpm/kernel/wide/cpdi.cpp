@@ -1,5 +1,6 @@
-#include "mpm/kernel/point_passes.hpp"
 #include "mpm/shape/cpdi.hpp"
+
+#include "mpm/kernel/point_passes.hpp"
 
 namespace mpm {
 

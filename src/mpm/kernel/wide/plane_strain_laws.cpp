@@ -3,7 +3,8 @@
 namespace mpm {
 
 const mpm_kernel::LawFamily& plane_strain_laws() {
-  static constexpr mpm_kernel::LawFamily kFamily = {LawTable<PlaneStrain, double>::kKernels, LawTable<PlaneStrain, float>::kKernels};
+  static constexpr mpm_kernel::LawFamily kFamily = {LawTable<PlaneStrain, double>::kKernels,
+                                                    LawTable<PlaneStrain, float>::kKernels};
   return kFamily;
 }
 

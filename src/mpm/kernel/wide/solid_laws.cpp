@@ -3,7 +3,8 @@
 namespace mpm {
 
 const mpm_kernel::LawFamily& solid_laws() {
-  static constexpr mpm_kernel::LawFamily kFamily = {LawTable<Solid, double>::kKernels, LawTable<Solid, float>::kKernels};
+  static constexpr mpm_kernel::LawFamily kFamily = {LawTable<Solid, double>::kKernels,
+                                                    LawTable<Solid, float>::kKernels};
   return kFamily;
 }
 

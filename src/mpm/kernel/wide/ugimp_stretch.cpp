@@ -1,5 +1,6 @@
-#include "mpm/kernel/passes.hpp"
 #include "mpm/shape/ugimp_stretch.hpp"
+
+#include "mpm/kernel/passes.hpp"
 
 namespace mpm {
 

@@ -1,5 +1,6 @@
-// A section of doc/verification.md, written by the test that checks it: the problem, the exact solution and its source,
-// a picture, the numbers, and what they mean. A number that the page shows as checked is checked by the same call.
+// A section of doc/verification.md or doc/methods.md, written by the test that checks it: the problem, the exact
+// solution and its source, a picture, the numbers, and what they mean. A number that the page shows as checked is
+// checked by the same call.
 //
 //   Page page("waves", "bar", "A bar that vibrates along its axis");
 //   page.problem("…").exact("…", "exact-solutions 1").meaning("…");
@@ -7,7 +8,7 @@
 //   page.figure().panel("Tip", "time [s]", "u [m]").line("exact", t, u).points("particles", tp, up);
 //
 // With the environment's MPM_PAGES set to a folder, the page is written there as JSON when it goes out of scope;
-// scripts/verification makes the document from the folder.
+// scripts/make_verification.py and scripts/stability_pages.py make text and pictures from the folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,6 +22,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "map.hpp"
 
 namespace verification {
 
@@ -43,6 +46,11 @@ class Panel {
   /// Particles at (x, z) coloured by a field; the axes get equal scales.
   Panel& particles(const std::string& field_label, const Numbers& x, const Numbers& z, const Numbers& field) {
     json_["series"].push_back({{"kind", "particles"}, {"label", field_label}, {"x", x}, {"y", z}, {"c", field}});
+    return *this;
+  }
+  /// In place of curves. The values of the parameter are told beside the cells; the panel's axes have no labels.
+  Panel& map(const Map& map) {
+    json_["map"] = map.json();
     return *this;
   }
   /// Logarithmic axes.
@@ -88,7 +96,7 @@ class Figure {
 
 class Page {
  public:
-  /// `chapter`: waves, conservation, contact, soil, metal, fluid or viscoelastic; `name`: of the picture's file.
+  /// `chapter`: a key of CHAPTERS in the script that makes the document; `name`: of the picture's file.
   Page(std::string chapter, std::string name, const std::string& title) : name_(std::move(name)) {
     json_ = {{"chapter", std::move(chapter)}, {"title", title}, {"rows", nlohmann::json::array()}};
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();

@@ -1,0 +1,52 @@
+// Single steps of a simulation, of any size: the solver itself refuses steps above the limit that waves set, and the
+// atlas asks what happens there. Nothing is checked but what a step itself checks.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "../../src/mpm/simulation/state.hpp"
+
+namespace mpm {
+
+class SimulationProbe {
+ public:
+  explicit SimulationProbe(const SimulationDefinition& definition)
+      : simulation_(definition, {1}), state_(*simulation_.state_) {}
+
+  /// One step of `dt` [s]. @throws PhysicsError
+  void step(double dt) {
+    state_.step(time_, dt);
+    time_ += dt;
+  }
+  double time() const { return time_; }  ///< [s]
+  const Simulation& simulation() const { return simulation_; }
+  /// Particles of the first body, in an order that a step may change: set.id tells which is which.
+  ParticleSet& set() { return state_.sets[0]; }
+  /// Puts particles back into order after they were moved by hand.
+  void sort() { state_.sort(time_); }
+  /// Pose and motion of a rigid body.
+  const RigidBody& body(int index) const { return state_.bodies[index]; }
+
+  /// Sum of v^2 over the first body's particles; not finite when any is not [m^2/s^2].
+  double motion() const {
+    double sum = 0.0;
+    for (const ParticleScalar& v : state_.sets[0].v) {
+      for (std::size_t p = 0; p < v.size(); ++p) sum += v[p] * v[p];
+    }
+    return sum;
+  }
+
+ private:
+  Simulation simulation_;
+  Simulation::State& state_;
+  double time_ = 0.0;
+};
+
+}  // namespace mpm
+
+namespace stability {
+using Probe = mpm::SimulationProbe;
+}

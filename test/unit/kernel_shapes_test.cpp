@@ -1,0 +1,62 @@
+// The kernels of every shape function against the reference (kernel_check.hpp): on every instruction set of this
+// machine, in both geometries and precisions, for every arrangement of particles, every transfer, and the passes that
+// only some scenes ask for. Laws and shape functions do not know each other: two laws are enough, one of them with a
+// history; all of them are in kernels_test.cpp.
+#include "kernel_check.hpp"
+#include "step_scene.hpp"
+
+namespace mpm::test {
+namespace {
+
+struct Case {
+  ShapeKind shape;
+  Isa isa;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const Isa isa : available_isas()) {
+    for (const ShapeKind shape : kAllShapes) all.push_back({shape, isa});
+  }
+  return all;
+}
+
+class KernelShapesTest : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Cases, KernelShapesTest, testing::ValuesIn(cases()), [](const auto& info) {
+  return std::string(shape_name(info.param.shape)) + "_" + isa_name(info.param.isa);
+});
+
+template <class Geometry, class T>
+void check_shape(const Case& of) {
+  if (!has_shape(of.shape, kGeometryKind<Geometry>)) GTEST_SKIP() << "there is no such shape function in this geometry";
+  const auto zoo = paths::zoo();
+  const paths::Specimen specimens[] = {zoo[2], zoo[8]};  // neo-Hookean, metal
+  int n = 0;
+  for (const Places places : kAllPlaces) {
+    for (const bool regather : {false, true}) {
+      Kernels<Geometry, T>(of.shape, specimens[n % 2], places, of.isa, kAllTransfers[n % 5]).check(regather);
+      ++n;
+    }
+  }
+  for (const Places places : {Places::mixed, Places::bodies}) {
+    Kernels<Geometry, T>(of.shape, zoo[2], places, of.isa, flip(1.0), true).check(true);
+  }
+  for (const Places places : {Places::bodies, Places::loose, Places::walled}) {
+    Kernels<Geometry, T>(of.shape, zoo[2], places, of.isa, kAllTransfers[4]).check_moves();
+    Kernels<Geometry, T>(of.shape, zoo[2], places, of.isa, flip(1.0)).scatter_load();
+    Kernels<Geometry, T>(of.shape, zoo[2], places, of.isa, flip(1.0)).project();
+  }
+  if ((of.shape == ShapeKind::cpdi || of.shape == ShapeKind::qcpdi) && Geometry::kDim > 1) {
+    Kernels<Geometry, T>(of.shape, zoo[2], Places::loose, of.isa, flip(1.0)).check_outgrown();
+  }
+}
+
+TEST_P(KernelShapesTest, OfASolidInDouble) { check_shape<Solid, double>(GetParam()); }
+TEST_P(KernelShapesTest, OfAPlaneInDouble) { check_shape<PlaneStrain, double>(GetParam()); }
+TEST_P(KernelShapesTest, OfASolidInSingle) { check_shape<Solid, float>(GetParam()); }
+TEST_P(KernelShapesTest, OfAPlaneInSingle) { check_shape<PlaneStrain, float>(GetParam()); }
+TEST_P(KernelShapesTest, OfALineInDouble) { check_shape<Line, double>(GetParam()); }
+TEST_P(KernelShapesTest, OfALineInSingle) { check_shape<Line, float>(GetParam()); }
+
+}  // namespace
+}  // namespace mpm::test

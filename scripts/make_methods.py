@@ -65,7 +65,7 @@ class Study:
                     if row["suite"] == suite and row["cfl"] == plots.USUAL_CFL and plots.usual_particles(row)]
             run = {(row["method"], row["cells"]) for row in rows}
             if text.get("methods") not in RUN_THERE:
-                raise ClaimError(f"suites.csv: {suite} was not run with all methods or the main ones; run scripts/methods")
+                raise ClaimError(f"suites.csv: {suite} was not run with all methods, or the main; run scripts/methods")
             expected = [label for label, row in methods.items() if RUN_THERE[text["methods"]](row)]
             missing = [(label, cells) for label in expected for cells in sorted({row["cells"] for row in rows})
                        if (label, cells) not in run]
@@ -124,8 +124,8 @@ class Study:
         names = [f"`{suite}`" for suite, text in self.texts.items() if text["methods"] == "main"]
         if not names:
             return "Every one of them is run on every problem."
-        return textwrap.fill(f"On {', '.join(names)} a run is long, and only uGIMP's combinations and those of USAVG and "
-                             "FLIP are run.", 120, break_on_hyphens=False)
+        return textwrap.fill(f"On {', '.join(names)} a run is long, and only uGIMP's combinations and those of USAVG "
+                             "and FLIP are run.", 120, break_on_hyphens=False)
 
     def charts(self):
         parts = []
@@ -199,10 +199,11 @@ class Study:
     def names(self):
         """What the text may use."""
         return {"error": self.error, "relative_cost": self.relative_cost, "status": self.status, "order": self.order,
-                "best": self.best, "worst": self.worst, "charts": self.charts, "summary": self.summary, "refused": self.refused,
-                "failures": self.failures, "main_suites": self.main_suites, "stability": self.stability, "runs": lambda: len(self.rows),
-                "percent": lambda value: digits(100 * value) + " %", "times": digits, "plain": lambda value: f"{value:g}",
-                "check": check, "min": min, "max": max, "abs": abs}
+                "best": self.best, "worst": self.worst, "charts": self.charts, "summary": self.summary,
+                "refused": self.refused, "failures": self.failures, "main_suites": self.main_suites,
+                "stability": self.stability, "runs": lambda: len(self.rows),
+                "percent": lambda value: digits(100 * value) + " %", "times": digits,
+                "plain": lambda value: f"{value:g}", "check": check, "min": min, "max": max, "abs": abs}
 
 
 def digits(value):

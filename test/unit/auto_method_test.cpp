@@ -184,6 +184,12 @@ TEST(ExpectedMotion, IsFromTheScenesNumbers) {
   EXPECT_NEAR(of(block(tool + ", motion: {rotation_rate: 1}}]\n")).turn, std::acos(0.0), 1e-15);
   EXPECT_TRUE(of(block("boundaries: {z_min: {friction: 0.2}}\n")).contact);
   EXPECT_FALSE(of(block("boundaries: {z_min: slip}\n")).contact);
+  // About its middle at (0.4, 0.2) at 2 rad/s for a tenth of a second; a shear turns at half its rate.
+  EXPECT_NEAR(of(block("time: {end: 0.1}\n", ", initial: {velocity: [\"2*(z-0.2)\", \"-2*(x-0.4)\"]}")).turn, 0.2,
+              1e-12);
+  EXPECT_NEAR(of(block("time: {end: 0.1}\n", ", initial: {velocity: [\"2*(z-0.2)\", 0]}")).turn, 0.1, 1e-12);
+  EXPECT_NEAR(of(block("", ", initial: {velocity: [\"2*z\", 0]}")).turn, std::acos(0.0), 1e-15);  // no end
+  EXPECT_EQ(of(block("", ", initial: {velocity: [\"0.5*x\", 0.1]}")).turn, 0.0);
   const ExpectedMotion sand = of(block("", "", "drucker_prager, friction_angle: 0.5"));
   EXPECT_TRUE(sand.flows);
   EXPECT_EQ(sand.strain, 1.0);
@@ -206,10 +212,48 @@ TEST(AutoMethod, SuitesFollowTheScene) {
   const Scene turned = chosen(block(), rows, asked);
   EXPECT_EQ(label(turned), "bspline2/usavg/flip");
   EXPECT_EQ(said(turned),
-            "bspline2, usavg, flip: reaches 1 % at a cost over the least of 1.20 in square_large, 1.20 in rotation; "
+            "bspline2, usavg, flip: reaches 1 % at 1.20 times the least cost in square_large, 1.20 in rotation; "
             "cpdi, usavg, flip comes next, with 2.00 at worst; ugimp, usavg, flip has 2.00 at worst");
   EXPECT_EQ(said(turned, "method.auto.strain"), "");  // the scene said it
   EXPECT_EQ(said(chosen(block(), rows), "method.auto.strain"), "0 %: nothing moves it");
+}
+
+// For what uGIMP/USF takes for 1 %, CPDI has 0.5 % and uGIMP/USAVG 2 % on the one suite, both the same on the other.
+// For an error that nobody reaches, what is told are errors.
+TEST(AutoMethod, SaysWhatABudgetBuys) {
+  const std::string rows =
+      "bar_small,ugimp/usf/flip,0.01,100\nbar_small,ugimp/usavg/flip,0.02,100\nbar_small,cpdi/usavg/flip,0.005,100\n"
+      "square_small,ugimp/usf/flip,0.01,100\nsquare_small,ugimp/usavg/flip,0.01,100\n"
+      "square_small,cpdi/usavg/flip,0.01,100\n";
+  AutoMethod asked;
+  asked.budget = {{}, 1.0};
+  const Scene scene = chosen(block(), rows, asked);
+  EXPECT_EQ(
+      said(scene),
+      "cpdi, usavg, flip: comes, for 1 times what ugimp, usf, flip takes for 1 %, to 1.00 times the least error in "
+      "bar_small, 1.00 in square_small; ugimp, usf, flip comes next, with 2.00 at worst; ugimp, usavg, flip has 4.00 "
+      "at worst");
+  asked.budget = {0.001, {}};
+  EXPECT_EQ(
+      said(chosen(block(), rows, asked)),
+      "cpdi, usavg, flip: comes, where not all reach 0.1 %, to 1.00 times the smallest error or 0.1 % in bar_small, "
+      "1.00 in square_small; ugimp, usf, flip comes next, with 2.00 at worst; ugimp, usavg, flip has 4.00 at worst");
+  asked.budget = {{}, 0.5};
+  EXPECT_EQ(said(chosen(block(), rows, asked)).find("ugimp, usavg, flip: the default, for no measured method"), 0U);
+}
+
+// At 2 % the smaller error on the cube is no reason, and the square counts; at 1 % the cube does.
+TEST(AutoMethod, ACubeCountsWhereItIsSolved) {
+  const std::string rows =
+      "bar_small,ugimp/usavg/flip,0.01,100\nbar_small,cpdi/usavg/flip,0.01,100\n"
+      "square_small,ugimp/usavg/flip,0.01,300\nsquare_small,cpdi/usavg/flip,0.01,100\n"
+      "cube_small,cpdi/usavg/flip,0.02,300\n";
+  const std::string solid =
+      "grid: {cell: 0.1, min: [0, 0, 0], max: [1, 1, 1]}\n"
+      "materials: [{name: soft, density: 1000, law: neo_hookean, young: 1000, poisson: 0}]\n"
+      "bodies: [{name: block, material: soft, shape: {box: {min: [0, 0, 0], max: [0.4, 0.4, 0.4]}}}]\n";
+  EXPECT_EQ(label(chosen(solid, rows + "cube_small,ugimp/usavg/flip,0.02,100\n")), "cpdi/usavg/flip");
+  EXPECT_EQ(label(chosen(solid, rows + "cube_small,ugimp/usavg/flip,0.01,100\n")), "ugimp/usavg/flip");
 }
 
 // Dirac is cheapest here and not taken; where material flows nothing that follows the deformation is.
@@ -315,7 +359,7 @@ TEST(AutoMethod, IsWhatASceneWithoutAMethodGets) {
   const std::string told = explain(scene, build(scene));
   EXPECT_EQ(told, explain(parse_scene(block(), "test.yaml"), build(scene)));  // the same in every run
   EXPECT_NE(told.find("method: plane strain, 1 m thick, bspline2, usavg, fmpm 2,"), std::string::npos) << told;
-  EXPECT_NE(told.find("\n  method: bspline2, usavg, fmpm 2: reaches 1 % at a cost over the least of 1.00 in bar_small, "
+  EXPECT_NE(told.find("\n  method: bspline2, usavg, fmpm 2: reaches 1 % at 1.00 times the least cost in bar_small, "
                       "1.00 in square_small\n"),
             std::string::npos)
       << told;

@@ -61,18 +61,6 @@ TEST(BlockTable, OfALineHasTwoColoursAndThreeNeighbours) {
   }
 }
 
-// A block of a line is shorter than a wide register: what lies behind the last one is there, and zero after each
-// resize.
-TEST(NodalField, HasRoomForARegisterBehindItsLastBlock) {
-  mpm::NodalField field(1, 4);
-  for (const int blocks : {3, 2, 40, 1}) {
-    field.resize(blocks);
-    double* end = field.block(blocks);
-    for (std::size_t i = 0; i < mpm::NodalField::kPadding; ++i) EXPECT_EQ(end[i], 0.0) << blocks;
-    std::fill(field.data(), end + mpm::NodalField::kPadding, 7.0);
-  }
-}
-
 TEST(GridLayout, RefusesWhatCannotBe) {
   EXPECT_THROW(GridLayout(3, {0.0, 0.1, 0.1}, {0, 0, 0}, {1, 1, 1}), mpm::GridError);
   EXPECT_THROW(GridLayout(3, {0.1, 0.1, 0.1}, {0, 0, 0}, {1, 1, 0.01}), mpm::GridError);

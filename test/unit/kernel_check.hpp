@@ -284,7 +284,7 @@ class Kernels {
   }
   // What the first pass of a step does.
   void note_domains() {
-    if (scene_.kernels.follows_deformation) scene_.mechanics->scatter_momentum(context_);
+    if (follows_deformation(scene_.shape)) scene_.mechanics->scatter_momentum(context_);
   }
 
   void check_move(mpm_kernel::Motion motion, Damping damping, bool regather) {

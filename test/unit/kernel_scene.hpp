@@ -72,7 +72,7 @@ struct KernelScene {
     dt = std::min(specimen.time, 0.3 * smallest_cell() / speed);
     for (int s = 0; s < count; ++s) add_body(*of[s], s, count);
     settings = more;
-    for (ParticleSet& set : sets) prepare(set, kernels, shape, settings.transfer);
+    for (ParticleSet& set : sets) prepare(set, shape, settings.transfer);
     if (settings.transfer.kind == TransferKind::apic) turn_particles();
     settings.gravity = Vec3(0.3, -0.2, -9.81);
     const auto gone = Sorter(settings.threads, kernel_grouping(kernels)).sort(sets, grid);

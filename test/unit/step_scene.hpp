@@ -210,7 +210,7 @@ class StepScene {
         set.f[k * (kDim + 1)].set(p, 1.0);
       }
     }
-    prepare(set, kernels_, method_.shape, method_.transfer);
+    prepare(set, method_.shape, method_.transfer);
   }
 
   std::vector<ParticleSet> sets_;

@@ -33,13 +33,14 @@ class Wall final : public Stage {
   void momentum_updated(StepContext& context) override;
   void velocity_found(StepContext& context, NodalField& velocity) override;
   void increment_found(StepContext& context, NodalField& increment) override;
+  void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
 
  private:
   struct Node {
     NodeRef ref;
     std::uint64_t id;
-    Hold hold;  ///< frictional only
+    Hold hold;  ///< in the step before, then in this one
   };
   /// Frictional: how the wall holds the node; else what it always does.
   ContactChange change(const Vec3& velocity, const Vec3& normal) const;
@@ -48,6 +49,7 @@ class Wall final : public Stage {
   int face_;
   WallDefinition definition_;
   ImpulseAccount account_;
+  Vec3 given_ = Vec3::Zero();  ///< in this step [N s]
   std::vector<Node> nodes_;
   HeldNodes held_;                ///< frictional only
   std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
@@ -60,6 +62,7 @@ class WallAgain final : public Stage {
 
   void before_strain(StepContext& context) override { wall_.before_strain(context); }
   void momentum_updated(StepContext& context) override { wall_.momentum_updated(context); }
+  void velocity_found(StepContext& context, NodalField& velocity) override { wall_.velocity_found(context, velocity); }
   void increment_found(StepContext& context, NodalField& increment) override {
     wall_.increment_found(context, increment);
   }

@@ -2,11 +2,10 @@
 // the body's velocity along its exact normal, and along the surface as friction allows.
 //
 // What is reported is what was applied: the wrench is the sum over nodes of the momentum that contact changed in
-// momentum_updated, over the time it took; torque about the body's origin as it moves; the same sums, weighted by the
-// normal part, give the centre of pressure.
-// Weak: a surface between two rows of nodes is met up to a cell early; material on both sides of a tool thinner than
-// three cells shares nodes. Source: Nairn, GIMP notes (3.12)-(3.20); method reference 5.3, 8.3; the normal is the exact
-// one instead of a mass gradient.
+// momentum_updated (and takes from XPIC's increments), over the time it took; torque about the body's origin as it
+// moves; the same sums, weighted by the normal part, give the centre of pressure. Weak: a surface between two rows of
+// nodes is met up to a cell early; material on both sides of a tool thinner than three cells shares nodes. Source:
+// Nairn, GIMP notes (3.12)-(3.20); method reference 5.3, 8.3; the normal is the exact one instead of a mass gradient.
 #pragma once
 
 #include <vector>
@@ -28,6 +27,7 @@ class RigidContact final : public Stage {
   void momentum_updated(StepContext& context) override;
   void velocity_found(StepContext& context, NodalField& velocity) override;
   void increment_found(StepContext& context, NodalField& increment) override;
+  void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
 
   /// What the material did to the body since the last call; `now` [s].
@@ -45,22 +45,23 @@ class RigidContact final : public Stage {
   };
   template <class Visit>
   void each_node(Visit&& visit);
-  /// Books what one node was given, and adds it to the sums of the step.
-  void give(const Node& node, const Vec3& impulse, Vec3& given, Vec3& angular);
-  void close(const Vec3& given, const Vec3& angular, double dt);
+  /// Books what one node was given.
+  void give(const Node& node, const Vec3& impulse);
 
   const RigidBody& body_;
   int threads_;
   std::vector<int> near_;                 ///< blocks whose nodes may lie in the body
   std::vector<std::vector<Node>> nodes_;  ///< of each block in near_
   HeldNodes held_;
-  ImpulseAccount account_;  ///< given to the material
+  ImpulseAccount account_;             ///< given to the material
+  Vec3 given_ = Vec3::Zero();          ///< in this step [N s]
+  Vec3 given_angular_ = Vec3::Zero();  ///< about the body's origin [N m s]
   double work_ = 0.0;
 
   Vec3 impulse_ = Vec3::Zero();          ///< on the body since the last report [N s]
   Vec3 angular_impulse_ = Vec3::Zero();  ///< [N m s]
   Vec3 friction_ = Vec3::Zero();         ///< the part of impulse_ along the surface [N s]
-  double pressed_ = 0.0;                 ///< magnitudes of the normal impulses since the last report [N s]
+  double pressed_ = 0.0;                 ///< normal impulses since the last report [N s]
   Vec3 pressed_arm_ = Vec3::Zero();      ///< arms times those magnitudes [N s m]
   Wrench peak_;
   int touching_ = 0;

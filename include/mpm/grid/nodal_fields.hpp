@@ -1,6 +1,5 @@
 // The fields of the grid's nodes that every scene has. One array a field, a block after the other, within a block one
-// component after the other: [block][component][node]. Behind the last block is room for a wide register, since a block
-// of a line, 4 nodes, is shorter than one.
+// component after the other: [block][component][node].
 #pragma once
 
 #include <algorithm>
@@ -15,21 +14,18 @@ namespace mpm {
 
 class NodalField {
  public:
-  static constexpr std::size_t kPadding = 8;  ///< doubles behind the last block that may be read and written
-
   NodalField(int components, int nodes_per_block) : components_(components), nodes_(nodes_per_block) {}
 
   int components() const { return components_; }
-  /// Contents are not kept; the padding is set to zero. Room for a few blocks more is made when there is too little:
-  /// material that moves takes new blocks a few at a time.
+  /// Contents are not kept. Room for a few blocks more is made when there is too little: material that moves takes new
+  /// blocks a few at a time.
   void resize(int blocks) {
-    const std::size_t used = static_cast<std::size_t>(blocks) * components_ * nodes_, size = used + kPadding;
+    const std::size_t size = static_cast<std::size_t>(blocks) * components_ * nodes_;
     if (size > data_.capacity()) {
       data_ = std::vector<double>();
       data_.reserve(size + size / 16);
     }
     data_.resize(size);
-    std::fill_n(data_.begin() + static_cast<std::ptrdiff_t>(used), kPadding, 0.0);
   }
   double* data() { return data_.data(); }
   double* block(int b) { return data_.data() + static_cast<std::size_t>(b) * components_ * nodes_; }
@@ -73,7 +69,7 @@ struct Grid {
   /// Of each owner, whether some of its particles have moved beyond the block since they were sorted.
   std::vector<std::uint8_t> loose;
   NodalField mass;      ///< m_i [kg]
-  NodalField momentum;  ///< p_i as gathered, without conditions; kept through the step [N s]
+  NodalField momentum;  ///< p_i as gathered, without conditions; until XPIC or the next gathering use it [N s]
   NodalField velocity;  ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]
   NodalField force;     ///< f_i while forces are gathered [N], then the acceleration a_i [m/s^2]
 };

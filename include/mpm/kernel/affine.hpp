@@ -28,7 +28,8 @@ void invert_symmetric(T (&a)[Dim][Dim]) {
   }
 }
 
-/// D of the particle at place q of its chunk [m^2].
+/// D of the particle at place q of its chunk, lengths in cells: in metres its determinant could be too small a number
+/// for single precision.
 template <int Dim, int Points, class Frame, class T>
 void second_moment(const Frame& frame, int q, T (&d)[Dim][Dim]) {
   for (auto& row : d) {
@@ -40,8 +41,8 @@ void second_moment(const Frame& frame, int q, T (&d)[Dim][Dim]) {
     // Of the hat functions at a point the mean place is the point, the variance f (1 - f) of a cell squared.
     T offset[Dim];
     for (int c = 0; c < Dim; ++c) {
-      offset[c] = frame.arm(a, c, q) + at.along[c] * frame.cell(c);
-      d[c][c] += weight * at.along[c] * (T(1) - at.along[c]) * frame.cell(c) * frame.cell(c);
+      offset[c] = frame.arm(a, c, q) / frame.cell(c) + at.along[c];
+      d[c][c] += weight * at.along[c] * (T(1) - at.along[c]);
     }
     for (int c = 0; c < Dim; ++c) {
       for (int k = 0; k < Dim; ++k) d[c][k] += weight * offset[c] * offset[k];
@@ -62,8 +63,8 @@ void spread_affine(const Frame& frame, int q, typename PointVectors<T>::Four val
   for (int k = 0; k < Dim; ++k) {
     for (int c = 0; c < Dim; ++c) {
       T sum = 0;
-      for (int m = 0; m < Dim; ++m) sum += set.affine[c * Dim + m][p] * inverse[m][k];
-      column[k][c] = static_cast<T>(set.mass) * sum;
+      for (int m = 0; m < Dim; ++m) sum += set.affine[c * Dim + m][p] / frame.cell(m) * inverse[m][k];
+      column[k][c] = static_cast<T>(set.mass) * sum / frame.cell(k);
     }
   }
   for (int a = 0; a < Points; ++a) {

@@ -1,7 +1,7 @@
 // Gathers: lanes are particles, and a row of 8 nodes of one component is read for all of them at once.
 //
 // Where a row fits into a register (AVX-512, AVX2 in single precision) the particles share a column of nodes, and each
-// lane picks its own three nodes of the row; lanes stay full when particles lie irregularly. Where it does not, they
+// lane picks its own nodes of the row; lanes stay full when particles lie irregularly. Where it does not, they
 // share their nearest node, whose numbers are spread over the lanes. Particles that have moved on since they were
 // sorted are gathered again with the others masked out, so groups need not be exact.
 #pragma once

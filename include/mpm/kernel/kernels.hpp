@@ -39,13 +39,13 @@ constexpr int kChunk = 64;            ///< particles at a time
 constexpr int kBuffer = kChunk + 16;  ///< and what the last register writes beyond them
 constexpr double kNoWall = 1e9;       ///< node number of a wall that there is not
 
-/// The grid: nodal fields are [block][component][node], 64 nodes a block (16 in a plane).
+/// The grid: nodal fields are [block][component][node], 64 nodes a block (16 in a plane, 4 in a line).
 struct GridView {
   double origin[3], inverse_cell[3];
   double low_wall[3], high_wall[3];  ///< node numbers of the domain's faces that are walls
   double least_mass;                 ///< a node with less takes no part [kg]
   double* mass;                      ///< [kg]
-  double* momentum;                  ///< as gathered [N s]
+  double* momentum;                  ///< as gathered, until XPIC's increments or the next gathering use it [N s]
   double* velocity;                  ///< [m/s]
   double* force;                     ///< force [N], then acceleration [m/s^2]
 };
@@ -106,7 +106,7 @@ struct Moved {
   int groups;  ///< groups of particles, and how often they were gathered: once when all lanes share a column
   int parts;
   double drag[3] = {};            ///< damped: momentum that damping took [N s]
-  double grid_kinetic = 0.0;      ///< damped: sum of m |v0|^2 / 2, of the grid's velocity before the step [J]
+  double grid_kinetic = 0.0;      ///< damped: sum of m |v0|^2 / 2, v0 the grid's velocity that is damped [J]
   double particle_kinetic = 0.0;  ///< damped: the same of the particles' own [J]
 };
 
@@ -164,7 +164,6 @@ struct KernelTable {
 
   int lanes;                    ///< particles of a register: the largest group
   bool by_column;               ///< a group's particles share a column of nodes; else their nearest node
-  bool follows_deformation;     ///< sets have a domain, noted by the first pass of a step
   const LawKernels<T>* laws;    ///< by index in the list of laws (material/law.hpp)
   Scatter scatter_momentum[2];  ///< m v and m; with the affine field of APIC
   Failure (*strain)(const GridView&, const BlockView&, const SetView<T>*, int sets, const StrainSettings&);
@@ -172,8 +171,7 @@ struct KernelTable {
   void (*force)(const GridView&, const BlockView&, const SetView<T>*, int sets, const double* pressure);
   /// `to` += m S times the particles' dilatation tr(grad v) [kg/s], or mean stress in the grid's axes [J].
   void (*spread_mean[2])(const GridView&, const BlockView&, const SetView<T>*, int sets, double* to);
-  MovePass<T> move[kMotions]
-                  [2];  ///< without damping in the particles' update, and with it (the same but for kIncrement)
+  MovePass<T> move[kMotions][2];  ///< without damping in the particles' update, and with it
   void (*scatter_load)(const GridView&, const BlockView&, const SetView<T>*, int sets, double* field);
   /// `to` += m S (S `from`): what the particles make of a field of velocities, as momentum.
   void (*project)(const GridView&, const BlockView&, const SetView<T>*, int sets, const double* from, double* to);

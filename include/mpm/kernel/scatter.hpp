@@ -1,5 +1,6 @@
 // Scatters: a particle at a time, lanes are (node along the last axis, component). A particle's contribution to a row
-// of three nodes is an outer product, made once and added to 9 rows (3 in a plane) with the weights of the other axes.
+// of nodes, three or five, is an outer product, made once and added to all rows (9 of three in a solid, 3 in a plane)
+// with the weights of the other axes.
 // The sums of a run of particles with one nearest node stay in registers; they go to the tile when the node changes.
 //
 // What a particle brings was computed with particles in the lanes, and passes through a buffer in cache: components are

@@ -1,7 +1,7 @@
 // A block's surroundings in cache: 8 nodes along each axis, the block and two nodes beyond it on each side. Copied in
 // from the blocks of the grid before particles gather, added out after they scatter; the passes in between never see
-// the block table. While no particle has left the block only six nodes along an axis are touched: rows outside these
-// are left out.
+// the block table. While no particle has left the block, stencils of three touch only six nodes along an axis: rows
+// outside these are left out.
 //
 // Two layouts. What is gathered lies a component at a time, a row of 8 nodes along the last axis together; what is
 // scattered lies a node at a time, its components together, padded to four.

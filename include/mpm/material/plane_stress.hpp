@@ -48,6 +48,7 @@ void plane_stress_update(const Law& law, const T (&du)[2][2], int terms, const M
   const T speed = law.wave_speed(old_f, old_stress, j_old), stiffness = speed * speed;
   const T tolerance(kFreeStress<ScalarOf<T>>);
   T e(0.0), low(-kMost), high(kMost);
+  auto open = e <= T(0.0);  // lanes that have not found their e: all of them
   T slope = stiffness, before(0.0), step(0.0);
   for (int i = 0;; ++i) {
     const MatrixPlane<T> gradient{du[0][0], du[0][1], du[1][0], du[1][1], e};
@@ -60,7 +61,7 @@ void plane_stress_update(const Law& law, const T (&du)[2][2], int terms, const M
     if (i == kSteps) return;
 
     const T miss = stress.yy;
-    auto open = abs(miss) > tolerance * stiffness;
+    open = open & (abs(miss) > tolerance * stiffness);
     if (!any(open)) return;
     low = select(miss < T(0), e, low);
     high = select(miss > T(0), e, high);

@@ -32,8 +32,7 @@ std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>& kern
                                           const std::vector<Law>& laws, const ContinuumSettings& settings);
 
 /// Makes room on the particles for what kernels and transfer keep there: domains, affine matrices.
-template <class T>
-void prepare(ParticleSet& set, const mpm_kernel::KernelTable<T>& kernels, ShapeKind shape, const Transfer& transfer);
+void prepare(ParticleSet& set, ShapeKind shape, const Transfer& transfer);
 
 /// How particles have to be grouped for these kernels (step/sorter.hpp).
 template <class T>

@@ -41,7 +41,7 @@ struct DampingRates {
 /// What the update of all particles found.
 struct Damped {
   Vec3 momentum = Vec3::Zero();  ///< taken: sum of m (alpha_g v0 + alpha_p v) dt, world axes [N s]
-  double grid_energy = 0.0;      ///< sum of m |v0|^2 / 2 [J]
+  double grid_energy = 0.0;  ///< sum of m |v0|^2 / 2, of the grid's velocity: the step's start, or what is adopted [J]
   double particle_energy = 0.0;  ///< sum of m |v|^2 / 2, v before the update [J]
 };
 

@@ -10,7 +10,9 @@
 //
 // A load is spread by the particle's domain, with the S_ip that carries its mass, or put at its centre, with the hat
 // function N_i(x_p) there. Spread, a particle feels what it would carry itself; at the centre a concentrated force
-// stays in the cell of its particle, and jumps from cell to cell with it (weak: the gradient of N_i does). Source: GIMP
+// stays in the cell of its particle, and jumps from cell to cell with it (weak: the gradient of N_i does; and where a
+// centre is pressed beyond a wall and splines keep to the nodes inside, what it gives to the node beyond is lost, which
+// the audit shows). Source: GIMP
 // notes (1.6), (1.12), (1.18)-(1.22), (1.27), (1.31); the midpoint is ours.
 #pragma once
 
@@ -53,8 +55,9 @@ class LoadError : public Error {
 };
 
 /// All loads of a scene on particles, as one stage that is the last of them: its work is taken with the velocity that
-/// all others have left. Audit: "body_force" and "particle_force", those that there are: the sums over particles of
-/// m b dt and of F dt; the grid has no part in them.
+/// conditions have left, over the displacement of FLIP (GIMP notes (2.16)); where particles move otherwise (PIC, XPIC,
+/// FMPM, APIC) the work is right to first order in dt. Audit: "body_force" and "particle_force", those that there are:
+/// the sums over particles of m b dt and of F dt; the grid has no part in them.
 class ParticleLoads : public Stage {
  public:
   /// Work on the material since the start [J]: nodal load times the displacement of its node in the step.

@@ -5,12 +5,11 @@
 //
 // right for any stretch, shear and rotation; domains go on tiling a body that deforms evenly. Weak: under shear without
 // end domains become long and thin and corners of neighbours tangle; a half vector longer than about a cell smears the
-// fields, since the hat between the corners is not seen; every corner must stay on the grid and within reach of its
-// block's tile, which bounds how far a particle can be stretched; an undeformed domain is uGIMP's box, but its sums are
-// not uGIMP's where it crosses a grid line (with half-width w in cells and the particle on a node, the node's weight is
-// 1 - w here and 1 - w/2 there along each axis). Cost: up to 4^dimensions nodes.
-// Source: Sadeghirad, Brannon & Burghardt (2011) eq. (20), (21); Nairn & Guilkey (2015) eq. (31); method reference
-// 2.5, 2.6.
+// fields, since the hat between the corners is not seen; a domain whose corners would lie more
+// than 1.5 cells from its particle is shrunk (kernel/domain.hpp) and stops following; an undeformed domain is uGIMP's
+// box, but its sums are not uGIMP's where it crosses a grid line (with half-width w in cells and the particle on a
+// node, the node's weight is 1 - w here and 1 - w/2 there along each axis). Cost: up to 4^dimensions nodes. Source:
+// Sadeghirad, Brannon & Burghardt (2011) eq. (20), (21); Nairn & Guilkey (2015) eq. (31); method reference 2.5, 2.6.
 #pragma once
 
 #include "mpm/shape/particle_domain.hpp"

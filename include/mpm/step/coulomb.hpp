@@ -48,10 +48,11 @@ inline Vec3 strain_change(const Vec3& relative, const Vec3& normal, const Fricti
   return contact_change(relative, normal, law).velocity;
 }
 
-/// What a held node takes away of a velocity that is added later in the step, when who holds is no question any more.
-inline Vec3 held_part(const Vec3& increment, const Vec3& normal, Hold hold) {
+/// What a held node takes away of a velocity, relative to the surface or added to one that is, later in the step, when
+/// who holds is no question any more.
+inline Vec3 held_part(const Vec3& velocity, const Vec3& normal, Hold hold) {
   if (hold == Hold::free) return Vec3::Zero();
-  return hold == Hold::stick ? Vec3(-increment) : Vec3(-increment.dot(normal) * normal);
+  return hold == Hold::stick ? Vec3(-velocity) : Vec3(-velocity.dot(normal) * normal);
 }
 
 /// Which nodes were held in the step before, by the key of their block: survives sorting and tools on the move.

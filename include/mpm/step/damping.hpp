@@ -34,7 +34,8 @@ struct DampingDefinition {
   Function particle;  ///< alpha_p: v loses alpha_p v dt [1/s]
   Function pic;       ///< 1 - beta: part of PIC in the update of a step, 0 to 1; the FLIP fraction is 1 without it
   /// Grid damping is a force on the nodes, where walls and tools act after it; else it is in the update of particles.
-  /// The same to round-off where nothing holds a node (method reference 6.3). A function of place: in the update alone.
+  /// The same to round-off with FLIP where nothing holds a node (method reference 6.3). A function of place: in the
+  /// update alone.
   bool in_force = true;
   std::optional<FeedbackDefinition> feedback;
 

@@ -1,4 +1,4 @@
-// A physics other than the mechanics of the material: it meets the step at four joints on the grid. A scene's
+// A physics other than the mechanics of the material: it meets the step at joints on the grid. A scene's
 // list of stages is put together when it is loaded; what a scene does not name is not in the list.
 #pragma once
 
@@ -27,20 +27,25 @@ class Stage {
 
   /// Mass and momentum are on the grid, velocity is momentum over mass: the place to find one's nodes.
   virtual void momentum_gathered(StepContext&) {}
-  /// Grid.velocity is about to give the strain: impose conditions on it. Called once (USF) or twice (USAVG) a step.
+  /// Grid.velocity is about to give the strain: impose conditions on it. Called once (USF, USL) or twice (USAVG) a
+  /// step.
   virtual void before_strain(StepContext&) {}
   /// Grid.force holds the internal force: add to it [N].
   virtual void forces_gathered(StepContext&) {}
   /// Grid.velocity is v^{n+1}, Grid.force the acceleration: whoever adds dv to the one adds dv/dt to the other.
   virtual void momentum_updated(StepContext&) {}
 
-  /// XPIC: `velocity` [m/s], of the step's start, is about to be filtered: what holds a node gives it the velocity that
-  /// it holds it at. It gives no momentum with that; the filter only must not see what the condition takes away anyhow.
+  /// XPIC, FMPM: `velocity` [m/s], of the step's start or of its end, is about to be filtered: what holds a node gives
+  /// it the velocity that it holds it at. It gives no momentum with that; the filter only must not see what the
+  /// condition takes away anyhow.
   virtual void velocity_found(StepContext&, NodalField& /*velocity*/) {}
   /// XPIC, FMPM: `increment` [m/s] is about to be added to the velocity that particles adopt; what holds a node along
   /// some direction takes that part away, and owns up to the momentum. The sum of the increments' momentum is zero
   /// before.
   virtual void increment_found(StepContext&, NodalField& /*increment*/) {}
+
+  /// The grid's velocities are what particles will take over: the step's impulse is known.
+  virtual void grid_advanced(StepContext&) {}
 
   /// What this stage gave to the material, under its names.
   virtual void accounts(std::vector<ImpulseAccount>&) const {}

@@ -4,11 +4,15 @@
 // candidate has. On a suite where no candidate comes below it, the number is the method's smallest error over the
 // smallest of all. Of the methods that come below the error wherever one does, that is taken whose largest number is
 // least. Where there is none of these, numbers are smallest errors over the smallest of all or, where that is more,
-// over the error asked for; what is below that counts as 1. For a cost: numbers are errors over the least one, at so
-// many times the cost at which uGIMP/USF/FLIP reaches 1 % on the suite (or of its dearest run, where it does not).
+// over the error asked for; what is below that counts as 1.
+//
+// For a cost: numbers are errors over the least one, at so many times the cost at which uGIMP/USF/FLIP reaches 1 % on
+// the suite (or of its dearest run, where it does not).
+//
 // Differences under 10 % count as none, for the study's timing is no finer: then the simpler method is taken, that has
 // fewer parts other than uGIMP, USAVG and FLIP; of as many, one with another transfer before one with another update
 // and that before one with another shape.
+//
 // Weak: the worst suite decides, though a scene may be little like it. Source: own; a minimax choice.
 #pragma once
 

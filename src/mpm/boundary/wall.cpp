@@ -68,7 +68,6 @@ void Wall::before_strain(StepContext& context) {
 void Wall::momentum_updated(StepContext& context) {
   Grid& grid = context.grid;
   const Vec3 n = normal(grid.layout);
-  Vec3 given = Vec3::Zero();
   held_.clear();
   for (Node& node : nodes_) {
     node.hold = Hold::free;
@@ -79,9 +78,8 @@ void Wall::momentum_updated(StepContext& context) {
     if (definition_.kind == WallKind::frictional) held_.add(node.id, hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, dv);
     add_nodal_vector(grid.force, grid.layout, node.ref, dv / context.dt);
-    given += grid.mass.at(node.ref.block, 0, node.ref.node) * dv;
+    given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * dv;
   }
-  account_.add(given);
 }
 
 void Wall::velocity_found(StepContext& context, NodalField& velocity) {
@@ -95,14 +93,17 @@ void Wall::velocity_found(StepContext& context, NodalField& velocity) {
 void Wall::increment_found(StepContext& context, NodalField& increment) {
   const Grid& grid = context.grid;
   const Vec3 n = normal(grid.layout);
-  Vec3 given = Vec3::Zero();
   for (const Node& node : nodes_) {
     if (!grid.carries(node.ref.block, node.ref.node)) continue;
     const Vec3 change = held_part(nodal_vector(increment, grid.layout, node.ref), n, node.hold);
     add_nodal_vector(increment, grid.layout, node.ref, change);
-    given += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
+    given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
   }
-  account_.add(given);
+}
+
+void Wall::grid_advanced(StepContext&) {
+  account_.add(given_);
+  given_ = Vec3::Zero();
 }
 
 }  // namespace mpm

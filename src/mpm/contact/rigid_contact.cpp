@@ -83,7 +83,6 @@ void RigidContact::before_strain(StepContext& context) {
 
 void RigidContact::momentum_updated(StepContext& context) {
   Grid& grid = context.grid;
-  Vec3 given = Vec3::Zero(), angular = Vec3::Zero();
   int touching = 0;
   held_.clear();
   each_node([&](Node& node) {
@@ -94,10 +93,9 @@ void RigidContact::momentum_updated(StepContext& context) {
     held_.add(HeldNodes::id(grid.blocks.key(node.ref.block), node.ref.node), hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
     add_nodal_vector(grid.force, grid.layout, node.ref, change / context.dt);
-    give(node, grid.mass.at(node.ref.block, 0, node.ref.node) * change, given, angular);
+    give(node, grid.mass.at(node.ref.block, 0, node.ref.node) * change);
     ++touching;
   });
-  close(given, angular, context.dt);
   touching_ = touching;
 }
 
@@ -111,31 +109,30 @@ void RigidContact::velocity_found(StepContext& context, NodalField& velocity) {
 
 void RigidContact::increment_found(StepContext& context, NodalField& increment) {
   const Grid& grid = context.grid;
-  Vec3 given = Vec3::Zero(), angular = Vec3::Zero();
   each_node([&](const Node& node) {
     const Vec3 change = held_part(nodal_vector(increment, grid.layout, node.ref), node.normal, node.hold);
     add_nodal_vector(increment, grid.layout, node.ref, change);
-    give(node, grid.mass.at(node.ref.block, 0, node.ref.node) * change, given, angular);
+    give(node, grid.mass.at(node.ref.block, 0, node.ref.node) * change);
   });
-  close(given, angular, context.dt);
 }
 
-void RigidContact::give(const Node& node, const Vec3& impulse, Vec3& given, Vec3& angular) {
+void RigidContact::give(const Node& node, const Vec3& impulse) {
   const double normal = impulse.dot(node.normal);
-  given += impulse;
-  angular += node.arm.cross(impulse);
+  given_ += impulse;
+  given_angular_ += node.arm.cross(impulse);
   friction_ -= impulse - normal * node.normal;
   pressed_ += normal;
   pressed_arm_ += normal * node.arm;
   work_ += impulse.dot(node.velocity);
 }
 
-void RigidContact::close(const Vec3& given, const Vec3& angular, double dt) {
-  account_.add(given);
-  impulse_ -= given;
-  angular_impulse_ -= angular;
-  const Wrench wrench{-given / dt, -angular / dt};
+void RigidContact::grid_advanced(StepContext& context) {
+  account_.add(given_);
+  impulse_ -= given_;
+  angular_impulse_ -= given_angular_;
+  const Wrench wrench{-given_ / context.dt, -given_angular_ / context.dt};
   if (wrench.force.squaredNorm() > peak_.force.squaredNorm()) peak_ = wrench;
+  given_ = given_angular_ = Vec3::Zero();
 }
 
 ContactReport RigidContact::take(double now) {

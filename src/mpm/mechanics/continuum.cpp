@@ -312,15 +312,14 @@ std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>& kern
   return std::make_unique<Continuum<T>>(kernels, sets, laws, settings);
 }
 
-template <class T>
-void prepare(ParticleSet& set, const mpm_kernel::KernelTable<T>& kernels, ShapeKind shape, const Transfer& transfer) {
+void prepare(ParticleSet& set, ShapeKind shape, const Transfer& transfer) {
   const std::size_t dim = set.x.size(), size = set.id.size();
   const auto room = [&](std::size_t components) {
     std::vector<ParticleScalar> field;
     for (std::size_t c = 0; c < components; ++c) field.emplace_back(set.precision, size);
     return field;
   };
-  if (kernels.follows_deformation) set.domain = room(shape == ShapeKind::ugimp_stretch ? dim : dim * dim);
+  if (follows_deformation(shape)) set.domain = room(shape == ShapeKind::ugimp_stretch ? dim : dim * dim);
   if (transfer.kind == TransferKind::apic) set.affine = room(dim * dim);
 }
 
@@ -332,7 +331,6 @@ Grouping kernel_grouping(const mpm_kernel::KernelTable<T>& kernels) {
 #define MPM_INSTANTIATE(T)                                                                                         \
   template std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>&, std::vector<ParticleSet>&, \
                                                      const std::vector<Law>&, const ContinuumSettings&);           \
-  template void prepare(ParticleSet&, const mpm_kernel::KernelTable<T>&, ShapeKind, const Transfer&);              \
   template Grouping kernel_grouping(const mpm_kernel::KernelTable<T>&);
 MPM_INSTANTIATE(double)
 MPM_INSTANTIATE(float)

@@ -23,12 +23,20 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kTurned = 10.0 * kDegree;
 const char* const kDefault = "ugimp/usavg/flip";
 
+/// Whether some method has come below the error asked for. Who errs least on grids that are all too coarse for it may
+/// not be the one that comes below it on finer ones.
+bool solved(const study::MethodCosts& costs, const std::string& suite, const study::Budget& budget) {
+  const auto methods = costs.find(suite);
+  if (methods == costs.end()) return false;
+  return budget.cost || std::any_of(methods->second.begin(), methods->second.end(),
+                                    [&](const auto& method) { return method.second.back().error <= *budget.error; });
+}
+
 std::vector<std::string> suites_like(const ExpectedMotion& expected, GeometryKind geometry,
-                                     const study::MethodCosts& costs) {
+                                     const study::MethodCosts& costs, const study::Budget& budget) {
   std::vector<std::string> suites;
   const bool large = expected.strain > kLargeStrain;
-  // A table without the cube has the square, whose answer is of the same kind.
-  const bool cube = geometry == GeometryKind::solid && costs.count(large ? "cube_large" : "cube_small") > 0;
+  const bool cube = geometry == GeometryKind::solid && solved(costs, large ? "cube_large" : "cube_small", budget);
   if (!large) suites.emplace_back("bar_small");
   if (geometry == GeometryKind::line) {
     if (large) suites.emplace_back("bar_crossing");
@@ -88,27 +96,31 @@ std::string name_of(const std::string& label) {
 
 std::string percent(double part) { return fmt::format("{:.3g} %", 100.0 * part); }
 
-/// "1.05 in square_large, 1.20 in rotation" of the suites that are judged so; empty without any.
-std::string numbers(const Preference& preference, Judged by) {
-  std::vector<std::string> parts;
+/// "1.05 times the least cost in square_large, 1.20 in rotation" of the suites that are judged so; empty without any.
+std::string numbers(const Preference& preference, Judged by, const std::string& unit) {
+  std::string text;
   for (std::size_t s = 0; s < preference.suites.size(); ++s) {
     const study::JudgedSuite& suite = preference.suites[s];
-    if (suite.by == by) parts.push_back(fmt::format("{:.2f} in {}", preference.chosen.by_suite[s], suite.name));
+    if (suite.by != by) continue;
+    text += fmt::format("{}{:.2f}{} in {}", text.empty() ? "" : ", ", preference.chosen.by_suite[s],
+                        text.empty() ? " times " + unit : "", suite.name);
   }
-  return fmt::format("{}", fmt::join(parts, ", "));
+  return text;
 }
 
 std::string reasons(const Preference& preference, const study::Budget& budget) {
   std::vector<std::string> parts;
-  if (const std::string list = numbers(preference, Judged::cost); !list.empty()) {
-    parts.push_back(fmt::format("reaches {} at a cost over the least of {}", percent(*budget.error), list));
-  }
-  if (const std::string list = numbers(preference, Judged::smallest_error); !list.empty()) {
-    parts.push_back(fmt::format("its smallest error over the least, or over {}, is {}", percent(*budget.error), list));
-  }
-  if (const std::string list = numbers(preference, Judged::error_at_cost); !list.empty()) {
-    parts.push_back(fmt::format("at {:g} times the cost of 1 % with ugimp, usf, flip its error over the least is {}",
-                                *budget.cost, list));
+  const auto add = [&](Judged by, const std::string& start, const std::string& unit) {
+    if (const std::string list = numbers(preference, by, unit); !list.empty()) parts.push_back(start + list);
+  };
+  if (budget.error) {
+    const std::string error = percent(*budget.error);
+    add(Judged::cost, fmt::format("reaches {} at ", error), "the least cost");
+    add(Judged::smallest_error, fmt::format("comes, where not all reach {}, to ", error),
+        "the smallest error or " + error);
+  } else {
+    add(Judged::error_at_cost,
+        fmt::format("comes, for {:g} times what ugimp, usf, flip takes for 1 %, to ", *budget.cost), "the least error");
   }
   if (!preference.others.empty()) {
     const Standing& next = preference.others.front();
@@ -149,8 +161,9 @@ void choose_method(const AutoMethod& asked, const MethodCostsFile& file, Scene& 
     scene.choices.emplace_back("method.auto.turn",
                                fmt::format("{:.3g} deg: {}", expected.turn / kDegree, expected.turn_why));
   }
-  const auto preference = study::prefer(file.costs, suites_like(expected, definition.geometry, file.costs),
-                                        candidates_for(asked, expected.flows, file.costs, definition), asked.budget);
+  const auto preference =
+      study::prefer(file.costs, suites_like(expected, definition.geometry, file.costs, asked.budget),
+                    candidates_for(asked, expected.flows, file.costs, definition), asked.budget);
   if (!preference) {
     return say(fmt::format("the default, for no measured method {}",
                            asked.budget.error ? "has what the scene keeps; say shape, update and transfer, or keep less"

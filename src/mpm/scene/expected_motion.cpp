@@ -30,33 +30,45 @@ const MaterialDefinition& material_of(const BodyDefinition& body, const Scene& s
                        [&](const MaterialDefinition& material) { return material.name == body.material; });
 }
 
-/// Largest speed at the start [m/s], among points spread over the body's bounds. Where an expression has no value is
-/// for the error that is given when particles are made.
-double speed(const BodyDefinition& body) {
+/// Velocity at the start, of points spread over the body's bounds.
+struct Start {
+  double speed = 0.0;  ///< largest [m/s]
+  double rate = 0.0;   ///< of rotation about the middle [rad/s]
+};
+
+/// Where an expression has no value is for the error that is given when particles are made.
+Start start_of(const BodyDefinition& body, const Scene& scene) {
   const Box bounds = body.region.bounds();
-  const bool constant =
-      std::all_of(body.velocity.begin(), body.velocity.end(), [](const Function& f) { return f.is_constant(); });
-  const int samples = constant ? 1 : kSamples;
-  double fastest = 0.0;
-  for (int i = 0; i < samples * samples * samples; ++i) {
-    const Vec3 part(i % samples, i / samples % samples, i / (samples * samples));
-    Vec3 place = bounds.min;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double size = bounds.max[axis] - bounds.min[axis];
-      if (!constant && std::isfinite(size)) place[axis] += part[axis] / (kSamples - 1) * size;
+  const Vec3 middle = 0.5 * (bounds.min + bounds.max);
+  const std::vector<int> axes = axes_of(scene);
+  Start start;
+  Vec3 turning = Vec3::Zero();  // sum of r x v
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  const auto samples = static_cast<int>(std::lround(std::pow(kSamples, axes.size())));
+  for (int i = 0; i < samples; ++i) {
+    Vec3 arm = Vec3::Zero();
+    for (int k = 0, rest = i; k < static_cast<int>(axes.size()); ++k, rest /= kSamples) {
+      const double part = static_cast<double>(rest % kSamples) / (kSamples - 1) - 0.5;
+      arm[axes[k]] = part * (bounds.max[axes[k]] - bounds.min[axes[k]]);
     }
+    Vec3 place = Vec3::Zero();
+    for (const int axis : axes) place[axis] = middle[axis] + arm[axis];
     try {
       const Vec3 velocity(body.velocity[0](0.0, place), body.velocity[1](0.0, place), body.velocity[2](0.0, place));
-      fastest = std::max(fastest, velocity.norm());
+      start.speed = std::max(start.speed, velocity.norm());
+      turning += arm.cross(velocity);
+      inertia += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
     } catch (const FunctionError&) {
       continue;
     }
   }
-  return fastest;
+  if (axes.size() > 1 && start.speed > 0.0) start.rate = inertia.ldlt().solve(turning).norm();
+  return start;
 }
 
 struct Arrival {
   double speed = 0.0;   ///< largest, at the start or after a fall to the face of the grid [m/s]
+  double rate = 0.0;    ///< of rotation at the start [rad/s]
   double weight = 0.0;  ///< g H [m^2/s^2]
 };
 
@@ -73,17 +85,33 @@ Arrival arrival(const BodyDefinition& body, const Scene& scene) {
     if (pull > 0.0 && gap > grid.cell[axis]) fall += pull * gap;
     if (pull > 0.0) result.weight += pull * (bounds.max[axis] - bounds.min[axis]);
   }
-  result.speed = std::sqrt(std::pow(speed(body), 2) + 2.0 * fall);
+  const Start start = start_of(body, scene);
+  result.speed = std::sqrt(start.speed * start.speed + 2.0 * fall);
+  result.rate = start.rate;
   return result;
 }
 
-void find_elastic_strain(const Scene& scene, ExpectedMotion& expected) {
+/// Largest edge of the body's bounds [m].
+double body_size(const BodyDefinition& body, const Scene& scene) {
+  double largest = 0.0;
+  for (const int axis : axes_of(scene)) largest = std::max(largest, body.region.bounds().size()[axis]);
+  return largest;
+}
+
+void find_elastic_motion(const Scene& scene, ExpectedMotion& expected) {
   expected.strain_why = "nothing moves it";
+  const double end = scene.definition.time.end;
   for (const BodyDefinition& body : scene.bodies) {
     const double wave = MaterialPoint(material_of(body, scene)).wave_speed();
     const Arrival at = arrival(body, scene);
     const double strain = at.speed / wave + at.weight / (wave * wave);
     if (at.speed > 0.0) expected.free = true;
+    const double turn = end > 0.0 ? at.rate * end : kQuarterTurn;
+    // A billionth of the rate at which the fastest point would go round is round-off.
+    if (at.rate * body_size(body, scene) > 1e-9 * at.speed && turn > expected.turn) {
+      expected.turn = turn;
+      expected.turn_why = fmt::format("{} starts to turn at {:.3g} rad/s", body.name, at.rate);
+    }
     if (strain <= expected.strain) continue;
     expected.strain = strain;
     expected.strain_why =
@@ -107,6 +135,8 @@ void find_elastic_strain(const Scene& scene, ExpectedMotion& expected) {
 ExpectedMotion expected_motion(const Scene& scene) {
   const SimulationDefinition& definition = scene.definition;
   ExpectedMotion expected;
+  expected.turn_why =
+      definition.geometry == GeometryKind::line ? "nothing turns in a line" : "no body turns at the start";
   for (const BodyDefinition& body : scene.bodies) {
     if (!flows(material_of(body, scene))) continue;
     expected.flows = true;
@@ -114,19 +144,15 @@ ExpectedMotion expected_motion(const Scene& scene) {
     expected.strain_why = fmt::format("{} flows", body.material);
     break;
   }
-  if (!expected.flows) find_elastic_strain(scene, expected);
+  if (!expected.flows) find_elastic_motion(scene, expected);
   const bool turned =
       std::any_of(definition.rigid_bodies.begin(), definition.rigid_bodies.end(), [](const RigidBodyDefinition& body) {
         return std::any_of(body.rotation_rate.begin(), body.rotation_rate.end(),
                            [](const Function& rate) { return !rate.is_zero(); });
       });
-  if (definition.geometry == GeometryKind::line) {
-    expected.turn_why = "nothing turns in a line";
-  } else if (expected.flows || turned) {
+  if (definition.geometry != GeometryKind::line && (expected.flows || turned)) {
     expected.turn = kQuarterTurn;
     expected.turn_why = expected.flows ? "what flows turns" : "a rigid body turns";
-  } else {
-    expected.turn_why = "the scene says of none";
   }
   expected.contact = !definition.rigid_bodies.empty() ||
                      std::any_of(definition.walls.begin(), definition.walls.end(),

@@ -219,7 +219,7 @@ template <class T>
 void Simulation::State::add_mechanics() {
   const MethodDefinition& method = definition.method;
   const auto kernels = kernel_table<T>(method.shape, definition.geometry, isa);
-  for (ParticleSet& set : sets) prepare(set, kernels, method.shape, method.transfer);
+  for (ParticleSet& set : sets) prepare(set, method.shape, method.transfer);
   if (const std::vector<ParticleLoadTerm> terms = make_load_terms(definition, sets); !terms.empty()) {
     const LoadKernels<T> load_kernels{kernels, kernel_table<T>(ShapeKind::dirac, definition.geometry, isa)};
     auto all = make_particle_loads(load_kernels, sets, laws, terms, threads);
@@ -228,8 +228,6 @@ void Simulation::State::add_mechanics() {
   }
   ContinuumSettings settings;
   settings.transfer = method.transfer;
-  const bool filters = method.transfer.kind == TransferKind::xpic || method.transfer.kind == TransferKind::fmpm;
-  if (filters && method.transfer.order == 1) settings.transfer = {TransferKind::flip, 0.0, 1};  // PIC, by definition
   settings.average_dilatation = method.average_dilatation;
   settings.gradient_terms = method.gradient_terms;
   settings.gravity = definition.gravity;
@@ -243,6 +241,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   State& s = *state_;
   check(given);
   s.definition = std::move(given);
+  Transfer& transfer = s.definition.method.transfer;
+  const bool filters = transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm;
+  if (filters && transfer.order == 1) transfer = {TransferKind::flip, 0.0, 1};  // the first order is PIC
   const SimulationDefinition& definition = s.definition;
   std::size_t count = 0;
   for (const DeformableBody& body : definition.bodies) count += body.positions.size();

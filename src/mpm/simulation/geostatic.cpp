@@ -87,7 +87,9 @@ Unbalanced unbalanced(const Grid& grid, double weight, double g, double half_par
 
 void stop(std::vector<ParticleSet>& sets) {
   for (ParticleSet& set : sets) {
-    for (ParticleScalar& component : set.v) component.assign(component.size(), 0.0);
+    for (auto* motion : {&set.v, &set.affine}) {
+      for (ParticleScalar& component : *motion) component.assign(component.size(), 0.0);
+    }
   }
 }
 

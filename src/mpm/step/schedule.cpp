@@ -14,11 +14,8 @@ void gather_momentum(Mechanics& mechanics, Stages& stages, StepContext& context)
   join(stages, &Stage::momentum_gathered, context);
 }
 
-// From the internal force to v^{n+1} and the acceleration on the grid, and to what particles adopt of them.
-void advance_grid(Mechanics& mechanics, Stages& stages, StepContext& context) {
-  join(stages, &Stage::forces_gathered, context);
-  mechanics.update_momentum(context);
-  join(stages, &Stage::momentum_updated, context);
+// XPIC, FMPM: what particles adopt is the grid's velocity and increments of it.
+void filter(Mechanics& mechanics, Stages& stages, StepContext& context) {
   if (mechanics.increments() == 0) return;
   NodalField& velocity = mechanics.begin_increments(context);
   for (auto& stage : stages) stage->velocity_found(context, velocity);
@@ -27,6 +24,15 @@ void advance_grid(Mechanics& mechanics, Stages& stages, StepContext& context) {
     for (auto& stage : stages) stage->increment_found(context, increment);
     mechanics.add_increment(context);
   }
+}
+
+// From the internal force to v^{n+1} and the acceleration on the grid, and to what particles adopt of them.
+void advance_grid(Mechanics& mechanics, Stages& stages, StepContext& context) {
+  join(stages, &Stage::forces_gathered, context);
+  mechanics.update_momentum(context);
+  join(stages, &Stage::momentum_updated, context);
+  filter(mechanics, stages, context);
+  join(stages, &Stage::grid_advanced, context);
 }
 
 // The particles' momentum of the end of the step, and the strain that it gives.

@@ -4,6 +4,9 @@ folder that work_precision filled, and from PAGES, the folder where the stabilit
 
     make_methods.py --check DOC     the page says what its text makes of the tables beside it, the last chapter aside
 
+Either is refused where the tables lack runs: on each suite every method that suites.csv says is run there has a row, of
+whatever status, for every grid at the usual time step and number of particles.
+
 The text is benchmark/work_precision/methods.md. What stands in {{ }} there is computed from the tables:
 
     {{ percent(error("square_large", "ugimp/usavg/flip", 32)) }}   a number of a row
@@ -30,6 +33,13 @@ TABLES = ("work_precision.csv", "summary.csv", "suites.csv")
 CLAIMS = "## What the charts say"
 LAST = "## Where methods stop working"  # made from the stability tests' pages, which are not kept
 
+# What suites.csv says is run on a suite, as a test of a method's row: all methods, or those of main_methods() in
+# src/mpm/study/method_choice.cpp.
+RUN_THERE = {
+    "all": lambda row: True,
+    "main": lambda row: row["shape"] == "ugimp" or (row["update"], row["transfer"]) == ("usavg", "flip"),
+}
+
 
 class ClaimError(Exception):
     """A claim of the text that the tables do not bear out; one line."""
@@ -45,6 +55,26 @@ class Study:
         self.doc, self.pages = doc, pages
         self.drawn = [suite for suite in dict.fromkeys(row["suite"] for row in self.rows)
                       if plots.good([row for row in self.rows if row["suite"] == suite])]
+
+    def check_complete(self):
+        """A study that was cut short, or put together from parts, makes no page."""
+        methods = {row["method"]: row for row in self.rows}
+        lacking = []
+        for suite, text in self.texts.items():
+            rows = [row for row in self.rows
+                    if row["suite"] == suite and row["cfl"] == plots.USUAL_CFL and plots.usual_particles(row)]
+            run = {(row["method"], row["cells"]) for row in rows}
+            if text.get("methods") not in RUN_THERE:
+                raise ClaimError(f"suites.csv: {suite} was not run with all methods or the main ones; run scripts/methods")
+            expected = [label for label, row in methods.items() if RUN_THERE[text["methods"]](row)]
+            missing = [(label, cells) for label in expected for cells in sorted({row["cells"] for row in rows})
+                       if (label, cells) not in run]
+            if not rows:
+                lacking.append(f"{suite}: all")
+            elif missing:
+                lacking.append(f"{suite}: {len(missing)}, as {missing[0][0]} with {missing[0][1]:g} cells")
+        if lacking:
+            raise ClaimError(f"work_precision.csv lacks runs ({'; '.join(lacking)}); run scripts/methods")
 
     def run(self, suite, method, cells, cfl=plots.USUAL_CFL, ppc=None):
         """The row of one run; without `ppc` that of the usual number of particles."""
@@ -75,12 +105,27 @@ class Study:
         """Of the error, from one grid to another."""
         return math.log(self.error(suite, method, coarse) / self.error(suite, method, fine)) / math.log(fine / coarse)
 
+    def worst(self, suite):
+        """The row of the largest error among all runs that ended well."""
+        good = plots.good([row for row in self.rows if row["suite"] == suite])
+        if not good:
+            raise ClaimError(f"no run on {suite} ended well")
+        return max(good, key=lambda row: row["error"])
+
     def best(self, suite, target, by="work"):
         """Label of the cheapest method for an error."""
         for line in self.lines:
             if (line["suite"], line["by"]) == (suite, by) and float(line["target_error"]) == target:
                 return line["method"]
         raise ClaimError(f"the summary has no line for {suite}, {target}")
+
+    def main_suites(self):
+        """Says on which problems the main methods alone are run."""
+        names = [f"`{suite}`" for suite, text in self.texts.items() if text["methods"] == "main"]
+        if not names:
+            return "Every one of them is run on every problem."
+        return textwrap.fill(f"On {', '.join(names)} a run is long, and only uGIMP's combinations and those of USAVG and "
+                             "FLIP are run.", 120, break_on_hyphens=False)
 
     def charts(self):
         parts = []
@@ -154,9 +199,9 @@ class Study:
     def names(self):
         """What the text may use."""
         return {"error": self.error, "relative_cost": self.relative_cost, "status": self.status, "order": self.order,
-                "best": self.best, "charts": self.charts, "summary": self.summary, "refused": self.refused,
-                "failures": self.failures, "stability": self.stability, "runs": lambda: len(self.rows),
-                "percent": lambda value: digits(100 * value) + " %", "times": digits,
+                "best": self.best, "worst": self.worst, "charts": self.charts, "summary": self.summary, "refused": self.refused,
+                "failures": self.failures, "main_suites": self.main_suites, "stability": self.stability, "runs": lambda: len(self.rows),
+                "percent": lambda value: digits(100 * value) + " %", "times": digits, "plain": lambda value: f"{value:g}",
                 "check": check, "min": min, "max": max, "abs": abs}
 
 
@@ -220,6 +265,7 @@ def make(runs, doc, pages):
     text = TEMPLATE.read_text(encoding="utf-8")
     check_points(text)
     study = Study(runs, doc, pages)
+    study.check_complete()
     filled = wrap_points(fill(text, study.names()))
     (doc / "methods").mkdir(parents=True, exist_ok=True)
     for old in (doc / "methods").glob("*.png"):
@@ -234,7 +280,9 @@ def make(runs, doc, pages):
 def compare(doc):
     text = TEMPLATE.read_text(encoding="utf-8")
     check_points(text)
-    made = wrap_points(fill(text.split(LAST)[0], Study(doc / "methods").names())).rstrip()
+    study = Study(doc / "methods")
+    study.check_complete()
+    made = wrap_points(fill(text.split(LAST)[0], study.names())).rstrip()
     kept = (doc / "methods.md").read_text(encoding="utf-8").split(LAST)[0].rstrip()
     for number, (one, other) in enumerate(zip(made.splitlines() + [""], kept.splitlines() + [""]), 1):
         if one != other:

@@ -4,7 +4,8 @@
 Two runs of a scene under callgrind differ in the number of steps alone; the difference of their instructions, over
 particles and steps, has no start and no end of a run in it. The kernels are those of the plain path on one thread, so
 that the figure depends on the compiler, not on the machine. A feature that a scene does not name must not move it
-(DESIGN rule: model no more than a scene needs); a change of the kernels does, and records it anew.
+(doc/architecture.md, a step: what is not named adds no pass, no field and no branch); a change of the kernels does, and
+records it anew.
 
   check_work.py RUN_SCENE COMPILER WORK.yaml [--record]
 

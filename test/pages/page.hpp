@@ -3,7 +3,7 @@
 // checked by the same call.
 //
 //   Page page("waves", "bar", "A bar that vibrates along its axis");
-//   page.problem("…").exact("…", "exact-solutions 1").meaning("…");
+//   page.problem("…").exact("…", "the wave equation").meaning("…");
 //   page.near("period", measured, exact, 0.005, "s");        // row of the table, and EXPECT within 0.5 % of exact
 //   page.figure().panel("Tip", "time [s]", "u [m]").line("exact", t, u).points("particles", tp, up);
 //

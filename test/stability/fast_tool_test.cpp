@@ -82,7 +82,7 @@ TEST(FastTool, RunsOverWhatItSweepsInOneStep) {
     panel.points(method.name, rows, depths);
     map.column(method.name, cells).theory(1.0);
 
-    // The solver itself, at a speed of 40 cells a sync period.
+    // The solver itself, at a speed of 20 cells a sync period.
     mpm::SimulationDefinition d = sheet(method.definition, 1.0);
     d.time.sync = 1'000'000;
     d.rigid_bodies[0].velocity[0] = mpm::Function(20.0 * kCell * 1e3);

@@ -75,7 +75,9 @@ TEST(NullSpace, IsKeptByFlipAlone) {
   page.problem(
           "A free block of 4 × 4 cells, 4 particles a cell, whose particles move to and fro in turn: the grid sees "
           "hardly any of it. Steps of half a cell's time. Cells: a tenth or less is left.")
-      .exact("The one-step matrix, applied as often.", "method reference 6.2, 6.6: test/stability/linear_step.hpp")
+      .exact("The one-step matrix, applied as often.",
+             "PIC: Nairn, GIMP notes (2.17)-(2.22); XPIC: Hammerquist and Nairn (2017); FMPM: Nairn and Hammerquist "
+             "(2021)")
       .meaning(
           "What the grid does not see it cannot stop: with FLIP it stays, moves particles about and mixes with what "
           "they carry. PIC takes it in the first step, and with it part of what is real. XPIC and FMPM take it in the "

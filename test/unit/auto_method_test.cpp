@@ -339,7 +339,8 @@ TEST(AutoMethod, WithoutATableTheDefaultIsTakenAndSaid) {
   const TableFile file("");
   std::remove(file.path().c_str());
   EXPECT_EQ(said(parse_scene(block("method: {auto: {}, shape: cpdi}\n"), "test.yaml")),
-            "cpdi, usavg, flip: the default, for " + file.path() + " cannot be read");
+            "cpdi, usavg, flip: the default, for " + file.path() +
+                " cannot be read; run scripts/methods, or name a table in MPM_ROS_METHOD_COSTS");
 }
 
 // A scene without a method, `method: auto` and `method: {auto: {}}` are the same; the choice is told by --explain, and

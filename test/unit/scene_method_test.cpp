@@ -89,7 +89,7 @@ TEST(SceneMethod, BadTransfersSayWhatToWrite) {
   expect_refused("transfer: {flip: 1.01}", "transfer.flip: '1.01' is not a fraction; write one from 0 (PIC) to 1");
   expect_refused("transfer: {flip: -0.1}", "transfer.flip: '-0.1' is less than 0;");
   expect_refused("average_dilatation: yse", "average_dilatation: 'yse' is not known;");
-  expect_refused("gradient_terms: 13", "gradient_terms: write 1 to 12 terms;");
+  expect_refused("gradient_terms: 13", "gradient_terms: 13 is not possible; write 1 to 12 terms");
 }
 
 // What cannot work is refused with what can be used in its place; in the same words for a definition made by hand.
@@ -213,6 +213,26 @@ TEST(SceneMethod, ApicIsDampedOnTheNodes) {
                               "{feedback: {gain: 1, of: particle}}", "{feedback: {gain: 1}, placement: update}"}) {
     expect_refused(std::string("transfer: apic, damping: ") + damping, "damping: apic keeps a part of the motion");
   }
+}
+
+// The largest stable steps of APIC and of FMPM(5) are smaller than a cell over the wave speed (doc/methods.md, the time
+// step); what is at the border, and FMPM(3), runs without a word.
+TEST(SceneMethod, StepsThatATransferCannotTakeAreWarnedOf) {
+  const auto warnings = [](const std::string& transfer, const std::string& cfl) {
+    return Simulation(build(parse_scene(
+                          kPlanar + ("method: {transfer: " + transfer + "}\ntime: {end: 0.1, cfl: " + cfl + "}\n"),
+                          "test.yaml")))
+        .warnings();
+  };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(warnings("apic", "0.8"),
+            Lines{"time.cfl is 0.8: with apic steps that long may be unstable; use at most 0.7"});
+  EXPECT_EQ(warnings("{fmpm: 5}", "0.95"),
+            Lines{"time.cfl is 0.95: with fmpm 5 steps that long may be unstable; use at most 0.9"});
+  EXPECT_EQ(warnings("apic", "0.7"), Lines{});
+  EXPECT_EQ(warnings("{fmpm: 5}", "0.9"), Lines{});
+  EXPECT_EQ(warnings("{fmpm: 3}", "0.95"), Lines{});
+  EXPECT_EQ(warnings("flip", "0.95"), Lines{});
 }
 
 TEST(SceneMethod, IsSaidAsScenesSpellIt) {

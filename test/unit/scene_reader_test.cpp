@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {

@@ -151,6 +151,22 @@ TEST(StudyMethods, HaveNamesOfTheirOwn) {
   EXPECT_THROW(find_method("ugimp"), StudyError);
 }
 
+// A letter that is wrong is one change; of 'ugimp' more letters are missing than are there, so that nothing is near.
+TEST(StudyMethods, NameTheNearestFirst) {
+  const auto refusal = [](const std::string& label) {
+    try {
+      find_method(label);
+    } catch (const StudyError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  const std::string start =
+      "no method is called 'bspline2/usavg/fmpn2'; did you mean 'bspline2/usavg/fmpm2'? there are ";
+  EXPECT_EQ(refusal("bspline2/usavg/fmpn2").substr(0, start.size()), start);
+  EXPECT_EQ(refusal("ugimp").find("no method is called 'ugimp'; there are ugimp/usf/flip, "), 0U) << refusal("ugimp");
+}
+
 TEST(StudyRunner, MeasuresARunAndItsCost) {
   Runner runner({1, 1e-4});
   const Row row = runner.run(find_suite("bar_small"), find_method("ugimp/usavg/flip"), {8});

@@ -1,9 +1,9 @@
 // A manufactured solution along the axes: in a unit square or cube whose faces are held along their normals, a body
 // force makes every particle follow u_i = s_i A sin(pi X_i) sin(c pi t), A = 0.001, with s = +1 along x and y, -1 along
 // z. Signs are phases of 0 and pi, for which displacement and F begin at rest and only velocities are given at the
-// start. For W = K/2 [(J^2 - 1)/2 - ln J] + G/2 (I1 J^(-2/3) - 3) the force is that of exact-solutions 2, "seed model"
-// (differentiating P_i = [K/2 (J^2 - 1) + G J^(-2/3) (F_i^2 - I/3)] / F_i by X_i gives it). It is written out in the
-// scene.
+// start. With the neo-Hookean energy of Nairn & Guilkey (2015) eq. (64), W = K/2 [(J^2 - 1)/2 - ln J] +
+// G/2 (I1 J^(-2/3) - 3), the force is found by differentiating P_i = [K/2 (J^2 - 1) + G J^(-2/3) (F_i^2 - I/3)] / F_i
+// by X_i. It is written out in the scene.
 #include <fmt/core.h>
 
 #include <algorithm>

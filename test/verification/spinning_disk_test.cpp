@@ -96,7 +96,7 @@ TEST(SpinningDisk, AngularMomentumOfATurn) {
   page.report(change + "USAVG, 20 cells, gradient_terms 1", one_term.change, "%");
   page.report(change + "USF, 20 cells, gradient_terms 1", one_term_usf.change, "%");
   page.report(change + "USAVG, 20 cells, FLIP 0.99", damped.change, "%");
-  // A trial with another code lost 5.5 % at 20 cells across.
+  // An independent code lost 5.5 % at 20 cells across.
   page.below("largest change of these, FLIP", largest({usavg, fine, usf, fine_usf, small_step, stiff}), 5.5, "%");
   // Round-off, as in all runs.
   page.below("linear momentum, USAVG, 20 cells", usavg.linear, 1e-10, "of the sum of mass times speed");

@@ -24,7 +24,7 @@ MethodChoice choose(ShapeKind shape, UpdateScheme update, const Transfer& transf
 std::vector<MethodChoice> charted_methods();
 /// The part of them for costly problems: each shape function, each update and each transfer once.
 std::vector<MethodChoice> main_methods();
-/// @throws StudyError for a label that is not among charted_methods()
+/// @throws StudyError for a label that is not among charted_methods(), with the nearest that is before all of them
 MethodChoice find_method(const std::string& label);
 
 /// Times that a step goes through all pairs of particle and node, to gather or to scatter: USF 4 (momentum, velocity

@@ -29,7 +29,10 @@ double part_of_pic(const Function& function, double t, const Vec3* place) {
   if (place == nullptr && function.uses_place()) return 0.0;
   const double part = function(t, place == nullptr ? Vec3(Vec3::Zero()) : *place);
   if (part >= 0.0 && part <= 1.0) return part;
-  throw DampingError(fmt::format("pic is {:.4g}: it is a part of a step's update, from 0 (FLIP) to 1 (PIC)", part));
+  throw DampingError(
+      fmt::format("pic is {:.4g}: it is a part of a step's update, from 0 (FLIP) to 1 (PIC); write "
+                  "max(0, min(1, ...)) around it",
+                  part));
 }
 
 }  // namespace

@@ -164,7 +164,11 @@ void choose_method(const AutoMethod& asked, const MethodCostsFile& file, Scene& 
   const auto preference =
       study::prefer(file.costs, suites_like(expected, definition.geometry, file.costs, asked.budget),
                     candidates_for(asked, expected.flows, file.costs, definition), asked.budget);
-  if (!preference) return say("the default, for no measured method fits what the scene keeps and its budget");
+  if (!preference) {
+    return say(fmt::format("the default, for no measured method {}",
+                           asked.budget.error ? "has what the scene keeps; say shape, update and transfer, or keep less"
+                                              : "has what the scene keeps and is as cheap; raise method.auto.cost"));
+  }
   method = filled(method, study::find_method(preference->chosen.method).method, asked);
   say(reasons(*preference, asked.budget));
 }

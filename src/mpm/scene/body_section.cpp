@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "mpm/math/nearest.hpp"
 #include "mpm/scene/memory.hpp"
-#include "mpm/scene/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {

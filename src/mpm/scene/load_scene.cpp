@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {

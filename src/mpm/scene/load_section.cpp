@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {

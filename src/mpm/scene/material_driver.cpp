@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "mpm/material/path_driver.hpp"
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {

@@ -11,7 +11,7 @@ MethodCostsFile load_method_costs(const std::string& path) {
   file.path = path;
   std::ifstream stream(path);
   if (!stream) {
-    file.fault = path + " cannot be read";
+    file.fault = path + " cannot be read; run scripts/methods, or name a table in MPM_ROS_METHOD_COSTS";
     return file;
   }
   try {

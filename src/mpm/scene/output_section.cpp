@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/simulation.hpp"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "mpm/math/nearest.hpp"
 #include "mpm/scene/material_driver.hpp"
-#include "mpm/scene/nearest.hpp"
 #include "mpm/scene/units.hpp"
 
 namespace mpm {

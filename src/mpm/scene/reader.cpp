@@ -9,7 +9,7 @@
 #include <charconv>
 #include <stdexcept>
 
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 
 namespace mpm {
 namespace {

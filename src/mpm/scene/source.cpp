@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 
 namespace mpm {
 namespace {

@@ -133,7 +133,8 @@ std::optional<MethodFault> method_fault(const MethodDefinition& method, Geometry
   if (const Fault fault = transfer_fault(method)) return fault;
   if (const Fault fault = dilatation_fault(method, geometry)) return fault;
   if (method.gradient_terms < 1 || method.gradient_terms > kMostTerms) {
-    return MethodFault{"gradient_terms", fmt::format("write 1 to {} terms; 2 is the default", kMostTerms)};
+    return MethodFault{"gradient_terms", fmt::format("{} is not possible; write 1 to {} terms, as 2, the default",
+                                                     method.gradient_terms, kMostTerms)};
   }
   return damping_fault(method);
 }

@@ -4,7 +4,8 @@
 // Signs are phases of 0 and pi, with which displacement and F begin at rest and only velocities are given. With
 // F_i = 1 + s_i A pi cos(pi X_i) sin(c pi t), and 1 along axes without motion, J = prod F_i, I = sum F_i^2:
 //   b_i = pi^2 u_i { K/(2 rho0) (J^2 + 1)/F_i^2 + G/rho0 J^(-2/3) [5 I/(9 F_i^2) - 1/3] - c^2 }.
-// Source: exact-solutions 2, "seed model"; the kind of problem of Wallstedt & Guilkey (2008).
+// Source: exact-solutions 2, with the neo-Hookean energy of Nairn & Guilkey (2015) eq. (64); the kind of
+// problem of Wallstedt & Guilkey (2008).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,9 +1,11 @@
 #include "mpm/study/method_choice.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "mpm/math/nearest.hpp"
 #include "mpm/study/suite.hpp"
 
 namespace mpm::study {
@@ -77,12 +79,14 @@ std::vector<MethodChoice> main_methods() {
 }
 
 MethodChoice find_method(const std::string& label) {
-  std::string labels;
+  std::vector<std::string> labels;
   for (const MethodChoice& choice : charted_methods()) {
     if (choice.label == label) return choice;
-    labels += (labels.empty() ? "" : ", ") + choice.label;
+    labels.push_back(choice.label);
   }
-  throw StudyError(fmt::format("no method is called '{}'; there are {}", label, labels));
+  const std::string near = nearest(label, labels);
+  throw StudyError(fmt::format("no method is called '{}'; {}there are {}", label,
+                               near.empty() ? "" : "did you mean '" + near + "'? ", fmt::join(labels, ", ")));
 }
 
 int passes(UpdateScheme update, const Transfer& transfer) {

@@ -4,8 +4,8 @@
 //   b_R = -R alpha_t^2 + G/rho0 [R alpha'^2 + 2/3 R alpha' (alpha' + R alpha'')],
 //   b_theta = R alpha_tt - G/rho0 (3 alpha' + R alpha''),
 // a dash for d/dR. At both rims h = h' = 0: the material around the ring stays at rest without stress, and is there so
-// that no free surface limits the error. Source: exact-solutions 3, "seed model"; the problem is that of Kamojjala et
-// al. (2015).
+// that no free surface limits the error. Source: exact-solutions 3, with the neo-Hookean energy of Nairn & Guilkey
+// (2015) eq. (64); the problem is that of Kamojjala et al. (2015).
 #include <fmt/format.h>
 
 #include <cmath>

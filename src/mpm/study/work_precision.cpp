@@ -24,11 +24,16 @@ std::ofstream create(const fs::path& path) {
   return file;
 }
 
-void write_texts(std::ostream& out, const std::vector<const Suite*>& chosen) {
-  out << "suite,title,geometry,problem,exact,measure\n";
+/// Whether the short study leaves methods out on this suite.
+bool main_alone(const Suite& suite, const StudyOptions& options) { return suite.costly && !options.full; }
+
+void write_texts(std::ostream& out, const std::vector<const Suite*>& chosen, const StudyOptions& options) {
+  out << "suite,title,geometry,problem,exact,measure,methods\n";
   for (const Suite* suite : chosen) {
+    const char* methods = !options.methods.empty() ? "chosen" : main_alone(*suite, options) ? "main" : "all";
     out << quoted(suite->name) << ',' << quoted(suite->title) << ',' << geometry_name(suite->geometry) << ','
-        << quoted(suite->problem) << ',' << quoted(suite->exact) << ',' << quoted(suite->measure_text) << '\n';
+        << quoted(suite->problem) << ',' << quoted(suite->exact) << ',' << quoted(suite->measure_text) << ',' << methods
+        << '\n';
   }
   out << std::flush;
 }
@@ -56,15 +61,15 @@ void run_study(const StudyOptions& options, const std::function<void(const std::
   const fs::path folder(options.folder);
   std::ofstream file = create(folder / "work_precision.csv"), summary = create(folder / "summary.csv");
   std::ofstream texts = create(folder / "suites.csv");
-  write_texts(texts, chosen);
+  write_texts(texts, chosen, options);
 
   Runner runner(options.full ? kFullCost : kQuickCost);
   std::vector<Row> rows;
   write_header(file);
   for (const Suite* suite : chosen) {
-    const std::vector<MethodChoice> methods = !asked.empty()                   ? asked
-                                              : suite->costly && !options.full ? main_methods()
-                                                                               : charted_methods();
+    const std::vector<MethodChoice> methods = !asked.empty()                ? asked
+                                              : main_alone(*suite, options) ? main_methods()
+                                                                            : charted_methods();
     // Grid by grid, so that one reference serves all methods on it.
     for (const Discretisation& discretisation : options.full ? suite->full : suite->quick) {
       for (const MethodChoice& method : methods) {

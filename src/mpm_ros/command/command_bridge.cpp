@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <ros/master.h>
 
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 #include "mpm_ros/message/topics.hpp"
 
 namespace mpm_ros {

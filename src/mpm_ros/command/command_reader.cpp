@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/topics.hpp"
 

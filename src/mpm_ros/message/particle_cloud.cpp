@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 
 namespace mpm_ros {
 

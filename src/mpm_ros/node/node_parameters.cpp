@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "mpm/kernel/isa.hpp"
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 
 namespace mpm_ros {
 

@@ -1,4 +1,4 @@
-#include "mpm/scene/nearest.hpp"
+#include "mpm/math/nearest.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -256,12 +256,14 @@ TEST(AutoMethod, ACubeCountsWhereItIsSolved) {
   EXPECT_EQ(label(chosen(solid, rows + "cube_small,ugimp/usavg/flip,0.01,100\n")), "ugimp/usavg/flip");
 }
 
-// Dirac is cheapest here and not taken; where material flows nothing that follows the deformation is.
+// Dirac is cheapest here and not taken; where material flows nothing but uGIMP with FLIP is.
 TEST(AutoMethod, LeavesOutWhatIsNotSafe) {
   const std::string rows =
       "bar_small,dirac/usavg/flip,0.01,10\nbar_small,cpdi/usavg/flip,0.01,50\nbar_small,ugimp/usavg/flip,0.01,100\n"
       "square_large,dirac/usavg/flip,0.01,10\nsquare_large,cpdi/usavg/flip,0.01,50\n"
-      "square_large,ugimp/usavg/flip,0.01,100\nsquare_large,ugimp/usavg/flip/single,0.01,1\n";
+      "square_large,ugimp/usavg/flip,0.01,100\nsquare_large,ugimp/usavg/flip/single,0.01,1\n"
+      "bar_small,ugimp/usavg/apic,0.01,80\nsquare_large,ugimp/usavg/apic,0.01,80\n"
+      "bar_small,bspline2/usavg/flip,0.01,70\nsquare_large,bspline2/usavg/flip,0.01,70\n";
   EXPECT_EQ(label(chosen(block(), rows)), "cpdi/usavg/flip");
   EXPECT_EQ(label(chosen(block("", "", "drucker_prager, friction_angle: 0.5"), rows)), "ugimp/usavg/flip");
 }

@@ -15,7 +15,7 @@
 // square's motion is the same along each axis.
 //
 // Not chosen, unless the scene names them: dirac, for any motion through the grid makes its forces jump; and where
-// material flows, shapes that follow the deformation, for the study does not reach the shear in which corners tangle.
+// material flows, other shapes than ugimp and transfers than flip, for the study's problems are elastic.
 // What the scene says of shape, update or transfer is kept. Without a table of figures: ugimp, usavg, flip.
 #pragma once
 

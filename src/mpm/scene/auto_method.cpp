@@ -63,9 +63,12 @@ bool eligible(const MethodDefinition& measured, const AutoMethod& asked, const s
   const MethodDefinition& said = definition.method;
   if (measured.precision != Precision::float64) return false;
   if (asked.keep_shape ? measured.shape != said.shape
-                       : measured.shape == ShapeKind::dirac || (flows && follows_deformation(measured.shape))) {
+                       : measured.shape == ShapeKind::dirac || (flows && measured.shape != ShapeKind::ugimp)) {
     return false;
   }
+  // The problems are elastic: what flows keeps what has been tried on it.
+  const bool plain = measured.transfer.kind == TransferKind::flip && measured.transfer.flip == 1.0;
+  if (flows && !asked.keep_transfer && !plain) return false;
   if (asked.keep_update && measured.update != said.update) return false;
   if (asked.keep_transfer && study::transfer_label(measured.transfer) != transfer) return false;
   return !method_fault(filled(said, measured, asked), definition.geometry);

@@ -105,7 +105,6 @@ void find_elastic_motion(const Scene& scene, ExpectedMotion& expected) {
     const double wave = MaterialPoint(material_of(body, scene)).wave_speed();
     const Arrival at = arrival(body, scene);
     const double strain = at.speed / wave + at.weight / (wave * wave);
-    if (at.speed > 0.0) expected.free = true;
     const double turn = end > 0.0 ? at.rate * end : kQuarterTurn;
     // A billionth of the rate at which the fastest point would go round is round-off.
     if (at.rate * body_size(body, scene) > 1e-9 * at.speed && turn > expected.turn) {
@@ -144,6 +143,8 @@ ExpectedMotion expected_motion(const Scene& scene) {
     expected.strain_why = fmt::format("{} flows", body.material);
     break;
   }
+  expected.free = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                              [&](const BodyDefinition& body) { return arrival(body, scene).speed > 0.0; });
   if (!expected.flows) find_elastic_motion(scene, expected);
   const bool turned =
       std::any_of(definition.rigid_bodies.begin(), definition.rigid_bodies.end(), [](const RigidBodyDefinition& body) {

@@ -92,10 +92,9 @@ struct Weights {
   alignas(64) T place[kBuffer];   ///< what lanes must share to be gathered together: number of a column or a node
   alignas(64) int node[kBuffer];  ///< number in the tile of the nearest node
 
-  /// Of particles [first, first + count); what follows them in the buffer has no meaning. Flattened: a shape function
-  /// that is called takes its registers through memory, a tenth of a step in a plane.
+  /// Of particles [first, first + count); what follows them in the buffer has no meaning.
   template <Beside What>
-  [[gnu::flatten]] void fill(const WeightFrame<T, Dim, Shape>& frame, int first, int count) {
+  void fill(const WeightFrame<T, Dim, Shape>& frame, int first, int count) {
     for (int k = 0; k < Dim; ++k) {
       const typename Shape<W>::Axis axis = frame.axis(k);
       for (int q = 0; q < count; q += W::kLanes) {

@@ -28,8 +28,8 @@ struct Ugimp {
   T s[3];  ///< shape function, sums to 1
   T g[3];  ///< gradient [1/m], sums to 0
 
-  /// `offset`: particle minus its nearest node, in cells, in [-1/2, 1/2]. Inline always: a call would take its registers
-  /// through memory, a tenth of a step in a plane.
+  /// `offset`: particle minus its nearest node, in cells, in [-1/2, 1/2]. Inline always: a call would take its
+  /// registers through memory, a tenth of a step in a plane.
   [[gnu::always_inline]] Ugimp(T offset, const Axis& axis) {
     const T a = max(offset + axis.half, T(0)), b = max(offset - axis.half, T(0));
     const T c = min(offset - axis.half, T(0)), d = min(offset + axis.half, T(0));

@@ -21,6 +21,11 @@ class SimulationProbe {
     state_.step(time_, dt);
     time_ += dt;
   }
+  /// To the next sync point, in steps that the solver chooses. @throws PhysicsError
+  void advance() {
+    simulation_.advance();
+    time_ = 1e-9 * static_cast<double>(simulation_.time());
+  }
   double time() const { return time_; }  ///< [s]
   const Simulation& simulation() const { return simulation_; }
   /// Particles of the first body, in an order that a step may change: set.id tells which is which.

@@ -38,6 +38,7 @@ class PlateBelowNodes {
     StepContext context{grid_, kStep};
     contact_.momentum_gathered(context);
     contact_.momentum_updated(context);
+    contact_.grid_advanced(context);
     time_ += kStep;
   }
   ContactReport take() { return contact_.take(time_); }

@@ -3,8 +3,8 @@
 // flip: velocity gains the grid's acceleration; a fraction below 1 mixes in PIC, which takes the grid's velocity
 // itself. xpic, fmpm: PIC whose smoothing is undone to order m, from the velocity at the start or at the end of the
 // step: what the grid cannot see is filtered out, the rest is kept. apic: PIC, with the first moment of the
-// velocity kept on the particle. Source: method reference 6.2, 6.6; Hammerquist & Nairn (2017), Nairn & Hammerquist (2021), Jiang et
-// al. (2015).
+// velocity kept on the particle. Source: method reference 6.2, 6.6; Hammerquist & Nairn (2017), Nairn & Hammerquist
+// (2021), Jiang et al. (2015).
 #pragma once
 
 #include <array>

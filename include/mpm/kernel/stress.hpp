@@ -14,6 +14,13 @@
 #include "mpm/math/dimension.hpp"
 #include "mpm/math/exponential.hpp"
 
+// A law is inlined into its loop. Not with sanitizers: what is inlined is instrumented again, for minutes a file.
+#if defined(__SANITIZE_ADDRESS__)
+#define MPM_FLATTEN
+#else
+#define MPM_FLATTEN [[gnu::flatten]]
+#endif
+
 namespace mpm {
 
 /// Reads registers as Geometry::load_* want them: arrays[component][particle].
@@ -56,9 +63,9 @@ class Stress {
 
  public:
   template <class LawType>
-  [[gnu::flatten]] static int update(const Set& set_view, int first, int count,
-                                     const mpm_kernel::ChunkGradients<T>& gradients,
-                                     const mpm_kernel::StrainSettings& settings, Columns* out) {
+  MPM_FLATTEN static int update(const Set& set_view, int first, int count,
+                                const mpm_kernel::ChunkGradients<T>& gradients,
+                                const mpm_kernel::StrainSettings& settings, Columns* out) {
     static_assert(std::is_trivially_copyable_v<LawType>, "laws cross the border between instruction sets as bytes");
     const Set set = set_view;
     const LawType law = *static_cast<const LawType*>(set.law);

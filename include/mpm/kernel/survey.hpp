@@ -17,7 +17,7 @@ class Survey {
 
  public:
   template <class LawType>
-  [[gnu::flatten]] static Fastest fastest(const mpm_kernel::SetView<T>& set_view, int first, int last, double cell) {
+  MPM_FLATTEN static Fastest fastest(const mpm_kernel::SetView<T>& set_view, int first, int last, double cell) {
     const mpm_kernel::SetView<T> set = set_view;
     const LawType law = *static_cast<const LawType*>(set.law);
     const W per_cell(1.0 / cell), viscous(2.0 * kDim / (cell * cell));

@@ -15,10 +15,11 @@ mpm_kernel::KernelTable<T> ugimp_kernels(int dim, Isa isa) {
 }
 
 template <class Geometry>
-constexpr GeometryKind kGeometryKind = std::is_same_v<Geometry, Line>          ? GeometryKind::line
-                                       : std::is_same_v<Geometry, PlaneStrain> ? GeometryKind::plane_strain
-                                       : std::is_same_v<Geometry, PlaneStress> ? GeometryKind::plane_stress
-                                                                               : GeometryKind::solid;
+constexpr GeometryKind kGeometryKind = std::is_same_v<Geometry, Line>           ? GeometryKind::line
+                                       : std::is_same_v<Geometry, PlaneStrain>  ? GeometryKind::plane_strain
+                                       : std::is_same_v<Geometry, PlaneStress>  ? GeometryKind::plane_stress
+                                       : std::is_same_v<Geometry, Axisymmetric> ? GeometryKind::axisymmetric
+                                                                                : GeometryKind::solid;
 template <class Geometry, class T>
 mpm_kernel::KernelTable<T> kernels_of(ShapeKind shape, Isa isa) {
   return kernel_table<T>(shape, kGeometryKind<Geometry>, isa);

@@ -4,8 +4,19 @@
 #include <cstring>
 
 #include "mpm/kernel/kernels.hpp"
+#include "mpm/kernel/wide.hpp"
 
 namespace mpm {
+
+/// Masses of particles [p, p + lanes): one for all of a body, or, of rings about an axis, each its own.
+template <bool Rings, class T>
+Wide<T> mass_of(const mpm_kernel::SetView<T>& set, int p, int lanes) {
+  if constexpr (Rings) {
+    return Wide<T>::load_first(set.masses + p, lanes);
+  } else {
+    return Wide<T>(set.mass);
+  }
+}
 
 template <class T>
 bool absent(const mpm_kernel::SetView<T>& set, const mpm_kernel::BlockView& block) {

@@ -33,7 +33,7 @@ namespace mpm_kernel {
 
 constexpr int kTileEdge = 8;          ///< nodes of a tile along an axis
 constexpr int kTileMargin = 2;        ///< of these, before the block's first
-constexpr int kMostHistory = 3;       ///< scalars of history that a law may have
+constexpr int kMostHistory = 4;       ///< scalars of history that a law may have
 constexpr double kSlack = 1e-5;       ///< of the limits that `move` reports on [cells]
 constexpr int kChunk = 64;            ///< particles at a time
 constexpr int kBuffer = kChunk + 16;  ///< and what the last register writes beyond them
@@ -67,6 +67,7 @@ struct SetView {
   const std::uint32_t* group;        ///< first particle of each group, and one past the last
   const std::uint32_t* group_begin;  ///< first group of each owner, and one past the last
   double mass;                       ///< of a particle [kg]
+  const T* masses;                   ///< of each, where a particle is a ring about the axis [kg]
   double half[3];                    ///< half of its box [cells]
   double lowest[3], highest[3];      ///< where a centre may be [cells]
   const double* x[3];                ///< [m]
@@ -109,6 +110,9 @@ struct Moved {
   double grid_kinetic = 0.0;      ///< damped: sum of m |v0|^2 / 2, v0 the grid's velocity that is damped [J]
   double particle_kinetic = 0.0;  ///< damped: the same of the particles' own [J]
 };
+
+/// About an axis: where v_r / r stands after the gradients of a plane, and the column of the hoop stress after theirs.
+constexpr int kHoopGradient = 4, kHoopColumn = 2;
 
 /// Velocity gradients of a chunk [1/s]: d v_c / d x_k of dim axes is l[c * dim + k].
 template <class T>

@@ -6,6 +6,7 @@
 
 #include <type_traits>
 
+#include "mpm/kernel/chunks.hpp"
 #include "mpm/kernel/interleave.hpp"
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/kernel/wide_math.hpp"
@@ -69,7 +70,7 @@ class Stress {
     static_assert(std::is_trivially_copyable_v<LawType>, "laws cross the border between instruction sets as bytes");
     const Set set = set_view;
     const LawType law = *static_cast<const LawType*>(set.law);
-    const W dt(settings.dt), mass(-set.mass);
+    const W dt(settings.dt);
     int bad = count;
     for (int q = 0; q < count; q += W::kLanes) {
       const int p = first + q, lanes = count - q;
@@ -87,7 +88,8 @@ class Stress {
       if constexpr (std::is_same_v<Geometry, PlaneStress>) {
         plane_stress_update(law, l, settings.terms, old, dt, stress, history, now, j_old, j);
       } else {
-        const auto du = Geometry::gradient(l);
+        auto du = Geometry::gradient(l);
+        if constexpr (Geometry::kHoop) du.yy = W::load(gradients.l[mpm_kernel::kHoopGradient] + q) * dt;
         const auto df = exponential(du, settings.terms);
         now = product(df, old);
         if constexpr (LawType::kForgetsShape) now = Geometry::dilatation(j_old * determinant(df));
@@ -97,7 +99,7 @@ class Stress {
       Geometry::store_matrix(now, WideWriter<T>{set.f, lanes}, p);
       Geometry::store_symmetric(stress, WideWriter<T>{set.tau, lanes}, p);
       for (int h = 0; h < LawType::kHistory; ++h) history[h].store_first(set.history[h] + p, lanes);
-      if (out != nullptr) put_columns(stress, mass, q, *out);
+      if (out != nullptr) put_columns(stress, -mass_of<Geometry::kHoop>(set, p, lanes), q, *out);
       const unsigned failed = WideMask<T>::first(lanes).bits() & ~(j > W(0.0)).bits();
       if (failed != 0 && bad == count) bad = q + __builtin_ctz(failed);
     }
@@ -106,9 +108,9 @@ class Stress {
 
   /// Columns of the stress as it is, whatever the law.
   static void columns(const Set& set, int first, int count, Columns& out) {
-    const W mass(-set.mass);
     for (int q = 0; q < count; q += W::kLanes) {
-      put_columns(Geometry::load_symmetric(WideReader<T>{set.tau, count - q}, first + q), mass, q, out);
+      const W mass = mass_of<Geometry::kHoop>(set, first + q, count - q);
+      put_columns(Geometry::load_symmetric(WideReader<T>{set.tau, count - q}, first + q), -mass, q, out);
     }
   }
 
@@ -120,6 +122,9 @@ class Stress {
       Geometry::column(stress, k, column);
       for (int c = 0; c < kDim; ++c) four[c] = column[c] * mass;
       interleave(out.column[k] + 4 * q, four[0], four[1], four[2], four[3]);
+    }
+    if constexpr (Geometry::kHoop) {
+      interleave(out.column[mpm_kernel::kHoopColumn] + 4 * q, stress.yy * mass, W(0.0), W(0.0), W(0.0));
     }
   }
 };

@@ -15,6 +15,7 @@ namespace mpm {
 
 /// Three dimensions.
 struct Solid {
+  static constexpr bool kHoop = false;
   static constexpr int kDim = 3;
   static constexpr int kMatrix = 9;     ///< stored components of the deformation gradient
   static constexpr int kSymmetric = 6;  ///< stored components of a stress
@@ -69,6 +70,7 @@ struct Solid {
 
 /// Two dimensions, x and z; no strain along y.
 struct PlaneStrain {
+  static constexpr bool kHoop = false;
   static constexpr int kDim = 2;
   static constexpr int kMatrix = 4;
   static constexpr int kSymmetric = 4;
@@ -131,9 +133,23 @@ struct PlaneStress : PlaneStrain {
   }
 };
 
+/// Two dimensions, r = x and z, about the axis r = 0. Along the hoop direction, y, a particle is stretched by v_r / r,
+/// which is stored beside the others; nothing moves or shears that way. Nairn & Guilkey (2015) eq. (10).
+struct Axisymmetric : PlaneStress {
+  /// d v_r / r comes with the gradient, and the hoop stress has a force of its own.
+  static constexpr bool kHoop = true;
+
+  template <class T>
+  static MatrixPlane<T> dilatation(T j) {
+    const T root = inverse_cbrt(j), edge = j * root * root;
+    return {edge, T(0), T(0), edge, edge};
+  }
+};
+
 /// One dimension, x; no strain along y and z, whose stresses follow from the law: a column between smooth stiff walls.
 /// A bar with free sides is a line of a material whose Poisson's ratio is 0.
 struct Line {
+  static constexpr bool kHoop = false;
   static constexpr int kDim = 1;
   static constexpr int kMatrix = 1;
   static constexpr int kSymmetric = 3;
@@ -180,6 +196,7 @@ decltype(auto) with_geometry(GeometryKind kind, Visit&& visit) {
   if (kind == GeometryKind::line) return visit(Line());
   if (kind == GeometryKind::plane_strain) return visit(PlaneStrain());
   if (kind == GeometryKind::plane_stress) return visit(PlaneStress());
+  if (kind == GeometryKind::axisymmetric) return visit(Axisymmetric());
   return visit(Solid());
 }
 

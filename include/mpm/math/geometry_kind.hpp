@@ -13,11 +13,13 @@ enum class GeometryKind {
   line,          ///< along x; no strain along y and z
   plane_strain,  ///< x and z; no strain along y
   plane_stress,  ///< x and z; no stress along y
+  axisymmetric,  ///< r = x >= 0 and z about the axis x = 0; a particle is a ring, y its hoop direction
   solid,         ///< all three axes
 };
 
 /// In the order of GeometryKind.
-inline constexpr std::array<const char*, 4> kGeometryNames = {"line", "plane_strain", "plane_stress", "solid"};
+inline constexpr std::array<const char*, 5> kGeometryNames = {"line", "plane_strain", "plane_stress", "axisymmetric",
+                                                           "solid"};
 inline const char* geometry_name(GeometryKind kind) { return kGeometryNames[static_cast<int>(kind)]; }
 /// The same for a reader: "plane strain".
 inline std::string spoken_name(GeometryKind kind) {
@@ -30,20 +32,21 @@ inline std::string spoken_name(GeometryKind kind) {
 constexpr int dimensions(GeometryKind kind) {
   return kind == GeometryKind::solid ? 3 : (kind == GeometryKind::line ? 1 : 2);
 }
-/// Two axes, x and z.
-constexpr bool planar(GeometryKind kind) { return dimensions(kind) == 2; }
+constexpr bool axisymmetric(GeometryKind kind) { return kind == GeometryKind::axisymmetric; }
+/// Two axes, x and z, and a thickness along y.
+constexpr bool planar(GeometryKind kind) { return dimensions(kind) == 2 && !axisymmetric(kind); }
 
 /// The world axes of the grid's axes: x; x, z; or x, y, z.
 inline std::vector<int> axes_of(GeometryKind kind) {
   if (kind == GeometryKind::line) return {0};
-  return planar(kind) ? std::vector<int>{0, 2} : std::vector<int>{0, 1, 2};
+  return dimensions(kind) == 2 ? std::vector<int>{0, 2} : std::vector<int>{0, 1, 2};
 }
 /// The world axes that its grid does not have: y, z; y; or none.
 inline std::vector<int> axes_beside(GeometryKind kind) {
   if (kind == GeometryKind::line) return {1, 2};
-  return planar(kind) ? std::vector<int>{1} : std::vector<int>{};
+  return dimensions(kind) == 2 ? std::vector<int>{1} : std::vector<int>{};
 }
-/// Whether bodies can turn about the world's axis: about y in a plane, about none in a line.
+/// Whether bodies can turn about the world's axis: about y in a plane, about none in a line or in axisymmetry.
 constexpr bool turns_about(GeometryKind kind, int axis) {
   return kind == GeometryKind::solid || (planar(kind) && axis == 1);
 }

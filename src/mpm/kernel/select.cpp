@@ -13,6 +13,7 @@
   const mpm_kernel::LawFamily& line_laws();             \
   const mpm_kernel::LawFamily& plane_stress_laws();     \
   const mpm_kernel::LawFamily& plane_strain_laws();     \
+  const mpm_kernel::LawFamily& axisymmetric_laws();     \
   const mpm_kernel::LawFamily& solid_laws();            \
   }
 MPM_DECLARE_KERNELS(mpm_plain)
@@ -35,7 +36,8 @@ constexpr const mpm_kernel::PassFamily& (*kPasses[][3])() = {
     MPM_KERNELS(cpdi_passes),    MPM_KERNELS(qcpdi_passes), MPM_KERNELS(bspline2_passes),
     MPM_KERNELS(bspline3_passes)};
 constexpr const mpm_kernel::LawFamily& (*kLaws[][3])() = {MPM_KERNELS(line_laws), MPM_KERNELS(plane_strain_laws),
-                                                          MPM_KERNELS(plane_stress_laws), MPM_KERNELS(solid_laws)};
+                                                          MPM_KERNELS(plane_stress_laws),
+                                                          MPM_KERNELS(axisymmetric_laws), MPM_KERNELS(solid_laws)};
 
 }  // namespace
 

@@ -22,6 +22,8 @@ std::vector<std::string> free_components(GeometryKind geometry) {
       return {"xx", "yy", "zz", "xz"};
     case GeometryKind::plane_stress:
       return {"xx", "zz", "xz"};
+    case GeometryKind::axisymmetric:
+      return {"xx", "yy", "zz", "xz"};
     case GeometryKind::solid:
       break;
   }
@@ -36,6 +38,8 @@ const char* stress_example(GeometryKind geometry) {
       return "{xx: -1 kPa, zz: -2 kPa}; yy, left out, follows from plane strain";
     case GeometryKind::plane_stress:
       return "{xx: -1 kPa, zz: -2 kPa}; yy is 0";
+    case GeometryKind::axisymmetric:
+      return "{xx: -1 kPa, yy: -1 kPa, zz: -2 kPa}: radial, hoop and axial; those left out are 0";
     case GeometryKind::solid:
       break;
   }

@@ -16,16 +16,11 @@ const std::vector<Later>& later_sections() {
   return sections;
 }
 
-const std::vector<Later>& later_geometries() {
-  static const std::vector<Later> geometries = {{"axisymmetric", "use solid with a cylinder"}};
-  return geometries;
-}
-
 void read_geometry(const Map& root, ReadContext& context, Scene& scene) {
   SimulationDefinition& definition = scene.definition;
   if (const auto geometry = root.find("geometry")) {
     const std::vector<std::string> names(kGeometryNames.begin(), kGeometryNames.end());
-    definition.geometry = static_cast<GeometryKind>(geometry->choice(names, later_geometries()));
+    definition.geometry = static_cast<GeometryKind>(geometry->choice(names));
   } else {
     scene.choices.emplace_back("geometry", "solid: three dimensions unless the scene says otherwise");
   }
@@ -79,7 +74,9 @@ const char* axis_name(int axis) {
 std::vector<int> axes_of(const Scene& scene) { return axes_of(scene.definition.geometry); }
 
 const char* scene_kind(GeometryKind geometry) {
-  return geometry == GeometryKind::line ? "a line" : (planar(geometry) ? "a planar scene" : "a solid scene");
+  if (geometry == GeometryKind::line) return "a line";
+  if (axisymmetric(geometry)) return "an axisymmetric scene";
+  return planar(geometry) ? "a planar scene" : "a solid scene";
 }
 
 double particle_spacing(const Scene& scene, int axis) {

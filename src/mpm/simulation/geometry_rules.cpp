@@ -24,6 +24,7 @@ std::string refused_geostatic(GeometryKind geometry) {
     case GeometryKind::plane_stress:
       return "a plate with free faces cannot hold soil at rest; use plane_strain or solid";
     case GeometryKind::plane_strain:
+    case GeometryKind::axisymmetric:
     case GeometryKind::solid:
       break;
   }

@@ -19,7 +19,7 @@ using Tensor = Eigen::Matrix3d;
 /// [s] too short to relax, and so short that Johnson-Cook's strength is beyond the stress: an increment of 1e-6 is as
 /// fast as 1e19 1/s.
 constexpr double kInstant = 1e-25;
-constexpr double kLong = 1e12;     ///< [s] too long for viscous stress
+constexpr double kLong = 1e12;  ///< [s] too long for viscous stress
 
 Tensor full(const Symmetric3<double>& s) {
   Tensor m;

@@ -75,16 +75,16 @@ struct MieGrueneisenDefinition {
 struct JohnsonCookDefinition {
   double shear_modulus = 0.0;  ///< [Pa], > 0
   MieGrueneisenDefinition pressure;
-  double yield_stress = 0.0;               ///< A [Pa], > 0
-  double hardening = 0.0;                  ///< B [Pa], >= 0
-  double hardening_exponent = 1.0;         ///< n, in (0, 1]
-  double rate_sensitivity = 0.0;           ///< C, >= 0
-  double reference_rate = 1.0;             ///< [1/s], > 0; slower flow has the strength of this rate
-  double softening_exponent = 1.0;         ///< m, > 0
-  double melting_temperature = 0.0;        ///< [K], > reference_temperature, or 0: neither softens nor melts
-  double reference_temperature = 293.0;    ///< [K], > 0; that of the start, unless a body says otherwise
-  double heat_capacity = 0.0;              ///< c_v [J/(kg K)], > 0
-  double heat_fraction = 0.9;              ///< of the plastic work that becomes heat, in [0, 1]
+  double yield_stress = 0.0;             ///< A [Pa], > 0
+  double hardening = 0.0;                ///< B [Pa], >= 0
+  double hardening_exponent = 1.0;       ///< n, in (0, 1]
+  double rate_sensitivity = 0.0;         ///< C, >= 0
+  double reference_rate = 1.0;           ///< [1/s], > 0; slower flow has the strength of this rate
+  double softening_exponent = 1.0;       ///< m, > 0
+  double melting_temperature = 0.0;      ///< [K], > reference_temperature, or 0: neither softens nor melts
+  double reference_temperature = 293.0;  ///< [K], > 0; that of the start, unless a body says otherwise
+  double heat_capacity = 0.0;            ///< c_v [J/(kg K)], > 0
+  double heat_fraction = 0.9;            ///< of the plastic work that becomes heat, in [0, 1]
 };
 
 /// Tait's equation p = K/n (J^-n - 1) and Newtonian viscosity.
@@ -113,10 +113,9 @@ struct StandardLinearSolidDefinition {
   double relaxation_time = 0.0;  ///< of the branch [s], > 0
 };
 
-using LawDefinition =
-    std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition, MohrCoulombDefinition,
-                 J2PlasticityDefinition, NewtonianFluidDefinition, IdealGasDefinition, StandardLinearSolidDefinition,
-                 JohnsonCookDefinition>;
+using LawDefinition = std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition,
+                                   MohrCoulombDefinition, J2PlasticityDefinition, NewtonianFluidDefinition,
+                                   IdealGasDefinition, StandardLinearSolidDefinition, JohnsonCookDefinition>;
 
 struct MaterialDefinition {
   std::string name;

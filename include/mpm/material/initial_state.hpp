@@ -73,7 +73,8 @@ class InitialStates {
 };
 
 /// Ratio of horizontal to vertical stress at rest: 1 - sin(phi) for soils (Jaky 1944), nu / (1 - nu) for elastic
-/// solids, 1 for fluids and for johnson_cook, which has no Poisson's ratio. Nothing for a gas, which is not held by its weight.
+/// solids, 1 for fluids and for johnson_cook, which has no Poisson's ratio. Nothing for a gas, which is not held by its
+/// weight.
 std::optional<double> pressure_at_rest(const LawDefinition& law);
 
 }  // namespace mpm

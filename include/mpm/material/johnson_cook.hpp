@@ -10,9 +10,9 @@
 // right for the increments of 0.1 and more that a penetrating rod has. Flow is implicit in strain and rate; temperature
 // is that at its start.
 //
-// Adiabatic. The internal energy e of the pressure holds the work of pressure and the heat, heat_fraction of the plastic
-// work; not the elastic energy of the deviator, and not the rest of the plastic work, which stays in the lattice. It
-// counts from the start, where stress is zero whatever the temperature. Temperature follows the isentrope,
+// Adiabatic. The internal energy e of the pressure holds the work of pressure and the heat, heat_fraction of the
+// plastic work; not the elastic energy of the deviator, and not the rest of the plastic work, which stays in the
+// lattice. It counts from the start, where stress is zero whatever the temperature. Temperature follows the isentrope,
 // dT = -gamma0 T dJ, and rises by heat / c_v.
 //
 // Weak: a shock gets the entropy that the method's own dissipation gives it, there is no artificial viscosity; so its
@@ -59,8 +59,7 @@ class JohnsonCook : public LawTraits {
     const Symmetric before = elastic_deviator<T>(tau);
     T pressure = pressure_of(tau, step.j_old);
     Symmetric deviator = stretch_isochoric(step.df, step.j / step.j_old, before, isochoric_excess(before));
-    T temperature =
-        (T(reference_) + history[kTemperature]) * equation_of_state_.isentropic_heating(step.j_old, step.j);
+    T temperature = (T(reference_) + history[kTemperature]) * equation_of_state_.isentropic_heating(step.j_old, step.j);
     const T j2 = T(0.5) * squared_norm(deviator);
     const T homologous = homologous_temperature(temperature);
     // The exponents are left for where there is more stress than a strength without them: T*^m <= T* where m >= 1.
@@ -158,8 +157,7 @@ class JohnsonCook : public LawTraits {
     const T yield = step.j_old * soft * before;
     const T first = select(start > T(kFlowed) * yield, start, yield * rate_factor(plastic, slow));
     const T released = T(1.5 * shear_) * (excess - isochoric_excess(deviator));
-    const T work =
-        select(flows, T(1.0 / density_) * (released - T(0.5) * (mises - first) * plastic), T(0));
+    const T work = select(flows, T(1.0 / density_) * (released - T(0.5) * (mises - first) * plastic), T(0));
     history[kPlasticWork] += work;
     return work;
   }

@@ -1,14 +1,14 @@
-// Pressure of a solid under shock: Mie-Grueneisen equation of state about a Hugoniot with the shock speed C0 + S u_p, u_p
-// the particle speed behind it. With eta = 1 - J and the specific internal energy e,
+// Pressure of a solid under shock: Mie-Grueneisen equation of state about a Hugoniot with the shock speed C0 + S u_p,
+// u_p the particle speed behind it. With eta = 1 - J and the specific internal energy e,
 //
 //   compression   p = rho0 C0^2 eta (1 - gamma0 eta/2) / (1 - S eta)^2 + gamma0 rho0 e
 //   tension       p = rho0 C0^2 eta + gamma0 rho0 e
 //
 // On the Hugoniot, e = p eta / (2 rho0), it is rho0 C0^2 eta / (1 - S eta)^2. gamma rho is constant: gamma0 rho0.
 //
-// The formula has a pole at S eta = 1. Beyond S eta = kLargestCompression it goes on with the slope that it has there, so
-// that every J > 0 has a finite pressure and wave speed. Up to there the law is the published one: the Hugoniot up to a
-// particle speed of 4 C0/S, for steel 7 km/s and 1000 GPa.
+// The formula has a pole at S eta = 1. Beyond S eta = kLargestCompression it goes on with the slope that it has there,
+// so that every J > 0 has a finite pressure and wave speed. Up to there the law is the published one: the Hugoniot up
+// to a particle speed of 4 C0/S, for steel 7 km/s and 1000 GPa.
 //
 // Weak: tension has no end (no spall); no phase change but that gamma0 and S may be fits across one. Source: method
 // reference 10.3; Nairn & Guilkey (2015), Table I.

@@ -127,8 +127,9 @@ void read_heat(const Map& map, Scene& scene, JohnsonCookDefinition& law) {
   }
   const auto exponent = map.find("m"), melting = map.find("melting_temperature");
   if (exponent.has_value() != melting.has_value()) {
-    map.fail("m and melting_temperature go together: strength falls from reference_temperature to melting_temperature; "
-             "write both, or neither for a metal that heat neither softens nor melts");
+    map.fail(
+        "m and melting_temperature go together: strength falls from reference_temperature to melting_temperature; "
+        "write both, or neither for a metal that heat neither softens nor melts");
   }
   if (exponent) {
     law.softening_exponent = exponent->number(kPlain);

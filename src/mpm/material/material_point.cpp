@@ -43,6 +43,13 @@ double MaterialPoint::elastic_energy() const {
       },
       law_);
 }
+double MaterialPoint::temperature() const {
+  return std::visit(
+      [this](const auto& law) {
+        return law.kTemperature < 0 ? 0.0 : law.reference_temperature() + history(law.kTemperature);
+      },
+      law_);
+}
 double MaterialPoint::wave_speed() const {
   return std::visit([this](const auto& law) { return law.wave_speed(f_, tau_, j()); }, law_);
 }

@@ -392,7 +392,7 @@ class Passes {
           interleave(columns.column[k] + 4 * q, four[0], four[1], four[2], four[3]);
         }
       }
-      Scatters::scatter(w, columns, particles, tile.data());
+      Scatters::template scatter<false>(w, columns, particles, tile.data());
     });
   }
 

@@ -21,9 +21,10 @@ struct ParticleMass {
 };
 
 struct SceneFacts {
-  std::optional<double> end;              ///< [s] simulated time that the run was to reach; none: until stopped
-  std::string method;                     ///< "3D, uGIMP, USAVG, FLIP 0.998, …"; empty: the text could not be read
-  mpm::Vec3 gravity = mpm::Vec3::Zero();  ///< [m/s^2]
+  std::optional<double> end;  ///< [s] simulated time that the run was to reach; none: until stopped
+  std::string method;         ///< "3D, uGIMP, USAVG, FLIP 0.998, …"; empty: the text could not be read
+  bool axisymmetric = false;
+  mpm::Vec3 gravity = mpm::Vec3::Zero();               ///< [m/s^2]
   mpm::Precision precision = mpm::Precision::float64;  ///< of the particles
 };
 

@@ -36,6 +36,7 @@ SceneFacts scene_facts(const RunInfo& info) {
   try {
     const mpm::Scene scene = scene_of(info);
     facts.method = text_of(scene.definition);
+    facts.axisymmetric = mpm::axisymmetric(scene.definition.geometry);
     facts.gravity = scene.definition.gravity;
     facts.precision = scene.definition.method.precision;
     if (scene.definition.time.end > 0.0) facts.end = scene.definition.time.end;

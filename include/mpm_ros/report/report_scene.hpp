@@ -31,7 +31,8 @@ struct SceneFacts {
 /// A text that this version does not read (or none) gives facts without values.
 SceneFacts scene_facts(const RunInfo& info);
 
-/// Masses of the particles in the order of their ids. Makes all particles of the scene.
+/// Masses of the particles in the order of their ids; of rings about an axis each its own. Makes all particles of the
+/// scene.
 /// @throws mpm::Error when the scene cannot be read or built
 std::vector<ParticleMass> particle_masses(const RunInfo& info);
 

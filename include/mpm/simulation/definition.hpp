@@ -89,12 +89,18 @@ struct ParticleForceDefinition {
 };
 
 enum class Statistic { mean, std_dev, min, max };
+struct TimeWindow {
+  double from = 0.0, to = 0.0;  ///< [s]
+};
 /// A number of the summary: a statistic of a particle field over one body (or all, when `body` is empty).
 struct MetricDefinition {
   std::string name;
   Statistic statistic = Statistic::mean;
   std::string field;
   std::string body;
+  /// The statistic's rate of change in this window, by the straight line with the least squares through its values at
+  /// sync points [1/s]; without one the statistic at the end.
+  std::optional<TimeWindow> rate;
 };
 
 struct SimulationDefinition {

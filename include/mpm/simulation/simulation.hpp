@@ -87,6 +87,8 @@ class Simulation {
   std::uint64_t state_hash() const;
 
  private:
+  /// Of those metrics that are rates, at a sync point.
+  void sample_metrics();
   friend class SimulationProbe;  // of tests: single steps, of any size
   struct State;
   std::unique_ptr<State> state_;

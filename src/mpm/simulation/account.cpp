@@ -1,4 +1,4 @@
-// What a Simulation says of itself: momentum audit, energies, metrics, the hash of its state. Computed when asked for.
+// What a Simulation says of itself: momentum audit, energies, the hash of its state. Computed when asked for.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -159,30 +159,6 @@ SolverState Simulation::state() const {
   const double error = (audit.momentum - audit.initial_momentum - given).norm();
   audit.residual = scale > 0.0 ? error / scale : error;
   return report;
-}
-
-std::vector<std::pair<std::string, double>> Simulation::metrics() const {
-  std::vector<std::pair<std::string, double>> list;
-  std::vector<double> values;
-  for (const MetricDefinition& metric : state_->definition.metrics) {
-    particle_field(metric.field, values);
-    const auto [first, last] =
-        metric.body.empty() ? std::pair<std::uint64_t, std::uint64_t>{0, values.size()} : body_ids(metric.body);
-    const auto begin = values.begin() + first, end = values.begin() + last;
-    double mean = 0.0;
-    for (auto it = begin; it != end; ++it) mean += *it;
-    mean /= static_cast<double>(last - first);
-    double result = mean;
-    if (metric.statistic == Statistic::min) result = *std::min_element(begin, end);
-    if (metric.statistic == Statistic::max) result = *std::max_element(begin, end);
-    if (metric.statistic == Statistic::std_dev) {
-      double squares = 0.0;
-      for (auto it = begin; it != end; ++it) squares += (*it - mean) * (*it - mean);
-      result = std::sqrt(squares / static_cast<double>(last - first));
-    }
-    list.emplace_back(metric.name, result);
-  }
-  return list;
 }
 
 std::uint64_t Simulation::state_hash() const {

@@ -374,6 +374,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.sort(0.0);
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
+  s.rates.resize(definition.metrics.size());
+  sample_metrics();
 }
 
 }  // namespace mpm

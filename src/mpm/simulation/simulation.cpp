@@ -107,6 +107,7 @@ void Simulation::advance() {
     throw PhysicsError(fmt::format("motion of a rigid body at t = {:.6g} s: {}", s.time * kNanosecond, error.what()));
   }
   s.failed = false;
+  sample_metrics();
   s.wall += std::chrono::steady_clock::now() - started;
 }
 

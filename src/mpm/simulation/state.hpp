@@ -25,6 +25,18 @@ struct StepLimit {
   std::string text() const;
 };
 
+/// The straight line with the least squares through points that come one by one.
+class LineFit {
+ public:
+  void add(double t, double y);
+  /// Not a number before the second point.
+  double slope() const;
+
+ private:
+  int count_ = 0;
+  double mean_t_ = 0.0, mean_y_ = 0.0, tt_ = 0.0, ty_ = 0.0;
+};
+
 struct Simulation::State {
   SimulationDefinition definition;
   int threads = 1;
@@ -52,6 +64,7 @@ struct Simulation::State {
   StepLimit previous_limit;  ///< as surveyed at the one before
   StepLimit limit;           ///< of the last period's steps
   bool failed = false;
+  std::vector<LineFit> rates;  ///< of each metric; those without a window stay empty
 
   template <class T>
   void add_mechanics();

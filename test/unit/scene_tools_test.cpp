@@ -74,6 +74,7 @@ TEST(SceneTools, AToolThatIsNotAxisymmetricIsRefused) {
   refused(sphere, "motion: {velocity: [0.1, 0]}", "motion.velocity", "off the axis the tool is not axisymmetric");
   refused(sphere, "motion: {rotation_rate: [0, 0, 1]}", "motion.rotation_rate",
           "a tool that turns is not axisymmetric");
+  refused(kRing, "pose: {position: [-0.1, 0]}", "pose.position", "the ring is closed there");
   refused(kRing, "pose: {rpy: [0, 10 deg, 0]}", "pose.rpy", "a turned tool is not axisymmetric");
 }
 

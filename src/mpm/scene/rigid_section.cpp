@@ -100,13 +100,16 @@ Quat read_quaternion(const Value& value) {
   return given.normalized();
 }
 
-Pose read_pose(const Value& value, GeometryKind geometry, bool opens) {
+/// `inner_radius`: of a ring that opens along x, else 0.
+Pose read_pose(const Value& value, GeometryKind geometry, double inner_radius) {
   const Map map(value, {"position", "rpy", "quaternion"}, {{"frame", "poses are in the world frame"}});
   Pose pose;
   const auto position = map.find("position");
   if (position) pose.position = position->vector(kLength);
-  if (axisymmetric(geometry) && pose.position.x() != 0.0 && !opens)
+  if (axisymmetric(geometry) && pose.position.x() != 0.0 && inner_radius == 0.0)
     position->fail("off the axis the tool is not axisymmetric; write [0, z], or make the scene solid");
+  if (inner_radius > 0.0 && !(inner_radius + pose.position.x() > 0.0))
+    position->fail(fmt::format("the ring is closed there: x changes its inner radius of {:g} m", inner_radius));
   const auto rpy = map.find("rpy");
   const auto quaternion = map.find("quaternion");
   if (rpy && quaternion) quaternion->fail("a pose has rpy or quaternion, not both; leave one out");
@@ -187,7 +190,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
       }
     }
     body.surface = read_surface(map.at("shape"), geometry, body);
-    if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, geometry, body.inner_radius > 0.0);
+    if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, geometry, body.inner_radius);
     if (const auto motion = map.find("motion")) read_motion(*motion, geometry, body);
     const auto own_friction = map.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;

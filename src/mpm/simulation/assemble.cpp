@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axial_motion.hpp"
 #include "initial.hpp"
 #include "mpm/boundary/again.hpp"
 #include "mpm/boundary/axis.hpp"
@@ -132,7 +133,8 @@ void project(SimulationDefinition& definition) {
     for (ParticleForceDefinition& load : definition.particle_forces) load.force[axis] = Function();
   }
   for (RigidBodyDefinition& body : definition.rigid_bodies) {
-    body.pose = projected(body.pose, geometry, body.name);
+    body.pose = projected(body.pose, geometry, body);
+    if (axisymmetric(geometry) && body.inner_radius == 0.0) body.velocity[0] = Function();
     for (int axis = 0; axis < 3; ++axis) {
       if (!turns_about(geometry, axis)) body.rotation_rate[axis] = Function();
     }
@@ -205,7 +207,8 @@ const MaterialDefinition& find_material(const SimulationDefinition& definition, 
   throw DefinitionError(fmt::format("body '{}': no material is called '{}'", body.name, body.material));
 }
 
-Twist projected(const Twist& twist, GeometryKind geometry) {
+Twist projected(const Twist& twist, GeometryKind geometry, const RigidBodyDefinition& body) {
+  if (axisymmetric(geometry)) return axial_twist(twist, body);
   Twist kept = twist;
   for (const int axis : axes_beside(geometry)) kept.linear[axis] = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -214,14 +217,15 @@ Twist projected(const Twist& twist, GeometryKind geometry) {
   return kept;
 }
 
-Pose projected(const Pose& pose, GeometryKind geometry, const std::string& body) {
+Pose projected(const Pose& pose, GeometryKind geometry, const RigidBodyDefinition& body) {
   if (geometry == GeometryKind::solid) return pose;
+  if (axisymmetric(geometry)) return axial_pose(pose, body);
   if (geometry == GeometryKind::line) return {{pose.position.x(), 0.0, 0.0}, Quat::Identity()};
   const Quat& q = pose.orientation;
   const double about_y = std::hypot(q.w(), q.y());
   if (!(about_y >= 1e-3 * q.norm())) {
     throw RigidError(
-        fmt::format("rigid body '{}': its pose is turned over in a planar scene; turn it about y only", body));
+        fmt::format("rigid body '{}': its pose is turned over in a planar scene; turn it about y only", body.name));
   }
   const double scale = q.norm() / about_y;
   return {{pose.position.x(), 0.0, pose.position.z()}, Quat(q.w() * scale, 0.0, q.y() * scale, 0.0)};
@@ -339,7 +343,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
     s.bodies.emplace_back(body);
-    auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.threads);
+    auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.threads, definition.geometry);
     s.contacts.push_back(contact.get());
     s.stages.push_back(std::move(contact));
     const double cells = body.surface->thickness() / layout.smallest_cell();

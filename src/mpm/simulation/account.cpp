@@ -58,7 +58,11 @@ Totals totals_of(const ParticleSet& set, const LawType& law, const GridLayout& l
       sum.kinetic += mass * (0.5 * speed2);
       sum.potential -= mass * height;
       sum.elastic += mass * law.elastic_energy(t.f, t.tau, t.j);
-      if constexpr (LawType::kPlasticWork >= 0) sum.plastic += mass * set.history[LawType::kPlasticWork][p];
+      if constexpr (LawType::kPlasticWork >= 0) {
+        const double work = mass * set.history[LawType::kPlasticWork][p];
+        sum.elastic -= law.heat_fraction() * work;
+        sum.plastic += work;
+      }
       sum.carried += mass * std::sqrt(speed2);
       sum.min_j = std::min(sum.min_j, t.j);
     }

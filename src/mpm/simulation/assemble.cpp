@@ -106,6 +106,9 @@ void project(SimulationDefinition& definition) {
     for (RigidBodyDefinition& body : definition.rigid_bodies) body.velocity[axis] = Function();
     for (BodyForceDefinition& load : definition.body_forces) load.acceleration[axis] = Function();
     for (ParticleForceDefinition& load : definition.particle_forces) load.force[axis] = Function();
+    for (TractionDefinition& load : definition.tractions) {
+      if (!load.follows) load.value[axis] = Function();
+    }
   }
   for (RigidBodyDefinition& body : definition.rigid_bodies) {
     body.pose = projected(body.pose, geometry, body.name);
@@ -121,46 +124,92 @@ int find_set(const std::vector<ParticleSet>& sets, const std::string& body, cons
   throw DefinitionError(fmt::format("{}: no deformable body is called '{}'; name one of 'bodies'", load, body));
 }
 
+void check_particles(const std::vector<std::uint32_t>& particles, const ParticleSet& set, const char* load) {
+  for (const std::uint32_t p : particles) {
+    if (p < static_cast<std::uint32_t>(set.size())) continue;
+    throw DefinitionError(fmt::format("{} on '{}': it has no particle {}, but {}", load, set.name, p, set.size()));
+  }
+}
+
 ParticleLoadTerm make_term(const ParticleForceDefinition& load, const std::vector<ParticleSet>& sets) {
-  ParticleLoadTerm term{ParticleLoadTerm::Kind::particle_force,
-                        find_set(sets, load.body, "particle force"),
-                        load.force,
-                        1.0,
-                        load.spread,
-                        {}};
+  ParticleLoadTerm term;
+  term.kind = ParticleLoadTerm::Kind::particle_force;
+  term.set = find_set(sets, load.body, "particle force");
+  term.value = load.force;
+  term.spread = load.spread;
   const ParticleSet& set = sets[*term.set];
-  auto count = static_cast<double>(set.size());
+  check_particles(load.particles, set, "particle force");
   if (!load.particles.empty()) {
     term.chosen.assign(set.size(), 0);
-    for (const std::uint32_t p : load.particles) {
-      if (p >= term.chosen.size()) {
-        throw DefinitionError(
-            fmt::format("particle force on '{}': it has no particle {}, but {}", load.body, p, set.size()));
-      }
-      term.chosen[p] = 1;
-    }
-    count = static_cast<double>(std::count(term.chosen.begin(), term.chosen.end(), 1));
+    for (const std::uint32_t p : load.particles) term.chosen[p] = 1;
   }
-  term.factor = 1.0 / (set.mass * (load.shared ? count : 1.0));
+  if (!load.shared) {
+    term.each = true;
+    return term;
+  }
+  double mass = 0.0;
+  for (int p = 0; p < set.size(); ++p) mass += term.chosen.empty() || term.chosen[p] != 0 ? set.mass_of(p) : 0.0;
+  term.factor = 1.0 / mass;
   return term;
 }
 
-// Sets that a term with X, Y or Z acts on remember where their particles start.
+// Sets that functions with X, Y or Z act on remember where their particles start.
+void remember_start(const std::array<Function, 3>& value, ParticleSet& set) {
+  const auto uses_start = [](const Function& component) { return component.uses_start(); };
+  if (std::any_of(value.begin(), value.end(), uses_start)) set.start_x = set.x;
+}
+
 std::vector<ParticleLoadTerm> make_load_terms(const SimulationDefinition& definition, std::vector<ParticleSet>& sets) {
   std::vector<ParticleLoadTerm> terms;
   for (const BodyForceDefinition& load : definition.body_forces) {
-    ParticleLoadTerm term{ParticleLoadTerm::Kind::body_force, std::nullopt, load.acceleration, 1.0, load.spread, {}};
+    ParticleLoadTerm term;
+    term.value = load.acceleration;
+    term.spread = load.spread;
     if (!load.body.empty()) term.set = find_set(sets, load.body, "body force");
     terms.push_back(std::move(term));
   }
   for (const ParticleForceDefinition& load : definition.particle_forces) terms.push_back(make_term(load, sets));
   for (const ParticleLoadTerm& term : terms) {
-    const bool uses_start = std::any_of(term.value.begin(), term.value.end(),
-                                        [](const Function& component) { return component.uses_start(); });
     for (std::size_t s = 0; s < sets.size(); ++s) {
-      if (uses_start && (!term.set || *term.set == static_cast<int>(s))) sets[s].start_x = sets[s].x;
+      if (!term.set || *term.set == static_cast<int>(s)) remember_start(term.value, sets[s]);
     }
   }
+  return terms;
+}
+
+// Before anything is sorted: particles are known by their places.
+TractionTerm make_term(const TractionDefinition& load, const SimulationDefinition& definition,
+                       std::vector<ParticleSet>& sets, const GridLayout& layout) {
+  TractionTerm term;
+  term.set = find_set(sets, load.body, "traction");
+  ParticleSet& set = sets[term.set];
+  const std::vector<int> axes = axes_of(definition.geometry);
+  const auto axis = std::find(axes.begin(), axes.end(), load.face / 2);
+  if (load.face < 0 || axis == axes.end()) {
+    throw DefinitionError(fmt::format("traction on '{}': its particles have no face {} in this geometry, {}", load.body,
+                                      load.face, geometry_name(definition.geometry)));
+  }
+  term.face = {static_cast<int>(axis - axes.begin()), load.face % 2 == 1};
+  term.particles = load.particles.empty() ? outermost_particles(set, layout, term.face) : load.particles;
+  check_particles(term.particles, set, "traction");
+  const double touching = set.half[0] * layout.cell(0) * (1.0 + 1e-9);
+  if (axisymmetric(definition.geometry) && term.face.axis == 0 && !term.face.upper &&
+      std::all_of(term.particles.begin(), term.particles.end(),
+                  [&](std::uint32_t p) { return set.x[0][p] <= touching; })) {
+    throw DefinitionError(
+        fmt::format("traction on '{}': its x_min lies on the axis r = 0 and has no area; use another face", load.body));
+  }
+  term.follows = load.follows;
+  term.value = load.value;
+  remember_start(term.value, set);
+  return term;
+}
+
+std::vector<TractionTerm> make_traction_terms(const SimulationDefinition& definition, std::vector<ParticleSet>& sets,
+                                              const GridLayout& layout) {
+  std::vector<TractionTerm> terms;
+  for (const TractionDefinition& load : definition.tractions)
+    terms.push_back(make_term(load, definition, sets, layout));
   return terms;
 }
 
@@ -224,6 +273,12 @@ void Simulation::State::add_mechanics() {
     const LoadKernels<T> load_kernels{kernels, kernel_table<T>(ShapeKind::dirac, definition.geometry, isa)};
     auto all = make_particle_loads(load_kernels, sets, laws, terms, threads);
     loads = all.get();
+    stages.push_back(std::move(all));
+  }
+  if (std::vector<TractionTerm> terms = make_traction_terms(definition, sets, grid->layout); !terms.empty()) {
+    const TractionSettings settings{definition.geometry, method.shape, definition.across()};
+    auto all = std::make_unique<FaceTractions>(settings, sets, std::move(terms));
+    tractions = all.get();
     stages.push_back(std::move(all));
   }
   ContinuumSettings settings;

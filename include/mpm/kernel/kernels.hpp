@@ -42,12 +42,13 @@ constexpr double kNoWall = 1e9;       ///< node number of a wall that there is n
 /// The grid: nodal fields are [block][component][node], 64 nodes a block (16 in a plane, 4 in a line).
 struct GridView {
   double origin[3], inverse_cell[3];
-  double low_wall[3], high_wall[3];  ///< node numbers of the domain's faces that are walls
-  double least_mass;                 ///< a node with less takes no part [kg]
-  double* mass;                      ///< [kg]
-  double* momentum;                  ///< as gathered, until XPIC's increments or the next gathering use it [N s]
-  double* velocity;                  ///< [m/s]
-  double* force;                     ///< force [N], then acceleration [m/s^2]
+  double low_wall[3], high_wall[3];      ///< node numbers of the domain's faces that are walls
+  bool whole_domains, planar_functions;  ///< of an axisymmetric scene: AxisRules (shape/axis_rules.hpp)
+  double least_mass;                     ///< a node with less takes no part [kg]
+  double* mass;                          ///< [kg]
+  double* momentum;                      ///< as gathered, until XPIC's increments or the next gathering use it [N s]
+  double* velocity;                      ///< [m/s]
+  double* force;                         ///< force [N], then acceleration [m/s^2]
 };
 
 /// The block at work.
@@ -96,6 +97,7 @@ struct MoveSettings {
   double dt;                      ///< [s]
   double flip;                    ///< FLIP fraction
   bool regather;                  ///< the new momentum goes to the grid
+  bool by_point = false;          ///< about an axis: AxisMotion::point
   double grid_damping = 0.0;      ///< rate on the grid's velocity at the particle, where it is constant [1/s]
   double particle_damping = 0.0;  ///< rate on the particle's own velocity [1/s]
 };

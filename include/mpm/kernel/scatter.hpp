@@ -146,6 +146,12 @@ class Scatter {
           }
         } else if constexpr (Dim == 2) {
           add_along_first(weights, p, along, first, sum[0]);
+          if constexpr (Shape<W>::kAxisymmetric) {
+            const Row hoop = Row::outer(weights.s[Dim - 1], p, from.column[mpm_kernel::kHoopColumn] + 4 * p);
+            T all = 0;
+            for (int i = 0; i < kFirst; ++i) all += weights.t[i][p];
+            for (int i = 0; i < kFirst; ++i) sum[0][i].add(hoop, i == 1 ? all : weights.t[i][p]);
+          }
         }
       }
       if constexpr (Dim > 1 && kNodes == 3) {

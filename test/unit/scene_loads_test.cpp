@@ -54,8 +54,6 @@ TEST(SceneLoads, AreRefusedWhenWrong) {
   expect_refused("loads: {}", "bad.yaml:5: loads: found a map of keys; write a list");
   expect_refused("loads: [{body_forc: {}}]",
                  "bad.yaml:5: loads.0.body_forc: unknown key 'body_forc'; did you mean 'body_force'?");
-  expect_refused("loads: [{traction: {}}]",
-                 "bad.yaml:5: loads.0.traction: not built yet; use particle_force, body_force");
   expect_refused("loads: [{body_force: {}}]",
                  "bad.yaml:5: loads.0.body_force: the key 'acceleration' is missing; add it");
   const std::string at = "bad.yaml:5: loads.0.body_force.";

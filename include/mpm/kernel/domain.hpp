@@ -35,8 +35,8 @@ class Domains {
     }
     if constexpr (kRings) {
       first_radius_ = corner_[0] + origin_[0] * inverse_cell_[0];
-      planar_ = grid.planar_functions;
-      fitted_ = !grid.whole_domains && !planar_;
+      planar_ = set.planar_functions;
+      fitted_ = !set.whole_domains && !planar_;
     }
   }
 

@@ -42,13 +42,12 @@ constexpr double kNoWall = 1e9;       ///< node number of a wall that there is n
 /// The grid: nodal fields are [block][component][node], 64 nodes a block (16 in a plane, 4 in a line).
 struct GridView {
   double origin[3], inverse_cell[3];
-  double low_wall[3], high_wall[3];      ///< node numbers of the domain's faces that are walls
-  bool whole_domains, planar_functions;  ///< of an axisymmetric scene: AxisRules (shape/axis_rules.hpp)
-  double least_mass;                     ///< a node with less takes no part [kg]
-  double* mass;                          ///< [kg]
-  double* momentum;                      ///< as gathered, until XPIC's increments or the next gathering use it [N s]
-  double* velocity;                      ///< [m/s]
-  double* force;                         ///< force [N], then acceleration [m/s^2]
+  double low_wall[3], high_wall[3];  ///< node numbers of the domain's faces that are walls
+  double least_mass;                 ///< a node with less takes no part [kg]
+  double* mass;                      ///< [kg]
+  double* momentum;                  ///< as gathered, until XPIC's increments or the next gathering use it [N s]
+  double* velocity;                  ///< [m/s]
+  double* force;                     ///< force [N], then acceleration [m/s^2]
 };
 
 /// The block at work.
@@ -65,17 +64,18 @@ struct LawKernels;
 /// The particles of one body.
 template <class T>
 struct SetView {
-  const std::uint32_t* group;        ///< first particle of each group, and one past the last
-  const std::uint32_t* group_begin;  ///< first group of each owner, and one past the last
-  double mass;                       ///< of a particle [kg]
-  const T* masses;                   ///< of each, where a particle is a ring about the axis [kg]
-  double half[3];                    ///< half of its box [cells]
-  double lowest[3], highest[3];      ///< where a centre may be [cells]
-  const double* x[3];                ///< [m]
-  double* next_x[3];                 ///< where `move` puts it; may be x
-  T* v[3];                           ///< [m/s]
-  T* f[9];                           ///< deformation gradient
-  T* tau[6];                         ///< Kirchhoff stress over initial density [J/kg]
+  const std::uint32_t* group;            ///< first particle of each group, and one past the last
+  const std::uint32_t* group_begin;      ///< first group of each owner, and one past the last
+  double mass;                           ///< of a particle [kg]
+  const T* masses;                       ///< of each, where a particle is a ring about the axis [kg]
+  double half[3];                        ///< half of its box [cells]
+  bool whole_domains, planar_functions;  ///< about an axis: AxisRules (shape/axis_rules.hpp)
+  double lowest[3], highest[3];          ///< where a centre may be [cells]
+  const double* x[3];                    ///< [m]
+  double* next_x[3];                     ///< where `move` puts it; may be x
+  T* v[3];                               ///< [m/s]
+  T* f[9];                               ///< deformation gradient
+  T* tau[6];                             ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
   T* domain[9];           ///< F in the grid's axes (of a stretching box: its diagonal) as the step began
   T* affine[9];           ///< APIC: B, sum of S v_c (x_i - x_p)_k, [component][axis] [m^2/s]

@@ -56,8 +56,8 @@ class WeightFrame {
     }
     if constexpr (Shape<W>::kAxisymmetric) {
       first_radius_ = corner_[0] + origin_[0] * inverse_cell_[0];
-      if (grid.whole_domains) rules_.domains = AxisDomains::whole;
-      if (grid.planar_functions) rules_.functions = AxisFunctions::planar;
+      if (set.whole_domains) rules_.domains = AxisDomains::whole;
+      if (set.planar_functions) rules_.functions = AxisFunctions::planar;
     }
   }
   Axis axis(int k) const { return Axis(half_[k], inverse_cell_[k]); }

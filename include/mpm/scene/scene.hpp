@@ -28,6 +28,7 @@ struct Region {
   double radius = 0.0;         ///< [m]
   double height = 0.0;         ///< cylinder, along `axis`
   int axis = 2;
+  bool about_axis = false;  ///< of an axisymmetric scene: only r >= 0 counts
   bool contains(const Vec3& point) const;
   Box bounds() const;
 };

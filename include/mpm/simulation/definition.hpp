@@ -1,6 +1,7 @@
 // Everything a Simulation is made from, in SI, with its defaults. A Scene fills this in; tests may do so by hand.
 // Planar scenes lie in the x-z plane: y components are ignored, `thickness` is along y. A line lies along x: y and z
-// components are ignored, `area` is across it.
+// components are ignored, `area` is across it. An axisymmetric scene has r = x and z; x components are radial, y ones
+// are ignored, and what is summed over particles is that of the whole body, all the way round.
 #pragma once
 
 #include <array>
@@ -16,6 +17,7 @@
 #include "mpm/mechanics/particle_loads.hpp"
 #include "mpm/particles/particle_scalar.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/shape/axis_rules.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/step/damping.hpp"
 #include "mpm/step/schedule.hpp"
@@ -42,6 +44,7 @@ struct MethodDefinition {
   Transfer transfer;
   bool average_dilatation = false;  ///< volume changes averaged over the grid, against locking
   DampingDefinition damping;
+  AxisRules axis;                            ///< axisymmetric scenes alone
   int gradient_terms = 2;                    ///< terms of exp(grad v dt)
   int particles_per_direction = 2;           ///< particles along a cell's edge
   Precision precision = Precision::float64;  ///< of what particles carry but their positions
@@ -66,7 +69,7 @@ struct DeformableBody {
   bool yy_follows = false;
   std::vector<double> temperatures;  ///< to start at, one each, or empty for the material's own [K]
   std::optional<GeostaticDefinition> geostatic;
-  double particle_volume = 0.0;  ///< volume of one particle at the start [m^3]
+  double particle_volume = 0.0;  ///< of one particle at the start [m^3]; of rings the area of their section [m^2]
 };
 
 /// An acceleration of the material as a function of time, place and place at the start (mechanics/particle_loads.hpp).

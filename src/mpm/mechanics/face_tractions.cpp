@@ -78,7 +78,7 @@ PlacedDomain FaceTractions::domain_of(const ParticleSet& set, int p, const GridL
     if (!deforms(settings_.shape)) continue;
     for (int c = 0; c < domain.dim; ++c) domain.d[k][c] = set.domain[c * domain.dim + k][p] * half;
   }
-  const bool ring = axisymmetric(settings_.geometry);
+  const bool ring = axisymmetric(settings_.geometry) && !set.whole_domains && !set.planar_functions;
   if (deforms(settings_.shape)) {
     if (ring) shrink_to_axis(domain);
     keep_within_reach(domain, layout);

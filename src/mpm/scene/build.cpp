@@ -76,6 +76,7 @@ Lattice lattice(const Scene& scene, const Box& bounds, int axis) {
 double fullness(const Region& region, GeometryKind geometry) {
   constexpr double kPi = 3.14159265358979323846;
   if (region.kind == Region::Kind::box || geometry == GeometryKind::line) return 1.0;
+  if (axisymmetric(geometry) && region.kind == Region::Kind::cylinder) return 1.0;
   return region.kind == Region::Kind::sphere && geometry == GeometryKind::solid ? kPi / 6.0 : kPi / 4.0;
 }
 
@@ -302,7 +303,9 @@ Box Region::bounds() const {
   if (kind == Kind::box) return box;
   Vec3 half = Vec3::Constant(radius);
   if (kind == Kind::cylinder) half[axis] = 0.5 * height;
-  return {center - half, center + half};
+  Box bounds{center - half, center + half};
+  if (about_axis) bounds.min.x() = 0.0;
+  return bounds;
 }
 
 SimulationDefinition build(const Scene& scene) {

@@ -79,8 +79,7 @@ TractionDefinition read_face(const Map& map, Scene& scene) {
 }
 
 void read_traction(const Value& value, Scene& scene) {
-  const Map map(value, {"body", "edge", "region", "traction"},
-                {{"value", "write traction: a vector along the world's axes, or use pressure, which has a value"}});
+  const Map map(value, {"body", "edge", "region", "traction"});
   TractionDefinition load = read_face(map, scene);
   load.value = map.at("traction").functions(kPressure, FunctionPlaces::present_and_start);
   scene.definition.tractions.push_back(std::move(load));

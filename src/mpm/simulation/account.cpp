@@ -48,24 +48,25 @@ Totals totals_of(const ParticleSet& set, const LawType& law, const GridLayout& l
     const int end = std::min(set.size(), (g + 1) * kGroup);
     for (int p = g * kGroup; p < end; ++p) {
       const ParticleTensors t = particle_tensors(set, geometry, p);
+      const double mass = set.masses.empty() ? 1.0 : set.mass_of(p);  // equal masses are multiplied in the end
       double speed2 = 0.0, height = 0.0;
       for (int k = 0; k < dim; ++k) {
         const double v = set.v[k][p];
         speed2 += v * v;
         height += gravity[layout.axis(k)] * set.x[k][p];
       }
-      sum.kinetic += 0.5 * speed2;
-      sum.potential -= height;
-      sum.elastic += law.elastic_energy(t.f, t.tau, t.j);
-      if constexpr (LawType::kPlasticWork >= 0) sum.plastic += set.history[LawType::kPlasticWork][p];
-      sum.carried += std::sqrt(speed2);
+      sum.kinetic += mass * (0.5 * speed2);
+      sum.potential -= mass * height;
+      sum.elastic += mass * law.elastic_energy(t.f, t.tau, t.j);
+      if constexpr (LawType::kPlasticWork >= 0) sum.plastic += mass * set.history[LawType::kPlasticWork][p];
+      sum.carried += mass * std::sqrt(speed2);
       sum.min_j = std::min(sum.min_j, t.j);
     }
   }
   Totals total;
   for (const Totals& part : partial) total += part;
   for (double* by_mass : {&total.kinetic, &total.potential, &total.elastic, &total.plastic, &total.carried}) {
-    *by_mass *= set.mass;
+    if (set.masses.empty()) *by_mass *= set.mass;
   }
   return total;
 }
@@ -105,7 +106,7 @@ ParticleTensors particle_tensors(const ParticleSet& set, GeometryKind geometry, 
 
 Vec3 Simulation::State::momentum() const {
   return sum_particles(sets, threads, Vec3(Vec3::Zero()), [&](const ParticleSet& set, int p) {
-    return Vec3(set.mass * particle_vector(set.v, grid->layout, p));
+    return Vec3(set.mass_of(p) * particle_vector(set.v, grid->layout, p));
   });
 }
 
@@ -113,7 +114,7 @@ double Simulation::State::kinetic_energy() const {
   return sum_particles(sets, threads, 0.0, [](const ParticleSet& set, int p) {
     double squared = 0.0;
     for (const auto& component : set.v) squared += component[p] * component[p];
-    return 0.5 * set.mass * squared;
+    return 0.5 * set.mass_of(p) * squared;
   });
 }
 

@@ -7,6 +7,8 @@
 
 #include "initial.hpp"
 #include "load_terms.hpp"
+#include "mpm/boundary/again.hpp"
+#include "mpm/boundary/axis.hpp"
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
@@ -29,6 +31,22 @@ std::vector<ParticleScalar> zeros(int components, Precision precision, std::size
   return field;
 }
 
+/// The mass of each ring, 2 pi rho A <r> of its section (Nairn & Guilkey (2015), after eq. (14), all the way round):
+/// of a box that reaches across the axis, of the part of it that counts there. `per_area`: rho A [kg/m].
+void make_rings(const SimulationDefinition& definition, double per_area, const GridLayout& layout, ParticleSet& set) {
+  constexpr double kTurn = 2.0 * 3.14159265358979323846;
+  const AxisRules& rules = definition.method.axis;
+  set.whole_domains = rules.domains == AxisDomains::whole;
+  set.planar_functions = rules.functions == AxisFunctions::planar;
+  set.masses = zeros(1, set.precision, set.id.size());
+  const double half = set.half[0] / layout.inverse_cell(0);
+  for (int p = 0; p < set.size(); ++p) {
+    const double r = set.x[0][p], inner = set.whole_domains ? r - half : std::max(0.0, r - half);
+    const double weight = 0.5 * ((r + half) * (r + half) - inner * inner) / (2.0 * half);
+    set.masses[0].set(p, kTurn * per_area * weight);
+  }
+}
+
 ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body,
                      const MaterialDefinition& material, const Law& law, const GridLayout& layout,
                      std::vector<std::string>& warnings) {
@@ -46,13 +64,13 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
   }
   ParticleSet set;
   set.name = body.name;
-  set.mass = material.density * body.particle_volume;
   const int dim = layout.dim();
   for (int k = 0; k < dim; ++k) {
     set.half[k] = 0.5 / definition.method.particles_per_direction;
     // Pressed against a wall, a particle comes to rest only when its box is half beyond it.
     const int face = 2 * layout.axis(k);
-    set.lowest[k] = definition.walls[face].kind == WallKind::none ? 0.0 : -set.half[k];
+    const bool open = definition.walls[face].kind == WallKind::none;
+    set.lowest[k] = open ? 0.0 : -set.half[k];
     set.highest[k] = layout.last_node(k) + (definition.walls[face + 1].kind == WallKind::none ? 0.0 : set.half[k]);
   }
   set.id.resize(n);
@@ -77,6 +95,11 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
     set.tau = zeros(geometry.kSymmetric, set.precision, n);
   });
   set.history = zeros(history_size(law), set.precision, n);
+  if (axisymmetric(definition.geometry)) {
+    make_rings(definition, material.density * body.particle_volume, layout, set);
+  } else {
+    set.mass = material.density * body.particle_volume;
+  }
   start_particles(set, body, material, definition.geometry, warnings);
   if (definition.method.update != UpdateScheme::usf) set.next_x = set.x;
   return set;
@@ -97,6 +120,7 @@ void check(const SimulationDefinition& d) {
   if (planar(d.geometry) && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
   if (d.geometry == GeometryKind::line && !(d.area > 0.0)) throw DefinitionError("area must be positive");
   if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");
+  if (const std::string fault = axis_fault(d); !fault.empty()) throw DefinitionError(fault);
 }
 
 // Leaves only what is along the grid's axes.
@@ -190,6 +214,7 @@ void Simulation::State::add_mechanics() {
   ContinuumSettings settings;
   settings.transfer = method.transfer;
   settings.average_dilatation = method.average_dilatation;
+  if (axisymmetric(definition.geometry)) settings.axis_motion = method.axis.motion;
   settings.gradient_terms = method.gradient_terms;
   settings.gravity = definition.gravity;
   settings.threads = threads;
@@ -235,7 +260,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     ParticleSet& set = s.sets.back();
     set.first_id = next_id;
     for (std::uint32_t& id : set.id) id = next_id++;
-    s.total_mass += set.mass * set.size();
+    s.total_mass += set.total_mass();
     if (!geostatic) forget_particles(body);
   }
   if (s.sets.empty()) throw DefinitionError("there is no deformable body, so nothing to simulate; add one to 'bodies'");
@@ -261,6 +286,15 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
       s.stages.push_back(std::move(wall));
     }
   };
+  Axis* axis = nullptr;
+  if (axisymmetric(definition.geometry)) {
+    s.stages.insert(s.stages.begin(), std::make_unique<HoopForce>());
+    if (definition.grid.min.x() == 0.0) {
+      auto condition = std::make_unique<Axis>(definition.method.axis.ghosts);
+      axis = condition.get();
+      s.stages.push_back(std::move(condition));
+    }
+  }
   add_walls(false);
   const std::size_t before_contact = s.stages.size();
   s.bodies.reserve(definition.rigid_bodies.size());
@@ -281,7 +315,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   add_walls(true);
   if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);
   if (s.stages.size() > before_contact) {
-    for (Wall* wall : holding) s.stages.push_back(std::make_unique<WallAgain>(*wall));
+    if (axis != nullptr) s.stages.push_back(std::make_unique<StageAgain>(*axis));
+    for (Wall* wall : holding) s.stages.push_back(std::make_unique<StageAgain>(*wall));
   }
 
   if (definition.method.precision == Precision::float32) {
@@ -289,8 +324,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   } else {
     s.add_mechanics<double>();
   }
-  double lightest = s.sets.front().mass;
-  for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.mass);
+  double lightest = s.sets.front().least_mass();
+  for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.least_mass());
   s.grid->least_mass = 1e-30 * lightest;
   s.gravity.name = "gravity";
   s.sort(0.0);

@@ -189,8 +189,8 @@ void Simulation::State::settle() {
   Simulation run(std::move(part), {threads, isa});
   State& r = *run.state_;
   const double g = definition.gravity.norm();
-  double lightest = r.sets.front().mass;
-  for (const ParticleSet& set : r.sets) lightest = std::min(lightest, set.mass);
+  double lightest = r.sets.front().least_mass();
+  for (const ParticleSet& set : r.sets) lightest = std::min(lightest, set.least_mass());
   const double period = static_cast<double>(definition.time.sync) * 1e-9;
   Unbalanced residual;
   double before = 0.0;

@@ -54,9 +54,9 @@ TractionTerm make_term(const TractionDefinition& load, const SimulationDefinitio
   ParticleSet& set = sets[term.set];
   const std::vector<int> axes = axes_of(definition.geometry);
   const auto axis = std::find(axes.begin(), axes.end(), load.face / 2);
-  if (load.face < 0 || axis == axes.end()) {
+  if (axis == axes.end()) {
     throw DefinitionError(fmt::format("traction on '{}': its particles have no face {} in this geometry, {}", load.body,
-                                      load.face, geometry_name(definition.geometry)));
+                                      kWallNames.at(load.face), geometry_name(definition.geometry)));
   }
   term.face = {static_cast<int>(axis - axes.begin()), load.face % 2 == 1};
   term.particles = load.particles.empty() ? outermost_particles(set, layout, term.face) : load.particles;

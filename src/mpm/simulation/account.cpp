@@ -146,7 +146,8 @@ SolverState Simulation::state() const {
   report.energy.plastic = totals.plastic;
   report.min_j = totals.min_j;
   for (const RigidContact* contact : s.contacts) report.energy.contact_work += contact->work();
-  if (s.loads != nullptr) report.energy.load_work = s.loads->work();
+  if (s.loads != nullptr) report.energy.load_work += s.loads->work();
+  if (s.tractions != nullptr) report.energy.load_work += s.tractions->work();
 
   AuditReport& audit = report.audit;
   audit.momentum = s.momentum();

@@ -7,6 +7,7 @@
 
 #include "axial_motion.hpp"
 #include "initial.hpp"
+#include "load_terms.hpp"
 #include "mpm/boundary/again.hpp"
 #include "mpm/boundary/axis.hpp"
 #include "mpm/boundary/wall.hpp"
@@ -131,6 +132,9 @@ void project(SimulationDefinition& definition) {
     for (RigidBodyDefinition& body : definition.rigid_bodies) body.velocity[axis] = Function();
     for (BodyForceDefinition& load : definition.body_forces) load.acceleration[axis] = Function();
     for (ParticleForceDefinition& load : definition.particle_forces) load.force[axis] = Function();
+    for (TractionDefinition& load : definition.tractions) {
+      if (!load.follows) load.value[axis] = Function();
+    }
   }
   for (RigidBodyDefinition& body : definition.rigid_bodies) {
     body.pose = projected(body.pose, geometry, body);
@@ -139,55 +143,6 @@ void project(SimulationDefinition& definition) {
       if (!turns_about(geometry, axis)) body.rotation_rate[axis] = Function();
     }
   }
-}
-
-int find_set(const std::vector<ParticleSet>& sets, const std::string& body, const char* load) {
-  const auto set = std::find_if(sets.begin(), sets.end(), [&](const auto& s) { return s.name == body; });
-  if (set != sets.end()) return static_cast<int>(set - sets.begin());
-  throw DefinitionError(fmt::format("{}: no deformable body is called '{}'; name one of 'bodies'", load, body));
-}
-
-ParticleLoadTerm make_term(const ParticleForceDefinition& load, const std::vector<ParticleSet>& sets) {
-  ParticleLoadTerm term{ParticleLoadTerm::Kind::particle_force,
-                        find_set(sets, load.body, "particle force"),
-                        load.force,
-                        1.0,
-                        load.spread,
-                        {}};
-  const ParticleSet& set = sets[*term.set];
-  auto count = static_cast<double>(set.size());
-  if (!load.particles.empty()) {
-    term.chosen.assign(set.size(), 0);
-    for (const std::uint32_t p : load.particles) {
-      if (p >= term.chosen.size()) {
-        throw DefinitionError(
-            fmt::format("particle force on '{}': it has no particle {}, but {}", load.body, p, set.size()));
-      }
-      term.chosen[p] = 1;
-    }
-    count = static_cast<double>(std::count(term.chosen.begin(), term.chosen.end(), 1));
-  }
-  term.factor = 1.0 / (set.mass * (load.shared ? count : 1.0));
-  return term;
-}
-
-// Sets that a term with X, Y or Z acts on remember where their particles start.
-std::vector<ParticleLoadTerm> make_load_terms(const SimulationDefinition& definition, std::vector<ParticleSet>& sets) {
-  std::vector<ParticleLoadTerm> terms;
-  for (const BodyForceDefinition& load : definition.body_forces) {
-    ParticleLoadTerm term{ParticleLoadTerm::Kind::body_force, std::nullopt, load.acceleration, 1.0, load.spread, {}};
-    if (!load.body.empty()) term.set = find_set(sets, load.body, "body force");
-    terms.push_back(std::move(term));
-  }
-  for (const ParticleForceDefinition& load : definition.particle_forces) terms.push_back(make_term(load, sets));
-  for (const ParticleLoadTerm& term : terms) {
-    const bool uses_start = std::any_of(term.value.begin(), term.value.end(),
-                                        [](const Function& component) { return component.uses_start(); });
-    for (std::size_t s = 0; s < sets.size(); ++s) {
-      if (uses_start && (!term.set || *term.set == static_cast<int>(s))) sets[s].start_x = sets[s].x;
-    }
-  }
-  return terms;
 }
 
 // Not "= {}", which would keep the memory.
@@ -252,6 +207,12 @@ void Simulation::State::add_mechanics() {
     const LoadKernels<T> load_kernels{kernels, kernel_table<T>(ShapeKind::dirac, definition.geometry, isa)};
     auto all = make_particle_loads(load_kernels, sets, laws, terms, threads);
     loads = all.get();
+    stages.push_back(std::move(all));
+  }
+  if (std::vector<TractionTerm> terms = make_traction_terms(definition, sets, grid->layout); !terms.empty()) {
+    const TractionSettings settings{definition.geometry, method.shape, definition.across()};
+    auto all = std::make_unique<FaceTractions>(settings, sets, std::move(terms));
+    tractions = all.get();
     stages.push_back(std::move(all));
   }
   ContinuumSettings settings;

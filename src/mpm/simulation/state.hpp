@@ -7,6 +7,7 @@
 #include "mpm/contact/rigid_contact.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/mechanics/damping.hpp"
+#include "mpm/mechanics/face_tractions.hpp"
 #include "mpm/mechanics/particle_loads.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/step/schedule.hpp"
@@ -52,6 +53,7 @@ struct Simulation::State {
   Stages stages;
   std::vector<RigidContact*> contacts;  ///< of each body, owned by stages
   ParticleLoads* loads = nullptr;       ///< owned by stages, when the scene has any
+  FaceTractions* tractions = nullptr;   ///< the same
   DampingControl* damping = nullptr;    ///< the same
 
   std::int64_t time = 0;  ///< [ns]

@@ -2,7 +2,7 @@
 //
 // fixed: no velocity. slip: no velocity along the normal, in or out. frictional: Coulomb contact, lets go.
 // Two walls that meet act one after the other; as their normals are orthogonal neither undoes the other. Contact may: a
-// wall that always holds acts before it and, as WallAgain, after it.
+// wall that always holds acts before it and again after it (again.hpp).
 // Source: Nairn, GIMP notes (3.1)-(3.11): a condition replaces the momentum along one direction, force and momentum
 // alike.
 #pragma once
@@ -53,22 +53,6 @@ class Wall final : public Stage {
   std::vector<Node> nodes_;
   HeldNodes held_;                ///< frictional only
   std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
-};
-
-/// The same wall once more in a step, after stages that may have pushed its nodes through it.
-class WallAgain final : public Stage {
- public:
-  explicit WallAgain(Wall& wall) : wall_(wall) {}
-
-  void before_strain(StepContext& context) override { wall_.before_strain(context); }
-  void momentum_updated(StepContext& context) override { wall_.momentum_updated(context); }
-  void velocity_found(StepContext& context, NodalField& velocity) override { wall_.velocity_found(context, velocity); }
-  void increment_found(StepContext& context, NodalField& increment) override {
-    wall_.increment_found(context, increment);
-  }
-
- private:
-  Wall& wall_;
 };
 
 }  // namespace mpm

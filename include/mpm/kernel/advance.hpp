@@ -4,15 +4,17 @@
 // kIncrement   velocity gains a dt, less the slip that the PIC fraction takes away. GIMP notes (2.15), (2.16).
 // kAdopt       velocity becomes the grid's; x += (V^n + V^{n+1}) dt / 2. Method reference 6.6 (XPIC, FMPM).
 // kAffine      velocity becomes the grid's; x += V^{n+1} dt, without which angular momentum is not kept.
-// Damped: less (alpha_g v0 + alpha_p V^n) dt, v0 the grid's velocity before the step, or of what is adopted that one;
-// GIMP notes (2.31)-(2.34), method reference 6.6.
+// About an axis (Rings) the displacement gains what moves a particle by the grid's velocity at its place in place of
+// the mean one in its domain (AxisMotion::point): method reference 3.5. Damped: less (alpha_g v0 + alpha_p V^n) dt, v0
+// the grid's velocity before the step, or of what is adopted that one; GIMP notes (2.31)-(2.34), method reference 6.6.
 #pragma once
 
+#include "mpm/kernel/chunks.hpp"
 #include "mpm/kernel/weights.hpp"
 
 namespace mpm {
 
-template <class T, int Dim, mpm_kernel::Motion Kind, bool Damped>
+template <class T, int Dim, mpm_kernel::Motion Kind, bool Damped, bool Rings = false>
 class Advance {
   using W = Wide<T>;
 
@@ -25,20 +27,28 @@ class Advance {
         rate_{W(settings.grid_damping), W(settings.particle_damping)} {}
 
   /// Component c of particles [p, p + lanes), of which the grid says velocity and acceleration. Moves them; returns
-  /// their displacement [m].
-  W particles(int c, int p, int lanes, W grid_velocity, W acceleration) {
+  /// their displacement [m]. `beside`: of rings, a displacement that comes to the velocity's.
+  W particles(int c, int p, int lanes, W grid_velocity, W acceleration, W beside = W(0.0)) {
     W velocity = W::load_first(set_.v[c] + p, lanes);
-    const W displacement = advance(c, p, lanes, grid_velocity, acceleration, velocity);
+    W displacement = advance(c, p, lanes, grid_velocity, acceleration, velocity);
+    if constexpr (Rings) displacement += beside;
     velocity.store_first(set_.v[c] + p, lanes);
     W::B::displace(set_.next_x[c] + p, set_.x[c] + p, displacement.v, lanes);
     return displacement;
   }
 
+  /// What moves rings by the grid's motion at their places: displacement beside that by the mean motion in their
+  /// domains, of which the arguments are the differences.
+  W to_point(W velocity, W acceleration) const {
+    return dt_ * (Kind == mpm_kernel::kIncrement ? velocity - half_dt_ * acceleration : velocity);
+  }
+
   void add_to(mpm_kernel::Moved& moved) const {
     if constexpr (Damped) {
-      for (int c = 0; c < Dim; ++c) moved.drag[c] += total(drag_[c]) * set_.mass;
-      moved.grid_kinetic += 0.5 * total(grid_square_) * set_.mass;
-      moved.particle_kinetic += 0.5 * total(own_square_) * set_.mass;
+      const double mass = Rings ? 1.0 : set_.mass;  // rings have been weighed one by one
+      for (int c = 0; c < Dim; ++c) moved.drag[c] += total(drag_[c]) * mass;
+      moved.grid_kinetic += 0.5 * total(grid_square_) * mass;
+      moved.particle_kinetic += 0.5 * total(own_square_) * mass;
     }
   }
 
@@ -69,9 +79,12 @@ class Advance {
     const W on_own = of_place[1] == nullptr ? rate_[1] : W(W::B::place(of_place[1] + p, lanes, 0.0, 1.0, 0.0));
     const W drag = on_grid * grid_velocity + on_own * own;
     const auto there = WideMask<T>::first(lanes);
-    drag_[c] += select(there, drag * dt_, W(0.0));
-    grid_square_ += select(there, grid_velocity * grid_velocity, W(0.0));
-    own_square_ += select(there, own * own, W(0.0));
+    W weight(1.0);
+    if constexpr (Rings) weight = mass_of<true>(set_, p, lanes);
+    const auto weigh = [&](W x) { return select(there, Rings ? weight * x : x, W(0.0)); };
+    drag_[c] += weigh(drag * dt_);
+    grid_square_ += weigh(grid_velocity * grid_velocity);
+    own_square_ += weigh(own * own);
     return drag;
   }
 

@@ -37,7 +37,7 @@ void second_moment(const Frame& frame, int q, T (&d)[Dim][Dim]) {
   }
   for (int a = 0; a < Points; ++a) {
     const CellPoint<T, Dim> at = frame.point(a, q);
-    const T weight = frame.weight(a);
+    const T weight = frame.weight(a, q);
     // Of the hat functions at a point the mean place is the point, the variance f (1 - f) of a cell squared.
     T offset[Dim];
     for (int c = 0; c < Dim; ++c) {
@@ -59,17 +59,18 @@ void spread_affine(const Frame& frame, int q, typename PointVectors<T>::Four val
   T inverse[Dim][Dim];
   second_moment<Dim, Points>(frame, q, inverse);
   invert_symmetric<T, Dim>(inverse);
+  const T mass = value[Dim];
   typename V::Four column[Dim] = {};  // m B D^-1
   for (int k = 0; k < Dim; ++k) {
     for (int c = 0; c < Dim; ++c) {
       T sum = 0;
       for (int m = 0; m < Dim; ++m) sum += set.affine[c * Dim + m][p] / frame.cell(m) * inverse[m][k];
-      column[k][c] = static_cast<T>(set.mass) * sum / frame.cell(k);
+      column[k][c] = mass * sum / frame.cell(k);
     }
   }
   for (int a = 0; a < Points; ++a) {
     const CellPoint<T, Dim> at = frame.point(a, q);
-    const T along = at.along[Dim - 1], arm = frame.arm(a, Dim - 1, q), weight = frame.weight(a);
+    const T along = at.along[Dim - 1], arm = frame.arm(a, Dim - 1, q), weight = frame.weight(a, q);
     at.each_pair([&](int node, T of_pair, int i, int j) {
       typename V::Four base = value;
       if constexpr (Dim > 1) base += (frame.arm(a, 0, q) + static_cast<T>(i) * frame.cell(0)) * column[0];
@@ -87,7 +88,7 @@ void gather_affine(const Frame& frame, int q, const PointTile<T, Dim>& velocity,
   typename V::Four b[Dim] = {};  // by axis
   for (int a = 0; a < Points; ++a) {
     const CellPoint<T, Dim> at = frame.point(a, q);
-    const T along = at.along[Dim - 1], arm = frame.arm(a, Dim - 1, q), weight = frame.weight(a);
+    const T along = at.along[Dim - 1], arm = frame.arm(a, Dim - 1, q), weight = frame.weight(a, q);
     at.each_pair([&](int node, T of_pair, int i, int j) {
       const auto pair = V::load(velocity.nodes + 4 * node);
       const auto low = weight * of_pair * (T(1) - along) * V::lower(pair);

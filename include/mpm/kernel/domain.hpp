@@ -6,6 +6,8 @@
 // end).
 #pragma once
 
+#include <type_traits>
+
 #include "mpm/kernel/point_tile.hpp"
 #include "mpm/kernel/wide_math.hpp"
 
@@ -21,6 +23,7 @@ class Domains {
   using Set = mpm_kernel::SetView<T>;
   static constexpr int kPoints = Points<Dim>::kPoints;
   static constexpr int kRoom = kDomainChunk + 16;  // and what the last register writes beyond it
+  static constexpr bool kRings = Points<Dim>::kAxisymmetric;
 
  public:
   Domains(const mpm_kernel::GridView& grid, const BlockView& block, const Set& set) : set_(set) {
@@ -30,6 +33,11 @@ class Domains {
       corner_[k] = block.corner[k];
       half_[k] = W(set.half[k] / grid.inverse_cell[k]);
     }
+    if constexpr (kRings) {
+      first_radius_ = corner_[0] + origin_[0] * inverse_cell_[0];
+      planar_ = set.planar_functions;
+      fitted_ = !set.whole_domains && !planar_;
+    }
   }
 
   /// Of particles [first, first + count).
@@ -38,8 +46,12 @@ class Domains {
       W d[Dim][Dim], offset[kPoints][Dim], gradient[kPoints][Dim];
       vectors(first + q, count - q, d);
       Points<Dim>::offsets(d, offset);
-      Points<Dim>::gradients(d, gradient);
       for (int c = 0; c < Dim; ++c) place(c, first + q, count - q).store(place_[c] + q);
+      if constexpr (kRings) {
+        weigh_rings(q, d, offset, gradient);
+      } else {
+        Points<Dim>::gradients(d, gradient);
+      }
       for (int a = 0; a < kPoints; ++a) {
         W number(0.0);
         for (int c = 0; c < Dim; ++c) {
@@ -64,13 +76,31 @@ class Domains {
     return at;
   }
   W cells(int c, int q) const { return W::load(place_[c] + q); }  ///< where particles are in the tile
-  T weight(int a) const { return static_cast<T>(Points<Dim>::weight(a)); }
+  /// The cell of the particle itself.
+  CellPoint<T, Dim> centre(int q) const {
+    CellPoint<T, Dim> at{0, {}};
+    for (int c = 0; c < Dim; ++c) {
+      const int cell = static_cast<int>(place_[c][q]);
+      at.along[c] = place_[c][q] - static_cast<T>(cell);
+      at.node = at.node * kTileEdge + cell;
+    }
+    return at;
+  }
+  T weight(int a, int q) const {
+    if constexpr (kRings) return ring_.weight[a][q];
+    return static_cast<T>(Points<Dim>::weight(a));
+  }
+  /// Of rings, what makes v_r / r of the points' v_r [1/m].
+  T hoop(int a, int q) const { return static_cast<T>(Points<Dim>::weight(a)) * ring_.per_radius[q]; }
   T gradient(int a, int c, int q) const { return gradient_[a][c][q]; }  ///< [1/m]
   T cell(int c) const { return static_cast<T>(1.0 / inverse_cell_[c]); }
-  /// From the particle to the lower corner of the cell of point a along axis c [m].
+  /// From the particle (of rings from the mean place of its values) to the lower corner of the cell of point a along
+  /// axis c [m].
   T arm(int a, int c, int q) const {
     const int node = node_[a][q] / kStride[Dim - 1 - c] % kTileEdge;
-    return (static_cast<T>(node) - place_[c][q]) * cell(c);
+    const T arm = (static_cast<T>(node) - place_[c][q]) * cell(c);
+    if constexpr (kRings) return arm - ring_.mean[c][q];
+    return arm;
   }
 
   /// Whether points of particles [first, first + count) lie outside the tile, where particles are and with the domains
@@ -108,11 +138,43 @@ class Domains {
       }
       reach = max(reach, along);
     }
-    const W scale = W(kDomainReach) / max(reach, W(kDomainReach));
+    W scale = W(kDomainReach) / max(reach, W(kDomainReach));
+    if constexpr (kRings) {
+      if (fitted_) {
+        const W radius = max(place(0, p, count) + W(first_radius_), W(kLeastRadius)) * W(1.0 / inverse_cell_[0]);
+        scale = min(scale, radius / (abs(d[0][0]) + abs(d[1][0])));
+      }
+    }
     for (auto& vector : d) {
       for (W& component : vector) component *= scale;
     }
   }
+  // Weights, gradients and the rest of rings at places q to q + kLanes of the chunk.
+  void weigh_rings(int q, const W (&d)[Dim][Dim], const W (&offset)[kPoints][Dim], W (&gradient)[kPoints][Dim]) {
+    const W radius = max(W::load(place_[0] + q) + W(first_radius_), W(kLeastRadius)) * W(1.0 / inverse_cell_[0]);
+    W weight[kPoints];
+    if (planar_) {
+      Points<Dim>::gradients(d, gradient);
+      for (int a = 0; a < kPoints; ++a) weight[a] = W(Points<Dim>::weight(a));
+    } else {
+      Points<Dim>::radial(d, radius, weight, gradient);
+    }
+    (W(1.0) / radius).store(ring_.per_radius + q);
+    for (int a = 0; a < kPoints; ++a) weight[a].store(ring_.weight[a] + q);
+    for (int c = 0; c < Dim; ++c) {
+      W mean(0.0);
+      for (int a = 0; a < kPoints; ++a) mean += weight[a] * offset[a][c];
+      mean.store(ring_.mean[c] + q);
+    }
+  }
+
+  static constexpr double kLeastRadius = 1e-4;  ///< of a particle that all but lies on the axis [cells]
+  struct Ring {
+    alignas(64) T weight[kPoints][kRoom];
+    alignas(64) T per_radius[kRoom];  ///< [1/m]
+    alignas(64) T mean[Dim][kRoom];   ///< place of the values from the particle [m]
+  };
+  struct Nothing {};
 
   static constexpr int kStride[3] = {1, kTileEdge, kTileEdge* kTileEdge};
   const Set& set_;
@@ -122,6 +184,9 @@ class Domains {
   alignas(64) T along_[kPoints][Dim][kRoom];
   alignas(64) T gradient_[kPoints][Dim][kRoom];
   alignas(64) int node_[kPoints][kRoom];
+  std::conditional_t<kRings, Ring, Nothing> ring_;
+  double first_radius_ = 0.0;  ///< of the tile's first nodes [cells]
+  bool fitted_ = false, planar_ = false;
 };
 
 }  // namespace mpm

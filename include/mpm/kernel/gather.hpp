@@ -74,6 +74,7 @@ struct LaneWeights {
   using W = Wide<T>;
   static constexpr int kNodes = Shape<W>::kNodes;
   W s[Dim][kNodes], g[Dim][kNodes];
+  W t[Shape<W>::kAxisymmetric ? kNodes : 1];  ///< of an axisymmetric shape function
   W here = W(1.0);  ///< of a line, which has no axis across its only row: 0 where a lane is of another part
   LaneWeights(const Weights<T, Dim, Shape>& w, int q) {
     for (int k = 0; k < Dim; ++k) {
@@ -82,12 +83,16 @@ struct LaneWeights {
         g[k][n] = W::load(w.g[k][n] + q);
       }
     }
+    if constexpr (Shape<W>::kAxisymmetric) {
+      for (int n = 0; n < kNodes; ++n) t[n] = W::load(w.t[n] + q);
+    }
   }
   /// Zero where a lane is not in `which`.
   void keep(WideMask<T> which) {
     for (int n = 0; n < kNodes; ++n) {
       s[0][n] = select(which, s[0][n], W(0.0));
       g[0][n] = select(which, g[0][n], W(0.0));
+      if constexpr (Shape<W>::kAxisymmetric) t[n] = select(which, t[n], W(0.0));
     }
     if constexpr (Dim == 1) here = select(which, here, W(0.0));
   }
@@ -158,6 +163,12 @@ class Gather {
       W across = w.across(i, j);
       for (int c = 0; c < Fields; ++c) sum[c] += across * sum_of_s(w, reader.read(tile.rows[c][r]));
     });
+  }
+
+  /// sum += component `c` of the tile by what stands in HoopWeights in place of the radial values.
+  template <class Tile, class Reader>
+  static void by_hoop(const Tile& tile, int c, const Reader& reader, int row, const Lanes& w, W& sum) {
+    each_row(row, [&](int r, int i, int) { sum += w.t[i] * sum_of_s(w, reader.read(tile.rows[c][r])); });
   }
 
  private:

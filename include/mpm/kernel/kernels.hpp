@@ -64,17 +64,18 @@ struct LawKernels;
 /// The particles of one body.
 template <class T>
 struct SetView {
-  const std::uint32_t* group;        ///< first particle of each group, and one past the last
-  const std::uint32_t* group_begin;  ///< first group of each owner, and one past the last
-  double mass;                       ///< of a particle [kg]
-  const T* masses;                   ///< of each, where a particle is a ring about the axis [kg]
-  double half[3];                    ///< half of its box [cells]
-  double lowest[3], highest[3];      ///< where a centre may be [cells]
-  const double* x[3];                ///< [m]
-  double* next_x[3];                 ///< where `move` puts it; may be x
-  T* v[3];                           ///< [m/s]
-  T* f[9];                           ///< deformation gradient
-  T* tau[6];                         ///< Kirchhoff stress over initial density [J/kg]
+  const std::uint32_t* group;            ///< first particle of each group, and one past the last
+  const std::uint32_t* group_begin;      ///< first group of each owner, and one past the last
+  double mass;                           ///< of a particle [kg]
+  const T* masses;                       ///< of each, where a particle is a ring about the axis [kg]
+  double half[3];                        ///< half of its box [cells]
+  bool whole_domains, planar_functions;  ///< about an axis: AxisRules (shape/axis_rules.hpp)
+  double lowest[3], highest[3];          ///< where a centre may be [cells]
+  const double* x[3];                    ///< [m]
+  double* next_x[3];                     ///< where `move` puts it; may be x
+  T* v[3];                               ///< [m/s]
+  T* f[9];                               ///< deformation gradient
+  T* tau[6];                             ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
   T* domain[9];           ///< F in the grid's axes (of a stretching box: its diagonal) as the step began
   T* affine[9];           ///< APIC: B, sum of S v_c (x_i - x_p)_k, [component][axis] [m^2/s]
@@ -96,6 +97,7 @@ struct MoveSettings {
   double dt;                      ///< [s]
   double flip;                    ///< FLIP fraction
   bool regather;                  ///< the new momentum goes to the grid
+  bool by_point = false;          ///< about an axis: AxisMotion::point
   double grid_damping = 0.0;      ///< rate on the grid's velocity at the particle, where it is constant [1/s]
   double particle_damping = 0.0;  ///< rate on the particle's own velocity [1/s]
 };

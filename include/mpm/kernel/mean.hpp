@@ -4,7 +4,7 @@
 // mean stress that makes forces A p. A is self-adjoint in the particles' masses, so forces and strains stay conjugate:
 // the work of the one is the energy of the other.
 //
-// Traces and means are over the grid's axes, so that plane strain stays plane.
+// Traces and means are over the grid's axes, so that plane strain stays plane; of rings, over the hoop direction too.
 // Weak: two more passes for each strain and each force; pressures are less sharp.
 // Source: nodal averaging of volume changes, Bonet & Burton (1998); the adjoint for the force is ours.
 #pragma once
@@ -14,32 +14,35 @@
 
 namespace mpm {
 
-template <class T, int Dim>
+template <class T, int Dim, bool Rings = false>
 struct Mean {
   using W = Wide<T>;
+  static constexpr double kPart = 1.0 / (Dim + (Rings ? 1 : 0));
 
   /// tr(grad v), of a register of particles at place q of a chunk.
   static W dilatation(const mpm_kernel::ChunkGradients<T>& gradients, int q) {
     W trace(0.0);
     for (int k = 0; k < Dim; ++k) trace += W::load(gradients.l[k * (Dim + 1)] + q);
+    if constexpr (Rings) trace += W::load(gradients.l[mpm_kernel::kHoopGradient] + q);
     return trace;
   }
   static void set_dilatation(mpm_kernel::ChunkGradients<T>& gradients, int q, W wanted) {
-    const W change = (wanted - dilatation(gradients, q)) * W(1.0 / Dim);
-    for (int k = 0; k < Dim; ++k) {
-      T* const to = gradients.l[k * (Dim + 1)] + q;
-      (W::load(to) + change).store(to);
-    }
+    const W change = (wanted - dilatation(gradients, q)) * W(kPart);
+    const auto add = [&](T* to) { (W::load(to) + change).store(to); };
+    for (int k = 0; k < Dim; ++k) add(gradients.l[k * (Dim + 1)] + q);
+    if constexpr (Rings) add(gradients.l[mpm_kernel::kHoopGradient] + q);
   }
   /// -m times the mean stress, of one particle.
   static T mean(const mpm_kernel::ChunkStresses<T>& stresses, int q) {
     T sum = 0;
     for (int k = 0; k < Dim; ++k) sum += stresses.column[k][4 * q + k];
-    return sum * static_cast<T>(1.0 / Dim);
+    if constexpr (Rings) sum += stresses.column[mpm_kernel::kHoopColumn][4 * q];
+    return sum * static_cast<T>(kPart);
   }
   static void set_mean(mpm_kernel::ChunkStresses<T>& stresses, int q, T wanted) {
     const T change = wanted - mean(stresses, q);
     for (int k = 0; k < Dim; ++k) stresses.column[k][4 * q + k] += change;
+    if constexpr (Rings) stresses.column[mpm_kernel::kHoopColumn][4 * q] += change;
   }
 };
 

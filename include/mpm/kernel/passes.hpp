@@ -16,6 +16,8 @@ template <int Dim, template <class> class Shape, class T>
 class Passes {
   static constexpr int kDim = Dim;
   static constexpr int kNodes = Shape<Wide<T>>::kNodes;
+  static constexpr bool kRings = Shape<Wide<T>>::kAxisymmetric;
+  static_assert(!kRings || Dim == 2);
   using W = Wide<T>;
   using AllWeights = Weights<T, kDim, Shape>;
   using Frame = WeightFrame<T, kDim, Shape>;
@@ -23,6 +25,7 @@ class Passes {
   using Scatters = Scatter<T, kDim, Shape>;
   using Values = typename Scatters::Values;
   using Set = SetView<T>;
+  using Means = Mean<T, Dim, kRings>;
 
  public:
   static constexpr mpm_kernel::KernelTable<T> table() {
@@ -76,7 +79,11 @@ class Passes {
       const Set set = sets[s];
       scatter_values(grid, block, set, tile, [&](Values& values, int q, int p, int lanes) {
         W force[3] = {W(0.0), W(0.0), W(0.0)};
-        for (int c = 0; c < kDim; ++c) force[c] = W(W::B::place(set.load[c] + p, lanes, 0.0, set.mass, 0.0));
+        const double mass = kRings ? 1.0 : set.mass;
+        for (int c = 0; c < kDim; ++c) {
+          force[c] = W(W::B::place(set.load[c] + p, lanes, 0.0, mass, 0.0));
+          if constexpr (kRings) force[c] *= mass_of<true>(set, p, lanes);
+        }
         values.set(q, force[0], force[1], force[2], W(0.0));
       });
     }
@@ -108,7 +115,7 @@ class Passes {
           alignas(64) T mean[kBuffer];
           gather_scalar(dilatation, w, set, first, g, g_end, mean);
           for (int q = 0; q < particles; q += W::kLanes) {
-            Mean<T, kDim>::set_dilatation(gradients, q, W::load(mean + q));
+            Means::set_dilatation(gradients, q, W::load(mean + q));
           }
         }
         const int bad = set.law_kernels->update(sets[s], first, particles, gradients, settings,
@@ -141,7 +148,8 @@ class Passes {
           alignas(64) T mean[kBuffer];
           gather_scalar(means, w, set, first, g, g_end, mean);
           for (int q = 0; q < particles; ++q) {
-            Mean<T, kDim>::set_mean(stresses, q, static_cast<T>(-set.mass) * mean[q]);
+            const T mass = kRings ? set.masses[first + q] : static_cast<T>(set.mass);
+            Means::set_mean(stresses, q, -mass * mean[q]);
           }
         }
         Scatters::scatter(w, stresses, particles, tile.data());
@@ -165,18 +173,17 @@ class Passes {
       if (absent(sets[s], block)) continue;
       const Set set = sets[s];
       const Frame frame(grid, block, set);
-      const W mass(set.mass);
       each_chunk(set, block.owner, [&](int first, int g, int g_end) {
         const int particles = static_cast<int>(set.group[g_end]) - first;
         w.template fill<OfStress ? Beside::nothing : Beside::gradient>(frame, first, particles);
         alignas(64) T mean[kBuffer] = {};
         if constexpr (OfStress) {
           set.law_kernels->columns(sets[s], first, particles, stresses);
-          for (int q = 0; q < particles; ++q) mean[q] = -Mean<T, kDim>::mean(stresses, q);
+          for (int q = 0; q < particles; ++q) mean[q] = -Means::mean(stresses, q);
         } else {
           gather_gradients(velocity, w, set, first, g, g_end, gradients);
           for (int q = 0; q < particles; q += W::kLanes) {
-            (mass * Mean<T, kDim>::dilatation(gradients, q)).store(mean + q);
+            (mass_of<kRings>(set, first + q, particles - q) * Means::dilatation(gradients, q)).store(mean + q);
           }
         }
         for (int q = 0; q < particles; q += W::kLanes) {
@@ -203,13 +210,14 @@ class Passes {
     AllWeights w;
     Values values;
     alignas(64) T gathered[kFields][kBuffer];
+    alignas(64) T beside[kRings ? kBuffer : 1];
     mpm_kernel::Moved moved{false, false, 0, 0};
     for (int s = 0; s < count; ++s) {
       if (absent(sets[s], block)) continue;
       const Set set = sets[s];
       const Frame frame(grid, block, set);
       const Reach<T, kDim, kNodes> reach(grid, block, set);
-      Advance<T, kDim, Kind, Damped> advance(set, settings);
+      Advance<T, kDim, Kind, Damped, kRings> advance(set, settings);
       WideMask<T> inside = reach.everywhere(), tight = inside;
       each_chunk(set, block.owner, [&](int first, int g, int g_end) {
         const int particles = static_cast<int>(set.group[g_end]) - first;
@@ -222,6 +230,16 @@ class Passes {
             Gathers::values(motion, reader, row, weights, sum);
           });
           for (int c = 0; c < kFields; ++c) sum[c].store(gathered[c] + q);
+          if constexpr (kRings) {
+            W of_point(0.0);
+            if (settings.by_point) {
+              const W velocity = by_hoop(motion, w, 0, q, lanes) - sum[0];
+              const W acceleration =
+                  kFields > kDim ? by_hoop(motion, w, kFields - kDim, q, lanes) - sum[kFields - kDim] : W(0.0);
+              of_point = advance.to_point(velocity, acceleration);
+            }
+            of_point.store(beside + q);
+          }
           if constexpr (Kind == mpm_kernel::kAffine) {
             W b[kDim][kDim];
             gather_gradient(motion, w, q, lanes, b);
@@ -235,7 +253,13 @@ class Passes {
           for (int c = 0; c < kDim; ++c) {
             const W velocity = W::load(gathered[c] + q);
             const W acceleration = kFields > kDim ? W::load(gathered[(kFields - kDim) + c] + q) : W(0.0);
-            const W displacement = advance.particles(c, p, lanes, velocity, acceleration);
+            W displacement;
+            if constexpr (kRings) {
+              const W of_point = c == 0 ? W::load(beside + q) : W(0.0);
+              displacement = advance.particles(c, p, lanes, velocity, acceleration, of_point);
+            } else {
+              displacement = advance.particles(c, p, lanes, velocity, acceleration);
+            }
             reach.check(c, W::load(w.cells[c] + q), displacement, lanes, inside, tight);
           }
           if (settings.regather) put_momentum(set, values, q, p, lanes);
@@ -268,7 +292,6 @@ class Passes {
       if (absent(sets[s], block)) continue;
       const Set set = sets[s];
       const Frame frame(grid, block, set);
-      const W mass(set.mass);
       each_chunk(set, block.owner, [&](int first, int g, int g_end) {
         const int particles = static_cast<int>(set.group[g_end]) - first;
         w.template fill<Beside::nothing>(frame, first, particles);
@@ -281,6 +304,7 @@ class Passes {
           for (int c = 0; c < kDim; ++c) sum[c].store(gathered[c] + q);
         });
         for (int q = 0; q < particles; q += W::kLanes) {
+          const W mass = mass_of<kRings>(set, first + q, particles - q);
           values.set(q, mass * W::load(gathered[0] + q), mass * W::load(gathered[1] + q),
                      mass * W::load(gathered[2] + q), W(0.0));
         }
@@ -317,7 +341,17 @@ class Passes {
       for (int c = 0; c < kDim; ++c) {
         for (int k = 0; k < kDim; ++k) l[c][k].store(gradients.l[c * kDim + k] + q);
       }
+      if constexpr (kRings) by_hoop(tile, w, 0, q, lanes).store(gradients.l[mpm_kernel::kHoopGradient] + q);
     });
+  }
+  // Component `c` of the tile by what stands in HoopWeights.
+  template <class Tile>
+  static W by_hoop(const Tile& tile, const AllWeights& w, int c, int q, int lanes) {
+    W sum(0.0);
+    Gathers::each_part(w, q, lanes, [&](const auto& reader, int row, const auto& weights) {
+      Gathers::by_hoop(tile, c, reader, row, weights, sum);
+    });
+    return sum;
   }
   // A scalar field at a chunk's particles.
   static void gather_scalar(const GatherTile<T, kDim, 1>& tile, const AllWeights& w, const Set& set, int first, int g,
@@ -333,7 +367,7 @@ class Passes {
 
   // m v, and m as the component after them.
   static void put_momentum(const Set& set, Values& values, int q, int p, int lanes) {
-    const W mass(set.mass);
+    const W mass = mass_of<kRings>(set, p, lanes);
     W momentum[3] = {mass, mass, mass};
     for (int c = 0; c < kDim; ++c) momentum[c] = mass * W::load_first(set.v[c] + p, lanes);
     values.set(q, momentum[0], momentum[1], momentum[2], mass);
@@ -343,13 +377,13 @@ class Passes {
   // columns of m B go by D^-1 (x_i - x_p) S.
   static void scatter_affine(const GridView& grid, const BlockView& block, const Set& set, ScatterTile<T, kDim>& tile) {
     const Frame frame(grid, block, set);
-    const W mass(set.mass);
     AllWeights w;
     mpm_kernel::ChunkStresses<T> columns;
     each_chunk(set, block.owner, [&](int first, int, int g_end) {
       const int particles = static_cast<int>(set.group[g_end]) - first;
       w.template fill<Beside::affine>(frame, first, particles);
       for (int q = 0; q < particles; q += W::kLanes) {
+        const W mass = mass_of<kRings>(set, first + q, particles - q);
         for (int k = 0; k < kDim; ++k) {
           W four[4] = {W(0.0), W(0.0), W(0.0), W(0.0)};
           for (int c = 0; c < kDim; ++c) {
@@ -358,7 +392,7 @@ class Passes {
           interleave(columns.column[k] + 4 * q, four[0], four[1], four[2], four[3]);
         }
       }
-      Scatters::scatter(w, columns, particles, tile.data());
+      Scatters::template scatter<false>(w, columns, particles, tile.data());
     });
   }
 
@@ -378,6 +412,12 @@ class Passes {
     });
   }
 };
+
+/// Of an axisymmetric shape function, in the place of two axes.
+template <template <class> class Shape>
+constexpr mpm_kernel::PassFamily axisymmetric_passes_of() {
+  return {{{}, Passes<2, Shape, double>::table(), {}}, {{}, Passes<2, Shape, float>::table(), {}}};
+}
 
 /// Of a shape function, for each number of axes and either precision.
 template <template <class> class Shape>

@@ -21,12 +21,14 @@ template <int Dim, template <int> class Points, class T>
 class PointPasses {
   static constexpr int kPoints = Points<Dim>::kPoints;
   static constexpr int kRoom = kDomainChunk + 16;
+  static constexpr bool kRings = Points<Dim>::kAxisymmetric;
   using W = Wide<T>;
   using Set = SetView<T>;
   using Vectors = PointVectors<T>;
   using Four = typename Vectors::Four;
   using Frame = Domains<T, Dim, Points>;
   using Tile = ScatterTile<T, Dim>;
+  using Means = Mean<T, Dim, kRings>;
 
  public:
   static constexpr mpm_kernel::KernelTable<T> table() {
@@ -67,16 +69,18 @@ class PointPasses {
     }
   }
 
+  static T mass_at(const Set& set, int p) { return kRings ? set.masses[p] : static_cast<T>(set.mass); }
   // m v, and m as the component after them.
   static Four momentum_of(const Set& set, int p) {
+    const T mass = mass_at(set, p);
     Four value{};
-    for (int c = 0; c < Dim; ++c) value[c] = static_cast<T>(set.mass) * set.v[c][p];
-    value[Dim] = static_cast<T>(set.mass);
+    for (int c = 0; c < Dim; ++c) value[c] = mass * set.v[c][p];
+    value[Dim] = mass;
     return value;
   }
 
   static void spread_all(const Frame& frame, int q, Four value, Tile& tile) {
-    for (int a = 0; a < kPoints; ++a) spread(frame.point(a, q), frame.weight(a) * value, tile.data());
+    for (int a = 0; a < kPoints; ++a) spread(frame.point(a, q), frame.weight(a, q) * value, tile.data());
   }
 
   static void put_momentum(const Frame& frame, const Set& set, int p, int q, bool affine, Tile& tile) {
@@ -114,7 +118,8 @@ class PointPasses {
       frame.fill(first, particles);
       for (int q = 0; q < particles; ++q) {
         Four force{};
-        for (int c = 0; c < Dim; ++c) force[c] = static_cast<T>(set.mass * set.load[c][first + q]);
+        const double mass = kRings ? static_cast<double>(set.masses[first + q]) : set.mass;
+        for (int c = 0; c < Dim; ++c) force[c] = static_cast<T>(mass * set.load[c][first + q]);
         spread_all(frame, q, force, tile);
       }
     });
@@ -139,7 +144,7 @@ class PointPasses {
       if (settings.dilatation != nullptr) {
         alignas(64) T mean[kRoom] = {};
         for (int q = 0; q < particles; ++q) mean[q] = gather(frame, dilatation, q)[0];
-        for (int q = 0; q < particles; q += W::kLanes) Mean<T, Dim>::set_dilatation(gradients, q, W::load(mean + q));
+        for (int q = 0; q < particles; q += W::kLanes) Means::set_dilatation(gradients, q, W::load(mean + q));
       }
       const int bad =
           set.law_kernels->update(set, first, particles, gradients, settings, settings.and_force ? &stresses : nullptr);
@@ -154,10 +159,13 @@ class PointPasses {
                                mpm_kernel::ChunkGradients<T>& gradients) {
     for (int q = 0; q < particles; ++q) {
       Four by_axis[Dim] = {};  // d v / d x_k
+      T hoop = 0;
       for (int a = 0; a < kPoints; ++a) {
         const Four v = velocity.at(frame.point(a, q));
         for (int k = 0; k < Dim; ++k) by_axis[k] += frame.gradient(a, k, q) * v;
+        if constexpr (kRings) hoop += frame.hoop(a, q) * v[0];
       }
+      if constexpr (kRings) gradients.l[mpm_kernel::kHoopGradient][q] = hoop;
       for (int c = 0; c < Dim; ++c) {
         for (int k = 0; k < Dim; ++k) gradients.l[c * Dim + k][q] = by_axis[k][c];
       }
@@ -165,7 +173,7 @@ class PointPasses {
   }
   static Four gather(const Frame& frame, const PointTile<T, Dim>& tile, int q) {
     Four sum{};
-    for (int a = 0; a < kPoints; ++a) sum += frame.weight(a) * tile.at(frame.point(a, q));
+    for (int a = 0; a < kPoints; ++a) sum += frame.weight(a, q) * tile.at(frame.point(a, q));
     return sum;
   }
 
@@ -180,7 +188,7 @@ class PointPasses {
       frame.fill(first, particles);
       set.law_kernels->columns(set, first, particles, stresses);
       for (int q = 0; pressure != nullptr && q < particles; ++q) {
-        Mean<T, Dim>::set_mean(stresses, q, static_cast<T>(-set.mass) * gather(frame, means, q)[0]);
+        Means::set_mean(stresses, q, -mass_at(set, first + q) * gather(frame, means, q)[0]);
       }
       spread_stresses(frame, stresses, particles, tile);
     });
@@ -206,11 +214,12 @@ class PointPasses {
       for (int q = 0; q < particles; ++q) {
         Four value{};
         if constexpr (OfStress) {
-          value[0] = -Mean<T, Dim>::mean(stresses, q);
+          value[0] = -Means::mean(stresses, q);
         } else {
           T trace = 0;
           for (int k = 0; k < Dim; ++k) trace += gradients.l[k * (Dim + 1)][q];
-          value[0] = static_cast<T>(set.mass) * trace;
+          if constexpr (kRings) trace += gradients.l[mpm_kernel::kHoopGradient][q];
+          value[0] = mass_at(set, first + q) * trace;
         }
         spread_all(frame, q, value, tile);
       }
@@ -226,6 +235,7 @@ class PointPasses {
       for (int a = 0; a < kPoints; ++a) {
         Four f{};
         for (int k = 0; k < Dim; ++k) f += frame.gradient(a, k, q) * column[k];
+        if constexpr (kRings) f[0] += frame.hoop(a, q) * stresses.column[mpm_kernel::kHoopColumn][4 * q];
         spread(frame.point(a, q), f, tile.data());
       }
     }
@@ -244,30 +254,42 @@ class PointPasses {
     Tile momentum;
     if (settings.regather) momentum.clear(block);
     alignas(64) T gathered[2 * Dim][kRoom] = {};
+    alignas(64) T to_point[kRings ? 2 : 1][kRoom] = {};  // of rings, radial velocity and acceleration
     mpm_kernel::Moved moved{false, false, 0, 0};
     each(grid, block, sets, count, [&](const Set& set, int, Frame& frame, int first, int particles) {
       const Reach<T, Dim, 3> reach(grid, given, set);
-      Advance<T, Dim, Kind, Damped> advance(set, settings);
+      Advance<T, Dim, Kind, Damped, kRings> advance(set, settings);
       WideMask<T> inside = reach.everywhere(), tight = inside;
       frame.fill(first, particles);
       for (int q = 0; q < particles; ++q) {
         Four v{}, a_sum{};
         for (int a = 0; a < kPoints; ++a) {
           const CellPoint<T, Dim> at = frame.point(a, q);
-          v += frame.weight(a) * velocity.at(at);
-          if constexpr (kAccelerates) a_sum += frame.weight(a) * acceleration.at(at);
+          v += frame.weight(a, q) * velocity.at(at);
+          if constexpr (kAccelerates) a_sum += frame.weight(a, q) * acceleration.at(at);
         }
         for (int c = 0; c < Dim; ++c) {
           gathered[c][q] = v[c];
           if constexpr (kAccelerates) gathered[Dim + c][q] = a_sum[c];
         }
         if constexpr (kAffine) gather_affine<Dim, kPoints>(frame, q, velocity, set, first + q);
+        if constexpr (kRings) {
+          if (settings.by_point) {
+            const CellPoint<T, Dim> at = frame.centre(q);
+            to_point[0][q] = velocity.at(at)[0] - v[0];
+            if constexpr (kAccelerates) to_point[1][q] = acceleration.at(at)[0] - a_sum[0];
+          }
+        }
       }
       for (int q = 0; q < particles; q += W::kLanes) {
         for (int c = 0; c < Dim; ++c) {
           const W cells = frame.cells(c, q);
-          const W displacement =
-              advance.particles(c, first + q, particles - q, W::load(gathered[c] + q), W::load(gathered[Dim + c] + q));
+          W beside(0.0);
+          if constexpr (kRings) {
+            if (c == 0) beside = advance.to_point(W::load(to_point[0] + q), W::load(to_point[1] + q));
+          }
+          const W displacement = advance.particles(c, first + q, particles - q, W::load(gathered[c] + q),
+                                                   W::load(gathered[Dim + c] + q), beside);
           reach.check(c, cells, displacement, particles - q, inside, tight);
         }
       }
@@ -292,7 +314,7 @@ class PointPasses {
     each(grid, block, sets, count, [&](const Set& set, int, Frame& frame, int first, int particles) {
       frame.fill(first, particles);
       for (int q = 0; q < particles; ++q) {
-        spread_all(frame, q, static_cast<T>(set.mass) * gather(frame, field, q), tile);
+        spread_all(frame, q, mass_at(set, first + q) * gather(frame, field, q), tile);
       }
     });
     tile.template add_to<Dim>(to, block, 0);
@@ -311,6 +333,12 @@ class PointPasses {
     return false;
   }
 };
+
+/// Of points about an axis, in the place of two axes.
+template <template <int> class Points>
+constexpr mpm_kernel::PassFamily axisymmetric_passes_of() {
+  return {{{}, PointPasses<2, Points, double>::table(), {}}, {{}, PointPasses<2, Points, float>::table(), {}}};
+}
 
 /// Of a set of points, for each number of axes and either precision.
 template <template <int> class Points>

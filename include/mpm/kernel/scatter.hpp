@@ -122,7 +122,8 @@ class Scatter {
 
   // Rows (i, j): S_x (S_y G_z tau_z + G_y S_z tau_y) + G_x S_y S_z tau_x. Since S sums to 1 and G to 0, what all three
   // nodes of an axis get together is cheaper than what the middle one gets: the middle sum is the total, less the outer
-  // two in the end.
+  // two in the end. With `Hoop`, of rings, and T S_z tau_y by the hoop function.
+  template <bool Hoop = Shape<W>::kAxisymmetric>
   static void scatter(const AllWeights& weights, const mpm_kernel::ChunkStresses<T>& from, int count, T* tile) {
     each_run(weights, count, tile, [&](int p, int end, int j0, Row(&sum)[kBatch][kFirst]) {
       for (; p < end; ++p) {
@@ -146,6 +147,12 @@ class Scatter {
           }
         } else if constexpr (Dim == 2) {
           add_along_first(weights, p, along, first, sum[0]);
+          if constexpr (Hoop) {
+            const Row hoop = Row::outer(weights.s[Dim - 1], p, from.column[mpm_kernel::kHoopColumn] + 4 * p);
+            T all = 0;
+            for (int i = 0; i < kFirst; ++i) all += weights.t[i][p];
+            for (int i = 0; i < kFirst; ++i) sum[0][i].add(hoop, i == 1 ? all : weights.t[i][p]);
+          }
         }
       }
       if constexpr (Dim > 1 && kNodes == 3) {

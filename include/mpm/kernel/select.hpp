@@ -13,8 +13,10 @@ namespace mpm {
 template <class T>
 mpm_kernel::KernelTable<T> kernel_table(ShapeKind shape, GeometryKind geometry, Isa isa);
 
-/// Whether there are kernels of this shape function in this geometry: qCPDI is planar.
+/// Whether there are kernels of this shape function in this geometry: qCPDI has two axes, and B-splines are not made
+/// for an axis of symmetry.
 constexpr bool has_shape(ShapeKind shape, GeometryKind geometry) {
+  if (axisymmetric(geometry)) return shape != ShapeKind::bspline2 && shape != ShapeKind::bspline3;
   return shape != ShapeKind::qcpdi || dimensions(geometry) == 2;
 }
 

@@ -6,11 +6,15 @@
 // A shape function is a class with kNodes, 3 or 5, values s[kNodes], which sum to 1, and g[kNodes], which sum to 0
 // (gathers and scatters count on it), made from the offset from the nearest node and an Axis, its constants for a body
 // (shape/ugimp.hpp). With kStretches its box is the particle's own; with kFoldsAtWalls it keeps to the nodes inside
-// walls.
+// walls; with kAxisymmetric it has a radial() for the first axis, which has a hoop function besides
+// (shape/axisymmetric.hpp).
 #pragma once
+
+#include <type_traits>
 
 #include "mpm/kernel/tile.hpp"
 #include "mpm/kernel/wide_math.hpp"
+#include "mpm/shape/axis_rules.hpp"
 
 namespace mpm {
 
@@ -50,6 +54,11 @@ class WeightFrame {
         high_wall_[k] = grid.high_wall[k] - corner_[k];
       }
     }
+    if constexpr (Shape<W>::kAxisymmetric) {
+      first_radius_ = corner_[0] + origin_[0] * inverse_cell_[0];
+      if (set.whole_domains) rules_.domains = AxisDomains::whole;
+      if (set.planar_functions) rules_.functions = AxisFunctions::planar;
+    }
   }
   Axis axis(int k) const { return Axis(half_[k], inverse_cell_[k]); }
   double cell(int k) const { return 1.0 / inverse_cell_[k]; }
@@ -69,6 +78,12 @@ class WeightFrame {
       return shape;
     }
   }
+  /// Along the radius.
+  auto radial(int p, int count, W cells, W nearest) const {
+    W half(half_[0]);
+    if constexpr (Shape<W>::kStretches) half = Shape<W>::half(W::load_first(stretch_[0] + p, count), axis(0));
+    return Shape<W>::radial(cells - nearest, nearest + W(first_radius_), half, W(inverse_cell_[0]), rules_);
+  }
 
  private:
   static constexpr double kTie = sizeof(T) == 8 ? 1e-12 : 2e-6;  // beyond the round-off of a place in the tile
@@ -77,10 +92,21 @@ class WeightFrame {
   double origin_[Dim], inverse_cell_[Dim], corner_[Dim], half_[Dim];
   double low_wall_[Shape<W>::kFoldsAtWalls ? Dim : 1], high_wall_[Shape<W>::kFoldsAtWalls ? Dim : 1];
   W lowest_, highest_;
+  double first_radius_ = 0.0;  ///< of the tile's first nodes [cells]
+  AxisRules rules_;
 };
 
+/// Beside the radial values of an axisymmetric shape function: the hoop function [1/m]; where no gradient is asked for,
+/// the hat functions at the particle, which move it (AxisMotion::point).
+template <class T, int Nodes, bool Axisymmetric>
+struct HoopWeights {
+  alignas(64) T t[Nodes][kBuffer];
+};
+template <class T, int Nodes>
+struct HoopWeights<T, Nodes, false> {};
+
 template <class T, int Dim, template <class> class Shape>
-struct Weights {
+struct Weights : HoopWeights<T, Shape<Wide<T>>::kNodes, Shape<Wide<T>>::kAxisymmetric> {
   using W = Wide<T>;
   static constexpr int kLast = Dim - 1;
   static constexpr int kNodes = Shape<W>::kNodes;
@@ -100,13 +126,18 @@ struct Weights {
       for (int q = 0; q < count; q += W::kLanes) {
         const W x = frame.cells(k, first + q, count - q);
         const W nearest = frame.nearest(x);
-        Shape<W> shape = frame.shape(k, first + q, count - q, x, nearest, axis);
-        if constexpr (What == Beside::moment || What == Beside::affine) {
-          put_moments(shape, x - nearest, frame.cell(k), What == Beside::affine);
-        }
-        for (int n = 0; n < kNodes; ++n) {
-          shape.s[n].store(s[k][n] + q);
-          if constexpr (What != Beside::nothing) shape.g[n].store(g[k][n] + q);
+        if constexpr (Shape<W>::kAxisymmetric) {
+          if (k == 0) {
+            auto radial = frame.radial(first + q, count - q, x, nearest);
+            keep_hoop<What>(radial, x - nearest, q);
+            keep<What>(radial, x - nearest, frame.cell(k), k, q);
+          } else {
+            Shape<W> shape = frame.shape(k, first + q, count - q, x, nearest, axis);
+            keep<What>(shape, x - nearest, frame.cell(k), k, q);
+          }
+        } else {
+          Shape<W> shape = frame.shape(k, first + q, count - q, x, nearest, axis);
+          keep<What>(shape, x - nearest, frame.cell(k), k, q);
         }
         x.store(cells[k] + q);
         const W number = k == 0 ? nearest : W::load(place + q) * W(kTileEdge) + nearest;
@@ -124,11 +155,34 @@ struct Weights {
 
  private:
   static constexpr double kLeastMoment = 1e-10;  ///< [cells^2]
-  // A product of values that each reproduce a linear field has a diagonal second moment, sum of S (x_i - x_p)^2.
-  static void put_moments(Shape<W>& shape, W offset, double cell, bool over_second) {
-    W second(0.0);
+  template <Beside What, class Along>
+  [[gnu::always_inline]] void keep(Along& shape, W offset, double cell, int k, int q) {
+    if constexpr (What == Beside::moment || What == Beside::affine) {
+      put_moments(shape, offset, cell, What == Beside::affine);
+    }
     for (int n = 0; n < kNodes; ++n) {
-      const W arm = (W(n - kNodes / 2) - offset) * W(cell);
+      shape.s[n].store(s[k][n] + q);
+      if constexpr (What != Beside::nothing) shape.g[n].store(g[k][n] + q);
+    }
+  }
+  template <Beside What, class Along>
+  void keep_hoop(const Along& radial, W offset, int q) {
+    const W hat[3] = {max(-offset, W(0.0)), W(1.0) - abs(offset), max(offset, W(0.0))};
+    for (int n = 0; n < kNodes; ++n) (What == Beside::gradient ? radial.t[n] : hat[n]).store(this->t[n] + q);
+  }
+
+  // A product of values that each reproduce a linear field has a diagonal second moment, sum of S (x_i - x_p)^2. With
+  // the weight r values do not: moments are then about their mean place.
+  template <class Along>
+  static void put_moments(Along& shape, W offset, double cell, bool over_second) {
+    W second(0.0), mean(0.0);
+    if constexpr (!std::is_same_v<Along, Shape<W>>) {
+      for (int n = 0; n < kNodes; ++n) mean += shape.s[n] * W(n - kNodes / 2);
+      mean -= offset;
+    }
+    for (int n = 0; n < kNodes; ++n) {
+      W arm = (W(n - kNodes / 2) - offset) * W(cell);
+      if constexpr (!std::is_same_v<Along, Shape<W>>) arm -= mean * W(cell);
       shape.g[n] = shape.s[n] * arm;
       second += shape.g[n] * arm;
     }

@@ -9,6 +9,7 @@
 #include "mpm/material/law.hpp"
 #include "mpm/mechanics/damping.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/shape/axis_rules.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/step/mechanics.hpp"
 #include "mpm/step/transfer.hpp"
@@ -18,9 +19,10 @@ namespace mpm {
 /// What the kernels are told once.
 struct ContinuumSettings {
   Transfer transfer;
-  bool average_dilatation = false;  ///< volume changes and pressures averaged over the grid (kernel/mean.hpp)
-  int gradient_terms = 2;           ///< of exp(grad v dt)
-  Vec3 gravity = Vec3::Zero();      ///< [m/s^2]
+  bool average_dilatation = false;            ///< volume changes and pressures averaged over the grid (kernel/mean.hpp)
+  AxisMotion axis_motion = AxisMotion::mean;  ///< of rings
+  int gradient_terms = 2;                     ///< of exp(grad v dt)
+  Vec3 gravity = Vec3::Zero();                ///< [m/s^2]
   int threads = 1;
   DampingControl* damping = nullptr;  ///< of a scene that has any; outlives the mechanics
 };

@@ -1,10 +1,12 @@
-// The particles of one deformable body: structure of arrays, one material, equal mass, kept sorted by grid block.
+// The particles of one deformable body: structure of arrays, one material, kept sorted by grid block. Their mass is
+// equal, but for rings about an axis, which have each their own.
 //
 // What a body's scene does not need is not stored: history exists as its law asks for it, the second position only when
 // the update scheme updates strain after the motion, a domain when the shape function follows the deformation, an
 // affine matrix for APIC, the place at the start only when a load is a function of it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -15,11 +17,12 @@
 namespace mpm {
 
 struct ParticleSet {
-  std::string name;                           ///< of the body
-  double mass = 0.0;                          ///< of a particle [kg]
-  std::array<double, 3> half{};               ///< half of a particle's box along each grid axis [cells]
-  std::array<double, 3> lowest{}, highest{};  ///< where a centre may be along each grid axis [cells]
-  std::uint32_t first_id = 0;                 ///< ids run from here
+  std::string name;                                      ///< of the body
+  double mass = 0.0;                                     ///< of a particle, where all have the same [kg]
+  std::array<double, 3> half{};                          ///< half of a particle's box along each grid axis [cells]
+  std::array<double, 3> lowest{}, highest{};             ///< where a centre may be along each grid axis [cells]
+  bool whole_domains = false, planar_functions = false;  ///< about an axis: AxisRules (shape/axis_rules.hpp)
+  std::uint32_t first_id = 0;                            ///< ids run from here
 
   Precision precision = Precision::float64;  ///< of velocity, deformation, stress and history
 
@@ -29,6 +32,7 @@ struct ParticleSet {
   std::vector<ParticleScalar> f;             ///< deformation gradient, stored components
   std::vector<ParticleScalar> tau;           ///< Kirchhoff stress over initial density [J/kg]; GIMP notes (1.24)
   std::vector<ParticleScalar> history;       ///< what the law keeps
+  std::vector<ParticleScalar> masses;        ///< one scalar in axisymmetric scenes, of the whole ring [kg]; else none
   std::vector<PaddedArray<double>> start_x;  ///< position at the start of the run [m]
   std::vector<ParticleScalar> affine;        ///< APIC: B, moment of the velocity, [component][axis] [m^2/s]
   std::vector<ParticleScalar> domain;        ///< F of the step's start, where the shape function follows it
@@ -42,11 +46,23 @@ struct ParticleSet {
   std::vector<std::uint32_t> group_begin;
 
   int size() const { return static_cast<int>(id.size()); }
+  double mass_of(int p) const { return masses.empty() ? mass : masses[0][p]; }
+  double total_mass() const {
+    if (masses.empty()) return mass * size();
+    double sum = 0.0;
+    for (int p = 0; p < size(); ++p) sum += masses[0][p];
+    return sum;
+  }
+  double least_mass() const {
+    double least = mass_of(0);
+    for (int p = 1; p < size() && !masses.empty(); ++p) least = std::min(least, mass_of(p));
+    return least;
+  }
   /// visit(PaddedArray<double>&) or visit(PaddedArray<float>&) for every stored scalar but domain and next_x.
   template <class Visit>
   void each_scalar(Visit&& visit) {
     for (auto& scalar : x) visit(scalar);
-    for (auto* fields : {&v, &f, &tau, &history, &affine}) {
+    for (auto* fields : {&v, &f, &tau, &history, &masses, &affine}) {
       for (ParticleScalar& scalar : *fields) scalar.visit(visit);
     }
     for (auto& scalar : start_x) visit(scalar);

@@ -48,6 +48,7 @@ struct QuadraticSpline {
   static constexpr int kNodes = 3;
   static constexpr bool kStretches = false;
   static constexpr bool kFoldsAtWalls = true;
+  static constexpr bool kAxisymmetric = false;
   using Axis = SplineAxis<T>;
 
   T s[3];  ///< shape function, sums to 1
@@ -81,6 +82,7 @@ struct CubicSpline {
   static constexpr int kNodes = 5;
   static constexpr bool kStretches = false;
   static constexpr bool kFoldsAtWalls = true;
+  static constexpr bool kAxisymmetric = false;
   using Axis = SplineAxis<T>;
 
   T s[5];  ///< shape function, sums to 1

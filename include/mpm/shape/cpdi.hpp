@@ -20,6 +20,7 @@ namespace mpm {
 template <int Dim>
 struct Cpdi {
   static constexpr int kPoints = 1 << Dim;
+  static constexpr bool kAxisymmetric = false;  ///< has radial() (shape/axisymmetric_points.hpp)
 
   /// On which side of the particle along half vector `k` corner `a` lies, -1 or 1: bit k of a. In the plane the corners
   /// 1, 2, 3, 4 of the papers, counter-clockwise, are 0, 1, 3, 2.

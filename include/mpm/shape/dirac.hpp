@@ -15,11 +15,13 @@ struct Dirac {
   static constexpr int kNodes = 3;
   static constexpr bool kStretches = false;
   static constexpr bool kFoldsAtWalls = false;
+  static constexpr bool kAxisymmetric = false;
 
   struct Axis {
     T inverse_cell;
     /// A point has no box: the first argument is not used. `per_cell` [1/m].
     Axis(double, double per_cell) : inverse_cell(per_cell) {}
+    explicit Axis(T per_cell) : inverse_cell(per_cell) {}
   };
 
   T s[3];  ///< shape function, sums to 1

@@ -16,6 +16,7 @@ template <int Dim>
 struct Qcpdi {
   static_assert(Dim == 2, "qCPDI is planar");
   static constexpr int kPoints = 9;
+  static constexpr bool kAxisymmetric = false;  ///< has radial() (shape/axisymmetric_points.hpp)
 
   /// w_a; they sum to 1.
   static constexpr double weight(int a) { return a == 4 ? 4.0 / 9.0 : a % 2 == 0 ? 1.0 / 36.0 : 1.0 / 9.0; }

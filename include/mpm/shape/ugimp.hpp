@@ -15,6 +15,7 @@ struct Ugimp {
   static constexpr int kNodes = 3;              ///< along an axis
   static constexpr bool kStretches = false;     ///< a particle has a half-width of its own
   static constexpr bool kFoldsAtWalls = false;  ///< has fold(), which leaves no weight beyond the walls of the domain
+  static constexpr bool kAxisymmetric = false;  ///< has radial(), what it is along a radius (shape/axisymmetric.hpp)
 
   /// What all particles of a body have in common along one axis.
   struct Axis {

@@ -1,6 +1,7 @@
 // Everything a Simulation is made from, in SI, with its defaults. A Scene fills this in; tests may do so by hand.
 // Planar scenes lie in the x-z plane: y components are ignored, `thickness` is along y. A line lies along x: y and z
-// components are ignored, `area` is across it.
+// components are ignored, `area` is across it. An axisymmetric scene has r = x and z; x components are radial, y ones
+// are ignored, and what is summed over particles is that of the whole body, all the way round.
 #pragma once
 
 #include <array>
@@ -16,6 +17,7 @@
 #include "mpm/mechanics/particle_loads.hpp"
 #include "mpm/particles/particle_scalar.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/shape/axis_rules.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/step/damping.hpp"
 #include "mpm/step/schedule.hpp"
@@ -42,6 +44,7 @@ struct MethodDefinition {
   Transfer transfer;
   bool average_dilatation = false;  ///< volume changes averaged over the grid, against locking
   DampingDefinition damping;
+  AxisRules axis;                            ///< axisymmetric scenes alone
   int gradient_terms = 2;                    ///< terms of exp(grad v dt)
   int particles_per_direction = 2;           ///< particles along a cell's edge
   Precision precision = Precision::float64;  ///< of what particles carry but their positions
@@ -66,7 +69,7 @@ struct DeformableBody {
   bool yy_follows = false;
   std::vector<double> temperatures;  ///< to start at, one each, or empty for the material's own [K]
   std::optional<GeostaticDefinition> geostatic;
-  double particle_volume = 0.0;  ///< volume of one particle at the start [m^3]
+  double particle_volume = 0.0;  ///< of one particle at the start [m^3]; of rings the area of their section [m^2]
 };
 
 /// An acceleration of the material as a function of time, place and place at the start (mechanics/particle_loads.hpp).
@@ -81,17 +84,35 @@ struct ParticleForceDefinition {
   std::string body;                      ///< deformable body that it acts on
   std::vector<std::uint32_t> particles;  ///< which of its positions; all when empty
   std::array<Function, 3> force;         ///< [N]
-  bool shared = true;                    ///< the force is on all of them together, in equal parts; else on each
+  bool shared = true;                    ///< the force is on all of them together, by their mass; else on each
   LoadSpread spread = LoadSpread::domain;
 };
 
+/// A traction on a face of each of some particles of a body, a force over its current area
+/// (mechanics/face_tractions.hpp), as functions of time, place and place at the start.
+struct TractionDefinition {
+  std::string body;                      ///< deformable body that it acts on
+  int face = 0;                          ///< of the particles' domains, in the order of kWallNames
+  std::vector<std::uint32_t> particles;  ///< which of its positions; the outermost of each row when empty
+  bool follows = false;                  ///< it keeps to the face's normal and edges as they turn
+  /// By world axis; or, where it follows, pressure (compression is positive), then shear along the edges that span the
+  /// face, in the order of axes. [Pa]
+  std::array<Function, 3> value;
+};
+
 enum class Statistic { mean, std_dev, min, max };
+struct TimeWindow {
+  double from = 0.0, to = 0.0;  ///< [s]
+};
 /// A number of the summary: a statistic of a particle field over one body (or all, when `body` is empty).
 struct MetricDefinition {
   std::string name;
   Statistic statistic = Statistic::mean;
   std::string field;
   std::string body;
+  /// The statistic's rate of change in this window, by the straight line with the least squares through its values at
+  /// sync points [1/s]; without one the statistic at the end.
+  std::optional<TimeWindow> rate;
 };
 
 struct SimulationDefinition {
@@ -109,6 +130,7 @@ struct SimulationDefinition {
   std::array<WallDefinition, 6> walls;
   std::vector<BodyForceDefinition> body_forces;
   std::vector<ParticleForceDefinition> particle_forces;
+  std::vector<TractionDefinition> tractions;
   std::vector<MetricDefinition> metrics;
 
   /// What a particle has beyond the grid's axes: thickness [m] of a plane, area [m^2] of a line, 1 of a solid.

@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include "mpm/material/definition.hpp"
-#include "mpm/math/geometry_kind.hpp"
+#include "mpm/simulation/definition.hpp"
 
 namespace mpm {
 
@@ -14,5 +13,8 @@ std::string refused_material(GeometryKind geometry, const MaterialDefinition& ma
 
 /// The same of a geostatic start.
 std::string refused_geostatic(GeometryKind geometry);
+
+/// Why a scene cannot have its grid, gravity or bodies about an axis; empty when it can, or is not axisymmetric.
+std::string axis_fault(const SimulationDefinition& definition);
 
 }  // namespace mpm

@@ -191,6 +191,7 @@ class Continuum final : public Mechanics {
 
   void move(StepContext& context, bool regather) {
     mpm_kernel::MoveSettings settings{context.dt, settings_.transfer.flip, regather};
+    settings.by_point = settings_.axis_motion == AxisMotion::point;
     const bool damped = look_at_damping(settings);
     const mpm_kernel::MovePass<T> pass = kernels_.move[motion_][damped];
     if (damped) taken_.assign(context.grid.blocks.owners(), {});

@@ -47,7 +47,7 @@ DampingControl::DampingControl(const DampingDefinition& definition, double flip,
       flip_(flip),
       fault_(threads) {
   account_.name = "damping";
-  for (const ParticleSet& set : sets) total_mass_ += set.mass * set.size();
+  for (const ParticleSet& set : sets) total_mass_ += set.total_mass();
   if (!of_place_) return;
   for (const ParticleSet& set : sets) {
     grid_values_.emplace_back(set.size(), 0.0);

@@ -26,6 +26,9 @@ mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kerne
   view.group = set.group.data();
   view.group_begin = set.group_begin.data();
   view.mass = set.mass;
+  view.masses = set.masses.empty() ? nullptr : set.masses[0].template data<T>();
+  view.whole_domains = set.whole_domains;
+  view.planar_functions = set.planar_functions;
   for (std::size_t k = 0; k < set.x.size(); ++k) {
     view.half[k] = set.half[k];
     view.lowest[k] = set.lowest[k];

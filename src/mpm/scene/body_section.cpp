@@ -28,21 +28,36 @@ Region read_box(const Value& value, GeometryKind geometry) {
                            region.box.max[axis], region.box.min[axis]));
     }
   }
+  if (axisymmetric(geometry) && region.box.min.x() < 0.0) {
+    map.at("min").fail(
+        fmt::format("material at r = {:g} m; about an axis r is 0 or more: write a radius", region.box.min.x()));
+  }
   return region;
 }
 
-Region read_sphere(const Value& value) {
+/// Bodies of revolution have their centre on the axis.
+void check_centre(const Value& value, const Region& region) {
+  if (region.center.x() == 0.0) return;
+  value.fail(
+      fmt::format("its centre is {:g} m off the axis, and it is no body of revolution; write [0, z], or a box, "
+                  "which is a ring there",
+                  region.center.x()));
+}
+
+Region read_sphere(const Value& value, GeometryKind geometry) {
   const Map map(value, {"center", "radius"});
   Region region;
   region.kind = Region::Kind::sphere;
   region.center = map.at("center").vector(kLength);
   region.radius = map.at("radius").positive(kLength);
+  region.about_axis = axisymmetric(geometry);
+  if (region.about_axis) check_centre(map.at("center"), region);
   return region;
 }
 
 Region read_cylinder(const Value& value, GeometryKind geometry) {
   const Map map(value, {"center", "radius", "height", "axis"});
-  if (geometry != GeometryKind::solid) {
+  if (geometry != GeometryKind::solid && !axisymmetric(geometry)) {
     value.fail(fmt::format("{} has no cylinder; write sphere, which is {} there, or box", scene_kind(geometry),
                            planar(geometry) ? "a disk" : "an interval"));
   }
@@ -52,6 +67,11 @@ Region read_cylinder(const Value& value, GeometryKind geometry) {
   region.radius = map.at("radius").positive(kLength);
   region.height = map.at("height").positive(kLength);
   if (const auto axis = map.find("axis")) region.axis = static_cast<int>(axis->choice({"x", "y", "z"}));
+  region.about_axis = axisymmetric(geometry);
+  if (region.about_axis) {
+    check_centre(map.at("center"), region);
+    if (region.axis != 2) map.at("axis").fail("an axisymmetric scene turns about z; write z");
+  }
   return region;
 }
 
@@ -74,7 +94,7 @@ Region read_region(const Value& value, GeometryKind geometry) {
       only_key(value, {"box", "sphere", "cylinder"},
                {{"mesh", advice}, {"polygon", advice}, {"capsule", advice}, {"disk", "use sphere"}});
   if (kind == "box") return read_box(shape, geometry);
-  if (kind == "sphere") return read_sphere(shape);
+  if (kind == "sphere") return read_sphere(shape, geometry);
   return read_cylinder(shape, geometry);
 }
 

@@ -29,6 +29,7 @@ double least_bytes_of_particle(const MethodDefinition& method, GeometryKind geom
   // mechanics/continuum.hpp: the domain of the step's start, and APIC's matrix.
   int kept = follows_deformation(method.shape) ? (method.shape == ShapeKind::ugimp_stretch ? dim : dim * dim) : 0;
   if (method.transfer.kind == TransferKind::apic) kept += dim * dim;
+  if (axisymmetric(geometry)) kept += 1;  // its mass
   const double id = 4.0;
   // step/sorter.hpp; the groups, a place each when they are of one particle.
   const double sorter = (method.precision == Precision::float32 ? 29.0 : 25.0) + 4.0;

@@ -116,6 +116,18 @@ void read_particles(const Map& method, Scene& scene) {
       fmt::format("{} is not possible; {} has {} particles a cell", wanted, scene_kind(geometry), kPossible[dim - 1]));
 }
 
+void read_axis(const Value& value, Scene& scene) {
+  if (!axisymmetric(scene.definition.geometry)) value.fail("only an axisymmetric scene has an axis; leave it out");
+  const Map map(value, {"domains", "functions", "ghosts", "motion"});
+  AxisRules& axis = scene.definition.method.axis;
+  if (const auto key = map.find("domains")) axis.domains = static_cast<AxisDomains>(read_name(*key, kAxisDomainNames));
+  if (const auto key = map.find("functions")) {
+    axis.functions = static_cast<AxisFunctions>(read_name(*key, kAxisFunctionNames));
+  }
+  if (const auto key = map.find("ghosts")) axis.ghosts = static_cast<AxisGhosts>(read_name(*key, kAxisGhostNames));
+  if (const auto key = map.find("motion")) axis.motion = static_cast<AxisMotion>(read_name(*key, kAxisMotionNames));
+}
+
 AutoMethod read_auto(const Value& value, const Scene& scene) {
   const Map map(value, {"strain", "turn", "error", "cost"});
   AutoMethod asked;
@@ -199,7 +211,7 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   }
   const Map map(*section,
                 {"auto", "shape", "update", "transfer", "average_dilatation", "damping", "gradient_terms",
-                 "particles_per_cell", "precision"},
+                 "particles_per_cell", "precision", "axis"},
                 {{"leave_limit", "a particle that leaves the grid ends the run; use boundaries"}});
   std::optional<AutoMethod> chosen_later;
   if (const auto value = map.find("auto")) chosen_later = read_auto(*value, scene);
@@ -235,6 +247,7 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   if (const auto precision = map.find("precision")) {
     method.precision = precision->choice({"double", "single"}) == 0 ? Precision::float64 : Precision::float32;
   }
+  if (const auto axis = map.find("axis")) read_axis(*axis, scene);
   read_particles(map, scene);
   // What is left to be chosen stands at its default here, which goes with everything that goes with anything.
   if (const auto fault = method_fault(method, scene.definition.geometry)) refuse(*section, *fault);

@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axial_motion.hpp"
 #include "initial.hpp"
+#include "load_terms.hpp"
+#include "mpm/boundary/again.hpp"
+#include "mpm/boundary/axis.hpp"
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
@@ -28,6 +32,22 @@ std::vector<ParticleScalar> zeros(int components, Precision precision, std::size
   return field;
 }
 
+/// The mass of each ring, 2 pi rho A <r> of its section (Nairn & Guilkey (2015), after eq. (14), all the way round):
+/// of a box that reaches across the axis, of the part of it that counts there. `per_area`: rho A [kg/m].
+void make_rings(const SimulationDefinition& definition, double per_area, const GridLayout& layout, ParticleSet& set) {
+  constexpr double kTurn = 2.0 * 3.14159265358979323846;
+  const AxisRules& rules = definition.method.axis;
+  set.whole_domains = rules.domains == AxisDomains::whole;
+  set.planar_functions = rules.functions == AxisFunctions::planar;
+  set.masses = zeros(1, set.precision, set.id.size());
+  const double half = set.half[0] / layout.inverse_cell(0);
+  for (int p = 0; p < set.size(); ++p) {
+    const double r = set.x[0][p], inner = set.whole_domains ? r - half : std::max(0.0, r - half);
+    const double weight = 0.5 * ((r + half) * (r + half) - inner * inner) / (2.0 * half);
+    set.masses[0].set(p, kTurn * per_area * weight);
+  }
+}
+
 ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body,
                      const MaterialDefinition& material, const Law& law, const GridLayout& layout,
                      std::vector<std::string>& warnings) {
@@ -45,13 +65,13 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
   }
   ParticleSet set;
   set.name = body.name;
-  set.mass = material.density * body.particle_volume;
   const int dim = layout.dim();
   for (int k = 0; k < dim; ++k) {
     set.half[k] = 0.5 / definition.method.particles_per_direction;
     // Pressed against a wall, a particle comes to rest only when its box is half beyond it.
     const int face = 2 * layout.axis(k);
-    set.lowest[k] = definition.walls[face].kind == WallKind::none ? 0.0 : -set.half[k];
+    const bool open = definition.walls[face].kind == WallKind::none;
+    set.lowest[k] = open ? 0.0 : -set.half[k];
     set.highest[k] = layout.last_node(k) + (definition.walls[face + 1].kind == WallKind::none ? 0.0 : set.half[k]);
   }
   set.id.resize(n);
@@ -76,6 +96,11 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
     set.tau = zeros(geometry.kSymmetric, set.precision, n);
   });
   set.history = zeros(history_size(law), set.precision, n);
+  if (axisymmetric(definition.geometry)) {
+    make_rings(definition, material.density * body.particle_volume, layout, set);
+  } else {
+    set.mass = material.density * body.particle_volume;
+  }
   start_particles(set, body, material, definition.geometry, warnings);
   if (definition.method.update != UpdateScheme::usf) set.next_x = set.x;
   return set;
@@ -96,6 +121,7 @@ void check(const SimulationDefinition& d) {
   if (planar(d.geometry) && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
   if (d.geometry == GeometryKind::line && !(d.area > 0.0)) throw DefinitionError("area must be positive");
   if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");
+  if (const std::string fault = axis_fault(d); !fault.empty()) throw DefinitionError(fault);
 }
 
 // Leaves only what is along the grid's axes.
@@ -106,62 +132,17 @@ void project(SimulationDefinition& definition) {
     for (RigidBodyDefinition& body : definition.rigid_bodies) body.velocity[axis] = Function();
     for (BodyForceDefinition& load : definition.body_forces) load.acceleration[axis] = Function();
     for (ParticleForceDefinition& load : definition.particle_forces) load.force[axis] = Function();
+    for (TractionDefinition& load : definition.tractions) {
+      if (!load.follows) load.value[axis] = Function();
+    }
   }
   for (RigidBodyDefinition& body : definition.rigid_bodies) {
-    body.pose = projected(body.pose, geometry, body.name);
+    body.pose = projected(body.pose, geometry, body);
+    if (axisymmetric(geometry) && body.inner_radius == 0.0) body.velocity[0] = Function();
     for (int axis = 0; axis < 3; ++axis) {
       if (!turns_about(geometry, axis)) body.rotation_rate[axis] = Function();
     }
   }
-}
-
-int find_set(const std::vector<ParticleSet>& sets, const std::string& body, const char* load) {
-  const auto set = std::find_if(sets.begin(), sets.end(), [&](const auto& s) { return s.name == body; });
-  if (set != sets.end()) return static_cast<int>(set - sets.begin());
-  throw DefinitionError(fmt::format("{}: no deformable body is called '{}'; name one of 'bodies'", load, body));
-}
-
-ParticleLoadTerm make_term(const ParticleForceDefinition& load, const std::vector<ParticleSet>& sets) {
-  ParticleLoadTerm term{ParticleLoadTerm::Kind::particle_force,
-                        find_set(sets, load.body, "particle force"),
-                        load.force,
-                        1.0,
-                        load.spread,
-                        {}};
-  const ParticleSet& set = sets[*term.set];
-  auto count = static_cast<double>(set.size());
-  if (!load.particles.empty()) {
-    term.chosen.assign(set.size(), 0);
-    for (const std::uint32_t p : load.particles) {
-      if (p >= term.chosen.size()) {
-        throw DefinitionError(
-            fmt::format("particle force on '{}': it has no particle {}, but {}", load.body, p, set.size()));
-      }
-      term.chosen[p] = 1;
-    }
-    count = static_cast<double>(std::count(term.chosen.begin(), term.chosen.end(), 1));
-  }
-  term.factor = 1.0 / (set.mass * (load.shared ? count : 1.0));
-  return term;
-}
-
-// Sets that a term with X, Y or Z acts on remember where their particles start.
-std::vector<ParticleLoadTerm> make_load_terms(const SimulationDefinition& definition, std::vector<ParticleSet>& sets) {
-  std::vector<ParticleLoadTerm> terms;
-  for (const BodyForceDefinition& load : definition.body_forces) {
-    ParticleLoadTerm term{ParticleLoadTerm::Kind::body_force, std::nullopt, load.acceleration, 1.0, load.spread, {}};
-    if (!load.body.empty()) term.set = find_set(sets, load.body, "body force");
-    terms.push_back(std::move(term));
-  }
-  for (const ParticleForceDefinition& load : definition.particle_forces) terms.push_back(make_term(load, sets));
-  for (const ParticleLoadTerm& term : terms) {
-    const bool uses_start = std::any_of(term.value.begin(), term.value.end(),
-                                        [](const Function& component) { return component.uses_start(); });
-    for (std::size_t s = 0; s < sets.size(); ++s) {
-      if (uses_start && (!term.set || *term.set == static_cast<int>(s))) sets[s].start_x = sets[s].x;
-    }
-  }
-  return terms;
 }
 
 // Not "= {}", which would keep the memory.
@@ -181,7 +162,8 @@ const MaterialDefinition& find_material(const SimulationDefinition& definition, 
   throw DefinitionError(fmt::format("body '{}': no material is called '{}'", body.name, body.material));
 }
 
-Twist projected(const Twist& twist, GeometryKind geometry) {
+Twist projected(const Twist& twist, GeometryKind geometry, const RigidBodyDefinition& body) {
+  if (axisymmetric(geometry)) return axial_twist(twist, body);
   Twist kept = twist;
   for (const int axis : axes_beside(geometry)) kept.linear[axis] = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -190,14 +172,15 @@ Twist projected(const Twist& twist, GeometryKind geometry) {
   return kept;
 }
 
-Pose projected(const Pose& pose, GeometryKind geometry, const std::string& body) {
+Pose projected(const Pose& pose, GeometryKind geometry, const RigidBodyDefinition& body) {
   if (geometry == GeometryKind::solid) return pose;
+  if (axisymmetric(geometry)) return axial_pose(pose, body);
   if (geometry == GeometryKind::line) return {{pose.position.x(), 0.0, 0.0}, Quat::Identity()};
   const Quat& q = pose.orientation;
   const double about_y = std::hypot(q.w(), q.y());
   if (!(about_y >= 1e-3 * q.norm())) {
     throw RigidError(
-        fmt::format("rigid body '{}': its pose is turned over in a planar scene; turn it about y only", body));
+        fmt::format("rigid body '{}': its pose is turned over in a planar scene; turn it about y only", body.name));
   }
   const double scale = q.norm() / about_y;
   return {{pose.position.x(), 0.0, pose.position.z()}, Quat(q.w() * scale, 0.0, q.y() * scale, 0.0)};
@@ -226,9 +209,16 @@ void Simulation::State::add_mechanics() {
     loads = all.get();
     stages.push_back(std::move(all));
   }
+  if (std::vector<TractionTerm> terms = make_traction_terms(definition, sets, grid->layout); !terms.empty()) {
+    const TractionSettings settings{definition.geometry, method.shape, definition.across()};
+    auto all = std::make_unique<FaceTractions>(settings, sets, std::move(terms));
+    tractions = all.get();
+    stages.push_back(std::move(all));
+  }
   ContinuumSettings settings;
   settings.transfer = method.transfer;
   settings.average_dilatation = method.average_dilatation;
+  if (axisymmetric(definition.geometry)) settings.axis_motion = method.axis.motion;
   settings.gradient_terms = method.gradient_terms;
   settings.gravity = definition.gravity;
   settings.threads = threads;
@@ -274,7 +264,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     ParticleSet& set = s.sets.back();
     set.first_id = next_id;
     for (std::uint32_t& id : set.id) id = next_id++;
-    s.total_mass += set.mass * set.size();
+    s.total_mass += set.total_mass();
     if (!geostatic) forget_particles(body);
   }
   if (s.sets.empty()) throw DefinitionError("there is no deformable body, so nothing to simulate; add one to 'bodies'");
@@ -300,12 +290,21 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
       s.stages.push_back(std::move(wall));
     }
   };
+  Axis* axis = nullptr;
+  if (axisymmetric(definition.geometry)) {
+    s.stages.insert(s.stages.begin(), std::make_unique<HoopForce>());
+    if (definition.grid.min.x() == 0.0) {
+      auto condition = std::make_unique<Axis>(definition.method.axis.ghosts);
+      axis = condition.get();
+      s.stages.push_back(std::move(condition));
+    }
+  }
   add_walls(false);
   const std::size_t before_contact = s.stages.size();
   s.bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
     s.bodies.emplace_back(body);
-    auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.threads);
+    auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.threads, definition.geometry);
     s.contacts.push_back(contact.get());
     s.stages.push_back(std::move(contact));
     const double cells = body.surface->thickness() / layout.smallest_cell();
@@ -320,7 +319,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   add_walls(true);
   if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);
   if (s.stages.size() > before_contact) {
-    for (Wall* wall : holding) s.stages.push_back(std::make_unique<WallAgain>(*wall));
+    if (axis != nullptr) s.stages.push_back(std::make_unique<StageAgain>(*axis));
+    for (Wall* wall : holding) s.stages.push_back(std::make_unique<StageAgain>(*wall));
   }
 
   if (definition.method.precision == Precision::float32) {
@@ -328,13 +328,15 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   } else {
     s.add_mechanics<double>();
   }
-  double lightest = s.sets.front().mass;
-  for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.mass);
+  double lightest = s.sets.front().least_mass();
+  for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.least_mass());
   s.grid->least_mass = 1e-30 * lightest;
   s.gravity.name = "gravity";
   s.sort(0.0);
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
+  s.rates.resize(definition.metrics.size());
+  sample_metrics();
 }
 
 }  // namespace mpm

@@ -112,6 +112,8 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
   body_forces.erase(std::remove_if(body_forces.begin(), body_forces.end(), elsewhere), body_forces.end());
   auto& forces = part.particle_forces;
   forces.erase(std::remove_if(forces.begin(), forces.end(), elsewhere), forces.end());
+  auto& tractions = part.tractions;
+  tractions.erase(std::remove_if(tractions.begin(), tractions.end(), elsewhere), tractions.end());
   for (RigidBodyDefinition& body : part.rigid_bodies) body.velocity = body.rotation_rate = {};
   return part;
 }
@@ -187,8 +189,8 @@ void Simulation::State::settle() {
   Simulation run(std::move(part), {threads, isa});
   State& r = *run.state_;
   const double g = definition.gravity.norm();
-  double lightest = r.sets.front().mass;
-  for (const ParticleSet& set : r.sets) lightest = std::min(lightest, set.mass);
+  double lightest = r.sets.front().least_mass();
+  for (const ParticleSet& set : r.sets) lightest = std::min(lightest, set.least_mass());
   const double period = static_cast<double>(definition.time.sync) * 1e-9;
   Unbalanced residual;
   double before = 0.0;

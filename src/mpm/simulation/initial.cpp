@@ -82,10 +82,12 @@ void start_particles(ParticleSet& set, const DeformableBody& body, const Materia
       store(state, geometry, set, p);
     }
     const double j = state.j();
+    if (!set.masses.empty()) set.masses[0].set(p, set.masses[0][p] / j);
     least_j = p == 0 ? j : std::min(least_j, j);
     most_j = p == 0 ? j : std::max(most_j, j);
     inverse_j += 1.0 / j;
   }
+  if (!set.masses.empty()) return;
   // The particles of a body have one mass, so where J varies it is their mean mass that is right.
   if (least_j != most_j || least_j != 1.0) set.mass *= inverse_j / static_cast<double>(n);
   if (most_j > (1.0 + kEvenVolume) * least_j) {

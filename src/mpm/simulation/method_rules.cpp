@@ -16,6 +16,10 @@ constexpr int kMostTerms = 12;  ///< |A|^13 / 13! is below the last digit for th
 
 Fault shape_fault(const MethodDefinition& method, GeometryKind geometry) {
   if (has_shape(method.shape, geometry)) return {};
+  if (axisymmetric(geometry)) {
+    return MethodFault{"shape", fmt::format("{} is not made for an axis of symmetry; use ugimp, ugimp_stretch or cpdi",
+                                            shape_name(method.shape))};
+  }
   return MethodFault{"shape", "qcpdi has the nine points of a parallelogram and is planar; use cpdi"};
 }
 

@@ -1,0 +1,56 @@
+// The axis of an axisymmetric scene as a condition: nothing moves through r = 0, so nodes there have no radial
+// velocity. It is set by itself wherever the grid begins at the axis. Nodes beyond the axis have mass only when planar
+// functions or whole domains are asked for; what they do then is a choice (shape/axis_rules.hpp, AxisGhosts).
+//
+// Its impulse is radial, summed all the way round, as is that of the hoop stress: neither is a momentum of the body,
+// which has one along z alone, but with both the audit closes along r too.
+// Source: Nairn & Guilkey (2015), check list 2, and 4.1 for the nodes beyond.
+#pragma once
+
+#include <vector>
+
+#include "mpm/shape/axis_rules.hpp"
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+class Axis final : public Stage {
+ public:
+  explicit Axis(AxisGhosts ghosts) : ghosts_(ghosts) { account_.name = "axis"; }
+
+  void momentum_gathered(StepContext& context) override;
+  void before_strain(StepContext& context) override;
+  void momentum_updated(StepContext& context) override;
+  void velocity_found(StepContext& context, NodalField& velocity) override;
+  void increment_found(StepContext& context, NodalField& increment) override;
+  void grid_advanced(StepContext& context) override;
+  void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+
+ private:
+  struct Node {
+    NodeRef ref;
+    NodeRef twin;  ///< the node whose radial velocity it has, with the other sign; block -1: it has none
+  };
+  /// The radial velocity that the condition gives the node in this field.
+  static double wanted(const NodalField& velocity, const Node& node);
+
+  AxisGhosts ghosts_;
+  ImpulseAccount account_;
+  double given_ = 0.0;  ///< radial, in this step [N s]
+  std::vector<Node> nodes_;
+  std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
+};
+
+/// Books the radial impulse of the internal forces, which is that of the hoop stress (their sum over the nodes is zero
+/// but for it). Comes before whoever adds forces to the grid.
+class HoopForce final : public Stage {
+ public:
+  HoopForce() { account_.name = "hoop stress"; }
+  void forces_gathered(StepContext& context) override;
+  void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+
+ private:
+  ImpulseAccount account_;
+};
+
+}  // namespace mpm

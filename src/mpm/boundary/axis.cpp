@@ -1,0 +1,76 @@
+#include "mpm/boundary/axis.hpp"
+
+namespace mpm {
+
+void Axis::momentum_gathered(StepContext& context) {
+  const BlockTable& blocks = context.grid.blocks;
+  if (generation_ == blocks.generation()) return;
+  generation_ = blocks.generation();
+  nodes_.clear();
+  const GridLayout& layout = context.grid.layout;
+  for (int b = 0; b < blocks.size(); ++b) {
+    if (blocks.block(b)[0] > 0) continue;
+    for (int n = 0; n < layout.nodes_per_block(); ++n) {
+      const int beyond = -layout.node(blocks.block(b), n)[0];
+      if (beyond < 0 || beyond > kBlockEdge) continue;
+      if (beyond > 0 && ghosts_ == AxisGhosts::free) continue;
+      Node node{{b, n}, {-1, 0}};
+      if (beyond > 0 && ghosts_ == AxisGhosts::mirror) {
+        // Within a block the first axis is the slowest.
+        node.twin = {blocks.find(layout.key({beyond / kBlockEdge, blocks.block(b)[1], 0})),
+                     beyond % kBlockEdge * kBlockEdge + n % kBlockEdge};
+      }
+      nodes_.push_back(node);
+    }
+  }
+}
+
+double Axis::wanted(const NodalField& velocity, const Node& node) {
+  return node.twin.block < 0 ? 0.0 : -velocity.at(node.twin.block, 0, node.twin.node);
+}
+
+void Axis::before_strain(StepContext& context) { velocity_found(context, context.grid.velocity); }
+
+void Axis::momentum_updated(StepContext& context) {
+  Grid& grid = context.grid;
+  for (const Node& node : nodes_) {
+    if (!grid.carries(node.ref.block, node.ref.node)) continue;
+    double& velocity = grid.velocity.at(node.ref.block, 0, node.ref.node);
+    const double change = wanted(grid.velocity, node) - velocity;
+    velocity += change;
+    grid.force.at(node.ref.block, 0, node.ref.node) += change / context.dt;
+    given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
+  }
+}
+
+void Axis::velocity_found(StepContext&, NodalField& velocity) {
+  for (const Node& node : nodes_) velocity.at(node.ref.block, 0, node.ref.node) = wanted(velocity, node);
+}
+
+void Axis::increment_found(StepContext& context, NodalField& increment) {
+  const Grid& grid = context.grid;
+  for (const Node& node : nodes_) {
+    if (!grid.carries(node.ref.block, node.ref.node)) continue;
+    double& value = increment.at(node.ref.block, 0, node.ref.node);
+    const double change = wanted(increment, node) - value;
+    value += change;
+    given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
+  }
+}
+
+void Axis::grid_advanced(StepContext&) {
+  account_.add(given_ * Vec3::UnitX());
+  given_ = 0.0;
+}
+
+void HoopForce::forces_gathered(StepContext& context) {
+  const Grid& grid = context.grid;
+  double sum = 0.0;
+  for (int b = 0; b < grid.blocks.size(); ++b) {
+    const double* force = grid.force.block(b);
+    for (int n = 0; n < grid.layout.nodes_per_block(); ++n) sum += force[n];
+  }
+  account_.add(sum * context.dt * Vec3::UnitX());
+}
+
+}  // namespace mpm

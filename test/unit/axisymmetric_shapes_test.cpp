@@ -1,0 +1,427 @@
+// Axisymmetric shape functions against values by quadrature (test/data/axisymmetric_*.csv), the closed forms of Nairn &
+// Guilkey (2015), and their identities (method reference 1.1, 3).
+#include <algorithm>
+
+#include "axisymmetric_check.hpp"
+#include "lanes.hpp"
+#include "mpm/kernel/weights.hpp"
+
+namespace mpm::test {
+namespace {
+
+constexpr AxisRules kWhole = {AxisDomains::whole};
+constexpr AxisRules kPlanar = {AxisDomains::fitted, AxisFunctions::planar};
+
+// Along the radius alone, S, dS per half cell and T.
+std::array<double, 3> radial_values(double l_p, int node, double particle, double cell, const AxisRules& rules = {}) {
+  const double cells = node + 0.5 * particle;
+  const int nearest = nearest_node(cells), place = node - nearest + 1;
+  if (place < 0 || place > 2) return {};
+  const auto radial =
+      AxisymmetricUgimp<double>::radial(cells - nearest, static_cast<double>(nearest), 0.5 * l_p, 1.0 / cell, rules);
+  return {radial.s[place], 0.5 * cell * radial.g[place], radial.t[place]};
+}
+
+// 1e-12 relative to max(1, |value|): method reference 13.
+void expect_row(double found, double expected, const std::string& of) {
+  EXPECT_NEAR(found, expected, 1e-12 * std::max(1.0, std::abs(expected))) << of;
+}
+
+TEST(AxisymmetricUgimp, MatchesQuadratureRowByRow) {
+  const auto rows = table_rows("axisymmetric_ugimp.csv");
+  EXPECT_EQ(rows.size(), 316U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::vector<double>& v = rows[i];
+    const auto found = radial_values(v[0], static_cast<int>(v[1]), v[2], v[3]);
+    const std::string of = "row " + std::to_string(i);
+    for (int n = 0; n < 3; ++n) expect_row(found[n], v[4 + n], of + ", value " + std::to_string(n));
+  }
+}
+
+template <template <int> class Points>
+void check_domain_table(const std::string& name, std::size_t count) {
+  const auto rows = table_rows(name);
+  EXPECT_EQ(rows.size(), count);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::vector<double>& v = rows[i];
+    const Place<2> place{{v[1], v[5]}, {v[3], v[7]}, {0.5 * v[2], 0.5 * v[6]}, {{v[9], v[10]}, {v[11], v[12]}}};
+    const std::array<int, 2> node = {static_cast<int>(std::lround(v[4] / v[1])),
+                                     static_cast<int>(std::lround(v[8] / v[5]))};
+    const RingWeight found = domain_weights<Points>(place)[node];
+    const std::string of = name + " row " + std::to_string(i);
+    expect_row(found.s, v[13], of);
+    expect_row(found.g[0], v[14], of);
+    expect_row(found.g[1], v[15], of);
+    expect_row(found.t, v[16], of);
+  }
+}
+TEST(AxisymmetricCpdi, MatchesQuadratureRowByRow) { check_domain_table<AxisymmetricCpdi>("axisymmetric_cpdi.csv", 54); }
+TEST(AxisymmetricQcpdi, MatchesQuadratureRowByRow) {
+  check_domain_table<AxisymmetricQcpdi>("axisymmetric_qcpdi.csv", 12);
+}
+
+/// Mean radius of a ring's section and of its mass, <r> and <r^2>/<r>, between two radii.
+struct Means {
+  double of_area, of_mass;
+  Means(double a, double b) : of_area(0.5 * (a + b)), of_mass((a * a + a * b + b * b) / (1.5 * (a + b))) {}
+};
+
+// Method reference 1.1; `size`: of the largest value, gradient times cell and hoop function times cell, by whose last
+// digits the sums are off.
+void expect_identities(const RingWeights& weights, const Place<2>& place, double mean, double of_mass, double size) {
+  const RingSums sum(weights, place);
+  const double cell = *std::min_element(place.cell.begin(), place.cell.end());
+  const double value = 1e-14 * size, slope = value / cell;
+  EXPECT_NEAR(sum.s, 1.0, value);
+  EXPECT_NEAR(sum.t, 1.0 / mean, slope);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_NEAR(sum.g[k], 0.0, slope);
+    // Places of up to 8 cells.
+    EXPECT_NEAR(sum.r_g[k], k == 0 ? 1.0 : 0.0, 8 * value * place.cell[0] / cell);
+    EXPECT_NEAR(sum.z_g[k], k == 1 ? 1.0 : 0.0, 8 * value * place.cell[1] / cell);
+  }
+  EXPECT_NEAR(sum.r_t, 1.0, 8 * value * place.cell[0] / cell);
+  EXPECT_NEAR(sum.r_s, of_mass, 8 * value * place.cell[0]);
+}
+
+template <class Shape>
+void check_product_identities(const AxisRules& rules) {
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  for (int i = 0; i < 2000; ++i) {
+    // Half of the places touch the axis, from a fiftieth of a cell on.
+    const double r = i % 2 == 0 ? 0.02 + 0.5 * u(engine) : 0.02 + 6.0 * u(engine);
+    const Place<2> place{{0.5, 0.8},
+                         {0.5 * r, 4.0 * u(engine)},
+                         {0.05 + 0.45 * u(engine), 0.05 + 0.45 * u(engine)},
+                         {{0.8 + 0.2 * u(engine), 0.0}, {0.0, 1.0}}};
+    double half = place.half[0] * place.cell[0];
+    if constexpr (Shape::kStretches) half *= place.f[0][0];
+    double a = place.x[0] - half, b = place.x[0] + half;
+    if (rules.domains == AxisDomains::fitted && a < 0.0) {
+      if (Shape::kStretches) b = 2.0 * place.x[0];
+      a = 0.0;
+    }
+    const Means mean(a, b);
+    // Values of a box that reaches across have <r> in the denominator: half a cell squared over 0.02 x 0.05.
+    const double size = rules.domains == AxisDomains::whole ? 500.0 : 50.0;
+    expect_identities(product_weights<Shape>(place, rules), place, mean.of_area, mean.of_mass, size);
+  }
+}
+TEST(AxisymmetricIdentities, OfUgimp) {
+  check_product_identities<AxisymmetricUgimp<double>>({});
+  check_product_identities<AxisymmetricUgimp<double>>(kWhole);
+}
+TEST(AxisymmetricIdentities, OfStretchingUgimp) {
+  check_product_identities<AxisymmetricUgimpStretch<double>>({});
+  check_product_identities<AxisymmetricUgimpStretch<double>>(kWhole);
+}
+
+// A point: <r> is its radius, and so is the mean radius of its mass.
+TEST(AxisymmetricIdentities, OfDirac) {
+  std::mt19937 engine(2);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  for (int i = 0; i < 1000; ++i) {
+    const Place<2> place{{0.5, 0.8}, {0.01 + 3.0 * u(engine), 4.0 * u(engine)}, {0.25, 0.25}, {{1, 0}, {0, 1}}};
+    const RingWeights weights = product_weights<AxisymmetricDirac<double>>(place);
+    expect_identities(weights, place, place.x[0], place.x[0], 50.0);
+    for (const auto& [node, w] : weights) EXPECT_NEAR(w.t, w.s / place.x[0], 1e-14 / place.x[0]);
+  }
+}
+
+/// Half vectors of the domain that touches the axis at most [m].
+double fit(const Place<2>& place, double (&d)[2][2]) {
+  place.domain(d);
+  const double reach = std::abs(d[0][0]) + std::abs(d[1][0]);
+  const double scale = std::min(1.0, place.x[0] / reach);
+  for (auto& vector : d) {
+    for (double& component : vector) component *= scale;
+  }
+  return scale;
+}
+
+// Of a parallelogram <r> is the particle's radius and <r^2>/<r> = r + (d_1r^2 + d_2r^2) / (3 r). Shrunk by both half
+// vectors together it stays on its side: corners of either sign of d_1r d_2r (method reference, erratum 14).
+template <template <int> class Points>
+void check_domain_identities() {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> r(0.02, 3.0), near(0.02, 0.3);
+  int shrunk[2] = {};
+  for (int i = 0; i < 2000; ++i) {
+    Place<2> place = random_place<2>(engine);
+    place.x[0] = i % 2 == 0 ? near(engine) : r(engine);
+    place.x[1] += 2.0;
+    double d[2][2];
+    if (fit(place, d) < 1.0) ++shrunk[d[0][0] * d[1][0] < 0.0];
+    const double of_mass = place.x[0] + (d[0][0] * d[0][0] + d[1][0] * d[1][0]) / (3.0 * place.x[0]);
+    const RingWeights weights = domain_weights<Points>(place);
+    double steepest = 1.0;  // a domain that was shrunk has gradients of cell over its size
+    for (const auto& [node, w] : weights) {
+      EXPECT_TRUE(node[0] >= 0 || std::abs(w.s) + std::abs(w.t) < 1e-12) << "beyond the axis";
+      for (const double g : w.g) steepest = std::max(steepest, std::abs(g) * place.cell[0]);
+      steepest = std::max(steepest, w.t * place.cell[0]);
+    }
+    expect_identities(weights, place, place.x[0], of_mass, 20.0 * steepest);
+  }
+  EXPECT_GT(shrunk[0], 100);
+  EXPECT_GT(shrunk[1], 100);
+}
+TEST(AxisymmetricIdentities, OfCpdi) { check_domain_identities<AxisymmetricCpdi>(); }
+TEST(AxisymmetricIdentities, OfQcpdi) { check_domain_identities<AxisymmetricQcpdi>(); }
+
+// Method reference 3.3: by parts, G_r + T = [r N] over D between the ends of the box.
+TEST(AxisymmetricUgimp, GradientAndHoopFunctionAreTheEnds) {
+  std::mt19937 engine(4);
+  std::uniform_real_distribution<double> radius(0.0, 5.0), l_p(0.1, 1.0);
+  const double cell = 0.5;
+  for (int i = 0; i < 1000; ++i) {
+    const double r = i % 2 == 0 ? 0.1 * radius(engine) : radius(engine), half = 0.5 * l_p(engine);
+    for (const AxisRules& rules : {AxisRules{}, kWhole}) {
+      const double a = rules.domains == AxisDomains::whole ? r - half : std::max(0.0, r - half), b = r + half;
+      if (a + b < 0.02) continue;
+      const int nearest = nearest_node(r);
+      const auto w =
+          AxisymmetricUgimp<double>::radial(r - nearest, static_cast<double>(nearest), half, 1.0 / cell, rules);
+      for (int n = 0; n < 3; ++n) {
+        const double node = nearest + n - 1;
+        const auto hat = [&](double x) { return std::max(0.0, 1.0 - std::abs(x - node)); };
+        const double expected = (b * hat(b) - a * hat(a)) / (0.5 * (b * b - a * a)) / cell;
+        EXPECT_NEAR(w.g[n] + w.t[n], expected, 1e-12 / (a + b)) << r << " " << half;
+      }
+    }
+  }
+}
+
+// Nairn & Guilkey (2015) eq. (19) and (24), of domains as they are; their (68) and (27) for T.
+std::array<double, 3> closed_form(double l, int node, double x, double cell) {
+  const double q = 2.0 * node + x;
+  std::array<double, 3> value{};
+  if (x > -2.0 - l && x < -2.0 + l) {
+    value[0] = (2 + l + x) * (2 + l + x) / (8 * l) * (1 - (2 * (1 - l) + x) / (3 * q));
+    value[1] = (2 + l + x) / (4 * l) * (1 - (2 - l + x) / (2 * q));
+  } else if (x >= -2.0 + l && x < -l) {
+    value[0] = 0.5 * (2 + x) + l * l / (6 * q);
+    value[1] = 0.5;
+  } else if (x >= -l && x < l) {
+    value[0] = ((4 - l) * l - x * x) / (4 * l) + x * (x * x - 3 * l * l) / (12 * l * q);
+    value[1] = -x / (2 * l) - (l * l - x * x) / (4 * l * q);
+  } else if (x >= l && x < 2.0 - l) {
+    value[0] = 0.5 * (2 - x) - l * l / (6 * q);
+    value[1] = -0.5;
+  } else if (x >= 2.0 - l && x < 2.0 + l) {
+    value[0] = (2 + l - x) * (2 + l - x) / (8 * l) * (1 + (2 * (1 - l) - x) / (3 * q));
+    value[1] = -(2 + l - x) / (4 * l) * (1 + (2 - l - x) / (2 * q));
+  }
+  const double cells = node + 0.5 * x;
+  const int nearest = nearest_node(cells), place = node - nearest + 1;
+  const Ugimp<double> plane(cells - nearest, {0.5 * l, 1.0 / cell});
+  if (place >= 0 && place <= 2) value[2] = 2.0 / (cell * q) * plane.s[place];
+  return value;
+}
+
+// Where a box reaches across the axis the forms have 1 / q, here up to 50.
+TEST(AxisymmetricUgimp, WholeDomainsAreThePapersClosedForms) {
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  int across = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double l = 0.05 + 0.95 * u(engine), r = i % 2 == 0 ? 0.01 + 0.5 * u(engine) : 0.01 + 5.0 * u(engine);
+    across += r < 0.5 * l;
+    for (int node = nearest_node(r) - 2; node <= nearest_node(r) + 2; ++node) {
+      const double x = 2.0 * (r - node);
+      const auto found = radial_values(l, node, x, 0.5, kWhole), expected = closed_form(l, node, x, 0.5);
+      for (int n = 0; n < 3; ++n) EXPECT_NEAR(found[n], expected[n], 1e-12 * (1.0 + 1.0 / r)) << l << " " << r;
+    }
+  }
+  EXPECT_GT(across, 500);
+}
+
+// Eq. (68), (69) whatever the radius, with T = S / r.
+TEST(AxisymmetricUgimp, PlanarFunctionsAreThoseOfThePlane) {
+  std::mt19937 engine(6);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  for (int i = 0; i < 1000; ++i) {
+    const double half = 0.05 + 0.45 * u(engine), r = 0.02 + 4.0 * u(engine), cell = 0.5;
+    const int nearest = nearest_node(r);
+    const Ugimp<double> plane(r - nearest, {half, 1.0 / cell});
+    const auto w =
+        AxisymmetricUgimp<double>::radial(r - nearest, static_cast<double>(nearest), half, 1.0 / cell, kPlanar);
+    for (int n = 0; n < 3; ++n) {
+      EXPECT_NEAR(w.s[n], plane.s[n], 1e-14);
+      EXPECT_NEAR(w.g[n], plane.g[n], 1e-13 / half / cell);
+      EXPECT_NEAR(w.t[n], plane.s[n] / (r * cell), 1e-13 / (r * cell));
+    }
+  }
+}
+
+template <template <int> class Points, class Plane>
+void check_planar_points() {
+  std::mt19937 engine(7);
+  for (int i = 0; i < 500; ++i) {
+    Place<2> place = random_place<2>(engine);
+    place.x = {std::abs(place.x[0]) + 0.02, place.x[1] + 2.0};
+    auto rings = domain_weights<Points>(place, true);
+    for (const auto& [node, weight] : point_weights<2, Plane>(place)) {
+      const RingWeight found = rings[node];
+      EXPECT_NEAR(found.s, weight.s, 1e-14);
+      EXPECT_NEAR(found.t, weight.s / place.x[0], 1e-13 / place.x[0]);
+      // Gradients of up to 1e3, as in shape_points_test.cpp.
+      for (int k = 0; k < 2; ++k) EXPECT_NEAR(found.g[k], weight.g[k], 1e-12 * (1.0 + std::abs(weight.g[k])));
+    }
+  }
+}
+TEST(AxisymmetricCpdi, PlanarFunctionsAreThoseOfThePlane) { check_planar_points<AxisymmetricCpdi, Cpdi<2>>(); }
+TEST(AxisymmetricQcpdi, PlanarFunctionsAreThoseOfThePlane) { check_planar_points<AxisymmetricQcpdi, Qcpdi<2>>(); }
+
+// Far from the axis a ring is straight: S and G as in the plane, T = 1 / r of S, but for a cell over the radius.
+TEST(AxisymmetricIdentities, FarFromTheAxisThePlanes) {
+  std::mt19937 engine(8);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  const double far = 1e6, cell = 1.0;
+  for (int i = 0; i < 200; ++i) {
+    const double offset = u(engine) - 0.5, half = 0.05 + 0.45 * u(engine);
+    const Ugimp<double> plane(offset, {half, 1.0 / cell});
+    const auto w = AxisymmetricUgimp<double>::radial(offset, far, half, 1.0 / cell, {});
+    for (int n = 0; n < 3; ++n) {
+      EXPECT_NEAR(w.s[n], plane.s[n], cell / far);
+      EXPECT_NEAR(w.g[n], plane.g[n], cell / far / half);
+      EXPECT_NEAR(w.t[n] * far, plane.s[n], 2.0 * cell / far);
+    }
+    const double d[2][2] = {{half, 0.1}, {-0.2 * half, 0.4}};
+    double plane_g[4][2], ring_g[4][2], ring_w[4];
+    Cpdi<2>::gradients(d, plane_g);
+    AxisymmetricCpdi<2>::radial(d, far, ring_w, ring_g);
+    for (int a = 0; a < 4; ++a) {
+      EXPECT_NEAR(ring_w[a], 0.25, cell / far);
+      for (int k = 0; k < 2; ++k) EXPECT_NEAR(ring_g[a][k], plane_g[a][k], cell / far / half);
+    }
+  }
+}
+
+// Uniform stress in a cylinder whose section is tiled: its force is zero at every node inside and on the axis, and R h
+// at the free surface, since the integral of d(r N) is (method reference 1.1). Per radian and unit of stress; 8 x 8
+// cells, so sums of a few units.
+template <class Of>
+void check_tiling(int per_cell, double first_half, Of&& weights_of) {
+  const double cell[2] = {0.5, 0.25};
+  const int cells = 8;
+  std::map<std::array<int, 2>, std::array<double, 2>> force;
+  for (int i = 0; i < cells * per_cell; ++i) {
+    for (int j = 0; j < cells * per_cell; ++j) {
+      const double half = 0.5 / per_cell;
+      const Place<2> place{{cell[0], cell[1]},
+                           {(i + 0.5) / per_cell * cell[0], (j + 0.5) / per_cell * cell[1]},
+                           {half * first_half, half},
+                           {{1.0 / first_half, 0.0}, {0.0, 1.0}}};
+      const double ring = place.x[0] * 4.0 * half * cell[0] * half * cell[1];
+      for (const auto& [node, w] : weights_of(place)) {
+        force[node][0] += ring * (w.g[0] + w.t);
+        force[node][1] += ring * w.g[1];
+      }
+    }
+  }
+  for (const auto& [node, f] : force) {
+    if (node[1] <= 0 || node[1] >= cells) continue;
+    const double surface = node[0] == cells ? cells * cell[0] * cell[1] : 0.0;
+    EXPECT_NEAR(f[0], surface, 1e-13) << node[0] << " " << node[1];
+    EXPECT_NEAR(f[1], 0.0, 1e-13) << node[0] << " " << node[1];
+  }
+}
+TEST(AxisymmetricIdentities, TiledDomainsBalance) {
+  for (const int per_cell : {1, 2, 3}) {
+    check_tiling(per_cell, 1.0, [](const Place<2>& p) { return product_weights<AxisymmetricUgimp<double>>(p); });
+    // Boxes of four fifths, stretched to fit again.
+    check_tiling(per_cell, 0.8, [](const Place<2>& p) { return product_weights<AxisymmetricUgimpStretch<double>>(p); });
+    check_tiling(per_cell, 0.8, [](const Place<2>& p) { return domain_weights<AxisymmetricCpdi>(p); });
+    check_tiling(per_cell, 0.8, [](const Place<2>& p) { return domain_weights<AxisymmetricQcpdi>(p); });
+  }
+}
+
+// A stretched box about its particle's centre, from the axis on: the particle's radius is half of it.
+TEST(AxisymmetricUgimpStretch, FitsByShrinkingAboutTheParticle) {
+  const double r = 0.3, half = 0.45;
+  const auto fitted = AxisymmetricUgimpStretch<double>::radial(r, 0.0, half, 2.0, {});
+  const auto small = AxisymmetricUgimp<double>::radial(r, 0.0, r, 2.0, {});
+  for (int n = 0; n < 3; ++n) {
+    EXPECT_EQ(fitted.s[n], small.s[n]);
+    EXPECT_EQ(fitted.g[n], small.g[n]);
+    EXPECT_EQ(fitted.t[n], small.t[n]);
+  }
+  const auto whole = AxisymmetricUgimpStretch<double>::radial(r, 0.0, half, 2.0, kWhole);
+  EXPECT_LT(whole.s[0], 0.0);  // across the axis r is negative
+}
+
+// A particle on the axis itself, where 1 / r is not a number: its weights are numbers and sum to 1.
+TEST(AxisymmetricIdentities, OnTheAxisAllIsFinite) {
+  const Place<2> place{{0.5, 0.5}, {0.0, 1.1}, {0.25, 0.25}, {{1.0, 0.3}, {-0.2, 0.9}}};
+  for (const RingWeights& weights :
+       {product_weights<AxisymmetricDirac<double>>(place), product_weights<AxisymmetricUgimp<double>>(place),
+        product_weights<AxisymmetricUgimpStretch<double>>(place), domain_weights<AxisymmetricCpdi>(place),
+        domain_weights<AxisymmetricQcpdi>(place)}) {
+    double sum = 0.0;
+    for (const auto& [node, w] : weights) {
+      EXPECT_TRUE(std::isfinite(w.s) && std::isfinite(w.g[0]) && std::isfinite(w.g[1]) && std::isfinite(w.t));
+      sum += w.s;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+  }
+}
+
+template <class One, class Together>
+void check_radial_lanes(const AxisRules& rules) {
+  std::mt19937 engine(9);
+  std::uniform_real_distribution<double> offset(-0.5, 0.5), half(0.05, 0.5);
+  for (int i = 0; i < 100; ++i) {
+    Four<double> x, node, w;
+    for (int l = 0; l < 4; ++l) {
+      set_lane(node, l, static_cast<double>((i + l) % 4));
+      set_lane(x, l, (i + l) % 4 == 0 ? std::abs(offset(engine)) + 0.01 : offset(engine));
+      set_lane(w, l, half(engine));
+    }
+    const auto together = Together::radial(x, node, w, Four<double>(2.0), rules);
+    for (int l = 0; l < 4; ++l) {
+      const auto alone = One::radial(lane(x, l), lane(node, l), lane(w, l), 2.0, rules);
+      for (int n = 0; n < 3; ++n) {
+        EXPECT_EQ(lane(together.s[n], l), alone.s[n]);
+        EXPECT_EQ(lane(together.g[n], l), alone.g[n]);
+        EXPECT_EQ(lane(together.t[n], l), alone.t[n]);
+      }
+    }
+  }
+}
+template <class Points>
+void check_point_lanes() {
+  std::mt19937 engine(10);
+  std::uniform_real_distribution<double> component(-0.2, 0.2), radius(0.7, 2.0);
+  Four<double> d[2][2], r, weight[Points::kPoints], g[Points::kPoints][2];
+  for (int l = 0; l < 4; ++l) {
+    set_lane(r, l, radius(engine));
+    for (int k = 0; k < 2; ++k) {
+      for (int c = 0; c < 2; ++c) set_lane(d[k][c], l, (k == c ? 0.5 : 0.0) + component(engine));
+    }
+  }
+  Points::radial(d, r, weight, g);
+  for (int l = 0; l < 4; ++l) {
+    double d_alone[2][2], w_alone[Points::kPoints], g_alone[Points::kPoints][2];
+    for (int k = 0; k < 2; ++k) {
+      for (int c = 0; c < 2; ++c) d_alone[k][c] = lane(d[k][c], l);
+    }
+    Points::radial(d_alone, lane(r, l), w_alone, g_alone);
+    for (int a = 0; a < Points::kPoints; ++a) {
+      EXPECT_EQ(lane(weight[a], l), w_alone[a]);
+      for (int c = 0; c < 2; ++c) EXPECT_EQ(lane(g[a][c], l), g_alone[a][c]);
+    }
+  }
+}
+TEST(Lanes, OfAxisymmetricShapesAreAsNumbersAlone) {
+  for (const AxisRules& rules : {AxisRules{}, kWhole, kPlanar}) {
+    check_radial_lanes<AxisymmetricDirac<double>, AxisymmetricDirac<Four<double>>>(rules);
+    check_radial_lanes<AxisymmetricUgimp<double>, AxisymmetricUgimp<Four<double>>>(rules);
+    check_radial_lanes<AxisymmetricUgimpStretch<double>, AxisymmetricUgimpStretch<Four<double>>>(rules);
+  }
+  check_point_lanes<AxisymmetricCpdi<2>>();
+  check_point_lanes<AxisymmetricQcpdi<2>>();
+}
+
+}  // namespace
+}  // namespace mpm::test

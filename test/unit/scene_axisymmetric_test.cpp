@@ -126,8 +126,8 @@ TEST(SceneAxisymmetric, MaterialLiesAtPositiveRadii) {
 
 // Shaken places stay on their side of the axis: a sphere about it has no other boundary there.
 TEST(SceneAxisymmetric, JitterKeepsToPositiveRadii) {
-  for (const char* shape : {"{cylinder: {center: [0, 1], radius: 0.5, height: 0.4}}",
-                            "{sphere: {center: [0, 1], radius: 0.5}}", "{box: {min: [0, 0.8], max: [0.5, 1.2]}}"}) {
+  for (const char* shape : {"{cylinder: {center: [0, 1], radius: 0.5, height: 1.8}}",
+                            "{sphere: {center: [0, 1], radius: 0.9}}", "{box: {min: [0, 0.1], max: [0.5, 1.9]}}"}) {
     const Parts parts = with_shape(shape, ", jitter: 0.4");
     const SimulationDefinition definition = build(parse_scene(parts.text(), "shaken.yaml"));
     double least = 1.0;

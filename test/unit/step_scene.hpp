@@ -101,10 +101,11 @@ class StepScene {
   /// B of APIC, of this gradient of the velocity [1/s].
   void set_affine(const double (&gradient)[3][3]) {
     for (int p = 0; p < set().size(); ++p) {
+      const Vector centre = mean_place(p);
       double b[kDim][kDim] = {};
       for (const NodeWeight& n : stencil(p)) {
         double arm[kDim];
-        for (int k = 0; k < kDim; ++k) arm[k] = node_position(n.at[k]) - set().x[k][p];
+        for (int k = 0; k < kDim; ++k) arm[k] = node_position(n.at[k]) - centre[k];
         for (int c = 0; c < kDim; ++c) {
           double v = 0.0;
           for (int k = 0; k < kDim; ++k) v += gradient[c][k] * arm[k];
@@ -117,6 +118,14 @@ class StepScene {
   Vector place(int p) {
     Vector x{};
     for (int k = 0; k < kDim; ++k) x[k] = set().x[k][p];
+    return x;
+  }
+  /// Of its values, the sum of S x_i: its place, but for a ring, whose values have the weight r.
+  Vector mean_place(int p) {
+    Vector x{};
+    for (const NodeWeight& n : stencil(p)) {
+      for (int k = 0; k < kDim; ++k) x[k] += n.s * node_position(n.at[k]);
+    }
     return x;
   }
   /// The nodes that it gives to in the next step.

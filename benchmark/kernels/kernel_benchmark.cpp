@@ -152,14 +152,17 @@ void run_kernel(benchmark::State& state, const Place* place, mpm::Isa isa, const
 }
 
 const mpm::Elasticity kSoft{1e6, 0.3}, kMetal{70e9, 0.33};
-const mpm::LawDefinition kLaws[] = {mpm::LinearElasticDefinition{kSoft},
-                                    mpm::NeoHookeanDefinition{kSoft},
-                                    mpm::DruckerPragerDefinition{kSoft, 0.6, 0.0, 2000.0},
-                                    mpm::MohrCoulombDefinition{kSoft, 0.6, 0.0, 2000.0},
-                                    mpm::J2PlasticityDefinition{kMetal, 200e6, 500e6, 300e6, 20.0},
-                                    mpm::NewtonianFluidDefinition{1e6, 7.0, 50.0, true},
-                                    mpm::IdealGasDefinition{101325.0, 293.15},
-                                    mpm::StandardLinearSolidDefinition{kSoft, 5e5, 0.5}};
+const mpm::LawDefinition kLaws[] = {
+    mpm::LinearElasticDefinition{kSoft},
+    mpm::NeoHookeanDefinition{kSoft},
+    mpm::DruckerPragerDefinition{kSoft, 0.6, 0.0, 2000.0},
+    mpm::MohrCoulombDefinition{kSoft, 0.6, 0.0, 2000.0},
+    mpm::J2PlasticityDefinition{kMetal, 200e6, 500e6, 300e6, 20.0},
+    mpm::NewtonianFluidDefinition{1e6, 7.0, 50.0, true},
+    mpm::IdealGasDefinition{101325.0, 293.15},
+    mpm::StandardLinearSolidDefinition{kSoft, 5e5, 0.5},
+    mpm::JohnsonCookDefinition{
+        kMetal.shear(), {5000.0, 1.5, 2.0}, 200e6, 300e6, 0.3, 0.01, 1.0, 1.2, 900.0, 293.0, 900.0, 0.9}};
 
 template <class T>
 void run_law(benchmark::State& state, mpm::Isa isa, const mpm::LawDefinition* law) {

@@ -102,6 +102,7 @@ TEST(Conversions, ContactForceThereAndBack) {
   report.impulse = {0.5, 0.0, -0.5};
   report.pressing = 11.0;
   report.friction = {0.125, 0.25, 0.5};
+  report.per_radian = {0.75, 0.0, -1.5};
   report.origin = {10.0, 20.0, 30.0};
   report.arm = {0.5, -0.25, 0.125};
   const ContactForce message = to_message(report);
@@ -113,6 +114,7 @@ TEST(Conversions, ContactForceThereAndBack) {
   EXPECT_EQ(again.nodes, report.nodes);
   EXPECT_EQ(again.pressing, report.pressing);
   EXPECT_EQ(again.friction, report.friction);
+  EXPECT_EQ(again.per_radian, report.per_radian);
   EXPECT_EQ(again.origin, report.origin);
   EXPECT_EQ(again.arm, report.arm);
   EXPECT_EQ(to_message(again), message);
@@ -196,6 +198,7 @@ mpm::ContactReport contact(double force, double peak, double interval, double im
   report.peak.force.x() = peak;
   report.interval = interval;
   report.impulse.x() = impulse;
+  report.per_radian = {force, 0.0, -force};
   return report;
 }
 
@@ -208,6 +211,8 @@ TEST(ContactAverage, IsImpulseOverTime) {
   ASSERT_EQ(taken.size(), 1U);
   // (4 N x 1 s + 1 N x 3 s) / 4 s
   EXPECT_DOUBLE_EQ(taken[0].mean.force.x(), 1.75);
+  EXPECT_DOUBLE_EQ(taken[0].per_radian.x(), 1.75);
+  EXPECT_DOUBLE_EQ(taken[0].per_radian.z(), -1.75);
   EXPECT_EQ(taken[0].peak.force.x(), 5.0);
   EXPECT_EQ(taken[0].interval, 4.0);
   EXPECT_EQ(taken[0].impulse.x(), 7.0);

@@ -178,6 +178,31 @@ TEST(InitialState, MetalCarriesTheDeviatorAndItsVolumeThePressure) {
       << text;
 }
 
+// J is that of the pressure at no internal energy, rho0 C0^2 eta (1 - gamma0 eta/2) / (1 - S eta)^2; the strength is on
+// Cauchy stress.
+TEST(InitialState, MetalUnderImpactCarriesTheDeviatorAndItsVolumeThePressure) {
+  JohnsonCookDefinition law;
+  law.shear_modulus = 4e4;
+  law.pressure = {10.0, 1.9, 1.7};  // 10 m/s: rho0 C0^2 = 1.2e5 Pa
+  law.yield_stress = 5e4;
+  law.heat_capacity = 1.0;
+  for (const GeometryKind geometry : {GeometryKind::solid, GeometryKind::plane_strain, GeometryKind::line}) {
+    const bool line = geometry == GeometryKind::line;
+    const Symmetric3<double> s =
+        line ? Symmetric3<double>{-2e4, -2e4, -2e4, 0, 0, 0} : Symmetric3<double>{-3e4, 0.0, -3e4, 0.0, 5e3, 0.0};
+    const InitialState state = under(law, s, geometry);
+    const double eta = 1.0 - state.j();
+    EXPECT_NEAR(1.2e5 * eta * (1.0 - 0.85 * eta) / std::pow(1.0 - 1.9 * eta, 2.0), 2e4, 1e-3)
+        << geometry_name(geometry);
+    EXPECT_LT((cauchy(state) - full(s)).norm(), 1e-8 * full(s).norm()) << geometry_name(geometry);
+  }
+  EXPECT_NE(refusal(law, {Symmetric3<double>{0, 0, -6e4, 0, 0, 0}, false, std::nullopt}).find("cannot carry"),
+            std::string::npos);
+  const InitialState warm = InitialStates({"m", kDensity, law}, GeometryKind::solid).find({std::nullopt, false, 400.0});
+  EXPECT_EQ(warm.temperature_excess, 107.0);
+  EXPECT_EQ(warm.j(), 1.0);  // free of stress at the temperature that it starts at
+}
+
 TEST(InitialState, FluidsTakeAPressure) {
   NewtonianFluidDefinition law;
   law.bulk_modulus = 2e6;

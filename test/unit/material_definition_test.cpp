@@ -189,6 +189,43 @@ TEST(MaterialDefinition, ViscoelasticSolid) {
   }
 }
 
+TEST(MaterialDefinition, MetalUnderImpact) {
+  JohnsonCookDefinition steel;
+  steel.shear_modulus = 77e9;
+  steel.pressure = {3574.0, 1.92, 1.69};
+  steel.yield_stress = 1.5e9;
+  steel.heat_capacity = 477.0;
+  EXPECT_EQ(refusal({"m", 7850.0, steel}), "");
+  const auto with = [&](double JohnsonCookDefinition::*constant, double value) {
+    JohnsonCookDefinition changed = steel;
+    changed.*constant = value;
+    return refusal({"m", 7850.0, changed});
+  };
+  using Law = JohnsonCookDefinition;
+  for (const auto constant : {&Law::shear_modulus, &Law::yield_stress, &Law::hardening_exponent, &Law::reference_rate,
+                              &Law::softening_exponent, &Law::reference_temperature, &Law::heat_capacity}) {
+    for (const double bad : {0.0, -1.0, kNan, kInfinity}) EXPECT_NE(with(constant, bad), "") << bad;
+  }
+  for (const auto constant :
+       {&Law::hardening, &Law::rate_sensitivity, &Law::melting_temperature, &Law::heat_fraction}) {
+    EXPECT_EQ(with(constant, 0.0), "");
+    for (const double bad : {-1.0, kNan, kInfinity}) EXPECT_NE(with(constant, bad), "") << bad;
+  }
+  EXPECT_EQ(with(&Law::hardening_exponent, 1.0), "");
+  EXPECT_EQ(with(&Law::hardening_exponent, 1.1), "material 'm': n is 1.1; it must lie above 0 and not above 1");
+  EXPECT_EQ(with(&Law::heat_fraction, 1.1), "material 'm': heat fraction is 1.1; it must lie from 0 to 1");
+  EXPECT_EQ(with(&Law::melting_temperature, 293.0),
+            "material 'm': melting temperature is 293 K; it must be finite and above the reference temperature, 293 K");
+  for (const auto constant : {&MieGrueneisenDefinition::sound_speed, &MieGrueneisenDefinition::hugoniot_slope,
+                              &MieGrueneisenDefinition::gamma0}) {
+    for (const double bad : {-1.0, kNan, kInfinity}) {
+      JohnsonCookDefinition changed = steel;
+      changed.pressure.*constant = bad;
+      EXPECT_NE(refusal({"m", 7850.0, changed}), "") << bad;
+    }
+  }
+}
+
 TEST(MaterialDefinition, Names) {
   EXPECT_EQ(law_name(LinearElasticDefinition{}), "linear_elastic");
   EXPECT_EQ(law_name(NeoHookeanDefinition{}), "neo_hookean");
@@ -197,6 +234,7 @@ TEST(MaterialDefinition, Names) {
   EXPECT_EQ(law_name(NewtonianFluidDefinition{}), "newtonian_fluid");
   EXPECT_EQ(law_name(IdealGasDefinition{}), "ideal_gas");
   EXPECT_EQ(law_name(StandardLinearSolidDefinition{}), "viscoelastic");
+  EXPECT_EQ(law_name(JohnsonCookDefinition{}), "johnson_cook");
   MaterialDefinition nameless = soil();
   nameless.name.clear();
   EXPECT_NE(refusal(nameless), "");

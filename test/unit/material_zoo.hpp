@@ -18,6 +18,35 @@ struct Specimen {
   double time;      ///< of an increment [s]
 };
 
+/// Nairn & Guilkey (2015), Table I, with a specific heat and reference values of steel.
+inline JohnsonCookDefinition armor_steel() {
+  JohnsonCookDefinition steel;
+  steel.shear_modulus = 77.3e9;
+  steel.pressure = {3574.0, 1.92, 1.69};
+  steel.yield_stress = 1.5e9;
+  steel.hardening = 0.569e9;
+  steel.hardening_exponent = 0.22;
+  steel.rate_sensitivity = 0.003;
+  steel.softening_exponent = 1.17;
+  steel.melting_temperature = 1777.0;
+  steel.heat_capacity = 450.0;
+  return steel;
+}
+
+/// The same, weak and soon soft: m < 1, n > 1/2 and a strong rate.
+inline JohnsonCookDefinition hot_steel() {
+  JohnsonCookDefinition steel = armor_steel();
+  steel.yield_stress = 0.3e9;
+  steel.hardening = 0.9e9;
+  steel.hardening_exponent = 0.7;
+  steel.rate_sensitivity = 0.05;
+  steel.reference_rate = 100.0;
+  steel.softening_exponent = 0.8;
+  steel.melting_temperature = 900.0;
+  steel.heat_fraction = 0.6;
+  return steel;
+}
+
 inline std::vector<Specimen> zoo() {
   const Elasticity soft{1e5, 0.3}, metal{70e9, 0.33}, soil{1e6, 0.3};
   IdealGasDefinition air{101325.0, 293.15, 1.4, GasProcess::adiabatic};
@@ -45,6 +74,8 @@ inline std::vector<Specimen> zoo() {
       {{"ideal_gas", 1.2, air}, 0.1, 0.0, 1.0},
       {{"isothermal_gas", 1.2, slow_air}, 0.1, 0.0, 1.0},
       {{"viscoelastic", 100.0, StandardLinearSolidDefinition{soft, 50e3, 0.5}}, 0.1, 0.0, 0.1},
+      {{"johnson_cook", 7850.0, armor_steel()}, 0.02, -0.1, 1e-6},
+      {{"soft_johnson_cook", 7850.0, hot_steel()}, 0.03, 0.0, 1e-3},
   };
 }
 

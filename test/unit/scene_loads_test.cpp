@@ -54,8 +54,6 @@ TEST(SceneLoads, AreRefusedWhenWrong) {
   expect_refused("loads: {}", "bad.yaml:5: loads: found a map of keys; write a list");
   expect_refused("loads: [{body_forc: {}}]",
                  "bad.yaml:5: loads.0.body_forc: unknown key 'body_forc'; did you mean 'body_force'?");
-  expect_refused("loads: [{traction: {}}]",
-                 "bad.yaml:5: loads.0.traction: not built yet; use particle_force, body_force");
   expect_refused("loads: [{body_force: {}}]",
                  "bad.yaml:5: loads.0.body_force: the key 'acceleration' is missing; add it");
   const std::string at = "bad.yaml:5: loads.0.body_force.";
@@ -117,6 +115,51 @@ TEST(SceneLoads, ForcesOnParticlesAreRefusedWhenWrong) {
   expect_refused(
       "loads: [{particle_force: {force: [0, 1], body: block, region: {sphere: {center: [0.9, 0.9], radius: 0.1}}}}]",
       at + ".region: no particle of body 'block' has its centre in it; make it larger, or move it");
+}
+
+// Without a region the choice is the simulation's; with one it is of the centres that lie in it.
+TEST(SceneLoads, TractionsOnFaces) {
+  const std::string loads =
+      "loads:\n"
+      "  - {traction: {body: block, edge: x_max, traction: [2 kPa, \"3*X\"]}}\n"
+      "  - {pressure: {body: block, edge: z_min, value: \"t\", shear: 7, region: {box: {min: [0, 0], max: [0.3, "
+      "1]}}}}\n";
+  const SimulationDefinition d = build(parse_scene(kPlanar + loads, "test.yaml"));
+  ASSERT_EQ(d.tractions.size(), 2u);
+  const TractionDefinition &fixed = d.tractions[0], &following = d.tractions[1];
+  EXPECT_EQ(fixed.body, "block");
+  EXPECT_EQ(fixed.face, 1);
+  EXPECT_FALSE(fixed.follows);
+  EXPECT_TRUE(fixed.particles.empty());
+  EXPECT_EQ(fixed.value[0](0.0), 2000.0);
+  EXPECT_EQ(fixed.value[2](0.0, Vec3::Zero(), Vec3(2.0, 0, 0)), 6.0);
+  EXPECT_EQ(following.face, 4);
+  EXPECT_TRUE(following.follows);
+  EXPECT_EQ(following.particles.size(), 2u * 8u);  // two columns of the 8 by 8 in 0.4 m
+  EXPECT_EQ(following.value[0](5.0), 5.0);
+  EXPECT_EQ(following.value[1](0.0), 7.0);
+}
+
+TEST(SceneLoads, TractionsAreRefusedWhenWrong) {
+  const std::string at = "bad.yaml:5: loads.0.traction", of = "bad.yaml:5: loads.0.pressure";
+  expect_refused("loads: [{traction: {edge: x_max, traction: [0, 1]}}]", at + ": the key 'body' is missing; add it");
+  expect_refused("loads: [{traction: {body: block, traction: [0, 1]}}]", at + ": the key 'edge' is missing; add it");
+  expect_refused("loads: [{traction: {body: block, edge: x_max}}]", at + ": the key 'traction' is missing; add it");
+  expect_refused("loads: [{traction: {body: block, edge: x_mx, traction: [0, 1]}}]",
+                 at + ".edge: 'x_mx' is not known; did you mean 'x_max'?");
+  expect_refused("loads: [{traction: {body: block, edge: right, traction: [0, 1]}}]",
+                 at + ".edge: 'right' is not known; write one of x_min, x_max, z_min, z_max");
+  expect_refused("loads: [{traction: {body: block, edge: x_max, traction: [0, 1 N]}}]",
+                 at + ".traction.1: '1 N' is a force, but a pressure is expected");
+  expect_refused("loads: [{traction: {body: block, edge: x_max, value: 1}}]", at + ".value: unknown key 'value'");
+  expect_refused(
+      "loads: [{traction: {body: block, edge: x_max, traction: [0, 1], region: {box: {min: [0.7, 0.7], max: "
+      "[0.9, 0.9]}}}}]",
+      at + ".region: no particle of body 'block' has its centre in it; make it larger, or move it");
+  expect_refused("loads: [{pressure: {body: block, edge: x_max}}]", of + ": the key 'value' is missing; add it");
+  expect_refused("loads: [{pressure: {body: blok, edge: x_max, value: 1}}]",
+                 of + ".body: no deformable body 'blok'; did you mean 'block'?");
+  expect_refused("loads: [{pressure: {body: block, edge: x_max, value: 1, shear: [1, 2]}}]", of + ".shear: ");
 }
 
 }  // namespace

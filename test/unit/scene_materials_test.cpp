@@ -1,6 +1,8 @@
 // The keys of each law, with their units and refusals.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {
@@ -112,11 +114,64 @@ TEST(SceneMaterials, ViscoelasticSolid) {
   EXPECT_EQ(refusal(start), ": the key 'relaxation_time' is missing; add it");
 }
 
+TEST(SceneMaterials, MetalUnderImpact) {
+  const std::string least =
+      "density: 7850, law: johnson_cook, shear_modulus: 77.3 GPa, C0: 3574 m/s, S: 1.92, gamma0: 1.69, A: 1.5 GPa, "
+      "heat_capacity: 477 J/(kg K)";
+  const auto plain = law_of<JohnsonCookDefinition>(least);
+  EXPECT_EQ(plain.shear_modulus, 77.3e9);
+  EXPECT_EQ(plain.pressure.sound_speed, 3574.0);
+  EXPECT_EQ(plain.pressure.hugoniot_slope, 1.92);
+  EXPECT_EQ(plain.pressure.gamma0, 1.69);
+  EXPECT_EQ(plain.yield_stress, 1.5e9);
+  EXPECT_EQ(plain.hardening, 0.0);
+  EXPECT_EQ(plain.rate_sensitivity, 0.0);
+  EXPECT_EQ(plain.melting_temperature, 0.0);  // none
+  EXPECT_EQ(plain.reference_temperature, 293.0);
+  EXPECT_EQ(plain.heat_capacity, 477.0);
+  EXPECT_EQ(plain.heat_fraction, 0.9);
+  const Scene scene = scene_of(least + ", C: 0.003");
+  for (const char* key : {"reference_rate", "reference_temperature", "melting_temperature"}) {
+    const auto told = [&](const auto& choice) { return choice.first == std::string("materials.m.") + key; };
+    EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), told), 1) << key;
+  }
+  const auto all = law_of<JohnsonCookDefinition>(
+      least +
+      ", B: 569 MPa, n: 0.22, C: 0.003, reference_rate: 10 1/s, m: 1.17, melting_temperature: 1777 K, "
+      "reference_temperature: 300 K, heat_fraction: 0.8");
+  EXPECT_EQ(all.hardening, 569e6);
+  EXPECT_EQ(all.hardening_exponent, 0.22);
+  EXPECT_EQ(all.rate_sensitivity, 0.003);
+  EXPECT_EQ(all.reference_rate, 10.0);
+  EXPECT_EQ(all.softening_exponent, 1.17);
+  EXPECT_EQ(all.melting_temperature, 1777.0);
+  EXPECT_EQ(all.reference_temperature, 300.0);
+  EXPECT_EQ(all.heat_fraction, 0.8);
+  EXPECT_EQ(refusal(least + ", B: 1 GPa"), ": B and n go together; write both or neither");
+  const std::string melting =
+      ": m and melting_temperature go together: strength falls from reference_temperature to melting_temperature; "
+      "write both, or neither for a metal that heat neither softens nor melts";
+  EXPECT_EQ(refusal(least + ", m: 1"), melting);
+  EXPECT_EQ(refusal(least + ", melting_temperature: 1777 K"), melting);
+  EXPECT_EQ(refusal(least + ", m: 1, melting_temperature: 200 K"),
+            ".melting_temperature: melting temperature is 200 K; it must be finite and above the reference "
+            "temperature, 293 K");
+  EXPECT_EQ(refusal(least + ", B: 1 GPa, n: 1.2"), ".n: n is 1.2; it must lie above 0 and not above 1");
+  EXPECT_EQ(refusal(least + ", heat_fraction: 2"), ".heat_fraction: heat fraction is 2; it must lie from 0 to 1");
+  EXPECT_EQ(refusal("density: 7850, law: johnson_cook, shear_modulus: 77 GPa, C0: 0, S: 2, gamma0: 2, A: 1 GPa, "
+                    "heat_capacity: 477"),
+            ".C0: C0 is 0 m/s; it must be positive and finite");
+  EXPECT_EQ(refusal("density: 7850, law: johnson_cook, shear_modulus: 77 GPa, C0: 1, S: 2, gamma0: 2, A: 1 GPa, "
+                    "heat_capacity: 477 J"),
+            ".heat_capacity: '477 J' is an energy, but a heat capacity is expected; write one such as 450 J/(kg K)");
+}
+
 TEST(SceneMaterials, ALawIsNamed) {
   EXPECT_EQ(refusal("density: 1000, young: 1 MPa, poisson: 0.3"), ": the key 'law' is missing; add it");
   EXPECT_EQ(refusal("density: 1000, law: j2_plastic"),
             ".law: 'j2_plastic' is not known; did you mean 'j2_plasticity'?");
-  EXPECT_EQ(refusal("density: 1000, law: johnson_cook"), ".law: 'johnson_cook' is not built yet; use j2_plasticity");
+  EXPECT_EQ(refusal("density: 1000, law: rigid"),
+            ".law: 'rigid' is not built yet; a rigid body is not a material: write it under rigid_bodies");
 }
 
 }  // namespace

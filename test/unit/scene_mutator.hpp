@@ -161,6 +161,7 @@ class SceneMutator {
                              "neo_hookean",
                              "mohr_coulomb",
                              "ideal_gas",
+                             "johnson_cook",
                              "newtonian_fluid",
                              "fixed",
                              "stick",

@@ -16,8 +16,10 @@ using namespace mpm::paths;
 using Vector = Eigen::Vector3d;
 using Tensor = Eigen::Matrix3d;
 
-constexpr double kInstant = 1e-9;  ///< [s] too short to relax
-constexpr double kLong = 1e12;     ///< [s] too long for viscous stress
+/// [s] too short to relax, and so short that Johnson-Cook's strength is beyond the stress: an increment of 1e-6 is as
+/// fast as 1e19 1/s.
+constexpr double kInstant = 1e-25;
+constexpr double kLong = 1e12;  ///< [s] too long for viscous stress
 
 Tensor full(const Symmetric3<double>& s) {
   Tensor m;

@@ -45,8 +45,18 @@ namespace {
 
 using mpm::Vec3;
 
-// A box full of material under gravity, touched by a tool that moves along its surface and shaken by a load that is a
-// function; a sync period is the time in which the fastest wave crosses 0.4 cells, `steps` of them.
+// A few pascals on top of a body, as a function.
+mpm::TractionDefinition pulsing_pressure(const std::string& body) {
+  mpm::TractionDefinition load;
+  load.body = body;
+  load.face = 5;
+  load.follows = true;
+  load.value[0] = mpm::Function::parse("sin(9*t)*X", {}, mpm::FunctionPlaces::present_and_start);
+  return load;
+}
+
+// A box full of material under gravity, touched by a tool that moves along its surface and shaken by loads that are
+// functions; a sync period is the time in which the fastest wave crosses 0.4 cells, `steps` of them.
 long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material, const mpm::MethodDefinition& method,
                              mpm::Isa isa, mpm::GeometryKind geometry = mpm::GeometryKind::solid) {
   mpm::SimulationDefinition d;
@@ -85,6 +95,7 @@ long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material,
   }
   d.rigid_bodies = {tool};
   d.body_forces = {{"", {mpm::Function::parse("sin(9*t)*X", {}, mpm::FunctionPlaces::present_and_start)}}};
+  d.tractions = {pulsing_pressure("body")};
   mpm::Simulation simulation(d, {1, isa});
   for (int i = 0; i < 3; ++i) simulation.advance();
   const long before = allocations;
@@ -112,6 +123,7 @@ long allocations_of_a_crossing(int periods) {
   }
   body.velocities.assign(512, Vec3(10.0, 0.0, 0.0));
   d.bodies = {body};
+  d.tractions = {pulsing_pressure("block")};
   mpm::RigidBodyDefinition tool;
   tool.name = "tool";
   tool.surface = mpm::make_box({20.0, 2.0, 2.0});  // the block slides along its top

@@ -14,7 +14,9 @@ struct Wrench {
   Vec3 torque = Vec3::Zero();  ///< [N m]
 };
 
-/// What the material did to one rigid body since the last report. Planar scenes: for the whole thickness.
+/// What the material did to one rigid body since the last report. Planar scenes: for the whole thickness. Axisymmetric
+/// scenes: for the whole body; around the axis all but the force along it cancels, so wrenches, friction and impulse
+/// have a z component alone, and the centre of pressure lies on the axis.
 ///
 /// Centre of pressure: the mean of the points where the material pressed, each weighted by the magnitude of the normal
 /// impulse it gave there, over all nodes in contact and all steps of the interval. The points are counted from the
@@ -31,7 +33,9 @@ struct ContactReport {
 
   double pressing = 0.0;         ///< sum over nodes of the magnitude of the normal force, averaged as `mean` is [N]
   Vec3 friction = Vec3::Zero();  ///< the part of mean.force along the surface; the rest is normal to it [N]
-  Vec3 origin = Vec3::Zero();    ///< of the body, at the end of the interval [m]
+  /// Axisymmetric scenes: force outwards (x) and along the axis (z), averaged as `mean` is, over 2 pi [N/rad]; else 0.
+  Vec3 per_radian = Vec3::Zero();
+  Vec3 origin = Vec3::Zero();  ///< of the body, at the end of the interval; of a ring, on the axis [m]
   Vec3 arm = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< origin to centre of pressure [m]
 
   Vec3 centre_of_pressure() const { return origin + arm; }  ///< world [m]; not finite while nothing presses

@@ -3,14 +3,17 @@
 //
 // What is reported is what was applied: the wrench is the sum over nodes of the momentum that contact changed in
 // momentum_updated (and takes from XPIC's increments), over the time it took; torque about the body's origin as it
-// moves; the same sums, weighted by the normal part, give the centre of pressure. Weak: a surface between two rows of
-// nodes is met up to a cell early; material on both sides of a tool thinner than three cells shares nodes. Source:
-// Nairn, GIMP notes (3.12)-(3.20); method reference 5.3, 8.3; the normal is the exact one instead of a mass gradient.
+// moves; the same sums, weighted by the normal part, give the centre of pressure. In an axisymmetric scene the normal
+// of a node on the axis has no radial part (Nairn & Guilkey (2015) section 3.3), and reports leave out what cancels
+// around the axis; the account keeps it, as radial momentum. Weak: a surface between two rows of nodes is met up to a
+// cell early; material on both sides of a tool thinner than three cells shares nodes. Source: Nairn, GIMP notes
+// (3.12)-(3.20); method reference 5.3, 8.3; the normal is the exact one instead of a mass gradient.
 #pragma once
 
 #include <vector>
 
 #include "mpm/contact/contact_report.hpp"
+#include "mpm/math/geometry_kind.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/step/coulomb.hpp"
 #include "mpm/step/stage.hpp"
@@ -19,8 +22,8 @@ namespace mpm {
 
 class RigidContact final : public Stage {
  public:
-  /// `body` outlives the stage.
-  RigidContact(const RigidBody& body, int threads);
+  /// `body` outlives the stage. Solid stands for every geometry that is not axisymmetric.
+  RigidContact(const RigidBody& body, int threads, GeometryKind geometry = GeometryKind::solid);
 
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
@@ -47,9 +50,12 @@ class RigidContact final : public Stage {
   void each_node(Visit&& visit);
   /// Books what one node was given.
   void give(const Node& node, const Vec3& impulse);
+  /// What is left of a sum over the whole body.
+  Vec3 whole(const Vec3& sum) const { return axisymmetric_ ? Vec3(0.0, 0.0, sum.z()) : sum; }
 
   const RigidBody& body_;
   int threads_;
+  bool axisymmetric_;
   std::vector<int> near_;                 ///< blocks whose nodes may lie in the body
   std::vector<std::vector<Node>> nodes_;  ///< of each block in near_
   HeldNodes held_;

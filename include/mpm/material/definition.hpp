@@ -63,6 +63,30 @@ struct J2PlasticityDefinition {
   double saturation_rate = 0.0;    ///< [-], >= 0
 };
 
+/// Pressure of a solid under shock, by the shock's speed C0 + S u_p at the particle speed u_p.
+struct MieGrueneisenDefinition {
+  double sound_speed = 0.0;     ///< C0 [m/s], > 0
+  double hugoniot_slope = 0.0;  ///< S, >= 0
+  double gamma0 = 0.0;          ///< Grueneisen's constant at rho0, > 0
+};
+
+/// Metal under impact: (A + B a^n) (1 + C ln(rate/reference_rate)) (1 - T*^m) at plastic strain a, with
+/// T* = (T - reference_temperature) / (melting_temperature - reference_temperature).
+struct JohnsonCookDefinition {
+  double shear_modulus = 0.0;  ///< [Pa], > 0
+  MieGrueneisenDefinition pressure;
+  double yield_stress = 0.0;             ///< A [Pa], > 0
+  double hardening = 0.0;                ///< B [Pa], >= 0
+  double hardening_exponent = 1.0;       ///< n, in (0, 1]
+  double rate_sensitivity = 0.0;         ///< C, >= 0
+  double reference_rate = 1.0;           ///< [1/s], > 0; slower flow has the strength of this rate
+  double softening_exponent = 1.0;       ///< m, > 0
+  double melting_temperature = 0.0;      ///< [K], > reference_temperature, or 0: neither softens nor melts
+  double reference_temperature = 293.0;  ///< [K], > 0; that of the start, unless a body says otherwise
+  double heat_capacity = 0.0;            ///< c_v [J/(kg K)], > 0
+  double heat_fraction = 0.9;            ///< of the plastic work that becomes heat, in [0, 1]
+};
+
 /// Tait's equation p = K/n (J^-n - 1) and Newtonian viscosity.
 struct NewtonianFluidDefinition {
   double bulk_modulus = 0.0;  ///< K [Pa], > 0
@@ -89,9 +113,9 @@ struct StandardLinearSolidDefinition {
   double relaxation_time = 0.0;  ///< of the branch [s], > 0
 };
 
-using LawDefinition =
-    std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition, MohrCoulombDefinition,
-                 J2PlasticityDefinition, NewtonianFluidDefinition, IdealGasDefinition, StandardLinearSolidDefinition>;
+using LawDefinition = std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition,
+                                   MohrCoulombDefinition, J2PlasticityDefinition, NewtonianFluidDefinition,
+                                   IdealGasDefinition, StandardLinearSolidDefinition, JohnsonCookDefinition>;
 
 struct MaterialDefinition {
   std::string name;

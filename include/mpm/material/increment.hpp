@@ -30,6 +30,8 @@ struct LawTraits {
   T diffusivity(T) const {
     return T(0);
   }
+  /// Part of the dissipated work that elastic_energy() holds too, as heat: what is stored is elastic_energy() less it.
+  double heat_fraction() const { return 0.0; }
   /// Temperature that history counts from [K].
   double reference_temperature() const { return 0.0; }
 };

@@ -2,8 +2,8 @@
 // means the same in every law; what differs is what the law keeps it in:
 //
 //   the stress itself    linear_elastic, drucker_prager, mohr_coulomb: F = I
-//   J and the stress     j2_plasticity: pressure by a change of volume along the axes that can strain, the deviator is
-//                        carried
+//   J and the stress     j2_plasticity, johnson_cook: pressure by a change of volume along the axes that can strain,
+//                        the deviator is carried
 //   J alone              newtonian_fluid, ideal_gas: pressure; a deviator cannot be carried
 //   F                    neo_hookean, viscoelastic: F is the pure stretch that has this stress, found in principal
 //                        axes by Newton's method. In plane strain F_yy = 1, so yy follows from the rest.
@@ -73,7 +73,8 @@ class InitialStates {
 };
 
 /// Ratio of horizontal to vertical stress at rest: 1 - sin(phi) for soils (Jaky 1944), nu / (1 - nu) for elastic
-/// solids, 1 for fluids. Nothing for a gas, which is not held by its weight.
+/// solids, 1 for fluids and for johnson_cook, which has no Poisson's ratio. Nothing for a gas, which is not held by its
+/// weight.
 std::optional<double> pressure_at_rest(const LawDefinition& law);
 
 }  // namespace mpm

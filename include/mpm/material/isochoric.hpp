@@ -59,6 +59,15 @@ Symmetric stretch_isochoric(const Matrix& df, T det, const Symmetric& deviator, 
   return scale_shift(b, scale, T(-1.0 / 3.0) * scale * trace(b));
 }
 
+/// Modulus [Pa] of a radial return of s = G dev b: plastic strain is the Mises stress that the return takes, over it,
+/// and times Mises stress it is the elastic energy that the return releases. J2, J3 and x are of dev b at its start. It
+/// is 2 G J2 I2 / (I1 I2 - 9) with the invariants I1, I2 of b, where I1 I2 - 9 = 2 J2 I1 - 9 J3; 3 G at small strain.
+template <class T>
+T return_modulus(T shear, T j2, T j3, T excess) {
+  const T mean = T(1) + excess;
+  return T(2) * shear * j2 * (T(3) * mean * mean - j2) / (T(2) * mean * j2 - T(3) * j3);
+}
+
 /// Bound on rho c^2 of all waves in all directions n [Pa], of the acoustic tensor of tau = G dev b,
 ///   (G/J) [(n.bn) I - 2/3 (bn n + n bn) + 5/9 tr(b) n n],
 /// and of what comes to the part along n [Pa], `bulk`; by the parts along n, across it and between the two

@@ -9,8 +9,8 @@
 //
 // Two things differ from box 9.1. tr b is what det b = 1 asks for (isochoric.hpp), where the box keeps that of the
 // trial state, which grows without end under plastic flow. And the return's modulus is such that plastic strain times
-// Mises stress is the elastic energy that flow releases: with the invariants I1, I2 of b and J2, J3 of dev b it is
-// 2 G J2 I2 / (I1 I2 - 9), where I1 I2 - 9 = 2 J2 I1 - 9 J3; for small elastic strain it is the box's G I1 / 3.
+// Mises stress is the elastic energy that flow releases (return_modulus()); for small elastic strain it is three
+// times the box's G I1 / 3.
 //
 // Plastic work closes the energy balance to second order in the step while elastic strain is small.
 // Weak: yields on Kirchhoff stress (Cauchy stress at yield is sigma_y / J); no rate or temperature, no kinematic
@@ -86,8 +86,8 @@ class J2Plasticity : public LawTraits {
     const auto flows = mises > before;
     if (!any(flows)) return;
     const T j3 = determinant(deviator);
-    const T excess = isochoric_excess(j2, j3), mean = T(1) + excess;
-    const T modulus = T(2) * shear * j2 * (T(3) * mean * mean - j2) / (T(2) * mean * j2 - T(3) * j3);
+    const T excess = isochoric_excess(j2, j3);
+    const T modulus = return_modulus(shear, j2, j3, excess);
     const T plastic = plastic_increment(flows, mises, before, modulus, strain);
     const T after = mises - modulus * plastic;
     deviator = scale_shift(deviator, select(flows, after / mises, T(1)), T(0));

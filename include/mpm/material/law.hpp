@@ -20,6 +20,7 @@
 #include "mpm/material/drucker_prager.hpp"
 #include "mpm/material/ideal_gas.hpp"
 #include "mpm/material/j2_plasticity.hpp"
+#include "mpm/material/johnson_cook.hpp"
 #include "mpm/material/linear_elastic.hpp"
 #include "mpm/material/mohr_coulomb.hpp"
 #include "mpm/material/neo_hookean.hpp"
@@ -29,7 +30,7 @@
 namespace mpm {
 
 using Law = std::variant<LinearElastic, NeoHookean, DruckerPrager, MohrCoulomb, J2Plasticity, NewtonianFluid, IdealGas,
-                         StandardLinearSolid>;
+                         StandardLinearSolid, JohnsonCook>;
 
 /// @throws MaterialError when check() does.
 Law make_law(const MaterialDefinition& material);

@@ -26,6 +26,7 @@ class MaterialPoint {
   double plastic_strain() const;  ///< [-]
   double plastic_work() const;    ///< [J/kg]
   double elastic_energy() const;  ///< [J/kg]
+  double temperature() const;     ///< [K]; 0 where the law has none
   double wave_speed() const;      ///< [m/s]
 
  private:

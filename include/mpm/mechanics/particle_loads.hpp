@@ -42,7 +42,8 @@ struct ParticleLoadTerm {
   Kind kind = Kind::body_force;
   std::optional<int> set;  ///< of particles, by index; all without one
   std::array<Function, 3> value;
-  double factor = 1.0;  ///< of the value
+  double factor = 1.0;  ///< of the value; of a force that particles share by their mass, 1 over the mass of all [1/kg]
+  bool each = false;    ///< a force on each particle, which its own mass divides
   LoadSpread spread = LoadSpread::domain;
   /// Whether it acts on a particle of the set, by id from the set's first; on all when empty.
   std::vector<std::uint8_t> chosen;

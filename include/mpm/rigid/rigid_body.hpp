@@ -27,6 +27,9 @@ struct RigidBodyDefinition {
   std::array<Function, 3> velocity;       ///< of the origin, world axes, functions of t [m/s]
   std::array<Function, 3> rotation_rate;  ///< world axes, functions of t [rad/s]
   FrictionLaw friction;
+  /// Of a ring in an axisymmetric scene, as its surface was made; 0: of any other body. A ring opens and closes along
+  /// x: pose.position.x is the change of its radii [m].
+  double inner_radius = 0.0;
 };
 
 /// What a body follows at the moment.
@@ -37,17 +40,26 @@ class RigidBody {
   /// @throws RigidError when it has no name or shape, or a number that is impossible.
   explicit RigidBody(RigidBodyDefinition definition);
 
+  const RigidBodyDefinition& definition() const { return definition_; }
   const std::string& name() const { return definition_.name; }
   const Surface& surface() const { return *definition_.surface; }
   const FrictionLaw& friction() const { return definition_.friction; }
   const Pose& pose() const { return pose_; }
   const Twist& twist() const { return twist_; }
   Drive drive() const { return drive_; }
+  /// Velocity of the body at a world point [m/s]. A ring that opens or closes carries what it holds along evenly: its
+  /// inner face moves by the twist, a point at another radius in proportion to that.
+  Vec3 velocity_at(const Vec3& point) const {
+    Vec3 velocity = mpm::velocity_at(pose_, twist_, point);
+    if (definition_.inner_radius > 0.0) velocity.x() *= point.x() / (definition_.inner_radius + pose_.position.x());
+    return velocity;
+  }
 
   /// Constant twist from now on. @throws RigidError when not finite.
   void command_velocity(const Twist& twist);
   /// Constant twist from `now` that arrives at `target` at `arrival` > now [ns], then rest.
-  /// @throws RigidError when not finite, the quaternion's length is not 1 within 1e-3, or arrival is not after now.
+  /// @throws RigidError when not finite, the quaternion's length is not 1 within 1e-3, arrival is not after now, or a
+  /// ring would be closed there.
   void command_pose(const Pose& target, std::int64_t now, std::int64_t arrival);
 
   /// The twist that the step which begins at `time` [s] would have, as far as it is known now.
@@ -56,7 +68,7 @@ class RigidBody {
   /// Sets the twist for the step that begins at `time` [s] and lasts `dt` [s]: functions are read at its middle.
   /// @throws FunctionError when a function is not finite there.
   void begin_step(double time, double dt);
-  /// Moves the pose by the twist over `dt` [s].
+  /// Moves the pose by the twist over `dt` [s]. @throws RigidError when a ring has closed.
   void end_step(double dt);
   /// At a sync point: a body that has reached its target pose is put exactly there. Its twist stays that of the step
   /// just made; it rests from the next step on, unless a command says otherwise.

@@ -49,6 +49,9 @@ struct TriangleMesh {
   std::vector<std::array<int, 3>> triangles;
 };
 
+/// A closed polygon in the half plane of a body of revolution: points (r, z), r >= 0 [m]. The last joins the first.
+using Profile = std::vector<Vec2>;
+
 /// Edge lengths [m], all positive (infinite along axes that the scene does not have: y in a plane, y and z in a line),
 /// centred on the origin.
 /// @throws RigidError
@@ -57,6 +60,20 @@ std::unique_ptr<Surface> make_box(const Vec3& size);
 std::unique_ptr<Surface> make_sphere(double radius);
 /// Axis along body x, y or z (`axis` 0, 1, 2; y in planar scenes), centred; height may be infinite. @throws RigidError
 std::unique_ptr<Surface> make_cylinder(double radius, double height, int axis = 2);
+/// The body that the profile makes when turned about the body's z axis; points in either sense. An edge on the axis is
+/// no surface; ON the axis normals have no part across it. Its thickness is the length that rays inwards from 5 % of
+/// the surface stay below, counted where they meet a face that encloses less than 45 degrees with their own: a blunter
+/// tip or edge ends a body and does not make it thin, a needle's does.
+/// @throws RigidError, with the point: fewer than 3, not finite, r < 0, repeated, alone on the axis, or the profile
+/// cuts or touches itself.
+std::unique_ptr<Surface> make_revolved(const Profile& profile);
+/// A cone with its tip at the origin, pointing down, under a shaft of the same radius (perhaps of length 0).
+/// @throws RigidError
+std::unique_ptr<Surface> make_cone(double radius, double height, double shaft = 0.0);
+/// A tube about the z axis, centred; 0 < inner < outer radius. `in_half_plane`: a section that moves in r, as one that
+/// opens does. Distance and normal are then those of the section at (x, z), for x < 0 as well; y does not count.
+/// @throws RigidError
+std::unique_ptr<Surface> make_ring(double inner, double outer, double height, bool in_half_plane = false);
 /// @throws RigidError when the mesh is empty, degenerate, not closed or not consistently oriented; a mesh turned
 /// inside out as a whole is turned right.
 std::unique_ptr<Surface> make_mesh(const TriangleMesh& mesh);

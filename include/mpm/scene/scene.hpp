@@ -49,7 +49,8 @@ struct BodyDefinition {
   std::string initial_where, cut_out_where;
 };
 
-/// Which particles of its body a force acts on: those whose centres lie in it at the start; all without one.
+/// Which particles of its body a load acts on: those whose centres lie in it at the start. Without one a force acts on
+/// all, a traction on the outermost.
 struct LoadRegion {
   std::optional<Region> region;
   std::string where;  ///< "file:line: key.path"
@@ -65,7 +66,8 @@ struct OutputDefinition {
 struct Scene {
   SimulationDefinition definition;  ///< all but the particles of the bodies
   std::vector<BodyDefinition> bodies;
-  std::vector<LoadRegion> load_regions;  ///< of each of definition.particle_forces
+  std::vector<LoadRegion> load_regions;      ///< of each of definition.particle_forces
+  std::vector<LoadRegion> traction_regions;  ///< of each of definition.tractions
   OutputDefinition output;
   std::string path;                                          ///< of the file
   std::string text;                                          ///< as loaded, overrides applied, for the record

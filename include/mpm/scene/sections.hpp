@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -30,6 +31,9 @@ Region read_region(const Value& value, GeometryKind geometry);
 void read_initial(const Value& value, const MaterialDefinition& material, Scene& scene, BodyDefinition& body);
 /// `rigid_bodies` and `contact`, after bodies
 void read_rigid_bodies(const Map& root, Scene& scene);
+/// The `shape` of a rigid body that is `revolved`, `cone` or `ring`; of a ring that can open, its inner radius too.
+/// @throws RigidError for numbers that make no body.
+std::unique_ptr<Surface> read_revolved_shape(const std::string& kind, const Value& value, RigidBodyDefinition& body);
 /// `boundaries`
 void read_boundaries(const Map& root, Scene& scene);
 /// `loads`, after bodies

@@ -42,6 +42,7 @@ inline constexpr Dimension kEnergy{2, 1, -2, 0};
 inline constexpr Dimension kPressure{-1, 1, -2, 0};
 inline constexpr Dimension kViscosity{-1, 1, -1, 0};
 inline constexpr Dimension kTemperature{0, 0, 0, 0, 1};
+inline constexpr Dimension kHeatCapacity{2, 0, -2, 0, -1};
 
 /// "a pressure", "a length"; for a dimension without a name "a quantity in m^2/s".
 std::string describe(const Dimension& dimension);

@@ -84,17 +84,35 @@ struct ParticleForceDefinition {
   std::string body;                      ///< deformable body that it acts on
   std::vector<std::uint32_t> particles;  ///< which of its positions; all when empty
   std::array<Function, 3> force;         ///< [N]
-  bool shared = true;                    ///< the force is on all of them together, in equal parts; else on each
+  bool shared = true;                    ///< the force is on all of them together, by their mass; else on each
   LoadSpread spread = LoadSpread::domain;
 };
 
+/// A traction on a face of each of some particles of a body, a force over its current area
+/// (mechanics/face_tractions.hpp), as functions of time, place and place at the start.
+struct TractionDefinition {
+  std::string body;                      ///< deformable body that it acts on
+  int face = 0;                          ///< of the particles' domains, in the order of kWallNames
+  std::vector<std::uint32_t> particles;  ///< which of its positions; the outermost of each row when empty
+  bool follows = false;                  ///< it keeps to the face's normal and edges as they turn
+  /// By world axis; or, where it follows, pressure (compression is positive), then shear along the edges that span the
+  /// face, in the order of axes. [Pa]
+  std::array<Function, 3> value;
+};
+
 enum class Statistic { mean, std_dev, min, max };
+struct TimeWindow {
+  double from = 0.0, to = 0.0;  ///< [s]
+};
 /// A number of the summary: a statistic of a particle field over one body (or all, when `body` is empty).
 struct MetricDefinition {
   std::string name;
   Statistic statistic = Statistic::mean;
   std::string field;
   std::string body;
+  /// The statistic's rate of change in this window, by the straight line with the least squares through its values at
+  /// sync points [1/s]; without one the statistic at the end.
+  std::optional<TimeWindow> rate;
 };
 
 struct SimulationDefinition {
@@ -112,6 +130,7 @@ struct SimulationDefinition {
   std::array<WallDefinition, 6> walls;
   std::vector<BodyForceDefinition> body_forces;
   std::vector<ParticleForceDefinition> particle_forces;
+  std::vector<TractionDefinition> tractions;
   std::vector<MetricDefinition> metrics;
 
   /// What a particle has beyond the grid's axes: thickness [m] of a plane, area [m^2] of a line, 1 of a solid.

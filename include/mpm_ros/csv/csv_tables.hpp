@@ -14,10 +14,11 @@
 namespace mpm_ros {
 
 /// contact_forces.csv: wrench, peak, impulse, interval, nodes, pressing force, friction and centre of pressure of each
-/// body.
+/// body; in axisymmetric scenes the force per radian too.
 class ContactForcesCsv {
  public:
-  explicit ContactForcesCsv(const std::string& folder) : path_(folder + "/contact_forces.csv") {}
+  ContactForcesCsv(const std::string& folder, bool axisymmetric)
+      : path_(folder + "/contact_forces.csv"), axisymmetric_(axisymmetric) {}
   /// `time` [s] is the end of the interval; the bodies and their order are those of the first row.
   /// @throws CsvError
   void add(double time, const std::vector<mpm::ContactReport>& bodies);
@@ -25,6 +26,7 @@ class ContactForcesCsv {
 
  private:
   std::string path_;
+  bool axisymmetric_;
   std::optional<CsvWriter> writer_;
 };
 

@@ -17,7 +17,7 @@ namespace mpm_ros {
 class CsvExport : public RunVisitor {
  public:
   /// Makes the folder; tables that are there already are replaced. @throws CsvError
-  explicit CsvExport(const std::string& folder);
+  CsvExport(const std::string& folder, bool axisymmetric);
 
   void contact_forces(std::int64_t time, const ContactForces& message) override;
   void bodies(std::int64_t time, const BodyStates& message) override;

@@ -21,16 +21,18 @@ struct ParticleMass {
 };
 
 struct SceneFacts {
-  std::optional<double> end;              ///< [s] simulated time that the run was to reach; none: until stopped
-  std::string method;                     ///< "3D, uGIMP, USAVG, FLIP 0.998, …"; empty: the text could not be read
-  mpm::Vec3 gravity = mpm::Vec3::Zero();  ///< [m/s^2]
+  std::optional<double> end;  ///< [s] simulated time that the run was to reach; none: until stopped
+  std::string method;         ///< "3D, uGIMP, USAVG, FLIP 0.998, …"; empty: the text could not be read
+  bool axisymmetric = false;
+  mpm::Vec3 gravity = mpm::Vec3::Zero();               ///< [m/s^2]
   mpm::Precision precision = mpm::Precision::float64;  ///< of the particles
 };
 
 /// A text that this version does not read (or none) gives facts without values.
 SceneFacts scene_facts(const RunInfo& info);
 
-/// Masses of the particles in the order of their ids. Makes all particles of the scene.
+/// Masses of the particles in the order of their ids; of rings about an axis each its own. Makes all particles of the
+/// scene.
 /// @throws mpm::Error when the scene cannot be read or built
 std::vector<ParticleMass> particle_masses(const RunInfo& info);
 

@@ -29,6 +29,8 @@ struct BodyStatistics {
   Extreme force;                                                 ///< largest mean over an interval [N]
   Extreme step_force;                                            ///< largest of a single step [N]
   Extreme torque;                                                ///< largest mean over an interval [N m]
+  Extreme per_radian;                                            ///< axisymmetric: largest mean [N/rad]
+  mpm::Vec3 per_radian_integral = mpm::Vec3::Zero();             ///< [N s/rad]
   mpm::Vec3 force_integral = mpm::Vec3::Zero();                  ///< sum of mean times interval [N s]
   mpm::Vec3 torque_integral = mpm::Vec3::Zero();                 ///< [N m s]
   mpm::Vec3 impulse = mpm::Vec3::Zero();                         ///< as the run counted it since its start [N s]

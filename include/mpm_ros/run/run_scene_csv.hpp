@@ -12,7 +12,7 @@ namespace mpm_ros {
 class CsvSink : public MessageSink {
  public:
   /// Makes the folder. @throws CsvError
-  CsvSink(const std::string& folder, const Stamps& stamps);
+  CsvSink(const std::string& folder, const Stamps& stamps, bool axisymmetric);
   /// Flushes all tables. @throws CsvError
   void close();
 

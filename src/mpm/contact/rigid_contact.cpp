@@ -1,13 +1,15 @@
 #include "mpm/contact/rigid_contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mpm {
 namespace {
 
 // Part of a cell within which a node counts as lying on the surface: keeps aligned surfaces from flickering by
-// round-off.
+// round-off. The same part of a cell from the axis is on it.
 constexpr double kOnSurface = 1e-6;
+constexpr double kTurn = 2.0 * 3.14159265358979323846;
 
 // Box around the body in the world; a body that is endless along an axis stays endless.
 Box world_bounds(const RigidBody& body) {
@@ -28,7 +30,8 @@ Box world_bounds(const RigidBody& body) {
 
 }  // namespace
 
-RigidContact::RigidContact(const RigidBody& body, int threads) : body_(body), threads_(threads) {
+RigidContact::RigidContact(const RigidBody& body, int threads, GeometryKind geometry)
+    : body_(body), threads_(threads), axisymmetric_(axisymmetric(geometry)) {
   account_.name = "contact/" + body.name();
 }
 
@@ -56,9 +59,14 @@ void RigidContact::momentum_gathered(StepContext& context) {
       const Vec3 position = layout.node_position(grid.blocks.block(block), n);
       SurfacePoint point;
       if (!body_.surface().within(body_.pose().to_body(position), tolerance, point)) continue;
+      Vec3 normal = body_.pose().orientation * point.normal;
+      if (axisymmetric_ && std::abs(position.x()) <= tolerance) {
+        if (std::abs(normal.z()) <= kOnSurface) continue;  // all of it was radial
+        normal = {0.0, 0.0, std::copysign(1.0, normal.z())};
+      }
       nodes_[i].push_back({{block, n},
-                           body_.pose().orientation * point.normal,
-                           velocity_at(body_.pose(), body_.twist(), position),
+                           normal,
+                           body_.velocity_at(position),
                            position - body_.pose().position,
                            held_.find(HeldNodes::id(grid.blocks.key(block), n))});
     }
@@ -130,7 +138,8 @@ void RigidContact::grid_advanced(StepContext& context) {
   account_.add(given_);
   impulse_ -= given_;
   angular_impulse_ -= given_angular_;
-  const Wrench wrench{-given_ / context.dt, -given_angular_ / context.dt};
+  Wrench wrench{whole(-given_ / context.dt), Vec3::Zero()};
+  if (!axisymmetric_) wrench.torque = -given_angular_ / context.dt;
   if (wrench.force.squaredNorm() > peak_.force.squaredNorm()) peak_ = wrench;
   given_ = given_angular_ = Vec3::Zero();
 }
@@ -140,15 +149,19 @@ ContactReport RigidContact::take(double now) {
   report.body = body_.name();
   report.interval = now - last_report_;
   if (report.interval > 0.0) {
-    report.mean = {impulse_ / report.interval, angular_impulse_ / report.interval};
-    report.friction = friction_ / report.interval;
+    report.mean = {whole(impulse_ / report.interval), angular_impulse_ / report.interval};
+    report.friction = whole(friction_ / report.interval);
     report.pressing = pressed_ / report.interval;
   }
-  report.origin = body_.pose().position;
-  if (pressed_ > 0.0) report.arm = pressed_arm_ / pressed_;
+  report.origin = whole(body_.pose().position);
+  if (pressed_ > 0.0) report.arm = whole(pressed_arm_ / pressed_);
+  if (axisymmetric_) {
+    report.mean.torque.setZero();
+    if (report.interval > 0.0) report.per_radian = impulse_ / (report.interval * kTurn);
+  }
   report.peak = peak_;
   report.nodes = touching_;
-  report.impulse = -account_.impulse;
+  report.impulse = whole(-account_.impulse);
   impulse_ = angular_impulse_ = friction_ = pressed_arm_ = Vec3::Zero();
   pressed_ = 0.0;
   peak_ = {};

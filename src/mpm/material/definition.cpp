@@ -61,6 +61,20 @@ void require_not_negative(double value, const MaterialDefinition& material, cons
           fmt::format("{} is {:g}{}; it must be finite and not negative", constant, value, unit));
 }
 
+void check(const MaterialDefinition& material, const MieGrueneisenDefinition& pressure) {
+  require_positive(pressure.sound_speed, material, "C0", " m/s");
+  require_not_negative(pressure.hugoniot_slope, material, "S", "");
+  require_positive(pressure.gamma0, material, "gamma0", "");
+}
+
+void check_temperatures(const MaterialDefinition& material, const JohnsonCookDefinition& law) {
+  require_positive(law.reference_temperature, material, "reference temperature", " K");
+  const double melting = law.melting_temperature;
+  require(melting == 0.0 || (melting > law.reference_temperature && std::isfinite(melting)), material,
+          fmt::format("melting temperature is {:g} K; it must be finite and above the reference temperature, {:g} K",
+                      melting, law.reference_temperature));
+}
+
 struct Checker {
   const MaterialDefinition& material;
 
@@ -98,6 +112,21 @@ struct Checker {
     require_positive(law.branch_modulus, material, "branch modulus", " Pa");
     require_positive(law.relaxation_time, material, "relaxation time", " s");
   }
+  void operator()(const JohnsonCookDefinition& law) const {
+    require_positive(law.shear_modulus, material, "shear modulus", " Pa");
+    check(material, law.pressure);
+    require_positive(law.yield_stress, material, "A", " Pa");
+    require_not_negative(law.hardening, material, "B", " Pa");
+    require(law.hardening_exponent > 0.0 && law.hardening_exponent <= 1.0, material,
+            fmt::format("n is {:g}; it must lie above 0 and not above 1", law.hardening_exponent));
+    require_not_negative(law.rate_sensitivity, material, "C", "");
+    require_positive(law.reference_rate, material, "reference rate", " 1/s");
+    require_positive(law.softening_exponent, material, "m", "");
+    check_temperatures(material, law);
+    require_positive(law.heat_capacity, material, "heat capacity", " J/(kg K)");
+    require(law.heat_fraction >= 0.0 && law.heat_fraction <= 1.0, material,
+            fmt::format("heat fraction is {:g}; it must lie from 0 to 1", law.heat_fraction));
+  }
 };
 
 struct Name {
@@ -109,6 +138,7 @@ struct Name {
   std::string operator()(const NewtonianFluidDefinition&) const { return "newtonian_fluid"; }
   std::string operator()(const IdealGasDefinition&) const { return "ideal_gas"; }
   std::string operator()(const StandardLinearSolidDefinition&) const { return "viscoelastic"; }
+  std::string operator()(const JohnsonCookDefinition&) const { return "johnson_cook"; }
 };
 
 }  // namespace

@@ -30,6 +30,7 @@ struct WhatIsKept {
   Keeps operator()(const DruckerPrager&) const { return Keeps::stress; }
   Keeps operator()(const MohrCoulomb&) const { return Keeps::stress; }
   Keeps operator()(const J2Plasticity&) const { return Keeps::volume_and_stress; }
+  Keeps operator()(const JohnsonCook&) const { return Keeps::volume_and_stress; }
   Keeps operator()(const NewtonianFluid&) const { return Keeps::volume; }
   Keeps operator()(const IdealGas&) const { return Keeps::volume; }
   Keeps operator()(const NeoHookean&) const { return Keeps::deformation; }
@@ -43,6 +44,7 @@ struct PoissonRatio {
   }
   std::optional<double> operator()(const NewtonianFluidDefinition&) const { return std::nullopt; }
   std::optional<double> operator()(const IdealGasDefinition&) const { return std::nullopt; }
+  std::optional<double> operator()(const JohnsonCookDefinition&) const { return std::nullopt; }
 };
 
 double largest(const Symmetric3<double>& s) {

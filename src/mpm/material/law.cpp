@@ -13,6 +13,7 @@ struct Maker {
   Law operator()(const NewtonianFluidDefinition& d) const { return NewtonianFluid(d, density); }
   Law operator()(const IdealGasDefinition& d) const { return IdealGas(d, density); }
   Law operator()(const StandardLinearSolidDefinition& d) const { return StandardLinearSolid(d, density); }
+  Law operator()(const JohnsonCookDefinition& d) const { return JohnsonCook(d, density); }
 };
 
 }  // namespace

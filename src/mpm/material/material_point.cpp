@@ -37,7 +37,18 @@ double MaterialPoint::plastic_work() const {
   return std::visit([this](const auto& law) { return history(law.kPlasticWork); }, law_);
 }
 double MaterialPoint::elastic_energy() const {
-  return std::visit([this](const auto& law) { return law.elastic_energy(f_, tau_, j()); }, law_);
+  return std::visit(
+      [this](const auto& law) {
+        return law.elastic_energy(f_, tau_, j()) - law.heat_fraction() * history(law.kPlasticWork);
+      },
+      law_);
+}
+double MaterialPoint::temperature() const {
+  return std::visit(
+      [this](const auto& law) {
+        return law.kTemperature < 0 ? 0.0 : law.reference_temperature() + history(law.kTemperature);
+      },
+      law_);
 }
 double MaterialPoint::wave_speed() const {
   return std::visit([this](const auto& law) { return law.wave_speed(f_, tau_, j()); }, law_);

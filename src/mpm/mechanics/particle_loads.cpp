@@ -119,14 +119,14 @@ class ParticleLoadsOf final : public ParticleLoads {
         }
       }
       for (int g = 0; g < groups; ++g) {
-        for (int kind = 0; kind < kKinds; ++kind) impulse[kind] += sums_[g][kind] * (set.mass * context.dt);
+        for (int kind = 0; kind < kKinds; ++kind) impulse[kind] += sums_[g][kind] * context.dt;
       }
     }
     fault_.check<LoadError>();
     for (int kind = 0; kind < kKinds; ++kind) accounts_[kind].add(impulse[kind]);
   }
 
-  // The accelerations of one particle, added to `sum` as well.
+  // The accelerations of one particle; its forces are added to `sum`.
   void at_particle(const StepContext& context, std::size_t s, int p, int thread, ByKind& sum) {
     const GridLayout& layout = context.grid.layout;
     const ParticleSet& set = sets_[s];
@@ -136,6 +136,7 @@ class ParticleLoadsOf final : public ParticleLoads {
       place[layout.axis(k)] = set.x[k][p] + half * set.v[k][p];
       if (!set.start_x.empty()) start[layout.axis(k)] = set.start_x[k][p];
     }
+    const double mass = set.mass_of(p);
     std::array<Vec3, kSpreads> b = {Vec3::Zero(), Vec3::Zero()};
     for (Term& term : terms_) {
       if (!term.acts_on(s)) continue;
@@ -143,9 +144,10 @@ class ParticleLoadsOf final : public ParticleLoads {
       for (int k = 0; k < dim_; ++k) {  // no momentum along axes that the grid does not have
         const int axis = layout.axis(k);
         try {
-          const double value = term.copies[thread][axis](context.start + half, place, start) * term.of.factor;
+          const double given = term.copies[thread][axis](context.start + half, place, start);
+          const double value = given * (term.of.each ? 1.0 / mass : term.of.factor);
           b[term.spread()][axis] += value;
-          sum[term.kind()][axis] += value;
+          sum[term.kind()][axis] += value * mass;
         } catch (const FunctionError& error) {
           fault_.note(thread, set.id[p], [&] {
             return fmt::format("{} on '{}', along {}: {}", kKindTexts[term.kind()], set.name, "xyz"[axis],

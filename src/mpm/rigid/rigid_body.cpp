@@ -29,6 +29,16 @@ Pose checked(const Pose& pose, const std::string& body, const std::string& what)
   return {pose.position, pose.orientation.normalized()};
 }
 
+/// @throws RigidError when the body is a ring that is closed at the pose.
+void check_open(const RigidBodyDefinition& body, const Pose& pose, const char* what) {
+  if (body.inner_radius == 0.0 || body.inner_radius + pose.position.x() > 0.0) return;
+  std::ostringstream text;
+  text << "rigid body '" << body.name << "': " << what << ": the ring has closed: its inner radius, "
+       << body.inner_radius << " m, has changed by " << pose.position.x() << " m; keep position.x above "
+       << -body.inner_radius << " m";
+  throw RigidError(text.str());
+}
+
 }  // namespace
 
 RigidBody::RigidBody(RigidBodyDefinition definition) : definition_(std::move(definition)) {
@@ -41,7 +51,13 @@ RigidBody::RigidBody(RigidBodyDefinition definition) : definition_(std::move(def
     text << start << "friction coefficient is " << friction << "; it must be finite and not negative";
     throw RigidError(text.str());
   }
+  if (!(definition_.inner_radius >= 0.0) || std::isinf(definition_.inner_radius)) {
+    std::ostringstream text;
+    text << start << "inner radius is " << definition_.inner_radius << " m; it must be finite and not negative";
+    throw RigidError(text.str());
+  }
   definition_.pose = checked(definition_.pose, definition_.name, "initial pose");
+  check_open(definition_, definition_.pose, "initial pose");
   pose_ = definition_.pose;
 }
 
@@ -60,6 +76,7 @@ void RigidBody::command_pose(const Pose& target, std::int64_t now, std::int64_t 
     throw RigidError("rigid body '" + name() + "': pose command arrives at " + std::to_string(arrival) +
                      " ns, not after the present " + std::to_string(now) + " ns");
   }
+  check_open(definition_, goal, "pose command");
   target_ = goal;
   arrival_ = arrival;
   twist_ = twist_between(pose_, target_, 1e-9 * static_cast<double>(arrival - now));
@@ -86,7 +103,10 @@ void RigidBody::begin_step(double time, double dt) {
   }
 }
 
-void RigidBody::end_step(double dt) { pose_ = integrate(pose_, twist_, dt); }
+void RigidBody::end_step(double dt) {
+  pose_ = integrate(pose_, twist_, dt);
+  check_open(definition_, pose_, "motion");
+}
 
 void RigidBody::at_sync(std::int64_t now) {
   if (drive_ == Drive::pose && now >= arrival_) pose_ = target_;

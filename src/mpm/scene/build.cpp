@@ -273,9 +273,10 @@ void cut_out(const BodyDefinition& body, const Scene& scene, DeformableBody& fil
   }
 }
 
-/// Numbers of the particles of `body` that a force is for.
+/// Numbers of the particles of `body` that a load is for; none without a region.
 std::vector<std::uint32_t> choose(const LoadRegion& chosen, const DeformableBody& body) {
   std::vector<std::uint32_t> particles;
+  if (!chosen.region) return particles;
   for (std::size_t p = 0; p < body.positions.size(); ++p) {
     if (chosen.region->contains(body.positions[p])) particles.push_back(static_cast<std::uint32_t>(p));
   }
@@ -325,12 +326,15 @@ SimulationDefinition build(const Scene& scene) {
     set_initial(body, filled);
     definition.bodies.push_back(std::move(filled));
   }
-  for (std::size_t i = 0; i < scene.load_regions.size(); ++i) {
-    ParticleForceDefinition& load = definition.particle_forces[i];
-    const auto body = std::find_if(definition.bodies.begin(), definition.bodies.end(),
-                                   [&](const DeformableBody& b) { return b.name == load.body; });
-    if (scene.load_regions[i].region) load.particles = choose(scene.load_regions[i], *body);
-  }
+  const auto choose_all = [&](auto& loads, const std::vector<LoadRegion>& regions) {
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      const auto body = std::find_if(definition.bodies.begin(), definition.bodies.end(),
+                                     [&](const DeformableBody& b) { return b.name == loads[i].body; });
+      loads[i].particles = choose(regions[i], *body);
+    }
+  };
+  choose_all(definition.particle_forces, scene.load_regions);
+  choose_all(definition.tractions, scene.traction_regions);
   return definition;
 }
 

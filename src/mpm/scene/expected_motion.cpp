@@ -20,6 +20,7 @@ bool flows(const MaterialDefinition& material) {
   return std::holds_alternative<DruckerPragerDefinition>(material.law) ||
          std::holds_alternative<MohrCoulombDefinition>(material.law) ||
          std::holds_alternative<J2PlasticityDefinition>(material.law) ||
+         std::holds_alternative<JohnsonCookDefinition>(material.law) ||
          std::holds_alternative<NewtonianFluidDefinition>(material.law) ||
          std::holds_alternative<IdealGasDefinition>(material.law);
 }
@@ -119,10 +120,12 @@ void find_elastic_motion(const Scene& scene, ExpectedMotion& expected) {
   const SimulationDefinition& definition = scene.definition;
   const bool stressed = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                     [](const BodyDefinition& body) { return body.stress.has_value(); });
+  const bool loaded =
+      !definition.body_forces.empty() || !definition.particle_forces.empty() || !definition.tractions.empty();
   const char* unknown = !definition.rigid_bodies.empty() ? "rigid bodies may press"
-                        : !definition.body_forces.empty() || !definition.particle_forces.empty() ? "loads act"
-                        : stressed                                                               ? "stress at the start"
-                                                                                                 : nullptr;
+                        : loaded                         ? "loads act"
+                        : stressed                       ? "stress at the start"
+                                                         : nullptr;
   if (unknown != nullptr && expected.strain < kPressedStrain) {
     expected.strain = kPressedStrain;
     expected.strain_why = fmt::format("{}, and how far is not known", unknown);

@@ -25,6 +25,15 @@ LoadSpread read_spread(const Map& map) {
                 : LoadSpread::domain;
 }
 
+LoadRegion read_load_region(const Map& map, const Scene& scene) {
+  LoadRegion chosen;
+  if (const auto region = map.find("region")) {
+    chosen.region = read_region(*region, scene.definition.geometry);
+    chosen.where = region->where();
+  }
+  return chosen;
+}
+
 void read_body_force(const Value& value, Scene& scene) {
   const Map map(value, {"acceleration", "body", "spread"},
                 {{"force", "write acceleration, which is force over mass, or a particle_force"}});
@@ -48,13 +57,50 @@ void read_particle_force(const Value& value, Scene& scene) {
   load.force = (total ? total : each)->functions(kForce, FunctionPlaces::present_and_start);
   load.body = read_body(map.at("body"), scene);
   load.spread = read_spread(map);
-  LoadRegion chosen;
-  if (const auto region = map.find("region")) {
-    chosen.region = read_region(*region, scene.definition.geometry);
-    chosen.where = region->where();
-  }
   scene.definition.particle_forces.push_back(std::move(load));
-  scene.load_regions.push_back(std::move(chosen));
+  scene.load_regions.push_back(read_load_region(map, scene));
+}
+
+/// Which face, and of whose particles: what traction and pressure have in common.
+TractionDefinition read_face(const Map& map, Scene& scene) {
+  TractionDefinition load;
+  load.body = read_body(map.at("body"), scene);
+  std::vector<std::string> names;
+  std::vector<int> faces;
+  for (const int axis : axes_of(scene)) {
+    for (const int face : {2 * axis, 2 * axis + 1}) {
+      names.emplace_back(kWallNames[face]);
+      faces.push_back(face);
+    }
+  }
+  load.face = faces[map.at("edge").choice(names)];
+  scene.traction_regions.push_back(read_load_region(map, scene));
+  return load;
+}
+
+void read_traction(const Value& value, Scene& scene) {
+  const Map map(value, {"body", "edge", "region", "traction"});
+  TractionDefinition load = read_face(map, scene);
+  load.value = map.at("traction").functions(kPressure, FunctionPlaces::present_and_start);
+  scene.definition.tractions.push_back(std::move(load));
+}
+
+void read_pressure(const Value& value, Scene& scene) {
+  const Map map(value, {"body", "edge", "region", "value", "shear"});
+  TractionDefinition load = read_face(map, scene);
+  load.follows = true;
+  load.value[0] = map.at("value").function(kPressure, FunctionPlaces::present_and_start);
+  if (const auto shear = map.find("shear")) {
+    const int along = dimensions(scene.definition.geometry) - 1;
+    if (along == 0) shear->fail("an end of a line has nothing to shear along; leave it out");
+    const std::vector<Value> parts = along == 1 ? std::vector<Value>{*shear} : shear->elements();
+    if (static_cast<int>(parts.size()) != along) {
+      shear->fail(
+          fmt::format("found {} components; write two, along the face's two edges in the order of axes", parts.size()));
+    }
+    for (int k = 0; k < along; ++k) load.value[1 + k] = parts[k].function(kPressure, FunctionPlaces::present_and_start);
+  }
+  scene.definition.tractions.push_back(std::move(load));
 }
 
 }  // namespace
@@ -62,11 +108,12 @@ void read_particle_force(const Value& value, Scene& scene) {
 void read_loads(const Map& root, Scene& scene) {
   const auto section = root.find("loads");
   if (!section) return;
-  const std::string advice = "use particle_force, body_force, boundaries or moving rigid_bodies";
   for (const Value& value : section->elements()) {
-    const auto [kind, load] =
-        only_key(value, {"body_force", "particle_force"}, {{"traction", advice}, {"pressure", advice}});
-    kind == "body_force" ? read_body_force(load, scene) : read_particle_force(load, scene);
+    const auto [kind, load] = only_key(value, {"body_force", "particle_force", "traction", "pressure"});
+    if (kind == "body_force") read_body_force(load, scene);
+    if (kind == "particle_force") read_particle_force(load, scene);
+    if (kind == "traction") read_traction(load, scene);
+    if (kind == "pressure") read_pressure(load, scene);
   }
 }
 

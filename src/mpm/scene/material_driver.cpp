@@ -60,7 +60,7 @@ std::string header() {
   for (const char* name : kComponentNames) line += fmt::format(",s{} [Pa]", name);
   return line +
          ",p [Pa],mises [Pa],plastic_strain [1],elastic_energy [J/kg],plastic_energy [J/kg],work [J/kg],"
-         "wave_speed [m/s]\n";
+         "wave_speed [m/s],temperature [K]\n";
 }
 
 std::string row(const PathDriver& driver) {
@@ -74,7 +74,7 @@ std::string row(const PathDriver& driver) {
   add(point.j());
   for (const double component : components(stress)) add(component);
   for (const double value : {0.0 - mean, mises, point.plastic_strain(), point.elastic_energy(), point.plastic_work(),
-                             driver.work(), point.wave_speed()}) {
+                             driver.work(), point.wave_speed(), point.temperature()}) {
     add(value);
   }
   return line + "\n";

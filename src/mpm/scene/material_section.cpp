@@ -10,8 +10,7 @@ namespace mpm {
 namespace {
 
 const std::vector<Later>& later_laws() {
-  static const std::vector<Later> laws = {{"johnson_cook", "use j2_plasticity"},
-                                          {"rigid", "a rigid body is not a material: write it under rigid_bodies"}};
+  static const std::vector<Later> laws = {{"rigid", "a rigid body is not a material: write it under rigid_bodies"}};
   return laws;
 }
 
@@ -117,6 +116,51 @@ LawDefinition read_viscoelastic(const Map& map, Scene&) {
                                        map.at("relaxation_time").number(kTime)};
 }
 
+/// Heat: c_v, and strength that it takes away.
+void read_heat(const Map& map, Scene& scene, JohnsonCookDefinition& law) {
+  law.heat_capacity = map.at("heat_capacity").number(kHeatCapacity);
+  if (const auto fraction = map.find("heat_fraction")) law.heat_fraction = fraction->number(kPlain);
+  if (const auto reference = map.find("reference_temperature")) {
+    law.reference_temperature = reference->number(kTemperature);
+  } else {
+    scene.choices.emplace_back(map.value().path() + ".reference_temperature", "293 K: the strength's A is of a room");
+  }
+  const auto exponent = map.find("m"), melting = map.find("melting_temperature");
+  if (exponent.has_value() != melting.has_value()) {
+    map.fail(
+        "m and melting_temperature go together: strength falls from reference_temperature to melting_temperature; "
+        "write both, or neither for a metal that heat neither softens nor melts");
+  }
+  if (exponent) {
+    law.softening_exponent = exponent->number(kPlain);
+    law.melting_temperature = melting->positive(kTemperature);
+  } else {
+    scene.choices.emplace_back(map.value().path() + ".melting_temperature",
+                               "none: heat neither softens nor melts the material");
+  }
+}
+
+LawDefinition read_johnson_cook(const Map& map, Scene& scene) {
+  JohnsonCookDefinition law;
+  law.shear_modulus = map.at("shear_modulus").number(kPressure);
+  law.pressure = {map.at("C0").number(kVelocity), map.at("S").number(kPlain), map.at("gamma0").number(kPlain)};
+  law.yield_stress = map.at("A").number(kPressure);
+  const auto hardening = map.find("B"), exponent = map.find("n");
+  if (hardening.has_value() != exponent.has_value()) map.fail("B and n go together; write both or neither");
+  if (hardening) {
+    law.hardening = hardening->number(kPressure);
+    law.hardening_exponent = exponent->number(kPlain);
+  }
+  if (const auto sensitivity = map.find("C")) law.rate_sensitivity = sensitivity->number(kPlain);
+  if (const auto rate = map.find("reference_rate")) {
+    law.reference_rate = rate->number(kRate);
+  } else if (law.rate_sensitivity > 0.0) {
+    scene.choices.emplace_back(map.value().path() + ".reference_rate", "1 1/s: that of most published constants");
+  }
+  read_heat(map, scene, law);
+  return law;
+}
+
 struct LawSection {
   const char* name;
   std::vector<std::string> keys;  ///< beside name, density and law
@@ -136,6 +180,10 @@ const std::vector<LawSection>& law_sections() {
       {"j2_plasticity",
        {"young", "poisson", "yield_stress", "hardening_modulus", "saturation_stress", "saturation_rate"},
        read_j2_plasticity},
+      {"johnson_cook",
+       {"shear_modulus", "C0", "S", "gamma0", "A", "B", "n", "C", "reference_rate", "m", "melting_temperature",
+        "reference_temperature", "heat_capacity", "heat_fraction"},
+       read_johnson_cook},
       {"viscoelastic", {"young", "poisson", "branch_modulus", "relaxation_time"}, read_viscoelastic},
       {"newtonian_fluid", {"bulk_modulus", "sound_speed", "exponent", "viscosity", "tension"}, read_newtonian_fluid},
       {"ideal_gas", {"pressure", "temperature", "heat_capacity_ratio", "process", "ambient_pressure"}, read_ideal_gas}};

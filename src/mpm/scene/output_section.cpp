@@ -163,7 +163,7 @@ void read_metrics(const Map& root, Scene& scene) {
   if (!section->is_map()) section->fail("write one line for each metric, as in mean_szz: {mean: szz, of: soil}");
   for (const auto& entry : section->node()) {
     const Value value = section->child(entry.second, entry.first.Scalar());
-    const Map map(value, {"mean", "std", "min", "max", "of"});
+    const Map map(value, {"mean", "std", "min", "max", "of", "rate"});
     MetricDefinition metric;
     metric.name = section->child(entry.first, entry.first.Scalar()).name();
     int statistics = 0;
@@ -179,6 +179,14 @@ void read_metrics(const Map& root, Scene& scene) {
       metric.body = of->text();
       if (std::find(bodies.begin(), bodies.end(), metric.body) == bodies.end()) {
         of->fail(fmt::format("no deformable body '{}'; {}", metric.body, suggest(metric.body, bodies)));
+      }
+    }
+    if (const auto rate = map.find("rate")) {
+      const Map window(*rate, {"from", "to"});
+      metric.rate = TimeWindow{window.at("from").non_negative(kTime), window.at("to").positive(kTime)};
+      if (!(metric.rate->to > metric.rate->from)) {
+        rate->fail(
+            fmt::format("from {} s to {} s is no time; put `to` after `from`", metric.rate->from, metric.rate->to));
       }
     }
     scene.definition.metrics.push_back(std::move(metric));

@@ -139,7 +139,10 @@ std::vector<Value> Value::components() const {
     static constexpr std::array<const char*, 3> kWanted = {"one component, x, for the scene is a line",
                                                            "two components, [x, z], for the scene is planar",
                                                            "three components, [x, y, z]"};
-    fail(fmt::format("found {}; write {}", found, kWanted[expected - 1]));
+    const char* wanted = axisymmetric(context_->geometry)
+                             ? "two components, [x, z], for the scene is axisymmetric: x is r"
+                             : kWanted[expected - 1];
+    fail(fmt::format("found {}; write {}", found, wanted));
   }
   return elements();
 }

@@ -13,6 +13,7 @@ namespace {
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 std::unique_ptr<Surface> read_mesh(const Value& value, GeometryKind geometry) {
+  if (axisymmetric(geometry)) value.fail("a mesh is not a body of revolution; write its section as revolved");
   if (planar(geometry))
     value.fail("a planar scene has no mesh; write box, sphere or cylinder, each without end along y");
   if (geometry == GeometryKind::line) value.fail("a line has no mesh; write box or sphere, each an interval of it");
@@ -32,6 +33,7 @@ std::unique_ptr<Surface> read_mesh(const Value& value, GeometryKind geometry) {
 }
 
 std::unique_ptr<Surface> read_box(const Value& value, GeometryKind geometry) {
+  if (axisymmetric(geometry)) value.fail("a box is not a body of revolution; write cylinder or ring");
   const Value size_value = Map(value, {"size"}, {{"min", "write size, and put the body by its pose"}}).at("size");
   Vec3 size = size_value.vector(kLength);
   for (const int axis : axes_beside(geometry)) size[axis] = kEndless;
@@ -59,17 +61,20 @@ std::unique_ptr<Surface> read_cylinder(const Value& value, GeometryKind geometry
     return make_cylinder(radius, kEndless, 1);
   }
   const int axis = axis_key ? static_cast<int>(axis_key->choice({"x", "y", "z"})) : 2;
+  if (axisymmetric(geometry) && axis != 2)
+    axis_key->fail("across the axis a cylinder is not axisymmetric; write z, or leave it out");
   return make_cylinder(radius, map.at("height").positive(kLength), axis);
 }
 
-std::unique_ptr<Surface> read_surface(const Value& value, GeometryKind geometry) {
-  const auto [kind, shape] = only_key(value, {"mesh", "box", "sphere", "cylinder"},
+std::unique_ptr<Surface> read_surface(const Value& value, GeometryKind geometry, RigidBodyDefinition& body) {
+  const auto [kind, shape] = only_key(value, {"mesh", "box", "sphere", "cylinder", "revolved", "cone", "ring"},
                                       {{"capsule", "use cylinder or mesh"}, {"plane", "use boundaries or box"}});
   try {
     if (kind == "mesh") return read_mesh(shape, geometry);
     if (kind == "box") return read_box(shape, geometry);
     if (kind == "sphere") return read_sphere(shape, geometry);
-    return read_cylinder(shape, geometry);
+    if (kind == "cylinder") return read_cylinder(shape, geometry);
+    return read_revolved_shape(kind, shape, body);
   } catch (const RigidError& error) {
     shape.fail(error.what());
   }
@@ -95,10 +100,16 @@ Quat read_quaternion(const Value& value) {
   return given.normalized();
 }
 
-Pose read_pose(const Value& value, GeometryKind geometry) {
+/// `inner_radius`: of a ring that opens along x, else 0.
+Pose read_pose(const Value& value, GeometryKind geometry, double inner_radius) {
   const Map map(value, {"position", "rpy", "quaternion"}, {{"frame", "poses are in the world frame"}});
   Pose pose;
-  if (const auto position = map.find("position")) pose.position = position->vector(kLength);
+  const auto position = map.find("position");
+  if (position) pose.position = position->vector(kLength);
+  if (axisymmetric(geometry) && pose.position.x() != 0.0 && inner_radius == 0.0)
+    position->fail("off the axis the tool is not axisymmetric; write [0, z], or make the scene solid");
+  if (inner_radius > 0.0 && !(inner_radius + pose.position.x() > 0.0))
+    position->fail(fmt::format("the ring is closed there: x changes its inner radius of {:g} m", inner_radius));
   const auto rpy = map.find("rpy");
   const auto quaternion = map.find("quaternion");
   if (rpy && quaternion) quaternion->fail("a pose has rpy or quaternion, not both; leave one out");
@@ -107,6 +118,8 @@ Pose read_pose(const Value& value, GeometryKind geometry) {
   if (geometry == GeometryKind::line && (rpy || quaternion)) {
     (rpy ? *rpy : *quaternion).fail("nothing turns in a line; leave it out");
   }
+  if (axisymmetric(geometry) && pose.orientation.vec().norm() > 1e-9)
+    (rpy ? *rpy : *quaternion).fail("a turned tool is not axisymmetric; leave it out, or make the scene solid");
   // In a planar scene the body's y axis stays the world's.
   if (planar(geometry) && (pose.orientation * Vec3::UnitY() - Vec3::UnitY()).norm() > 1e-9) {
     (rpy ? *rpy : *quaternion)
@@ -117,6 +130,8 @@ Pose read_pose(const Value& value, GeometryKind geometry) {
 
 std::array<Function, 3> read_rotation_rate(const Value& value, GeometryKind geometry) {
   if (geometry == GeometryKind::line) value.fail("nothing turns in a line; leave it out");
+  if (axisymmetric(geometry))
+    value.fail("a tool that turns is not axisymmetric; leave it out, or make the scene solid");
   if (!planar(geometry)) return value.three_functions(kAngularRate);
   if (!value.is_text()) value.fail("a planar scene turns about y alone; write one number or expression");
   return {Function(), value.function(kAngularRate), Function()};
@@ -126,7 +141,11 @@ void read_motion(const Value& value, GeometryKind geometry, RigidBodyDefinition&
   const Map map(value, {"velocity", "rotation_rate"},
                 {{"pose", "use velocity and rotation_rate, or pose commands on a topic"},
                  {"file", "use velocity and rotation_rate, or commands from a bag"}});
-  if (const auto velocity = map.find("velocity")) body.velocity = velocity->functions(kVelocity);
+  if (const auto velocity = map.find("velocity")) {
+    body.velocity = velocity->functions(kVelocity);
+    if (axisymmetric(geometry) && body.inner_radius == 0.0 && !body.velocity[0].is_zero())
+      velocity->fail("off the axis the tool is not axisymmetric; write [0, z], or make it a ring, which opens along x");
+  }
   if (const auto rate = map.find("rotation_rate")) body.rotation_rate = read_rotation_rate(*rate, geometry);
 }
 
@@ -170,8 +189,8 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
         value.fail(fmt::format("'{}' is already the name of a deformable body; give each its own name", body.name));
       }
     }
-    body.surface = read_surface(map.at("shape"), geometry);
-    if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, geometry);
+    body.surface = read_surface(map.at("shape"), geometry, body);
+    if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, geometry, body.inner_radius);
     if (const auto motion = map.find("motion")) read_motion(*motion, geometry, body);
     const auto own_friction = map.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;

@@ -100,6 +100,7 @@ const std::array kDimensions = {
     DimensionText{kPower, "a power", "3 W"},
     DimensionText{kViscosity, "a viscosity", "1 Pa s"},
     DimensionText{kTemperature, "a temperature", "293 K"},
+    DimensionText{kHeatCapacity, "a heat capacity", "450 J/(kg K)"},
 };
 
 std::string base_units(const Dimension& dimension) {

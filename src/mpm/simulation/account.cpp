@@ -1,4 +1,4 @@
-// What a Simulation says of itself: momentum audit, energies, metrics, the hash of its state. Computed when asked for.
+// What a Simulation says of itself: momentum audit, energies, the hash of its state. Computed when asked for.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -58,7 +58,11 @@ Totals totals_of(const ParticleSet& set, const LawType& law, const GridLayout& l
       sum.kinetic += mass * (0.5 * speed2);
       sum.potential -= mass * height;
       sum.elastic += mass * law.elastic_energy(t.f, t.tau, t.j);
-      if constexpr (LawType::kPlasticWork >= 0) sum.plastic += mass * set.history[LawType::kPlasticWork][p];
+      if constexpr (LawType::kPlasticWork >= 0) {
+        const double work = mass * set.history[LawType::kPlasticWork][p];
+        sum.elastic -= law.heat_fraction() * work;
+        sum.plastic += work;
+      }
       sum.carried += mass * std::sqrt(speed2);
       sum.min_j = std::min(sum.min_j, t.j);
     }
@@ -142,7 +146,8 @@ SolverState Simulation::state() const {
   report.energy.plastic = totals.plastic;
   report.min_j = totals.min_j;
   for (const RigidContact* contact : s.contacts) report.energy.contact_work += contact->work();
-  if (s.loads != nullptr) report.energy.load_work = s.loads->work();
+  if (s.loads != nullptr) report.energy.load_work += s.loads->work();
+  if (s.tractions != nullptr) report.energy.load_work += s.tractions->work();
 
   AuditReport& audit = report.audit;
   audit.momentum = s.momentum();
@@ -159,30 +164,6 @@ SolverState Simulation::state() const {
   const double error = (audit.momentum - audit.initial_momentum - given).norm();
   audit.residual = scale > 0.0 ? error / scale : error;
   return report;
-}
-
-std::vector<std::pair<std::string, double>> Simulation::metrics() const {
-  std::vector<std::pair<std::string, double>> list;
-  std::vector<double> values;
-  for (const MetricDefinition& metric : state_->definition.metrics) {
-    particle_field(metric.field, values);
-    const auto [first, last] =
-        metric.body.empty() ? std::pair<std::uint64_t, std::uint64_t>{0, values.size()} : body_ids(metric.body);
-    const auto begin = values.begin() + first, end = values.begin() + last;
-    double mean = 0.0;
-    for (auto it = begin; it != end; ++it) mean += *it;
-    mean /= static_cast<double>(last - first);
-    double result = mean;
-    if (metric.statistic == Statistic::min) result = *std::min_element(begin, end);
-    if (metric.statistic == Statistic::max) result = *std::max_element(begin, end);
-    if (metric.statistic == Statistic::std_dev) {
-      double squares = 0.0;
-      for (auto it = begin; it != end; ++it) squares += (*it - mean) * (*it - mean);
-      result = std::sqrt(squares / static_cast<double>(last - first));
-    }
-    list.emplace_back(metric.name, result);
-  }
-  return list;
 }
 
 std::uint64_t Simulation::state_hash() const {

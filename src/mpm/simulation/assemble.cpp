@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axial_motion.hpp"
 #include "initial.hpp"
+#include "load_terms.hpp"
 #include "mpm/boundary/again.hpp"
 #include "mpm/boundary/axis.hpp"
 #include "mpm/boundary/wall.hpp"
@@ -130,62 +132,17 @@ void project(SimulationDefinition& definition) {
     for (RigidBodyDefinition& body : definition.rigid_bodies) body.velocity[axis] = Function();
     for (BodyForceDefinition& load : definition.body_forces) load.acceleration[axis] = Function();
     for (ParticleForceDefinition& load : definition.particle_forces) load.force[axis] = Function();
+    for (TractionDefinition& load : definition.tractions) {
+      if (!load.follows) load.value[axis] = Function();
+    }
   }
   for (RigidBodyDefinition& body : definition.rigid_bodies) {
-    body.pose = projected(body.pose, geometry, body.name);
+    body.pose = projected(body.pose, geometry, body);
+    if (axisymmetric(geometry) && body.inner_radius == 0.0) body.velocity[0] = Function();
     for (int axis = 0; axis < 3; ++axis) {
       if (!turns_about(geometry, axis)) body.rotation_rate[axis] = Function();
     }
   }
-}
-
-int find_set(const std::vector<ParticleSet>& sets, const std::string& body, const char* load) {
-  const auto set = std::find_if(sets.begin(), sets.end(), [&](const auto& s) { return s.name == body; });
-  if (set != sets.end()) return static_cast<int>(set - sets.begin());
-  throw DefinitionError(fmt::format("{}: no deformable body is called '{}'; name one of 'bodies'", load, body));
-}
-
-ParticleLoadTerm make_term(const ParticleForceDefinition& load, const std::vector<ParticleSet>& sets) {
-  ParticleLoadTerm term{ParticleLoadTerm::Kind::particle_force,
-                        find_set(sets, load.body, "particle force"),
-                        load.force,
-                        1.0,
-                        load.spread,
-                        {}};
-  const ParticleSet& set = sets[*term.set];
-  auto count = static_cast<double>(set.size());
-  if (!load.particles.empty()) {
-    term.chosen.assign(set.size(), 0);
-    for (const std::uint32_t p : load.particles) {
-      if (p >= term.chosen.size()) {
-        throw DefinitionError(
-            fmt::format("particle force on '{}': it has no particle {}, but {}", load.body, p, set.size()));
-      }
-      term.chosen[p] = 1;
-    }
-    count = static_cast<double>(std::count(term.chosen.begin(), term.chosen.end(), 1));
-  }
-  term.factor = 1.0 / (set.mass * (load.shared ? count : 1.0));
-  return term;
-}
-
-// Sets that a term with X, Y or Z acts on remember where their particles start.
-std::vector<ParticleLoadTerm> make_load_terms(const SimulationDefinition& definition, std::vector<ParticleSet>& sets) {
-  std::vector<ParticleLoadTerm> terms;
-  for (const BodyForceDefinition& load : definition.body_forces) {
-    ParticleLoadTerm term{ParticleLoadTerm::Kind::body_force, std::nullopt, load.acceleration, 1.0, load.spread, {}};
-    if (!load.body.empty()) term.set = find_set(sets, load.body, "body force");
-    terms.push_back(std::move(term));
-  }
-  for (const ParticleForceDefinition& load : definition.particle_forces) terms.push_back(make_term(load, sets));
-  for (const ParticleLoadTerm& term : terms) {
-    const bool uses_start = std::any_of(term.value.begin(), term.value.end(),
-                                        [](const Function& component) { return component.uses_start(); });
-    for (std::size_t s = 0; s < sets.size(); ++s) {
-      if (uses_start && (!term.set || *term.set == static_cast<int>(s))) sets[s].start_x = sets[s].x;
-    }
-  }
-  return terms;
 }
 
 // Not "= {}", which would keep the memory.
@@ -205,7 +162,8 @@ const MaterialDefinition& find_material(const SimulationDefinition& definition, 
   throw DefinitionError(fmt::format("body '{}': no material is called '{}'", body.name, body.material));
 }
 
-Twist projected(const Twist& twist, GeometryKind geometry) {
+Twist projected(const Twist& twist, GeometryKind geometry, const RigidBodyDefinition& body) {
+  if (axisymmetric(geometry)) return axial_twist(twist, body);
   Twist kept = twist;
   for (const int axis : axes_beside(geometry)) kept.linear[axis] = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -214,14 +172,15 @@ Twist projected(const Twist& twist, GeometryKind geometry) {
   return kept;
 }
 
-Pose projected(const Pose& pose, GeometryKind geometry, const std::string& body) {
+Pose projected(const Pose& pose, GeometryKind geometry, const RigidBodyDefinition& body) {
   if (geometry == GeometryKind::solid) return pose;
+  if (axisymmetric(geometry)) return axial_pose(pose, body);
   if (geometry == GeometryKind::line) return {{pose.position.x(), 0.0, 0.0}, Quat::Identity()};
   const Quat& q = pose.orientation;
   const double about_y = std::hypot(q.w(), q.y());
   if (!(about_y >= 1e-3 * q.norm())) {
     throw RigidError(
-        fmt::format("rigid body '{}': its pose is turned over in a planar scene; turn it about y only", body));
+        fmt::format("rigid body '{}': its pose is turned over in a planar scene; turn it about y only", body.name));
   }
   const double scale = q.norm() / about_y;
   return {{pose.position.x(), 0.0, pose.position.z()}, Quat(q.w() * scale, 0.0, q.y() * scale, 0.0)};
@@ -248,6 +207,12 @@ void Simulation::State::add_mechanics() {
     const LoadKernels<T> load_kernels{kernels, kernel_table<T>(ShapeKind::dirac, definition.geometry, isa)};
     auto all = make_particle_loads(load_kernels, sets, laws, terms, threads);
     loads = all.get();
+    stages.push_back(std::move(all));
+  }
+  if (std::vector<TractionTerm> terms = make_traction_terms(definition, sets, grid->layout); !terms.empty()) {
+    const TractionSettings settings{definition.geometry, method.shape, definition.across()};
+    auto all = std::make_unique<FaceTractions>(settings, sets, std::move(terms));
+    tractions = all.get();
     stages.push_back(std::move(all));
   }
   ContinuumSettings settings;
@@ -339,7 +304,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
     s.bodies.emplace_back(body);
-    auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.threads);
+    auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.threads, definition.geometry);
     s.contacts.push_back(contact.get());
     s.stages.push_back(std::move(contact));
     const double cells = body.surface->thickness() / layout.smallest_cell();
@@ -370,6 +335,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.sort(0.0);
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
+  s.rates.resize(definition.metrics.size());
+  sample_metrics();
 }
 
 }  // namespace mpm

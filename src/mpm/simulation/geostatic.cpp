@@ -112,6 +112,8 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
   body_forces.erase(std::remove_if(body_forces.begin(), body_forces.end(), elsewhere), body_forces.end());
   auto& forces = part.particle_forces;
   forces.erase(std::remove_if(forces.begin(), forces.end(), elsewhere), forces.end());
+  auto& tractions = part.tractions;
+  tractions.erase(std::remove_if(tractions.begin(), tractions.end(), elsewhere), tractions.end());
   for (RigidBodyDefinition& body : part.rigid_bodies) body.velocity = body.rotation_rate = {};
   return part;
 }

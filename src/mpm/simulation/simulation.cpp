@@ -101,10 +101,13 @@ void Simulation::advance() {
     throw PhysicsError(error.what());
   } catch (const DampingError& error) {
     throw PhysicsError(error.what());
+  } catch (const RigidError& error) {
+    throw PhysicsError(fmt::format("{} (in the sync period from t = {:.6g} s)", error.what(), s.time * kNanosecond));
   } catch (const FunctionError& error) {
     throw PhysicsError(fmt::format("motion of a rigid body at t = {:.6g} s: {}", s.time * kNanosecond, error.what()));
   }
   s.failed = false;
+  sample_metrics();
   s.wall += std::chrono::steady_clock::now() - started;
 }
 
@@ -116,11 +119,12 @@ int Simulation::find_body(const std::string& name) const {
 }
 
 void Simulation::command_velocity(int body, const Twist& twist) {
-  state_->bodies.at(body).command_velocity(projected(twist, state_->definition.geometry));
+  state_->bodies.at(body).command_velocity(
+      projected(twist, state_->definition.geometry, state_->bodies.at(body).definition()));
 }
 
 void Simulation::command_pose(int body, const Pose& target, std::int64_t arrival) {
-  const Pose applied = projected(target, state_->definition.geometry, state_->bodies.at(body).name());
+  const Pose applied = projected(target, state_->definition.geometry, state_->bodies.at(body).definition());
   state_->bodies.at(body).command_pose(applied, state_->time, arrival);
 }
 

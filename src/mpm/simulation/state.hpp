@@ -7,6 +7,7 @@
 #include "mpm/contact/rigid_contact.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/mechanics/damping.hpp"
+#include "mpm/mechanics/face_tractions.hpp"
 #include "mpm/mechanics/particle_loads.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/step/schedule.hpp"
@@ -25,6 +26,18 @@ struct StepLimit {
   std::string text() const;
 };
 
+/// The straight line with the least squares through points that come one by one.
+class LineFit {
+ public:
+  void add(double t, double y);
+  /// Not a number before the second point.
+  double slope() const;
+
+ private:
+  int count_ = 0;
+  double mean_t_ = 0.0, mean_y_ = 0.0, tt_ = 0.0, ty_ = 0.0;
+};
+
 struct Simulation::State {
   SimulationDefinition definition;
   int threads = 1;
@@ -40,6 +53,7 @@ struct Simulation::State {
   Stages stages;
   std::vector<RigidContact*> contacts;  ///< of each body, owned by stages
   ParticleLoads* loads = nullptr;       ///< owned by stages, when the scene has any
+  FaceTractions* tractions = nullptr;   ///< the same
   DampingControl* damping = nullptr;    ///< the same
 
   std::int64_t time = 0;  ///< [ns]
@@ -52,6 +66,7 @@ struct Simulation::State {
   StepLimit previous_limit;  ///< as surveyed at the one before
   StepLimit limit;           ///< of the last period's steps
   bool failed = false;
+  std::vector<LineFit> rates;  ///< of each metric; those without a window stay empty
 
   template <class T>
   void add_mechanics();
@@ -78,11 +93,12 @@ struct Simulation::State {
 /// @throws DefinitionError when there is none of that name
 const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body);
 
-/// What a geometry keeps of a motion: what is along its axes, and rotation about y in a plane, none in a line.
-Twist projected(const Twist& twist, GeometryKind geometry);
+/// What a geometry keeps of a body's motion: what is along its axes, and rotation about y in a plane, none in a line.
+/// @throws RigidError in an axisymmetric scene for a motion that is not (axial_motion.hpp).
+Twist projected(const Twist& twist, GeometryKind geometry, const RigidBodyDefinition& body);
 /// The same of a pose; in a plane the part of the rotation that is about y (swing and twist), so that zeros stay exact
-/// zeros. @throws RigidError for a pose that is turned over in a plane.
-Pose projected(const Pose& pose, GeometryKind geometry, const std::string& body);
+/// zeros. @throws RigidError for a pose that is turned over in a plane, or off the axis or turned in axisymmetry.
+Pose projected(const Pose& pose, GeometryKind geometry, const RigidBodyDefinition& body);
 
 /// Sums over all particles of `term(set, index)`, grouped so that the result does not depend on the number of threads.
 template <class Value, class Term>

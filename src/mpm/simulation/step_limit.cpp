@@ -17,7 +17,8 @@ constexpr double kMostForeseen = 0.5;  ///< the limit is not expected to fall be
 
 constexpr double kWorthTelling = 0.99;  ///< a trend below this is told with the limit
 
-// Of the body's origin plus what its rotation adds at its farthest corner; endless axes do not count.
+// Of the body's origin plus what its rotation adds at its farthest corner; endless axes do not count. The outer face of
+// a ring moves faster than the inner one.
 double largest_speed(const RigidBody& body, double time) {
   const Box bounds = body.surface().bounds();
   Vec3 corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs());
@@ -25,7 +26,9 @@ double largest_speed(const RigidBody& body, double time) {
     if (!std::isfinite(corner[k])) corner[k] = 0.0;
   }
   const Twist twist = body.twist_at(time);
-  return twist.linear.norm() + twist.angular.norm() * corner.norm();
+  const double inner = body.definition().inner_radius, opened = body.pose().position.x();
+  const double spread = inner > 0.0 ? (bounds.max.x() + opened) / (inner + opened) : 1.0;
+  return spread * twist.linear.norm() + twist.angular.norm() * corner.norm();
 }
 
 void tighten(StepLimit& limit, const StepLimit& other) {

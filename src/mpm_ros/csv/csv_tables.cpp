@@ -39,6 +39,9 @@ void ContactForcesCsv::add(double time, const std::vector<mpm::ContactReport>& b
       columns.push_back(name + " pressing [N]");
       add_vector_columns(columns, name + " friction ", "N");
       add_vector_columns(columns, name + " cop ", "m");
+      if (!axisymmetric_) continue;
+      columns.push_back(name + " per radian r [N/rad]");
+      columns.push_back(name + " per radian z [N/rad]");
     }
     writer_.emplace(path_, columns);
   }
@@ -47,6 +50,7 @@ void ContactForcesCsv::add(double time, const std::vector<mpm::ContactReport>& b
     *writer_ << body.mean.force << body.mean.torque << body.peak.force << body.peak.torque << body.impulse
              << body.interval << static_cast<std::uint64_t>(std::max(body.nodes, 0)) << body.pressing << body.friction
              << body.centre_of_pressure();
+    if (axisymmetric_) *writer_ << body.per_radian.x() << body.per_radian.z();
   }
   writer_->end_row();
 }

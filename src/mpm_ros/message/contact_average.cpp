@@ -23,6 +23,7 @@ void ContactAverage::add(const std::vector<mpm::ContactReport>& reports) {
       sum.mean.force = mean(sum.mean.force, next.mean.force);
       sum.mean.torque = mean(sum.mean.torque, next.mean.torque);
       sum.friction = mean(sum.friction, next.friction);
+      sum.per_radian = mean(sum.per_radian, next.per_radian);
       sum.pressing = mean(sum.pressing, next.pressing);
     }
     if (next.peak.force.norm() > sum.peak.force.norm()) sum.peak = next.peak;

@@ -122,6 +122,7 @@ mpm_ros::ContactForce to_message(const mpm::ContactReport& report) {
   message.nodes = static_cast<std::uint32_t>(report.nodes);
   message.pressing = report.pressing;
   message.friction = to_vector(report.friction);
+  message.per_radian = to_vector(report.per_radian);
   message.centre_of_pressure = to_point(report.centre_of_pressure());
   message.arm = to_vector(report.arm);
   return message;
@@ -137,6 +138,7 @@ mpm::ContactReport from_message(const mpm_ros::ContactForce& message) {
   report.nodes = static_cast<int>(message.nodes);
   report.pressing = message.pressing;
   report.friction = from_message(message.friction);
+  report.per_radian = from_message(message.per_radian);
   report.arm = from_message(message.arm);
   report.origin = from_message(message.centre_of_pressure) - report.arm;
   return report;

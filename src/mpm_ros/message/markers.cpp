@@ -27,8 +27,9 @@ std_msgs::ColorRGBA color(float red, float green, float blue, float alpha) {
 visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation) {
   visualization_msgs::MarkerArray markers;
   // Bodies are endless along axes that the scene does not have: drawn as slices of a cell, so that they do not hide the
-  // material.
-  const std::vector<int> beside = mpm::axes_beside(simulation.definition().geometry);
+  // material. In an axisymmetric scene they are drawn whole, round the plane of the material.
+  const mpm::GeometryKind geometry = simulation.definition().geometry;
+  const std::vector<int> beside = mpm::axisymmetric(geometry) ? std::vector<int>() : mpm::axes_beside(geometry);
   const double half_slice = 0.5 * simulation.definition().grid.cell.x();
   const int count = static_cast<int>(simulation.bodies().size());
   for (int body = 0; body < count; ++body) {

@@ -119,7 +119,7 @@ class Reader {
     if (!options_.animate.empty()) visitors.push_back(&range.emplace(field));
     const std::string folder = folder_of(label);
     std::optional<CsvExport> csv;
-    if (!folder.empty()) visitors.push_back(&csv.emplace(folder));
+    if (!folder.empty()) visitors.push_back(&csv.emplace(folder, run.scene.axisymmetric));
 
     with_bar(label, [&](const Reading& reading) { bag.read(visitors, reading); });
     if (!run.statistics.first_state()) throw BagError(path + ": the run has no message; was it stopped at its start?");

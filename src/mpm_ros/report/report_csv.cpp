@@ -20,8 +20,12 @@ const std::string& made(const std::string& folder) {
 
 }  // namespace
 
-CsvExport::CsvExport(const std::string& folder)
-    : folder_(made(folder)), contact_forces_(folder), bodies_(folder), solver_state_(folder), commands_(folder) {}
+CsvExport::CsvExport(const std::string& folder, bool axisymmetric)
+    : folder_(made(folder)),
+      contact_forces_(folder, axisymmetric),
+      bodies_(folder),
+      solver_state_(folder),
+      commands_(folder) {}
 
 void CsvExport::contact_forces(std::int64_t time, const ContactForces& message) {
   contact_forces_.add(seconds(time), contact_reports_of(message));

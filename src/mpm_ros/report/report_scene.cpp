@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+
 #include "mpm/math/lanes.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/method_text.hpp"
 
 namespace mpm_ros {
 namespace {
+
+constexpr double kTurn = 2.0 * 3.14159265358979323846;
 
 /// The scene; without its rigid bodies where these cannot be read, since their meshes may lie on another machine.
 mpm::Scene scene_of(const RunInfo& info) {
@@ -28,6 +32,13 @@ std::string text_of(const mpm::SimulationDefinition& definition) {
                      mpm::whole_power(definition.method.particles_per_direction, mpm::dimensions(geometry)));
 }
 
+/// Mean radius of a particle's section, weighted by area: its volume all the way round is 2 pi of it times its area. A
+/// section that reaches across the axis ends there, unless the scene takes whole ones. `half`: of its width [m].
+double mean_radius(double r, double half, bool whole) {
+  const double inner = whole ? r - half : std::max(0.0, r - half), outer = r + half;
+  return (outer * outer - inner * inner) / (4.0 * half);
+}
+
 }  // namespace
 
 SceneFacts scene_facts(const RunInfo& info) {
@@ -36,6 +47,7 @@ SceneFacts scene_facts(const RunInfo& info) {
   try {
     const mpm::Scene scene = scene_of(info);
     facts.method = text_of(scene.definition);
+    facts.axisymmetric = mpm::axisymmetric(scene.definition.geometry);
     facts.gravity = scene.definition.gravity;
     facts.precision = scene.definition.method.precision;
     if (scene.definition.time.end > 0.0) facts.end = scene.definition.time.end;
@@ -51,11 +63,19 @@ SceneFacts scene_facts(const RunInfo& info) {
 
 std::vector<ParticleMass> particle_masses(const RunInfo& info) {
   const mpm::SimulationDefinition built = mpm::build(scene_of(info));
+  const double half = 0.5 * built.grid.cell.x() / built.method.particles_per_direction;
+  const bool whole = built.method.axis.domains == mpm::AxisDomains::whole;
   std::vector<ParticleMass> masses;
   for (const mpm::DeformableBody& body : built.bodies) {
     for (const mpm::MaterialDefinition& material : built.materials) {
       if (material.name != body.material) continue;
-      masses.push_back({body.positions.size(), material.density * body.particle_volume});
+      const double mass = material.density * body.particle_volume;
+      if (!mpm::axisymmetric(built.geometry)) {
+        masses.push_back({body.positions.size(), mass});
+        continue;
+      }
+      for (const mpm::Vec3& place : body.positions)
+        masses.push_back({1, kTurn * mass * mean_radius(place.x(), half, whole)});
     }
   }
   return masses;

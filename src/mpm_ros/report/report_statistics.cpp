@@ -26,6 +26,8 @@ void RunStatistics::contact_forces(std::int64_t time, const ContactForces& messa
     known.force.offer(report.mean.force, time);
     known.step_force.offer(report.peak.force, time);
     known.torque.offer(report.mean.torque, time);
+    known.per_radian.offer(report.per_radian, time);
+    known.per_radian_integral += report.per_radian * report.interval;
     known.force_integral += report.mean.force * report.interval;
     known.torque_integral += report.mean.torque * report.interval;
     known.impulse = report.impulse;

@@ -38,7 +38,19 @@ std::string run_table(const RecordedRun& run) {
   return text;
 }
 
-std::string contact_table(const RunStatistics& statistics) {
+/// In axisymmetric scenes: what the whole body does not feel, for it cancels around the axis, is here.
+std::string per_radian_table(const RunStatistics& statistics) {
+  TextTable table({"body", "peak a radian r  z [N/rad]", "at [s]", "mean r  z [N/rad]"});
+  const auto pair = [](const mpm::Vec3& force) { return number(force.x()) + "  " + number(force.z()); };
+  for (const BodyStatistics& body : statistics.body_statistics()) {
+    const double duration = body.duration > 0.0 ? body.duration : 1.0;  // without messages the integrals are zero
+    table.add({body.name, pair(body.per_radian.vector), number(seconds(body.per_radian.time)),
+               pair(body.per_radian_integral / duration)});
+  }
+  return "\n" + table.text();
+}
+
+std::string contact_table(const RunStatistics& statistics, bool axisymmetric) {
   if (statistics.body_statistics().empty()) return "Contact: the scene has no rigid body\n";
   TextTable peaks({"body", "peak |F| [N]", "at [s]", "F x  y  z [N]", "of a step [N]", "peak |T| [N m]", "at [s]"});
   TextTable means({"body", "mean F x  y  z [N]", "mean T x  y  z [N m]", "impulse x  y  z [N s]", "contact [s]"});
@@ -52,7 +64,7 @@ std::string contact_table(const RunStatistics& statistics) {
                triple(body.impulse), contact});
   }
   return "Contact: force and torque of the material on each body, world axes, torque about the body's origin\n" +
-         peaks.text() + "\n" + means.text();
+         peaks.text() + "\n" + means.text() + (axisymmetric ? per_radian_table(statistics) : "");
 }
 
 std::string motion_table(const RunStatistics& statistics) {
@@ -145,9 +157,10 @@ std::string TextTable::text() const {
 
 std::string tables(const RecordedRun& run) {
   const RunStatistics& statistics = run.statistics;
-  const std::array<std::string, 7> parts = {
-      run_table(run),          contact_table(statistics), motion_table(statistics), energy_table(statistics),
-      audit_table(statistics), command_table(statistics), gap_lines(run.gaps)};
+  const std::array<std::string, 7> parts = {run_table(run),           contact_table(statistics, run.scene.axisymmetric),
+                                            motion_table(statistics), energy_table(statistics),
+                                            audit_table(statistics),  command_table(statistics),
+                                            gap_lines(run.gaps)};
   return fmt::format("{}", fmt::join(parts, "\n"));
 }
 

@@ -74,7 +74,8 @@ class OfflineRun {
     check_fields(run_options.output);
     if (!options.bag.empty()) run_options.bag = bag_path(options.bag, scene_.definition.name, 1);
     if (!options.end.empty()) run_options.parameters = fmt::format("end: {:.17g}\n", scene_.definition.time.end);
-    if (!options.csv.empty()) csv_ = std::make_unique<CsvSink>(options.csv, stamps_);
+    if (!options.csv.empty())
+      csv_ = std::make_unique<CsvSink>(options.csv, stamps_, mpm::axisymmetric(scene_.definition.geometry));
     run_ = std::make_unique<Run>(scene_, run_options, stamps_, csv_.get());
   }
 

@@ -4,8 +4,8 @@
 
 namespace mpm_ros {
 
-CsvSink::CsvSink(const std::string& folder, const Stamps& stamps)
-    : stamps_(stamps), tables_(folder), snapshots_(folder) {}
+CsvSink::CsvSink(const std::string& folder, const Stamps& stamps, bool axisymmetric)
+    : stamps_(stamps), tables_(folder, axisymmetric), snapshots_(folder) {}
 
 void CsvSink::close() {
   tables_.close();

@@ -1,0 +1,93 @@
+// Tractions on faces of particles' domains: a force over the current area of an edge (a face in a solid, an end in a
+// line), in a fixed direction, or following the face: pressure against its outward normal, and shear along it. To the
+// grid: f_i += T sum_a A_a N_i(x_a) over the corners of the face (shape/traction.hpp), at the joint where forces are
+// gathered.
+//
+// The domain is the one that the scene's shape function has in this step: uGIMP's box, the box of ugimp_stretch, the
+// deformed domain of CPDI and qCPDI, each cut off or made smaller at r = 0 as there. dirac and the B-splines have no
+// box: the one that the particle had at the start stands in. Boxes do not turn or shear, so a load on them does not
+// follow, and one that keeps its size makes T a force per area at the start; only CPDI and qCPDI hold a traction per
+// current area at large strain. A corner may lie where dirac or a spline folded at a wall puts no mass: what such a
+// node should take goes to the other nodes of the corner's cell, so the force is right always and its moment is not.
+//
+// T is read at the middle of the step, at the middle of the face as it will be then, and is the same all over the face;
+// the face itself is that of the step's start. Few particles carry tractions, so this is plain code for one thread.
+// Source: Nairn & Guilkey (2015) eq. (40)-(55) and section 4.2; method reference 4.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mpm/mechanics/particle_loads.hpp"
+#include "mpm/particles/particle_set.hpp"
+#include "mpm/shape/kind.hpp"
+#include "mpm/shape/traction.hpp"
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+/// A traction on one face of each of some particles of a set.
+struct TractionTerm {
+  int set = 0;
+  DomainFace face;
+  /// Which of the set's particles, by id from the set's first.
+  std::vector<std::uint32_t> particles;
+  /// It follows the face: `value` is pressure (compression is positive), then shear along the half vectors that span
+  /// the face, in the order of axes. Else it is the traction by world axis. [Pa]
+  bool follows = false;
+  std::array<Function, 3> value;
+};
+
+/// What all tractions of a scene have in common.
+struct TractionSettings {
+  GeometryKind geometry = GeometryKind::solid;
+  ShapeKind shape = ShapeKind::ugimp;
+  double across = 1.0;  ///< thickness of a plane [m], area of a line [m^2]
+};
+
+/// As ParticleLoads, one of the last stages: its work is taken with the velocity that conditions have left. Audit:
+/// "traction", the sum over faces of T times area times dt; the grid has no part in it.
+class FaceTractions : public Stage {
+ public:
+  /// `sets` outlive this; those that a term with X, Y or Z acts on have their start_x.
+  FaceTractions(const TractionSettings& settings, const std::vector<ParticleSet>& sets,
+                std::vector<TractionTerm> terms);
+
+  /// @throws LoadError for a traction that is not finite, or a corner that lies off the grid
+  void forces_gathered(StepContext& context) override;
+  void momentum_updated(StepContext& context) override;
+  void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  /// Work on the material since the start [J]: nodal load times the displacement of its node in the step.
+  double work() const { return work_; }
+
+ private:
+  struct NodalLoad {
+    NodeRef node;
+    Vec3 force;  ///< by world axis [N]
+  };
+
+  void find_places();
+  PlacedDomain domain_of(const ParticleSet& set, int p, const GridLayout& layout) const;
+  double across(const ParticleSet& set, int p) const;
+  /// By world axis [Pa].
+  Vec3 value_at(const TractionTerm& term, const FaceParts& parts, int p, const StepContext& context) const;
+  /// A force on the nodes of the cell that a place is in.
+  void spread(const Grid& grid, const ParticleSet& set, int p, const PlacedDomain::Vector& at, const Vec3& force);
+
+  TractionSettings settings_;
+  const std::vector<ParticleSet>& sets_;
+  std::vector<TractionTerm> terms_;
+  std::vector<std::vector<int>> places_;  ///< of each term's particles in their set, since it was sorted
+  std::vector<int> place_of_;             ///< scratch: of a set's particles, by id from the first
+  std::uint64_t generation_ = 0;          ///< of the blocks that places_ were found with
+  std::vector<NodalLoad> loads_;          ///< of this step
+  ImpulseAccount account_;
+  double work_ = 0.0;
+};
+
+/// Of a set that is not sorted yet, the particles that no other lies beyond in their row along the face's axis, by
+/// place in the set. Rows are those of the lattice that boxes of the set's size make on the grid.
+std::vector<std::uint32_t> outermost_particles(const ParticleSet& set, const GridLayout& layout, DomainFace face);
+
+}  // namespace mpm

@@ -1,0 +1,105 @@
+#include "load_terms.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace mpm {
+namespace {
+
+int find_set(const std::vector<ParticleSet>& sets, const std::string& body, const char* load) {
+  const auto set = std::find_if(sets.begin(), sets.end(), [&](const auto& s) { return s.name == body; });
+  if (set != sets.end()) return static_cast<int>(set - sets.begin());
+  throw DefinitionError(fmt::format("{}: no deformable body is called '{}'; name one of 'bodies'", load, body));
+}
+
+void check_particles(const std::vector<std::uint32_t>& particles, const ParticleSet& set, const char* load) {
+  for (const std::uint32_t p : particles) {
+    if (p < static_cast<std::uint32_t>(set.size())) continue;
+    throw DefinitionError(fmt::format("{} on '{}': it has no particle {}, but {}", load, set.name, p, set.size()));
+  }
+}
+
+ParticleLoadTerm make_term(const ParticleForceDefinition& load, const std::vector<ParticleSet>& sets) {
+  ParticleLoadTerm term;
+  term.kind = ParticleLoadTerm::Kind::particle_force;
+  term.set = find_set(sets, load.body, "particle force");
+  term.value = load.force;
+  term.spread = load.spread;
+  const ParticleSet& set = sets[*term.set];
+  check_particles(load.particles, set, "particle force");
+  if (!load.particles.empty()) {
+    term.chosen.assign(set.size(), 0);
+    for (const std::uint32_t p : load.particles) term.chosen[p] = 1;
+  }
+  if (!load.shared) {
+    term.each = true;
+    return term;
+  }
+  double mass = 0.0;
+  for (int p = 0; p < set.size(); ++p) mass += term.chosen.empty() || term.chosen[p] != 0 ? set.mass_of(p) : 0.0;
+  term.factor = 1.0 / mass;
+  return term;
+}
+
+void remember_start(const std::array<Function, 3>& value, ParticleSet& set) {
+  const auto uses_start = [](const Function& component) { return component.uses_start(); };
+  if (std::any_of(value.begin(), value.end(), uses_start)) set.start_x = set.x;
+}
+
+TractionTerm make_term(const TractionDefinition& load, const SimulationDefinition& definition,
+                       std::vector<ParticleSet>& sets, const GridLayout& layout) {
+  TractionTerm term;
+  term.set = find_set(sets, load.body, "traction");
+  ParticleSet& set = sets[term.set];
+  const std::vector<int> axes = axes_of(definition.geometry);
+  const auto axis = std::find(axes.begin(), axes.end(), load.face / 2);
+  if (axis == axes.end()) {
+    throw DefinitionError(fmt::format("traction on '{}': its particles have no face {} in this geometry, {}", load.body,
+                                      kWallNames.at(load.face), geometry_name(definition.geometry)));
+  }
+  term.face = {static_cast<int>(axis - axes.begin()), load.face % 2 == 1};
+  term.particles = load.particles.empty() ? outermost_particles(set, layout, term.face) : load.particles;
+  check_particles(term.particles, set, "traction");
+  const double touching = set.half[0] * layout.cell(0) * (1.0 + 1e-9);
+  if (axisymmetric(definition.geometry) && term.face.axis == 0 && !term.face.upper &&
+      std::all_of(term.particles.begin(), term.particles.end(),
+                  [&](std::uint32_t p) { return set.x[0][p] <= touching; })) {
+    throw DefinitionError(
+        fmt::format("traction on '{}': its x_min lies on the axis r = 0 and has no area; use another face", load.body));
+  }
+  term.follows = load.follows;
+  term.value = load.value;
+  remember_start(term.value, set);
+  return term;
+}
+
+}  // namespace
+
+std::vector<ParticleLoadTerm> make_load_terms(const SimulationDefinition& definition, std::vector<ParticleSet>& sets) {
+  std::vector<ParticleLoadTerm> terms;
+  for (const BodyForceDefinition& load : definition.body_forces) {
+    ParticleLoadTerm term;
+    term.value = load.acceleration;
+    term.spread = load.spread;
+    if (!load.body.empty()) term.set = find_set(sets, load.body, "body force");
+    terms.push_back(std::move(term));
+  }
+  for (const ParticleForceDefinition& load : definition.particle_forces) terms.push_back(make_term(load, sets));
+  for (const ParticleLoadTerm& term : terms) {
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      if (!term.set || *term.set == static_cast<int>(s)) remember_start(term.value, sets[s]);
+    }
+  }
+  return terms;
+}
+
+std::vector<TractionTerm> make_traction_terms(const SimulationDefinition& definition, std::vector<ParticleSet>& sets,
+                                              const GridLayout& layout) {
+  std::vector<TractionTerm> terms;
+  for (const TractionDefinition& load : definition.tractions)
+    terms.push_back(make_term(load, definition, sets, layout));
+  return terms;
+}
+
+}  // namespace mpm

@@ -21,6 +21,7 @@ namespace mpm::test {
 /// A particle by value; position, velocity and load along grid axes.
 template <class Geometry>
 struct ReferenceParticle {
+  double mass = 0.0;  ///< [kg]
   using Matrix = typename Geometry::template Matrix<double>;
   using Symmetric = typename Geometry::template Symmetric<double>;
   double x[3] = {}, next_x[3] = {}, v[3] = {}, load[3] = {};
@@ -30,6 +31,7 @@ struct ReferenceParticle {
   Matrix f = Matrix::identity();
   Symmetric tau = Symmetric::isotropic(0.0);
   double history[4] = {};
+  double hoop_force = 0.0;  ///< of rings, radial, that force() gave the nodes altogether for the hoop stress [N]
   std::uint32_t id = 0;
 
   /// F <- exp(du) F, and the law.
@@ -48,7 +50,6 @@ struct ReferenceParticle {
 
 template <class Geometry>
 struct ReferenceSet {
-  double mass = 0.0;             ///< of a particle [kg]
   std::array<double, 3> half{};  ///< [cells]
   const Law* law = nullptr;      ///< outlives this
   std::vector<ReferenceParticle<Geometry>> particles;
@@ -84,6 +85,7 @@ class Reference {
                            : kEdge) {}
 
   std::vector<Set> sets;
+  bool by_point = false;  ///< rings are moved by the grid's radial velocity at their places: AxisMotion::point
 
   ReferenceNode& node(const std::array<int, 3>& at) {
     int index = 0;
@@ -97,7 +99,7 @@ class Reference {
     for (ReferenceNode& n : nodes_) n = {};
     each([&](const Set&, Particle& p) { note_domain(p); });
     each([&](const Set& set, const Particle& p) {
-      each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) { n.mass += set.mass * s; });
+      each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) { n.mass += p.mass * s; });
     });
     gather_momentum(affine);
   }
@@ -111,7 +113,7 @@ class Reference {
         for (int c = 0; c < kDim; ++c) {
           double v = p.v[c];
           for (int k = 0; k < kDim; ++k) v += gradient[c][k] * arm[k];
-          n.momentum[c] += set.mass * s * v;
+          n.momentum[c] += p.mass * s * v;
         }
       });
     });
@@ -120,7 +122,7 @@ class Reference {
     clear(&ReferenceNode::load);
     each([&](const Set& set, const Particle& p) {
       each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) {
-        for (int c = 0; c < kDim; ++c) n.load[c] += set.mass * s * p.load[c];
+        for (int c = 0; c < kDim; ++c) n.load[c] += p.mass * s * p.load[c];
       });
     });
   }
@@ -133,7 +135,7 @@ class Reference {
         for (int c = 0; c < kDim; ++c) v[c] += s * n.from[c];
       });
       each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) {
-        for (int c = 0; c < kDim; ++c) n.to[c] += set.mass * s * v[c];
+        for (int c = 0; c < kDim; ++c) n.to[c] += p.mass * s * v[c];
       });
     });
   }
@@ -171,52 +173,47 @@ class Reference {
   }
   /// With dilatation averaged over the grid (kernel/mean.hpp), or each particle's own.
   void strain(double dt, int terms, bool average = false) {
-    using Gradient = double[kDim][kDim];
-    const auto gradient = [&](const Set& set, const Particle& p, Gradient& l) {
-      each_node(set, p, [&](ReferenceNode& n, double, const double* g, const double*) {
+    const auto gradient = [&](const Set& set, const Particle& p) {
+      Diagonal l;
+      each_weight(set, p, [&](ReferenceNode& n, const NodeWeight& w) {
         for (int c = 0; c < kDim; ++c) {
-          for (int k = 0; k < kDim; ++k) l[c][k] += n.velocity[c] * g[k];
+          for (int k = 0; k < kDim; ++k) l.of_plane[c][k] += n.velocity[c] * w.g[k];
         }
+        l.hoop += n.velocity[0] * w.t;
       });
+      return l;
     };
-    if (average) {
-      find_mean([&](const Set& set, const Particle& p) {
-        Gradient l = {};
-        gradient(set, p, l);
-        return trace(l);
-      });
-    }
+    if (average) find_mean([&](const Set& set, const Particle& p) { return gradient(set, p).trace(); });
     each([&](const Set& set, Particle& p) {
-      Gradient l = {};
-      gradient(set, p, l);
-      if (average) set_trace(l, mean_at(set, p));
-      for (auto& row : l) {
+      Diagonal l = gradient(set, p);
+      if (average) l.set_trace(mean_at(set, p));
+      for (auto& row : l.of_plane) {
         for (double& component : row) component *= dt;
       }
-      p.deform(*set.law, Geometry::gradient(l), dt, terms);
+      auto du = Geometry::gradient(l.of_plane);
+      if constexpr (Geometry::kHoop) du.yy = l.hoop * dt;
+      p.deform(*set.law, du, dt, terms);
     });
   }
   void force(bool average = false) {
-    using Columns = double[kDim][kDim];
-    const auto fill = [](const Particle& p, Columns& columns) {
-      for (int k = 0; k < kDim; ++k) Geometry::column(p.tau, k, columns[k]);
+    const auto stress = [](const Particle& p) {
+      Diagonal tau;
+      for (int k = 0; k < kDim; ++k) Geometry::column(p.tau, k, tau.of_plane[k]);
+      if constexpr (Geometry::kHoop) tau.hoop = p.tau.yy;
+      return tau;
     };
-    if (average) {
-      find_mean([&](const Set&, const Particle& p) {
-        Columns columns;
-        fill(p, columns);
-        return trace(columns);
-      });
-    }
+    if (average) find_mean([&](const Set&, const Particle& p) { return stress(p).trace(); });
     clear(&ReferenceNode::force);
-    each([&](const Set& set, const Particle& p) {
-      Columns columns;
-      fill(p, columns);
-      if (average) set_trace(columns, mean_at(set, p));
-      each_node(set, p, [&](ReferenceNode& n, double, const double* g, const double*) {
+    each([&](const Set& set, Particle& p) {
+      Diagonal tau = stress(p);
+      if (average) tau.set_trace(mean_at(set, p));
+      p.hoop_force = 0.0;
+      each_weight(set, p, [&](ReferenceNode& n, const NodeWeight& w) {
         for (int c = 0; c < kDim; ++c) {
-          for (int k = 0; k < kDim; ++k) n.force[c] -= set.mass * columns[k][c] * g[k];
+          for (int k = 0; k < kDim; ++k) n.force[c] -= p.mass * tau.of_plane[k][c] * w.g[k];
         }
+        n.force[0] -= p.mass * tau.hoop * w.t;
+        p.hoop_force -= p.mass * tau.hoop * w.t;
       });
     });
   }
@@ -236,9 +233,9 @@ class Reference {
       for (int c = 0; c < kDim; ++c) {
         const double old = p.v[c], seen = motion == mpm_kernel::kIncrement ? after[c] - a[c] * dt : after[c];
         const double drag = p.damping[0] * seen + p.damping[1] * old;
-        taken.drag[c] += set.mass * drag * dt;
-        taken.grid_kinetic += 0.5 * set.mass * seen * seen;
-        taken.particle_kinetic += 0.5 * set.mass * old * old;
+        taken.drag[c] += p.mass * drag * dt;
+        taken.grid_kinetic += 0.5 * p.mass * seen * seen;
+        taken.particle_kinetic += 0.5 * p.mass * old * old;
         if (motion == mpm_kernel::kIncrement) {
           const double slip = old - seen;
           p.next_x[c] = p.x[c] + (after[c] - 0.5 * (1.0 - flip) * slip) * dt - 0.5 * (a[c] + drag) * dt * dt;
@@ -249,6 +246,7 @@ class Reference {
         p.next_x[c] = p.x[c] + (motion == mpm_kernel::kAdopt ? 0.5 * (old + p.v[c]) : p.v[c]) * dt;
         if (motion == mpm_kernel::kAffine) std::copy(b[c], b[c] + 3, p.affine[c]);
       }
+      if (by_point) p.next_x[0] += to_point(set, p, motion, dt) - to_mean(motion, after[0], a[0], dt);
     });
     return taken;
   }
@@ -263,15 +261,28 @@ class Reference {
     }
   }
 
-  /// visit(node, S, grad S [1/m], x_i - x_p [m]) for all nodes that a particle reaches.
+  /// visit(node, S, grad S [1/m], x_i - x_p [m]) for all nodes that a particle reaches. About an axis, where S does not
+  /// reproduce linear fields, the last from the mean place of S in place of x_p.
   template <class Visit>
   void each_node(const Set& set, const Particle& p, Visit&& visit) {
-    const ReferenceStencil<kDim> stencil(shape_, grid_, place_of(set, p));
-    for (const NodeWeight& n : stencil.nodes()) {
-      double arm[3] = {};
-      for (int k = 0; k < kDim; ++k) arm[k] = grid_.position(k, n.at[k]) - p.x[k];
-      visit(node(n.at), n.s, n.g, arm);
+    double centre[3] = {p.x[0], p.x[1], p.x[2]};
+    if constexpr (Geometry::kHoop) {
+      std::fill(centre, centre + kDim, 0.0);
+      each_weight(set, p, [&](ReferenceNode&, const NodeWeight& w) {
+        for (int k = 0; k < kDim; ++k) centre[k] += w.s * grid_.position(k, w.at[k]);
+      });
     }
+    each_weight(set, p, [&](ReferenceNode& n, const NodeWeight& w) {
+      double arm[3] = {};
+      for (int k = 0; k < kDim; ++k) arm[k] = grid_.position(k, w.at[k]) - centre[k];
+      visit(n, w.s, w.g, arm);
+    });
+  }
+  /// visit(node, weight) of them.
+  template <class Visit>
+  void each_weight(const Set& set, const Particle& p, Visit&& visit) {
+    const ReferenceStencil<kDim> stencil(shape_, grid_, place_of(set, p));
+    for (const NodeWeight& w : stencil.nodes()) visit(node(w.at), w);
   }
   static ReferencePlace place_of(const Set& set, const Particle& p) {
     ReferencePlace place{{p.x[0], p.x[1], p.x[2]}, set.half, {}};
@@ -288,14 +299,33 @@ class Reference {
   const ReferenceGrid& grid() const { return grid_; }
 
  private:
-  static double trace(const double (&a)[kDim][kDim]) {
-    double sum = 0.0;
-    for (int k = 0; k < kDim; ++k) sum += a[k][k];
-    return sum;
+  /// A gradient or a stress in the grid's axes; the hoop component is one more in axisymmetry, and zero elsewhere.
+  struct Diagonal {
+    static constexpr int kCount = kDim + (Geometry::kHoop ? 1 : 0);
+    double of_plane[kDim][kDim] = {}, hoop = 0.0;
+    double trace() const {
+      double sum = Geometry::kHoop ? hoop : 0.0;
+      for (int k = 0; k < kDim; ++k) sum += of_plane[k][k];
+      return sum;
+    }
+    void set_trace(double wanted) {
+      const double change = (wanted - trace()) / kCount;
+      for (int k = 0; k < kDim; ++k) of_plane[k][k] += change;
+      if (Geometry::kHoop) hoop += change;
+    }
+  };
+  // How far a velocity and an acceleration of the grid move a particle: their part in move().
+  static double to_mean(mpm_kernel::Motion motion, double v, double a, double dt) {
+    return v * dt - (motion == mpm_kernel::kIncrement ? 0.5 * a * dt * dt : 0.0);
   }
-  static void set_trace(double (&a)[kDim][kDim], double wanted) {
-    const double change = (wanted - trace(a)) / kDim;
-    for (int k = 0; k < kDim; ++k) a[k][k] += change;
+  // Along the radius, by the hat functions at its place (a product's along the radius alone).
+  double to_point(const Set& set, const Particle& p, mpm_kernel::Motion motion, double dt) {
+    double v = 0.0, a = 0.0;
+    each_weight(set, p, [&](ReferenceNode& n, const NodeWeight& w) {
+      v += w.point * n.velocity[0];
+      a += w.point * n.force[0];
+    });
+    return to_mean(motion, v, a, dt);
   }
   // The mean of of(set, particle) at the nodes, by mass.
   template <class Of>
@@ -304,7 +334,7 @@ class Reference {
     each([&](const Set& set, const Particle& p) {
       const double value = of(set, p);
       each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) {
-        n.mean += n.mass > 0.0 ? set.mass * s * value / n.mass : 0.0;
+        n.mean += n.mass > 0.0 ? p.mass * s * value / n.mass : 0.0;
       });
     });
   }

@@ -1,6 +1,7 @@
 // Particles in the places that kernels find difficult, on a grid, with the reference beside them in the same state.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <random>
 #include <string>
@@ -47,13 +48,14 @@ struct KernelScene {
   using Particle = ReferenceParticle<Geometry>;
 
   KernelScene(ShapeKind shape_of, const paths::Specimen& specimen, Places places_of, Isa isa_of,
-              const ContinuumSettings& more = {})
+              const ContinuumSettings& more = {}, const AxisRules& axis_of = {})
       : shape(shape_of),
+        axis(axis_of),
         isa(isa_of),
         kernels(kernels_of<Geometry, T>(shape, isa)),
         places(places_of),
         grid(layout(places)),
-        reference(shape, reference_grid(grid.layout, places == Places::walled)),
+        reference(shape, reference_grid(grid.layout, places == Places::walled, axis)),
         random(7) {
     grid.has_wall.fill(places == Places::walled);
     const int count = places == Places::bodies ? 3 : 1;
@@ -72,13 +74,17 @@ struct KernelScene {
     dt = std::min(specimen.time, 0.3 * smallest_cell() / speed);
     for (int s = 0; s < count; ++s) add_body(*of[s], s, count);
     settings = more;
+    if constexpr (Geometry::kHoop) {
+      settings.axis_motion = axis.motion;
+      reference.by_point = axis.motion == AxisMotion::point;
+    }
     for (ParticleSet& set : sets) prepare(set, shape, settings.transfer);
     if (settings.transfer.kind == TransferKind::apic) turn_particles();
     settings.gravity = Vec3(0.3, -0.2, -9.81);
     const auto gone = Sorter(settings.threads, kernel_grouping(kernels)).sort(sets, grid);
     if (gone) throw Error("a particle of the test is out of place");
     if (places == Places::mixed || places == Places::loose) move_on();
-    grid.least_mass = 1e-30 * sets[0].mass;
+    grid.least_mass = 1e-30 * sets[0].least_mass();
     read_particles();
     mechanics = make_mechanics(kernels, sets, laws, settings);
   }
@@ -91,12 +97,12 @@ struct KernelScene {
     for (std::size_t s = 0; s < sets.size(); ++s) {
       const ParticleSet& set = sets[s];
       ReferenceSet<Geometry>& to = reference.sets[s];
-      to.mass = set.mass;
       to.half = set.half;
       to.law = &laws[s];
       to.particles.resize(set.size());
       for (int p = 0; p < set.size(); ++p) {
         Particle& one = to.particles[p];
+        one.mass = set.mass_of(p);
         for (int k = 0; k < kDim; ++k) {
           one.x[k] = set.x[k][p];
           one.v[k] = set.v[k][p];
@@ -138,6 +144,7 @@ struct KernelScene {
   }
 
   ShapeKind shape;
+  AxisRules axis;  ///< of rings
   Isa isa;
   mpm_kernel::KernelTable<T> kernels;
   Places places;
@@ -157,8 +164,10 @@ struct KernelScene {
     const double cells = places == Places::walled ? 0.5 * (kEdge + 1) : 24.0;
     return {kDim, Vec3(0.125, 0.25, 0.0625), Vec3::Zero(), cells * Vec3(0.125, 0.25, 0.0625)};
   }
-  static ReferenceGrid reference_grid(const GridLayout& layout, bool walls) {
+  static ReferenceGrid reference_grid(const GridLayout& layout, bool walls, const AxisRules& axis) {
     ReferenceGrid grid;
+    grid.rings = Geometry::kHoop;
+    grid.axis = axis;
     for (int k = 0; k < kDim; ++k) {
       grid.cell[k] = layout.cell(k);
       if (walls) grid.low_wall[k] = 0.0;
@@ -167,6 +176,10 @@ struct KernelScene {
     return grid;
   }
   double uniform(double size) { return std::uniform_real_distribution<double>(-size, size)(random); }
+
+  // Of a ring [cells]: 1 / r of a place that is rounded in single precision, by 1e-6 of a cell, is as exact as the
+  // rest.
+  static constexpr double kLeastRadius = 0.1;
 
   // A place in cells, particle `p` of all.
   bool place(int p, double (&cells)[3]) {
@@ -194,6 +207,8 @@ struct KernelScene {
           cells[k] = 4.25 + 0.5 * i + (places == Places::lattice ? 0.0 : uniform(0.6));
       }
     }
+    // Rings begin at the axis.
+    if (Geometry::kHoop) cells[0] = std::max(places == Places::walled ? cells[0] : cells[0] - 4.0, kLeastRadius);
     return true;
   }
 
@@ -208,6 +223,7 @@ struct KernelScene {
     for (int k = 0; k < kDim; ++k) {
       set.lowest[k] = places == Places::walled ? -0.2 : 0.5;
       set.highest[k] = grid.layout.last_node(k) - set.lowest[k];
+      if (Geometry::kHoop && k == 0) set.lowest[0] = 0.0;
     }
     std::vector<std::array<double, 3>> at;
     double where[3] = {};
@@ -215,6 +231,13 @@ struct KernelScene {
       if (p % bodies == body) at.push_back({where[0], where[1], where[2]});
     }
     const std::size_t count = at.size();
+    if (Geometry::kHoop) {
+      set.whole_domains = axis.domains == AxisDomains::whole;
+      set.planar_functions = axis.functions == AxisFunctions::planar;
+      set.masses.assign(1, ParticleScalar(kPrecision, count));
+      for (std::size_t p = 0; p < count; ++p) set.masses[0].set(p, set.mass * at[p][0]);
+      set.mass = std::numeric_limits<double>::quiet_NaN();  // nobody asks for it
+    }
     set.x.assign(kDim, PaddedArray<double>(count));
     set.next_x.assign(kDim, PaddedArray<double>(count));
     set.v.assign(kDim, ParticleScalar(kPrecision, count));
@@ -251,7 +274,9 @@ struct KernelScene {
         for (int k = 0; k < kDim; ++k) l[c][k] = all[grid.layout.axis(c)][grid.layout.axis(k)];
         l[c][c] += specimen.pressing / 8.0;
       }
-      particle.deform(law, Geometry::gradient(l), dt, 4);
+      auto du = Geometry::gradient(l);
+      if constexpr (Geometry::kHoop) du.yy = m.yy + specimen.pressing / 8.0;
+      particle.deform(law, du, dt, 4);
     }
     return particle;
   }
@@ -301,6 +326,7 @@ struct KernelScene {
             const double most = std::min(reach, room[k]);
             const double place = std::uniform_real_distribution<double>(-most, kBlockEdge - 1 + most)(random);
             set.x[k][p] = (block[k] * kBlockEdge + place) * grid.layout.cell(k);
+            if (Geometry::kHoop && k == 0) set.x[0][p] = std::max(set.x[0][p], kLeastRadius * grid.layout.cell(0));
           }
         }
         grid.loose[owner] = far ? 1 : 0;
@@ -317,7 +343,9 @@ struct KernelScene {
     ReferenceSet<Geometry> one;
     one.half = set.half;
     double d[kDim][kDim];
-    reference_domain(reference.grid(), Reference<Geometry>::place_of(one, particle), d);
+    ReferenceGrid plane = reference.grid();  // a ring's domain may shrink where it goes
+    plane.rings = false;
+    reference_domain(plane, Reference<Geometry>::place_of(one, particle), d);
     for (int k = 0; k < kDim; ++k) {
       room[k] = mpm_kernel::kTileMargin - 1e-3;
       for (const auto& vector : d) room[k] -= std::abs(vector[k]) / grid.layout.cell(k);

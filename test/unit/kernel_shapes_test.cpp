@@ -1,7 +1,7 @@
 // The kernels of every shape function against the reference (kernel_check.hpp): on every instruction set of this
-// machine, in both geometries and precisions, for every arrangement of particles, every transfer, and the passes that
-// only some scenes ask for. Laws and shape functions do not know each other: two laws are enough, one of them with a
-// history; all of them are in kernels_test.cpp.
+// machine, in all kinds of geometry and both precisions, for every arrangement of particles, every transfer, and the
+// passes that only some scenes ask for. Laws and shape functions do not know each other: two laws are enough, one of
+// them with a history; all of them are in kernels_test.cpp.
 #include "kernel_check.hpp"
 #include "step_scene.hpp"
 
@@ -57,6 +57,32 @@ TEST_P(KernelShapesTest, OfASolidInSingle) { check_shape<Solid, float>(GetParam(
 TEST_P(KernelShapesTest, OfAPlaneInSingle) { check_shape<PlaneStrain, float>(GetParam()); }
 TEST_P(KernelShapesTest, OfALineInDouble) { check_shape<Line, double>(GetParam()); }
 TEST_P(KernelShapesTest, OfALineInSingle) { check_shape<Line, float>(GetParam()); }
+TEST_P(KernelShapesTest, OfRingsInDouble) { check_shape<Axisymmetric, double>(GetParam()); }
+TEST_P(KernelShapesTest, OfRingsInSingle) { check_shape<Axisymmetric, float>(GetParam()); }
+
+// What is there for comparison: the functions of a plane, in which nothing else changes; domains that reach across the
+// axis, whose nodes can have a mass near or below zero, so that values alone can be compared; the mean motion.
+template <class T>
+void check_axis_rules(const Case& of) {
+  if (!has_shape(of.shape, GeometryKind::axisymmetric)) GTEST_SKIP() << "there is no such shape function about an axis";
+  using Rings = Kernels<Axisymmetric, T>;
+  const paths::Specimen rubber = paths::zoo()[2];
+  const AxisRules planar{AxisDomains::fitted, AxisFunctions::planar, AxisGhosts::free, AxisMotion::mean};
+  const AxisRules whole{AxisDomains::whole, AxisFunctions::weighted, AxisGhosts::free, AxisMotion::mean};
+  const AxisRules mean{AxisDomains::fitted, AxisFunctions::weighted, AxisGhosts::zero, AxisMotion::mean};
+  for (const Places places : {Places::irregular, Places::loose}) {
+    for (const Transfer& transfer : kAllTransfers) {
+      Rings(of.shape, rubber, places, of.isa, transfer, false, planar).check(true);
+      Rings(of.shape, rubber, places, of.isa, transfer, false, mean).check(true);
+    }
+    for (const AxisRules& axis : {planar, whole}) {
+      Rings(of.shape, rubber, places, of.isa, flip(1.0), false, axis).scatter_load();
+      Rings(of.shape, rubber, places, of.isa, flip(1.0), false, axis).project();
+    }
+  }
+}
+TEST_P(KernelShapesTest, OfOtherRulesAtTheAxisInDouble) { check_axis_rules<double>(GetParam()); }
+TEST_P(KernelShapesTest, OfOtherRulesAtTheAxisInSingle) { check_axis_rules<float>(GetParam()); }
 
 }  // namespace
 }  // namespace mpm::test

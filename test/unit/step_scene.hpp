@@ -1,5 +1,5 @@
 // A body of elastic particles that flies free, and the steps of any method: for what a method must keep, whatever the
-// scene. Weak: one body, one law.
+// scene. Rings fly along their axis. Weak: one body, one law.
 #pragma once
 
 #include <cmath>
@@ -11,6 +11,7 @@
 
 #include "kernel_stencil.hpp"
 #include "kernel_tables.hpp"
+#include "mpm/boundary/axis.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/step/schedule.hpp"
 
@@ -59,7 +60,8 @@ class StepScene {
   struct Body {
     int cells = kDim == 3 ? 4 : 8;  ///< along an edge
     double jitter = 0.2;            ///< [cells]
-    Vector centre{1.5, 1.5, 1.5};   ///< [m]
+    /// [m]; rings begin at their axis.
+    Vector centre{Geometry::kHoop ? 0.5 * cells * kCell : 1.5, 1.5, 1.5};
     std::function<bool(const Vector&)> keep = [](const Vector&) { return true; };
     bool walls = false;  ///< at the domain's lower corner
   };
@@ -74,8 +76,12 @@ class StepScene {
     fill(body);
     settings_.transfer = method.transfer;
     settings_.threads = threads;
+    if (Geometry::kHoop) {
+      settings_.axis_motion = AxisMotion::point;
+      stages_.push_back(std::make_unique<Axis>(AxisGhosts::zero));
+    }
     sort();
-    grid.least_mass = 1e-30 * set().mass;
+    grid.least_mass = 1e-30 * set().least_mass();
     // Of the longitudinal wave, kCell / 5 a step.
     dt = 0.2 * kCell / std::sqrt(kStiffness * 0.7 / (1.3 * 0.4) / kDensity);
     mechanics = make_mechanics(kernels_, sets_, laws_, settings_);
@@ -95,10 +101,11 @@ class StepScene {
   /// B of APIC, of this gradient of the velocity [1/s].
   void set_affine(const double (&gradient)[3][3]) {
     for (int p = 0; p < set().size(); ++p) {
+      const Vector centre = mean_place(p);
       double b[kDim][kDim] = {};
       for (const NodeWeight& n : stencil(p)) {
         double arm[kDim];
-        for (int k = 0; k < kDim; ++k) arm[k] = node_position(n.at[k]) - set().x[k][p];
+        for (int k = 0; k < kDim; ++k) arm[k] = node_position(n.at[k]) - centre[k];
         for (int c = 0; c < kDim; ++c) {
           double v = 0.0;
           for (int k = 0; k < kDim; ++k) v += gradient[c][k] * arm[k];
@@ -113,9 +120,18 @@ class StepScene {
     for (int k = 0; k < kDim; ++k) x[k] = set().x[k][p];
     return x;
   }
+  /// Of its values, the sum of S x_i: its place, but for a ring, whose values have the weight r.
+  Vector mean_place(int p) {
+    Vector x{};
+    for (const NodeWeight& n : stencil(p)) {
+      for (int k = 0; k < kDim; ++k) x[k] += n.s * node_position(n.at[k]);
+    }
+    return x;
+  }
   /// The nodes that it gives to in the next step.
   std::vector<NodeWeight> stencil(int p) {
     ReferenceGrid nodes;
+    nodes.rings = Geometry::kHoop;
     for (int k = 0; k < kDim; ++k) {
       nodes.cell[k] = kCell;
       if (grid.has_wall[2 * k]) nodes.low_wall[k] = 0.0;
@@ -130,16 +146,15 @@ class StepScene {
 
   void step() {
     StepContext now = context();
-    Stages none;
     switch (method_.update) {
       case UpdateScheme::usf:
-        step_usf(*mechanics, none, now);
+        step_usf(*mechanics, stages_, now);
         break;
       case UpdateScheme::usl:
-        step_usl(*mechanics, none, now);
+        step_usl(*mechanics, stages_, now);
         break;
       case UpdateScheme::usavg:
-        step_usavg(*mechanics, none, now);
+        step_usavg(*mechanics, stages_, now);
         break;
     }
     if (mechanics->failed()) throw Error("a particle of the test is crushed");
@@ -210,12 +225,20 @@ class StepScene {
         set.f[k * (kDim + 1)].set(p, 1.0);
       }
     }
+    if constexpr (Geometry::kHoop) {
+      set.masses.assign(1, ParticleScalar(set.precision, size));
+      for (std::size_t p = 0; p < size; ++p) {
+        set.f[4].set(p, 1.0);
+        set.masses[0].set(p, set.mass * 2.0 * 3.14159265358979323846 * at[p][0]);
+      }
+    }
     prepare(set, method_.shape, method_.transfer);
   }
 
   std::vector<ParticleSet> sets_;
   std::vector<Law> laws_;
   ContinuumSettings settings_;
+  Stages stages_;  ///< the condition at an axis
   Sorter sorter_;
 };
 

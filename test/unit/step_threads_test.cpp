@@ -12,7 +12,7 @@ template <class Geometry, class T>
 std::vector<double> state_after(const StepMethod& method, int threads, int steps) {
   typename StepScene<Geometry, T>::Body body;
   body.cells = Geometry::kDim == 3 ? 6 : 16;  // three blocks along an axis, five in a plane
-  body.centre = {1.45, 1.55, 1.5};
+  body.centre = {Geometry::kHoop ? 1.05 : 1.45, 1.55, 1.5};
   StepScene<Geometry, T> scene(method, body, threads);
   std::mt19937 random(9);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -48,6 +48,7 @@ void check_threads() {
 }
 TEST(StepThreads, ChangeNoBitInAPlane) { check_threads<PlaneStrain, double>(); }
 TEST(StepThreads, ChangeNoBitInASolid) { check_threads<Solid, double>(); }
+TEST(StepThreads, ChangeNoBitOfRings) { check_threads<Axisymmetric, double>(); }
 TEST(StepThreads, ChangeNoBitInSinglePrecision) { check_threads<PlaneStrain, float>(); }
 
 }  // namespace

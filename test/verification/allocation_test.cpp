@@ -58,9 +58,10 @@ mpm::TractionDefinition pulsing_pressure(const std::string& body) {
 // A box full of material under gravity, touched by a tool that moves along its surface and shaken by loads that are
 // functions; a sync period is the time in which the fastest wave crosses 0.4 cells, `steps` of them.
 long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material, const mpm::MethodDefinition& method,
-                             mpm::Isa isa, bool planar = false) {
+                             mpm::Isa isa, mpm::GeometryKind geometry = mpm::GeometryKind::solid) {
   mpm::SimulationDefinition d;
-  if (planar) d.geometry = mpm::GeometryKind::plane_strain;
+  d.geometry = geometry;
+  const bool planar = geometry != mpm::GeometryKind::solid;
   const double h = 0.1;
   const int edge = 8;
   const double side = edge * h / 2;
@@ -82,11 +83,16 @@ long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material,
   }
   d.bodies = {body};
   for (mpm::WallDefinition& wall : d.walls) wall.kind = mpm::WallKind::slip;
+  if (mpm::axisymmetric(geometry)) d.walls[0].kind = mpm::WallKind::none;  // the axis
   mpm::RigidBodyDefinition tool;
   tool.name = "tool";
   tool.surface = mpm::make_box({0.2, 0.2, 0.2});
   tool.pose.position = {0.5 * side, planar ? 0.0 : 0.5 * side, side + 0.09};
   tool.velocity[0] = mpm::Function(0.1);
+  if (mpm::axisymmetric(geometry)) {  // on the axis, and along it
+    tool.pose.position.x() = 0.0;
+    tool.velocity = {mpm::Function(), mpm::Function(), mpm::Function(-0.01)};
+  }
   d.rigid_bodies = {tool};
   d.body_forces = {{"", {mpm::Function::parse("sin(9*t)*X", {}, mpm::FunctionPlaces::present_and_start)}}};
   d.tractions = {pulsing_pressure("body")};
@@ -154,22 +160,25 @@ TEST(Allocation, StepsOfEveryLawDoNotAllocate) {
   }
 }
 
-// The same of every shape function, update and transfer, in a plane, which has them all.
+// The same of every shape function, update and transfer, in a plane, which has them all, and about an axis.
 TEST(Allocation, StepsOfEveryMethodDoNotAllocate) {
   using mpm::TransferKind;
   const mpm::MaterialDefinition material = mpm::paths::zoo()[2].material;
-  for (std::size_t shape = 0; shape < mpm::kShapeNames.size(); ++shape) {
-    for (std::size_t update = 0; update < mpm::kUpdateNames.size(); ++update) {
-      for (const TransferKind kind : {TransferKind::flip, TransferKind::xpic, TransferKind::fmpm, TransferKind::apic}) {
-        mpm::MethodDefinition method;
-        method.shape = static_cast<mpm::ShapeKind>(shape);
-        method.update = static_cast<mpm::UpdateScheme>(update);
-        method.transfer = {kind, 1.0, 3};
-        if (mpm::method_fault(method, mpm::GeometryKind::plane_strain)) continue;
-        EXPECT_EQ(allocations_of_a_period(4, material, method, mpm::best_isa(), true),
-                  allocations_of_a_period(16, material, method, mpm::best_isa(), true))
-            << mpm::kShapeNames[shape] << ", " << mpm::kUpdateNames[update] << ", "
-            << mpm::kTransferNames[static_cast<int>(kind)];
+  for (const mpm::GeometryKind geometry : {mpm::GeometryKind::plane_strain, mpm::GeometryKind::axisymmetric}) {
+    for (std::size_t shape = 0; shape < mpm::kShapeNames.size(); ++shape) {
+      for (std::size_t update = 0; update < mpm::kUpdateNames.size(); ++update) {
+        for (const TransferKind kind :
+             {TransferKind::flip, TransferKind::xpic, TransferKind::fmpm, TransferKind::apic}) {
+          mpm::MethodDefinition method;
+          method.shape = static_cast<mpm::ShapeKind>(shape);
+          method.update = static_cast<mpm::UpdateScheme>(update);
+          method.transfer = {kind, 1.0, 3};
+          if (mpm::method_fault(method, geometry)) continue;
+          EXPECT_EQ(allocations_of_a_period(4, material, method, mpm::best_isa(), geometry),
+                    allocations_of_a_period(16, material, method, mpm::best_isa(), geometry))
+              << mpm::geometry_name(geometry) << ", " << mpm::kShapeNames[shape] << ", " << mpm::kUpdateNames[update]
+              << ", " << mpm::kTransferNames[static_cast<int>(kind)];
+        }
       }
     }
   }

@@ -122,7 +122,7 @@ class Scatter {
 
   // Rows (i, j): S_x (S_y G_z tau_z + G_y S_z tau_y) + G_x S_y S_z tau_x. Since S sums to 1 and G to 0, what all three
   // nodes of an axis get together is cheaper than what the middle one gets: the middle sum is the total, less the outer
-  // two in the end. With `Hoop`, of rings, and T S_z tau_y by the hoop function.
+  // two in the end. `Hoop`, of rings: and T S_z tau_y, T the hoop function.
   template <bool Hoop = Shape<W>::kAxisymmetric>
   static void scatter(const AllWeights& weights, const mpm_kernel::ChunkStresses<T>& from, int count, T* tile) {
     each_run(weights, count, tile, [&](int p, int end, int j0, Row(&sum)[kBatch][kFirst]) {

@@ -290,6 +290,7 @@ std::vector<std::uint32_t> choose(const LoadRegion& chosen, const DeformableBody
 }  // namespace
 
 bool Region::contains(const Vec3& point) const {
+  if (about_axis && point.x() < 0.0) return false;
   if (kind == Kind::box) return (point.array() >= box.min.array()).all() && (point.array() < box.max.array()).all();
   Vec3 arm = point - center;
   if (kind == Kind::cylinder) {

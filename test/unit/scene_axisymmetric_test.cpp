@@ -105,11 +105,11 @@ TEST(SceneAxisymmetric, TheGridHasNodesOnTheAxis) {
   EXPECT_EQ(error_of(with_grid("{cell: 0.1, min: [0.2, 0], max: [2, 2]}", outer)), "no error");
   expect_refused(
       with_grid("{cell: 0.1, min: [0.05, 0], max: [2.05, 2]}", outer),
-      "grid.min: the grid begins at r = 0.05 m, 0.5 cells from the axis, and has no nodes on it: write r = 0");
+      "grid: min: the grid begins at r = 0.05 m, 0.5 cells from the axis, and has no nodes on it: write r = 0");
   expect_refused(with_grid("{cell: 0.1, min: [0.1, 0], max: [2, 2]}", outer),
-                 "grid.min: the grid begins at r = 0.1 m, 1 cells from the axis");
+                 "grid: min: the grid begins at r = 0.1 m, 1 cells from the axis");
   expect_refused(with_grid("{cell: 0.1, min: [-0.1, 0], max: [2, 2]}", outer),
-                 "grid.min: r = -0.1 m is beyond the axis; an axisymmetric grid begins at r = 0");
+                 "grid: min: r = -0.1 m is beyond the axis; an axisymmetric grid begins at r = 0");
 }
 
 TEST(SceneAxisymmetric, MaterialLiesAtPositiveRadii) {
@@ -140,10 +140,13 @@ TEST(SceneAxisymmetric, JitterKeepsToPositiveRadii) {
 
 TEST(SceneAxisymmetric, TheAxisIsNoWallAndGravityIsAlongIt) {
   expect_refused(with_rest("boundaries: {x_min: slip}\n"),
-                 "boundaries.x_min is the axis, where nothing moves along r of itself; leave it out");
-  expect_refused(with_rest("gravity: [1, -9.81]\n"),
-                 "gravity has 1 m/s^2 along r, and an axisymmetric scene has it along z alone");
+                 "bad.yaml:6: boundaries: x_min is the axis, where nothing moves along r of itself; leave it out");
+  expect_refused(
+      with_rest("gravity: [1, -9.81]\n"),
+      "bad.yaml:6: gravity: 1 m/s^2 along r; an axisymmetric scene has gravity along z alone: write [0, -9.81]");
   EXPECT_EQ(error_of(with_rest("gravity: [0, -9.81]\nboundaries: {x_max: slip, z_min: fixed}\n")), "no error");
+  // `all` means the faces that there are.
+  EXPECT_EQ(error_of(with_rest("boundaries: {all: slip}\n")), "no error");
   expect_refused(with_rest("thickness: 1\n"), "bad.yaml:6: thickness: only a planar scene has a thickness");
 }
 

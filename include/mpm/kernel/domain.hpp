@@ -10,12 +10,11 @@
 
 #include "mpm/kernel/point_tile.hpp"
 #include "mpm/kernel/wide_math.hpp"
+#include "mpm/shape/particle_domain.hpp"
 
 namespace mpm {
 
 constexpr int kDomainChunk = 16;  ///< particles at a time
-/// How far from its particle a point may be, along an axis [cells]: within the tile for all particles of a block.
-constexpr double kDomainReach = 1.5 - 1e-4;
 
 template <class T, int Dim, template <int> class Points>
 class Domains {

@@ -19,7 +19,7 @@ enum class GeometryKind {
 
 /// In the order of GeometryKind.
 inline constexpr std::array<const char*, 5> kGeometryNames = {"line", "plane_strain", "plane_stress", "axisymmetric",
-                                                           "solid"};
+                                                              "solid"};
 inline const char* geometry_name(GeometryKind kind) { return kGeometryNames[static_cast<int>(kind)]; }
 /// The same for a reader: "plane strain".
 inline std::string spoken_name(GeometryKind kind) {

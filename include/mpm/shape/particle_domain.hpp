@@ -6,6 +6,10 @@
 
 namespace mpm {
 
+/// How far from its particle a point of a domain may be, along an axis [cells]; a larger domain is shrunk as a whole,
+/// which keeps it within what the kernels have in cache of a particle's surroundings.
+constexpr double kDomainReach = 1.5 - 1e-4;
+
 /// r with d_k . r_j = 1 for k = j and 0 otherwise, by cross products: gradients of the coordinates that run from -1 to
 /// 1 over the domain. [1/length of d]. Not finite for a domain without volume; whoever updates F sees to J > 0.
 template <class T, int Dim>

@@ -1,6 +1,7 @@
 // What a geometry cannot have, and what can be used instead: said once, for scenes and for definitions made by hand.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "mpm/simulation/definition.hpp"
@@ -14,7 +15,11 @@ std::string refused_material(GeometryKind geometry, const MaterialDefinition& ma
 /// The same of a geostatic start.
 std::string refused_geostatic(GeometryKind geometry);
 
-/// Why a scene cannot have its grid, gravity or bodies about an axis; empty when it can, or is not axisymmetric.
-std::string axis_fault(const SimulationDefinition& definition);
+struct AxisFault {
+  std::string key;   ///< of the scene's section: "grid", "boundaries", "gravity", "bodies"
+  std::string text;  ///< what is wrong, and what to write instead
+};
+/// Why a scene cannot have its grid, gravity, faces or bodies about an axis; none when it can, or is not axisymmetric.
+std::optional<AxisFault> axis_fault(const SimulationDefinition& definition);
 
 }  // namespace mpm

@@ -59,8 +59,8 @@ class Simulation {
 
   /// Index of a rigid body, or -1.
   int find_body(const std::string& name) const;
-  /// From now on, until the next command. @throws RigidError when not finite or, in an axisymmetric scene, when it would
-  /// take the body off the axis, tilt or spin it; then nothing is changed. The same of poses.
+  /// From now on, until the next command. @throws RigidError when not finite or, in an axisymmetric scene, when it
+  /// would take the body off the axis, tilt or spin it; then nothing is changed. The same of poses.
   void command_velocity(int body, const Twist& twist);
   /// To be at `target` by `arrival` [ns] > time(). @throws RigidError
   void command_pose(int body, const Pose& target, std::int64_t arrival);

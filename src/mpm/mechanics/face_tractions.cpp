@@ -7,14 +7,12 @@
 #include <map>
 
 #include "mpm/math/dimension.hpp"
+#include "mpm/shape/particle_domain.hpp"
 #include "mpm/shape/ugimp_stretch.hpp"
 
 namespace mpm {
 namespace {
 
-/// How far from its particle a corner of CPDI may be, as in kernel/domain.hpp [cells]: beyond it the domain is made
-/// smaller.
-constexpr double kDomainReach = 1.5 - 1e-4;
 constexpr int kMostNodes = 8;  ///< of a cell
 
 bool deforms(ShapeKind shape) { return shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi; }

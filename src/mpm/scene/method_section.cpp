@@ -272,7 +272,9 @@ void read_boundaries(const Map& root, Scene& scene) {
       if (own) own->fail(fmt::format("{} has no face along {}; leave it out", scene_kind(geometry), axis_name(axis)));
       continue;
     }
-    if (const auto value = own ? own : map.find("all")) scene.definition.walls[i] = read_wall(*value);
+    const bool axis_of_symmetry = i == 0 && axisymmetric(geometry) && scene.definition.grid.min.x() == 0.0;
+    const auto value = own || axis_of_symmetry ? own : map.find("all");
+    if (value) scene.definition.walls[i] = read_wall(*value);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "mpm/scene/sections.hpp"
+#include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
 
 namespace mpm {
@@ -118,6 +119,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_loads(root, scene);
   read_time_and_output(root, scene);
   read_metrics(root, scene);
+  if (const auto fault = axis_fault(definition)) root.at(fault->key).fail(fault->text);
   if (asked) choose_method(*asked, load_method_costs(), scene);
   scene.text = asked ? with_method(source.root(), definition.method) : source.dump();
   return scene;

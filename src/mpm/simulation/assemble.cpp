@@ -121,7 +121,7 @@ void check(const SimulationDefinition& d) {
   if (planar(d.geometry) && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
   if (d.geometry == GeometryKind::line && !(d.area > 0.0)) throw DefinitionError("area must be positive");
   if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");
-  if (const std::string fault = axis_fault(d); !fault.empty()) throw DefinitionError(fault);
+  if (const auto fault = axis_fault(d)) throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
 }
 
 // Leaves only what is along the grid's axes.

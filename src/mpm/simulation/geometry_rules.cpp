@@ -31,31 +31,34 @@ std::string refused_geostatic(GeometryKind geometry) {
   return {};
 }
 
-std::string axis_fault(const SimulationDefinition& definition) {
+std::optional<AxisFault> axis_fault(const SimulationDefinition& definition) {
   if (!axisymmetric(definition.geometry)) return {};
   const double inner = definition.grid.min.x(), cell = definition.grid.cell.x();
   if (inner < 0.0) {
-    return fmt::format("grid.min: r = {:g} m is beyond the axis; an axisymmetric grid begins at r = 0, or outside it",
-                       inner);
+    return AxisFault{"grid", fmt::format("min: r = {:g} m is beyond the axis; an axisymmetric grid begins at r = 0, or "
+                                         "outside it",
+                                         inner)};
   }
   // A domain reaches half a cell at most, and its functions' nodes a cell more.
   if (inner > 0.0 && inner < 2.0 * cell) {
-    return fmt::format(
-        "grid.min: the grid begins at r = {:g} m, {:.3g} cells from the axis, and has no nodes on it: "
-        "write r = 0, or keep two cells away",
-        inner, inner / cell);
+    return AxisFault{"grid", fmt::format("min: the grid begins at r = {:g} m, {:.3g} cells from the axis, and has no "
+                                         "nodes on it: write r = 0, or keep two cells away",
+                                         inner, inner / cell)};
   }
   if (inner == 0.0 && definition.walls[0].kind != WallKind::none) {
-    return "boundaries.x_min is the axis, where nothing moves along r of itself; leave it out";
+    return AxisFault{"boundaries", "x_min is the axis, where nothing moves along r of itself; leave it out"};
   }
   if (definition.gravity.x() != 0.0) {
-    return fmt::format("gravity has {:g} m/s^2 along r, and an axisymmetric scene has it along z alone",
-                       definition.gravity.x());
+    return AxisFault{"gravity",
+                     fmt::format("{:g} m/s^2 along r; an axisymmetric scene has gravity along z alone: write "
+                                 "[0, {:g}]",
+                                 definition.gravity.x(), definition.gravity.z())};
   }
   for (const DeformableBody& body : definition.bodies) {
     for (const Vec3& place : body.positions) {
       if (place.x() >= 0.0) continue;
-      return fmt::format("body '{}' has material at r = {:g} m; about an axis r is 0 or more", body.name, place.x());
+      return AxisFault{"bodies", fmt::format("body '{}' has material at r = {:g} m; about an axis r is 0 or more",
+                                             body.name, place.x())};
     }
   }
   return {};

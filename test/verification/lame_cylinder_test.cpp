@@ -1,0 +1,185 @@
+// A thick elastic cylinder under a pressure inside (Lamé), about its axis and as a quarter of its section in plane
+// strain.
+//
+// Exact: sigma_r = A - B / r^2, sigma_theta = A + B / r^2, A = p a^2 / (b^2 - a^2), B = p a^2 b^2 / (b^2 - a^2),
+// u = (1 + nu) / E ((1 - 2 nu) A r + B / r). The pressure is 1e-4 of Young's modulus: what is of second order in strain
+// is below every error here. In the quarter the rims are stairs of particles; a pressure on the faces of stairs has the
+// resultant of that on the circle.
+// Source: Timoshenko and Goodier, Theory of Elasticity, section 28; tractions on edge 4: Nairn & Guilkey (2015) 3.4.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "page.hpp"
+#include "scene_run.hpp"
+
+namespace verification {
+namespace {
+
+constexpr int kThreads = 1;                                        // tests run side by side
+constexpr double kInner = 0.1, kOuter = 0.2;                       // radii [m]
+constexpr double kYoung = 1e6, kPoisson = 0.3, kPressure = 100.0;  // [Pa]
+constexpr double kEnd = 0.15;  // the ramp ends at 0.05 s; what swings then has died to 1e-6 [s]
+constexpr double kA = kPressure * kInner * kInner / (kOuter * kOuter - kInner * kInner);
+
+double radial_stress(double r) { return kA * (1.0 - kOuter * kOuter / (r * r)); }
+double hoop_stress(double r) { return kA * (1.0 + kOuter * kOuter / (r * r)); }
+double displacement(double r) {
+  return (1.0 + kPoisson) / kYoung * kA * ((1.0 - 2.0 * kPoisson) * r + kOuter * kOuter / r);
+}
+
+/// Root mean squares over the particles: of u over u(a), of stresses over the pressure.
+struct Pressed {
+  double cells = 0.0;  ///< across the wall
+  double u = 0.0, radial = 0.0, hoop = 0.0;
+  double bore = 0.0;  ///< u of the innermost particles over the exact one there
+  Numbers r, us, radials, hoops;
+};
+
+/// Compares by the places at the start; `place` gives (r, radial displacement, sigma_r, sigma_theta) of a particle.
+template <class Place>
+Pressed measure(std::size_t count, double cell, Place place) {
+  Pressed pressed;
+  pressed.cells = (kOuter - kInner) / cell;
+  double nearest = kOuter;
+  for (std::size_t p = 0; p < count; ++p) {
+    const auto [r, u, radial, hoop] = place(p);
+    pressed.u += std::pow((u - displacement(r)) / displacement(kInner), 2);
+    pressed.radial += std::pow((radial - radial_stress(r)) / kPressure, 2);
+    pressed.hoop += std::pow((hoop - hoop_stress(r)) / kPressure, 2);
+    pressed.r.push_back(r);
+    pressed.us.push_back(u);
+    pressed.radials.push_back(radial);
+    pressed.hoops.push_back(hoop);
+    if (r < nearest) nearest = r, pressed.bore = u / displacement(r);
+  }
+  for (double* sum : {&pressed.u, &pressed.radial, &pressed.hoop}) *sum = std::sqrt(*sum / static_cast<double>(count));
+  return pressed;
+}
+
+struct Place {
+  double r, u, radial, hoop;
+};
+
+/// `inner`: the least r of the grid.
+Pressed about_axis(const std::string& shape, double cell, double inner = 0.0) {
+  mpm::Simulation simulation = start(
+      "lame_cylinder",
+      {"method.shape=" + shape, fmt::format("grid.cell={}", cell), fmt::format("grid.min=[{}, 0]", inner)}, kThreads);
+  const Numbers first = field(simulation, "x");
+  run_until(simulation, kEnd);
+  const Numbers x = field(simulation, "x"), sxx = field(simulation, "sxx"), syy = field(simulation, "syy");
+  return measure(x.size(), cell, [&](std::size_t p) { return Place{first[p], x[p] - first[p], sxx[p], syy[p]}; });
+}
+
+/// A quarter of the section, with particles whose centres lie between the rims.
+Pressed in_plane(mpm::ShapeKind shape, double cell) {
+  mpm::SimulationDefinition d;
+  d.name = "quarter of a cylinder";
+  d.geometry = mpm::GeometryKind::plane_strain;
+  d.grid = {mpm::Vec3::Constant(cell), mpm::Vec3::Zero(), mpm::Vec3::Constant(0.24)};
+  d.time.sync = 5'000'000;
+  d.method.shape = shape;
+  d.method.damping.grid = mpm::Function(400.0);
+  d.materials = {{"rubber", 1000.0, mpm::LinearElasticDefinition{{kYoung, kPoisson}}}};
+  mpm::DeformableBody body;
+  body.name = "cylinder";
+  body.material = "rubber";
+  const double spacing = 0.5 * cell;
+  for (double x = 0.5 * spacing; x < kOuter; x += spacing) {
+    for (double z = 0.5 * spacing; z < kOuter; z += spacing) {
+      const double r = std::hypot(x, z);
+      if (r > kInner && r < kOuter) body.positions.emplace_back(x, 0.0, z);
+    }
+  }
+  body.particle_volume = spacing * spacing;
+  const std::vector<mpm::Vec3> first = body.positions;
+  d.bodies = {body};
+  d.walls[0].kind = d.walls[4].kind = mpm::WallKind::slip;
+  for (const int face : {0, 4}) {  // where a row ends on a plane of symmetry, the wall bears it
+    mpm::TractionDefinition pressure;
+    pressure.body = "cylinder";
+    pressure.face = face;
+    pressure.follows = true;
+    pressure.value[0] =
+        mpm::Function::parse("t < 0.05 ? 50*(1-cos(20*pi*t)) : 100", {}, mpm::FunctionPlaces::present_and_start);
+    d.tractions.push_back(pressure);
+  }
+  mpm::Simulation simulation(d, {kThreads});
+  run_until(simulation, kEnd);
+  const Numbers x = field(simulation, "x"), z = field(simulation, "z"), sxx = field(simulation, "sxx"),
+                szz = field(simulation, "szz"), sxz = field(simulation, "sxz");
+  return measure(x.size(), cell, [&](std::size_t p) {
+    const double r = std::hypot(first[p].x(), first[p].z()), c = first[p].x() / r, s = first[p].z() / r;
+    return Place{r, c * (x[p] - first[p].x()) + s * (z[p] - first[p].z()),
+                 c * c * sxx[p] + s * s * szz[p] + 2.0 * c * s * sxz[p],
+                 s * s * sxx[p] + c * c * szz[p] - 2.0 * c * s * sxz[p]};
+  });
+}
+
+double order(double coarse, double fine) { return std::log2(coarse / fine); }
+
+Numbers over(Numbers values, double unit) {
+  for (double& value : values) value /= unit;
+  return values;
+}
+
+TEST(LameCylinder, Pressure) {
+  Page page("axisymmetric", "lame_cylinder", "Thick cylinder under a pressure inside (Lamé)");
+  page.problem(
+          "A cylinder, 0.1 m inside and 0.2 m outside in radius (linear elastic, E = 1 MPa, nu = 0.3), its ends held, "
+          "under a pressure of 100 Pa on its bore, brought up slowly; 10, 20 and 40 cells across the wall, 4 particles "
+          "a cell. Beside it a quarter of its section in plane strain, whose rims are stairs.")
+      .exact(
+          "sigma_r = A - B/r^2, sigma_theta = A + B/r^2, u = (1 + nu)/E ((1 - 2 nu) A r + B/r), A = p a^2/(b^2 - a^2), "
+          "B = A b^2.",
+          "Lamé; Timoshenko and Goodier, Theory of Elasticity, section 28")
+      .scene("lame_cylinder");
+  Numbers h, all_u[3], all_hoop[3];
+  const char* names[] = {"uGIMP", "CPDI", "quarter in the plane, uGIMP"};
+  for (int m = 0; m < 3; ++m) {
+    std::vector<Pressed> runs;
+    for (const double cell : {0.01, 0.005, 0.0025}) {
+      runs.push_back(m == 2 ? in_plane(mpm::ShapeKind::ugimp, cell) : about_axis(m == 0 ? "ugimp" : "cpdi", cell));
+      all_u[m].push_back(runs.back().u);
+      all_hoop[m].push_back(runs.back().hoop);
+      if (m == 0) h.push_back(1.0 / runs.back().cells);
+      fmt::print("{} {} u {:.5f} radial {:.5f} hoop {:.5f} bore {:.5f}\n", names[m], cell, runs.back().u,
+                 runs.back().radial, runs.back().hoop, runs.back().bore);
+    }
+    const std::string name = names[m];
+    fmt::print("{} order u {:.2f} {:.2f} radial {:.2f} {:.2f} hoop {:.2f} {:.2f}\n", names[m],
+               order(runs[0].u, runs[1].u), order(runs[1].u, runs[2].u), order(runs[0].radial, runs[1].radial),
+               order(runs[1].radial, runs[2].radial), order(runs[0].hoop, runs[1].hoop),
+               order(runs[1].hoop, runs[2].hoop));
+    if (m != 1) continue;
+    Numbers r, u, radial, hoop;
+    for (int i = 0; i <= 50; ++i) {
+      const double at = kInner + (kOuter - kInner) * i / 50.0;
+      r.push_back(1e3 * at);
+      u.push_back(1e6 * displacement(at));
+      radial.push_back(radial_stress(at));
+      hoop.push_back(hoop_stress(at));
+    }
+    page.figure()
+        .panel("Displacement, CPDI, 10 cells", "r [mm]", "u [um]")
+        .exact("Lamé", r, u)
+        .points("particles", over(runs[0].r, 1e-3), over(runs[0].us, 1e-6));
+    page.figure()
+        .panel("Stresses, CPDI, 10 cells", "r [mm]", "stress [Pa]")
+        .exact("Lamé, radial", r, radial)
+        .exact("Lamé, hoop", r, hoop)
+        .points("radial", over(runs[0].r, 1e-3), runs[0].radials)
+        .points("hoop", over(runs[0].r, 1e-3), runs[0].hoops);
+  }
+  const Pressed away = about_axis("cpdi", 0.01, 0.05);
+  fmt::print("away {:.3e}\n", away.u - all_u[1][0]);
+  auto& panel =
+      page.figure().panel("Error of u, root mean square", "cell / wall", "error / u(a)").log_x().log_y().order(2.0);
+  for (int m = 0; m < 3; ++m) panel.points(names[m], h, all_u[m]);
+}
+
+}  // namespace
+}  // namespace verification

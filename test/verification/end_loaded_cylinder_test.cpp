@@ -56,6 +56,8 @@ Uniaxial drawn_by(double tension, Stress stress) {
   return drawn_to(0.5 * (low + high));
 }
 
+constexpr double kCalm = 0.4e-3;  // until then waves of the start are more than a tenth of the stress [s]
+
 /// The cylinder at one moment. Ratios over the first place are means over the row or column farthest out.
 struct Drawn {
   double time = 0.0;         ///< [s]
@@ -83,7 +85,15 @@ struct Drawn {
 struct History {
   Drawn last;
   std::string error;
-  Numbers time, axial;  ///< history of the stretch
+  Numbers time, axial, scatter;  ///< stretch, and standard deviation of sigma_zz over its mean, at sync points
+
+  /// The stretch at which the scatter passes a tenth.
+  double broken_at() const {
+    for (std::size_t i = 0; i < scatter.size(); ++i) {
+      if (time[i] > kCalm && scatter[i] > 0.1) return axial[i];
+    }
+    return axial.back();
+  }
 };
 
 History draw(const std::vector<std::string>& overrides) {
@@ -111,6 +121,10 @@ History draw(const std::vector<std::string>& overrides) {
       look();
       run.time.push_back(run.last.time);
       run.axial.push_back(run.last.axial);
+      const double mean = run.last.mean(0.0, kLength);
+      double squares = 0.0;
+      for (const double stress : run.last.stress) squares += std::pow(stress / mean - 1.0, 2);
+      run.scatter.push_back(std::sqrt(squares / static_cast<double>(r.size())));
     }
   } catch (const mpm::PhysicsError& error) {
     run.error = error.what();
@@ -127,7 +141,8 @@ TEST(EndLoadedCylinder, FigureEight) {
   page.problem(
           "A cylinder of radius 10 mm and length 40 mm (neo-Hookean, E = 2300 MPa, nu = 0.33), its bottom held along "
           "z, "
-          "is drawn out by a tension on its end that grows to 1000 MPa in 4 ms. Cells of 2 mm, 4 particles a cell.")
+          "is drawn out by a tension on its end that grows to 1000 MPa in 4 ms. Cells of 2 mm, 4 particles a cell, "
+          "APIC.")
       .exact(
           "uniaxial stress: at 1000 MPa of the present area a stretch of 1.5002 along z and 0.8788 along r; at 1000 "
           "MPa "
@@ -151,26 +166,20 @@ TEST(EndLoadedCylinder, FigureEight) {
   page.near("traction, CPDI: stretch along z", traction.last.axial, exact.axial, 0.01, "");
   page.near("traction, CPDI: stretch along r", traction.last.radial, exact.radial, 0.01, "");
 
-  const History forces = draw({kForces});
+  // Its end rises by three quarters of its length; with APIC this load breaks up.
+  const History forces = draw({kForces, "grid.max=[16 mm, 80 mm]", "method.transfer={flip: 0.95}"});
   ASSERT_EQ(forces.error, "");
   const double inside = forces.last.mean(4.0 * kSpacing, kLength) / 1e6;
   const double edge = forces.last.mean(0.0, kSpacing) / 1e6;
+  // The force is spread by the particle's domain, so half of it pulls at nodes inside the row: about half the stress.
   page.near("particle forces: sigma_zz four rows and more from the edge", inside, nominal.cauchy() / 1e6, 0.02, "MPa");
-  page.report("particle forces: sigma_zz in the loaded row", edge, "MPa");
-  // Half of a particle's force acts on the near side of it, so its own row bears about half: the paper's artefact.
-  page.below("particle forces: the loaded row over what is inside", edge / inside, 0.8, "");
-  page.near("particle forces: stretch along z", forces.last.axial, nominal.axial, 0.02, "");
+  page.below("particle forces: sigma_zz of the loaded row over that inside", edge / inside, 0.6, "");
+  page.near("particle forces: stretch along z", forces.last.axial, nominal.axial, 0.01, "");
 
-  const History boxes = draw({"method.shape=ugimp"});
-  if (boxes.error.empty()) {
-    page.report("traction, uGIMP: stretch along z", boxes.last.axial, "");
-    page.report("traction, uGIMP: mean sigma_zz", boxes.last.mean(0.0, kLength) / 1e6, "MPa");
-    page.report("traction, uGIMP: largest error against its nominal stress", 100.0 * boxes.last.worst(nominal.cauchy()),
-                "%");
-  } else {
-    page.report("traction, uGIMP: breaks down at a stretch of", boxes.last.axial, "");
-    fmt::print("{}\n", boxes.error);
-  }
+  const History boxes = draw({"method.shape=ugimp"}), flip = draw({"method.transfer=flip"});
+  // The paper: not stable at 50 %.
+  page.below("traction, uGIMP: stretch at which sigma_zz scatters by 10 %", boxes.broken_at(), exact.axial, "");
+  page.report("traction, CPDI with FLIP: stretch at which sigma_zz scatters by 10 %", flip.broken_at(), "");
   const auto in = [](Numbers values, double unit) {
     for (double& value : values) value /= unit;
     return values;
@@ -195,7 +204,23 @@ TEST(EndLoadedCylinder, FigureEight) {
       .line("traction, CPDI", asked(traction.time), traction.axial)
       .line("particle forces, CPDI", asked(forces.time), forces.axial)
       .line("traction, uGIMP", asked(boxes.time), boxes.axial);
-  page.meaning("MEANING");
+  page.figure()
+      .panel("Scatter of sigma_zz", "stretch along z", "standard deviation / mean")
+      .log_y()
+      .line("traction, CPDI, APIC", traction.axial, traction.scatter)
+      .line("traction, CPDI, FLIP", flip.axial, flip.scatter)
+      .line("traction, uGIMP, APIC", boxes.axial, boxes.scatter);
+  page.meaning(
+      "As in the paper, a traction on the deformed edge holds its stress to the last row, and a force on particles "
+      "leaves their own row with half of the stress, and pulls ever harder on the shrinking end. uGIMP's boxes part "
+      "before "
+      "50 %, as the paper says. Unlike the paper, plain FLIP does not get there: noise that the grid does not see "
+      "grows "
+      "in tension, in a plane as about an axis, with any order of the step and any time step. The scene takes APIC and "
+      "a "
+      "light damping (5000 1/s, a twelfth of the slowest swing); with 9 particles a cell APIC alone holds the stress "
+      "to "
+      "0.4 %.");
 }
 
 }  // namespace

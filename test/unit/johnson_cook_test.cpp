@@ -261,7 +261,7 @@ TEST(JohnsonCook, SurvivesAnything) {
     double lowest = 1.0, highest = 1.0, hottest = 0.0;
     for (int k = 0; k < 150; ++k) {
       MaterialPoint point = point_of(d);
-      for (int n = 0; n < 100; ++n) {  // further, det F is round-off: the entries of F are 1e5 by then
+      for (int n = 0; n < 100; ++n) {  // F has entries of hundreds by then; by 300, det F is round-off
         Matrix3<double> du = random_gradient(random, 0.3);
         const double drift = std::log(point.j());
         const double turn = n % 60 < 30 ? -0.07 : 0.07;

@@ -3,8 +3,6 @@
 // material at rest with the speed U, u the speed behind it,
 //   sigma = rho0 U u      (momentum),   U = C0 + S u   (the Hugoniot)
 // so 49.405 GPa at u = 1.10500 km/s (exact-solutions 17), without strength.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -98,28 +96,68 @@ Impact hit(const std::vector<std::string>& overrides) {
   return impact;
 }
 
-TEST(PlanarImpact, DISABLED_Probe) {
-  const std::vector<std::string> fluid = {"materials.tungsten.A=1 kPa", "materials.tungsten.B=0",
-                                          "materials.steel.A=1 kPa", "materials.steel.B=0"};
-  for (const char* method : {"", "method.transfer=flip", "method.update=usf", "method.transfer={flip: 0.99}",
-                             "method.transfer=apic", "method.transfer={xpic: 2}", "method.transfer={fmpm: 2}",
-                             "method.transfer=pic", "method.shape=bspline2", "time.cfl=0.2"}) {
-    for (const bool strength : {false, true}) {
-      std::vector<std::string> o = strength ? std::vector<std::string>{} : fluid;
-      if (*method != 0) o.emplace_back(method);
-      try {
-        const Impact i = hit(o);
-        fmt::print(
-            "{:32} {} v {:.2f} +- {:.1f}  s {:.3f} +- {:.2f}  pW {:.3f} +- {:.2f} pFe {:.3f} +- {:.2f} force {:.3f} Us "
-            "{:.4f} {:.4f} E {:.2e} audit {:.1e} T {:.0f}\n",
-            method, strength, i.velocity.value(), i.velocity.scatter(), i.stress.value(), i.stress.scatter(),
-            i.tungsten.value(), i.tungsten.scatter(), i.steel.value(), i.steel.scatter(), i.force, i.steel_shock,
-            i.tungsten_shock, i.energy, i.audit, i.hottest);
-      } catch (const std::exception& e) {
-        fmt::print("{} {} {}\n", method, strength, e.what());
-      }
-    }
-  }
+void show(Page& page, const std::string& what, const Impact& impact) {
+  page.report(what + ": scatter of the velocity between the shocks", impact.velocity.scatter(), "m/s");
+  page.report(what + ": scatter of the pressure in steel", impact.steel.scatter(), "GPa");
+  page.report(what + ": scatter of the pressure in tungsten", impact.tungsten.scatter(), "GPa");
+  page.report(what + ": kinetic + stored + dissipated energy, change", 100.0 * impact.energy, "%");
+  page.report(what + ": highest temperature", impact.hottest, "K");
+}
+
+// Two runs: constants and method as a user has them, and without strength by a transfer that takes the ringing away.
+TEST(PlanarImpact, OfTungstenIntoSteel) {
+  Page page("metal", "planar_impact", "Planar impact of tungsten into steel");
+  page.problem(
+          "A bar of tungsten hits a bar of steel at 1.70 km/s, in one dimension: cells of 0.1 mm, two particles each, "
+          "to "
+          "2 µs. Johnson-Cook and Mie-Grueneisen with the constants of Nairn & Guilkey (2015), Table I; and the same "
+          "with next to no strength (A = 1 kPa), transferred by APIC.")
+      .exact(
+          "σ = ρ0 U u and U = C0 + S u in both bars: 49.405 GPa at an interface velocity of 1.10500 km/s; shocks of "
+          "5.6956 km/s in the steel and 4.7178 km/s in the tungsten, relative to what is ahead of them. Without "
+          "strength; strength adds up to two thirds of it, 1 GPa, to the stress.",
+          "Rankine and Hugoniot's jump conditions with the constants of Table I")
+      .meaning(
+          "There is no artificial viscosity. FLIP keeps a shock's energy as ringing of the particles, which strength "
+          "damps by plastic work and nothing damps in a liquid; APIC and its like take it out, but as energy that is "
+          "lost. "
+          "Either way it does not become the heat that a shock makes, and pressure stays near the isentrope, which is "
+          "47.0 "
+          "GPa in the steel and 48.9 GPa in the tungsten at the volumes of the Hugoniot: stresses are 2 to 3 % low. "
+          "Speeds are right to 1 % with strength, 3 % without.")
+      .scene("planar_impact");
+  const Impact metal = hit({});
+  const std::vector<std::string> no_strength = {"materials.tungsten.A=1 kPa", "materials.tungsten.B=0",
+                                                "materials.steel.A=1 kPa", "materials.steel.B=0"};
+  std::vector<std::string> by_apic = no_strength;
+  by_apic.emplace_back("method.transfer=apic");
+  const Impact liquid = hit(by_apic), ringing = hit(no_strength);
+  // 1 %: the entropy that is missing lowers the pressure by 5 % in the steel and 1 % in the tungsten; the interface
+  // takes the share of the impedances, half of a per cent.
+  page.near("interface velocity, with strength", metal.velocity.value(), kInterface, 0.01, "m/s");
+  page.near("interface velocity, without", liquid.velocity.value(), kInterface, 0.01, "m/s");
+  // 4 %: the isentrope of the steel is 5 % below the Hugoniot, that of the tungsten 1 %, and the stress between them.
+  page.near("force on the steel, with strength", metal.force, kStress, 0.04, "GPa");
+  page.near("force on the steel, without", liquid.force, kStress, 0.04, "GPa");
+  // By two places 1 us apart, each known to a cell of 0.1 mm: 2 %; without the heat 1 % slower.
+  page.near("shock in the steel, with strength", metal.steel_shock, kSteelShock, 0.02, "km/s");
+  page.near("shock in the steel, without", liquid.steel_shock, kSteelShock, 0.03, "km/s");
+  page.near("shock in the tungsten, with strength", metal.tungsten_shock, kTungstenShock, 0.02, "km/s");
+  page.near("shock in the tungsten, without", liquid.tungsten_shock, kTungstenShock, 0.03, "km/s");
+  page.below("momentum left over by the audit", metal.audit, 1e-10, "of what was exchanged");
+  show(page, "with strength", metal);
+  show(page, "without, APIC", liquid);
+  show(page, "without, FLIP", ringing);
+  Panel& velocity = page.figure().panel("Velocity at 2 µs", "x [mm]", "v [m/s]");
+  const double right = kFace + 2.0 * kSteelShock, left = kFace + 2.0 * (1e-3 * kSpeed - kTungstenShock);
+  const Numbers edges = {liquid.x.front(), left, left, right, right, liquid.x.back()};
+  velocity.exact("exact", edges, {kSpeed, kSpeed, kInterface, kInterface, 0.0, 0.0});
+  velocity.line("with strength, FLIP", metal.x, metal.v).line("without, APIC", liquid.x, liquid.v);
+  page.figure()
+      .panel("Pressure at 2 µs", "x [mm]", "p [GPa]")
+      .exact("exact, without strength", edges, {0.0, 0.0, kStress, kStress, 0.0, 0.0})
+      .line("with strength, FLIP", metal.x, metal.p)
+      .line("without, APIC", liquid.x, liquid.p);
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 // box: the one that the particle had at the start stands in. Boxes do not turn or shear, so a load on them does not
 // follow, and one that keeps its size makes T a force per area at the start; only CPDI and qCPDI hold a traction per
 // current area at large strain. A corner may lie where dirac or a spline folded at a wall puts no mass: what such a
-// node should take goes to the other nodes of the corner's cell, so the force is right always and its moment is not.
+// node should take goes to the other nodes of the corner's cell, so the force is right always and its moment is not;
+// with dirac the work is not what the particles gain either.
 //
 // T is read at the middle of the step, at the middle of the face as it will be then, and is the same all over the face;
 // the face itself is that of the step's start. Few particles carry tractions, so this is plain code for one thread.

@@ -27,6 +27,9 @@ struct RigidBodyDefinition {
   std::array<Function, 3> velocity;       ///< of the origin, world axes, functions of t [m/s]
   std::array<Function, 3> rotation_rate;  ///< world axes, functions of t [rad/s]
   FrictionLaw friction;
+  /// How far outside the surface nodes are held too, in [0, 1] cells. 1: the nodes that the shape functions of a rigid
+  /// body made of particles would reach; material is met that much early.
+  double reach = 0.0;
   /// Of a ring in an axisymmetric scene, as its surface was made; 0: of any other body. A ring opens and closes along
   /// x: pose.position.x is the change of its radii [m].
   double inner_radius = 0.0;
@@ -44,6 +47,7 @@ class RigidBody {
   const std::string& name() const { return definition_.name; }
   const Surface& surface() const { return *definition_.surface; }
   const FrictionLaw& friction() const { return definition_.friction; }
+  double reach() const { return definition_.reach; }
   const Pose& pose() const { return pose_; }
   const Twist& twist() const { return twist_; }
   Drive drive() const { return drive_; }

@@ -38,8 +38,9 @@ RigidContact::RigidContact(const RigidBody& body, int threads, GeometryKind geom
 void RigidContact::momentum_gathered(StepContext& context) {
   const Grid& grid = context.grid;
   const GridLayout& layout = grid.layout;
-  const double tolerance = kOnSurface * layout.smallest_cell();
-  const Box bounds = world_bounds(body_).grown(tolerance);
+  const double on_surface = kOnSurface * layout.smallest_cell();
+  const double reach = on_surface + body_.reach() * layout.smallest_cell();
+  const Box bounds = world_bounds(body_).grown(reach);
 
   near_.clear();
   for (int b = 0; b < grid.blocks.size(); ++b) {
@@ -58,9 +59,9 @@ void RigidContact::momentum_gathered(StepContext& context) {
       if (!grid.carries(block, n)) continue;
       const Vec3 position = layout.node_position(grid.blocks.block(block), n);
       SurfacePoint point;
-      if (!body_.surface().within(body_.pose().to_body(position), tolerance, point)) continue;
+      if (!body_.surface().within(body_.pose().to_body(position), reach, point)) continue;
       Vec3 normal = body_.pose().orientation * point.normal;
-      if (axisymmetric_ && std::abs(position.x()) <= tolerance) {
+      if (axisymmetric_ && std::abs(position.x()) <= on_surface) {
         if (std::abs(normal.z()) <= kOnSurface) continue;  // all of it was radial
         normal = {0.0, 0.0, std::copysign(1.0, normal.z())};
       }

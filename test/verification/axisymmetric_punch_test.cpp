@@ -22,6 +22,7 @@ constexpr int kThreads = 1;  // tests run side by side
 // Of the scene.
 constexpr double kSide = 0.3;                     // height and radius of the block [m]
 constexpr double kDepth = 2e-4;                   // [m]
+constexpr double kAsked = 0.05;                   // of the force at eight cells a radius, as in plane strain
 constexpr double kRest = 0.14, kPunchEnd = 0.16;  // the ramp ends at 0.1 s; force is the mean between [s]
 
 struct Punched {
@@ -74,19 +75,25 @@ TEST(AxisymmetricPunch, Force) {
           "2 sinh^2 u / (2 u + sinh 2u), with k at the zeros of J1(kL); the half space has F = 2 E* a delta.",
           "Boussinesq; Lebedev and Ufliand (1958); Johnson, Contact Mechanics (1985) 3.8")
       .scene("axisymmetric_punch");
-  Numbers cells, errors, cpdi;
+  Numbers cells, errors;
   std::vector<Punched> runs;
   for (const int count : {12, 24, 48}) {
     runs.push_back(punch("ugimp", count));
     const Punched& run = runs.back();
     const std::string at = fmt::format(" at {} cells a radius", run.cells);
-    page.beside("force" + at, run.force, run.exact.force, "N");
+    if (run.cells > 8.0) {
+      page.near("force" + at, run.force, run.exact.force, kAsked, "N");
+    } else {
+      page.beside("force" + at, run.force, run.exact.force, "N");
+    }
     page.report("its error" + at, 100.0 * run.error(), "%");
     // A node is in contact or not, so the punch's edge is known to half a cell to either side.
     page.near_absolute("radius whose exact force this is," + at, run.told, run.cells, 0.5, "cells");
     cells.push_back(1.0 / run.cells);
     errors.push_back(std::abs(run.error()));
   }
+  // First order: halving the cell takes off a third of the error or more.
+  page.below("error at 16.5 over error at 8.5 cells", runs[2].error() / runs[1].error(), 0.67, "");
   const double half_space =
       LayerContact({1e6, 0.3}, ToolShape::circular, runs[1].exact.radius).flat_punch(kDepth).force;
   page.report("exact stiffness over that of the half space, at 8.5 cells", runs[1].exact.force / half_space, "");
@@ -107,7 +114,11 @@ TEST(AxisymmetricPunch, Force) {
       .log_y()
       .order(1.0)
       .points("force", cells, errors);
-  page.meaning("MEANING");
+  page.meaning(
+      "Asked for is the force of the layer; it is 5 % low at 8.5 cells a radius and 3 % at 16.5, as if the edge of the "
+      "punch were a third of a cell further in: nodes stand for it, as in plane strain. The three-dimensional punch, "
+      "whose "
+      "edge is a stair on the grid, is 7 % low at 8.5 cells.");
 }
 
 }  // namespace

@@ -34,8 +34,10 @@ double largest_speed(mpm::Simulation& run, double end) {
   return most;
 }
 
-std::string level_bed(const std::string& law) {
-  return "geometry: plane_strain\n"
+std::string level_bed(const std::string& law, const std::string& geometry = "plane_strain") {
+  const std::string inner = geometry == "plane_strain" ? "x_min: slip, " : "";  // or the axis
+  return "geometry: " + geometry +
+         "\n"
          "grid: {cell: 0.05, min: [0, 0], max: [0.6, 0.8]}\n"
          "time: {end: 1, sync: 0.01}\n"
          "method: {shape: ugimp, update: usavg, transfer: flip}\n"
@@ -44,7 +46,8 @@ std::string level_bed(const std::string& law) {
          law +
          "}]\n"
          "bodies: [{name: bed, material: ground, shape: {box: {min: [0, 0], max: [0.6, 0.5]}}, initial: geostatic}]\n"
-         "boundaries: {x_min: slip, x_max: slip, z_min: {friction: 0.6}}\n";
+         "boundaries: {" +
+         inner + "x_max: slip, z_min: {friction: 0.6}}\n";
 }
 
 const std::string kSand = "law: drucker_prager, young: 1 MPa, poisson: 0.3, friction_angle: 34 deg";
@@ -55,13 +58,15 @@ TEST(Geostatic, LevelBedRestsExactly) {
   const struct {
     std::string law;
     double k0;
+    std::string geometry = "plane_strain";
   } cases[] = {
       {kSand, 1.0 - std::sin(34.0 * M_PI / 180.0)},  // Jaky (1944)
+      {kSand, 1.0 - std::sin(34.0 * M_PI / 180.0), "axisymmetric"},
       {"law: mohr_coulomb, young: 1 MPa, poisson: 0.3, friction_angle: 34 deg", 1.0 - std::sin(34.0 * M_PI / 180.0)},
       {"law: linear_elastic, young: 1 MPa, poisson: 0.3", 3.0 / 7.0},  // nu / (1 - nu)
   };
-  for (const auto& [law, k0] : cases) {
-    mpm::Simulation run = simulation(level_bed(law));
+  for (const auto& [law, k0, geometry] : cases) {
+    mpm::Simulation run = simulation(level_bed(law, geometry));
     EXPECT_EQ(run.warnings().size(), 0u);
     ASSERT_EQ(run.notes().size(), 1u);
     EXPECT_EQ(run.notes()[0].find("geostatic start of 'bed': unbalanced force "), 0u) << run.notes()[0];

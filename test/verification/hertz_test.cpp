@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "layer_contact.hpp"
+#include "hertz_curve.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
 
@@ -36,30 +36,6 @@ constexpr double kMeasure = 0.0075;  // at the end of each rest [s]
 constexpr int kSteps = 5;
 const ElasticBlock kBlock{1e6, 0.3, kSide, kSide};
 constexpr double kAsked = 0.05;  // of the force at eight cells a contact radius
-constexpr double kBound = 1.25;  // of the offset: the reach of a particle's box [rows]
-
-/// The exact solution as a table over the contact radius, which all else grows with.
-struct Curve {
-  Numbers radius, approach, force;
-  explicit Curve(ToolShape shape) {
-    for (double a = 0.02; a < 0.1301; a += 0.005) {
-      const PressedTool tool = LayerContact(kBlock, shape, a).paraboloid(kToolRadius);
-      radius.push_back(a);
-      approach.push_back(tool.approach);
-      force.push_back(tool.force);
-    }
-  }
-  /// A power law between two entries: within 1e-3 of the curve.
-  static double at(const Numbers& xs, const Numbers& ys, double x) {
-    const auto above = std::clamp<std::ptrdiff_t>(std::upper_bound(xs.begin(), xs.end(), x) - xs.begin(), 1,
-                                                  static_cast<std::ptrdiff_t>(xs.size()) - 1);
-    const double x0 = xs[above - 1], x1 = xs[above], y0 = ys[above - 1], y1 = ys[above];
-    return y0 * std::pow(y1 / y0, std::log(x / x0) / std::log(x1 / x0));
-  }
-  double force_at_depth(double depth) const { return at(approach, force, depth); }
-  double force_at_radius(double a) const { return at(radius, force, a); }
-  double radius_at_force(double f) const { return at(force, radius, f); }
-};
 
 /// At the end of each rest; of the whole tool.
 struct Pressed {
@@ -83,27 +59,11 @@ Pressed press(ToolShape shape) {
   return result;
 }
 
-/// The offset in [0, kBound rows] with the least squares of the relative errors, all steps but the first.
-double fit_offset(const Curve& curve, const Pressed& run) {
-  double best = 0.0, least = 1e300;
-  for (double offset = 0.0; offset <= kBound * kRow; offset += 0.001 * kRow) {
-    double squares = 0.0;
-    for (int i = 1; i < kSteps; ++i) {
-      squares += std::pow(run.force[i] / curve.force_at_depth(run.depth[i] - offset) - 1.0, 2);
-    }
-    if (squares < least) {
-      least = squares;
-      best = offset;
-    }
-  }
-  return best;
-}
-
 /// Rows and figures of a page.
 void compare(Page& page, ToolShape shape, const std::string& unit) {
-  const Curve curve(shape);
+  const HertzCurve curve(kBlock, shape, kToolRadius, 0.02, 0.13);
   const Pressed run = press(shape);
-  const double offset = fit_offset(curve, run);
+  const double offset = fit_offset(curve, run.depth, run.force, kRow);
   page.report("offset of the depth, fitted", offset / kRow, "rows");
   Numbers by_radius, cells;
   for (int i = 1; i < kSteps; ++i) {

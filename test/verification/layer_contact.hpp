@@ -6,7 +6,9 @@
 // (Airy's stress function with no shear on both faces and no deflection of the lower one; K = 1 is the half space).
 // Smooth rigid side walls are planes of symmetry: a block between them is one cell of a layer pressed by a lattice of
 // tools, so it has the same g at the wave numbers of the lattice alone, and the oedometer's H (1 + nu)(1 - 2 nu) /
-// (E (1 - nu)) at k = 0, where the walls keep it from widening.
+// (E (1 - nu)) at k = 0, where the walls keep it from widening. In a round block of radius L with a smooth rigid wall a
+// pressure J0(kr) moves the material along r as J1(kr), and shears it so: what the wall asks for holds term by term at
+// the zeros of J1(kL), and a pressure is a sum of those (Dini's series).
 //
 // The pressure is the combination of p_n = (1 - r^2/a^2)^(n - 1/2), n = 0 ... N-1, whose deflection has the tool's
 // shape under the tool in the mean weighted by each p_n. Exact with N = 1 for a flat punch and N = 2 for a paraboloid
@@ -31,6 +33,7 @@ struct ElasticBlock {
   double height = std::numeric_limits<double>::infinity();  ///< infinite: half space
   double half_length =
       std::numeric_limits<double>::infinity();  ///< from the tool's middle to the walls in x and (circular) y
+  bool round = false;  ///< circular tools: a cylinder of radius half_length in place of a square block
 
   double plane_modulus() const { return young / (1.0 - poisson * poisson); }  ///< E* [Pa]
 };
@@ -154,6 +157,10 @@ class LayerContact {
     const double oedometer =
         block_.height * (1.0 + nu) * (1.0 - 2.0 * nu) / (block_.young * (1.0 - nu));  // g(0) [m/Pa]
     const double area = tool_ == ToolShape::circular ? length * length : length;
+    if (block_.round) {
+      sum_round(oedometer, most);
+      return;
+    }
     compliance_ += oedometer / area * area_ * area_.transpose();
     if (tool_ == ToolShape::strip) {
       for (int m = 1; m <= most; ++m) add(2.0 / area, m * spacing);
@@ -163,6 +170,22 @@ class LayerContact {
       for (int n = 0; n * n + m * m <= most * most; ++n) {  // m > 0, n >= 0: a quarter of the lattice
         add(4.0 / area, spacing * std::hypot(m, n));
       }
+    }
+  }
+
+  /// Round block: over the zeros of J1, by Newton from McMahon's first terms; `most` of them.
+  void sum_round(double oedometer, int most) {
+    const double radius = block_.half_length, area = kPi * radius * radius;
+    compliance_ += oedometer / area * area_ * area_.transpose();
+    for (int m = 1; m <= most; ++m) {
+      const double b = kPi * (m + 0.25);
+      double zero = b - 3.0 / (8.0 * b);
+      for (int i = 0; i < 3; ++i) {
+        const double j1 = std::cyl_bessel_j(1, zero);
+        zero -= j1 / (std::cyl_bessel_j(0, zero) - j1 / zero);
+      }
+      const double j0 = std::cyl_bessel_j(0, zero);
+      add(1.0 / (area * j0 * j0), zero / radius);
     }
   }
 

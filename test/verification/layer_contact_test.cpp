@@ -84,5 +84,26 @@ TEST(LayerContact, Block) {
   EXPECT_GT(force(1.0, 1.0) / 219.780, 1.080);
 }
 
+TEST(LayerContact, RoundBlock) {
+  const auto force = [](double height, double half_length, bool round) {
+    const ElasticBlock block{1e6, 0.3, height, half_length, round};
+    return LayerContact(block, ToolShape::circular, 0.1).flat_punch(1e-3).force;
+  };
+  // A wall twenty radii away leaves the layer, but for the part that the tool has in the whole area, 2.5e-3.
+  const double layer = force(0.2, std::numeric_limits<double>::infinity(), false);
+  EXPECT_NEAR(force(0.2, 2.0, true), layer, 2.5e-3 * layer);
+  // A round block is stiffer than the square around it, and nearly as stiff as the one of the same area: the walls tell
+  // by the mean deflection above all, which depends on the area alone. Here that is a fifth of the stiffness, and what
+  // the corners change is a part of it.
+  const double kEqualArea = 0.5 * std::sqrt(kPi);
+  const double square = force(0.2, 0.2 * kEqualArea, false), round = force(0.2, 0.2, true);
+  EXPECT_GT(round, force(0.2, 0.2, false));
+  EXPECT_NEAR(round, square, 0.01 * square);
+  // A punch on the whole face of the block is the oedometer: F = E (1 - nu) / ((1 + nu)(1 - 2 nu)) A delta / H.
+  const double all = LayerContact({1e6, 0.3, 0.2, 0.1, true}, ToolShape::circular, 0.1, 6).flat_punch(1e-3).force;
+  const double oedometer = 1e6 * 0.7 / (1.3 * 0.4) * kPi * 0.01 * 1e-3 / 0.2;
+  EXPECT_NEAR(all, oedometer, kEndOfSum * oedometer);
+}
+
 }  // namespace
 }  // namespace verification

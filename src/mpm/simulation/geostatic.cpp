@@ -126,9 +126,10 @@ void add_geostatic_stress(SimulationDefinition& definition) {
   }
   const int up = axis_of(definition.gravity);
   const double g = definition.gravity.norm(), down = definition.gravity[up] > 0.0 ? 1.0 : -1.0;
-  const bool plane = planar(definition.geometry);
+  const bool plane = planar(definition.geometry), flat = dimensions(definition.geometry) == 2;
   Vec3 spacing = definition.grid.cell / definition.method.particles_per_direction;
-  if (plane) spacing.y() = definition.thickness;
+  // Rings: weight and area are those of their section, a column is as heavy at any radius.
+  if (flat) spacing.y() = plane ? definition.thickness : 1.0;
   const double area = spacing.prod() / spacing[up];
 
   std::vector<Part> parts;
@@ -140,7 +141,7 @@ void add_geostatic_stress(SimulationDefinition& definition) {
       const Vec3 cells = (body.positions[p] - definition.grid.min).cwiseQuotient(spacing);
       std::int64_t column = 0;
       for (int axis = 0; axis < 3; ++axis) {
-        if (axis != up && !(plane && axis == 1))
+        if (axis != up && !(flat && axis == 1))
           column = column * (std::int64_t{1} << 31) + std::llround(std::floor(cells[axis]));
       }
       parts.push_back({column, down * body.positions[p][up], weight, b, p});

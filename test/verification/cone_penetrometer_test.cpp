@@ -1,0 +1,100 @@
+// The shipped cone penetrometer: its tip resistance against depth, beside the bearing capacity of a strip.
+//
+// No exact solution is known for a cone in this sand. N_q = e^(pi tan phi) tan^2(45 + phi/2), times the vertical stress
+// beside the tip, is exact for a strip on weightless soil with associated flow (Prandtl; Reissner (1924)); a round
+// footing bears more than a strip, by a factor of 1 + tan phi after De Beer (1970), and one deep down more than one on
+// the surface. So N_q is a lower estimate of what is reached at depth, and no bound: flow here is without dilation.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "page.hpp"
+#include "scene_run.hpp"
+
+namespace verification {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+// Of the scene.
+constexpr double kRadius = 0.01784, kFriction = 34.0 * kPi / 180.0, kUnitWeight = 1417.0 * 9.81;  // [m], [], [N/m^3]
+constexpr double kSurface = 0.44;                                                                 // [m]
+const double kStrip = std::exp(kPi * std::tan(kFriction)) * std::pow(std::tan(0.25 * kPi + 0.5 * kFriction), 2);
+
+/// Resistance over area of the cone, in the mean over each centimetre of depth.
+struct Sounding {
+  Numbers depth, resistance;  ///< [m], [kPa]
+  Numbers r, z, speed;        ///< of the particles at the end [m], [m/s]
+  /// Of the vertical stress that was there, from `least` on [m].
+  double factor(double least) const {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      if (depth[i] >= least) sum += 1e3 * resistance[i] / (kUnitWeight * depth[i]), count += 1.0;
+    }
+    return sum / count;
+  }
+};
+
+Sounding push(const std::vector<std::string>& overrides) {
+  mpm::Simulation simulation = start("cone_penetrometer", overrides, 1);
+  Sounding sounding;
+  const double end = 0.5;  // before it slows down [s]
+  while (seconds(simulation) < end - 1e-12) {
+    run_until(simulation, seconds(simulation) + 0.02);
+    sounding.depth.push_back(kSurface - simulation.rigid_body(0).pose().position.z() - 0.005);
+    sounding.resistance.push_back(1e-3 * simulation.take_contact(0).mean.force.z() / (kPi * kRadius * kRadius));
+  }
+  sounding.r = field(simulation, "x");
+  sounding.z = field(simulation, "z");
+  sounding.speed = field(simulation, "speed");
+  return sounding;
+}
+
+/// `cell` [m]; with `rough` the rod and the cone rub.
+void sound(const std::string& name, double cell, bool rough) {
+  Page page("axisymmetric", name, "Cone penetrometer in loose sand");
+  page.problem(
+          fmt::format("A cone of 60 degrees and 10 cm2 is driven a quarter of a metre into loose sand (Drucker-Prager, "
+                      "34 degrees, no dilation) at rest, at 0.5 m/s. Cells of {:.0f} mm.",
+                      1e3 * cell))
+      .exact(
+          "none is known; drawn is the bearing capacity of a strip, N_q times the vertical stress at the tip's depth, "
+          "and De Beer's for a round footing, 1 + tan phi times that.",
+          "Reissner (1924); E. E. De Beer (1970), Geotechnique 20(4), 387-411")
+      .scene("cone_penetrometer");
+  const std::string cells = fmt::format("grid.cell={}", cell);
+  const Sounding smooth = push({cells});
+  const double factor = smooth.factor(0.2), shape = 1.0 + std::tan(kFriction);
+  page.above("tip resistance over vertical stress, smooth, below 0.2 m", factor, kStrip, "");
+  page.beside("the same, beside N_q with De Beer's factor", factor, shape * kStrip, "");
+  page.report("tip resistance at the end", smooth.resistance.back(), "kPa");
+  Numbers millimetres, strip, round;
+  for (const double depth : smooth.depth) {
+    millimetres.push_back(1e3 * depth);
+    strip.push_back(1e-3 * kStrip * kUnitWeight * depth);
+    round.push_back(shape * strip.back());
+  }
+  Panel& panel = page.figure()
+                     .panel("Tip resistance", "depth of the tip [mm]", "force / area of the cone [kPa]")
+                     .line("N_q, strip", millimetres, strip)
+                     .line("N_q, round (De Beer)", millimetres, round)
+                     .points("smooth", millimetres, smooth.resistance);
+  if (rough) {
+    const Sounding rubbing = push({cells, "rigid_bodies.cone.friction=0.4"});
+    page.report("the same with friction of 0.4 on cone and rod", rubbing.resistance.back(), "kPa");
+    panel.points("friction 0.4, with the rod", millimetres, rubbing.resistance);
+  }
+  page.figure().panel("Speed at 0.245 m", "r [m]", "z [m]").particles("speed [m/s]", smooth.r, smooth.z, smooth.speed);
+  page.meaning(
+      "The resistance grows with depth and comes to a constant multiple of the vertical stress from ten radii on, "
+      "between "
+      "the two estimates. Deeper soil is not stiffer here, and real cones in loose sand meet more: what a cone feels "
+      "depends on stiffness as on strength. With friction the force is that on cone and rod together.");
+}
+
+TEST(ConePenetrometer, BearsMoreThanAStrip) { sound("cone_penetrometer", 0.008, false); }
+TEST(FullConePenetrometer, BearsMoreThanAStrip) { sound("cone_penetrometer", 0.004, true); }
+
+}  // namespace
+}  // namespace verification

@@ -164,7 +164,7 @@ TEST(SceneAxisymmetric, TheSimulationRefusesTheSame) {
   };
   EXPECT_EQ(refusal([](SimulationDefinition&) {}), "no error");
   EXPECT_EQ(refusal([](SimulationDefinition& d) { d.bodies[0].positions[3].x() = -0.01; }),
-            "body 'disk' has material at r = -0.01 m; about an axis r is 0 or more");
+            "bodies: body 'disk' has material at r = -0.01 m; about an axis r is 0 or more");
   EXPECT_NE(refusal([](SimulationDefinition& d) { d.grid.min.x() = 0.05; }).find("has no nodes on it"),
             std::string::npos);
   EXPECT_NE(refusal([](SimulationDefinition& d) { d.grid.min.x() = -0.1; }).find("beyond the axis"), std::string::npos);

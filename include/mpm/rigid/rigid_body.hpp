@@ -33,6 +33,7 @@ struct RigidBodyDefinition {
   /// Of a ring in an axisymmetric scene, as its surface was made; 0: of any other body. A ring opens and closes along
   /// x: pose.position.x is the change of its radii [m].
   double inner_radius = 0.0;
+  double outer_radius = 0.0;  ///< of such a ring [m]
 };
 
 /// What a body follows at the moment.
@@ -51,11 +52,15 @@ class RigidBody {
   const Pose& pose() const { return pose_; }
   const Twist& twist() const { return twist_; }
   Drive drive() const { return drive_; }
-  /// Velocity of the body at a world point [m/s]. A ring that opens or closes carries what it holds along evenly: its
-  /// inner face moves by the twist, a point at another radius in proportion to that.
+  /// Velocity of the body at a world point [m/s]. A ring that opens or closes carries what touches it along evenly: its
+  /// inner and outer faces move by the twist, a point beside one of them in proportion to their radii.
   Vec3 velocity_at(const Vec3& point) const {
     Vec3 velocity = mpm::velocity_at(pose_, twist_, point);
-    if (definition_.inner_radius > 0.0) velocity.x() *= point.x() / (definition_.inner_radius + pose_.position.x());
+    if (definition_.inner_radius > 0.0) {
+      const double inner = definition_.inner_radius + pose_.position.x();
+      const double outer = definition_.outer_radius + pose_.position.x();
+      velocity.x() *= point.x() / (point.x() < 0.5 * (inner + outer) ? inner : outer);
+    }
     return velocity;
   }
 

@@ -1,5 +1,5 @@
 // How an axisymmetric scene treats the neighbourhood of the axis: what a shape function does with a domain that would
-// reach across it, and how particles near it are moved. The defaults are what measured best (doc/methods.md); the
+// reach across it, and how particles near it are moved. The defaults are what measured best (doc/axisymmetric.md); the
 // others are there for comparison with them: Nairn & Guilkey (2015) 4.1.
 #pragma once
 

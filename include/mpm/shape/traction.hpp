@@ -121,12 +121,12 @@ inline void truncate_at_axis(PlacedDomain& box) {
 }
 
 /// A deformed domain in axisymmetry, made smaller as a whole until no corner is at r < 0 (method reference 3.4 with
-/// erratum 14: by |d_1r| + |d_2r|).
-inline void shrink_to_axis(PlacedDomain& domain) {
+/// erratum 14: by |d_1r| + |d_2r|). `along_radius`: of a box that stretches (ugimp_stretch), along the radius alone.
+inline void shrink_to_axis(PlacedDomain& domain, bool along_radius = false) {
   const double reach = std::abs(domain.d[0][0]) + std::abs(domain.d[1][0]), r = domain.center[0];
   if (r >= reach) return;
   for (int k = 0; k < 2; ++k) {
-    for (int c = 0; c < 2; ++c) domain.d[k][c] *= r / reach;
+    for (int c = 0; c < (along_radius ? 1 : 2); ++c) domain.d[k][c] *= r / reach;
   }
 }
 

@@ -28,7 +28,7 @@ struct CheckResult {
 class RunChecks : public RunVisitor {
  public:
   /// `sync_period` [s] of the run; 0 when it is not known. `precision` of its particles: how well its audit must close.
-  RunChecks(double sync_period, mpm::Precision precision, std::vector<std::string> missing);
+  RunChecks(double sync_period, mpm::Precision precision, std::vector<std::string> missing, bool axisymmetric = false);
 
   void contact_forces(std::int64_t time, const ContactForces& message) override;
   void bodies(std::int64_t time, const BodyStates& message) override;
@@ -63,6 +63,7 @@ class RunChecks : public RunVisitor {
   std::int64_t sync_period_;  ///< [ns]
   double audit_limit_;        ///< of the residual over the momentum exchanged
   std::vector<std::string> missing_;
+  bool axisymmetric_;
   std::map<std::string, std::string> failures_;  ///< the first of each check, by its name
   std::vector<std::string> gaps_;
   std::map<std::string, Spacing> spacing_;  ///< by topic

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/shape/ring.hpp"
+
 namespace mpm {
 namespace {
 
 // Part of a cell within which a node counts as lying on the surface: keeps aligned surfaces from flickering by
 // round-off. The same part of a cell from the axis is on it.
 constexpr double kOnSurface = 1e-6;
-constexpr double kTurn = 2.0 * 3.14159265358979323846;
 
 // Box around the body in the world; a body that is endless along an axis stays endless.
 Box world_bounds(const RigidBody& body) {

@@ -66,7 +66,10 @@ std::string text(const Symmetric3<double>& s) {
 bool finite(const Symmetric3<double>& s) { return std::isfinite(s.xx + s.yy + s.zz + s.yz + s.xz + s.xy); }
 
 /// Axes along which the material can strain. In principal axes they are the first ones.
-int free_axes(GeometryKind geometry) { return geometry == GeometryKind::plane_stress ? 3 : dimensions(geometry); }
+int free_axes(GeometryKind geometry) {
+  const bool across = geometry == GeometryKind::plane_stress || axisymmetric(geometry);
+  return across ? 3 : dimensions(geometry);
+}
 
 Matrix3<double> dilatation(double j, GeometryKind geometry) {
   const int axes = free_axes(geometry);

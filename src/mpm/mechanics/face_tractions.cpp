@@ -77,12 +77,9 @@ PlacedDomain FaceTractions::domain_of(const ParticleSet& set, int p, const GridL
     for (int c = 0; c < domain.dim; ++c) domain.d[k][c] = set.domain[c * domain.dim + k][p] * half;
   }
   const bool ring = axisymmetric(settings_.geometry) && !set.whole_domains && !set.planar_functions;
-  if (deforms(settings_.shape)) {
-    if (ring) shrink_to_axis(domain);
-    keep_within_reach(domain, layout);
-  } else if (ring) {
-    truncate_at_axis(domain);
-  }
+  if (ring && follows_deformation(settings_.shape)) shrink_to_axis(domain, settings_.shape == ShapeKind::ugimp_stretch);
+  if (ring && !follows_deformation(settings_.shape)) truncate_at_axis(domain);
+  if (deforms(settings_.shape)) keep_within_reach(domain, layout);
   return domain;
 }
 

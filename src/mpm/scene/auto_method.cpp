@@ -69,6 +69,9 @@ bool eligible(const MethodDefinition& measured, const AutoMethod& asked, const s
   // The problems are elastic: what flows keeps what has been tried on it.
   const bool plain = measured.transfer.kind == TransferKind::flip && measured.transfer.flip == 1.0;
   if (flows && !asked.keep_transfer && !plain) return false;
+  // They keep the velocity of a ring's centre of mass, which is not where the ring is: doc/axisymmetric.md.
+  const bool filters = measured.transfer.kind == TransferKind::xpic || measured.transfer.kind == TransferKind::fmpm;
+  if (filters && axisymmetric(definition.geometry) && !asked.keep_transfer) return false;
   if (asked.keep_update && measured.update != said.update) return false;
   if (asked.keep_transfer && study::transfer_label(measured.transfer) != transfer) return false;
   return !method_fault(filled(said, measured, asked), definition.geometry);

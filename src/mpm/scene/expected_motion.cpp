@@ -108,7 +108,9 @@ void find_elastic_motion(const Scene& scene, ExpectedMotion& expected) {
     const double strain = at.speed / wave + at.weight / (wave * wave);
     const double turn = end > 0.0 ? at.rate * end : kQuarterTurn;
     // A billionth of the rate at which the fastest point would go round is round-off.
-    if (at.rate * body_size(body, scene) > 1e-9 * at.speed && turn > expected.turn) {
+    if (axisymmetric(scene.definition.geometry)) {
+      expected.turn_why = "nothing turns as a whole about an axis";
+    } else if (at.rate * body_size(body, scene) > 1e-9 * at.speed && turn > expected.turn) {
       expected.turn = turn;
       expected.turn_why = fmt::format("{} starts to turn at {:.3g} rad/s", body.name, at.rate);
     }

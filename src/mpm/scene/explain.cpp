@@ -7,6 +7,7 @@
 
 #include "mpm/material/material_point.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/shape/ring.hpp"
 #include "mpm/simulation/method_text.hpp"
 
 namespace mpm {
@@ -34,8 +35,15 @@ void add_bodies(const Scene& scene, const SimulationDefinition& built, std::stri
       if (material.name != body.material) continue;
       const auto count = static_cast<double>(body.positions.size());
       particles += count;
+      double lengths = count;  // of rings, all the way round
+      if (axisymmetric(built.geometry)) {
+        const double half = 0.5 * particle_spacing(scene, 0);
+        const bool whole = built.method.axis.domains == AxisDomains::whole;
+        lengths = 0.0;
+        for (const Vec3& place : body.positions) lengths += ring_length(place.x(), half, whole);
+      }
       text += fmt::format("body {}: {:.0f} particles of {} ({}), {:.6g} kg\n", body.name, count, material.name,
-                          law_name(material.law), count * body.particle_volume * material.density);
+                          law_name(material.law), lengths * body.particle_volume * material.density);
     }
   }
   for (const RigidBodyDefinition& rigid : built.rigid_bodies) {

@@ -188,6 +188,15 @@ void read_metrics(const Map& root, Scene& scene) {
         rate->fail(
             fmt::format("from {} s to {} s is no time; put `to` after `from`", metric.rate->from, metric.rate->to));
       }
+      const TimeDefinition& time = scene.definition.time;
+      if (time.end > 0.0 && metric.rate->to > time.end * (1.0 + 1e-9)) {
+        rate->fail(fmt::format("to {:g} s is after the end of the run, {:g} s; end it there or earlier",
+                               metric.rate->to, time.end));
+      }
+      if (metric.rate->to - metric.rate->from < 1e-9 * static_cast<double>(time.sync)) {
+        rate->fail(fmt::format("it is shorter than time.sync, {:g} s, and a rate needs two sync points; make it longer",
+                               1e-9 * static_cast<double>(time.sync)));
+      }
     }
     scene.definition.metrics.push_back(std::move(metric));
   }

@@ -47,7 +47,10 @@ std::unique_ptr<Surface> read_ring(const Value& value, GeometryKind geometry, Ri
   if (!(outer > inner))
     outer_value.fail("the outer radius is not greater than the inner one; write the larger one here");
   const double height = map.at("height").positive(kLength);
-  if (axisymmetric(geometry)) body.inner_radius = inner;
+  if (axisymmetric(geometry)) {
+    body.inner_radius = inner;
+    body.outer_radius = outer;
+  }
   return make_ring(inner, outer, height, axisymmetric(geometry));
 }
 

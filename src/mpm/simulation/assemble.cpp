@@ -13,6 +13,7 @@
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "state.hpp"
@@ -32,19 +33,17 @@ std::vector<ParticleScalar> zeros(int components, Precision precision, std::size
   return field;
 }
 
-/// The mass of each ring, 2 pi rho A <r> of its section (Nairn & Guilkey (2015), after eq. (14), all the way round):
-/// of a box that reaches across the axis, of the part of it that counts there. `per_area`: rho A [kg/m].
+/// Masses of rings, and where their functions end. `per_area`: density times the area of a section [kg/m].
 void make_rings(const SimulationDefinition& definition, double per_area, const GridLayout& layout, ParticleSet& set) {
-  constexpr double kTurn = 2.0 * 3.14159265358979323846;
+  constexpr double kOffAxis = 1e-6;  // of a cell; on the axis itself v_r / r is no number
   const AxisRules& rules = definition.method.axis;
   set.whole_domains = rules.domains == AxisDomains::whole;
   set.planar_functions = rules.functions == AxisFunctions::planar;
+  if (definition.grid.min.x() == 0.0) set.lowest[0] = kOffAxis;
   set.masses = zeros(1, set.precision, set.id.size());
-  const double half = set.half[0] / layout.inverse_cell(0);
+  const double half = set.half[0] * layout.cell(0);
   for (int p = 0; p < set.size(); ++p) {
-    const double r = set.x[0][p], inner = set.whole_domains ? r - half : std::max(0.0, r - half);
-    const double weight = 0.5 * ((r + half) * (r + half) - inner * inner) / (2.0 * half);
-    set.masses[0].set(p, kTurn * per_area * weight);
+    set.masses[0].set(p, per_area * ring_length(set.x[0][p], half, set.whole_domains));
   }
 }
 
@@ -70,8 +69,7 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
     set.half[k] = 0.5 / definition.method.particles_per_direction;
     // Pressed against a wall, a particle comes to rest only when its box is half beyond it.
     const int face = 2 * layout.axis(k);
-    const bool open = definition.walls[face].kind == WallKind::none;
-    set.lowest[k] = open ? 0.0 : -set.half[k];
+    set.lowest[k] = definition.walls[face].kind == WallKind::none ? 0.0 : -set.half[k];
     set.highest[k] = layout.last_node(k) + (definition.walls[face + 1].kind == WallKind::none ? 0.0 : set.half[k]);
   }
   set.id.resize(n);
@@ -138,7 +136,10 @@ void project(SimulationDefinition& definition) {
   }
   for (RigidBodyDefinition& body : definition.rigid_bodies) {
     body.pose = projected(body.pose, geometry, body);
-    if (axisymmetric(geometry) && body.inner_radius == 0.0) body.velocity[0] = Function();
+    if (axisymmetric(geometry) && body.inner_radius == 0.0 && !body.velocity[0].is_zero()) {
+      throw DefinitionError(
+          fmt::format("rigid body '{}': it moves along r, off the axis; only a ring has a radial velocity", body.name));
+    }
     for (int axis = 0; axis < 3; ++axis) {
       if (!turns_about(geometry, axis)) body.rotation_rate[axis] = Function();
     }

@@ -36,8 +36,13 @@ ParticleLoadTerm make_term(const ParticleForceDefinition& load, const std::vecto
     term.each = true;
     return term;
   }
-  double mass = 0.0;
-  for (int p = 0; p < set.size(); ++p) mass += term.chosen.empty() || term.chosen[p] != 0 ? set.mass_of(p) : 0.0;
+  double mass = 0.0, count = 0.0;
+  for (int p = 0; p < set.size(); ++p) {
+    if (!term.chosen.empty() && term.chosen[p] == 0) continue;
+    count += 1.0;
+    mass += set.mass_of(p);
+  }
+  if (set.masses.empty()) mass = set.mass * count;
   term.factor = 1.0 / mass;
   return term;
 }

@@ -56,9 +56,11 @@ std::string method_text(const MethodDefinition& method) {
                   update_name(method.update), transfer_text(method.transfer), precision_name(method.precision),
                   method.gradient_terms, method.gradient_terms == 1 ? "" : "s");
   const AxisRules &axis = method.axis, usual;
-  if (axis.domains != usual.domains) join(text, "domains across the axis");
-  if (axis.functions != usual.functions) {
-    join(text, fmt::format("planar functions, {} beyond the axis", kAxisGhostNames[static_cast<int>(axis.ghosts)]));
+  const bool whole = axis.domains != usual.domains, planar = axis.functions != usual.functions;
+  if (whole) join(text, "domains across the axis");
+  if (planar) join(text, "planar functions");
+  if (whole || planar) {
+    join(text, fmt::format("nodes beyond the axis {}", kAxisGhostNames[static_cast<int>(axis.ghosts)]));
   }
   if (axis.motion != usual.motion) join(text, "moved by the mean velocity in a domain");
   if (method.average_dilatation) join(text, "averaged dilatation");

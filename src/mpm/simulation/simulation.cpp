@@ -39,6 +39,12 @@ void Simulation::State::fail(const std::string& what, ParticleRef particle, doub
 
 void Simulation::State::sort(double now) {
   if (const auto outside = sorter->sort(sets, *grid)) {
+    const double r = sets[outside->set].x[0][outside->index];
+    if (axisymmetric(definition.geometry) && definition.grid.min.x() == 0.0 && r < grid->layout.cell(0) &&
+        r > -grid->layout.cell(0)) {
+      fail("a particle has come to the axis", *outside, now,
+           "use method.axis.motion: point, shape cpdi or transfer apic, or lower time.cfl if the run blew up");
+    }
     fail(
         "a particle is outside the domain or not finite", *outside, now,
         "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', or lower time.cfl if the run blew up");
@@ -107,8 +113,8 @@ void Simulation::advance() {
     throw PhysicsError(fmt::format("motion of a rigid body at t = {:.6g} s: {}", s.time * kNanosecond, error.what()));
   }
   s.failed = false;
-  sample_metrics();
   s.wall += std::chrono::steady_clock::now() - started;
+  sample_metrics();
 }
 
 int Simulation::find_body(const std::string& name) const {

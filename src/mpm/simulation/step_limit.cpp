@@ -27,7 +27,7 @@ double largest_speed(const RigidBody& body, double time) {
   }
   const Twist twist = body.twist_at(time);
   const double inner = body.definition().inner_radius, opened = body.pose().position.x();
-  const double spread = inner > 0.0 ? (bounds.max.x() + opened) / (inner + opened) : 1.0;
+  const double spread = inner > 0.0 ? 0.5 * (inner + bounds.max.x() + 2.0 * opened) / (inner + opened) : 1.0;
   return spread * twist.linear.norm() + twist.angular.norm() * corner.norm();
 }
 

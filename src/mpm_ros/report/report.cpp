@@ -111,7 +111,8 @@ class Reader {
     if (run.info) run.scene = scene_facts(*run.info);
     run.particle_fields = bag.particle_fields();
 
-    RunChecks checks(run.info ? run.info->sync_period : 0.0, run.scene.precision, bag.missing());
+    RunChecks checks(run.info ? run.info->sync_period : 0.0, run.scene.precision, bag.missing(),
+                     run.scene.axisymmetric);
     std::vector<RunVisitor*> visitors = {&run.statistics, &checks};
     std::optional<MomentumCheck> momentum;
     if (options_.check) visitors.push_back(&momentum.emplace(run.info));

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "mpm/math/error.hpp"
+#include "mpm/shape/ring.hpp"
 #include "mpm_ros/report/report_cloud.hpp"
 
 namespace mpm_ros {
 namespace {
 
 constexpr double kHalfUnit = 1.0 / (1 << 24);  // a velocity is rounded to a float32: relative error at most 2^-24
-constexpr double kTurn = 2.0 * 3.14159265358979323846;
 const char* const kVelocities[] = {"vx", "vy", "vz"};
 
 }  // namespace
@@ -40,7 +40,7 @@ void MomentumCheck::contact_forces(std::int64_t time, const ContactForces& messa
   contact_time_ = time;
   for (const mpm::ContactReport& report : contact_reports_of(message)) {
     // In an axisymmetric scene what is exchanged outwards cancels in the force, but not in the sum of m v_r.
-    const mpm::Vec3 outwards(kTurn * report.per_radian.x(), 0.0, 0.0);
+    const mpm::Vec3 outwards(mpm::kTurn * report.per_radian.x(), 0.0, 0.0);
     on_bodies_ += (report.mean.force + outwards) * report.interval;
   }
   compare();

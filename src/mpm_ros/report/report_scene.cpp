@@ -7,12 +7,11 @@
 
 #include "mpm/math/lanes.hpp"
 #include "mpm/scene/scene.hpp"
+#include "mpm/shape/ring.hpp"
 #include "mpm/simulation/method_text.hpp"
 
 namespace mpm_ros {
 namespace {
-
-constexpr double kTurn = 2.0 * 3.14159265358979323846;
 
 /// The scene; without its rigid bodies where these cannot be read, since their meshes may lie on another machine.
 mpm::Scene scene_of(const RunInfo& info) {
@@ -30,13 +29,6 @@ std::string text_of(const mpm::SimulationDefinition& definition) {
   return fmt::format("{}, {}, cells of {:g} m, {} particles a cell", mpm::spoken_name(geometry),
                      mpm::method_text(definition.method), definition.grid.cell.x(),
                      mpm::whole_power(definition.method.particles_per_direction, mpm::dimensions(geometry)));
-}
-
-/// Mean radius of a particle's section, weighted by area: its volume all the way round is 2 pi of it times its area. A
-/// section that reaches across the axis ends there, unless the scene takes whole ones. `half`: of its width [m].
-double mean_radius(double r, double half, bool whole) {
-  const double inner = whole ? r - half : std::max(0.0, r - half), outer = r + half;
-  return (outer * outer - inner * inner) / (4.0 * half);
 }
 
 }  // namespace
@@ -75,7 +67,7 @@ std::vector<ParticleMass> particle_masses(const RunInfo& info) {
         continue;
       }
       for (const mpm::Vec3& place : body.positions)
-        masses.push_back({1, kTurn * mass * mean_radius(place.x(), half, whole)});
+        masses.push_back({1, mass * mpm::ring_length(place.x(), half, whole)});
     }
   }
   return masses;

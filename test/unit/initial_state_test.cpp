@@ -122,6 +122,19 @@ TEST(InitialState, PlaneStressHasNoStressAlongY) {
             std::string::npos);
 }
 
+// About an axis all three normal stresses are free: F_yy, along the hoop, is found with the others.
+TEST(InitialState, HoopStressIsFreeAboutAnAxis) {
+  const double k = kElasticity.bulk(), g = kElasticity.shear();
+  const Symmetric3<double> asked{-3e4, -1e4, -5e4, 0.0, 1e4, 0.0};
+  const InitialState state = under(NeoHookeanDefinition{kElasticity}, asked, GeometryKind::axisymmetric);
+  EXPECT_LT((neo_hookean(full(state.f), k, g) - full(asked)).norm(), 1e-8 * full(asked).norm());
+  EXPECT_LT((cauchy(state) - full(asked)).norm(), 1e-8 * full(asked).norm());
+  // Under pressure alone a ring is as short all round: F_yy = J^(1/3).
+  const InitialState pressed =
+      under(J2PlasticityDefinition{kElasticity, 1e6}, {-2e4, -2e4, -2e4, 0, 0, 0}, GeometryKind::axisymmetric);
+  EXPECT_NEAR(pressed.f.yy, std::cbrt(pressed.j()), 1e-12);
+}
+
 // Uniaxial strain: F = diag(l, 1, 1), with stress of eq. (64) for neo-Hookean and nu / (1 - nu) across for small
 // strain.
 TEST(InitialState, ALineHasNoStrainAcrossIt) {

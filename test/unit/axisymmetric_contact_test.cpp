@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mpm/contact/rigid_contact.hpp"
+#include "mpm/shape/ring.hpp"
 
 namespace mpm {
 namespace {

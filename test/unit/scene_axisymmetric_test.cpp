@@ -103,13 +103,13 @@ TEST(SceneAxisymmetric, TheGridHasNodesOnTheAxis) {
   const std::string outer = "{box: {min: [0.5, 0.5], max: [1, 1]}}";
   EXPECT_EQ(error_of(with_grid("{cell: 0.1, min: [0, 0], max: [2, 2]}", outer)), "no error");
   EXPECT_EQ(error_of(with_grid("{cell: 0.1, min: [0.2, 0], max: [2, 2]}", outer)), "no error");
-  expect_refused(
-      with_grid("{cell: 0.1, min: [0.05, 0], max: [2.05, 2]}", outer),
-      "grid: min: the grid begins at r = 0.05 m, 0.5 cells from the axis, and has no nodes on it: write r = 0");
+  expect_refused(with_grid("{cell: 0.1, min: [0.05, 0], max: [2.05, 2]}", outer),
+                 "bad.yaml:2: grid: min: the grid begins at r = 0.05 m, 0.5 cells from the axis, and has no nodes on "
+                 "it: write r = 0");
   expect_refused(with_grid("{cell: 0.1, min: [0.1, 0], max: [2, 2]}", outer),
-                 "grid: min: the grid begins at r = 0.1 m, 1 cells from the axis");
+                 "bad.yaml:2: grid: min: the grid begins at r = 0.1 m, 1 cells from the axis");
   expect_refused(with_grid("{cell: 0.1, min: [-0.1, 0], max: [2, 2]}", outer),
-                 "grid: min: r = -0.1 m is beyond the axis; an axisymmetric grid begins at r = 0");
+                 "bad.yaml:2: grid: min: r = -0.1 m is beyond the axis; an axisymmetric grid begins at r = 0");
 }
 
 TEST(SceneAxisymmetric, MaterialLiesAtPositiveRadii) {
@@ -182,7 +182,7 @@ TEST(SceneAxisymmetric, TheMethodSaysWhatIsUnusual) {
   method.axis = {AxisDomains::whole, AxisFunctions::planar, AxisGhosts::mirror, AxisMotion::mean};
   const std::string text = method_text(method);
   EXPECT_NE(text.find("domains across the axis"), std::string::npos) << text;
-  EXPECT_NE(text.find("planar functions, mirror beyond the axis"), std::string::npos) << text;
+  EXPECT_NE(text.find("planar functions, nodes beyond the axis mirror"), std::string::npos) << text;
   EXPECT_NE(text.find("moved by the mean velocity in a domain"), std::string::npos) << text;
 }
 

@@ -41,8 +41,11 @@ class KernelComparison {
                    const ContinuumSettings& settings, const AxisRules& axis)
       : name_(std::move(name)), scene_(shape, specimen, places, isa, settings, axis) {}
 
-  // Boxes and domains of half their size at the start: weights change twice as fast.
-  double tolerance() const { return follows_deformation(scene_.shape) ? 2.0 * kTolerance<T> : kTolerance<T>; }
+  // Boxes and domains of half their size at the start: weights change twice as fast. Those of rings have a part over r
+  // beside the plane's, of the same size a tenth of a cell from the axis: twice the rounding.
+  double tolerance() const {
+    return (follows_deformation(scene_.shape) ? 2.0 : 1.0) * (Geometry::kHoop ? 2.0 : 1.0) * kTolerance<T>;
+  }
   bool average() const { return scene_.settings.average_dilatation; }
   bool affine() const { return scene_.settings.transfer.kind == TransferKind::apic; }
 

@@ -106,8 +106,10 @@ TEST(AxisymmetricConservation, AuditClosesWithOtherRulesAtTheAxis) {
           Simulation simulation(d, {1});
           for (int i = 0; i < 4; ++i) simulation.advance();
           // A domain across the axis has negative weights beyond it; nodes of negative mass take no part, and what they
-          // were given is lost: found at 1e-7 to 1e-6 here.
-          const bool leaves_out = domains == AxisDomains::whole && functions == AxisFunctions::weighted;
+          // were given is lost: found at 1e-7 to 1e-6 here. A corner of qCPDI on the axis has the weight 0, give or
+          // take round-off, but a gradient: a node that it alone reaches may be left out too (2e-8 here).
+          const bool leaves_out =
+              functions == AxisFunctions::weighted && (domains == AxisDomains::whole || shape == ShapeKind::qcpdi);
           EXPECT_LT(simulation.state().audit.residual, leaves_out ? 1e-5 : 1e-12)
               << shape_name(shape) << ", " << kAxisDomainNames[static_cast<int>(domains)] << ", "
               << kAxisFunctionNames[static_cast<int>(functions)] << ", " << kAxisGhostNames[static_cast<int>(ghosts)];
@@ -204,7 +206,7 @@ TEST(AxisymmetricConservation, MeanMotionTakesTheFirstRingAcross) {
     least_radius(AxisMotion::mean);
     ADD_FAILURE() << "no ring has crossed";
   } catch (const PhysicsError& error) {
-    EXPECT_NE(std::string(error.what()).find("outside the domain"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("has come to the axis"), std::string::npos) << error.what();
   }
   EXPECT_GT(least_radius(AxisMotion::point), 0.0);
 }

@@ -17,8 +17,8 @@ constexpr double kMostForeseen = 0.5;  ///< the limit is not expected to fall be
 
 constexpr double kWorthTelling = 0.99;  ///< a trend below this is told with the limit
 
-// Of the body's origin plus what its rotation adds at its farthest corner; endless axes do not count. The outer face of
-// a ring moves faster than the inner one.
+// Of the body's origin plus what its rotation adds at its farthest corner; endless axes do not count. Of a ring the
+// middle of the section is fastest, as the last that goes in proportion to the inner face (RigidBody::velocity_at).
 double largest_speed(const RigidBody& body, double time) {
   const Box bounds = body.surface().bounds();
   Vec3 corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs());

@@ -8,16 +8,11 @@
 #include <string>
 
 #include "mpm/math/function.hpp"
+#include "mpm/rigid/contact_law.hpp"
 #include "mpm/rigid/motion.hpp"
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm {
-
-/// Coulomb friction between a body (or wall) and the material. Both let go when the material moves away.
-struct FrictionLaw {
-  double coefficient = 0.0;  ///< >= 0
-  bool stick = false;        ///< no sliding while pressed together
-};
 
 /// What a scene says of a rigid body.
 struct RigidBodyDefinition {

@@ -1,0 +1,56 @@
+// How two surfaces that meet act on each other, as a scene says it: Coulomb's law, sticking, adhesion, or an imperfect
+// interface; and what it comes to at one time.
+//
+// Source: Nairn, GIMP notes (3.12)-(3.20) and method reference 8.3 for friction, 8.4 for the interface; manual, Friction.
+#pragma once
+
+#include <optional>
+
+#include "mpm/math/function.hpp"
+
+namespace mpm {
+
+/// A contact law at one time. Surfaces let go when they part, unless they adhere.
+struct FrictionLaw {
+  double coefficient = 0.0;  ///< of sliding, >= 0
+  bool stick = false;        ///< no sliding while pressed together
+  /// What starts sliding from rest, >= coefficient; negative: the same as coefficient.
+  double static_coefficient = -1.0;
+  double adhesion = 0.0;  ///< tension that the surfaces bear before they part, and shear beside friction [Pa]
+
+  double at_rest() const { return static_coefficient < 0.0 ? coefficient : static_coefficient; }
+};
+
+/// Stiffness of an imperfect interface: traction by displacement discontinuity [Pa/m]. Negative: perfect that way.
+struct InterfaceLaw {
+  double opened = 0.0;      ///< along the normal, surfaces apart (Dnt)
+  double closed = -1.0;     ///< along the normal, surfaces pressed together (Dnc)
+  double tangential = 0.0;  ///< (Dt)
+};
+
+/// The law of a pair of bodies. Coefficients and adhesion may depend on t.
+struct ContactLaw {
+  enum class Kind {
+    coulomb,
+    stick,
+    interface,
+    one_field  ///< the two share one velocity, as if they were one body
+  };
+  Kind kind = Kind::coulomb;
+  Function friction;                        ///< of sliding
+  std::optional<Function> static_friction;  ///< that starts sliding; without it the same
+  Function adhesion;                        ///< [Pa]
+  InterfaceLaw interface;
+
+  /// @throws FunctionError when a function is not finite at `time` [s].
+  FrictionLaw at(double time) const {
+    FrictionLaw law;
+    law.coefficient = friction(time);
+    law.stick = kind == Kind::stick || kind == Kind::one_field;
+    if (static_friction) law.static_coefficient = (*static_friction)(time);
+    law.adhesion = adhesion(time);
+    return law;
+  }
+};
+
+}  // namespace mpm

@@ -16,6 +16,7 @@
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
+#include "rigid_contacts.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -242,6 +243,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
                                   : std::clamp(static_cast<int>(count / kParticlesPerThread), 1, omp_get_max_threads());
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
   const int dim = dimensions(definition.geometry);
+  if (getenv("MPM_POINTS")) s.definition.contact.method = ContactMethod::points;
   project(s.definition);
   s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));
   const GridLayout& layout = s.grid->layout;
@@ -320,8 +322,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     }
   }
   if (definition.contact.method == ContactMethod::points && !s.bodies.empty()) {
-    auto contact = std::make_unique<PointContact>(
-        s.bodies, s.sets, PointContactSettings{definition.geometry, shape, definition.across(), s.threads});
+    const PointContactSettings settings{definition.geometry, shape, definition.across(), s.threads};
+    auto contact = std::make_unique<PointContact>(s.bodies, s.sets, rigid_contact_laws(definition, s.sets), settings);
     for (std::size_t b = 0; b < s.bodies.size(); ++b) s.contacts.push_back(&contact->ledger(static_cast<int>(b)));
     s.stages.push_back(std::move(contact));
   }

@@ -31,6 +31,9 @@ struct NodePair {
   double bond = 0.0;                        ///< adhesion that is still whole: strength times area times step [N s]
   Vec3 opening = Vec3::Zero();              ///< of an interface, u_b - u_a [m]
 
+  /// Where the law has no say any more (strain, filters): the directions that are held, whatever the impulse.
+  PairHold keep = PairHold::none;
+
   // What came of it.
   PairHold hold = PairHold::none;
   Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();  ///< impulses [N s]
@@ -39,10 +42,5 @@ struct NodePair {
 
 /// The laws act on the velocities of the node's materials. Returns the number of sweeps.
 int solve_contact(std::vector<NodeMaterial>& materials, std::vector<NodePair>& pairs, double dt);
-
-/// Takes the relative velocities that `hold`s of the pairs do not allow out of `velocities`, one a material; momentum
-/// is kept, impulses are not changed. For velocities that the law has no say in any more.
-void hold_together(const std::vector<NodeMaterial>& materials, const std::vector<NodePair>& pairs,
-                   std::vector<Vec3>& velocities);
 
 }  // namespace mpm

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "mpm/boundary/wall.hpp"
+#include "mpm/contact/pair_detection.hpp"
+#include "mpm/contact/pair_normal.hpp"
 #include "mpm/material/definition.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/math/geometry_kind.hpp"
@@ -115,6 +117,20 @@ struct MetricDefinition {
   std::optional<TimeWindow> rate;
 };
 
+/// The law between two deformable bodies of different velocity fields, by name.
+struct PairDefinition {
+  std::string first, second;
+  ContactLaw law;
+};
+
+/// Contact between deformable bodies (contact/material_contact.hpp). Bodies of different fields without a law pass
+/// through each other.
+struct ContactDefinition {
+  NormalRule normals;
+  DetectionRule detection;
+  std::vector<PairDefinition> pairs;
+};
+
 struct SimulationDefinition {
   std::string name;
   GeometryKind geometry = GeometryKind::solid;
@@ -127,6 +143,7 @@ struct SimulationDefinition {
   std::vector<MaterialDefinition> materials;
   std::vector<DeformableBody> bodies;
   std::vector<RigidBodyDefinition> rigid_bodies;
+  ContactDefinition contact;
   std::array<WallDefinition, 6> walls;
   std::vector<BodyForceDefinition> body_forces;
   std::vector<ParticleForceDefinition> particle_forces;

@@ -9,6 +9,7 @@ namespace {
 constexpr double kSettled = 1e-15;
 
 PairImpulse law_of(const NodePair& pair, const Vec3& stick, const Vec3& normal, double mass, double dt) {
+  if (pair.keep != PairHold::none) return {held_part(stick, normal, pair.keep), pair.keep};
   if (pair.interface != nullptr) {
     return interface_impulse(*pair.interface, {pair.opening, pair.area, mass}, stick, normal, dt);
   }
@@ -44,7 +45,7 @@ double act(std::vector<NodeMaterial>& materials, NodePair& pair, double dt) {
 
 void find_friction(const std::vector<Vec3>& before, const std::vector<NodeMaterial>& materials, NodePair& pair) {
   pair.friction_energy = 0.0;
-  if (pair.hold != PairHold::normal || pair.interface != nullptr) return;
+  if (pair.hold != PairHold::normal || pair.interface != nullptr || pair.keep != PairHold::none) return;
   const Vec3 tangential = pair.on_a - pair.on_a.dot(pair.normals.of_a) * pair.normals.of_a;
   const Vec3 sliding = before[pair.b] - before[pair.a] + materials[pair.b].velocity - materials[pair.a].velocity;
   pair.friction_energy = 0.5 * tangential.dot(sliding);
@@ -72,28 +73,6 @@ int solve_contact(std::vector<NodeMaterial>& materials, std::vector<NodePair>& p
   }
   for (NodePair& pair : pairs) find_friction(before, materials, pair);
   return sweeps;
-}
-
-void hold_together(const std::vector<NodeMaterial>& materials, const std::vector<NodePair>& pairs,
-                   std::vector<Vec3>& velocities) {
-  double scale = 0.0;
-  for (const Vec3& velocity : velocities) scale = std::max(scale, (velocity - velocities.front()).norm());
-  const auto held = [](const NodePair& pair) { return pair.hold != PairHold::none; };
-  const bool once = std::count_if(pairs.begin(), pairs.end(), held) < 2;
-  double change = 1.0;
-  for (int sweeps = 0; change > kSettled * scale && sweeps < kMostSweeps; ++sweeps) {
-    change = 0.0;
-    for (const NodePair& pair : pairs) {
-      if (!held(pair)) continue;
-      const NodeMaterial &a = materials[pair.a], &b = materials[pair.b];
-      const Vec3 excess = held_part(velocities[pair.b] - velocities[pair.a], pair.normals.of_a, pair.hold);
-      const double mass = reduced_mass(a, b);
-      if (!a.rigid) velocities[pair.a] += excess * (mass / a.mass);
-      if (!b.rigid) velocities[pair.b] -= excess * (mass / b.mass);
-      change = std::max(change, excess.norm());
-    }
-    if (once) break;
-  }
 }
 
 }  // namespace mpm

@@ -149,23 +149,6 @@ void read_motion(const Value& value, GeometryKind geometry, RigidBodyDefinition&
   if (const auto rate = map.find("rotation_rate")) body.rotation_rate = read_rotation_rate(*rate, geometry);
 }
 
-FrictionLaw read_contact(const Map& root, Scene& scene, bool needed) {
-  const auto section = root.find("contact");
-  if (!section) {
-    if (needed) scene.choices.emplace_back("contact.friction", "0: smooth tools, for the scene names none");
-    return {};
-  }
-  const std::string deformable = "deformable bodies share one velocity field and stick to each other";
-  const Map map(*section, {"friction"},
-                {{"pairs", deformable},
-                 {"interface", deformable},
-                 {"detection", "contact is found by distance and approach"},
-                 {"normals", "normals come from the tools' surfaces"},
-                 {"position", "contact is found by distance and approach"}});
-  const auto friction = map.find("friction");
-  return friction ? read_friction(*friction) : FrictionLaw{};
-}
-
 }  // namespace
 
 void read_rigid_bodies(const Map& root, Scene& scene) {

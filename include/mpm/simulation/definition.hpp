@@ -102,6 +102,15 @@ struct TractionDefinition {
   std::array<Function, 3> value;
 };
 
+/// Where contact with rigid bodies acts.
+enum class ContactMethod {
+  points,  ///< at points of the material's surface (contact/point_contact.hpp)
+  nodes    ///< at the grid's nodes in the body (contact/rigid_contact.hpp)
+};
+struct ContactDefinition {
+  ContactMethod method = ContactMethod::nodes;
+};
+
 enum class Statistic { mean, std_dev, min, max };
 struct TimeWindow {
   double from = 0.0, to = 0.0;  ///< [s]

@@ -107,8 +107,17 @@ enum class ContactMethod {
   points,  ///< at points of the material's surface (contact/point_contact.hpp)
   nodes    ///< at the grid's nodes in the body (contact/rigid_contact.hpp)
 };
+/// The law between two deformable bodies of different velocity fields, or a deformable body and a rigid one, by name.
+struct PairDefinition {
+  std::string first, second;  ///< a rigid body is the second
+  ContactLaw law;
+};
 struct ContactDefinition {
   ContactMethod method = ContactMethod::nodes;
+  NormalRule normals;       ///< between deformable bodies (contact/material_contact.hpp); and of rigid particles
+  DetectionRule detection;  ///< the same
+  /// Deformable bodies of different fields without a law pass through each other; a rigid body has a law with all.
+  std::vector<PairDefinition> pairs;
 };
 
 enum class Statistic { mean, std_dev, min, max };
@@ -124,20 +133,6 @@ struct MetricDefinition {
   /// The statistic's rate of change in this window, by the straight line with the least squares through its values at
   /// sync points [1/s]; without one the statistic at the end.
   std::optional<TimeWindow> rate;
-};
-
-/// The law between two deformable bodies of different velocity fields, by name.
-struct PairDefinition {
-  std::string first, second;
-  ContactLaw law;
-};
-
-/// Contact between deformable bodies (contact/material_contact.hpp). Bodies of different fields without a law pass
-/// through each other.
-struct ContactDefinition {
-  NormalRule normals;
-  DetectionRule detection;
-  std::vector<PairDefinition> pairs;
 };
 
 struct SimulationDefinition {

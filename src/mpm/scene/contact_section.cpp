@@ -110,6 +110,9 @@ NormalMethod read_normals(const Value& value) {
 }
 
 void read_rules(const Map& map, ContactDefinition& contact) {
+  if (const auto method = map.find("method")) {
+    contact.method = static_cast<ContactMethod>(method->choice({"points", "nodes"}));
+  }
   if (const auto normals = map.find("normals")) contact.normals.method = read_normals(*normals);
   if (const auto bias = map.find("rigid_bias")) contact.normals.rigid_bias = bias->non_negative(kPlain);
   if (const auto volume = map.find("minimum_volume")) {
@@ -127,27 +130,30 @@ void read_rules(const Map& map, ContactDefinition& contact) {
   }
 }
 
-/// Two different deformable bodies, in the order of the scene.
+/// Two different bodies, one of them deformable: by their places among the deformable bodies and, after these, the rigid
+/// ones.
 std::pair<int, int> read_between(const Value& value, const Scene& scene) {
   const std::vector<Value> names = value.elements();
   if (names.size() != 2) value.fail("write the names of two bodies, such as [soil, stone]");
   std::vector<std::string> known;
   for (const BodyDefinition& body : scene.bodies) known.push_back(body.name);
+  for (const RigidBodyDefinition& body : scene.definition.rigid_bodies) known.push_back(body.name);
   std::array<int, 2> found{};
   for (int i = 0; i < 2; ++i) {
     const std::string name = names[i].text();
     const auto it = std::find(known.begin(), known.end(), name);
-    if (it == known.end()) {
-      names[i].fail(fmt::format("no deformable body '{}'; {}. Of a rigid body write rigid_bodies.<name>.friction", name,
-                                suggest(name, known)));
-    }
+    if (it == known.end()) names[i].fail(fmt::format("no body '{}'; {}", name, suggest(name, known)));
     found[i] = static_cast<int>(it - known.begin());
   }
   if (found[0] == found[1]) names[1].fail("a body has no law with itself; name two");
-  return {std::min(found[0], found[1]), std::max(found[0], found[1])};
+  const auto [first, second] = std::minmax(found[0], found[1]);
+  if (first >= static_cast<int>(scene.bodies.size())) {
+    value.fail("rigid bodies move as they are told and pass through each other; name a deformable body");
+  }
+  return {first, second};
 }
 
-/// Laws that the section says of pairs, by the bodies' places in the scene.
+/// Laws that the section says of pairs, by the bodies' places as read_between() counts them.
 struct Laws {
   struct Pair {
     int first, second;
@@ -174,7 +180,13 @@ Laws read_pairs(const Value& list, const Scene& scene) {
     if (const Laws::Pair* other = laws.find(first, second)) {
       between.fail(fmt::format("a second law for these two, the first is at {}; leave one out", other->where));
     }
-    laws.pairs.push_back({first, second, read_law(map, true), between.where()});
+    const ContactLaw law = read_law(map, true);
+    const bool tool = second >= static_cast<int>(scene.bodies.size());
+    if (tool && (law.kind == Kind::interface || law.kind == Kind::one_field)) {
+      map.at("law").fail(fmt::format("{} is for two deformable bodies; a tool's is coulomb or stick",
+                                     kLawNames[static_cast<int>(law.kind)]));
+    }
+    laws.pairs.push_back({first, second, law, between.where()});
   }
   return laws;
 }
@@ -184,7 +196,9 @@ Laws read_pairs(const Value& list, const Scene& scene) {
 void give_fields(const Laws& laws, const std::optional<ContactLaw>& all, Scene& scene) {
   const int count = static_cast<int>(scene.bodies.size());
   std::vector<bool> own(count, all.has_value());
-  for (const Laws::Pair& pair : laws.pairs) own[pair.first] = own[pair.second] = true;
+  for (const Laws::Pair& pair : laws.pairs) {
+    if (pair.second < count) own[pair.first] = own[pair.second] = true;
+  }
   int next = std::all_of(own.begin(), own.end(), [](bool one) { return one; }) ? 0 : 1;
   for (int b = 0; b < count; ++b) scene.bodies[b].field = own[b] ? next++ : 0;
   ContactLaw one_field;
@@ -205,6 +219,14 @@ void give_fields(const Laws& laws, const std::optional<ContactLaw>& all, Scene& 
   }
 }
 
+Map contact_map(const Value& section) {
+  std::vector<std::string> keys = kLawKeys;
+  for (const char* key : {"method", "normals", "rigid_bias", "minimum_volume", "detection", "position", "pairs"}) {
+    keys.emplace_back(key);
+  }
+  return Map(section, keys, {{"interface", "write law: interface, with opened, closed and tangential"}});
+}
+
 }  // namespace
 
 FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools) {
@@ -213,33 +235,41 @@ FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools) {
     if (with_tools) scene.choices.emplace_back("contact.friction", "0: smooth tools, for the scene names none");
     return {};
   }
-  std::vector<std::string> keys = kLawKeys;
-  for (const char* key : {"normals", "rigid_bias", "minimum_volume", "detection", "position", "pairs"}) {
-    keys.emplace_back(key);
-  }
-  const Map map(*section, keys, {{"interface", "write law: interface, with opened, closed and tangential"}});
+  const Map map = contact_map(*section);
   const ContactLaw law = read_law(map, false);
   read_rules(map, scene.definition.contact);
-  std::optional<ContactLaw> all;
-  if (const auto named = map.find("law")) {
-    all = law;
-    if (with_tools && (law.kind == Kind::interface || law.kind == Kind::one_field)) {
-      named->fail(fmt::format("{} is not for tools, and this is the law of all bodies; write it in pairs",
-                              kLawNames[static_cast<int>(law.kind)]));
-    }
-  }
-  const auto pairs = map.find("pairs");
-  const Laws laws = pairs ? read_pairs(*pairs, scene) : Laws{};
-  if (all || !laws.pairs.empty()) give_fields(laws, all, scene);
+  if (!with_tools) return {};
   const auto refuse_function = [&](const char* key, const Function& function) {
-    if (with_tools && !function.is_constant()) {
-      map.at(key).fail("a tool's is a number; functions of time are for pairs of deformable bodies");
-    }
+    if (!function.is_constant()) map.at(key).fail("of all tools it is a number; write functions of time in pairs");
   };
   refuse_function("friction", law.friction);
   refuse_function("adhesion", law.adhesion);
   if (law.static_friction) refuse_function("static_friction", *law.static_friction);
-  return with_tools ? law.at(0.0) : FrictionLaw{};
+  return law.at(0.0);
+}
+
+void read_contact_pairs(const Map& root, Scene& scene) {
+  const auto section = root.find("contact");
+  if (!section) return;
+  const Map map = contact_map(*section);
+  std::optional<ContactLaw> all;
+  if (const auto named = map.find("law")) {
+    all = read_law(map, true);
+    const bool tools = !scene.definition.rigid_bodies.empty();
+    if (tools && (all->kind == Kind::interface || all->kind == Kind::one_field)) {
+      named->fail(fmt::format("{} is not for tools, and this is the law of all bodies; write it in pairs",
+                              kLawNames[static_cast<int>(all->kind)]));
+    }
+  }
+  const auto list = map.find("pairs");
+  const Laws laws = list ? read_pairs(*list, scene) : Laws{};
+  give_fields(laws, all, scene);
+  const int count = static_cast<int>(scene.bodies.size());
+  for (const Laws::Pair& pair : laws.pairs) {
+    if (pair.second < count) continue;
+    scene.definition.contact.pairs.push_back(
+        {scene.bodies[pair.first].name, scene.definition.rigid_bodies[pair.second - count].name, pair.law});
+  }
 }
 
 }  // namespace mpm

@@ -17,8 +17,12 @@ const ParticleSet& set_of(const std::string& name, const PairDefinition& pair, c
   for (const ParticleSet& set : sets) {
     if (set.name == name) return set;
   }
-  throw DefinitionError(
-      fmt::format("contact of '{}' and '{}': no deformable body is called '{}'", pair.first, pair.second, name));
+  throw DefinitionError(fmt::format("contact of '{}' and '{}': no body is called '{}'", pair.first, pair.second, name));
+}
+
+bool is_rigid(const std::string& name, const SimulationDefinition& definition) {
+  const auto& bodies = definition.rigid_bodies;
+  return std::any_of(bodies.begin(), bodies.end(), [&](const RigidBodyDefinition& body) { return body.name == name; });
 }
 
 }  // namespace
@@ -34,6 +38,7 @@ MaterialContactSettings make_contact_settings(const SimulationDefinition& defini
   for (int k = 0; k < layout.dim(); ++k) settings.cell_volume *= layout.cell(k);
   bool displacements = settings.detection.kind == Detection::displacements;
   for (const PairDefinition& pair : definition.contact.pairs) {
+    if (is_rigid(pair.second, definition)) continue;  // simulation/rigid_contacts.cpp
     const ParticleSet &first = set_of(pair.first, pair, sets), &second = set_of(pair.second, pair, sets);
     if (first.field == second.field) {
       throw DefinitionError(fmt::format("contact of '{}' and '{}': both are in velocity field {}; give each its own",

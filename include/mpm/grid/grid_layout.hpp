@@ -51,6 +51,8 @@ class GridLayout {
   std::uint64_t key(const std::array<int, 3>& block) const;
   std::array<int, 3> block(std::uint64_t key) const;
   std::int64_t key_stride(int k) const { return stride_[k]; }
+  /// One more than the largest key.
+  std::uint64_t keys() const { return static_cast<std::uint64_t>(stride_[0]) * static_cast<std::uint64_t>(blocks_[0]); }
 
   /// World position of a node of a block; 0 along axes that the grid does not have.
   Vec3 node_position(const std::array<int, 3>& block, int local) const;

@@ -47,7 +47,7 @@ struct Simulation::State {
 
   std::vector<ParticleSet> sets;
   std::vector<Law> laws;  ///< of each set
-  std::unique_ptr<Grid> grid;
+  Fields fields;
   std::unique_ptr<Sorter> sorter;
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;
@@ -69,6 +69,8 @@ struct Simulation::State {
   bool failed = false;
   std::vector<LineFit> rates;  ///< of each metric; those without a window stay empty
 
+  /// Of every field.
+  const GridLayout& layout() const { return fields.front()->layout; }
   template <class T>
   void add_mechanics();
   /// Of all particles [N s].

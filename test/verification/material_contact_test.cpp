@@ -1,16 +1,16 @@
 // Contact between deformable bodies against exact solutions and identities:
-//   one field: bodies that share one velocity are one body                                          (exact-solutions 15)
-//   bars: two equal elastic bars exchange their velocities, and press with rho c dv / 2 for 2L / c   (exact-solutions 10)
-//   three bars in a row: the last one leaves with the velocity of the first (the same waves)
-//   disks: they touch at 1.585786 s by their geometry; momentum and energy are kept                  (exact-solutions 11)
-//   release: nothing pulls, with any normal
+//   one field: bodies that share one velocity are one body                                          (exact-solutions
+//   15) bars: two equal elastic bars exchange their velocities, and press with rho c dv / 2 for 2L / c (exact-solutions
+//   10) three bars in a row: the last one leaves with the velocity of the first (the same waves) disks: they touch
+//   at 1.585786 s by their geometry; momentum and energy are kept                  (exact-solutions 11) release:
+//   nothing pulls, with any normal
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "pair_scene.hpp"
 #include "page.hpp"
+#include "pair_scene.hpp"
 
 namespace verification {
 namespace {
@@ -21,9 +21,7 @@ std::string stacked(const std::string& geometry, const std::string& method, cons
   const auto point = [&](double x, double z) {
     return line ? fmt::format("{}", z) : solid ? fmt::format("[{}, 0.1, {}]", x, z) : fmt::format("[{}, {}]", x, z);
   };
-  const auto far = [&](double x, double z) {
-    return solid ? fmt::format("[{}, 0.3, {}]", x, z) : point(x, z);
-  };
+  const auto far = [&](double x, double z) { return solid ? fmt::format("[{}, 0.3, {}]", x, z) : point(x, z); };
   const double left = geometry == "axisymmetric" ? 0.0 : 0.1;
   return fmt::format(
       "geometry: {}\ngrid: {{cell: 0.05, min: {}, max: {}}}\nmethod: {{{}}}\ntime: {{end: 0.02, sync: 1 ms}}\n"
@@ -31,9 +29,18 @@ std::string stacked(const std::string& geometry, const std::string& method, cons
       "bodies:\n"
       "  - {{name: low, material: m, shape: {{box: {{min: {}, max: {}}}}}}}\n"
       "  - {{name: high, material: m, shape: {{box: {{min: {}, max: {}}}}}, initial: {{velocity: {}}}}}\n{}",
-      geometry, line ? "0" : solid ? "[0, 0, 0]" : "[0, 0]", line ? "1" : solid ? "[0.6, 0.4, 0.8]" : "[0.6, 0.8]",
+      geometry,
+      line    ? "0"
+      : solid ? "[0, 0, 0]"
+              : "[0, 0]",
+      line    ? "1"
+      : solid ? "[0.6, 0.4, 0.8]"
+              : "[0.6, 0.8]",
       method, point(left, 0.2), far(0.3, 0.4), point(left, 0.4), far(0.3, 0.6),
-      line ? "-2" : solid ? "[1, 0, -2]" : (geometry == "axisymmetric" ? "[0, -2]" : "[1, -2]"), contact);
+      line    ? "-2"
+      : solid ? "[1, 0, -2]"
+              : (geometry == "axisymmetric" ? "[0, -2]" : "[1, -2]"),
+      contact);
 }
 
 double largest_difference(const mpm::Simulation& a, const mpm::Simulation& b, const char* name) {
@@ -88,9 +95,9 @@ std::string bars(const std::vector<Bar>& list, double cell, const std::string& c
       "materials: [{{name: m, density: 100, law: linear_elastic, young: 1 MPa, poisson: 0}}]\nbodies:\n",
       cell, sync);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    text += fmt::format(
-        "  - {{name: b{}, material: m, shape: {{box: {{min: {}, max: {}}}}}, initial: {{velocity: {}}}}}\n", i,
-        list[i].from, list[i].to, list[i].velocity);
+    text +=
+        fmt::format("  - {{name: b{}, material: m, shape: {{box: {{min: {}, max: {}}}}}, initial: {{velocity: {}}}}}\n",
+                    i, list[i].from, list[i].to, list[i].velocity);
   }
   return text + contact;
 }
@@ -101,9 +108,10 @@ TEST(MaterialContact, BarsExchangeTheirVelocities) {
           "Two elastic bars, each L = 0.5 m long and free at both ends, meet with 1 m/s each along a line; "
           "E = 1 MPa, density 100 kg/m³, so the wave speed c is 100 m/s. The gap between them closes at 10 ms. Contact "
           "is smooth, found by positions (0.8 cells).")
-      .exact("The bars press with ρcΔv/2 for the time 2L/c that the waves take to the free ends and back, and part "
-             "having exchanged their velocities, at rest inside.",
-             "waves in bars")
+      .exact(
+          "The bars press with ρcΔv/2 for the time 2L/c that the waves take to the free ends and back, and part "
+          "having exchanged their velocities, at rest inside.",
+          "waves in bars")
       .meaning("Contact begins and ends by the distance of mean places, a fraction of a cell early or late.");
   const double length = 0.5, speed = 1.0, gap = 0.02;
   for (const double cell : {0.02, 0.01}) {
@@ -134,8 +142,8 @@ TEST(MaterialContact, BarsExchangeTheirVelocities) {
 
 // The same waves: the first bar stops, the last one leaves with its velocity.
 TEST(MaterialContact, ThreeBarsPassTheVelocityOn) {
-  mpm::Simulation run = from_text(bars({{1.0, 1.5, 1.0}, {1.52, 2.02, 0.0}, {2.02, 2.52, 0.0}}, 0.02,
-                                       "contact: {law: coulomb, friction: 0.2}\n"));
+  mpm::Simulation run = from_text(
+      bars({{1.0, 1.5, 1.0}, {1.52, 2.02, 0.0}, {2.02, 2.52, 0.0}}, 0.02, "contact: {law: coulomb, friction: 0.2}\n"));
   run_until(run, 0.05);
   // Of the first bar's momentum; what is left over is vibration and late release, under a cell over the bar's length.
   EXPECT_NEAR(mean_of(run, "vx", "b0"), 0.0, 0.04);
@@ -162,8 +170,9 @@ TEST(MaterialContact, DisksTouchWhenTheyTouch) {
   page.problem("The disks of the section above, each in a velocity field of its own, smooth against each other.")
       .exact("They touch at 1.5858 s, by their geometry; momentum and energy are kept.",
              "conservation laws; the example is that of Sulsky, Chen and Schreyer (1994)")
-      .meaning("With a distance between the bodies contact begins within a part of a cell of the touch, where one field "
-               "begins a cell early.");
+      .meaning(
+          "With a distance between the bodies contact begins within a part of a cell of the touch, where one field "
+          "begins a cell early.");
   const double touch = (0.6 * std::sqrt(2.0) - 0.4) / (0.2 * std::sqrt(2.0));
   for (const double cell : {0.05, 0.025}) {
     mpm::Simulation run = from_text(disks("contact: {pairs: [{between: [a, b], friction: 0}]}\n", cell));
@@ -190,9 +199,9 @@ TEST(MaterialContact, DisksTouchWhenTheyTouch) {
 TEST(MaterialContact, NothingPullsOnRelease) {
   for (const char* normals : {"larger_gradient", "larger_volume", "average", "own"}) {
     for (const char* detection : {"approach", "displacements", "positions"}) {
-      mpm::Simulation run = from_text(disks(
-          fmt::format("contact: {{normals: {}, detection: {}, pairs: [{{between: [a, b], friction: 0.3}}]}}\n", normals,
-                      detection)));
+      mpm::Simulation run = from_text(
+          disks(fmt::format("contact: {{normals: {}, detection: {}, pairs: [{{between: [a, b], friction: 0.3}}]}}\n",
+                            normals, detection)));
       double pressed = 0.0, pulled = 0.0;
       while (seconds(run) < 3.5 - 1e-9) {
         run.advance();

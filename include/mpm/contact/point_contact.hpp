@@ -38,8 +38,8 @@ struct PointContactSettings {
 
 class PointContact final : public Stage {
  public:
-  /// Bodies and sets outlive the stage.
-  PointContact(const std::vector<RigidBody>& bodies, const std::vector<ParticleSet>& sets,
+  /// Bodies and sets outlive the stage. `laws`: of each body against each set, the sets of a body together.
+  PointContact(const std::vector<RigidBody>& bodies, const std::vector<ParticleSet>& sets, std::vector<ContactLaw> laws,
                const PointContactSettings& settings);
 
   void momentum_gathered(StepContext& context) override;
@@ -50,21 +50,23 @@ class PointContact final : public Stage {
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
 
+  long sweeps_ = 0;
   ContactLedger& ledger(int body) { return ledgers_[body]; }
 
  private:
   struct Point {
     int body;
-    std::uint32_t particle;  ///< its id
-    Vec3 place, normal;      ///< world [m]; out of the body
-    Vec3 velocity;           ///< of the body there [m/s]
-    double gap;              ///< negative inside [m]
-    double area;             ///< of the surface that the point stands for [m^2]
-    FrictionLaw law;
+    std::uint32_t particle;        ///< its id
+    Vec3 place, normal;            ///< world [m]; out of the body
+    Vec3 velocity;                 ///< of the body there [m/s]
+    double gap;                    ///< negative inside [m]
+    double area;                   ///< of the surface that the point stands for [m^2]
+    int law = 0;                   ///< in laws_now_
     int first = 0, end = 0;        ///< its parts in parts_
     double compliance = 0.0;       ///< velocity at the point by an impulse there [1/kg]
     Vec3 impulse = Vec3::Zero();   ///< on the material [N s]
     Vec3 approach = Vec3::Zero();  ///< relative velocity before the impulses [m/s]
+    bool adheres = false;          ///< it was held in the step before, or touches
     Hold hold = Hold::free;        ///< in the step before, then in this one
   };
   /// What is kept of a point that was held.
@@ -83,7 +85,12 @@ class PointContact final : public Stage {
     double weight;
     double lifted;  ///< weight over mass [1/kg]
   };
-  enum class Pass { step, strain, held };
+  enum class Pass {
+    step,      ///< impulses >= 0, friction: decides who is held
+    strain,    ///< who is held keeps to the surface, others as in step
+    held,      ///< who is held keeps to the surface
+    increment  ///< the same of a velocity that is added to one that does
+  };
 
   template <class Geometry>
   void find_points(const StepContext& context);
@@ -97,12 +104,18 @@ class PointContact final : public Stage {
   template <Pass Kind>
   double relax(Point& point, double dt);
   template <Pass Kind>
-  void solve(double dt, bool relative);
+  void solve(double dt);
+  /// How fast the point may approach (negative) or has to be moved out [m/s].
+  double allowed(const Point& point, double dt) const;
+  void give(const Point& point, const Vec3& mean_slip);
   const Memory* find(std::uint64_t id) const;
 
   const std::vector<RigidBody>& bodies_;
   const std::vector<ParticleSet>& sets_;
   PointContactSettings settings_;
+  std::vector<ContactLaw> laws_;
+  std::vector<FrictionLaw> laws_now_;
+  double push_out_ = 0.0;  ///< [m] a step at most
   std::vector<ContactLedger> ledgers_;
 
   std::vector<int> near_;                     ///< owners with particles near a body

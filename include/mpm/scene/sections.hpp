@@ -34,7 +34,8 @@ void read_rigid_bodies(const Map& root, Scene& scene);
 /// `contact` but for its pairs: how contact is found, and the law of tools that have none of their own. `with_tools`:
 /// there are some.
 FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools);
-/// `contact.pairs`, after rigid bodies: gives deformable bodies that have a law with others velocity fields of their own.
+/// `contact.pairs`, after rigid bodies: gives deformable bodies that have a law with others velocity fields of their
+/// own.
 void read_contact_pairs(const Map& root, Scene& scene);
 /// The `shape` of a rigid body that is `revolved`, `cone` or `ring`; of a ring that can open, its inner radius too.
 /// @throws RigidError for numbers that make no body.

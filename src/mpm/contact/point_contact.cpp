@@ -10,8 +10,9 @@
 namespace mpm {
 namespace {
 
-constexpr double kWatched = 0.1;   ///< cells: a point this near is held if it comes nearer in this step
-constexpr double kPushOut = 2e-4;  ///< cells a step at most that a point inside a body is moved out
+constexpr double kWatched = 0.1;      ///< cells: a point this near is held if it comes nearer in this step
+constexpr double kPushOut = 2e-4;     ///< cells a step at most that a point inside a body is moved out
+constexpr double kPushOutPart = 0.1;  ///< of its depth
 constexpr int kMostSweeps = 40;
 constexpr double kTolerance = 1e-3;  ///< change of velocity in a sweep over the largest one, at which sweeps end
 
@@ -20,8 +21,8 @@ std::uint64_t id_of(std::uint32_t particle, int body) { return (static_cast<std:
 }  // namespace
 
 PointContact::PointContact(const std::vector<RigidBody>& bodies, const std::vector<ParticleSet>& sets,
-                           const PointContactSettings& settings)
-    : bodies_(bodies), sets_(sets), settings_(settings) {
+                           std::vector<ContactLaw> laws, const PointContactSettings& settings)
+    : bodies_(bodies), sets_(sets), settings_(settings), laws_(std::move(laws)), laws_now_(laws_.size()) {
   for (const RigidBody& body : bodies) ledgers_.emplace_back(body, axisymmetric(settings.geometry));
 }
 
@@ -88,7 +89,7 @@ void PointContact::find_points(const StepContext& context) {
           for (int k = 0; k < layout.dim(); ++k) volume *= 2.0 * set.half[k] * layout.cell(k);
           if (axisymmetric(settings_.geometry)) volume *= kTurn * centre.x();
           point.area = volume / (2.0 * reach);
-          point.law = body.friction();
+          point.law = static_cast<int>(b * sets_.size() + (&set - sets_.data()));
           of_owner_[i].push_back(point);
         }
       }
@@ -97,6 +98,8 @@ void PointContact::find_points(const StepContext& context) {
 }
 
 void PointContact::momentum_gathered(StepContext& context) {
+  for (std::size_t i = 0; i < laws_.size(); ++i) laws_now_[i] = laws_[i].at(context.start + 0.5 * context.dt);
+  push_out_ = kPushOut * context.grid.layout.smallest_cell();
   with_geometry(settings_.geometry, [&](auto kind) { find_points<decltype(kind)>(context); });
   connect(context);
 }
@@ -127,8 +130,14 @@ void PointContact::connect(const StepContext& context) {
       }
       point.end = static_cast<int>(parts_.size());
       const Memory* memory = find(id_of(point.particle, point.body));
-      point.hold = memory != nullptr ? memory->hold : Hold::free;
-      point.impulse = memory != nullptr ? Vec3(memory->force * context.dt) : Vec3::Zero();
+      if (memory != nullptr) {
+        point.hold = memory->hold;
+        point.impulse = memory->force * context.dt;
+        if (laws_now_[point.law].adhesion == 0.0) {  // the body has turned, the force with it may pull no more
+          point.impulse += std::max(-point.impulse.dot(point.normal), 0.0) * point.normal;
+        }
+      }
+      point.adheres = memory != nullptr || point.gap <= 0.0;
       points_.push_back(point);
     }
   }
@@ -167,35 +176,39 @@ void PointContact::push(const Point& point, const Vec3& impulse) {
   }
 }
 
-// step: unilateral, with friction. strain: the same where a point was free; what was held keeps to the surface. held:
-// only that, of a velocity that is relative already or is not.
+double PointContact::allowed(const Point& point, double dt) const {
+  return point.gap > 0.0 ? -point.gap / dt : std::min(-kPushOutPart * point.gap, push_out_) / dt;
+}
+
 template <PointContact::Pass Kind>
 double PointContact::relax(Point& point, double dt) {
-  if (Kind == Pass::held && point.hold == Hold::free) return 0.0;
-  const Vec3 surface = Kind == Pass::held && dt == 0.0 ? Vec3(Vec3::Zero()) : point.velocity;
-  const Vec3 slip = velocity_at(point) - surface;
-  const bool bound = Kind != Pass::step && point.hold != Hold::free;
-  const double allowed = bound ? 0.0 : -std::max(point.gap, 0.0) / dt;
-  const double approach = slip.dot(point.normal);
-  const double pressed = point.impulse.dot(point.normal);
+  constexpr bool kDecides = Kind == Pass::step;
+  const bool bound = !kDecides && point.hold != Hold::free;
+  if (Kind != Pass::step && Kind != Pass::strain && !bound) return 0.0;
+  Vec3 slip = velocity_at(point);
+  if (Kind != Pass::increment) slip -= point.velocity;
+  const double approach = slip.dot(point.normal), pressed = point.impulse.dot(point.normal);
+  const double wanted = bound ? 0.0 : allowed(point, dt);
+  double normal = pressed + (wanted - approach) / point.compliance;
   Vec3 along = point.impulse - pressed * point.normal;
-  double normal = pressed + (allowed - approach) / point.compliance;
-  if (!bound) normal = std::max(normal, 0.0);
-  const Vec3 sliding = slip - approach * point.normal;
+  const Vec3 sticking = along - (slip - approach * point.normal) / point.compliance;
   if (bound) {
-    if (point.hold == Hold::stick) along -= sliding / point.compliance;
+    if (point.hold == Hold::stick) along = sticking;
   } else {
-    along -= sliding / point.compliance;
-    const double limit = point.law.coefficient * normal, length = along.norm();
-    if (normal <= 0.0) {
+    const FrictionLaw& law = laws_now_[point.law];
+    const double adhesion = point.adheres ? law.adhesion * point.area * dt : 0.0;
+    normal = std::max(normal, -adhesion);
+    along = sticking;
+    const double friction = point.hold == Hold::slide ? law.coefficient : law.at_rest();
+    const double length = along.norm(), most = friction * std::max(normal, 0.0) + adhesion;
+    Hold hold = normal > -adhesion ? Hold::stick : Hold::free;
+    if (hold == Hold::free) {
       along.setZero();
-      point.hold = Kind == Pass::step ? Hold::free : point.hold;
-    } else if (!point.law.stick && length > limit) {
-      along *= limit / length;
-      if (Kind == Pass::step) point.hold = Hold::slide;
-    } else if (Kind == Pass::step) {
-      point.hold = Hold::stick;
+    } else if (!law.stick && length > most) {
+      along *= (law.coefficient * std::max(normal, 0.0) + adhesion) / length;
+      hold = Hold::slide;
     }
+    if (kDecides) point.hold = hold;
   }
   const Vec3 impulse = normal * point.normal + along, change = impulse - point.impulse;
   point.impulse = impulse;
@@ -204,7 +217,7 @@ double PointContact::relax(Point& point, double dt) {
 }
 
 template <PointContact::Pass Kind>
-void PointContact::solve(double dt, bool) {
+void PointContact::solve(double dt) {
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     double largest = 0.0, scale = 0.0;
     const auto visit = [&](Point& point) {
@@ -216,6 +229,7 @@ void PointContact::solve(double dt, bool) {
     } else {
       for (auto point = points_.rbegin(); point != points_.rend(); ++point) visit(*point);
     }
+    ++sweeps_;
     if (largest <= kTolerance * scale) break;
   }
 }
@@ -224,14 +238,13 @@ void PointContact::before_strain(StepContext& context) {
   if (points_.empty()) return;
   Grid& grid = context.grid;
   load(grid.velocity, grid.layout);
-  std::vector<Vec3>& kept = kept_;
-  kept.clear();
+  kept_.clear();
   for (Point& point : points_) {
-    kept.push_back(point.impulse);
+    kept_.push_back(point.impulse);
     point.impulse.setZero();
   }
-  solve<Pass::strain>(context.dt, false);
-  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].impulse = kept[i];
+  solve<Pass::strain>(context.dt);
+  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].impulse = kept_[i];
   store(grid.velocity, grid.layout);
 }
 
@@ -241,23 +254,15 @@ void PointContact::momentum_updated(StepContext& context) {
   Grid& grid = context.grid;
   load(grid.velocity, grid.layout);
   for (Point& point : points_) point.approach = velocity_at(point) - point.velocity;
-  for (Point& point : points_) {
-    // As the body has turned since the step before, the force turns with the normal.
-    const double normal = std::max(point.impulse.dot(point.normal), 0.0);
-    point.impulse = point.hold == Hold::free
-                        ? Vec3(Vec3::Zero())
-                        : Vec3(point.impulse + (normal - point.impulse.dot(point.normal)) * point.normal);
-    push(point, point.impulse);
-  }
-  solve<Pass::step>(context.dt, false);
+  for (const Point& point : points_) push(point, point.impulse);
+  solve<Pass::step>(context.dt);
   store(grid.velocity, grid.layout);
   store(grid.force, grid.layout, 1.0 / context.dt);
-  for (Point& point : points_) {
-    if (point.hold == Hold::free) continue;
-    const Vec3 after = velocity_at(point) - point.velocity;
-    ledgers_[point.body].give({point.impulse, point.normal, point.place - bodies_[point.body].pose().position,
-                               point.velocity, 0.5 * (point.approach + after)});
-    memory_.push_back({id_of(point.particle, point.body), point.impulse / context.dt, point.hold});
+  for (const Point& point : points_) {
+    give(point, 0.5 * (point.approach + velocity_at(point) - point.velocity));
+    if (point.hold != Hold::free) {
+      memory_.push_back({id_of(point.particle, point.body), point.impulse / context.dt, point.hold});
+    }
   }
   std::sort(memory_.begin(), memory_.end(), [](const Memory& a, const Memory& b) { return a.id < b.id; });
 }
@@ -266,7 +271,7 @@ void PointContact::velocity_found(StepContext& context, NodalField& velocity) {
   if (points_.empty()) return;
   load(velocity, context.grid.layout);
   for (Point& point : points_) point.impulse.setZero();
-  solve<Pass::held>(context.dt, false);
+  solve<Pass::held>(context.dt);
   store(velocity, context.grid.layout);
 }
 
@@ -274,13 +279,14 @@ void PointContact::increment_found(StepContext& context, NodalField& increment) 
   if (points_.empty()) return;
   load(increment, context.grid.layout);
   for (Point& point : points_) point.impulse.setZero();
-  solve<Pass::held>(0.0, true);
+  solve<Pass::increment>(context.dt);
   store(increment, context.grid.layout);
-  for (const Point& point : points_) {
-    if (point.hold == Hold::free) continue;
-    ledgers_[point.body].give(
-        {point.impulse, point.normal, point.place - bodies_[point.body].pose().position, point.velocity});
-  }
+  for (const Point& point : points_) give(point, Vec3::Zero());
+}
+
+void PointContact::give(const Point& point, const Vec3& mean_slip) {
+  const Vec3 arm = point.place - bodies_[point.body].pose().position;
+  ledgers_[point.body].give({point.impulse, point.normal, arm, point.velocity, mean_slip});
 }
 
 void PointContact::grid_advanced(StepContext& context) {

@@ -119,8 +119,7 @@ void read_rules(const Map& map, ContactDefinition& contact) {
     contact.detection.minimum_volume = volume->non_negative(kPlain);
   }
   if (const auto kind = map.find("detection")) {
-    contact.detection.kind =
-        static_cast<Detection>(kind->choice({kDetectionNames.begin(), kDetectionNames.end()}));
+    contact.detection.kind = static_cast<Detection>(kind->choice({kDetectionNames.begin(), kDetectionNames.end()}));
   }
   if (const auto position = map.find("position")) {
     if (contact.detection.kind != Detection::positions) {
@@ -130,8 +129,8 @@ void read_rules(const Map& map, ContactDefinition& contact) {
   }
 }
 
-/// Two different bodies, one of them deformable: by their places among the deformable bodies and, after these, the rigid
-/// ones.
+/// Two different bodies, one of them deformable: by their places among the deformable bodies and, after these, the
+/// rigid ones.
 std::pair<int, int> read_between(const Value& value, const Scene& scene) {
   const std::vector<Value> names = value.elements();
   if (names.size() != 2) value.fail("write the names of two bodies, such as [soil, stone]");
@@ -215,7 +214,8 @@ void give_fields(const Laws& laws, const std::optional<ContactLaw>& all, Scene& 
     }
   }
   if (!left.empty()) {
-    scene.choices.emplace_back("contact.pairs", fmt::format("{}: one_field, bodies without a law stick together", left));
+    scene.choices.emplace_back("contact.pairs",
+                               fmt::format("{}: one_field, bodies without a law stick together", left));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "axial_motion.hpp"
+#include "contact_terms.hpp"
 #include "initial.hpp"
 #include "load_terms.hpp"
 #include "mpm/boundary/again.hpp"
@@ -13,10 +14,12 @@
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/mechanics/nodal_volumes.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/step/in_field.hpp"
+#include "rigid_contacts.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -251,6 +254,24 @@ void Simulation::State::add_mechanics() {
   sorter = std::make_unique<Sorter>(threads, kernel_grouping(kernels));
 }
 
+void Simulation::State::add_pairs() {
+  if (definition.contact.pairs.empty()) return;
+  MaterialContactSettings settings = make_contact_settings(definition, sets, layout(), threads);
+  std::vector<double> densities;
+  for (const DeformableBody& body : definition.bodies) densities.push_back(find_material(definition, body).density);
+  const auto make = [&](const auto& kernels) {
+    survey = make_volume_survey(kernels, fields, sets, laws, densities, definition.geometry, threads);
+  };
+  if (definition.method.precision == Precision::float32) {
+    make(kernel_table<float>(definition.method.shape, definition.geometry, isa));
+  } else {
+    make(kernel_table<double>(definition.method.shape, definition.geometry, isa));
+  }
+  auto stage = std::make_unique<MaterialContact>(std::move(settings), fields, *survey);
+  pairs = stage.get();
+  stages.push_back(std::move(stage));
+}
+
 Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : state_(std::make_unique<State>()) {
   State& s = *state_;
   check(given);
@@ -265,6 +286,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
                                   : std::clamp(static_cast<int>(count / kParticlesPerThread), 1, omp_get_max_threads());
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
   const int dim = dimensions(definition.geometry);
+  if (getenv("MPM_POINTS")) s.definition.contact.method = ContactMethod::points;
   project(s.definition);
   s.fields = fields_of(definition);
   const GridLayout& layout = s.layout();
@@ -328,6 +350,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   }
   add_walls(false);
   const std::size_t before_contact = s.stages.size();
+  s.add_pairs();
   s.bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
     s.bodies.emplace_back(body);
@@ -346,8 +369,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     }
   }
   if (definition.contact.method == ContactMethod::points && !s.bodies.empty()) {
-    auto contact = std::make_unique<PointContact>(
-        s.bodies, s.sets, PointContactSettings{definition.geometry, definition.method.shape, definition.across(), s.threads});
+    const PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(), s.threads};
+    auto contact = std::make_unique<PointContact>(s.bodies, s.sets, rigid_contact_laws(definition, s.sets), settings);
     for (std::size_t b = 0; b < s.bodies.size(); ++b) s.contacts.push_back(&contact->ledger(static_cast<int>(b)));
     s.stages.push_back(std::move(contact));
   }

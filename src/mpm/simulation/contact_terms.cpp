@@ -53,8 +53,8 @@ MaterialContactSettings make_contact_settings(const SimulationDefinition& defini
     if (same == settings.pairs.end()) {
       settings.pairs.push_back(std::move(made));
     } else if (same->law.kind != ContactLaw::Kind::one_field || pair.law.kind != ContactLaw::Kind::one_field) {
-      throw DefinitionError(fmt::format("contact of '{}': a second law between the velocity fields of '{}'; leave one out",
-                                        made.name, same->name));
+      throw DefinitionError(fmt::format(
+          "contact of '{}': a second law between the velocity fields of '{}'; leave one out", made.name, same->name));
     }
   }
   for (ParticleSet& set : sets) {

@@ -23,8 +23,8 @@ enum class PairHold : std::uint8_t { none, normal, tangential, both };
 inline bool holds_normal(PairHold hold) { return hold == PairHold::normal || hold == PairHold::both; }
 inline bool holds_tangential(PairHold hold) { return hold == PairHold::tangential || hold == PairHold::both; }
 
-/// The part of a vector along which a pair is held.
-inline Vec3 held_part(const Vec3& vector, const Vec3& normal, PairHold hold) {
+/// The part of a relative velocity that a pair which is held keeps at zero.
+inline Vec3 kept_part(const Vec3& vector, const Vec3& normal, PairHold hold) {
   const Vec3 along = vector.dot(normal) * normal;
   if (holds_normal(hold)) return holds_tangential(hold) ? vector : along;
   return holds_tangential(hold) ? Vec3(vector - along) : Vec3::Zero();

@@ -9,7 +9,7 @@ namespace {
 constexpr double kSettled = 1e-15;
 
 PairImpulse law_of(const NodePair& pair, const Vec3& stick, const Vec3& normal, double mass, double dt) {
-  if (pair.keep != PairHold::none) return {held_part(stick, normal, pair.keep), pair.keep};
+  if (pair.keep != PairHold::none) return {kept_part(stick, normal, pair.keep), pair.keep};
   if (pair.interface != nullptr) {
     return interface_impulse(*pair.interface, {pair.opening, pair.area, mass}, stick, normal, dt);
   }

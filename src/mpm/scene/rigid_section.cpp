@@ -149,6 +149,20 @@ void read_motion(const Value& value, GeometryKind geometry, RigidBodyDefinition&
   if (const auto rate = map.find("rotation_rate")) body.rotation_rate = read_rotation_rate(*rate, geometry);
 }
 
+/// Of the exact surface, or of particles that fill it.
+void read_normals(const Value& value, ContactMethod method, RigidBodyDefinition& body) {
+  body.particles = value.choice({"surface", "particles"}) == 1;
+  if (!body.particles) return;
+  if (method == ContactMethod::points) value.fail("particles are met at nodes; write contact: {method: nodes}");
+  if (body.reach > 0.0) value.fail("particles reach as far as their functions do; leave out reach");
+  const Box bounds = body.surface->bounds();
+  for (const int axis : axes_of(value.context().geometry)) {
+    if (!std::isfinite(bounds.max[axis] - bounds.min[axis])) {
+      value.fail("a body without end cannot be filled with particles; write surface");
+    }
+  }
+}
+
 }  // namespace
 
 void read_rigid_bodies(const Map& root, Scene& scene) {
@@ -157,7 +171,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
   const FrictionLaw friction = read_contact(root, scene, section.has_value());
   if (!section) return;
   for (const Value& value : section->elements()) {
-    const Map map(value, {"name", "shape", "pose", "motion", "friction", "reach"},
+    const Map map(value, {"name", "shape", "pose", "motion", "friction", "reach", "normals"},
                   {{"drive", "use motion, or velocity and pose commands on topics"},
                    {"mass", "rigid bodies move as they are told"},
                    {"frame", "use commands on topics, which tf2 transforms"}});
@@ -181,6 +195,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
       body.reach = reach->non_negative(kPlain);
       if (body.reach > 1.0) reach->fail(fmt::format("{:g} cells; write 0 to 1", body.reach));
     }
+    if (const auto normals = map.find("normals")) read_normals(*normals, scene.definition.contact.method, body);
     scene.definition.rigid_bodies.push_back(std::move(body));
   }
 }

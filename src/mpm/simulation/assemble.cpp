@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "axial_motion.hpp"
-#include "contact_terms.hpp"
 #include "initial.hpp"
 #include "load_terms.hpp"
 #include "mpm/boundary/again.hpp"
@@ -14,7 +13,6 @@
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
-#include "mpm/mechanics/nodal_volumes.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
@@ -254,24 +252,6 @@ void Simulation::State::add_mechanics() {
   sorter = std::make_unique<Sorter>(threads, kernel_grouping(kernels));
 }
 
-void Simulation::State::add_pairs() {
-  if (definition.contact.pairs.empty()) return;
-  MaterialContactSettings settings = make_contact_settings(definition, sets, layout(), threads);
-  std::vector<double> densities;
-  for (const DeformableBody& body : definition.bodies) densities.push_back(find_material(definition, body).density);
-  const auto make = [&](const auto& kernels) {
-    survey = make_volume_survey(kernels, fields, sets, laws, densities, definition.geometry, threads);
-  };
-  if (definition.method.precision == Precision::float32) {
-    make(kernel_table<float>(definition.method.shape, definition.geometry, isa));
-  } else {
-    make(kernel_table<double>(definition.method.shape, definition.geometry, isa));
-  }
-  auto stage = std::make_unique<MaterialContact>(std::move(settings), fields, *survey);
-  pairs = stage.get();
-  stages.push_back(std::move(stage));
-}
-
 Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : state_(std::make_unique<State>()) {
   State& s = *state_;
   check(given);
@@ -354,7 +334,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
     s.bodies.emplace_back(body);
-    if (definition.contact.method == ContactMethod::nodes) {
+    if (body.particles) {
+      s.add_rigid_particles(s.bodies.back());
+    } else if (definition.contact.method == ContactMethod::nodes) {
       auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.fields, s.threads, definition.geometry);
       s.contacts.push_back(&contact->ledger());
       s.stages.push_back(std::move(contact));

@@ -4,6 +4,12 @@
 
 #include <algorithm>
 
+#include "mpm/contact/rigid_particle_contact.hpp"
+#include "mpm/kernel/select.hpp"
+#include "mpm/mechanics/nodal_volumes.hpp"
+#include "rigid_contacts.hpp"
+#include "state.hpp"
+
 namespace mpm {
 namespace {
 
@@ -23,6 +29,13 @@ const ParticleSet& set_of(const std::string& name, const PairDefinition& pair, c
 bool is_rigid(const std::string& name, const SimulationDefinition& definition) {
   const auto& bodies = definition.rigid_bodies;
   return std::any_of(bodies.begin(), bodies.end(), [&](const RigidBodyDefinition& body) { return body.name == name; });
+}
+
+/// For displacements: before anything is sorted.
+void remember_starts(std::vector<ParticleSet>& sets) {
+  for (ParticleSet& set : sets) {
+    if (set.start_x.empty()) set.start_x = set.x;
+  }
 }
 
 }  // namespace
@@ -57,10 +70,54 @@ MaterialContactSettings make_contact_settings(const SimulationDefinition& defini
           "contact of '{}': a second law between the velocity fields of '{}'; leave one out", made.name, same->name));
     }
   }
-  for (ParticleSet& set : sets) {
-    if (displacements && set.start_x.empty()) set.start_x = set.x;
-  }
+  if (displacements) remember_starts(sets);
   return settings;
+}
+
+void Simulation::State::add_pairs() {
+  MaterialContactSettings settings = make_contact_settings(definition, sets, layout(), threads);
+  if (settings.pairs.empty()) return;
+  auto stage = std::make_unique<MaterialContact>(std::move(settings), fields, volumes());
+  pairs = stage.get();
+  stages.push_back(std::move(stage));
+}
+
+void Simulation::State::add_rigid_particles(const RigidBody& body) {
+  if (definition.contact.method == ContactMethod::points) {
+    throw DefinitionError(
+        fmt::format("rigid body '{}': one of particles is met at nodes; choose that contact method", body.name()));
+  }
+  if (definition.contact.detection.kind == Detection::displacements) remember_starts(sets);
+  RigidParticleSettings settings;
+  settings.normals = definition.contact.normals;
+  settings.detection = definition.contact.detection;
+  settings.geometry = definition.geometry;
+  settings.per_cell = definition.method.particles_per_direction;
+  settings.across = definition.across();
+  settings.laws.resize(fields.size());
+  const std::vector<ContactLaw> laws_of_sets = rigid_contact_laws(definition, sets);
+  const std::size_t first = (bodies.size() - 1) * sets.size();  // the body is the last one so far
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    for (const int field : fields_of(sets[s])) settings.laws[field] = laws_of_sets[first + s];
+  }
+  auto stage = std::make_unique<RigidParticleContact>(body, std::move(settings), fields, volumes());
+  contacts.push_back(&stage->ledger());
+  stages.push_back(std::move(stage));
+}
+
+VolumeSurvey& Simulation::State::volumes() {
+  if (survey) return *survey;
+  std::vector<double> densities;
+  for (const DeformableBody& body : definition.bodies) densities.push_back(find_material(definition, body).density);
+  const auto make = [&](const auto& kernels) {
+    survey = make_volume_survey(kernels, fields, sets, laws, densities, definition.geometry, threads);
+  };
+  if (definition.method.precision == Precision::float32) {
+    make(kernel_table<float>(definition.method.shape, definition.geometry, isa));
+  } else {
+    make(kernel_table<double>(definition.method.shape, definition.geometry, isa));
+  }
+  return *survey;
 }
 
 }  // namespace mpm

@@ -76,8 +76,12 @@ struct Simulation::State {
   const GridLayout& layout() const { return fields.front()->layout; }
   template <class T>
   void add_mechanics();
-  /// Contact between deformable bodies.
+  /// Contact between deformable bodies, when the scene has any (contact_terms.cpp).
   void add_pairs();
+  /// Contact with a rigid body that is made of particles.
+  void add_rigid_particles(const RigidBody& body);
+  /// What either asks of the mechanics.
+  VolumeSurvey& volumes();
   /// Of all particles [N s].
   Vec3 momentum() const;
   /// Of all particles [J].

@@ -40,7 +40,7 @@ struct PointContactSettings {
 class PointContact final : public Stage {
  public:
   /// Bodies, sets and fields outlive the stage. `laws`: of each body against each set, the sets of a body together.
-  PointContact(const std::vector<RigidBody>& bodies, const std::vector<ParticleSet>& sets, Fields& fields,
+  PointContact(std::vector<const RigidBody*> bodies, const std::vector<ParticleSet>& sets, Fields& fields,
                std::vector<ContactLaw> laws, const PointContactSettings& settings);
 
   void momentum_gathered(StepContext& context) override;
@@ -119,7 +119,7 @@ class PointContact final : public Stage {
   void solve(double dt);
   void give(const Point& point, const Vec3& mean_slip);
 
-  const std::vector<RigidBody>& bodies_;
+  std::vector<const RigidBody*> bodies_;
   const std::vector<ParticleSet>& sets_;
   Fields& fields_;
   PointContactSettings settings_;

@@ -21,15 +21,15 @@ std::uint64_t id_of(std::uint32_t particle, int body) { return (static_cast<std:
 
 }  // namespace
 
-PointContact::PointContact(const std::vector<RigidBody>& bodies, const std::vector<ParticleSet>& sets, Fields& fields,
+PointContact::PointContact(std::vector<const RigidBody*> bodies, const std::vector<ParticleSet>& sets, Fields& fields,
                            std::vector<ContactLaw> laws, const PointContactSettings& settings)
-    : bodies_(bodies),
+    : bodies_(std::move(bodies)),
       sets_(sets),
       fields_(fields),
       settings_(settings),
       laws_(std::move(laws)),
       laws_now_(laws_.size()) {
-  for (const RigidBody& body : bodies) ledgers_.emplace_back(body, axisymmetric(settings.geometry));
+  for (const RigidBody* body : bodies_) ledgers_.emplace_back(*body, axisymmetric(settings.geometry));
 }
 
 void PointContact::find_blocks(const GridLayout& layout, double band) {
@@ -46,9 +46,9 @@ void PointContact::find_blocks(const GridLayout& layout, double band) {
       const std::array<int, 3>& block = blocks.block(blocks.owner_block(owner));
       const Vec3 middle =
           0.5 * (layout.node_position(block, 0) + layout.node_position(block, layout.nodes_per_block() - 1));
-      const bool near = std::any_of(bodies_.begin(), bodies_.end(), [&](const RigidBody& body) {
+      const bool near = std::any_of(bodies_.begin(), bodies_.end(), [&](const RigidBody* body) {
         SurfacePoint point;
-        return body.surface().within(body.pose().to_body(middle), reach, point);
+        return body->surface().within(body->pose().to_body(middle), reach, point);
       });
       if (near) near_.push_back({static_cast<int>(f), owner});
     }
@@ -81,7 +81,7 @@ void PointContact::find_points(const StepContext& context) {
           velocity[layout.axis(k)] = set.v[k][p];
         }
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
-          const RigidBody& body = bodies_[b];
+          const RigidBody& body = *bodies_[b];
           SurfacePoint surface;
           if (!body.surface().within(body.pose().to_body(centre), band, surface)) continue;
           Point point;
@@ -304,7 +304,7 @@ void PointContact::increment_found(StepContext& context, NodalField&) {
 }
 
 void PointContact::give(const Point& point, const Vec3& mean_slip) {
-  const Vec3 arm = point.place - bodies_[point.body].pose().position;
+  const Vec3 arm = point.place - bodies_[point.body]->pose().position;
   ledgers_[point.body].give({point.impulse, point.normal, arm, point.velocity, mean_slip});
 }
 

@@ -132,6 +132,7 @@ DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
   DeformableBody filled;
   filled.name = body.name;
   filled.material = body.material;
+  filled.field = body.field;
   filled.particle_volume = 1.0;
   for (const int axis : axes_of(scene)) {
     lattices[axis] = lattice(scene, bounds, axis);

@@ -149,21 +149,17 @@ void read_motion(const Value& value, GeometryKind geometry, RigidBodyDefinition&
   if (const auto rate = map.find("rotation_rate")) body.rotation_rate = read_rotation_rate(*rate, geometry);
 }
 
-FrictionLaw read_contact(const Map& root, Scene& scene, bool needed) {
-  const auto section = root.find("contact");
-  if (!section) {
-    if (needed) scene.choices.emplace_back("contact.friction", "0: smooth tools, for the scene names none");
-    return {};
+/// Of the exact surface, or of particles that fill it.
+void read_normals(const Value& value, RigidBodyDefinition& body) {
+  body.particles = value.choice({"surface", "particles"}) == 1;
+  if (!body.particles) return;
+  if (body.reach > 0.0) value.fail("particles reach as far as their functions do; leave out reach");
+  const Box bounds = body.surface->bounds();
+  for (const int axis : axes_of(value.context().geometry)) {
+    if (!std::isfinite(bounds.max[axis] - bounds.min[axis])) {
+      value.fail("a body without end cannot be filled with particles; write surface");
+    }
   }
-  const std::string deformable = "deformable bodies share one velocity field and stick to each other";
-  const Map map(*section, {"friction"},
-                {{"pairs", deformable},
-                 {"interface", deformable},
-                 {"detection", "contact is found by distance and approach"},
-                 {"normals", "normals come from the tools' surfaces"},
-                 {"position", "contact is found by distance and approach"}});
-  const auto friction = map.find("friction");
-  return friction ? read_friction(*friction) : FrictionLaw{};
 }
 
 }  // namespace
@@ -174,7 +170,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
   const FrictionLaw friction = read_contact(root, scene, section.has_value());
   if (!section) return;
   for (const Value& value : section->elements()) {
-    const Map map(value, {"name", "shape", "pose", "motion", "friction", "reach"},
+    const Map map(value, {"name", "shape", "pose", "motion", "friction", "reach", "normals"},
                   {{"drive", "use motion, or velocity and pose commands on topics"},
                    {"mass", "rigid bodies move as they are told"},
                    {"frame", "use commands on topics, which tf2 transforms"}});
@@ -198,6 +194,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
       body.reach = reach->non_negative(kPlain);
       if (body.reach > 1.0) reach->fail(fmt::format("{:g} cells; write 0 to 1", body.reach));
     }
+    if (const auto normals = map.find("normals")) read_normals(*normals, body);
     scene.definition.rigid_bodies.push_back(std::move(body));
   }
 }

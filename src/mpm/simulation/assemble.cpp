@@ -17,7 +17,6 @@
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/step/in_field.hpp"
-#include "rigid_contacts.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -329,30 +328,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   }
   add_walls(false);
   const std::size_t before_contact = s.stages.size();
-  s.bodies.reserve(definition.rigid_bodies.size());
-  for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
-    s.bodies.emplace_back(body);
-    if (definition.contact.method == ContactMethod::nodes) {
-      auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.fields, s.threads, definition.geometry);
-      s.contacts.push_back(&contact->ledger());
-      s.stages.push_back(std::move(contact));
-    }
-    const double cells = body.surface->thickness() / layout.smallest_cell();
-    if (cells < 3.0) {
-      s.warnings.push_back(
-          fmt::format("rigid body '{}' is {:.2g} cells thick where it is thinnest: material on its two sides shares "
-                      "nodes and feels "
-                      "each other when it is thinner than 3; use a finer grid.cell or a thicker body",
-                      body.name, cells));
-    }
-  }
-  if (definition.contact.method == ContactMethod::points && !s.bodies.empty()) {
-    const PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(), s.threads};
-    auto contact =
-        std::make_unique<PointContact>(s.bodies, s.sets, s.fields, rigid_contact_laws(definition, s.sets), settings);
-    for (std::size_t b = 0; b < s.bodies.size(); ++b) s.contacts.push_back(&contact->ledger(static_cast<int>(b)));
-    s.stages.push_back(std::move(contact));
-  }
+  s.add_pairs();
+  s.add_rigid_bodies();
   add_walls(true);
   if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);
   if (s.stages.size() > before_contact) {

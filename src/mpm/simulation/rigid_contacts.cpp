@@ -1,5 +1,7 @@
 #include "rigid_contacts.hpp"
 
+#include <algorithm>
+
 namespace mpm {
 namespace {
 
@@ -18,7 +20,13 @@ std::vector<ContactLaw> rigid_contact_laws(const SimulationDefinition& definitio
                                            const std::vector<ParticleSet>& sets) {
   std::vector<ContactLaw> laws;
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {
-    for (std::size_t s = 0; s < sets.size(); ++s) laws.push_back(always(body.friction));
+    for (const ParticleSet& set : sets) {
+      const auto& pairs = definition.contact.pairs;
+      const auto pair = std::find_if(pairs.begin(), pairs.end(), [&](const PairDefinition& p) {
+        return p.first == set.name && p.second == body.name;
+      });
+      laws.push_back(pair != pairs.end() ? pair->law : always(body.friction));
+    }
   }
   return laws;
 }

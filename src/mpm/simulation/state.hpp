@@ -4,6 +4,7 @@
 #include <chrono>
 #include <limits>
 
+#include "mpm/contact/material_contact.hpp"
 #include "mpm/contact/point_contact.hpp"
 #include "mpm/contact/rigid_contact.hpp"
 #include "mpm/mechanics/continuum.hpp"
@@ -53,9 +54,11 @@ struct Simulation::State {
   std::vector<RigidBody> bodies;
   Stages stages;
   std::vector<ContactLedger*> contacts;  ///< of each body, owned by stages
-  ParticleLoads* loads = nullptr;       ///< owned by stages, when the scene has any
-  FaceTractions* tractions = nullptr;   ///< the same
-  DampingControl* damping = nullptr;    ///< the same
+  std::unique_ptr<VolumeSurvey> survey;  ///< of contact between deformable bodies, when the scene has any
+  MaterialContact* pairs = nullptr;      ///< the same, owned by stages
+  ParticleLoads* loads = nullptr;        ///< owned by stages, when the scene has any
+  FaceTractions* tractions = nullptr;    ///< the same
+  DampingControl* damping = nullptr;     ///< the same
 
   std::int64_t time = 0;  ///< [ns]
   StepReport steps;
@@ -73,6 +76,14 @@ struct Simulation::State {
   const GridLayout& layout() const { return fields.front()->layout; }
   template <class T>
   void add_mechanics();
+  /// Contact between deformable bodies, when the scene has any (contact_terms.cpp).
+  void add_pairs();
+  /// Contact with a rigid body that is made of particles.
+  ContactLedger& add_rigid_particles(const RigidBody& body, const std::vector<ContactLaw>& laws_of_sets);
+  /// Bodies, and the stages of contact with them.
+  void add_rigid_bodies();
+  /// What either asks of the mechanics.
+  VolumeSurvey& volumes();
   /// Of all particles [N s].
   Vec3 momentum() const;
   /// Of all particles [J].

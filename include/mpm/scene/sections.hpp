@@ -31,10 +31,13 @@ Region read_region(const Value& value, GeometryKind geometry);
 void read_initial(const Value& value, const MaterialDefinition& material, Scene& scene, BodyDefinition& body);
 /// `rigid_bodies` and `contact`, after bodies
 void read_rigid_bodies(const Map& root, Scene& scene);
+/// `shape`, `pose` and `motion` of a rigid body, or of the region of a velocity condition; `motion` alone.
+void read_rigid_shape(const Map& map, GeometryKind geometry, RigidBodyDefinition& body);
+void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinition& body);
 /// The `shape` of a rigid body that is `revolved`, `cone` or `ring`; of a ring that can open, its inner radius too.
 /// @throws RigidError for numbers that make no body.
 std::unique_ptr<Surface> read_revolved_shape(const std::string& kind, const Value& value, RigidBodyDefinition& body);
-/// `boundaries`
+/// `boundaries`, after bodies and rigid bodies
 void read_boundaries(const Map& root, Scene& scene);
 /// `loads`, after bodies
 void read_loads(const Map& root, Scene& scene);

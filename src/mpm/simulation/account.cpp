@@ -148,12 +148,16 @@ SolverState Simulation::state() const {
   for (const RigidContact* contact : s.contacts) report.energy.contact_work += contact->work();
   if (s.loads != nullptr) report.energy.load_work += s.loads->work();
   if (s.tractions != nullptr) report.energy.load_work += s.tractions->work();
+  if (s.conditions != nullptr) report.energy.load_work += s.conditions->work();
+  for (const Absorbing* face : s.absorbing) report.energy.load_work += face->work();
+  if (s.leaving) report.returned = s.leaving->count();
 
   AuditReport& audit = report.audit;
   audit.momentum = s.momentum();
   audit.initial_momentum = s.initial_momentum;
   std::vector<ImpulseAccount> accounts{s.gravity};
   for (const auto& stage : s.stages) stage->accounts(accounts);
+  if (s.leaving) accounts.push_back(s.leaving->account());
   Vec3 given = Vec3::Zero();
   for (const ImpulseAccount& account : accounts) {
     audit.impulses.push_back({account.name, account.impulse});

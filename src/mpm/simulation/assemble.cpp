@@ -10,6 +10,7 @@
 #include "load_terms.hpp"
 #include "mpm/boundary/again.hpp"
 #include "mpm/boundary/axis.hpp"
+#include "mpm/boundary/periodic.hpp"
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
@@ -31,6 +32,13 @@ std::vector<ParticleScalar> zeros(int components, Precision precision, std::size
   field.reserve(components);
   for (int c = 0; c < components; ++c) field.emplace_back(precision, particles);
   return field;
+}
+
+/// How far a centre may be beyond a face [cells]. Pressed against a wall, a particle comes to rest only when its box
+/// (`half` of it) is half beyond it; an absorbing face gives way by as much.
+double beyond(WallKind kind, double half) {
+  if (kind == WallKind::periodic) return kPeriodicReach;
+  return kind == WallKind::none ? 0.0 : half;
 }
 
 /// Masses of rings, and where their functions end. `per_area`: density times the area of a section [kg/m].
@@ -67,10 +75,9 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
   const int dim = layout.dim();
   for (int k = 0; k < dim; ++k) {
     set.half[k] = 0.5 / definition.method.particles_per_direction;
-    // Pressed against a wall, a particle comes to rest only when its box is half beyond it.
     const int face = 2 * layout.axis(k);
-    set.lowest[k] = definition.walls[face].kind == WallKind::none ? 0.0 : -set.half[k];
-    set.highest[k] = layout.last_node(k) + (definition.walls[face + 1].kind == WallKind::none ? 0.0 : set.half[k]);
+    set.lowest[k] = -beyond(definition.walls[face].kind, set.half[k]);
+    set.highest[k] = layout.last_node(k) + beyond(definition.walls[face + 1].kind, set.half[k]);
   }
   set.id.resize(n);
   set.precision = definition.method.precision;
@@ -119,6 +126,15 @@ void check(const SimulationDefinition& d) {
   if (planar(d.geometry) && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
   if (d.geometry == GeometryKind::line && !(d.area > 0.0)) throw DefinitionError("area must be positive");
   if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool lower = d.walls[2 * axis].kind == WallKind::periodic;
+    if (lower != (d.walls[2 * axis + 1].kind == WallKind::periodic)) {
+      throw DefinitionError(fmt::format("one face along {} is periodic, the other is not; make both so", "xyz"[axis]));
+    }
+    if (lower && axis == 0 && axisymmetric(d.geometry)) {
+      throw DefinitionError("an axisymmetric scene is not periodic along r; use z, or make it plane_strain");
+    }
+  }
   if (const auto fault = axis_fault(d)) throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
 }
 
@@ -245,11 +261,16 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   project(s.definition);
   s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));
   const GridLayout& layout = s.grid->layout;
+  for (int k = 0; k < dim; ++k) {
+    if (definition.walls[2 * layout.axis(k)].kind == WallKind::periodic) s.grid->layout.make_periodic(k);
+  }
   const ShapeKind shape = definition.method.shape;
   if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) s.grid->wall_layers = 2;
   for (int k = 0; k < dim; ++k) {
     for (const int upper : {0, 1}) {
-      s.grid->has_wall[2 * k + upper] = definition.walls[2 * layout.axis(k) + upper].kind != WallKind::none;
+      const WallKind kind = definition.walls[2 * layout.axis(k) + upper].kind;
+      s.grid->has_wall[2 * k + upper] = kind != WallKind::none && kind != WallKind::periodic;
+      if (kind == WallKind::symmetry) s.grid->symmetry.add(2 * k + upper);
     }
   }
 
@@ -285,7 +306,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     for (int grid_face = 0; grid_face < 2 * dim; ++grid_face) {
       const int face = 2 * layout.axis(grid_face / 2) + grid_face % 2;
       const WallKind kind = definition.walls[face].kind;
-      if (kind == WallKind::none || (kind == WallKind::frictional) != lets_go) continue;
+      if (!is_wall(kind) || (kind == WallKind::frictional) != lets_go) continue;
       auto wall = std::make_unique<Wall>(grid_face, definition.walls[face], kWallNames[face]);
       if (!lets_go) holding.push_back(wall.get());
       s.stages.push_back(std::move(wall));
@@ -300,11 +321,14 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
       s.stages.push_back(std::move(condition));
     }
   }
+  s.add_absorbing();
   add_walls(false);
+  VelocityConditions* const conditions = s.add_conditions();
   const std::size_t before_contact = s.stages.size();
   s.bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
     s.bodies.emplace_back(body);
+    s.check_periodic(s.bodies.back());
     auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.threads, definition.geometry);
     s.contacts.push_back(contact.get());
     s.stages.push_back(std::move(contact));
@@ -322,6 +346,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (s.stages.size() > before_contact) {
     if (axis != nullptr) s.stages.push_back(std::make_unique<StageAgain>(*axis));
     for (Wall* wall : holding) s.stages.push_back(std::make_unique<StageAgain>(*wall));
+    if (conditions != nullptr) s.stages.push_back(std::make_unique<StageAgain>(*conditions));
   }
 
   if (definition.method.precision == Precision::float32) {
@@ -333,7 +358,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.least_mass());
   s.grid->least_mass = 1e-30 * lightest;
   s.gravity.name = "gravity";
+  if (definition.grid.leave_limit > 0) s.leaving.emplace(definition.grid.leave_limit);
   s.sort(0.0);
+  if (s.conditions != nullptr) s.conditions->find_nodes(*s.grid);
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
   s.rates.resize(definition.metrics.size());

@@ -115,6 +115,14 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
   auto& tractions = part.tractions;
   tractions.erase(std::remove_if(tractions.begin(), tractions.end(), elsewhere), tractions.end());
   for (RigidBodyDefinition& body : part.rigid_bodies) body.velocity = body.rotation_rate = {};
+  for (ConditionDefinition& condition : part.conditions) {
+    condition.region.velocity = condition.region.rotation_rate = {};
+    condition.velocity = Function();
+  }
+  // Dashpots would let it sink.
+  for (WallDefinition& wall : part.walls) {
+    if (wall.kind == WallKind::absorbing) wall.kind = WallKind::slip;
+  }
   return part;
 }
 

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <limits>
 
+#include "mpm/boundary/absorbing.hpp"
+#include "mpm/boundary/leaving.hpp"
 #include "mpm/contact/rigid_contact.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/mechanics/damping.hpp"
@@ -51,10 +53,13 @@ struct Simulation::State {
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;
   Stages stages;
-  std::vector<RigidContact*> contacts;  ///< of each body, owned by stages
-  ParticleLoads* loads = nullptr;       ///< owned by stages, when the scene has any
-  FaceTractions* tractions = nullptr;   ///< the same
-  DampingControl* damping = nullptr;    ///< the same
+  std::vector<RigidContact*> contacts;       ///< of each body, owned by stages
+  ParticleLoads* loads = nullptr;            ///< owned by stages, when the scene has any
+  FaceTractions* tractions = nullptr;        ///< the same
+  DampingControl* damping = nullptr;         ///< the same
+  VelocityConditions* conditions = nullptr;  ///< the same
+  std::vector<Absorbing*> absorbing;         ///< owned by stages
+  std::optional<Leaving> leaving;            ///< of a scene that lets particles leave
 
   std::int64_t time = 0;  ///< [ns]
   StepReport steps;
@@ -70,6 +75,12 @@ struct Simulation::State {
 
   template <class T>
   void add_mechanics();
+  /// Absorbing faces, in the list of stages: before whatever holds a node, which hides the force on it.
+  void add_absorbing();
+  /// @throws RigidError for a body at a periodic face
+  void check_periodic(const RigidBody& body) const;
+  /// Velocity conditions, in the list of stages; null when the scene has none. @throws ConditionError
+  VelocityConditions* add_conditions();
   /// Of all particles [N s].
   Vec3 momentum() const;
   /// Of all particles [J].

@@ -38,7 +38,7 @@ class ToolAmongNodes {
     contact_.grid_advanced(context);
     time_ += kStep;
   }
-  ContactReport take() { return contact_.take(time_); }
+  ContactReport take() { return contact_.ledger().take(time_); }
   RigidBody& body() { return body_; }
   const RigidContact& contact() const { return contact_; }
 

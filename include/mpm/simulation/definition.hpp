@@ -102,6 +102,15 @@ struct TractionDefinition {
   std::array<Function, 3> value;
 };
 
+/// Where contact with rigid bodies acts.
+enum class ContactMethod {
+  points,  ///< at points of the material's surface (contact/point_contact.hpp)
+  nodes    ///< at the grid's nodes in the body (contact/rigid_contact.hpp)
+};
+struct ContactDefinition {
+  ContactMethod method = ContactMethod::nodes;
+};
+
 enum class Statistic { mean, std_dev, min, max };
 struct TimeWindow {
   double from = 0.0, to = 0.0;  ///< [s]
@@ -129,6 +138,7 @@ struct SimulationDefinition {
   std::vector<MaterialDefinition> materials;
   std::vector<DeformableBody> bodies;
   std::vector<RigidBodyDefinition> rigid_bodies;
+  ContactDefinition contact;
   std::array<WallDefinition, 6> walls;
   std::vector<ConditionDefinition> conditions;
   std::vector<BodyForceDefinition> body_forces;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/shape/ring.hpp"
-
 namespace mpm {
 namespace {
 
@@ -32,9 +30,7 @@ Box world_bounds(const RigidBody& body) {
 }  // namespace
 
 RigidContact::RigidContact(const RigidBody& body, int threads, GeometryKind geometry)
-    : body_(body), threads_(threads), axisymmetric_(axisymmetric(geometry)) {
-  account_.name = "contact/" + body.name();
-}
+    : body_(body), threads_(threads), axisymmetric_(axisymmetric(geometry)), ledger_(body, axisymmetric(geometry)) {}
 
 void RigidContact::momentum_gathered(StepContext& context) {
   const Grid& grid = context.grid;
@@ -103,7 +99,7 @@ void RigidContact::momentum_updated(StepContext& context) {
     held_.add(HeldNodes::id(grid.blocks.key(node.ref.block), node.ref.node), hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
     add_nodal_vector(grid.force, grid.layout, node.ref, change / context.dt);
-    give(node, grid.mass.at(node.ref.block, 0, node.ref.node) * change);
+    give(node, grid.mass.at(node.ref.block, 0, node.ref.node), relative, change);
     ++touching;
   });
   touching_ = touching;
@@ -122,53 +118,14 @@ void RigidContact::increment_found(StepContext& context, NodalField& increment) 
   each_node([&](const Node& node) {
     const Vec3 change = held_part(nodal_vector(increment, grid.layout, node.ref), node.normal, node.hold);
     add_nodal_vector(increment, grid.layout, node.ref, change);
-    give(node, grid.mass.at(node.ref.block, 0, node.ref.node) * change);
+    give(node, grid.mass.at(node.ref.block, 0, node.ref.node), Vec3::Zero(), change);
   });
 }
 
-void RigidContact::give(const Node& node, const Vec3& impulse) {
-  const double normal = impulse.dot(node.normal);
-  given_ += impulse;
-  given_angular_ += node.arm.cross(impulse);
-  friction_ -= impulse - normal * node.normal;
-  pressed_ += normal;
-  pressed_arm_ += normal * node.arm;
-  work_ += impulse.dot(node.velocity);
+void RigidContact::give(const Node& node, double mass, const Vec3& slip, const Vec3& change) {
+  ledger_.give({mass * change, node.normal, node.arm, node.velocity, slip + 0.5 * change});
 }
 
-void RigidContact::grid_advanced(StepContext& context) {
-  account_.add(given_);
-  impulse_ -= given_;
-  angular_impulse_ -= given_angular_;
-  Wrench wrench{whole(-given_ / context.dt), Vec3::Zero()};
-  if (!axisymmetric_) wrench.torque = -given_angular_ / context.dt;
-  if (wrench.force.squaredNorm() > peak_.force.squaredNorm()) peak_ = wrench;
-  given_ = given_angular_ = Vec3::Zero();
-}
-
-ContactReport RigidContact::take(double now) {
-  ContactReport report;
-  report.body = body_.name();
-  report.interval = now - last_report_;
-  if (report.interval > 0.0) {
-    report.mean = {whole(impulse_ / report.interval), angular_impulse_ / report.interval};
-    report.friction = whole(friction_ / report.interval);
-    report.pressing = pressed_ / report.interval;
-  }
-  report.origin = whole(body_.pose().position);
-  if (pressed_ > 0.0) report.arm = whole(pressed_arm_ / pressed_);
-  if (axisymmetric_) {
-    report.mean.torque.setZero();
-    if (report.interval > 0.0) report.per_radian = impulse_ / (report.interval * kTurn);
-  }
-  report.peak = peak_;
-  report.nodes = touching_;
-  report.impulse = whole(-account_.impulse);
-  impulse_ = angular_impulse_ = friction_ = pressed_arm_ = Vec3::Zero();
-  pressed_ = 0.0;
-  peak_ = {};
-  last_report_ = now;
-  return report;
-}
+void RigidContact::grid_advanced(StepContext& context) { ledger_.end_step(context.dt, touching_, 0.0); }
 
 }  // namespace mpm

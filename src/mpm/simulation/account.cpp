@@ -145,7 +145,7 @@ SolverState Simulation::state() const {
   report.energy.elastic = totals.elastic;
   report.energy.plastic = totals.plastic;
   report.min_j = totals.min_j;
-  for (const RigidContact* contact : s.contacts) report.energy.contact_work += contact->work();
+  for (const ContactLedger* contact : s.contacts) report.energy.contact_work += contact->work();
   if (s.loads != nullptr) report.energy.load_work += s.loads->work();
   if (s.tractions != nullptr) report.energy.load_work += s.tractions->work();
   if (s.conditions != nullptr) report.energy.load_work += s.conditions->work();

@@ -329,9 +329,11 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
     s.bodies.emplace_back(body);
     s.check_periodic(s.bodies.back());
-    auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.threads, definition.geometry);
-    s.contacts.push_back(contact.get());
-    s.stages.push_back(std::move(contact));
+    if (definition.contact.method == ContactMethod::nodes) {
+      auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.threads, definition.geometry);
+      s.contacts.push_back(&contact->ledger());
+      s.stages.push_back(std::move(contact));
+    }
     const double cells = body.surface->thickness() / layout.smallest_cell();
     if (cells < 3.0) {
       s.warnings.push_back(
@@ -340,6 +342,12 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
                       "each other when it is thinner than 3; use a finer grid.cell or a thicker body",
                       body.name, cells));
     }
+  }
+  if (definition.contact.method == ContactMethod::points && !s.bodies.empty()) {
+    auto contact = std::make_unique<PointContact>(
+        s.bodies, s.sets, PointContactSettings{definition.geometry, shape, definition.across(), s.threads});
+    for (std::size_t b = 0; b < s.bodies.size(); ++b) s.contacts.push_back(&contact->ledger(static_cast<int>(b)));
+    s.stages.push_back(std::move(contact));
   }
   add_walls(true);
   if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);

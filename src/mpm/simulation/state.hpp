@@ -6,6 +6,7 @@
 
 #include "mpm/boundary/absorbing.hpp"
 #include "mpm/boundary/leaving.hpp"
+#include "mpm/contact/point_contact.hpp"
 #include "mpm/contact/rigid_contact.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/mechanics/damping.hpp"
@@ -53,7 +54,7 @@ struct Simulation::State {
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;
   Stages stages;
-  std::vector<RigidContact*> contacts;       ///< of each body, owned by stages
+  std::vector<ContactLedger*> contacts;      ///< of each body, owned by stages
   ParticleLoads* loads = nullptr;            ///< owned by stages, when the scene has any
   FaceTractions* tractions = nullptr;        ///< the same
   DampingControl* damping = nullptr;         ///< the same

@@ -1,0 +1,119 @@
+// Contact of the material with rigid bodies at points of the material's surface: on each particle near a body, the
+// point nearest to it (particle_reach.hpp). There the velocity that the grid has at that very place, by hat functions,
+// may close the gap in a step and no more, and slides as friction allows. The impulses that keep to this are spread to
+// nodes by the same functions, which are also those that internal forces of a filled cell end with: so a uniform stress
+// is in equilibrium wherever the surface lies between the nodes, and nothing acts before surfaces meet.
+//
+// All bodies are solved together: impulses >= 0 along the exact normals, within the cone of friction, by sweeps over
+// the points to and fro (projected Gauss-Seidel) that begin with the forces of the step before. What the sweeps leave
+// (a part kTolerance of the approach) is less approach than needed, made good in the next steps; momentum is exact.
+//
+// While strain is updated, points that were held stay held and open ones may not close more than their gap
+// (step/coulomb.hpp says why). Friction at rest and adhesion are remembered by particle.
+//
+// Weak: a particle has one point a body: in an inner corner the one at the nearer face. Grids coarser than a tool's
+// edges see the edge at the particles' places only. A particle drawn into a body is pushed out slowly (kPushOut).
+// Source: contact as impulses at points with complementarity is usual for rigid bodies (Moreau, Jean: non-smooth
+// contact dynamics); the law at a point is GIMP notes (3.12)-(3.20), method reference 8.3, without its node.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mpm/contact/contact_ledger.hpp"
+#include "mpm/math/geometry_kind.hpp"
+#include "mpm/particles/particle_set.hpp"
+#include "mpm/shape/kind.hpp"
+#include "mpm/step/coulomb.hpp"
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+struct PointContactSettings {
+  GeometryKind geometry = GeometryKind::solid;
+  ShapeKind shape = ShapeKind::ugimp;
+  double across = 1.0;  ///< thickness [m] of a plane, area [m^2] of a line
+  int threads = 1;
+};
+
+class PointContact final : public Stage {
+ public:
+  /// Bodies and sets outlive the stage.
+  PointContact(const std::vector<RigidBody>& bodies, const std::vector<ParticleSet>& sets,
+               const PointContactSettings& settings);
+
+  void momentum_gathered(StepContext& context) override;
+  void before_strain(StepContext& context) override;
+  void momentum_updated(StepContext& context) override;
+  void velocity_found(StepContext& context, NodalField& velocity) override;
+  void increment_found(StepContext& context, NodalField& increment) override;
+  void grid_advanced(StepContext& context) override;
+  void accounts(std::vector<ImpulseAccount>& list) const override;
+
+  ContactLedger& ledger(int body) { return ledgers_[body]; }
+
+ private:
+  struct Point {
+    int body;
+    std::uint32_t particle;  ///< its id
+    Vec3 place, normal;      ///< world [m]; out of the body
+    Vec3 velocity;           ///< of the body there [m/s]
+    double gap;              ///< negative inside [m]
+    double area;             ///< of the surface that the point stands for [m^2]
+    FrictionLaw law;
+    int first = 0, end = 0;        ///< its parts in parts_
+    double compliance = 0.0;       ///< velocity at the point by an impulse there [1/kg]
+    Vec3 impulse = Vec3::Zero();   ///< on the material [N s]
+    Vec3 approach = Vec3::Zero();  ///< relative velocity before the impulses [m/s]
+    Hold hold = Hold::free;        ///< in the step before, then in this one
+  };
+  /// What is kept of a point that was held.
+  struct Memory {
+    std::uint64_t id;  ///< of particle and body
+    Vec3 force;        ///< on the material [N]
+    Hold hold;
+  };
+  struct Node {
+    NodeRef ref;
+    double inverse_mass;  ///< [1/kg]
+  };
+  /// A node's part in a point.
+  struct Part {
+    int node;  ///< in nodes_
+    double weight;
+    double lifted;  ///< weight over mass [1/kg]
+  };
+  enum class Pass { step, strain, held };
+
+  template <class Geometry>
+  void find_points(const StepContext& context);
+  void connect(const StepContext& context);
+  void load(const NodalField& field, const GridLayout& layout);
+  /// Adds what has changed since load() to the field.
+  void store(NodalField& field, const GridLayout& layout, double factor = 1.0);
+  Vec3 velocity_at(const Point& point) const;
+  void push(const Point& point, const Vec3& impulse);
+  /// One point, once; the largest velocity it changed by [m/s].
+  template <Pass Kind>
+  double relax(Point& point, double dt);
+  template <Pass Kind>
+  void solve(double dt, bool relative);
+  const Memory* find(std::uint64_t id) const;
+
+  const std::vector<RigidBody>& bodies_;
+  const std::vector<ParticleSet>& sets_;
+  PointContactSettings settings_;
+  std::vector<ContactLedger> ledgers_;
+
+  std::vector<int> near_;                     ///< owners with particles near a body
+  std::vector<std::vector<Point>> of_owner_;  ///< their points
+  std::vector<Point> points_;
+  std::vector<int> slot_;  ///< of each node of the grid: its place in nodes_, or -1
+  std::vector<Node> nodes_;
+  std::vector<Part> parts_;
+  std::vector<std::array<double, 3>> velocity_, loaded_;  ///< of nodes_
+  std::vector<Memory> memory_;                            ///< by id
+  std::vector<Vec3> kept_;                                ///< impulses, while strain is updated
+};
+
+}  // namespace mpm

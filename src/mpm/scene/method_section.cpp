@@ -198,10 +198,8 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
     scene.choices.emplace_back("method.particles_per_cell", "two along each edge");
     return AutoMethod{};
   }
-  const Map map(*section,
-                {"auto", "shape", "update", "transfer", "average_dilatation", "damping", "gradient_terms",
-                 "particles_per_cell", "precision", "axis"},
-                {{"leave_limit", "write grid: {leave: {limit: 10}}"}});
+  const Map map(*section, {"auto", "shape", "update", "transfer", "average_dilatation", "damping", "gradient_terms",
+                           "particles_per_cell", "precision", "axis"});
   std::optional<AutoMethod> chosen_later;
   if (const auto value = map.find("auto")) chosen_later = read_auto(*value, scene);
   const auto shape = map.find("shape");

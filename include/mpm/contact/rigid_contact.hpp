@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mpm/contact/contact_ledger.hpp"
+#include "mpm/grid/fields.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/step/coulomb.hpp"
@@ -22,8 +23,8 @@ namespace mpm {
 
 class RigidContact final : public Stage {
  public:
-  /// `body` outlives the stage. Solid stands for every geometry that is not axisymmetric.
-  RigidContact(const RigidBody& body, int threads, GeometryKind geometry = GeometryKind::solid);
+  /// `body` and `fields` outlive the stage. Solid stands for every geometry that is not axisymmetric.
+  RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry = GeometryKind::solid);
 
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
@@ -37,23 +38,29 @@ class RigidContact final : public Stage {
 
  private:
   struct Node {
+    int field;
     NodeRef ref;
     Vec3 normal;    ///< out of the body
     Vec3 velocity;  ///< of the body's surface there [m/s]
     Vec3 arm;       ///< from the body's origin [m]
     Hold hold;
   };
+  struct NearBlock {
+    int field, block;
+  };
+  /// visit(node, grid of its field)
   template <class Visit>
   void each_node(Visit&& visit);
   /// Books what one node was given; `slip`: its relative velocity before [m/s].
   void give(const Node& node, double mass, const Vec3& slip, const Vec3& change);
 
   const RigidBody& body_;
+  Fields& fields_;
   int threads_;
   bool axisymmetric_;
-  std::vector<int> near_;                 ///< blocks whose nodes may lie in the body
+  std::vector<NearBlock> near_;           ///< blocks whose nodes may lie in the body
   std::vector<std::vector<Node>> nodes_;  ///< of each block in near_
-  HeldNodes held_;
+  std::vector<HeldNodes> held_;           ///< of each field
   ContactLedger ledger_;
   int touching_ = 0;
 };

@@ -52,6 +52,8 @@ class GridLayout {
   std::uint64_t key(const std::array<int, 3>& block) const;
   std::array<int, 3> block(std::uint64_t key) const;
   std::int64_t key_stride(int k) const { return stride_[k]; }
+  /// One more than the largest key.
+  std::uint64_t keys() const { return static_cast<std::uint64_t>(stride_[0]) * static_cast<std::uint64_t>(blocks_[0]); }
 
   /// Makes the nodes of the axis' two faces one. Before any block is made. @throws GridError unless the cells are a
   /// multiple of 8: blocks go round whole, and an even number of them, so that neighbours have different colours.

@@ -64,6 +64,7 @@ struct GeostaticDefinition {
 struct DeformableBody {
   std::string name;
   std::string material;                      ///< name in SimulationDefinition::materials
+  int field = 0;                             ///< velocity field; bodies in one field move as one where they meet
   std::vector<Vec3> positions;               ///< particle centres [m]
   std::vector<Vec3> velocities;              ///< one each, or empty for rest [m/s]
   std::vector<Symmetric3<double>> stresses;  ///< Cauchy stress to start under, one each, or empty [Pa]

@@ -107,8 +107,9 @@ void Absorbing::find_waves(const Grid& grid) {
   for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
     const int first = grid.blocks.block(grid.blocks.owner_block(owner))[axis] * kBlockEdge;
     if (on_face < first - 1 || on_face > first + kBlockEdge) continue;
+    const int number = grid.first_owner + owner;
     for (std::size_t s = 0; s < sets_.size(); ++s) {
-      for (std::uint32_t p = sets_[s].begin[owner]; p < sets_[s].begin[owner + 1]; ++p) {
+      for (std::uint32_t p = sets_[s].begin[number]; p < sets_[s].begin[number + 1]; ++p) {
         std::array<int, 3> node{};
         for (int k = 0; k < layout.dim(); ++k) node[k] = GridLayout::nearest(layout.in_cells(k, sets_[s].x[k][p]));
         if (std::abs(node[axis] - on_face) > 1) continue;

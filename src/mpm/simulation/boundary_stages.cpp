@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "mpm/boundary/periodic.hpp"
+#include "mpm/step/in_field.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -13,10 +14,15 @@ void each_face(const GridLayout& layout, Visit&& visit) {
   for (int face = 0; face < 2 * layout.dim(); ++face) visit(face, 2 * layout.axis(face / 2) + face % 2);
 }
 
+std::unique_ptr<Stage> in_field(const Fields& fields, Grid& field, std::unique_ptr<Stage> stage) {
+  if (fields.size() == 1) return stage;
+  return std::make_unique<InField>(field, std::move(stage));
+}
+
 }  // namespace
 
 void Simulation::State::add_absorbing() {
-  each_face(grid->layout, [&](int face, int name) {
+  each_face(layout(), [&](int face, int name) {
     const WallDefinition& wall = definition.walls[name];
     if (wall.kind != WallKind::absorbing) return;
     std::vector<ElasticWaves> waves;
@@ -24,14 +30,16 @@ void Simulation::State::add_absorbing() {
       waves.push_back(elastic_waves(find_material(definition, body), definition.geometry));
     }
     const double phi = face_mass(definition.method.shape, definition.method.particles_per_direction);
-    auto stage = std::make_unique<Absorbing>(face, kWallNames[name], sets, std::move(waves), phi, wall.hold);
-    absorbing.push_back(stage.get());
-    stages.push_back(std::move(stage));
+    for (auto& field : fields) {
+      auto stage = std::make_unique<Absorbing>(face, kWallNames[name], sets, waves, phi, wall.hold);
+      absorbing.push_back(stage.get());
+      stages.push_back(in_field(fields, *field, std::move(stage)));
+    }
   });
 }
 
 void Simulation::State::check_periodic(const RigidBody& body) const {
-  const std::string face = periodic_face_reached(body, grid->layout);
+  const std::string face = periodic_face_reached(body, layout());
   if (face.empty()) return;
   throw RigidError(
       fmt::format("rigid body '{}' comes to within a cell and a half of {}, which is periodic, and rigid bodies do not "
@@ -39,17 +47,18 @@ void Simulation::State::check_periodic(const RigidBody& body) const {
                   body.name(), face, face[0]));
 }
 
-VelocityConditions* Simulation::State::add_conditions() {
-  if (definition.conditions.empty()) return nullptr;
+void Simulation::State::add_conditions() {
+  if (definition.conditions.empty()) return;
   std::vector<HeldFace> slip;
-  each_face(grid->layout, [&](int face, int name) {
+  each_face(layout(), [&](int face, int name) {
     const WallKind kind = definition.walls[name].kind;
     if (kind == WallKind::slip || kind == WallKind::symmetry) slip.push_back({face, kWallNames[name]});
   });
-  auto stage = std::make_unique<VelocityConditions>(definition.conditions, std::move(slip), grid->layout);
-  conditions = stage.get();
-  stages.push_back(std::move(stage));
-  return conditions;
+  for (auto& field : fields) {
+    auto stage = std::make_unique<VelocityConditions>(definition.conditions, slip, layout());
+    conditions.push_back(stage.get());
+    stages.push_back(in_field(fields, *field, std::move(stage)));
+  }
 }
 
 }  // namespace mpm

@@ -72,8 +72,7 @@ struct Unbalanced {
   double most = std::numeric_limits<double>::infinity();  ///< largest |a| / g of nodes that carry half a particle
 };
 
-Unbalanced unbalanced(const Grid& grid, double weight, double g, double half_particle) {
-  Unbalanced found{0.0, 0.0};
+void add_unbalanced(const Grid& grid, double weight, double g, double half_particle, Unbalanced& found) {
   for (int b = 0; b < grid.blocks.size(); ++b) {
     for (int n = 0; n < grid.layout.nodes_per_block(); ++n) {
       if (!grid.carries(b, n)) continue;
@@ -82,7 +81,6 @@ Unbalanced unbalanced(const Grid& grid, double weight, double g, double half_par
       if (mass >= half_particle) found.most = std::max(found.most, a / g);
     }
   }
-  return found;
 }
 
 void stop(std::vector<ParticleSet>& sets) {
@@ -208,7 +206,10 @@ void Simulation::State::settle() {
     for (bool at_rest = true; residual.mean > wanted && count < kMostSteps; ++count) {
       if (count % kSurveyEvery == 0) r.previous_limit = r.material_limit = r.survey_material();
       r.step(0.0, std::min(r.step_limit().dt, period));
-      if (at_rest) residual = unbalanced(*r.grid, r.total_mass * g, g, 0.5 * lightest);
+      if (at_rest) {
+        residual = {0.0, 0.0};
+        for (const auto& grid : r.fields) add_unbalanced(*grid, r.total_mass * g, g, 0.5 * lightest, residual);
+      }
       const double now = r.kinetic_energy();
       at_rest = now < before;
       if (at_rest) stop(r.sets);

@@ -32,16 +32,16 @@ void Simulation::State::fail(const std::string& what, ParticleRef particle, doub
                              const std::string& remedy) const {
   const ParticleSet& set = sets[particle.set];
   Vec3 position = Vec3::Zero();
-  for (int k = 0; k < grid->layout.dim(); ++k) position[grid->layout.axis(k)] = set.x[k][particle.index];
+  for (int k = 0; k < layout().dim(); ++k) position[layout().axis(k)] = set.x[k][particle.index];
   throw PhysicsError(fmt::format(
       "{}: particle {} of body '{}' after step {} (t = {:.6g} s) at ({:.6g}, {:.6g}, {:.6g}) m; {}", what,
       set.id[particle.index], set.name, steps.steps, now, position.x(), position.y(), position.z(), remedy));
 }
 
 void Simulation::State::sort(double now) {
-  if (grid->layout.any_periodic()) put_around(sets, grid->layout, threads);
-  auto outside = sorter->sort(sets, *grid);
-  if (outside && leaving && leaving->put_back(sets, grid->layout)) outside = sorter->sort(sets, *grid);
+  if (layout().any_periodic()) put_around(sets, layout(), threads);
+  auto outside = sorter->sort(sets, fields);
+  if (outside && leaving && leaving->put_back(sets, layout())) outside = sorter->sort(sets, fields);
   if (outside) {
     if (leaving && leaving->count() > leaving->limit()) {
       fail(fmt::format("more than {} particles have left the grid (grid.leave.limit)", leaving->limit()), *outside, now,
@@ -49,8 +49,8 @@ void Simulation::State::sort(double now) {
            "if the run blew up");
     }
     const double r = sets[outside->set].x[0][outside->index];
-    if (axisymmetric(definition.geometry) && definition.grid.min.x() == 0.0 && r < grid->layout.cell(0) &&
-        r > -grid->layout.cell(0)) {
+    if (axisymmetric(definition.geometry) && definition.grid.min.x() == 0.0 && r < layout().cell(0) &&
+        r > -layout().cell(0)) {
       fail("a particle has come to the axis", *outside, now,
            "use method.axis.motion: point, shape cpdi or transfer apic, or lower time.cfl if the run blew up");
     }
@@ -62,7 +62,7 @@ void Simulation::State::sort(double now) {
 
 void Simulation::State::step(double start, double dt) {
   for (RigidBody& body : bodies) body.begin_step(start, dt);
-  StepContext context{*grid, dt, start};
+  StepContext context{*fields.front(), dt, start};
   constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg};  // in the order of UpdateScheme
   kSchedules[static_cast<int>(definition.method.update)](*mechanics, stages, context);
   gravity.add(definition.gravity * (total_mass * dt));

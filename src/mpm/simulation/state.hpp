@@ -49,18 +49,18 @@ struct Simulation::State {
 
   std::vector<ParticleSet> sets;
   std::vector<Law> laws;  ///< of each set
-  std::unique_ptr<Grid> grid;
+  Fields fields;
   std::unique_ptr<Sorter> sorter;
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;
   Stages stages;
-  std::vector<ContactLedger*> contacts;      ///< of each body, owned by stages
-  ParticleLoads* loads = nullptr;            ///< owned by stages, when the scene has any
-  FaceTractions* tractions = nullptr;        ///< the same
-  DampingControl* damping = nullptr;         ///< the same
-  VelocityConditions* conditions = nullptr;  ///< the same
-  std::vector<Absorbing*> absorbing;         ///< owned by stages
-  std::optional<Leaving> leaving;            ///< of a scene that lets particles leave
+  std::vector<ContactLedger*> contacts;         ///< of each body, owned by stages
+  ParticleLoads* loads = nullptr;               ///< owned by stages, when the scene has any
+  FaceTractions* tractions = nullptr;           ///< the same
+  DampingControl* damping = nullptr;            ///< the same
+  std::vector<VelocityConditions*> conditions;  ///< of each field, the same
+  std::vector<Absorbing*> absorbing;            ///< of each absorbing face and field, owned by stages
+  std::optional<Leaving> leaving;               ///< of a scene that lets particles leave
 
   std::int64_t time = 0;  ///< [ns]
   StepReport steps;
@@ -74,14 +74,16 @@ struct Simulation::State {
   bool failed = false;
   std::vector<LineFit> rates;  ///< of each metric; those without a window stay empty
 
+  /// Of every field.
+  const GridLayout& layout() const { return fields.front()->layout; }
   template <class T>
   void add_mechanics();
   /// Absorbing faces, in the list of stages: before whatever holds a node, which hides the force on it.
   void add_absorbing();
   /// @throws RigidError for a body at a periodic face
   void check_periodic(const RigidBody& body) const;
-  /// Velocity conditions, in the list of stages; null when the scene has none. @throws ConditionError
-  VelocityConditions* add_conditions();
+  /// Velocity conditions, in the list of stages. @throws ConditionError
+  void add_conditions();
   /// Of all particles [N s].
   Vec3 momentum() const;
   /// Of all particles [J].

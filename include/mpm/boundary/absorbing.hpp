@@ -1,6 +1,6 @@
 // A face of the domain that lets waves out: dashpots on its nodes, a traction -rho c_p v_n - rho c_s v_t on the face.
 // A plane wave that comes straight at it is absorbed but for what the grid itself makes of it; at an angle of incidence
-// theta part of it comes back, more the more it grazes (P waves: (1 - cos theta) / (1 + cos theta) and less).
+// theta part of it comes back, (1 - cos theta) / (1 + cos theta) of a wave with one speed.
 //
 // A node of the face stands for half a cell of material, m = phi rho A h with phi = 1/2 (other values for splines), so
 // its dashpot is rho c A = m c / (phi h): a rate, the same for whole nodes, those at the edge of a body and those just

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/boundary/condition.hpp"
 #include "mpm/boundary/wall.hpp"
 #include "mpm/contact/pair_detection.hpp"
 #include "mpm/contact/pair_normal.hpp"
@@ -31,6 +32,7 @@ struct GridDefinition {
   Vec3 cell = Vec3::Zero();  ///< cell size along each axis [m]
   Vec3 min = Vec3::Zero();   ///< corners of the domain that material may not leave [m]; a node lies on min
   Vec3 max = Vec3::Zero();
+  std::uint64_t leave_limit = 0;  ///< particles that may leave and are put back; one more ends the run
 };
 
 struct TimeDefinition {
@@ -150,6 +152,7 @@ struct SimulationDefinition {
   std::vector<RigidBodyDefinition> rigid_bodies;
   ContactDefinition contact;
   std::array<WallDefinition, 6> walls;
+  std::vector<ConditionDefinition> conditions;
   std::vector<BodyForceDefinition> body_forces;
   std::vector<ParticleForceDefinition> particle_forces;
   std::vector<TractionDefinition> tractions;

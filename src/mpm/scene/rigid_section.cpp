@@ -164,6 +164,16 @@ void read_normals(const Value& value, RigidBodyDefinition& body) {
 
 }  // namespace
 
+void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinition& body) {
+  if (const auto motion = map.find("motion")) read_motion(*motion, geometry, body);
+}
+
+void read_rigid_shape(const Map& map, GeometryKind geometry, RigidBodyDefinition& body) {
+  body.surface = read_surface(map.at("shape"), geometry, body);
+  if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, geometry, body.inner_radius);
+  read_rigid_motion(map, geometry, body);
+}
+
 void read_rigid_bodies(const Map& root, Scene& scene) {
   const GeometryKind geometry = scene.definition.geometry;
   const auto section = root.find("rigid_bodies");
@@ -185,9 +195,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
         value.fail(fmt::format("'{}' is already the name of a deformable body; give each its own name", body.name));
       }
     }
-    body.surface = read_surface(map.at("shape"), geometry, body);
-    if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, geometry, body.inner_radius);
-    if (const auto motion = map.find("motion")) read_motion(*motion, geometry, body);
+    read_rigid_shape(map, geometry, body);
     const auto own_friction = map.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;
     if (const auto reach = map.find("reach")) {

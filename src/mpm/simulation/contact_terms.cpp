@@ -84,7 +84,10 @@ void Simulation::State::add_pairs() {
 
 void Simulation::State::add_rigid_bodies() {
   bodies.reserve(definition.rigid_bodies.size());
-  for (const RigidBodyDefinition& body : definition.rigid_bodies) bodies.emplace_back(body);
+  for (const RigidBodyDefinition& body : definition.rigid_bodies) {
+    bodies.emplace_back(body);
+    check_periodic(bodies.back());
+  }
   const std::vector<ContactLaw> laws_of_pairs = rigid_contact_laws(definition, sets);
   const auto laws_of = [&](std::size_t body) { return laws_of_pairs.begin() + static_cast<int>(body * sets.size()); };
   contacts.resize(bodies.size());

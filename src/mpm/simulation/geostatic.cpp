@@ -120,6 +120,14 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
   };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), absent), pairs.end());
   for (RigidBodyDefinition& body : part.rigid_bodies) body.velocity = body.rotation_rate = {};
+  for (ConditionDefinition& condition : part.conditions) {
+    condition.region.velocity = condition.region.rotation_rate = {};
+    condition.velocity = Function();
+  }
+  // Dashpots would let it sink.
+  for (WallDefinition& wall : part.walls) {
+    if (wall.kind == WallKind::absorbing) wall.kind = WallKind::slip;
+  }
   return part;
 }
 

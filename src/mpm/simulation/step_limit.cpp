@@ -92,6 +92,17 @@ StepLimit Simulation::State::step_limit() const {
     tool.name = &body.name();
     if (tool.speed > 0.0) tighten(limit, tool);
   }
+  for (const VelocityConditions* all : conditions) {
+    static const std::string kConditions = "boundaries.conditions";
+    StepLimit condition;
+    for (const double part : {0.0, 0.5, 1.0}) {
+      condition.speed = std::max(condition.speed, all->largest_speed(start + part * period));
+    }
+    condition.dt = reach / condition.speed;
+    condition.cause = StepLimit::Cause::tool;
+    condition.name = &kConditions;
+    if (condition.speed > 0.0) tighten(limit, condition);
+  }
   if (damping != nullptr) {
     const double energy = damping->needs_energy() ? kinetic_energy() : 0.0;
     const double rate = damping->largest_rate(start, period, energy, layout());

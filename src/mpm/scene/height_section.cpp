@@ -131,7 +131,11 @@ std::unique_ptr<Surface> read_height_field(const Value& value, const SimulationD
   }
   if (grid.columns < 2 || (!in_plane && grid.rows < 2))
     (heights ? *heights : *file).fail("it needs two points at least along each axis");
-  return make_height_field(grid);
+  try {
+    return make_height_field(grid);
+  } catch (const RigidError& error) {
+    (heights ? *heights : *file).fail(error.what());
+  }
 }
 
 }  // namespace mpm

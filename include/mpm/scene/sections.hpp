@@ -38,11 +38,14 @@ FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools);
 /// own.
 void read_contact_pairs(const Map& root, Scene& scene);
 /// `shape`, `pose` and `motion` of a rigid body, or of the region of a velocity condition; `motion` alone.
-void read_rigid_shape(const Map& map, GeometryKind geometry, RigidBodyDefinition& body);
+void read_rigid_shape(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body);
 void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinition& body);
 /// The `shape` of a rigid body that is `revolved`, `cone` or `ring`; of a ring that can open, its inner radius too.
 /// @throws RigidError for numbers that make no body.
 std::unique_ptr<Surface> read_revolved_shape(const std::string& kind, const Value& value, RigidBodyDefinition& body);
+/// The `shape` of a rigid body that is a `height_field`, after `grid`. @throws RigidError for numbers that make no
+/// body.
+std::unique_ptr<Surface> read_height_field(const Value& value, const SimulationDefinition& definition);
 /// `boundaries`, after bodies and rigid bodies
 void read_boundaries(const Map& root, Scene& scene);
 /// `loads`, after bodies

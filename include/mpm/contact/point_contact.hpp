@@ -127,6 +127,7 @@ class PointContact final : public Stage {
   std::vector<FrictionLaw> laws_now_;
   std::vector<ContactLedger> ledgers_;
   double push_out_ = 0.0;  ///< [m] a step at most
+  double touching_ = 0.0;  ///< [m]
 
   std::vector<NearBlock> near_;               ///< blocks with particles near a body
   std::vector<std::vector<Point>> of_block_;  ///< their points

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kBeyondBlock = 1.5;  ///< nodes that a particle may be beyond its block, and a half
 constexpr double kWatched = 0.1;      ///< cells: a point this near is held if it comes nearer in this step
+constexpr double kTouching = 1e-2;    ///< cells: a point this near counts to the area, and adheres
 constexpr double kPushOut = 2e-4;     ///< cells a step at most that a point inside a body is moved out
 constexpr double kPushOutPart = 0.1;  ///< of its depth
 constexpr int kMostSweeps = 40;
@@ -110,6 +111,7 @@ void PointContact::find_points(const StepContext& context) {
 void PointContact::momentum_gathered(StepContext& context) {
   for (std::size_t i = 0; i < laws_.size(); ++i) laws_now_[i] = laws_[i].at(context.start + 0.5 * context.dt);
   push_out_ = kPushOut * context.grid.layout.smallest_cell();
+  touching_ = kTouching * context.grid.layout.smallest_cell();
   with_geometry(settings_.geometry, [&](auto kind) { find_points<decltype(kind)>(context); });
   connect(context);
 }
@@ -157,7 +159,7 @@ void PointContact::recall(Point& point, double dt) const {
   const auto memory = std::lower_bound(memory_.begin(), memory_.end(), id,
                                        [](const Memory& entry, std::uint64_t wanted) { return entry.id < wanted; });
   const bool held = memory != memory_.end() && memory->id == id;
-  point.adheres = held || point.gap <= 0.0;
+  point.adheres = held || point.gap <= touching_;
   if (!held) return;
   point.hold = memory->hold;
   point.impulse = memory->force * dt;
@@ -313,9 +315,9 @@ void PointContact::grid_advanced(StepContext& context) {
     int held = 0;
     double area = 0.0;
     for (const Point& point : points_) {
-      if (point.body != static_cast<int>(b) || point.hold == Hold::free) continue;
-      ++held;
-      area += point.area;
+      if (point.body != static_cast<int>(b)) continue;
+      if (point.hold != Hold::free) ++held;
+      if (point.hold != Hold::free || point.gap <= touching_) area += point.area;
     }
     ledgers_[b].end_step(context.dt, held, area);
   }

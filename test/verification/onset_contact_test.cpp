@@ -77,8 +77,9 @@ TEST(RigidContact, BlockIsFeltWhereItMeetsThePlane) {
 TEST(RigidContact, ForceEndsWithContactAndNeverPulls) {
   Page page("contact", "rigid_release", "Force when a tool goes away");
   page.problem(
-          "A plane presses a block of 0.1 m that rests on the plate by 1 % and goes away ten times as fast as the "
-          "block's waves could follow... step by step, at 0 and 30 degrees to the grid.")
+          "A block of 0.1 m between a plate and a plane is pressed together by 2 %, held, and let go by the plane at "
+          "10 "
+          "m/s, faster than it springs back. Force on the plane step by step, at 0 and 30 degrees to the grid.")
       .exact("0 from the step after the plane has parted from the block on, and never a pull",
              "contact without adhesion");
   for (const ContactMethod& method : contact_methods()) {
@@ -117,7 +118,7 @@ TEST(RigidContact, ForceEndsWithContactAndNeverPulls) {
       const std::string name = fmt::format("{}, {:g} degrees", method.name, degrees);
       EXPECT_GT(most, 0.0);
       page.below("largest pull over the largest force, " + name, -pull / most, 0.0, "");
-      // The plane moves 0.04 cells a step, and the block springs back by less: parted in the first step.
+      // The plane moves 0.04 cells a step, and the block springs back by less: parted in the first step, number 0.
       page.below("last step with force after the plane went, " + name, last, 0.0, "");
       say("largest pull over largest force, " + name, -pull / most, 0.0, "");
       say("last step with force, " + name, last, -1.0, "");

@@ -14,7 +14,8 @@ int dimension(const mpm::SimulationDefinition& definition) {
 
 Block::Block(const std::string& scene, const std::vector<std::string>& changes, mpm::Precision precision)
     : definition(mpm::build(mpm::load_scene(scene, changes))),
-      grid(mpm::GridLayout(dimension(definition), definition.grid.cell, definition.grid.min, definition.grid.max)),
+      fields(mpm::make_fields(
+          mpm::GridLayout(dimension(definition), definition.grid.cell, definition.grid.min, definition.grid.max))),
       sets(1),
       law(mpm::make_law(definition.materials.front())) {
   const mpm::DeformableBody& body = definition.bodies.front();
@@ -50,7 +51,7 @@ void Block::make_of(const mpm::MaterialDefinition& material) {
 }
 
 void Block::sort(int threads, const mpm::Grouping& grouping) {
-  if (mpm::Sorter(threads, grouping).sort(sets, grid)) throw mpm::Error("a particle is outside the grid");
+  if (mpm::Sorter(threads, grouping).sort(sets, fields)) throw mpm::Error("a particle is outside the grid");
 }
 
 }  // namespace bench

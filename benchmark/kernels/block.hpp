@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mpm/grid/nodal_fields.hpp"
+#include "mpm/grid/fields.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/simulation/definition.hpp"
 #include "mpm/step/sorter.hpp"
@@ -24,7 +24,8 @@ struct Block {
   int particles() const { return sets.front().size(); }
 
   mpm::SimulationDefinition definition;
-  mpm::Grid grid;
+  mpm::Fields fields;  ///< one
+  mpm::Grid& grid = *fields.front();
   std::vector<mpm::ParticleSet> sets;  ///< one
   mpm::Law law;
 };

@@ -13,14 +13,14 @@ namespace {
 void sort(benchmark::State& state, const char* scene, mpm::Precision precision, int threads) {
   Block block(scene, {}, precision);
   mpm::Sorter sorter(threads, mpm::kernel_grouping(block.dim(), precision, mpm::best_isa()));
-  sorter.sort(block.sets, block.grid);
+  sorter.sort(block.sets, block.fields);
   double shift = 0.25 * block.grid.layout.cell(0);
   for (auto _ : state) {
     state.PauseTiming();
     for (double& x : block.sets[0].x[0]) x += shift;
     shift = -shift;
     state.ResumeTiming();
-    if (sorter.sort(block.sets, block.grid)) state.SkipWithError("a particle left the grid");
+    if (sorter.sort(block.sets, block.fields)) state.SkipWithError("a particle left the grid");
   }
   state.SetItemsProcessed(state.iterations() * block.particles());
 }

@@ -14,7 +14,7 @@ constexpr double kStep = 0.5;  // [s]
 class ToolAmongNodes {
  public:
   explicit ToolAmongNodes(const RigidBodyDefinition& tool)
-      : body_(tool), contact_(body_, 1, GeometryKind::axisymmetric), grid_(layout()) {
+      : body_(tool), contact_(body_, fields_, 1, GeometryKind::axisymmetric) {
     grid_.rebuild({layout().key({0, 0, 0})});
     for (NodalField* field : {&grid_.mass, &grid_.momentum, &grid_.velocity, &grid_.force}) {
       std::fill_n(field->block(0), grid_.blocks.size() * field->components() * layout().nodes_per_block(), 0.0);
@@ -38,7 +38,7 @@ class ToolAmongNodes {
     contact_.grid_advanced(context);
     time_ += kStep;
   }
-  ContactReport take() { return contact_.take(time_); }
+  ContactReport take() { return contact_.ledger().take(time_); }
   RigidBody& body() { return body_; }
   const RigidContact& contact() const { return contact_; }
 
@@ -52,8 +52,9 @@ class ToolAmongNodes {
   }
 
   RigidBody body_;
+  Fields fields_ = make_fields(layout());
+  Grid& grid_ = *fields_.front();
   RigidContact contact_;
-  Grid grid_;
   double time_ = 0.0;
 };
 

@@ -17,7 +17,7 @@ constexpr double kStep = 0.5;  // [s]
 /// A plate whose upper face lies at z = 0, its origin 0.1 m below, on a grid of 1 m cells with one block in use.
 class PlateBelowNodes {
  public:
-  explicit PlateBelowNodes(double friction) : body_(definition(friction)), contact_(body_, 1), grid_(layout()) {
+  explicit PlateBelowNodes(double friction) : body_(definition(friction)), contact_(body_, fields_, 1) {
     grid_.rebuild({layout().key({0, 0, 0})});
     for (NodalField* field : {&grid_.mass, &grid_.momentum, &grid_.velocity, &grid_.force}) {
       std::fill_n(field->block(0), grid_.blocks.size() * field->components() * 64, 0.0);
@@ -41,7 +41,7 @@ class PlateBelowNodes {
     contact_.grid_advanced(context);
     time_ += kStep;
   }
-  ContactReport take() { return contact_.take(time_); }
+  ContactReport take() { return contact_.ledger().take(time_); }
   RigidBody& body() { return body_; }
 
  private:
@@ -56,8 +56,9 @@ class PlateBelowNodes {
   }
 
   RigidBody body_;
+  Fields fields_ = make_fields(layout());
+  Grid& grid_ = *fields_.front();
   RigidContact contact_;
-  Grid grid_;
   double time_ = 0.0;
 };
 

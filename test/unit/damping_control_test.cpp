@@ -16,7 +16,8 @@ Function of(const std::string& expression) { return Function::parse(expression);
 
 /// A plane with particles anywhere in [0, 1)^2.
 struct Plane {
-  explicit Plane(int count = 500) : grid(GridLayout(2, Vec3::Constant(0.1), Vec3::Zero(), Vec3::Ones())) {
+  explicit Plane(int count = 500)
+      : fields(make_fields(GridLayout(2, Vec3::Constant(0.1), Vec3::Zero(), Vec3::Ones()))) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> place(0.0, 1.0);
     ParticleSet set;
@@ -33,7 +34,8 @@ struct Plane {
   }
   StepContext step(double start, double dt) { return {grid, dt, start}; }
   double mass() const { return sets[0].mass * sets[0].size(); }
-  Grid grid;
+  Fields fields;
+  Grid& grid = *fields.front();
   std::vector<ParticleSet> sets;
 };
 
@@ -53,7 +55,7 @@ TEST(DampingControl, RatesAreReadAtTheMiddleOfTheStep) {
   damping.particle = of("5*t");
   damping.pic = of("0.1*t");
   damping.in_force = false;
-  DampingControl control(damping, 1.0, plane.sets, 2);
+  DampingControl control(damping, 1.0, plane.fields, plane.sets, 2);
   control.begin_step(plane.step(2.0, 0.01));
   EXPECT_NEAR(control.rates(0).grid, 3.0 * 2.005, 1e-14);
   EXPECT_NEAR(control.rates(0).particle, 5.0 * 2.005, 1e-14);
@@ -62,13 +64,13 @@ TEST(DampingControl, RatesAreReadAtTheMiddleOfTheStep) {
 
   // On the nodes: nothing of the grid's rate is left for the particles.
   damping.in_force = true;
-  DampingControl on_nodes(damping, 1.0, plane.sets, 2);
+  DampingControl on_nodes(damping, 1.0, plane.fields, plane.sets, 2);
   on_nodes.begin_step(plane.step(2.0, 0.01));
   EXPECT_EQ(on_nodes.rates(0).grid, 0.0);
   EXPECT_NEAR(on_nodes.rates(0).particle, 5.0 * 2.005, 1e-14);
 
   // Without a part of PIC of its own, the transfer's fraction stands.
-  DampingControl plain(DampingDefinition(2.0), 0.9, plane.sets, 1);
+  DampingControl plain(DampingDefinition(2.0), 0.9, plane.fields, plane.sets, 1);
   plain.begin_step(plane.step(0.0, 0.01));
   EXPECT_EQ(plain.flip(), 0.9);
   EXPECT_FALSE(plain.in_update() || plain.needs_energy());
@@ -84,7 +86,7 @@ TEST(DampingControl, RatesOfPlaceAreReadAtTheParticles) {
   damping.pic = of("0.25*z");
   damping.in_force = false;
   const double dt = 0.01;
-  DampingControl one(damping, 1.0, plane.sets, 1), three(damping, 1.0, plane.sets, 3);
+  DampingControl one(damping, 1.0, plane.fields, plane.sets, 1), three(damping, 1.0, plane.fields, plane.sets, 3);
   one.begin_step(plane.step(1.0, dt));
   three.begin_step(plane.step(1.0, dt));
   EXPECT_EQ(one.flip(), 1.0);
@@ -110,7 +112,7 @@ TEST(DampingControl, FeedbackFollowsItsExactSolution) {
     DampingDefinition damping;
     damping.feedback = FeedbackDefinition{gain, 0.0, std::numeric_limits<double>::infinity(), part};
     damping.in_force = false;
-    DampingControl control(damping, 1.0, plane.sets, 1);
+    DampingControl control(damping, 1.0, plane.fields, plane.sets, 1);
     EXPECT_TRUE(control.in_update() && control.needs_energy());
     const double dt = end / steps;
     double v = v0;
@@ -148,7 +150,7 @@ TEST(DampingControl, FeedbackKeepsToItsTargetAndLimit) {
   Plane plane;
   DampingDefinition damping;
   damping.feedback = FeedbackDefinition{plane.mass() / 2.0, of("t"), 0.2, Of::grid};
-  DampingControl control(damping, 1.0, plane.sets, 1);
+  DampingControl control(damping, 1.0, plane.fields, plane.sets, 1);
   const double dt = 1e-3;
   double largest = 0.0;
   for (int n = 0; n < 2000; ++n) {
@@ -168,7 +170,8 @@ TEST(DampingControl, FeedbackKeepsToItsTargetAndLimit) {
 TEST(DampingControl, ForeseesTheLargestRateOfAPeriod) {
   Plane plane;
   const auto largest = [&](const DampingDefinition& damping, double start, double period, double energy = 0.0) {
-    return DampingControl(damping, 1.0, plane.sets, 2).largest_rate(start, period, energy, plane.grid.layout);
+    return DampingControl(damping, 1.0, plane.fields, plane.sets, 2)
+        .largest_rate(start, period, energy, plane.grid.layout);
   };
   EXPECT_EQ(largest(DampingDefinition(7.0), 0.0, 1.0), 7.0);
   DampingDefinition damping;
@@ -202,7 +205,7 @@ TEST(DampingControl, TheForceIsAPartOfTheMomentum) {
   }
   DampingDefinition damping;
   damping.grid = of("4*t");
-  DampingControl control(damping, 1.0, plane.sets, 2);
+  DampingControl control(damping, 1.0, plane.fields, plane.sets, 2);
   StepContext context = plane.step(0.995, 0.01);
   control.momentum_gathered(context);
   control.forces_gathered(context);
@@ -223,19 +226,19 @@ TEST(DampingControl, WhatCannotBeEndsTheRun) {
   const StepContext context = plane.step(1.0, 0.01);
   DampingDefinition damping;
   damping.grid = of("1-2*t");
-  DampingControl negative(damping, 1.0, plane.sets, 1);
+  DampingControl negative(damping, 1.0, plane.fields, plane.sets, 1);
   EXPECT_EQ(refusal(negative, context),
             "method.damping at t = 1.005 s: grid is -1.01 1/s: below 0 it drives the motion; write max(0, ...) around "
             "it");
   damping.grid = 200.0;
-  DampingControl strong(damping, 1.0, plane.sets, 1);
+  DampingControl strong(damping, 1.0, plane.fields, plane.sets, 1);
   EXPECT_EQ(refusal(strong, context)
                 .find("method.damping at t = 1.005 s: a rate of 200 1/s turns a velocity round in "
                       "a step of 0.01 s; lower it,"),
             0u);
   damping = {};
   damping.pic = of("2*t");
-  DampingControl beyond(damping, 1.0, plane.sets, 1);
+  DampingControl beyond(damping, 1.0, plane.fields, plane.sets, 1);
   EXPECT_EQ(refusal(beyond, context).find("method.damping at t = 1.005 s: pic is 2.01:"), 0u);
 
   // At a particle: the one of the smallest id of those that it is bad at, for any number of threads.
@@ -245,7 +248,7 @@ TEST(DampingControl, WhatCannotBeEndsTheRun) {
   for (int p = 0; p < plane.sets[0].size(); ++p) {
     if (plane.sets[0].x[0][p] < 0.5) first = std::min(first, plane.sets[0].id[p]);
   }
-  DampingControl one(damping, 1.0, plane.sets, 1), three(damping, 1.0, plane.sets, 3);
+  DampingControl one(damping, 1.0, plane.fields, plane.sets, 1), three(damping, 1.0, plane.fields, plane.sets, 3);
   const std::string text = refusal(one, context);
   EXPECT_EQ(text.find("method.damping at particle " + std::to_string(first) + " of 'soil' at ("), 0u) << text;
   EXPECT_NE(text.find("is not finite"), std::string::npos) << text;

@@ -25,7 +25,7 @@ struct Stand {
       : geometry(kind),
         shape(shape_kind),
         dim(dimensions(kind)),
-        grid(GridLayout(dim, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Constant(2.0))) {
+        fields(make_fields(GridLayout(dim, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Constant(2.0)))) {
     ParticleSet set;
     set.name = "block";
     set.mass = 1.0;
@@ -50,7 +50,7 @@ struct Stand {
     sort();
   }
   void sort() {
-    ASSERT_FALSE(sorter.sort(sets, grid));
+    ASSERT_FALSE(sorter.sort(sets, fields));
     fill(grid.mass, 1.0);
     fill(grid.force, 0.0);
   }
@@ -70,8 +70,8 @@ struct Stand {
     term.value = value;
     return term;
   }
-  FaceTractions stage(const std::vector<TractionTerm>& terms) const {
-    return {{geometry, shape, kThickness}, sets, terms};
+  FaceTractions stage(const std::vector<TractionTerm>& terms) {
+    return {{geometry, shape, kThickness}, fields, sets, terms};
   }
   /// Forces by node numbers; those that are not zero.
   std::map<std::array<int, 3>, Vec3> forces(FaceTractions& stage, double start = 0.0) {
@@ -99,7 +99,8 @@ struct Stand {
   ShapeKind shape;
   int dim;
   Sorter sorter{1};
-  Grid grid;
+  Fields fields;
+  Grid& grid = *fields.front();
   std::vector<ParticleSet> sets;
 };
 

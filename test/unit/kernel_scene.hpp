@@ -54,7 +54,7 @@ struct KernelScene {
         isa(isa_of),
         kernels(kernels_of<Geometry, T>(shape, isa)),
         places(places_of),
-        grid(layout(places)),
+        fields(make_fields(layout(places))),
         reference(shape, reference_grid(grid.layout, places == Places::walled, axis)),
         random(7) {
     grid.has_wall.fill(places == Places::walled);
@@ -81,12 +81,12 @@ struct KernelScene {
     for (ParticleSet& set : sets) prepare(set, shape, settings.transfer);
     if (settings.transfer.kind == TransferKind::apic) turn_particles();
     settings.gravity = Vec3(0.3, -0.2, -9.81);
-    const auto gone = Sorter(settings.threads, kernel_grouping(kernels)).sort(sets, grid);
+    const auto gone = Sorter(settings.threads, kernel_grouping(kernels)).sort(sets, fields);
     if (gone) throw Error("a particle of the test is out of place");
     if (places == Places::mixed || places == Places::loose) move_on();
     grid.least_mass = 1e-30 * sets[0].least_mass();
     read_particles();
-    mechanics = make_mechanics(kernels, sets, laws, settings);
+    mechanics = make_mechanics(kernels, fields, sets, laws, settings);
   }
 
   double smallest_cell() const { return grid.layout.smallest_cell(); }
@@ -148,7 +148,8 @@ struct KernelScene {
   Isa isa;
   mpm_kernel::KernelTable<T> kernels;
   Places places;
-  Grid grid;
+  Fields fields;
+  Grid& grid = *fields.front();
   Reference<Geometry> reference;
   std::mt19937 random;
   std::vector<ParticleSet> sets;

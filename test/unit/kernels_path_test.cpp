@@ -45,7 +45,7 @@ class Run {
       ASSERT_FALSE(scene_.mechanics->failed());
       if (scene_.mechanics->needs_sort()) {
         ++sorts;
-        ASSERT_FALSE(sorter.sort(scene_.sets, scene_.grid));
+        ASSERT_FALSE(sorter.sort(scene_.sets, scene_.fields));
       }
     }
   }

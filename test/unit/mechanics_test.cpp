@@ -13,7 +13,7 @@ using mpm::Vec3;
 // A block of particles on the lattice of the grid, shaken by `jitter` cells, with random velocities.
 struct Scene {
   Scene(int dim, double jitter, const mpm::LawDefinition& law, int threads = 1, mpm::Isa isa = mpm::best_isa())
-      : grid(mpm::GridLayout(dim, Vec3::Constant(cell), Vec3::Zero(), Vec3::Constant(2.0))) {
+      : fields(mpm::make_fields(mpm::GridLayout(dim, Vec3::Constant(cell), Vec3::Zero(), Vec3::Constant(2.0)))) {
     laws.push_back(mpm::make_law({"m", 900.0, law}));
     sets.emplace_back();
     mpm::ParticleSet& set = sets.back();
@@ -43,10 +43,10 @@ struct Scene {
       }
     }
     EXPECT_FALSE(
-        mpm::Sorter(threads, mpm::kernel_grouping(mpm::test::ugimp_kernels<double>(dim, isa))).sort(sets, grid));
+        mpm::Sorter(threads, mpm::kernel_grouping(mpm::test::ugimp_kernels<double>(dim, isa))).sort(sets, fields));
     mpm::ContinuumSettings settings;
     settings.threads = threads;
-    mechanics = mpm::make_mechanics(mpm::test::ugimp_kernels<double>(dim, isa), sets, laws, settings);
+    mechanics = mpm::make_mechanics(mpm::test::ugimp_kernels<double>(dim, isa), fields, sets, laws, settings);
   }
 
   template <class Visit>
@@ -57,7 +57,8 @@ struct Scene {
   }
 
   static constexpr double cell = 0.1;
-  mpm::Grid grid;
+  mpm::Fields fields;
+  mpm::Grid& grid = *fields.front();
   std::vector<mpm::ParticleSet> sets;
   std::vector<mpm::Law> laws;
   std::unique_ptr<mpm::Mechanics> mechanics;
@@ -154,8 +155,8 @@ TEST_P(MechanicsTest, MotionKeepsMomentumForEveryFlipFraction) {
     Scene scene(GetParam(), 0.3, mpm::NeoHookeanDefinition{{1e6, 0.3}});
     mpm::ContinuumSettings settings;
     settings.transfer.flip = flip;
-    scene.mechanics = mpm::make_mechanics(mpm::test::ugimp_kernels<double>(GetParam(), mpm::best_isa()), scene.sets,
-                                          scene.laws, settings);
+    scene.mechanics = mpm::make_mechanics(mpm::test::ugimp_kernels<double>(GetParam(), mpm::best_isa()), scene.fields,
+                                          scene.sets, scene.laws, settings);
     mpm::ParticleSet& set = scene.sets[0];
     auto momentum = [&] {
       Vec3 sum = Vec3::Zero();

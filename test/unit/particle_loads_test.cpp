@@ -29,7 +29,7 @@ double share(LoadSpread spread, double x, int node) {
 
 template <class T>
 struct Plane {
-  Plane() : grid(GridLayout(2, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Ones())) {
+  Plane() : fields(make_fields(GridLayout(2, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Ones()))) {
     const std::vector<std::array<double, 2>> places = {{0.52, 0.41}, {0.43, 0.55}, {0.349, 0.601}};
     ParticleSet set;
     set.name = "soil";
@@ -52,7 +52,7 @@ struct Plane {
     set.tau = zeros(4, set.precision, n);
     set.history = zeros(history_size(laws[0]), set.precision, n);
     sets.push_back(std::move(set));
-    const auto outside = Sorter(1, kernel_grouping(kernels.domain)).sort(sets, grid);
+    const auto outside = Sorter(1, kernel_grouping(kernels.domain)).sort(sets, fields);
     EXPECT_FALSE(outside);
     std::fill_n(grid.force.data(), grid.blocks.size() * 2 * grid.layout.nodes_per_block(), 0.0);
   }
@@ -61,7 +61,8 @@ struct Plane {
   }
   LoadKernels<T> kernels = {kernel_table<T>(ShapeKind::ugimp, GeometryKind::plane_strain, Isa::plain),
                             kernel_table<T>(ShapeKind::dirac, GeometryKind::plane_strain, Isa::plain)};
-  Grid grid;
+  Fields fields;
+  Grid& grid = *fields.front();
   std::vector<ParticleSet> sets;
   std::vector<Law> laws;
 };
@@ -85,7 +86,7 @@ TYPED_TEST(Spread, GoesToTheNodesThatItShould) {
   pull.chosen = {1, 0, 1};
   push.value[2] = Function(2.0);
   push.spread = LoadSpread::center;
-  const auto loads = make_particle_loads(plane.kernels, plane.sets, plane.laws, {pull, push}, 2);
+  const auto loads = make_particle_loads(plane.kernels, plane.fields, plane.sets, plane.laws, {pull, push}, 2);
   StepContext context{plane.grid, 1e-3, 0.0};
   loads->forces_gathered(context);
   const Grid& grid = plane.grid;

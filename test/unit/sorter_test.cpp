@@ -22,8 +22,8 @@ struct Case {
 
 /// Bodies of `counts` particles scattered over a domain of 40 cells, in no order. v[0] holds a particle's first place.
 struct Bodies {
-  Bodies(int dim, const std::vector<int>& counts, Precision precision = Precision::float64)
-      : grid(GridLayout(dim, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Constant(4.0))) {
+  Bodies(int dim, const std::vector<int>& counts, Precision precision = Precision::float64, int field_count = 1)
+      : fields(make_fields(GridLayout(dim, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Constant(4.0)), field_count)) {
     std::mt19937 engine(5);
     std::uniform_real_distribution<double> place(0.0, 1.3);
     std::uint32_t id = 0;
@@ -53,7 +53,8 @@ struct Bodies {
     }
     return {grid.layout.key(block), local};
   }
-  Grid grid;
+  Fields fields;
+  Grid& grid = *fields.front();
   std::vector<ParticleSet> sets;
 };
 
@@ -68,7 +69,7 @@ TEST_P(SorterTest, IsTheStableSortByBlockAndNodeForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 3}) {
     Bodies bodies(GetParam().dim, {20000, 7, 500});
     const Bodies start(GetParam().dim, {20000, 7, 500});
-    ASSERT_FALSE(Sorter(threads, GetParam().grouping).sort(bodies.sets, bodies.grid));
+    ASSERT_FALSE(Sorter(threads, GetParam().grouping).sort(bodies.sets, bodies.fields));
     for (std::size_t s = 0; s < bodies.sets.size(); ++s) {
       const ParticleSet &set = bodies.sets[s], &before = start.sets[s];
       std::vector<int> order(set.size());
@@ -86,7 +87,7 @@ TEST_P(SorterTest, IsTheStableSortByBlockAndNodeForAnyNumberOfThreads) {
 
 TEST_P(SorterTest, OwnersHoldTheirOwnParticles) {
   Bodies bodies(GetParam().dim, {20000, 7, 500});
-  ASSERT_FALSE(Sorter(2, GetParam().grouping).sort(bodies.sets, bodies.grid));
+  ASSERT_FALSE(Sorter(2, GetParam().grouping).sort(bodies.sets, bodies.fields));
   const BlockTable& blocks = bodies.grid.blocks;
   for (const ParticleSet& set : bodies.sets) {
     ASSERT_EQ(set.begin.size(), static_cast<std::size_t>(blocks.owners()) + 1);
@@ -106,7 +107,7 @@ TEST_P(SorterTest, GroupsCoverTheParticlesWithinOneColumnOrNode) {
   const Grouping grouping = GetParam().grouping;
   const int span = grouping.by == Grouping::By::column ? 4 : 1;
   Bodies bodies(GetParam().dim, {20000, 7, 500});
-  ASSERT_FALSE(Sorter(2, grouping).sort(bodies.sets, bodies.grid));
+  ASSERT_FALSE(Sorter(2, grouping).sort(bodies.sets, bodies.fields));
   for (const ParticleSet& set : bodies.sets) {
     const auto place = [&](std::uint32_t p) {
       const auto [key, node] = bodies.home(set, static_cast<int>(p));
@@ -129,6 +130,40 @@ TEST_P(SorterTest, GroupsCoverTheParticlesWithinOneColumnOrNode) {
   }
 }
 
+// Owners are numbered through all fields, and in each a particle is in the block that it would be in with one.
+TEST(Sorter, PartsTheFieldsAndTheSidesOfASet) {
+  for (const int threads : {1, 3}) {
+    Bodies bodies(2, {2000, 500, 60}, Precision::float64, 4);
+    std::vector<std::uint8_t> side_of(2560);
+    bodies.sets[1].field = 1;
+    bodies.sets[2].field = 3;  // no one is in field 2 but what its side puts there
+    bodies.sets[1].side.resize(500);
+    for (int p = 0; p < 500; ++p) {
+      bodies.sets[1].side[p] = static_cast<std::uint8_t>(p % 3 == 0);
+      side_of[bodies.sets[1].id[p]] = bodies.sets[1].side[p];
+    }
+    ASSERT_FALSE(Sorter(threads, {4, Grouping::By::column}).sort(bodies.sets, bodies.fields));
+    std::array<std::uint32_t, 4> count{};
+    int owners = 0;
+    for (std::size_t f = 0; f < bodies.fields.size(); ++f) {
+      const BlockTable& blocks = bodies.fields[f]->blocks;
+      EXPECT_EQ(bodies.fields[f]->first_owner, owners);
+      for (int o = 0; o < blocks.owners(); ++o) {
+        for (const ParticleSet& set : bodies.sets) {
+          for (std::uint32_t p = set.begin[owners + o]; p < set.begin[owners + o + 1]; ++p) {
+            ASSERT_EQ(set.field + side_of[set.id[p]], static_cast<int>(f));
+            ASSERT_EQ(set.field_of(static_cast<int>(p)), static_cast<int>(f));
+            ASSERT_EQ(bodies.home(set, static_cast<int>(p)).first, blocks.key(blocks.owner_block(o)));
+            ++count[f];
+          }
+        }
+      }
+      owners += blocks.owners();
+    }
+    EXPECT_EQ(count, (std::array<std::uint32_t, 4>{2000, 333, 167, 60}));
+  }
+}
+
 TEST(Sorter, MovesEveryScalarInEitherPrecision) {
   for (const Precision precision : {Precision::float32, Precision::float64}) {
     Bodies bodies(3, {3000}, precision);
@@ -136,7 +171,7 @@ TEST(Sorter, MovesEveryScalarInEitherPrecision) {
     set.start_x = set.x;
     for (int p = 0; p < set.size(); ++p) set.v[2].set(p, 0.5 * p);
     Sorter sorter(2, {4, Grouping::By::node});
-    ASSERT_FALSE(sorter.sort(bodies.sets, bodies.grid));
+    ASSERT_FALSE(sorter.sort(bodies.sets, bodies.fields));
     EXPECT_NE(set.id[0], 0U);
     const auto same = [&] {
       for (int p = 0; p < set.size(); ++p) {
@@ -151,7 +186,7 @@ TEST(Sorter, MovesEveryScalarInEitherPrecision) {
       for (double& place : x) place += 0.7 * kCell;
     }
     set.start_x = set.x;
-    ASSERT_FALSE(sorter.sort(bodies.sets, bodies.grid));
+    ASSERT_FALSE(sorter.sort(bodies.sets, bodies.fields));
     same();
   }
 }
@@ -160,7 +195,7 @@ TEST(Sorter, NamesTheFirstParticleThatIsOutside) {
   for (const double wrong : {-0.01, 4.01, std::numeric_limits<double>::quiet_NaN()}) {
     Bodies bodies(3, {100, 4000});
     bodies.sets[1].x[2][3999] = bodies.sets[1].x[1][1234] = wrong;
-    const auto found = Sorter(3).sort(bodies.sets, bodies.grid);
+    const auto found = Sorter(3).sort(bodies.sets, bodies.fields);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->set, 1);
     EXPECT_EQ(found->index, 1234);

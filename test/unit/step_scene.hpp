@@ -69,7 +69,7 @@ class StepScene {
   explicit StepScene(const StepMethod& method, const Body& body = {}, int threads = 1, Isa isa = best_isa())
       : method_(method),
         kernels_(kernels_of<Geometry, T>(method.shape, isa)),
-        grid(GridLayout(kDim, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Constant(24 * kCell))),
+        fields(make_fields(GridLayout(kDim, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Constant(24 * kCell)))),
         sorter_(threads, kernel_grouping(kernels_)) {
     laws_.push_back(make_law({"rubber", kDensity, NeoHookeanDefinition{{kStiffness, 0.3}}}));
     for (int k = 0; k < kDim; ++k) grid.has_wall[2 * k] = body.walls;
@@ -84,7 +84,7 @@ class StepScene {
     grid.least_mass = 1e-30 * set().least_mass();
     // Of the longitudinal wave, kCell / 5 a step.
     dt = 0.2 * kCell / std::sqrt(kStiffness * 0.7 / (1.3 * 0.4) / kDensity);
-    mechanics = make_mechanics(kernels_, sets_, laws_, settings_);
+    mechanics = make_mechanics(kernels_, fields, sets_, laws_, settings_);
   }
 
   ParticleSet& set() { return sets_[0]; }
@@ -180,13 +180,14 @@ class StepScene {
   mpm_kernel::KernelTable<T> kernels_;
 
  public:
-  Grid grid;
+  Fields fields;
+  Grid& grid = *fields.front();
   std::unique_ptr<Mechanics> mechanics;
   double dt = 0.0;  ///< [s]
 
  private:
   void sort() {
-    if (sorter_.sort(sets_, grid)) throw Error("a particle of the test is out of place");
+    if (sorter_.sort(sets_, fields)) throw Error("a particle of the test is out of place");
     ++sorts;
   }
 

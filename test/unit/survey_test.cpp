@@ -152,7 +152,8 @@ TEST(Survey, DoesNotDependOnTheNumberOfThreads) {
   const auto fastest = [&](int threads) {
     ContinuumSettings settings;
     settings.threads = threads;
-    return make_mechanics(ugimp_kernels<double>(2, best_isa()), sets, laws, settings)->fastest(0, kCell);
+    Fields fields = make_fields(GridLayout(2, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Ones()));
+    return make_mechanics(ugimp_kernels<double>(2, best_isa()), fields, sets, laws, settings)->fastest(0, kCell);
   };
   int expected = 0;
   for (int p = 1; p < sets[0].size(); ++p) {

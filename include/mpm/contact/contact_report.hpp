@@ -25,11 +25,13 @@ struct Wrench {
 /// number.
 struct ContactReport {
   std::string body;
-  Wrench mean;                  ///< averaged over `interval`: applied impulse over time
-  Wrench peak;                  ///< of the step with the largest force
-  double interval = 0.0;        ///< [s] since the last report; 0 before the first step (then mean is zero)
-  int nodes = 0;                ///< grid nodes in contact in the last step
-  Vec3 impulse = Vec3::Zero();  ///< force on the body integrated since the start [N s]
+  Wrench mean;                   ///< averaged over `interval`: applied impulse over time
+  Wrench peak;                   ///< of the step with the largest force
+  double interval = 0.0;         ///< [s] since the last report; 0 before the first step (then mean is zero)
+  int nodes = 0;                 ///< grid nodes, or points of the material's surface, in contact in the last step
+  Vec3 impulse = Vec3::Zero();   ///< force on the body integrated since the start [N s]
+  double area = 0.0;             ///< of the surface in contact in the last step; of nodes in contact 0 [m^2]
+  double friction_energy = 0.0;  ///< that sliding on the body took since the start [J]
 
   double pressing = 0.0;         ///< sum over nodes of the magnitude of the normal force, averaged as `mean` is [N]
   Vec3 friction = Vec3::Zero();  ///< the part of mean.force along the surface; the rest is normal to it [N]

@@ -12,7 +12,8 @@
 
 #include <vector>
 
-#include "mpm/contact/contact_report.hpp"
+#include "mpm/contact/contact_ledger.hpp"
+#include "mpm/grid/fields.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/step/coulomb.hpp"
@@ -22,8 +23,8 @@ namespace mpm {
 
 class RigidContact final : public Stage {
  public:
-  /// `body` outlives the stage. Solid stands for every geometry that is not axisymmetric.
-  RigidContact(const RigidBody& body, int threads, GeometryKind geometry = GeometryKind::solid);
+  /// `body` and `fields` outlive the stage. Solid stands for every geometry that is not axisymmetric.
+  RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry = GeometryKind::solid);
 
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
@@ -31,47 +32,37 @@ class RigidContact final : public Stage {
   void velocity_found(StepContext& context, NodalField& velocity) override;
   void increment_found(StepContext& context, NodalField& increment) override;
   void grid_advanced(StepContext& context) override;
-  void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(ledger_.account()); }
 
-  /// What the material did to the body since the last call; `now` [s].
-  ContactReport take(double now);
-  /// Work of the body on the material since the start: impulse times the body's velocity where it acts [J].
-  double work() const { return work_; }
+  ContactLedger& ledger() { return ledger_; }
 
  private:
   struct Node {
+    int field;
     NodeRef ref;
     Vec3 normal;    ///< out of the body
     Vec3 velocity;  ///< of the body's surface there [m/s]
     Vec3 arm;       ///< from the body's origin [m]
     Hold hold;
   };
+  struct NearBlock {
+    int field, block;
+  };
+  /// visit(node, grid of its field)
   template <class Visit>
   void each_node(Visit&& visit);
-  /// Books what one node was given.
-  void give(const Node& node, const Vec3& impulse);
-  /// What is left of a sum over the whole body.
-  Vec3 whole(const Vec3& sum) const { return axisymmetric_ ? Vec3(0.0, 0.0, sum.z()) : sum; }
+  /// Books what one node was given; `slip`: its relative velocity before [m/s].
+  void give(const Node& node, double mass, const Vec3& slip, const Vec3& change);
 
   const RigidBody& body_;
+  Fields& fields_;
   int threads_;
   bool axisymmetric_;
-  std::vector<int> near_;                 ///< blocks whose nodes may lie in the body
+  std::vector<NearBlock> near_;           ///< blocks whose nodes may lie in the body
   std::vector<std::vector<Node>> nodes_;  ///< of each block in near_
-  HeldNodes held_;
-  ImpulseAccount account_;             ///< given to the material
-  Vec3 given_ = Vec3::Zero();          ///< in this step [N s]
-  Vec3 given_angular_ = Vec3::Zero();  ///< about the body's origin [N m s]
-  double work_ = 0.0;
-
-  Vec3 impulse_ = Vec3::Zero();          ///< on the body since the last report [N s]
-  Vec3 angular_impulse_ = Vec3::Zero();  ///< [N m s]
-  Vec3 friction_ = Vec3::Zero();         ///< the part of impulse_ along the surface [N s]
-  double pressed_ = 0.0;                 ///< normal impulses since the last report [N s]
-  Vec3 pressed_arm_ = Vec3::Zero();      ///< arms times those magnitudes [N s m]
-  Wrench peak_;
+  std::vector<HeldNodes> held_;           ///< of each field
+  ContactLedger ledger_;
   int touching_ = 0;
-  double last_report_ = 0.0;
 };
 
 }  // namespace mpm

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mpm/grid/block_table.hpp"
+#include "mpm/grid/symmetry_planes.hpp"
 
 namespace mpm {
 
@@ -38,7 +39,7 @@ class NodalField {
   std::vector<double> data_;
 };
 
-/// The grid of one step.
+/// The grid of one velocity field (grid/fields.hpp), as it is in a step.
 struct Grid {
   explicit Grid(const GridLayout& grid_layout)
       : layout(grid_layout),
@@ -46,7 +47,8 @@ struct Grid {
         mass(1, layout.nodes_per_block()),
         momentum(layout.dim(), layout.nodes_per_block()),
         velocity(layout.dim(), layout.nodes_per_block()),
-        force(layout.dim(), layout.nodes_per_block()) {}
+        force(layout.dim(), layout.nodes_per_block()),
+        increment(layout.dim(), layout.nodes_per_block()) {}
   Grid(const Grid&) = delete;
   Grid& operator=(const Grid&) = delete;
 
@@ -66,12 +68,15 @@ struct Grid {
   double least_mass = 0.0;         ///< [kg]
   int wall_layers = 1;             ///< of nodes beyond a wall that particles may reach, and that the wall holds too
   std::array<bool, 6> has_wall{};  ///< faces of the domain that are walls: 2 * axis, + 1 for the upper one
+  SymmetryPlanes symmetry;
+  int first_owner = 0;  ///< number of its first owner among those of all fields
   /// Of each owner, whether some of its particles have moved beyond the block since they were sorted.
   std::vector<std::uint8_t> loose;
-  NodalField mass;      ///< m_i [kg]
-  NodalField momentum;  ///< p_i as gathered, without conditions; until XPIC or the next gathering use it [N s]
-  NodalField velocity;  ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]
-  NodalField force;     ///< f_i while forces are gathered [N], then the acceleration a_i [m/s^2]
+  NodalField mass;       ///< m_i [kg]
+  NodalField momentum;   ///< p_i as gathered, without conditions; until XPIC or the next gathering use it [N s]
+  NodalField velocity;   ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]
+  NodalField force;      ///< f_i while forces are gathered [N], then the acceleration a_i [m/s^2]
+  NodalField increment;  ///< XPIC, FMPM: what the velocity that particles adopt is made of; else empty [m/s]
 };
 
 }  // namespace mpm

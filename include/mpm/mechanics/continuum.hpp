@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "mpm/grid/fields.hpp"
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/mechanics/damping.hpp"
@@ -27,11 +28,12 @@ struct ContinuumSettings {
   DampingControl* damping = nullptr;  ///< of a scene that has any; outlives the mechanics
 };
 
-/// `kernels`: of the sets' precision, T double or float. `laws`: of each set; both outlive the result. Sets have what
-/// the kernels keep on particles (prepare()).
+/// `kernels`: of the sets' precision, T double or float. `laws`: of each set; `fields`, sets and laws outlive the
+/// result. Sets have what the kernels keep on particles (prepare()).
 template <class T>
-std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>& kernels, std::vector<ParticleSet>& sets,
-                                          const std::vector<Law>& laws, const ContinuumSettings& settings);
+std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>& kernels, Fields& fields,
+                                          std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                                          const ContinuumSettings& settings);
 
 /// Makes room on the particles for what kernels and transfer keep there: domains, affine matrices.
 void prepare(ParticleSet& set, ShapeKind shape, const Transfer& transfer);

@@ -17,6 +17,7 @@
 
 #include <vector>
 
+#include "mpm/grid/fields.hpp"
 #include "mpm/mechanics/first_fault.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/step/damping.hpp"
@@ -48,8 +49,9 @@ struct Damped {
 /// Audit: "damping", on the nodes and on the particles together.
 class DampingControl final : public Stage {
  public:
-  /// `flip`: the transfer's fraction, for a scene without a part of PIC of its own. `sets` outlives it.
-  DampingControl(const DampingDefinition& definition, double flip, const std::vector<ParticleSet>& sets, int threads);
+  /// `flip`: the transfer's fraction, for a scene without a part of PIC of its own. `fields` and `sets` outlive it.
+  DampingControl(const DampingDefinition& definition, double flip, Fields& fields, const std::vector<ParticleSet>& sets,
+                 int threads);
 
   /// Whether move has to damp, and whether it has to find the energies; end_step() goes with either.
   bool in_update() const { return definition().in_update(); }
@@ -88,10 +90,13 @@ class DampingControl final : public Stage {
   /// visit(thread, set, particle, sample) for all particles. @throws DampingError, that of the smallest id
   template <class Visit>
   void each_particle(double t, double alpha, const GridLayout& layout, Visit&& visit) const;
+  /// Adds the force of this step to the nodes of a field; returns its impulse [N s].
+  Vec3 damp_nodes(Grid& grid, double dt);
   /// d alpha/dt [1/s^2]. @throws DampingError
   double growth(double energy, double t) const;
 
   std::vector<DampingDefinition> of_thread_;  ///< an expression holds one evaluation at a time
+  Fields& fields_;
   const std::vector<ParticleSet>& sets_;
   int threads_;
   double total_mass_ = 0.0;

@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mpm/grid/fields.hpp"
 #include "mpm/mechanics/particle_loads.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/shape/kind.hpp"
@@ -51,8 +52,8 @@ struct TractionSettings {
 /// "traction", the sum over faces of T times area times dt; the grid has no part in it.
 class FaceTractions : public Stage {
  public:
-  /// `sets` outlive this; those that a term with X, Y or Z acts on have their start_x.
-  FaceTractions(const TractionSettings& settings, const std::vector<ParticleSet>& sets,
+  /// `fields` and `sets` outlive this; those that a term with X, Y or Z acts on have their start_x.
+  FaceTractions(const TractionSettings& settings, Fields& fields, const std::vector<ParticleSet>& sets,
                 std::vector<TractionTerm> terms);
 
   /// @throws LoadError for a traction that is not finite, or a corner that lies off the grid
@@ -64,6 +65,7 @@ class FaceTractions : public Stage {
 
  private:
   struct NodalLoad {
+    int field;
     NodeRef node;
     Vec3 force;  ///< by world axis [N]
   };
@@ -73,10 +75,11 @@ class FaceTractions : public Stage {
   double across(const ParticleSet& set, int p) const;
   /// By world axis [Pa].
   Vec3 value_at(const TractionTerm& term, const FaceParts& parts, int p, const StepContext& context) const;
-  /// A force on the nodes of the cell that a place is in.
-  void spread(const Grid& grid, const ParticleSet& set, int p, const PlacedDomain::Vector& at, const Vec3& force);
+  /// A force on the nodes of the cell that a place is in, in the particle's field.
+  void spread(const ParticleSet& set, int p, const PlacedDomain::Vector& at, const Vec3& force);
 
   TractionSettings settings_;
+  Fields& fields_;
   const std::vector<ParticleSet>& sets_;
   std::vector<TractionTerm> terms_;
   std::vector<std::vector<int>> places_;  ///< of each term's particles in their set, since it was sorted

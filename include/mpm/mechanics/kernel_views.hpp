@@ -17,9 +17,11 @@ static_assert(mpm_kernel::kTileEdge == kBlockEdge + 2 * mpm_kernel::kTileMargin)
 
 mpm_kernel::GridView view_of(Grid& grid);
 
-/// `law` outlives the view. T is the precision of the set; `laws`: of the kernels at work.
+/// `law` outlives the view. T is the precision of the set; `laws`: of the kernels at work; `first_owner`: of the field
+/// at work (Grid::first_owner).
 template <class T>
-mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kernel::LawKernels<T>* laws);
+mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kernel::LawKernels<T>* laws,
+                               int first_owner = 0);
 
 inline mpm_kernel::BlockView view_of(const Grid& grid, int owner) {
   const BlockTable& blocks = grid.blocks;

@@ -22,6 +22,7 @@
 #include <optional>
 #include <vector>
 
+#include "mpm/grid/fields.hpp"
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/math/function.hpp"
@@ -73,11 +74,11 @@ struct LoadKernels {
   mpm_kernel::KernelTable<T> center;
 };
 
-/// `sets` and `laws`, one each, outlive the result; sets that a term with X, Y or Z acts on have their start_x. T:
-/// double or float, the sets' precision.
+/// `fields`, `sets` and `laws`, one each, outlive the result; sets that a term with X, Y or Z acts on have their
+/// start_x. T: double or float, the sets' precision.
 template <class T>
-std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<T>& kernels, std::vector<ParticleSet>& sets,
-                                                   const std::vector<Law>& laws,
+std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<T>& kernels, Fields& fields,
+                                                   std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
                                                    const std::vector<ParticleLoadTerm>& terms, int threads);
 
 }  // namespace mpm

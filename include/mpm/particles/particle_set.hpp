@@ -23,6 +23,7 @@ struct ParticleSet {
   std::array<double, 3> lowest{}, highest{};             ///< where a centre may be along each grid axis [cells]
   bool whole_domains = false, planar_functions = false;  ///< about an axis: AxisRules (shape/axis_rules.hpp)
   std::uint32_t first_id = 0;                            ///< ids run from here
+  int field = 0;                                         ///< velocity field of its particles, the first one
 
   Precision precision = Precision::float64;  ///< of velocity, deformation, stress and history
 
@@ -37,8 +38,10 @@ struct ParticleSet {
   std::vector<ParticleScalar> affine;        ///< APIC: B, moment of the velocity, [component][axis] [m^2/s]
   std::vector<ParticleScalar> domain;        ///< F of the step's start, where the shape function follows it
   std::vector<PaddedArray<double>> next_x;   ///< position at the end of the step, when strain is updated after motion
+  /// Where a thin tool parts the body: how many fields after `field` a particle's is.
+  PaddedArray<std::uint8_t> side;
 
-  /// First particle of each owner block, and one past the last particle.
+  /// First particle of each owner block, those of all fields in their order, and one past the last particle.
   std::vector<std::uint32_t> begin;
   /// First particle of each group (step/sorter.hpp: they are worked on together), and one past the last particle.
   std::vector<std::uint32_t> group;
@@ -46,6 +49,7 @@ struct ParticleSet {
   std::vector<std::uint32_t> group_begin;
 
   int size() const { return static_cast<int>(id.size()); }
+  int field_of(int p) const { return field + (side.empty() ? 0 : side[p]); }
   double mass_of(int p) const { return masses.empty() ? mass : masses[0][p]; }
   double total_mass() const {
     if (masses.empty()) return mass * size();

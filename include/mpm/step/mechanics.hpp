@@ -1,4 +1,5 @@
-// The passes of the mechanics, as a schedule sees them: one virtual call a pass, none a particle.
+// The passes of the mechanics, as a schedule sees them: one virtual call a pass, none a particle. A pass is over all
+// velocity fields.
 #pragma once
 
 #include <optional>
@@ -28,10 +29,10 @@ class Mechanics {
   virtual void update_momentum(StepContext&) = 0;
   /// XPIC and FMPM: how many increments the velocity that particles adopt takes, after momentum was updated.
   virtual int increments() const = 0;
-  /// The velocity that they are made of [m/s]; conditions may act on it before.
-  virtual NodalField& begin_increments(StepContext&) = 0;
-  /// The next one [m/s]; conditions may act on it before it is added to the grid's velocity.
-  virtual NodalField& find_increment(StepContext&) = 0;
+  /// Grid.increment becomes the velocity that they are made of; conditions may act on it before.
+  virtual void begin_increments(StepContext&) = 0;
+  /// Grid.increment becomes the next one; conditions may act on it before it is added to the grid's velocity.
+  virtual void find_increment(StepContext&) = 0;
   virtual void add_increment(StepContext&) = 0;
   /// Velocity and position of the particles.
   virtual void move_particles(StepContext&) = 0;

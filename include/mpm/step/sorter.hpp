@@ -1,6 +1,6 @@
-// Sorts every set of particles by grid block, and inside a block by nearest node, and tells the grid which blocks are
-// in use. Done when a particle has left the reach of its block or too many have left their group, not every step: the
-// tile of a block reaches two nodes beyond it, one more than a sorted particle needs.
+// Sorts every set of particles by velocity field, in a field by grid block, and inside a block by nearest node, and
+// tells each field which blocks are in use. Done when a particle has left the reach of its block or too many have left
+// their group, not every step: the tile of a block reaches two nodes beyond it, one more than a sorted particle needs.
 //
 // A stable sort has one result, so it does not depend on the number of threads. It counts in two levels: particles by
 // block, a contiguous part of them a thread and the parts in order, then the particles of a block by node, in cache. In
@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "mpm/grid/nodal_fields.hpp"
+#include "mpm/grid/fields.hpp"
 #include "mpm/particles/particle_set.hpp"
 
 namespace mpm {
@@ -36,19 +36,22 @@ class Sorter {
  public:
   explicit Sorter(int threads, Grouping grouping = {});
 
-  /// Sorts, and rebuilds the blocks of `grid`. Returns a particle that is not where its set allows, or not finite, if
-  /// there is one (the first by set and place); then nothing has been changed.
-  std::optional<ParticleRef> sort(std::vector<ParticleSet>& sets, Grid& grid);
+  /// Sorts, and rebuilds the blocks of every field. Owners are numbered through all fields. Returns a particle that is
+  /// not where its set allows, or not finite, if there is one (the first by set and place); then nothing has been
+  /// changed.
+  std::optional<ParticleRef> sort(std::vector<ParticleSet>& sets, Fields& fields);
 
  private:
   /// What is kept of a set between sorts, a value each particle.
   struct Scratch {
-    PaddedArray<std::uint64_t> code;   ///< key of the block, then its rank among owners; times nodes a block, plus node
+    /// Key of the block, counted on from field to field, then its rank among owners; times nodes a block, plus node.
+    PaddedArray<std::uint64_t> code;
     PaddedArray<std::uint32_t> order;  ///< place before the sort
     PaddedArray<std::uint8_t> node;    ///< in its block, in sorted order
     PaddedArray<double> doubles;
     PaddedArray<float> floats;
     PaddedArray<std::uint32_t> ids;
+    PaddedArray<std::uint8_t> sides;
   };
   /// What a thread keeps.
   struct Part {
@@ -65,6 +68,7 @@ class Sorter {
   void sort_by_node(ParticleSet& set, Scratch& scratch);
   void fill_groups(ParticleSet& set, const Scratch& scratch) const;
   void permute(ParticleSet& set, Scratch& scratch) const;
+  void rebuild(Fields& fields);
   /// First particle of a thread's part of `count`.
   std::size_t part_begin(std::size_t count, int part) const { return count * part / threads_; }
 
@@ -73,7 +77,8 @@ class Sorter {
   unsigned node_bits_ = 0;  ///< of a code
   std::vector<Scratch> scratch_;
   std::vector<Part> parts_;
-  std::vector<std::uint64_t> owner_keys_;
+  std::vector<std::uint64_t> owner_keys_;  ///< of all fields, counted on from field to field
+  std::vector<std::uint64_t> field_keys_;  ///< of one
 };
 
 }  // namespace mpm

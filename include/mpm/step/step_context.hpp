@@ -6,7 +6,7 @@
 namespace mpm {
 
 struct StepContext {
-  Grid& grid;
+  Grid& grid;          ///< the velocity field that the stage works in; the first, for one that works in all
   double dt;           ///< [s]
   double start = 0.0;  ///< when the step begins [s]
 };

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/shape/ring.hpp"
-
 namespace mpm {
 namespace {
 
@@ -31,30 +29,36 @@ Box world_bounds(const RigidBody& body) {
 
 }  // namespace
 
-RigidContact::RigidContact(const RigidBody& body, int threads, GeometryKind geometry)
-    : body_(body), threads_(threads), axisymmetric_(axisymmetric(geometry)) {
-  account_.name = "contact/" + body.name();
-}
+RigidContact::RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry)
+    : body_(body),
+      fields_(fields),
+      threads_(threads),
+      axisymmetric_(axisymmetric(geometry)),
+      held_(fields.size()),
+      ledger_(body, axisymmetric(geometry)) {}
 
 void RigidContact::momentum_gathered(StepContext& context) {
-  const Grid& grid = context.grid;
-  const GridLayout& layout = grid.layout;
+  const GridLayout& layout = context.grid.layout;
   const double on_surface = kOnSurface * layout.smallest_cell();
   const double reach = on_surface + body_.reach() * layout.smallest_cell();
   const Box bounds = world_bounds(body_).grown(reach);
 
   near_.clear();
-  for (int b = 0; b < grid.blocks.size(); ++b) {
-    const Box block{layout.node_position(grid.blocks.block(b), 0),
-                    layout.node_position(grid.blocks.block(b), layout.nodes_per_block() - 1)};
-    if (block.intersects(bounds)) near_.push_back(b);
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    const BlockTable& blocks = fields_[f]->blocks;
+    for (int b = 0; b < blocks.size(); ++b) {
+      const Box block{layout.node_position(blocks.block(b), 0),
+                      layout.node_position(blocks.block(b), layout.nodes_per_block() - 1)};
+      if (block.intersects(bounds)) near_.push_back({static_cast<int>(f), b});
+    }
   }
   while (nodes_.size() < near_.size()) nodes_.emplace_back().reserve(layout.nodes_per_block());
 
   const int count = static_cast<int>(near_.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
   for (int i = 0; i < count; ++i) {
-    const int block = near_[i];
+    const auto [field, block] = near_[i];
+    const Grid& grid = *fields_[field];
     nodes_[i].clear();
     for (int n = 0; n < layout.nodes_per_block(); ++n) {
       if (!grid.carries(block, n)) continue;
@@ -66,11 +70,12 @@ void RigidContact::momentum_gathered(StepContext& context) {
         if (std::abs(normal.z()) <= kOnSurface) continue;  // all of it was radial
         normal = {0.0, 0.0, std::copysign(1.0, normal.z())};
       }
-      nodes_[i].push_back({{block, n},
+      nodes_[i].push_back({field,
+                           {block, n},
                            normal,
                            body_.velocity_at(position),
                            position - body_.pose().position,
-                           held_.find(HeldNodes::id(grid.blocks.key(block), n))});
+                           held_[field].find(HeldNodes::id(grid.blocks.key(block), n))});
     }
   }
 }
@@ -78,13 +83,12 @@ void RigidContact::momentum_gathered(StepContext& context) {
 template <class Visit>
 void RigidContact::each_node(Visit&& visit) {
   for (std::size_t i = 0; i < near_.size(); ++i) {
-    for (Node& node : nodes_[i]) visit(node);
+    for (Node& node : nodes_[i]) visit(node, *fields_[node.field]);
   }
 }
 
-void RigidContact::before_strain(StepContext& context) {
-  Grid& grid = context.grid;
-  each_node([&](const Node& node) {
+void RigidContact::before_strain(StepContext&) {
+  each_node([&](const Node& node, Grid& grid) {
     const Vec3 relative = nodal_vector(grid.velocity, grid.layout, node.ref) - node.velocity;
     const Vec3 change = strain_change(relative, node.normal, body_.friction(), node.hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
@@ -92,83 +96,41 @@ void RigidContact::before_strain(StepContext& context) {
 }
 
 void RigidContact::momentum_updated(StepContext& context) {
-  Grid& grid = context.grid;
   int touching = 0;
-  held_.clear();
-  each_node([&](Node& node) {
+  for (HeldNodes& held : held_) held.clear();
+  each_node([&](Node& node, Grid& grid) {
     const Vec3 relative = nodal_vector(grid.velocity, grid.layout, node.ref) - node.velocity;
     const auto [change, hold] = contact_change(relative, node.normal, body_.friction());
     node.hold = hold;
     if (hold == Hold::free) return;
-    held_.add(HeldNodes::id(grid.blocks.key(node.ref.block), node.ref.node), hold);
+    held_[node.field].add(HeldNodes::id(grid.blocks.key(node.ref.block), node.ref.node), hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
     add_nodal_vector(grid.force, grid.layout, node.ref, change / context.dt);
-    give(node, grid.mass.at(node.ref.block, 0, node.ref.node) * change);
+    give(node, grid.mass.at(node.ref.block, 0, node.ref.node), relative, change);
     ++touching;
   });
   touching_ = touching;
 }
 
-void RigidContact::velocity_found(StepContext& context, NodalField& velocity) {
-  const GridLayout& layout = context.grid.layout;
-  each_node([&](const Node& node) {
-    const Vec3 relative = nodal_vector(velocity, layout, node.ref) - node.velocity;
-    add_nodal_vector(velocity, layout, node.ref, held_part(relative, node.normal, node.hold));
+void RigidContact::velocity_found(StepContext&, NodalField&) {
+  each_node([&](const Node& node, Grid& grid) {
+    const Vec3 relative = nodal_vector(grid.increment, grid.layout, node.ref) - node.velocity;
+    add_nodal_vector(grid.increment, grid.layout, node.ref, held_part(relative, node.normal, node.hold));
   });
 }
 
-void RigidContact::increment_found(StepContext& context, NodalField& increment) {
-  const Grid& grid = context.grid;
-  each_node([&](const Node& node) {
-    const Vec3 change = held_part(nodal_vector(increment, grid.layout, node.ref), node.normal, node.hold);
-    add_nodal_vector(increment, grid.layout, node.ref, change);
-    give(node, grid.mass.at(node.ref.block, 0, node.ref.node) * change);
+void RigidContact::increment_found(StepContext&, NodalField&) {
+  each_node([&](const Node& node, Grid& grid) {
+    const Vec3 change = held_part(nodal_vector(grid.increment, grid.layout, node.ref), node.normal, node.hold);
+    add_nodal_vector(grid.increment, grid.layout, node.ref, change);
+    give(node, grid.mass.at(node.ref.block, 0, node.ref.node), Vec3::Zero(), change);
   });
 }
 
-void RigidContact::give(const Node& node, const Vec3& impulse) {
-  const double normal = impulse.dot(node.normal);
-  given_ += impulse;
-  given_angular_ += node.arm.cross(impulse);
-  friction_ -= impulse - normal * node.normal;
-  pressed_ += normal;
-  pressed_arm_ += normal * node.arm;
-  work_ += impulse.dot(node.velocity);
+void RigidContact::give(const Node& node, double mass, const Vec3& slip, const Vec3& change) {
+  ledger_.give({mass * change, node.normal, node.arm, node.velocity, slip + 0.5 * change});
 }
 
-void RigidContact::grid_advanced(StepContext& context) {
-  account_.add(given_);
-  impulse_ -= given_;
-  angular_impulse_ -= given_angular_;
-  Wrench wrench{whole(-given_ / context.dt), Vec3::Zero()};
-  if (!axisymmetric_) wrench.torque = -given_angular_ / context.dt;
-  if (wrench.force.squaredNorm() > peak_.force.squaredNorm()) peak_ = wrench;
-  given_ = given_angular_ = Vec3::Zero();
-}
-
-ContactReport RigidContact::take(double now) {
-  ContactReport report;
-  report.body = body_.name();
-  report.interval = now - last_report_;
-  if (report.interval > 0.0) {
-    report.mean = {whole(impulse_ / report.interval), angular_impulse_ / report.interval};
-    report.friction = whole(friction_ / report.interval);
-    report.pressing = pressed_ / report.interval;
-  }
-  report.origin = whole(body_.pose().position);
-  if (pressed_ > 0.0) report.arm = whole(pressed_arm_ / pressed_);
-  if (axisymmetric_) {
-    report.mean.torque.setZero();
-    if (report.interval > 0.0) report.per_radian = impulse_ / (report.interval * kTurn);
-  }
-  report.peak = peak_;
-  report.nodes = touching_;
-  report.impulse = whole(-account_.impulse);
-  impulse_ = angular_impulse_ = friction_ = pressed_arm_ = Vec3::Zero();
-  pressed_ = 0.0;
-  peak_ = {};
-  last_report_ = now;
-  return report;
-}
+void RigidContact::grid_advanced(StepContext& context) { ledger_.end_step(context.dt, touching_, 0.0); }
 
 }  // namespace mpm

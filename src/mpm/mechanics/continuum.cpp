@@ -15,52 +15,63 @@ class Continuum final : public Mechanics {
   using Kernels = mpm_kernel::KernelTable<T>;
 
  public:
-  Continuum(Kernels kernels, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+  Continuum(Kernels kernels, Fields& fields, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
             const ContinuumSettings& settings)
       : kernels_(kernels),
+        layout_(fields.front()->layout),
         sets_(sets),
         laws_(laws),
         settings_(settings),
         motion_(settings.transfer.kind == TransferKind::apic   ? mpm_kernel::kAffine
                 : settings.transfer.kind == TransferKind::flip ? mpm_kernel::kIncrement
                                                                : mpm_kernel::kAdopt),
-        increment_(static_cast<int>(sets.front().x.size()), nodes_of_block(static_cast<int>(sets.front().x.size()))),
-        mean_(1, nodes_of_block(static_cast<int>(sets.front().x.size()))) {}
+        mean_(1, layout_.nodes_per_block()) {
+    for (auto& grid : fields) fields_.emplace_back(*grid);
+  }
 
-  void scatter_momentum(StepContext& context) override {
+  void scatter_momentum(StepContext&) override {
     failed_.reset();
-    look_at(context.grid);
-    clear(context.grid.mass, context.grid);
-    clear(context.grid.momentum, context.grid);
-    each_block(context.grid, true, [&](const mpm_kernel::BlockView& block) {
-      kernels_.scatter_momentum[motion_ == mpm_kernel::kAffine](grid_, block, views_.data(), sets());
-    });
-    velocity_from_momentum(context.grid);
+    for (Field& field : fields_) {
+      look_at(field);
+      clear(field.grid.mass, field.grid);
+      clear(field.grid.momentum, field.grid);
+      each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
+        kernels_.scatter_momentum[motion_ == mpm_kernel::kAffine](field.view, block, field.sets(), field.count());
+      });
+      velocity_from_momentum(field);
+    }
   }
 
   void strain_and_force(StepContext& context, double dt) override {
     if (settings_.average_dilatation) {
-      strain(context.grid, {dt, settings_.gradient_terms, false, mean_of(context.grid, false)});
+      for (Field& field : fields_) strain(field, {dt, settings_.gradient_terms, false, mean_of(field, false)});
       internal_force(context);
       return;
     }
-    clear(context.grid.force, context.grid);
-    strain(context.grid, {dt, settings_.gradient_terms, true});
+    for (Field& field : fields_) {
+      clear(field.grid.force, field.grid);
+      strain(field, {dt, settings_.gradient_terms, true});
+    }
   }
 
-  void internal_force(StepContext& context) override {
-    const double* pressure = settings_.average_dilatation ? mean_of(context.grid, true) : nullptr;
-    clear(context.grid.force, context.grid);
-    each_block(context.grid, true, [&](const mpm_kernel::BlockView& block) {
-      kernels_.force(grid_, block, views_.data(), sets(), pressure);
-    });
+  void internal_force(StepContext&) override {
+    for (Field& field : fields_) {
+      const double* pressure = settings_.average_dilatation ? mean_of(field, true) : nullptr;
+      clear(field.grid.force, field.grid);
+      each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
+        kernels_.force(field.view, block, field.sets(), field.count(), pressure);
+      });
+    }
   }
 
   void update_momentum(StepContext& context) override {
     double gravity[3] = {};
-    for (int k = 0; k < context.grid.layout.dim(); ++k) gravity[k] = settings_.gravity[context.grid.layout.axis(k)];
-    each_node_range(context.grid,
-                    [&](int first, int last) { kernels_.nodal_update(grid_, first, last, context.dt, gravity); });
+    for (int k = 0; k < layout_.dim(); ++k) gravity[k] = settings_.gravity[layout_.axis(k)];
+    for (Field& field : fields_) {
+      each_node_range(field.grid, [&](int first, int last) {
+        kernels_.nodal_update(field.view, first, last, context.dt, gravity);
+      });
+    }
   }
 
   int increments() const override { return motion_ == mpm_kernel::kAdopt ? settings_.transfer.order - 1 : 0; }
@@ -68,61 +79,67 @@ class Continuum final : public Mechanics {
   // v(m) is a sum of increments, the first of them the velocity itself, each the part of the one before that particles
   // and grid, passing it to and fro, lose: dv(j+1) = dv(j) - S+ S dv(j), method reference 6.6. XPIC begins with the
   // velocity of the step's start, FMPM with that of its end, in which conditions hold.
-  NodalField& begin_increments(StepContext& context) override {
-    Grid& grid = context.grid;
-    increment_.resize(grid.blocks.size());
+  void begin_increments(StepContext&) override {
     const bool from_start = settings_.transfer.kind == TransferKind::xpic;
-    const int nodes = grid.layout.nodes_per_block();
-    each_carrying(grid, [&](int b, int n, double inverse_mass) {
-      for (int k = 0; k < grid.layout.dim(); ++k) {
-        const double start = grid.momentum.block(b)[k * nodes + n] * inverse_mass;
-        increment_.block(b)[k * nodes + n] = from_start ? start : grid.velocity.block(b)[k * nodes + n];
-      }
-    });
-    return increment_;
+    for (Field& field : fields_) {
+      Grid& grid = field.grid;
+      grid.increment.resize(grid.blocks.size());
+      const int nodes = layout_.nodes_per_block();
+      each_carrying(grid, [&](int b, int n, double inverse_mass) {
+        for (int k = 0; k < layout_.dim(); ++k) {
+          const double start = grid.momentum.block(b)[k * nodes + n] * inverse_mass;
+          grid.increment.block(b)[k * nodes + n] = from_start ? start : grid.velocity.block(b)[k * nodes + n];
+        }
+      });
+    }
   }
 
-  NodalField& find_increment(StepContext& context) override {
-    Grid& grid = context.grid;
-    clear(grid.momentum, grid);
-    each_block(grid, true, [&](const mpm_kernel::BlockView& block) {
-      kernels_.project(grid_, block, views_.data(), sets(), increment_.data(), grid.momentum.data());
-    });
-    each_carrying(grid, [&](int b, int n, double inverse_mass) {
-      for (int k = 0; k < grid.layout.dim(); ++k) {
-        const int i = k * grid.layout.nodes_per_block() + n;
-        increment_.block(b)[i] -= grid.momentum.block(b)[i] * inverse_mass;
-      }
-    });
-    return increment_;
+  void find_increment(StepContext&) override {
+    for (Field& field : fields_) {
+      Grid& grid = field.grid;
+      clear(grid.momentum, grid);
+      each_block(grid, true, [&](const mpm_kernel::BlockView& block) {
+        kernels_.project(field.view, block, field.sets(), field.count(), grid.increment.data(), grid.momentum.data());
+      });
+      each_carrying(grid, [&](int b, int n, double inverse_mass) {
+        for (int k = 0; k < layout_.dim(); ++k) {
+          const int i = k * layout_.nodes_per_block() + n;
+          grid.increment.block(b)[i] -= grid.momentum.block(b)[i] * inverse_mass;
+        }
+      });
+    }
   }
 
-  void add_increment(StepContext& context) override {
-    NodalField& velocity = context.grid.velocity;
-    const std::ptrdiff_t count = velocity.components() * context.grid.layout.nodes_per_block();
-    each_node_range(context.grid, [&](int first, int last) {
-      const double* from = increment_.block(first);
-      double* to = velocity.block(first);
-      for (std::ptrdiff_t i = 0; i < (last - first) * count; ++i) to[i] += from[i];
-    });
+  void add_increment(StepContext&) override {
+    for (Field& field : fields_) {
+      Grid& grid = field.grid;
+      const std::ptrdiff_t count = layout_.dim() * layout_.nodes_per_block();
+      each_node_range(grid, [&](int first, int last) {
+        const double* from = grid.increment.block(first);
+        double* to = grid.velocity.block(first);
+        for (std::ptrdiff_t i = 0; i < (last - first) * count; ++i) to[i] += from[i];
+      });
+    }
   }
 
   void move_particles(StepContext& context) override {
     move(context, false);
-    end_step(context.grid);
+    end_step();
   }
 
   void move_and_regather(StepContext& context) override {
-    clear(context.grid.momentum, context.grid);
+    for (Field& field : fields_) clear(field.grid.momentum, field.grid);
     move(context, true);
-    velocity_from_momentum(context.grid);
+    for (Field& field : fields_) velocity_from_momentum(field);
   }
 
-  void strain_and_place(StepContext& context, double dt) override {
-    const double* dilatation = settings_.average_dilatation ? mean_of(context.grid, false) : nullptr;
-    strain(context.grid, {dt, settings_.gradient_terms, false, dilatation});
+  void strain_and_place(StepContext&, double dt) override {
+    for (Field& field : fields_) {
+      const double* dilatation = settings_.average_dilatation ? mean_of(field, false) : nullptr;
+      strain(field, {dt, settings_.gradient_terms, false, dilatation});
+    }
     for (ParticleSet& set : sets_) set.x.swap(set.next_x);
-    end_step(context.grid);
+    end_step();
   }
 
   std::optional<ParticleRef> failed() const override { return failed_; }
@@ -143,13 +160,32 @@ class Continuum final : public Mechanics {
   bool needs_sort() const override { return needs_sort_; }
 
  private:
-  int sets() const { return static_cast<int>(views_.size()); }
+  /// A velocity field at work: its grid, and the sets that have particles in it.
+  struct Field {
+    explicit Field(Grid& grid) : grid(grid) {}
+    int count() const { return static_cast<int>(views.size()); }
+    const mpm_kernel::SetView<T>* sets() const { return views.data(); }
+
+    Grid& grid;
+    mpm_kernel::GridView view{};
+    std::vector<mpm_kernel::SetView<T>> views;
+    std::vector<int> set;                   ///< index of each
+    std::vector<std::uint8_t> loose;        ///< of each owner, after the motion
+    std::vector<mpm_kernel::Moved> damped;  ///< by damping, of each owner
+  };
 
   // Fields and particles may have been sorted or swapped since the last step.
-  void look_at(Grid& grid) {
-    grid_ = view_of(grid);
-    views_.clear();
-    for (std::size_t s = 0; s < sets_.size(); ++s) views_.push_back(view_of<T>(sets_[s], laws_[s], kernels_.laws));
+  void look_at(Field& field) {
+    const Grid& grid = field.grid;
+    field.view = view_of(field.grid);
+    field.views.clear();
+    field.set.clear();
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      const std::uint32_t* groups = sets_[s].group_begin.data() + grid.first_owner;
+      if (groups[0] == groups[grid.blocks.owners()]) continue;
+      field.views.push_back(view_of<T>(sets_[s], laws_[s], kernels_.laws, grid.first_owner));
+      field.set.push_back(static_cast<int>(s));
+    }
   }
 
   // Colours are for what scatters to nodes.
@@ -178,14 +214,14 @@ class Continuum final : public Mechanics {
     });
   }
 
-  void velocity_from_momentum(Grid& grid) {
-    each_node_range(grid, [&](int first, int last) { kernels_.nodal_velocity(grid_, first, last); });
+  void velocity_from_momentum(Field& field) {
+    each_node_range(field.grid, [&](int first, int last) { kernels_.nodal_velocity(field.view, first, last); });
   }
 
-  void strain(const Grid& grid, const mpm_kernel::StrainSettings& settings) {
-    each_block(grid, settings.and_force, [&](const mpm_kernel::BlockView& block) {
-      const mpm_kernel::Failure failure = kernels_.strain(grid_, block, views_.data(), sets(), settings);
-      if (failure.set >= 0) note_failure({failure.set, failure.particle});
+  void strain(const Field& field, const mpm_kernel::StrainSettings& settings) {
+    each_block(field.grid, settings.and_force, [&](const mpm_kernel::BlockView& block) {
+      const mpm_kernel::Failure failure = kernels_.strain(field.view, block, field.sets(), field.count(), settings);
+      if (failure.set >= 0) note_failure({field.set[failure.set], failure.particle});
     });
   }
 
@@ -194,20 +230,23 @@ class Continuum final : public Mechanics {
     settings.by_point = settings_.axis_motion == AxisMotion::point;
     const bool damped = look_at_damping(settings);
     const mpm_kernel::MovePass<T> pass = kernels_.move[motion_][damped];
-    if (damped) taken_.assign(context.grid.blocks.owners(), {});
-    loose_.resize(context.grid.blocks.owners());
     std::atomic<bool> gone{false};
     std::atomic<int> groups{0}, parts{0};
-    each_block(context.grid, regather, [&](const mpm_kernel::BlockView& block) {
-      const mpm_kernel::Moved moved = pass(grid_, block, views_.data(), sets(), settings);
-      loose_[block.owner] = moved.loose;
-      if (moved.gone) gone.store(true, std::memory_order_relaxed);
-      if (damped) taken_[block.owner] = moved;
-      groups.fetch_add(moved.groups, std::memory_order_relaxed);
-      parts.fetch_add(moved.parts, std::memory_order_relaxed);
-    });
-    if (generation_ != context.grid.blocks.generation()) {
-      generation_ = context.grid.blocks.generation();
+    for (Field& field : fields_) {
+      if (damped) field.damped.assign(field.grid.blocks.owners(), {});
+      field.loose.resize(field.grid.blocks.owners());
+      each_block(field.grid, regather, [&](const mpm_kernel::BlockView& block) {
+        const mpm_kernel::Moved moved = pass(field.view, block, field.sets(), field.count(), settings);
+        field.loose[block.owner] = moved.loose;
+        if (moved.gone) gone.store(true, std::memory_order_relaxed);
+        if (damped) field.damped[block.owner] = moved;
+        groups.fetch_add(moved.groups, std::memory_order_relaxed);
+        parts.fetch_add(moved.parts, std::memory_order_relaxed);
+      });
+    }
+    const std::uint64_t generation = fields_.front().grid.blocks.generation();  // of all: they are rebuilt together
+    if (generation_ != generation) {
+      generation_ = generation;
       parts_when_sorted_ = parts;
     }
     needs_sort_ = gone || parts - parts_when_sorted_ > kMixed * groups;
@@ -220,12 +259,14 @@ class Continuum final : public Mechanics {
     if (damping == nullptr) return false;
     settings.flip = damping->flip();
     if (!damping->in_update() && !damping->needs_energy()) return false;
-    for (std::size_t s = 0; s < views_.size(); ++s) {
-      const DampingRates rates = damping->rates(static_cast<int>(s));
-      settings.grid_damping = rates.grid;
-      settings.particle_damping = rates.particle;
-      views_[s].damping[0] = rates.grid_of_particle;
-      views_[s].damping[1] = rates.particle_of_particle;
+    for (Field& field : fields_) {
+      for (int i = 0; i < field.count(); ++i) {
+        const DampingRates rates = damping->rates(field.set[i]);
+        settings.grid_damping = rates.grid;
+        settings.particle_damping = rates.particle;
+        field.views[i].damping[0] = rates.grid_of_particle;
+        field.views[i].damping[1] = rates.particle_of_particle;
+      }
     }
     return true;
   }
@@ -233,22 +274,24 @@ class Continuum final : public Mechanics {
   // Sums over blocks in their order: the same bits for any number of threads.
   void close_damping(const StepContext& context) {
     Damped sum;
-    for (const mpm_kernel::Moved& moved : taken_) {
-      for (int k = 0; k < context.grid.layout.dim(); ++k) sum.momentum[context.grid.layout.axis(k)] += moved.drag[k];
-      sum.grid_energy += moved.grid_kinetic;
-      sum.particle_energy += moved.particle_kinetic;
+    for (const Field& field : fields_) {
+      for (const mpm_kernel::Moved& moved : field.damped) {
+        for (int k = 0; k < layout_.dim(); ++k) sum.momentum[layout_.axis(k)] += moved.drag[k];
+        sum.grid_energy += moved.grid_kinetic;
+        sum.particle_energy += moved.particle_kinetic;
+      }
     }
     settings_.damping->end_step(context, sum);
   }
 
-  // Of the particles' dilatation or mean stress, the mass-weighted mean at the nodes.
-  const double* mean_of(const Grid& grid, bool of_stress) {
-    mean_.resize(grid.blocks.size());
-    clear(mean_, grid);
-    each_block(grid, true, [&](const mpm_kernel::BlockView& block) {
-      kernels_.spread_mean[of_stress](grid_, block, views_.data(), sets(), mean_.data());
+  // Of the particles' dilatation or mean stress, the mass-weighted mean at the nodes of a field.
+  const double* mean_of(const Field& field, bool of_stress) {
+    mean_.resize(field.grid.blocks.size());
+    clear(mean_, field.grid);
+    each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
+      kernels_.spread_mean[of_stress](field.view, block, field.sets(), field.count(), mean_.data());
     });
-    each_carrying(grid, [&](int b, int n, double inverse_mass) { mean_.block(b)[n] *= inverse_mass; });
+    each_carrying(field.grid, [&](int b, int n, double inverse_mass) { mean_.block(b)[n] *= inverse_mass; });
     return mean_.data();
   }
 
@@ -265,14 +308,17 @@ class Continuum final : public Mechanics {
   }
 
   // Domains have grown, and particles with them moved: will the next step's tiles hold them?
-  void end_step(Grid& grid) {
-    grid.loose.swap(loose_);
+  void end_step() {
+    for (Field& field : fields_) field.grid.loose.swap(field.loose);
     if (kernels_.outgrown == nullptr || needs_sort_) return;
-    look_at(grid);
     std::atomic<bool> outgrown{false};
-    each_block(grid, false, [&](const mpm_kernel::BlockView& block) {
-      if (kernels_.outgrown(grid_, block, views_.data(), sets())) outgrown.store(true, std::memory_order_relaxed);
-    });
+    for (Field& field : fields_) {
+      look_at(field);
+      each_block(field.grid, false, [&](const mpm_kernel::BlockView& block) {
+        const bool one = kernels_.outgrown(field.view, block, field.sets(), field.count());
+        if (one) outgrown.store(true, std::memory_order_relaxed);
+      });
+    }
     needs_sort_ = outgrown;
   }
 
@@ -289,16 +335,13 @@ class Continuum final : public Mechanics {
   static constexpr int kSurveyed = 4096;  ///< particles that a thread surveys in one go
 
   Kernels kernels_;
+  const GridLayout& layout_;
   std::vector<ParticleSet>& sets_;
   const std::vector<Law>& laws_;
   ContinuumSettings settings_;
   mpm_kernel::Motion motion_;
-  NodalField increment_;
-  NodalField mean_;
-  mpm_kernel::GridView grid_{};
-  std::vector<mpm_kernel::SetView<T>> views_;
-  std::vector<mpm_kernel::Moved> taken_;  ///< by damping, of each owner
-  std::vector<std::uint8_t> loose_;       ///< of each owner, after the motion
+  std::vector<Field> fields_;
+  NodalField mean_;  ///< of the field at work
   std::optional<ParticleRef> failed_;
   bool needs_sort_ = false;
   std::uint64_t generation_ = 0;  ///< of the blocks that parts_when_sorted_ was counted with
@@ -308,9 +351,10 @@ class Continuum final : public Mechanics {
 }  // namespace
 
 template <class T>
-std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>& kernels, std::vector<ParticleSet>& sets,
-                                          const std::vector<Law>& laws, const ContinuumSettings& settings) {
-  return std::make_unique<Continuum<T>>(kernels, sets, laws, settings);
+std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>& kernels, Fields& fields,
+                                          std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                                          const ContinuumSettings& settings) {
+  return std::make_unique<Continuum<T>>(kernels, fields, sets, laws, settings);
 }
 
 void prepare(ParticleSet& set, ShapeKind shape, const Transfer& transfer) {
@@ -329,9 +373,10 @@ Grouping kernel_grouping(const mpm_kernel::KernelTable<T>& kernels) {
   return {kernels.lanes, kernels.by_column ? Grouping::By::column : Grouping::By::node};
 }
 
-#define MPM_INSTANTIATE(T)                                                                                         \
-  template std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>&, std::vector<ParticleSet>&, \
-                                                     const std::vector<Law>&, const ContinuumSettings&);           \
+#define MPM_INSTANTIATE(T)                                                                               \
+  template std::unique_ptr<Mechanics> make_mechanics(const mpm_kernel::KernelTable<T>&, Fields&,         \
+                                                     std::vector<ParticleSet>&, const std::vector<Law>&, \
+                                                     const ContinuumSettings&);                          \
   template Grouping kernel_grouping(const mpm_kernel::KernelTable<T>&);
 MPM_INSTANTIATE(double)
 MPM_INSTANTIATE(float)

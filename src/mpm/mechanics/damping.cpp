@@ -37,9 +37,10 @@ double part_of_pic(const Function& function, double t, const Vec3* place) {
 
 }  // namespace
 
-DampingControl::DampingControl(const DampingDefinition& definition, double flip, const std::vector<ParticleSet>& sets,
-                               int threads)
+DampingControl::DampingControl(const DampingDefinition& definition, double flip, Fields& fields,
+                               const std::vector<ParticleSet>& sets, int threads)
     : of_thread_(copies_of(definition, threads)),
+      fields_(fields),
       sets_(sets),
       threads_(threads),
       of_place_(definition.grid.uses_place() || definition.particle.uses_place() || definition.pic.uses_place()),
@@ -136,7 +137,12 @@ DampingRates DampingControl::rates(int set) const {
 
 void DampingControl::forces_gathered(StepContext& context) {
   if (force_rate_ == 0.0) return;
-  Grid& grid = context.grid;
+  Vec3 given = Vec3::Zero();
+  for (auto& grid : fields_) given += damp_nodes(*grid, context.dt);
+  account_.add(given);
+}
+
+Vec3 DampingControl::damp_nodes(Grid& grid, double dt) {
   const int nodes = grid.layout.nodes_per_block(), dim = grid.layout.dim();
   block_sums_.resize(grid.blocks.size());
 #pragma omp parallel for schedule(static) num_threads(threads_)
@@ -155,8 +161,8 @@ void DampingControl::forces_gathered(StepContext& context) {
     }
   }
   Vec3 given = Vec3::Zero();
-  for (const Vec3& sum : block_sums_) given += sum * context.dt;
-  account_.add(given);
+  for (const Vec3& sum : block_sums_) given += sum * dt;
+  return given;
 }
 
 void DampingControl::end_step(const StepContext& context, const Damped& damped) {

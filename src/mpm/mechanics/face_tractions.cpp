@@ -34,9 +34,9 @@ int block_along(int node) { return (node + kBlockEdge) / kBlockEdge - 1; }
 
 }  // namespace
 
-FaceTractions::FaceTractions(const TractionSettings& settings, const std::vector<ParticleSet>& sets,
+FaceTractions::FaceTractions(const TractionSettings& settings, Fields& fields, const std::vector<ParticleSet>& sets,
                              std::vector<TractionTerm> terms)
-    : settings_(settings), sets_(sets), terms_(std::move(terms)) {
+    : settings_(settings), fields_(fields), sets_(sets), terms_(std::move(terms)) {
   const int dim = dimensions(settings.geometry);
   std::size_t corners = 0, largest = 0;
   places_.resize(terms_.size());
@@ -119,8 +119,9 @@ Vec3 FaceTractions::value_at(const TractionTerm& term, const FaceParts& parts, i
   return traction;
 }
 
-void FaceTractions::spread(const Grid& grid, const ParticleSet& set, int p, const PlacedDomain::Vector& at,
-                           const Vec3& force) {
+void FaceTractions::spread(const ParticleSet& set, int p, const PlacedDomain::Vector& at, const Vec3& force) {
+  const int field = set.field_of(p);
+  const Grid& grid = *fields_[field];
   const GridLayout& layout = grid.layout;
   const int dim = layout.dim();
   std::array<int, 3> low{};
@@ -157,15 +158,15 @@ void FaceTractions::spread(const Grid& grid, const ParticleSet& set, int p, cons
         set.name, set.id[p]));
   }
   for (int i = 0; i < 1 << dim; ++i) {
-    if (hats[i] > 0.0) loads_.push_back({nodes[i], force * (hats[i] / sum)});
+    if (hats[i] > 0.0) loads_.push_back({field, nodes[i], force * (hats[i] / sum)});
   }
 }
 
 void FaceTractions::forces_gathered(StepContext& context) {
-  Grid& grid = context.grid;
-  if (generation_ != grid.blocks.generation()) {
+  const std::uint64_t generation = context.grid.blocks.generation();  // of all fields: they are rebuilt together
+  if (generation_ != generation) {
     find_places();
-    generation_ = grid.blocks.generation();
+    generation_ = generation;
   }
   loads_.clear();
   Vec3 impulse = Vec3::Zero();
@@ -173,23 +174,26 @@ void FaceTractions::forces_gathered(StepContext& context) {
     const TractionTerm& term = terms_[i];
     const ParticleSet& set = sets_[term.set];
     for (const int p : places_[i]) {
-      const PlacedDomain domain = domain_of(set, p, grid.layout);
+      const PlacedDomain domain = domain_of(set, p, context.grid.layout);
       const FaceParts parts = face_parts(settings_.geometry, domain, term.face, across(set, p));
       const Vec3 traction = value_at(term, parts, p, context);
       impulse += traction * (parts.area * context.dt);
       for (int a = 0; a < parts.corners; ++a) {
-        spread(grid, set, p, parts.corner[a].at, traction * parts.corner[a].area);
+        spread(set, p, parts.corner[a].at, traction * parts.corner[a].area);
       }
     }
   }
-  for (const NodalLoad& load : loads_) add_nodal_vector(grid.force, grid.layout, load.node, load.force);
+  for (const NodalLoad& load : loads_) {
+    Grid& grid = *fields_[load.field];
+    add_nodal_vector(grid.force, grid.layout, load.node, load.force);
+  }
   account_.add(impulse);
 }
 
 void FaceTractions::momentum_updated(StepContext& context) {
-  const Grid& grid = context.grid;
   double power = 0.0;
   for (const NodalLoad& load : loads_) {
+    const Grid& grid = *fields_[load.field];
     // The displacement of a particle in the step: v^{n+1} dt - a dt^2 / 2, GIMP notes (2.16).
     const Vec3 v = nodal_vector(grid.velocity, grid.layout, load.node);
     const Vec3 a = nodal_vector(grid.force, grid.layout, load.node);

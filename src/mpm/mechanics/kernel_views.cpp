@@ -21,10 +21,11 @@ mpm_kernel::GridView view_of(Grid& grid) {
 }
 
 template <class T>
-mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kernel::LawKernels<T>* laws) {
+mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kernel::LawKernels<T>* laws,
+                               int first_owner) {
   mpm_kernel::SetView<T> view{};
   view.group = set.group.data();
-  view.group_begin = set.group_begin.data();
+  view.group_begin = set.group_begin.data() + first_owner;
   view.mass = set.mass;
   view.masses = set.masses.empty() ? nullptr : set.masses[0].template data<T>();
   view.whole_domains = set.whole_domains;
@@ -52,7 +53,7 @@ mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kerne
   return view;
 }
 
-template mpm_kernel::SetView<double> view_of(ParticleSet&, const Law&, const mpm_kernel::LawKernels<double>*);
-template mpm_kernel::SetView<float> view_of(ParticleSet&, const Law&, const mpm_kernel::LawKernels<float>*);
+template mpm_kernel::SetView<double> view_of(ParticleSet&, const Law&, const mpm_kernel::LawKernels<double>*, int);
+template mpm_kernel::SetView<float> view_of(ParticleSet&, const Law&, const mpm_kernel::LawKernels<float>*, int);
 
 }  // namespace mpm

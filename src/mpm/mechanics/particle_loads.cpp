@@ -23,14 +23,15 @@ class ParticleLoadsOf final : public ParticleLoads {
   static constexpr int kGroup = 1024;
 
  public:
-  ParticleLoadsOf(const LoadKernels<T>& kernels, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
-                  const std::vector<ParticleLoadTerm>& terms, int threads)
+  ParticleLoadsOf(const LoadKernels<T>& kernels, Fields& fields, std::vector<ParticleSet>& sets,
+                  const std::vector<Law>& laws, const std::vector<ParticleLoadTerm>& terms, int threads)
       : kernels_{kernels.domain, kernels.center},
         dim_(static_cast<int>(sets.front().x.size())),
+        fields_(fields),
         sets_(sets),
         laws_(laws),
         threads_(threads),
-        nodal_(dim_, nodes_of_block(dim_)),
+        nodal_(fields.size(), NodalField(dim_, nodes_of_block(dim_))),
         fault_(threads) {
     for (const ParticleLoadTerm& term : terms) terms_.emplace_back(term, threads);
     values_.resize(sets.size());
@@ -48,29 +49,20 @@ class ParticleLoadsOf final : public ParticleLoads {
   }
 
   void forces_gathered(StepContext& context) override {
-    Grid& grid = context.grid;
     evaluate(context);
-    nodal_.resize(grid.blocks.size());
-    const int count = dim_ * grid.layout.nodes_per_block();
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int b = 0; b < grid.blocks.size(); ++b) std::fill_n(nodal_.block(b), count, 0.0);
-    for (int spread = 0; spread < kSpreads; ++spread) scatter(grid, spread);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int b = 0; b < grid.blocks.size(); ++b) {
-      double* force = grid.force.block(b);
-      const double* load = nodal_.block(b);
-      for (int n = 0; n < count; ++n) force[n] += load[n];
-    }
+    for (std::size_t f = 0; f < fields_.size(); ++f) add_to(*fields_[f], nodal_[f]);
   }
 
   void momentum_updated(StepContext& context) override {
-    const Grid& grid = context.grid;
-    const int count = dim_ * grid.layout.nodes_per_block();
     double power = 0.0;
-    for (int b = 0; b < grid.blocks.size(); ++b) {
-      const double *load = nodal_.block(b), *v = grid.velocity.block(b), *a = grid.force.block(b);
-      // The displacement of a particle in the step: v^{n+1} dt - a dt^2 / 2, GIMP notes (2.16).
-      for (int n = 0; n < count; ++n) power += load[n] * (v[n] - 0.5 * context.dt * a[n]);
+    for (std::size_t f = 0; f < fields_.size(); ++f) {
+      const Grid& grid = *fields_[f];
+      const int count = dim_ * grid.layout.nodes_per_block();
+      for (int b = 0; b < grid.blocks.size(); ++b) {
+        const double *load = nodal_[f].block(b), *v = grid.velocity.block(b), *a = grid.force.block(b);
+        // The displacement of a particle in the step: v^{n+1} dt - a dt^2 / 2, GIMP notes (2.16).
+        for (int n = 0; n < count; ++n) power += load[n] * (v[n] - 0.5 * context.dt * a[n]);
+      }
     }
     work_ += power * context.dt;
   }
@@ -162,23 +154,39 @@ class ParticleLoadsOf final : public ParticleLoads {
     }
   }
 
-  void scatter(Grid& grid, int spread) {
+  // The load on the nodes of a field, and it to their force.
+  void add_to(Grid& grid, NodalField& nodal) {
+    nodal.resize(grid.blocks.size());
+    const int count = dim_ * grid.layout.nodes_per_block();
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (int b = 0; b < grid.blocks.size(); ++b) std::fill_n(nodal.block(b), count, 0.0);
+    for (int spread = 0; spread < kSpreads; ++spread) scatter(grid, spread, nodal);
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (int b = 0; b < grid.blocks.size(); ++b) {
+      double* force = grid.force.block(b);
+      const double* load = nodal.block(b);
+      for (int n = 0; n < count; ++n) force[n] += load[n];
+    }
+  }
+
+  void scatter(Grid& grid, int spread, NodalField& nodal) {
     const auto used = [spread](const auto& values) { return !values[spread].empty(); };
     if (std::none_of(values_.begin(), values_.end(), used)) return;
     const mpm_kernel::GridView view = view_of(grid);
     views_.clear();
     for (std::size_t s = 0; s < sets_.size(); ++s) {
-      views_.push_back(view_of<T>(sets_[s], laws_[s], kernels_[spread].laws));
+      views_.push_back(view_of<T>(sets_[s], laws_[s], kernels_[spread].laws, grid.first_owner));
       const auto& values = values_[s][spread];
       for (std::size_t k = 0; k < values.size(); ++k) views_.back().load[k] = values[k].data();
     }
     each_owner(grid, threads_, [&](const mpm_kernel::BlockView& block) {
-      kernels_[spread].scatter_load(view, block, views_.data(), static_cast<int>(views_.size()), nodal_.data());
+      kernels_[spread].scatter_load(view, block, views_.data(), static_cast<int>(views_.size()), nodal.data());
     });
   }
 
   std::array<mpm_kernel::KernelTable<T>, kSpreads> kernels_;  ///< by spread
   int dim_;
+  Fields& fields_;
   std::vector<ParticleSet>& sets_;
   const std::vector<Law>& laws_;
   int threads_;
@@ -186,7 +194,7 @@ class ParticleLoadsOf final : public ParticleLoads {
   /// Acceleration of each set's particles by spread and axis [m/s^2].
   std::vector<std::array<std::vector<PaddedArray<double>>, kSpreads>> values_;
   std::vector<mpm_kernel::SetView<T>> views_;
-  NodalField nodal_;  ///< load of each node in this step [N]
+  std::vector<NodalField> nodal_;  ///< of each field, load of each node in this step [N]
   std::vector<ByKind> sums_;
   FirstFault fault_;
   std::array<bool, kKinds> there_{};
@@ -197,17 +205,17 @@ class ParticleLoadsOf final : public ParticleLoads {
 }  // namespace
 
 template <class T>
-std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<T>& kernels, std::vector<ParticleSet>& sets,
-                                                   const std::vector<Law>& laws,
+std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<T>& kernels, Fields& fields,
+                                                   std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
                                                    const std::vector<ParticleLoadTerm>& terms, int threads) {
-  return std::make_unique<ParticleLoadsOf<T>>(kernels, sets, laws, terms, threads);
+  return std::make_unique<ParticleLoadsOf<T>>(kernels, fields, sets, laws, terms, threads);
 }
 
-template std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<double>&, std::vector<ParticleSet>&,
-                                                            const std::vector<Law>&,
+template std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<double>&, Fields&,
+                                                            std::vector<ParticleSet>&, const std::vector<Law>&,
                                                             const std::vector<ParticleLoadTerm>&, int);
-template std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<float>&, std::vector<ParticleSet>&,
-                                                            const std::vector<Law>&,
+template std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<float>&, Fields&,
+                                                            std::vector<ParticleSet>&, const std::vector<Law>&,
                                                             const std::vector<ParticleLoadTerm>&, int);
 
 }  // namespace mpm

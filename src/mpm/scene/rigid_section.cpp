@@ -182,32 +182,38 @@ void read_motion(const Value& value, GeometryKind geometry, RigidBodyDefinition&
   if (const auto rate = map.find("rotation_rate")) body.rotation_rate = read_rotation_rate(*rate, geometry);
 }
 
-FrictionLaw read_contact(const Map& root, Scene& scene, bool needed) {
-  const auto section = root.find("contact");
-  if (!section) {
-    if (needed) scene.choices.emplace_back("contact.friction", "0: smooth tools, for the scene names none");
-    return {};
+/// Of the exact surface, or of particles that fill it.
+void read_normals(const Value& value, RigidBodyDefinition& body) {
+  body.particles = value.choice({"surface", "particles"}) == 1;
+  if (!body.particles) return;
+  if (body.reach > 0.0) value.fail("particles reach as far as their functions do; leave out reach");
+  const Box bounds = body.surface->bounds();
+  for (const int axis : axes_of(value.context().geometry)) {
+    if (!std::isfinite(bounds.max[axis] - bounds.min[axis])) {
+      value.fail("a body without end cannot be filled with particles; write surface");
+    }
   }
-  const std::string deformable = "deformable bodies share one velocity field and stick to each other";
-  const Map map(*section, {"friction"},
-                {{"pairs", deformable},
-                 {"interface", deformable},
-                 {"detection", "contact is found by distance and approach"},
-                 {"normals", "normals come from the tools' surfaces"},
-                 {"position", "contact is found by distance and approach"}});
-  const auto friction = map.find("friction");
-  return friction ? read_friction(*friction) : FrictionLaw{};
 }
 
 }  // namespace
 
+void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinition& body) {
+  if (const auto motion = map.find("motion")) read_motion(*motion, geometry, body);
+}
+
+void read_rigid_shape(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body) {
+  const GeometryKind geometry = definition.geometry;
+  body.surface = read_surface(map.at("shape"), definition, body);
+  if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, geometry, body.inner_radius);
+  read_rigid_motion(map, geometry, body);
+}
+
 void read_rigid_bodies(const Map& root, Scene& scene) {
-  const GeometryKind geometry = scene.definition.geometry;
   const auto section = root.find("rigid_bodies");
   const FrictionLaw friction = read_contact(root, scene, section.has_value());
   if (!section) return;
   for (const Value& value : section->elements()) {
-    const Map map(value, {"name", "shape", "pose", "motion", "friction", "reach"},
+    const Map map(value, {"name", "shape", "pose", "motion", "friction", "reach", "normals"},
                   {{"drive", "use motion, or velocity and pose commands on topics"},
                    {"mass", "rigid bodies move as they are told"},
                    {"frame", "use commands on topics, which tf2 transforms"}});
@@ -222,15 +228,14 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
         value.fail(fmt::format("'{}' is already the name of a deformable body; give each its own name", body.name));
       }
     }
-    body.surface = read_surface(map.at("shape"), scene.definition, body);
-    if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, geometry, body.inner_radius);
-    if (const auto motion = map.find("motion")) read_motion(*motion, geometry, body);
+    read_rigid_shape(map, scene.definition, body);
     const auto own_friction = map.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;
     if (const auto reach = map.find("reach")) {
       body.reach = reach->non_negative(kPlain);
       if (body.reach > 1.0) reach->fail(fmt::format("{:g} cells; write 0 to 1", body.reach));
     }
+    if (const auto normals = map.find("normals")) read_normals(*normals, body);
     scene.definition.rigid_bodies.push_back(std::move(body));
   }
 }

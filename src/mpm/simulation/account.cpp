@@ -93,6 +93,24 @@ class Hash {
   std::uint64_t value_ = 14695981039346656037ull;
 };
 
+// Stages that do the same in several velocity fields have accounts of one name: they become one. What it exchanged is
+// then the sum over the fields.
+void merge(std::vector<ImpulseAccount>& accounts) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < accounts.size(); ++i) {
+    const auto end = accounts.begin() + static_cast<std::ptrdiff_t>(kept);
+    const auto same = std::find_if(accounts.begin(), end, [&](const auto& a) { return a.name == accounts[i].name; });
+    if (same == end) {
+      if (kept != i) accounts[kept] = accounts[i];
+      ++kept;
+    } else {
+      same->impulse += accounts[i].impulse;
+      same->exchanged += accounts[i].exchanged;
+    }
+  }
+  accounts.resize(kept);
+}
+
 const Matrix3<double>& full(const Matrix3<double>& m) { return m; }
 Matrix3<double> full(const MatrixPlane<double>& m) { return {m.xx, 0.0, m.xz, 0.0, m.yy, 0.0, m.zx, 0.0, m.zz}; }
 const Symmetric3<double>& full(const Symmetric3<double>& s) { return s; }
@@ -110,7 +128,7 @@ ParticleTensors particle_tensors(const ParticleSet& set, GeometryKind geometry, 
 
 Vec3 Simulation::State::momentum() const {
   return sum_particles(sets, threads, Vec3(Vec3::Zero()), [&](const ParticleSet& set, int p) {
-    return Vec3(set.mass_of(p) * particle_vector(set.v, grid->layout, p));
+    return Vec3(set.mass_of(p) * particle_vector(set.v, layout(), p));
   });
 }
 
@@ -124,7 +142,7 @@ double Simulation::State::kinetic_energy() const {
 
 SolverState Simulation::state() const {
   const State& s = *state_;
-  const GridLayout& layout = s.grid->layout;
+  const GridLayout& layout = s.layout();
   SolverState report;
   report.time = s.time;
   report.step = s.steps;
@@ -145,15 +163,24 @@ SolverState Simulation::state() const {
   report.energy.elastic = totals.elastic;
   report.energy.plastic = totals.plastic;
   report.min_j = totals.min_j;
-  for (const RigidContact* contact : s.contacts) report.energy.contact_work += contact->work();
+  for (const ContactLedger* contact : s.contacts) report.energy.contact_work += contact->work();
+  if (s.pairs != nullptr) {
+    report.energy.pair_friction = s.pairs->friction_energy();
+    report.energy.interface = s.pairs->interface_energy();
+  }
   if (s.loads != nullptr) report.energy.load_work += s.loads->work();
   if (s.tractions != nullptr) report.energy.load_work += s.tractions->work();
+  for (const VelocityConditions* all : s.conditions) report.energy.load_work += all->work();
+  for (const Absorbing* face : s.absorbing) report.energy.load_work += face->work();
+  if (s.leaving) report.returned = s.leaving->count();
 
   AuditReport& audit = report.audit;
   audit.momentum = s.momentum();
   audit.initial_momentum = s.initial_momentum;
   std::vector<ImpulseAccount> accounts{s.gravity};
   for (const auto& stage : s.stages) stage->accounts(accounts);
+  if (s.leaving) accounts.push_back(s.leaving->account());
+  merge(accounts);
   Vec3 given = Vec3::Zero();
   for (const ImpulseAccount& account : accounts) {
     audit.impulses.push_back({account.name, account.impulse});

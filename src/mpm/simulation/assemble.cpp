@@ -10,12 +10,14 @@
 #include "load_terms.hpp"
 #include "mpm/boundary/again.hpp"
 #include "mpm/boundary/axis.hpp"
+#include "mpm/boundary/periodic.hpp"
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
+#include "mpm/step/in_field.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -31,6 +33,13 @@ std::vector<ParticleScalar> zeros(int components, Precision precision, std::size
   field.reserve(components);
   for (int c = 0; c < components; ++c) field.emplace_back(precision, particles);
   return field;
+}
+
+/// How far a centre may be beyond a face [cells]. Pressed against a wall, a particle comes to rest only when its box
+/// (`half` of it) is half beyond it; an absorbing face gives way by as much.
+double beyond(WallKind kind, double half) {
+  if (kind == WallKind::periodic) return kPeriodicReach;
+  return kind == WallKind::none ? 0.0 : half;
 }
 
 /// Masses of rings, and where their functions end. `per_area`: density times the area of a section [kg/m].
@@ -64,13 +73,13 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
   }
   ParticleSet set;
   set.name = body.name;
+  set.field = body.field;
   const int dim = layout.dim();
   for (int k = 0; k < dim; ++k) {
     set.half[k] = 0.5 / definition.method.particles_per_direction;
-    // Pressed against a wall, a particle comes to rest only when its box is half beyond it.
     const int face = 2 * layout.axis(k);
-    set.lowest[k] = definition.walls[face].kind == WallKind::none ? 0.0 : -set.half[k];
-    set.highest[k] = layout.last_node(k) + (definition.walls[face + 1].kind == WallKind::none ? 0.0 : set.half[k]);
+    set.lowest[k] = -beyond(definition.walls[face].kind, set.half[k]);
+    set.highest[k] = layout.last_node(k) + beyond(definition.walls[face + 1].kind, set.half[k]);
   }
   set.id.resize(n);
   set.precision = definition.method.precision;
@@ -119,6 +128,15 @@ void check(const SimulationDefinition& d) {
   if (planar(d.geometry) && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
   if (d.geometry == GeometryKind::line && !(d.area > 0.0)) throw DefinitionError("area must be positive");
   if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool lower = d.walls[2 * axis].kind == WallKind::periodic;
+    if (lower != (d.walls[2 * axis + 1].kind == WallKind::periodic)) {
+      throw DefinitionError(fmt::format("one face along {} is periodic, the other is not; make both so", "xyz"[axis]));
+    }
+    if (lower && axis == 0 && axisymmetric(d.geometry)) {
+      throw DefinitionError("an axisymmetric scene is not periodic along r; use z, or make it plane_strain");
+    }
+  }
   if (const auto fault = axis_fault(d)) throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
 }
 
@@ -144,6 +162,31 @@ void project(SimulationDefinition& definition) {
       if (!turns_about(geometry, axis)) body.rotation_rate[axis] = Function();
     }
   }
+}
+
+/// The velocity fields that the bodies are in, with what all of them have in common.
+Fields fields_of(const SimulationDefinition& definition) {
+  int count = 1;
+  for (const DeformableBody& body : definition.bodies) {
+    if (body.field < 0)
+      throw DefinitionError(fmt::format("body '{}': its velocity field is {}", body.name, body.field));
+    count = std::max(count, body.field + 1);
+  }
+  GridLayout layout(dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max);
+  for (int k = 0; k < layout.dim(); ++k) {
+    if (definition.walls[2 * layout.axis(k)].kind == WallKind::periodic) layout.make_periodic(k);
+  }
+  const ShapeKind shape = definition.method.shape;
+  Fields fields = make_fields(layout, count);
+  for (auto& grid : fields) {
+    if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) grid->wall_layers = 2;
+    for (int face = 0; face < 2 * layout.dim(); ++face) {
+      const WallKind kind = definition.walls[2 * layout.axis(face / 2) + face % 2].kind;
+      grid->has_wall[face] = kind != WallKind::none && kind != WallKind::periodic;
+      if (kind == WallKind::symmetry) grid->symmetry.add(face);
+    }
+  }
+  return fields;
 }
 
 // Not "= {}", which would keep the memory.
@@ -206,13 +249,13 @@ void Simulation::State::add_mechanics() {
   for (ParticleSet& set : sets) prepare(set, method.shape, method.transfer);
   if (const std::vector<ParticleLoadTerm> terms = make_load_terms(definition, sets); !terms.empty()) {
     const LoadKernels<T> load_kernels{kernels, kernel_table<T>(ShapeKind::dirac, definition.geometry, isa)};
-    auto all = make_particle_loads(load_kernels, sets, laws, terms, threads);
+    auto all = make_particle_loads(load_kernels, fields, sets, laws, terms, threads);
     loads = all.get();
     stages.push_back(std::move(all));
   }
-  if (std::vector<TractionTerm> terms = make_traction_terms(definition, sets, grid->layout); !terms.empty()) {
+  if (std::vector<TractionTerm> terms = make_traction_terms(definition, sets, layout()); !terms.empty()) {
     const TractionSettings settings{definition.geometry, method.shape, definition.across()};
-    auto all = std::make_unique<FaceTractions>(settings, sets, std::move(terms));
+    auto all = std::make_unique<FaceTractions>(settings, fields, sets, std::move(terms));
     tractions = all.get();
     stages.push_back(std::move(all));
   }
@@ -224,7 +267,7 @@ void Simulation::State::add_mechanics() {
   settings.gravity = definition.gravity;
   settings.threads = threads;
   settings.damping = damping;
-  mechanics = make_mechanics(kernels, sets, laws, settings);
+  mechanics = make_mechanics(kernels, fields, sets, laws, settings);
   sorter = std::make_unique<Sorter>(threads, kernel_grouping(kernels));
 }
 
@@ -243,15 +286,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
   const int dim = dimensions(definition.geometry);
   project(s.definition);
-  s.grid = std::make_unique<Grid>(GridLayout(dim, definition.grid.cell, definition.grid.min, definition.grid.max));
-  const GridLayout& layout = s.grid->layout;
-  const ShapeKind shape = definition.method.shape;
-  if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) s.grid->wall_layers = 2;
-  for (int k = 0; k < dim; ++k) {
-    for (const int upper : {0, 1}) {
-      s.grid->has_wall[2 * k + upper] = definition.walls[2 * layout.axis(k) + upper].kind != WallKind::none;
-    }
-  }
+  s.fields = fields_of(definition);
+  const GridLayout& layout = s.layout();
 
   const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
                                      [](const DeformableBody& body) { return body.geostatic.has_value(); });
@@ -273,55 +309,56 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   for (DeformableBody& body : s.definition.bodies) forget_particles(body);
 
   if (definition.method.damping.any()) {
-    auto damping =
-        std::make_unique<DampingControl>(definition.method.damping, definition.method.transfer.flip, s.sets, s.threads);
+    auto damping = std::make_unique<DampingControl>(definition.method.damping, definition.method.transfer.flip,
+                                                    s.fields, s.sets, s.threads);
     s.damping = damping.get();
     s.stages.push_back(std::move(damping));
   }
   // Walls that always hold act before contact, so that friction knows no velocity through them, and once more after it
   // (method reference 5.4, steps 7 to 9).
-  std::vector<Wall*> holding;
+  struct Holding {
+    Grid* field;
+    Stage* stage;
+  };
+  std::vector<Holding> holding;
+  const auto in_field = [&s](Grid& field, std::unique_ptr<Stage> stage) -> std::unique_ptr<Stage> {
+    if (s.fields.size() == 1) return stage;
+    return std::make_unique<InField>(field, std::move(stage));
+  };
   const auto add_walls = [&](bool lets_go) {
     for (int grid_face = 0; grid_face < 2 * dim; ++grid_face) {
       const int face = 2 * layout.axis(grid_face / 2) + grid_face % 2;
       const WallKind kind = definition.walls[face].kind;
-      if (kind == WallKind::none || (kind == WallKind::frictional) != lets_go) continue;
-      auto wall = std::make_unique<Wall>(grid_face, definition.walls[face], kWallNames[face]);
-      if (!lets_go) holding.push_back(wall.get());
-      s.stages.push_back(std::move(wall));
+      if (!is_wall(kind) || (kind == WallKind::frictional) != lets_go) continue;
+      for (auto& field : s.fields) {
+        auto wall = std::make_unique<Wall>(grid_face, definition.walls[face], kWallNames[face]);
+        if (!lets_go) holding.push_back({field.get(), wall.get()});
+        s.stages.push_back(in_field(*field, std::move(wall)));
+      }
     }
   };
-  Axis* axis = nullptr;
   if (axisymmetric(definition.geometry)) {
-    s.stages.insert(s.stages.begin(), std::make_unique<HoopForce>());
-    if (definition.grid.min.x() == 0.0) {
-      auto condition = std::make_unique<Axis>(definition.method.axis.ghosts);
-      axis = condition.get();
-      s.stages.push_back(std::move(condition));
+    for (auto& field : s.fields) {
+      s.stages.insert(s.stages.begin(), in_field(*field, std::make_unique<HoopForce>()));
+      if (definition.grid.min.x() != 0.0) continue;
+      auto axis = std::make_unique<Axis>(definition.method.axis.ghosts);
+      holding.push_back({field.get(), axis.get()});
+      s.stages.push_back(in_field(*field, std::move(axis)));
     }
   }
+  s.add_absorbing();
   add_walls(false);
+  s.add_conditions();
+  for (std::size_t f = 0; f < s.conditions.size(); ++f) holding.push_back({s.fields[f].get(), s.conditions[f]});
   const std::size_t before_contact = s.stages.size();
-  s.bodies.reserve(definition.rigid_bodies.size());
-  for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
-    s.bodies.emplace_back(body);
-    auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.threads, definition.geometry);
-    s.contacts.push_back(contact.get());
-    s.stages.push_back(std::move(contact));
-    const double cells = body.surface->thickness() / layout.smallest_cell();
-    if (cells < 3.0) {
-      s.warnings.push_back(
-          fmt::format("rigid body '{}' is {:.2g} cells thick where it is thinnest: material on its two sides shares "
-                      "nodes and feels "
-                      "each other when it is thinner than 3; use a finer grid.cell or a thicker body",
-                      body.name, cells));
-    }
-  }
+  s.add_pairs();
+  s.add_rigid_bodies();
   add_walls(true);
   if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);
   if (s.stages.size() > before_contact) {
-    if (axis != nullptr) s.stages.push_back(std::make_unique<StageAgain>(*axis));
-    for (Wall* wall : holding) s.stages.push_back(std::make_unique<StageAgain>(*wall));
+    for (const Holding& one : holding) {
+      s.stages.push_back(in_field(*one.field, std::make_unique<StageAgain>(*one.stage)));
+    }
   }
 
   if (definition.method.precision == Precision::float32) {
@@ -331,9 +368,11 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   }
   double lightest = s.sets.front().least_mass();
   for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.least_mass());
-  s.grid->least_mass = 1e-30 * lightest;
+  for (auto& grid : s.fields) grid->least_mass = 1e-30 * lightest;
   s.gravity.name = "gravity";
+  if (definition.grid.leave_limit > 0) s.leaving.emplace(definition.grid.leave_limit);
   s.sort(0.0);
+  for (std::size_t f = 0; f < s.conditions.size(); ++f) s.conditions[f]->find_nodes(*s.fields[f]);
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
   s.rates.resize(definition.metrics.size());

@@ -72,8 +72,7 @@ struct Unbalanced {
   double most = std::numeric_limits<double>::infinity();  ///< largest |a| / g of nodes that carry half a particle
 };
 
-Unbalanced unbalanced(const Grid& grid, double weight, double g, double half_particle) {
-  Unbalanced found{0.0, 0.0};
+void add_unbalanced(const Grid& grid, double weight, double g, double half_particle, Unbalanced& found) {
   for (int b = 0; b < grid.blocks.size(); ++b) {
     for (int n = 0; n < grid.layout.nodes_per_block(); ++n) {
       if (!grid.carries(b, n)) continue;
@@ -82,7 +81,6 @@ Unbalanced unbalanced(const Grid& grid, double weight, double g, double half_par
       if (mass >= half_particle) found.most = std::max(found.most, a / g);
     }
   }
-  return found;
 }
 
 void stop(std::vector<ParticleSet>& sets) {
@@ -114,7 +112,22 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
   forces.erase(std::remove_if(forces.begin(), forces.end(), elsewhere), forces.end());
   auto& tractions = part.tractions;
   tractions.erase(std::remove_if(tractions.begin(), tractions.end(), elsewhere), tractions.end());
+  auto& pairs = part.contact.pairs;
+  const auto absent = [&](const PairDefinition& pair) {
+    return std::any_of(definition.bodies.begin(), definition.bodies.end(), [&](const DeformableBody& body) {
+      return !body.geostatic && (body.name == pair.first || body.name == pair.second);
+    });
+  };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), absent), pairs.end());
   for (RigidBodyDefinition& body : part.rigid_bodies) body.velocity = body.rotation_rate = {};
+  for (ConditionDefinition& condition : part.conditions) {
+    condition.region.velocity = condition.region.rotation_rate = {};
+    condition.velocity = Function();
+  }
+  // Dashpots would let it sink.
+  for (WallDefinition& wall : part.walls) {
+    if (wall.kind == WallKind::absorbing) wall.kind = WallKind::slip;
+  }
   return part;
 }
 
@@ -200,7 +213,10 @@ void Simulation::State::settle() {
     for (bool at_rest = true; residual.mean > wanted && count < kMostSteps; ++count) {
       if (count % kSurveyEvery == 0) r.previous_limit = r.material_limit = r.survey_material();
       r.step(0.0, std::min(r.step_limit().dt, period));
-      if (at_rest) residual = unbalanced(*r.grid, r.total_mass * g, g, 0.5 * lightest);
+      if (at_rest) {
+        residual = {0.0, 0.0};
+        for (const auto& grid : r.fields) add_unbalanced(*grid, r.total_mass * g, g, 0.5 * lightest, residual);
+      }
       const double now = r.kinetic_energy();
       at_rest = now < before;
       if (at_rest) stop(r.sets);

@@ -119,13 +119,13 @@ std::vector<std::pair<std::string, std::string>> Simulation::particle_fields() {
 void Simulation::particle_field(const std::string& name, std::vector<float>& values) const {
   const Field& field = find_field(name);
   values.resize(particles());
-  fill(state_->sets, state_->laws, state_->grid->layout, state_->definition.geometry, state_->threads, field, values);
+  fill(state_->sets, state_->laws, state_->layout(), state_->definition.geometry, state_->threads, field, values);
 }
 
 void Simulation::particle_field(const std::string& name, std::vector<double>& values) const {
   const Field& field = find_field(name);
   values.resize(particles());
-  fill(state_->sets, state_->laws, state_->grid->layout, state_->definition.geometry, state_->threads, field, values);
+  fill(state_->sets, state_->laws, state_->layout(), state_->definition.geometry, state_->threads, field, values);
 }
 
 }  // namespace mpm

@@ -60,8 +60,8 @@ std::string StepLimit::text() const {
 }
 
 StepLimit Simulation::State::survey_material() const {
-  const int dim = grid->layout.dim();
-  const double cell = grid->layout.smallest_cell();
+  const int dim = layout().dim();
+  const double cell = layout().smallest_cell();
   StepLimit limit;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const FastestParticle found = mechanics->fastest(static_cast<int>(s), cell);
@@ -70,14 +70,14 @@ StepLimit Simulation::State::survey_material() const {
     material.cause = StepLimit::Cause::material;
     material.name = &sets[s].name;
     material.speed = found.rate * cell;
-    for (int k = 0; k < dim; ++k) material.place[grid->layout.axis(k)] = sets[s].x[k][found.index];
+    for (int k = 0; k < dim; ++k) material.place[layout().axis(k)] = sets[s].x[k][found.index];
     tighten(limit, material);
   }
   return limit;
 }
 
 StepLimit Simulation::State::step_limit() const {
-  const double reach = definition.time.cfl * grid->layout.smallest_cell();
+  const double reach = definition.time.cfl * layout().smallest_cell();
   const double start = 1e-9 * static_cast<double>(time), period = 1e-9 * static_cast<double>(definition.time.sync);
   StepLimit limit = material_limit;
   const double trend = std::clamp(material_limit.dt / previous_limit.dt, kMostForeseen, 1.0);
@@ -95,9 +95,20 @@ StepLimit Simulation::State::step_limit() const {
     tool.name = &body.name();
     if (tool.speed > 0.0) tighten(limit, tool);
   }
+  for (const VelocityConditions* all : conditions) {
+    static const std::string kConditions = "boundaries.conditions";
+    StepLimit condition;
+    for (const double part : {0.0, 0.5, 1.0}) {
+      condition.speed = std::max(condition.speed, all->largest_speed(start + part * period));
+    }
+    condition.dt = reach / condition.speed;
+    condition.cause = StepLimit::Cause::tool;
+    condition.name = &kConditions;
+    if (condition.speed > 0.0) tighten(limit, condition);
+  }
   if (damping != nullptr) {
     const double energy = damping->needs_energy() ? kinetic_energy() : 0.0;
-    const double rate = damping->largest_rate(start, period, energy, grid->layout);
+    const double rate = damping->largest_rate(start, period, energy, layout());
     StepLimit damped;
     damped.dt = definition.time.cfl / rate;
     damped.cause = StepLimit::Cause::damping;

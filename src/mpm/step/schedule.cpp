@@ -17,10 +17,11 @@ void gather_momentum(Mechanics& mechanics, Stages& stages, StepContext& context)
 // XPIC, FMPM: what particles adopt is the grid's velocity and increments of it.
 void filter(Mechanics& mechanics, Stages& stages, StepContext& context) {
   if (mechanics.increments() == 0) return;
-  NodalField& velocity = mechanics.begin_increments(context);
-  for (auto& stage : stages) stage->velocity_found(context, velocity);
+  NodalField& increment = context.grid.increment;
+  mechanics.begin_increments(context);
+  for (auto& stage : stages) stage->velocity_found(context, increment);
   for (int n = 0; n < mechanics.increments(); ++n) {
-    NodalField& increment = mechanics.find_increment(context);
+    mechanics.find_increment(context);
     for (auto& stage : stages) stage->increment_found(context, increment);
     mechanics.add_increment(context);
   }

@@ -35,11 +35,13 @@ int Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout, Scratc
     std::uint64_t stride;
   };
   std::array<Axis, Dim> axes{};
-  std::uint64_t corner = 0;  // key of block (0, 0, 0)
+  // Key of block (0, 0, 0) in the set's first field.
+  std::uint64_t corner = static_cast<std::uint64_t>(set.field) * layout.keys();
   for (int k = 0; k < Dim; ++k) {
     axes[k] = {set.x[k].data(), set.lowest[k], set.highest[k], static_cast<std::uint64_t>(layout.key_stride(k))};
     corner += axes[k].stride;
   }
+  const std::uint8_t* side = set.side.empty() ? nullptr : set.side.data();
   int outside = set.size();
 #pragma omp parallel for schedule(static) num_threads(threads_) reduction(min : outside)
   for (int t = 0; t < threads_; ++t) {
@@ -47,7 +49,7 @@ int Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout, Scratc
     std::vector<std::uint64_t>& blocks = parts_[t].blocks;
     const std::size_t end = part_begin(n, t + 1);
     for (std::size_t p = part_begin(n, t); p < end; ++p) {
-      std::uint64_t key = corner, local = 0;
+      std::uint64_t key = corner + (side == nullptr ? 0 : side[p] * layout.keys()), local = 0;
       bool inside = true;
       for (int k = 0; k < Dim; ++k) {
         const double cells = layout.in_cells(k, axes[k].x[p]);
@@ -211,18 +213,35 @@ void Sorter::permute(ParticleSet& set, Scratch& scratch) const {
     }
   });
   reorder(set.id, scratch.ids);
+  if (!set.side.empty()) reorder(set.side, scratch.sides);
 }
 
-std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Grid& grid) {
+void Sorter::rebuild(Fields& fields) {
+  auto first = owner_keys_.begin();
+  std::uint64_t corner = 0;  // key 0 of the field
+  for (auto& field : fields) {
+    const std::uint64_t next = corner + field->layout.keys();
+    const auto end = std::lower_bound(first, owner_keys_.end(), next);
+    field_keys_.assign(first, end);
+    for (std::uint64_t& key : field_keys_) key -= corner;
+    field->first_owner = static_cast<int>(first - owner_keys_.begin());
+    field->rebuild(field_keys_, threads_);
+    first = end;
+    corner = next;
+  }
+}
+
+std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Fields& fields) {
   static_assert(kBlockEdge == 4);
-  const int dim = grid.layout.dim();
+  const GridLayout& layout = fields.front()->layout;
+  const int dim = layout.dim();
   node_bits_ = 2 * static_cast<unsigned>(dim);
   scratch_.resize(sets.size());
   for (Part& part : parts_) part.blocks.clear();
   for (std::size_t s = 0; s < sets.size(); ++s) {
-    const int outside = dim == 3   ? find_blocks<3>(sets[s], grid.layout, scratch_[s])
-                        : dim == 2 ? find_blocks<2>(sets[s], grid.layout, scratch_[s])
-                                   : find_blocks<1>(sets[s], grid.layout, scratch_[s]);
+    const int outside = dim == 3   ? find_blocks<3>(sets[s], layout, scratch_[s])
+                        : dim == 2 ? find_blocks<2>(sets[s], layout, scratch_[s])
+                                   : find_blocks<1>(sets[s], layout, scratch_[s]);
     if (outside < sets[s].size()) return ParticleRef{static_cast<int>(s), outside};
   }
   collect_owners();
@@ -232,7 +251,7 @@ std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Grid& gr
     fill_groups(sets[s], scratch_[s]);
     permute(sets[s], scratch_[s]);
   }
-  grid.rebuild(owner_keys_, threads_);
+  rebuild(fields);
   return std::nullopt;
 }
 

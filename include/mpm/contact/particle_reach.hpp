@@ -1,0 +1,41 @@
+// How far a particle reaches from its centre towards a surface: the ellipsoid inscribed in its box, deformed with it.
+// Along the box's axes that is the box; turned with the material it turns; and a lattice of particles reaches its own
+// flat side exactly, however it lies. What has flowed far remembers a shape that means nothing any more: the reach
+// stays within a factor of two of that of a ball of the particle's volume.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/grid/grid_layout.hpp"
+#include "mpm/math/dimension.hpp"
+#include "mpm/particles/particle_set.hpp"
+
+namespace mpm {
+
+/// [m]; `normal`: unit vector along the grid's axes, world components.
+template <class Geometry>
+double particle_reach(const ParticleSet& set, const GridLayout& layout, int p, const Vec3& normal) {
+  constexpr int kDim = Geometry::kDim;
+  const auto f = Geometry::load_matrix(set.f, p);
+  double squared = 0.0, rest = 0.0;
+  const auto along = [&](int k) {  // (F^T n)_k
+    if constexpr (kDim == 1) return f.xx * normal.x();
+    if constexpr (kDim == 2)
+      return k == 0 ? f.xx * normal.x() + f.zx * normal.z() : f.xz * normal.x() + f.zz * normal.z();
+    if constexpr (kDim == 3) {
+      return k == 0   ? f.xx * normal.x() + f.yx * normal.y() + f.zx * normal.z()
+             : k == 1 ? f.xy * normal.x() + f.yy * normal.y() + f.zy * normal.z()
+                      : f.xz * normal.x() + f.yz * normal.y() + f.zz * normal.z();
+    }
+  };
+  for (int k = 0; k < kDim; ++k) {
+    const double half = set.half[k] * layout.cell(k), n = normal[layout.axis(k)], part = half * along(k);
+    squared += part * part;
+    rest += half * half * n * n;
+  }
+  const double ball = std::sqrt(rest) * std::pow(std::max(determinant(f), 0.0), 1.0 / kDim);
+  return std::clamp(std::sqrt(squared), 0.5 * ball, 2.0 * ball);
+}
+
+}  // namespace mpm

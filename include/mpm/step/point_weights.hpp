@@ -1,0 +1,27 @@
+// The grid's velocity at a point of the material's surface: nodes around it and their weights. Hat functions, which are
+// what the averages of uGIMP and CPDI are averages of; with splines, splines. Internal forces of material that is
+// filled up to the point end with the same weights: a traction spread by them is in equilibrium with a uniform stress.
+//
+// Nodes that carry no mass are left out and the others take their part: with dirac, and where a particle is stretched
+// beyond the nodes that it reaches.
+#pragma once
+
+#include <array>
+
+#include "mpm/shape/kind.hpp"
+#include "mpm/step/step_context.hpp"
+
+namespace mpm {
+
+struct PointWeights {
+  static constexpr int kMost = 125;  ///< of cubic splines in a solid
+
+  int count = 0;  ///< nodes with a weight; 0: no node around the point carries mass, or it is far out of the domain
+  std::array<NodeRef, kMost> node;
+  std::array<double, kMost> weight;  ///< sum to 1
+
+  /// `at`: world [m], along the grid's axes.
+  PointWeights(const Grid& grid, ShapeKind shape, const Vec3& at);
+};
+
+}  // namespace mpm

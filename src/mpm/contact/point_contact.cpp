@@ -1,0 +1,328 @@
+#include "mpm/contact/point_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/contact/particle_reach.hpp"
+#include "mpm/shape/ring.hpp"
+#include "mpm/step/point_weights.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kBeyondBlock = 1.5;  ///< nodes that a particle may be beyond its block, and a half
+constexpr double kWatched = 0.1;      ///< cells: a point this near is held if it comes nearer in this step
+constexpr double kPushOut = 2e-4;     ///< cells a step at most that a point inside a body is moved out
+constexpr double kPushOutPart = 0.1;  ///< of its depth
+constexpr int kMostSweeps = 40;
+constexpr double kTolerance = 1e-3;  ///< change of velocity in a sweep over the largest one, at which sweeps end
+
+std::uint64_t id_of(std::uint32_t particle, int body) { return (static_cast<std::uint64_t>(particle) << 16) + body; }
+
+}  // namespace
+
+PointContact::PointContact(std::vector<const RigidBody*> bodies, const std::vector<ParticleSet>& sets, Fields& fields,
+                           std::vector<ContactLaw> laws, const PointContactSettings& settings)
+    : bodies_(std::move(bodies)),
+      sets_(sets),
+      fields_(fields),
+      settings_(settings),
+      laws_(std::move(laws)),
+      laws_now_(laws_.size()) {
+  for (const RigidBody* body : bodies_) ledgers_.emplace_back(*body, axisymmetric(settings.geometry));
+}
+
+void PointContact::find_blocks(const GridLayout& layout, double band) {
+  // A block's particles have not left it by more than a node.
+  Vec3 half = Vec3::Zero();
+  for (int k = 0; k < layout.dim(); ++k) {
+    half[layout.axis(k)] = (0.5 * (kBlockEdge - 1) + kBeyondBlock) * layout.cell(k);
+  }
+  const double reach = half.norm() + band;
+  near_.clear();
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    const BlockTable& blocks = fields_[f]->blocks;
+    for (int owner = 0; owner < blocks.owners(); ++owner) {
+      const std::array<int, 3>& block = blocks.block(blocks.owner_block(owner));
+      const Vec3 middle =
+          0.5 * (layout.node_position(block, 0) + layout.node_position(block, layout.nodes_per_block() - 1));
+      const bool near = std::any_of(bodies_.begin(), bodies_.end(), [&](const RigidBody* body) {
+        SurfacePoint point;
+        return body->surface().within(body->pose().to_body(middle), reach, point);
+      });
+      if (near) near_.push_back({static_cast<int>(f), owner});
+    }
+  }
+}
+
+template <class Geometry>
+void PointContact::find_points(const StepContext& context) {
+  const GridLayout& layout = context.grid.layout;
+  const double watched = kWatched * layout.smallest_cell();
+  double band = 0.0;  // from a particle's centre
+  for (const ParticleSet& set : sets_) {
+    for (int k = 0; k < layout.dim(); ++k) band = std::max(band, 2.0 * set.half[k] * layout.cell(k));
+  }
+  band += 2.0 * watched;
+  find_blocks(layout, band);
+  while (of_block_.size() < near_.size()) of_block_.emplace_back();
+  const int count = static_cast<int>(near_.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(settings_.threads)
+  for (int i = 0; i < count; ++i) {
+    of_block_[i].clear();
+    const int owner = fields_[near_[i].field]->first_owner + near_[i].owner;
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      const ParticleSet& set = sets_[s];
+      const int end = static_cast<int>(set.group[set.group_begin[owner + 1]]);
+      for (int p = static_cast<int>(set.group[set.group_begin[owner]]); p < end; ++p) {
+        Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
+        for (int k = 0; k < layout.dim(); ++k) {
+          centre[layout.axis(k)] = set.x[k][p];
+          velocity[layout.axis(k)] = set.v[k][p];
+        }
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+          const RigidBody& body = *bodies_[b];
+          SurfacePoint surface;
+          if (!body.surface().within(body.pose().to_body(centre), band, surface)) continue;
+          Point point;
+          point.normal = body.pose().orientation * surface.normal;
+          const double reach = particle_reach<Geometry>(set, layout, p, point.normal);
+          point.gap = surface.distance - reach;
+          point.place = centre - reach * point.normal;
+          point.velocity = body.velocity_at(point.place);
+          const double closing = (point.velocity - velocity).dot(point.normal) * context.dt;
+          if (point.gap > watched + std::max(closing, 0.0)) continue;
+          point.body = static_cast<int>(b);
+          point.field = near_[i].field;
+          point.law = static_cast<int>(b * sets_.size() + s);
+          point.particle = set.id[p];
+          double volume = determinant(Geometry::load_matrix(set.f, p)) * settings_.across;
+          for (int k = 0; k < layout.dim(); ++k) volume *= 2.0 * set.half[k] * layout.cell(k);
+          if (axisymmetric(settings_.geometry)) volume *= kTurn * centre.x();
+          point.area = volume / (2.0 * reach);
+          of_block_[i].push_back(point);
+        }
+      }
+    }
+  }
+}
+
+void PointContact::momentum_gathered(StepContext& context) {
+  for (std::size_t i = 0; i < laws_.size(); ++i) laws_now_[i] = laws_[i].at(context.start + 0.5 * context.dt);
+  push_out_ = kPushOut * context.grid.layout.smallest_cell();
+  with_geometry(settings_.geometry, [&](auto kind) { find_points<decltype(kind)>(context); });
+  connect(context);
+}
+
+void PointContact::connect(const StepContext& context) {
+  const int per_block = context.grid.layout.nodes_per_block();
+  slot_.resize(fields_.size());
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    slot_[f].resize(static_cast<std::size_t>(fields_[f]->blocks.size()) * per_block, -1);
+  }
+  nodes_.clear();
+  points_.clear();
+  parts_.clear();
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    for (Point& point : of_block_[i]) {
+      const Grid& grid = *fields_[point.field];
+      const PointWeights weights(grid, settings_.shape, point.place);
+      if (weights.count == 0) continue;
+      point.first = static_cast<int>(parts_.size());
+      for (int n = 0; n < weights.count; ++n) {
+        const NodeRef ref = weights.node[n];
+        int& slot = slot_[point.field][static_cast<std::size_t>(ref.block) * per_block + ref.node];
+        if (slot < 0) {
+          slot = static_cast<int>(nodes_.size());
+          nodes_.push_back({point.field, ref, 1.0 / grid.mass.at(ref.block, 0, ref.node)});
+        }
+        const double lifted = weights.weight[n] * nodes_[slot].inverse_mass;
+        parts_.push_back({slot, weights.weight[n], lifted});
+        point.compliance += weights.weight[n] * lifted;
+      }
+      point.end = static_cast<int>(parts_.size());
+      recall(point, context.dt);
+      points_.push_back(point);
+    }
+  }
+  for (const Node& node : nodes_) {
+    slot_[node.field][static_cast<std::size_t>(node.ref.block) * per_block + node.ref.node] = -1;
+  }
+  velocity_.resize(nodes_.size());
+  loaded_.resize(nodes_.size());
+}
+
+void PointContact::recall(Point& point, double dt) const {
+  const std::uint64_t id = id_of(point.particle, point.body);
+  const auto memory = std::lower_bound(memory_.begin(), memory_.end(), id,
+                                       [](const Memory& entry, std::uint64_t wanted) { return entry.id < wanted; });
+  const bool held = memory != memory_.end() && memory->id == id;
+  point.adheres = held || point.gap <= 0.0;
+  if (!held) return;
+  point.hold = memory->hold;
+  point.impulse = memory->force * dt;
+  if (laws_now_[point.law].adhesion > 0.0) return;
+  // The normal may have turned: what begins the sweeps pulls nowhere.
+  point.impulse += std::max(-point.impulse.dot(point.normal), 0.0) * point.normal;
+}
+
+void PointContact::load(Member from) {
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const Grid& grid = *fields_[nodes_[n].field];
+    const Vec3 v = nodal_vector(grid.*from, grid.layout, nodes_[n].ref);
+    loaded_[n] = velocity_[n] = {v.x(), v.y(), v.z()};
+  }
+}
+
+void PointContact::store(Member to, double factor) {
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    Grid& grid = *fields_[nodes_[n].field];
+    Vec3 change;
+    for (int k = 0; k < 3; ++k) change[k] = factor * (velocity_[n][k] - loaded_[n][k]);
+    add_nodal_vector(grid.*to, grid.layout, nodes_[n].ref, change);
+  }
+}
+
+Vec3 PointContact::velocity_at(const Point& point) const {
+  Vec3 v = Vec3::Zero();
+  for (int i = point.first; i < point.end; ++i) {
+    const std::array<double, 3>& node = velocity_[parts_[i].node];
+    for (int k = 0; k < 3; ++k) v[k] += parts_[i].weight * node[k];
+  }
+  return v;
+}
+
+void PointContact::push(const Point& point, const Vec3& impulse) {
+  for (int i = point.first; i < point.end; ++i) {
+    for (int k = 0; k < 3; ++k) velocity_[parts_[i].node][k] += parts_[i].lifted * impulse[k];
+  }
+}
+
+double PointContact::allowed(const Point& point, double dt) const {
+  return point.gap > 0.0 ? -point.gap / dt : std::min(-kPushOutPart * point.gap, push_out_) / dt;
+}
+
+template <PointContact::Pass Kind>
+double PointContact::relax(Point& point, double dt) {
+  constexpr bool kDecides = Kind == Pass::step;
+  const bool bound = !kDecides && point.hold != Hold::free;
+  if (Kind != Pass::step && Kind != Pass::strain && !bound) return 0.0;
+  Vec3 slip = velocity_at(point);
+  if (Kind != Pass::increment) slip -= point.velocity;
+  const double approach = slip.dot(point.normal), pressed = point.impulse.dot(point.normal);
+  const double wanted = bound ? 0.0 : allowed(point, dt);
+  double normal = pressed + (wanted - approach) / point.compliance;
+  Vec3 along = point.impulse - pressed * point.normal;
+  const Vec3 sticking = along - (slip - approach * point.normal) / point.compliance;
+  if (bound) {
+    if (point.hold == Hold::stick) along = sticking;
+  } else {
+    const FrictionLaw& law = laws_now_[point.law];
+    const double adhesion = point.adheres ? law.adhesion * point.area * dt : 0.0;
+    normal = std::max(normal, -adhesion);
+    along = sticking;
+    const double friction = point.hold == Hold::slide ? law.coefficient : law.at_rest();
+    const double length = along.norm(), most = friction * std::max(normal, 0.0) + adhesion;
+    Hold hold = normal > -adhesion ? Hold::stick : Hold::free;
+    if (hold == Hold::free) {
+      along.setZero();
+    } else if (!law.stick && length > most) {
+      along *= (law.coefficient * std::max(normal, 0.0) + adhesion) / length;
+      hold = Hold::slide;
+    }
+    if (kDecides) point.hold = hold;
+  }
+  const Vec3 impulse = normal * point.normal + along, change = impulse - point.impulse;
+  point.impulse = impulse;
+  push(point, change);
+  return change.norm() * point.compliance;
+}
+
+template <PointContact::Pass Kind>
+void PointContact::solve(double dt) {
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    double largest = 0.0, scale = 0.0;
+    const auto visit = [&](Point& point) {
+      largest = std::max(largest, relax<Kind>(point, dt));
+      scale = std::max(scale, point.impulse.norm() * point.compliance);
+    };
+    if (sweep % 2 == 0) {
+      for (Point& point : points_) visit(point);
+    } else {
+      for (auto point = points_.rbegin(); point != points_.rend(); ++point) visit(*point);
+    }
+    if (largest <= kTolerance * scale) break;
+  }
+}
+
+void PointContact::before_strain(StepContext& context) {
+  if (points_.empty()) return;
+  load(&Grid::velocity);
+  kept_.clear();
+  for (Point& point : points_) {
+    kept_.push_back(point.impulse);
+    point.impulse.setZero();
+  }
+  solve<Pass::strain>(context.dt);
+  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].impulse = kept_[i];
+  store(&Grid::velocity);
+}
+
+void PointContact::momentum_updated(StepContext& context) {
+  memory_.clear();
+  if (points_.empty()) return;
+  load(&Grid::velocity);
+  for (Point& point : points_) point.approach = velocity_at(point) - point.velocity;
+  for (const Point& point : points_) push(point, point.impulse);
+  solve<Pass::step>(context.dt);
+  store(&Grid::velocity);
+  store(&Grid::force, 1.0 / context.dt);
+  for (const Point& point : points_) {
+    give(point, 0.5 * (point.approach + velocity_at(point) - point.velocity));
+    if (point.hold != Hold::free) {
+      memory_.push_back({id_of(point.particle, point.body), point.impulse / context.dt, point.hold});
+    }
+  }
+  std::sort(memory_.begin(), memory_.end(), [](const Memory& a, const Memory& b) { return a.id < b.id; });
+}
+
+void PointContact::velocity_found(StepContext& context, NodalField&) {
+  if (points_.empty()) return;
+  load(&Grid::increment);
+  for (Point& point : points_) point.impulse.setZero();
+  solve<Pass::held>(context.dt);
+  store(&Grid::increment);
+}
+
+void PointContact::increment_found(StepContext& context, NodalField&) {
+  if (points_.empty()) return;
+  load(&Grid::increment);
+  for (Point& point : points_) point.impulse.setZero();
+  solve<Pass::increment>(context.dt);
+  store(&Grid::increment);
+  for (const Point& point : points_) give(point, Vec3::Zero());
+}
+
+void PointContact::give(const Point& point, const Vec3& mean_slip) {
+  const Vec3 arm = point.place - bodies_[point.body]->pose().position;
+  ledgers_[point.body].give({point.impulse, point.normal, arm, point.velocity, mean_slip});
+}
+
+void PointContact::grid_advanced(StepContext& context) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    int held = 0;
+    double area = 0.0;
+    for (const Point& point : points_) {
+      if (point.body != static_cast<int>(b) || point.hold == Hold::free) continue;
+      ++held;
+      area += point.area;
+    }
+    ledgers_[b].end_step(context.dt, held, area);
+  }
+}
+
+void PointContact::accounts(std::vector<ImpulseAccount>& list) const {
+  for (const ContactLedger& ledger : ledgers_) list.push_back(ledger.account());
+}
+
+}  // namespace mpm

@@ -154,6 +154,33 @@ TEST(VelocityConditions, ARegionTakesAlongWhatItHolds) {
   EXPECT_LT(run.state().audit.residual, 1e-10);
 }
 
+// Two bodies with velocity fields of their own: a condition holds both, and its account is that of both. They go around
+// a periodic axis in their fields.
+TEST(VelocityConditions, HoldEveryVelocityField) {
+  std::string text = block(fmt::format("  - {{name: n, {}, direction: x, velocity: '0.5*sin(20*t)'}}\n", kAll));
+  text.replace(text.find("max: [2, 2]"), 11, "max: [2.4, 1.6]");
+  text.replace(
+      text.find("max: [1.4, 1.4]}}}"), 18,
+      "max: [1.0, 1.4]}}}, {name: other, material: m, shape: {box: {min: [1.0, 0.6], max: [1.4, 1.4]}}, initial: "
+      "{velocity: [0, -8]}}");
+  text.replace(text.find("boundaries:\n"), 12, "boundaries:\n  z: periodic\n");
+  mpm::SimulationDefinition d = mpm::build(mpm::parse_scene(text, "boundary.yaml"));
+  d.bodies[1].field = 1;
+  mpm::Simulation run(std::move(d), {1});
+  run_until(run, 0.03);  // the other has fallen by 0.24 m, and is still in the region
+  const double told = 0.5 * std::sin(0.6), mass = 1000.0 * 0.64;
+  for (const double vx : field(run, "vx")) ASSERT_NEAR(vx, told, 1e-12);
+  EXPECT_NEAR(impulse(run, "condition/n").x(), mass * told, 1e-10 * mass);
+  run_until(run, 0.2);  // all of it through the lower face, back from above
+  const auto [first, last] = run.body_ids("other");
+  const std::vector<double> vz = field(run, "vz"), z = field(run, "z");
+  for (std::size_t p = 0; p < vz.size(); ++p) {
+    ASSERT_NEAR(vz[p], p >= first && p < last ? -8.0 : 0.0, 0.4) << p;
+    ASSERT_LT(z[p], 1.65) << p;
+  }
+  EXPECT_LT(run.state().audit.residual, 1e-10);
+}
+
 TEST(VelocityConditions, ThatContradictEachOtherAreRefused) {
   const auto refusal = [](const std::string& text) -> std::string {
     try {

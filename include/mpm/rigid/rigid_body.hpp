@@ -25,6 +25,9 @@ struct RigidBodyDefinition {
   /// How far outside the surface nodes are held too, in [0, 1] cells. 1: the nodes that the shape functions of a rigid
   /// body made of particles would reach; material is met that much early.
   double reach = 0.0;
+  /// Filled with particles, and met by volumes and volume gradients at nodes (contact/rigid_particle_contact.hpp) in
+  /// place of the surface.
+  bool particles = false;
   /// Of a ring in an axisymmetric scene, as its surface was made; 0: of any other body. A ring opens and closes along
   /// x: pose.position.x is the change of its radii [m].
   double inner_radius = 0.0;

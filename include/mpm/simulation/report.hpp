@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mpm/contact/contact_report.hpp"
+#include "mpm/contact/pair_report.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 
@@ -21,11 +22,13 @@ struct BodyState {
 /// Energies [J].
 struct EnergyReport {
   double kinetic = 0.0;
-  double elastic = 0.0;       ///< stored in the material
-  double plastic = 0.0;       ///< dissipated by plastic flow since the start
-  double potential = 0.0;     ///< -sum m g.x
-  double contact_work = 0.0;  ///< done by rigid bodies on the material since the start
-  double load_work = 0.0;     ///< done by loads, velocity conditions and absorbing faces since the start
+  double elastic = 0.0;        ///< stored in the material
+  double plastic = 0.0;        ///< dissipated by plastic flow since the start
+  double potential = 0.0;      ///< -sum m g.x
+  double contact_work = 0.0;   ///< done by rigid bodies on the material since the start
+  double load_work = 0.0;      ///< done by loads, velocity conditions and absorbing faces since the start
+  double pair_friction = 0.0;  ///< taken by sliding between deformable bodies since the start
+  double interface = 0.0;      ///< stored in imperfect interfaces
   double total() const { return kinetic + elastic + potential; }
 };
 

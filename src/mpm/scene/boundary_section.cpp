@@ -115,7 +115,7 @@ void read_condition(const Value& value, std::size_t index, Scene& scene) {
     value.fail("write region, which is one of a body's shapes, or shape and pose, as of a rigid body: one of them");
   }
   if (shape) {
-    read_rigid_shape(map, geometry, condition.region);
+    read_rigid_shape(map, scene.definition, condition.region);
   } else {
     if (const auto pose = map.find("pose"))
       pose->fail("a region stands where it is written; leave it out, or use shape");

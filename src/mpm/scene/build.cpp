@@ -133,6 +133,7 @@ DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
   DeformableBody filled;
   filled.name = body.name;
   filled.material = body.material;
+  filled.field = body.field;
   filled.particle_volume = 1.0;
   for (const int axis : axes_of(scene)) {
     lattices[axis] = lattice(scene, bounds, axis);
@@ -221,8 +222,8 @@ Box world_bounds(const RigidBodyDefinition& rigid) {
     const Vec3 point((corner & 1) != 0 ? local.max.x() : local.min.x(),
                      (corner & 2) != 0 ? local.max.y() : local.min.y(),
                      (corner & 4) != 0 ? local.max.z() : local.min.z());
-    // A body without end along y turns about y alone, one without end along y and z not at all: its other extents are
-    // finite.
+    // As good as without end. Turned, its other extents are rounded by less than a micrometre; those of a body that is
+    // without end along y alone are not, for it turns about y alone.
     const Vec3 finite = point.unaryExpr([](double c) { return std::isfinite(c) ? c : std::copysign(1e9, c); });
     world.add(rigid.pose.to_world(finite));
   }

@@ -164,6 +164,10 @@ SolverState Simulation::state() const {
   report.energy.plastic = totals.plastic;
   report.min_j = totals.min_j;
   for (const ContactLedger* contact : s.contacts) report.energy.contact_work += contact->work();
+  if (s.pairs != nullptr) {
+    report.energy.pair_friction = s.pairs->friction_energy();
+    report.energy.interface = s.pairs->interface_energy();
+  }
   if (s.loads != nullptr) report.energy.load_work += s.loads->work();
   if (s.tractions != nullptr) report.energy.load_work += s.tractions->work();
   for (const VelocityConditions* all : s.conditions) report.energy.load_work += all->work();

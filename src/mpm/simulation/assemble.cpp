@@ -351,31 +351,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.add_conditions();
   for (std::size_t f = 0; f < s.conditions.size(); ++f) holding.push_back({s.fields[f].get(), s.conditions[f]});
   const std::size_t before_contact = s.stages.size();
-  s.bodies.reserve(definition.rigid_bodies.size());
-  for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
-    s.bodies.emplace_back(body);
-    s.check_periodic(s.bodies.back());
-    if (definition.contact.method == ContactMethod::nodes) {
-      auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.fields, s.threads, definition.geometry);
-      s.contacts.push_back(&contact->ledger());
-      s.stages.push_back(std::move(contact));
-    }
-    const double cells = body.surface->thickness() / layout.smallest_cell();
-    if (cells < 3.0) {
-      s.warnings.push_back(
-          fmt::format("rigid body '{}' is {:.2g} cells thick where it is thinnest: material on its two sides shares "
-                      "nodes and feels "
-                      "each other when it is thinner than 3; use a finer grid.cell or a thicker body",
-                      body.name, cells));
-    }
-  }
-  if (definition.contact.method == ContactMethod::points && !s.bodies.empty()) {
-    auto contact = std::make_unique<PointContact>(
-        s.bodies, s.sets,
-        PointContactSettings{definition.geometry, definition.method.shape, definition.across(), s.threads});
-    for (std::size_t b = 0; b < s.bodies.size(); ++b) s.contacts.push_back(&contact->ledger(static_cast<int>(b)));
-    s.stages.push_back(std::move(contact));
-  }
+  s.add_pairs();
+  s.add_rigid_bodies();
   add_walls(true);
   if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);
   if (s.stages.size() > before_contact) {

@@ -160,6 +160,11 @@ ContactReport Simulation::take_contact(int body) {
   return state_->contacts.at(body)->take(static_cast<double>(state_->time) * kNanosecond);
 }
 
+std::vector<PairReport> Simulation::take_pairs() {
+  if (state_->pairs == nullptr) return {};
+  return state_->pairs->take(static_cast<double>(state_->time) * kNanosecond);
+}
+
 std::uint64_t Simulation::particles() const {
   std::uint64_t count = 0;
   for (const ParticleSet& set : state_->sets) count += set.size();

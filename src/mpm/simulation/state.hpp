@@ -6,6 +6,7 @@
 
 #include "mpm/boundary/absorbing.hpp"
 #include "mpm/boundary/leaving.hpp"
+#include "mpm/contact/material_contact.hpp"
 #include "mpm/contact/point_contact.hpp"
 #include "mpm/contact/rigid_contact.hpp"
 #include "mpm/mechanics/continuum.hpp"
@@ -55,6 +56,8 @@ struct Simulation::State {
   std::vector<RigidBody> bodies;
   Stages stages;
   std::vector<ContactLedger*> contacts;         ///< of each body, owned by stages
+  std::unique_ptr<VolumeSurvey> survey;         ///< of contact between deformable bodies, when the scene has any
+  MaterialContact* pairs = nullptr;             ///< the same, owned by stages
   ParticleLoads* loads = nullptr;               ///< owned by stages, when the scene has any
   FaceTractions* tractions = nullptr;           ///< the same
   DampingControl* damping = nullptr;            ///< the same
@@ -78,6 +81,14 @@ struct Simulation::State {
   const GridLayout& layout() const { return fields.front()->layout; }
   template <class T>
   void add_mechanics();
+  /// Contact between deformable bodies, when the scene has any (contact_terms.cpp).
+  void add_pairs();
+  /// Contact with a rigid body that is made of particles.
+  ContactLedger& add_rigid_particles(const RigidBody& body, const std::vector<ContactLaw>& laws_of_sets);
+  /// Bodies, and the stages of contact with them.
+  void add_rigid_bodies();
+  /// What either asks of the mechanics.
+  VolumeSurvey& volumes();
   /// Absorbing faces, in the list of stages: before whatever holds a node, which hides the force on it.
   void add_absorbing();
   /// @throws RigidError for a body at a periodic face

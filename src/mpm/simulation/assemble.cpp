@@ -266,7 +266,6 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
                                   : std::clamp(static_cast<int>(count / kParticlesPerThread), 1, omp_get_max_threads());
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
   const int dim = dimensions(definition.geometry);
-  if (getenv("MPM_POINTS")) s.definition.contact.method = ContactMethod::points;
   project(s.definition);
   s.fields = fields_of(definition);
   const GridLayout& layout = s.layout();
@@ -352,7 +351,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   }
   if (definition.contact.method == ContactMethod::points && !s.bodies.empty()) {
     const PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(), s.threads};
-    auto contact = std::make_unique<PointContact>(s.bodies, s.sets, rigid_contact_laws(definition, s.sets), settings);
+    auto contact =
+        std::make_unique<PointContact>(s.bodies, s.sets, s.fields, rigid_contact_laws(definition, s.sets), settings);
     for (std::size_t b = 0; b < s.bodies.size(); ++b) s.contacts.push_back(&contact->ledger(static_cast<int>(b)));
     s.stages.push_back(std::move(contact));
   }

@@ -1,5 +1,7 @@
 #include "rigid_contacts.hpp"
 
+#include <algorithm>
+
 namespace mpm {
 namespace {
 
@@ -18,7 +20,12 @@ std::vector<ContactLaw> rigid_contact_laws(const SimulationDefinition& definitio
                                            const std::vector<ParticleSet>& sets) {
   std::vector<ContactLaw> laws;
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {
-    for (std::size_t s = 0; s < sets.size(); ++s) laws.push_back(always(body.friction));
+    for (const ParticleSet& set : sets) {
+      const auto named =
+          std::find_if(definition.contact.pairs.begin(), definition.contact.pairs.end(),
+                       [&](const PairDefinition& pair) { return pair.first == set.name && pair.second == body.name; });
+      laws.push_back(named != definition.contact.pairs.end() ? named->law : always(body.friction));
+    }
   }
   return laws;
 }

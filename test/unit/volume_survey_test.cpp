@@ -19,6 +19,7 @@ struct Sums {
 
 template <class Geometry, class T>
 void compare(ShapeKind shape) {
+  SCOPED_TRACE(std::string(shape_name(shape)) + " " + spoken_name(kGeometryKind<Geometry>));
   using Scene = StepScene<Geometry, T>;
   constexpr int kDim = Scene::kDim;
   Scene scene({shape, UpdateScheme::usavg, {TransferKind::flip, 1.0, 2}});
@@ -61,6 +62,9 @@ void compare(ShapeKind shape) {
     }
   }
 
+  // Domains that follow the deformation are noted when a step begins.
+  StepContext context = scene.context();
+  scene.mechanics->scatter_momentum(context);
   std::vector<ParticleSet> sets{set};
   const std::vector<Law> laws{make_law({"rubber", Scene::kDensity, NeoHookeanDefinition{{Scene::kStiffness, 0.3}}})};
   const auto survey =
@@ -96,7 +100,7 @@ void compare(ShapeKind shape) {
       EXPECT_NEAR(found.slope[2].at(b, 2, n), sums.slope[2][2], precision * mass);
     }
   });
-  EXPECT_GT(compared, 10);
+  EXPECT_GE(compared, 10);  // a line of 8 cells has 10 nodes
 }
 
 TEST(VolumeSurvey, IsThePlainSumOverParticles) {

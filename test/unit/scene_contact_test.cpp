@@ -107,21 +107,21 @@ TEST(SceneContact, RigidBodiesMayBeParticles) {
 }
 
 TEST(SceneContact, RefusesWhatItCannotMean) {
-  expect_refused("{pairs: [{between: [a, d], friction: 0}]}", ".pairs[0].between[1]", "no body 'd'");
-  expect_refused("{pairs: [{between: [a], friction: 0}]}", ".pairs[0].between", "names of two bodies");
-  expect_refused("{pairs: [{between: [a, a], friction: 0}]}", ".pairs[0].between[1]", "with itself");
-  expect_refused("{pairs: [{between: [a, b], friction: 0}, {between: [b, a], friction: 1}]}", ".pairs[1].between",
+  expect_refused("{pairs: [{between: [a, d], friction: 0}]}", ".pairs.0.between.1", "no body 'd'");
+  expect_refused("{pairs: [{between: [a], friction: 0}]}", ".pairs.0.between", "names of two bodies");
+  expect_refused("{pairs: [{between: [a, a], friction: 0}]}", ".pairs.0.between.1", "with itself");
+  expect_refused("{pairs: [{between: [a, b], friction: 0}, {between: [b, a], friction: 1}]}", ".pairs.1.between",
                  "a second law for these two");
-  expect_refused("{pairs: [{between: [a, b]}]}", ".pairs[0]", "coulomb needs friction");
-  expect_refused("{pairs: [{between: [a, b], law: interface, opened: 1}]}", ".pairs[0]", "tangential");
+  expect_refused("{pairs: [{between: [a, b]}]}", ".pairs.0", "coulomb needs friction");
+  expect_refused("{pairs: [{between: [a, b], law: interface, opened: 1}]}", ".pairs.0", "tangential");
   expect_refused("{pairs: [{between: [a, b], law: interface, opened: 1, tangential: 1, friction: 0.3}]}",
-                 ".pairs[0].friction", "the law interface has none");
-  expect_refused("{pairs: [{between: [a, b], friction: 0.3, opened: 1}]}", ".pairs[0].opened", "law: interface");
-  expect_refused("{pairs: [{between: [a, b], law: one_field, adhesion: 1}]}", ".pairs[0].adhesion", "leave it out");
-  expect_refused("{pairs: [{between: [a, b], friction: -0.3}]}", ".pairs[0].friction", "less than 0");
-  expect_refused("{pairs: [{between: [a, b], friction: 0.3, static_friction: 0.2}]}", ".pairs[0].static_friction",
+                 ".pairs.0.friction", "the law interface has none");
+  expect_refused("{pairs: [{between: [a, b], friction: 0.3, opened: 1}]}", ".pairs.0.opened", "law: interface");
+  expect_refused("{pairs: [{between: [a, b], law: one_field, adhesion: 1}]}", ".pairs.0.adhesion", "leave it out");
+  expect_refused("{pairs: [{between: [a, b], friction: -0.3}]}", ".pairs.0.friction", "less than 0");
+  expect_refused("{pairs: [{between: [a, b], friction: 0.3, static_friction: 0.2}]}", ".pairs.0.static_friction",
                  "less than the friction of sliding");
-  expect_refused("{pairs: [{between: [a, tool], law: one_field}]}", ".pairs[0].law", "for two deformable bodies");
+  expect_refused("{pairs: [{between: [a, tool], law: one_field}]}", ".pairs.0.law", "for two deformable bodies");
   expect_refused("{law: interface, opened: 1, tangential: 1}", ".law", "not for tools");
   expect_refused("{law: sticky}", ".law", "sticky");
   expect_refused("{normals: 4}", ".normals", "4");

@@ -48,7 +48,7 @@ Fit fit(const mpm::Simulation& run, const std::vector<double>& start, const std:
 }
 
 TEST(Interface, OpensByStressOverStiffness) {
-  Page page("statics", "interface", "Two bars joined by an imperfect interface");
+  Page page("pairs", "interface", "Two bars joined by an imperfect interface");
   page.problem(
           "Two bars in a row, together L = 1 m long and 20 cells of two particles, the left one held, the right one "
           "pulled with s = 10 Pa at its end until all rests. E = 1 MPa; between them an interface of stiffness D. It "
@@ -117,7 +117,7 @@ mpm::Simulation oblique(double angle, double stiffness, double cell, double z_of
 }
 
 TEST(Interface, IsTheSameAtAnyAngleToTheGrid) {
-  Page page("statics", "oblique_interface", "An interface oblique to the grid");
+  Page page("pairs", "oblique_interface", "An interface oblique to the grid");
   page.problem(
           "A bar 2 m long and 0.5 m high is cut at an angle to the grid and joined by an interface that is equally "
           "stiff across and along, D = E/L with L = 2 m; pulled along x with 10 Pa. Cells of 0.05 m.")

@@ -103,7 +103,7 @@ std::string bars(const std::vector<Bar>& list, double cell, const std::string& c
 }
 
 TEST(MaterialContact, BarsExchangeTheirVelocities) {
-  Page page("conservation", "bar_impact", "Two bars meet");
+  Page page("pairs", "bar_impact", "Two bars meet");
   page.problem(
           "Two elastic bars, each L = 0.5 m long and free at both ends, meet with 1 m/s each along a line; "
           "E = 1 MPa, density 100 kg/m³, so the wave speed c is 100 m/s. The gap between them closes at 10 ms. Contact "
@@ -168,7 +168,7 @@ std::string disks(const std::string& contact, double cell = 0.05, const std::str
 }
 
 TEST(MaterialContact, DisksTouchWhenTheyTouch) {
-  Page page("conservation", "disk_contact", "Two elastic disks with contact between them");
+  Page page("pairs", "disk_contact", "Two elastic disks with contact between them");
   page.problem("The disks of the section above, each in a velocity field of its own, smooth against each other.")
       .exact("They touch at 1.5858 s, by their geometry; momentum and energy are kept.",
              "conservation laws; the example is that of Sulsky, Chen and Schreyer (1994)")
@@ -212,7 +212,9 @@ TEST(MaterialContact, NothingPullsOnRelease) {
         run.advance();
         const mpm::PairReport report = run.take_pairs().at(0);
         const double along = (report.force - report.friction).dot(mpm::Vec3(1, 0, 1)) / std::sqrt(2.0);
-        if (report.pressing == 0.0) EXPECT_EQ(report.force, mpm::Vec3::Zero());
+        if (report.pressing == 0.0) {
+          EXPECT_EQ(report.force, mpm::Vec3::Zero());
+        }
         pressed = std::max(pressed, along);
         pulled = std::min(pulled, along);
       }

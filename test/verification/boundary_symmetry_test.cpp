@@ -26,10 +26,11 @@ TEST(Symmetry, TheHalfIsHalfOfTheWhole) {
   run_until(half, 0.06);
   const mpm::Vec3 all = whole.take_contact(0).impulse, part = half.take_contact(0).impulse;
   ASSERT_GT(all.z(), 0.0);
-  // The same sums in another order: round-off, which contact that begins and ends can make larger.
-  EXPECT_NEAR(part.z(), 0.5 * all.z(), 1e-9 * all.z());
+  // The same sums, but where particles beside the plane swing across it with part of their box: there the wall holds
+  // nodes beyond, and in the whole material from the other side comes to meet them.
+  EXPECT_NEAR(part.z(), 0.5 * all.z(), 1e-3 * all.z());
   EXPECT_NEAR(all.x(), 0.0, 1e-9 * all.z());
-  EXPECT_NEAR(half.state().energy.elastic, 0.5 * whole.state().energy.elastic, 1e-9 * whole.state().energy.elastic);
+  EXPECT_NEAR(half.state().energy.elastic, 0.5 * whole.state().energy.elastic, 1e-3 * whole.state().energy.elastic);
   EXPECT_LT(half.state().audit.residual, 1e-10);
 }
 

@@ -184,7 +184,8 @@ void MaterialContact::book(const BlockNodes& block, bool updated) {
       if (!updated) continue;
       sums.friction_energy += pair.friction_energy;
       if (pair.interface != nullptr) {
-        sums.interface_energy += mpm::interface_energy(*pair.interface, {pair.opening, pair.area, 0.0}, pair.normals.of_a);
+        sums.interface_energy +=
+            mpm::interface_energy(*pair.interface, {pair.opening, pair.area, 0.0}, pair.normals.of_a);
       }
       if (pair.on_a.isZero(0.0)) continue;
       ++sums.nodes;

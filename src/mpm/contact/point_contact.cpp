@@ -12,7 +12,10 @@ namespace {
 
 constexpr double kBeyondBlock = 1.5;  ///< nodes that a particle may be beyond its block, and a half
 constexpr double kWatched = 0.1;      ///< cells: a point this near is held if it comes nearer in this step
-constexpr double kPushOut = 2e-4;     ///< cells a step at most that a point inside a body is moved out
+constexpr double kTouching = 1e-2;    ///< cells: a point this near counts to the area
+constexpr double kWeakening = 1e-3;   ///< cells of sliding over which friction falls from that at rest
+constexpr double kAtRest = 1e-6;   ///< cells: what slides by less in a step is at rest, and what is this near adheres
+constexpr double kPushOut = 2e-4;  ///< cells a step at most that a point inside a body is moved out
 constexpr double kPushOutPart = 0.1;  ///< of its depth
 constexpr int kMostSweeps = 40;
 constexpr double kTolerance = 1e-3;  ///< change of velocity in a sweep over the largest one, at which sweeps end
@@ -110,6 +113,9 @@ void PointContact::find_points(const StepContext& context) {
 void PointContact::momentum_gathered(StepContext& context) {
   for (std::size_t i = 0; i < laws_.size(); ++i) laws_now_[i] = laws_[i].at(context.start + 0.5 * context.dt);
   push_out_ = kPushOut * context.grid.layout.smallest_cell();
+  touching_ = kTouching * context.grid.layout.smallest_cell();
+  at_rest_ = kAtRest * context.grid.layout.smallest_cell();
+  weakening_ = kWeakening * context.grid.layout.smallest_cell();
   with_geometry(settings_.geometry, [&](auto kind) { find_points<decltype(kind)>(context); });
   connect(context);
 }
@@ -157,9 +163,10 @@ void PointContact::recall(Point& point, double dt) const {
   const auto memory = std::lower_bound(memory_.begin(), memory_.end(), id,
                                        [](const Memory& entry, std::uint64_t wanted) { return entry.id < wanted; });
   const bool held = memory != memory_.end() && memory->id == id;
-  point.adheres = held || point.gap <= 0.0;
+  point.adheres = held || point.gap <= at_rest_;
   if (!held) return;
   point.hold = memory->hold;
+  point.slid = memory->slid;
   point.impulse = memory->force * dt;
   if (laws_now_[point.law].adhesion > 0.0) return;
   // The normal may have turned: what begins the sweeps pulls nowhere.
@@ -221,13 +228,14 @@ double PointContact::relax(Point& point, double dt) {
     const double adhesion = point.adheres ? law.adhesion * point.area * dt : 0.0;
     normal = std::max(normal, -adhesion);
     along = sticking;
-    const double friction = point.hold == Hold::slide ? law.coefficient : law.at_rest();
+    const double weakened = std::min(point.slid / weakening_, 1.0);
+    const double friction = law.at_rest() + weakened * (law.coefficient - law.at_rest());
     const double length = along.norm(), most = friction * std::max(normal, 0.0) + adhesion;
     Hold hold = normal > -adhesion ? Hold::stick : Hold::free;
     if (hold == Hold::free) {
       along.setZero();
     } else if (!law.stick && length > most) {
-      along *= (law.coefficient * std::max(normal, 0.0) + adhesion) / length;
+      along *= most / length;
       hold = Hold::slide;
     }
     if (kDecides) point.hold = hold;
@@ -277,11 +285,14 @@ void PointContact::momentum_updated(StepContext& context) {
   solve<Pass::step>(context.dt);
   store(&Grid::velocity);
   store(&Grid::force, 1.0 / context.dt);
-  for (const Point& point : points_) {
-    give(point, 0.5 * (point.approach + velocity_at(point) - point.velocity));
-    if (point.hold != Hold::free) {
-      memory_.push_back({id_of(point.particle, point.body), point.impulse / context.dt, point.hold});
-    }
+  for (Point& point : points_) {
+    const Vec3 slip = velocity_at(point) - point.velocity;
+    give(point, 0.5 * (point.approach + slip));
+    if (point.hold == Hold::free) continue;
+    // What has come to rest has friction at rest again.
+    const double slid = (slip - slip.dot(point.normal) * point.normal).norm() * context.dt;
+    point.slid = slid < at_rest_ ? 0.0 : point.slid + slid;
+    memory_.push_back({id_of(point.particle, point.body), point.impulse / context.dt, point.slid, point.hold});
   }
   std::sort(memory_.begin(), memory_.end(), [](const Memory& a, const Memory& b) { return a.id < b.id; });
 }
@@ -313,9 +324,9 @@ void PointContact::grid_advanced(StepContext& context) {
     int held = 0;
     double area = 0.0;
     for (const Point& point : points_) {
-      if (point.body != static_cast<int>(b) || point.hold == Hold::free) continue;
-      ++held;
-      area += point.area;
+      if (point.body != static_cast<int>(b)) continue;
+      if (point.hold != Hold::free) ++held;
+      if (point.hold != Hold::free || point.gap <= touching_) area += point.area;
     }
     ledgers_[b].end_step(context.dt, held, area);
   }

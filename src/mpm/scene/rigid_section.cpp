@@ -232,6 +232,8 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
     const auto own_friction = map.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;
     if (const auto reach = map.find("reach")) {
+      if (scene.definition.contact.method == ContactMethod::points)
+        reach->fail("it is of contact at nodes; leave it out, or write contact: {method: nodes}");
       body.reach = reach->non_negative(kPlain);
       if (body.reach > 1.0) reach->fail(fmt::format("{:g} cells; write 0 to 1", body.reach));
     }

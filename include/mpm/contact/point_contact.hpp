@@ -71,6 +71,7 @@ class PointContact final : public Stage {
     Vec3 impulse = Vec3::Zero();   ///< on the material [N s]
     Vec3 approach = Vec3::Zero();  ///< relative velocity before the impulses [m/s]
     double slid = 0.0;             ///< since it was at rest [m]
+    double overlap = 0.0;          ///< that it came with, <= 0; gap is counted from there [m]
     bool adheres = false;          ///< it was held in the step before, or touches
     Hold hold = Hold::free;        ///< in the step before, then in this one
   };
@@ -85,11 +86,12 @@ class PointContact final : public Stage {
     NodeRef ref;
     double inverse_mass;  ///< [1/kg]
   };
-  /// What is kept of a point that was held.
+  /// What is kept of a point.
   struct Memory {
     std::uint64_t id;  ///< of particle and body
     Vec3 force;        ///< on the material [N]
     double slid;       ///< since it was at rest [m]
+    double overlap;
     Hold hold;
   };
   struct NearBlock {

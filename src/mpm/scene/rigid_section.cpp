@@ -174,7 +174,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
   const FrictionLaw friction = read_contact(root, scene, section.has_value());
   if (!section) return;
   for (const Value& value : section->elements()) {
-    const Map map(value, {"name", "shape", "pose", "motion", "friction", "reach"},
+    const Map map(value, {"name", "shape", "pose", "motion", "friction", "reach", "sides"},
                   {{"drive", "use motion, or velocity and pose commands on topics"},
                    {"mass", "rigid bodies move as they are told"},
                    {"frame", "use commands on topics, which tf2 transforms"}});
@@ -194,6 +194,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
     if (const auto motion = map.find("motion")) read_motion(*motion, geometry, body);
     const auto own_friction = map.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;
+    if (const auto sides = map.find("sides")) body.sides = static_cast<Sides>(sides->choice({"auto", "one", "two"}));
     if (const auto reach = map.find("reach")) {
       body.reach = reach->non_negative(kPlain);
       if (body.reach > 1.0) reach->fail(fmt::format("{:g} cells; write 0 to 1", body.reach));

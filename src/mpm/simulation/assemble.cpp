@@ -13,11 +13,13 @@
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/mechanics/mass_places.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/step/in_field.hpp"
 #include "state.hpp"
+#include "velocity_fields.hpp"
 
 namespace mpm {
 
@@ -148,27 +150,6 @@ void project(SimulationDefinition& definition) {
   }
 }
 
-/// The velocity fields that the bodies are in, with what all of them have in common.
-Fields fields_of(const SimulationDefinition& definition) {
-  int count = 1;
-  for (const DeformableBody& body : definition.bodies) {
-    if (body.field < 0)
-      throw DefinitionError(fmt::format("body '{}': its velocity field is {}", body.name, body.field));
-    count = std::max(count, body.field + 1);
-  }
-  const GridLayout layout(dimensions(definition.geometry), definition.grid.cell, definition.grid.min,
-                          definition.grid.max);
-  const ShapeKind shape = definition.method.shape;
-  Fields fields = make_fields(layout, count);
-  for (auto& grid : fields) {
-    if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) grid->wall_layers = 2;
-    for (int face = 0; face < 2 * layout.dim(); ++face) {
-      grid->has_wall[face] = definition.walls[2 * layout.axis(face / 2) + face % 2].kind != WallKind::none;
-    }
-  }
-  return fields;
-}
-
 // Not "= {}", which would keep the memory.
 void forget_particles(DeformableBody& body) {
   body.positions = std::vector<Vec3>();
@@ -239,6 +220,13 @@ void Simulation::State::add_mechanics() {
     tractions = all.get();
     stages.push_back(std::move(all));
   }
+  if (sides != nullptr) {
+    auto glue = std::make_unique<SideGlue>(*sides, fields);
+    stages.push_back(glue->late());
+    stages.insert(stages.begin(), std::move(glue));
+    const auto near = [this](const Vec3& middle, double radius) { return sides->near(middle, radius); };
+    stages.insert(stages.begin(), make_mass_places(kernels, fields, sets, laws, near, threads));
+  }
   ContinuumSettings settings;
   settings.transfer = method.transfer;
   settings.average_dilatation = method.average_dilatation;
@@ -268,6 +256,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   project(s.definition);
   s.fields = fields_of(definition);
   const GridLayout& layout = s.layout();
+  if (any_sides(definition)) s.sides = std::make_unique<ToolSides>(layout, s.threads);
 
   const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
                                      [](const DeformableBody& body) { return body.geostatic.has_value(); });
@@ -279,6 +268,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     s.laws.push_back(make_law(material));
     s.sets.push_back(make_set(definition, body, material, s.laws.back(), layout, s.warnings));
     ParticleSet& set = s.sets.back();
+    if (s.sides != nullptr) set.field *= 2;
     set.first_id = next_id;
     for (std::uint32_t& id : set.id) id = next_id++;
     s.total_mass += set.total_mass();
@@ -331,18 +321,11 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
     s.bodies.emplace_back(body);
+    const ThinTool* thin = s.add_sides(s.bodies.back());
     if (definition.contact.method == ContactMethod::nodes) {
-      auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.fields, s.threads, definition.geometry);
+      auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.fields, s.threads, definition.geometry, thin);
       s.contacts.push_back(&contact->ledger());
       s.stages.push_back(std::move(contact));
-    }
-    const double cells = body.surface->thickness() / layout.smallest_cell();
-    if (cells < 3.0) {
-      s.warnings.push_back(
-          fmt::format("rigid body '{}' is {:.2g} cells thick where it is thinnest: material on its two sides shares "
-                      "nodes and feels "
-                      "each other when it is thinner than 3; use a finer grid.cell or a thicker body",
-                      body.name, cells));
     }
   }
   if (definition.contact.method == ContactMethod::points && !s.bodies.empty()) {

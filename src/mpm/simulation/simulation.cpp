@@ -38,6 +38,7 @@ void Simulation::State::fail(const std::string& what, ParticleRef particle, doub
 }
 
 void Simulation::State::sort(double now) {
+  if (sides != nullptr) sides->label(sets);
   if (const auto outside = sorter->sort(sets, fields)) {
     const double r = sets[outside->set].x[0][outside->index];
     if (axisymmetric(definition.geometry) && definition.grid.min.x() == 0.0 && r < layout().cell(0) &&
@@ -66,7 +67,7 @@ void Simulation::State::step(double start, double dt) {
     fail("the volume ratio J is not positive", *particle, start + dt,
          "lower time.cfl, use a finer grid.cell or slower tools, or stiffen what is crushed");
   }
-  if (mechanics->needs_sort()) sort(start + dt);
+  if (mechanics->needs_sort() || (sides != nullptr && sides->due())) sort(start + dt);
 }
 
 void Simulation::State::run_period() {

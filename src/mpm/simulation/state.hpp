@@ -6,6 +6,7 @@
 
 #include "mpm/contact/point_contact.hpp"
 #include "mpm/contact/rigid_contact.hpp"
+#include "mpm/contact/tool_sides.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/mechanics/damping.hpp"
 #include "mpm/mechanics/face_tractions.hpp"
@@ -49,13 +50,14 @@ struct Simulation::State {
   std::vector<Law> laws;  ///< of each set
   Fields fields;
   std::unique_ptr<Sorter> sorter;
+  std::unique_ptr<ToolSides> sides;  ///< of thin tools, in a scene that has any
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;
   Stages stages;
   std::vector<ContactLedger*> contacts;  ///< of each body, owned by stages
-  ParticleLoads* loads = nullptr;       ///< owned by stages, when the scene has any
-  FaceTractions* tractions = nullptr;   ///< the same
-  DampingControl* damping = nullptr;    ///< the same
+  ParticleLoads* loads = nullptr;        ///< owned by stages, when the scene has any
+  FaceTractions* tractions = nullptr;    ///< the same
+  DampingControl* damping = nullptr;     ///< the same
 
   std::int64_t time = 0;  ///< [ns]
   StepReport steps;
@@ -73,6 +75,8 @@ struct Simulation::State {
   const GridLayout& layout() const { return fields.front()->layout; }
   template <class T>
   void add_mechanics();
+  /// Says of a thin body what becomes of its two sides; null if they have no field each.
+  const ThinTool* add_sides(const RigidBody& body);
   /// Of all particles [N s].
   Vec3 momentum() const;
   /// Of all particles [J].

@@ -123,7 +123,7 @@ TEST(SceneLoads, TractionsOnFaces) {
       "loads:\n"
       "  - {traction: {body: block, edge: x_max, traction: [2 kPa, \"3*X\"]}}\n"
       "  - {pressure: {body: block, edge: z_min, value: \"t\", shear: 7, region: {box: {min: [0, 0], max: [0.3, "
-      "1]}}}}\n";
+      "0.25]}}}}\n";
   const SimulationDefinition d = build(parse_scene(kPlanar + loads, "test.yaml"));
   ASSERT_EQ(d.tractions.size(), 2u);
   const TractionDefinition &fixed = d.tractions[0], &following = d.tractions[1];
@@ -135,7 +135,7 @@ TEST(SceneLoads, TractionsOnFaces) {
   EXPECT_EQ(fixed.value[2](0.0, Vec3::Zero(), Vec3(2.0, 0, 0)), 6.0);
   EXPECT_EQ(following.face, 4);
   EXPECT_TRUE(following.follows);
-  EXPECT_EQ(following.particles.size(), 2u * 8u);  // two columns of the 8 by 8 in 0.4 m
+  EXPECT_EQ(following.particles.size(), 2u);  // the lowest of two columns of the 8 by 8 in 0.4 m
   EXPECT_EQ(following.value[0](5.0), 5.0);
   EXPECT_EQ(following.value[1](0.0), 7.0);
 }
@@ -156,6 +156,11 @@ TEST(SceneLoads, TractionsAreRefusedWhenWrong) {
       "loads: [{traction: {body: block, edge: x_max, traction: [0, 1], region: {box: {min: [0.7, 0.7], max: "
       "[0.9, 0.9]}}}}]",
       at + ".region: no particle of body 'block' has its centre in it; make it larger, or move it");
+  expect_refused(
+      "loads: [{traction: {body: block, edge: x_max, traction: [0, 1], region: {box: {min: [0.5, 0.2], max: "
+      "[0.6, 0.3]}}}}]",
+      at + ".region: the edge x_max of the particle at (0.525, 0, 0.225) m is inside body 'block': another particle "
+           "lies beyond it; let the region hold no more than the outermost particles, or leave it out");
   expect_refused("loads: [{pressure: {body: block, edge: x_max}}]", of + ": the key 'value' is missing; add it");
   expect_refused("loads: [{pressure: {body: blok, edge: x_max, value: 1}}]",
                  of + ".body: no deformable body 'blok'; did you mean 'block'?");

@@ -1,5 +1,5 @@
-// Signed distances and normals of box, sphere and cylinder against closed forms found another way: by the nearest of
-// densely sampled points of the surface, by finite differences, and by hand at chosen points.
+// Signed distances and normals of box, sphere, cylinder and capsule against closed forms found another way: by the
+// nearest of densely sampled points of the surface, by finite differences, and by hand at chosen points.
 #include "mpm/rigid/surface.hpp"
 
 #include <gtest/gtest.h>
@@ -89,7 +89,37 @@ Case cylinder_case(int axis) {
           std::hypot(radius * kPi, 2.0 * half) / n};
 }
 
-std::vector<Case> cases() { return {box_case(), sphere_case(), cylinder_case(0), cylinder_case(1), cylinder_case(2)}; }
+Case capsule_case(int axis) {
+  const double radius = 0.3, half = 0.25;
+  std::vector<Vec3> samples;
+  const int n = 100;
+  const auto add = [&](double r, double angle, double along) {
+    Vec3 p;
+    p[axis] = along;
+    p[(axis + 1) % 3] = r * std::cos(angle);
+    p[(axis + 2) % 3] = r * std::sin(angle);
+    samples.push_back(p);
+  };
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j < 2 * n; ++j) {
+      const double angle = kPi * j / n, up = 0.5 * kPi * i / n;
+      add(radius, angle, half * (2.0 * i / n - 1.0));
+      add(radius * std::cos(up), angle, half + radius * std::sin(up));
+      add(radius * std::cos(up), angle, -half - radius * std::sin(up));
+    }
+  }
+  const auto inside = [=](const Vec3& p) {
+    const double r = std::hypot(p[(axis + 1) % 3], p[(axis + 2) % 3]);
+    return (std::abs(p[axis]) < half && r < radius) || std::hypot(std::abs(p[axis]) - half, r) < radius;
+  };
+  return {"capsule " + std::to_string(axis), make_capsule(radius, 2.0 * half, axis), inside, samples,
+          std::hypot(radius * kPi, 2.0 * half) / n};
+}
+
+std::vector<Case> cases() {
+  return {box_case(),       sphere_case(),   cylinder_case(0), cylinder_case(1),
+          cylinder_case(2), capsule_case(0), capsule_case(1),  capsule_case(2)};
+}
 
 struct Random {
   std::mt19937 engine{11};
@@ -179,7 +209,11 @@ TEST(Surface, TrianglesCloseAndLieOnTheSurface) {
       volume += a.dot(b.cross(d)) / 6.0;
     }
     // By hand: box 1 x 0.6 x 0.4, sphere and cylinder a few percent less for the flat faces (32 and 48 to a turn).
-    const double exact = c.name == "box" ? 0.24 : c.name == "sphere" ? 4.0 / 3.0 * kPi * 0.064 : kPi * 0.09 * 0.8;
+    const double ends = 4.0 / 3.0 * kPi * 0.027;  // of the capsule, a sphere together
+    const double exact = c.name == "box"               ? 0.24
+                         : c.name == "sphere"          ? 4.0 / 3.0 * kPi * 0.064
+                         : c.name.find("capsule") == 0 ? kPi * 0.09 * 0.5 + ends
+                                                       : kPi * 0.09 * 0.8;
     EXPECT_LE(volume, exact * (1.0 + 1e-14)) << c.name;
     EXPECT_GE(volume, exact * (c.name == "box" ? 1.0 - 1e-14 : 0.97)) << c.name;
   }
@@ -272,6 +306,12 @@ TEST(Surface, ImpossibleSizesAreRefused) {
     EXPECT_THROW(make_cylinder(bad, 1.0), RigidError) << bad;
     EXPECT_THROW(make_cylinder(1.0, bad), RigidError) << bad;
   }
+  for (const double bad : {0.0, -1.0, nan, kInfinity}) {
+    EXPECT_THROW(make_capsule(bad, 1.0), RigidError) << bad;
+    EXPECT_THROW(make_capsule(1.0, bad), RigidError) << bad;
+  }
+  EXPECT_THROW(make_capsule(1.0, 1.0, 3), RigidError);
+  EXPECT_THROW(make_capsule(1.0, 1.0, 1, true), RigidError);
   EXPECT_THROW(make_sphere(kInfinity), RigidError);
   EXPECT_THROW(make_cylinder(kInfinity, 1.0), RigidError);
   EXPECT_THROW(make_cylinder(1.0, 1.0, 3), RigidError);

@@ -152,6 +152,21 @@ TEST(Limits, FollowsWhatStiffens) {
   EXPECT_LT(state.step.dt_last, 0.7 * first);
 }
 
+// A plane has no end to turn about: the domain's size counts.
+TEST(Limits, ATurningPlaneIsAsLargeAsTheDomain) {
+  auto d = block(0.1, 0.5, 0.5);
+  mpm::RigidBodyDefinition plane;
+  plane.name = "plane";
+  plane.surface = mpm::make_plane(mpm::Vec3::UnitZ());
+  plane.pose.position = {0.0, 0.0, -50.0};
+  plane.rotation_rate[1] = mpm::Function(20.0);
+  d.rigid_bodies = {plane};
+  mpm::Simulation simulation(d, {1});
+  simulation.advance();
+  const mpm::Vec3 size = d.grid.max - d.grid.min;
+  EXPECT_LE(simulation.state().step.dt_max, d.time.cfl * d.grid.cell.x() / (20.0 * std::hypot(size.x(), size.z())));
+}
+
 TEST(Limits, KeepsStrongDampingStable) {
   auto d = block(0.1, 0.5, 0.5);
   d.method.damping = 5000.0;

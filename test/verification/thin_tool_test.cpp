@@ -16,6 +16,8 @@ namespace mpm {
 namespace {
 
 constexpr double kCell = 0.1;
+constexpr ContactMethod kContacts[] = {ContactMethod::points, ContactMethod::nodes};
+const char* name_of(ContactMethod contact) { return contact == ContactMethod::points ? ", points" : ", nodes"; }
 constexpr GeometryKind kGeometries[] = {GeometryKind::plane_strain, GeometryKind::axisymmetric, GeometryKind::solid};
 
 SimulationDefinition empty_scene(GeometryKind geometry) {
@@ -93,13 +95,14 @@ void each_method(GeometryKind geometry, Visit&& visit) {
 
 // ---- what is on the other side is not felt
 
-/// Two blocks lie on the two faces of a plate of one cell, which reaches beyond them all round.
+/// Two blocks lie on the two faces of a plate of one cell, which reaches beyond them all round. The upper one is a
+/// thousandth of a cell off: in touch, but for round-off that contact at points would take for an overlap.
 SimulationDefinition sandwich(GeometryKind geometry, Sides sides) {
   SimulationDefinition d = empty_scene(geometry);
   const bool axial = geometry == GeometryKind::axisymmetric;
   const double left = axial ? 0.0 : 1.8;
   d.bodies = {block(geometry, "below", {left, 1.8, 1.55}, {4, 4, 4}),
-              block(geometry, "above", {left, 1.8, 2.05}, {4, 4, 4})};
+              block(geometry, "above", {left, 1.8, 2.05 + 1e-3 * kCell}, {4, 4, 4})};
   d.rigid_bodies = {tool(axial ? make_cylinder(1.0, kCell) : make_box({2.0, 2.0, kCell}),
                          {axial ? 0.0 : 2.0, axial ? 0.0 : 2.0, 2.0}, sides)};
   return d;
@@ -110,19 +113,24 @@ void move(DeformableBody& body, const Vec3& velocity) { body.velocities.assign(b
 TEST(ThinTool, WhatIsPressedAgainstOneFaceIsNotFeltAtTheOther) {
   for (const GeometryKind geometry : kGeometries) {
     each_method(geometry, [&](const MethodDefinition& method, const std::string& name) {
-      SimulationDefinition d = sandwich(geometry, Sides::automatic);
-      d.method = method;
-      move(d.bodies[0], {0.0, 0.0, 1.0});
-      Simulation run(d, {1});
-      for (int n = 0; n < 3; ++n) run.advance();
-      EXPECT_GT(largest(run, "szz", "below"), 100.0) << name;  // it was pressed: rho c v is 11 kPa
-      EXPECT_EQ(largest(run, "szz", "above"), 0.0) << name;
-      EXPECT_EQ(largest(run, "vz", "above"), 0.0) << name;
-      EXPECT_LT(run.state().audit.residual, 1e-10) << name;
+      for (const ContactMethod contact : kContacts) {
+        SimulationDefinition d = sandwich(geometry, Sides::automatic);
+        d.method = method;
+        d.contact.method = contact;
+        move(d.bodies[0], {0.0, 0.0, 1.0});
+        Simulation run(d, {1});
+        for (int n = 0; n < 3; ++n) run.advance();
+        const std::string all = name + name_of(contact);
+        EXPECT_GT(largest(run, "szz", "below"), 100.0) << all;  // it was pressed: rho c v is 11 kPa
+        EXPECT_EQ(largest(run, "szz", "above"), 0.0) << all;
+        EXPECT_EQ(largest(run, "vz", "above"), 0.0) << all;
+        EXPECT_LT(run.state().audit.residual, 1e-10) << all;
+      }
     });
   }
   // With one field it is felt: the test sees what it is for.
   SimulationDefinition d = sandwich(GeometryKind::plane_strain, Sides::one);
+  d.contact.method = ContactMethod::nodes;
   move(d.bodies[0], {0.0, 0.0, 1.0});
   Simulation run(d, {1});
   for (int n = 0; n < 3; ++n) run.advance();
@@ -132,25 +140,48 @@ TEST(ThinTool, WhatIsPressedAgainstOneFaceIsNotFeltAtTheOther) {
 // The plate moves broadside: down, into the lower block and away from the upper one.
 TEST(ThinTool, PulledAwayItDrawsNothingAlong) {
   for (const GeometryKind geometry : kGeometries) {
-    SimulationDefinition d = sandwich(geometry, Sides::automatic);
-    d.rigid_bodies[0].velocity[2] = Function(-1.0);
+    for (const ContactMethod contact : kContacts) {
+      const std::string name = std::string(geometry_name(geometry)) + name_of(contact);
+      SimulationDefinition d = sandwich(geometry, Sides::automatic);
+      d.contact.method = contact;
+      d.rigid_bodies[0].velocity[2] = Function(-1.0);
+      Simulation run(d, {1});
+      run.take_contact(0);
+      for (int n = 0; n < 8; ++n) run.advance();
+      EXPECT_EQ(largest(run, "vz", "above"), 0.0) << name;
+      EXPECT_EQ(largest(run, "szz", "above"), 0.0) << name;
+      EXPECT_GT(largest(run, "vz", "below"), 0.9) << name;
+      const SolverState state = run.state();
+      EXPECT_LT(state.audit.residual, 1e-10) << name;
+      // All momentum that there is was given by the plate.
+      const Vec3 given = -run.take_contact(0).impulse;
+      EXPECT_NEAR(state.audit.momentum.z(), given.z(), 1e-10 * std::abs(given.z())) << name;
+      EXPECT_LT(given.z(), 0.0) << name;
+    }
+  }
+}
+
+// Two bodies with a field each and a contact law between them: what is on two sides of a tool is not in contact.
+TEST(ThinTool, BodiesOnItsTwoSidesAreNotInContact) {
+  for (const ContactMethod contact : kContacts) {
+    SimulationDefinition d = sandwich(GeometryKind::plane_strain, Sides::automatic);
+    d.contact.method = contact;
+    d.bodies[1].field = 1;
+    PairDefinition pair;
+    pair.first = "below";
+    pair.second = "above";
+    d.contact.pairs = {pair};
+    move(d.bodies[0], {0.0, 0.0, 1.0});
     Simulation run(d, {1});
-    run.take_contact(0);
-    for (int n = 0; n < 8; ++n) run.advance();
-    EXPECT_EQ(largest(run, "vz", "above"), 0.0) << geometry_name(geometry);
-    EXPECT_EQ(largest(run, "szz", "above"), 0.0) << geometry_name(geometry);
-    EXPECT_GT(largest(run, "vz", "below"), 0.9) << geometry_name(geometry);
-    const SolverState state = run.state();
-    EXPECT_LT(state.audit.residual, 1e-10) << geometry_name(geometry);
-    // All momentum that there is was given by the plate.
-    const Vec3 given = -run.take_contact(0).impulse;
-    EXPECT_NEAR(state.audit.momentum.z(), given.z(), 1e-10 * std::abs(given.z())) << geometry_name(geometry);
-    EXPECT_LT(given.z(), 0.0);
+    for (int n = 0; n < 3; ++n) run.advance();
+    EXPECT_GT(largest(run, "szz", "below"), 100.0) << name_of(contact);
+    EXPECT_EQ(largest(run, "vz", "above"), 0.0) << name_of(contact);
   }
 }
 
 TEST(ThinTool, ADrawnAwayPlateOfOneFieldDrawsTheMaterialAlong) {
   SimulationDefinition d = sandwich(GeometryKind::plane_strain, Sides::one);
+  d.contact.method = ContactMethod::nodes;
   d.rigid_bodies[0].velocity[2] = Function(-1.0);
   Simulation run(d, {1});
   for (int n = 0; n < 8; ++n) run.advance();
@@ -166,7 +197,7 @@ TEST(ThinTool, ItIsSaidWhatWasChosen) {
   EXPECT_TRUE(said(two.notes(), "'blade' is 1 cells thick"));
   EXPECT_FALSE(said(two.warnings(), "'blade'"));
   const Simulation one(sandwich(GeometryKind::plane_strain, Sides::one), {1});
-  EXPECT_TRUE(said(one.warnings(), "write sides: auto"));
+  EXPECT_TRUE(said(one.warnings(), "write sides: two"));
 }
 
 // ---- where the tool is not between them, the sides are one body
@@ -238,9 +269,13 @@ SimulationDefinition cut(GeometryKind geometry, double thickness) {
 // plane is found on the other side of it later.
 TEST(ThinTool, ABladeCutsWithoutLosingMomentumOrParticles) {
   for (const GeometryKind geometry : kGeometries) {
-    for (const double thickness : {kCell, 0.3 * kCell}) {
-      const std::string name = std::string(geometry_name(geometry)) + ", " + std::to_string(thickness);
-      const SimulationDefinition d = cut(geometry, thickness);
+    for (int i = 0; i < 4; ++i) {
+      const double thickness = i % 2 == 0 ? kCell : 0.3 * kCell;
+      const ContactMethod contact = kContacts[i / 2];
+      const std::string name =
+          std::string(geometry_name(geometry)) + ", " + std::to_string(thickness) + name_of(contact);
+      SimulationDefinition d = cut(geometry, thickness);
+      d.contact.method = contact;
       const double middle =
           geometry == GeometryKind::axisymmetric ? 0.6 + 0.5 * thickness : d.rigid_bodies[0].pose.position.x();
       Simulation run(d, {1});

@@ -1,6 +1,7 @@
 // A face of the domain as a condition on the velocity of the nodes on it and beyond it.
 //
-// fixed: no velocity. slip: no velocity along the normal, in or out. frictional: Coulomb contact, lets go.
+// fixed: no velocity. slip: no velocity along the normal, in or out. frictional: Coulomb contact, lets go. symmetry: as
+// slip; what meets on the plane knows besides that it is half of a whole (grid/symmetry_planes.hpp).
 // Two walls that meet act one after the other; as their normals are orthogonal neither undoes the other. Contact may: a
 // wall that always holds acts before it and again after it (again.hpp).
 // Source: Nairn, GIMP notes (3.1)-(3.11): a condition replaces the momentum along one direction, force and momentum
@@ -15,12 +16,18 @@
 
 namespace mpm {
 
-enum class WallKind { none, fixed, slip, frictional };
+/// absorbing and periodic faces are no walls: absorbing.hpp, periodic.hpp.
+enum class WallKind { none, fixed, slip, frictional, symmetry, absorbing, periodic };
+
+constexpr bool is_wall(WallKind kind) {
+  return kind != WallKind::none && kind != WallKind::absorbing && kind != WallKind::periodic;
+}
 
 /// What a scene says of a face of the domain.
 struct WallDefinition {
   WallKind kind = WallKind::none;
   FrictionLaw friction;  ///< frictional only
+  bool hold = false;     ///< absorbing only: the forces of the start are held
 };
 
 class Wall final : public Stage {

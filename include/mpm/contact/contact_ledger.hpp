@@ -54,7 +54,7 @@ class ContactLedger {
   Vec3 pressed_arm_ = Vec3::Zero();      ///< arms times those magnitudes [N s m]
   Wrench peak_;
   int places_ = 0;
-  double area_ = 0.0;
+  double area_time_ = 0.0;  ///< area in contact, over time, since the last report [m^2 s]
   double last_report_ = 0.0;
 };
 

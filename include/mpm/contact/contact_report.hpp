@@ -30,7 +30,7 @@ struct ContactReport {
   double interval = 0.0;         ///< [s] since the last report; 0 before the first step (then mean is zero)
   int nodes = 0;                 ///< grid nodes, or points of the material's surface, in contact in the last step
   Vec3 impulse = Vec3::Zero();   ///< force on the body integrated since the start [N s]
-  double area = 0.0;             ///< of the surface in contact in the last step; of nodes in contact 0 [m^2]
+  double area = 0.0;             ///< of the surface in contact, averaged as `mean` is; not known of nodes: 0 [m^2]
   double friction_energy = 0.0;  ///< that sliding on the body took since the start [J]
 
   double pressing = 0.0;         ///< sum over nodes of the magnitude of the normal force, averaged as `mean` is [N]

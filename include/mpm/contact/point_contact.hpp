@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "mpm/contact/contact_ledger.hpp"
+#include "mpm/grid/fields.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/shape/kind.hpp"
@@ -38,44 +39,36 @@ struct PointContactSettings {
 
 class PointContact final : public Stage {
  public:
-  /// Bodies and sets outlive the stage.
-  PointContact(const std::vector<RigidBody>& bodies, const std::vector<ParticleSet>& sets,
-               const PointContactSettings& settings);
+  /// Bodies, sets and fields outlive the stage. `laws`: of each body against each set, the sets of a body together.
+  PointContact(std::vector<const RigidBody*> bodies, const std::vector<ParticleSet>& sets, Fields& fields,
+               std::vector<ContactLaw> laws, const PointContactSettings& settings);
 
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
-  void velocity_found(StepContext& context, NodalField& velocity) override;
-  void increment_found(StepContext& context, NodalField& increment) override;
+  void velocity_found(StepContext& context, NodalField&) override;
+  void increment_found(StepContext& context, NodalField&) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
 
+  /// Of a body, by its place in the list.
   ContactLedger& ledger(int body) { return ledgers_[body]; }
 
  private:
   struct Point {
-    int body;
-    std::uint32_t particle;  ///< its id
-    Vec3 place, normal;      ///< world [m]; out of the body
-    Vec3 velocity;           ///< of the body there [m/s]
-    double gap;              ///< negative inside [m]
-    double area;             ///< of the surface that the point stands for [m^2]
-    FrictionLaw law;
+    int body = 0, field = 0;
+    int law = 0;                   ///< in laws_now_
+    std::uint32_t particle = 0;    ///< its id
+    Vec3 place, normal;            ///< world [m]; out of the body
+    Vec3 velocity;                 ///< of the body there [m/s]
+    double gap = 0.0;              ///< negative inside [m]
+    double area = 0.0;             ///< of the surface that the point stands for [m^2]
     int first = 0, end = 0;        ///< its parts in parts_
     double compliance = 0.0;       ///< velocity at the point by an impulse there [1/kg]
     Vec3 impulse = Vec3::Zero();   ///< on the material [N s]
     Vec3 approach = Vec3::Zero();  ///< relative velocity before the impulses [m/s]
+    bool adheres = false;          ///< it was held in the step before, or touches
     Hold hold = Hold::free;        ///< in the step before, then in this one
-  };
-  /// What is kept of a point that was held.
-  struct Memory {
-    std::uint64_t id;  ///< of particle and body
-    Vec3 force;        ///< on the material [N]
-    Hold hold;
-  };
-  struct Node {
-    NodeRef ref;
-    double inverse_mass;  ///< [1/kg]
   };
   /// A node's part in a point.
   struct Part {
@@ -83,37 +76,68 @@ class PointContact final : public Stage {
     double weight;
     double lifted;  ///< weight over mass [1/kg]
   };
-  enum class Pass { step, strain, held };
+  struct Node {
+    int field;
+    NodeRef ref;
+    double inverse_mass;  ///< [1/kg]
+  };
+  /// What is kept of a point that was held.
+  struct Memory {
+    std::uint64_t id;  ///< of particle and body
+    Vec3 force;        ///< on the material [N]
+    Hold hold;
+  };
+  struct NearBlock {
+    int field, owner;  ///< the owner among those of its field
+  };
+  enum class Pass {
+    step,      ///< impulses >= 0, friction: decides who is held
+    strain,    ///< who is held keeps to the surface, others as in step
+    held,      ///< who is held keeps to the surface
+    increment  ///< the same of a velocity that is added to one that does
+  };
+  using Member = NodalField Grid::*;
 
+  void find_blocks(const GridLayout& layout, double band);
   template <class Geometry>
   void find_points(const StepContext& context);
+  /// Nodes and parts of the points found, and what is remembered of them.
   void connect(const StepContext& context);
-  void load(const NodalField& field, const GridLayout& layout);
-  /// Adds what has changed since load() to the field.
-  void store(NodalField& field, const GridLayout& layout, double factor = 1.0);
+  void recall(Point& point, double dt) const;
+  /// Takes the nodes' velocities from that member of their fields.
+  void load(Member from);
+  /// Adds what has changed since load().
+  void store(Member to, double factor = 1.0);
   Vec3 velocity_at(const Point& point) const;
   void push(const Point& point, const Vec3& impulse);
-  /// One point, once; the largest velocity it changed by [m/s].
+  /// How fast the point may approach (negative) or has to be moved out [m/s].
+  double allowed(const Point& point, double dt) const;
+  /// One point, once; the velocity that it changed by [m/s].
   template <Pass Kind>
   double relax(Point& point, double dt);
   template <Pass Kind>
-  void solve(double dt, bool relative);
-  const Memory* find(std::uint64_t id) const;
+  void solve(double dt);
+  void give(const Point& point, const Vec3& mean_slip);
 
-  const std::vector<RigidBody>& bodies_;
+  std::vector<const RigidBody*> bodies_;
   const std::vector<ParticleSet>& sets_;
+  Fields& fields_;
   PointContactSettings settings_;
+  std::vector<ContactLaw> laws_;
+  std::vector<FrictionLaw> laws_now_;
   std::vector<ContactLedger> ledgers_;
+  double push_out_ = 0.0;  ///< [m] a step at most
+  double touching_ = 0.0;  ///< [m]
 
-  std::vector<int> near_;                     ///< owners with particles near a body
-  std::vector<std::vector<Point>> of_owner_;  ///< their points
+  std::vector<NearBlock> near_;               ///< blocks with particles near a body
+  std::vector<std::vector<Point>> of_block_;  ///< their points
   std::vector<Point> points_;
-  std::vector<int> slot_;  ///< of each node of the grid: its place in nodes_, or -1
-  std::vector<Node> nodes_;
   std::vector<Part> parts_;
-  std::vector<std::array<double, 3>> velocity_, loaded_;  ///< of nodes_
+  std::vector<Node> nodes_;
+  std::vector<std::vector<int>> slot_;                    ///< of each node of each field: its place in nodes_, or -1
+  std::vector<std::array<double, 3>> velocity_, loaded_;  ///< of nodes_ [m/s]
   std::vector<Memory> memory_;                            ///< by id
-  std::vector<Vec3> kept_;                                ///< impulses, while strain is updated
+  std::vector<Vec3> kept_;                                ///< impulses, while strain is updated [N s]
 };
 
 }  // namespace mpm

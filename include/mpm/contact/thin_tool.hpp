@@ -19,9 +19,10 @@ namespace mpm {
 /// Whether material on two sides of the body may share nodes: it is thinner than three cells. On the axis of an
 /// axisymmetric scene a rod has one side only. `cell`: the smallest edge [m].
 bool is_thin(const RigidBodyDefinition& body, GeometryKind geometry, double cell);
-/// Whether its sides have a field each.
+/// Whether its sides have a field each. Of bodies made of particles only if the scene says so.
 inline bool has_sides(const RigidBodyDefinition& body, GeometryKind geometry, double cell) {
-  return body.sides == Sides::two || (body.sides == Sides::automatic && is_thin(body, geometry, cell));
+  return body.sides == Sides::two ||
+         (body.sides == Sides::automatic && !body.particles && is_thin(body, geometry, cell));
 }
 
 class ThinTool {

@@ -33,12 +33,14 @@ class ToolSides {
   const ThinTool& add(const RigidBody& body, GeometryKind geometry) { return tools_.emplace_back(body, geometry); }
   const std::deque<ThinTool>& tools() const { return tools_; }
 
-  /// Before a sort: the side of every particle.
+  /// Before a sort: the side of every particle; sets have room for it.
   void label(std::vector<ParticleSet>& sets);
   /// Tool and material near it have moved against each other by so much [m].
   void add_travel(double travel) { travelled_ += travel; }
   /// Sides may have changed: sort.
   bool due() const;
+  /// Whether a tool lies between the mass centres of what two fields have at a node. Needs Grid::place.
+  bool apart(const Grid& first, NodeRef of_first, const Grid& second, NodeRef of_second) const;
   /// Whether a ball around a world point is so near to a tool that particles in it may be on side 1 or in its contact.
   bool near(const Vec3& point, double radius) const;
 

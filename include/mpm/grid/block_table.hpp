@@ -39,6 +39,9 @@ class BlockTable {
 
  private:
   void widen(std::uint64_t stride);
+  /// Along periodic axes: of the blocks beyond a face, those that they are.
+  void go_around();
+  void find_neighbours_around(const std::vector<std::uint64_t>& owner_keys, std::size_t begin, std::size_t end);
   void find_neighbours(const std::vector<std::uint64_t>& owner_keys, std::size_t begin, std::size_t end);
 
   const GridLayout* layout_;

@@ -48,11 +48,18 @@ class GridLayout {
   /// Half way between two nodes the upper one is nearest, round-off or not [cells].
   static constexpr double kTie = 1e-12;
 
+  /// Along a periodic axis the blocks go round: the one before the first is the last.
   std::uint64_t key(const std::array<int, 3>& block) const;
   std::array<int, 3> block(std::uint64_t key) const;
   std::int64_t key_stride(int k) const { return stride_[k]; }
   /// One more than the largest key.
   std::uint64_t keys() const { return static_cast<std::uint64_t>(stride_[0]) * static_cast<std::uint64_t>(blocks_[0]); }
+
+  /// Makes the nodes of the axis' two faces one. Before any block is made. @throws GridError unless the cells are a
+  /// multiple of 8: blocks go round whole, and an even number of them, so that neighbours have different colours.
+  void make_periodic(int k);
+  bool periodic(int k) const { return around_[k] > 0; }
+  bool any_periodic() const { return around_[0] + around_[1] + around_[2] > 0; }
 
   /// World position of a node of a block; 0 along axes that the grid does not have.
   Vec3 node_position(const std::array<int, 3>& block, int local) const;
@@ -63,6 +70,7 @@ class GridLayout {
   int dim_;
   std::array<double, 3> cell_{}, inverse_cell_{}, origin_{};
   std::array<int, 3> last_node_{}, blocks_{};
+  std::array<int, 3> around_{};  ///< blocks of a periodic axis; 0 of another
   std::array<std::int64_t, 3> stride_{};
 };
 

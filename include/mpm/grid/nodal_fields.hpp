@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mpm/grid/block_table.hpp"
+#include "mpm/grid/symmetry_planes.hpp"
 
 namespace mpm {
 
@@ -68,7 +69,8 @@ struct Grid {
   double least_mass = 0.0;         ///< [kg]
   int wall_layers = 1;             ///< of nodes beyond a wall that particles may reach, and that the wall holds too
   std::array<bool, 6> has_wall{};  ///< faces of the domain that are walls: 2 * axis, + 1 for the upper one
-  int first_owner = 0;             ///< number of its first owner among those of all fields
+  SymmetryPlanes symmetry;
+  int first_owner = 0;  ///< number of its first owner among those of all fields
   /// Of each owner, whether some of its particles have moved beyond the block since they were sorted.
   std::vector<std::uint8_t> loose;
   NodalField mass;       ///< m_i [kg]

@@ -30,6 +30,9 @@ struct RigidBodyDefinition {
   /// body made of particles would reach; material is met that much early.
   double reach = 0.0;
   Sides sides = Sides::automatic;
+  /// Filled with particles, and met by volumes and volume gradients at nodes (contact/rigid_particle_contact.hpp) in
+  /// place of the surface.
+  bool particles = false;
   /// Of a ring in an axisymmetric scene, as its surface was made; 0: of any other body. A ring opens and closes along
   /// x: pose.position.x is the change of its radii [m].
   double inner_radius = 0.0;

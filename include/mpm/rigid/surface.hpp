@@ -1,8 +1,10 @@
 // The surface of a rigid body as a signed distance in the body's own frame.
 //
 // One virtual call a grid node near the body, none a particle. Distances are exact (a mesh: to the nearest triangle
-// through a bounding-volume hierarchy), normals are their gradients. Where there is no gradient one is chosen: of
-// several nearest faces (inside) the first; on an edge or corner itself, a face's (a mesh: the mean of its faces').
+// through a bounding-volume hierarchy), normals are their gradients. Beyond an edge or a corner they turn with the
+// point, as a fan from the one face's to the other's. Where there is no gradient one is chosen: of several nearest
+// faces (inside an edge, outside a notch) the first; on an edge or corner itself, a face's (a mesh: the mean of its
+// faces').
 #pragma once
 
 #include <array>
@@ -74,6 +76,28 @@ std::unique_ptr<Surface> make_cone(double radius, double height, double shaft = 
 /// opens does. Distance and normal are then those of the section at (x, z), for x < 0 as well; y does not count.
 /// @throws RigidError
 std::unique_ptr<Surface> make_ring(double inner, double outer, double height, bool in_half_plane = false);
+/// Everything on the side of a plane through the origin that `normal` points away from; the normal's length does not
+/// count. Drawn as a slab of side `drawn` [m]. @throws RigidError when the normal is zero or not finite, or `drawn` not
+/// positive.
+std::unique_ptr<Surface> make_plane(const Vec3& normal, double drawn = 1.0);
+/// What is within `radius` of a straight piece of the axis, `length` long and centred: a cylinder with round ends,
+/// 2 radius + length in all. `in_plane`: without end along y, as planar scenes have it; the axis is then x or z.
+/// @throws RigidError
+std::unique_ptr<Surface> make_capsule(double radius, double length, int axis = 2, bool in_plane = false);
+
+/// Heights at the points of a regular grid over the rectangle from `low` to `high` in x and y [m].
+struct HeightGrid {
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+  int columns = 0;              ///< points along x, the first at low.x, the last at high.x; at least 2
+  int rows = 1;                 ///< points along y; 1 in planar scenes, where y does not count
+  std::vector<double> heights;  ///< [m], row by row from low.y on, each from low.x on
+};
+/// All that lies below the heights, down without end; upright sides where the rectangle ends. Between the points are
+/// straight pieces (planar), or two triangles a cell, cut from its corner at low x and y to that at high x and y.
+/// Distances are exact to these. On an edge or corner a face's normal, as where several faces are nearest: the one of
+/// the point's own cell before those farther off, the surface before the sides. Its thickness is the rectangle's
+/// shorter side. @throws RigidError
+std::unique_ptr<Surface> make_height_field(const HeightGrid& grid);
 /// @throws RigidError when the mesh is empty, degenerate, not closed or not consistently oriented; a mesh turned
 /// inside out as a whole is turned right.
 std::unique_ptr<Surface> make_mesh(const TriangleMesh& mesh);

@@ -43,6 +43,7 @@ struct BodyDefinition {
   bool yy_follows = false;                        ///< planar: yy of it is what plane strain makes it
   std::optional<Function> temperature;            ///< initial, function of place [K]
   std::optional<GeostaticDefinition> geostatic;
+  int field = 0;                     ///< velocity field, as its contact laws ask for
   bool cut_out_all = false;          ///< particles inside any rigid body are left out
   std::vector<std::string> cut_out;  ///< the same for rigid bodies by name
   std::string where;                 ///< "file:line: key.path", for errors found when it is built

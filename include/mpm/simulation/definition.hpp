@@ -9,7 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "mpm/boundary/condition.hpp"
 #include "mpm/boundary/wall.hpp"
+#include "mpm/contact/pair_detection.hpp"
+#include "mpm/contact/pair_normal.hpp"
 #include "mpm/material/definition.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/math/geometry_kind.hpp"
@@ -29,6 +32,7 @@ struct GridDefinition {
   Vec3 cell = Vec3::Zero();  ///< cell size along each axis [m]
   Vec3 min = Vec3::Zero();   ///< corners of the domain that material may not leave [m]; a node lies on min
   Vec3 max = Vec3::Zero();
+  std::uint64_t leave_limit = 0;  ///< particles that may leave and are put back; one more ends the run
 };
 
 struct TimeDefinition {
@@ -106,8 +110,17 @@ enum class ContactMethod {
   points,  ///< at points of the material's surface (contact/point_contact.hpp)
   nodes    ///< at the grid's nodes in the body (contact/rigid_contact.hpp)
 };
+/// The law between two deformable bodies of different velocity fields, or a deformable body and a rigid one, by name.
+struct PairDefinition {
+  std::string first, second;  ///< a rigid body is the second
+  ContactLaw law;
+};
 struct ContactDefinition {
-  ContactMethod method = ContactMethod::nodes;
+  ContactMethod method = ContactMethod::points;
+  NormalRule normals;       ///< between deformable bodies (contact/material_contact.hpp); and of rigid particles
+  DetectionRule detection;  ///< the same
+  /// Deformable bodies of different fields without a law pass through each other; a rigid body has a law with all.
+  std::vector<PairDefinition> pairs;
 };
 
 enum class Statistic { mean, std_dev, min, max };
@@ -139,6 +152,7 @@ struct SimulationDefinition {
   std::vector<RigidBodyDefinition> rigid_bodies;
   ContactDefinition contact;
   std::array<WallDefinition, 6> walls;
+  std::vector<ConditionDefinition> conditions;
   std::vector<BodyForceDefinition> body_forces;
   std::vector<ParticleForceDefinition> particle_forces;
   std::vector<TractionDefinition> tractions;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mpm/contact/contact_report.hpp"
+#include "mpm/contact/pair_report.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 
@@ -21,17 +22,20 @@ struct BodyState {
 /// Energies [J].
 struct EnergyReport {
   double kinetic = 0.0;
-  double elastic = 0.0;       ///< stored in the material
-  double plastic = 0.0;       ///< dissipated by plastic flow since the start
-  double potential = 0.0;     ///< -sum m g.x
-  double contact_work = 0.0;  ///< done by rigid bodies on the material since the start
-  double load_work = 0.0;     ///< done by loads on the material since the start
+  double elastic = 0.0;        ///< stored in the material
+  double plastic = 0.0;        ///< dissipated by plastic flow since the start
+  double potential = 0.0;      ///< -sum m g.x
+  double contact_work = 0.0;   ///< done by rigid bodies on the material since the start
+  double load_work = 0.0;      ///< done by loads, velocity conditions and absorbing faces since the start
+  double pair_friction = 0.0;  ///< taken by sliding between deformable bodies since the start
+  double interface = 0.0;      ///< stored in imperfect interfaces
   double total() const { return kinetic + elastic + potential; }
 };
 
 /// One external impulse on the material since the start [N s].
 struct NamedImpulse {
-  std::string name;  ///< "gravity", "contact/blade", "wall/z_min", "damping", "body_force", "particle_force"
+  std::string name;  ///< "gravity", "contact/blade", "wall/z_min", "damping", "body_force", "condition/lid",
+                     ///< "absorbing/x_min", …
   Vec3 impulse = Vec3::Zero();
 };
 
@@ -59,8 +63,9 @@ struct SolverState {
   EnergyReport energy;
   AuditReport audit;
   std::uint64_t particles = 0;
-  double min_j = 1.0;         ///< smallest det F of any particle now
-  double wall_seconds = 0.0;  ///< spent in stepping
+  std::uint64_t returned = 0;  ///< particles that have left the grid and were put back (grid.leave)
+  double min_j = 1.0;          ///< smallest det F of any particle now
+  double wall_seconds = 0.0;   ///< spent in stepping
 };
 
 }  // namespace mpm

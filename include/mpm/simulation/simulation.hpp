@@ -69,6 +69,8 @@ class Simulation {
   const RigidBody& rigid_body(int body) const;
   /// What the material did to the body since the last call.
   ContactReport take_contact(int body);
+  /// What each pair of deformable bodies that has a law of contact did to each other since the last call.
+  std::vector<PairReport> take_pairs();
   SolverState state() const;
   /// The scene's own numbers, in order.
   std::vector<std::pair<std::string, double>> metrics() const;

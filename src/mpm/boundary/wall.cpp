@@ -15,10 +15,13 @@ ContactChange Wall::change(const Vec3& velocity, const Vec3& normal) const {
     case WallKind::fixed:
       return {-velocity, Hold::stick};
     case WallKind::slip:
+    case WallKind::symmetry:
       return {-velocity.dot(normal) * normal, Hold::slide};
     case WallKind::frictional:
       return contact_change(velocity, normal, definition_.friction);
     case WallKind::none:
+    case WallKind::absorbing:
+    case WallKind::periodic:
       break;
   }
   return {Vec3::Zero(), Hold::free};

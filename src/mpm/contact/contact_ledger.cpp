@@ -29,7 +29,7 @@ void ContactLedger::end_step(double dt, int places, double area) {
   if (wrench.force.squaredNorm() > peak_.force.squaredNorm()) peak_ = wrench;
   given_ = given_angular_ = Vec3::Zero();
   places_ = places;
-  area_ = area;
+  area_time_ += area * dt;
 }
 
 ContactReport ContactLedger::take(double now) {
@@ -40,6 +40,7 @@ ContactReport ContactLedger::take(double now) {
     report.mean = {whole(impulse_ / report.interval), angular_impulse_ / report.interval};
     report.friction = whole(friction_ / report.interval);
     report.pressing = pressed_ / report.interval;
+    report.area = area_time_ / report.interval;
   }
   report.origin = whole(body_.pose().position);
   if (pressed_ > 0.0) report.arm = whole(pressed_arm_ / pressed_);
@@ -49,11 +50,10 @@ ContactReport ContactLedger::take(double now) {
   }
   report.peak = peak_;
   report.nodes = places_;
-  report.area = area_;
   report.friction_energy = friction_energy_;
   report.impulse = whole(-account_.impulse);
   impulse_ = angular_impulse_ = friction_ = pressed_arm_ = Vec3::Zero();
-  pressed_ = 0.0;
+  pressed_ = area_time_ = 0.0;
   peak_ = {};
   last_report_ = now;
   return report;

@@ -10,8 +10,11 @@
 namespace mpm {
 namespace {
 
-constexpr double kWatched = 0.1;   ///< cells: a point this near is held if it comes nearer in this step
-constexpr double kPushOut = 2e-4;  ///< cells a step at most that a point inside a body is moved out
+constexpr double kBeyondBlock = 1.5;  ///< nodes that a particle may be beyond its block, and a half
+constexpr double kWatched = 0.1;      ///< cells: a point this near is held if it comes nearer in this step
+constexpr double kTouching = 1e-2;    ///< cells: a point this near counts to the area, and adheres
+constexpr double kPushOut = 2e-4;     ///< cells a step at most that a point inside a body is moved out
+constexpr double kPushOutPart = 0.1;  ///< of its depth
 constexpr int kMostSweeps = 40;
 constexpr double kTolerance = 1e-3;  ///< change of velocity in a sweep over the largest one, at which sweeps end
 
@@ -19,59 +22,67 @@ std::uint64_t id_of(std::uint32_t particle, int body) { return (static_cast<std:
 
 }  // namespace
 
-PointContact::PointContact(const std::vector<RigidBody>& bodies, const std::vector<ParticleSet>& sets,
-                           const PointContactSettings& settings)
-    : bodies_(bodies), sets_(sets), settings_(settings) {
-  for (const RigidBody& body : bodies) ledgers_.emplace_back(body, axisymmetric(settings.geometry));
+PointContact::PointContact(std::vector<const RigidBody*> bodies, const std::vector<ParticleSet>& sets, Fields& fields,
+                           std::vector<ContactLaw> laws, const PointContactSettings& settings)
+    : bodies_(std::move(bodies)),
+      sets_(sets),
+      fields_(fields),
+      settings_(settings),
+      laws_(std::move(laws)),
+      laws_now_(laws_.size()) {
+  for (const RigidBody* body : bodies_) ledgers_.emplace_back(*body, axisymmetric(settings.geometry));
 }
 
-const PointContact::Memory* PointContact::find(std::uint64_t id) const {
-  const auto it = std::lower_bound(memory_.begin(), memory_.end(), id,
-                                   [](const Memory& memory, std::uint64_t wanted) { return memory.id < wanted; });
-  return it != memory_.end() && it->id == id ? &*it : nullptr;
+void PointContact::find_blocks(const GridLayout& layout, double band) {
+  // A block's particles have not left it by more than a node.
+  Vec3 half = Vec3::Zero();
+  for (int k = 0; k < layout.dim(); ++k) {
+    half[layout.axis(k)] = (0.5 * (kBlockEdge - 1) + kBeyondBlock) * layout.cell(k);
+  }
+  const double reach = half.norm() + band;
+  near_.clear();
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    const BlockTable& blocks = fields_[f]->blocks;
+    for (int owner = 0; owner < blocks.owners(); ++owner) {
+      const std::array<int, 3>& block = blocks.block(blocks.owner_block(owner));
+      const Vec3 middle =
+          0.5 * (layout.node_position(block, 0) + layout.node_position(block, layout.nodes_per_block() - 1));
+      const bool near = std::any_of(bodies_.begin(), bodies_.end(), [&](const RigidBody* body) {
+        SurfacePoint point;
+        return body->surface().within(body->pose().to_body(middle), reach, point);
+      });
+      if (near) near_.push_back({static_cast<int>(f), owner});
+    }
+  }
 }
 
 template <class Geometry>
 void PointContact::find_points(const StepContext& context) {
-  const Grid& grid = context.grid;
-  const GridLayout& layout = grid.layout;
-  const double cell = layout.smallest_cell();
-  // A block's particles have not left it by more than a node; they are a box deeper than their centre.
-  Vec3 half_block = Vec3::Zero();
-  double most_reach = 0.0;
-  for (int k = 0; k < layout.dim(); ++k) {
-    half_block[layout.axis(k)] = (0.5 * (kBlockEdge - 1) + 1.5) * layout.cell(k);
-    for (const ParticleSet& set : sets_) most_reach = std::max(most_reach, 3.0 * set.half[k] * layout.cell(k));
+  const GridLayout& layout = context.grid.layout;
+  const double watched = kWatched * layout.smallest_cell();
+  double band = 0.0;  // from a particle's centre
+  for (const ParticleSet& set : sets_) {
+    for (int k = 0; k < layout.dim(); ++k) band = std::max(band, 2.0 * set.half[k] * layout.cell(k));
   }
-  const double band = most_reach + 2.0 * kWatched * cell;
-  near_.clear();
-  for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
-    const int block = grid.blocks.owner_block(owner);
-    const Vec3 middle = 0.5 * (layout.node_position(grid.blocks.block(block), 0) +
-                               layout.node_position(grid.blocks.block(block), layout.nodes_per_block() - 1));
-    for (const RigidBody& body : bodies_) {
-      SurfacePoint point;
-      if (!body.surface().within(body.pose().to_body(middle), half_block.norm() + band, point)) continue;
-      near_.push_back(owner);
-      break;
-    }
-  }
-  while (of_owner_.size() < near_.size()) of_owner_.emplace_back();
+  band += 2.0 * watched;
+  find_blocks(layout, band);
+  while (of_block_.size() < near_.size()) of_block_.emplace_back();
   const int count = static_cast<int>(near_.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(settings_.threads)
   for (int i = 0; i < count; ++i) {
-    of_owner_[i].clear();
-    for (const ParticleSet& set : sets_) {
-      const int first = static_cast<int>(set.group[set.group_begin[near_[i]]]);
-      const int end = static_cast<int>(set.group[set.group_begin[near_[i] + 1]]);
-      for (int p = first; p < end; ++p) {
+    of_block_[i].clear();
+    const int owner = fields_[near_[i].field]->first_owner + near_[i].owner;
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      const ParticleSet& set = sets_[s];
+      const int end = static_cast<int>(set.group[set.group_begin[owner + 1]]);
+      for (int p = static_cast<int>(set.group[set.group_begin[owner]]); p < end; ++p) {
         Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
         for (int k = 0; k < layout.dim(); ++k) {
           centre[layout.axis(k)] = set.x[k][p];
           velocity[layout.axis(k)] = set.v[k][p];
         }
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
-          const RigidBody& body = bodies_[b];
+          const RigidBody& body = *bodies_[b];
           SurfacePoint surface;
           if (!body.surface().within(body.pose().to_body(centre), band, surface)) continue;
           Point point;
@@ -80,16 +91,17 @@ void PointContact::find_points(const StepContext& context) {
           point.gap = surface.distance - reach;
           point.place = centre - reach * point.normal;
           point.velocity = body.velocity_at(point.place);
-          const double closing = -(velocity - point.velocity).dot(point.normal) * context.dt;
-          if (point.gap > kWatched * cell + 2.0 * closing) continue;
+          const double closing = (point.velocity - velocity).dot(point.normal) * context.dt;
+          if (point.gap > watched + std::max(closing, 0.0)) continue;
           point.body = static_cast<int>(b);
+          point.field = near_[i].field;
+          point.law = static_cast<int>(b * sets_.size() + s);
           point.particle = set.id[p];
           double volume = determinant(Geometry::load_matrix(set.f, p)) * settings_.across;
           for (int k = 0; k < layout.dim(); ++k) volume *= 2.0 * set.half[k] * layout.cell(k);
           if (axisymmetric(settings_.geometry)) volume *= kTurn * centre.x();
           point.area = volume / (2.0 * reach);
-          point.law = body.friction();
-          of_owner_[i].push_back(point);
+          of_block_[i].push_back(point);
         }
       }
     }
@@ -97,58 +109,79 @@ void PointContact::find_points(const StepContext& context) {
 }
 
 void PointContact::momentum_gathered(StepContext& context) {
+  for (std::size_t i = 0; i < laws_.size(); ++i) laws_now_[i] = laws_[i].at(context.start + 0.5 * context.dt);
+  push_out_ = kPushOut * context.grid.layout.smallest_cell();
+  touching_ = kTouching * context.grid.layout.smallest_cell();
   with_geometry(settings_.geometry, [&](auto kind) { find_points<decltype(kind)>(context); });
   connect(context);
 }
 
 void PointContact::connect(const StepContext& context) {
-  const Grid& grid = context.grid;
-  const int per_block = grid.layout.nodes_per_block();
-  slot_.resize(static_cast<std::size_t>(grid.blocks.size()) * per_block, -1);
+  const int per_block = context.grid.layout.nodes_per_block();
+  slot_.resize(fields_.size());
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    slot_[f].resize(static_cast<std::size_t>(fields_[f]->blocks.size()) * per_block, -1);
+  }
   nodes_.clear();
   points_.clear();
   parts_.clear();
   for (std::size_t i = 0; i < near_.size(); ++i) {
-    for (Point& point : of_owner_[i]) {
+    for (Point& point : of_block_[i]) {
+      const Grid& grid = *fields_[point.field];
       const PointWeights weights(grid, settings_.shape, point.place);
       if (weights.count == 0) continue;
       point.first = static_cast<int>(parts_.size());
-      point.compliance = 0.0;
       for (int n = 0; n < weights.count; ++n) {
         const NodeRef ref = weights.node[n];
-        int& slot = slot_[static_cast<std::size_t>(ref.block) * per_block + ref.node];
+        int& slot = slot_[point.field][static_cast<std::size_t>(ref.block) * per_block + ref.node];
         if (slot < 0) {
           slot = static_cast<int>(nodes_.size());
-          nodes_.push_back({ref, 1.0 / grid.mass.at(ref.block, 0, ref.node)});
+          nodes_.push_back({point.field, ref, 1.0 / grid.mass.at(ref.block, 0, ref.node)});
         }
         const double lifted = weights.weight[n] * nodes_[slot].inverse_mass;
         parts_.push_back({slot, weights.weight[n], lifted});
         point.compliance += weights.weight[n] * lifted;
       }
       point.end = static_cast<int>(parts_.size());
-      const Memory* memory = find(id_of(point.particle, point.body));
-      point.hold = memory != nullptr ? memory->hold : Hold::free;
-      point.impulse = memory != nullptr ? Vec3(memory->force * context.dt) : Vec3::Zero();
+      recall(point, context.dt);
       points_.push_back(point);
     }
   }
-  for (const Node& node : nodes_) slot_[static_cast<std::size_t>(node.ref.block) * per_block + node.ref.node] = -1;
+  for (const Node& node : nodes_) {
+    slot_[node.field][static_cast<std::size_t>(node.ref.block) * per_block + node.ref.node] = -1;
+  }
   velocity_.resize(nodes_.size());
   loaded_.resize(nodes_.size());
 }
 
-void PointContact::load(const NodalField& field, const GridLayout& layout) {
+void PointContact::recall(Point& point, double dt) const {
+  const std::uint64_t id = id_of(point.particle, point.body);
+  const auto memory = std::lower_bound(memory_.begin(), memory_.end(), id,
+                                       [](const Memory& entry, std::uint64_t wanted) { return entry.id < wanted; });
+  const bool held = memory != memory_.end() && memory->id == id;
+  point.adheres = held || point.gap <= touching_;
+  if (!held) return;
+  point.hold = memory->hold;
+  point.impulse = memory->force * dt;
+  if (laws_now_[point.law].adhesion > 0.0) return;
+  // The normal may have turned: what begins the sweeps pulls nowhere.
+  point.impulse += std::max(-point.impulse.dot(point.normal), 0.0) * point.normal;
+}
+
+void PointContact::load(Member from) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    const Vec3 v = nodal_vector(field, layout, nodes_[n].ref);
+    const Grid& grid = *fields_[nodes_[n].field];
+    const Vec3 v = nodal_vector(grid.*from, grid.layout, nodes_[n].ref);
     loaded_[n] = velocity_[n] = {v.x(), v.y(), v.z()};
   }
 }
 
-void PointContact::store(NodalField& field, const GridLayout& layout, double factor) {
+void PointContact::store(Member to, double factor) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    Grid& grid = *fields_[nodes_[n].field];
     Vec3 change;
     for (int k = 0; k < 3; ++k) change[k] = factor * (velocity_[n][k] - loaded_[n][k]);
-    add_nodal_vector(field, layout, nodes_[n].ref, change);
+    add_nodal_vector(grid.*to, grid.layout, nodes_[n].ref, change);
   }
 }
 
@@ -167,35 +200,39 @@ void PointContact::push(const Point& point, const Vec3& impulse) {
   }
 }
 
-// step: unilateral, with friction. strain: the same where a point was free; what was held keeps to the surface. held:
-// only that, of a velocity that is relative already or is not.
+double PointContact::allowed(const Point& point, double dt) const {
+  return point.gap > 0.0 ? -point.gap / dt : std::min(-kPushOutPart * point.gap, push_out_) / dt;
+}
+
 template <PointContact::Pass Kind>
 double PointContact::relax(Point& point, double dt) {
-  if (Kind == Pass::held && point.hold == Hold::free) return 0.0;
-  const Vec3 surface = Kind == Pass::held && dt == 0.0 ? Vec3(Vec3::Zero()) : point.velocity;
-  const Vec3 slip = velocity_at(point) - surface;
-  const bool bound = Kind != Pass::step && point.hold != Hold::free;
-  const double allowed = bound ? 0.0 : -std::max(point.gap, 0.0) / dt;
-  const double approach = slip.dot(point.normal);
-  const double pressed = point.impulse.dot(point.normal);
+  constexpr bool kDecides = Kind == Pass::step;
+  const bool bound = !kDecides && point.hold != Hold::free;
+  if (Kind != Pass::step && Kind != Pass::strain && !bound) return 0.0;
+  Vec3 slip = velocity_at(point);
+  if (Kind != Pass::increment) slip -= point.velocity;
+  const double approach = slip.dot(point.normal), pressed = point.impulse.dot(point.normal);
+  const double wanted = bound ? 0.0 : allowed(point, dt);
+  double normal = pressed + (wanted - approach) / point.compliance;
   Vec3 along = point.impulse - pressed * point.normal;
-  double normal = pressed + (allowed - approach) / point.compliance;
-  if (!bound) normal = std::max(normal, 0.0);
-  const Vec3 sliding = slip - approach * point.normal;
+  const Vec3 sticking = along - (slip - approach * point.normal) / point.compliance;
   if (bound) {
-    if (point.hold == Hold::stick) along -= sliding / point.compliance;
+    if (point.hold == Hold::stick) along = sticking;
   } else {
-    along -= sliding / point.compliance;
-    const double limit = point.law.coefficient * normal, length = along.norm();
-    if (normal <= 0.0) {
+    const FrictionLaw& law = laws_now_[point.law];
+    const double adhesion = point.adheres ? law.adhesion * point.area * dt : 0.0;
+    normal = std::max(normal, -adhesion);
+    along = sticking;
+    const double friction = point.hold == Hold::slide ? law.coefficient : law.at_rest();
+    const double length = along.norm(), most = friction * std::max(normal, 0.0) + adhesion;
+    Hold hold = normal > -adhesion ? Hold::stick : Hold::free;
+    if (hold == Hold::free) {
       along.setZero();
-      point.hold = Kind == Pass::step ? Hold::free : point.hold;
-    } else if (!point.law.stick && length > limit) {
-      along *= limit / length;
-      if (Kind == Pass::step) point.hold = Hold::slide;
-    } else if (Kind == Pass::step) {
-      point.hold = Hold::stick;
+    } else if (!law.stick && length > most) {
+      along *= (law.coefficient * std::max(normal, 0.0) + adhesion) / length;
+      hold = Hold::slide;
     }
+    if (kDecides) point.hold = hold;
   }
   const Vec3 impulse = normal * point.normal + along, change = impulse - point.impulse;
   point.impulse = impulse;
@@ -204,7 +241,7 @@ double PointContact::relax(Point& point, double dt) {
 }
 
 template <PointContact::Pass Kind>
-void PointContact::solve(double dt, bool) {
+void PointContact::solve(double dt) {
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     double largest = 0.0, scale = 0.0;
     const auto visit = [&](Point& point) {
@@ -222,65 +259,55 @@ void PointContact::solve(double dt, bool) {
 
 void PointContact::before_strain(StepContext& context) {
   if (points_.empty()) return;
-  Grid& grid = context.grid;
-  load(grid.velocity, grid.layout);
-  std::vector<Vec3>& kept = kept_;
-  kept.clear();
+  load(&Grid::velocity);
+  kept_.clear();
   for (Point& point : points_) {
-    kept.push_back(point.impulse);
+    kept_.push_back(point.impulse);
     point.impulse.setZero();
   }
-  solve<Pass::strain>(context.dt, false);
-  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].impulse = kept[i];
-  store(grid.velocity, grid.layout);
+  solve<Pass::strain>(context.dt);
+  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].impulse = kept_[i];
+  store(&Grid::velocity);
 }
 
 void PointContact::momentum_updated(StepContext& context) {
   memory_.clear();
   if (points_.empty()) return;
-  Grid& grid = context.grid;
-  load(grid.velocity, grid.layout);
+  load(&Grid::velocity);
   for (Point& point : points_) point.approach = velocity_at(point) - point.velocity;
-  for (Point& point : points_) {
-    // As the body has turned since the step before, the force turns with the normal.
-    const double normal = std::max(point.impulse.dot(point.normal), 0.0);
-    point.impulse = point.hold == Hold::free
-                        ? Vec3(Vec3::Zero())
-                        : Vec3(point.impulse + (normal - point.impulse.dot(point.normal)) * point.normal);
-    push(point, point.impulse);
-  }
-  solve<Pass::step>(context.dt, false);
-  store(grid.velocity, grid.layout);
-  store(grid.force, grid.layout, 1.0 / context.dt);
-  for (Point& point : points_) {
-    if (point.hold == Hold::free) continue;
-    const Vec3 after = velocity_at(point) - point.velocity;
-    ledgers_[point.body].give({point.impulse, point.normal, point.place - bodies_[point.body].pose().position,
-                               point.velocity, 0.5 * (point.approach + after)});
-    memory_.push_back({id_of(point.particle, point.body), point.impulse / context.dt, point.hold});
+  for (const Point& point : points_) push(point, point.impulse);
+  solve<Pass::step>(context.dt);
+  store(&Grid::velocity);
+  store(&Grid::force, 1.0 / context.dt);
+  for (const Point& point : points_) {
+    give(point, 0.5 * (point.approach + velocity_at(point) - point.velocity));
+    if (point.hold != Hold::free) {
+      memory_.push_back({id_of(point.particle, point.body), point.impulse / context.dt, point.hold});
+    }
   }
   std::sort(memory_.begin(), memory_.end(), [](const Memory& a, const Memory& b) { return a.id < b.id; });
 }
 
-void PointContact::velocity_found(StepContext& context, NodalField& velocity) {
+void PointContact::velocity_found(StepContext& context, NodalField&) {
   if (points_.empty()) return;
-  load(velocity, context.grid.layout);
+  load(&Grid::increment);
   for (Point& point : points_) point.impulse.setZero();
-  solve<Pass::held>(context.dt, false);
-  store(velocity, context.grid.layout);
+  solve<Pass::held>(context.dt);
+  store(&Grid::increment);
 }
 
-void PointContact::increment_found(StepContext& context, NodalField& increment) {
+void PointContact::increment_found(StepContext& context, NodalField&) {
   if (points_.empty()) return;
-  load(increment, context.grid.layout);
+  load(&Grid::increment);
   for (Point& point : points_) point.impulse.setZero();
-  solve<Pass::held>(0.0, true);
-  store(increment, context.grid.layout);
-  for (const Point& point : points_) {
-    if (point.hold == Hold::free) continue;
-    ledgers_[point.body].give(
-        {point.impulse, point.normal, point.place - bodies_[point.body].pose().position, point.velocity});
-  }
+  solve<Pass::increment>(context.dt);
+  store(&Grid::increment);
+  for (const Point& point : points_) give(point, Vec3::Zero());
+}
+
+void PointContact::give(const Point& point, const Vec3& mean_slip) {
+  const Vec3 arm = point.place - bodies_[point.body]->pose().position;
+  ledgers_[point.body].give({point.impulse, point.normal, arm, point.velocity, mean_slip});
 }
 
 void PointContact::grid_advanced(StepContext& context) {
@@ -288,9 +315,9 @@ void PointContact::grid_advanced(StepContext& context) {
     int held = 0;
     double area = 0.0;
     for (const Point& point : points_) {
-      if (point.body != static_cast<int>(b) || point.hold == Hold::free) continue;
-      ++held;
-      area += point.area;
+      if (point.body != static_cast<int>(b)) continue;
+      if (point.hold != Hold::free) ++held;
+      if (point.hold != Hold::free || point.gap <= touching_) area += point.area;
     }
     ledgers_[b].end_step(context.dt, held, area);
   }

@@ -33,7 +33,6 @@ void ToolSides::label(std::vector<ParticleSet>& sets) {
   double largest = 0.0;
   for (int k = 0; k < layout_.dim(); ++k) largest = std::max(largest, layout_.cell(k));
   for (ParticleSet& set : sets) {
-    if (!labelled_) set.side.assign(set.id.size(), 0);
     double half = std::numeric_limits<double>::infinity();
     for (int k = 0; k < layout_.dim(); ++k) half = std::min(half, set.half[k] * layout_.cell(k));
 #pragma omp parallel for schedule(static) num_threads(threads_)
@@ -56,6 +55,20 @@ void ToolSides::label(std::vector<ParticleSet>& sets) {
 }
 
 bool ToolSides::due() const { return travelled_ > kTravel * layout_.smallest_cell(); }
+
+bool ToolSides::apart(const Grid& first, NodeRef of_first, const Grid& second, NodeRef of_second) const {
+  const Vec3 node = layout_.node_position(first.blocks.block(of_first.block), of_first.node);
+  SurfacePoint found;
+  for (const ThinTool& tool : tools_) {
+    if (!tool.within(node, kBand * layout_.smallest_cell(), found)) continue;  // farther than what shares a node
+    const Vec3 from = nodal_vector(first.place, layout_, of_first) / first.mass.at(of_first.block, 0, of_first.node);
+    const Vec3 to = nodal_vector(second.place, layout_, of_second) / second.mass.at(of_second.block, 0, of_second.node);
+    // The line between the centres does not leave this ball.
+    const double radius = std::max((from - node).norm(), (to - node).norm());
+    if (found.distance <= radius && tool.between(from, to)) return true;
+  }
+  return false;
+}
 
 bool ToolSides::near(const Vec3& point, double radius) const {
   double largest = 0.0;
@@ -124,16 +137,7 @@ void SideGlue::find_nodes(int pair) {
     for (int n = 0; n < layout.nodes_per_block(); ++n) {
       if (!second.carries(b, n) || !first.carries(other, n)) continue;
       const double mass[2] = {first.mass.at(other, 0, n), second.mass.at(b, 0, n)};
-      const Vec3 place = layout.node_position(second.blocks.block(b), n);
-      const Vec3 centre[2] = {nodal_vector(first.place, layout, {other, n}) / mass[0],
-                              nodal_vector(second.place, layout, {b, n}) / mass[1]};
-      // The line between the centres does not leave this ball.
-      const double radius = std::max((centre[0] - place).norm(), (centre[1] - place).norm());
-      SurfacePoint found;
-      const bool apart = std::any_of(sides_.tools().begin(), sides_.tools().end(), [&](const ThinTool& tool) {
-        return tool.within(place, radius, found) && tool.between(centre[0], centre[1]);
-      });
-      if (apart) continue;
+      if (sides_.apart(first, {other, n}, second, {b, n})) continue;
       const double total = mass[0] + mass[1];
       nodes_.push_back({pair, {{other, n}, {b, n}}, {mass[0] / total, mass[1] / total}});
     }

@@ -39,6 +39,27 @@ void BlockTable::find_neighbours(const std::vector<std::uint64_t>& owner_keys, s
   for (std::size_t o = begin; o < end; ++o) owner_block_[o] = neighbours_[o * span_ + span_ / 2];
 }
 
+void BlockTable::go_around() {
+  for (std::uint64_t& key : keys_) key = layout_->key(layout_->block(key));
+  std::sort(keys_.begin(), keys_.end());
+  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+}
+
+// Where axes are periodic, neighbours are in no order.
+void BlockTable::find_neighbours_around(const std::vector<std::uint64_t>& owner_keys, std::size_t begin,
+                                        std::size_t end) {
+  for (std::size_t o = begin; o < end; ++o) {
+    const std::array<int, 3> owner = layout_->block(owner_keys[o]);
+    for (int s = 0; s < span_; ++s) {
+      std::array<int, 3> block = owner;
+      int rest = s;
+      for (int k = layout_->dim() - 1; k >= 0; --k, rest /= 3) block[k] += rest % 3 - 1;
+      neighbours_[o * span_ + s] = find(layout_->key(block));
+    }
+    owner_block_[o] = neighbours_[o * span_ + span_ / 2];
+  }
+}
+
 void BlockTable::rebuild(const std::vector<std::uint64_t>& owner_keys, int threads) {
   const int dim = layout_->dim();
   span_ = dim == 3 ? 27 : (dim == 2 ? 9 : 3);
@@ -53,6 +74,7 @@ void BlockTable::rebuild(const std::vector<std::uint64_t>& owner_keys, int threa
 
   keys_ = owner_keys;
   for (int k = dim - 1; k >= 0; --k) widen(static_cast<std::uint64_t>(layout_->key_stride(k)));
+  if (layout_->any_periodic()) go_around();
 
   coordinates_.resize(keys_.size());
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -64,7 +86,12 @@ void BlockTable::rebuild(const std::vector<std::uint64_t>& owner_keys, int threa
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (int t = 0; t < threads; ++t) {
     const std::size_t begin = owners * t / threads, end = owners * (t + 1) / threads;
-    if (begin < end) find_neighbours(owner_keys, begin, end);
+    if (begin == end) continue;
+    if (layout_->any_periodic()) {
+      find_neighbours_around(owner_keys, begin, end);
+    } else {
+      find_neighbours(owner_keys, begin, end);
+    }
   }
 
   for (auto& colour : colours_) colour.clear();

@@ -35,9 +35,24 @@ GridLayout::GridLayout(int dim, const Vec3& cell, const Vec3& min, const Vec3& m
 
 double GridLayout::smallest_cell() const { return *std::min_element(cell_.begin(), cell_.begin() + dim_); }
 
+void GridLayout::make_periodic(int k) {
+  constexpr int kMultiple = 2 * kBlockEdge;
+  const int cells = last_node_[k];
+  if (cells % kMultiple != 0) {
+    const int below = cells / kMultiple * kMultiple;
+    throw GridError(
+        fmt::format("grid: {} cells along {}, which is periodic; their number must be a multiple of {}: {}{}", cells,
+                    "xyz"[axis(k)], kMultiple, below > 0 ? fmt::format("{} or ", below) : "", below + kMultiple));
+  }
+  around_[k] = cells / kBlockEdge;
+}
+
 std::uint64_t GridLayout::key(const std::array<int, 3>& block) const {
   std::int64_t key = 0;
-  for (int k = 0; k < dim_; ++k) key += (block[k] + 1) * stride_[k];
+  for (int k = 0; k < dim_; ++k) {
+    const int b = around_[k] > 0 ? (block[k] + around_[k]) % around_[k] : block[k];
+    key += (b + 1) * stride_[k];
+  }
   return static_cast<std::uint64_t>(key);
 }
 

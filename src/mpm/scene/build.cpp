@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/memory.hpp"
@@ -132,6 +133,7 @@ DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
   DeformableBody filled;
   filled.name = body.name;
   filled.material = body.material;
+  filled.field = body.field;
   filled.particle_volume = 1.0;
   for (const int axis : axes_of(scene)) {
     lattices[axis] = lattice(scene, bounds, axis);
@@ -220,8 +222,8 @@ Box world_bounds(const RigidBodyDefinition& rigid) {
     const Vec3 point((corner & 1) != 0 ? local.max.x() : local.min.x(),
                      (corner & 2) != 0 ? local.max.y() : local.min.y(),
                      (corner & 4) != 0 ? local.max.z() : local.min.z());
-    // A body without end along y turns about y alone, one without end along y and z not at all: its other extents are
-    // finite.
+    // As good as without end. Turned, its other extents are rounded by less than a micrometre; those of a body that is
+    // without end along y alone are not, for it turns about y alone.
     const Vec3 finite = point.unaryExpr([](double c) { return std::isfinite(c) ? c : std::copysign(1e9, c); });
     world.add(rigid.pose.to_world(finite));
   }
@@ -287,6 +289,32 @@ std::vector<std::uint32_t> choose(const LoadRegion& chosen, const DeformableBody
   return particles;
 }
 
+/// A traction belongs to the surface: refuses chosen particles that have a neighbour of their body beyond that face.
+/// Places of a body with jitter do not tell its neighbours; it is not looked at.
+void check_faces(const TractionDefinition& load, const LoadRegion& chosen, const DeformableBody& body,
+                 const Scene& scene) {
+  const auto cell_of = [&](const Vec3& point) {
+    std::array<std::int64_t, 3> place{};
+    for (const int axis : axes_of(scene)) {
+      const double from_min = point[axis] - scene.definition.grid.min[axis];
+      place[axis] = static_cast<std::int64_t>(std::floor(from_min / particle_spacing(scene, axis)));
+    }
+    return place;
+  };
+  std::set<std::array<std::int64_t, 3>> filled;
+  for (const Vec3& point : body.positions) filled.insert(cell_of(point));
+  for (const std::uint32_t p : load.particles) {
+    std::array<std::int64_t, 3> beyond = cell_of(body.positions[p]);
+    beyond[load.face / 2] += load.face % 2 == 1 ? 1 : -1;
+    if (filled.count(beyond) == 0) continue;
+    const Vec3& at = body.positions[p];
+    throw SceneError(fmt::format(
+        "{}: the edge {} of the particle at ({:.6g}, {:.6g}, {:.6g}) m is inside body '{}': another particle "
+        "lies beyond it; let the region hold no more than the outermost particles, or leave it out",
+        chosen.where, kWallNames.at(load.face), at.x(), at.y(), at.z(), body.name));
+  }
+}
+
 }  // namespace
 
 bool Region::contains(const Vec3& point) const {
@@ -335,6 +363,13 @@ SimulationDefinition build(const Scene& scene) {
   };
   choose_all(definition.particle_forces, scene.load_regions);
   choose_all(definition.tractions, scene.traction_regions);
+  for (std::size_t i = 0; i < definition.tractions.size(); ++i) {
+    const TractionDefinition& load = definition.tractions[i];
+    const auto made = std::find_if(definition.bodies.begin(), definition.bodies.end(),
+                                   [&](const DeformableBody& b) { return b.name == load.body; });
+    const BodyDefinition& body = scene.bodies[made - definition.bodies.begin()];
+    if (body.jitter == 0.0) check_faces(load, scene.traction_regions[i], *made, scene);
+  }
   return definition;
 }
 

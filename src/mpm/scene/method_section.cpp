@@ -1,4 +1,4 @@
-// units, grid, method, boundaries: how the space is divided and stepped, and what its faces do.
+// units, grid, method: how the space is divided and stepped.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -144,22 +144,6 @@ AutoMethod read_auto(const Value& value, const Scene& scene) {
   return asked;
 }
 
-WallDefinition read_wall(const Value& value) {
-  static const std::vector<Later> later = {{"absorbing", "use none, fixed, slip or {friction: 0.5}"},
-                                           {"velocity", "use a rigid body with a motion"},
-                                           {"periodic", "use none, fixed, slip or {friction: 0.5}"}};
-  WallDefinition wall;
-  if (value.is_text()) {
-    static constexpr std::array kKinds = {WallKind::none, WallKind::fixed, WallKind::slip};
-    wall.kind = kKinds.at(value.choice({"none", "fixed", "slip"}, later));
-    return wall;
-  }
-  const auto [key, friction] = only_key(value, {"friction"}, later);
-  wall.kind = WallKind::frictional;
-  wall.friction = read_friction(friction);
-  return wall;
-}
-
 }  // namespace
 
 UnitSystem read_units(const Value& value) {
@@ -184,12 +168,17 @@ FrictionLaw read_friction(const Value& value) {
 
 void read_grid(const Map& root, Scene& scene) {
   GridDefinition& grid = scene.definition.grid;
-  const Map map(root.at("grid"), {"cell", "min", "max"});
+  const Map map(root.at("grid"), {"cell", "min", "max", "leave"});
   grid.cell = read_cell(map.at("cell"), scene);
   grid.min = map.at("min").vector(kLength);
   const Value max = map.at("max");
   grid.max = max.vector(kLength);
   check_extent(max, scene);
+  if (const auto leave = map.find("leave")) {
+    const Value limit = Map(*leave, {"limit"}).at("limit");
+    if (limit.integer() < 0) limit.fail("a number of particles; write 0 or more");
+    grid.leave_limit = static_cast<std::uint64_t>(limit.integer());
+  }
   // One cell beside the grid's axes, as thick as the scene (of a line a square), about 0.
   const GeometryKind geometry = scene.definition.geometry;
   const double width = planar(geometry) ? scene.definition.thickness : std::sqrt(scene.definition.area);
@@ -209,10 +198,8 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
     scene.choices.emplace_back("method.particles_per_cell", "two along each edge");
     return AutoMethod{};
   }
-  const Map map(*section,
-                {"auto", "shape", "update", "transfer", "average_dilatation", "damping", "gradient_terms",
-                 "particles_per_cell", "precision", "axis"},
-                {{"leave_limit", "a particle that leaves the grid ends the run; use boundaries"}});
+  const Map map(*section, {"auto", "shape", "update", "transfer", "average_dilatation", "damping", "gradient_terms",
+                           "particles_per_cell", "precision", "axis"});
   std::optional<AutoMethod> chosen_later;
   if (const auto value = map.find("auto")) chosen_later = read_auto(*value, scene);
   const auto shape = map.find("shape");
@@ -252,30 +239,6 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   // What is left to be chosen stands at its default here, which goes with everything that goes with anything.
   if (const auto fault = method_fault(method, scene.definition.geometry)) refuse(*section, *fault);
   return chosen_later;
-}
-
-void read_boundaries(const Map& root, Scene& scene) {
-  const auto section = root.find("boundaries");
-  if (!section) {
-    scene.choices.emplace_back("boundaries", "none: a particle that reaches the edge of the grid ends the run");
-    return;
-  }
-  const GeometryKind geometry = scene.definition.geometry;
-  const std::vector<int> beside = axes_beside(geometry);
-  std::vector<std::string> keys = {"all"};
-  for (const char* name : kWallNames) keys.emplace_back(name);
-  const Map map(*section, keys);
-  for (std::size_t i = 0; i < kWallNames.size(); ++i) {
-    const int axis = static_cast<int>(i / 2);
-    const auto own = map.find(kWallNames[i]);
-    if (std::find(beside.begin(), beside.end(), axis) != beside.end()) {
-      if (own) own->fail(fmt::format("{} has no face along {}; leave it out", scene_kind(geometry), axis_name(axis)));
-      continue;
-    }
-    const bool axis_of_symmetry = i == 0 && axisymmetric(geometry) && scene.definition.grid.min.x() == 0.0;
-    const auto value = own || axis_of_symmetry ? own : map.find("all");
-    if (value) scene.definition.walls[i] = read_wall(*value);
-  }
 }
 
 }  // namespace mpm

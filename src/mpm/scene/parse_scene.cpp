@@ -115,6 +115,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_materials(root, scene);
   read_bodies(root, scene);
   read_rigid_bodies(root, scene);
+  read_contact_pairs(root, scene);
   read_boundaries(root, scene);
   read_loads(root, scene);
   read_time_and_output(root, scene);

@@ -66,10 +66,43 @@ std::unique_ptr<Surface> read_cylinder(const Value& value, GeometryKind geometry
   return make_cylinder(radius, map.at("height").positive(kLength), axis);
 }
 
-std::unique_ptr<Surface> read_surface(const Value& value, GeometryKind geometry, RigidBodyDefinition& body) {
-  const auto [kind, shape] = only_key(value, {"mesh", "box", "sphere", "cylinder", "revolved", "cone", "ring"},
-                                      {{"capsule", "use cylinder or mesh"}, {"plane", "use boundaries or box"}});
+std::unique_ptr<Surface> read_plane(const Value& value, const SimulationDefinition& definition) {
+  const Map map(value, {"normal"}, {{"point", "a plane goes through the body's origin; put it by pose"}});
+  Vec3 normal = Vec3::UnitZ();
+  if (definition.geometry == GeometryKind::line) normal = Vec3::UnitX();
+  if (const auto key = map.find("normal")) {
+    normal = key->vector(kPlain);
+    if (!(normal.norm() > 0.0)) key->fail("its length is 0; write the direction out of the body, such as that of up");
+    if (axisymmetric(definition.geometry) && normal.x() != 0.0)
+      key->fail("a plane that is not across the axis is not a body of revolution; write [0, 1], [0, -1] or a cone");
+  }
+  Vec3 domain = definition.grid.max - definition.grid.min;
+  for (const int axis : axes_beside(definition.geometry)) domain[axis] = 0.0;
+  return make_plane(normal, domain.norm());
+}
+
+std::unique_ptr<Surface> read_capsule(const Value& value, GeometryKind geometry) {
+  if (geometry == GeometryKind::line) value.fail("a line has no capsule; write box or sphere, each an interval of it");
+  const Map map(value, {"radius", "length", "axis"},
+                {{"height", "write length, of the straight part between the ends"}});
+  const double radius = map.at("radius").positive(kLength), length = map.at("length").positive(kLength);
+  const auto axis_key = map.find("axis");
+  const int axis = axis_key ? static_cast<int>(axis_key->choice({"x", "y", "z"})) : 2;
+  if (planar(geometry) && axis == 1) axis_key->fail("along y a capsule is a cylinder in a planar scene; write x or z");
+  if (axisymmetric(geometry) && axis != 2)
+    axis_key->fail("across the axis a capsule is not axisymmetric; write z, or leave it out");
+  return make_capsule(radius, length, axis, planar(geometry));
+}
+
+std::unique_ptr<Surface> read_surface(const Value& value, const SimulationDefinition& definition,
+                                      RigidBodyDefinition& body) {
+  const GeometryKind geometry = definition.geometry;
+  const auto [kind, shape] = only_key(
+      value, {"mesh", "box", "sphere", "cylinder", "capsule", "plane", "height_field", "revolved", "cone", "ring"});
   try {
+    if (kind == "capsule") return read_capsule(shape, geometry);
+    if (kind == "plane") return read_plane(shape, definition);
+    if (kind == "height_field") return read_height_field(shape, definition);
     if (kind == "mesh") return read_mesh(shape, geometry);
     if (kind == "box") return read_box(shape, geometry);
     if (kind == "sphere") return read_sphere(shape, geometry);
@@ -149,32 +182,38 @@ void read_motion(const Value& value, GeometryKind geometry, RigidBodyDefinition&
   if (const auto rate = map.find("rotation_rate")) body.rotation_rate = read_rotation_rate(*rate, geometry);
 }
 
-FrictionLaw read_contact(const Map& root, Scene& scene, bool needed) {
-  const auto section = root.find("contact");
-  if (!section) {
-    if (needed) scene.choices.emplace_back("contact.friction", "0: smooth tools, for the scene names none");
-    return {};
+/// Of the exact surface, or of particles that fill it.
+void read_normals(const Value& value, RigidBodyDefinition& body) {
+  body.particles = value.choice({"surface", "particles"}) == 1;
+  if (!body.particles) return;
+  if (body.reach > 0.0) value.fail("particles reach as far as their functions do; leave out reach");
+  const Box bounds = body.surface->bounds();
+  for (const int axis : axes_of(value.context().geometry)) {
+    if (!std::isfinite(bounds.max[axis] - bounds.min[axis])) {
+      value.fail("a body without end cannot be filled with particles; write surface");
+    }
   }
-  const std::string deformable = "deformable bodies share one velocity field and stick to each other";
-  const Map map(*section, {"friction"},
-                {{"pairs", deformable},
-                 {"interface", deformable},
-                 {"detection", "contact is found by distance and approach"},
-                 {"normals", "normals come from the tools' surfaces"},
-                 {"position", "contact is found by distance and approach"}});
-  const auto friction = map.find("friction");
-  return friction ? read_friction(*friction) : FrictionLaw{};
 }
 
 }  // namespace
 
+void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinition& body) {
+  if (const auto motion = map.find("motion")) read_motion(*motion, geometry, body);
+}
+
+void read_rigid_shape(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body) {
+  const GeometryKind geometry = definition.geometry;
+  body.surface = read_surface(map.at("shape"), definition, body);
+  if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, geometry, body.inner_radius);
+  read_rigid_motion(map, geometry, body);
+}
+
 void read_rigid_bodies(const Map& root, Scene& scene) {
-  const GeometryKind geometry = scene.definition.geometry;
   const auto section = root.find("rigid_bodies");
   const FrictionLaw friction = read_contact(root, scene, section.has_value());
   if (!section) return;
   for (const Value& value : section->elements()) {
-    const Map map(value, {"name", "shape", "pose", "motion", "friction", "reach", "sides"},
+    const Map map(value, {"name", "shape", "pose", "motion", "friction", "reach", "sides", "normals"},
                   {{"drive", "use motion, or velocity and pose commands on topics"},
                    {"mass", "rigid bodies move as they are told"},
                    {"frame", "use commands on topics, which tf2 transforms"}});
@@ -189,16 +228,17 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
         value.fail(fmt::format("'{}' is already the name of a deformable body; give each its own name", body.name));
       }
     }
-    body.surface = read_surface(map.at("shape"), geometry, body);
-    if (const auto pose = map.find("pose")) body.pose = read_pose(*pose, geometry, body.inner_radius);
-    if (const auto motion = map.find("motion")) read_motion(*motion, geometry, body);
+    read_rigid_shape(map, scene.definition, body);
     const auto own_friction = map.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;
     if (const auto sides = map.find("sides")) body.sides = static_cast<Sides>(sides->choice({"auto", "one", "two"}));
     if (const auto reach = map.find("reach")) {
+      if (scene.definition.contact.method == ContactMethod::points)
+        reach->fail("it is of contact at nodes; leave it out, or write contact: {method: nodes}");
       body.reach = reach->non_negative(kPlain);
       if (body.reach > 1.0) reach->fail(fmt::format("{:g} cells; write 0 to 1", body.reach));
     }
+    if (const auto normals = map.find("normals")) read_normals(*normals, body);
     scene.definition.rigid_bodies.push_back(std::move(body));
   }
 }

@@ -164,14 +164,22 @@ SolverState Simulation::state() const {
   report.energy.plastic = totals.plastic;
   report.min_j = totals.min_j;
   for (const ContactLedger* contact : s.contacts) report.energy.contact_work += contact->work();
+  if (s.pairs != nullptr) {
+    report.energy.pair_friction = s.pairs->friction_energy();
+    report.energy.interface = s.pairs->interface_energy();
+  }
   if (s.loads != nullptr) report.energy.load_work += s.loads->work();
   if (s.tractions != nullptr) report.energy.load_work += s.tractions->work();
+  for (const VelocityConditions* all : s.conditions) report.energy.load_work += all->work();
+  for (const Absorbing* face : s.absorbing) report.energy.load_work += face->work();
+  if (s.leaving) report.returned = s.leaving->count();
 
   AuditReport& audit = report.audit;
   audit.momentum = s.momentum();
   audit.initial_momentum = s.initial_momentum;
   std::vector<ImpulseAccount> accounts{s.gravity};
   for (const auto& stage : s.stages) stage->accounts(accounts);
+  if (s.leaving) accounts.push_back(s.leaving->account());
   merge(accounts);
   Vec3 given = Vec3::Zero();
   for (const ImpulseAccount& account : accounts) {

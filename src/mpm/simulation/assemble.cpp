@@ -10,6 +10,7 @@
 #include "load_terms.hpp"
 #include "mpm/boundary/again.hpp"
 #include "mpm/boundary/axis.hpp"
+#include "mpm/boundary/periodic.hpp"
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
@@ -34,6 +35,13 @@ std::vector<ParticleScalar> zeros(int components, Precision precision, std::size
   field.reserve(components);
   for (int c = 0; c < components; ++c) field.emplace_back(precision, particles);
   return field;
+}
+
+/// How far a centre may be beyond a face [cells]. Pressed against a wall, a particle comes to rest only when its box
+/// (`half` of it) is half beyond it; an absorbing face gives way by as much.
+double beyond(WallKind kind, double half) {
+  if (kind == WallKind::periodic) return kPeriodicReach;
+  return kind == WallKind::none ? 0.0 : half;
 }
 
 /// Masses of rings, and where their functions end. `per_area`: density times the area of a section [kg/m].
@@ -71,10 +79,9 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
   const int dim = layout.dim();
   for (int k = 0; k < dim; ++k) {
     set.half[k] = 0.5 / definition.method.particles_per_direction;
-    // Pressed against a wall, a particle comes to rest only when its box is half beyond it.
     const int face = 2 * layout.axis(k);
-    set.lowest[k] = definition.walls[face].kind == WallKind::none ? 0.0 : -set.half[k];
-    set.highest[k] = layout.last_node(k) + (definition.walls[face + 1].kind == WallKind::none ? 0.0 : set.half[k]);
+    set.lowest[k] = -beyond(definition.walls[face].kind, set.half[k]);
+    set.highest[k] = layout.last_node(k) + beyond(definition.walls[face + 1].kind, set.half[k]);
   }
   set.id.resize(n);
   set.precision = definition.method.precision;
@@ -123,6 +130,15 @@ void check(const SimulationDefinition& d) {
   if (planar(d.geometry) && !(d.thickness > 0.0)) throw DefinitionError("thickness must be positive");
   if (d.geometry == GeometryKind::line && !(d.area > 0.0)) throw DefinitionError("area must be positive");
   if (!d.gravity.allFinite()) throw DefinitionError("gravity is not finite");
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool lower = d.walls[2 * axis].kind == WallKind::periodic;
+    if (lower != (d.walls[2 * axis + 1].kind == WallKind::periodic)) {
+      throw DefinitionError(fmt::format("one face along {} is periodic, the other is not; make both so", "xyz"[axis]));
+    }
+    if (lower && axis == 0 && axisymmetric(d.geometry)) {
+      throw DefinitionError("an axisymmetric scene is not periodic along r; use z, or make it plane_strain");
+    }
+  }
   if (const auto fault = axis_fault(d)) throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
 }
 
@@ -268,7 +284,10 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     s.laws.push_back(make_law(material));
     s.sets.push_back(make_set(definition, body, material, s.laws.back(), layout, s.warnings));
     ParticleSet& set = s.sets.back();
-    if (s.sides != nullptr) set.field *= 2;
+    if (s.sides != nullptr) {
+      set.field *= 2;
+      set.side.assign(set.id.size(), 0);
+    }
     set.first_id = next_id;
     for (std::uint32_t& id : set.id) id = next_id++;
     s.total_mass += set.total_mass();
@@ -299,7 +318,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     for (int grid_face = 0; grid_face < 2 * dim; ++grid_face) {
       const int face = 2 * layout.axis(grid_face / 2) + grid_face % 2;
       const WallKind kind = definition.walls[face].kind;
-      if (kind == WallKind::none || (kind == WallKind::frictional) != lets_go) continue;
+      if (!is_wall(kind) || (kind == WallKind::frictional) != lets_go) continue;
       for (auto& field : s.fields) {
         auto wall = std::make_unique<Wall>(grid_face, definition.walls[face], kWallNames[face]);
         if (!lets_go) holding.push_back({field.get(), wall.get()});
@@ -316,25 +335,13 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
       s.stages.push_back(in_field(*field, std::move(axis)));
     }
   }
+  s.add_absorbing();
   add_walls(false);
+  s.add_conditions();
+  for (std::size_t f = 0; f < s.conditions.size(); ++f) holding.push_back({s.fields[f].get(), s.conditions[f]});
   const std::size_t before_contact = s.stages.size();
-  s.bodies.reserve(definition.rigid_bodies.size());
-  for (const RigidBodyDefinition& body : s.definition.rigid_bodies) {
-    s.bodies.emplace_back(body);
-    const ThinTool* thin = s.add_sides(s.bodies.back());
-    if (definition.contact.method == ContactMethod::nodes) {
-      auto contact = std::make_unique<RigidContact>(s.bodies.back(), s.fields, s.threads, definition.geometry, thin);
-      s.contacts.push_back(&contact->ledger());
-      s.stages.push_back(std::move(contact));
-    }
-  }
-  if (definition.contact.method == ContactMethod::points && !s.bodies.empty()) {
-    auto contact = std::make_unique<PointContact>(
-        s.bodies, s.sets,
-        PointContactSettings{definition.geometry, definition.method.shape, definition.across(), s.threads});
-    for (std::size_t b = 0; b < s.bodies.size(); ++b) s.contacts.push_back(&contact->ledger(static_cast<int>(b)));
-    s.stages.push_back(std::move(contact));
-  }
+  s.add_pairs();
+  s.add_rigid_bodies();
   add_walls(true);
   if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);
   if (s.stages.size() > before_contact) {
@@ -352,7 +359,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.least_mass());
   for (auto& grid : s.fields) grid->least_mass = 1e-30 * lightest;
   s.gravity.name = "gravity";
+  if (definition.grid.leave_limit > 0) s.leaving.emplace(definition.grid.leave_limit);
   s.sort(0.0);
+  for (std::size_t f = 0; f < s.conditions.size(); ++f) s.conditions[f]->find_nodes(*s.fields[f]);
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
   s.rates.resize(definition.metrics.size());

@@ -112,7 +112,22 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
   forces.erase(std::remove_if(forces.begin(), forces.end(), elsewhere), forces.end());
   auto& tractions = part.tractions;
   tractions.erase(std::remove_if(tractions.begin(), tractions.end(), elsewhere), tractions.end());
+  auto& pairs = part.contact.pairs;
+  const auto absent = [&](const PairDefinition& pair) {
+    return std::any_of(definition.bodies.begin(), definition.bodies.end(), [&](const DeformableBody& body) {
+      return !body.geostatic && (body.name == pair.first || body.name == pair.second);
+    });
+  };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), absent), pairs.end());
   for (RigidBodyDefinition& body : part.rigid_bodies) body.velocity = body.rotation_rate = {};
+  for (ConditionDefinition& condition : part.conditions) {
+    condition.region.velocity = condition.region.rotation_rate = {};
+    condition.velocity = Function();
+  }
+  // Dashpots would let it sink.
+  for (WallDefinition& wall : part.walls) {
+    if (wall.kind == WallKind::absorbing) wall.kind = WallKind::slip;
+  }
   return part;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/boundary/periodic.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -38,8 +39,16 @@ void Simulation::State::fail(const std::string& what, ParticleRef particle, doub
 }
 
 void Simulation::State::sort(double now) {
+  if (layout().any_periodic()) put_around(sets, layout(), threads);
   if (sides != nullptr) sides->label(sets);
-  if (const auto outside = sorter->sort(sets, fields)) {
+  auto outside = sorter->sort(sets, fields);
+  if (outside && leaving && leaving->put_back(sets, layout())) outside = sorter->sort(sets, fields);
+  if (outside) {
+    if (leaving && leaving->count() > leaving->limit()) {
+      fail(fmt::format("more than {} particles have left the grid (grid.leave.limit)", leaving->limit()), *outside, now,
+           "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', raise the limit, or lower time.cfl "
+           "if the run blew up");
+    }
     const double r = sets[outside->set].x[0][outside->index];
     if (axisymmetric(definition.geometry) && definition.grid.min.x() == 0.0 && r < layout().cell(0) &&
         r > -layout().cell(0)) {
@@ -84,7 +93,10 @@ void Simulation::State::run_period() {
   const double start = static_cast<double>(time) * kNanosecond, dt = period / number;
   for (int k = 0; k < number; ++k) step(start + k * dt, dt);
   time += definition.time.sync;
-  for (RigidBody& body : bodies) body.at_sync(time);
+  for (RigidBody& body : bodies) {
+    body.at_sync(time);
+    check_periodic(body);
+  }
 
   // What accelerated or stiffened within the period was not known at its start: a wave may not have outrun a cell.
   previous_limit = material_limit;
@@ -107,6 +119,8 @@ void Simulation::advance() {
   } catch (const LoadError& error) {
     throw PhysicsError(error.what());
   } catch (const DampingError& error) {
+    throw PhysicsError(error.what());
+  } catch (const ConditionError& error) {
     throw PhysicsError(error.what());
   } catch (const RigidError& error) {
     throw PhysicsError(fmt::format("{} (in the sync period from t = {:.6g} s)", error.what(), s.time * kNanosecond));
@@ -145,6 +159,11 @@ const RigidBody& Simulation::rigid_body(int body) const { return state_->bodies.
 
 ContactReport Simulation::take_contact(int body) {
   return state_->contacts.at(body)->take(static_cast<double>(state_->time) * kNanosecond);
+}
+
+std::vector<PairReport> Simulation::take_pairs() {
+  if (state_->pairs == nullptr) return {};
+  return state_->pairs->take(static_cast<double>(state_->time) * kNanosecond);
 }
 
 std::uint64_t Simulation::particles() const {

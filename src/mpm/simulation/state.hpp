@@ -4,6 +4,9 @@
 #include <chrono>
 #include <limits>
 
+#include "mpm/boundary/absorbing.hpp"
+#include "mpm/boundary/leaving.hpp"
+#include "mpm/contact/material_contact.hpp"
 #include "mpm/contact/point_contact.hpp"
 #include "mpm/contact/rigid_contact.hpp"
 #include "mpm/contact/tool_sides.hpp"
@@ -54,10 +57,15 @@ struct Simulation::State {
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;
   Stages stages;
-  std::vector<ContactLedger*> contacts;  ///< of each body, owned by stages
-  ParticleLoads* loads = nullptr;        ///< owned by stages, when the scene has any
-  FaceTractions* tractions = nullptr;    ///< the same
-  DampingControl* damping = nullptr;     ///< the same
+  std::vector<ContactLedger*> contacts;         ///< of each body, owned by stages
+  std::unique_ptr<VolumeSurvey> survey;         ///< of contact between deformable bodies, when the scene has any
+  MaterialContact* pairs = nullptr;             ///< the same, owned by stages
+  ParticleLoads* loads = nullptr;               ///< owned by stages, when the scene has any
+  FaceTractions* tractions = nullptr;           ///< the same
+  DampingControl* damping = nullptr;            ///< the same
+  std::vector<VelocityConditions*> conditions;  ///< of each field, the same
+  std::vector<Absorbing*> absorbing;            ///< of each absorbing face and field, owned by stages
+  std::optional<Leaving> leaving;               ///< of a scene that lets particles leave
 
   std::int64_t time = 0;  ///< [ns]
   StepReport steps;
@@ -77,6 +85,20 @@ struct Simulation::State {
   void add_mechanics();
   /// Says of a thin body what becomes of its two sides; null if they have no field each.
   const ThinTool* add_sides(const RigidBody& body);
+  /// Contact between deformable bodies, when the scene has any (contact_terms.cpp).
+  void add_pairs();
+  /// Contact with a rigid body that is made of particles.
+  ContactLedger& add_rigid_particles(const RigidBody& body, const std::vector<ContactLaw>& laws_of_sets);
+  /// Bodies, and the stages of contact with them.
+  void add_rigid_bodies();
+  /// What either asks of the mechanics.
+  VolumeSurvey& volumes();
+  /// Absorbing faces, in the list of stages: before whatever holds a node, which hides the force on it.
+  void add_absorbing();
+  /// @throws RigidError for a body at a periodic face
+  void check_periodic(const RigidBody& body) const;
+  /// Velocity conditions, in the list of stages. @throws ConditionError
+  void add_conditions();
   /// Of all particles [N s].
   Vec3 momentum() const;
   /// Of all particles [J].

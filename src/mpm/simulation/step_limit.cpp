@@ -17,13 +17,14 @@ constexpr double kMostForeseen = 0.5;  ///< the limit is not expected to fall be
 
 constexpr double kWorthTelling = 0.99;  ///< a trend below this is told with the limit
 
-// Of the body's origin plus what its rotation adds at its farthest corner; endless axes do not count. Of a ring the
-// middle of the section is fastest, as the last that goes in proportion to the inner face (RigidBody::velocity_at).
-double largest_speed(const RigidBody& body, double time) {
+// Of the body's origin plus what its rotation adds at its farthest corner. A body without end ends with the domain,
+// `domain` long, and does not count along an axis that the grid does not have. Of a ring the middle of the section is
+// fastest, as the last that goes in proportion to the inner face (RigidBody::velocity_at).
+double largest_speed(const RigidBody& body, double time, const Vec3& domain) {
   const Box bounds = body.surface().bounds();
   Vec3 corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs());
   for (int k = 0; k < 3; ++k) {
-    if (!std::isfinite(corner[k])) corner[k] = 0.0;
+    if (!std::isfinite(corner[k])) corner[k] = domain[k] > 0.0 ? domain.norm() : 0.0;
   }
   const Twist twist = body.twist_at(time);
   const double inner = body.definition().inner_radius, opened = body.pose().position.x();
@@ -82,15 +83,28 @@ StepLimit Simulation::State::step_limit() const {
   const double trend = std::clamp(material_limit.dt / previous_limit.dt, kMostForeseen, 1.0);
   limit.dt *= trend;
   limit.foreseen = trend < kWorthTelling;
+  Vec3 domain = definition.grid.max - definition.grid.min;
+  for (const int axis : axes_beside(definition.geometry)) domain[axis] = 0.0;
   for (const RigidBody& body : bodies) {
     StepLimit tool;
     for (const double part : {0.0, 0.5, 1.0}) {
-      tool.speed = std::max(tool.speed, largest_speed(body, start + part * period));
+      tool.speed = std::max(tool.speed, largest_speed(body, start + part * period, domain));
     }
     tool.dt = reach / tool.speed;
     tool.cause = StepLimit::Cause::tool;
     tool.name = &body.name();
     if (tool.speed > 0.0) tighten(limit, tool);
+  }
+  for (const VelocityConditions* all : conditions) {
+    static const std::string kConditions = "boundaries.conditions";
+    StepLimit condition;
+    for (const double part : {0.0, 0.5, 1.0}) {
+      condition.speed = std::max(condition.speed, all->largest_speed(start + part * period));
+    }
+    condition.dt = reach / condition.speed;
+    condition.cause = StepLimit::Cause::tool;
+    condition.name = &kConditions;
+    if (condition.speed > 0.0) tighten(limit, condition);
   }
   if (damping != nullptr) {
     const double energy = damping->needs_energy() ? kinetic_energy() : 0.0;

@@ -12,7 +12,11 @@ namespace {
 constexpr double kToldApart = 0.9;  ///< of a thin tool's faces: less is worth a warning
 
 GridLayout layout_of(const SimulationDefinition& definition) {
-  return {dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max};
+  GridLayout layout(dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max);
+  for (int k = 0; k < layout.dim(); ++k) {
+    if (definition.walls[2 * layout.axis(k)].kind == WallKind::periodic) layout.make_periodic(k);
+  }
+  return layout;
 }
 
 }  // namespace
@@ -37,7 +41,9 @@ Fields fields_of(const SimulationDefinition& definition) {
   for (auto& grid : fields) {
     if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) grid->wall_layers = 2;
     for (int face = 0; face < 2 * layout.dim(); ++face) {
-      grid->has_wall[face] = definition.walls[2 * layout.axis(face / 2) + face % 2].kind != WallKind::none;
+      const WallKind kind = definition.walls[2 * layout.axis(face / 2) + face % 2].kind;
+      grid->has_wall[face] = kind != WallKind::none && kind != WallKind::periodic;
+      if (kind == WallKind::symmetry) grid->symmetry.add(face);
     }
   }
   return fields;
@@ -62,7 +68,7 @@ const ThinTool* Simulation::State::add_sides(const RigidBody& body) {
   if (thin) {
     warnings.push_back(start +
                        "material on its two sides shares nodes and feels each other when it is thinner than 3; write "
-                       "sides: auto, use a finer grid.cell or a thicker body");
+                       "sides: two, use a finer grid.cell or a thicker body");
   }
   return nullptr;
 }

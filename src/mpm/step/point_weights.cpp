@@ -26,7 +26,6 @@ AxisWeights spline_weights(const Grid& grid, int k, double cells) {
 }
 
 AxisWeights axis_weights(const Grid& grid, ShapeKind shape, int k, double cells) {
-  if (shape == ShapeKind::bspline2) return spline_weights<QuadraticSpline<double>>(grid, k, cells);
   if (shape == ShapeKind::bspline3) return spline_weights<CubicSpline<double>>(grid, k, cells);
   const double below = std::floor(cells);
   return {static_cast<int>(below), 2, {1.0 - (cells - below), cells - below}};

@@ -19,7 +19,8 @@ std::uint64_t peak_memory_bytes() {
 
 nlohmann::ordered_json energy_json(const mpm::EnergyReport& energy) {
   return {{"kinetic", energy.kinetic},     {"elastic", energy.elastic},           {"plastic", energy.plastic},
-          {"potential", energy.potential}, {"contact_work", energy.contact_work}, {"total", energy.total()}};
+          {"potential", energy.potential}, {"contact_work", energy.contact_work}, {"load_work", energy.load_work},
+          {"total", energy.total()}};
 }
 
 }  // namespace
@@ -57,6 +58,7 @@ nlohmann::ordered_json RunSummary::json() const {
                     {"precision", mpm::precision_name(definition.method.precision)},
                     {"isa", isa}};
   root["particles"] = state.particles;
+  root["returned"] = state.returned;
   root["steps"] = state.step.steps;
   root["time"] = seconds();
   root["dt"] = {{"min", state.step.dt_min}, {"max", state.step.dt_max}, {"limited_by", state.step.limited_by}};

@@ -1,0 +1,116 @@
+// Prescribed velocity on the grid: nodes inside a region have a given velocity along a direction, v . n = v(t, x). What
+// is across the direction stays free. The region is a rigid surface at a pose, at rest or moving.
+//
+// Conditions are superposed on a node: along one direction their velocities add, and different directions must be
+// orthogonal, for otherwise each would undo the other. They stand above walls: along its direction a condition moves
+// what a wall would hold.
+//
+// The velocity is that of the step's start while strain is updated first and that of its end from the update of
+// momentum on, so that USAVG stays second order in time. A node is held whole or not at all: the boundary of a region
+// between two rows of nodes is felt at the row inside it.
+// Source: Nairn, GIMP notes (3.1)-(3.11); method reference 5.2.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mpm/math/function.hpp"
+#include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+/// Conditions that contradict each other or a wall, or have no value. what() names both.
+class ConditionError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// What a scene says of one condition.
+struct ConditionDefinition {
+  /// Its name, surface, pose at the start and motion; friction and reach have no part.
+  RigidBodyDefinition region;
+  Vec3 direction = Vec3::UnitX();    ///< unit vector, in the grid's axes
+  std::optional<Function> velocity;  ///< along it, of t and of the node's place [m/s]; without one the region's own
+  std::string where;                 ///< "file:line: key.path", for errors; may be empty
+};
+
+/// A face of the domain through which nothing moves: 2 * grid axis, + 1 for the upper one.
+struct HeldFace {
+  int face = 0;
+  std::string name;
+};
+
+/// All conditions of a scene. Audit: "condition/<name>", the impulse that each gave; what several along one direction
+/// give together at a node is booked in equal parts.
+class VelocityConditions final : public Stage {
+ public:
+  /// `faces`: slip walls. @throws ConditionError for a direction that is not a unit vector of the grid's axes
+  VelocityConditions(const std::vector<ConditionDefinition>& definitions, std::vector<HeldFace> faces,
+                     const GridLayout& layout);
+
+  /// Finds the nodes that are held where material is now. @throws ConditionError when directions on a node, or a
+  /// direction and a slip wall, are neither the same nor orthogonal
+  void find_nodes(const Grid& grid);
+
+  void momentum_gathered(StepContext& context) override;
+  void before_strain(StepContext& context) override;
+  void momentum_updated(StepContext& context) override;
+  void velocity_found(StepContext& context, NodalField& velocity) override;
+  void increment_found(StepContext& context, NodalField& increment) override;
+  void grid_advanced(StepContext& context) override;
+  void accounts(std::vector<ImpulseAccount>& list) const override;
+
+  /// Work on the material since the start [J]: impulse times the mean of the velocities before and after the step.
+  double work() const { return work_; }
+  /// The largest prescribed speed at the held nodes at a time [s], the regions standing as they do now [m/s].
+  /// @throws ConditionError
+  double largest_speed(double time) const;
+
+ private:
+  struct Condition {
+    RigidBody region;
+    Vec3 direction;
+    std::optional<Function> velocity;
+    std::string where;
+    ImpulseAccount account;
+    Vec3 given = Vec3::Zero();  ///< in this step [N s]
+  };
+  /// A node's velocity along one direction, by one condition or the sum of several.
+  struct Held {
+    NodeRef ref;
+    Vec3 position;
+    Vec3 direction;
+    int first, count;   ///< of parts_
+    double start, end;  ///< velocity along the direction as the step begins and ends [m/s]
+  };
+  struct Part {
+    int condition;
+    double sign;  ///< -1: its direction is opposite to that of the Held
+  };
+  /// A condition that holds a node, while nodes are found.
+  struct Found {
+    NodeRef ref;
+    int condition;
+  };
+
+  std::string title(const Condition& condition) const;
+  void check_walls(const Condition& condition, const std::array<int, 3>& node, const GridLayout& layout) const;
+  /// Of the conditions found on one node, its directions.
+  void join(const Found* begin, const Found* end, const Grid& grid);
+  double value(const Held& held, double time) const;
+  void give(const Held& held, const Vec3& impulse);
+
+  std::vector<Condition> conditions_;
+  std::vector<HeldFace> faces_;
+  std::vector<Found> found_;
+  std::vector<Held> held_;
+  std::vector<Part> parts_;
+  bool moving_ = false;           ///< any region does
+  bool ended_ = false;            ///< momentum of this step has been updated
+  std::uint64_t generation_ = 0;  ///< of the block table that held_ was made from
+  double work_ = 0.0;
+};
+
+}  // namespace mpm

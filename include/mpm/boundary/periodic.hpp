@@ -1,0 +1,32 @@
+// Periodic axes: what leaves the domain through one face comes back through the opposite one, and the nodes of both
+// faces are one. The grid does it by the numbers of its blocks (grid/grid_layout.hpp): the neighbour of the last block
+// is the first. Particles are put back by a whole length of the domain when they are sorted, so in between a centre may
+// be a cell or so beyond a face; after it, it lies at most half a cell below the lower one.
+//
+// The place at the start moves along, so that displacements stay what they are: X of material that has gone around is
+// that of its image.
+//
+// Weak: rigid bodies do not go around, and must keep a cell and a half from periodic faces or be endless along that
+// axis. Energy in gravity along a periodic axis jumps when a particle is put back.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mpm/grid/grid_layout.hpp"
+#include "mpm/particles/particle_set.hpp"
+#include "mpm/rigid/rigid_body.hpp"
+
+namespace mpm {
+
+/// How far centres may be beyond a periodic face between two sorts [cells]: what a tile reaches, and more.
+inline constexpr double kPeriodicReach = 2.0;
+
+/// Puts every particle where its nearest node is one of the domain, 0 to the number of cells less one, along periodic
+/// axes. Those that are not finite stay.
+void put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int threads);
+
+/// Of a body that reaches a periodic face, which one: "x_max"; else empty.
+std::string periodic_face_reached(const RigidBody& body, const GridLayout& layout);
+
+}  // namespace mpm

@@ -1,0 +1,165 @@
+// Contact between deformable bodies: bodies of different velocity fields that share a node act on each other there by
+// the law of their pair, in the frame of their centre of mass.
+//
+// What a node knows (mass, volume, volume gradient, mean place of each material) is gathered at the step's start, on
+// the blocks that fields share and nowhere else. Laws act on v^{n+1}; strain is taken with what was held, as
+// step/coulomb.hpp explains; XPIC's increments lose what is held. Impulses come in opposite pairs, so nothing is given
+// from outside; NormalMethod::own alone has an account, of what its two normals leave over. Bodies that share one
+// velocity ("one_field") are merged before anything else: velocity and acceleration, since FLIP takes the acceleration
+// over, which a single field would have; everything after is that single field to round-off.
+// Weak: a surface is smeared over two cells; contact begins up to a tenth of a cell early or late (pair_detection.hpp),
+// by approach alone a cell early. A node where three bodies meet has a normal for each pair.
+// Source: Nairn, GIMP notes 3.2; method reference 8; manual, MultiMaterialMode.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mpm/contact/node_contact.hpp"
+#include "mpm/contact/pair_detection.hpp"
+#include "mpm/contact/pair_report.hpp"
+#include "mpm/contact/shared_blocks.hpp"
+#include "mpm/contact/tool_sides.hpp"
+#include "mpm/math/geometry_kind.hpp"
+#include "mpm/step/stage.hpp"
+#include "mpm/step/volume_survey.hpp"
+
+namespace mpm {
+
+/// Two bodies and what is between them.
+struct MaterialPair {
+  std::string name;                ///< "first/second"
+  std::vector<int> first, second;  ///< velocity fields of each (more than one where a thin tool parts a body)
+  ContactLaw law;
+};
+
+struct MaterialContactSettings {
+  NormalRule normals;
+  DetectionRule detection;
+  std::vector<MaterialPair> pairs;
+  GeometryKind geometry = GeometryKind::solid;
+  double cell_volume = 0.0;  ///< that minimum volumes are a part of [m^3]; about an axis the area of a cell's section
+  int threads = 1;
+  const ToolSides* sides = nullptr;  ///< of thin tools, which may lie between two bodies at a node; null without
+};
+
+class MaterialContact final : public Stage {
+ public:
+  /// `fields` and `survey` outlive the stage.
+  MaterialContact(MaterialContactSettings settings, Fields& fields, VolumeSurvey& survey);
+
+  /// @throws FunctionError when a law's function is not finite.
+  void momentum_gathered(StepContext& context) override;
+  void before_strain(StepContext& context) override;
+  void momentum_updated(StepContext& context) override;
+  void velocity_found(StepContext& context, NodalField& velocity) override;
+  void increment_found(StepContext& context, NodalField& increment) override;
+  void grid_advanced(StepContext& context) override;
+  void accounts(std::vector<ImpulseAccount>& list) const override;
+
+  /// Of each pair since the last call; `now` [s].
+  std::vector<PairReport> take(double now);
+  /// Taken by sliding since the start, all pairs [J].
+  double friction_energy() const;
+  /// Stored in imperfect interfaces when the last step began [J].
+  double interface_energy() const;
+
+ private:
+  /// A field at a node.
+  struct Member {
+    int field;
+    NodeRef ref;
+    double mass;
+    int group;  ///< among the node's materials: fields of one velocity are one
+  };
+  struct PairOfNode {
+    NodePair state;
+    int rule;     ///< among settings_.pairs
+    bool turned;  ///< a is of the second body
+    int fields;   ///< names the pair at its node, between steps
+  };
+  struct Node {
+    Vec3 position;
+    std::uint64_t id;  ///< HeldNodes::id
+    int first_member, members, first_pair, pairs, groups;
+  };
+  /// The nodes of a shared block, and what is at them.
+  struct BlockNodes {
+    std::vector<Node> nodes;
+    std::vector<Member> members;
+    std::vector<NodeMaterial> materials;  ///< as gathered; groups of a node lie together, at its first member's place
+    std::vector<PairOfNode> pairs;
+  };
+  struct Held {
+    std::uint64_t node;
+    int fields;
+    PairHold hold;
+  };
+  /// One node's materials and pairs, for the solver.
+  struct Scratch {
+    std::vector<NodeMaterial> materials;
+    std::vector<NodePair> pairs;
+    std::vector<Vec3> velocities, accelerations;  ///< of the materials before
+  };
+  /// What a pair's nodes gave in a step or an interval.
+  struct Sums {
+    Vec3 impulse = Vec3::Zero(), friction = Vec3::Zero(), moment = Vec3::Zero();
+    double pressed = 0.0, area = 0.0, friction_energy = 0.0, interface_energy = 0.0;
+    int nodes = 0;
+    Sums& operator+=(const Sums& other);
+  };
+  enum class Pass { strain, update, filter };
+
+  /// Which rule is between two fields, and whether the first is its second body; -1: none.
+  struct Rule {
+    int pair = -1;
+    bool turned = false;
+  };
+  /// Whether a thin tool lies between what two fields have at a node.
+  bool parted(const Member& a, const Member& b) const;
+  Rule rule(int a, int b) const { return rules_[a * static_cast<int>(fields_.size()) + b]; }
+  SurveyWants wants() const;
+
+  // Finding the nodes (material_nodes.cpp).
+  void find_nodes(const SharedBlock& block, double dt, BlockNodes& found) const;
+  /// Fields that share one velocity become one group. Returns the number of groups.
+  int group(Member* members, int count) const;
+  NodeMaterial material_at(const Member& member, const Vec3& position) const;
+  void add_pairs(Node& node, const std::array<bool, 3>& planes, double dt, BlockNodes& found) const;
+  /// World axes that a symmetry plane or wall through the node is normal to.
+  std::array<bool, 3> symmetry(const std::array<int, 3>& node) const;
+  /// Length that a section's contact at this place stands for: 1 but about an axis.
+  double around(const Vec3& position) const;
+  PairHold held(std::uint64_t node, int fields) const;
+
+  /// The node's materials with the velocities of `velocity(grid)`, and its pairs as the pass needs them.
+  template <class FieldOf>
+  void load(Pass pass, const BlockNodes& block, const Node& node, FieldOf&& velocity, Scratch& scratch) const;
+  /// The node's velocities in `velocity(grid)` become what the pass makes of them.
+  template <class FieldOf>
+  void hold(Pass pass, BlockNodes& block, const Node& node, double dt, FieldOf&& velocity, Scratch& scratch);
+  template <class FieldOf>
+  void hold_nodes(Pass pass, double dt, FieldOf&& velocity);
+  void update(BlockNodes& block, const Node& node, double dt, Scratch& scratch);
+  void keep_held();
+  void book(const BlockNodes& block, bool updated);
+
+  MaterialContactSettings settings_;
+  Fields& fields_;
+  VolumeSurvey& survey_;
+  std::vector<Rule> rules_;  ///< of every two fields
+  std::vector<NodalVolumes> volumes_;
+  std::vector<FrictionLaw> friction_;  ///< of each pair, at this step's start
+  SharedBlocks shared_;
+  std::vector<BlockNodes> blocks_;  ///< of each shared block
+  std::vector<Held> held_;          ///< what was held, in ascending order of node and fields
+  bool started_ = false;
+  std::vector<Sums> last_, interval_, total_;  ///< of each pair
+  ImpulseAccount account_;
+  Vec3 left_over_ = Vec3::Zero();  ///< of this step's impulses, by own normals [N s]
+  double last_report_ = 0.0;
+};
+
+}  // namespace mpm

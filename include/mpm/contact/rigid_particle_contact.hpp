@@ -1,0 +1,89 @@
+// Contact of the material with a rigid body made of particles, as the sources have it: nodes where both have volume,
+// the normal from volume gradients (with rigid bias) and the distance from mean places, as between deformable bodies;
+// the rigid side has infinite mass and the velocity of its pose.
+//
+// For comparison with the sources and for bodies whose surface is not smooth enough to give normals. Where a surface
+// has exact normals, contact/rigid_contact.hpp and contact/point_contact.hpp are better. What is reported is what was
+// applied, as there. Weak: a staircase of particles, and contact a tenth of a cell early or late.
+// Source: Nairn, GIMP notes 3.2, (3.12)-(3.20); manual, rigid materials with SetDirection 8; method reference 5.3, 8.
+#pragma once
+
+#include <vector>
+
+#include "mpm/contact/contact_ledger.hpp"
+#include "mpm/contact/node_contact.hpp"
+#include "mpm/contact/pair_detection.hpp"
+#include "mpm/contact/rigid_particles.hpp"
+#include "mpm/rigid/contact_law.hpp"
+#include "mpm/step/stage.hpp"
+#include "mpm/step/volume_survey.hpp"
+
+namespace mpm {
+
+struct RigidParticleSettings {
+  NormalRule normals;
+  DetectionRule detection;
+  std::vector<ContactLaw> laws;  ///< of each velocity field against the body
+  GeometryKind geometry = GeometryKind::solid;
+  int per_cell = 2;     ///< particles along a cell's edge
+  double across = 1.0;  ///< thickness or area beside the grid's axes [m, m^2]
+};
+
+class RigidParticleContact final : public Stage {
+ public:
+  /// `body`, `fields` and `survey` outlive the stage. @throws RigidError as RigidParticles.
+  RigidParticleContact(const RigidBody& body, RigidParticleSettings settings, Fields& fields, VolumeSurvey& survey);
+
+  /// @throws FunctionError when a law's function is not finite.
+  void momentum_gathered(StepContext& context) override;
+  void before_strain(StepContext& context) override;
+  void momentum_updated(StepContext& context) override;
+  void velocity_found(StepContext& context, NodalField& velocity) override;
+  void increment_found(StepContext& context, NodalField& increment) override;
+  void grid_advanced(StepContext& context) override;
+  void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(ledger_.account()); }
+
+  ContactLedger& ledger() { return ledger_; }
+  const ContactLedger& ledger() const { return ledger_; }
+  int particles() const { return particles_.size(); }
+
+ private:
+  struct Node {
+    int field;
+    NodeRef ref;
+    std::uint64_t id;  ///< HeldNodes::id
+    NodeMaterial material, rigid;
+    NodePair pair;
+    Vec3 arm;  ///< from the body's origin [m]
+  };
+  struct Held {
+    int field;
+    std::uint64_t node;
+    PairHold hold;
+  };
+  void find_blocks();
+  void add_nodes(int field, double dt);
+  PairHold held(int field, std::uint64_t node) const;
+  /// The law's impulse on a node's material that has `velocity`, which becomes what it then has.
+  void act(Node& node, Vec3& velocity, double dt);
+  void give(const Node& node, const Vec3& before, const Vec3& after);
+
+  const RigidBody& body_;
+  RigidParticleSettings settings_;
+  Fields& fields_;
+  VolumeSurvey& survey_;
+  RigidParticles particles_;
+  ContactLedger ledger_;
+  double cell_volume_;
+  std::vector<NodalVolumes> volumes_;
+  std::vector<FrictionLaw> friction_;            ///< of each field, in this step
+  std::vector<std::uint64_t> keys_;              ///< of blocks near the body, ascending
+  std::vector<std::vector<std::uint8_t>> near_;  ///< marks of these in each field
+  std::vector<Node> nodes_;                      ///< by field, then key, then node
+  std::vector<Held> held_;
+  std::vector<NodeMaterial> two_;
+  std::vector<NodePair> one_;
+  bool started_ = false;
+};
+
+}  // namespace mpm

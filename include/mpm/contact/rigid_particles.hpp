@@ -1,0 +1,52 @@
+// A rigid body as particles that fill its surface and move with its pose: what volume, volume gradient and place they
+// have at nodes of the grid, as the sources' rigid materials do. They carry no momentum.
+//
+// The lattice lies in the body's own frame, so a body that turns keeps its particles; their boxes stay along the grid's
+// axes. Particles deeper than three cells below the surface are left out: no node that material reaches would see
+// them. Weak: the surface is a staircase of particles, and a tool thinner than one holds none. Source: manual, rigid
+// materials with SetDirection 8; method reference 8.1, 2.1 (uGIMP without branches).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mpm/grid/grid_layout.hpp"
+#include "mpm/grid/nodal_fields.hpp"
+#include "mpm/math/geometry_kind.hpp"
+#include "mpm/rigid/rigid_body.hpp"
+
+namespace mpm {
+
+class RigidParticles {
+ public:
+  /// `per_cell`: particles along a cell's edge; `across`: thickness or area beside the grid's axes, 1 of a solid.
+  /// `body` and `layout` outlive this. @throws RigidError for a body without end, or one that holds no particle.
+  RigidParticles(const RigidBody& body, const GridLayout& layout, GeometryKind geometry, int per_cell, double across);
+
+  /// Sums at the nodes of the blocks with these keys (ascending), as the body lies now.
+  void gather(const std::vector<std::uint64_t>& keys);
+
+  /// Of a node of the block at a place in `keys`: sum of V S [m^3], or of areas of sections about an axis.
+  double volume(int block, int node) const { return volume_.at(block, 0, node); }
+  /// Sum of V G, out of the body [m^2].
+  Vec3 gradient(int block, int node) const;
+  /// Mean position, by volume, where there is any [m].
+  Vec3 position(int block, int node) const;
+  /// Mean displacement since the start, by volume [m].
+  Vec3 displacement(int block, int node) const;
+  int size() const { return static_cast<int>(local_.size()); }
+
+ private:
+  void add(const Vec3& place, const Vec3& moved, const std::vector<std::uint64_t>& keys);
+
+  const RigidBody& body_;
+  const GridLayout& layout_;
+  bool axisymmetric_;
+  Pose start_;
+  double half_;              ///< of a particle's box [cells]
+  double volume_each_;       ///< [m^3]
+  std::vector<Vec3> local_;  ///< in the body's frame [m]
+  NodalField volume_, gradient_, place_, moved_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,44 @@
+// What contact between materials asks of the mechanics: volume, volume gradient and place of the material at the nodes
+// of some blocks of a velocity field.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mpm/grid/fields.hpp"
+
+namespace mpm {
+
+/// Of one velocity field; valid on the blocks that were asked for. About an axis volumes are areas of sections.
+struct NodalVolumes {
+  NodalVolumes(int dim, int nodes)
+      : volume(dim, nodes),
+        start_volume(dim, nodes),
+        gradient(dim, nodes),
+        position(dim, nodes),
+        displacement(dim, nodes),
+        slope(static_cast<std::size_t>(dim), NodalField(dim, nodes)) {}
+
+  NodalField volume;        ///< component 0: sum of V_p S, as deformed [m^3]
+  NodalField start_volume;  ///< component 0: the same, undeformed [m^3]
+  NodalField gradient;      ///< sum of V_p G: out of the material [m^2]
+  NodalField position;      ///< sum of m x S [kg m]
+  NodalField displacement;  ///< sum of m (x - X) S [kg m]
+  /// [c], component k: sum of m S d u_c / d x_k, u the displacement [kg].
+  std::vector<NodalField> slope;
+};
+
+/// What is wanted beside volume and gradient.
+struct SurveyWants {
+  bool start_volume = false, position = false, displacement = false, slope = false;
+};
+
+class VolumeSurvey {
+ public:
+  virtual ~VolumeSurvey() = default;
+  /// Of velocity field `field`, on its blocks that are marked (one mark a block), as particles lie now.
+  virtual void survey(int field, const std::vector<std::uint8_t>& marked, const SurveyWants& wants,
+                      NodalVolumes& result) = 0;
+};
+
+}  // namespace mpm

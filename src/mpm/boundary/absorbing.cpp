@@ -1,0 +1,172 @@
+#include "mpm/boundary/absorbing.hpp"
+
+#include <cmath>
+
+#include "mpm/shape/bspline.hpp"
+
+namespace mpm {
+namespace {
+
+/// Bulk and shear modulus at the start [Pa].
+struct Moduli {
+  double bulk, shear;
+};
+
+Moduli moduli(const NewtonianFluidDefinition& law, double) { return {law.bulk_modulus, 0.0}; }
+Moduli moduli(const IdealGasDefinition& law, double) {
+  return {law.pressure * (law.process == GasProcess::adiabatic ? law.heat_capacity_ratio : 1.0), 0.0};
+}
+Moduli moduli(const JohnsonCookDefinition& law, double density) {
+  return {density * law.pressure.sound_speed * law.pressure.sound_speed, law.shear_modulus};
+}
+// A wave's front is faster than relaxation.
+Moduli moduli(const StandardLinearSolidDefinition& law, double) {
+  return {law.elasticity.bulk(), law.elasticity.shear() + law.branch_modulus};
+}
+template <class Law>
+Moduli moduli(const Law& law, double) {
+  return {law.elasticity.bulk(), law.elasticity.shear()};
+}
+
+/// Weight of the node on a wall, of particles in the middle of equal parts of cells along the wall's normal.
+template <class Spline>
+double spline_face_mass(int parts) {
+  constexpr int kFar = 100;  // the other wall [cells]
+  const typename Spline::Axis axis(0.0, 1.0);
+  double sum = 0.0;
+  for (int p = 0; p < Spline::kNodes * parts; ++p) {
+    const double x = (p + 0.5) / parts;
+    const int nearest = GridLayout::nearest(x), place = Spline::kNodes / 2 - nearest;
+    Spline spline(x - nearest, axis);
+    spline.fold(nearest, kFar);
+    if (place >= 0) sum += spline.s[place];
+  }
+  return sum / parts;
+}
+
+}  // namespace
+
+ElasticWaves elastic_waves(const MaterialDefinition& material, GeometryKind geometry) {
+  const auto [bulk, shear] = std::visit([&](const auto& law) { return moduli(law, material.density); }, material.law);
+  double modulus = bulk + 4.0 / 3.0 * shear;
+  if (geometry == GeometryKind::plane_stress) modulus = 4.0 * shear * (3.0 * bulk + shear) / (3.0 * bulk + 4.0 * shear);
+  return {std::sqrt(modulus / material.density), std::sqrt(shear / material.density)};
+}
+
+double face_mass(ShapeKind shape, int particles_per_direction) {
+  if (shape == ShapeKind::bspline2) return spline_face_mass<QuadraticSpline<double>>(particles_per_direction);
+  if (shape == ShapeKind::bspline3) return spline_face_mass<CubicSpline<double>>(particles_per_direction);
+  return 0.5;  // hat functions, averaged over boxes that end on the face or not
+}
+
+Absorbing::Absorbing(int face, const std::string& name, const std::vector<ParticleSet>& sets,
+                     std::vector<ElasticWaves> waves, double phi, bool hold)
+    : face_(face), sets_(sets), waves_(std::move(waves)), phi_(phi), hold_(hold) {
+  account_.name = "absorbing/" + name;
+}
+
+std::uint64_t Absorbing::id_on_face(const GridLayout& layout, std::array<int, 3> node) const {
+  node[face_ / 2] = face_ % 2 == 0 ? 0 : layout.last_node(face_ / 2);
+  std::uint64_t id = 0;
+  for (int k = 0; k < layout.dim(); ++k) id = (id << 21) + static_cast<std::uint64_t>(node[k] + kBlockEdge);
+  return id;
+}
+
+void Absorbing::find_nodes(const Grid& grid) {
+  const GridLayout& layout = grid.layout;
+  const int axis = face_ / 2;
+  const bool upper = face_ % 2 == 1;
+  nodes_.clear();
+  for (int b = 0; b < grid.blocks.size(); ++b) {
+    const int first = grid.blocks.block(b)[axis] * kBlockEdge;
+    if (upper ? first + kBlockEdge <= layout.last_node(axis) : first > 0) continue;
+    for (int n = 0; n < layout.nodes_per_block(); ++n) {
+      const int node = layout.node(grid.blocks.block(b), n)[axis];
+      if (upper ? node < layout.last_node(axis) : node > 0) continue;
+      nodes_.push_back({{b, n}, grid.blocks.key(b) * 64 + n, {}});
+    }
+  }
+}
+
+// The mean of the particles whose nearest node along the face this is, within a cell and a half of the face; where
+// there is none, of all of them.
+void Absorbing::find_waves(const Grid& grid) {
+  struct Sum {
+    double mass = 0.0, pressure = 0.0, shear = 0.0;
+    void add(double m, const ElasticWaves& waves) {
+      mass += m;
+      pressure += m * waves.pressure;
+      shear += m * waves.shear;
+    }
+    ElasticWaves mean() const { return {pressure / mass, shear / mass}; }
+  };
+  const GridLayout& layout = grid.layout;
+  const int axis = face_ / 2, on_face = face_ % 2 == 0 ? 0 : layout.last_node(axis);
+  std::unordered_map<std::uint64_t, Sum> sums;
+  Sum all;
+  for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
+    const int first = grid.blocks.block(grid.blocks.owner_block(owner))[axis] * kBlockEdge;
+    if (on_face < first - 1 || on_face > first + kBlockEdge) continue;
+    const int number = grid.first_owner + owner;
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      for (std::uint32_t p = sets_[s].begin[number]; p < sets_[s].begin[number + 1]; ++p) {
+        std::array<int, 3> node{};
+        for (int k = 0; k < layout.dim(); ++k) node[k] = GridLayout::nearest(layout.in_cells(k, sets_[s].x[k][p]));
+        if (std::abs(node[axis] - on_face) > 1) continue;
+        sums[id_on_face(layout, node)].add(sets_[s].mass_of(static_cast<int>(p)), waves_[s]);
+        all.add(sets_[s].mass_of(static_cast<int>(p)), waves_[s]);
+      }
+    }
+  }
+  if (sums.empty()) nodes_.clear();
+  for (Node& node : nodes_) {
+    const auto found = sums.find(id_on_face(layout, layout.node(grid.blocks.block(node.ref.block), node.ref.node)));
+    node.waves = (found == sums.end() ? all : found->second).mean();
+  }
+}
+
+void Absorbing::momentum_gathered(StepContext& context) {
+  if (generation_ == context.grid.blocks.generation()) return;
+  generation_ = context.grid.blocks.generation();
+  find_nodes(context.grid);
+  find_waves(context.grid);
+}
+
+void Absorbing::momentum_updated(StepContext& context) {
+  Grid& grid = context.grid;
+  const GridLayout& layout = grid.layout;
+  const int axis = face_ / 2;
+  const double dt = context.dt, per_speed = 0.5 * dt / (phi_ * layout.cell(axis));
+  for (const Node& node : nodes_) {
+    if (!grid.carries(node.ref.block, node.ref.node)) continue;
+    const double mass = grid.mass.at(node.ref.block, 0, node.ref.node);
+    const Vec3 acceleration = nodal_vector(grid.force, layout, node.ref);
+    Vec3 held = Vec3::Zero();
+    if (hold_ && !started_) held_[node.id] = -acceleration;
+    if (hold_) {
+      if (const auto found = held_.find(node.id); found != held_.end()) held = found->second;
+    }
+    const Vec3 after = nodal_vector(grid.velocity, layout, node.ref) + held * dt;
+    const Vec3 before = after - (acceleration + held) * dt;
+    Vec3 change = held * dt, displacement = Vec3::Zero();
+    for (int k = 0; k < layout.dim(); ++k) {
+      const int a = layout.axis(k);
+      const double half = per_speed * (k == axis ? node.waves.pressure : node.waves.shear);
+      const double taken = -half * (before[a] + after[a]) / (1.0 + half);
+      change[a] += taken;
+      displacement[a] = 0.5 * (before[a] + after[a] + taken) * dt;
+    }
+    add_nodal_vector(grid.velocity, layout, node.ref, change);
+    add_nodal_vector(grid.force, layout, node.ref, change / dt);
+    given_ += mass * change;
+    work_ += mass * change.dot(displacement) / dt;
+  }
+  started_ = true;
+}
+
+void Absorbing::grid_advanced(StepContext&) {
+  account_.add(given_);
+  given_ = Vec3::Zero();
+}
+
+}  // namespace mpm

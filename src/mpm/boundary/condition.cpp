@@ -1,0 +1,229 @@
+#include "mpm/boundary/condition.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/boundary/region_bounds.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kUnit = 1e-9;          ///< of 1, by which a unit vector's length may be off
+constexpr double kSameOrAcross = 1e-9;  ///< of a cosine, by which directions may miss being the same or orthogonal
+constexpr double kOnSurface = 1e-6;     ///< of a cell: a node so far outside the region is on its surface
+
+bool moves(const RigidBodyDefinition& region) {
+  const auto moving = [](const Function& f) { return !f.is_zero(); };
+  return std::any_of(region.velocity.begin(), region.velocity.end(), moving) ||
+         std::any_of(region.rotation_rate.begin(), region.rotation_rate.end(), moving);
+}
+
+double along(const NodalField& field, const GridLayout& layout, NodeRef ref, const Vec3& direction) {
+  return nodal_vector(field, layout, ref).dot(direction);
+}
+
+}  // namespace
+
+VelocityConditions::VelocityConditions(const std::vector<ConditionDefinition>& definitions, std::vector<HeldFace> faces,
+                                       const GridLayout& layout)
+    : faces_(std::move(faces)) {
+  for (const ConditionDefinition& definition : definitions) {
+    Condition condition{
+        RigidBody(definition.region), definition.direction, definition.velocity, definition.where, {}, Vec3::Zero()};
+    condition.account.name = "condition/" + condition.region.name();
+    double squared = 0.0;
+    for (int k = 0; k < layout.dim(); ++k) squared += std::pow(condition.direction[layout.axis(k)], 2);
+    if (!(std::abs(squared - 1.0) < kUnit)) {
+      throw ConditionError(
+          fmt::format("{}: its direction has the length {:.6g} along the grid's axes; give it length 1",
+                      title(condition), std::sqrt(squared)));
+    }
+    moving_ = moving_ || moves(definition.region);
+    conditions_.push_back(std::move(condition));
+  }
+}
+
+std::string VelocityConditions::title(const Condition& condition) const {
+  const std::string name = fmt::format("condition '{}'", condition.region.name());
+  return condition.where.empty() ? name : condition.where + ": " + name;
+}
+
+void VelocityConditions::check_walls(const Condition& condition, const std::array<int, 3>& node,
+                                     const GridLayout& layout) const {
+  for (const HeldFace& face : faces_) {
+    const int axis = face.face / 2;
+    if (face.face % 2 == 0 ? node[axis] > 0 : node[axis] < layout.last_node(axis)) continue;
+    const double cosine = std::abs(condition.direction[layout.axis(axis)]);
+    if (cosine < kSameOrAcross || std::abs(cosine - 1.0) < kSameOrAcross) continue;
+    throw ConditionError(
+        fmt::format("{}: its direction is neither along nor across the normal of the slip wall {}, whose nodes it "
+                    "holds too; let the region end before the wall, or make the wall none",
+                    title(condition), face.name));
+  }
+}
+
+void VelocityConditions::join(const Found* begin, const Found* end, const Grid& grid) {
+  const GridLayout& layout = grid.layout;
+  const auto& block = grid.blocks.block(begin->ref.block);
+  const std::size_t first_held = held_.size();
+  const Vec3 position = layout.node_position(block, begin->ref.node);
+  for (const Found* found = begin; found != end; ++found) {
+    const Condition& condition = conditions_[found->condition];
+    check_walls(condition, layout.node(block, begin->ref.node), layout);
+    bool same = false;
+    for (std::size_t h = first_held; h < held_.size(); ++h) {
+      const double cosine = condition.direction.dot(held_[h].direction);
+      same = same || std::abs(std::abs(cosine) - 1.0) < kSameOrAcross;
+      if (std::abs(cosine) < kSameOrAcross || std::abs(std::abs(cosine) - 1.0) < kSameOrAcross) continue;
+      throw ConditionError(
+          fmt::format("{}: at the node ({:.6g}, {:.6g}, {:.6g}) m its direction is neither along nor across that of "
+                      "condition '{}'; conditions on one node must be orthogonal, or along one direction, where they "
+                      "add: turn one, or keep their regions apart",
+                      title(condition), position.x(), position.y(), position.z(),
+                      conditions_[parts_[held_[h].first].condition].region.name()));
+    }
+    if (same) continue;
+    Held held{begin->ref, position, condition.direction, static_cast<int>(parts_.size()), 0, 0.0, 0.0};
+    for (const Found* other = found; other != end; ++other) {
+      const double cosine = conditions_[other->condition].direction.dot(condition.direction);
+      if (std::abs(std::abs(cosine) - 1.0) >= kSameOrAcross) continue;
+      parts_.push_back({other->condition, cosine > 0.0 ? 1.0 : -1.0});
+      ++held.count;
+    }
+    held_.push_back(held);
+  }
+}
+
+void VelocityConditions::find_nodes(const Grid& grid) {
+  const GridLayout& layout = grid.layout;
+  const double band = kOnSurface * layout.smallest_cell();
+  generation_ = grid.blocks.generation();
+  found_.clear();
+  for (std::size_t c = 0; c < conditions_.size(); ++c) {
+    const RigidBody& region = conditions_[c].region;
+    const Box bounds = world_bounds(region).grown(band);
+    for (int b = 0; b < grid.blocks.size(); ++b) {
+      const auto& block = grid.blocks.block(b);
+      const Box nodes{layout.node_position(block, 0), layout.node_position(block, layout.nodes_per_block() - 1)};
+      if (!nodes.intersects(bounds)) continue;
+      for (int n = 0; n < layout.nodes_per_block(); ++n) {
+        SurfacePoint point;
+        if (!region.surface().within(region.pose().to_body(layout.node_position(block, n)), band, point)) continue;
+        found_.push_back({{b, n}, static_cast<int>(c)});
+      }
+    }
+  }
+  std::stable_sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+    return a.ref.block != b.ref.block ? a.ref.block < b.ref.block : a.ref.node < b.ref.node;
+  });
+  held_.clear();
+  parts_.clear();
+  for (std::size_t i = 0, end = 0; i < found_.size(); i = end) {
+    while (end < found_.size() && found_[end].ref.block == found_[i].ref.block &&
+           found_[end].ref.node == found_[i].ref.node) {
+      ++end;
+    }
+    join(&found_[i], found_.data() + end, grid);
+  }
+}
+
+double VelocityConditions::value(const Held& held, double time) const {
+  double sum = 0.0;
+  for (int i = held.first; i < held.first + held.count; ++i) {
+    const Condition& condition = conditions_[parts_[i].condition];
+    if (!condition.velocity) {
+      sum += parts_[i].sign * condition.region.velocity_at(held.position).dot(condition.direction);
+      continue;
+    }
+    try {
+      sum += parts_[i].sign * (*condition.velocity)(time, held.position);
+    } catch (const FunctionError& error) {
+      throw ConditionError(fmt::format("{}: {}", title(condition), error.what()));
+    }
+  }
+  return sum;
+}
+
+double VelocityConditions::largest_speed(double time) const {
+  double largest = 0.0;
+  for (const Held& held : held_) largest = std::max(largest, std::abs(value(held, time)));
+  return largest;
+}
+
+void VelocityConditions::momentum_gathered(StepContext& context) {
+  for (Condition& condition : conditions_) {
+    try {
+      condition.region.begin_step(context.start, context.dt);
+    } catch (const FunctionError& error) {
+      throw ConditionError(fmt::format("{}: its region's motion: {}", title(condition), error.what()));
+    }
+  }
+  if (moving_ || generation_ != context.grid.blocks.generation()) find_nodes(context.grid);
+  for (Held& held : held_) {
+    held.start = value(held, context.start);
+    held.end = value(held, context.start + context.dt);
+  }
+  ended_ = false;
+}
+
+void VelocityConditions::before_strain(StepContext& context) {
+  Grid& grid = context.grid;
+  for (const Held& held : held_) {
+    const double change =
+        (ended_ ? held.end : held.start) - along(grid.velocity, grid.layout, held.ref, held.direction);
+    add_nodal_vector(grid.velocity, grid.layout, held.ref, change * held.direction);
+  }
+}
+
+void VelocityConditions::momentum_updated(StepContext& context) {
+  Grid& grid = context.grid;
+  ended_ = true;
+  for (const Held& held : held_) {
+    if (!grid.carries(held.ref.block, held.ref.node)) continue;
+    const Vec3 change = (held.end - along(grid.velocity, grid.layout, held.ref, held.direction)) * held.direction;
+    add_nodal_vector(grid.velocity, grid.layout, held.ref, change);
+    add_nodal_vector(grid.force, grid.layout, held.ref, change / context.dt);
+    give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change);
+  }
+}
+
+void VelocityConditions::velocity_found(StepContext& context, NodalField& velocity) {
+  const GridLayout& layout = context.grid.layout;
+  for (const Held& held : held_) {
+    const double change = held.end - along(velocity, layout, held.ref, held.direction);
+    add_nodal_vector(velocity, layout, held.ref, change * held.direction);
+  }
+}
+
+void VelocityConditions::increment_found(StepContext& context, NodalField& increment) {
+  const Grid& grid = context.grid;
+  for (const Held& held : held_) {
+    if (!grid.carries(held.ref.block, held.ref.node)) continue;
+    const Vec3 change = -along(increment, grid.layout, held.ref, held.direction) * held.direction;
+    add_nodal_vector(increment, grid.layout, held.ref, change);
+    give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change);
+  }
+}
+
+void VelocityConditions::give(const Held& held, const Vec3& impulse) {
+  for (int i = held.first; i < held.first + held.count; ++i) {
+    conditions_[parts_[i].condition].given += impulse / held.count;
+  }
+  work_ += 0.5 * (held.start + held.end) * impulse.dot(held.direction);
+}
+
+void VelocityConditions::grid_advanced(StepContext& context) {
+  for (Condition& condition : conditions_) {
+    condition.account.add(condition.given);
+    condition.given = Vec3::Zero();
+    condition.region.end_step(context.dt);
+  }
+}
+
+void VelocityConditions::accounts(std::vector<ImpulseAccount>& list) const {
+  for (const Condition& condition : conditions_) list.push_back(condition.account);
+}
+
+}  // namespace mpm

@@ -1,0 +1,249 @@
+#include "mpm/contact/material_contact.hpp"
+
+#include <algorithm>
+
+namespace mpm {
+
+MaterialContact::MaterialContact(MaterialContactSettings settings, Fields& fields, VolumeSurvey& survey)
+    : settings_(std::move(settings)),
+      fields_(fields),
+      survey_(survey),
+      rules_(fields.size() * fields.size()),
+      volumes_(fields.size(), NodalVolumes(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())),
+      friction_(settings_.pairs.size()),
+      last_(settings_.pairs.size()),
+      interval_(settings_.pairs.size()),
+      total_(settings_.pairs.size()) {
+  account_.name = "contact_normals";
+  const std::size_t count = fields.size();
+  for (std::size_t i = 0; i < settings_.pairs.size(); ++i) {
+    for (const int a : settings_.pairs[i].first) {
+      for (const int b : settings_.pairs[i].second) {
+        rules_[a * count + b] = {static_cast<int>(i), false};
+        rules_[b * count + a] = {static_cast<int>(i), true};
+      }
+    }
+  }
+}
+
+template <class FieldOf>
+void MaterialContact::load(Pass pass, const BlockNodes& block, const Node& node, FieldOf&& velocity,
+                           Scratch& scratch) const {
+  const auto first = block.materials.begin() + node.first_member;
+  scratch.materials.assign(first, first + node.groups);
+  for (NodeMaterial& material : scratch.materials) material.velocity.setZero();
+  for (int m = node.first_member; m < node.first_member + node.members; ++m) {
+    const Member& member = block.members[m];
+    Grid& grid = *fields_[member.field];
+    NodeMaterial& material = scratch.materials[member.group];
+    const Vec3 own = nodal_vector(velocity(grid), grid.layout, member.ref);
+    // A material of one member keeps its velocity to the last bit.
+    material.velocity += member.mass == material.mass ? own : Vec3(own * (member.mass / material.mass));
+  }
+  scratch.pairs.clear();
+  for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) {
+    NodePair pair = block.pairs[p].state;
+    pair.on_a.setZero();
+    pair.on_b.setZero();
+    if (pass != Pass::update) {
+      pair.keep = pair.hold;
+      pair.interface = nullptr;
+      pair.bond = 0.0;
+      if (pass == Pass::filter) pair.touching = false;
+    }
+    scratch.pairs.push_back(pair);
+  }
+}
+
+template <class FieldOf>
+void MaterialContact::hold(Pass pass, BlockNodes& block, const Node& node, double dt, FieldOf&& velocity,
+                           Scratch& scratch) {
+  load(pass, block, node, velocity, scratch);
+  solve_contact(scratch.materials, scratch.pairs, dt);
+  for (int m = node.first_member; m < node.first_member + node.members; ++m) {
+    const Member& member = block.members[m];
+    Grid& grid = *fields_[member.field];
+    const Vec3 own = nodal_vector(velocity(grid), grid.layout, member.ref);
+    add_nodal_vector(velocity(grid), grid.layout, member.ref, scratch.materials[member.group].velocity - own);
+  }
+  for (int p = 0; p < node.pairs; ++p) {
+    NodePair& pair = block.pairs[node.first_pair + p].state;
+    pair.on_a = scratch.pairs[p].on_a;
+    pair.on_b = scratch.pairs[p].on_b;
+  }
+}
+
+template <class FieldOf>
+void MaterialContact::hold_nodes(Pass pass, double dt, FieldOf&& velocity) {
+  const int count = static_cast<int>(blocks_.size());
+#pragma omp parallel num_threads(settings_.threads)
+  {
+    Scratch scratch;
+#pragma omp for schedule(static)
+    for (int i = 0; i < count; ++i) {
+      for (const Node& node : blocks_[i].nodes) hold(pass, blocks_[i], node, dt, velocity, scratch);
+    }
+  }
+}
+
+void MaterialContact::before_strain(StepContext& context) {
+  hold_nodes(Pass::strain, context.dt, [](Grid& grid) -> NodalField& { return grid.velocity; });
+}
+
+void MaterialContact::momentum_updated(StepContext& context) {
+  const int count = static_cast<int>(blocks_.size());
+#pragma omp parallel num_threads(settings_.threads)
+  {
+    Scratch scratch;
+#pragma omp for schedule(static)
+    for (int i = 0; i < count; ++i) {
+      for (const Node& node : blocks_[i].nodes) update(blocks_[i], node, context.dt, scratch);
+    }
+  }
+  keep_held();
+  started_ = true;
+  last_.assign(last_.size(), {});
+  for (const BlockNodes& block : blocks_) book(block, true);
+}
+
+void MaterialContact::update(BlockNodes& block, const Node& node, double dt, Scratch& scratch) {
+  load(
+      Pass::update, block, node, [](Grid& grid) -> NodalField& { return grid.velocity; }, scratch);
+  std::vector<Vec3>& start = scratch.velocities;
+  std::vector<Vec3>& accelerations = scratch.accelerations;
+  start.clear();
+  accelerations.assign(node.groups, Vec3::Zero());
+  for (const NodeMaterial& material : scratch.materials) start.push_back(material.velocity);
+  for (int m = node.first_member; m < node.first_member + node.members; ++m) {
+    const Member& member = block.members[m];
+    const Grid& grid = *fields_[member.field];
+    accelerations[member.group] +=
+        nodal_vector(grid.force, grid.layout, member.ref) * (member.mass / scratch.materials[member.group].mass);
+  }
+  solve_contact(scratch.materials, scratch.pairs, dt);
+  for (int p = 0; p < node.pairs; ++p) block.pairs[node.first_pair + p].state = scratch.pairs[p];
+  for (int m = node.first_member; m < node.first_member + node.members; ++m) {
+    const Member& member = block.members[m];
+    Grid& grid = *fields_[member.field];
+    const Vec3 change = scratch.materials[member.group].velocity - start[member.group];
+    const Vec3 apart = start[member.group] - nodal_vector(grid.velocity, grid.layout, member.ref);
+    const Vec3 forced = accelerations[member.group] - nodal_vector(grid.force, grid.layout, member.ref);
+    add_nodal_vector(grid.velocity, grid.layout, member.ref, change + apart);
+    add_nodal_vector(grid.force, grid.layout, member.ref, change / dt + forced);
+  }
+}
+
+void MaterialContact::velocity_found(StepContext& context, NodalField& /*velocity*/) {
+  hold_nodes(Pass::filter, context.dt, [](Grid& grid) -> NodalField& { return grid.increment; });
+}
+
+void MaterialContact::increment_found(StepContext& context, NodalField& /*increment*/) {
+  hold_nodes(Pass::filter, context.dt, [](Grid& grid) -> NodalField& { return grid.increment; });
+  for (const BlockNodes& block : blocks_) book(block, false);
+}
+
+void MaterialContact::keep_held() {
+  held_.clear();
+  for (const BlockNodes& block : blocks_) {
+    for (const Node& node : block.nodes) {
+      const std::size_t first = held_.size();
+      for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) {
+        const PairOfNode& pair = block.pairs[p];
+        if (pair.state.hold != PairHold::none) held_.push_back({node.id, pair.fields, pair.state.hold});
+      }
+      std::sort(held_.begin() + static_cast<std::ptrdiff_t>(first), held_.end(),
+                [](const Held& a, const Held& b) { return a.fields < b.fields; });
+    }
+  }
+}
+
+MaterialContact::Sums& MaterialContact::Sums::operator+=(const Sums& other) {
+  impulse += other.impulse;
+  friction += other.friction;
+  moment += other.moment;
+  pressed += other.pressed;
+  friction_energy += other.friction_energy;
+  return *this;
+}
+
+void MaterialContact::book(const BlockNodes& block, bool updated) {
+  for (const Node& node : block.nodes) {
+    for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) {
+      const NodePair& pair = block.pairs[p].state;
+      Sums& sums = last_[block.pairs[p].rule];
+      const Vec3 on_second = block.pairs[p].turned ? pair.on_a : pair.on_b;
+      const double normal = pair.on_a.dot(pair.normals.of_a);
+      const Vec3 side = block.pairs[p].turned ? pair.normals.of_a : pair.normals.of_b;
+      sums.impulse += on_second;
+      sums.friction += on_second - on_second.dot(side) * side;
+      if (!pair.opposite) left_over_ += pair.on_a + pair.on_b;
+      if (normal < 0.0) {
+        sums.pressed -= normal;
+        sums.moment -= normal * node.position;
+      }
+      if (!updated) continue;
+      sums.friction_energy += pair.friction_energy;
+      if (pair.interface != nullptr) {
+        sums.interface_energy +=
+            mpm::interface_energy(*pair.interface, {pair.opening, pair.area, 0.0}, pair.normals.of_a);
+      }
+      if (pair.on_a.isZero(0.0)) continue;
+      ++sums.nodes;
+      if (normal < 0.0) sums.area += pair.area;
+    }
+  }
+}
+
+void MaterialContact::grid_advanced(StepContext&) {
+  for (std::size_t i = 0; i < last_.size(); ++i) {
+    interval_[i] += last_[i];
+    total_[i] += last_[i];
+  }
+  if (settings_.normals.method == NormalMethod::own) account_.add(left_over_);
+  left_over_.setZero();
+}
+
+void MaterialContact::accounts(std::vector<ImpulseAccount>& list) const {
+  if (settings_.normals.method == NormalMethod::own) list.push_back(account_);
+}
+
+std::vector<PairReport> MaterialContact::take(double now) {
+  const bool about_axis = axisymmetric(settings_.geometry);
+  const auto whole = [about_axis](const Vec3& sum) { return about_axis ? Vec3(0.0, 0.0, sum.z()) : sum; };
+  std::vector<PairReport> reports;
+  const double interval = now - last_report_;
+  for (std::size_t i = 0; i < settings_.pairs.size(); ++i) {
+    PairReport report;
+    report.name = settings_.pairs[i].name;
+    report.interval = interval;
+    if (interval > 0.0) {
+      report.force = whole(interval_[i].impulse / interval);
+      report.friction = whole(interval_[i].friction / interval);
+      report.pressing = interval_[i].pressed / interval;
+    }
+    if (interval_[i].pressed > 0.0) report.centre = whole(interval_[i].moment / interval_[i].pressed);
+    report.area = last_[i].area;
+    report.nodes = last_[i].nodes;
+    report.impulse = whole(total_[i].impulse);
+    report.friction_energy = total_[i].friction_energy;
+    report.interface_energy = last_[i].interface_energy;
+    reports.push_back(report);
+    interval_[i] = {};
+  }
+  last_report_ = now;
+  return reports;
+}
+
+double MaterialContact::friction_energy() const {
+  double sum = 0.0;
+  for (const Sums& one : total_) sum += one.friction_energy;
+  return sum;
+}
+
+double MaterialContact::interface_energy() const {
+  double sum = 0.0;
+  for (const Sums& one : last_) sum += one.interface_energy;
+  return sum;
+}
+
+}  // namespace mpm

@@ -1,0 +1,206 @@
+// Finds the nodes where bodies of different velocity fields meet, and what contact has to know of them.
+#include <algorithm>
+#include <tuple>
+
+#include "mpm/contact/material_contact.hpp"
+#include "mpm/shape/ring.hpp"
+#include "mpm/step/coulomb.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kOnAxis = 1e-6;  // of a cell
+
+Vec3 mean(const NodalField& sums, const GridLayout& layout, NodeRef ref, double mass) {
+  return nodal_vector(sums, layout, ref) / mass;
+}
+
+}  // namespace
+
+SurveyWants MaterialContact::wants() const {
+  const bool interface = std::any_of(settings_.pairs.begin(), settings_.pairs.end(), [](const MaterialPair& pair) {
+    return pair.law.kind == ContactLaw::Kind::interface;
+  });
+  SurveyWants wants;
+  wants.start_volume = settings_.detection.minimum_volume > 0.0;
+  wants.position = interface || settings_.detection.kind == Detection::positions;
+  wants.displacement = interface || settings_.detection.kind == Detection::displacements;
+  wants.slope = interface;
+  return wants;
+}
+
+void MaterialContact::momentum_gathered(StepContext& context) {
+  for (std::size_t i = 0; i < friction_.size(); ++i) friction_[i] = settings_.pairs[i].law.at(context.start);
+  shared_.update(fields_, [this](int a, int b) { return rule(a, b).pair >= 0; });
+  const SurveyWants wanted = wants();
+  for (int f = 0; f < static_cast<int>(fields_.size()); ++f) {
+    if (shared_.any(f)) survey_.survey(f, shared_.marks(f), wanted, volumes_[f]);
+  }
+  const int count = static_cast<int>(shared_.list().size());
+  blocks_.resize(count);
+#pragma omp parallel for schedule(static) num_threads(settings_.threads)
+  for (int i = 0; i < count; ++i) find_nodes(shared_.list()[i], context.dt, blocks_[i]);
+}
+
+void MaterialContact::find_nodes(const SharedBlock& block, double dt, BlockNodes& found) const {
+  found.nodes.clear();
+  found.members.clear();
+  found.materials.clear();
+  found.pairs.clear();
+  const Grid& first = *fields_[block.parts.front().field];
+  const std::array<int, 3>& place = first.blocks.block(block.parts.front().block);
+  for (int n = 0; n < first.layout.nodes_per_block(); ++n) {
+    Node node{};
+    node.first_member = static_cast<int>(found.members.size());
+    for (const SharedBlock::Part& part : block.parts) {
+      const Grid& grid = *fields_[part.field];
+      if (!grid.carries(part.block, n)) continue;
+      found.members.push_back({part.field, {part.block, n}, grid.mass.at(part.block, 0, n), 0});
+    }
+    node.members = static_cast<int>(found.members.size()) - node.first_member;
+    node.groups = node.members;
+    if (node.members > 1) {
+      node.position = first.layout.node_position(place, n);
+      node.id = HeldNodes::id(block.key, n);
+      node.groups = group(found.members.data() + node.first_member, node.members);
+      node.first_pair = static_cast<int>(found.pairs.size());
+      add_pairs(node, symmetry(first.layout.node(place, n)), dt, found);
+      node.pairs = static_cast<int>(found.pairs.size()) - node.first_pair;
+    }
+    if (node.pairs > 0 || node.groups < node.members) {
+      found.nodes.push_back(node);
+    } else {
+      found.members.resize(node.first_member);
+      found.materials.resize(node.first_member);
+    }
+  }
+}
+
+int MaterialContact::group(Member* members, int count) const {
+  int groups = 0;
+  for (int i = 0; i < count; ++i) {
+    members[i].group = groups++;
+    for (int k = 0; k < i; ++k) {
+      const Rule between = rule(members[k].field, members[i].field);
+      if (between.pair < 0 || settings_.pairs[between.pair].law.kind != ContactLaw::Kind::one_field) continue;
+      const int kept = members[k].group, joined = members[i].group;
+      if (kept == joined) continue;
+      // The higher number goes, and those above it close up.
+      const int low = std::min(kept, joined), high = std::max(kept, joined);
+      for (int m = 0; m <= i; ++m) {
+        if (members[m].group == high) members[m].group = low;
+        if (members[m].group > high) --members[m].group;
+      }
+      --groups;
+    }
+  }
+  return groups;
+}
+
+NodeMaterial MaterialContact::material_at(const Member& member, const Vec3& position) const {
+  const NodalVolumes& volumes = volumes_[member.field];
+  const GridLayout& layout = fields_[member.field]->layout;
+  const NodeRef ref = member.ref;
+  NodeMaterial material;
+  material.mass = member.mass;
+  material.volume = volumes.volume.at(ref.block, 0, ref.node);
+  material.gradient = nodal_vector(volumes.gradient, layout, ref);
+  const SurveyWants wanted = wants();
+  if (wanted.start_volume) material.start_volume = volumes.start_volume.at(ref.block, 0, ref.node);
+  if (settings_.detection.kind == Detection::positions) {
+    material.place = mean(volumes.position, layout, ref, member.mass);
+  } else if (settings_.detection.kind == Detection::displacements) {
+    material.place = mean(volumes.displacement, layout, ref, member.mass);
+  }
+  if (wanted.slope) {
+    // The mean is that of the material's mean place; its gradient carries it to the node.
+    material.displacement = mean(volumes.displacement, layout, ref, member.mass);
+    const Vec3 to_node = position - mean(volumes.position, layout, ref, member.mass);
+    for (int c = 0; c < layout.dim(); ++c) {
+      material.displacement[layout.axis(c)] += mean(volumes.slope[c], layout, ref, member.mass).dot(to_node);
+    }
+  }
+  return material;
+}
+
+void MaterialContact::add_pairs(Node& node, const std::array<bool, 3>& planes, double dt, BlockNodes& found) const {
+  const GridLayout& layout = fields_.front()->layout;
+  const Member* members = found.members.data() + node.first_member;
+  found.materials.resize(found.members.size());
+  NodeMaterial* materials = found.materials.data() + node.first_member;
+  std::vector<int> heaviest(node.groups, -1);
+  for (int m = 0; m < node.members; ++m) {
+    const int g = members[m].group;
+    const NodeMaterial one = material_at(members[m], node.position);
+    materials[g] = heaviest[g] < 0 ? one : lumped(materials[g], one);
+    if (heaviest[g] < 0 || members[m].mass > members[heaviest[g]].mass) heaviest[g] = m;
+  }
+  double start_volume = 0.0;
+  for (int g = 0; g < node.groups; ++g) {
+    mirror(materials[g], planes);
+    start_volume += materials[g].start_volume;
+  }
+  const bool room = start_volume >= settings_.detection.minimum_volume * settings_.cell_volume;
+  for (int a = 0; a < node.groups; ++a) {
+    for (int b = a + 1; b < node.groups; ++b) {
+      const int field_a = members[heaviest[a]].field, field_b = members[heaviest[b]].field;
+      const Rule between = rule(field_a, field_b);
+      if (between.pair < 0) continue;
+      const ContactLaw& law = settings_.pairs[between.pair].law;
+      PairOfNode pair{};
+      pair.rule = between.pair;
+      pair.turned = between.turned;
+      pair.fields = field_a * static_cast<int>(fields_.size()) + field_b;
+      NodePair& state = pair.state;
+      state.a = a;
+      state.b = b;
+      state.normals = pair_normals(settings_.normals, materials[a], materials[b]);
+      if (state.normals.of_a.isZero(0.0)) continue;
+      state.opposite = settings_.normals.method != NormalMethod::own;
+      state.friction = friction_[between.pair];
+      state.hold = held(node.id, pair.fields);
+      const double across = across_cell(layout, state.normals.of_a);
+      state.area = contact_area(materials[a].volume, materials[b].volume, across) * around(node.position);
+      if (law.kind == ContactLaw::Kind::interface) {
+        state.interface = &law.interface;
+        state.opening = materials[b].displacement - materials[a].displacement;
+      } else {
+        state.touching =
+            room && (settings_.detection.kind == Detection::approach ||
+                     separation(settings_.detection, materials[a], materials[b], state.normals.of_a, across) < 0.0);
+        // A bond that broke stays broken until the surfaces have pressed again; at the start what touches is bonded.
+        if (state.hold != PairHold::none || !started_) state.bond = state.friction.adhesion * state.area * dt;
+      }
+      found.pairs.push_back(pair);
+    }
+  }
+}
+
+std::array<bool, 3> MaterialContact::symmetry(const std::array<int, 3>& node) const {
+  const Grid& grid = *fields_.front();
+  std::array<bool, 3> planes{};
+  for (int k = 0; k < grid.layout.dim(); ++k) {
+    const bool low = grid.has_wall[2 * k] && node[k] <= 0;
+    const bool high = grid.has_wall[2 * k + 1] && node[k] >= grid.layout.last_node(k);
+    planes[grid.layout.axis(k)] = low || high;
+  }
+  if (axisymmetric(settings_.geometry) && grid.layout.origin(0) == 0.0 && node[0] <= 0) planes[0] = true;
+  return planes;
+}
+
+double MaterialContact::around(const Vec3& position) const {
+  if (!axisymmetric(settings_.geometry)) return 1.0;
+  const double cell = fields_.front()->layout.cell(0), r = position.x();
+  // The hat function of a node on the axis: its integral of 2 pi r over that of 1.
+  return r > kOnAxis * cell ? kTurn * r : kTurn * cell / 3.0;
+}
+
+PairHold MaterialContact::held(std::uint64_t node, int fields) const {
+  const auto before = [](const Held& one, const std::pair<std::uint64_t, int>& wanted) {
+    return std::tie(one.node, one.fields) < std::tie(wanted.first, wanted.second);
+  };
+  const auto it = std::lower_bound(held_.begin(), held_.end(), std::pair{node, fields}, before);
+  return it != held_.end() && it->node == node && it->fields == fields ? it->hold : PairHold::none;
+}
+
+}  // namespace mpm

@@ -1,0 +1,93 @@
+// A cylinder with round ends: all that is near a straight piece of a line. In a plane a stadium.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mpm/rigid/surface.hpp"
+
+namespace mpm {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kMeridians = 32;  // of the display mesh
+constexpr int kParallels = 8;   // of each end
+
+class CapsuleSurface final : public Surface {
+ public:
+  CapsuleSurface(double radius, double length, int axis, bool in_plane)
+      : radius_(radius), half_(0.5 * length), axis_(axis), in_plane_(in_plane) {}
+
+  SurfacePoint at(const Vec3& point) const override {
+    Vec3 arm = point;  // from the nearest point of the middle line
+    arm[axis_] -= std::clamp(point[axis_], -half_, half_);
+    if (in_plane_) arm.y() = 0.0;
+    const double r = arm.stableNorm();
+    // On the line itself all directions across it are alike: x, or z where x is the line.
+    return {r - radius_, r > 0.0 ? Vec3(arm / r) : Vec3(axis_ == 0 ? Vec3::UnitZ() : Vec3::UnitX())};
+  }
+
+  bool within(const Vec3& point, double band, SurfacePoint& result) const override {
+    if (std::abs(point[axis_]) - half_ - radius_ > band) return false;
+    const SurfacePoint found = at(point);
+    if (found.distance > band) return false;
+    result = found;
+    return true;
+  }
+
+  Box bounds() const override {
+    Vec3 half = Vec3::Constant(radius_);
+    half[axis_] += half_;
+    if (in_plane_) half.y() = std::numeric_limits<double>::infinity();
+    return {-half, half};
+  }
+
+  double thickness() const override { return 2.0 * radius_; }
+
+  std::vector<std::array<Vec3, 3>> triangles() const override {
+    // Parallels from one pole to the other; the equator is there twice, at both ends of the straight part.
+    const int last = 2 * kParallels + 1;
+    const auto vertex = [&](int parallel, int meridian) {
+      const bool upper = parallel <= kParallels;
+      const double theta = 0.5 * kPi * (upper ? parallel : parallel - 1) / kParallels;
+      const double phi = 2.0 * kPi * (meridian % kMeridians) / kMeridians;
+      const double ring = parallel == 0 || parallel == last ? 0.0 : radius_ * std::sin(theta);  // one vertex a pole
+      Vec3 p;
+      p[axis_] = radius_ * std::cos(theta) + (upper ? half_ : -half_);
+      p[(axis_ + 1) % 3] = ring * std::cos(phi);
+      p[(axis_ + 2) % 3] = ring * std::sin(phi);
+      return p;
+    };
+    std::vector<std::array<Vec3, 3>> result;
+    for (int i = 0; i < last; ++i) {
+      for (int j = 0; j < kMeridians; ++j) {
+        if (i + 1 < last) result.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+        if (i > 0) result.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+      }
+    }
+    return result;
+  }
+
+ private:
+  double radius_, half_;
+  int axis_;
+  bool in_plane_;
+};
+
+}  // namespace
+
+std::unique_ptr<Surface> make_capsule(double radius, double length, int axis, bool in_plane) {
+  for (const auto& [name, value] : {std::pair("radius", radius), std::pair("length", length)}) {
+    if (!(value > 0.0) || std::isinf(value))
+      throw RigidError(fmt::format("capsule: {} is {:g} m; it must be positive and finite", name, value));
+  }
+  if (axis < 0 || axis > 2 || (in_plane && axis == 1)) {
+    throw RigidError(
+        fmt::format("capsule: axis is {}; it must be 0, 1 or 2 for x, y or z, and not y in a plane", axis));
+  }
+  return std::make_unique<CapsuleSurface>(radius, length, axis, in_plane);
+}
+
+}  // namespace mpm

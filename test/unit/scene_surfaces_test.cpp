@@ -1,0 +1,129 @@
+// Planes, capsules and height fields in scenes: in which geometry they are what, and what is refused.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+
+#include "scene_tool.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(SceneSurfaces, APlaneInEachGeometry) {
+  for (const std::string geometry : {"solid", "plane_strain", "axisymmetric"}) {
+    EXPECT_EQ(tool(geometry, "plane: {}").surface->at({3.0, 2.0, 0.25}).distance, 0.25) << geometry;
+  }
+  EXPECT_EQ(tool("axisymmetric", "plane: {normal: [0, -2]}").surface->at({3.0, 2.0, 0.25}).distance, -0.25);
+  EXPECT_EQ(tool("line", "plane: {normal: -1}").surface->at({0.5, 0.0, 0.0}).distance, -0.5);
+  EXPECT_EQ(tool("line", "plane: {}").surface->at({0.5, 0.0, 0.0}).normal, Vec3::UnitX());
+  EXPECT_NEAR(tool("plane_strain", "plane: {normal: [3, 4]}").surface->at({1.0, 9.0, 1.0}).distance, 1.4, 1e-15);
+  EXPECT_NEAR(tool("solid", "plane: {normal: [0, 3, 4]}").surface->at({9.0, 1.0, 1.0}).distance, 1.4, 1e-15);
+  // A pose turns it: the roll takes z to -y.
+  const RigidBodyDefinition turned = tool("solid", "plane: {}", "pose: {position: [0, 1, 0], rpy: [90 deg, 0, 0]}");
+  EXPECT_NEAR(turned.surface->at(turned.pose.to_body({5.0, 0.75, 7.0})).distance, 0.25, 1e-14);  // rounding of 7
+}
+
+TEST(SceneSurfaces, ACapsuleInEachGeometry) {
+  const Box upright = tool("solid", "capsule: {radius: 10 cm, length: 0.4, axis: y}").surface->bounds();
+  EXPECT_LT((upright.max - Vec3(0.1, 0.3, 0.1)).norm(), 1e-15);
+  EXPECT_EQ(tool("axisymmetric", "capsule: {radius: 0.1, length: 0.4}").surface->bounds().max.z(), 0.2 + 0.1);
+  const auto stadium = tool("plane_strain", "capsule: {radius: 0.1, length: 0.4, axis: x}").surface;
+  EXPECT_EQ(stadium->bounds().max, Vec3(0.2 + 0.1, kInfinity, 0.1));
+}
+
+TEST(SceneSurfaces, AHeightFieldFromAListAndAnExpression) {
+  const auto roof = tool("plane_strain", "height_field: {x: [-1, 1], heights: [0, 100 cm, 0]}").surface;
+  EXPECT_NEAR(roof->at({0.0, 0.0, 2.0}).distance, 1.0, 1e-15);
+  // Rows along y: it rises along y alone.
+  const auto ramp = tool("solid", "height_field: {x: [0, 1], y: [0, 3], heights: [[0, 0], [3, 3]]}").surface;
+  EXPECT_NEAR(ramp->at({0.5, 1.0, 2.0}).distance, std::sqrt(0.5), 1e-15);
+  // An expression is asked at the points, x = 0, 0.25, …; by itself as far apart as the grid's, 0.1.
+  const auto coarse = tool("plane_strain", "height_field: {x: [0, 1], heights: x^2, cells: 4}").surface;
+  EXPECT_NEAR(coarse->at({0.25, 0.0, 0.0625}).distance, 0.0, 1e-15);
+  EXPECT_LT(coarse->at({0.125, 0.0, 0.125 * 0.125}).distance, -0.01);
+  const auto fine = tool("plane_strain", "height_field: {x: [0, 1], heights: x^2}").surface;
+  EXPECT_NEAR(fine->at({0.3, 0.0, 0.09}).distance, 0.0, 1e-15);
+  EXPECT_LT(fine->at({0.35, 0.0, 0.35 * 0.35}).distance, -1e-3);
+  const auto saddle = tool("solid", "height_field: {x: [-1, 1], y: [0, 1], heights: x*y, cells: [4, 2]}").surface;
+  EXPECT_NEAR(saddle->at({-0.5, 0.5, -0.25}).distance, 0.0, 1e-15);
+}
+
+class SceneHeightFile : public ::testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return (folder_ / name).string();
+  }
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("mpm_height_test_" + std::to_string(std::random_device{}()));
+};
+
+TEST_F(SceneHeightFile, TextRowByRow) {
+  const std::string file = write("ramp.csv", "# millimetres\n0, 0, 0\n3000 3000 3000\n");
+  const std::string keys = "height_field: {x: [0, 1], y: [0, 3], scale: 1 mm, file: " + file + "}";
+  EXPECT_NEAR(tool("solid", keys).surface->at({0.5, 1.0, 2.0}).distance, std::sqrt(0.5), 1e-15);
+  for (const char* text : {"0, 1, 0", "0\n1\n0\n"}) {
+    const std::string profile = "height_field: {x: [-1, 1], file: " + write("profile.csv", text) + "}";
+    EXPECT_NEAR(tool("plane_strain", profile).surface->at({0.0, 0.0, 2.0}).distance, 1.0, 1e-15);
+  }
+}
+
+TEST_F(SceneHeightFile, AnImageWithItsTopAtHighY) {
+  // Dark below, white (3 m) above; 8 bits plain and 16 bits binary.
+  const std::string plain = write("plain.pgm", "P2 # dark below\n2 2\n255\n255 255\n0 0\n");
+  const std::string binary = write("binary.pgm", std::string("P5 2 2 65535\n\xff\xff\xff\xff\0\0\0\0", 21));
+  for (const std::string& file : {plain, binary}) {
+    const std::string keys = "height_field: {x: [0, 1], y: [0, 3], scale: 3, file: " + file + "}";
+    EXPECT_NEAR(tool("solid", keys).surface->at({0.5, 1.0, 2.0}).distance, std::sqrt(0.5), 1e-15);
+  }
+}
+
+TEST_F(SceneHeightFile, FilesThatHoldNoFieldAreRefused) {
+  const auto refused = [](const std::string& file, const std::string& what, const std::string& more = "") {
+    expect_refused(scene("solid", "height_field: {x: [0, 1], y: [0, 1], file: " + file + more + "}"),
+                   "shape.height_field.file", what);
+  };
+  refused("/no/such.csv", "cannot be read");
+  refused(write("words.csv", "0, 1\n0, high\n"), "words.csv:2: 'high' is not a number");
+  refused(write("ragged.csv", "0, 1\n0\n"), "ragged.csv:2: 1 numbers, but 2 in the rows before");
+  refused(write("one.csv", "0, 1\n"), "two points at least along each axis");
+  refused(write("nan.csv", "0, nan\n0, 0\n"), "all must be finite");
+  refused(write("no_scale.pgm", "P2 2 2 1 0 0 0 0"), "write scale");
+  refused(write("colour.pgm", "P3 2 2 1 0 0 0 0"), "not a greyscale image", ", scale: 1");
+  refused(write("short.pgm", "P2 2 2 1 0 0 0"), "ends early", ", scale: 1");
+  refused(write("bright.pgm", "P2 2 2 1 0 0 0 7"), "above its white", ", scale: 1");
+}
+
+TEST(SceneSurfaces, WhatIsNoSuchShapeIsRefused) {
+  const auto refused = [](const std::string& geometry, const std::string& shape, const std::string& where,
+                          const std::string& what) { expect_refused(scene(geometry, shape), "shape." + where, what); };
+  refused("solid", "plane: {normal: [0, 0, 0]}", "plane.normal", "its length is 0");
+  refused("axisymmetric", "plane: {normal: [1, 1]}", "plane.normal", "not a body of revolution");
+  refused("solid", "plane: {point: [0, 0, 0]}", "plane.point", "put it by pose");
+  refused("line", "capsule: {radius: 1, length: 1}", "capsule", "a line has no capsule");
+  refused("plane_stress", "capsule: {radius: 1, length: 1, axis: y}", "capsule.axis", "write x or z");
+  refused("axisymmetric", "capsule: {radius: 1, length: 1, axis: x}", "capsule.axis", "write z, or leave it out");
+  refused("solid", "capsule: {radius: 1, length: 0}", "capsule.length", "");
+  const std::string field = "height_field: {x: [0, 1]";
+  refused("axisymmetric", field + ", heights: [0, 1]}", "height_field", "write revolved");
+  refused("line", field + ", heights: [0, 1]}", "height_field", "a line has no height field");
+  refused("plane_strain", field + ", y: [0, 1], heights: [0, 1]}", "height_field.y", "leave it out");
+  refused("plane_strain", field + "}", "height_field", "heights or file; write one of them");
+  refused("plane_strain", field + ", heights: [0, 1], file: a.csv}", "height_field", "write one of them");
+  refused("plane_strain", field + ", heights: [0]}", "height_field.heights", "two points at least");
+  refused("plane_strain", field + ", heights: [0, 1], cells: 4}", "height_field.cells", "leave it out");
+  refused("plane_strain", field + ", heights: [0, 1], scale: 4}", "height_field.scale", "belongs to file");
+  refused("plane_strain", field + ", heights: 1/x}", "height_field.heights", "");
+  refused("plane_strain", field + ", heights: x, cells: 0}", "height_field.cells", "write 1 to 4096");
+  refused("plane_strain", "height_field: {x: [1, 0], heights: x}", "height_field.x", "write [from, to]");
+  refused("solid", field + ", y: [0, 1], heights: [[0, 1], [0]]}", "height_field.heights.1", "2 in the first row");
+  refused("solid", field + ", y: [0, 1], heights: x, cells: 3}", "height_field.cells", "");
+}
+
+}  // namespace
+}  // namespace mpm

@@ -34,6 +34,14 @@ TEST(SceneTools, ARingOpensInAnAxisymmetricSceneAlone) {
   EXPECT_EQ(tool("axisymmetric", "cylinder: {radius: 0.1, height: 1}").inner_radius, 0.0);
 }
 
+TEST(SceneTools, SidesOfAThinTool) {
+  EXPECT_EQ(tool("solid", kRing).sides, Sides::automatic);
+  EXPECT_EQ(tool("solid", kRing, "sides: auto").sides, Sides::automatic);
+  EXPECT_EQ(tool("solid", kRing, "sides: one").sides, Sides::one);
+  EXPECT_EQ(tool("line", "box: {size: 0.1}", "sides: two").sides, Sides::two);
+  expect_refused(scene("solid", kRing, "sides: 2"), "sides", "two");
+}
+
 TEST(SceneTools, AToolThatIsNotAxisymmetricIsRefused) {
   const std::string sphere = "sphere: {radius: 0.1}";
   const auto refused = [](const std::string& shape, const std::string& rest, const std::string& where,

@@ -21,6 +21,7 @@
 #include "mpm/contact/pair_detection.hpp"
 #include "mpm/contact/pair_report.hpp"
 #include "mpm/contact/shared_blocks.hpp"
+#include "mpm/contact/tool_sides.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/step/stage.hpp"
 #include "mpm/step/volume_survey.hpp"
@@ -41,6 +42,7 @@ struct MaterialContactSettings {
   GeometryKind geometry = GeometryKind::solid;
   double cell_volume = 0.0;  ///< that minimum volumes are a part of [m^3]; about an axis the area of a cell's section
   int threads = 1;
+  const ToolSides* sides = nullptr;  ///< of thin tools, which may lie between two bodies at a node; null without
 };
 
 class MaterialContact final : public Stage {
@@ -115,6 +117,8 @@ class MaterialContact final : public Stage {
     int pair = -1;
     bool turned = false;
   };
+  /// Whether a thin tool lies between what two fields have at a node.
+  bool parted(const Member& a, const Member& b) const;
   Rule rule(int a, int b) const { return rules_[a * static_cast<int>(fields_.size()) + b]; }
 
   // Finding the nodes (material_nodes.cpp).

@@ -5,14 +5,21 @@
 // momentum_updated (and takes from XPIC's increments), over the time it took; torque about the body's origin as it
 // moves; the same sums, weighted by the normal part, give the centre of pressure. In an axisymmetric scene the normal
 // of a node on the axis has no radial part (Nairn & Guilkey (2015) section 3.3), and reports leave out what cancels
-// around the axis; the account keeps it, as radial momentum. Weak: a surface between two rows of nodes is met up to a
-// cell early; material on both sides of a tool thinner than three cells shares nodes. Source: Nairn, GIMP notes
+// around the axis; the account keeps it, as radial momentum.
+//
+// A thin tool whose sides have a field each (tool_sides.hpp) is also in contact with nodes behind it, which a field's
+// material reaches through it: those that the line from the node's mass centre meets the tool on the way to. The normal
+// is that of the surface at the mass centre, the face that the material lies at.
+//
+// Weak: a surface between two rows of nodes is met up to a cell early; material on both sides of a tool thinner than
+// three cells shares nodes if it has one field. Source: Nairn, GIMP notes
 // (3.12)-(3.20); method reference 5.3, 8.3; the normal is the exact one instead of a mass gradient.
 #pragma once
 
 #include <vector>
 
 #include "mpm/contact/contact_ledger.hpp"
+#include "mpm/contact/thin_tool.hpp"
 #include "mpm/grid/fields.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/rigid/rigid_body.hpp"
@@ -23,8 +30,10 @@ namespace mpm {
 
 class RigidContact final : public Stage {
  public:
-  /// `body` and `fields` outlive the stage. Solid stands for every geometry that is not axisymmetric.
-  RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry = GeometryKind::solid);
+  /// `body`, `fields` and `thin`, if the body's sides have fields of their own, outlive the stage. Solid stands for
+  /// every geometry that is not axisymmetric.
+  RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry = GeometryKind::solid,
+               const ThinTool* thin = nullptr);
 
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
@@ -48,6 +57,9 @@ class RigidContact final : public Stage {
   struct NearBlock {
     int field, block;
   };
+  /// Whether the node, of a field and at a world place, is to be held if it approaches, and where the surface is that
+  /// holds it. `reach`: as far outside the body [m].
+  bool touches(int field, NodeRef node, const Vec3& place, double reach, SurfacePoint& point) const;
   /// visit(node, grid of its field)
   template <class Visit>
   void each_node(Visit&& visit);
@@ -58,6 +70,7 @@ class RigidContact final : public Stage {
   Fields& fields_;
   int threads_;
   bool axisymmetric_;
+  const ThinTool* thin_;
   std::vector<NearBlock> near_;           ///< blocks whose nodes may lie in the body
   std::vector<std::vector<Node>> nodes_;  ///< of each block in near_
   std::vector<HeldNodes> held_;           ///< of each field

@@ -48,7 +48,8 @@ struct Grid {
         momentum(layout.dim(), layout.nodes_per_block()),
         velocity(layout.dim(), layout.nodes_per_block()),
         force(layout.dim(), layout.nodes_per_block()),
-        increment(layout.dim(), layout.nodes_per_block()) {}
+        increment(layout.dim(), layout.nodes_per_block()),
+        place(layout.dim(), layout.nodes_per_block()) {}
   Grid(const Grid&) = delete;
   Grid& operator=(const Grid&) = delete;
 
@@ -77,6 +78,7 @@ struct Grid {
   NodalField velocity;   ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]
   NodalField force;      ///< f_i while forces are gathered [N], then the acceleration a_i [m/s^2]
   NodalField increment;  ///< XPIC, FMPM: what the velocity that particles adopt is made of; else empty [m/s]
+  NodalField place;  ///< with thin tools, near them: sum of m S x, the mass centre times the mass; else empty [kg m]
 };
 
 }  // namespace mpm

@@ -14,6 +14,10 @@
 
 namespace mpm {
 
+/// Whether the material on the two sides of a body has a velocity field each (contact/tool_sides.hpp). Automatic: if
+/// the body is thinner than three cells somewhere.
+enum class Sides { automatic, one, two };
+
 /// What a scene says of a rigid body.
 struct RigidBodyDefinition {
   std::string name;
@@ -25,6 +29,7 @@ struct RigidBodyDefinition {
   /// How far outside the surface nodes are held too, in [0, 1] cells. 1: the nodes that the shape functions of a rigid
   /// body made of particles would reach; material is met that much early.
   double reach = 0.0;
+  Sides sides = Sides::automatic;
   /// Filled with particles, and met by volumes and volume gradients at nodes (contact/rigid_particle_contact.hpp) in
   /// place of the surface.
   bool particles = false;

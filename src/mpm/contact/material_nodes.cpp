@@ -45,6 +45,7 @@ void MaterialContact::find_nodes(const SharedBlock& block, double dt, BlockNodes
       found.members.push_back({part.field, {part.block, n}, grid.mass.at(part.block, 0, n), 0});
     }
     node.members = static_cast<int>(found.members.size()) - node.first_member;
+    node.groups = node.members;
     if (node.members > 1) {
       node.position = first.layout.node_position(place, n);
       node.id = HeldNodes::id(block.key, n);

@@ -9,6 +9,7 @@ namespace {
 // Part of a cell within which a node counts as lying on the surface: keeps aligned surfaces from flickering by
 // round-off. The same part of a cell from the axis is on it.
 constexpr double kOnSurface = 1e-6;
+constexpr double kThrough = 3.0;  ///< cells behind a thin tool that material before it may reach
 
 // Box around the body in the world; a body that is endless along an axis stays endless.
 Box world_bounds(const RigidBody& body) {
@@ -29,19 +30,37 @@ Box world_bounds(const RigidBody& body) {
 
 }  // namespace
 
-RigidContact::RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry)
+RigidContact::RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry,
+                           const ThinTool* thin)
     : body_(body),
       fields_(fields),
       threads_(threads),
       axisymmetric_(axisymmetric(geometry)),
+      thin_(thin),
       held_(fields.size()),
       ledger_(body, axisymmetric(geometry)) {}
+
+bool RigidContact::touches(int field, NodeRef node, const Vec3& place, double reach, SurfacePoint& point) const {
+  const Surface& surface = body_.surface();
+  if (thin_ == nullptr) return surface.within(body_.pose().to_body(place), reach, point);
+  const Grid& grid = *fields_[field];
+  const Vec3 centre = nodal_vector(grid.place, grid.layout, node) / grid.mass.at(node.block, 0, node.node);
+  const double farthest = std::max(reach, (centre - place).norm());  // that the tool can be between them
+  if (!surface.within(body_.pose().to_body(place), farthest, point)) return false;
+  if (point.distance > reach && !thin_->between(centre, place)) return false;
+  point = surface.at(body_.pose().to_body(centre));
+  // Pressed past the middle of the tool, it is still to be pushed out where it came from.
+  if (point.distance < 0.0 && thin_->side(centre) != field % 2) point.normal = -point.normal;
+  return true;
+}
 
 void RigidContact::momentum_gathered(StepContext& context) {
   const GridLayout& layout = context.grid.layout;
   const double on_surface = kOnSurface * layout.smallest_cell();
   const double reach = on_surface + body_.reach() * layout.smallest_cell();
-  const Box bounds = world_bounds(body_).grown(reach);
+  // Nodes that a field reaches through a thin tool are no farther from their mass centres, along each axis.
+  const double through = thin_ == nullptr ? 0.0 : kThrough * layout.smallest_cell();
+  const Box bounds = world_bounds(body_).grown(std::max(reach, through));
 
   near_.clear();
   for (std::size_t f = 0; f < fields_.size(); ++f) {
@@ -64,7 +83,7 @@ void RigidContact::momentum_gathered(StepContext& context) {
       if (!grid.carries(block, n)) continue;
       const Vec3 position = layout.node_position(grid.blocks.block(block), n);
       SurfacePoint point;
-      if (!body_.surface().within(body_.pose().to_body(position), reach, point)) continue;
+      if (!touches(field, {block, n}, position, reach, point)) continue;
       Vec3 normal = body_.pose().orientation * point.normal;
       if (axisymmetric_ && std::abs(position.x()) <= on_surface) {
         if (std::abs(normal.z()) <= kOnSurface) continue;  // all of it was radial

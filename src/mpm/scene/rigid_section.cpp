@@ -213,7 +213,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
   const FrictionLaw friction = read_contact(root, scene, section.has_value());
   if (!section) return;
   for (const Value& value : section->elements()) {
-    const Map map(value, {"name", "shape", "pose", "motion", "friction", "reach", "normals"},
+    const Map map(value, {"name", "shape", "pose", "motion", "friction", "reach", "sides", "normals"},
                   {{"drive", "use motion, or velocity and pose commands on topics"},
                    {"mass", "rigid bodies move as they are told"},
                    {"frame", "use commands on topics, which tf2 transforms"}});
@@ -231,6 +231,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
     read_rigid_shape(map, scene.definition, body);
     const auto own_friction = map.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;
+    if (const auto sides = map.find("sides")) body.sides = static_cast<Sides>(sides->choice({"auto", "one", "two"}));
     if (const auto reach = map.find("reach")) {
       if (scene.definition.contact.method == ContactMethod::points)
         reach->fail("it is of contact at nodes; leave it out, or write contact: {method: nodes}");

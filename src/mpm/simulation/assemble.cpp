@@ -14,11 +14,13 @@
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/mechanics/mass_places.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/step/in_field.hpp"
 #include "state.hpp"
+#include "velocity_fields.hpp"
 
 namespace mpm {
 
@@ -164,31 +166,6 @@ void project(SimulationDefinition& definition) {
   }
 }
 
-/// The velocity fields that the bodies are in, with what all of them have in common.
-Fields fields_of(const SimulationDefinition& definition) {
-  int count = 1;
-  for (const DeformableBody& body : definition.bodies) {
-    if (body.field < 0)
-      throw DefinitionError(fmt::format("body '{}': its velocity field is {}", body.name, body.field));
-    count = std::max(count, body.field + 1);
-  }
-  GridLayout layout(dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max);
-  for (int k = 0; k < layout.dim(); ++k) {
-    if (definition.walls[2 * layout.axis(k)].kind == WallKind::periodic) layout.make_periodic(k);
-  }
-  const ShapeKind shape = definition.method.shape;
-  Fields fields = make_fields(layout, count);
-  for (auto& grid : fields) {
-    if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) grid->wall_layers = 2;
-    for (int face = 0; face < 2 * layout.dim(); ++face) {
-      const WallKind kind = definition.walls[2 * layout.axis(face / 2) + face % 2].kind;
-      grid->has_wall[face] = kind != WallKind::none && kind != WallKind::periodic;
-      if (kind == WallKind::symmetry) grid->symmetry.add(face);
-    }
-  }
-  return fields;
-}
-
 // Not "= {}", which would keep the memory.
 void forget_particles(DeformableBody& body) {
   body.positions = std::vector<Vec3>();
@@ -259,6 +236,13 @@ void Simulation::State::add_mechanics() {
     tractions = all.get();
     stages.push_back(std::move(all));
   }
+  if (sides != nullptr) {
+    auto glue = std::make_unique<SideGlue>(*sides, fields);
+    stages.push_back(glue->late());
+    stages.insert(stages.begin(), std::move(glue));
+    const auto near = [this](const Vec3& middle, double radius) { return sides->near(middle, radius); };
+    stages.insert(stages.begin(), make_mass_places(kernels, fields, sets, laws, near, threads));
+  }
   ContinuumSettings settings;
   settings.transfer = method.transfer;
   settings.average_dilatation = method.average_dilatation;
@@ -288,6 +272,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   project(s.definition);
   s.fields = fields_of(definition);
   const GridLayout& layout = s.layout();
+  if (any_sides(definition)) s.sides = std::make_unique<ToolSides>(layout, s.threads);
 
   const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
                                      [](const DeformableBody& body) { return body.geostatic.has_value(); });
@@ -299,6 +284,10 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     s.laws.push_back(make_law(material));
     s.sets.push_back(make_set(definition, body, material, s.laws.back(), layout, s.warnings));
     ParticleSet& set = s.sets.back();
+    if (s.sides != nullptr) {
+      set.field *= 2;
+      set.side.assign(set.id.size(), 0);
+    }
     set.first_id = next_id;
     for (std::uint32_t& id : set.id) id = next_id++;
     s.total_mass += set.total_mass();

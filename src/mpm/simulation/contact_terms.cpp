@@ -77,6 +77,7 @@ MaterialContactSettings make_contact_settings(const SimulationDefinition& defini
 void Simulation::State::add_pairs() {
   MaterialContactSettings settings = make_contact_settings(definition, sets, layout(), threads);
   if (settings.pairs.empty()) return;
+  settings.sides = sides.get();
   auto stage = std::make_unique<MaterialContact>(std::move(settings), fields, volumes());
   pairs = stage.get();
   stages.push_back(std::move(stage));
@@ -95,23 +96,16 @@ void Simulation::State::add_rigid_bodies() {
   std::vector<ContactLaw> laws_at_points;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const RigidBodyDefinition& body = bodies[b].definition();
+    const ThinTool* thin = add_sides(bodies[b]);
     if (body.particles) {
       contacts[b] = &add_rigid_particles(bodies[b], {laws_of(b), laws_of(b + 1)});
     } else if (definition.contact.method == ContactMethod::nodes) {
-      auto contact = std::make_unique<RigidContact>(bodies[b], fields, threads, definition.geometry);
+      auto contact = std::make_unique<RigidContact>(bodies[b], fields, threads, definition.geometry, thin);
       contacts[b] = &contact->ledger();
       stages.push_back(std::move(contact));
     } else {
       met_at_points.push_back(&bodies[b]);
       laws_at_points.insert(laws_at_points.end(), laws_of(b), laws_of(b + 1));
-    }
-    const double cells = body.surface->thickness() / layout().smallest_cell();
-    if (cells < 3.0) {
-      warnings.push_back(
-          fmt::format("rigid body '{}' is {:.2g} cells thick where it is thinnest: material on its two sides shares "
-                      "nodes and feels "
-                      "each other when it is thinner than 3; use a finer grid.cell or a thicker body",
-                      body.name, cells));
     }
   }
   if (met_at_points.empty()) return;

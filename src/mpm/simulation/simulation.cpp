@@ -40,6 +40,7 @@ void Simulation::State::fail(const std::string& what, ParticleRef particle, doub
 
 void Simulation::State::sort(double now) {
   if (layout().any_periodic()) put_around(sets, layout(), threads);
+  if (sides != nullptr) sides->label(sets);
   auto outside = sorter->sort(sets, fields);
   if (outside && leaving && leaving->put_back(sets, layout())) outside = sorter->sort(sets, fields);
   if (outside) {
@@ -75,7 +76,7 @@ void Simulation::State::step(double start, double dt) {
     fail("the volume ratio J is not positive", *particle, start + dt,
          "lower time.cfl, use a finer grid.cell or slower tools, or stiffen what is crushed");
   }
-  if (mechanics->needs_sort()) sort(start + dt);
+  if (mechanics->needs_sort() || (sides != nullptr && sides->due())) sort(start + dt);
 }
 
 void Simulation::State::run_period() {

@@ -9,6 +9,7 @@
 #include "mpm/contact/material_contact.hpp"
 #include "mpm/contact/point_contact.hpp"
 #include "mpm/contact/rigid_contact.hpp"
+#include "mpm/contact/tool_sides.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/mechanics/damping.hpp"
 #include "mpm/mechanics/face_tractions.hpp"
@@ -52,6 +53,7 @@ struct Simulation::State {
   std::vector<Law> laws;  ///< of each set
   Fields fields;
   std::unique_ptr<Sorter> sorter;
+  std::unique_ptr<ToolSides> sides;  ///< of thin tools, in a scene that has any
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;
   Stages stages;
@@ -81,6 +83,8 @@ struct Simulation::State {
   const GridLayout& layout() const { return fields.front()->layout; }
   template <class T>
   void add_mechanics();
+  /// Says of a thin body what becomes of its two sides; null if they have no field each.
+  const ThinTool* add_sides(const RigidBody& body);
   /// Contact between deformable bodies, when the scene has any (contact_terms.cpp).
   void add_pairs();
   /// Contact with a rigid body that is made of particles.

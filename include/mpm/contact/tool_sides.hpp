@@ -1,0 +1,90 @@
+// A velocity field a side: of every body, the material on side 1 of a thin tool near it is in the field after the
+// body's own. Where the two fields share a node and the tool is not between them, beyond its tip and beside it, they
+// are one continuum: the node has one momentum, one force and one velocity for both, as if there were one field, to
+// round-off (SideGlue). Where the tool is between them they know nothing of each other; contact with the tool acts on
+// each (contact/rigid_contact.hpp). The tool is between them if the line from one mass centre to the other meets it.
+//
+// Particles change sides only by the sort, which is asked for when tool and material near it have moved a part of a
+// cell against each other. Nothing jumps with a change of sides: what a particle carries is its own, and where it
+// changes the two fields move as one. A centre that is hardly out of the tool, or in it, keeps its side: it is pressed,
+// not past.
+//
+// Weak: with several thin tools a particle goes by the nearest one; two that are nearer to each other than three cells
+// share the field between them. Volume changes averaged over the grid are averaged a side.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "mpm/contact/thin_tool.hpp"
+#include "mpm/grid/fields.hpp"
+#include "mpm/particles/particle_set.hpp"
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+class ToolSides {
+ public:
+  /// `layout` outlives this.
+  ToolSides(const GridLayout& layout, int threads) : layout_(layout), threads_(threads) {}
+
+  /// `body` outlives this; what is returned lives as long.
+  const ThinTool& add(const RigidBody& body, GeometryKind geometry) { return tools_.emplace_back(body, geometry); }
+  const std::deque<ThinTool>& tools() const { return tools_; }
+
+  /// Before a sort: the side of every particle; sets have room for it.
+  void label(std::vector<ParticleSet>& sets);
+  /// Tool and material near it have moved against each other by so much [m].
+  void add_travel(double travel) { travelled_ += travel; }
+  /// Sides may have changed: sort.
+  bool due() const;
+  /// Whether a tool lies between the mass centres of what two fields have at a node. Needs Grid::place.
+  bool apart(const Grid& first, NodeRef of_first, const Grid& second, NodeRef of_second) const;
+  /// Whether a ball around a world point is so near to a tool that particles in it may be on side 1 or in its contact.
+  bool near(const Vec3& point, double radius) const;
+
+ private:
+  const GridLayout& layout_;
+  int threads_;
+  std::deque<ThinTool> tools_;
+  bool labelled_ = false;
+  double travelled_ = 0.0;  ///< since sides were given [m]
+};
+
+/// Makes one continuum of the two fields of each body where no thin tool is between them. Fields 2 k and 2 k + 1 are
+/// the sides of the same bodies. Comes first of the stages, and its late() last. Needs Grid::place.
+class SideGlue final : public Stage {
+ public:
+  /// Both outlive the stage.
+  SideGlue(ToolSides& sides, Fields& fields) : sides_(sides), fields_(fields) {}
+
+  /// Glues what other stages have added: forces, and velocities that they changed on one side alone.
+  std::unique_ptr<Stage> late();
+
+  void momentum_gathered(StepContext& context) override;
+  void before_strain(StepContext&) override { share(&Grid::velocity); }
+  void velocity_found(StepContext&, NodalField&) override { share(&Grid::increment); }
+  void increment_found(StepContext&, NodalField&) override { share(&Grid::increment); }
+
+ private:
+  class Late;
+  /// A node that is one in both fields.
+  struct Node {
+    int pair;
+    NodeRef ref[2];
+    double part[2];  ///< of the node's mass
+  };
+  void find_nodes(int pair);
+  void watch(const Grid& grid, double dt);
+  /// Both get the mean by mass.
+  void share(NodalField Grid::*field);
+  /// Each gets its part of the sum.
+  void part(NodalField Grid::*field);
+
+  ToolSides& sides_;
+  Fields& fields_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace mpm

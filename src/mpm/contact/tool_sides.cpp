@@ -1,0 +1,171 @@
+#include "mpm/contact/tool_sides.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mpm {
+namespace {
+
+/// A particle this near to a tool's surface goes by it: shape functions of both sides meet no farther out [cells].
+constexpr double kBand = 3.5;
+constexpr double kTravel = 0.25;  ///< of a cell, between two looks at the sides
+/// Of half a particle's box: a centre nearer to the surface than this, or in the tool, keeps its side.
+constexpr double kPressed = 0.5;
+/// Particles that give to the same node as one in the band, and how far they may have left their block [cells].
+constexpr double kReach = 6.0;
+
+double half_diagonal(const GridLayout& layout) {
+  double squared = 0.0;
+  for (int k = 0; k < layout.dim(); ++k) squared += std::pow(0.5 * (kBlockEdge - 1) * layout.cell(k), 2);
+  return std::sqrt(squared);
+}
+
+Vec3 middle_of(const GridLayout& layout, const std::array<int, 3>& block) {
+  return 0.5 * (layout.node_position(block, 0) + layout.node_position(block, layout.nodes_per_block() - 1));
+}
+
+}  // namespace
+
+void ToolSides::label(std::vector<ParticleSet>& sets) {
+  travelled_ = 0.0;
+  for (ThinTool& tool : tools_) tool.aim();
+  double largest = 0.0;
+  for (int k = 0; k < layout_.dim(); ++k) largest = std::max(largest, layout_.cell(k));
+  for (ParticleSet& set : sets) {
+    double half = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < layout_.dim(); ++k) half = std::min(half, set.half[k] * layout_.cell(k));
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (int p = 0; p < set.size(); ++p) {
+      Vec3 place = Vec3::Zero();
+      for (int k = 0; k < layout_.dim(); ++k) place[layout_.axis(k)] = set.x[k][p];
+      double band = kBand * largest;
+      const ThinTool* nearest = nullptr;
+      for (const ThinTool& tool : tools_) {
+        SurfacePoint found;
+        if (!tool.within(place, band, found)) continue;
+        band = found.distance;
+        nearest = &tool;
+      }
+      if (nearest != nullptr && labelled_ && band < kPressed * half) continue;
+      set.side[p] = static_cast<std::uint8_t>(nearest == nullptr ? 0 : nearest->side(place));
+    }
+  }
+  labelled_ = true;
+}
+
+bool ToolSides::due() const { return travelled_ > kTravel * layout_.smallest_cell(); }
+
+bool ToolSides::apart(const Grid& first, NodeRef of_first, const Grid& second, NodeRef of_second) const {
+  const Vec3 node = layout_.node_position(first.blocks.block(of_first.block), of_first.node);
+  SurfacePoint found;
+  for (const ThinTool& tool : tools_) {
+    if (!tool.within(node, kBand * layout_.smallest_cell(), found)) continue;  // farther than what shares a node
+    const Vec3 from = nodal_vector(first.place, layout_, of_first) / first.mass.at(of_first.block, 0, of_first.node);
+    const Vec3 to = nodal_vector(second.place, layout_, of_second) / second.mass.at(of_second.block, 0, of_second.node);
+    // The line between the centres does not leave this ball.
+    const double radius = std::max((from - node).norm(), (to - node).norm());
+    if (found.distance <= radius && tool.between(from, to)) return true;
+  }
+  return false;
+}
+
+bool ToolSides::near(const Vec3& point, double radius) const {
+  double largest = 0.0;
+  for (int k = 0; k < layout_.dim(); ++k) largest = std::max(largest, layout_.cell(k));
+  SurfacePoint found;
+  return std::any_of(tools_.begin(), tools_.end(), [&](const ThinTool& tool) {
+    return tool.within(point, radius + (kBand + kReach) * largest, found);
+  });
+}
+
+/// The glue once more, after whoever acted on one side alone.
+class SideGlue::Late final : public Stage {
+ public:
+  explicit Late(SideGlue& glue) : glue_(glue) {}
+  void before_strain(StepContext&) override { glue_.share(&Grid::velocity); }
+  void forces_gathered(StepContext&) override { glue_.part(&Grid::force); }
+  void momentum_updated(StepContext&) override {
+    glue_.share(&Grid::velocity);
+    glue_.share(&Grid::force);  // the acceleration
+  }
+  void velocity_found(StepContext&, NodalField&) override { glue_.share(&Grid::increment); }
+  void increment_found(StepContext&, NodalField&) override { glue_.share(&Grid::increment); }
+
+ private:
+  SideGlue& glue_;
+};
+
+std::unique_ptr<Stage> SideGlue::late() { return std::make_unique<Late>(*this); }
+
+void SideGlue::momentum_gathered(StepContext& context) {
+  for (const auto& grid : fields_) watch(*grid, context.dt);
+  nodes_.clear();
+  for (int pair = 0; 2 * pair < static_cast<int>(fields_.size()); ++pair) find_nodes(pair);
+  part(&Grid::momentum);
+  part(&Grid::place);
+  share(&Grid::velocity);
+}
+
+// How far the material near a tool moves against it in this step.
+void SideGlue::watch(const Grid& grid, double dt) {
+  const GridLayout& layout = grid.layout;
+  const double around = half_diagonal(layout);
+  double fastest = 0.0;
+  for (int b = 0; b < grid.blocks.size(); ++b) {
+    const Vec3 middle = middle_of(layout, grid.blocks.block(b));
+    for (const ThinTool& tool : sides_.tools()) {
+      SurfacePoint found;
+      if (!tool.within(middle, around + kBand * layout.smallest_cell(), found)) continue;
+      for (int n = 0; n < layout.nodes_per_block(); ++n) {
+        if (!grid.carries(b, n)) continue;
+        const Vec3 velocity = nodal_vector(grid.velocity, layout, {b, n});
+        const Vec3 place = layout.node_position(grid.blocks.block(b), n);
+        fastest = std::max(fastest, (velocity - tool.body().velocity_at(place)).squaredNorm());
+      }
+    }
+  }
+  sides_.add_travel(std::sqrt(fastest) * dt);
+}
+
+void SideGlue::find_nodes(int pair) {
+  const Grid &first = *fields_[2 * pair], &second = *fields_[2 * pair + 1];
+  const GridLayout& layout = first.layout;
+  for (int b = 0; b < second.blocks.size(); ++b) {
+    const int other = first.blocks.find(second.blocks.key(b));
+    if (other < 0) continue;
+    for (int n = 0; n < layout.nodes_per_block(); ++n) {
+      if (!second.carries(b, n) || !first.carries(other, n)) continue;
+      const double mass[2] = {first.mass.at(other, 0, n), second.mass.at(b, 0, n)};
+      if (sides_.apart(first, {other, n}, second, {b, n})) continue;
+      const double total = mass[0] + mass[1];
+      nodes_.push_back({pair, {{other, n}, {b, n}}, {mass[0] / total, mass[1] / total}});
+    }
+  }
+}
+
+void SideGlue::share(NodalField Grid::*field) {
+  for (const Node& node : nodes_) {
+    NodalField &first = *fields_[2 * node.pair].*field, &second = *fields_[2 * node.pair + 1].*field;
+    for (int k = 0; k < first.components(); ++k) {
+      double &a = first.at(node.ref[0].block, k, node.ref[0].node),
+             &b = second.at(node.ref[1].block, k, node.ref[1].node);
+      a = b = node.part[0] * a + node.part[1] * b;
+    }
+  }
+}
+
+void SideGlue::part(NodalField Grid::*field) {
+  for (const Node& node : nodes_) {
+    NodalField &first = *fields_[2 * node.pair].*field, &second = *fields_[2 * node.pair + 1].*field;
+    for (int k = 0; k < first.components(); ++k) {
+      double &a = first.at(node.ref[0].block, k, node.ref[0].node),
+             &b = second.at(node.ref[1].block, k, node.ref[1].node);
+      const double sum = a + b;
+      a = node.part[0] * sum;
+      b = node.part[1] * sum;
+    }
+  }
+}
+
+}  // namespace mpm

@@ -1,0 +1,76 @@
+#include "velocity_fields.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "state.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kToldApart = 0.9;  ///< of a thin tool's faces: less is worth a warning
+
+GridLayout layout_of(const SimulationDefinition& definition) {
+  GridLayout layout(dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max);
+  for (int k = 0; k < layout.dim(); ++k) {
+    if (definition.walls[2 * layout.axis(k)].kind == WallKind::periodic) layout.make_periodic(k);
+  }
+  return layout;
+}
+
+}  // namespace
+
+bool any_sides(const SimulationDefinition& definition) {
+  const double cell = layout_of(definition).smallest_cell();
+  return std::any_of(definition.rigid_bodies.begin(), definition.rigid_bodies.end(),
+                     [&](const auto& body) { return has_sides(body, definition.geometry, cell); });
+}
+
+Fields fields_of(const SimulationDefinition& definition) {
+  int count = 1;
+  for (const DeformableBody& body : definition.bodies) {
+    if (body.field < 0) {
+      throw DefinitionError(fmt::format("body '{}': its velocity field is {}", body.name, body.field));
+    }
+    count = std::max(count, body.field + 1);
+  }
+  const GridLayout layout = layout_of(definition);
+  const ShapeKind shape = definition.method.shape;
+  Fields fields = make_fields(layout, any_sides(definition) ? 2 * count : count);
+  for (auto& grid : fields) {
+    if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) grid->wall_layers = 2;
+    for (int face = 0; face < 2 * layout.dim(); ++face) {
+      const WallKind kind = definition.walls[2 * layout.axis(face / 2) + face % 2].kind;
+      grid->has_wall[face] = kind != WallKind::none && kind != WallKind::periodic;
+      if (kind == WallKind::symmetry) grid->symmetry.add(face);
+    }
+  }
+  return fields;
+}
+
+const ThinTool* Simulation::State::add_sides(const RigidBody& body) {
+  const double cell = layout().smallest_cell();
+  const bool thin = is_thin(body.definition(), definition.geometry, cell);
+  const std::string start = fmt::format("rigid body '{}' is {:.2g} cells thick where it is thinnest: ", body.name(),
+                                        body.surface().thickness() / cell);
+  if (has_sides(body.definition(), definition.geometry, cell)) {
+    notes.push_back(start + "the material on its two sides has a velocity field each");
+    const ThinTool& tool = sides->add(body, definition.geometry);
+    if (tool.told_apart() < kToldApart) {
+      warnings.push_back(
+          fmt::format("rigid body '{}': {:.0f} % of its faces have no other side opposite to them; make "
+                      "it of several bodies, or write sides: one",
+                      body.name(), 100.0 * (1.0 - tool.told_apart())));
+    }
+    return &tool;
+  }
+  if (thin) {
+    warnings.push_back(start +
+                       "material on its two sides shares nodes and feels each other when it is thinner than 3; write "
+                       "sides: two, use a finer grid.cell or a thicker body");
+  }
+  return nullptr;
+}
+
+}  // namespace mpm

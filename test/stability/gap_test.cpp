@@ -39,11 +39,13 @@ double reach(mpm::ShapeKind shape, double half) {
   }
 }
 
-mpm::SimulationDefinition fall(const mpm::MethodDefinition& method, double depth) {
+mpm::SimulationDefinition fall(const mpm::MethodDefinition& method, double depth,
+                               mpm::ContactMethod contact = mpm::ContactMethod::nodes) {
   mpm::SimulationDefinition d = domain(method, Vec3::Zero(), {12.0, 0.0, 12.0}, kStep * kCell / kSpeed);
   const double low = kNode + depth + 2.5;
   add_body(d, "block", {4.0, 0.0, low}, {8.0, 0.0, low + 2.0}, linear_elastic(0.3),
            [](const Vec3&) { return Vec3(0.0, 0.0, -kSpeed); });
+  d.contact.method = contact;
   d.rigid_bodies = {box("plate", {1.0, 0.0, 0.5}, {11.0, 0.0, kNode + depth})};
   return d;
 }
@@ -62,7 +64,7 @@ double gap(const mpm::SimulationDefinition& d, double depth) {
 }
 
 TEST(EarlyContact, GapIsThatOfTheSupport) {
-  Page page("contact", "early_contact", "Contact is felt before it is made");
+  Page page("contact", "early_contact", "Contact at nodes is felt before it is made");
   page.problem(
           "A block falls slowly on a fixed plate whose surface lies 0 to 0.9 cells above a row of nodes; 4 and 9 "
           "particles a cell. Early: the plate feels the block while there is a gap of half a cell or more.")
@@ -71,7 +73,10 @@ TEST(EarlyContact, GapIsThatOfTheSupport) {
           "and 2 for splines), b half a particle's box, d the depth of the nodes under the surface.",
           "geometry of the shape functions")
       .meaning(
-          "The smoother the function, the earlier the contact: up to a cell with uGIMP and CPDI, 1.75 cells with cubic "
+          "This is contact at nodes. At points of the surface (the default) the first force comes when the surfaces "
+          "meet, "
+          "with every method and at every place, which the same test checks. The smoother the function, the earlier "
+          "the contact: up to a cell with uGIMP and CPDI, 1.75 cells with cubic "
           "splines. The first force is tiny, as is the mass that reaches the node; what matters grows in over the gap. "
           "A plate whose surface lies just below a row of nodes loses nearly a cell of it.");
   const Numbers depths = {0.0, 0.1, 0.25, 0.5, 0.75, 0.9};
@@ -88,6 +93,9 @@ TEST(EarlyContact, GapIsThatOfTheSupport) {
       std::vector<Outcome> cells;
       for (const double depth : depths) {
         const double found = gap(fall(method.definition, depth), depth);
+        // At points the surfaces have met: the particle's reach is half its box.
+        EXPECT_NEAR(gap(fall(method.definition, depth, mpm::ContactMethod::points), depth), 0.0, kTolerance)
+            << label << " at points, " << depth;
         // The block falls by kStep between two looks, and by as much in the step that first sees the node.
         EXPECT_NEAR(found, free - depth, kTolerance) << label << " at " << depth;
         cells.push_back(found < 0.5 ? Outcome::stable : Outcome::fails);

@@ -21,10 +21,17 @@ std::string shear(const char* method, double drift = 0.0, double phase = 0.0) {
 }
 const double kShearSpeed = std::sqrt(1e6 / 1000.0), kPeriod = 0.8 / kShearSpeed;
 
-class Around : public ::testing::TestWithParam<const char*> {};
+struct Method {
+  const char* text;
+  /// Of the amplitude. A lattice of 16 cells a wave is slow by (2 pi / 16)^2 / 24 = 0.6 %, 5 degrees after two periods,
+  /// and steps double it. Splines spread mass with the variance h^2 / 4 and h^2 / 3: 2 % and 2.6 % slow, up to 20
+  /// degrees.
+  double tolerance;
+};
+class Around : public ::testing::TestWithParam<Method> {};
 
 TEST_P(Around, AStandingShearWaveKeepsItsPeriod) {
-  mpm::Simulation run = scene(shear(GetParam()));
+  mpm::Simulation run = scene(shear(GetParam().text));
   const std::vector<double> x = field(run, "x");
   run_until(run, 0.05);  // two periods, 0.0506 s, but for a little
   const double amplitude = 0.01 * std::cos(2.0 * kPi * 0.05 / kPeriod);
@@ -33,20 +40,18 @@ TEST_P(Around, AStandingShearWaveKeepsItsPeriod) {
   for (std::size_t p = 0; p < x.size(); ++p) {
     worst = std::max(worst, std::abs(vz[p] - amplitude * std::sin(2.0 * kPi * x[p] / 0.8)));
   }
-  // 16 cells a wave: the grid's waves are slow by (2 pi / 16)^2 / 24 = 0.6 %, 5 degrees after two periods; steps of USF
-  // and the smoothing of other shapes double it.
-  EXPECT_LT(worst, 0.12 * 0.01) << GetParam();
+  EXPECT_LT(worst, GetParam().tolerance * 0.01) << GetParam().text;
   const mpm::SolverState state = run.state();
   EXPECT_LT(state.audit.momentum.norm(), 1e-13 * 320.0);  // of the mass times 1 m/s: nothing pushes from outside
   EXPECT_LT(state.audit.residual, 1e-10);
 }
 INSTANTIATE_TEST_SUITE_P(Methods, Around,
-                         ::testing::Values("{shape: ugimp, update: usavg, transfer: flip}",
-                                           "{shape: ugimp, update: usf, transfer: {xpic: 2}}",
-                                           "{shape: cpdi, update: usl, transfer: {fmpm: 2}}",
-                                           "{shape: bspline2, update: usavg, transfer: apic}",
-                                           "{shape: bspline3, update: usavg, transfer: flip}",
-                                           "{shape: dirac, update: usavg, transfer: flip, precision: single}"));
+                         ::testing::Values(Method{"{shape: ugimp, update: usavg, transfer: flip}", 0.12},
+                                           Method{"{shape: dirac, update: usavg, transfer: flip}", 0.12},
+                                           Method{"{shape: ugimp, update: usf, transfer: {xpic: 2}}", 0.12},
+                                           Method{"{shape: cpdi, update: usl, transfer: {fmpm: 2}}", 0.12},
+                                           Method{"{shape: bspline2, update: usavg, transfer: apic}", 0.3},
+                                           Method{"{shape: bspline3, update: usavg, transfer: flip}", 0.3}));
 
 /// Place in the domain of what may lie in an image of it.
 double home(double x) { return x - 0.8 * std::floor(x / 0.8); }
@@ -116,6 +121,31 @@ TEST(Periodic, ASolidFallsThroughItsFaces) {
   EXPECT_LT(run.state().audit.residual, 1e-10);
 }
 
+// A slab without end under a pressure that comes on its upper side: every place along it does the same, also where the
+// corners of a particle's face lie on both sides of the domain's.
+TEST(Periodic, TractionsGoAround) {
+  for (const char* shape : {"ugimp", "cpdi"}) {
+    mpm::Simulation run = scene(fmt::format(
+        "geometry: plane_strain\ngrid: {{cell: 0.1, min: [0, 0], max: [0.8, 1]}}\ntime: {{end: 1, sync: 1 ms}}\n"
+        "method: {{shape: {}, update: usavg, transfer: flip}}\n"
+        "materials: [{{name: m, density: 1000, law: neo_hookean, young: 0.1 MPa, poisson: 0.3}}]\n"
+        "bodies: [{{name: slab, material: m, shape: {{box: {{min: [0, 0], max: [0.8, 0.4]}}}}, initial: {{velocity: "
+        "[2, 0]}}}}]\nloads: [{{pressure: {{body: slab, edge: z_max, value: 2 kPa}}}}]\n"
+        "boundaries: {{x: periodic, z_min: slip}}\n",
+        shape));
+    run_until(run, 0.1);
+    const std::vector<double> vx = field(run, "vx"), vz = field(run, "vz");
+    ASSERT_GT(largest(vz), 0.05);
+    for (std::size_t p = 0; p < vx.size(); ++p) {
+      // A row of 16 particles lies on two places of a cell each, which weights tell apart when the slab moves on: they
+      // come by in turns.
+      ASSERT_NEAR(vz[p], vz[p / 16 * 16 + p % 2], 1e-9) << shape << ' ' << p;
+      ASSERT_NEAR(vx[p], 2.0, 0.02) << shape << ' ' << p;
+    }
+    EXPECT_LT(run.state().audit.residual, 1e-10);
+  }
+}
+
 // The owners at one face have those at the other as neighbours, in a different colour.
 TEST(Periodic, BlocksGoAround) {
   mpm::GridLayout layout(2, mpm::Vec3::Constant(0.1), mpm::Vec3::Zero(), mpm::Vec3::Constant(1.6));
@@ -139,7 +169,8 @@ TEST(Periodic, BlocksGoAround) {
 
 TEST(Periodic, RigidBodiesDoNotGoAround) {
   std::string text = shear("{shape: ugimp, update: usavg, transfer: flip}");
-  text.replace(text.find("box: {min: [0, 0], max: [0.8, 0.4]}"), 36, "box: {min: [0, 0], max: [0.2, 0.2]} ");
+  const std::string full = "box: {min: [0, 0], max: [0.8, 0.4]}";
+  text.replace(text.find(full), full.size(), "box: {min: [0, 0], max: [0.2, 0.2]}");
   const std::string ball =
       "rigid_bodies: [{name: ball, shape: {sphere: {radius: 0.05}}, pose: {position: [0.4, 0.25]}, "
       "motion: {velocity: [10, 0]}}]\n";

@@ -70,30 +70,32 @@ TEST(PointContact, ForceBetweenNodesIsExact) {
 
 TEST(PointContact, AdhesionHoldsUpToItsStrength) {
   constexpr double kStrength = 2e3, kWidth = 0.4;  // [Pa], [m]
-  mpm::Simulation simulation = start(
-      "block_on_plate",
-      {"gravity=[0, 0]", "contact.pairs=[{between: [block, plate], friction: 0, adhesion: 2000}]",
-       "rigid_bodies.plate.motion={velocity: [0, -0.004]}", "method.damping=40", "boundaries.all=none",
-       "bodies.block.shape={box: {min: [0.3, 0.125], max: [0.7, 0.6]}}", "boundaries.z_max=fixed", "time.end=0.6"},
-      kThreads);
+  mpm::Simulation simulation =
+      start("block_on_plate",
+            {"gravity=[0, 0]", "contact.pairs=[{between: [block, plate], friction: 0, adhesion: 2000}]",
+             "rigid_bodies.plate.motion={velocity: [0, -0.004]}", "method.damping=40", "boundaries.all=none",
+             "bodies.block.shape={box: {min: [0.3, 0.125], max: [0.7, 0.6]}}", "boundaries.z_max=fixed",
+             "materials.wood.poisson=0", "time.end=0.6"},
+            kThreads);
   double most = 0.0;
   bool parted = false;
+  int apart = 0;  // looks since; after half a swing the block is back
   while (seconds(simulation) < 0.6 - 1e-12) {
     simulation.advance();
     const mpm::ContactReport report = simulation.take_contact(0);
+    if (parted && ++apart <= 3) {
+      EXPECT_EQ(report.mean.force.z(), 0.0) << "of surfaces that have parted";
+    }
     most = std::max(most, report.mean.force.z());
     parted = parted || (most > 0.5 * kStrength * kWidth && report.nodes == 0);
-    if (parted) {
-      EXPECT_EQ(report.mean.force.z(), 0.0);
-    }
   }
   Page page("contact", "adhesion", "A block torn off a plate");
   page.problem(
           "A block hangs from a fixed wall and sticks to a plate that is drawn away from it; the contact bears 2 kPa.")
       .exact("It parts when the tension in the contact comes to its strength.", "statics")
       .scene("block_on_plate");
-  // The block's lower edge is where the stress is not uniform: it narrows by nu of its stretch, a thousandth.
-  page.near("tension when the surfaces part", most, kStrength * kWidth, 0.03, "N/m");
+  // In a look of 5 ms the plate draws the tension up by 0.02 mm of the block's length, 4 % of the strength.
+  page.near("tension when the surfaces part", most, kStrength * kWidth, 0.04, "N/m");
   page.meaning("The strength is a stress: the part of the surface that a point stands for bears it.");
   EXPECT_TRUE(parted);
 }
@@ -106,34 +108,45 @@ TEST(PointContact, FrictionAtRestIsThatOfTheLaw) {
           "sliding, and 0.4 either way.")
       .exact("It starts when the pull comes to mu_s g, and then gains 10 t - mu g.", "Coulomb's law")
       .scene("block_on_plate");
+  // It is long and flat: the pull acts above the surface and shifts the pressure along it, by 6 h mu / (2 L) of itself.
+  constexpr double kHeight = 0.05, kLength = 1.6;
   for (const double at_rest : {0.6, 0.4}) {
     const double sliding = at_rest > 0.5 ? 0.3 : 0.4;
     const std::string law =
         fmt::format("contact.pairs=[{{between: [block, plate], friction: {}, static_friction: {}}}]", sliding, at_rest);
     mpm::Simulation simulation =
-        start("block_on_plate", {law, "loads=[{body_force: {acceleration: [10*t, 0]}}]"}, kThreads);
+        start("block_on_plate",
+              {law, "loads=[{body_force: {acceleration: [10*t, 0]}}]",
+               "bodies.block.shape={box: {min: [0.2, 0.125], max: [1.8, 0.175]}}", "grid.max=[3, 0.6]"},
+              kThreads);
     const auto speed = [&] {
       double sum = 0.0;
       const std::vector<double> v = field(simulation, "vx");
       for (const double one : v) sum += one;
       return sum / static_cast<double>(v.size());
     };
-    const double start_of_slide = at_rest * kGravity / kRate;
     double started = 0.0;
     while (started == 0.0 && seconds(simulation) < 1.0) {
       simulation.advance();
-      // At rest the block sways by 1e-3 m/s; 5 ms of sliding give it that much.
-      if (speed() > 5e-3) started = seconds(simulation);
+      constexpr double kMoving = 5e-3;  // [m/s]; at rest the block sways by less
+      // By then it has slid under what is more than friction: v = 10 tau^2 / 2 + (mu_s - mu) g tau.
+      const double excess = (at_rest - sliding) * kGravity / kRate;
+      const double slid = std::sqrt(excess * excess + 2.0 * kMoving / kRate) - excess;
+      if (speed() > kMoving) started = seconds(simulation) - slid;
     }
+    const double shifted = at_rest > sliding ? 3.0 * kHeight * at_rest / kLength : 0.0;
     page.near(fmt::format("pull at which it starts, over g, friction {} at rest", at_rest), started * kRate / kGravity,
-              at_rest, 0.02 + 0.005 / start_of_slide, "");
+              at_rest, 0.02 + shifted, "");
     const double from = seconds(simulation) + 0.02, before = (run_until(simulation, from), speed());
     run_until(simulation, from + 0.1);
     const double gained = kRate * (0.1 * from + 0.005) - sliding * kGravity * 0.1;
     page.near(fmt::format("speed gained in 0.1 s of sliding, friction {}", sliding), speed() - before, gained, 0.02,
               "m/s");
   }
-  page.meaning("The surface starts as a whole: points that slide first pass their load to those that hold.");
+  page.meaning(
+      "Where friction falls when sliding begins, the surface gives way from where it is pressed least, as a real one "
+      "does: "
+      "the pull shifts the pressure by some per cent, and that is how much earlier it starts.");
 }
 
 TEST(PointContact, FrictionTakesTheKineticEnergy) {

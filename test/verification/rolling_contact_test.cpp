@@ -16,16 +16,19 @@ struct Rolling {
 Rolling roll(const ContactMethod& method, const Slope& slope, double steepness, double radius, double cell) {
   mpm::SimulationDefinition d = rubber_scene(method, cell, 1e6, 2e-3);
   const double spacing = 0.5 * cell;
+  // In rings, for what rolls on a lattice is a staircase. All particles are of one size.
   std::vector<mpm::Vec3> places;
-  const int reach = static_cast<int>(radius / spacing) + 1;
-  for (int i = -reach; i < reach; ++i) {
-    for (int k = -reach; k < reach; ++k) {
-      const mpm::Vec3 place = spacing * mpm::Vec3(i + 0.5, 0.0, k + 0.5);
-      if (place.norm() < radius) places.push_back(place + radius * slope.normal());
+  const int rings = static_cast<int>(std::lround(radius / spacing));
+  for (int ring = 0; ring < rings; ++ring) {
+    const double r = (ring + 0.5) * spacing;
+    const int count = static_cast<int>(std::lround(2.0 * kPi * r / spacing));
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2.0 * kPi * (i + 0.5) / count;
+      places.push_back(r * mpm::Vec3(std::cos(angle), 0.0, std::sin(angle)) + radius * slope.normal());
     }
   }
   const double area = kPi * radius * radius / static_cast<double>(places.size());
-  add_particles(d, "disk", places, std::min(area, spacing * spacing));
+  add_particles(d, "disk", places, area);
   d.gravity = slope.gravity(steepness);
   d.rigid_bodies = {plate(slope, 0.8)};
   mpm::Box box;
@@ -48,12 +51,14 @@ TEST(RigidContact, DiskRollsWithoutSlip) {
   Page page("contact", "rigid_rolling", "A disk rolls down an incline");
   const double steepness = 10.0 * kPi / 180.0, exact = 2.0 / 3.0 * kGravity * std::sin(steepness), radius = 0.1;
   page.problem(
-          "A disk of 0.1 m radius (E = 1 MPa, 8 cells a radius) is let go on an incline of 10 degrees, friction 0.8; "
+          "A disk of 0.1 m radius (E = 1 MPa, particles in rings, 14 cells a radius with points and 8 with nodes) is "
+          "let go on an incline of 10 degrees, friction 0.8; "
           "the incline lies at 0 and 30 degrees to the grid. Acceleration from 0.1 to 0.6 s.")
       .exact("2/3 g sin 10°", "rigid disk: I = m R² / 2");
   for (const ContactMethod& method : contact_methods()) {
     for (const double degrees : {0.0, 30.0}) {
-      const Rolling found = roll(method, {degrees * kPi / 180.0}, steepness, radius, radius / 8.0);
+      const Rolling found =
+          roll(method, {degrees * kPi / 180.0}, steepness, radius, radius / (method.at_nodes ? 8.0 : 14.0));
       const std::string name = fmt::format("{}, {:g} degrees", method.name, degrees);
       // 3 % is what is asked for. At nodes material before the disk's lowest point is met a cell early and brakes it:
       // 28 % slower was found along the grid, 63 % at 30 degrees. It rolls none the less.
@@ -130,10 +135,10 @@ struct BeltForces {
   double slipped = 0.0;  ///< way of the strip's ends [cells]
 };
 
-/// The larger force grows until the whole strip has slipped by a cell.
+/// The larger force grows until the whole strip has slipped by a tenth of a cell.
 BeltForces pull_belt(const ContactMethod& method, const Belt& belt, double friction) {
   mpm::SimulationDefinition d = rubber_scene(method, belt.cell, 1e6, 2e-3);
-  d.method.damping.grid = mpm::Function(100.0);
+  d.method.damping.pic = mpm::Function(0.05);
   const double spacing = 0.5 * belt.cell, middle = belt.radius + 0.5 * belt.thickness;
   std::vector<mpm::Vec3> places;
   std::vector<std::uint32_t> slack, tight;  // ends at x < 0 and at x > 0
@@ -153,7 +158,9 @@ BeltForces pull_belt(const ContactMethod& method, const Belt& belt, double frict
     }
   }
   add_particles(d, "belt", places, spacing * spacing);
-  const double pull = 40.0, ramp = 150.0;  // [N], [N/s]; 0.2 % of strain
+  // [N], 0.2 % of strain; [N/s], and [N] where it slows down: what is above the limit accelerates the belt, and when
+  // that has moved a tenth of a cell it is 2 N.
+  const double pull = 40.0, ramp = 150.0, slowly = 8.0, near = 85.0;
   const auto hang = [&](const std::vector<std::uint32_t>& particles, const std::string& force) {
     mpm::ParticleForceDefinition end;
     end.body = "belt";
@@ -162,7 +169,9 @@ BeltForces pull_belt(const ContactMethod& method, const Belt& belt, double frict
     d.particle_forces.push_back(end);
   };
   hang(slack, fmt::format("-{:g}*min(t/0.1, 1)", pull));
-  hang(tight, fmt::format("-{:g}*min(t/0.1, 1) - {:g}*max(t - 0.2, 0)", pull, ramp));
+  const double slower_from = 0.2 + (near - pull) / ramp;
+  hang(tight, fmt::format("-{:g}*min(t/0.1, 1) - {:g}*min(max(t - 0.2, 0), {:.17g}) - {:g}*max(t - {:.17g}, 0)", pull,
+                          ramp, slower_from - 0.2, slowly, slower_from));
   mpm::RigidBodyDefinition drum;
   drum.name = "drum";
   drum.surface = mpm::make_cylinder(belt.radius, kEndless, 1);
@@ -180,7 +189,7 @@ BeltForces pull_belt(const ContactMethod& method, const Belt& belt, double frict
   run_until(simulation, 0.2);
   const double before = height(slack);
   BeltForces result;
-  while (result.slipped < 1.0 && seconds(simulation) < 1.5) {
+  while (result.slipped < 0.1 && seconds(simulation) < 4.0) {
     simulation.take_contact(0);
     for (int i = 0; i < 5; ++i) simulation.advance();
     const mpm::ContactReport report = simulation.take_contact(0);
@@ -200,7 +209,7 @@ TEST(RigidContact, BeltRoundADrum) {
   const double exact = std::exp(friction * kPi * belt.radius / (belt.radius + 0.5 * belt.thickness));
   page.problem(
           "A strip 0.02 m thick (2 cells, E = 1 MPa) lies over half a drum of 0.2 m radius, friction 0.3. Its ends are "
-          "pulled by 40 N, then one of them ever more, slowly, until the other has slipped by a cell.")
+          "pulled by 40 N, then one of them ever more, slowly, until the other has slipped by a tenth of a cell.")
       .exact(
           fmt::format("T2/T1 = exp(0.3 pi) = {:.3f} of a thin belt; of this one, whose tension has the longer lever, "
                       "exp(0.3 pi R / (R + t/2)) = {:.3f}",
@@ -208,10 +217,10 @@ TEST(RigidContact, BeltRoundADrum) {
           "Euler, Eytelwein");
   for (const ContactMethod& method : contact_methods()) {
     const BeltForces found = pull_belt(method, belt, friction);
-    EXPECT_GE(found.slipped, 1.0) << "the belt did not slip";
+    EXPECT_GE(found.slipped, 0.1) << "the belt did not slip";
     page.near("ratio of the tensions, " + method.name, found.ratio, exact, 0.05, "");
     say("ratio of the tensions, " + method.name, found.ratio, exact, "");
-    say("slack end has slipped, " + method.name, found.slipped, 1.0, "cells");
+    say("slack end has slipped, " + method.name, found.slipped, 0.1, "cells");
   }
 }
 

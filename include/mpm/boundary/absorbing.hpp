@@ -3,9 +3,14 @@
 // theta part of it comes back, (1 - cos theta) / (1 + cos theta) of a wave with one speed.
 //
 // A node of the face stands for half a cell of material, m = phi rho A h with phi = 1/2 (other values for splines), so
-// its dashpot is rho c A = m c / (phi h): a rate, the same for whole nodes, those at the edge of a body and those just
-// beyond the face. It acts on the mean of the velocities before and after the step, which is stable for any step and of
-// second order: v' = ((1 - r/2) v + a dt) / (1 + r/2) with r = c dt / (phi h).
+// its dashpot is rho c A = m c / (phi h): a rate, the same for whole nodes and for those at the edge of a body. It acts
+// on the mean of the velocities before and after the step, which is stable for any step and of second order:
+// v' = ((1 - r/2) v + a dt) / (1 + r/2) with r = c dt / (phi h).
+//
+// Nodes beyond the face, which material reaches as it gives way by d cells, move with the face's: alone, a node with
+// mass d^2/2 under a force d would fly off and strain what it holds. With M beyond and T in all, d^2 / (1 + 2d) = M /
+// T, and phi + d stands in the place of phi.
+//
 // Of a wave with the wave number k a lattice of such masses and springs sends back tan^2(k h / 4): 0.6 % of one of 20
 // cells, 2.5 % of one of 10.
 //
@@ -46,7 +51,10 @@ class Absorbing final : public Stage {
             double phi, bool hold);
 
   void momentum_gathered(StepContext& context) override;
+  void before_strain(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
+  void velocity_found(StepContext& context, NodalField& velocity) override;
+  void increment_found(StepContext& context, NodalField& increment) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   /// Work on the material since the start [J]; negative.
@@ -55,9 +63,23 @@ class Absorbing final : public Stage {
  private:
   struct Node {
     NodeRef ref;
-    std::uint64_t id;
-    ElasticWaves waves;  ///< of the material at it
+    std::uint64_t column;  ///< id_on_face()
+    bool beyond;
   };
+  /// A node of the face and those beyond it: nodes_ from `first` on.
+  struct Column {
+    int first, count;
+    ElasticWaves waves;  ///< of the material there
+  };
+  /// What a column carries.
+  struct Load {
+    double mass = 0.0, beyond = 0.0;  ///< in all; of it beyond the face [kg]
+    Vec3 velocity = Vec3::Zero();     ///< mean [m/s]
+    Vec3 acceleration = Vec3::Zero();
+  };
+  Load load_of(const Grid& grid, const Column& column, const NodalField& velocity) const;
+  /// Gives the nodes of every column their mean.
+  void tie(const Grid& grid, NodalField& velocity) const;
   void find_nodes(const Grid& grid);
   void find_waves(const Grid& grid);
   std::uint64_t id_on_face(const GridLayout& layout, std::array<int, 3> node) const;
@@ -68,7 +90,8 @@ class Absorbing final : public Stage {
   double phi_;
   bool hold_;
   std::vector<Node> nodes_;
-  std::unordered_map<std::uint64_t, Vec3> held_;  ///< accelerations, by node [m/s^2]
+  std::vector<Column> columns_;
+  std::unordered_map<std::uint64_t, Vec3> held_;  ///< accelerations, by column [m/s^2]
   bool started_ = false;
   std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
   ImpulseAccount account_;

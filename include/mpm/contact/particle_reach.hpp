@@ -1,7 +1,7 @@
 // How far a particle reaches from its centre towards a surface: the ellipsoid inscribed in its box, deformed with it.
 // Along the box's axes that is the box; turned with the material it turns; and a lattice of particles reaches its own
-// flat side exactly, however it lies. What has flowed far remembers a shape that means nothing any more: the reach
-// stays within a factor of two of that of a ball of the particle's volume.
+// flat side exactly, however it lies. What flows (a law with history) remembers a shape that means nothing any more:
+// its particles reach as a ball of their present volume does, and not farther than at the start, when they have parted.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +34,9 @@ double particle_reach(const ParticleSet& set, const GridLayout& layout, int p, c
     squared += part * part;
     rest += half * half * n * n;
   }
-  const double ball = std::sqrt(rest) * std::pow(std::max(determinant(f), 0.0), 1.0 / kDim);
-  return std::clamp(std::sqrt(squared), 0.5 * ball, 2.0 * ball);
+  const double j = std::max(determinant(f), 0.0);
+  if (!set.history.empty()) return std::sqrt(rest) * std::min(std::pow(j, 1.0 / kDim), 1.0);
+  return std::sqrt(squared);
 }
 
 }  // namespace mpm

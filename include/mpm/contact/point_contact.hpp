@@ -8,6 +8,9 @@
 // the points to and fro (projected Gauss-Seidel) that begin with the forces of the step before. What the sweeps leave
 // (a part kTolerance of the approach) is less approach than needed, made good in the next steps; momentum is exact.
 //
+// Friction falls from that at rest to that of sliding over a thousandth of a cell of slip (slip weakening): which of
+// two neighbouring points bears how much is not determined, and what gave way at once would tear along the surface.
+//
 // While strain is updated, points that were held stay held and open ones may not close more than their gap
 // (step/coulomb.hpp says why). Friction at rest and adhesion are remembered by particle.
 //
@@ -67,6 +70,8 @@ class PointContact final : public Stage {
     double compliance = 0.0;       ///< velocity at the point by an impulse there [1/kg]
     Vec3 impulse = Vec3::Zero();   ///< on the material [N s]
     Vec3 approach = Vec3::Zero();  ///< relative velocity before the impulses [m/s]
+    double slid = 0.0;             ///< since it was at rest [m]
+    double overlap = 0.0;          ///< that it came with, <= 0; gap is counted from there [m]
     bool adheres = false;          ///< it was held in the step before, or touches
     Hold hold = Hold::free;        ///< in the step before, then in this one
   };
@@ -81,10 +86,12 @@ class PointContact final : public Stage {
     NodeRef ref;
     double inverse_mass;  ///< [1/kg]
   };
-  /// What is kept of a point that was held.
+  /// What is kept of a point.
   struct Memory {
     std::uint64_t id;  ///< of particle and body
     Vec3 force;        ///< on the material [N]
+    double slid;       ///< since it was at rest [m]
+    double overlap;
     Hold hold;
   };
   struct NearBlock {
@@ -126,8 +133,10 @@ class PointContact final : public Stage {
   std::vector<ContactLaw> laws_;
   std::vector<FrictionLaw> laws_now_;
   std::vector<ContactLedger> ledgers_;
-  double push_out_ = 0.0;  ///< [m] a step at most
-  double touching_ = 0.0;  ///< [m]
+  double push_out_ = 0.0;   ///< [m] a step at most
+  double touching_ = 0.0;   ///< [m]
+  double at_rest_ = 0.0;    ///< [m] a step
+  double weakening_ = 0.0;  ///< [m]
 
   std::vector<NearBlock> near_;               ///< blocks with particles near a body
   std::vector<std::vector<Point>> of_block_;  ///< their points

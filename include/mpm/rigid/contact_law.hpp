@@ -1,7 +1,8 @@
 // How two surfaces that meet act on each other, as a scene says it: Coulomb's law, sticking, adhesion, or an imperfect
 // interface; and what it comes to at one time.
 //
-// Source: Nairn, GIMP notes (3.12)-(3.20) and method reference 8.3 for friction, 8.4 for the interface; manual, Friction.
+// Source: Nairn, GIMP notes (3.12)-(3.20) and method reference 8.3 for friction, 8.4 for the interface; manual,
+// Friction.
 #pragma once
 
 #include <optional>

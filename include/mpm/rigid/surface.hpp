@@ -94,9 +94,8 @@ struct HeightGrid {
 };
 /// All that lies below the heights, down without end; upright sides where the rectangle ends. Between the points are
 /// straight pieces (planar), or two triangles a cell, cut from its corner at low x and y to that at high x and y.
-/// Distances are exact to these. On an edge or corner a face's normal, as where several faces are nearest: the one of
-/// the point's own cell before those farther off, the surface before the sides. Its thickness is the rectangle's
-/// shorter side. @throws RigidError
+/// Distances are exact to these. On an edge or corner, and where several faces are equally near, a face's normal. Its
+/// thickness is the rectangle's shorter side. @throws RigidError
 std::unique_ptr<Surface> make_height_field(const HeightGrid& grid);
 /// @throws RigidError when the mesh is empty, degenerate, not closed or not consistently oriented; a mesh turned
 /// inside out as a whole is turned right.

@@ -43,8 +43,7 @@ void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinitio
 /// The `shape` of a rigid body that is `revolved`, `cone` or `ring`; of a ring that can open, its inner radius too.
 /// @throws RigidError for numbers that make no body.
 std::unique_ptr<Surface> read_revolved_shape(const std::string& kind, const Value& value, RigidBodyDefinition& body);
-/// The `shape` of a rigid body that is a `height_field`, after `grid`. @throws RigidError for numbers that make no
-/// body.
+/// The `shape` of a rigid body that is a `height_field`, after `grid`
 std::unique_ptr<Surface> read_height_field(const Value& value, const SimulationDefinition& definition);
 /// `boundaries`, after bodies and rigid bodies
 void read_boundaries(const Map& root, Scene& scene);

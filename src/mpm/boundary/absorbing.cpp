@@ -1,5 +1,6 @@
 #include "mpm/boundary/absorbing.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mpm/shape/bspline.hpp"
@@ -83,8 +84,15 @@ void Absorbing::find_nodes(const Grid& grid) {
     for (int n = 0; n < layout.nodes_per_block(); ++n) {
       const int node = layout.node(grid.blocks.block(b), n)[axis];
       if (upper ? node < layout.last_node(axis) : node > 0) continue;
-      nodes_.push_back({{b, n}, grid.blocks.key(b) * 64 + n, {}});
+      const bool beyond = node != (upper ? layout.last_node(axis) : 0);
+      nodes_.push_back({{b, n}, id_on_face(layout, layout.node(grid.blocks.block(b), n)), beyond});
     }
+  }
+  std::stable_sort(nodes_.begin(), nodes_.end(), [](const Node& a, const Node& b) { return a.column < b.column; });
+  columns_.clear();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (i == 0 || nodes_[i].column != nodes_[i - 1].column) columns_.push_back({static_cast<int>(i), 0, {}});
+    ++columns_.back().count;
   }
 }
 
@@ -118,10 +126,10 @@ void Absorbing::find_waves(const Grid& grid) {
       }
     }
   }
-  if (sums.empty()) nodes_.clear();
-  for (Node& node : nodes_) {
-    const auto found = sums.find(id_on_face(layout, layout.node(grid.blocks.block(node.ref.block), node.ref.node)));
-    node.waves = (found == sums.end() ? all : found->second).mean();
+  if (sums.empty()) columns_.clear();
+  for (Column& column : columns_) {
+    const auto found = sums.find(nodes_[column.first].column);
+    column.waves = (found == sums.end() ? all : found->second).mean();
   }
 }
 
@@ -132,34 +140,67 @@ void Absorbing::momentum_gathered(StepContext& context) {
   find_waves(context.grid);
 }
 
+Absorbing::Load Absorbing::load_of(const Grid& grid, const Column& column, const NodalField& velocity) const {
+  Load load;
+  for (int i = column.first; i < column.first + column.count; ++i) {
+    const NodeRef ref = nodes_[i].ref;
+    if (!grid.carries(ref.block, ref.node)) continue;
+    const double mass = grid.mass.at(ref.block, 0, ref.node);
+    load.mass += mass;
+    if (nodes_[i].beyond) load.beyond += mass;
+    load.velocity += mass * nodal_vector(velocity, grid.layout, ref);
+    load.acceleration += mass * nodal_vector(grid.force, grid.layout, ref);
+  }
+  if (load.mass > 0.0) load.velocity /= load.mass, load.acceleration /= load.mass;
+  return load;
+}
+
+void Absorbing::tie(const Grid& grid, NodalField& velocity) const {
+  for (const Column& column : columns_) {
+    const Load load = load_of(grid, column, velocity);
+    for (int i = column.first; i < column.first + column.count; ++i) {
+      const NodeRef ref = nodes_[i].ref;
+      add_nodal_vector(velocity, grid.layout, ref, load.velocity - nodal_vector(velocity, grid.layout, ref));
+    }
+  }
+}
+
+void Absorbing::before_strain(StepContext& context) { tie(context.grid, context.grid.velocity); }
+
+void Absorbing::velocity_found(StepContext& context, NodalField& velocity) { tie(context.grid, velocity); }
+
+void Absorbing::increment_found(StepContext& context, NodalField& increment) { tie(context.grid, increment); }
+
 void Absorbing::momentum_updated(StepContext& context) {
   Grid& grid = context.grid;
   const GridLayout& layout = grid.layout;
   const int axis = face_ / 2;
-  const double dt = context.dt, per_speed = 0.5 * dt / (phi_ * layout.cell(axis));
-  for (const Node& node : nodes_) {
-    if (!grid.carries(node.ref.block, node.ref.node)) continue;
-    const double mass = grid.mass.at(node.ref.block, 0, node.ref.node);
-    const Vec3 acceleration = nodal_vector(grid.force, layout, node.ref);
-    Vec3 held = Vec3::Zero();
-    if (hold_ && !started_) held_[node.id] = -acceleration;
-    if (hold_) {
-      if (const auto found = held_.find(node.id); found != held_.end()) held = found->second;
-    }
-    const Vec3 after = nodal_vector(grid.velocity, layout, node.ref) + held * dt;
-    const Vec3 before = after - (acceleration + held) * dt;
-    Vec3 change = held * dt, displacement = Vec3::Zero();
+  const double dt = context.dt;
+  for (const Column& column : columns_) {
+    const Load load = load_of(grid, column, grid.velocity);
+    if (!(load.mass > 0.0)) continue;
+    const std::uint64_t id = nodes_[column.first].column;
+    if (hold_ && !started_) held_[id] = -load.acceleration;
+    const auto found = held_.find(id);
+    const Vec3 held = found == held_.end() ? Vec3(Vec3::Zero()) : found->second;
+    const Vec3 after = load.velocity + held * dt, before = load.velocity - load.acceleration * dt;
+    const double part = load.beyond / load.mass, given_way = part + std::sqrt(part * part + part);
+    const double per_speed = 0.5 * dt / ((phi_ + given_way) * layout.cell(axis));
+    Vec3 wanted = after;
     for (int k = 0; k < layout.dim(); ++k) {
       const int a = layout.axis(k);
-      const double half = per_speed * (k == axis ? node.waves.pressure : node.waves.shear);
-      const double taken = -half * (before[a] + after[a]) / (1.0 + half);
-      change[a] += taken;
-      displacement[a] = 0.5 * (before[a] + after[a] + taken) * dt;
+      const double half = per_speed * (k == axis ? column.waves.pressure : column.waves.shear);
+      wanted[a] -= half * (before[a] + after[a]) / (1.0 + half);
     }
-    add_nodal_vector(grid.velocity, layout, node.ref, change);
-    add_nodal_vector(grid.force, layout, node.ref, change / dt);
-    given_ += mass * change;
-    work_ += mass * change.dot(displacement) / dt;
+    work_ += load.mass * (wanted - load.velocity).dot(0.5 * (before + wanted));
+    for (int i = column.first; i < column.first + column.count; ++i) {
+      const NodeRef ref = nodes_[i].ref;
+      if (!grid.carries(ref.block, ref.node)) continue;
+      const Vec3 change = wanted - nodal_vector(grid.velocity, layout, ref);
+      add_nodal_vector(grid.velocity, layout, ref, change);
+      add_nodal_vector(grid.force, layout, ref, change / dt);
+      given_ += grid.mass.at(ref.block, 0, ref.node) * change;
+    }
   }
   started_ = true;
 }

@@ -12,11 +12,31 @@ namespace {
 
 constexpr double kBeyondBlock = 1.5;  ///< nodes that a particle may be beyond its block, and a half
 constexpr double kWatched = 0.1;      ///< cells: a point this near is held if it comes nearer in this step
-constexpr double kTouching = 1e-2;    ///< cells: a point this near counts to the area, and adheres
-constexpr double kPushOut = 2e-4;     ///< cells a step at most that a point inside a body is moved out
+constexpr double kTouching = 1e-2;    ///< cells: a point this near counts to the area
+constexpr double kWeakening = 1e-3;   ///< cells of sliding over which friction falls from that at rest
+constexpr double kAtRest = 1e-6;   ///< cells: what slides by less in a step is at rest, and what is this near adheres
+constexpr double kPushOut = 2e-4;  ///< cells a step at most that a point inside a body is moved out
 constexpr double kPushOutPart = 0.1;  ///< of its depth
 constexpr int kMostSweeps = 40;
 constexpr double kTolerance = 1e-3;  ///< change of velocity in a sweep over the largest one, at which sweeps end
+
+// 1 where the nearest place of the body is a sharp edge or corner, 0 over a face, between them on what is rounded: how
+// much the normal turns along the surface, by a step to either side, over how much it turns about an edge. An edge
+// divides what it meets, as a particle cannot: its centre decides on which side of an edge it is, and a blade does not
+// press down what it has cut off.
+double edge_part(const RigidBody& body, GeometryKind geometry, const Vec3& centre, const SurfacePoint& at,
+                 double step) {
+  if (!(at.distance > 0.0) || geometry == GeometryKind::line) return 0.0;
+  const Vec3 place = body.pose().to_body(centre);
+  const Vec3 across = dimensions(geometry) == 3 ? Vec3(at.normal.unitOrthogonal()) : Vec3(Vec3::UnitY());
+  const auto turned = [&](const Vec3& along) {
+    const double one = (body.surface().at(place + step * along).normal - at.normal).norm();
+    return one == 0.0 ? 0.0 : std::min(one, (body.surface().at(place - step * along).normal - at.normal).norm());
+  };
+  double most = turned(across.cross(at.normal).normalized());
+  if (dimensions(geometry) == 3) most = std::max(most, turned(across));
+  return std::min(most * at.distance / step, 1.0);
+}
 
 std::uint64_t id_of(std::uint32_t particle, int body) { return (static_cast<std::uint64_t>(particle) << 16) + body; }
 
@@ -60,11 +80,12 @@ template <class Geometry>
 void PointContact::find_points(const StepContext& context) {
   const GridLayout& layout = context.grid.layout;
   const double watched = kWatched * layout.smallest_cell();
-  double band = 0.0;  // from a particle's centre
+  double band = watched, most_reach = 0.0;  // from a particle's centre
   for (const ParticleSet& set : sets_) {
-    for (int k = 0; k < layout.dim(); ++k) band = std::max(band, 2.0 * set.half[k] * layout.cell(k));
+    for (int k = 0; k < layout.dim(); ++k) most_reach = std::max(most_reach, 2.0 * set.half[k] * layout.cell(k));
   }
-  band += 2.0 * watched;
+  for (const RigidBody* body : bodies_) band = std::max(band, watched + body->twist().linear.norm() * context.dt);
+  band += most_reach;
   find_blocks(layout, band);
   while (of_block_.size() < near_.size()) of_block_.emplace_back();
   const int count = static_cast<int>(near_.size());
@@ -87,12 +108,16 @@ void PointContact::find_points(const StepContext& context) {
           if (!body.surface().within(body.pose().to_body(centre), band, surface)) continue;
           Point point;
           point.normal = body.pose().orientation * surface.normal;
-          const double reach = particle_reach<Geometry>(set, layout, p, point.normal);
+          double reach = particle_reach<Geometry>(set, layout, p, point.normal);
+          const double closing = (body.velocity_at(centre) - velocity).dot(point.normal) * context.dt;
+          const double seen_from = watched + std::max(closing, 0.0);
+          if (surface.distance - reach > seen_from) continue;
+          const double half_width = reach;
+          reach *= 1.0 - edge_part(body, settings_.geometry, centre, surface, 0.5 * reach);
           point.gap = surface.distance - reach;
+          if (point.gap > seen_from) continue;
           point.place = centre - reach * point.normal;
           point.velocity = body.velocity_at(point.place);
-          const double closing = (point.velocity - velocity).dot(point.normal) * context.dt;
-          if (point.gap > watched + std::max(closing, 0.0)) continue;
           point.body = static_cast<int>(b);
           point.field = near_[i].field;
           point.law = static_cast<int>(b * sets_.size() + s);
@@ -100,7 +125,7 @@ void PointContact::find_points(const StepContext& context) {
           double volume = determinant(Geometry::load_matrix(set.f, p)) * settings_.across;
           for (int k = 0; k < layout.dim(); ++k) volume *= 2.0 * set.half[k] * layout.cell(k);
           if (axisymmetric(settings_.geometry)) volume *= kTurn * centre.x();
-          point.area = volume / (2.0 * reach);
+          point.area = volume / (2.0 * half_width);
           of_block_[i].push_back(point);
         }
       }
@@ -112,6 +137,8 @@ void PointContact::momentum_gathered(StepContext& context) {
   for (std::size_t i = 0; i < laws_.size(); ++i) laws_now_[i] = laws_[i].at(context.start + 0.5 * context.dt);
   push_out_ = kPushOut * context.grid.layout.smallest_cell();
   touching_ = kTouching * context.grid.layout.smallest_cell();
+  at_rest_ = kAtRest * context.grid.layout.smallest_cell();
+  weakening_ = kWeakening * context.grid.layout.smallest_cell();
   with_geometry(settings_.geometry, [&](auto kind) { find_points<decltype(kind)>(context); });
   connect(context);
 }
@@ -158,10 +185,15 @@ void PointContact::recall(Point& point, double dt) const {
   const std::uint64_t id = id_of(point.particle, point.body);
   const auto memory = std::lower_bound(memory_.begin(), memory_.end(), id,
                                        [](const Memory& entry, std::uint64_t wanted) { return entry.id < wanted; });
-  const bool held = memory != memory_.end() && memory->id == id;
-  point.adheres = held || point.gap <= touching_;
+  const bool seen = memory != memory_.end() && memory->id == id;
+  // What comes under a surface from beside it, or starts there, keeps the overlap that it came with.
+  point.overlap = std::min(std::max(seen ? memory->overlap : point.gap, point.gap), 0.0);
+  point.gap -= point.overlap;
+  const bool held = seen && memory->hold != Hold::free;
+  point.adheres = held || point.gap <= at_rest_;
   if (!held) return;
   point.hold = memory->hold;
+  point.slid = memory->slid;
   point.impulse = memory->force * dt;
   if (laws_now_[point.law].adhesion > 0.0) return;
   // The normal may have turned: what begins the sweeps pulls nowhere.
@@ -223,13 +255,14 @@ double PointContact::relax(Point& point, double dt) {
     const double adhesion = point.adheres ? law.adhesion * point.area * dt : 0.0;
     normal = std::max(normal, -adhesion);
     along = sticking;
-    const double friction = point.hold == Hold::slide ? law.coefficient : law.at_rest();
+    const double weakened = std::min(point.slid / weakening_, 1.0);
+    const double friction = law.at_rest() + weakened * (law.coefficient - law.at_rest());
     const double length = along.norm(), most = friction * std::max(normal, 0.0) + adhesion;
     Hold hold = normal > -adhesion ? Hold::stick : Hold::free;
     if (hold == Hold::free) {
       along.setZero();
     } else if (!law.stick && length > most) {
-      along *= (law.coefficient * std::max(normal, 0.0) + adhesion) / length;
+      along *= most / length;
       hold = Hold::slide;
     }
     if (kDecides) point.hold = hold;
@@ -279,11 +312,14 @@ void PointContact::momentum_updated(StepContext& context) {
   solve<Pass::step>(context.dt);
   store(&Grid::velocity);
   store(&Grid::force, 1.0 / context.dt);
-  for (const Point& point : points_) {
-    give(point, 0.5 * (point.approach + velocity_at(point) - point.velocity));
-    if (point.hold != Hold::free) {
-      memory_.push_back({id_of(point.particle, point.body), point.impulse / context.dt, point.hold});
-    }
+  for (Point& point : points_) {
+    const Vec3 slip = velocity_at(point) - point.velocity;
+    give(point, 0.5 * (point.approach + slip));
+    // What has come to rest has friction at rest again.
+    const double slid = (slip - slip.dot(point.normal) * point.normal).norm() * context.dt;
+    point.slid = slid < at_rest_ ? 0.0 : point.slid + slid;
+    memory_.push_back(
+        {id_of(point.particle, point.body), point.impulse / context.dt, point.slid, point.overlap, point.hold});
   }
   std::sort(memory_.begin(), memory_.end(), [](const Memory& a, const Memory& b) { return a.id < b.id; });
 }

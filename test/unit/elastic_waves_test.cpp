@@ -1,0 +1,50 @@
+// Speeds of waves that absorbing faces are made for: that of pressure is what each law itself calls its fastest wave
+// when it is undeformed; the others follow from the moduli (Timoshenko & Goodier, Theory of Elasticity).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "material_zoo.hpp"
+#include "mpm/boundary/absorbing.hpp"
+#include "mpm/material/law.hpp"
+
+namespace mpm {
+namespace {
+
+TEST(ElasticWaves, AreThoseOfTheLaws) {
+  const Matrix3<double> whole{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  for (const paths::Specimen& specimen : paths::zoo()) {
+    const Law law = make_law(specimen.material);
+    Symmetric3<double> tau{};
+    if (const auto* gas = std::get_if<IdealGasDefinition>(&specimen.material.law)) {
+      tau.xx = tau.yy = tau.zz = -gas->pressure / specimen.material.density;  // it is never without
+    }
+    const double fastest =
+        std::visit([&](const auto& l) { return static_cast<double>(l.wave_speed(whole, tau, 1.0)); }, law);
+    const ElasticWaves waves = elastic_waves(specimen.material, GeometryKind::solid);
+    EXPECT_NEAR(waves.pressure, fastest, 1e-6 * fastest) << specimen.material.name;
+    EXPECT_LT(waves.shear, waves.pressure) << specimen.material.name;
+  }
+}
+
+TEST(ElasticWaves, OfAPlateAndOfShear) {
+  const MaterialDefinition steel{"steel", 8000.0, LinearElasticDefinition{{2e11, 0.25}}};
+  const double shear = std::sqrt(8e10 / 8000.0);  // G = E / 2.5
+  EXPECT_NEAR(elastic_waves(steel, GeometryKind::solid).shear, shear, 1e-9 * shear);
+  const double plate = std::sqrt(2e11 / (1.0 - 0.0625) / 8000.0);
+  EXPECT_NEAR(elastic_waves(steel, GeometryKind::plane_stress).pressure, plate, 1e-9 * plate);
+  EXPECT_EQ(elastic_waves({"water", 1000.0, NewtonianFluidDefinition{2e9}}, GeometryKind::solid).shear, 0.0);
+}
+
+// A cell's particles give half of it to the node of a face by hat functions; splines, folded at the wall, by their
+// integral over the half line (shape/bspline.hpp), which many particles come near to.
+TEST(FaceMass, IsTheWeightOfHalfALine) {
+  EXPECT_EQ(face_mass(ShapeKind::ugimp, 2), 0.5);
+  // Quadratic: hat to 1/2, then (3/2 - x)^2 / 2: 3/8 + 1/6. Cubic: 1 - x + x^3/6 to 1, then (2 - x)^3 / 6: 13/24 +
+  // 1/24.
+  EXPECT_NEAR(face_mass(ShapeKind::bspline2, 50), 3.0 / 8.0 + 1.0 / 6.0, 1e-4);
+  EXPECT_NEAR(face_mass(ShapeKind::bspline3, 50), 13.0 / 24.0 + 1.0 / 24.0, 1e-4);
+}
+
+}  // namespace
+}  // namespace mpm

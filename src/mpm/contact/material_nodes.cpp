@@ -63,13 +63,19 @@ void MaterialContact::find_nodes(const SharedBlock& block, double dt, BlockNodes
   }
 }
 
+bool MaterialContact::parted(const Member& a, const Member& b) const {
+  return settings_.sides != nullptr && settings_.sides->apart(*fields_[a.field], a.ref, *fields_[b.field], b.ref);
+}
+
 int MaterialContact::group(Member* members, int count) const {
   int groups = 0;
   for (int i = 0; i < count; ++i) {
     members[i].group = groups++;
     for (int k = 0; k < i; ++k) {
       const Rule between = rule(members[k].field, members[i].field);
-      if (between.pair < 0 || settings_.pairs[between.pair].law.kind != ContactLaw::Kind::one_field) continue;
+      if (between.pair < 0 || parted(members[k], members[i]) ||
+          settings_.pairs[between.pair].law.kind != ContactLaw::Kind::one_field)
+        continue;
       const int kept = members[k].group, joined = members[i].group;
       if (kept == joined) continue;
       // The higher number goes, and those above it close up.
@@ -131,7 +137,7 @@ void MaterialContact::add_pairs(Node& node, const std::array<bool, 3>& planes, d
     for (int b = a + 1; b < node.groups; ++b) {
       const int field_a = members[heaviest[a]].field, field_b = members[heaviest[b]].field;
       const Rule between = rule(field_a, field_b);
-      if (between.pair < 0) continue;
+      if (between.pair < 0 || parted(members[heaviest[a]], members[heaviest[b]])) continue;
       const ContactLaw& law = settings_.pairs[between.pair].law;
       PairOfNode pair{};
       pair.rule = between.pair;

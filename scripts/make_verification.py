@@ -16,6 +16,7 @@ CHAPTERS = {
     "waves": "Waves, weight and order of convergence",
     "conservation": "Conservation",
     "contact": "Contact with rigid bodies",
+    "pairs": "Contact between deformable bodies",
     "axisymmetric": "About an axis",
     "soil": "Soil",
     "metal": "Metal",

@@ -354,9 +354,13 @@ TEST(PairInterface, PerfectDirectionsStick) {
 }
 
 TEST(PairInterface, StoresTheEnergyOfItsOpening) {
+  // Traction times area times dt of an opening of (0.3, 0, 0.2) m.
   const InterfaceState state{Vec3(0.3, 0, 0.2), 2.0, 1.0};
-  EXPECT_NEAR(interface_energy({100.0, -1.0, 50.0}, state, Vec3::UnitZ()), 0.5 * 2 * (100 * 0.04 + 50 * 0.09), 1e-14);
-  EXPECT_NEAR(interface_energy({100.0, -1.0, 50.0}, state, -Vec3::UnitZ()), 0.5 * 2 * (50 * 0.09), 1e-14);
+  const double dt = 1e-3;
+  const Vec3 impulse = 2.0 * dt * Vec3(50.0 * 0.3, 0, 100.0 * 0.2);
+  EXPECT_NEAR(interface_energy({100.0, -1.0, 50.0}, state, impulse, Vec3::UnitZ(), dt),
+              0.5 * 2 * (100 * 0.04 + 50 * 0.09), 1e-14);
+  EXPECT_NEAR(interface_energy({100.0, -1.0, 50.0}, state, impulse, -Vec3::UnitZ(), dt), 0.5 * 2 * (50 * 0.09), 1e-14);
 }
 
 }  // namespace

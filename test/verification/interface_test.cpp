@@ -14,7 +14,9 @@
 namespace verification {
 namespace {
 
-constexpr double kModulus = 1e6, kPull = 1e3;  // [Pa]
+// Openings are small beside a cell: an open gap takes volume away that areas are found from, 1.7 % of the stiffness at
+// a hundredth of a cell.
+constexpr double kModulus = 1e6, kPull = 10.0;  // [Pa]
 
 /// Two bars of half a metre, the left one held at x = 0, the right one pulled, damped to rest.
 std::string pulled_bars(double cell, double first_node, double stiffness, const std::string& damping) {
@@ -24,7 +26,7 @@ std::string pulled_bars(double cell, double first_node, double stiffness, const 
       "materials: [{{name: m, density: 100, law: linear_elastic, young: 1 MPa, poisson: 0}}]\n"
       "bodies:\n  - {{name: left, material: m, shape: {{box: {{min: {1}, max: 0.5}}}}}}\n"
       "  - {{name: right, material: m, shape: {{box: {{min: 0.5, max: 1}}}}}}\n"
-      "boundaries: {{x_min: fixed}}\nloads: [{{traction: {{body: right, edge: x_max, traction: 1000}}}}]\n"
+      "boundaries: {{x_min: fixed}}\nloads: [{{traction: {{body: right, edge: x_max, traction: 10}}}}]\n"
       "contact: {{pairs: [{{between: [left, right], law: interface, opened: {3}, tangential: 0}}]}}\n",
       cell, first_node, first_node + 30 * cell, stiffness, damping);
 }
@@ -46,10 +48,10 @@ Fit fit(const mpm::Simulation& run, const std::vector<double>& start, const std:
 }
 
 TEST(Interface, OpensByStressOverStiffness) {
-  Page page("statics", "interface", "Two bars joined by an imperfect interface");
+  Page page("pairs", "interface", "Two bars joined by an imperfect interface");
   page.problem(
           "Two bars in a row, together L = 1 m long and 20 cells of two particles, the left one held, the right one "
-          "pulled with s = 1 kPa at its end until all rests. E = 1 MPa; between them an interface of stiffness D. It "
+          "pulled with s = 10 Pa at its end until all rests. E = 1 MPa; between them an interface of stiffness D. It "
           "lies on a node of the grid or in the middle of a cell.")
       .exact("The bars part by s/D; the modulus of the whole is E* with 1/E* = 1/E + 1/(DL).", "statics")
       .meaning(
@@ -115,10 +117,10 @@ mpm::Simulation oblique(double angle, double stiffness, double cell, double z_of
 }
 
 TEST(Interface, IsTheSameAtAnyAngleToTheGrid) {
-  Page page("statics", "oblique_interface", "An interface oblique to the grid");
+  Page page("pairs", "oblique_interface", "An interface oblique to the grid");
   page.problem(
           "A bar 2 m long and 0.5 m high is cut at an angle to the grid and joined by an interface that is equally "
-          "stiff across and along, D = E/L with L = 2 m; pulled along x with 1 kPa. Cells of 0.05 m.")
+          "stiff across and along, D = E/L with L = 2 m; pulled along x with 10 Pa. Cells of 0.05 m.")
       .exact(
           "Traction s cos(θ) along x everywhere on the cut: the halves part along x by s cos(θ)/D and keep their "
           "shape.",
@@ -156,7 +158,7 @@ TEST(Interface, IsStableAtAnyStiffness) {
     while (seconds(run) < 1.0 - 1e-9) {
       run.advance();
       const mpm::EnergyReport energy = run.state().energy;
-      most = std::max(most, (energy.total() + energy.interface) / std::max(energy.load_work, 1e-12));
+      most = std::max(most, energy.total() / std::max(energy.load_work, 1e-12));
       const std::vector<double> x = field(run, "x");
       largest = std::max(largest, x.back() - start.back());
     }

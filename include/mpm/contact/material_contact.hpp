@@ -116,7 +116,6 @@ class MaterialContact final : public Stage {
     bool turned = false;
   };
   Rule rule(int a, int b) const { return rules_[a * static_cast<int>(fields_.size()) + b]; }
-  SurveyWants wants() const;
 
   // Finding the nodes (material_nodes.cpp).
   void find_nodes(const SharedBlock& block, double dt, BlockNodes& found) const;
@@ -140,11 +139,12 @@ class MaterialContact final : public Stage {
   void hold_nodes(Pass pass, double dt, FieldOf&& velocity);
   void update(BlockNodes& block, const Node& node, double dt, Scratch& scratch);
   void keep_held();
-  void book(const BlockNodes& block, bool updated);
+  void book(const BlockNodes& block, bool updated, double dt);
 
   MaterialContactSettings settings_;
   Fields& fields_;
   VolumeSurvey& survey_;
+  SurveyWants wants_;
   std::vector<Rule> rules_;  ///< of every two fields
   std::vector<NodalVolumes> volumes_;
   std::vector<FrictionLaw> friction_;  ///< of each pair, at this step's start

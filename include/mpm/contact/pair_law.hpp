@@ -53,7 +53,10 @@ double normal_stiffness(const InterfaceLaw& law, double normal_opening);
 /// while it presses. `hold`: what perfect directions hold.
 PairImpulse interface_impulse(const InterfaceLaw& law, const InterfaceState& state, const Vec3& stick,
                               const Vec3& normal, double dt);
-/// A (D_n u_n^2 + D_t u_t^2) / 2, without perfect directions [J].
-double interface_energy(const InterfaceLaw& law, const InterfaceState& state, const Vec3& normal);
+/// Stored where `impulse` is what a step's traction gave: (J_n^2 / D_n + J_t^2 / D_t) / (2 A dt^2), without perfect
+/// directions [J]. By the traction: a measured opening is never as small as a stiff interface's, and D times its square
+/// would be anything.
+double interface_energy(const InterfaceLaw& law, const InterfaceState& state, const Vec3& impulse, const Vec3& normal,
+                        double dt);
 
 }  // namespace mpm

@@ -28,9 +28,9 @@ struct EnergyReport {
   double contact_work = 0.0;   ///< done by rigid bodies on the material since the start
   double load_work = 0.0;      ///< done by loads, velocity conditions and absorbing faces since the start
   double pair_friction = 0.0;  ///< taken by sliding between deformable bodies since the start
-  double interface = 0.0;      ///< stored in imperfect interfaces
+  double interface = 0.0;      ///< stored in imperfect interfaces, as the last step began
   double friction = 0.0;       ///< taken by sliding on rigid bodies since the start
-  double total() const { return kinetic + elastic + potential; }
+  double total() const { return kinetic + elastic + potential + interface; }
 };
 
 /// One external impulse on the material since the start [N s].

@@ -3,11 +3,27 @@
 #include <algorithm>
 
 namespace mpm {
+namespace {
+
+SurveyWants wants_of(const MaterialContactSettings& settings) {
+  const bool interface = std::any_of(settings.pairs.begin(), settings.pairs.end(), [](const MaterialPair& pair) {
+    return pair.law.kind == ContactLaw::Kind::interface;
+  });
+  SurveyWants wants;
+  wants.start_volume = settings.detection.minimum_volume > 0.0;
+  wants.position = interface || settings.detection.kind == Detection::positions;
+  wants.displacement = interface || settings.detection.kind == Detection::displacements;
+  wants.slope = interface;
+  return wants;
+}
+
+}  // namespace
 
 MaterialContact::MaterialContact(MaterialContactSettings settings, Fields& fields, VolumeSurvey& survey)
     : settings_(std::move(settings)),
       fields_(fields),
       survey_(survey),
+      wants_(wants_of(settings_)),
       rules_(fields.size() * fields.size()),
       volumes_(fields.size(), NodalVolumes(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())),
       friction_(settings_.pairs.size()),
@@ -103,7 +119,7 @@ void MaterialContact::momentum_updated(StepContext& context) {
   keep_held();
   started_ = true;
   last_.assign(last_.size(), {});
-  for (const BlockNodes& block : blocks_) book(block, true);
+  for (const BlockNodes& block : blocks_) book(block, true, context.dt);
 }
 
 void MaterialContact::update(BlockNodes& block, const Node& node, double dt, Scratch& scratch) {
@@ -139,7 +155,7 @@ void MaterialContact::velocity_found(StepContext& context, NodalField& /*velocit
 
 void MaterialContact::increment_found(StepContext& context, NodalField& /*increment*/) {
   hold_nodes(Pass::filter, context.dt, [](Grid& grid) -> NodalField& { return grid.increment; });
-  for (const BlockNodes& block : blocks_) book(block, false);
+  for (const BlockNodes& block : blocks_) book(block, false, context.dt);
 }
 
 void MaterialContact::keep_held() {
@@ -166,7 +182,7 @@ MaterialContact::Sums& MaterialContact::Sums::operator+=(const Sums& other) {
   return *this;
 }
 
-void MaterialContact::book(const BlockNodes& block, bool updated) {
+void MaterialContact::book(const BlockNodes& block, bool updated, double dt) {
   for (const Node& node : block.nodes) {
     for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) {
       const NodePair& pair = block.pairs[p].state;
@@ -185,7 +201,7 @@ void MaterialContact::book(const BlockNodes& block, bool updated) {
       sums.friction_energy += pair.friction_energy;
       if (pair.interface != nullptr) {
         sums.interface_energy +=
-            mpm::interface_energy(*pair.interface, {pair.opening, pair.area, 0.0}, pair.normals.of_a);
+            mpm::interface_energy(*pair.interface, {pair.opening, pair.area, 0.0}, pair.on_a, pair.normals.of_a, dt);
       }
       if (pair.on_a.isZero(0.0)) continue;
       ++sums.nodes;

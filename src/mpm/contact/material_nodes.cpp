@@ -17,24 +17,11 @@ Vec3 mean(const NodalField& sums, const GridLayout& layout, NodeRef ref, double 
 
 }  // namespace
 
-SurveyWants MaterialContact::wants() const {
-  const bool interface = std::any_of(settings_.pairs.begin(), settings_.pairs.end(), [](const MaterialPair& pair) {
-    return pair.law.kind == ContactLaw::Kind::interface;
-  });
-  SurveyWants wants;
-  wants.start_volume = settings_.detection.minimum_volume > 0.0;
-  wants.position = interface || settings_.detection.kind == Detection::positions;
-  wants.displacement = interface || settings_.detection.kind == Detection::displacements;
-  wants.slope = interface;
-  return wants;
-}
-
 void MaterialContact::momentum_gathered(StepContext& context) {
   for (std::size_t i = 0; i < friction_.size(); ++i) friction_[i] = settings_.pairs[i].law.at(context.start);
   shared_.update(fields_, [this](int a, int b) { return rule(a, b).pair >= 0; });
-  const SurveyWants wanted = wants();
   for (int f = 0; f < static_cast<int>(fields_.size()); ++f) {
-    if (shared_.any(f)) survey_.survey(f, shared_.marks(f), wanted, volumes_[f]);
+    if (shared_.any(f)) survey_.survey(f, shared_.marks(f), wants_, volumes_[f]);
   }
   const int count = static_cast<int>(shared_.list().size());
   blocks_.resize(count);
@@ -66,7 +53,7 @@ void MaterialContact::find_nodes(const SharedBlock& block, double dt, BlockNodes
       add_pairs(node, symmetry(first.layout.node(place, n)), dt, found);
       node.pairs = static_cast<int>(found.pairs.size()) - node.first_pair;
     }
-    if (node.pairs > 0 || node.groups < node.members) {
+    if (node.members > 1 && (node.pairs > 0 || node.groups < node.members)) {
       found.nodes.push_back(node);
     } else {
       found.members.resize(node.first_member);
@@ -104,14 +91,13 @@ NodeMaterial MaterialContact::material_at(const Member& member, const Vec3& posi
   material.mass = member.mass;
   material.volume = volumes.volume.at(ref.block, 0, ref.node);
   material.gradient = nodal_vector(volumes.gradient, layout, ref);
-  const SurveyWants wanted = wants();
-  if (wanted.start_volume) material.start_volume = volumes.start_volume.at(ref.block, 0, ref.node);
+  if (wants_.start_volume) material.start_volume = volumes.start_volume.at(ref.block, 0, ref.node);
   if (settings_.detection.kind == Detection::positions) {
     material.place = mean(volumes.position, layout, ref, member.mass);
   } else if (settings_.detection.kind == Detection::displacements) {
     material.place = mean(volumes.displacement, layout, ref, member.mass);
   }
-  if (wanted.slope) {
+  if (wants_.slope) {
     // The mean is that of the material's mean place; its gradient carries it to the node.
     material.displacement = mean(volumes.displacement, layout, ref, member.mass);
     const Vec3 to_node = position - mean(volumes.position, layout, ref, member.mass);

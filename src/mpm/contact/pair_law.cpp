@@ -61,12 +61,14 @@ PairImpulse interface_impulse(const InterfaceLaw& law, const InterfaceState& sta
   return impulse;
 }
 
-double interface_energy(const InterfaceLaw& law, const InterfaceState& state, const Vec3& normal) {
-  const double opening = state.opening.dot(normal);
-  const double slip2 = (state.opening - opening * normal).squaredNorm();
-  const double along = normal_stiffness(law, opening);
-  return 0.5 * state.area *
-         ((along > 0.0 ? along * opening * opening : 0.0) + (law.tangential > 0.0 ? law.tangential * slip2 : 0.0));
+double interface_energy(const InterfaceLaw& law, const InterfaceState& state, const Vec3& impulse, const Vec3& normal,
+                        double dt) {
+  const double along = impulse.dot(normal), tangential2 = (impulse - along * normal).squaredNorm();
+  const double stiffness = normal_stiffness(law, along);  // a is pulled where it has opened
+  double sum = 0.0;
+  if (stiffness > 0.0) sum += along * along / stiffness;
+  if (law.tangential > 0.0) sum += tangential2 / law.tangential;
+  return sum / (2.0 * state.area * dt * dt);
 }
 
 }  // namespace mpm

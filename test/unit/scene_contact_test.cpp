@@ -1,0 +1,134 @@
+// The contact section of scenes: laws of pairs, velocity fields, normals and detection, and what is refused.
+#include <gtest/gtest.h>
+
+#include "mpm/scene/scene.hpp"
+
+namespace mpm {
+namespace {
+
+/// Three bodies and a tool; the contact section is on line 8.
+std::string scene(const std::string& contact, const std::string& tool = "") {
+  return "geometry: plane_strain\n"
+         "grid: {cell: 0.1, min: [0, 0], max: [2, 2]}\n"
+         "materials: [{name: soft, density: 1000, law: neo_hookean, young: 1 MPa, poisson: 0.3}]\n"
+         "bodies:\n"
+         "  - {name: a, material: soft, shape: {box: {min: [0, 0], max: [0.5, 0.5]}}}\n"
+         "  - {name: b, material: soft, shape: {box: {min: [0.5, 0], max: [1, 0.5]}}}\n"
+         "  - {name: c, material: soft, shape: {box: {min: [1, 0], max: [1.5, 0.5]}}}\n"
+         "contact: " +
+         contact + "\nrigid_bodies: [{name: tool, shape: {sphere: {radius: 0.2}}, pose: {position: [1, 1.5]}" + tool +
+         "}]\n";
+}
+
+Scene read(const std::string& contact, const std::string& tool = "") {
+  return parse_scene(scene(contact, tool), "good.yaml");
+}
+
+const ContactLaw* law(const Scene& scene, const std::string& first, const std::string& second) {
+  for (const PairDefinition& pair : scene.definition.contact.pairs) {
+    if (pair.first == first && pair.second == second) return &pair.law;
+  }
+  return nullptr;
+}
+
+void expect_refused(const std::string& contact, const std::string& where, const std::string& what) {
+  const std::string start = "bad.yaml:8: contact" + where + ": ";
+  try {
+    parse_scene(scene(contact), "bad.yaml");
+    FAIL() << "taken: " << contact;
+  } catch (const SceneError& error) {
+    const std::string found = error.what();
+    EXPECT_EQ(found.substr(0, start.size()), start) << found;
+    EXPECT_NE(found.find(what), std::string::npos) << found;
+    EXPECT_EQ(found.find('\n'), std::string::npos) << found;
+  }
+}
+
+TEST(SceneContact, FrictionAloneIsForTools) {
+  const Scene read_scene = read("{friction: 0.3}");
+  EXPECT_TRUE(read_scene.definition.contact.pairs.empty());
+  for (const BodyDefinition& body : read_scene.bodies) EXPECT_EQ(body.field, 0);
+  EXPECT_EQ(read_scene.definition.rigid_bodies[0].friction.coefficient, 0.3);
+  const FrictionLaw whole =
+      read("{friction: 0.3, static_friction: 0.4, adhesion: 2 kPa}").definition.rigid_bodies[0].friction;
+  EXPECT_EQ(whole.static_coefficient, 0.4);
+  EXPECT_EQ(whole.adhesion, 2000.0);
+}
+
+TEST(SceneContact, BodiesOfAPairHaveFieldsOfTheirOwn) {
+  const Scene read_scene = read("{pairs: [{between: [b, a], friction: \"0.1*t\", adhesion: 5}]}");
+  EXPECT_EQ(read_scene.bodies[0].field, 1);
+  EXPECT_EQ(read_scene.bodies[1].field, 2);
+  EXPECT_EQ(read_scene.bodies[2].field, 0);
+  const ContactLaw* pair = law(read_scene, "a", "b");
+  ASSERT_NE(pair, nullptr);
+  EXPECT_EQ(pair->friction(2.0), 0.2);
+  EXPECT_EQ(pair->at(0.0).adhesion, 5.0);
+  // c has no law with the two: it sticks to them as before.
+  EXPECT_EQ(law(read_scene, "a", "c")->kind, ContactLaw::Kind::one_field);
+  EXPECT_EQ(law(read_scene, "b", "c")->kind, ContactLaw::Kind::one_field);
+  EXPECT_EQ(build(read_scene).bodies[1].field, 2);
+}
+
+TEST(SceneContact, ANamedLawIsThatOfAllBodies) {
+  const Scene read_scene = read("{law: coulomb, friction: 0.2, pairs: [{between: [a, c], friction: stick}]}");
+  EXPECT_EQ(read_scene.bodies[0].field, 0);
+  EXPECT_EQ(read_scene.bodies[2].field, 2);
+  EXPECT_EQ(law(read_scene, "a", "b")->friction(0.0), 0.2);
+  EXPECT_EQ(law(read_scene, "a", "c")->kind, ContactLaw::Kind::stick);
+  EXPECT_EQ(read_scene.definition.rigid_bodies[0].friction.coefficient, 0.2);
+}
+
+TEST(SceneContact, InterfacesNormalsAndDetection) {
+  const Scene read_scene = read(
+      "{normals: 0, rigid_bias: 5, minimum_volume: 0.5, detection: displacements, pairs: [{between: [a, b], law: "
+      "interface, opened: 2 MPa/m, closed: perfect, tangential: 0}, {between: [b, c], law: interface, opened: 1, "
+      "closed: 3, tangential: perfect}, {between: [c, tool], friction: 0.7}]}");
+  const ContactDefinition& contact = read_scene.definition.contact;
+  EXPECT_EQ(contact.normals.method, NormalMethod::larger_gradient);
+  EXPECT_EQ(contact.normals.rigid_bias, 5.0);
+  EXPECT_EQ(contact.detection.kind, Detection::displacements);
+  EXPECT_EQ(contact.detection.minimum_volume, 0.5);
+  EXPECT_EQ(law(read_scene, "a", "b")->interface.opened, 2e6);
+  EXPECT_LT(law(read_scene, "a", "b")->interface.closed, 0.0);
+  EXPECT_LT(law(read_scene, "b", "c")->interface.tangential, 0.0);
+  EXPECT_EQ(law(read_scene, "c", "tool")->friction(0.0), 0.7);
+  EXPECT_EQ(read("{normals: own}").definition.contact.normals.method, NormalMethod::own);
+  const DetectionRule usual = read("{friction: 0}").definition.contact.detection;
+  EXPECT_EQ(usual.kind, Detection::positions);  // the sources' advice, 0.8 cells
+  EXPECT_EQ(usual.position, 0.8);
+}
+
+TEST(SceneContact, RigidBodiesMayBeParticles) {
+  EXPECT_TRUE(read("{method: nodes}", ", normals: particles").definition.rigid_bodies[0].particles);
+  EXPECT_FALSE(read("{friction: 0}", ", normals: surface").definition.rigid_bodies[0].particles);
+  EXPECT_THROW(read("{method: points}", ", normals: particles"), SceneError);
+  EXPECT_THROW(read("{friction: 0}", ", normals: gradient"), SceneError);
+}
+
+TEST(SceneContact, RefusesWhatItCannotMean) {
+  expect_refused("{pairs: [{between: [a, d], friction: 0}]}", ".pairs.0.between.1", "no body 'd'");
+  expect_refused("{pairs: [{between: [a], friction: 0}]}", ".pairs.0.between", "names of two bodies");
+  expect_refused("{pairs: [{between: [a, a], friction: 0}]}", ".pairs.0.between.1", "with itself");
+  expect_refused("{pairs: [{between: [a, b], friction: 0}, {between: [b, a], friction: 1}]}", ".pairs.1.between",
+                 "a second law for these two");
+  expect_refused("{pairs: [{between: [a, b]}]}", ".pairs.0", "coulomb needs friction");
+  expect_refused("{pairs: [{between: [a, b], law: interface, opened: 1}]}", ".pairs.0", "tangential");
+  expect_refused("{pairs: [{between: [a, b], law: interface, opened: 1, tangential: 1, friction: 0.3}]}",
+                 ".pairs.0.friction", "the law interface has none");
+  expect_refused("{pairs: [{between: [a, b], friction: 0.3, opened: 1}]}", ".pairs.0.opened", "law: interface");
+  expect_refused("{pairs: [{between: [a, b], law: one_field, adhesion: 1}]}", ".pairs.0.adhesion", "leave it out");
+  expect_refused("{pairs: [{between: [a, b], friction: -0.3}]}", ".pairs.0.friction", "less than 0");
+  expect_refused("{pairs: [{between: [a, b], friction: 0.3, static_friction: 0.2}]}", ".pairs.0.static_friction",
+                 "less than the friction of sliding");
+  expect_refused("{pairs: [{between: [a, tool], law: one_field}]}", ".pairs.0.law", "for two deformable bodies");
+  expect_refused("{law: interface, opened: 1, tangential: 1}", ".law", "not for tools");
+  expect_refused("{law: sticky}", ".law", "sticky");
+  expect_refused("{normals: 4}", ".normals", "4");
+  expect_refused("{detection: approach, position: 0.7}", ".position", "detection: positions");
+  expect_refused("{friction: 0.3, distance: 1}", "", "distance");
+  expect_refused("{friction: \"0.1*t\"}", ".friction", "write functions of time in pairs");
+}
+
+}  // namespace
+}  // namespace mpm

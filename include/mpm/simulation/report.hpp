@@ -29,6 +29,7 @@ struct EnergyReport {
   double load_work = 0.0;      ///< done by loads, velocity conditions and absorbing faces since the start
   double pair_friction = 0.0;  ///< taken by sliding between deformable bodies since the start
   double interface = 0.0;      ///< stored in imperfect interfaces, as the last step began
+  double friction = 0.0;       ///< taken by sliding on rigid bodies since the start
   double total() const { return kinetic + elastic + potential + interface; }
 };
 

@@ -163,7 +163,10 @@ SolverState Simulation::state() const {
   report.energy.elastic = totals.elastic;
   report.energy.plastic = totals.plastic;
   report.min_j = totals.min_j;
-  for (const ContactLedger* contact : s.contacts) report.energy.contact_work += contact->work();
+  for (const ContactLedger* contact : s.contacts) {
+    report.energy.contact_work += contact->work();
+    report.energy.friction += contact->friction_energy();
+  }
   if (s.pairs != nullptr) {
     report.energy.pair_friction = s.pairs->friction_energy();
     report.energy.interface = s.pairs->interface_energy();

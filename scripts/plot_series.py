@@ -3,8 +3,8 @@ solver."""
 import matplotlib.pyplot as plt
 import numpy as np
 
-from plot_style import (AXES, BLACK, BLUE, CYCLE, GREEN, GREY, ORANGE, PINK, RED, caption, mark_peak, name_lines, save,
-                        zero_line)
+from plot_style import (AXES, BLACK, BLUE, CYCLE, GREEN, GREY, ORANGE, PINK, RED, SKY, YELLOW, caption, mark_peak, name_lines,
+                        save, zero_line)
 from plot_tables import file_stem
 
 AUDIT_LIMIT = 1e-10
@@ -130,11 +130,14 @@ def energies_of(state):
     potential = state["energy potential"] - state["energy potential"][0]
     work = state["contact work"]
     loads = state["load work"]
-    rest = work + loads - plastic - potential - (kinetic - kinetic[0]) - (elastic - elastic[0])
+    friction = state["energy friction"] + state["energy pair friction"]
+    interface = state["energy interface"]
+    rest = work + loads - plastic - friction - interface - potential - (kinetic - kinetic[0]) - (elastic - elastic[0])
     return [("work done by\nthe bodies", work, BLACK), ("work done by\nloads", loads, PINK),
             ("potential", potential, GREEN), ("kinetic", kinetic, BLUE), ("elastic", elastic, ORANGE),
             ("lost to plastic\nor viscous flow", plastic, RED),
-            ("lost elsewhere:\nfriction, walls,\ndamping", rest, GREY)]
+            ("lost to friction", friction, SKY), ("in interfaces", interface, YELLOW),
+            ("lost elsewhere:\nwalls, damping", rest, GREY)]
 
 
 def plot_energies(run, folder):

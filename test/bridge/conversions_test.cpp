@@ -10,6 +10,7 @@
 #include "mpm_ros/message/contact_average.hpp"
 #include "mpm_ros/message/particle_cloud.hpp"
 #include "mpm_ros/message/stamps.hpp"
+#include "mpm_ros/report/report_messages.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -100,6 +101,8 @@ TEST(Conversions, ContactForceThereAndBack) {
   report.interval = 0.25;
   report.nodes = 12;
   report.impulse = {0.5, 0.0, -0.5};
+  report.area = 0.375;
+  report.friction_energy = 2.25;
   report.pressing = 11.0;
   report.friction = {0.125, 0.25, 0.5};
   report.per_radian = {0.75, 0.0, -1.5};
@@ -109,15 +112,51 @@ TEST(Conversions, ContactForceThereAndBack) {
   EXPECT_EQ(message.centre_of_pressure.x, 10.5);
   EXPECT_EQ(message.centre_of_pressure.y, 19.75);
   EXPECT_EQ(message.centre_of_pressure.z, 30.125);
+  EXPECT_EQ(message.contact_area, 0.375);
+  EXPECT_EQ(message.friction_energy, 2.25);
   const mpm::ContactReport again = from_message(message);
   EXPECT_EQ(again.body, report.body);
   EXPECT_EQ(again.nodes, report.nodes);
+  EXPECT_EQ(again.area, report.area);
+  EXPECT_EQ(again.friction_energy, report.friction_energy);
   EXPECT_EQ(again.pressing, report.pressing);
   EXPECT_EQ(again.friction, report.friction);
   EXPECT_EQ(again.per_radian, report.per_radian);
   EXPECT_EQ(again.origin, report.origin);
   EXPECT_EQ(again.arm, report.arm);
   EXPECT_EQ(to_message(again), message);
+}
+
+mpm::PairReport pair_report() {
+  mpm::PairReport report;
+  report.name = "block/slab";
+  report.force = {1.0, 2.0, -3.0};
+  report.friction = {1.0, 2.0, 0.0};
+  report.pressing = 3.0;
+  report.area = 0.25;
+  report.interval = 0.5;
+  report.nodes = 9;
+  report.impulse = {0.5, 1.0, -1.5};
+  report.friction_energy = 0.125;
+  report.interface_energy = 0.0625;
+  report.centre = {4.0, 5.0, 6.0};
+  return report;
+}
+
+TEST(Conversions, ContactPairThereAndBack) {
+  const ContactPair message = to_message(pair_report());
+  EXPECT_EQ(message.name, "block/slab");
+  EXPECT_EQ(message.force.z, -3.0);
+  EXPECT_EQ(message.friction.y, 2.0);
+  EXPECT_EQ(message.pressing, 3.0);
+  EXPECT_EQ(message.contact_area, 0.25);
+  EXPECT_EQ(message.interval, 0.5);
+  EXPECT_EQ(message.nodes, 9U);
+  EXPECT_EQ(message.impulse.z, -1.5);
+  EXPECT_EQ(message.friction_energy, 0.125);
+  EXPECT_EQ(message.interface_energy, 0.0625);
+  EXPECT_EQ(message.centre_of_pressure.x, 4.0);
+  EXPECT_EQ(to_message(from_message(message)), message);
 }
 
 TEST(Conversions, NothingPressedStaysNotANumber) {
@@ -132,11 +171,25 @@ TEST(Conversions, SolverStateKeepsItsNumbers) {
   state.time = 1'500'000'000;
   state.step.steps = 7;
   state.energy.plastic = 2.5;
+  state.energy.friction = 3.5;
+  state.energy.pair_friction = 4.5;
+  state.energy.interface = 5.5;
+  state.returned = 6;
   state.audit.impulses.push_back({"gravity", {0.0, 0.0, -9.0}});
   const SolverState message = to_message(state);
   EXPECT_EQ(message.time, 1.5);
   EXPECT_EQ(message.steps, 7U);
   EXPECT_EQ(message.energy_plastic, 2.5);
+  EXPECT_EQ(message.energy_friction, 3.5);
+  EXPECT_EQ(message.energy_pair_friction, 4.5);
+  EXPECT_EQ(message.energy_interface, 5.5);
+  EXPECT_EQ(message.particles_returned, 6U);
+  const mpm::SolverState again = solver_state_of(state.time, message);
+  EXPECT_EQ(again.energy.plastic, 2.5);
+  EXPECT_EQ(again.energy.friction, 3.5);
+  EXPECT_EQ(again.energy.pair_friction, 4.5);
+  EXPECT_EQ(again.energy.interface, 5.5);
+  EXPECT_EQ(again.returned, 6U);
   ASSERT_EQ(message.impulses.size(), 1U);
   EXPECT_EQ(message.impulses[0].name, "gravity");
   EXPECT_EQ(message.impulses[0].impulse.z, -9.0);
@@ -199,15 +252,17 @@ mpm::ContactReport contact(double force, double peak, double interval, double im
   report.interval = interval;
   report.impulse.x() = impulse;
   report.per_radian = {force, 0.0, -force};
+  report.area = 0.5 * force;
+  report.friction_energy = 2.0 * impulse;
   return report;
 }
 
 TEST(ContactAverage, IsImpulseOverTime) {
   ContactAverage average;
-  average.add({contact(0.0, 0.0, 0.0, 0.0)});  // the report at time zero covers no time
-  average.add({contact(4.0, 5.0, 1.0, 4.0)});
-  average.add({contact(1.0, 2.0, 3.0, 7.0)});
-  const std::vector<mpm::ContactReport> taken = average.take();
+  average.add({{contact(0.0, 0.0, 0.0, 0.0)}, {}});  // the report at time zero covers no time
+  average.add({{contact(4.0, 5.0, 1.0, 4.0)}, {}});
+  average.add({{contact(1.0, 2.0, 3.0, 7.0)}, {}});
+  const std::vector<mpm::ContactReport> taken = average.take().bodies;
   ASSERT_EQ(taken.size(), 1U);
   // (4 N x 1 s + 1 N x 3 s) / 4 s
   EXPECT_DOUBLE_EQ(taken[0].mean.force.x(), 1.75);
@@ -216,7 +271,9 @@ TEST(ContactAverage, IsImpulseOverTime) {
   EXPECT_EQ(taken[0].peak.force.x(), 5.0);
   EXPECT_EQ(taken[0].interval, 4.0);
   EXPECT_EQ(taken[0].impulse.x(), 7.0);
-  EXPECT_TRUE(average.take().empty());
+  EXPECT_DOUBLE_EQ(taken[0].area, 0.875);  // (2 m^2 x 1 s + 0.5 m^2 x 3 s) / 4 s
+  EXPECT_EQ(taken[0].friction_energy, 14.0);
+  EXPECT_TRUE(average.take().bodies.empty());
 }
 
 mpm::ContactReport pressed(double pressing, double interval, double arm, double origin) {
@@ -232,11 +289,11 @@ mpm::ContactReport pressed(double pressing, double interval, double arm, double 
 
 TEST(ContactAverage, ArmsGoByTheNormalImpulse) {
   ContactAverage average;
-  average.add({pressed(0.0, 1.0, 0.0, 1.0)});  // nothing pressed: no arm
-  average.add({pressed(6.0, 1.0, 2.0, 2.0)});  // 6 N s
-  average.add({pressed(1.0, 2.0, 6.0, 3.0)});  // 2 N s
-  average.add({pressed(0.0, 4.0, 0.0, 4.0)});  // nothing again, but the body went on
-  const std::vector<mpm::ContactReport> taken = average.take();
+  average.add({{pressed(0.0, 1.0, 0.0, 1.0)}, {}});  // nothing pressed: no arm
+  average.add({{pressed(6.0, 1.0, 2.0, 2.0)}, {}});  // 6 N s
+  average.add({{pressed(1.0, 2.0, 6.0, 3.0)}, {}});  // 2 N s
+  average.add({{pressed(0.0, 4.0, 0.0, 4.0)}, {}});  // nothing again, but the body went on
+  const std::vector<mpm::ContactReport> taken = average.take().bodies;
   // (6 x 2 m + 2 x 6 m) / 8 from where the body is now
   EXPECT_EQ(taken[0].centre_of_pressure(), mpm::Vec3(7.0, 0.0, 0.0));
   EXPECT_EQ(taken[0].pressing, 1.0);  // 8 N s in 8 s
@@ -245,9 +302,43 @@ TEST(ContactAverage, ArmsGoByTheNormalImpulse) {
 
 TEST(ContactAverage, NothingPressedHasNoCentre) {
   ContactAverage average;
-  average.add({pressed(0.0, 1.0, 0.0, 1.0)});
-  average.add({pressed(0.0, 1.0, 0.0, 1.0)});
-  EXPECT_FALSE(average.take()[0].centre_of_pressure().allFinite());
+  average.add({{pressed(0.0, 1.0, 0.0, 1.0)}, {}});
+  average.add({{pressed(0.0, 1.0, 0.0, 1.0)}, {}});
+  EXPECT_FALSE(average.take().bodies[0].centre_of_pressure().allFinite());
+}
+
+TEST(ContactAverage, JoinsPairsAsItDoesBodies) {
+  mpm::PairReport first = pair_report();  // 3 N for 0.5 s at (4, 5, 6) m
+  mpm::PairReport apart = first;          // then nothing for a second
+  apart.force.setZero();
+  apart.friction.setZero();
+  apart.pressing = apart.area = 0.0;
+  apart.interval = 1.0;
+  apart.nodes = 0;
+  apart.centre = mpm::PairReport().centre;
+  mpm::PairReport last = first;  // 1 N for 0.5 s elsewhere
+  last.force = {0.0, 0.0, -1.0};
+  last.pressing = 1.0;
+  last.area = 0.5;
+  last.nodes = 4;
+  last.impulse = {0.5, 1.0, -2.0};
+  last.friction_energy = 0.25;
+  last.interface_energy = 0.03125;
+  last.centre = {8.0, 5.0, 6.0};
+  ContactAverage average;
+  for (const mpm::PairReport& report : {first, apart, last}) average.add({{}, {report}});
+  const std::vector<mpm::PairReport> taken = average.take().pairs;
+  ASSERT_EQ(taken.size(), 1U);
+  EXPECT_EQ(taken[0].force, mpm::Vec3(0.25, 0.5, -1.0));  // (0.5, 1, -1.5) + (0, 0, -0.5) N s in 2 s
+  EXPECT_EQ(taken[0].friction, mpm::Vec3(0.5, 1.0, 0.0));
+  EXPECT_EQ(taken[0].pressing, 1.0);
+  EXPECT_EQ(taken[0].interval, 2.0);
+  EXPECT_EQ(taken[0].centre, mpm::Vec3(5.0, 5.0, 6.0));  // (1.5 x 4 m + 0.5 x 8 m) / 2
+  EXPECT_EQ(taken[0].area, 0.5);
+  EXPECT_EQ(taken[0].nodes, 4);
+  EXPECT_EQ(taken[0].impulse.z(), -2.0);
+  EXPECT_EQ(taken[0].friction_energy, 0.25);
+  EXPECT_EQ(taken[0].interface_energy, 0.03125);
 }
 
 }  // namespace

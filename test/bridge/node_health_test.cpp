@@ -51,6 +51,19 @@ TEST(SolverHealth, IsOkWhileItRuns) {
   EXPECT_EQ(value_of(status, "particles outside (one ends the run)"), "0");
 }
 
+TEST(SolverHealth, WarnsWhenParticlesWerePutBack) {
+  SolverHealth solver = running();
+  EXPECT_EQ(value_of(solver_status(solver), "particles returned"), "0");
+  solver.returned = 1;
+  Status status = solver_status(solver);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status.message, "running; 1 particle left the grid and was put back");
+  solver.returned = 12;
+  status = solver_status(solver);
+  EXPECT_EQ(status.message, "running; 12 particles left the grid and were put back");
+  EXPECT_EQ(value_of(status, "particles returned"), "12");
+}
+
 TEST(SolverHealth, WarnsWhenTheAuditDoesNotClose) {
   SolverHealth solver = running();
   solver.momentum_error = 1e-10;  // still round-off

@@ -151,6 +151,42 @@ TEST_F(ReportCheckTest, CheckFindsForcesThatDoNotAddUpToTheImpulse) {
   EXPECT_EQ(failures_of(run), Names{"impulse"});
 }
 
+/// Two deformable bodies pressed with 2 N throughout.
+bool add_pair(int i, ContactForces& message) {
+  ContactPair pair;
+  pair.name = "block/slab";
+  pair.interval = i == 0 ? 0.0 : HalfSineRun::kStep;
+  pair.force.z = i == 0 ? 0.0 : -2.0;
+  pair.impulse.z = -2.0 * i * HalfSineRun::kStep;
+  message.pairs.push_back(pair);
+  return true;
+}
+
+TEST_F(ReportCheckTest, PairsOfDeformableBodiesNeedNoPlaceInTheAudit) {
+  HalfSineRun run;
+  run.on_forces = add_pair;
+  EXPECT_EQ(failures_of(run), Names());
+}
+
+TEST_F(ReportCheckTest, CheckFindsForcesOfAPairThatDoNotAddUpToTheImpulse) {
+  HalfSineRun run;
+  run.on_forces = [](int i, ContactForces& message) {
+    add_pair(i, message);
+    if (i == 30) message.pairs[0].force.x = 1e-3;  // 1e-6 N s of 0.06 N s
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"impulse"});
+}
+
+TEST_F(ReportCheckTest, CheckFindsAnEnergyOfFrictionThatIsNotFinite) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 3) message.energy_pair_friction = std::numeric_limits<double>::quiet_NaN();
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"energy"});
+}
+
 TEST_F(ReportCheckTest, CheckFindsABodyThatFeelsOtherThanTheMaterial) {
   HalfSineRun run;
   run.on_state = [](int i, SolverState& message) {

@@ -77,6 +77,78 @@ TEST_F(ReportOutputs, JsonHasTheFiguresOfTheTables) {
   }
 }
 
+/// Two deformable bodies press with 2 N, then with 3 N in the last interval, and slide; five particles came back.
+HalfSineRun run_with_pair() {
+  HalfSineRun run;
+  run.on_forces = [](int i, ContactForces& message) {
+    message.bodies[0].contact_area = 0.01 + 0.001 * i;
+    message.bodies[0].friction_energy = 0.5 * i;
+    message.pairs.resize(1);
+    ContactPair& pair = message.pairs[0];
+    pair.name = "block/slab";
+    if (i > 0) pair.interval = HalfSineRun::kStep;
+    if (i > 0) pair.force.z = i == HalfSineRun::kIntervals ? -3.0 : -2.0;
+    pair.impulse.z = -2.0 * i * HalfSineRun::kStep - (i == HalfSineRun::kIntervals ? HalfSineRun::kStep : 0.0);
+    pair.contact_area = 0.02;
+    pair.friction_energy = 0.25 * i;
+    pair.interface_energy = 0.125;
+    return true;
+  };
+  run.on_state = [](int i, SolverState& message) {
+    message.energy_friction = 0.5 * i;
+    message.energy_pair_friction = 0.25 * i;
+    message.energy_interface = 0.125;
+    message.particles_returned = 5;
+    return true;
+  };
+  return run;
+}
+
+TEST_F(ReportOutputs, TellOfAreaFrictionAndPairs) {
+  ReportOptions options;
+  options.bags = {bag_of(run_with_pair())};
+  options.json = "-";
+  options.csv = in_folder("tables");
+  const json run = json::parse(text_of(options));
+  const json& tool = run.at("bodies").at("tool");
+  EXPECT_DOUBLE_EQ(tool.at("largest_contact_area"), 0.01 + 0.101);
+  EXPECT_EQ(tool.at("friction_energy"), 50.5);
+  EXPECT_EQ(run.at("energy").at("end").at("friction"), 50.5);
+  EXPECT_EQ(run.at("energy").at("end").at("pair_friction"), 25.25);
+  EXPECT_EQ(run.at("energy").at("end").at("interface"), 0.125);
+  EXPECT_EQ(run.at("returned"), 5);
+  const json& pair = run.at("contact_pairs").at("block/slab");
+  EXPECT_EQ(pair.at("peak_force").at("size"), 3.0);
+  EXPECT_EQ(pair.at("peak_force").at("time"), 0.101);
+  EXPECT_NEAR(pair.at("mean_force").at(2), -(2.0 * 0.101 + 0.001) / 0.101, kRoundOff);
+  EXPECT_NEAR(pair.at("impulse").at(2), -0.203, kRoundOff);
+  EXPECT_EQ(pair.at("largest_contact_area"), 0.02);
+  EXPECT_EQ(pair.at("friction_energy"), 25.25);
+  EXPECT_EQ(pair.at("interface_energy"), 0.125);
+  EXPECT_EQ(pair.at("contact"), json::array({0.001, 0.101}));
+
+  std::ifstream table(in_folder("tables/contact_pairs.csv"));
+  std::string header;
+  std::getline(table, header);
+  EXPECT_EQ(header.find("time [s],block/slab fx [N],block/slab fy [N],block/slab fz [N],"), 0U) << header;
+  EXPECT_TRUE(contains(header, ",block/slab contact area [m^2],block/slab friction energy [J],")) << header;
+
+  options.json.clear();
+  const std::string text = text_of(options);
+  for (const char* part : {"Contact of deformable bodies", "block/slab", "lost to friction on the bodies",
+                           "lost to friction of deformable bodies", "5 particles left the grid"}) {
+    EXPECT_TRUE(contains(text, part)) << part << " not in:\n" << text;
+  }
+}
+
+TEST_F(ReportOutputs, SayNothingOfPairsWhereThereAreNone) {
+  ReportOptions options;
+  options.bags = {bag_of({})};
+  options.csv = in_folder("tables");
+  EXPECT_FALSE(contains(text_of(options), "deformable"));
+  EXPECT_FALSE(fs::exists(in_folder("tables/contact_pairs.csv")));
+}
+
 TEST_F(ReportOutputs, JsonOfSeveralBagsIsAListOfRuns) {
   ReportOptions options;
   options.bags = {bag_of({}), bag_of({}, "other.bag")};

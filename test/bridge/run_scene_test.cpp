@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "mpm_ros/message/progress_bar.hpp"
+#include "mpm_ros/report/report.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -48,9 +49,10 @@ class RunScene : public ::testing::Test {
 TEST_F(RunScene, WritesASummaryWithItsKeysAndTheRightNumbers) {
   ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
   const nlohmann::json root = summary();
-  for (const char* key : {"scene", "method", "particles", "steps", "time", "dt", "wall_seconds",
-                          "particle_steps_per_second", "real_time_factor", "peak_memory_bytes", "threads", "state_hash",
-                          "energy", "momentum_error", "contact_impulse", "metrics"}) {
+  for (const char* key :
+       {"scene", "method", "particles", "steps", "time", "dt", "wall_seconds", "particle_steps_per_second",
+        "real_time_factor", "peak_memory_bytes", "threads", "state_hash", "energy", "momentum_error", "contact_impulse",
+        "friction_energy", "contact_pairs", "returned", "metrics"}) {
     EXPECT_TRUE(root.contains(key)) << key;
   }
   for (const char* key : {"geometry", "shape", "update", "transfer", "precision", "isa"}) {
@@ -107,6 +109,58 @@ TEST_F(RunScene, WritesTablesAndABagThatOpens) {
   EXPECT_EQ(header.find("time [s],anvil fx [N]"), 0U) << header;
   rosbag::Bag bag(options_.bag, rosbag::bagmode::Read);
   EXPECT_GT(rosbag::View(bag).size(), 0U);
+}
+
+TEST_F(RunScene, TellsWhatDeformableBodiesDidToEachOther) {
+  options_.scene = (folder_ / "collision.yaml").string();
+  std::ofstream(options_.scene) << R"(geometry: plane_strain
+grid: {cell: 0.05, min: [0, 0], max: [1, 0.6]}
+time: {end: 0.12}
+materials:
+  - {name: rubber, density: 1000, law: neo_hookean, young: 1 MPa, poisson: 0.3}
+bodies:
+  - {name: left, material: rubber, shape: {box: {min: [0.2, 0.2], max: [0.4, 0.4]}}, initial: {velocity: [1, 0]}}
+  - {name: right, material: rubber, shape: {box: {min: [0.5, 0.3], max: [0.7, 0.5]}}, initial: {velocity: [-0.5, 0]}}
+contact: {pairs: [{between: [left, right], friction: 0.3}]}
+output: {particle_fields: [vx, vy, vz]}
+metrics:
+  vx: {mean: vx, of: right}
+  vz: {mean: vz, of: right}
+)";
+  options_.end.clear();
+  options_.bag = (folder_ / "run.bag").string();
+  options_.csv = (folder_ / "tables").string();
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  const nlohmann::json root = summary();
+  const nlohmann::json& pair = root["contact_pairs"]["left/right"];
+  // No force from outside: the impulse on the right one is the change of its momentum; 0.2 m x 0.2 m x 1 m of it are
+  // 40 kg. Round-off of some hundred steps that each exchange no more than 40 N s.
+  const double mass = 40.0, round_off = 1e-10 * mass;
+  EXPECT_NEAR(pair["impulse"][0].get<double>(), mass * (root["metrics"]["vx"].get<double>() + 0.5), round_off);
+  EXPECT_NEAR(pair["impulse"][2].get<double>(), mass * root["metrics"]["vz"].get<double>(), round_off);
+  EXPECT_GT(pair["impulse"][0].get<double>(), 20.0);  // that would stop it; it is thrown back
+  EXPECT_GE(pair["friction_energy"].get<double>(), 0.0);
+  EXPECT_EQ(pair["friction_energy"], root["energy"]["end"]["pair_friction"]);
+  EXPECT_NE(out_.str().find("contact of left/right: impulse on the second "), std::string::npos) << out_.str();
+  EXPECT_TRUE(fs::is_regular_file(fs::path(options_.csv) / "contact_pairs.csv"));
+
+  // The bag has the same, message by message.
+  ReportOptions report;
+  report.bags = {options_.bag};
+  report.check = true;
+  std::ostringstream out, err;
+  EXPECT_EQ(run_report(report, out, err, false), ReportResult::done) << out.str() << err.str();
+  EXPECT_NE(out.str().find("Contact of deformable bodies"), std::string::npos) << out.str();
+}
+
+TEST_F(RunScene, CountsParticlesThatWerePutBack) {
+  // Nothing catches the block. Its lowest row of ten, 0.205 m high, is past the grid's edge after 0.2044 s, the next,
+  // 0.01 m above, after 0.2094 s: sqrt(2 h / g).
+  options_.set = {"boundaries={}", "grid.leave={limit: 10}"};
+  options_.end = "207.5 ms";
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  EXPECT_EQ(summary()["returned"], 10);
+  EXPECT_NE(out_.str().find("particles that left the grid and were put back: 10"), std::string::npos) << out_.str();
 }
 
 TEST_F(RunScene, PhysicsThatFailEndWithThreeAndLeaveEverythingWritten) {

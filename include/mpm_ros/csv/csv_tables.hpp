@@ -1,6 +1,6 @@
 // The tables of a run, the same whether run_scene writes them as it goes or bag_report from a bag:
-// contact_forces.csv, bodies.csv, solver_state.csv, commands.csv, particles.csv (the index of the snapshots) and
-// particles_NNNN.csv. doc/analysis.md lists the columns. Each table's columns are set by its first row.
+// contact_forces.csv, contact_pairs.csv, bodies.csv, solver_state.csv, commands.csv, particles.csv (the index of the
+// snapshots) and particles_NNNN.csv. doc/analysis.md lists the columns. Each table's columns are set by its first row.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace mpm_ros {
 
-/// contact_forces.csv: wrench, peak, impulse, interval, nodes, pressing force, friction and centre of pressure of each
-/// body; in axisymmetric scenes the force per radian too.
+/// contact_forces.csv: wrench, peak, impulse, interval, nodes, pressing force, friction, centre of pressure, area and
+/// energy of friction of each body; in axisymmetric scenes the force per radian too.
 class ContactForcesCsv {
  public:
   ContactForcesCsv(const std::string& folder, bool axisymmetric)
@@ -27,6 +27,19 @@ class ContactForcesCsv {
  private:
   std::string path_;
   bool axisymmetric_;
+  std::optional<CsvWriter> writer_;
+};
+
+/// contact_pairs.csv: what each two deformable bodies did to each other; no file of a scene without such contact.
+class ContactPairsCsv {
+ public:
+  explicit ContactPairsCsv(const std::string& folder) : path_(folder + "/contact_pairs.csv") {}
+  /// `time` [s] is the end of the interval; the pairs and their order are those of the first row. @throws CsvError
+  void add(double time, const std::vector<mpm::PairReport>& pairs);
+  void close();
+
+ private:
+  std::string path_;
   std::optional<CsvWriter> writer_;
 };
 

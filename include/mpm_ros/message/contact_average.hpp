@@ -8,16 +8,23 @@
 
 namespace mpm_ros {
 
+/// What touched over one interval: every rigid body, and every pair of deformable bodies that has a law of contact.
+struct Contacts {
+  std::vector<mpm::ContactReport> bodies;
+  std::vector<mpm::PairReport> pairs;
+};
+
 class ContactAverage {
  public:
-  /// One report a body, always in the same order; interval after interval.
-  void add(const std::vector<mpm::ContactReport>& reports);
-  /// Means: impulse over time. Arm: mean by normal impulse. Peak: of the step with the largest force. Impulse, nodes
-  /// and origin: of the last report. Starts anew.
-  std::vector<mpm::ContactReport> take();
+  /// One report a body and a pair, always in the same order; interval after interval.
+  void add(const Contacts& contacts);
+  /// Means, and a body's area: over time. Arm of a body, centre of a pair: mean by normal impulse. Peak: of the step
+  /// with the largest force. Impulse, energies, nodes, origin, and a pair's area: of the last report. Starts anew.
+  Contacts take();
 
  private:
-  std::vector<mpm::ContactReport> sum_;  // its means are those so far
+  bool empty_ = true;
+  Contacts sum_;  // its means are those so far
 };
 
 }  // namespace mpm_ros

@@ -1,8 +1,9 @@
 // What went wrong or should be known, for the log and for /diagnostics: two statuses, `commands` and `solver`.
 //
-// solver: ERROR when the run has failed; WARN when the audit does not close, a particle is nearly crushed, or the wall
-// clock is not kept up with; else OK. commands: WARN for ten seconds after one was refused, and as long as a body that
-// was commanded hears nothing (past ~command_timeout); else OK. A late command is normal latency: counted, no warning.
+// solver: ERROR when the run has failed; WARN when the audit does not close, a particle is nearly crushed, particles
+// left the grid and were put back, or the wall clock is not kept up with; else OK. commands: WARN for ten seconds after
+// one was refused, and as long as a body that was commanded hears nothing (past ~command_timeout); else OK. A late
+// command is normal latency: counted, no warning.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -32,6 +33,7 @@ struct SolverHealth {
   mpm::Precision precision = mpm::Precision::float64;  ///< of the particles: how well the audit must close
   double min_j = 1.0;                                  ///< smallest det F
   std::uint64_t particles = 0;
+  std::uint64_t returned = 0;  ///< of them, left the grid since the start and were put back
 };
 
 /// Commands that were taken, for the status `commands`.

@@ -49,7 +49,8 @@ class RunChecks : public RunVisitor {
     std::optional<std::int64_t> shorter;  ///< end of a shorter interval, allowed at the end alone
     std::uint64_t count = 0;
   };
-  struct BodyImpulse {
+  /// Of a rigid body, or of a pair of deformable ones.
+  struct KnownImpulse {
     mpm::Vec3 impulse = mpm::Vec3::Zero();  ///< of the last message
     std::optional<std::int64_t> time;       ///< of the last message
     double exchanged = 0.0;                 ///< sum of |force| times interval [N s]
@@ -58,6 +59,9 @@ class RunChecks : public RunVisitor {
   void space(const std::string& topic, std::int64_t time);
   void gap(const std::string& text);
   void fail(const std::string& name, std::int64_t time, const std::string& what);
+  /// The force over the interval that ends now, and the impulse since the start.
+  void add_up(KnownImpulse& known, const std::string& name, std::int64_t time, double interval, const mpm::Vec3& force,
+              const mpm::Vec3& impulse);
   void check_against_material(const std::string& body, std::int64_t time, const mpm::Vec3& impulse);
 
   std::int64_t sync_period_;  ///< [ns]
@@ -66,11 +70,12 @@ class RunChecks : public RunVisitor {
   bool axisymmetric_;
   std::map<std::string, std::string> failures_;  ///< the first of each check, by its name
   std::vector<std::string> gaps_;
-  std::map<std::string, Spacing> spacing_;  ///< by topic
-  std::map<std::string, BodyImpulse> impulses_;
-  std::set<std::string> posed_;             ///< bodies with a pose
-  std::optional<mpm::SolverState> state_;   ///< the last one
-  std::vector<std::string> impulse_names_;  ///< of the first state
+  std::map<std::string, Spacing> spacing_;             ///< by topic
+  std::map<std::string, KnownImpulse> impulses_;       ///< on rigid bodies
+  std::map<std::string, KnownImpulse> pair_impulses_;  ///< between deformable bodies
+  std::set<std::string> posed_;                        ///< bodies with a pose
+  std::optional<mpm::SolverState> state_;              ///< the last one
+  std::vector<std::string> impulse_names_;             ///< of the first state
   double worst_audit_ = 0.0;
   double worst_impulse_ = 0.0;
   double worst_reaction_ = 0.0;

@@ -29,6 +29,7 @@ class CsvExport : public RunVisitor {
  private:
   std::string folder_;
   ContactForcesCsv contact_forces_;
+  ContactPairsCsv contact_pairs_;
   BodiesCsv bodies_;
   SolverStateCsv solver_state_;
   CommandsCsv commands_;

@@ -15,6 +15,7 @@
 namespace mpm_ros {
 
 std::vector<mpm::ContactReport> contact_reports_of(const ContactForces& message);
+std::vector<mpm::PairReport> pair_reports_of(const ContactForces& message);
 std::vector<mpm::BodyState> body_states_of(const BodyStates& message);
 /// `time` [ns] since the start. The wall time is not in the message and stays zero.
 mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message);

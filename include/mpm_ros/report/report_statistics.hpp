@@ -35,12 +35,27 @@ struct BodyStatistics {
   mpm::Vec3 torque_integral = mpm::Vec3::Zero();                 ///< [N m s]
   mpm::Vec3 impulse = mpm::Vec3::Zero();                         ///< as the run counted it since its start [N s]
   double duration = 0.0;                                         ///< sum of the intervals [s]
+  double largest_area = 0.0;                                     ///< in contact, mean over an interval [m^2]
+  double friction_energy = 0.0;                                  ///< taken since the run's start [J]
   std::optional<std::pair<std::int64_t, std::int64_t>> contact;  ///< end of first, last interval with a force [ns]
 
   mpm::Box range;                  ///< of the body's origin [m]
   std::optional<mpm::Pose> first;  ///< pose in the first message
   mpm::Pose last;                  ///< pose in the last message
   double largest_turn = 0.0;       ///< largest angle from the first pose [rad]
+};
+
+/// Contact between two deformable bodies over the run: forces on the second; world axes.
+struct PairStatistics {
+  std::string name;
+  Extreme force;                                                 ///< largest mean over an interval [N]
+  mpm::Vec3 force_integral = mpm::Vec3::Zero();                  ///< sum of mean times interval [N s]
+  mpm::Vec3 impulse = mpm::Vec3::Zero();                         ///< as the run counted it since its start [N s]
+  double duration = 0.0;                                         ///< sum of the intervals [s]
+  double largest_area = 0.0;                                     ///< of the nodes that press, at a message [m^2]
+  double friction_energy = 0.0;                                  ///< taken since the run's start [J]
+  double interface_energy = 0.0;                                 ///< stored at the end [J]
+  std::optional<std::pair<std::int64_t, std::int64_t>> contact;  ///< end of first, last interval with a force [ns]
 };
 
 /// Commands of one kind to one body.
@@ -60,6 +75,7 @@ class RunStatistics : public RunVisitor {
   void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) override;
 
   const std::vector<BodyStatistics>& body_statistics() const { return bodies_; }
+  const std::vector<PairStatistics>& pair_statistics() const { return pairs_; }
   /// By body and kind.
   const std::map<std::pair<std::string, mpm::Drive>, CommandStatistics>& commands() const { return commands_; }
   /// The first and the last state; nothing before the first message.
@@ -73,9 +89,8 @@ class RunStatistics : public RunVisitor {
   std::optional<std::int64_t> peak_time() const;
 
  private:
-  BodyStatistics& body(const std::string& name);
-
   std::vector<BodyStatistics> bodies_;  ///< in the order of the messages
+  std::vector<PairStatistics> pairs_;   ///< the same
   std::map<std::pair<std::string, mpm::Drive>, CommandStatistics> commands_;
   std::optional<SolverState> first_state_;
   SolverState last_state_;

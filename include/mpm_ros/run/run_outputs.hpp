@@ -62,8 +62,8 @@ class RunOutputs {
   /// The solver state as it was written last.
   const SolverState& solver_state() const { return state_; }
   /// Contacts over the last sync period.
-  const std::vector<mpm::ContactReport>& contacts() const { return contacts_; }
-  ContactForces contact_forces(const std::vector<mpm::ContactReport>& contacts) const;
+  const Contacts& contacts() const { return contacts_; }
+  ContactForces contact_forces(const Contacts& contacts) const;
   BodyStates body_states() const;
   ros::Time stamp() const;
 
@@ -87,7 +87,7 @@ class RunOutputs {
   std::vector<std::string> wrench_topics_;
   ParticleCloud cloud_;
   ForceMarkers force_markers_;
-  std::vector<mpm::ContactReport> contacts_;
+  Contacts contacts_;
   ContactAverage average_;
   SolverState state_;
   std::uint64_t applied_ = 0;  // commands

@@ -8,13 +8,14 @@
 
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "mpm_ros/message/contact_average.hpp"
 
 namespace mpm_ros {
 
 struct RunSummary {
-  /// Reads the simulation where it stands. `contacts`: the last reports of its rigid bodies.
+  /// Reads the simulation where it stands. `contacts`: the last reports.
   RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::EnergyReport& start_energy,
-             const std::vector<mpm::ContactReport>& contacts);
+             const Contacts& contacts);
 
   /// Keys and units as doc/analysis.md lists them; the order of the keys is kept.
   nlohmann::ordered_json json() const;
@@ -28,8 +29,8 @@ struct RunSummary {
   mpm::SolverState state;
   mpm::EnergyReport start_energy;
   std::uint64_t state_hash = 0;
-  std::uint64_t peak_memory = 0;                                   ///< [byte] of the whole process
-  std::vector<std::pair<std::string, mpm::Vec3>> contact_impulse;  ///< [N s]
+  std::uint64_t peak_memory = 0;  ///< [byte] of the whole process
+  Contacts contacts;              ///< impulses and energies since the start
   std::vector<std::pair<std::string, double>> metrics;
 
   double seconds() const { return static_cast<double>(state.time) / 1e9; }

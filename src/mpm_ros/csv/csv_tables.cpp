@@ -39,6 +39,8 @@ void ContactForcesCsv::add(double time, const std::vector<mpm::ContactReport>& b
       columns.push_back(name + " pressing [N]");
       add_vector_columns(columns, name + " friction ", "N");
       add_vector_columns(columns, name + " cop ", "m");
+      columns.push_back(name + " contact area [m^2]");
+      columns.push_back(name + " friction energy [J]");
       if (!axisymmetric_) continue;
       columns.push_back(name + " per radian r [N/rad]");
       columns.push_back(name + " per radian z [N/rad]");
@@ -49,13 +51,43 @@ void ContactForcesCsv::add(double time, const std::vector<mpm::ContactReport>& b
   for (const mpm::ContactReport& body : bodies) {
     *writer_ << body.mean.force << body.mean.torque << body.peak.force << body.peak.torque << body.impulse
              << body.interval << static_cast<std::uint64_t>(std::max(body.nodes, 0)) << body.pressing << body.friction
-             << body.centre_of_pressure();
+             << body.centre_of_pressure() << body.area << body.friction_energy;
     if (axisymmetric_) *writer_ << body.per_radian.x() << body.per_radian.z();
   }
   writer_->end_row();
 }
 
 void ContactForcesCsv::close() { close_if_open(writer_); }
+
+void ContactPairsCsv::add(double time, const std::vector<mpm::PairReport>& pairs) {
+  if (pairs.empty()) return;
+  if (!writer_) {
+    std::vector<std::string> columns = {"time [s]"};
+    for (const mpm::PairReport& pair : pairs) {
+      const std::string& name = pair.name;
+      add_vector_columns(columns, name + " f", "N");
+      add_vector_columns(columns, name + " friction ", "N");
+      add_vector_columns(columns, name + " impulse ", "N s");
+      columns.push_back(name + " interval [s]");
+      columns.push_back(name + " nodes [1]");
+      columns.push_back(name + " pressing [N]");
+      add_vector_columns(columns, name + " cop ", "m");
+      columns.push_back(name + " contact area [m^2]");
+      columns.push_back(name + " friction energy [J]");
+      columns.push_back(name + " interface energy [J]");
+    }
+    writer_.emplace(path_, columns);
+  }
+  *writer_ << time;
+  for (const mpm::PairReport& pair : pairs) {
+    *writer_ << pair.force << pair.friction << pair.impulse << pair.interval
+             << static_cast<std::uint64_t>(std::max(pair.nodes, 0)) << pair.pressing << pair.centre << pair.area
+             << pair.friction_energy << pair.interface_energy;
+  }
+  writer_->end_row();
+}
+
+void ContactPairsCsv::close() { close_if_open(writer_); }
 
 void BodiesCsv::add(double time, const std::vector<mpm::BodyState>& bodies) {
   if (!writer_) {
@@ -84,8 +116,9 @@ void BodiesCsv::close() { close_if_open(writer_); }
 
 void SolverStateCsv::add(const mpm::SolverState& state, double real_time_factor) {
   if (!writer_) {
-    std::vector<std::string> columns = {"time [s]", "steps [1]", "dt [s]", "dt min [s]", "dt max [s]", "particles [1]"};
-    for (const char* kind : {"kinetic", "elastic", "plastic", "potential"}) {
+    std::vector<std::string> columns = {"time [s]",   "steps [1]",     "dt [s]",      "dt min [s]",
+                                        "dt max [s]", "particles [1]", "returned [1]"};
+    for (const char* kind : {"kinetic", "elastic", "plastic", "potential", "friction", "pair friction", "interface"}) {
       columns.push_back(std::string("energy ") + kind + " [J]");
     }
     columns.emplace_back("contact work [J]");
@@ -103,8 +136,9 @@ void SolverStateCsv::add(const mpm::SolverState& state, double real_time_factor)
   const mpm::StepReport& step = state.step;
   const mpm::EnergyReport& energy = state.energy;
   *writer_ << static_cast<double>(state.time) / 1e9 << step.steps << step.dt_last << step.dt_min << step.dt_max
-           << state.particles << energy.kinetic << energy.elastic << energy.plastic << energy.potential
-           << energy.contact_work << energy.load_work << state.audit.momentum;
+           << state.particles << state.returned << energy.kinetic << energy.elastic << energy.plastic
+           << energy.potential << energy.friction << energy.pair_friction << energy.interface << energy.contact_work
+           << energy.load_work << state.audit.momentum;
   const std::vector<mpm::NamedImpulse>& impulses = state.audit.impulses;
   for (const std::string& name : impulses_) {
     const auto named = [&name](const mpm::NamedImpulse& impulse) { return impulse.name == name; };

@@ -3,36 +3,73 @@
 #include <utility>
 
 namespace mpm_ros {
+namespace {
 
-void ContactAverage::add(const std::vector<mpm::ContactReport>& reports) {
-  if (sum_.empty()) {
-    sum_ = reports;
-    return;
-  }
-  for (std::size_t body = 0; body < reports.size(); ++body) {
-    mpm::ContactReport& sum = sum_[body];
-    const mpm::ContactReport& next = reports[body];
-    const double interval = sum.interval + next.interval;
-    // Arms go by the normal impulse; nothing pressed, no arm (not a number, which must not spread).
-    const double before = sum.interval * sum.pressing, added = next.interval * next.pressing;
-    if (added > 0.0)
-      sum.arm = before > 0.0 ? mpm::Vec3((before * sum.arm + added * next.arm) / (before + added)) : next.arm;
-    sum.origin = next.origin;
-    if (interval > 0.0) {
-      const auto mean = [&](const auto& a, const auto& b) { return (sum.interval * a + next.interval * b) / interval; };
-      sum.mean.force = mean(sum.mean.force, next.mean.force);
-      sum.mean.torque = mean(sum.mean.torque, next.mean.torque);
-      sum.friction = mean(sum.friction, next.friction);
-      sum.per_radian = mean(sum.per_radian, next.per_radian);
-      sum.pressing = mean(sum.pressing, next.pressing);
-    }
-    if (next.peak.force.norm() > sum.peak.force.norm()) sum.peak = next.peak;
-    sum.interval = interval;
-    sum.nodes = next.nodes;
-    sum.impulse = next.impulse;
-  }
+/// The mean by weight of two points; not a number belongs to no weight, and must not spread.
+mpm::Vec3 weighted(const mpm::Vec3& a, double weight_a, const mpm::Vec3& b, double weight_b) {
+  if (!(weight_b > 0.0)) return a;
+  if (!(weight_a > 0.0)) return b;
+  return (weight_a * a + weight_b * b) / (weight_a + weight_b);
 }
 
-std::vector<mpm::ContactReport> ContactAverage::take() { return std::exchange(sum_, {}); }
+/// Means of two intervals as one of both; neither has covered any time: that of the first.
+class Mean {
+ public:
+  Mean(double before, double added) : before_(before), added_(added) {}
+  template <typename Value>
+  void operator()(Value& sum, const Value& next) const {
+    if (before_ + added_ > 0.0) sum = (before_ * sum + added_ * next) / (before_ + added_);
+  }
+
+ private:
+  double before_, added_;  // [s]
+};
+
+void join(mpm::ContactReport& sum, const mpm::ContactReport& next) {
+  sum.arm = weighted(sum.arm, sum.interval * sum.pressing, next.arm, next.interval * next.pressing);
+  const Mean mean(sum.interval, next.interval);
+  mean(sum.mean.force, next.mean.force);
+  mean(sum.mean.torque, next.mean.torque);
+  mean(sum.friction, next.friction);
+  mean(sum.per_radian, next.per_radian);
+  mean(sum.pressing, next.pressing);
+  mean(sum.area, next.area);
+  if (next.peak.force.norm() > sum.peak.force.norm()) sum.peak = next.peak;
+  sum.interval += next.interval;
+  sum.origin = next.origin;
+  sum.nodes = next.nodes;
+  sum.impulse = next.impulse;
+  sum.friction_energy = next.friction_energy;
+}
+
+void join(mpm::PairReport& sum, const mpm::PairReport& next) {
+  sum.centre = weighted(sum.centre, sum.interval * sum.pressing, next.centre, next.interval * next.pressing);
+  const Mean mean(sum.interval, next.interval);
+  mean(sum.force, next.force);
+  mean(sum.friction, next.friction);
+  mean(sum.pressing, next.pressing);
+  sum.interval += next.interval;
+  sum.area = next.area;
+  sum.nodes = next.nodes;
+  sum.impulse = next.impulse;
+  sum.friction_energy = next.friction_energy;
+  sum.interface_energy = next.interface_energy;
+}
+
+}  // namespace
+
+void ContactAverage::add(const Contacts& contacts) {
+  if (std::exchange(empty_, false)) {
+    sum_ = contacts;
+    return;
+  }
+  for (std::size_t body = 0; body < contacts.bodies.size(); ++body) join(sum_.bodies[body], contacts.bodies[body]);
+  for (std::size_t pair = 0; pair < contacts.pairs.size(); ++pair) join(sum_.pairs[pair], contacts.pairs[pair]);
+}
+
+Contacts ContactAverage::take() {
+  empty_ = true;
+  return std::exchange(sum_, {});
+}
 
 }  // namespace mpm_ros

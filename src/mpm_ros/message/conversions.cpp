@@ -120,6 +120,8 @@ mpm_ros::ContactForce to_message(const mpm::ContactReport& report) {
   message.impulse = to_vector(report.impulse);
   message.interval = report.interval;
   message.nodes = static_cast<std::uint32_t>(report.nodes);
+  message.contact_area = report.area;
+  message.friction_energy = report.friction_energy;
   message.pressing = report.pressing;
   message.friction = to_vector(report.friction);
   message.per_radian = to_vector(report.per_radian);
@@ -136,11 +138,45 @@ mpm::ContactReport from_message(const mpm_ros::ContactForce& message) {
   report.impulse = from_message(message.impulse);
   report.interval = message.interval;
   report.nodes = static_cast<int>(message.nodes);
+  report.area = message.contact_area;
+  report.friction_energy = message.friction_energy;
   report.pressing = message.pressing;
   report.friction = from_message(message.friction);
   report.per_radian = from_message(message.per_radian);
   report.arm = from_message(message.arm);
   report.origin = from_message(message.centre_of_pressure) - report.arm;
+  return report;
+}
+
+mpm_ros::ContactPair to_message(const mpm::PairReport& report) {
+  mpm_ros::ContactPair message;
+  message.name = report.name;
+  message.force = to_vector(report.force);
+  message.friction = to_vector(report.friction);
+  message.impulse = to_vector(report.impulse);
+  message.interval = report.interval;
+  message.pressing = report.pressing;
+  message.nodes = static_cast<std::uint32_t>(report.nodes);
+  message.contact_area = report.area;
+  message.friction_energy = report.friction_energy;
+  message.interface_energy = report.interface_energy;
+  message.centre_of_pressure = to_point(report.centre);
+  return message;
+}
+
+mpm::PairReport from_message(const mpm_ros::ContactPair& message) {
+  mpm::PairReport report;
+  report.name = message.name;
+  report.force = from_message(message.force);
+  report.friction = from_message(message.friction);
+  report.impulse = from_message(message.impulse);
+  report.interval = message.interval;
+  report.pressing = message.pressing;
+  report.nodes = static_cast<int>(message.nodes);
+  report.area = message.contact_area;
+  report.friction_energy = message.friction_energy;
+  report.interface_energy = message.interface_energy;
+  report.centre = from_message(message.centre_of_pressure);
   return report;
 }
 
@@ -153,12 +189,16 @@ mpm_ros::SolverState to_message(const mpm::SolverState& state) {
   message.dt_max = state.step.dt_max;
   message.dt_limited_by = state.step.limited_by;
   message.particles = state.particles;
+  message.particles_returned = state.returned;
   message.energy_kinetic = state.energy.kinetic;
   message.energy_elastic = state.energy.elastic;
   message.energy_plastic = state.energy.plastic;
   message.energy_potential = state.energy.potential;
   message.contact_work = state.energy.contact_work;
   message.load_work = state.energy.load_work;
+  message.energy_friction = state.energy.friction;
+  message.energy_pair_friction = state.energy.pair_friction;
+  message.energy_interface = state.energy.interface;
   message.momentum = to_vector(state.audit.momentum);
   message.initial_momentum = to_vector(state.audit.initial_momentum);
   for (const mpm::NamedImpulse& impulse : state.audit.impulses) {

@@ -142,6 +142,10 @@ void NodeHealth::fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status
   if (!(solver_.min_j >= kCrushed)) {
     add_warning(fmt::format("a particle is crushed to {:.3g} of its volume", solver_.min_j));
   }
+  if (solver_.returned > 0) {
+    add_warning(fmt::format("{} particle{} left the grid and {} put back", solver_.returned,
+                            solver_.returned == 1 ? "" : "s", solver_.returned == 1 ? "was" : "were"));
+  }
   if (solver_.overruns > 0 && solver_.real_time_factor < kPaceKept * solver_.asked_factor) {
     add_warning(fmt::format("slower than asked: {:.3g} of the wall clock's pace, not {:g}", solver_.real_time_factor,
                             solver_.asked_factor));
@@ -157,6 +161,7 @@ void NodeHealth::fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status
   status.add("audit: momentum error", solver_.momentum_error);
   status.add("smallest det F", solver_.min_j);
   status.add("particles", solver_.particles);
+  status.add("particles returned", solver_.returned);
   // Nothing is ever outside and simulated on; the key is there for those who watch it.
   status.add("particles outside (one ends the run)", 0);
 }

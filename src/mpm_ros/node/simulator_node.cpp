@@ -311,6 +311,7 @@ void SimulatorNode::report() {
   solver.momentum_error = state.momentum_error;
   solver.min_j = state.min_j;
   solver.particles = state.particles;
+  solver.returned = state.particles_returned;
   health_.set_solver(solver);
 
   const LateCommands late = queue_->late();

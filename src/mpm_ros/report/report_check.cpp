@@ -79,34 +79,39 @@ void RunChecks::space(const std::string& topic, std::int64_t time) {
 
 void RunChecks::contact_forces(std::int64_t time, const ContactForces& message) {
   for (const mpm::ContactReport& report : contact_reports_of(message)) {
-    BodyImpulse& known = impulses_[report.body];
-    const std::int64_t begin = time - std::llround(report.interval * 1e9);
-    bool whole = true;  // the interval begins where the last one ended
-    if (known.time && std::llabs(begin - *known.time) > kStampRounding) {
-      whole = false;
-      gap(fmt::format("contact_forces: the interval of {} that ends at {} s begins at {} s, the last ended at {} s",
-                      report.body, seconds(time), seconds(begin), seconds(*known.time)));
-    }
-    const mpm::Vec3 gained = report.mean.force * report.interval;
-    if (!known.time && std::llabs(begin) > kStampRounding)
-      whole = false;  // recorded from later on: no known impulse before
-    known.exchanged += gained.norm();
-    if (whole) {
-      const double error = relative((known.impulse + gained - report.impulse).norm(), known.exchanged);
-      worst_impulse_ = std::max(worst_impulse_, error);
-      if (!(error <= kImpulseLimit)) {
-        fail("impulse", time,
-             fmt::format("the forces on {} add up to another impulse than is reported, by {:.3g} of it", report.body,
-                         error));
-      }
-    }
-    known.impulse = report.impulse;
-    known.time = time;
-    if (!finite(report.mean.force) || !finite(report.mean.torque) || !finite(report.impulse)) {
-      fail("impulse", time, "force, torque or impulse of " + report.body + " is not finite");
-    }
+    add_up(impulses_[report.body], report.body, time, report.interval, report.mean.force, report.impulse);
+    if (!finite(report.mean.torque)) fail("impulse", time, "the torque on " + report.body + " is not finite");
     if (state_ && state_->time == time) check_against_material(report.body, time, report.impulse);
   }
+  for (const mpm::PairReport& report : pair_reports_of(message)) {
+    add_up(pair_impulses_[report.name], report.name, time, report.interval, report.force, report.impulse);
+  }
+}
+
+void RunChecks::add_up(KnownImpulse& known, const std::string& name, std::int64_t time, double interval,
+                       const mpm::Vec3& force, const mpm::Vec3& impulse) {
+  const std::int64_t begin = time - std::llround(interval * 1e9);
+  bool whole = true;  // the interval begins where the last one ended
+  if (known.time && std::llabs(begin - *known.time) > kStampRounding) {
+    whole = false;
+    gap(fmt::format("contact_forces: the interval of {} that ends at {} s begins at {} s, the last ended at {} s", name,
+                    seconds(time), seconds(begin), seconds(*known.time)));
+  }
+  if (!known.time && std::llabs(begin) > kStampRounding)
+    whole = false;  // recorded from later on: no known impulse before
+  const mpm::Vec3 gained = force * interval;
+  known.exchanged += gained.norm();
+  if (whole) {
+    const double error = relative((known.impulse + gained - impulse).norm(), known.exchanged);
+    worst_impulse_ = std::max(worst_impulse_, error);
+    if (!(error <= kImpulseLimit)) {
+      fail("impulse", time,
+           fmt::format("the forces on {} add up to another impulse than is reported, by {:.3g} of it", name, error));
+    }
+  }
+  known.impulse = impulse;
+  known.time = time;
+  if (!finite(force) || !finite(impulse)) fail("impulse", time, "force or impulse of " + name + " is not finite");
 }
 
 void RunChecks::check_against_material(const std::string& body, std::int64_t time, const mpm::Vec3& impulse) {
@@ -168,8 +173,8 @@ void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
   }
 
   const mpm::EnergyReport& energy = state.energy;
-  for (const double value :
-       {energy.kinetic, energy.elastic, energy.plastic, energy.potential, energy.contact_work, energy.load_work}) {
+  for (const double value : {energy.kinetic, energy.elastic, energy.plastic, energy.potential, energy.contact_work,
+                             energy.load_work, energy.friction, energy.pair_friction, energy.interface}) {
     if (!std::isfinite(value)) fail("energy", time, "an energy is not finite");
   }
   min_j_ = std::min(min_j_, state.min_j);

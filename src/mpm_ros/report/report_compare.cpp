@@ -25,6 +25,7 @@ Figures run_figures(const RecordedRun& run) {
           {"largest step [s]", number(last.dt_max)},
           {"real-time factor", number(last.real_time_factor)},
           {"particles", std::to_string(last.particles)},
+          {"particles returned", std::to_string(last.particles_returned)},
           {"snapshots", std::to_string(statistics.snapshots().size())},
           {"smallest det F", number(statistics.smallest_j())},
           {"largest audit residual", fmt::format("{:.2g}", statistics.worst_audit())},
@@ -40,7 +41,10 @@ Figures energy_figures(const RecordedRun& run) {
           {"potential", change(first.energy_potential, last.energy_potential)},
           {"lost to plastic or viscous flow", change(first.energy_plastic, last.energy_plastic)},
           {"work of the bodies", change(first.contact_work, last.contact_work)},
-          {"work of loads", change(first.load_work, last.load_work)}};
+          {"work of loads", change(first.load_work, last.load_work)},
+          {"lost to friction on the bodies", change(first.energy_friction, last.energy_friction)},
+          {"lost to friction of deformable bodies", change(first.energy_pair_friction, last.energy_pair_friction)},
+          {"in interfaces", change(first.energy_interface, last.energy_interface)}};
 }
 
 Figures contact_figures(const RecordedRun& run) {
@@ -53,9 +57,16 @@ Figures contact_figures(const RecordedRun& run) {
     figures.emplace_back(body.name + " peak |T| [N m]", number(body.torque.norm));
     figures.emplace_back(body.name + " mean F x  y  z [N]", triple(body.force_integral / duration));
     figures.emplace_back(body.name + " impulse x  y  z [N s]", triple(body.impulse));
+    figures.emplace_back(body.name + " largest area [m^2]", number(body.largest_area));
+    figures.emplace_back(body.name + " friction took [J]", number(body.friction_energy));
     figures.emplace_back(
         body.name + " contact [s]",
         body.contact ? number(seconds(body.contact->first)) + " to " + number(seconds(body.contact->second)) : "none");
+  }
+  for (const PairStatistics& pair : run.statistics.pair_statistics()) {
+    figures.emplace_back(pair.name + " peak |F| [N]", number(pair.force.norm));
+    figures.emplace_back(pair.name + " impulse x  y  z [N s]", triple(pair.impulse));
+    figures.emplace_back(pair.name + " friction took [J]", number(pair.friction_energy));
   }
   return figures;
 }
@@ -93,7 +104,7 @@ std::string comparison(const std::vector<RecordedRun>& runs) {
     text += fmt::format("{}: {}{}\n", run.label, run.path, run.scene.method.empty() ? "" : ", " + run.scene.method);
   }
   text += "\nRuns\n" + side_by_side("run", runs, run_figures);
-  text += "\nContact: force and torque of the material on each body, world axes\n" +
+  text += "\nContact: force and torque of the material on each body (of a pair: on the second), world axes\n" +
           side_by_side("body", runs, contact_figures);
   text += "\nEnergies of the material, start to end\n" + side_by_side("energy [J]", runs, energy_figures);
   for (const RecordedRun& run : runs) {

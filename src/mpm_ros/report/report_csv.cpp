@@ -23,12 +23,14 @@ const std::string& made(const std::string& folder) {
 CsvExport::CsvExport(const std::string& folder, bool axisymmetric)
     : folder_(made(folder)),
       contact_forces_(folder, axisymmetric),
+      contact_pairs_(folder),
       bodies_(folder),
       solver_state_(folder),
       commands_(folder) {}
 
 void CsvExport::contact_forces(std::int64_t time, const ContactForces& message) {
   contact_forces_.add(seconds(time), contact_reports_of(message));
+  contact_pairs_.add(seconds(time), pair_reports_of(message));
 }
 
 void CsvExport::bodies(std::int64_t time, const BodyStates& message) {
@@ -50,6 +52,7 @@ void CsvExport::markers(const visualization_msgs::MarkerArray& message) {
 
 void CsvExport::close() {
   contact_forces_.close();
+  contact_pairs_.close();
   bodies_.close();
   solver_state_.close();
   commands_.close();

@@ -15,6 +15,12 @@ Json extreme(const Extreme& value) {
   return {{"size", value.norm}, {"time", seconds(value.time)}, {"vector", array(value.vector)}};
 }
 
+/// First and last time, or null.
+Json span(const std::optional<std::pair<std::int64_t, std::int64_t>>& contact) {
+  if (!contact) return nullptr;
+  return {seconds(contact->first), seconds(contact->second)};
+}
+
 Json body_json(const BodyStatistics& body) {
   const double duration = body.duration > 0.0 ? body.duration : 1.0;  // without messages the integrals are zero
   Json json = {{"peak_force", extreme(body.force)},
@@ -23,8 +29,9 @@ Json body_json(const BodyStatistics& body) {
                {"mean_force", array(body.force_integral / duration)},
                {"mean_torque", array(body.torque_integral / duration)},
                {"impulse", array(body.impulse)},
-               {"contact", nullptr}};
-  if (body.contact) json["contact"] = {seconds(body.contact->first), seconds(body.contact->second)};
+               {"largest_contact_area", body.largest_area},
+               {"friction_energy", body.friction_energy},
+               {"contact", span(body.contact)}};
   if (body.first) {
     json["position"] = {{"start", array(body.first->position)},
                         {"end", array(body.last.position)},
@@ -35,10 +42,23 @@ Json body_json(const BodyStatistics& body) {
   return json;
 }
 
+Json pair_json(const PairStatistics& pair) {
+  const double duration = pair.duration > 0.0 ? pair.duration : 1.0;  // without messages the integral is zero
+  return {{"peak_force", extreme(pair.force)},
+          {"mean_force", array(pair.force_integral / duration)},
+          {"impulse", array(pair.impulse)},
+          {"largest_contact_area", pair.largest_area},
+          {"friction_energy", pair.friction_energy},
+          {"interface_energy", pair.interface_energy},
+          {"contact", span(pair.contact)}};
+}
+
 Json energy_json(const SolverState& state) {
   return {{"kinetic", state.energy_kinetic},     {"elastic", state.energy_elastic},
           {"potential", state.energy_potential}, {"plastic", state.energy_plastic},
-          {"contact_work", state.contact_work},  {"load_work", state.load_work}};
+          {"contact_work", state.contact_work},  {"load_work", state.load_work},
+          {"friction", state.energy_friction},   {"pair_friction", state.energy_pair_friction},
+          {"interface", state.energy_interface}};
 }
 
 Json audit_json(const RunStatistics& statistics) {
@@ -78,6 +98,7 @@ Json report_json(const RecordedRun& run) {
   json["dt"] = {{"min", last.dt_min}, {"max", last.dt_max}, {"last", last.dt}, {"limited_by", last.dt_limited_by}};
   json["real_time_factor"] = last.real_time_factor;
   json["particles"] = last.particles;
+  json["returned"] = last.particles_returned;
   json["min_j"] = statistics.smallest_j();
   json["state_hash"] = last.state_hash;
   json["failed"] = static_cast<bool>(last.failed);
@@ -86,6 +107,8 @@ Json report_json(const RecordedRun& run) {
   json["audit"] = audit_json(statistics);
   json["bodies"] = Json::object();
   for (const BodyStatistics& body : statistics.body_statistics()) json["bodies"][body.name] = body_json(body);
+  json["contact_pairs"] = Json::object();
+  for (const PairStatistics& pair : statistics.pair_statistics()) json["contact_pairs"][pair.name] = pair_json(pair);
   json["commands"] = Json::array();
   for (const auto& [key, value] : statistics.commands()) {
     json["commands"].push_back({{"body", key.first},

@@ -10,6 +10,12 @@ std::vector<mpm::ContactReport> contact_reports_of(const ContactForces& message)
   return reports;
 }
 
+std::vector<mpm::PairReport> pair_reports_of(const ContactForces& message) {
+  std::vector<mpm::PairReport> reports;
+  for (const ContactPair& pair : message.pairs) reports.push_back(from_message(pair));
+  return reports;
+}
+
 std::vector<mpm::BodyState> body_states_of(const BodyStates& message) {
   std::vector<mpm::BodyState> states;
   for (const BodyState& body : message.bodies) {
@@ -23,8 +29,9 @@ mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message) 
   mpm::SolverState state;
   state.time = time;
   state.step = {message.steps, message.dt_min, message.dt_max, message.dt, message.dt_limited_by};
-  state.energy = {message.energy_kinetic,   message.energy_elastic, message.energy_plastic,
-                  message.energy_potential, message.contact_work,   message.load_work};
+  state.energy = {message.energy_kinetic,       message.energy_elastic,   message.energy_plastic,
+                  message.energy_potential,     message.contact_work,     message.load_work,
+                  message.energy_pair_friction, message.energy_interface, message.energy_friction};
   state.audit.momentum = from_message(message.momentum);
   state.audit.initial_momentum = from_message(message.initial_momentum);
   for (const Impulse& impulse : message.impulses) {
@@ -33,6 +40,7 @@ mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message) 
   state.audit.exchanged = message.momentum_exchanged;
   state.audit.residual = message.momentum_error;
   state.particles = message.particles;
+  state.returned = message.particles_returned;
   state.min_j = message.min_j;
   return state;
 }

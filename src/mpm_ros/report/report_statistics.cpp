@@ -11,37 +11,56 @@ void Extreme::offer(const mpm::Vec3& candidate, std::int64_t when) {
   time = when;
 }
 
-BodyStatistics& RunStatistics::body(const std::string& name) {
-  const auto named = [&name](const BodyStatistics& known) { return known.name == name; };
-  const auto found = std::find_if(bodies_.begin(), bodies_.end(), named);
-  if (found != bodies_.end()) return *found;
-  bodies_.emplace_back();
-  bodies_.back().name = name;
-  return bodies_.back();
+namespace {
+
+/// The entry of that name, made where there is none.
+template <typename Entry>
+Entry& entry_of(std::vector<Entry>& entries, const std::string& name) {
+  const auto named = [&name](const Entry& known) { return known.name == name; };
+  const auto found = std::find_if(entries.begin(), entries.end(), named);
+  if (found != entries.end()) return *found;
+  entries.emplace_back();
+  entries.back().name = name;
+  return entries.back();
 }
+
+/// What statistics of a body and of a pair have in common: force, impulse, area, friction and time of contact.
+template <typename Statistics, typename Report>
+void take_contact(Statistics& known, const mpm::Vec3& force, const Report& report, std::int64_t time) {
+  known.force.offer(force, time);
+  known.force_integral += force * report.interval;
+  known.impulse = report.impulse;
+  known.duration += report.interval;
+  known.largest_area = std::max(known.largest_area, report.area);
+  known.friction_energy = report.friction_energy;
+  if (force.squaredNorm() > 0.0) {
+    if (!known.contact) known.contact.emplace(time, time);
+    known.contact->second = time;
+  }
+}
+
+}  // namespace
 
 void RunStatistics::contact_forces(std::int64_t time, const ContactForces& message) {
   for (const mpm::ContactReport& report : contact_reports_of(message)) {
-    BodyStatistics& known = body(report.body);
-    known.force.offer(report.mean.force, time);
+    BodyStatistics& known = entry_of(bodies_, report.body);
+    take_contact(known, report.mean.force, report, time);
     known.step_force.offer(report.peak.force, time);
     known.torque.offer(report.mean.torque, time);
     known.per_radian.offer(report.per_radian, time);
     known.per_radian_integral += report.per_radian * report.interval;
-    known.force_integral += report.mean.force * report.interval;
     known.torque_integral += report.mean.torque * report.interval;
-    known.impulse = report.impulse;
-    known.duration += report.interval;
-    if (report.mean.force.squaredNorm() > 0.0) {
-      if (!known.contact) known.contact.emplace(time, time);
-      known.contact->second = time;
-    }
+  }
+  for (const mpm::PairReport& report : pair_reports_of(message)) {
+    PairStatistics& known = entry_of(pairs_, report.name);
+    take_contact(known, report.force, report, time);
+    known.interface_energy = report.interface_energy;
   }
 }
 
 void RunStatistics::bodies(std::int64_t /*time*/, const BodyStates& message) {
   for (const mpm::BodyState& state : body_states_of(message)) {
-    BodyStatistics& known = body(state.name);
+    BodyStatistics& known = entry_of(bodies_, state.name);
     if (!known.first) known.first = state.pose;
     known.last = state.pose;
     known.range.add(state.pose.position);

@@ -32,6 +32,8 @@ std::string run_table(const RecordedRun& run) {
   line("real-time factor", fmt::format("{} (simulated over wall time)", number(last.real_time_factor)));
   line("particles", fmt::format("{}; {} snapshots of {}", last.particles, statistics.snapshots().size(),
                                 fmt::join(run.particle_fields, " ")));
+  if (last.particles_returned > 0)
+    line("returned", fmt::format("{} particles left the grid and were put back", last.particles_returned));
   line("smallest det F", number(statistics.smallest_j()));
   if (!last.state_hash.empty()) line("state hash", last.state_hash);
   for (const std::string& note : run.notes) line("note", note);
@@ -50,21 +52,43 @@ std::string per_radian_table(const RunStatistics& statistics) {
   return "\n" + table.text();
 }
 
+std::string contact_times(const std::optional<std::pair<std::int64_t, std::int64_t>>& contact) {
+  return contact ? number(seconds(contact->first)) + " to " + number(seconds(contact->second)) : "none";
+}
+
+/// An area of zero is none, or not known: of contact that is found at nodes.
+std::string area_text(double area) { return area > 0.0 ? number(area) : "-"; }
+
 std::string contact_table(const RunStatistics& statistics, bool axisymmetric) {
   if (statistics.body_statistics().empty()) return "Contact: the scene has no rigid body\n";
-  TextTable peaks({"body", "peak |F| [N]", "at [s]", "F x  y  z [N]", "of a step [N]", "peak |T| [N m]", "at [s]"});
-  TextTable means({"body", "mean F x  y  z [N]", "mean T x  y  z [N m]", "impulse x  y  z [N s]", "contact [s]"});
+  TextTable peaks({"body", "peak |F| [N]", "at [s]", "F x  y  z [N]", "of a step [N]", "peak |T| [N m]", "at [s]",
+                   "largest area [m^2]"});
+  TextTable means({"body", "mean F x  y  z [N]", "mean T x  y  z [N m]", "impulse x  y  z [N s]", "friction took [J]",
+                   "contact [s]"});
   for (const BodyStatistics& body : statistics.body_statistics()) {
     peaks.add({body.name, number(body.force.norm), number(seconds(body.force.time)), triple(body.force.vector),
-               number(body.step_force.norm), number(body.torque.norm), number(seconds(body.torque.time))});
+               number(body.step_force.norm), number(body.torque.norm), number(seconds(body.torque.time)),
+               area_text(body.largest_area)});
     const double duration = body.duration > 0.0 ? body.duration : 1.0;  // without messages the integrals are zero
-    const std::string contact =
-        body.contact ? number(seconds(body.contact->first)) + " to " + number(seconds(body.contact->second)) : "none";
     means.add({body.name, triple(body.force_integral / duration), triple(body.torque_integral / duration),
-               triple(body.impulse), contact});
+               triple(body.impulse), number(body.friction_energy), contact_times(body.contact)});
   }
   return "Contact: force and torque of the material on each body, world axes, torque about the body's origin\n" +
          peaks.text() + "\n" + means.text() + (axisymmetric ? per_radian_table(statistics) : "");
+}
+
+/// Of scenes with contact between deformable bodies; else nothing.
+std::string pair_table(const RunStatistics& statistics) {
+  if (statistics.pair_statistics().empty()) return {};
+  TextTable table({"pair", "peak |F| [N]", "at [s]", "mean F x  y  z [N]", "impulse x  y  z [N s]",
+                   "largest area [m^2]", "friction took [J]", "contact [s]"});
+  for (const PairStatistics& pair : statistics.pair_statistics()) {
+    const double duration = pair.duration > 0.0 ? pair.duration : 1.0;  // without messages the integral is zero
+    table.add({pair.name, number(pair.force.norm), number(seconds(pair.force.time)),
+               triple(pair.force_integral / duration), triple(pair.impulse), area_text(pair.largest_area),
+               number(pair.friction_energy), contact_times(pair.contact)});
+  }
+  return "Contact of deformable bodies: force on the second of each pair, world axes\n" + table.text() + "\n";
 }
 
 std::string motion_table(const RunStatistics& statistics) {
@@ -91,10 +115,18 @@ std::string energy_table(const RunStatistics& statistics) {
   row("kinetic", [](const SolverState& s) { return s.energy_kinetic; });
   row("elastic", [](const SolverState& s) { return s.energy_elastic; });
   row("potential", [](const SolverState& s) { return s.energy_potential; });
-  row("sum", [](const SolverState& s) { return s.energy_kinetic + s.energy_elastic + s.energy_potential; });
+  const auto row_if_any = [&](const char* name, auto value) {
+    if (value(last) != 0.0) row(name, value);
+  };
+  row_if_any("in interfaces", [](const SolverState& s) { return s.energy_interface; });
+  row("sum", [](const SolverState& s) {
+    return s.energy_kinetic + s.energy_elastic + s.energy_potential + s.energy_interface;
+  });
   row("lost to plastic or viscous flow", [](const SolverState& s) { return s.energy_plastic; });
+  row_if_any("lost to friction on the bodies", [](const SolverState& s) { return s.energy_friction; });
+  row_if_any("lost to friction of deformable bodies", [](const SolverState& s) { return s.energy_pair_friction; });
   row("work of the bodies", [](const SolverState& s) { return s.contact_work; });
-  if (last.load_work != 0.0) row("work of loads", [](const SolverState& s) { return s.load_work; });
+  row_if_any("work of loads", [](const SolverState& s) { return s.load_work; });
   return "Energies of the material\n" + table.text();
 }
 
@@ -157,9 +189,12 @@ std::string TextTable::text() const {
 
 std::string tables(const RecordedRun& run) {
   const RunStatistics& statistics = run.statistics;
-  const std::array<std::string, 7> parts = {run_table(run),           contact_table(statistics, run.scene.axisymmetric),
-                                            motion_table(statistics), energy_table(statistics),
-                                            audit_table(statistics),  command_table(statistics),
+  const std::array<std::string, 7> parts = {run_table(run),
+                                            contact_table(statistics, run.scene.axisymmetric),
+                                            pair_table(statistics) + motion_table(statistics),
+                                            energy_table(statistics),
+                                            audit_table(statistics),
+                                            command_table(statistics),
                                             gap_lines(run.gaps)};
   return fmt::format("{}", fmt::join(parts, "\n"));
 }

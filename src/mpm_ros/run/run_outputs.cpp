@@ -127,17 +127,19 @@ void RunOutputs::count_commands(std::uint64_t late, std::uint64_t refused) {
 }
 
 void RunOutputs::read_contacts() {
-  contacts_.clear();
+  contacts_.bodies.clear();
   for (int body = 0; body < static_cast<int>(wrench_topics_.size()); ++body) {
-    contacts_.push_back(simulation_.take_contact(body));
+    contacts_.bodies.push_back(simulation_.take_contact(body));
   }
+  contacts_.pairs = simulation_.take_pairs();
   average_.add(contacts_);
 }
 
-ContactForces RunOutputs::contact_forces(const std::vector<mpm::ContactReport>& contacts) const {
+ContactForces RunOutputs::contact_forces(const Contacts& contacts) const {
   ContactForces message;
   message.header = header(options_.world_frame);
-  for (const mpm::ContactReport& contact : contacts) message.bodies.push_back(to_message(contact));
+  for (const mpm::ContactReport& contact : contacts.bodies) message.bodies.push_back(to_message(contact));
+  for (const mpm::PairReport& pair : contacts.pairs) message.pairs.push_back(to_message(pair));
   return message;
 }
 
@@ -150,18 +152,18 @@ BodyStates RunOutputs::body_states() const {
 
 void RunOutputs::write_contacts() {
   contacts_at_ = simulation_.time();
-  const std::vector<mpm::ContactReport> contacts = average_.take();
+  const Contacts contacts = average_.take();
   const std::vector<mpm::BodyState> bodies = simulation_.bodies();
   if (wanted(topics::kContactForces)) put(topics::kContactForces, contact_forces(contacts));
-  for (std::size_t body = 0; body < contacts.size(); ++body) {
+  for (std::size_t body = 0; body < contacts.bodies.size(); ++body) {
     if (!wanted(wrench_topics_[body])) continue;
     geometry_msgs::WrenchStamped message;
     message.header = header(bodies[body].name);
-    message.wrench = to_message(in_body_axes(contacts[body].mean, bodies[body].pose.orientation));
+    message.wrench = to_message(in_body_axes(contacts.bodies[body].mean, bodies[body].pose.orientation));
     put(wrench_topics_[body], message);
   }
   if (wanted(topics::kForceMarkers)) {
-    put(topics::kForceMarkers, force_markers_.markers(contacts, options_.world_frame, stamp()));
+    put(topics::kForceMarkers, force_markers_.markers(contacts.bodies, options_.world_frame, stamp()));
   }
 }
 

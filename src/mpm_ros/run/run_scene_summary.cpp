@@ -18,15 +18,24 @@ std::uint64_t peak_memory_bytes() {
 }
 
 nlohmann::ordered_json energy_json(const mpm::EnergyReport& energy) {
-  return {{"kinetic", energy.kinetic},     {"elastic", energy.elastic},           {"plastic", energy.plastic},
-          {"potential", energy.potential}, {"contact_work", energy.contact_work}, {"load_work", energy.load_work},
-          {"total", energy.total()}};
+  return {{"kinetic", energy.kinetic},           {"elastic", energy.elastic},
+          {"plastic", energy.plastic},           {"potential", energy.potential},
+          {"contact_work", energy.contact_work}, {"load_work", energy.load_work},
+          {"friction", energy.friction},         {"pair_friction", energy.pair_friction},
+          {"interface", energy.interface},       {"total", energy.total()}};
+}
+
+nlohmann::ordered_json array(const mpm::Vec3& v) { return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; }  // no -0
+
+/// "x y z", six digits, no -0.
+std::string triple(const mpm::Vec3& v) {
+  return fmt::format("{:.6g} {:.6g} {:.6g}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 
 }  // namespace
 
 RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation,
-                       const mpm::EnergyReport& start_energy, const std::vector<mpm::ContactReport>& contacts)
+                       const mpm::EnergyReport& start_energy, const Contacts& contacts)
     : scene(scene.definition.name),
       definition(simulation.definition()),
       isa(simulation.isa()),
@@ -35,11 +44,8 @@ RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulatio
       start_energy(start_energy),
       state_hash(simulation.state_hash()),
       peak_memory(peak_memory_bytes()),
-      metrics(simulation.metrics()) {
-  for (const mpm::ContactReport& contact : contacts) {
-    contact_impulse.emplace_back(contact.body, contact.impulse.array() + 0.0);  // no -0
-  }
-}
+      contacts(contacts),
+      metrics(simulation.metrics()) {}
 
 double RunSummary::particle_steps_per_second() const {
   const double work = static_cast<double>(state.particles) * static_cast<double>(state.step.steps);
@@ -71,8 +77,16 @@ nlohmann::ordered_json RunSummary::json() const {
   root["energy"] = {{"start", energy_json(start_energy)}, {"end", energy_json(state.energy)}};
   root["momentum_error"] = state.audit.residual;
   root["contact_impulse"] = nlohmann::ordered_json::object();
-  for (const auto& [body, impulse] : contact_impulse) {
-    root["contact_impulse"][body] = {impulse.x(), impulse.y(), impulse.z()};
+  root["friction_energy"] = nlohmann::ordered_json::object();
+  for (const mpm::ContactReport& contact : contacts.bodies) {
+    root["contact_impulse"][contact.body] = array(contact.impulse);
+    root["friction_energy"][contact.body] = contact.friction_energy;
+  }
+  root["contact_pairs"] = nlohmann::ordered_json::object();
+  for (const mpm::PairReport& pair : contacts.pairs) {
+    root["contact_pairs"][pair.name] = {{"impulse", array(pair.impulse)},
+                                        {"friction_energy", pair.friction_energy},
+                                        {"interface_energy", pair.interface_energy}};
   }
   root["metrics"] = nlohmann::ordered_json::object();
   for (const auto& [name, value] : metrics) root["metrics"][name] = value;
@@ -96,10 +110,15 @@ std::string RunSummary::text() const {
   text +=
       fmt::format("  momentum error {:.2g} of the momentum exchanged, smallest J {:.4g} at the end, state hash {}\n",
                   state.audit.residual, state.min_j, hash_text(state_hash));
-  for (const auto& [body, impulse] : contact_impulse) {
-    text +=
-        fmt::format("  contact impulse on {}: {:.6g} {:.6g} {:.6g} N s\n", body, impulse.x(), impulse.y(), impulse.z());
+  for (const mpm::ContactReport& contact : contacts.bodies) {
+    text += fmt::format("  contact impulse on {}: {} N s; friction took {:.4g} J\n", contact.body,
+                        triple(contact.impulse), contact.friction_energy);
   }
+  for (const mpm::PairReport& pair : contacts.pairs) {
+    text += fmt::format("  contact of {}: impulse on the second {} N s; friction took {:.4g} J\n", pair.name,
+                        triple(pair.impulse), pair.friction_energy);
+  }
+  if (state.returned > 0) text += fmt::format("  particles that left the grid and were put back: {}\n", state.returned);
   for (const auto& [name, value] : metrics) text += fmt::format("  {} = {:.9g}\n", name, value);
   return text;
 }

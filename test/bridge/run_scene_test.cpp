@@ -115,12 +115,12 @@ TEST_F(RunScene, TellsWhatDeformableBodiesDidToEachOther) {
   options_.scene = (folder_ / "collision.yaml").string();
   std::ofstream(options_.scene) << R"(geometry: plane_strain
 grid: {cell: 0.05, min: [0, 0], max: [1, 0.6]}
-time: {end: 0.1}
+time: {end: 0.12}
 materials:
   - {name: rubber, density: 1000, law: neo_hookean, young: 1 MPa, poisson: 0.3}
 bodies:
   - {name: left, material: rubber, shape: {box: {min: [0.2, 0.2], max: [0.4, 0.4]}}, initial: {velocity: [1, 0]}}
-  - {name: right, material: rubber, shape: {box: {min: [0.5, 0.3], max: [0.7, 0.5]}}, initial: {velocity: [-1, 0]}}
+  - {name: right, material: rubber, shape: {box: {min: [0.5, 0.3], max: [0.7, 0.5]}}, initial: {velocity: [-0.5, 0]}}
 contact: {pairs: [{between: [left, right], friction: 0.3}]}
 output: {particle_fields: [vx, vy, vz]}
 metrics:
@@ -136,9 +136,9 @@ metrics:
   // No force from outside: the impulse on the right one is the change of its momentum; 0.2 m x 0.2 m x 1 m of it are
   // 40 kg. Round-off of some hundred steps that each exchange no more than 40 N s.
   const double mass = 40.0, round_off = 1e-10 * mass;
-  EXPECT_NEAR(pair["impulse"][0].get<double>(), mass * (root["metrics"]["vx"].get<double>() + 1.0), round_off);
+  EXPECT_NEAR(pair["impulse"][0].get<double>(), mass * (root["metrics"]["vx"].get<double>() + 0.5), round_off);
   EXPECT_NEAR(pair["impulse"][2].get<double>(), mass * root["metrics"]["vz"].get<double>(), round_off);
-  EXPECT_GT(pair["impulse"][0].get<double>(), 40.0);  // that stops it; it bounces back
+  EXPECT_GT(pair["impulse"][0].get<double>(), 20.0);  // that would stop it; it is thrown back
   EXPECT_GE(pair["friction_energy"].get<double>(), 0.0);
   EXPECT_EQ(pair["friction_energy"], root["energy"]["end"]["pair_friction"]);
   EXPECT_NE(out_.str().find("contact of left/right: impulse on the second "), std::string::npos) << out_.str();

@@ -14,11 +14,11 @@
 // While strain is updated, points that were held stay held and open ones may not close more than their gap
 // (step/coulomb.hpp says why). Friction at rest and adhesion are remembered by particle.
 //
-// A sharp edge divides what it meets: a particle beside one is there with its centre, not with its reach. What comes under
-// a surface from beside it, or starts there, keeps the overlap that it came with.
+// A sharp edge divides what it meets: a particle beside one is there with its centre, not with its reach. What comes
+// under a surface from beside it, or starts there, keeps the overlap that it came with.
 //
-// Weak: a particle has one point a body: in an inner corner the one at the nearer face. An edge that cuts is blunt by up
-// to a cell, since particles above and below it share nodes. A particle drawn into a body is pushed out slowly
+// Weak: a particle has one point a body: in an inner corner the one at the nearer face. An edge that cuts is blunt by
+// up to a cell, since particles above and below it share nodes. A particle drawn into a body is pushed out slowly
 // (kPushOut). A block that slides with friction swings more than with contact at nodes.
 // Source: contact as impulses at points with complementarity is usual for rigid bodies (Moreau, Jean: non-smooth
 // contact dynamics); the law at a point is GIMP notes (3.12)-(3.20), method reference 8.3, without its node.

@@ -102,7 +102,7 @@ TEST(SceneContact, InterfacesNormalsAndDetection) {
 TEST(SceneContact, RigidBodiesMayBeParticles) {
   EXPECT_TRUE(read("{method: nodes}", ", normals: particles").definition.rigid_bodies[0].particles);
   EXPECT_FALSE(read("{friction: 0}", ", normals: surface").definition.rigid_bodies[0].particles);
-  EXPECT_THROW(read("{method: points}", ", normals: particles"), SceneError);
+  EXPECT_TRUE(read("{method: points}", ", normals: particles").definition.rigid_bodies[0].particles);
   EXPECT_THROW(read("{friction: 0}", ", normals: gradient"), SceneError);
 }
 

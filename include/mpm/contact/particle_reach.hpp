@@ -13,6 +13,14 @@
 
 namespace mpm {
 
+/// By how much the particle's section along the grid's axes, its volume in a solid, has changed.
+template <class Geometry>
+double stretch_of_section(const ParticleSet& set, int p) {
+  const auto f = Geometry::load_matrix(set.f, p);
+  if constexpr (Geometry::kDim == 2) return f.xx * f.zz - f.xz * f.zx;
+  if constexpr (Geometry::kDim != 2) return determinant(f);
+}
+
 /// [m]; `normal`: unit vector along the grid's axes, world components.
 template <class Geometry>
 double particle_reach(const ParticleSet& set, const GridLayout& layout, int p, const Vec3& normal) {
@@ -34,7 +42,7 @@ double particle_reach(const ParticleSet& set, const GridLayout& layout, int p, c
     squared += part * part;
     rest += half * half * n * n;
   }
-  const double j = std::max(determinant(f), 0.0);
+  const double j = std::max(stretch_of_section<Geometry>(set, p), 0.0);
   if (!set.history.empty()) return std::sqrt(rest) * std::min(std::pow(j, 1.0 / kDim), 1.0);
   return std::sqrt(squared);
 }

@@ -1,5 +1,7 @@
 #include "mpm/contact/contact_ledger.hpp"
 
+#include <algorithm>
+
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
@@ -14,8 +16,8 @@ void ContactLedger::give(const ContactImpulse& given) {
   given_ += given.impulse;
   given_angular_ += given.arm.cross(given.impulse);
   friction_ -= along;
-  pressed_ += normal;
-  pressed_arm_ += normal * given.arm;
+  pressed_ += std::max(normal, 0.0);  // what adheres may pull
+  pressed_arm_ += std::max(normal, 0.0) * given.arm;
   work_ += given.impulse.dot(given.velocity);
   friction_energy_ -= along.dot(given.mean_slip);
 }

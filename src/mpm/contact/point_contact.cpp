@@ -80,12 +80,13 @@ template <class Geometry>
 void PointContact::find_points(const StepContext& context) {
   const GridLayout& layout = context.grid.layout;
   const double watched = kWatched * layout.smallest_cell();
-  double band = watched, most_reach = 0.0;  // from a particle's centre
+  // From a particle's centre, which may be stretched to three times its box; in a step neither material nor tool moves
+  // by more than a cell.
+  double band = 0.0;
   for (const ParticleSet& set : sets_) {
-    for (int k = 0; k < layout.dim(); ++k) most_reach = std::max(most_reach, 2.0 * set.half[k] * layout.cell(k));
+    for (int k = 0; k < layout.dim(); ++k) band = std::max(band, 3.0 * set.half[k] * layout.cell(k));
   }
-  for (const RigidBody* body : bodies_) band = std::max(band, watched + body->twist().linear.norm() * context.dt);
-  band += most_reach;
+  band += layout.smallest_cell();
   find_blocks(layout, band);
   while (of_block_.size() < near_.size()) of_block_.emplace_back();
   const int count = static_cast<int>(near_.size());
@@ -122,7 +123,7 @@ void PointContact::find_points(const StepContext& context) {
           point.field = near_[i].field;
           point.law = static_cast<int>(b * sets_.size() + s);
           point.particle = set.id[p];
-          double volume = determinant(Geometry::load_matrix(set.f, p)) * settings_.across;
+          double volume = stretch_of_section<Geometry>(set, p) * settings_.across;
           for (int k = 0; k < layout.dim(); ++k) volume *= 2.0 * set.half[k] * layout.cell(k);
           if (axisymmetric(settings_.geometry)) volume *= kTurn * centre.x();
           point.area = volume / (2.0 * half_width);
@@ -134,7 +135,14 @@ void PointContact::find_points(const StepContext& context) {
 }
 
 void PointContact::momentum_gathered(StepContext& context) {
-  for (std::size_t i = 0; i < laws_.size(); ++i) laws_now_[i] = laws_[i].at(context.start + 0.5 * context.dt);
+  for (std::size_t i = 0; i < laws_.size(); ++i) {
+    const FrictionLaw law = laws_now_[i] = laws_[i].at(context.start + 0.5 * context.dt);
+    if (!(law.coefficient >= 0.0 && law.at_rest() >= law.coefficient && law.adhesion >= 0.0)) {
+      throw FunctionError("contact of '" + bodies_[i / sets_.size()]->name() + "' with '" +
+                          sets_[i % sets_.size()].name +
+                          "': friction or adhesion is negative, or friction at rest less than that of sliding");
+    }
+  }
   push_out_ = kPushOut * context.grid.layout.smallest_cell();
   touching_ = kTouching * context.grid.layout.smallest_cell();
   at_rest_ = kAtRest * context.grid.layout.smallest_cell();

@@ -25,6 +25,12 @@ Vec3 middle_of(const GridLayout& layout, const std::array<int, 3>& block) {
   return 0.5 * (layout.node_position(block, 0) + layout.node_position(block, layout.nodes_per_block() - 1));
 }
 
+double largest_cell(const GridLayout& layout) {
+  double largest = 0.0;
+  for (int k = 0; k < layout.dim(); ++k) largest = std::max(largest, layout.cell(k));
+  return largest;
+}
+
 }  // namespace
 
 void ToolSides::label(std::vector<ParticleSet>& sets) {
@@ -60,7 +66,7 @@ bool ToolSides::apart(const Grid& first, NodeRef of_first, const Grid& second, N
   const Vec3 node = layout_.node_position(first.blocks.block(of_first.block), of_first.node);
   SurfacePoint found;
   for (const ThinTool& tool : tools_) {
-    if (!tool.within(node, kBand * layout_.smallest_cell(), found)) continue;  // farther than what shares a node
+    if (!tool.within(node, kBand * largest_cell(layout_), found)) continue;  // farther than what shares a node
     const Vec3 from = nodal_vector(first.place, layout_, of_first) / first.mass.at(of_first.block, 0, of_first.node);
     const Vec3 to = nodal_vector(second.place, layout_, of_second) / second.mass.at(of_second.block, 0, of_second.node);
     // The line between the centres does not leave this ball.
@@ -71,8 +77,7 @@ bool ToolSides::apart(const Grid& first, NodeRef of_first, const Grid& second, N
 }
 
 bool ToolSides::near(const Vec3& point, double radius) const {
-  double largest = 0.0;
-  for (int k = 0; k < layout_.dim(); ++k) largest = std::max(largest, layout_.cell(k));
+  const double largest = largest_cell(layout_);
   SurfacePoint found;
   return std::any_of(tools_.begin(), tools_.end(), [&](const ThinTool& tool) {
     return tool.within(point, radius + (kBand + kReach) * largest, found);
@@ -116,7 +121,7 @@ void SideGlue::watch(const Grid& grid, double dt) {
     const Vec3 middle = middle_of(layout, grid.blocks.block(b));
     for (const ThinTool& tool : sides_.tools()) {
       SurfacePoint found;
-      if (!tool.within(middle, around + kBand * layout.smallest_cell(), found)) continue;
+      if (!tool.within(middle, around + kBand * largest_cell(layout), found)) continue;
       for (int n = 0; n < layout.nodes_per_block(); ++n) {
         if (!grid.carries(b, n)) continue;
         const Vec3 velocity = nodal_vector(grid.velocity, layout, {b, n});

@@ -83,6 +83,21 @@ void Simulation::State::add_pairs() {
   stages.push_back(std::move(stage));
 }
 
+namespace {
+
+/// Contact at nodes knows one constant friction a tool. @throws DefinitionError
+void check_laws_at_nodes(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
+  const bool named = std::any_of(definition.contact.pairs.begin(), definition.contact.pairs.end(),
+                                 [&](const PairDefinition& pair) { return pair.second == body.name; });
+  if (!named && body.friction.static_coefficient < 0.0 && body.friction.adhesion == 0.0) return;
+  throw DefinitionError(fmt::format(
+      "rigid body '{}': contact at nodes has no laws of pairs, friction at rest or adhesion; write contact: "
+      "{{method: points}}",
+      body.name));
+}
+
+}  // namespace
+
 void Simulation::State::add_rigid_bodies() {
   bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {
@@ -100,6 +115,7 @@ void Simulation::State::add_rigid_bodies() {
     if (body.particles) {
       contacts[b] = &add_rigid_particles(bodies[b], {laws_of(b), laws_of(b + 1)});
     } else if (definition.contact.method == ContactMethod::nodes) {
+      check_laws_at_nodes(definition, body);
       auto contact = std::make_unique<RigidContact>(bodies[b], fields, threads, definition.geometry, thin);
       contacts[b] = &contact->ledger();
       stages.push_back(std::move(contact));

@@ -125,7 +125,8 @@ void Simulation::advance() {
   } catch (const RigidError& error) {
     throw PhysicsError(fmt::format("{} (in the sync period from t = {:.6g} s)", error.what(), s.time * kNanosecond));
   } catch (const FunctionError& error) {
-    throw PhysicsError(fmt::format("motion of a rigid body at t = {:.6g} s: {}", s.time * kNanosecond, error.what()));
+    throw PhysicsError(fmt::format("motion of a rigid body, or a law of contact, at t = {:.6g} s: {}",
+                                   s.time * kNanosecond, error.what()));
   }
   s.failed = false;
   s.wall += std::chrono::steady_clock::now() - started;

@@ -74,7 +74,7 @@ TEST(ContactReport, CentreOfPressureIsTheMeanPlaceWeightedByTheNormalImpulse) {
   EXPECT_NEAR((report.centre_of_pressure() - Vec3(1.5, 1.5, 0.0)).norm(), 0.0, 1e-15);
   EXPECT_EQ(report.pressing, 8.0 / kStep);
   EXPECT_EQ(report.mean.force, Vec3(0.0, 0.0, -8.0 / kStep));
-  EXPECT_EQ(report.friction, Vec3::Zero());
+  EXPECT_LE(report.friction.norm(), 1e-12 * report.pressing);
 }
 
 TEST(ContactReport, FrictionIsThePartAlongTheSurface) {
@@ -140,7 +140,9 @@ SimulationDefinition block_on_plate() {
 }
 
 TEST(ContactReport, AFlatBlockPressesAtItsMiddle) {
-  Simulation simulation(block_on_plate(), {1});
+  SimulationDefinition definition = block_on_plate();
+  definition.contact.method = ContactMethod::nodes;  // at points sweeps go from one end to the other, and end early
+  Simulation simulation(std::move(definition), {1});
   for (int i = 0; i < 20; ++i) simulation.advance();
   const ContactReport report = simulation.take_contact(0);
   ASSERT_GT(report.pressing, 0.0);

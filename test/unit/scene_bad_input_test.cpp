@@ -136,8 +136,8 @@ TEST(SceneBadInput, WrongUnitsAndValues) {
                  "rigid_bodies.ball.motion.velocity.2: expression '-0.1*tt': unknown name 'tt'");
   expect_refused(26, "    pose: {quaternion: [0, 0, 0, 0]}",
                  "rigid_bodies.ball.pose.quaternion: its length is 0, not 1;");
-  expect_refused(28, "contact: {friction: -0.1}", "contact.friction: '-0.1' is less than 0;");
-  expect_refused(28, "contact: {friction: sticky}", "contact.friction: 'sticky' is not a number;");
+  expect_refused(28, "contact: {friction: -0.1}", "contact.friction: -0.1 is less than 0;");
+  expect_refused(28, "contact: {friction: sticky}", "contact.friction: expression 'sticky': unknown name 'sticky';");
   expect_refused(19, "  - name: a block", "bodies.a block.name: 'a block' is not a name;");
 }
 

@@ -1,6 +1,7 @@
 // A planar scene in plane strain and the same scene as a slice of one cell in three dimensions between smooth walls are
-// one problem, and the method's sums are the same: weights are products along the axes, and those along y add up to one
-// over a cell. So the results agree to round-off, whatever the law, the contact and the schedule.
+// one problem, and the method's sums are the same, with contact at nodes (at points sweeps end when they change
+// velocities by a thousandth, and the force differs by as much): weights are products along the axes, and those along y
+// add up to one over a cell. So the results agree to round-off, whatever the law, the contact and the schedule.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -44,7 +45,7 @@ struct Agreement {
 const std::vector<std::string> kFields = {"x", "z", "vx", "vz", "sxx", "szz", "sxz", "syy", "j"};
 
 Agreement compare(const std::string& law, const std::string& update) {
-  const std::vector<std::string> overrides = {law, "method.update=" + update};
+  const std::vector<std::string> overrides = {law, "method.update=" + update, "contact.method=nodes"};
   mpm::Simulation plane = start("pressed_block", overrides, 1), slice = start("pressed_slice", overrides, 1);
   const Pairs pairs = pair_up(plane, slice);
   std::vector<double> difference(kFields.size()), scale(kFields.size());

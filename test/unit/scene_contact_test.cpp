@@ -126,7 +126,7 @@ TEST(SceneContact, RefusesWhatItCannotMean) {
   expect_refused("{law: sticky}", ".law", "sticky");
   expect_refused("{normals: 4}", ".normals", "4");
   expect_refused("{detection: approach, position: 0.7}", ".position", "detection: positions");
-  expect_refused("{friction: 0.3, distance: 1}", "", "distance");
+  expect_refused("{friction: 0.3, distance: 1}", ".distance", "unknown key");
   expect_refused("{friction: \"0.1*t\"}", ".friction", "write functions of time in pairs");
 }
 

@@ -135,7 +135,8 @@ class MaterialContact final : public Stage {
 
   /// The node's materials with the velocities of `velocity(grid)`, and its pairs as the pass needs them.
   template <class FieldOf>
-  void load(Pass pass, const BlockNodes& block, const Node& node, FieldOf&& velocity, Scratch& scratch) const;
+  void load(Pass pass, const BlockNodes& block, const Node& node, double dt, FieldOf&& velocity,
+            Scratch& scratch) const;
   /// The node's velocities in `velocity(grid)` become what the pass makes of them.
   template <class FieldOf>
   void hold(Pass pass, BlockNodes& block, const Node& node, double dt, FieldOf&& velocity, Scratch& scratch);

@@ -167,7 +167,7 @@ TEST(ContactReport, OnAFlatSmoothFaceTheTorqueIsArmTimesForce) {
   EXPECT_LT(left.norm(), 1e-12 * report.arm.norm() * report.mean.force.norm());
   EXPECT_GT(report.mean.torque.norm(), 0.1 * report.arm.norm() * report.mean.force.norm());
   EXPECT_NEAR(report.pressing, -report.mean.force.z(), 1e-12 * report.pressing);
-  EXPECT_EQ(report.friction, Vec3::Zero());
+  EXPECT_LE(report.friction.norm(), 1e-12 * report.pressing);
 }
 
 }  // namespace

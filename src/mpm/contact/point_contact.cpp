@@ -149,6 +149,10 @@ void PointContact::momentum_gathered(StepContext& context) {
   weakening_ = kWeakening * context.grid.layout.smallest_cell();
   with_geometry(settings_.geometry, [&](auto kind) { find_points<decltype(kind)>(context); });
   connect(context);
+  // What friction takes is counted with the slip of the step's start and end: in between forces push held points that
+  // do not slide.
+  load(&Grid::velocity);
+  for (Point& point : points_) point.approach = velocity_at(point) - point.velocity;
 }
 
 void PointContact::connect(const StepContext& context) {
@@ -315,7 +319,6 @@ void PointContact::momentum_updated(StepContext& context) {
   memory_.clear();
   if (points_.empty()) return;
   load(&Grid::velocity);
-  for (Point& point : points_) point.approach = velocity_at(point) - point.velocity;
   for (const Point& point : points_) push(point, point.impulse);
   solve<Pass::step>(context.dt);
   store(&Grid::velocity);

@@ -5,6 +5,7 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TwistStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <mpm_ros/Command.h>
 #include <tf2/buffer_core.h>
 
@@ -31,6 +32,8 @@ class CommandReader {
   /// A message for a body (its index): to the queue, or refused. Any thread.
   void take(int body, const geometry_msgs::Twist& message);
   void take(int body, const geometry_msgs::TwistStamped& message);
+  void take(int body, const geometry_msgs::Wrench& message);
+  void take(int body, const geometry_msgs::WrenchStamped& message);
   void take(int body, const geometry_msgs::PoseStamped& message);
   /// A command of a step request, checked as those on topics are. `problem` says why not; then the result is of no use.
   BodyCommand read(const mpm_ros::Command& message, std::string& problem) const;
@@ -42,6 +45,8 @@ class CommandReader {
  private:
   void read_twist(const geometry_msgs::Twist& twist, const std::string& frame, const ros::Time& stamp,
                   BodyCommand& command, std::string& problem) const;
+  void read_wrench(const geometry_msgs::Wrench& wrench, const std::string& frame, const ros::Time& stamp,
+                   BodyCommand& command, std::string& problem) const;
   void read_pose(const geometry_msgs::Pose& pose, const std::string& frame, const ros::Time& stamp,
                  BodyCommand& command, std::string& problem) const;
   void set_stamp(const ros::Time& stamp, BodyCommand& command, std::string& problem) const;

@@ -27,6 +27,8 @@ inline std::string of_body(const std::string& body, const std::string& leaf) {
 constexpr const char* kWrench = "wrench";
 constexpr const char* kCmdVel = "cmd_vel";
 constexpr const char* kCmdVelStamped = "cmd_vel_stamped";
+constexpr const char* kCmdWrench = "cmd_wrench";
+constexpr const char* kCmdWrenchStamped = "cmd_wrench_stamped";
 constexpr const char* kCmdPose = "cmd_pose";
 
 }  // namespace mpm_ros::topics

@@ -77,7 +77,7 @@ class RunStatistics : public RunVisitor {
   const std::vector<BodyStatistics>& body_statistics() const { return bodies_; }
   const std::vector<PairStatistics>& pair_statistics() const { return pairs_; }
   /// By body and kind.
-  const std::map<std::pair<std::string, mpm::Drive>, CommandStatistics>& commands() const { return commands_; }
+  const std::map<std::pair<std::string, std::string>, CommandStatistics>& commands() const { return commands_; }
   /// The first and the last state; nothing before the first message.
   const std::optional<SolverState>& first_state() const { return first_state_; }
   const SolverState& last_state() const { return last_state_; }
@@ -91,7 +91,7 @@ class RunStatistics : public RunVisitor {
  private:
   std::vector<BodyStatistics> bodies_;  ///< in the order of the messages
   std::vector<PairStatistics> pairs_;   ///< the same
-  std::map<std::pair<std::string, mpm::Drive>, CommandStatistics> commands_;
+  std::map<std::pair<std::string, std::string>, CommandStatistics> commands_;
   std::optional<SolverState> first_state_;
   SolverState last_state_;
   double smallest_j_ = std::numeric_limits<double>::infinity();

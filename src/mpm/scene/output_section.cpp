@@ -117,6 +117,12 @@ void choose_periods(const std::optional<Value>& sync_key, const std::optional<Va
   scene.output.period = seconds(period);
 }
 
+/// One of the names that Simulation::body_values() knows.
+std::string read_body_value(const Value& value) {
+  const std::vector<std::string>& names = Simulation::body_values();
+  return names[value.choice(names)];
+}
+
 }  // namespace
 
 std::string read_particle_field(const Value& value) {
@@ -158,8 +164,9 @@ void read_metrics(const Map& root, Scene& scene) {
   if (!section) return;
   static const std::vector<std::string> kStatistics = {"mean", "std", "min", "max"};
   static constexpr std::array kKinds = {Statistic::mean, Statistic::std_dev, Statistic::min, Statistic::max};
-  std::vector<std::string> bodies;
+  std::vector<std::string> bodies, rigid_bodies;
   for (const BodyDefinition& body : scene.bodies) bodies.push_back(body.name);
+  for (const RigidBodyDefinition& body : scene.definition.rigid_bodies) rigid_bodies.push_back(body.name);
   if (!section->is_map()) section->fail("write one line for each metric, as in mean_szz: {mean: szz, of: soil}");
   for (const auto& entry : section->node()) {
     const Value value = section->child(entry.second, entry.first.Scalar());
@@ -167,17 +174,20 @@ void read_metrics(const Map& root, Scene& scene) {
     MetricDefinition metric;
     metric.name = section->child(entry.first, entry.first.Scalar()).name();
     int statistics = 0;
+    const auto of = map.find("of");
+    const bool of_rigid = of && std::find(rigid_bodies.begin(), rigid_bodies.end(), of->text()) != rigid_bodies.end();
     for (std::size_t i = 0; i < kStatistics.size(); ++i) {
       if (const auto field = map.find(kStatistics[i])) {
         ++statistics;
         metric.statistic = kKinds.at(i);
-        metric.field = read_particle_field(*field);
+        metric.field = of_rigid ? read_body_value(*field) : read_particle_field(*field);
+        if (of_rigid && i > 0) value.fail("a rigid body has one number of a kind; write mean");
       }
     }
     if (statistics != 1) value.fail(fmt::format("has {} statistics; write one of mean, std, min or max", statistics));
-    if (const auto of = map.find("of")) {
+    if (of) {
       metric.body = of->text();
-      if (std::find(bodies.begin(), bodies.end(), metric.body) == bodies.end()) {
+      if (!of_rigid && std::find(bodies.begin(), bodies.end(), metric.body) == bodies.end()) {
         of->fail(fmt::format("no deformable body '{}'; {}", metric.body, suggest(metric.body, bodies)));
       }
     }

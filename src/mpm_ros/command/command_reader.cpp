@@ -102,6 +102,19 @@ void CommandReader::read_twist(const geometry_msgs::Twist& twist, const std::str
                       : mpm::Twist{axes.orientation * given.linear, axes.orientation * given.angular};
 }
 
+void CommandReader::read_wrench(const geometry_msgs::Wrench& wrench, const std::string& frame, const ros::Time& stamp,
+                                BodyCommand& command, std::string& problem) const {
+  command.kind = CommandKind::wrench;
+  const mpm::Wrench given = from_message(wrench);
+  if (!given.force.allFinite() || !given.torque.allFinite()) {
+    problem = "a component of the wrench is not finite";
+    return;
+  }
+  // The axes alone are the frame's: the torque stays about the body's origin.
+  const mpm::Pose axes = find_frame(frame, stamp, command.frame_body, problem);
+  command.wrench = {axes.orientation * given.force, axes.orientation * given.torque};
+}
+
 void CommandReader::read_pose(const geometry_msgs::Pose& pose, const std::string& frame, const ros::Time& stamp,
                               BodyCommand& command, std::string& problem) const {
   command.kind = CommandKind::pose;
@@ -137,6 +150,23 @@ void CommandReader::take(int body, const geometry_msgs::TwistStamped& message) {
   push_or_refuse(topics::kCmdVelStamped, std::move(command), problem);
 }
 
+void CommandReader::take(int body, const geometry_msgs::Wrench& message) {
+  BodyCommand command;
+  command.body = body;
+  std::string problem;
+  read_wrench(message, world_frame_, ros::Time(), command, problem);
+  push_or_refuse(topics::kCmdWrench, std::move(command), problem);
+}
+
+void CommandReader::take(int body, const geometry_msgs::WrenchStamped& message) {
+  BodyCommand command;
+  command.body = body;
+  std::string problem;
+  set_stamp(message.header.stamp, command, problem);
+  if (problem.empty()) read_wrench(message.wrench, message.header.frame_id, message.header.stamp, command, problem);
+  push_or_refuse(topics::kCmdWrenchStamped, std::move(command), problem);
+}
+
 void CommandReader::take(int body, const geometry_msgs::PoseStamped& message) {
   BodyCommand command;
   command.body = body;
@@ -163,9 +193,11 @@ BodyCommand CommandReader::read(const mpm_ros::Command& message, std::string& pr
       command.stamp = stamps_.time_of(message.arrival);
       if (problem.empty()) problem = too_far_ahead(*command.stamp);
     }
+  } else if (message.kind == mpm_ros::Command::WRENCH) {
+    read_wrench(message.wrench, frame, ros::Time(), command, problem);
   } else {
-    problem = fmt::format("kind is {}; it must be VELOCITY ({}) or POSE ({})", message.kind,
-                          +mpm_ros::Command::VELOCITY, +mpm_ros::Command::POSE);
+    problem = fmt::format("kind is {}; it must be VELOCITY ({}), POSE ({}) or WRENCH ({})", message.kind,
+                          +mpm_ros::Command::VELOCITY, +mpm_ros::Command::POSE, +mpm_ros::Command::WRENCH);
   }
   command.requested = message.requested;
   if (!problem.empty()) problem = fmt::format("the command for '{}': {}", message.body, problem);
@@ -177,6 +209,7 @@ AppliedCommand in_world(const DueCommand& due, const std::vector<mpm::BodyState>
   applied.body = due.command.body;
   applied.kind = due.command.kind;
   applied.twist = due.command.twist;
+  applied.wrench = due.command.wrench;
   applied.pose = due.command.pose;
   applied.effect = effect;
   applied.arrival = due.arrival;
@@ -184,6 +217,7 @@ AppliedCommand in_world(const DueCommand& due, const std::vector<mpm::BodyState>
   if (due.command.frame_body >= 0) {
     const mpm::Pose& frame = bodies[due.command.frame_body].pose;
     applied.twist = {frame.orientation * applied.twist.linear, frame.orientation * applied.twist.angular};
+    applied.wrench = {frame.orientation * applied.wrench.force, frame.orientation * applied.wrench.torque};
     applied.pose = {frame.to_world(applied.pose.position), (frame.orientation * applied.pose.orientation).normalized()};
   }
   return applied;

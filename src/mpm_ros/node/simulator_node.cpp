@@ -224,10 +224,7 @@ void SimulatorNode::act_on_silence() {
       return;
     }
     if (parameters_.on_timeout == OnTimeout::stop) {
-      AppliedCommand stop;
-      stop.body = body;
-      stop.effect = now;
-      run_->apply(stop);
+      for (const AppliedCommand& stop : stop_commands(body, run_->simulation())) run_->apply(stop);
       health_.time_out(bodies_[body], silence + ": it stands still");
     } else {
       health_.time_out(bodies_[body], silence + ": it goes on as it was told last");

@@ -8,8 +8,9 @@ namespace {
 mpm::Scene scene_with(const std::string& body, const std::string& geometry = "plane_strain") {
   const bool solid = geometry == "solid";
   const std::string three = solid ? "0, " : "";
-  return mpm::parse_scene("name: s\ngeometry: " + geometry + "\n" + (geometry == "plane_strain" ? "thickness: 0.1\n" : "") +
-                              "grid: {cell: 0.1, min: [0, " + three + "0], max: [1, " + (solid ? "1, " : "") +
+  return mpm::parse_scene("name: s\ngeometry: " + geometry + "\n" +
+                              (geometry == "plane_strain" ? "thickness: 0.1\n" : "") + "grid: {cell: 0.1, min: [0, " +
+                              three + "0], max: [1, " + (solid ? "1, " : "") +
                               "1]}\ntime: {end: 1}\n"
                               "materials: [{name: m, law: neo_hookean, density: 1000, young: 1 MPa, poisson: 0.3}]\n"
                               "bodies: [{name: b, material: m, shape: {box: {min: [0, " +

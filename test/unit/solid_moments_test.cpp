@@ -96,9 +96,7 @@ TEST(SolidMoments, OfMeshAndPolygonAreThoseOfTheBox) {
   expect_near(*mpm::make_polygon(clockwise)->moments(0.2), plate, 1e-13);
 }
 
-TEST(SolidMoments, OfWhatHasNoEndAreNotKnown) {
-  EXPECT_FALSE(mpm::make_plane(Vec3::UnitZ())->moments(1.0));
-}
+TEST(SolidMoments, OfWhatHasNoEndAreNotKnown) { EXPECT_FALSE(mpm::make_plane(Vec3::UnitZ())->moments(1.0)); }
 
 // Inside and outside, beside a face, beyond a corner and in a notch.
 TEST(Polygon, KnowsItsDistance) {

@@ -31,9 +31,8 @@ rigid_bodies: [{{name: free, {}}}]
 
 // Velocity first, then place: after n steps of dt the body has fallen by g dt^2 n (n + 1) / 2, an arithmetic series.
 TEST(FreeBodies, FreeFallIsThatOfTheScheme) {
-  mpm::Simulation simulation =
-      run_of(alone("shape: {sphere: {radius: 0.1}}, free: {density: 500, velocity: [0.3, 0.2, 1]}", "[0, 0, -9.81]",
-                   0.5));
+  mpm::Simulation simulation = run_of(
+      alone("shape: {sphere: {radius: 0.1}}, free: {density: 500, velocity: [0.3, 0.2, 1]}", "[0, 0, -9.81]", 0.5));
   run_until(simulation, 0.5);
   const mpm::SolverState state = simulation.state();
   const mpm::BodyState body = simulation.bodies()[0];
@@ -66,8 +65,8 @@ TEST(FreeBodies, SpinningBoxKeepsItsAngularMomentum) {
   EXPECT_LT(least, -0.5);  // it did turn over
 }
 
-// A constant torque about a principal axis: rate = torque t / inertia, exact for a scheme that adds impulses; a force on
-// the origin of a body whose centre of mass is elsewhere turns it as well.
+// A constant torque about a principal axis: rate = torque t / inertia, exact for a scheme that adds impulses; a force
+// on the origin of a body whose centre of mass is elsewhere turns it as well.
 TEST(FreeBodies, WrenchGivesItsImpulse) {
   mpm::Simulation simulation = run_of(
       alone("shape: {box: {size: [0.3, 0.2, 0.1]}}, free: {mass: 2, inertia: [0.1, 0.1, 0.15]}", "[0, 0, 0]", 1.0));
@@ -112,8 +111,8 @@ rigid_bodies:
                      method);
 }
 
-// Without gravity nothing outside acts: what one loses the other gains. Linear momentum with any transfer. What the body
-// says that contact gave it is what the material's audit says that contact took, found from the other side.
+// Without gravity nothing outside acts: what one loses the other gains. Linear momentum with any transfer. What the
+// body says that contact gave it is what the material's audit says that contact took, found from the other side.
 TEST(FreeBodies, CollisionInSpaceKeepsMomentum) {
   for (const char* method : {"{transfer: flip}", "{transfer: apic}", "{update: usf, transfer: {xpic: 2}}",
                              "{update: usl, transfer: {fmpm: 2}}"}) {

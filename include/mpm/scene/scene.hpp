@@ -10,6 +10,7 @@
 
 #include "mpm/math/error.hpp"
 #include "mpm/simulation/definition.hpp"
+#include "mpm/simulation/global_quantity.hpp"
 
 namespace mpm {
 
@@ -62,6 +63,9 @@ struct OutputDefinition {
   double period = 0.0;                       ///< [s] between particle snapshots; a multiple of the sync period
   std::vector<std::string> particle_fields;  ///< chosen scalars, beside x, y, z, id
   int particle_stride = 1;
+  std::optional<Box> particle_region;  ///< only particles in it are written [m]
+  std::vector<GlobalQuantity> global;  ///< sums and means over bodies, written over time
+  double global_period = 0.0;          ///< [s] between them; a multiple of the sync period
 };
 
 struct Scene {

@@ -14,6 +14,7 @@
 #include "mpm/kernel/isa.hpp"
 #include "mpm/math/error.hpp"
 #include "mpm/simulation/definition.hpp"
+#include "mpm/simulation/particle_choice.hpp"
 #include "mpm/simulation/report.hpp"
 
 namespace mpm {
@@ -82,6 +83,14 @@ class Simulation {
   /// @throws DefinitionError for an unknown name, listing those that exist.
   void particle_field(const std::string& name, std::vector<float>& values) const;
   void particle_field(const std::string& name, std::vector<double>& values) const;
+  /// Several fields of the chosen particles in one pass; keeps the memory of `columns`. @throws DefinitionError
+  void read_particles(const std::vector<std::string>& fields, const ParticleChoice& choice,
+                      ParticleColumns& columns) const;
+  /// Whether one of the fields looks at where a particle was at the start ("ux", "x0", …).
+  static bool needs_start(const std::vector<std::string>& fields);
+  /// Lets the particles remember where they are now, for those fields. At time zero, unless they do already: a run
+  /// pays for it in memory (24 bytes a particle) and in sorting. @throws DefinitionError later on
+  void keep_start();
   /// First id and one-past-last id of a deformable body.
   std::pair<std::uint64_t, std::uint64_t> body_ids(const std::string& body) const;
 
@@ -91,6 +100,9 @@ class Simulation {
  private:
   /// Of those metrics that are rates, at a sync point.
   void sample_metrics();
+  /// Of all particles, in order of id. @throws DefinitionError
+  void read_fields(const std::vector<std::string>& fields, std::vector<std::vector<double>>& columns) const;
+  friend class GlobalQuantities;
   friend class SimulationProbe;  // of tests: single steps, of any size
   struct State;
   std::unique_ptr<State> state_;

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "mpm/math/geometry.hpp"
+
 namespace mpm_ros {
 
 /// A parameter that is missing, of the wrong type or out of range. what() is one line that names it.
@@ -49,10 +51,12 @@ struct NodeParameters {
   std::optional<double> particle_rate;                      ///< [1/s] simulated; unset: as the scene says
   std::optional<std::vector<std::string>> particle_fields;  ///< unset: as the scene says
   std::optional<int> particle_stride;                       ///< unset: as the scene says
-  double wrench_rate = 0.0;  ///< [1/s] simulated, of forces, bodies, transforms, state; 0: every sync point
-  double force_scale = 0.0;  ///< of contact arrows [m/N]; 0: by the largest force met
-  bool state_hash = false;   ///< in every solver state
-  bool keep_alive = false;   ///< serve on after the run's end; unset: in lockstep only
+  std::optional<mpm::Box> particle_region;                  ///< unset: as the scene says [m]
+  double wrench_cutoff = 0.0;  ///< [Hz] of the filtered wrenches; 0: they are not published
+  double wrench_rate = 0.0;    ///< [1/s] simulated, of forces, bodies, transforms, state; 0: every sync point
+  double force_scale = 0.0;    ///< of contact arrows [m/N]; 0: by the largest force met
+  bool state_hash = false;     ///< in every solver state
+  bool keep_alive = false;     ///< serve on after the run's end; unset: in lockstep only
   bool start_paused = false;
 
   std::string text;  ///< what was given, as YAML

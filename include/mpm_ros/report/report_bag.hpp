@@ -7,9 +7,11 @@
 #include <mpm_ros/BodyStates.h>
 #include <mpm_ros/Command.h>
 #include <mpm_ros/ContactForces.h>
+#include <mpm_ros/GlobalQuantities.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
 #include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -37,7 +39,10 @@ class RunVisitor {
   virtual void contact_forces(std::int64_t time, const ContactForces& message) { unused(time, message); }
   virtual void bodies(std::int64_t time, const BodyStates& message) { unused(time, message); }
   virtual void solver_state(std::int64_t time, const SolverState& message) { unused(time, message); }
+  virtual void global_quantities(std::int64_t time, const GlobalQuantities& message) { unused(time, message); }
   virtual void command(std::int64_t time, const Command& message) { unused(time, message); }
+  /// A message on /clock, where that was recorded too.
+  virtual void clock(std::int64_t time) { unused(time, 0); }
   virtual void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) { unused(time, message); }
   virtual void markers(const visualization_msgs::MarkerArray& message) { unused(0, message); }
 
@@ -64,6 +69,9 @@ class RunBag {
   const std::vector<std::string>& missing() const { return missing_; }
   /// Whether the recording was cut short, so that only a part of it could be read.
   bool cut_short() const { return copy_.has_value(); }
+  const Stamps& stamps() const { return stamps_; }
+  /// Gives the view the messages on these topics (full names).
+  void select(rosbag::View& view, const std::vector<std::string>& topics) const;
   /// Fields of the first particle snapshot, x, y, z and id among them; empty when there is none.
   const std::vector<std::string>& particle_fields() const { return particle_fields_; }
 

@@ -117,6 +117,63 @@ void choose_periods(const std::optional<Value>& sync_key, const std::optional<Va
   scene.output.period = seconds(period);
 }
 
+/// A quantity by its name, or {quantity: NAME, body: NAME}.
+GlobalQuantity read_global_quantity(const Value& value, const Scene& scene) {
+  GlobalQuantity quantity;
+  if (!value.is_map()) {
+    quantity.name = value.text();
+    if (const std::string problem = problem_of(quantity); !problem.empty()) value.fail(problem);
+    return quantity;
+  }
+  const Map map(value, {"quantity", "body"});
+  const Value name = map.at("quantity");
+  quantity.name = name.text();
+  if (const auto body = map.find("body")) {
+    quantity.body = body->text();
+    const bool rigid = of_rigid_body(quantity);
+    std::vector<std::string> names;
+    if (rigid) {
+      for (const RigidBodyDefinition& one : scene.definition.rigid_bodies) names.push_back(one.name);
+    } else {
+      for (const BodyDefinition& one : scene.bodies) names.push_back(one.name);
+    }
+    if (std::find(names.begin(), names.end(), quantity.body) == names.end()) {
+      body->fail(fmt::format("no {} body '{}'; {}", rigid ? "rigid" : "deformable", quantity.body,
+                             suggest(quantity.body, names)));
+    }
+  }
+  if (const std::string problem = problem_of(quantity); !problem.empty()) name.fail(problem);
+  return quantity;
+}
+
+void read_global(const Map& map, Scene& scene) {
+  if (const auto list = map.find("global")) {
+    for (const Value& one : list->elements()) scene.output.global.push_back(read_global_quantity(one, scene));
+  }
+  const auto period = map.find("global_period");
+  if (!period) return;
+  if (scene.output.global.empty()) period->fail("there is no output.global whose period this is; add a list of names");
+  scene.output.global_period = seconds(read_nanoseconds(*period));
+}
+
+/// After the sync period is known.
+void check_global_period(const Map& map, Scene& scene) {
+  const auto period = map.find("global_period");
+  if (!period) return;
+  const std::int64_t time = read_nanoseconds(*period), sync = scene.definition.time.sync;
+  if (time % sync == 0) return;
+  const std::int64_t parts = std::max<std::int64_t>(1, (time + sync / 2) / sync);
+  period->fail(fmt::format("{:.9g} s is not a whole number of sync periods of {:.9g} s; write {:.12g} s", seconds(time),
+                           seconds(sync), seconds(parts * sync)));
+}
+
+Box read_particle_region(const Value& value) {
+  const Map map(value, {"min", "max"});
+  const Box box{map.at("min").vector(kLength), map.at("max").vector(kLength)};
+  if (box.empty()) value.fail("max is below min along an axis; write the lower corner as min");
+  return box;
+}
+
 }  // namespace
 
 std::string read_particle_field(const Value& value) {
@@ -135,8 +192,10 @@ void read_time_and_output(const Map& root, Scene& scene) {
   output.particle_fields.insert(output.particle_fields.end(), {"p", "j"});
   std::optional<Value> sync, period;
   read_time(root, scene, sync);
+  std::optional<Map> global;
   if (const auto section = root.find("output")) {
-    const Map map(*section, {"period", "particle_fields", "particle_stride"},
+    const Map map(*section,
+                  {"period", "particle_fields", "particle_stride", "particle_region", "global", "global_period"},
                   {{"first", "snapshots begin at the start"},
                    {"folder", "name it on the command line: --csv DIR, --bag FILE"},
                    {"crack_fields", "bodies are whole"}});
@@ -149,8 +208,12 @@ void read_time_and_output(const Map& root, Scene& scene) {
       output.particle_stride = stride->integer();
       if (output.particle_stride < 1) stride->fail("write 1 for every particle, 2 for every second, and so on");
     }
+    if (const auto region = map.find("particle_region")) output.particle_region = read_particle_region(*region);
+    read_global(map, scene);
+    global.emplace(map);
   }
   choose_periods(sync, period, scene);
+  if (global) check_global_period(*global, scene);
 }
 
 void read_metrics(const Map& root, Scene& scene) {

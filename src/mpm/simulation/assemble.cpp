@@ -365,6 +365,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
   s.rates.resize(definition.metrics.size());
+  for (const MetricDefinition& metric : definition.metrics) {
+    if (needs_start({metric.field})) keep_start();
+  }
   sample_metrics();
 }
 

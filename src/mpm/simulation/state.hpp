@@ -43,6 +43,8 @@ class LineFit {
   double mean_t_ = 0.0, mean_y_ = 0.0, tt_ = 0.0, ty_ = 0.0;
 };
 
+struct SetView;
+
 struct Simulation::State {
   SimulationDefinition definition;
   int threads = 1;
@@ -99,10 +101,14 @@ struct Simulation::State {
   void check_periodic(const RigidBody& body) const;
   /// Velocity conditions, in the list of stages. @throws ConditionError
   void add_conditions();
+  /// Of each set, for particle fields (particle_view.hpp).
+  std::vector<SetView> views() const;
   /// Of all particles [N s].
   Vec3 momentum() const;
   /// Of all particles [J].
   double kinetic_energy() const;
+  /// Work and losses of contact, loads and conditions since the start; nothing that is summed over particles.
+  EnergyReport given_energy() const;
   /// What the material allows now.
   StepLimit survey_material() const;
   /// What material, tools, damping and scene allow in the sync period that begins now. @throws DampingError

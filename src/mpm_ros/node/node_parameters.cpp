@@ -79,6 +79,31 @@ class Reader {
     return true;
   }
 
+  /// [xmin, ymin, zmin, xmax, ymax, zmax]
+  void read(const std::string& name, std::optional<mpm::Box>& result) {
+    const XmlRpc::XmlRpcValue* value = find(name);
+    if (value == nullptr) return;
+    XmlRpc::XmlRpcValue list(*value);
+    if (list.getType() != XmlRpc::XmlRpcValue::TypeArray || list.size() != 6) {
+      fail(name, "must be six numbers, [xmin, ymin, zmin, xmax, ymax, zmax]");
+    }
+    double corners[6];
+    for (int i = 0; i < 6; ++i) {
+      const auto type = list[i].getType();
+      if (type == XmlRpc::XmlRpcValue::TypeInt) {
+        corners[i] = static_cast<int>(list[i]);
+      } else if (type == XmlRpc::XmlRpcValue::TypeDouble) {
+        corners[i] = static_cast<double>(list[i]);
+      } else {
+        fail(name, fmt::format("has something else than a number at place {}", i + 1));
+      }
+    }
+    result = mpm::Box{{corners[0], corners[1], corners[2]}, {corners[3], corners[4], corners[5]}};
+    if (result->empty() || !result->min.allFinite() || !result->max.allFinite()) {
+      fail(name, "is empty or not finite; write [xmin, ymin, zmin, xmax, ymax, zmax]");
+    }
+  }
+
   template <typename Choice>
   void read(const std::string& name, Choice& result, const std::vector<std::pair<std::string, Choice>>& choices) {
     std::string given;
@@ -201,7 +226,9 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   int stride = 1;
   reader.read("particle_stride", stride, 1);
   if (reader.given("particle_stride")) parameters.particle_stride = stride;
+  reader.read("particle_region", parameters.particle_region);
   reader.read("wrench_rate", parameters.wrench_rate, 0.0);
+  reader.read("wrench_cutoff", parameters.wrench_cutoff, 0.0);
   reader.read("force_scale", parameters.force_scale, 0.0);
   reader.read("state_hash", parameters.state_hash);
   parameters.keep_alive = parameters.pacing == Pacing::lockstep;

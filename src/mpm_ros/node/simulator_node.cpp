@@ -43,7 +43,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
       paused_(parameters.start_paused) {
   if (!parameters_.commands.empty()) log_ = read_commands(parameters_.commands);
   if (const std::string problem = problem_of(run_options().output.particles); !problem.empty()) {
-    throw ParameterError(fmt::format("parameter ~particle_fields or ~particle_stride: {}", problem));
+    throw ParameterError(fmt::format("parameter ~particle_fields, ~particle_stride or ~particle_region: {}", problem));
   }
   for (const mpm::RigidBodyDefinition& body : scene_.definition.rigid_bodies) bodies_.push_back(body.name);
 
@@ -55,7 +55,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   if (ros::Time::isSimTime() && parameters_.publish_clock) {
     clock_ = node_.advertise<rosgraph_msgs::Clock>(topics::kClock, 10, true);
   }
-  publishers_ = std::make_unique<Publishers>(services, bodies_);
+  publishers_ =
+      std::make_unique<Publishers>(services, bodies_, parameters_.wrench_cutoff > 0.0, !scene_.output.global.empty());
   start_run(first_stamps());
   for (const std::string& warning : run_->simulation().warnings()) ROS_WARN_STREAM(warning);
   for (const std::string& note : run_->simulation().notes()) ROS_INFO_STREAM(note);
@@ -97,8 +98,10 @@ RunOptions SimulatorNode::run_options() const {
   options.output = output_options(scene_);
   if (parameters_.particle_rate) options.output.particle_period = 1.0 / *parameters_.particle_rate;
   if (parameters_.particle_fields) options.output.particles.fields = *parameters_.particle_fields;
-  if (parameters_.particle_stride) options.output.particles.stride = *parameters_.particle_stride;
+  if (parameters_.particle_stride) options.output.particles.choice.stride = *parameters_.particle_stride;
+  if (parameters_.particle_region) options.output.particles.choice.region = *parameters_.particle_region;
   if (parameters_.wrench_rate > 0.0) options.output.wrench_period = 1.0 / parameters_.wrench_rate;
+  options.output.wrench_cutoff = parameters_.wrench_cutoff;
   options.output.world_frame = parameters_.world_frame;
   options.output.force_scale = parameters_.force_scale;
   options.output.state_hash = parameters_.state_hash;

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <rosbag/view.h>
+#include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -182,6 +182,10 @@ void RunBag::find_fields() {
   for (const sensor_msgs::PointField& field : first->fields) particle_fields_.push_back(field.name);
 }
 
+void RunBag::select(rosbag::View& view, const std::vector<std::string>& topics) const {
+  view.addQuery(bag_, rosbag::TopicQuery(topics));
+}
+
 template <typename Message>
 void RunBag::hand_on(const rosbag::MessageInstance& instance, const std::vector<RunVisitor*>& visitors,
                      void (RunVisitor::*receive)(std::int64_t, const Message&)) const {
@@ -191,15 +195,21 @@ void RunBag::hand_on(const rosbag::MessageInstance& instance, const std::vector<
 
 void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& reading) {
   std::vector<std::string> names;
-  for (const char* name : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kCommands,
-                           topics::kParticles, topics::kMarkers}) {
+  for (const char* name : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kGlobalQuantities,
+                           topics::kCommands, topics::kParticles, topics::kMarkers}) {
     names.push_back(topic(name));
   }
+  names.emplace_back(topics::kClock);
   try {
     rosbag::View view(bag_, rosbag::TopicQuery(names));
     Count count(view, reading);
     for (const rosbag::MessageInstance& instance : view) {
       count.next();
+      if (instance.getTopic() == topics::kClock) {
+        const auto message = take<rosgraph_msgs::Clock>(instance, path_);
+        for (RunVisitor* visitor : visitors) visitor->clock(stamps_.time_of(message->clock));
+        continue;
+      }
       const std::string name = instance.getTopic().substr(name_space_.size() + 1);
       if (name == topics::kContactForces) {
         hand_on(instance, visitors, &RunVisitor::contact_forces);
@@ -207,6 +217,8 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& readi
         hand_on(instance, visitors, &RunVisitor::bodies);
       } else if (name == topics::kSolverState) {
         hand_on(instance, visitors, &RunVisitor::solver_state);
+      } else if (name == topics::kGlobalQuantities) {
+        hand_on(instance, visitors, &RunVisitor::global_quantities);
       } else if (name == topics::kCommands) {
         hand_on(instance, visitors, &RunVisitor::command);
       } else if (name == topics::kParticles) {

@@ -112,6 +112,9 @@ void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Bo
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const SolverState& message) {
   write(topic, stamp, message);
 }
+void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const GlobalQuantities& message) {
+  write(topic, stamp, message);
+}
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) {
   write(topic, stamp, message);
 }

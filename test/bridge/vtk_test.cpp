@@ -92,9 +92,9 @@ TEST(Vtk, ATriangleAsTheFormatHasIt) {
   EXPECT_EQ(read.polys, 1U);
   EXPECT_EQ(read.types.at("Points"), "Float32 x 3");
   EXPECT_EQ(read.values<float>("Points"), (std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}));
-  EXPECT_EQ(read.types.at("connectivity"), "Int64");
-  EXPECT_EQ(read.values<std::int64_t>("connectivity"), (std::vector<std::int64_t>{0, 1, 2}));
-  EXPECT_EQ(read.values<std::int64_t>("offsets"), (std::vector<std::int64_t>{3}));
+  EXPECT_EQ(read.types.at("connectivity"), "Int32");
+  EXPECT_EQ(read.values<std::int32_t>("connectivity"), (std::vector<std::int32_t>{0, 1, 2}));
+  EXPECT_EQ(read.values<std::int32_t>("offsets"), (std::vector<std::int32_t>{3}));
   EXPECT_EQ(read.values<float>("height &amp; width"), (std::vector<float>{1.5F, -2.5F, 3.5F}));
 }
 

@@ -2,7 +2,7 @@
 // The numbers stand behind the XML as raw bytes, so that a file is written, and read by ParaView, at the speed of the
 // disk.
 //
-// Weak: uncompressed, and always of the byte order of this machine (which the file names).
+// Weak: at most 2^31 points; uncompressed, and always of the byte order of this machine (which the file names).
 #pragma once
 
 #include <cstddef>

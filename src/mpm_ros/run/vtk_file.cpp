@@ -35,10 +35,10 @@ void VtkFile::add(const std::string& name, const std::vector<std::uint32_t>& val
 void VtkFile::write(const std::string& path) const {
   std::vector<Array> cells;
   if (corners_ > 0) {
-    std::vector<std::int64_t> corners(points_ / corners_ * corners_), ends(points_ / corners_);
-    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::int64_t>(i);
-    for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = static_cast<std::int64_t>((i + 1) * corners_);
-    cells = {array("connectivity", "Int64", 1, corners), array("offsets", "Int64", 1, ends)};
+    std::vector<std::int32_t> corners(points_ / corners_ * corners_), ends(points_ / corners_);
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::int32_t>(i);
+    for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = static_cast<std::int32_t>((i + 1) * corners_);
+    cells = {array("connectivity", "Int32", 1, corners), array("offsets", "Int32", 1, ends)};
   }
 
   // Each array lies behind its length, 64 bits; `offset` counts from the first byte behind the underscore.

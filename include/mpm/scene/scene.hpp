@@ -59,7 +59,8 @@ struct LoadRegion {
 
 /// What is written out, beside the sync period that carries it.
 struct OutputDefinition {
-  double period = 0.0;                       ///< [s] between particle snapshots; a multiple of the sync period
+  double period = 0.0;  ///< [s] between particle snapshots; a multiple of the sync period
+  double first = 0.0;   ///< [s] of the first snapshot after that of the start; a multiple of the sync period
   std::vector<std::string> particle_fields;  ///< chosen scalars, beside x, y, z, id
   int particle_stride = 1;
 };

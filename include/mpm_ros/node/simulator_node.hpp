@@ -59,6 +59,7 @@ class SimulatorNode {
   void act_on_silence();
   void fail(const std::string& reason, int exit_code);
   void end_run();
+  void say_closed() const;
   void count_commands();
   void publish_clock(bool always);
   void report();
@@ -104,6 +105,7 @@ class SimulatorNode {
   int runs_ = 0;
   bool paused_ = false;
   std::string failure_;
+  bool record_lost_ = false;  // and said so
   int exit_code_ = 0;
   std::int64_t clock_at_ = -1;  // [ns] when /clock was published last
   std::mutex housekeeping_;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/run/output_names.hpp"
 
 namespace mpm_ros {
 
@@ -96,15 +97,22 @@ RunOptions SimulatorNode::run_options() const {
   options.isa = parameters_.isa;
   options.output = output_options(scene_);
   if (parameters_.particle_rate) options.output.particle_period = 1.0 / *parameters_.particle_rate;
+  if (parameters_.particle_first) options.output.particle_first = *parameters_.particle_first;
   if (parameters_.particle_fields) options.output.particles.fields = *parameters_.particle_fields;
   if (parameters_.particle_stride) options.output.particles.stride = *parameters_.particle_stride;
   if (parameters_.wrench_rate > 0.0) options.output.wrench_period = 1.0 / parameters_.wrench_rate;
   options.output.world_frame = parameters_.world_frame;
   options.output.force_scale = parameters_.force_scale;
   options.output.state_hash = parameters_.state_hash;
-  if (!parameters_.record.empty()) options.bag = bag_path(parameters_.record, scene_.definition.name, runs_);
+  if (!parameters_.record.empty())
+    options.bag = bag_path(parameters_.record, scene_.definition.name, runs_, parameters_.record_folder);
   options.bag_options.topics_below = node_.getNamespace();
   options.bag_options.compression = parameters_.record_compression;
+  constexpr double kMegabyte = 1e6;
+  options.bag_options.split_size =
+      static_cast<std::uint64_t>(std::min(parameters_.record_split_size * kMegabyte, 1e15));
+  options.bag_options.split_duration = std::llround(std::min(parameters_.record_split_duration, 1e9) * 1e9);
+  options.bag_options.required = parameters_.record_required;
   options.parameters = parameters_.text;
   return options;
 }
@@ -120,6 +128,10 @@ void SimulatorNode::start_run(const Stamps& stamps) {
   auto run = std::make_unique<Run>(scene_, run_options(), stamps, publishers_.get());
   if (run_) end_run();
   run_ = std::move(run);
+  record_lost_ = false;
+  if (const BagRecorder* recorder = run_->recorder()) {
+    ROS_INFO_STREAM("recording to " << recorder->path() << (recorder->replaced() ? ", which is replaced" : ""));
+  }
   log_.rewind();
   watch_.clear();
   health_.restart();
@@ -239,11 +251,16 @@ void SimulatorNode::fail(const std::string& reason, int exit_code) {
   try {
     count_commands();
     run_->fail(reason);
-    if (!run_->bag().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
+    say_closed();
   } catch (const BagError& error) {
     ROS_FATAL_STREAM(error.what());
   }
   report();
+}
+
+void SimulatorNode::say_closed() const {
+  const BagRecorder* recorder = run_->recorder();
+  if (recorder != nullptr && recorder->failure().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
 }
 
 void SimulatorNode::end_run() {
@@ -251,7 +268,7 @@ void SimulatorNode::end_run() {
   try {
     count_commands();
     run_->finish();
-    if (!run_->bag().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
+    say_closed();
   } catch (const BagError& error) {
     ROS_FATAL_STREAM(error.what());
     exit_code_ = 1;
@@ -300,6 +317,10 @@ void SimulatorNode::report() {
     solver.asked_factor = parameters_.real_time_factor;
   }
   solver.overruns = pacer_->overruns();
+  if (const BagRecorder* recorder = run_->recorder()) solver.record_failure = recorder->failure();
+  if (!parameters_.record_required && !solver.record_failure.empty() && !std::exchange(record_lost_, true)) {
+    ROS_ERROR_STREAM(solver.record_failure << ". The run goes on without a record");
+  }
   const SolverState& state = run_->outputs().solver_state();
   solver.steps = state.steps;
   solver.step = state.dt;

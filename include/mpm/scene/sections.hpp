@@ -45,6 +45,10 @@ void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinitio
 std::unique_ptr<Surface> read_revolved_shape(const std::string& kind, const Value& value, RigidBodyDefinition& body);
 /// The `shape` of a rigid body that is a `height_field`, after `grid`
 std::unique_ptr<Surface> read_height_field(const Value& value, const SimulationDefinition& definition);
+/// The `shape` of a rigid body that is a robot's link, `urdf`
+std::unique_ptr<Surface> read_urdf_link(const Value& value, GeometryKind geometry);
+/// `drive` and `limits` of a rigid body, after its shape
+CommandDefinition read_commands(const Map& body, const std::string& name, Scene& scene);
 /// `boundaries`, after bodies and rigid bodies
 void read_boundaries(const Map& root, Scene& scene);
 /// `loads`, after bodies

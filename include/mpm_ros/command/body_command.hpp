@@ -46,6 +46,12 @@ struct AppliedCommand {
 /// tool means and which would take steps without end.
 void apply(const AppliedCommand& command, mpm::Simulation& simulation);
 
+/// The check of apply() for a motion that no tool means. @throws mpm::RigidError
+void check_travel(const AppliedCommand& command, const mpm::Simulation& simulation);
+/// A pose that its body reaches only by more than a cell in a sync period is more of a jump than a motion: that, in
+/// words. Empty for others.
+std::string jump_of(const AppliedCommand& command, const mpm::Simulation& simulation);
+
 /// As recorded and published.
 mpm_ros::Command to_message(const AppliedCommand& command, const std::string& body, const std::string& world_frame,
                             const Stamps& stamps);

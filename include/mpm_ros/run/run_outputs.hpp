@@ -28,6 +28,8 @@ struct OutputOptions {
   double particle_period = 0.0;  ///< [s] simulated, rounded to sync periods; 0: at every sync point
   double wrench_period = 0.0;    ///< [s] of contact forces, wrenches, bodies, solver state, transforms; 0: the same
   std::string world_frame = "world";
+  /// Frames that somebody else publishes: a body of such a name has no transform in /tf. Empty names do not count.
+  std::vector<std::string> others;
   double force_scale = 0.0;  ///< of contact arrows [m/N]; 0: by the largest force met
   bool state_hash = false;   ///< in every solver state, not in the last alone
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mpm/math/error.hpp"
+#include "mpm/rigid/motion_limits.hpp"
 #include "mpm/simulation/definition.hpp"
 
 namespace mpm {
@@ -57,6 +58,12 @@ struct LoadRegion {
   std::string where;  ///< "file:line: key.path"
 };
 
+/// How commands move a rigid body. For whoever gives the commands: the simulation does not know of it.
+struct CommandDefinition {
+  std::string frame;    ///< tf frame that the body follows; empty: it is commanded on topics
+  MotionLimits limits;  ///< that its commands are kept within
+};
+
 /// What is written out, beside the sync period that carries it.
 struct OutputDefinition {
   double period = 0.0;  ///< [s] between particle snapshots; a multiple of the sync period
@@ -68,6 +75,7 @@ struct OutputDefinition {
 struct Scene {
   SimulationDefinition definition;  ///< all but the particles of the bodies
   std::vector<BodyDefinition> bodies;
+  std::vector<CommandDefinition> commands;   ///< of each of definition.rigid_bodies
   std::vector<LoadRegion> load_regions;      ///< of each of definition.particle_forces
   std::vector<LoadRegion> traction_regions;  ///< of each of definition.tractions
   OutputDefinition output;

@@ -29,6 +29,11 @@ class CommandReader {
   /// The run began (again): what stamps mean from now on.
   void set_stamps(const Stamps& stamps);
 
+  /// The body follows a tf frame: commands from elsewhere are refused, with the reason.
+  void set_frame(int body, const std::string& frame) { followed_.at(body) = frame; }
+  /// Where that frame is, as a message on cmd_pose. Any thread.
+  void follow(int body, const geometry_msgs::PoseStamped& message);
+
   /// A message for a body (its index): to the queue, or refused. Any thread.
   void take(int body, const geometry_msgs::Twist& message);
   void take(int body, const geometry_msgs::TwistStamped& message);
@@ -52,7 +57,10 @@ class CommandReader {
   void set_stamp(const ros::Time& stamp, BodyCommand& command, std::string& problem) const;
   /// Why a simulated time [ns] cannot be meant, or empty.
   std::string too_far_ahead(std::int64_t stamp) const;
+  void take_pose(const char* leaf, int body, const geometry_msgs::PoseStamped& message, std::string problem);
   void push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem);
+  /// Why the body takes no commands, or empty.
+  std::string refusal_of(int body) const;
   /// Pose of a frame in the world, or the body whose frame it is.
   mpm::Pose find_frame(const std::string& frame, const ros::Time& stamp, int& body, std::string& problem) const;
 
@@ -62,7 +70,8 @@ class CommandReader {
   const tf2::BufferCore& frames_;
   CommandQueue& queue_;
   NodeHealth& health_;
-  mutable std::mutex mutex_;  // of stamps_
+  std::vector<std::string> followed_;  // frame of each body, or empty
+  mutable std::mutex mutex_;           // of stamps_
   Stamps stamps_;
 };
 

@@ -29,6 +29,8 @@ struct OutputOptions {
   double particle_first = 0.0;   ///< [s] of the first cloud after that of the start, from which periods count
   double wrench_period = 0.0;    ///< [s] of contact forces, wrenches, bodies, solver state, transforms; 0: the same
   std::string world_frame = "world";
+  /// Frames that somebody else publishes: a body of such a name has no transform in /tf. Empty names do not count.
+  std::vector<std::string> others;
   double force_scale = 0.0;  ///< of contact arrows [m/N]; 0: by the largest force met
   bool state_hash = false;   ///< in every solver state, not in the last alone
 };

@@ -15,12 +15,15 @@ constexpr std::uint32_t kQueue = 1000;
 }  // namespace
 
 CommandBridge::CommandBridge(ros::NodeHandle node, const std::vector<std::string>& bodies,
-                             const std::string& world_frame, CommandQueue& queue, NodeHealth& health)
+                             const std::vector<std::string>& frames, const std::string& world_frame,
+                             CommandQueue& queue, NodeHealth& health)
     : prefix_(node.resolveName(topics::kBodies) + "/"),
       health_(health),
       listener_(frames_),
-      reader_(bodies, world_frame, prefix_, frames_, queue, health) {
+      reader_(bodies, world_frame, prefix_, frames_, queue, health),
+      follower_(frames, world_frame, frames_, reader_, health) {
   for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
+    reader_.set_frame(body, frames[static_cast<std::size_t>(body)]);
     subscribe<geometry_msgs::Twist>(node, body, topics::kCmdVel);
     subscribe<geometry_msgs::TwistStamped>(node, body, topics::kCmdVelStamped);
     subscribe<geometry_msgs::Wrench>(node, body, topics::kCmdWrench);

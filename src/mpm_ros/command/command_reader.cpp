@@ -15,6 +15,7 @@ namespace mpm_ros {
 namespace {
 
 constexpr std::size_t kLongestFrame = 255;
+constexpr const char* kFollowing = "tf";  // stands for a topic where a frame's pose is refused
 /// A stamp farther ahead of the simulation than this [ns] comes from another clock: nobody plans an hour ahead.
 constexpr std::int64_t kFarthest = 3'600'000'000'000;
 
@@ -27,7 +28,8 @@ CommandReader::CommandReader(std::vector<std::string> bodies, std::string world_
       prefix_(std::move(prefix)),
       frames_(frames),
       queue_(queue),
-      health_(health) {}
+      health_(health),
+      followed_(bodies_.size()) {}
 
 void CommandReader::set_stamps(const Stamps& stamps) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -133,19 +135,24 @@ void CommandReader::push_or_refuse(const char* leaf, BodyCommand command, const 
   }
 }
 
+std::string CommandReader::refusal_of(int body) const {
+  if (followed_[body].empty()) return {};
+  return fmt::format("it follows the tf frame '{}' (drive: tf), and takes no other commands", followed_[body]);
+}
+
 void CommandReader::take(int body, const geometry_msgs::Twist& message) {
   BodyCommand command;
   command.body = body;
-  std::string problem;
-  read_twist(message, world_frame_, ros::Time(), command, problem);
+  std::string problem = refusal_of(body);
+  if (problem.empty()) read_twist(message, world_frame_, ros::Time(), command, problem);
   push_or_refuse(topics::kCmdVel, std::move(command), problem);
 }
 
 void CommandReader::take(int body, const geometry_msgs::TwistStamped& message) {
   BodyCommand command;
   command.body = body;
-  std::string problem;
-  set_stamp(message.header.stamp, command, problem);
+  std::string problem = refusal_of(body);
+  if (problem.empty()) set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_twist(message.twist, message.header.frame_id, message.header.stamp, command, problem);
   push_or_refuse(topics::kCmdVelStamped, std::move(command), problem);
 }
@@ -168,12 +175,20 @@ void CommandReader::take(int body, const geometry_msgs::WrenchStamped& message) 
 }
 
 void CommandReader::take(int body, const geometry_msgs::PoseStamped& message) {
+  take_pose(topics::kCmdPose, body, message, refusal_of(body));
+}
+
+void CommandReader::follow(int body, const geometry_msgs::PoseStamped& message) {
+  take_pose(kFollowing, body, message, {});
+}
+
+void CommandReader::take_pose(const char* leaf, int body, const geometry_msgs::PoseStamped& message,
+                              std::string problem) {
   BodyCommand command;
   command.body = body;
-  std::string problem;
-  set_stamp(message.header.stamp, command, problem);
+  if (problem.empty()) set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_pose(message.pose, message.header.frame_id, message.header.stamp, command, problem);
-  push_or_refuse(topics::kCmdPose, std::move(command), problem);
+  push_or_refuse(leaf, std::move(command), problem);
 }
 
 BodyCommand CommandReader::read(const mpm_ros::Command& message, std::string& problem) const {
@@ -184,6 +199,11 @@ BodyCommand CommandReader::read(const mpm_ros::Command& message, std::string& pr
     return command;
   }
   const std::string& frame = message.header.frame_id;
+  problem = refusal_of(command.body);
+  if (!problem.empty()) {
+    problem = fmt::format("the command for '{}': {}", message.body, problem);
+    return command;
+  }
   if (message.kind == mpm_ros::Command::VELOCITY) {
     read_twist(message.twist, frame, ros::Time(), command, problem);
   } else if (message.kind == mpm_ros::Command::POSE) {

@@ -47,6 +47,14 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
     throw ParameterError(fmt::format("parameter ~particle_fields or ~particle_stride: {}", problem));
   }
   for (const mpm::RigidBodyDefinition& body : scene_.definition.rigid_bodies) bodies_.push_back(body.name);
+  std::vector<std::string> frames;
+  std::vector<mpm::MotionLimits> limits;
+  for (const mpm::CommandDefinition& commanded : scene_.commands) {
+    frames.push_back(commanded.frame);
+    // What was recorded is within them already.
+    if (log_.empty()) limits.push_back(commanded.limits);
+  }
+  limiter_ = std::make_unique<CommandLimiter>(std::move(limits), health_);
 
   ros::NodeHandle services(node_);
   services.setCallbackQueue(&service_callbacks_);
@@ -64,7 +72,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   pacer_ = std::make_unique<Pacer>(run_->simulation().sync_period(), parameters_.real_time_factor);
   // A run that replays recorded commands listens to nobody else.
   if (log_.empty()) {
-    bridge_ = std::make_unique<CommandBridge>(commands, bodies_, parameters_.world_frame, *queue_, health_);
+    bridge_ = std::make_unique<CommandBridge>(commands, bodies_, frames, parameters_.world_frame, *queue_, health_);
     bridge_->reader().set_stamps(run_->stamps());
   }
 
@@ -102,6 +110,7 @@ RunOptions SimulatorNode::run_options() const {
   if (parameters_.particle_stride) options.output.particles.stride = *parameters_.particle_stride;
   if (parameters_.wrench_rate > 0.0) options.output.wrench_period = 1.0 / parameters_.wrench_rate;
   options.output.world_frame = parameters_.world_frame;
+  for (const mpm::CommandDefinition& commanded : scene_.commands) options.output.others.push_back(commanded.frame);
   options.output.force_scale = parameters_.force_scale;
   options.output.state_hash = parameters_.state_hash;
   if (!parameters_.record.empty())
@@ -134,6 +143,8 @@ void SimulatorNode::start_run(const Stamps& stamps) {
   }
   log_.rewind();
   watch_.clear();
+  limiter_->clear();
+  if (bridge_) bridge_->follower().clear();
   health_.restart();
   failure_.clear();
   clock_at_ = -1;
@@ -203,24 +214,43 @@ void SimulatorNode::apply_due(const std::vector<AppliedCommand>& extra) {
     return;
   }
   const std::int64_t now = run_->simulation().time();
+  bridge_->follower().look(run_->stamps().at(now + run_->simulation().sync_period()));
   for (const DueCommand& due : queue_->take(now)) apply(in_world(due, run_->simulation().bodies(), now));
   for (const AppliedCommand& command : extra) apply(command);
   act_on_silence();
+  apply_limited();
+}
+
+void SimulatorNode::apply_limited() {
+  for (const AppliedCommand& command : limiter_->next(run_->simulation())) {
+    try {
+      run_->apply(command);
+    } catch (const mpm::RigidError& error) {
+      limiter_->drop(command.body);
+      health_.refuse(fmt::format("a command for '{}': {}", bodies_[command.body], error.what()));
+    }
+  }
 }
 
 void SimulatorNode::apply(const AppliedCommand& command) {
   const mpm::RigidBody& body = run_->simulation().rigid_body(command.body);
   const mpm::Drive before = body.drive();
+  mpm::Drive after = static_cast<mpm::Drive>(command.kind);
   try {
-    run_->apply(command);
+    if (!limiter_->take(command, run_->simulation())) {
+      const std::string jump = jump_of(command, run_->simulation());
+      run_->apply(command);
+      after = body.drive();
+      if (!jump.empty()) health_.jump(jump);
+    }
   } catch (const mpm::RigidError& error) {
     health_.refuse(fmt::format("a command for '{}': {}", body.name(), error.what()));
     return;
   }
   watch_.heard(command);
   health_.follow(body.name(), static_cast<double>(command.effect) * 1e-9);
-  if (body.drive() != before) {
-    health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(body.drive()),
+  if (after != before) {
+    health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(after),
                                static_cast<double>(command.effect) * 1e-9, drive_text(before)));
   }
 }
@@ -236,7 +266,9 @@ void SimulatorNode::act_on_silence() {
       return;
     }
     if (parameters_.on_timeout == OnTimeout::stop) {
-      for (const AppliedCommand& stop : stop_commands(body, run_->simulation())) run_->apply(stop);
+      for (const AppliedCommand& stop : stop_commands(body, run_->simulation())) {
+        if (!limiter_->take(stop, run_->simulation())) run_->apply(stop);
+      }
       health_.time_out(bodies_[body], silence + ": it stands still");
     } else {
       health_.time_out(bodies_[body], silence + ": it goes on as it was told last");

@@ -178,7 +178,14 @@ void RunOutputs::write_contacts() {
 }
 
 void RunOutputs::write_bodies() {
-  if (wanted(topics::kTf)) put(topics::kTf, to_transforms(simulation_.bodies(), options_.world_frame, stamp()));
+  if (wanted(topics::kTf)) {
+    std::vector<mpm::BodyState> own = simulation_.bodies();
+    const auto elsewhere = [this](const mpm::BodyState& body) {
+      return std::find(options_.others.begin(), options_.others.end(), body.name) != options_.others.end();
+    };
+    own.erase(std::remove_if(own.begin(), own.end(), elsewhere), own.end());
+    put(topics::kTf, to_transforms(own, options_.world_frame, stamp()));
+  }
   if (wanted(topics::kBodies)) put(topics::kBodies, body_states());
 }
 

@@ -137,6 +137,11 @@ class OfflineRun {
     const mpm::Simulation& simulation = run_->simulation();
     for (const std::string& warning : simulation.warnings()) err << "warning: " << warning << "\n";
     for (const std::string& note : simulation.notes()) err << note << "\n";
+    for (std::size_t body = 0; body < scene_.commands.size(); ++body) {
+      if (scene_.commands[body].frame.empty()) continue;
+      err << fmt::format("warning: '{}' stands still: only the node follows a tf frame (drive: tf)\n",
+                         scene_.definition.rigid_bodies[body].name);
+    }
     const mpm::EnergyReport start_energy = simulation.state().energy;
     ProgressBar progress(err, bar);
     const double end = static_cast<double>(run_->end());

@@ -12,6 +12,7 @@
 #include <rosbag/view.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -50,7 +51,8 @@ inline mpm_ros::Command velocity(const std::string& body, double vz) {
 class SimulatorProcess {
  public:
   /// `parameters`: "name:=value" without the underscore. Several may live one after the other; each has its namespace.
-  explicit SimulatorProcess(const std::vector<std::string>& parameters) {
+  /// `largest_file` [byte]: what the disk has room for; 0: all there is.
+  explicit SimulatorProcess(const std::vector<std::string>& parameters, rlim_t largest_file = 0) {
     static int count = 0;
     namespace_ = "/sim" + std::to_string(getpid()) + "_" + std::to_string(++count);
     log_ = folder_.file("log");
@@ -62,6 +64,11 @@ class SimulatorProcess {
     arguments.push_back(nullptr);
     pid_ = fork();
     if (pid_ == 0) {
+      if (largest_file > 0) {
+        ::signal(SIGXFSZ, SIG_IGN);  // writing beyond it then fails, as on a full disk
+        const rlimit limit{largest_file, largest_file};
+        setrlimit(RLIMIT_FSIZE, &limit);
+      }
       const int log = open(log_.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
       dup2(log, STDOUT_FILENO);
       dup2(log, STDERR_FILENO);
@@ -77,6 +84,7 @@ class SimulatorProcess {
   }
 
   std::string name(const std::string& relative) const { return namespace_ + "/" + relative; }
+  pid_t pid() const { return pid_; }
   void signal(int number) const { kill(pid_, number); }
 
   /// Exit code; -1 when it did not end in time, -2 when a signal ended it.

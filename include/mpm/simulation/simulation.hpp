@@ -66,8 +66,18 @@ class Simulation {
   /// To be at `target` by `arrival` [ns] > time(). @throws RigidError
   void command_pose(int body, const Pose& target, std::int64_t arrival);
 
+  /// A force on a free body, from now on until the next. What is along no axis of the geometry does nothing.
+  /// @throws RigidError when not finite, or the body is not free
+  void apply_wrench(int body, const Wrench& wrench);
+
   std::vector<BodyState> bodies() const;
+  /// Of the bodies that are free, in their order: what gave them their momentum, and their energies.
+  std::vector<FreeBodyReport> free_bodies() const;
   const RigidBody& rigid_body(int body) const;
+  /// A number of a rigid body, by one of body_values(): "x" of its origin [m], "vz" [m/s], "wy" [rad/s], "impulse_x"
+  /// that contact gave it since the start [N s]. @throws DefinitionError for an unknown name
+  double body_value(int body, const std::string& name) const;
+  static const std::vector<std::string>& body_values();
   /// What the material did to the body since the last call.
   ContactReport take_contact(int body);
   /// What each pair of deformable bodies that has a law of contact did to each other since the last call.

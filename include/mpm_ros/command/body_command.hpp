@@ -15,13 +15,18 @@
 
 namespace mpm_ros {
 
-enum class CommandKind : std::uint8_t { velocity = mpm_ros::Command::VELOCITY, pose = mpm_ros::Command::POSE };
+enum class CommandKind : std::uint8_t {
+  velocity = mpm_ros::Command::VELOCITY,
+  pose = mpm_ros::Command::POSE,
+  wrench = mpm_ros::Command::WRENCH
+};
 
 /// A checked command that waits for its time.
 struct BodyCommand {
   int body = 0;  ///< index in the simulation
   CommandKind kind = CommandKind::velocity;
   mpm::Twist twist;     ///< velocity: of the body's origin
+  mpm::Wrench wrench;   ///< wrench: on a free body
   mpm::Pose pose;       ///< pose: to be at
   int frame_body = -1;  ///< rigid body in whose axes it is given, as they are when it is applied; -1: world
   ros::Time requested;  ///< stamp it came with
@@ -35,6 +40,7 @@ struct AppliedCommand {
   int body = 0;
   CommandKind kind = CommandKind::velocity;
   mpm::Twist twist;
+  mpm::Wrench wrench;
   mpm::Pose pose;
   std::int64_t effect = 0;   ///< [ns] simulated time at which it takes effect
   std::int64_t arrival = 0;  ///< [ns] pose: when it is reached
@@ -45,6 +51,14 @@ struct AppliedCommand {
 /// changed: not finite, a pose that is none, or a motion of more than the domain's diagonal in a sync period, which no
 /// tool means and which would take steps without end.
 void apply(const AppliedCommand& command, mpm::Simulation& simulation);
+
+/// What makes a body stand still that was commanded: velocity zero where it is told, no wrench where it is free.
+std::vector<AppliedCommand> stop_commands(int body, const mpm::Simulation& simulation);
+/// The check of apply() for a motion that no tool means. @throws mpm::RigidError
+void check_travel(const AppliedCommand& command, const mpm::Simulation& simulation);
+/// A pose that its body reaches only by more than a cell in a sync period is more of a jump than a motion: that, in
+/// words. Empty for others.
+std::string jump_of(const AppliedCommand& command, const mpm::Simulation& simulation);
 
 /// As recorded and published.
 mpm_ros::Command to_message(const AppliedCommand& command, const std::string& body, const std::string& world_frame,

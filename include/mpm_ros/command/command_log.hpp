@@ -30,7 +30,8 @@ class CommandLog {
   std::size_t next_ = 0;
 };
 
-/// The commands in a bag, in order. @throws BagError when it cannot be read or has no topic of type mpm_ros/Command.
+/// The commands in a bag and in the parts after it, in order. @throws BagError when it cannot be read or has no topic
+/// of type mpm_ros/Command.
 CommandLog read_commands(const std::string& bag_path);
 
 }  // namespace mpm_ros

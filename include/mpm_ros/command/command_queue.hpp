@@ -4,7 +4,8 @@
 // the next. Pose: one whose stamp is to come arrives at it (rounded up to a sync point), setting out when the pose
 // before it has been reached; any other sets out at the next sync point and arrives one command period later, the
 // period being the time between the body's last two pose commands. A body has one kind of command at a time: a command
-// that takes effect drops those of the other kind that were received before it.
+// that takes effect drops those of the other kind that were received before it. Wrench: as velocity, but beside the
+// others, which it neither ends nor is ended by.
 //
 // What is due at a sync point is applied in order of effective time, body, arrival here.
 #pragma once

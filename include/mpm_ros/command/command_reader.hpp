@@ -5,6 +5,7 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TwistStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <mpm_ros/Command.h>
 #include <tf2/buffer_core.h>
 
@@ -28,9 +29,16 @@ class CommandReader {
   /// The run began (again): what stamps mean from now on.
   void set_stamps(const Stamps& stamps);
 
+  /// The body follows a tf frame: commands from elsewhere are refused, with the reason.
+  void set_frame(int body, const std::string& frame) { followed_.at(body) = frame; }
+  /// Where that frame is, as a message on cmd_pose. Any thread.
+  void follow(int body, const geometry_msgs::PoseStamped& message);
+
   /// A message for a body (its index): to the queue, or refused. Any thread.
   void take(int body, const geometry_msgs::Twist& message);
   void take(int body, const geometry_msgs::TwistStamped& message);
+  void take(int body, const geometry_msgs::Wrench& message);
+  void take(int body, const geometry_msgs::WrenchStamped& message);
   void take(int body, const geometry_msgs::PoseStamped& message);
   /// A command of a step request, checked as those on topics are. `problem` says why not; then the result is of no use.
   BodyCommand read(const mpm_ros::Command& message, std::string& problem) const;
@@ -42,12 +50,17 @@ class CommandReader {
  private:
   void read_twist(const geometry_msgs::Twist& twist, const std::string& frame, const ros::Time& stamp,
                   BodyCommand& command, std::string& problem) const;
+  void read_wrench(const geometry_msgs::Wrench& wrench, const std::string& frame, const ros::Time& stamp,
+                   BodyCommand& command, std::string& problem) const;
   void read_pose(const geometry_msgs::Pose& pose, const std::string& frame, const ros::Time& stamp,
                  BodyCommand& command, std::string& problem) const;
   void set_stamp(const ros::Time& stamp, BodyCommand& command, std::string& problem) const;
   /// Why a simulated time [ns] cannot be meant, or empty.
   std::string too_far_ahead(std::int64_t stamp) const;
+  void take_pose(const char* leaf, int body, const geometry_msgs::PoseStamped& message, std::string problem);
   void push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem);
+  /// Why the body takes no commands, or empty.
+  std::string refusal_of(int body) const;
   /// Pose of a frame in the world, or the body whose frame it is.
   mpm::Pose find_frame(const std::string& frame, const ros::Time& stamp, int& body, std::string& problem) const;
 
@@ -57,7 +70,8 @@ class CommandReader {
   const tf2::BufferCore& frames_;
   CommandQueue& queue_;
   NodeHealth& health_;
-  mutable std::mutex mutex_;  // of stamps_
+  std::vector<std::string> followed_;  // frame of each body, or empty
+  mutable std::mutex mutex_;           // of stamps_
   Stamps stamps_;
 };
 

@@ -89,10 +89,11 @@ class GlobalQuantitiesCsv {
 struct CommandRow {
   double time = 0.0;  ///< [s] since the start, when it took effect
   std::string body;
-  mpm::Drive kind = mpm::Drive::velocity;
-  mpm::Twist twist;      ///< of a velocity command
-  mpm::Pose pose;        ///< of a pose command
-  double arrival = 0.0;  ///< [s] of a pose command
+  std::string kind = "velocity";  ///< or "pose", "wrench"
+  mpm::Twist twist;               ///< of a velocity command
+  mpm::Wrench wrench;             ///< of a wrench command
+  mpm::Pose pose;                 ///< of a pose command
+  double arrival = 0.0;           ///< [s] of a pose command
 };
 
 /// commands.csv: one row a command; cells that do not belong to its kind are empty.

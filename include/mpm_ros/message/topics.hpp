@@ -29,6 +29,8 @@ constexpr const char* kWrench = "wrench";
 constexpr const char* kWrenchFiltered = "wrench_filtered";
 constexpr const char* kCmdVel = "cmd_vel";
 constexpr const char* kCmdVelStamped = "cmd_vel_stamped";
+constexpr const char* kCmdWrench = "cmd_wrench";
+constexpr const char* kCmdWrenchStamped = "cmd_wrench_stamped";
 constexpr const char* kCmdPose = "cmd_pose";
 
 }  // namespace mpm_ros::topics

@@ -41,7 +41,11 @@ struct NodeParameters {
   int threads = 0;                          ///< 0: as many as the machine has
   std::string isa = "auto";                 ///< instruction set; auto: the widest one available
   std::string record;                       ///< bag to write; empty: none, "auto": named by scene and date
+  std::string record_folder;                ///< that relative names of bags start from; empty: the working folder
   std::string record_compression = "none";  ///< none, lz4, bz2
+  double record_split_size = 0.0;           ///< [MB] at which a part of the bag ends; 0: never
+  double record_split_duration = 0.0;       ///< [s] simulated, the same
+  bool record_required = true;              ///< false: the run goes on when the bag cannot be written any further
   std::string commands;                     ///< bag whose commands are replayed in place of live ones
   double command_timeout = 0.0;             ///< [s] simulated; 0: never
   OnTimeout on_timeout = OnTimeout::hold;
@@ -49,6 +53,7 @@ struct NodeParameters {
   bool publish_clock = true;                                ///< with use_sim_time
   double clock_rate = 0.0;                                  ///< [1/s] simulated; 0: every sync point
   std::optional<double> particle_rate;                      ///< [1/s] simulated; unset: as the scene says
+  std::optional<double> particle_first;                     ///< [s] simulated, of the first cloud; unset: the same
   std::optional<std::vector<std::string>> particle_fields;  ///< unset: as the scene says
   std::optional<int> particle_stride;                       ///< unset: as the scene says
   std::optional<mpm::Box> particle_region;                  ///< unset: as the scene says [m]

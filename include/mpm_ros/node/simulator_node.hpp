@@ -22,6 +22,7 @@
 
 #include "mpm/scene/scene.hpp"
 #include "mpm_ros/command/command_bridge.hpp"
+#include "mpm_ros/command/command_limiter.hpp"
 #include "mpm_ros/command/command_log.hpp"
 #include "mpm_ros/command/command_queue.hpp"
 #include "mpm_ros/command/command_watch.hpp"
@@ -56,9 +57,12 @@ class SimulatorNode {
   bool sync_period(const std::vector<AppliedCommand>& extra);
   void apply_due(const std::vector<AppliedCommand>& extra);
   void apply(const AppliedCommand& command);
+  /// Moves the bodies that have limits on towards what they were told.
+  void apply_limited();
   void act_on_silence();
   void fail(const std::string& reason, int exit_code);
   void end_run();
+  void say_closed() const;
   void count_commands();
   void publish_clock(bool always);
   void report();
@@ -93,6 +97,7 @@ class SimulatorNode {
   std::unique_ptr<Run> run_;
   std::unique_ptr<CommandQueue> queue_;
   std::unique_ptr<CommandBridge> bridge_;
+  std::unique_ptr<CommandLimiter> limiter_;
   std::unique_ptr<Pacer> pacer_;
   CommandWatch watch_;
   std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
@@ -104,6 +109,7 @@ class SimulatorNode {
   int runs_ = 0;
   bool paused_ = false;
   std::string failure_;
+  bool record_lost_ = false;  // and said so
   int exit_code_ = 0;
   std::int64_t clock_at_ = -1;  // [ns] when /clock was published last
   std::mutex housekeeping_;

@@ -87,7 +87,7 @@ class RunStatistics : public RunVisitor {
   const std::vector<PairStatistics>& pair_statistics() const { return pairs_; }
   const std::vector<GlobalStatistics>& global_statistics() const { return global_; }
   /// By body and kind.
-  const std::map<std::pair<std::string, mpm::Drive>, CommandStatistics>& commands() const { return commands_; }
+  const std::map<std::pair<std::string, std::string>, CommandStatistics>& commands() const { return commands_; }
   /// The first and the last state; nothing before the first message.
   const std::optional<SolverState>& first_state() const { return first_state_; }
   const SolverState& last_state() const { return last_state_; }
@@ -102,7 +102,7 @@ class RunStatistics : public RunVisitor {
   std::vector<BodyStatistics> bodies_;    ///< in the order of the messages
   std::vector<PairStatistics> pairs_;     ///< the same
   std::vector<GlobalStatistics> global_;  ///< the same
-  std::map<std::pair<std::string, mpm::Drive>, CommandStatistics> commands_;
+  std::map<std::pair<std::string, std::string>, CommandStatistics> commands_;
   std::optional<SolverState> first_state_;
   SolverState last_state_;
   double smallest_j_ = std::numeric_limits<double>::infinity();

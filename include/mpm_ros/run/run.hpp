@@ -31,6 +31,8 @@ class Run {
   /// @throws mpm::Error for what cannot be simulated, BagError
   Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamps, MessageSink* live);
 
+  /// One more sink beside the bag, before begin(); it must outlive the run.
+  void add(MessageSink& sink) { outputs_.add(sink); }
   /// Writes static content and the state at time zero.
   void begin();
   /// Applies a command at the present sync point, and writes it. @throws mpm::RigidError; then nothing is changed.
@@ -56,8 +58,10 @@ class Run {
   bool ended() const { return end_ > 0 && simulation_.time() >= end_; }
   /// Simulated over wall time so far.
   double real_time_factor() const;
-  /// Empty when none is written.
-  std::string bag() const { return recorder_ ? recorder_->path() : std::string(); }
+  /// Null when none is written.
+  const BagRecorder* recorder() const { return recorder_.get(); }
+  /// The bag's path, and how many parts it has when it is split; empty when none is written.
+  std::string bag() const;
 
  private:
   void close(const std::string& failure);

@@ -27,11 +27,14 @@ namespace mpm_ros {
 struct OutputOptions {
   ParticleSelection particles;
   double particle_period = 0.0;  ///< [s] simulated, rounded to sync periods; 0: at every sync point
+  double particle_first = 0.0;   ///< [s] of the first cloud after that of the start, from which periods count
   double wrench_period = 0.0;    ///< [s] of contact forces, wrenches, bodies, solver state, transforms; 0: the same
   double wrench_cutoff = 0.0;    ///< [Hz] of the filtered wrenches; 0: there are none
   std::vector<mpm::GlobalQuantity> global;
   double global_period = 0.0;  ///< [s] simulated, rounded to sync periods; 0: at every sync point
   std::string world_frame = "world";
+  /// Frames that somebody else publishes: a body of such a name has no transform in /tf. Empty names do not count.
+  std::vector<std::string> others;
   double force_scale = 0.0;  ///< of contact arrows [m/N]; 0: by the largest force met
   bool state_hash = false;   ///< in every solver state, not in the last alone
 };
@@ -82,12 +85,14 @@ class RunOutputs {
   void write_state(bool with_hash, double real_time_factor);
   void write_particles();
   void write_global();
+  bool particles_due() const;
   std_msgs::Header header(const std::string& frame) const;
 
   mpm::Simulation& simulation_;
   const Stamps& stamps_;
   const OutputOptions options_;
   const std::int64_t particle_period_;  // [ns]
+  const std::int64_t particle_first_;   // [ns]
   const std::int64_t wrench_period_;    // [ns]
   const std::int64_t global_period_;    // [ns]
   std::vector<MessageSink*> sinks_;

@@ -181,6 +181,12 @@ SolverState Simulation::state() const {
   report.energy.elastic = totals.elastic;
   report.energy.plastic = totals.plastic;
   report.min_j = totals.min_j;
+  for (const FreeBodyReport& free : free_bodies()) {
+    report.energy.free_kinetic += free.kinetic;
+    report.energy.free_potential += free.potential;
+    report.energy.free_work += free.wrench_work + free.drive_work;
+    report.energy.free_loss += free.contact_loss;
+  }
   if (s.leaving) report.returned = s.leaving->count();
 
   AuditReport& audit = report.audit;
@@ -222,6 +228,9 @@ std::uint64_t Simulation::state_hash() const {
   for (const RigidBody& body : s.bodies) {
     for (int k = 0; k < 3; ++k) hash.add(body.pose().position[k]);
     for (int k = 0; k < 4; ++k) hash.add(body.pose().orientation.coeffs()[k]);
+    if (body.free_motion() == nullptr) continue;
+    for (int k = 0; k < 3; ++k) hash.add(body.twist().linear[k]);
+    for (int k = 0; k < 3; ++k) hash.add(body.twist().angular[k]);
   }
   return hash.value();
 }

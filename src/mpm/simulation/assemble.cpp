@@ -142,6 +142,22 @@ void check(const SimulationDefinition& d) {
   if (const auto fault = axis_fault(d)) throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
 }
 
+void project(FreeDefinition& free, GeometryKind geometry) {
+  for (const int axis : axes_beside(geometry)) {
+    free.present[axis] = false;
+    free.velocity.linear[axis] = free.centre[axis] = free.wrench.force[axis] = 0.0;
+  }
+  if (axisymmetric(geometry)) {
+    free.present[0] = false;
+    free.velocity.linear.x() = free.wrench.force.x() = 0.0;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    free.present[3 + axis] = turns_about(geometry, axis);
+    if (!free.present[3 + axis]) free.velocity.angular[axis] = free.wrench.torque[axis] = 0.0;
+  }
+  for (int k = 0; k < 6; ++k) free.axes[k] = free.axes[k] && free.present[k];
+}
+
 // Leaves only what is along the grid's axes.
 void project(SimulationDefinition& definition) {
   const GeometryKind geometry = definition.geometry;
@@ -163,6 +179,7 @@ void project(SimulationDefinition& definition) {
     for (int axis = 0; axis < 3; ++axis) {
       if (!turns_about(geometry, axis)) body.rotation_rate[axis] = Function();
     }
+    if (body.free) project(*body.free, geometry);
   }
 }
 

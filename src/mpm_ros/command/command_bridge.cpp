@@ -15,14 +15,19 @@ constexpr std::uint32_t kQueue = 1000;
 }  // namespace
 
 CommandBridge::CommandBridge(ros::NodeHandle node, const std::vector<std::string>& bodies,
-                             const std::string& world_frame, CommandQueue& queue, NodeHealth& health)
+                             const std::vector<std::string>& frames, const std::string& world_frame,
+                             CommandQueue& queue, NodeHealth& health)
     : prefix_(node.resolveName(topics::kBodies) + "/"),
       health_(health),
       listener_(frames_),
-      reader_(bodies, world_frame, prefix_, frames_, queue, health) {
+      reader_(bodies, world_frame, prefix_, frames_, queue, health),
+      follower_(frames, world_frame, frames_, reader_, health) {
   for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
+    reader_.set_frame(body, frames[static_cast<std::size_t>(body)]);
     subscribe<geometry_msgs::Twist>(node, body, topics::kCmdVel);
     subscribe<geometry_msgs::TwistStamped>(node, body, topics::kCmdVelStamped);
+    subscribe<geometry_msgs::Wrench>(node, body, topics::kCmdWrench);
+    subscribe<geometry_msgs::WrenchStamped>(node, body, topics::kCmdWrenchStamped);
     subscribe<geometry_msgs::PoseStamped>(node, body, topics::kCmdPose);
   }
 }
@@ -42,7 +47,9 @@ void CommandBridge::find_strangers() {
     if (topic.name.compare(0, prefix_.size(), prefix_) != 0) continue;
     const std::size_t slash = topic.name.rfind('/');
     const std::string leaf = topic.name.substr(slash + 1);
-    if (leaf != topics::kCmdVel && leaf != topics::kCmdVelStamped && leaf != topics::kCmdPose) continue;
+    if (leaf != topics::kCmdVel && leaf != topics::kCmdVelStamped && leaf != topics::kCmdPose &&
+        leaf != topics::kCmdWrench && leaf != topics::kCmdWrenchStamped)
+      continue;
     const std::string body = slash < prefix_.size() ? "" : topic.name.substr(prefix_.size(), slash - prefix_.size());
     if (reader_.find_body(body) >= 0 || !strangers_.insert(topic.name).second) continue;
     health_.refuse(fmt::format("commands on {}: there is no rigid body '{}'; {}", topic.name, body,

@@ -19,7 +19,7 @@ void CommandQueue::push(BodyCommand command) {
 
 bool CommandQueue::is_due(const BodyCommand& command, std::int64_t now) const {
   if (!command.stamp || *command.stamp <= now) return true;
-  if (command.kind == CommandKind::velocity) return false;
+  if (command.kind != CommandKind::pose) return false;
   // A pose to come sets out when the one under way is reached, or takes its place if it is to be reached no later.
   const auto stream = streams_.find(command.body);
   if (stream == streams_.end()) return true;
@@ -75,7 +75,7 @@ std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
     DueCommand next;
     if (command.kind == CommandKind::pose) {
       next.arrival = arrival_of(command, now);
-    } else {
+    } else if (command.kind == CommandKind::velocity) {
       streams_.erase(command.body);
     }
     next.command = std::move(command);
@@ -83,9 +83,10 @@ std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
   }
   // The same for whatever still waits, of either kind.
   for (const DueCommand& applied : due) {
+    if (applied.command.kind == CommandKind::wrench) continue;
     const auto superseded = [&](const BodyCommand& command) {
-      return command.body == applied.command.body && command.kind != applied.command.kind &&
-             command.order < applied.command.order;
+      return command.kind != CommandKind::wrench && command.body == applied.command.body &&
+             command.kind != applied.command.kind && command.order < applied.command.order;
     };
     still_waiting.erase(std::remove_if(still_waiting.begin(), still_waiting.end(), superseded), still_waiting.end());
   }

@@ -15,6 +15,7 @@ namespace mpm_ros {
 namespace {
 
 constexpr std::size_t kLongestFrame = 255;
+constexpr const char* kFollowing = "tf";  // stands for a topic where a frame's pose is refused
 /// A stamp farther ahead of the simulation than this [ns] comes from another clock: nobody plans an hour ahead.
 constexpr std::int64_t kFarthest = 3'600'000'000'000;
 
@@ -27,7 +28,8 @@ CommandReader::CommandReader(std::vector<std::string> bodies, std::string world_
       prefix_(std::move(prefix)),
       frames_(frames),
       queue_(queue),
-      health_(health) {}
+      health_(health),
+      followed_(bodies_.size()) {}
 
 void CommandReader::set_stamps(const Stamps& stamps) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -102,6 +104,19 @@ void CommandReader::read_twist(const geometry_msgs::Twist& twist, const std::str
                       : mpm::Twist{axes.orientation * given.linear, axes.orientation * given.angular};
 }
 
+void CommandReader::read_wrench(const geometry_msgs::Wrench& wrench, const std::string& frame, const ros::Time& stamp,
+                                BodyCommand& command, std::string& problem) const {
+  command.kind = CommandKind::wrench;
+  const mpm::Wrench given = from_message(wrench);
+  if (!given.force.allFinite() || !given.torque.allFinite()) {
+    problem = "a component of the wrench is not finite";
+    return;
+  }
+  // The axes alone are the frame's: the torque stays about the body's origin.
+  const mpm::Pose axes = find_frame(frame, stamp, command.frame_body, problem);
+  command.wrench = {axes.orientation * given.force, axes.orientation * given.torque};
+}
+
 void CommandReader::read_pose(const geometry_msgs::Pose& pose, const std::string& frame, const ros::Time& stamp,
                               BodyCommand& command, std::string& problem) const {
   command.kind = CommandKind::pose;
@@ -120,30 +135,60 @@ void CommandReader::push_or_refuse(const char* leaf, BodyCommand command, const 
   }
 }
 
+std::string CommandReader::refusal_of(int body) const {
+  if (followed_[body].empty()) return {};
+  return fmt::format("it follows the tf frame '{}' (drive: tf), and takes no other commands", followed_[body]);
+}
+
 void CommandReader::take(int body, const geometry_msgs::Twist& message) {
   BodyCommand command;
   command.body = body;
-  std::string problem;
-  read_twist(message, world_frame_, ros::Time(), command, problem);
+  std::string problem = refusal_of(body);
+  if (problem.empty()) read_twist(message, world_frame_, ros::Time(), command, problem);
   push_or_refuse(topics::kCmdVel, std::move(command), problem);
 }
 
 void CommandReader::take(int body, const geometry_msgs::TwistStamped& message) {
   BodyCommand command;
   command.body = body;
-  std::string problem;
-  set_stamp(message.header.stamp, command, problem);
+  std::string problem = refusal_of(body);
+  if (problem.empty()) set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_twist(message.twist, message.header.frame_id, message.header.stamp, command, problem);
   push_or_refuse(topics::kCmdVelStamped, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::PoseStamped& message) {
+void CommandReader::take(int body, const geometry_msgs::Wrench& message) {
+  BodyCommand command;
+  command.body = body;
+  std::string problem;
+  read_wrench(message, world_frame_, ros::Time(), command, problem);
+  push_or_refuse(topics::kCmdWrench, std::move(command), problem);
+}
+
+void CommandReader::take(int body, const geometry_msgs::WrenchStamped& message) {
   BodyCommand command;
   command.body = body;
   std::string problem;
   set_stamp(message.header.stamp, command, problem);
+  if (problem.empty()) read_wrench(message.wrench, message.header.frame_id, message.header.stamp, command, problem);
+  push_or_refuse(topics::kCmdWrenchStamped, std::move(command), problem);
+}
+
+void CommandReader::take(int body, const geometry_msgs::PoseStamped& message) {
+  take_pose(topics::kCmdPose, body, message, refusal_of(body));
+}
+
+void CommandReader::follow(int body, const geometry_msgs::PoseStamped& message) {
+  take_pose(kFollowing, body, message, {});
+}
+
+void CommandReader::take_pose(const char* leaf, int body, const geometry_msgs::PoseStamped& message,
+                              std::string problem) {
+  BodyCommand command;
+  command.body = body;
+  if (problem.empty()) set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_pose(message.pose, message.header.frame_id, message.header.stamp, command, problem);
-  push_or_refuse(topics::kCmdPose, std::move(command), problem);
+  push_or_refuse(leaf, std::move(command), problem);
 }
 
 BodyCommand CommandReader::read(const mpm_ros::Command& message, std::string& problem) const {
@@ -154,6 +199,11 @@ BodyCommand CommandReader::read(const mpm_ros::Command& message, std::string& pr
     return command;
   }
   const std::string& frame = message.header.frame_id;
+  problem = refusal_of(command.body);
+  if (!problem.empty()) {
+    problem = fmt::format("the command for '{}': {}", message.body, problem);
+    return command;
+  }
   if (message.kind == mpm_ros::Command::VELOCITY) {
     read_twist(message.twist, frame, ros::Time(), command, problem);
   } else if (message.kind == mpm_ros::Command::POSE) {
@@ -163,9 +213,11 @@ BodyCommand CommandReader::read(const mpm_ros::Command& message, std::string& pr
       command.stamp = stamps_.time_of(message.arrival);
       if (problem.empty()) problem = too_far_ahead(*command.stamp);
     }
+  } else if (message.kind == mpm_ros::Command::WRENCH) {
+    read_wrench(message.wrench, frame, ros::Time(), command, problem);
   } else {
-    problem = fmt::format("kind is {}; it must be VELOCITY ({}) or POSE ({})", message.kind,
-                          +mpm_ros::Command::VELOCITY, +mpm_ros::Command::POSE);
+    problem = fmt::format("kind is {}; it must be VELOCITY ({}), POSE ({}) or WRENCH ({})", message.kind,
+                          +mpm_ros::Command::VELOCITY, +mpm_ros::Command::POSE, +mpm_ros::Command::WRENCH);
   }
   command.requested = message.requested;
   if (!problem.empty()) problem = fmt::format("the command for '{}': {}", message.body, problem);
@@ -177,6 +229,7 @@ AppliedCommand in_world(const DueCommand& due, const std::vector<mpm::BodyState>
   applied.body = due.command.body;
   applied.kind = due.command.kind;
   applied.twist = due.command.twist;
+  applied.wrench = due.command.wrench;
   applied.pose = due.command.pose;
   applied.effect = effect;
   applied.arrival = due.arrival;
@@ -184,6 +237,7 @@ AppliedCommand in_world(const DueCommand& due, const std::vector<mpm::BodyState>
   if (due.command.frame_body >= 0) {
     const mpm::Pose& frame = bodies[due.command.frame_body].pose;
     applied.twist = {frame.orientation * applied.twist.linear, frame.orientation * applied.twist.angular};
+    applied.wrench = {frame.orientation * applied.wrench.force, frame.orientation * applied.wrench.torque};
     applied.pose = {frame.to_world(applied.pose.position), (frame.orientation * applied.pose.orientation).normalized()};
   }
   return applied;

@@ -211,6 +211,10 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   reader.read("record", parameters.record);
   reader.read<std::string>("record_compression", parameters.record_compression,
                            {{"none", "none"}, {"lz4", "lz4"}, {"bz2", "bz2"}});
+  reader.read("record_folder", parameters.record_folder);
+  reader.read("record_split_size", parameters.record_split_size, 0.0);
+  reader.read("record_split_duration", parameters.record_split_duration, 0.0);
+  reader.read("record_required", parameters.record_required);
   reader.read("commands", parameters.commands);
   reader.read("command_timeout", parameters.command_timeout, 0.0);
   reader.read<OnTimeout>("on_timeout", parameters.on_timeout,
@@ -221,6 +225,9 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   double particle_rate = 0.0;
   reader.read("particle_rate", particle_rate, 0.0, true);
   if (reader.given("particle_rate")) parameters.particle_rate = particle_rate;
+  double particle_first = 0.0;
+  reader.read("particle_first", particle_first, 0.0);
+  if (reader.given("particle_first")) parameters.particle_first = particle_first;
   std::vector<std::string> fields;
   if (reader.read("particle_fields", fields)) parameters.particle_fields = fields;
   int stride = 1;

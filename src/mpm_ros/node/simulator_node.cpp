@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/run/output_names.hpp"
 
 namespace mpm_ros {
 
@@ -46,6 +47,14 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
     throw ParameterError(fmt::format("parameter ~particle_fields, ~particle_stride or ~particle_region: {}", problem));
   }
   for (const mpm::RigidBodyDefinition& body : scene_.definition.rigid_bodies) bodies_.push_back(body.name);
+  std::vector<std::string> frames;
+  std::vector<mpm::MotionLimits> limits;
+  for (const mpm::CommandDefinition& commanded : scene_.commands) {
+    frames.push_back(commanded.frame);
+    // What was recorded is within them already.
+    if (log_.empty()) limits.push_back(commanded.limits);
+  }
+  limiter_ = std::make_unique<CommandLimiter>(std::move(limits), health_);
 
   ros::NodeHandle services(node_);
   services.setCallbackQueue(&service_callbacks_);
@@ -64,7 +73,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   pacer_ = std::make_unique<Pacer>(run_->simulation().sync_period(), parameters_.real_time_factor);
   // A run that replays recorded commands listens to nobody else.
   if (log_.empty()) {
-    bridge_ = std::make_unique<CommandBridge>(commands, bodies_, parameters_.world_frame, *queue_, health_);
+    bridge_ = std::make_unique<CommandBridge>(commands, bodies_, frames, parameters_.world_frame, *queue_, health_);
     bridge_->reader().set_stamps(run_->stamps());
   }
 
@@ -97,17 +106,25 @@ RunOptions SimulatorNode::run_options() const {
   options.isa = parameters_.isa;
   options.output = output_options(scene_);
   if (parameters_.particle_rate) options.output.particle_period = 1.0 / *parameters_.particle_rate;
+  if (parameters_.particle_first) options.output.particle_first = *parameters_.particle_first;
   if (parameters_.particle_fields) options.output.particles.fields = *parameters_.particle_fields;
   if (parameters_.particle_stride) options.output.particles.choice.stride = *parameters_.particle_stride;
   if (parameters_.particle_region) options.output.particles.choice.region = *parameters_.particle_region;
   if (parameters_.wrench_rate > 0.0) options.output.wrench_period = 1.0 / parameters_.wrench_rate;
   options.output.wrench_cutoff = parameters_.wrench_cutoff;
   options.output.world_frame = parameters_.world_frame;
+  for (const mpm::CommandDefinition& commanded : scene_.commands) options.output.others.push_back(commanded.frame);
   options.output.force_scale = parameters_.force_scale;
   options.output.state_hash = parameters_.state_hash;
-  if (!parameters_.record.empty()) options.bag = bag_path(parameters_.record, scene_.definition.name, runs_);
+  if (!parameters_.record.empty())
+    options.bag = bag_path(parameters_.record, scene_.definition.name, runs_, parameters_.record_folder);
   options.bag_options.topics_below = node_.getNamespace();
   options.bag_options.compression = parameters_.record_compression;
+  constexpr double kMegabyte = 1e6;
+  options.bag_options.split_size =
+      static_cast<std::uint64_t>(std::min(parameters_.record_split_size * kMegabyte, 1e15));
+  options.bag_options.split_duration = std::llround(std::min(parameters_.record_split_duration, 1e9) * 1e9);
+  options.bag_options.required = parameters_.record_required;
   options.parameters = parameters_.text;
   return options;
 }
@@ -123,8 +140,14 @@ void SimulatorNode::start_run(const Stamps& stamps) {
   auto run = std::make_unique<Run>(scene_, run_options(), stamps, publishers_.get());
   if (run_) end_run();
   run_ = std::move(run);
+  record_lost_ = false;
+  if (const BagRecorder* recorder = run_->recorder()) {
+    ROS_INFO_STREAM("recording to " << recorder->path() << (recorder->replaced() ? ", which is replaced" : ""));
+  }
   log_.rewind();
   watch_.clear();
+  limiter_->clear();
+  if (bridge_) bridge_->follower().clear();
   health_.restart();
   failure_.clear();
   clock_at_ = -1;
@@ -194,24 +217,43 @@ void SimulatorNode::apply_due(const std::vector<AppliedCommand>& extra) {
     return;
   }
   const std::int64_t now = run_->simulation().time();
+  bridge_->follower().look(run_->stamps().at(now + run_->simulation().sync_period()));
   for (const DueCommand& due : queue_->take(now)) apply(in_world(due, run_->simulation().bodies(), now));
   for (const AppliedCommand& command : extra) apply(command);
   act_on_silence();
+  apply_limited();
+}
+
+void SimulatorNode::apply_limited() {
+  for (const AppliedCommand& command : limiter_->next(run_->simulation())) {
+    try {
+      run_->apply(command);
+    } catch (const mpm::RigidError& error) {
+      limiter_->drop(command.body);
+      health_.refuse(fmt::format("a command for '{}': {}", bodies_[command.body], error.what()));
+    }
+  }
 }
 
 void SimulatorNode::apply(const AppliedCommand& command) {
   const mpm::RigidBody& body = run_->simulation().rigid_body(command.body);
   const mpm::Drive before = body.drive();
+  mpm::Drive after = static_cast<mpm::Drive>(command.kind);
   try {
-    run_->apply(command);
+    if (!limiter_->take(command, run_->simulation())) {
+      const std::string jump = jump_of(command, run_->simulation());
+      run_->apply(command);
+      after = body.drive();
+      if (!jump.empty()) health_.jump(jump);
+    }
   } catch (const mpm::RigidError& error) {
     health_.refuse(fmt::format("a command for '{}': {}", body.name(), error.what()));
     return;
   }
   watch_.heard(command);
   health_.follow(body.name(), static_cast<double>(command.effect) * 1e-9);
-  if (body.drive() != before) {
-    health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(body.drive()),
+  if (after != before) {
+    health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(after),
                                static_cast<double>(command.effect) * 1e-9, drive_text(before)));
   }
 }
@@ -227,10 +269,9 @@ void SimulatorNode::act_on_silence() {
       return;
     }
     if (parameters_.on_timeout == OnTimeout::stop) {
-      AppliedCommand stop;
-      stop.body = body;
-      stop.effect = now;
-      run_->apply(stop);
+      for (const AppliedCommand& stop : stop_commands(body, run_->simulation())) {
+        if (!limiter_->take(stop, run_->simulation())) run_->apply(stop);
+      }
       health_.time_out(bodies_[body], silence + ": it stands still");
     } else {
       health_.time_out(bodies_[body], silence + ": it goes on as it was told last");
@@ -245,11 +286,16 @@ void SimulatorNode::fail(const std::string& reason, int exit_code) {
   try {
     count_commands();
     run_->fail(reason);
-    if (!run_->bag().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
+    say_closed();
   } catch (const BagError& error) {
     ROS_FATAL_STREAM(error.what());
   }
   report();
+}
+
+void SimulatorNode::say_closed() const {
+  const BagRecorder* recorder = run_->recorder();
+  if (recorder != nullptr && recorder->failure().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
 }
 
 void SimulatorNode::end_run() {
@@ -257,7 +303,7 @@ void SimulatorNode::end_run() {
   try {
     count_commands();
     run_->finish();
-    if (!run_->bag().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
+    say_closed();
   } catch (const BagError& error) {
     ROS_FATAL_STREAM(error.what());
     exit_code_ = 1;
@@ -306,6 +352,10 @@ void SimulatorNode::report() {
     solver.asked_factor = parameters_.real_time_factor;
   }
   solver.overruns = pacer_->overruns();
+  if (const BagRecorder* recorder = run_->recorder()) solver.record_failure = recorder->failure();
+  if (!parameters_.record_required && !solver.record_failure.empty() && !std::exchange(record_lost_, true)) {
+    ROS_ERROR_STREAM(solver.record_failure << ". The run goes on without a record");
+  }
   const SolverState& state = run_->outputs().solver_state();
   solver.steps = state.steps;
   solver.step = state.dt;

@@ -117,7 +117,7 @@ Json report_json(const RecordedRun& run) {
   json["commands"] = Json::array();
   for (const auto& [key, value] : statistics.commands()) {
     json["commands"].push_back({{"body", key.first},
-                                {"kind", drive_name(key.second)},
+                                {"kind", key.second},
                                 {"applied", value.count},
                                 {"first", seconds(value.first)},
                                 {"last", seconds(value.last)},

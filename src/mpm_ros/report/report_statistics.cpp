@@ -87,7 +87,7 @@ void RunStatistics::global_quantities(std::int64_t /*time*/, const GlobalQuantit
 }
 
 void RunStatistics::command(std::int64_t time, const Command& message) {
-  CommandStatistics& known = commands_[{message.body, static_cast<mpm::Drive>(message.kind)}];
+  CommandStatistics& known = commands_[{message.body, command_kind_name(message.kind)}];
   if (known.count++ == 0) known.first = time;
   known.last = time;
   if (!message.requested.isZero() && message.requested < message.header.stamp) ++known.late;

@@ -164,7 +164,7 @@ std::string command_table(const RunStatistics& statistics) {
   if (statistics.commands().empty()) return "Commands: none; the bodies followed the scene\n";
   TextTable table({"commands", "kind", "applied", "first [s]", "last [s]", "late"});
   for (const auto& [key, value] : statistics.commands()) {
-    table.add({key.first, drive_name(key.second), std::to_string(value.count), number(seconds(value.first)),
+    table.add({key.first, key.second, std::to_string(value.count), number(seconds(value.first)),
                number(seconds(value.last)), std::to_string(value.late)});
   }
   return "Commands, by the time they took effect (late: after the stamp they carried)\n" + table.text();

@@ -77,6 +77,7 @@ std::vector<NamedValue> values_of(const BodyStates& message) {
     list.pose(body.name, body.pose);
     list.twist(body.name, body.twist);
     list.number(body.name + " drive", body.drive);
+    list.number(body.name + " mass", body.mass);
   }
   return list.take();
 }
@@ -98,6 +99,10 @@ std::vector<NamedValue> values_of(const SolverState& message) {
   list.number("contact_work", message.contact_work);
   list.number("load_work", message.load_work);
   list.number("energy_friction", message.energy_friction);
+  list.number("energy_free_kinetic", message.energy_free_kinetic);
+  list.number("energy_free_potential", message.energy_free_potential);
+  list.number("energy_free_loss", message.energy_free_loss);
+  list.number("free_work", message.free_work);
   list.number("energy_pair_friction", message.energy_pair_friction);
   list.number("energy_interface", message.energy_interface);
   list.vector("momentum", message.momentum);
@@ -121,6 +126,7 @@ std::vector<NamedValue> values_of(const Command& message) {
   list.word("body", message.body);
   list.number("kind", message.kind);
   list.twist(message.body, message.twist);
+  list.wrench(message.body, message.wrench);
   list.pose(message.body, message.pose);
   list.number("effect_ns", static_cast<double>(message.effect_ns));
   list.number("arrival_ns", static_cast<double>(message.arrival_ns));

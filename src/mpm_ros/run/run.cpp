@@ -1,5 +1,7 @@
 #include "mpm_ros/run/run.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace mpm_ros {
@@ -18,6 +20,7 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
 
 void Run::begin() {
   outputs_.begin(run_info(scene_, simulation_, stamps_, parameters_));
+  if (recorder_) recorder_->sync_point();
   resume_clock();
 }
 
@@ -32,11 +35,18 @@ void Run::advance() {
   wall_ += now - clock_;
   clock_ = now;
   outputs_.sync(ended(), real_time_factor());
+  if (recorder_) recorder_->sync_point();
 }
 
 double Run::real_time_factor() const {
   const double wall = std::chrono::duration<double>(wall_).count();
   return wall > 0.0 ? static_cast<double>(simulation_.time()) * 1e-9 / wall : 0.0;
+}
+
+std::string Run::bag() const {
+  if (!recorder_) return {};
+  return recorder_->parts() == 1 ? recorder_->path()
+                                 : fmt::format("{} and {} more parts", recorder_->path(), recorder_->parts() - 1);
 }
 
 void Run::finish() { close({}); }

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/run/scene_files.hpp"
 
 namespace mpm_ros {
 
@@ -30,6 +32,7 @@ OutputOptions output_options(const mpm::Scene& scene) {
   options.global = scene.output.global;
   options.global_period = scene.output.global_period;
   options.particle_period = scene.output.period;
+  options.particle_first = scene.output.first;
   return options;
 }
 
@@ -39,7 +42,8 @@ RunInfo run_info(const mpm::Scene& scene, const mpm::Simulation& simulation, con
   info.header.stamp = stamps.at(simulation.time());
   info.scene = scene.definition.name;
   info.scene_text = scene.text;
-  info.scene_path = scene.path;
+  info.scene_path = std::filesystem::absolute(scene.path).string();
+  info.files = scene_files(scene.text, scene.path);
   info.isa = simulation.isa();
   info.sync_period = static_cast<double>(simulation.sync_period()) * 1e-9;
   info.start = stamps.origin();
@@ -53,6 +57,7 @@ RunOutputs::RunOutputs(mpm::Simulation& simulation, const Stamps& stamps, Output
       stamps_(stamps),
       options_(std::move(options)),
       particle_period_(in_syncs(options_.particle_period, simulation.sync_period())),
+      particle_first_(options_.particle_first > 0.0 ? in_syncs(options_.particle_first, simulation.sync_period()) : 0),
       wrench_period_(in_syncs(options_.wrench_period, simulation.sync_period())),
       global_period_(in_syncs(options_.global_period, simulation.sync_period())),
       cloud_(options_.particles),
@@ -124,9 +129,14 @@ void RunOutputs::sync(bool last, double real_time_factor) {
     write_contacts();
     write_state(last || options_.state_hash, real_time_factor);
   }
-  if (last || time % particle_period_ == 0) write_particles();
   if (last || time % global_period_ == 0) write_global();
+  if (last || particles_due()) write_particles();
   finished_ = last;
+}
+
+bool RunOutputs::particles_due() const {
+  const std::int64_t since = simulation_.time() - particle_first_;
+  return since >= 0 && since % particle_period_ == 0;
 }
 
 void RunOutputs::finish(double real_time_factor, const std::string& failure) {
@@ -204,7 +214,14 @@ void RunOutputs::write_contacts() {
 }
 
 void RunOutputs::write_bodies() {
-  if (wanted(topics::kTf)) put(topics::kTf, to_transforms(simulation_.bodies(), options_.world_frame, stamp()));
+  if (wanted(topics::kTf)) {
+    std::vector<mpm::BodyState> own = simulation_.bodies();
+    const auto elsewhere = [this](const mpm::BodyState& body) {
+      return std::find(options_.others.begin(), options_.others.end(), body.name) != options_.others.end();
+    };
+    own.erase(std::remove_if(own.begin(), own.end(), elsewhere), own.end());
+    put(topics::kTf, to_transforms(own, options_.world_frame, stamp()));
+  }
   if (wanted(topics::kBodies)) put(topics::kBodies, body_states());
 }
 

@@ -8,6 +8,9 @@
 #include <mpm_ros/Command.h>
 #include <tf2/buffer_core.h>
 
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -25,13 +28,17 @@ class CommandReader {
   CommandReader(std::vector<std::string> bodies, std::string world_frame, std::string prefix,
                 const tf2::BufferCore& frames, CommandQueue& queue, NodeHealth& health);
 
-  /// The run began (again): what stamps mean from now on.
+  /// The run began (again): what stamps mean from now on. No message is being read by the old ones when it returns.
   void set_stamps(const Stamps& stamps);
 
-  /// A message for a body (its index): to the queue, or refused. Any thread.
-  void take(int body, const geometry_msgs::Twist& message);
-  void take(int body, const geometry_msgs::TwistStamped& message);
-  void take(int body, const geometry_msgs::PoseStamped& message);
+  /// A message for a body (its index) from a node: to the queue, or refused. Any thread.
+  void take(int body, const geometry_msgs::Twist& message, const std::string& sender = {});
+  void take(int body, const geometry_msgs::TwistStamped& message, const std::string& sender = {});
+  void take(int body, const geometry_msgs::PoseStamped& message, const std::string& sender = {});
+  /// Messages taken so far, those that were refused too.
+  std::uint64_t received() const;
+  /// Waits until so many have been taken, for `patience` of the wall's time at most. Any thread but those of take().
+  bool wait_received(std::uint64_t count, std::chrono::milliseconds patience) const;
   /// A command of a step request, checked as those on topics are. `problem` says why not; then the result is of no use.
   BodyCommand read(const mpm_ros::Command& message, std::string& problem) const;
 
@@ -57,8 +64,12 @@ class CommandReader {
   const tf2::BufferCore& frames_;
   CommandQueue& queue_;
   NodeHealth& health_;
+  std::mutex taking_;         // a message, from its stamp to the queue
   mutable std::mutex mutex_;  // of stamps_
   Stamps stamps_;
+  mutable std::mutex received_mutex_;
+  mutable std::condition_variable received_changed_;
+  std::uint64_t received_ = 0;
 };
 
 /// A due command in world axes; `bodies` as they are at its effect [ns].

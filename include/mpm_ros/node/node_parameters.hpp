@@ -31,6 +31,12 @@ enum class OnTimeout {
   error  ///< the run ends
 };
 
+/// Where the stamps of a run go on after a reset.
+enum class ResetTime {
+  resume,  ///< after all stamps before: time never runs backwards
+  zero     ///< at zero again, /clock too
+};
+
 struct NodeParameters {
   std::string scene;             ///< shipped name or path
   std::vector<std::string> set;  ///< "key.path=value", over the scene
@@ -46,6 +52,7 @@ struct NodeParameters {
   std::string world_frame = "world";
   bool publish_clock = true;                                ///< with use_sim_time
   double clock_rate = 0.0;                                  ///< [1/s] simulated; 0: every sync point
+  ResetTime reset_time = ResetTime::resume;                 ///< zero: with use_sim_time alone
   std::optional<double> particle_rate;                      ///< [1/s] simulated; unset: as the scene says
   std::optional<std::vector<std::string>> particle_fields;  ///< unset: as the scene says
   std::optional<int> particle_stride;                       ///< unset: as the scene says

@@ -30,6 +30,7 @@ CommandReader::CommandReader(std::vector<std::string> bodies, std::string world_
       health_(health) {}
 
 void CommandReader::set_stamps(const Stamps& stamps) {
+  const std::lock_guard<std::mutex> taking(taking_);
   const std::lock_guard<std::mutex> lock(mutex_);
   stamps_ = stamps;
 }
@@ -118,28 +119,49 @@ void CommandReader::push_or_refuse(const char* leaf, BodyCommand command, const 
   } else {
     health_.refuse(fmt::format("a command on {}{}/{}: {}", prefix_, bodies_[command.body], leaf, problem));
   }
+  {
+    const std::lock_guard<std::mutex> lock(received_mutex_);
+    ++received_;
+  }
+  received_changed_.notify_all();
 }
 
-void CommandReader::take(int body, const geometry_msgs::Twist& message) {
+std::uint64_t CommandReader::received() const {
+  const std::lock_guard<std::mutex> lock(received_mutex_);
+  return received_;
+}
+
+bool CommandReader::wait_received(std::uint64_t count, std::chrono::milliseconds patience) const {
+  std::unique_lock<std::mutex> lock(received_mutex_);
+  return received_changed_.wait_for(lock, patience, [&] { return received_ >= count; });
+}
+
+void CommandReader::take(int body, const geometry_msgs::Twist& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   std::string problem;
   read_twist(message, world_frame_, ros::Time(), command, problem);
   push_or_refuse(topics::kCmdVel, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::TwistStamped& message) {
+void CommandReader::take(int body, const geometry_msgs::TwistStamped& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   std::string problem;
   set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_twist(message.twist, message.header.frame_id, message.header.stamp, command, problem);
   push_or_refuse(topics::kCmdVelStamped, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::PoseStamped& message) {
+void CommandReader::take(int body, const geometry_msgs::PoseStamped& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   std::string problem;
   set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_pose(message.pose, message.header.frame_id, message.header.stamp, command, problem);

@@ -32,6 +32,7 @@ struct BodyCommand {
   ros::Time requested;  ///< stamp it came with
   std::optional<std::int64_t> stamp;  ///< the same in simulated time [ns]; none: as soon as possible
   bool late = false;                  ///< the stamp was zero, or past when it came
+  std::string sender;                 ///< node that published it, for an order that is not that of arrival
   std::uint64_t order = 0;            ///< of arrival
 };
 

@@ -33,6 +33,12 @@ enum class OnTimeout {
   error  ///< the run ends
 };
 
+/// Where the stamps of a run go on after a reset.
+enum class ResetTime {
+  resume,  ///< after all stamps before: time never runs backwards
+  zero     ///< at zero again, /clock too
+};
+
 struct NodeParameters {
   std::string scene;             ///< shipped name or path
   std::vector<std::string> set;  ///< "key.path=value", over the scene
@@ -52,6 +58,7 @@ struct NodeParameters {
   std::string world_frame = "world";
   bool publish_clock = true;                                ///< with use_sim_time
   double clock_rate = 0.0;                                  ///< [1/s] simulated; 0: every sync point
+  ResetTime reset_time = ResetTime::resume;                 ///< zero: with use_sim_time alone
   std::optional<double> particle_rate;                      ///< [1/s] simulated; unset: as the scene says
   std::optional<double> particle_first;                     ///< [s] simulated, of the first cloud; unset: the same
   std::optional<std::vector<std::string>> particle_fields;  ///< unset: as the scene says

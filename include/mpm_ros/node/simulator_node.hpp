@@ -31,6 +31,7 @@
 #include "mpm_ros/node/node_parameters.hpp"
 #include "mpm_ros/node/pacer.hpp"
 #include "mpm_ros/node/publishers.hpp"
+#include "mpm_ros/node/sim_clock.hpp"
 #include "mpm_ros/run/run.hpp"
 
 namespace mpm_ros {
@@ -53,10 +54,12 @@ class SimulatorNode {
   RunOptions run_options() const;
   Stamps first_stamps() const;
   void start_run(const Stamps& stamps);
-  /// One sync period; extra commands are applied after those that are due. False when it failed.
+  /// One sync period; extra commands are applied after those that are due. False when it failed, or when an extra
+  /// command was refused: then time has not moved, and refusal_ says why.
   bool sync_period(const std::vector<AppliedCommand>& extra);
   void apply_due(const std::vector<AppliedCommand>& extra);
-  void apply(const AppliedCommand& command);
+  /// Why it was refused, or empty.
+  std::string apply(const AppliedCommand& command);
   /// Moves the bodies that have limits on towards what they were told.
   void apply_limited();
   void act_on_silence();
@@ -64,7 +67,7 @@ class SimulatorNode {
   void end_run();
   void say_closed() const;
   void count_commands();
-  void publish_clock(bool always);
+  void tell_clock(bool always) { clock_.tell(run_->simulation().time(), run_->stamps(), always); }
   void report();
   Phase phase() const;
 
@@ -75,6 +78,9 @@ class SimulatorNode {
   void pause(bool paused, std_srvs::SetBool::Response& response);
   void reset(std_srvs::Trigger::Response& response);
   void step(const Step::Request& request, Step::Response& response);
+  /// Waits for the messages on command topics that the request wants first. False, with the answer, when they stay
+  /// away.
+  bool wait_received(const Step::Request& request, Step::Response& response) const;
   /// Sync periods that a step request asks for; 0 with a problem when it makes no sense.
   std::int64_t periods_of(const Step::Request& request, std::string& problem) const;
   std::vector<AppliedCommand> commands_of(const Step::Request& request, std::int64_t periods,
@@ -92,7 +98,7 @@ class SimulatorNode {
   Mailbox mailbox_;
   ros::CallbackQueue topic_callbacks_;
   ros::CallbackQueue service_callbacks_;
-  ros::Publisher clock_;
+  SimClock clock_;
   std::unique_ptr<Publishers> publishers_;
   std::unique_ptr<Run> run_;
   std::unique_ptr<CommandQueue> queue_;
@@ -110,8 +116,8 @@ class SimulatorNode {
   bool paused_ = false;
   std::string failure_;
   bool record_lost_ = false;  // and said so
+  std::string refusal_;       // of a command of the step that is served
   int exit_code_ = 0;
-  std::int64_t clock_at_ = -1;  // [ns] when /clock was published last
   std::mutex housekeeping_;
   std::chrono::steady_clock::time_point checked_at_;
 };

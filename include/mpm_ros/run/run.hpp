@@ -48,6 +48,9 @@ class Run {
   /// Commands that were late and refused so far, for the solver states.
   void count_commands(std::uint64_t late, std::uint64_t refused) { outputs_.count_commands(late, refused); }
 
+  /// Sync periods that came too late so far, for the same.
+  void count_overruns(std::uint64_t overruns) { outputs_.count_overruns(overruns); }
+
   mpm::Simulation& simulation() { return simulation_; }
   const mpm::Simulation& simulation() const { return simulation_; }
   const RunOutputs& outputs() const { return outputs_; }

@@ -66,6 +66,7 @@ class RunOutputs {
   void finish(double real_time_factor, const std::string& failure = {});
   /// For the solver states from now on.
   void count_commands(std::uint64_t late, std::uint64_t refused);
+  void count_overruns(std::uint64_t overruns) { overruns_ = overruns; }
 
   /// The solver state as it was written last.
   const SolverState& solver_state() const { return state_; }
@@ -110,6 +111,7 @@ class RunOutputs {
   std::uint64_t applied_ = 0;  // commands
   std::uint64_t late_ = 0;
   std::uint64_t refused_ = 0;
+  std::uint64_t overruns_ = 0;
   std::int64_t particles_at_ = -1;  // [ns] when they were written last
   std::int64_t contacts_at_ = -1;   // [ns] the same
   std::int64_t global_at_ = -1;     // [ns] the same

@@ -34,10 +34,14 @@ CommandBridge::CommandBridge(ros::NodeHandle node, const std::vector<std::string
 
 template <typename Message>
 void CommandBridge::subscribe(ros::NodeHandle& node, int body, const char* leaf) {
-  subscribers_.push_back(node.subscribe<Message>(
+  // The full callback: it tells who sent the message.
+  using Event = const ros::MessageEvent<const Message>&;
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<Event>(
       topics::of_body(reader_.bodies()[body], leaf), kQueue,
-      [this, body](const boost::shared_ptr<const Message>& message) { reader_.take(body, *message); }, {},
-      ros::TransportHints().tcpNoDelay()));
+      [this, body](Event event) { reader_.take(body, *event.getConstMessage(), event.getPublisherName()); });
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  subscribers_.push_back(node.subscribe(options));
 }
 
 void CommandBridge::find_strangers() {

@@ -1,6 +1,8 @@
 #include "mpm_ros/command/command_queue.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -8,6 +10,26 @@ namespace mpm_ros {
 
 void CommandQueue::push(BodyCommand command) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (on_hold_) {
+    outside_.push_back(std::move(command));
+  } else {
+    admit(std::move(command));
+  }
+}
+
+void CommandQueue::hold() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  on_hold_ = true;
+}
+
+void CommandQueue::release() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  on_hold_ = false;
+  for (BodyCommand& command : outside_) admit(std::move(command));
+  outside_.clear();
+}
+
+void CommandQueue::admit(BodyCommand command) {
   command.order = arrivals_++;
   // Sync points up to passed_ are used up.
   const bool past = command.stamp && *command.stamp <= passed_;
@@ -60,10 +82,14 @@ std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
     return command.late ? now : std::min(command.stamp.value_or(now), now);
   };
   const auto target = [now](const BodyCommand& command) { return std::max(command.stamp.value_or(now), now); };
-  std::sort(waiting_.begin(), waiting_.end(), [&](const BodyCommand& a, const BodyCommand& b) {
-    return std::make_tuple(effect(a), a.body, target(a), a.order) <
-           std::make_tuple(effect(b), b.body, target(b), b.order);
-  });
+  const std::string nobody;
+  const auto key = [&](const BodyCommand& c) {
+    const bool late = c.late || !c.stamp;
+    return std::make_tuple(effect(c), c.body, target(c), late, late ? CommandKind::velocity : c.kind,
+                           std::cref(late ? nobody : c.sender), c.order);
+  };
+  std::sort(waiting_.begin(), waiting_.end(),
+            [&](const BodyCommand& a, const BodyCommand& b) { return key(a) < key(b); });
 
   std::vector<DueCommand> due;
   std::vector<BodyCommand> still_waiting;
@@ -97,6 +123,7 @@ std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
 void CommandQueue::clear() {
   const std::lock_guard<std::mutex> lock(mutex_);
   waiting_.clear();
+  outside_.clear();
   streams_.clear();
   passed_ = -1;
 }
@@ -113,7 +140,7 @@ std::int64_t CommandQueue::passed() const {
 
 std::size_t CommandQueue::waiting() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return waiting_.size();
+  return waiting_.size() + outside_.size();
 }
 
 }  // namespace mpm_ros

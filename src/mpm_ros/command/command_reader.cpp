@@ -32,6 +32,7 @@ CommandReader::CommandReader(std::vector<std::string> bodies, std::string world_
       followed_(bodies_.size()) {}
 
 void CommandReader::set_stamps(const Stamps& stamps) {
+  const std::lock_guard<std::mutex> taking(taking_);
   const std::lock_guard<std::mutex> lock(mutex_);
   stamps_ = stamps;
 }
@@ -133,6 +134,12 @@ void CommandReader::push_or_refuse(const char* leaf, BodyCommand command, const 
   } else {
     health_.refuse(fmt::format("a command on {}{}/{}: {}", prefix_, bodies_[command.body], leaf, problem));
   }
+  if (leaf == kFollowing) return;  // looked up here, not received
+  {
+    const std::lock_guard<std::mutex> lock(received_mutex_);
+    ++received_;
+  }
+  received_changed_.notify_all();
 }
 
 std::string CommandReader::refusal_of(int body) const {
@@ -140,52 +147,72 @@ std::string CommandReader::refusal_of(int body) const {
   return fmt::format("it follows the tf frame '{}' (drive: tf), and takes no other commands", followed_[body]);
 }
 
-void CommandReader::take(int body, const geometry_msgs::Twist& message) {
+std::uint64_t CommandReader::received() const {
+  const std::lock_guard<std::mutex> lock(received_mutex_);
+  return received_;
+}
+
+bool CommandReader::wait_received(std::uint64_t count, std::chrono::milliseconds patience) const {
+  std::unique_lock<std::mutex> lock(received_mutex_);
+  return received_changed_.wait_for(lock, patience, [&] { return received_ >= count; });
+}
+
+void CommandReader::take(int body, const geometry_msgs::Twist& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   std::string problem = refusal_of(body);
   if (problem.empty()) read_twist(message, world_frame_, ros::Time(), command, problem);
   push_or_refuse(topics::kCmdVel, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::TwistStamped& message) {
+void CommandReader::take(int body, const geometry_msgs::TwistStamped& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   std::string problem = refusal_of(body);
   if (problem.empty()) set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_twist(message.twist, message.header.frame_id, message.header.stamp, command, problem);
   push_or_refuse(topics::kCmdVelStamped, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::Wrench& message) {
+void CommandReader::take(int body, const geometry_msgs::Wrench& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   std::string problem;
   read_wrench(message, world_frame_, ros::Time(), command, problem);
   push_or_refuse(topics::kCmdWrench, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::WrenchStamped& message) {
+void CommandReader::take(int body, const geometry_msgs::WrenchStamped& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   std::string problem;
   set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_wrench(message.wrench, message.header.frame_id, message.header.stamp, command, problem);
   push_or_refuse(topics::kCmdWrenchStamped, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::PoseStamped& message) {
-  take_pose(topics::kCmdPose, body, message, refusal_of(body));
+void CommandReader::take(int body, const geometry_msgs::PoseStamped& message, const std::string& sender) {
+  take_pose(topics::kCmdPose, body, message, sender, refusal_of(body));
 }
 
 void CommandReader::follow(int body, const geometry_msgs::PoseStamped& message) {
-  take_pose(kFollowing, body, message, {});
+  take_pose(kFollowing, body, message, {}, {});
 }
 
 void CommandReader::take_pose(const char* leaf, int body, const geometry_msgs::PoseStamped& message,
-                              std::string problem) {
+                              const std::string& sender, std::string problem) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   if (problem.empty()) set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_pose(message.pose, message.header.frame_id, message.header.stamp, command, problem);
   push_or_refuse(leaf, std::move(command), problem);

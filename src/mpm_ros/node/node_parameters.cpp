@@ -222,6 +222,8 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   reader.read("world_frame", parameters.world_frame);
   reader.read("publish_clock", parameters.publish_clock);
   reader.read("clock_rate", parameters.clock_rate, 0.0);
+  reader.read<ResetTime>("reset_time", parameters.reset_time,
+                         {{"continue", ResetTime::resume}, {"zero", ResetTime::zero}});
   double particle_rate = 0.0;
   reader.read("particle_rate", particle_rate, 0.0, true);
   if (reader.given("particle_rate")) parameters.particle_rate = particle_rate;

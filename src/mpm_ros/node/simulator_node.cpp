@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <ros/console.h>
-#include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,6 +39,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
       parameters_(parameters),
       stop_requested_(std::move(stop_requested)),
       scene_(mpm::load_scene(parameters.scene, parameters.set)),
+      clock_(node_, parameters.publish_clock, parameters.clock_rate),
       watch_(std::llround(parameters.command_timeout * 1e9)),
       paused_(parameters.start_paused) {
   if (!parameters_.commands.empty()) log_ = read_commands(parameters_.commands);
@@ -56,14 +56,16 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   }
   limiter_ = std::make_unique<CommandLimiter>(std::move(limits), health_);
 
+  if (parameters_.reset_time == ResetTime::zero && !ros::Time::isSimTime()) {
+    throw ParameterError(
+        "parameter ~reset_time is zero, but /use_sim_time is not set: the wall's clock cannot be set back");
+  }
+
   ros::NodeHandle services(node_);
   services.setCallbackQueue(&service_callbacks_);
   ros::NodeHandle commands(node_);
   commands.setCallbackQueue(&topic_callbacks_);
 
-  if (ros::Time::isSimTime() && parameters_.publish_clock) {
-    clock_ = node_.advertise<rosgraph_msgs::Clock>(topics::kClock, 10, true);
-  }
   publishers_ =
       std::make_unique<Publishers>(services, bodies_, parameters_.wrench_cutoff > 0.0, !scene_.output.global.empty());
   start_run(first_stamps());
@@ -150,7 +152,7 @@ void SimulatorNode::start_run(const Stamps& stamps) {
   if (bridge_) bridge_->follower().clear();
   health_.restart();
   failure_.clear();
-  clock_at_ = -1;
+  clock_.restart();
 }
 
 SimulatorNode::Phase SimulatorNode::phase() const {
@@ -161,7 +163,7 @@ SimulatorNode::Phase SimulatorNode::phase() const {
 }
 
 int SimulatorNode::spin() {
-  publish_clock(true);
+  tell_clock(true);
   run_->begin();
   report();
   pacer_->restart(Pacer::Clock::now());
@@ -188,10 +190,10 @@ int SimulatorNode::spin() {
 bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra) {
   try {
     apply_due(extra);
-    if (!failure_.empty()) return false;
+    if (!failure_.empty() || !refusal_.empty()) return false;
     count_commands();
     run_->advance();
-    publish_clock(run_->ended());
+    tell_clock(run_->ended());
     if (run_->ended()) end_run();
     report();
     return true;
@@ -219,7 +221,10 @@ void SimulatorNode::apply_due(const std::vector<AppliedCommand>& extra) {
   const std::int64_t now = run_->simulation().time();
   bridge_->follower().look(run_->stamps().at(now + run_->simulation().sync_period()));
   for (const DueCommand& due : queue_->take(now)) apply(in_world(due, run_->simulation().bodies(), now));
-  for (const AppliedCommand& command : extra) apply(command);
+  for (const AppliedCommand& command : extra) {
+    refusal_ = apply(command);
+    if (!refusal_.empty()) return;
+  }
   act_on_silence();
   apply_limited();
 }
@@ -235,7 +240,7 @@ void SimulatorNode::apply_limited() {
   }
 }
 
-void SimulatorNode::apply(const AppliedCommand& command) {
+std::string SimulatorNode::apply(const AppliedCommand& command) {
   const mpm::RigidBody& body = run_->simulation().rigid_body(command.body);
   const mpm::Drive before = body.drive();
   mpm::Drive after = static_cast<mpm::Drive>(command.kind);
@@ -247,8 +252,9 @@ void SimulatorNode::apply(const AppliedCommand& command) {
       if (!jump.empty()) health_.jump(jump);
     }
   } catch (const mpm::RigidError& error) {
-    health_.refuse(fmt::format("a command for '{}': {}", body.name(), error.what()));
-    return;
+    const std::string reason = fmt::format("a command for '{}': {}", body.name(), error.what());
+    health_.refuse(reason);
+    return reason;
   }
   watch_.heard(command);
   health_.follow(body.name(), static_cast<double>(command.effect) * 1e-9);
@@ -256,6 +262,7 @@ void SimulatorNode::apply(const AppliedCommand& command) {
     health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(after),
                                static_cast<double>(command.effect) * 1e-9, drive_text(before)));
   }
+  return {};
 }
 
 void SimulatorNode::act_on_silence() {
@@ -313,17 +320,7 @@ void SimulatorNode::end_run() {
 void SimulatorNode::count_commands() {
   const LateCommands late = queue_->late();
   run_->count_commands(late.unstamped + late.past, health_.refused());
-}
-
-void SimulatorNode::publish_clock(bool always) {
-  if (!clock_) return;
-  const std::int64_t time = run_->simulation().time();
-  const double period = parameters_.clock_rate > 0.0 ? 1e9 / parameters_.clock_rate : 0.0;
-  if (!always && clock_at_ >= 0 && static_cast<double>(time - clock_at_) < period) return;
-  clock_at_ = time;
-  rosgraph_msgs::Clock message;
-  message.clock = run_->stamps().at(time);
-  clock_.publish(message);
+  run_->count_overruns(pacer_->overruns());
 }
 
 void SimulatorNode::report() {

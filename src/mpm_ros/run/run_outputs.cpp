@@ -230,6 +230,7 @@ void RunOutputs::write_state(bool with_hash, double real_time_factor) {
   SolverState message = to_message(simulation_.state());
   message.header = header(options_.world_frame);
   message.real_time_factor = real_time_factor;
+  message.overruns = overruns_;
   message.commands_applied = applied_;
   message.commands_late = late_;
   message.commands_refused = refused_;

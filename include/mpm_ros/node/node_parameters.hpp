@@ -40,6 +40,8 @@ struct NodeParameters {
   std::string isa = "auto";                 ///< instruction set; auto: the widest one available
   std::string record;                       ///< bag to write; empty: none, "auto": named by scene and date
   std::string record_compression = "none";  ///< none, lz4, bz2
+  std::string resume;                       ///< checkpoint to go on from; empty: the scene's start
+  bool checkpoint_on_failure = true;        ///< a run that fails leaves its state in a file
   std::string commands;                     ///< bag whose commands are replayed in place of live ones
   double command_timeout = 0.0;             ///< [s] simulated; 0: never
   OnTimeout on_timeout = OnTimeout::hold;

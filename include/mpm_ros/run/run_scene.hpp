@@ -17,6 +17,9 @@ struct RunSceneOptions {
   std::string bag;               ///< path, "auto", or empty for none
   std::string csv;               ///< folder, or empty for none
   std::string summary;           ///< JSON file, or empty for none
+  std::string resume;            ///< checkpoint to go on from; the scene may then be empty
+  std::string checkpoint;        ///< file to save the run to at its end, or when it is told to stop; empty: none
+  std::string checkpoint_every;  ///< a simulated time with or without unit, after which it is saved each time
 };
 
 /// What a run ended with, as an exit code.

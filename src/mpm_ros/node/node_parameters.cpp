@@ -186,6 +186,8 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   reader.read("record", parameters.record);
   reader.read<std::string>("record_compression", parameters.record_compression,
                            {{"none", "none"}, {"lz4", "lz4"}, {"bz2", "bz2"}});
+  reader.read("resume", parameters.resume);
+  reader.read("checkpoint_on_failure", parameters.checkpoint_on_failure);
   reader.read("commands", parameters.commands);
   reader.read("command_timeout", parameters.command_timeout, 0.0);
   reader.read<OnTimeout>("on_timeout", parameters.on_timeout,

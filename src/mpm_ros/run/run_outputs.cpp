@@ -88,6 +88,28 @@ void RunOutputs::begin(const RunInfo& info) {
   write_particles();
 }
 
+void RunOutputs::begin_again(const RunInfo& info) {
+  put(topics::kRunInfo, info);
+  if (wanted(topics::kMarkers)) put(topics::kMarkers, shape_markers(simulation_));
+  write_bodies();
+  write_state(options_.state_hash, 0.0);
+  write_particles();
+}
+
+void RunOutputs::keep(mpm::StateArchive& archive) {
+  {
+    const mpm::StateArchive::Group group(archive, "contacts");
+    contacts_.keep(archive);
+  }
+  {
+    const mpm::StateArchive::Group group(archive, "average");
+    average_.keep(archive);
+  }
+  archive.keep("applied", applied_);
+  archive.keep("late", late_);
+  archive.keep("refused", refused_);
+}
+
 void RunOutputs::command(const AppliedCommand& command) {
   ++applied_;
   put(topics::kCommands,

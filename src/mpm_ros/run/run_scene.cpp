@@ -11,6 +11,7 @@
 #include "mpm/scene/units.hpp"
 #include "mpm_ros/message/progress_bar.hpp"
 #include "mpm_ros/run/run.hpp"
+#include "mpm_ros/run/run_scene_checkpoint.hpp"
 #include "mpm_ros/run/run_scene_csv.hpp"
 #include "mpm_ros/run/run_scene_summary.hpp"
 
@@ -29,7 +30,7 @@ mpm::Isa instruction_set(const RunSceneOptions& options) {
 /// Before the summary is opened: what is refused here leaves that of an earlier run as it is.
 mpm::Scene load(const RunSceneOptions& options) {
   instruction_set(options);
-  mpm::Scene scene = mpm::load_scene(options.scene, options.set);
+  mpm::Scene scene = scene_of(options);
   if (options.end.empty()) return scene;
   // The sync and output periods stay the scene's: a shorter run is the beginning of the longer one, bit for bit.
   double end = 0.0;
@@ -62,7 +63,10 @@ void check_fields(const OutputOptions& output) {
 /// The run with its sinks, from beginning to end.
 class OfflineRun {
  public:
-  explicit OfflineRun(const RunSceneOptions& options) : scene_(load(options)), summary_(open_summary(options.summary)) {
+  explicit OfflineRun(const RunSceneOptions& options)
+      : scene_(load(options)),
+        checkpoints_(options, scene_.definition.time.sync),
+        summary_(open_summary(options.summary)) {
     if (!(scene_.definition.time.end > 0.0)) {
       throw mpm::SceneError(
           fmt::format("{}: time.end: the scene has no end; give one with --end, or --set time.end=2", scene_.path));
@@ -74,6 +78,7 @@ class OfflineRun {
     check_fields(run_options.output);
     if (!options.bag.empty()) run_options.bag = bag_path(options.bag, scene_.definition.name, 1);
     if (!options.end.empty()) run_options.parameters = fmt::format("end: {:.17g}\n", scene_.definition.time.end);
+    if (!options.resume.empty()) resume_from(options.resume, run_options);
     if (!options.csv.empty())
       csv_ = std::make_unique<CsvSink>(options.csv, stamps_, mpm::axisymmetric(scene_.definition.geometry));
     run_ = std::make_unique<Run>(scene_, run_options, stamps_, csv_.get());
@@ -94,6 +99,7 @@ class OfflineRun {
       run_->begin();
       while (!run_->ended() && !stop_requested()) {
         run_->advance();
+        checkpoints_.at_sync(*run_, err);
         progress.show(static_cast<double>(simulation.time()) / end, where);
       }
       progress.clear();
@@ -104,6 +110,7 @@ class OfflineRun {
       progress.clear();
       err << "run_scene: " << error.what() << "\n";
       run_->fail(error.what());
+      checkpoints_.at_failure(*run_, error.what(), err);
       result = RunSceneResult::physics_failed;
     }
     if (csv_) csv_->close();
@@ -111,6 +118,7 @@ class OfflineRun {
     out << summary.text();
     write(summary);
     if (!run_->bag().empty()) out << "  bag " << run_->bag() << "\n";
+    if (result == RunSceneResult::done) checkpoints_.at_end(*run_, out);
     return result;
   }
 
@@ -123,6 +131,7 @@ class OfflineRun {
   }
 
   const mpm::Scene scene_;
+  RunSceneCheckpoints checkpoints_;
   std::ofstream summary_;
   const Stamps stamps_;
   std::unique_ptr<CsvSink> csv_;

@@ -105,7 +105,7 @@ void SimulatorNode::leave_failed_state() {
   try {
     run_->save(
         path, [this](mpm::StateArchive& archive) { keep(archive, *queue_, watch_); }, failure_);
-    ROS_FATAL_STREAM("the state of the failure is in " << path);
+    ROS_INFO_STREAM("the state of the failure is in " << path);
   } catch (const mpm::Error& error) {
     ROS_ERROR_STREAM(error.what());
   }

@@ -38,6 +38,11 @@ int main(int argc, char** argv) {
   app.add_option("--vtk", options.vtk, "write files for ParaView to this folder (open run.pvd)");
   app.add_option("--csv", options.csv, "write tables (contact forces, bodies, solver state, particles) to this folder");
   app.add_option("--summary", options.summary, "write the run's numbers as JSON to this file");
+  app.add_option("--checkpoint", options.checkpoint,
+                 "save the run to this HDF5 file at its end, or when it is stopped");
+  app.add_option("--checkpoint-every", options.checkpoint_every,
+                 "save it each time so much simulated time has passed, too, in seconds or with a unit");
+  app.add_option("--resume", options.resume, "go on from this checkpoint, which holds its scene; bit for bit");
   app.add_option("--threads", options.threads, "threads; 0: as many as the machine has")->check(CLI::Range(0, 1024));
   app.add_option("--isa", options.isa,
                  "instruction set of the kernels: plain, avx2 or avx512; auto: the widest one available");
@@ -48,7 +53,7 @@ int main(int argc, char** argv) {
   app.add_flag("--explain", explain, "say what was chosen for the scene and why, and exit");
   try {
     app.parse(argc, argv);
-    if (!list && scene->empty() && options.from_bag.empty())
+    if (!list && scene->empty() && options.from_bag.empty() && options.resume.empty())
       throw CLI::RequiredError("SCENE (--list names those that are shipped)");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;

@@ -13,6 +13,7 @@
 
 #include "mpm/kernel/isa.hpp"
 #include "mpm/math/error.hpp"
+#include "mpm/math/state_archive.hpp"
 #include "mpm/simulation/definition.hpp"
 #include "mpm/simulation/particle_choice.hpp"
 #include "mpm/simulation/report.hpp"
@@ -35,6 +36,7 @@ class PhysicsError : public Error {
 struct SimulationOptions {
   int threads = 0;              ///< 0: as many as the machine has and 4,000 particles each make worth while
   std::optional<Isa> isa = {};  ///< instruction set of the kernels; the widest one available without it
+  bool settle = true;           ///< geostatic bodies come to rest first; not needed by one that takes on a checkpoint
 };
 
 class Simulation {
@@ -104,8 +106,19 @@ class Simulation {
   /// First id and one-past-last id of a deformable body.
   std::pair<std::uint64_t, std::uint64_t> body_ids(const std::string& body) const;
 
-  /// FNV-1a over time, particle state (by id) and rigid bodies: equal bits, equal hash.
+  /// FNV-1a over time, particle state (by id) and rigid bodies: equal bits, equal hash. What else decides the future is
+  /// left out (the order of particles, what contact remembers, the next step's limit), so that runs which do the same
+  /// on other grids have the same hash; of two that are in the same place by other ways the hash may part later.
+  /// memory_hash() tells those apart.
   std::uint64_t state_hash() const;
+  /// Of all that keep() keeps, reports and their sums since the last call too, but for the wall time.
+  std::uint64_t memory_hash();
+
+  /// Writes to, or reads from, a checkpoint (simulation/checkpoint.hpp) all that the run's future and its reports
+  /// depend on beyond the definition. At a sync point. Reading wants a Simulation of the same definition, instruction
+  /// set and precision; it goes on as the one that was written, to the bit, on any number of threads. After an error it
+  /// cannot go on. @throws the archive's error
+  void keep(StateArchive& archive);
 
  private:
   /// Of those metrics that are rates, at a sync point.

@@ -24,6 +24,8 @@ class CommandLog {
   std::vector<AppliedCommand> take(const mpm::Simulation& simulation);
   /// Begins again.
   void rewind() { next_ = 0; }
+  /// Goes on with what takes effect at `time` [ns] or later: what was before is in a checkpoint.
+  void skip_to(std::int64_t time);
 
  private:
   std::vector<mpm_ros::Command> commands_;

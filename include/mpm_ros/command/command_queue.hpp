@@ -19,6 +19,7 @@
 #include <optional>
 #include <vector>
 
+#include "mpm/math/state_archive.hpp"
 #include "mpm_ros/command/body_command.hpp"
 
 namespace mpm_ros {
@@ -57,6 +58,12 @@ class CommandQueue {
 
   /// A gap in a body's stream of poses longer than this [ns] says nothing of its period.
   static constexpr std::int64_t kLongestPeriod = 1'000'000'000;
+
+  std::int64_t sync_period() const { return sync_period_; }
+  /// For checkpoints: all but the counts. Of what was given in ROS time the simulated time counts.
+  void keep(mpm::StateArchive& archive);
+  /// Waits for what `other` waits for, and keeps its own counts.
+  void take_over(const CommandQueue& other);
 
  private:
   /// The stream of poses of one body.

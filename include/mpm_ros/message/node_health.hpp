@@ -3,8 +3,8 @@
 // solver: ERROR when the run has failed, or goes on without its record; WARN when the audit does not close, a particle
 // is nearly crushed, particles left the grid and were put back, or the wall clock is not kept up with; else OK.
 // commands: WARN for ten seconds after one was refused or made a body jump, and as long as a body that was commanded
-// hears nothing (past ~command_timeout), waits for its tf frame, or is behind a pose for the sake of its limits; else OK.
-// A late command is normal latency: counted, no warning.
+// hears nothing (past ~command_timeout), waits for its tf frame, or is behind a pose for the sake of its limits; else
+// OK. A late command is normal latency: counted, no warning.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>

@@ -20,6 +20,8 @@ constexpr const char* kTf = "/tf";
 constexpr const char* kPause = "pause";
 constexpr const char* kReset = "reset";
 constexpr const char* kStep = "step";
+constexpr const char* kSaveCheckpoint = "save_checkpoint";
+constexpr const char* kLoadCheckpoint = "load_checkpoint";
 
 /// `bodies/<name>/<leaf>`
 inline std::string of_body(const std::string& body, const std::string& leaf) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "mpm/math/state_archive.hpp"
 #include "mpm/rigid/motion.hpp"
 
 namespace mpm_ros {
@@ -21,6 +22,12 @@ class WrenchFilter {
   /// The next sample; gives the filtered one.
   mpm::Wrench filter(const mpm::Wrench& sample) {
     return {filter(sample.force, force_), filter(sample.torque, torque_)};
+  }
+  void keep(mpm::StateArchive& archive) {
+    archive.keep("force_first", force_.first);
+    archive.keep("force_second", force_.second);
+    archive.keep("torque_first", torque_.first);
+    archive.keep("torque_second", torque_.second);
   }
 
  private:

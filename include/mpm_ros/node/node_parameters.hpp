@@ -52,6 +52,8 @@ struct NodeParameters {
   double record_split_size = 0.0;           ///< [MB] at which a part of the bag ends; 0: never
   double record_split_duration = 0.0;       ///< [s] simulated, the same
   bool record_required = true;              ///< false: the run goes on when the bag cannot be written any further
+  std::string resume;                       ///< checkpoint to go on from; empty: the scene's start
+  bool checkpoint_on_failure = true;        ///< a run that fails leaves its state in a file
   std::string commands;                     ///< bag whose commands are replayed in place of live ones
   double command_timeout = 0.0;             ///< [s] simulated; 0: never
   OnTimeout on_timeout = OnTimeout::hold;

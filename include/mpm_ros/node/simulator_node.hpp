@@ -5,6 +5,7 @@
 // A sync period is: apply the commands that are due, advance, publish and record, then pace.
 #pragma once
 
+#include <mpm_ros/Checkpoint.h>
 #include <mpm_ros/Step.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
@@ -53,7 +54,8 @@ class SimulatorNode {
 
   RunOptions run_options() const;
   Stamps first_stamps() const;
-  void start_run(const Stamps& stamps);
+  /// `resume`: a checkpoint, or empty. @throws mpm::Error, BagError; then the run that is there goes on.
+  void start_run(const Stamps& stamps, const std::string& resume = {});
   /// One sync period; extra commands are applied after those that are due. False when it failed, or when an extra
   /// command was refused: then time has not moved, and refusal_ says why.
   bool sync_period(const std::vector<AppliedCommand>& extra);
@@ -86,6 +88,17 @@ class SimulatorNode {
   std::vector<AppliedCommand> commands_of(const Step::Request& request, std::int64_t periods,
                                           std::string& problem) const;
   void housekeeping();
+
+  // Checkpoints (checkpoint_services.cpp).
+  bool on_save_checkpoint(Checkpoint::Request& request, Checkpoint::Response& response);
+  bool on_load_checkpoint(Checkpoint::Request& request, Checkpoint::Response& response);
+  void save_checkpoint(const std::string& path, Checkpoint::Response& response);
+  void load_checkpoint(const std::string& path, Checkpoint::Response& response);
+  /// Of a run that goes on from that simulated time [ns].
+  Stamps stamps_from(std::int64_t time) const;
+  /// What a checkpoint holds that is the node's.
+  static void keep(mpm::StateArchive& archive, CommandQueue& queue, CommandWatch& watch, CommandLimiter& limiter);
+  void leave_failed_state();
 
   ros::NodeHandle node_;
   const NodeParameters parameters_;

@@ -17,11 +17,14 @@ struct RunSceneOptions {
   std::string isa = "auto";              ///< instruction set; auto: the widest one available
   std::string bag;                       ///< path, "auto", or empty for none
   std::string bag_compression = "none";  ///< none, lz4, bz2
-  std::string bag_split;  ///< where a part of the bag ends: "500 MB", or a simulated time as "10 s"; empty: never
-  std::string csv;        ///< folder, or empty for none
-  std::string vtk;        ///< folder of files for ParaView, or empty for none
-  std::string summary;    ///< JSON file, or empty for none
-  std::string out;        ///< folder in which the run gets one of its own, with all of these; empty for none
+  std::string bag_split;   ///< where a part of the bag ends: "500 MB", or a simulated time as "10 s"; empty: never
+  std::string csv;         ///< folder, or empty for none
+  std::string vtk;         ///< folder of files for ParaView, or empty for none
+  std::string summary;     ///< JSON file, or empty for none
+  std::string out;         ///< folder in which the run gets one of its own, with all of these; empty for none
+  std::string resume;      ///< checkpoint to go on from; the scene may then be empty
+  std::string checkpoint;  ///< file to save the run to at its end, or when it is told to stop; empty: none
+  std::string checkpoint_every;  ///< a simulated time with or without unit, after which it is saved each time
 };
 
 /// What a run ended with, as an exit code.

@@ -19,6 +19,9 @@
 
 namespace mpm {
 
+/// What limits the step when velocity conditions do.
+inline const std::string kConditionsName = "boundaries.conditions";
+
 /// The largest time step that something allows, and what and where that is. Put into words only when asked for.
 struct StepLimit {
   enum class Cause { nothing, material, tool, damping, scene, period };
@@ -37,6 +40,8 @@ class LineFit {
   void add(double t, double y);
   /// Not a number before the second point.
   double slope() const;
+  /// For checkpoints: of every metric.
+  static void keep(StateArchive& archive, std::vector<LineFit>& fits);
 
  private:
   int count_ = 0;
@@ -119,6 +124,11 @@ struct Simulation::State {
   void step(double start, double dt);
   /// @throws PhysicsError for a particle that is not where it may be
   void sort(double now);
+  /// All that the run remembers (keep_state.cpp).
+  void keep(StateArchive& archive);
+  void keep_particles(StateArchive& archive);
+  void keep_grid(StateArchive& archive);
+  void keep_limit(StateArchive& archive, const char* name, StepLimit& kept);
   /// Lets the bodies that start geostatic, already under their weight's stress, come to rest. Before anything is
   /// sorted.
   void settle();

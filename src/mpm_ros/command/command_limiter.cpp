@@ -148,6 +148,29 @@ void CommandLimiter::clear() {
   report_.clear();
 }
 
+void CommandLimiter::keep(mpm::StateArchive& archive) {
+  const mpm::StateArchive::Group group(archive, "limiter");
+  std::vector<std::pair<int, Goal>> goals(goals_.begin(), goals_.end());
+  archive.rows("goals", goals);
+  archive.column("goals/body", goals, [](auto& one) -> int& { return one.first; });
+  const auto column = [&](const std::string& name, auto&& member) {
+    archive.column("goals/" + name, goals, [&](auto& one) -> decltype(auto) { return member(one.second.command); });
+  };
+  column("kind", [](AppliedCommand& c) -> CommandKind& { return c.kind; });
+  column("linear", [](AppliedCommand& c) -> mpm::Vec3& { return c.twist.linear; });
+  column("angular", [](AppliedCommand& c) -> mpm::Vec3& { return c.twist.angular; });
+  column("position", [](AppliedCommand& c) -> mpm::Vec3& { return c.pose.position; });
+  column("orientation", [](AppliedCommand& c) -> mpm::Quat& { return c.pose.orientation; });
+  column("effect", [](AppliedCommand& c) -> std::int64_t& { return c.effect; });
+  column("arrival", [](AppliedCommand& c) -> std::int64_t& { return c.arrival; });
+  column("sec", [](AppliedCommand& c) -> std::uint32_t& { return c.requested.sec; });
+  column("nsec", [](AppliedCommand& c) -> std::uint32_t& { return c.requested.nsec; });
+  archive.column("goals/limited", goals, [](auto& one) -> bool& { return one.second.limited; });
+  if (!archive.reading()) return;
+  for (auto& [body, goal] : goals) goal.command.body = body;
+  goals_ = std::map<int, Goal>(goals.begin(), goals.end());
+}
+
 std::vector<AppliedCommand> CommandLimiter::goals() const {
   std::vector<AppliedCommand> commands;
   for (const auto& [body, goal] : goals_) commands.push_back(goal.command);

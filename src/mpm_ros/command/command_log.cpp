@@ -35,6 +35,10 @@ std::vector<AppliedCommand> CommandLog::take(const mpm::Simulation& simulation) 
   return due;
 }
 
+void CommandLog::skip_to(std::int64_t time) {
+  for (next_ = 0; next_ < commands_.size() && commands_[next_].effect_ns < time;) ++next_;
+}
+
 CommandLog read_commands(const std::string& bag_path) {
   std::vector<mpm_ros::Command> commands;
   try {

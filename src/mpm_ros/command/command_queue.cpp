@@ -1,5 +1,7 @@
 #include "mpm_ros/command/command_queue.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <string>
@@ -141,6 +143,55 @@ std::int64_t CommandQueue::passed() const {
 std::size_t CommandQueue::waiting() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return waiting_.size() + outside_.size();
+}
+
+void CommandQueue::keep(mpm::StateArchive& archive) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const mpm::StateArchive::Group group(archive, "queue");
+  archive.rows("waiting", waiting_);
+  archive.column("waiting/body", waiting_, &BodyCommand::body);
+  archive.column("waiting/kind", waiting_, &BodyCommand::kind);
+  archive.column("waiting/linear", waiting_, [](BodyCommand& one) -> mpm::Vec3& { return one.twist.linear; });
+  archive.column("waiting/angular", waiting_, [](BodyCommand& one) -> mpm::Vec3& { return one.twist.angular; });
+  archive.column("waiting/force", waiting_, [](BodyCommand& one) -> mpm::Vec3& { return one.wrench.force; });
+  archive.column("waiting/torque", waiting_, [](BodyCommand& one) -> mpm::Vec3& { return one.wrench.torque; });
+  archive.column("waiting/position", waiting_, [](BodyCommand& one) -> mpm::Vec3& { return one.pose.position; });
+  archive.column("waiting/orientation", waiting_, [](BodyCommand& one) -> mpm::Quat& { return one.pose.orientation; });
+  archive.column("waiting/frame_body", waiting_, &BodyCommand::frame_body);
+  archive.column("waiting/sec", waiting_, [](BodyCommand& one) -> std::uint32_t& { return one.requested.sec; });
+  archive.column("waiting/nsec", waiting_, [](BodyCommand& one) -> std::uint32_t& { return one.requested.nsec; });
+  for (std::size_t i = 0; i < waiting_.size(); ++i) archive.keep(fmt::format("sender{}", i), waiting_[i].sender);
+  std::vector<std::int64_t> stamps;
+  std::vector<std::uint8_t> has_stamp;
+  for (const BodyCommand& one : waiting_) {
+    has_stamp.push_back(one.stamp ? 1 : 0);
+    stamps.push_back(one.stamp.value_or(0));
+  }
+  archive.list("waiting/has_stamp", has_stamp);
+  archive.list("waiting/stamp", stamps);
+  for (std::size_t i = 0; archive.reading() && i < waiting_.size(); ++i) {
+    waiting_[i].stamp.reset();
+    if (has_stamp[i] != 0) waiting_[i].stamp = stamps[i];
+  }
+  archive.column("waiting/late", waiting_, &BodyCommand::late);
+  archive.column("waiting/order", waiting_, &BodyCommand::order);
+  std::vector<std::pair<int, PoseStream>> streams(streams_.begin(), streams_.end());
+  archive.rows("poses", streams);
+  archive.column("poses/body", streams, [](auto& one) -> int& { return one.first; });
+  archive.column("poses/last_stamp", streams, [](auto& one) -> std::int64_t& { return one.second.last_stamp; });
+  archive.column("poses/period", streams, [](auto& one) -> std::int64_t& { return one.second.period; });
+  archive.column("poses/arrival", streams, [](auto& one) -> std::int64_t& { return one.second.arrival; });
+  if (archive.reading()) streams_ = std::map<int, PoseStream>(streams.begin(), streams.end());
+  archive.keep("passed", passed_);
+  archive.keep("arrivals", arrivals_);
+}
+
+void CommandQueue::take_over(const CommandQueue& other) {
+  const std::scoped_lock lock(mutex_, other.mutex_);
+  waiting_ = other.waiting_;
+  streams_ = other.streams_;
+  passed_ = other.passed_;
+  arrivals_ = other.arrivals_;
 }
 
 }  // namespace mpm_ros

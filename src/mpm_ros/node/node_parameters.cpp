@@ -215,6 +215,8 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   reader.read("record_split_size", parameters.record_split_size, 0.0);
   reader.read("record_split_duration", parameters.record_split_duration, 0.0);
   reader.read("record_required", parameters.record_required);
+  reader.read("resume", parameters.resume);
+  reader.read("checkpoint_on_failure", parameters.checkpoint_on_failure);
   reader.read("commands", parameters.commands);
   reader.read("command_timeout", parameters.command_timeout, 0.0);
   reader.read<OnTimeout>("on_timeout", parameters.on_timeout,

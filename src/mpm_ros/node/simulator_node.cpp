@@ -10,6 +10,7 @@
 
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/run/output_names.hpp"
+#include "mpm_ros/run/run_scene_checkpoint.hpp"
 
 namespace mpm_ros {
 
@@ -68,10 +69,11 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
 
   publishers_ =
       std::make_unique<Publishers>(services, bodies_, parameters_.wrench_cutoff > 0.0, !scene_.output.global.empty());
-  start_run(first_stamps());
+  queue_ = std::make_unique<CommandQueue>(scene_.definition.time.sync);
+  start_run(parameters_.resume.empty() ? first_stamps() : stamps_from(mpm::read_checkpoint(parameters_.resume).time),
+            parameters_.resume);
   for (const std::string& warning : run_->simulation().warnings()) ROS_WARN_STREAM(warning);
   for (const std::string& note : run_->simulation().notes()) ROS_INFO_STREAM(note);
-  queue_ = std::make_unique<CommandQueue>(run_->simulation().sync_period());
   pacer_ = std::make_unique<Pacer>(run_->simulation().sync_period(), parameters_.real_time_factor);
   // A run that replays recorded commands listens to nobody else.
   if (log_.empty()) {
@@ -82,6 +84,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   services_.push_back(services.advertiseService(topics::kPause, &SimulatorNode::on_pause, this));
   services_.push_back(services.advertiseService(topics::kReset, &SimulatorNode::on_reset, this));
   services_.push_back(services.advertiseService(topics::kStep, &SimulatorNode::on_step, this));
+  services_.push_back(services.advertiseService(topics::kSaveCheckpoint, &SimulatorNode::on_save_checkpoint, this));
+  services_.push_back(services.advertiseService(topics::kLoadCheckpoint, &SimulatorNode::on_load_checkpoint, this));
 
   diagnostics_ = std::make_unique<diagnostic_updater::Updater>(services);
   diagnostics_->setHardwareID("none");
@@ -137,18 +141,28 @@ Stamps SimulatorNode::first_stamps() const {
   return Stamps(ros::Time(now.sec, now.nsec));
 }
 
-void SimulatorNode::start_run(const Stamps& stamps) {
+void SimulatorNode::start_run(const Stamps& stamps, const std::string& resume) {
   ++runs_;  // names the next bag
-  auto run = std::make_unique<Run>(scene_, run_options(), stamps, publishers_.get());
+  RunOptions options = run_options();
+  CommandQueue queue(queue_->sync_period());
+  CommandWatch watch(std::llround(parameters_.command_timeout * 1e9));
+  auto limiter = std::make_unique<CommandLimiter>(*limiter_);
+  limiter->clear();
+  if (!resume.empty()) {
+    resume_from(resume, options);
+    options.more = [&](mpm::StateArchive& archive) { keep(archive, queue, watch, *limiter); };
+  }
+  auto run = std::make_unique<Run>(scene_, options, stamps, publishers_.get());
   if (run_) end_run();
   run_ = std::move(run);
   record_lost_ = false;
   if (const BagRecorder* recorder = run_->recorder()) {
     ROS_INFO_STREAM("recording to " << recorder->path() << (recorder->replaced() ? ", which is replaced" : ""));
   }
-  log_.rewind();
-  watch_.clear();
-  limiter_->clear();
+  queue_->take_over(queue);
+  log_.skip_to(run_->simulation().time());
+  watch_ = watch;
+  limiter_ = std::move(limiter);
   if (bridge_) bridge_->follower().clear();
   health_.restart();
   failure_.clear();
@@ -297,6 +311,7 @@ void SimulatorNode::fail(const std::string& reason, int exit_code) {
   } catch (const BagError& error) {
     ROS_FATAL_STREAM(error.what());
   }
+  leave_failed_state();
   report();
 }
 

@@ -115,6 +115,37 @@ void RunOutputs::begin(const RunInfo& info) {
   write_global();
 }
 
+void RunOutputs::begin_again(const RunInfo& info) {
+  put(topics::kRunInfo, info);
+  if (wanted(topics::kMarkers)) put(topics::kMarkers, shape_markers(simulation_));
+  write_bodies();
+  write_state(options_.state_hash, 0.0);
+  write_particles();
+}
+
+void RunOutputs::keep(mpm::StateArchive& archive) {
+  {
+    const mpm::StateArchive::Group group(archive, "contacts");
+    contacts_.keep(archive);
+  }
+  {
+    const mpm::StateArchive::Group group(archive, "average");
+    average_.keep(archive);
+  }
+  std::uint64_t filters = filters_.size();
+  archive.keep("filters", filters);
+  // Another cutoff than when it was saved is another filter, which begins.
+  double cutoff = options_.wrench_cutoff;
+  archive.keep("wrench_cutoff", cutoff);
+  for (std::size_t body = 0; filters == filters_.size() && cutoff == options_.wrench_cutoff && body < filters; ++body) {
+    const mpm::StateArchive::Group group(archive, fmt::format("filter{}", body));
+    filters_[body].keep(archive);
+  }
+  archive.keep("applied", applied_);
+  archive.keep("late", late_);
+  archive.keep("refused", refused_);
+}
+
 void RunOutputs::command(const AppliedCommand& command) {
   ++applied_;
   put(topics::kCommands,

@@ -19,6 +19,7 @@
 #include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/rerun.hpp"
 #include "mpm_ros/run/run.hpp"
+#include "mpm_ros/run/run_scene_checkpoint.hpp"
 #include "mpm_ros/run/run_scene_csv.hpp"
 #include "mpm_ros/run/run_scene_summary.hpp"
 #include "mpm_ros/run/run_scene_vtk.hpp"
@@ -48,7 +49,7 @@ mpm::Scene recorded_scene(const RunSceneOptions& options, const Rerun& rerun) {
 /// Before the summary is opened: what is refused here leaves that of an earlier run as it is.
 mpm::Scene load(const RunSceneOptions& options, const std::optional<Rerun>& rerun) {
   instruction_set(options);
-  mpm::Scene scene = rerun ? recorded_scene(options, *rerun) : mpm::load_scene(options.scene, options.set);
+  mpm::Scene scene = rerun ? recorded_scene(options, *rerun) : scene_of(options);
   if (options.end.empty()) return scene;
   // The sync and output periods stay the scene's: a shorter run is the beginning of the longer one, bit for bit.
   double end = 0.0;
@@ -109,7 +110,10 @@ void check_fields(const OutputOptions& output) {
 class OfflineRun {
  public:
   explicit OfflineRun(const RunSceneOptions& options)
-      : options_(options), rerun_(read(options)), scene_(load(options_, rerun_)) {
+      : options_(options),
+        rerun_(read(options)),
+        scene_(load(options_, rerun_)),
+        checkpoints_(options, scene_.definition.time.sync) {
     if (!(scene_.definition.time.end > 0.0)) {
       throw mpm::SceneError(
           fmt::format("{}: time.end: the scene has no end; give one with --end, or --set time.end=2", scene_.path));
@@ -126,6 +130,7 @@ class OfflineRun {
     summary_ = open_summary(options_.summary);
     if (!options_.bag.empty()) run_options.bag = bag_path(options_.bag, scene_.definition.name, 1);
     if (!options_.end.empty()) run_options.parameters += fmt::format("end: {:.17g}\n", scene_.definition.time.end);
+    if (!options_.resume.empty()) resume_from(options_.resume, run_options);
     if (!options_.csv.empty())
       csv_ = std::make_unique<CsvSink>(options_.csv, stamps_, mpm::axisymmetric(scene_.definition.geometry));
     if (!options_.vtk.empty()) vtk_ = std::make_unique<VtkSink>(options_.vtk, stamps_);
@@ -158,6 +163,7 @@ class OfflineRun {
         while (!run_->ended() && !stop_requested()) {
           for (const AppliedCommand& command : commands_.take(simulation)) run_->apply(command);
           run_->advance();
+          checkpoints_.at_sync(*run_, err);
           if (check_) check_->look(simulation);
           progress.show(static_cast<double>(simulation.time()) / end, where);
         }
@@ -172,6 +178,7 @@ class OfflineRun {
         err << "run_scene: " << error.what() << "\n";
         result = RunSceneResult::physics_failed;
         run_->fail(error.what());
+        checkpoints_.at_failure(*run_, error.what(), err);
         if (check_) check_->look(simulation);
       }
     } catch (const BagError& error) {
@@ -191,6 +198,7 @@ class OfflineRun {
       (check_->passed() ? out << "  " : err << "run_scene: ") << check_->verdict() << "\n";
       if (!check_->passed()) result = RunSceneResult::another_state;
     }
+    if (result == RunSceneResult::done) checkpoints_.at_end(*run_, out);
     return result;
   }
 
@@ -256,6 +264,7 @@ class OfflineRun {
   RunSceneOptions options_;
   const std::optional<Rerun> rerun_;
   const mpm::Scene scene_;
+  RunSceneCheckpoints checkpoints_;
   std::ofstream summary_;
   const Stamps stamps_;
   CommandLog commands_;  ///< recorded ones, to be applied again

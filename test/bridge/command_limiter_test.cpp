@@ -188,6 +188,17 @@ TEST_F(Limiter, WhatWasAppliedReplaysWithoutTheLimiter) {
   EXPECT_EQ(replayed.state_hash(), simulation_.state_hash());
 }
 
+TEST_F(Limiter, WhatAPlaneDoesNotHaveIsNoGoal) {
+  // A robot's link stands beside the plane, and is tilted a little.
+  AppliedCommand command = pose(0.0001, 0.0, kPeriod);
+  command.pose.position.y() = 0.3;
+  command.pose.orientation = Eigen::AngleAxisd(0.1, mpm::Vec3::UnitX());
+  ASSERT_TRUE(limiter_.take(command, simulation_));
+  for (int i = 0; i < 10; ++i) advance();
+  EXPECT_TRUE(limiter_.goals().empty());
+  EXPECT_NEAR(x(), 0.0001, kRound);
+}
+
 TEST_F(Limiter, ABodyWithoutLimitsIsLeftAlone) {
   AppliedCommand command = velocity(0.1);
   command.body = simulation_.find_body("probe");

@@ -193,6 +193,12 @@ std::vector<Case> cases() {
        "rigid_bodies.press.motion={velocity: [2, -0.5]}", "bodies.block.cut_out=all"});
   add(kTool, "wire",
       {"rigid_bodies.rod.shape={sphere: {radius: 0.08}}", "rigid_bodies.rod.motion={velocity: [4, \"60*t\"]}"});
+  add(kTool, "free",
+      {"rigid_bodies.press.motion={velocity: [0, 0]}",
+       "rigid_bodies.press.free={mass: 20, velocity: [0.5, -1.2], rotation_rate: 2, force: [3, 0]}"});
+  add(kTool, "free_along_z",
+      {"rigid_bodies.press.motion={velocity: [\"0.6*sin(60*t)\", 0]}", "rigid_bodies.press.free={mass: 20, axes: [z]}",
+       "method.transfer={fmpm: 2}"});
   // Deformable bodies against each other.
   add(kPair, "coulomb", {"contact={law: coulomb, friction: 0.3, adhesion: 200 Pa}"});
   add(kPair, "own_normals", {"contact={law: stick, normals: own}"});
@@ -252,6 +258,15 @@ std::vector<std::uint64_t> said(Simulation& simulation) {
     }
     for (const double value : {report.interval, report.area, report.friction_energy, report.pressing}) number(value);
     bits.push_back(static_cast<std::uint64_t>(report.nodes));
+  }
+  for (const FreeBodyReport& report : simulation.free_bodies()) {
+    for (const BodyMomentum& one : {report.momentum, report.contact, report.gravity, report.wrench, report.drive}) {
+      vector(one.linear);
+      vector(one.angular);
+    }
+    for (const double value : {report.kinetic, report.wrench_work, report.drive_work, report.contact_loss}) {
+      number(value);
+    }
   }
   for (const PairReport& report : simulation.take_pairs()) {
     for (const Vec3& v : {report.force, report.friction, report.impulse, report.centre}) vector(v);

@@ -38,7 +38,7 @@ class Folder {
 constexpr int kPeriods = 12;
 constexpr int kOfOther = 5;  ///< a simulation that has been elsewhere before it takes on a checkpoint
 
-const char* const kPlane = R"(
+const char* const kPlane = R"yaml(
 geometry: plane_strain
 grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
 time: {end: 1, sync: 5 ms, cfl: 0.4}
@@ -48,9 +48,9 @@ materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, pois
 bodies: [{name: block, material: rubber, shape: {box: {min: [0.3, 0.3], max: [0.7, 0.7]}}, initial: {velocity: ["4+z", "-2-2*x"]}}]
 boundaries: {z_min: {friction: 0.4}}
 metrics: {faster: {mean: vx, rate: {from: 10 ms, to: 1}}, lowest: {min: z}}
-)";
+)yaml";
 
-const char* const kTool = R"(
+const char* const kTool = R"yaml(
 geometry: plane_strain
 grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
 time: {end: 1, sync: 5 ms, cfl: 0.4}
@@ -60,21 +60,12 @@ materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, pois
 bodies: [{name: block, material: rubber, shape: {box: {min: [0.3, 0], max: [1.1, 0.5]}}}]
 rigid_bodies:
   - {name: press, shape: {box: {size: [0.5, 0.4]}}, pose: {position: [0.7, 0.71]},
-     motion: {velocity: ["0.6*sin(60*t)", -1.2], rotation_rate: ["2*t"]
-}
-, friction : 0.3
-}
-- {
-name:
-  rod, shape : {sphere : {radius : 0.2}}, pose : {position : [ 0.05, 0.3 ]}, motion : {
-  velocity:
-    [ 1.5, 0 ]
-  }
-}
+     motion: {velocity: ["0.6*sin(60*t)", -1.2], rotation_rate: ["2*t"]}, friction: 0.3}
+  - {name: rod, shape: {sphere: {radius: 0.2}}, pose: {position: [0.05, 0.3]}, motion: {velocity: [1.5, 0]}}
 boundaries: {z_min: slip}
-)";
+)yaml";
 
-const char* const kPair = R"(
+const char* const kPair = R"yaml(
 geometry: plane_strain
 grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
 time: {end: 1, sync: 5 ms, cfl: 0.4}
@@ -83,9 +74,9 @@ materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, pois
 bodies:
   - {name: left, material: rubber, shape: {box: {min: [0.2, 0.3], max: [0.6, 0.7]}}, initial: {velocity: [4, 1]}}
   - {name: right, material: rubber, shape: {box: {min: [0.6, 0.3], max: [1, 0.7]}}, initial: {velocity: [1, 0]}}
-)";
+)yaml";
 
-const char* const kRings = R"(
+const char* const kRings = R"yaml(
 geometry: axisymmetric
 grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
 time: {end: 1, sync: 5 ms, cfl: 0.4}
@@ -96,18 +87,18 @@ rigid_bodies:
   - {name: ball, shape: {sphere: {radius: 0.3}}, pose: {position: [0, 1.15]}, motion: {velocity: [0, -5]}, friction: 0.2}
   - {name: iris, shape: {ring: {inner: 0.7, outer: 0.9, height: 0.6}}, pose: {position: [0, 0.4]}, motion: {velocity: [-2, 0]}}
 boundaries: {z_min: slip}
-)";
+)yaml";
 
-const char* const kLine = R"(
+const char* const kLine = R"yaml(
 geometry: line
 grid: {cell: 0.1, min: 0, max: 3.2}
 time: {end: 1, sync: 5 ms, cfl: 0.4}
 method: {shape: ugimp}
 materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, poisson: 0.3}]
 bodies: [{name: bar, material: rubber, shape: {box: {min: 0.5, max: 1.5}}, initial: {velocity: "5*x"}}]
-)";
+)yaml";
 
-const char* const kSolid = R"(
+const char* const kSolid = R"yaml(
 grid: {cell: 0.1, min: [0, 0, 0], max: [0.8, 0.8, 0.8]}
 time: {end: 1, sync: 5 ms, cfl: 0.4}
 method: {shape: ugimp}
@@ -117,7 +108,7 @@ bodies: [{name: block, material: rubber, shape: {box: {min: [0.2, 0.2, 0], max: 
 rigid_bodies:
   - {name: ball, shape: {sphere: {radius: 0.15}}, pose: {position: [0.4, 0.4, 0.46]}, motion: {velocity: [3, 0, -2]}, friction: 0.3}
 boundaries: {z_min: {friction: 0.2}}
-)";
+)yaml";
 
 /// Particles, motion and contact, over kPlane.
 std::string law(const std::string& text) { return "materials.rubber=" + text; }

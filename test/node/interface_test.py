@@ -57,8 +57,8 @@ class Interface(unittest.TestCase):
         program = roslib.packages.find_node("mpm_ros", "simulator")[0]
         parameters = dict(cls.table["parameters"], pacing="lockstep", threads=1)
         parameters["scene"] = os.path.join(HERE, "../..", cls.table["scene"])
-        cls.simulator = subprocess.Popen(
-            [program, f"__ns:={NAMESPACE}"] + [f"_{key}:={value}" for key, value in parameters.items()])
+        rospy.set_param(NODE, parameters)
+        cls.simulator = subprocess.Popen([program, f"__ns:={NAMESPACE}"])
         cls.master = rosgraph.Master(rospy.get_name())
         assert eventually(lambda: full_name("step") in dict(cls.master.getSystemState()[2])), "no service step"
 

@@ -60,7 +60,7 @@ materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, pois
 bodies: [{name: block, material: rubber, shape: {box: {min: [0.3, 0], max: [1.1, 0.5]}}}]
 rigid_bodies:
   - {name: press, shape: {box: {size: [0.5, 0.4]}}, pose: {position: [0.7, 0.71]},
-     motion: {velocity: ["0.6*sin(60*t)", -1.2], rotation_rate: ["2*t"]}, friction: 0.3}
+     motion: {velocity: ["0.6*sin(60*t)", -1.2], rotation_rate: "2*t"}, friction: 0.3}
   - {name: rod, shape: {sphere: {radius: 0.2}}, pose: {position: [0.05, 0.3]}, motion: {velocity: [1.5, 0]}}
 boundaries: {z_min: slip}
 )yaml";
@@ -119,6 +119,8 @@ struct Case {
   std::vector<std::string> changes;
 };
 
+void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
+
 std::vector<Case> cases() {
   std::vector<Case> list;
   const auto add = [&](const char* scene, const std::string& name, std::vector<std::string> changes) {
@@ -159,7 +161,7 @@ std::vector<Case> cases() {
            "ambient_pressure: 10 kPa}")});
   // Faces and conditions.
   add(kPlane, "absorbing",
-      {"bodies.block.initial.velocity=[3, 0]", "bodies.block.shape={box: {min: [0, 0], max: [1.6, 0.7]}}",
+      {"bodies.block.initial.velocity=[0.5, 0]", "bodies.block.shape={box: {min: [0, 0], max: [1.6, 0.7]}}",
        "boundaries={z_min: {absorbing: {hold: start}}, x_max: absorbing, x_min: absorbing}"});
   add(kPlane, "periodic", {"boundaries={x: periodic, z_min: slip}", "bodies.block.initial.velocity=[20, 0]"});
   add(kPlane, "leaving",
@@ -193,7 +195,7 @@ std::vector<Case> cases() {
   // Deformable bodies against each other.
   add(kPair, "coulomb", {"contact={law: coulomb, friction: 0.3, adhesion: 200 Pa}"});
   add(kPair, "own_normals", {"contact={law: stick, normals: own}"});
-  add(kPair, "interface", {"contact={law: interface, opened: 1 MPa, tangential: 500 kPa}"});
+  add(kPair, "interface", {"contact={law: interface, opened: 1 MPa/m, tangential: 500 kPa/m}"});
   add(kPair, "touching_start", {"contact={law: coulomb, friction: 0.1, detection: displacements}"});
   // Geometries.
   add(kRings, "rings", {});

@@ -69,7 +69,6 @@ class ProgramProcess {
     pointers.push_back(nullptr);
     pid_ = fork();
     if (pid_ == 0) {
-      setenv(kChild, "1", 1);
       const int log = open(log_.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
       dup2(log, STDOUT_FILENO);
       dup2(log, STDERR_FILENO);
@@ -208,6 +207,7 @@ inline std::string hash_in(const std::string& path) { return last_state_in(path)
 /// main() of a node test: runs the tests as the ROS node `name`.
 inline int run_node_tests(int argc, char** argv, const std::string& name) {
   if (getenv(kChild) != nullptr) return 1;
+  setenv(kChild, "1", 1);
   testing::InitGoogleTest(&argc, argv);
   setenv("OMP_WAIT_POLICY", "passive", 1);  // several simulators share the cores
   ros::init(argc, argv, name);

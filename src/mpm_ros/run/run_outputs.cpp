@@ -121,6 +121,7 @@ void RunOutputs::begin_again(const RunInfo& info) {
   write_bodies();
   write_state(options_.state_hash, 0.0);
   write_particles();
+  if (!global_.empty()) global_.read();  // contact forces are means from here
 }
 
 void RunOutputs::keep(mpm::StateArchive& archive) {

@@ -190,7 +190,7 @@ void send_bad(Console& console, Dice& dice) {
       command.body = dice.one_of<std::string>({"", "plat", "blade", "rod\n", std::string(5000, 'b')});
       return request(console, command);
     case 9:
-      command.kind = static_cast<std::uint8_t>(dice.one_of({0, 3, 77, 255}));
+      command.kind = static_cast<std::uint8_t>(dice.one_of({0, 4, 77, 255}));
       return request(console, command);
     case 10:
       command.twist.linear.x = dice.huge_number();  // at once

@@ -129,7 +129,7 @@ TEST_F(ReportTest, TablesDoNotDependOnTheStampOfTimeZero) {
 
 TEST_F(ReportTest, CommandsAreCountedAndLateOnesToo) {
   const auto commands = statistics_of({}).commands();
-  const CommandStatistics& tool = commands.at({"tool", mpm::Drive::velocity});
+  const CommandStatistics& tool = commands.at({"tool", "velocity"});
   EXPECT_EQ(tool.count, 1U);
   EXPECT_EQ(tool.first, 10000000);
   EXPECT_EQ(tool.late, 1U);  // asked for at 8 ms, applied at 10 ms

@@ -4,15 +4,9 @@
 #include <limits>
 #include <string>
 
-#include "mpm/math/geometry.hpp"
+#include "mpm/rigid/motion.hpp"
 
 namespace mpm {
-
-/// Force and torque; world axes; torque about the origin of the body it acts on.
-struct Wrench {
-  Vec3 force = Vec3::Zero();   ///< [N]
-  Vec3 torque = Vec3::Zero();  ///< [N m]
-};
 
 /// What the material did to one rigid body since the last report. Planar scenes: for the whole thickness. Axisymmetric
 /// scenes: for the whole body; around the axis all but the force along it cancels, so wrenches, friction and impulse

@@ -17,6 +17,12 @@
 // A sharp edge divides what it meets: a particle beside one is there with its centre, not with its reach. What comes
 // under a surface from beside it, or starts there, keeps the overlap that it came with.
 //
+// A body that is free is solved with them: its velocity is an unknown as those of the nodes are, so a point gives way
+// by the nodes' part and by the body's, n.(1/M + (r x n) I^-1 (r x n)) along the normal, and an impulse pushes both.
+// Sweeps are then the steps of a nonlinear conjugate gradient method (contact/conjugate_sweeps.hpp), since what is
+// light couples all that touch it. While strain is updated the body keeps the velocity that this solve gave it: it is
+// the one that moves it. Increments of XPIC and FMPM are solved with it too, since what they give is momentum.
+//
 // Weak: a particle has one point a body: in an inner corner the one at the nearer face. An edge that cuts is blunt by
 // up to a cell, since particles above and below it share nodes. A particle drawn into a body is pushed out slowly
 // (kPushOut). A block that slides with friction swings more than with contact at nodes.
@@ -25,8 +31,10 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
+#include "mpm/contact/conjugate_sweeps.hpp"
 #include "mpm/contact/contact_ledger.hpp"
 #include "mpm/grid/fields.hpp"
 #include "mpm/math/geometry_kind.hpp"
@@ -42,6 +50,9 @@ struct PointContactSettings {
   ShapeKind shape = ShapeKind::ugimp;
   double across = 1.0;  ///< thickness [m] of a plane, area [m^2] of a line
   int threads = 1;
+  /// Of each body, the body itself if some of its velocities are free, else null.
+  std::vector<RigidBody*> free;
+  Vec3 gravity = Vec3::Zero();  ///< on bodies that are free [m/s^2]
 };
 
 class PointContact final : public Stage {
@@ -57,6 +68,7 @@ class PointContact final : public Stage {
   void increment_found(StepContext& context, NodalField&) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
+  void keep(StateArchive& archive) override;
 
   /// Of a body, by its place in the list.
   ContactLedger& ledger(int body) { return ledgers_[body]; }
@@ -64,20 +76,21 @@ class PointContact final : public Stage {
  private:
   struct Point {
     int body = 0, field = 0;
-    int law = 0;                   ///< in laws_now_
-    std::uint32_t particle = 0;    ///< its id
-    Vec3 place, normal;            ///< world [m]; out of the body
-    Vec3 velocity;                 ///< of the body there [m/s]
-    double gap = 0.0;              ///< negative inside [m]
-    double area = 0.0;             ///< of the surface that the point stands for [m^2]
-    int first = 0, end = 0;        ///< its parts in parts_
-    double compliance = 0.0;       ///< velocity at the point by an impulse there [1/kg]
-    Vec3 impulse = Vec3::Zero();   ///< on the material [N s]
-    Vec3 approach = Vec3::Zero();  ///< relative velocity before the impulses [m/s]
-    double slid = 0.0;             ///< since it was at rest [m]
-    double overlap = 0.0;          ///< that it came with, <= 0; gap is counted from there [m]
-    bool adheres = false;          ///< it was held in the step before, or touches
-    Hold hold = Hold::free;        ///< in the step before, then in this one
+    int law = 0;                    ///< in laws_now_
+    std::uint32_t particle = 0;     ///< its id
+    Vec3 place, normal;             ///< world [m]; out of the body
+    Vec3 velocity;                  ///< of the body there [m/s]
+    double gap = 0.0;               ///< negative inside [m]
+    double area = 0.0;              ///< of the surface that the point stands for [m^2]
+    int first = 0, end = 0;         ///< its parts in parts_
+    double compliance = 0.0;        ///< velocity at the point by an impulse there, along the normal [1/kg]
+    double compliance_along = 0.0;  ///< with a body that is free: at most, along the surface
+    Vec3 impulse = Vec3::Zero();    ///< on the material [N s]
+    Vec3 approach = Vec3::Zero();   ///< relative velocity before the impulses [m/s]
+    double slid = 0.0;              ///< since it was at rest [m]
+    double overlap = 0.0;           ///< that it came with, <= 0; gap is counted from there [m]
+    bool adheres = false;           ///< it was held in the step before, or touches
+    Hold hold = Hold::free;         ///< in the step before, then in this one
   };
   /// A node's part in a point.
   struct Part {
@@ -110,8 +123,9 @@ class PointContact final : public Stage {
   using Member = NodalField Grid::*;
 
   void find_blocks(const GridLayout& layout, double band);
-  template <class Geometry>
   void find_points(const StepContext& context);
+  template <class Geometry>
+  void find_points_in(const StepContext& context);
   /// Nodes and parts of the points found, and what is remembered of them.
   void connect(const StepContext& context);
   void recall(Point& point, double dt) const;
@@ -120,15 +134,30 @@ class PointContact final : public Stage {
   /// Adds what has changed since load().
   void store(Member to, double factor = 1.0);
   Vec3 velocity_at(const Point& point) const;
+  /// `Free`, of this and what follows: some body is free, and its velocity is one more unknown.
+  template <bool Free>
   void push(const Point& point, const Vec3& impulse);
   /// How fast the point may approach (negative) or has to be moved out [m/s].
   double allowed(const Point& point, double dt) const;
   /// One point, once; the velocity that it changed by [m/s].
-  template <Pass Kind>
+  template <Pass Kind, bool Free>
   double relax(Point& point, double dt);
-  template <Pass Kind>
+  template <Pass Kind, bool Free>
   void solve(double dt);
+  template <bool Free>
+  void decide(StepContext& context);
   void give(const Point& point, const Vec3& mean_slip);
+
+  /// Null for a body that only moves as it is told.
+  FreeMotion* free_motion(int body) const {
+    return settings_.free[body] != nullptr ? settings_.free[body]->free_motion() : nullptr;
+  }
+  /// Velocities of free bodies without contact, and what that they give way adds to the points' compliances.
+  void predict_free(double dt);
+  void solve_increment_free(double dt);
+  /// What the point gave to its body, if that is free.
+  void take_free(const Point& point, const Vec3& mean_slip);
+  void finish_free();
 
   std::vector<const RigidBody*> bodies_;
   const std::vector<ParticleSet>& sets_;
@@ -151,6 +180,15 @@ class PointContact final : public Stage {
   std::vector<std::array<double, 3>> velocity_, loaded_;  ///< of nodes_ [m/s]
   std::vector<Memory> memory_;                            ///< by id
   std::vector<Vec3> kept_;                                ///< impulses, while strain is updated [N s]
+
+  /// What contact gave to a free body in the step.
+  struct Taken {
+    BodyMomentum impulse;
+    double loss = 0.0;  ///< [J]
+  };
+  bool any_free_ = false;
+  std::vector<Taken> taken_;  ///< of each body
+  SweepMemory sweeps_;
 };
 
 }  // namespace mpm

@@ -21,6 +21,12 @@ struct Twist {
   Vec3 angular = Vec3::Zero();  ///< rotation rate, world axes [rad/s]
 };
 
+/// Force and torque; world axes; torque about the origin of the body it acts on.
+struct Wrench {
+  Vec3 force = Vec3::Zero();   ///< [N]
+  Vec3 torque = Vec3::Zero();  ///< [N m]
+};
+
 /// The pose after `dt` [s] of constant twist. Exact for any dt; the result's quaternion is renormalised.
 Pose integrate(const Pose& pose, const Twist& twist, double dt);
 

@@ -1,14 +1,18 @@
-// A rigid body: a surface that moves as it is told. What it is told lives here too (functions of time, a twist, a
-// pose to be at by a time), so that pose and twist come from one place.
+// A rigid body: a surface that moves as it is told, or, where it is free, as forces make it (rigid/free_motion.hpp).
+// What it is told lives here too (functions of time, a twist, a pose to be at by a time), so that pose and twist come
+// from one place.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "mpm/math/function.hpp"
+#include "mpm/math/state_archive.hpp"
 #include "mpm/rigid/contact_law.hpp"
+#include "mpm/rigid/free_motion.hpp"
 #include "mpm/rigid/motion.hpp"
 #include "mpm/rigid/surface.hpp"
 
@@ -30,6 +34,8 @@ struct RigidBodyDefinition {
   /// body made of particles would reach; material is met that much early.
   double reach = 0.0;
   Sides sides = Sides::automatic;
+  /// A body with a mass, of which some velocities or all are free; the others are told. Without: all are told.
+  std::optional<FreeDefinition> free;
   /// Filled with particles, and met by volumes and volume gradients at nodes (contact/rigid_particle_contact.hpp) in
   /// place of the surface.
   bool particles = false;
@@ -67,14 +73,23 @@ class RigidBody {
     return velocity;
   }
 
-  /// Constant twist from now on. @throws RigidError when not finite.
+  /// Null unless some of its velocities are free.
+  FreeMotion* free_motion() { return free_ ? &*free_ : nullptr; }
+  const FreeMotion* free_motion() const { return free_ ? &*free_ : nullptr; }
+  /// Where it is free: what contact and forces have made of it.
+  void set_twist(const Twist& twist) { twist_ = twist; }
+
+  /// Constant twist from now on; where the body is free it keeps its own. @throws RigidError when not finite, or when
+  /// all of it is free.
   void command_velocity(const Twist& twist);
+  /// A force on a free body from now on. @throws RigidError when not finite, or the body has no mass.
+  void apply_wrench(const Wrench& wrench);
   /// Constant twist from `now` that arrives at `target` at `arrival` > now [ns], then rest.
-  /// @throws RigidError when not finite, the quaternion's length is not 1 within 1e-3, arrival is not after now, or a
-  /// ring would be closed there.
+  /// @throws RigidError when not finite, the quaternion's length is not 1 within 1e-3, arrival is not after now, a
+  /// ring would be closed there, or the body is free.
   void command_pose(const Pose& target, std::int64_t now, std::int64_t arrival);
 
-  /// The twist that the step which begins at `time` [s] would have, as far as it is known now.
+  /// The twist that the step which begins at `time` [s] would have, as far as it is known now: free parts as they are.
   /// @throws FunctionError when a function is not finite there.
   Twist twist_at(double time) const;
   /// Sets the twist for the step that begins at `time` [s] and lasts `dt` [s]: functions are read at its middle.
@@ -85,6 +100,8 @@ class RigidBody {
   /// At a sync point: a body that has reached its target pose is put exactly there. Its twist stays that of the step
   /// just made; it rests from the next step on, unless a command says otherwise.
   void at_sync(std::int64_t now);
+  /// For checkpoints: where it is, and what it follows.
+  void keep(StateArchive& archive);
 
  private:
   RigidBodyDefinition definition_;
@@ -93,6 +110,7 @@ class RigidBody {
   Drive drive_ = Drive::functions;
   Pose target_;
   std::int64_t arrival_ = 0;
+  std::optional<FreeMotion> free_;
 };
 
 }  // namespace mpm

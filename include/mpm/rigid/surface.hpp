@@ -9,11 +9,13 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mpm/math/error.hpp"
 #include "mpm/math/geometry.hpp"
+#include "mpm/rigid/solid_moments.hpp"
 
 namespace mpm {
 
@@ -43,6 +45,9 @@ class Surface {
   /// Triangles for display (markers), body frame; three vertices each, counter-clockwise seen from outside. A body
   /// without end along an axis is drawn as long as it is wide.
   virtual std::vector<std::array<Vec3, 3>> triangles() const = 0;
+  /// Of what the surface encloses; along an axis without end it is `across` [m] long, centred. Nothing when that is not
+  /// known.
+  virtual std::optional<SolidMoments> moments(double /*across*/) const { return {}; }
 };
 
 /// A closed triangle mesh; indices are counter-clockwise seen from outside.
@@ -51,7 +56,8 @@ struct TriangleMesh {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// A closed polygon in the half plane of a body of revolution: points (r, z), r >= 0 [m]. The last joins the first.
+/// A closed polygon: points (r, z), r >= 0, in the half plane of a body of revolution; (x, z) in a plane [m]. The last
+/// joins the first.
 using Profile = std::vector<Vec2>;
 
 /// Edge lengths [m], all positive (infinite along axes that the scene does not have: y in a plane, y and z in a line),
@@ -69,6 +75,9 @@ std::unique_ptr<Surface> make_cylinder(double radius, double height, int axis = 
 /// @throws RigidError, with the point: fewer than 3, not finite, r < 0, repeated, alone on the axis, or the profile
 /// cuts or touches itself.
 std::unique_ptr<Surface> make_revolved(const Profile& profile);
+/// A closed polygon in planar scenes: points (x, z), without end along y; in either sense. Drawn `drawn` [m] long.
+/// @throws RigidError, with the point: fewer than 3, not finite, repeated, or the polygon cuts or touches itself.
+std::unique_ptr<Surface> make_polygon(const Profile& profile, double drawn = 1.0);
 /// A cone with its tip at the origin, pointing down, under a shaft of the same radius (perhaps of length 0).
 /// @throws RigidError
 std::unique_ptr<Surface> make_cone(double radius, double height, double shaft = 0.0);

@@ -11,6 +11,7 @@
 #include "mpm/math/error.hpp"
 #include "mpm/rigid/motion_limits.hpp"
 #include "mpm/simulation/definition.hpp"
+#include "mpm/simulation/global_quantity.hpp"
 
 namespace mpm {
 
@@ -66,9 +67,13 @@ struct CommandDefinition {
 
 /// What is written out, beside the sync period that carries it.
 struct OutputDefinition {
-  double period = 0.0;                       ///< [s] between particle snapshots; a multiple of the sync period
+  double period = 0.0;  ///< [s] between particle snapshots; a multiple of the sync period
+  double first = 0.0;   ///< [s] of the first snapshot after that of the start; a multiple of the sync period
   std::vector<std::string> particle_fields;  ///< chosen scalars, beside x, y, z, id
   int particle_stride = 1;
+  std::optional<Box> particle_region;  ///< only particles in it are written [m]
+  std::vector<GlobalQuantity> global;  ///< sums and means over bodies, written over time
+  double global_period = 0.0;          ///< [s] between them; a multiple of the sync period
 };
 
 struct Scene {

@@ -43,6 +43,10 @@ void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinitio
 /// The `shape` of a rigid body that is `revolved`, `cone` or `ring`; of a ring that can open, its inner radius too.
 /// @throws RigidError for numbers that make no body.
 std::unique_ptr<Surface> read_revolved_shape(const std::string& kind, const Value& value, RigidBodyDefinition& body);
+/// `free` of a rigid body, after its shape and motion
+void read_free(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body);
+/// The `shape` of a rigid body that is a `polygon`, in planar scenes
+std::unique_ptr<Surface> read_polygon(const Value& value, const SimulationDefinition& definition);
 /// The `shape` of a rigid body that is a `height_field`, after `grid`
 std::unique_ptr<Surface> read_height_field(const Value& value, const SimulationDefinition& definition);
 /// The `shape` of a rigid body that is a robot's link, `urdf`

@@ -17,6 +17,7 @@ struct BodyState {
   Pose pose;
   Twist twist;
   Drive drive = Drive::functions;
+  double mass = 0.0;  ///< [kg] of a body that is free; 0: it only moves as it is told
 };
 
 /// Energies [J].
@@ -30,7 +31,15 @@ struct EnergyReport {
   double pair_friction = 0.0;  ///< taken by sliding between deformable bodies since the start
   double interface = 0.0;      ///< stored in imperfect interfaces, as the last step began
   double friction = 0.0;       ///< taken by sliding on rigid bodies since the start
+  // Of free rigid bodies; contact_work is then what they lost to the material.
+  double free_kinetic = 0.0;
+  double free_potential = 0.0;
+  double free_work = 0.0;  ///< done on them by applied wrenches and by what drives their told velocities
+  double free_loss = 0.0;  ///< lost where they and the material met, sliding left out
+  /// Of the material.
   double total() const { return kinetic + elastic + potential + interface; }
+  /// With free bodies.
+  double whole() const { return total() + free_kinetic + free_potential; }
 };
 
 /// One external impulse on the material since the start [N s].
@@ -46,7 +55,8 @@ struct AuditReport {
   Vec3 initial_momentum = Vec3::Zero();
   std::vector<NamedImpulse> impulses;
   double exchanged = 0.0;  ///< momentum exchanged: sum over steps and sources of |impulse| [N s]
-  double residual = 0.0;   ///< |change - sum of impulses| / max(exchanged, sum of m |v|)
+  double carried = 0.0;    ///< sum of m |v| of the particles now [N s]
+  double residual = 0.0;   ///< |change - sum of impulses| / max(exchanged, carried)
 };
 
 /// What limited the time step, and the steps taken.

@@ -15,18 +15,24 @@
 
 namespace mpm_ros {
 
-enum class CommandKind : std::uint8_t { velocity = mpm_ros::Command::VELOCITY, pose = mpm_ros::Command::POSE };
+enum class CommandKind : std::uint8_t {
+  velocity = mpm_ros::Command::VELOCITY,
+  pose = mpm_ros::Command::POSE,
+  wrench = mpm_ros::Command::WRENCH
+};
 
 /// A checked command that waits for its time.
 struct BodyCommand {
   int body = 0;  ///< index in the simulation
   CommandKind kind = CommandKind::velocity;
   mpm::Twist twist;     ///< velocity: of the body's origin
+  mpm::Wrench wrench;   ///< wrench: on a free body
   mpm::Pose pose;       ///< pose: to be at
   int frame_body = -1;  ///< rigid body in whose axes it is given, as they are when it is applied; -1: world
   ros::Time requested;  ///< stamp it came with
   std::optional<std::int64_t> stamp;  ///< the same in simulated time [ns]; none: as soon as possible
   bool late = false;                  ///< the stamp was zero, or past when it came
+  std::string sender;                 ///< node that published it, for an order that is not that of arrival
   std::uint64_t order = 0;            ///< of arrival
 };
 
@@ -35,6 +41,7 @@ struct AppliedCommand {
   int body = 0;
   CommandKind kind = CommandKind::velocity;
   mpm::Twist twist;
+  mpm::Wrench wrench;
   mpm::Pose pose;
   std::int64_t effect = 0;   ///< [ns] simulated time at which it takes effect
   std::int64_t arrival = 0;  ///< [ns] pose: when it is reached
@@ -46,6 +53,8 @@ struct AppliedCommand {
 /// tool means and which would take steps without end.
 void apply(const AppliedCommand& command, mpm::Simulation& simulation);
 
+/// What makes a body stand still that was commanded: velocity zero where it is told, no wrench where it is free.
+std::vector<AppliedCommand> stop_commands(int body, const mpm::Simulation& simulation);
 /// The check of apply() for a motion that no tool means. @throws mpm::RigidError
 void check_travel(const AppliedCommand& command, const mpm::Simulation& simulation);
 /// A pose that its body reaches only by more than a cell in a sync period is more of a jump than a motion: that, in

@@ -15,6 +15,7 @@
 #include <map>
 #include <vector>
 
+#include "mpm/math/state_archive.hpp"
 #include "mpm/rigid/motion_limits.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/command/body_command.hpp"
@@ -41,7 +42,8 @@ class CommandLimiter {
   /// For a run that begins again.
   void clear();
 
-  /// Of bodies under way; take() takes each again. For who saves a state.
+  void keep(mpm::StateArchive& archive);
+  /// Of bodies under way.
   std::vector<AppliedCommand> goals() const;
 
  private:

@@ -1,10 +1,10 @@
 // What went wrong or should be known, for the log and for /diagnostics: two statuses, `commands` and `solver`.
 //
-// solver: ERROR when the run has failed; WARN when the audit does not close, a particle is nearly crushed, particles
-// left the grid and were put back, or the wall clock is not kept up with; else OK. commands: WARN for ten seconds after
-// one was refused or made a body jump, and as long as a body that was commanded hears nothing (past ~command_timeout),
-// waits for its tf frame, or is behind a pose for the sake of its limits; else OK. A late command is normal latency:
-// counted, no warning.
+// solver: ERROR when the run has failed, or goes on without its record; WARN when the audit does not close, a particle
+// is nearly crushed, particles left the grid and were put back, or the wall clock is not kept up with; else OK.
+// commands: WARN for ten seconds after one was refused or made a body jump, and as long as a body that was commanded
+// hears nothing (past ~command_timeout), waits for its tf frame, or is behind a pose for the sake of its limits; else
+// OK. A late command is normal latency: counted, no warning.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -23,7 +23,8 @@ namespace mpm_ros {
 struct SolverHealth {
   std::string phase = "starting";  ///< "running", "paused", "waiting for step", "ended", "failed: …"
   bool failed = false;
-  double time = 0.0;  ///< [s] simulated
+  std::string record_failure;  ///< why the run goes on without its record; empty: it has one, or none was asked for
+  double time = 0.0;           ///< [s] simulated
   double real_time_factor = 0.0;
   double asked_factor = 0.0;                           ///< that pacing tries to keep; 0: none
   std::uint64_t overruns = 0;                          ///< sync periods that took longer than their wall time

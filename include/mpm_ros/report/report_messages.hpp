@@ -7,6 +7,7 @@
 #include <mpm_ros/SolverState.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "mpm/simulation/report.hpp"
@@ -19,6 +20,8 @@ std::vector<mpm::PairReport> pair_reports_of(const ContactForces& message);
 std::vector<mpm::BodyState> body_states_of(const BodyStates& message);
 /// `time` [ns] since the start. The wall time is not in the message and stays zero.
 mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message);
+/// "velocity", "pose" or "wrench".
+std::string command_kind_name(std::uint8_t kind);
 /// `time` [ns] since the start.
 CommandRow command_row_of(std::int64_t time, const Command& message);
 

@@ -3,40 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/contact/particle_reach.hpp"
-#include "mpm/shape/ring.hpp"
 #include "mpm/step/point_weights.hpp"
 
 namespace mpm {
 namespace {
 
-constexpr double kBeyondBlock = 1.5;  ///< nodes that a particle may be beyond its block, and a half
-constexpr double kWatched = 0.1;      ///< cells: a point this near is held if it comes nearer in this step
-constexpr double kTouching = 1e-2;    ///< cells: a point this near counts to the area
-constexpr double kWeakening = 1e-3;   ///< cells of sliding over which friction falls from that at rest
-constexpr double kAtRest = 1e-6;   ///< cells: what slides by less in a step is at rest, and what is this near adheres
-constexpr double kPushOut = 2e-4;  ///< cells a step at most that a point inside a body is moved out
+constexpr double kTouching = 1e-2;   ///< cells: a point this near counts to the area
+constexpr double kWeakening = 1e-3;  ///< cells of sliding over which friction falls from that at rest
+constexpr double kAtRest = 1e-6;     ///< cells: what slides by less in a step is at rest, and what is this near adheres
+constexpr double kPushOut = 2e-4;    ///< cells a step at most that a point inside a body is moved out
 constexpr double kPushOutPart = 0.1;  ///< of its depth
 constexpr int kMostSweeps = 40;
-constexpr double kTolerance = 1e-3;  ///< change of velocity in a sweep over the largest one, at which sweeps end
-
-// 1 where the nearest place of the body is a sharp edge or corner, 0 over a face, between them on what is rounded: how
-// much the normal turns along the surface, by a step to either side, over how much it turns about an edge. An edge
-// divides what it meets, as a particle cannot: its centre decides on which side of an edge it is, and a blade does not
-// press down what it has cut off.
-double edge_part(const RigidBody& body, GeometryKind geometry, const Vec3& centre, const SurfacePoint& at,
-                 double step) {
-  if (!(at.distance > 0.0) || geometry == GeometryKind::line) return 0.0;
-  const Vec3 place = body.pose().to_body(centre);
-  const Vec3 across = dimensions(geometry) == 3 ? Vec3(at.normal.unitOrthogonal()) : Vec3(Vec3::UnitY());
-  const auto turned = [&](const Vec3& along) {
-    const double one = (body.surface().at(place + step * along).normal - at.normal).norm();
-    return one == 0.0 ? 0.0 : std::min(one, (body.surface().at(place - step * along).normal - at.normal).norm());
-  };
-  double most = turned(across.cross(at.normal).normalized());
-  if (dimensions(geometry) == 3) most = std::max(most, turned(across));
-  return std::min(most * at.distance / step, 1.0);
-}
+constexpr int kMostSweepsFree = 400;     ///< with a body that is free
+constexpr double kToleranceFree = 1e-5;  ///< the same as kTolerance
+constexpr double kTolerance = 1e-3;      ///< change of velocity in a sweep over the largest one, at which sweeps end
 
 std::uint64_t id_of(std::uint32_t particle, int body) { return (static_cast<std::uint64_t>(particle) << 16) + body; }
 
@@ -51,87 +31,7 @@ PointContact::PointContact(std::vector<const RigidBody*> bodies, const std::vect
       laws_(std::move(laws)),
       laws_now_(laws_.size()) {
   for (const RigidBody* body : bodies_) ledgers_.emplace_back(*body, axisymmetric(settings.geometry));
-}
-
-void PointContact::find_blocks(const GridLayout& layout, double band) {
-  // A block's particles have not left it by more than a node.
-  Vec3 half = Vec3::Zero();
-  for (int k = 0; k < layout.dim(); ++k) {
-    half[layout.axis(k)] = (0.5 * (kBlockEdge - 1) + kBeyondBlock) * layout.cell(k);
-  }
-  const double reach = half.norm() + band;
-  near_.clear();
-  for (std::size_t f = 0; f < fields_.size(); ++f) {
-    const BlockTable& blocks = fields_[f]->blocks;
-    for (int owner = 0; owner < blocks.owners(); ++owner) {
-      const std::array<int, 3>& block = blocks.block(blocks.owner_block(owner));
-      const Vec3 middle =
-          0.5 * (layout.node_position(block, 0) + layout.node_position(block, layout.nodes_per_block() - 1));
-      const bool near = std::any_of(bodies_.begin(), bodies_.end(), [&](const RigidBody* body) {
-        SurfacePoint point;
-        return body->surface().within(body->pose().to_body(middle), reach, point);
-      });
-      if (near) near_.push_back({static_cast<int>(f), owner});
-    }
-  }
-}
-
-template <class Geometry>
-void PointContact::find_points(const StepContext& context) {
-  const GridLayout& layout = context.grid.layout;
-  const double watched = kWatched * layout.smallest_cell();
-  // From a particle's centre, which may be stretched to three times its box; in a step neither material nor tool moves
-  // by more than a cell.
-  double band = 0.0;
-  for (const ParticleSet& set : sets_) {
-    for (int k = 0; k < layout.dim(); ++k) band = std::max(band, 3.0 * set.half[k] * layout.cell(k));
-  }
-  band += layout.smallest_cell();
-  find_blocks(layout, band);
-  while (of_block_.size() < near_.size()) of_block_.emplace_back();
-  const int count = static_cast<int>(near_.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(settings_.threads)
-  for (int i = 0; i < count; ++i) {
-    of_block_[i].clear();
-    const int owner = fields_[near_[i].field]->first_owner + near_[i].owner;
-    for (std::size_t s = 0; s < sets_.size(); ++s) {
-      const ParticleSet& set = sets_[s];
-      const int end = static_cast<int>(set.group[set.group_begin[owner + 1]]);
-      for (int p = static_cast<int>(set.group[set.group_begin[owner]]); p < end; ++p) {
-        Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
-        for (int k = 0; k < layout.dim(); ++k) {
-          centre[layout.axis(k)] = set.x[k][p];
-          velocity[layout.axis(k)] = set.v[k][p];
-        }
-        for (std::size_t b = 0; b < bodies_.size(); ++b) {
-          const RigidBody& body = *bodies_[b];
-          SurfacePoint surface;
-          if (!body.surface().within(body.pose().to_body(centre), band, surface)) continue;
-          Point point;
-          point.normal = body.pose().orientation * surface.normal;
-          double reach = particle_reach<Geometry>(set, layout, p, point.normal);
-          const double closing = (body.velocity_at(centre) - velocity).dot(point.normal) * context.dt;
-          const double seen_from = watched + std::max(closing, 0.0);
-          if (surface.distance - reach > seen_from) continue;
-          const double half_width = reach;
-          reach *= 1.0 - edge_part(body, settings_.geometry, centre, surface, 0.5 * reach);
-          point.gap = surface.distance - reach;
-          if (point.gap > seen_from) continue;
-          point.place = centre - reach * point.normal;
-          point.velocity = body.velocity_at(point.place);
-          point.body = static_cast<int>(b);
-          point.field = near_[i].field;
-          point.law = static_cast<int>(b * sets_.size() + s);
-          point.particle = set.id[p];
-          double volume = stretch_of_section<Geometry>(set, p) * settings_.across;
-          for (int k = 0; k < layout.dim(); ++k) volume *= 2.0 * set.half[k] * layout.cell(k);
-          if (axisymmetric(settings_.geometry)) volume *= kTurn * centre.x();
-          point.area = volume / (2.0 * half_width);
-          of_block_[i].push_back(point);
-        }
-      }
-    }
-  }
+  any_free_ = std::any_of(settings_.free.begin(), settings_.free.end(), [](const RigidBody* body) { return body; });
 }
 
 void PointContact::momentum_gathered(StepContext& context) {
@@ -147,7 +47,7 @@ void PointContact::momentum_gathered(StepContext& context) {
   touching_ = kTouching * context.grid.layout.smallest_cell();
   at_rest_ = kAtRest * context.grid.layout.smallest_cell();
   weakening_ = kWeakening * context.grid.layout.smallest_cell();
-  with_geometry(settings_.geometry, [&](auto kind) { find_points<decltype(kind)>(context); });
+  find_points(context);
   connect(context);
   // What friction takes is counted with the slip of the step's start and end: in between forces push held points that
   // do not slide.
@@ -238,7 +138,11 @@ Vec3 PointContact::velocity_at(const Point& point) const {
   return v;
 }
 
+template <bool Free>
 void PointContact::push(const Point& point, const Vec3& impulse) {
+  if constexpr (Free) {
+    if (FreeMotion* free = free_motion(point.body)) free->push(-impulse, point.place);
+  }
   for (int i = point.first; i < point.end; ++i) {
     for (int k = 0; k < 3; ++k) velocity_[parts_[i].node][k] += parts_[i].lifted * impulse[k];
   }
@@ -248,18 +152,28 @@ double PointContact::allowed(const Point& point, double dt) const {
   return point.gap > 0.0 ? -point.gap / dt : std::min(-kPushOutPart * point.gap, push_out_) / dt;
 }
 
-template <PointContact::Pass Kind>
+template <PointContact::Pass Kind, bool Free>
 double PointContact::relax(Point& point, double dt) {
   constexpr bool kDecides = Kind == Pass::step;
   const bool bound = !kDecides && point.hold != Hold::free;
   if (Kind != Pass::step && Kind != Pass::strain && !bound) return 0.0;
   Vec3 slip = velocity_at(point);
-  if (Kind != Pass::increment) slip -= point.velocity;
+  double compliance_along = point.compliance;
+  const FreeMotion* free = nullptr;
+  if constexpr (Free) {
+    free = free_motion(point.body);
+    compliance_along = point.compliance_along;
+  }
+  if (free != nullptr) {
+    slip -= free->velocity_at(point.place);
+  } else if (Kind != Pass::increment) {
+    slip -= point.velocity;
+  }
   const double approach = slip.dot(point.normal), pressed = point.impulse.dot(point.normal);
   const double wanted = bound ? 0.0 : allowed(point, dt);
   double normal = pressed + (wanted - approach) / point.compliance;
   Vec3 along = point.impulse - pressed * point.normal;
-  const Vec3 sticking = along - (slip - approach * point.normal) / point.compliance;
+  const Vec3 sticking = along - (slip - approach * point.normal) / compliance_along;
   if (bound) {
     if (point.hold == Hold::stick) along = sticking;
   } else {
@@ -281,16 +195,18 @@ double PointContact::relax(Point& point, double dt) {
   }
   const Vec3 impulse = normal * point.normal + along, change = impulse - point.impulse;
   point.impulse = impulse;
-  push(point, change);
+  push<Free>(point, change);
   return change.norm() * point.compliance;
 }
 
-template <PointContact::Pass Kind>
+template <PointContact::Pass Kind, bool Free>
 void PointContact::solve(double dt) {
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+  ConjugateSweeps<Point> conjugate(sweeps_);
+  for (int sweep = 0; sweep < (Free ? kMostSweepsFree : kMostSweeps); ++sweep) {
+    if constexpr (Free) conjugate.begin(points_);
     double largest = 0.0, scale = 0.0;
     const auto visit = [&](Point& point) {
-      largest = std::max(largest, relax<Kind>(point, dt));
+      largest = std::max(largest, relax<Kind, Free>(point, dt));
       scale = std::max(scale, point.impulse.norm() * point.compliance);
     };
     if (sweep % 2 == 0) {
@@ -298,7 +214,15 @@ void PointContact::solve(double dt) {
     } else {
       for (auto point = points_.rbegin(); point != points_.rend(); ++point) visit(*point);
     }
-    if (largest <= kTolerance * scale) break;
+    if (largest <= (Free ? kToleranceFree : kTolerance) * scale) break;
+    if constexpr (Free) {
+      if (sweep + 1 < kMostSweepsFree) {
+        conjugate.go_on(points_, [&](Point& point, const Vec3& change) {
+          point.impulse += change;
+          push<true>(point, change);
+        });
+      }
+    }
   }
 }
 
@@ -310,22 +234,42 @@ void PointContact::before_strain(StepContext& context) {
     kept_.push_back(point.impulse);
     point.impulse.setZero();
   }
-  solve<Pass::strain>(context.dt);
+  solve<Pass::strain, false>(context.dt);
   for (std::size_t i = 0; i < points_.size(); ++i) points_[i].impulse = kept_[i];
   store(&Grid::velocity);
 }
 
 void PointContact::momentum_updated(StepContext& context) {
   memory_.clear();
-  if (points_.empty()) return;
+  if (any_free_) {
+    predict_free(context.dt);
+    decide<true>(context);
+    finish_free();
+  } else if (!points_.empty()) {
+    decide<false>(context);
+  }
+}
+
+template <bool Free>
+void PointContact::decide(StepContext& context) {
   load(&Grid::velocity);
-  for (const Point& point : points_) push(point, point.impulse);
-  solve<Pass::step>(context.dt);
+  for (const Point& point : points_) push<Free>(point, point.impulse);
+  solve<Pass::step, Free>(context.dt);
   store(&Grid::velocity);
   store(&Grid::force, 1.0 / context.dt);
   for (Point& point : points_) {
-    const Vec3 slip = velocity_at(point) - point.velocity;
+    Vec3 moves = point.velocity;
+    if constexpr (Free) {
+      if (const FreeMotion* free = free_motion(point.body)) {
+        // What an impulse does to the body is counted with the mean velocity, as what it does to the material.
+        moves = free->velocity_at(point.place);
+        point.velocity = free->mean_velocity_at(point.place);
+      }
+    }
+    const Vec3 slip = velocity_at(point) - moves;
     give(point, 0.5 * (point.approach + slip));
+    if constexpr (Free) take_free(point, 0.5 * (point.approach + slip));
+    point.velocity = moves;
     // What has come to rest has friction at rest again.
     const double slid = (slip - slip.dot(point.normal) * point.normal).norm() * context.dt;
     point.slid = slid < at_rest_ ? 0.0 : point.slid + slid;
@@ -339,7 +283,7 @@ void PointContact::velocity_found(StepContext& context, NodalField&) {
   if (points_.empty()) return;
   load(&Grid::increment);
   for (Point& point : points_) point.impulse.setZero();
-  solve<Pass::held>(context.dt);
+  solve<Pass::held, false>(context.dt);
   store(&Grid::increment);
 }
 
@@ -347,14 +291,69 @@ void PointContact::increment_found(StepContext& context, NodalField&) {
   if (points_.empty()) return;
   load(&Grid::increment);
   for (Point& point : points_) point.impulse.setZero();
-  solve<Pass::increment>(context.dt);
+  if (any_free_) {
+    solve_increment_free(context.dt);
+  } else {
+    solve<Pass::increment, false>(context.dt);
+  }
   store(&Grid::increment);
   for (const Point& point : points_) give(point, Vec3::Zero());
+}
+
+void PointContact::solve_increment_free(double dt) {
+  for (RigidBody* body : settings_.free) {
+    if (body != nullptr) body->free_motion()->begin_increment();
+  }
+  solve<Pass::increment, true>(dt);
+  for (RigidBody* body : settings_.free) {
+    if (body != nullptr) body->free_motion()->end_increment();
+  }
+  for (Point& point : points_) {
+    take_free(point, Vec3::Zero());
+    if (const FreeMotion* free = free_motion(point.body)) point.velocity = free->velocity_at(point.place);
+  }
+  finish_free();
 }
 
 void PointContact::give(const Point& point, const Vec3& mean_slip) {
   const Vec3 arm = point.place - bodies_[point.body]->pose().position;
   ledgers_[point.body].give({point.impulse, point.normal, arm, point.velocity, mean_slip});
+}
+
+void PointContact::predict_free(double dt) {
+  for (RigidBody* body : settings_.free) {
+    if (body != nullptr) body->free_motion()->predict(body->pose(), body->twist(), settings_.gravity, dt);
+  }
+  taken_.assign(bodies_.size(), {});
+  for (Point& point : points_) {
+    point.compliance_along = point.compliance;
+    const FreeMotion* free = free_motion(point.body);
+    if (free == nullptr) continue;
+    const Mat3 lift = free->compliance_at(point.place);
+    const double across = point.normal.dot(lift * point.normal);
+    point.compliance += across;
+    // All along the surface: at least its larger principal value.
+    point.compliance_along += lift.trace() - across;
+  }
+}
+
+void PointContact::take_free(const Point& point, const Vec3& mean_slip) {
+  const FreeMotion* free = free_motion(point.body);
+  if (free == nullptr) return;
+  Taken& taken = taken_[point.body];
+  taken.impulse.linear -= point.impulse;
+  taken.impulse.angular -= (point.place - free->centre()).cross(point.impulse);
+  taken.loss -= point.impulse.dot(point.normal) * mean_slip.dot(point.normal);
+}
+
+void PointContact::finish_free() {
+  for (std::size_t b = 0; b < settings_.free.size(); ++b) {
+    RigidBody* body = settings_.free[b];
+    if (body == nullptr) continue;
+    body->free_motion()->finish(taken_[b].impulse, taken_[b].loss);
+    body->set_twist(body->free_motion()->twist(body->pose()));
+    taken_[b] = {};
+  }
 }
 
 void PointContact::grid_advanced(StepContext& context) {
@@ -372,6 +371,19 @@ void PointContact::grid_advanced(StepContext& context) {
 
 void PointContact::accounts(std::vector<ImpulseAccount>& list) const {
   for (const ContactLedger& ledger : ledgers_) list.push_back(ledger.account());
+}
+
+void PointContact::keep(StateArchive& archive) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const StateArchive::Group group(archive, "body_" + std::to_string(b));
+    ledgers_[b].keep(archive);
+  }
+  archive.rows("points", memory_);
+  archive.column("points/id", memory_, &Memory::id);
+  archive.column("points/force", memory_, &Memory::force);
+  archive.column("points/slid", memory_, &Memory::slid);
+  archive.column("points/overlap", memory_, &Memory::overlap);
+  archive.column("points/hold", memory_, &Memory::hold);
 }
 
 }  // namespace mpm

@@ -75,6 +75,16 @@ class BoxSurface final : public Surface {
     return result;
   }
 
+  std::optional<SolidMoments> moments(double across) const override {
+    Vec3 size = 2.0 * half_;
+    // Of a line `across` is the side of the square that is its area.
+    for (int i = 0; i < 3; ++i) {
+      if (std::isinf(size[i])) size[i] = across;
+    }
+    const double volume = size.prod();
+    return centred_moments(volume, volume / 12.0 * size.cwiseAbs2());
+  }
+
  private:
   Vec3 half_;
 };

@@ -70,6 +70,21 @@ class CapsuleSurface final : public Surface {
     return result;
   }
 
+  // The straight part and two halves of a ball or disc, whose centres of mass lie beyond its ends.
+  std::optional<SolidMoments> moments(double across) const override {
+    const double r = radius_, r2 = r * r, length = 2.0 * half_;
+    const double depth = in_plane_ ? across : 1.0;
+    const double straight = (in_plane_ ? 2.0 * r * depth : kPi * r2) * length;
+    const double ends = in_plane_ ? kPi * r2 * depth : 4.0 / 3.0 * kPi * r2 * r;
+    const double beyond = in_plane_ ? 4.0 * r / (3.0 * kPi) : 0.375 * r;
+    const double of_ends = ends * r2 / (in_plane_ ? 4.0 : 5.0);  // of a whole disc or ball about its centre
+    const double volume = straight + ends;
+    Vec3 squares = Vec3::Constant(straight * r2 / (in_plane_ ? 3.0 : 4.0) + of_ends);
+    squares[axis_] = straight * length * length / 12.0 + ends * (half_ * half_ + 2.0 * half_ * beyond) + of_ends;
+    if (in_plane_) squares.y() = volume * depth * depth / 12.0;
+    return centred_moments(volume, squares);
+  }
+
  private:
   double radius_, half_;
   int axis_;

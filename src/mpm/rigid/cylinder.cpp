@@ -78,6 +78,14 @@ class CylinderSurface final : public Surface {
     return result;
   }
 
+  std::optional<SolidMoments> moments(double across) const override {
+    const double height = std::isfinite(half_) ? 2.0 * half_ : across;
+    const double volume = kPi * radius_ * radius_ * height;
+    Vec3 squares = Vec3::Constant(0.25 * volume * radius_ * radius_);
+    squares[axis_] = volume * height * height / 12.0;
+    return centred_moments(volume, squares);
+  }
+
  private:
   double radius_, half_;
   int axis_;

@@ -74,6 +74,27 @@ class MeshSurface final : public Surface {
     return result;
   }
 
+  // Tetrahedra from a point to every triangle, with their signs.
+  std::optional<SolidMoments> moments(double) const override {
+    const Vec3 apex = bounds_.center();
+    double volume = 0.0;
+    Vec3 first = Vec3::Zero();
+    Mat3 second = Mat3::Zero();
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      std::array<Vec3, 3> arm = corners(t);
+      for (Vec3& corner : arm) corner -= apex;
+      const double six = arm[0].dot(arm[1].cross(arm[2]));
+      const Vec3 sum = arm[0] + arm[1] + arm[2];
+      Mat3 squares = sum * sum.transpose();
+      for (const Vec3& corner : arm) squares += corner * corner.transpose();
+      volume += six / 6.0;
+      first += six / 24.0 * sum;
+      second += six / 120.0 * squares;
+    }
+    const Vec3 centre = first / volume;
+    return SolidMoments{volume, apex + centre, second - volume * centre * centre.transpose()};
+  }
+
  private:
   using Tree = Eigen::KdBVH<double, 3, Triangle>;
 

@@ -59,6 +59,10 @@ RigidBody::RigidBody(RigidBodyDefinition definition) : definition_(std::move(def
   definition_.pose = checked(definition_.pose, definition_.name, "initial pose");
   check_open(definition_, definition_.pose, "initial pose");
   pose_ = definition_.pose;
+  if (!definition_.free) return;
+  free_.emplace(*definition_.free, definition_.name);
+  twist_ = free_->merged(definition_.free->velocity, twist_at(0.0));
+  free_->start(pose_, twist_);
 }
 
 void RigidBody::command_velocity(const Twist& twist) {
@@ -66,11 +70,29 @@ void RigidBody::command_velocity(const Twist& twist) {
     throw RigidError("rigid body '" + name() + "': velocity command is not finite: linear " + text_of(twist.linear) +
                      ", angular " + text_of(twist.angular));
   }
-  twist_ = twist;
+  if (free_ && free_->definition().all_free()) {
+    throw RigidError("rigid body '" + name() + "': it is free in all it can do, so there is no velocity to command; " +
+                     "apply a wrench, or leave an axis out of free.axes");
+  }
+  twist_ = free_ ? free_->merged(twist_, twist) : twist;
   drive_ = Drive::velocity;
 }
 
+void RigidBody::apply_wrench(const Wrench& wrench) {
+  const std::string start = "rigid body '" + name() + "': wrench command ";
+  if (!wrench.force.allFinite() || !wrench.torque.allFinite()) {
+    throw RigidError(start + "is not finite: force " + text_of(wrench.force) + ", torque " + text_of(wrench.torque));
+  }
+  if (!free_) throw RigidError(start + "for a body that only moves as it is told; give it a mass by `free`");
+  free_->apply_wrench(wrench);
+}
+
 void RigidBody::command_pose(const Pose& target, std::int64_t now, std::int64_t arrival) {
+  if (free_) {
+    throw RigidError("rigid body '" + name() +
+                     "': pose command for a body that is free; command its velocity where it " +
+                     "is told, or apply a wrench");
+  }
   const Pose goal = checked(target, name(), "pose command");
   if (arrival <= now) {
     throw RigidError("rigid body '" + name() + "': pose command arrives at " + std::to_string(arrival) +
@@ -90,7 +112,7 @@ Twist RigidBody::twist_at(double time) const {
     twist.linear[i] = definition_.velocity[i](time);
     twist.angular[i] = definition_.rotation_rate[i](time);
   }
-  return twist;
+  return free_ ? free_->merged(twist_, twist) : twist;
 }
 
 void RigidBody::begin_step(double time, double dt) {
@@ -104,12 +126,31 @@ void RigidBody::begin_step(double time, double dt) {
 }
 
 void RigidBody::end_step(double dt) {
+  if (free_) {
+    twist_ = free_->turn(pose_, dt);
+    return;
+  }
   pose_ = integrate(pose_, twist_, dt);
   check_open(definition_, pose_, "motion");
 }
 
 void RigidBody::at_sync(std::int64_t now) {
   if (drive_ == Drive::pose && now >= arrival_) pose_ = target_;
+}
+
+void RigidBody::keep(StateArchive& archive) {
+  archive.keep("position", pose_.position);
+  archive.keep("orientation", pose_.orientation);
+  archive.keep("linear", twist_.linear);
+  archive.keep("angular", twist_.angular);
+  archive.keep("drive", drive_);
+  archive.keep("target_position", target_.position);
+  archive.keep("target_orientation", target_.orientation);
+  archive.keep("arrival", arrival_);
+  if (free_) {
+    const StateArchive::Group group(archive, "free");
+    free_->keep(archive);
+  }
 }
 
 }  // namespace mpm

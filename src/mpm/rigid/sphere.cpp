@@ -52,6 +52,11 @@ class SphereSurface final : public Surface {
     return result;
   }
 
+  std::optional<SolidMoments> moments(double) const override {
+    const double volume = 4.0 / 3.0 * kPi * radius_ * radius_ * radius_;
+    return centred_moments(volume, Vec3::Constant(volume * radius_ * radius_ / 5.0));
+  }
+
  private:
   double radius_;
 };

@@ -98,10 +98,11 @@ std::unique_ptr<Surface> read_surface(const Value& value, const SimulationDefini
                                       RigidBodyDefinition& body) {
   const GeometryKind geometry = definition.geometry;
   const auto [kind, shape] = only_key(value, {"mesh", "urdf", "box", "sphere", "cylinder", "capsule", "plane",
-                                              "height_field", "revolved", "cone", "ring"});
+                                              "height_field", "polygon", "revolved", "cone", "ring"});
   try {
     if (kind == "capsule") return read_capsule(shape, geometry);
     if (kind == "plane") return read_plane(shape, definition);
+    if (kind == "polygon") return read_polygon(shape, definition);
     if (kind == "height_field") return read_height_field(shape, definition);
     if (kind == "mesh") return read_mesh(shape, geometry);
     if (kind == "urdf") return read_urdf_link(shape, geometry);
@@ -215,8 +216,9 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
   if (!section) return;
   for (const Value& value : section->elements()) {
     const Map map(
-        value, {"name", "shape", "pose", "motion", "drive", "limits", "friction", "reach", "sides", "normals"},
-        {{"mass", "rigid bodies move as they are told"}, {"frame", "use commands on topics, which tf2 transforms"}});
+        value, {"name", "shape", "pose", "motion", "drive", "limits", "free", "friction", "reach", "sides", "normals"},
+        {{"mass", "write free: {mass: ...}, or density, for a body that forces move"},
+         {"frame", "use commands on topics, which tf2 transforms"}});
     RigidBodyDefinition body;
     body.name = map.at("name").name();
     for (const RigidBodyDefinition& other : scene.definition.rigid_bodies) {
@@ -232,6 +234,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
     scene.commands.push_back(read_commands(map, body.name, scene));
     const auto own_friction = map.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;
+    read_free(map, scene.definition, body);
     if (const auto sides = map.find("sides")) body.sides = static_cast<Sides>(sides->choice({"auto", "one", "two"}));
     if (const auto reach = map.find("reach")) {
       if (scene.definition.contact.method == ContactMethod::points)

@@ -142,6 +142,22 @@ void check(const SimulationDefinition& d) {
   if (const auto fault = axis_fault(d)) throw DefinitionError(fmt::format("{}: {}", fault->key, fault->text));
 }
 
+void project(FreeDefinition& free, GeometryKind geometry) {
+  for (const int axis : axes_beside(geometry)) {
+    free.present[axis] = false;
+    free.velocity.linear[axis] = free.centre[axis] = free.wrench.force[axis] = 0.0;
+  }
+  if (axisymmetric(geometry)) {
+    free.present[0] = false;
+    free.velocity.linear.x() = free.wrench.force.x() = 0.0;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    free.present[3 + axis] = turns_about(geometry, axis);
+    if (!free.present[3 + axis]) free.velocity.angular[axis] = free.wrench.torque[axis] = 0.0;
+  }
+  for (int k = 0; k < 6; ++k) free.axes[k] = free.axes[k] && free.present[k];
+}
+
 // Leaves only what is along the grid's axes.
 void project(SimulationDefinition& definition) {
   const GeometryKind geometry = definition.geometry;
@@ -163,6 +179,7 @@ void project(SimulationDefinition& definition) {
     for (int axis = 0; axis < 3; ++axis) {
       if (!turns_about(geometry, axis)) body.rotation_rate[axis] = Function();
     }
+    if (body.free) project(*body.free, geometry);
   }
 }
 
@@ -294,7 +311,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     if (!geostatic) forget_particles(body);
   }
   if (s.sets.empty()) throw DefinitionError("there is no deformable body, so nothing to simulate; add one to 'bodies'");
-  if (geostatic) s.settle();
+  if (geostatic && options.settle) s.settle();
   for (DeformableBody& body : s.definition.bodies) forget_particles(body);
 
   if (definition.method.damping.any()) {
@@ -365,6 +382,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
   s.rates.resize(definition.metrics.size());
+  for (const MetricDefinition& metric : definition.metrics) {
+    if (needs_start({metric.field})) keep_start();
+  }
   sample_metrics();
 }
 

@@ -85,6 +85,24 @@ void Simulation::State::add_pairs() {
 
 namespace {
 
+/// @throws DefinitionError for a body that cannot be free
+void check_free(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
+  if (!body.free) return;
+  const std::string start = fmt::format("rigid body '{}': free: ", body.name);
+  if (definition.contact.method == ContactMethod::nodes || body.particles) {
+    throw DefinitionError(start +
+                          "a free body is met at points of the material's surface; write contact: {method: "
+                          "points}, and leave out normals: particles");
+  }
+  if (body.inner_radius > 0.0) throw DefinitionError(start + "a ring that opens is not rigid; write another shape");
+  if (body.free->axes == std::array<bool, 6>{}) throw DefinitionError(start + "no velocity is free; leave it out");
+  if (!body.free->all_free() && body.free->centre != Vec3::Zero()) {
+    throw DefinitionError(start +
+                          "the centre of mass is off the body's origin, and a part of its motion is told; put "
+                          "the origin at the centre of mass, or free all axes");
+  }
+}
+
 /// Contact at nodes knows one constant friction a tool. @throws DefinitionError
 void check_laws_at_nodes(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
   const bool named = std::any_of(definition.contact.pairs.begin(), definition.contact.pairs.end(),
@@ -103,6 +121,7 @@ void Simulation::State::add_rigid_bodies() {
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {
     bodies.emplace_back(body);
     check_periodic(bodies.back());
+    check_free(definition, body);
   }
   const std::vector<ContactLaw> laws_of_pairs = rigid_contact_laws(definition, sets);
   const auto laws_of = [&](std::size_t body) { return laws_of_pairs.begin() + static_cast<int>(body * sets.size()); };
@@ -125,7 +144,12 @@ void Simulation::State::add_rigid_bodies() {
     }
   }
   if (met_at_points.empty()) return;
-  const PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(), threads};
+  PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(), threads, {}, {}};
+  settings.gravity = definition.gravity;
+  for (const RigidBody* body : met_at_points) {
+    RigidBody& own = bodies[body - bodies.data()];
+    settings.free.push_back(own.free_motion() != nullptr ? &own : nullptr);
+  }
   auto contact = std::make_unique<PointContact>(met_at_points, sets, fields, std::move(laws_at_points), settings);
   for (std::size_t i = 0; i < met_at_points.size(); ++i) {
     contacts[met_at_points[i] - bodies.data()] = &contact->ledger(static_cast<int>(i));

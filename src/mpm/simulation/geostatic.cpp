@@ -119,7 +119,10 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
     });
   };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), absent), pairs.end());
-  for (RigidBodyDefinition& body : part.rigid_bodies) body.velocity = body.rotation_rate = {};
+  for (RigidBodyDefinition& body : part.rigid_bodies) {
+    body.velocity = body.rotation_rate = {};
+    body.free.reset();
+  }
   for (ConditionDefinition& condition : part.conditions) {
     condition.region.velocity = condition.region.rotation_rate = {};
     condition.velocity = Function();

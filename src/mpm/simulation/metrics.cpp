@@ -1,15 +1,20 @@
-// The numbers of the summary: statistics of particle fields, at the end of the run or their rate of change over a part
-// of it.
+// The numbers of the summary: statistics of particle fields, or numbers of a rigid body, at the end of the run or their
+// rate of change over a part of it.
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "mpm/math/nearest.hpp"
 #include "state.hpp"
 
 namespace mpm {
 namespace {
 
 double statistic_of(const Simulation& simulation, const MetricDefinition& metric, std::vector<double>& values) {
+  if (const int body = simulation.find_body(metric.body); body >= 0) return simulation.body_value(body, metric.field);
   simulation.particle_field(metric.field, values);
   const auto [first, last] = metric.body.empty() ? std::pair<std::uint64_t, std::uint64_t>{0, values.size()}
                                                  : simulation.body_ids(metric.body);
@@ -39,6 +44,26 @@ void LineFit::add(double t, double y) {
 }
 
 double LineFit::slope() const { return count_ > 1 ? ty_ / tt_ : std::numeric_limits<double>::quiet_NaN(); }
+
+const std::vector<std::string>& Simulation::body_values() {
+  static const std::vector<std::string> kNames = {"x",  "y",  "z",  "vx",        "vy",        "vz",
+                                                  "wx", "wy", "wz", "impulse_x", "impulse_y", "impulse_z"};
+  return kNames;
+}
+
+double Simulation::body_value(int body, const std::string& name) const {
+  const auto& names = body_values();
+  const auto place = std::find(names.begin(), names.end(), name) - names.begin();
+  const RigidBody& rigid = rigid_body(body);
+  const Vec3 impulse = -state_->contacts.at(body)->account().impulse;
+  const std::array<const Vec3*, 4> vectors = {&rigid.pose().position, &rigid.twist().linear, &rigid.twist().angular,
+                                              &impulse};
+  if (place == static_cast<std::ptrdiff_t>(names.size())) {
+    throw DefinitionError(
+        fmt::format("rigid body '{}' has no number '{}'; {}", rigid.name(), name, suggest(name, names)));
+  }
+  return (*vectors[place / 3])[place % 3];
+}
 
 void Simulation::sample_metrics() {
   State& s = *state_;

@@ -150,9 +150,31 @@ void Simulation::command_pose(int body, const Pose& target, std::int64_t arrival
   state_->bodies.at(body).command_pose(applied, state_->time, arrival);
 }
 
+void Simulation::apply_wrench(int body, const Wrench& wrench) {
+  const GeometryKind geometry = state_->definition.geometry;
+  Wrench kept = wrench;
+  for (const int axis : axes_beside(geometry)) kept.force[axis] = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!turns_about(geometry, axis)) kept.torque[axis] = 0.0;
+  }
+  state_->bodies.at(body).apply_wrench(kept);
+}
+
+std::vector<FreeBodyReport> Simulation::free_bodies() const {
+  std::vector<FreeBodyReport> list;
+  for (const RigidBody& body : state_->bodies) {
+    if (const FreeMotion* free = body.free_motion())
+      list.push_back(free->report(body.name(), state_->definition.gravity));
+  }
+  return list;
+}
+
 std::vector<BodyState> Simulation::bodies() const {
   std::vector<BodyState> list;
-  for (const RigidBody& body : state_->bodies) list.push_back({body.name(), body.pose(), body.twist(), body.drive()});
+  for (const RigidBody& body : state_->bodies) {
+    const double mass = body.free_motion() != nullptr ? body.free_motion()->definition().mass : 0.0;
+    list.push_back({body.name(), body.pose(), body.twist(), body.drive(), mass});
+  }
   return list;
 }
 

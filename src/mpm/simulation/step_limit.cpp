@@ -20,7 +20,8 @@ constexpr double kWorthTelling = 0.99;  ///< a trend below this is told with the
 // Of the body's origin plus what its rotation adds at its farthest corner. A body without end ends with the domain,
 // `domain` long, and does not count along an axis that the grid does not have. Of a ring the middle of the section is
 // fastest, as the last that goes in proportion to the inner face (RigidBody::velocity_at).
-double largest_speed(const RigidBody& body, double time, const Vec3& domain) {
+// Of a body that is free, with what gravity and the applied wrench add in `ahead` [s].
+double largest_speed(const RigidBody& body, double time, const Vec3& domain, double gravity, double ahead) {
   const Box bounds = body.surface().bounds();
   Vec3 corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs());
   for (int k = 0; k < 3; ++k) {
@@ -29,7 +30,11 @@ double largest_speed(const RigidBody& body, double time, const Vec3& domain) {
   const Twist twist = body.twist_at(time);
   const double inner = body.definition().inner_radius, opened = body.pose().position.x();
   const double spread = inner > 0.0 ? 0.5 * (inner + bounds.max.x() + 2.0 * opened) / (inner + opened) : 1.0;
-  return spread * twist.linear.norm() + twist.angular.norm() * corner.norm();
+  double gained = 0.0;
+  if (const FreeMotion* free = body.free_motion()) {
+    gained = ahead * (gravity + free->wrench().force.norm() / free->definition().mass);
+  }
+  return spread * twist.linear.norm() + twist.angular.norm() * corner.norm() + gained;
 }
 
 void tighten(StepLimit& limit, const StepLimit& other) {
@@ -88,7 +93,8 @@ StepLimit Simulation::State::step_limit() const {
   for (const RigidBody& body : bodies) {
     StepLimit tool;
     for (const double part : {0.0, 0.5, 1.0}) {
-      tool.speed = std::max(tool.speed, largest_speed(body, start + part * period, domain));
+      tool.speed = std::max(
+          tool.speed, largest_speed(body, start + part * period, domain, definition.gravity.norm(), part * period));
     }
     tool.dt = reach / tool.speed;
     tool.cause = StepLimit::Cause::tool;
@@ -96,14 +102,13 @@ StepLimit Simulation::State::step_limit() const {
     if (tool.speed > 0.0) tighten(limit, tool);
   }
   for (const VelocityConditions* all : conditions) {
-    static const std::string kConditions = "boundaries.conditions";
     StepLimit condition;
     for (const double part : {0.0, 0.5, 1.0}) {
       condition.speed = std::max(condition.speed, all->largest_speed(start + part * period));
     }
     condition.dt = reach / condition.speed;
     condition.cause = StepLimit::Cause::tool;
-    condition.name = &kConditions;
+    condition.name = &kConditionsName;
     if (condition.speed > 0.0) tighten(limit, condition);
   }
   if (damping != nullptr) {

@@ -58,12 +58,28 @@ std::string jump_of(const AppliedCommand& command, const mpm::Simulation& simula
 }
 
 void apply(const AppliedCommand& command, mpm::Simulation& simulation) {
+  if (command.kind == CommandKind::wrench) {
+    simulation.apply_wrench(command.body, command.wrench);
+    return;
+  }
   check_travel(command, simulation);
   if (command.kind == CommandKind::velocity) {
     simulation.command_velocity(command.body, command.twist);
   } else {
     simulation.command_pose(command.body, command.pose, command.arrival);
   }
+}
+
+std::vector<AppliedCommand> stop_commands(int body, const mpm::Simulation& simulation) {
+  std::vector<AppliedCommand> commands;
+  AppliedCommand stop;
+  stop.body = body;
+  stop.effect = simulation.time();
+  const mpm::FreeMotion* free = simulation.rigid_body(body).free_motion();
+  if (free == nullptr || !free->definition().all_free()) commands.push_back(stop);
+  stop.kind = CommandKind::wrench;
+  if (free != nullptr) commands.push_back(stop);
+  return commands;
 }
 
 mpm_ros::Command to_message(const AppliedCommand& command, const std::string& body, const std::string& world_frame,
@@ -78,6 +94,8 @@ mpm_ros::Command to_message(const AppliedCommand& command, const std::string& bo
   message.effect_ns = command.effect;
   if (command.kind == CommandKind::velocity) {
     message.twist = to_message(command.twist);
+  } else if (command.kind == CommandKind::wrench) {
+    message.wrench = to_message(command.wrench);
   } else {
     message.pose = to_message(command.pose);
     message.arrival = stamps.at(command.arrival);
@@ -92,11 +110,13 @@ AppliedCommand from_message(const mpm_ros::Command& message, const mpm::Simulati
   if (command.body < 0) {
     throw BagError(fmt::format("a recorded command is for '{}', which the scene does not have", message.body));
   }
-  if (message.kind != mpm_ros::Command::VELOCITY && message.kind != mpm_ros::Command::POSE) {
+  if (message.kind != mpm_ros::Command::VELOCITY && message.kind != mpm_ros::Command::POSE &&
+      message.kind != mpm_ros::Command::WRENCH) {
     throw BagError(fmt::format("a recorded command for '{}' is of unknown kind {}", message.body, message.kind));
   }
   command.kind = static_cast<CommandKind>(message.kind);
   command.twist = from_message(message.twist);
+  command.wrench = from_message(message.wrench);
   command.pose = from_message(message.pose);
   command.effect = message.effect_ns;
   command.arrival = message.arrival_ns;

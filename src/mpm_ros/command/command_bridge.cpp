@@ -26,16 +26,22 @@ CommandBridge::CommandBridge(ros::NodeHandle node, const std::vector<std::string
     reader_.set_frame(body, frames[static_cast<std::size_t>(body)]);
     subscribe<geometry_msgs::Twist>(node, body, topics::kCmdVel);
     subscribe<geometry_msgs::TwistStamped>(node, body, topics::kCmdVelStamped);
+    subscribe<geometry_msgs::Wrench>(node, body, topics::kCmdWrench);
+    subscribe<geometry_msgs::WrenchStamped>(node, body, topics::kCmdWrenchStamped);
     subscribe<geometry_msgs::PoseStamped>(node, body, topics::kCmdPose);
   }
 }
 
 template <typename Message>
 void CommandBridge::subscribe(ros::NodeHandle& node, int body, const char* leaf) {
-  subscribers_.push_back(node.subscribe<Message>(
+  // The full callback: it tells who sent the message.
+  using Event = const ros::MessageEvent<const Message>&;
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<Event>(
       topics::of_body(reader_.bodies()[body], leaf), kQueue,
-      [this, body](const boost::shared_ptr<const Message>& message) { reader_.take(body, *message); }, {},
-      ros::TransportHints().tcpNoDelay()));
+      [this, body](Event event) { reader_.take(body, *event.getConstMessage(), event.getPublisherName()); });
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  subscribers_.push_back(node.subscribe(options));
 }
 
 void CommandBridge::find_strangers() {
@@ -45,7 +51,9 @@ void CommandBridge::find_strangers() {
     if (topic.name.compare(0, prefix_.size(), prefix_) != 0) continue;
     const std::size_t slash = topic.name.rfind('/');
     const std::string leaf = topic.name.substr(slash + 1);
-    if (leaf != topics::kCmdVel && leaf != topics::kCmdVelStamped && leaf != topics::kCmdPose) continue;
+    if (leaf != topics::kCmdVel && leaf != topics::kCmdVelStamped && leaf != topics::kCmdPose &&
+        leaf != topics::kCmdWrench && leaf != topics::kCmdWrenchStamped)
+      continue;
     const std::string body = slash < prefix_.size() ? "" : topic.name.substr(prefix_.size(), slash - prefix_.size());
     if (reader_.find_body(body) >= 0 || !strangers_.insert(topic.name).second) continue;
     health_.refuse(fmt::format("commands on {}: there is no rigid body '{}'; {}", topic.name, body,

@@ -38,9 +38,16 @@ mpm::Vec3 velocity_along(const mpm::Vec3& way, const mpm::Vec3& present, double 
 
 bool same(const mpm::Vec3& a, const mpm::Vec3& b) { return (a - b).stableNorm() <= kSame * b.stableNorm(); }
 
-/// As the body moved until now. At the start of a run it has not moved yet.
+/// What can be told of a twist: forces decide about the rest.
+mpm::Twist told_part(const mpm::RigidBody& body, const mpm::Twist& twist) {
+  const mpm::FreeMotion* free = body.free_motion();
+  return free == nullptr ? twist : free->merged({}, twist);
+}
+
+/// As the body moved until now, where it is told. At the start of a run it has not moved yet.
 mpm::Twist present_twist(const mpm::RigidBody& body, std::int64_t now) {
-  return body.drive() == mpm::Drive::functions ? body.twist_at(static_cast<double>(now) * 1e-9) : body.twist();
+  return told_part(
+      body, body.drive() == mpm::Drive::functions ? body.twist_at(static_cast<double>(now) * 1e-9) : body.twist());
 }
 
 }  // namespace
@@ -61,12 +68,13 @@ CommandLimiter::CommandLimiter(std::vector<mpm::MotionLimits> limits, NodeHealth
 
 bool CommandLimiter::take(const AppliedCommand& command, const mpm::Simulation& simulation) {
   const auto body = static_cast<std::size_t>(command.body);
-  if (body >= limits_.size() || !limits_[body].any()) return false;
+  if (body >= limits_.size() || !limits_[body].any() || command.kind == CommandKind::wrench) return false;
   Goal goal{command};
   const mpm::GeometryKind geometry = simulation.definition().geometry;
   const mpm::RigidBodyDefinition& definition = simulation.rigid_body(command.body).definition();
   if (command.kind == CommandKind::velocity) {
-    goal.command.twist = mpm::projected(command.twist, geometry, definition);
+    goal.command.twist =
+        told_part(simulation.rigid_body(command.body), mpm::projected(command.twist, geometry, definition));
     AppliedCommand fastest = goal.command;
     fastest.twist.linear = shortened(fastest.twist.linear, limits_[body].speed);
     fastest.twist.angular = shortened(fastest.twist.angular, limits_[body].rotation_rate);
@@ -118,7 +126,7 @@ AppliedCommand CommandLimiter::towards_pose(Goal& goal, const mpm::RigidBody& bo
   const double period = static_cast<double>(sync) * 1e-9;
   const double time = static_cast<double>(std::max(goal.command.arrival - now, sync)) * 1e-9;
   const mpm::Twist present = present_twist(body, now);
-  const mpm::Twist way = mpm::twist_between(body.pose(), goal.command.pose, 1.0);
+  const mpm::Twist way = told_part(body, mpm::twist_between(body.pose(), goal.command.pose, 1.0));
   const mpm::Twist twist{
       velocity_along(way.linear, present.linear, limits.speed, limits.acceleration, time, period),
       velocity_along(way.angular, present.angular, limits.rotation_rate, limits.rotation_acceleration, time, period)};
@@ -146,6 +154,29 @@ void CommandLimiter::count(Goal& goal) {
 void CommandLimiter::clear() {
   goals_.clear();
   report_.clear();
+}
+
+void CommandLimiter::keep(mpm::StateArchive& archive) {
+  const mpm::StateArchive::Group group(archive, "limiter");
+  std::vector<std::pair<int, Goal>> goals(goals_.begin(), goals_.end());
+  archive.rows("goals", goals);
+  archive.column("goals/body", goals, [](auto& one) -> int& { return one.first; });
+  const auto column = [&](const std::string& name, auto&& member) {
+    archive.column("goals/" + name, goals, [&](auto& one) -> decltype(auto) { return member(one.second.command); });
+  };
+  column("kind", [](AppliedCommand& c) -> CommandKind& { return c.kind; });
+  column("linear", [](AppliedCommand& c) -> mpm::Vec3& { return c.twist.linear; });
+  column("angular", [](AppliedCommand& c) -> mpm::Vec3& { return c.twist.angular; });
+  column("position", [](AppliedCommand& c) -> mpm::Vec3& { return c.pose.position; });
+  column("orientation", [](AppliedCommand& c) -> mpm::Quat& { return c.pose.orientation; });
+  column("effect", [](AppliedCommand& c) -> std::int64_t& { return c.effect; });
+  column("arrival", [](AppliedCommand& c) -> std::int64_t& { return c.arrival; });
+  column("sec", [](AppliedCommand& c) -> std::uint32_t& { return c.requested.sec; });
+  column("nsec", [](AppliedCommand& c) -> std::uint32_t& { return c.requested.nsec; });
+  archive.column("goals/limited", goals, [](auto& one) -> bool& { return one.second.limited; });
+  if (!archive.reading()) return;
+  for (auto& [body, goal] : goals) goal.command.body = body;
+  goals_ = std::map<int, Goal>(goals.begin(), goals.end());
 }
 
 std::vector<AppliedCommand> CommandLimiter::goals() const {

@@ -32,6 +32,7 @@ CommandReader::CommandReader(std::vector<std::string> bodies, std::string world_
       followed_(bodies_.size()) {}
 
 void CommandReader::set_stamps(const Stamps& stamps) {
+  const std::lock_guard<std::mutex> taking(taking_);
   const std::lock_guard<std::mutex> lock(mutex_);
   stamps_ = stamps;
 }
@@ -104,6 +105,19 @@ void CommandReader::read_twist(const geometry_msgs::Twist& twist, const std::str
                       : mpm::Twist{axes.orientation * given.linear, axes.orientation * given.angular};
 }
 
+void CommandReader::read_wrench(const geometry_msgs::Wrench& wrench, const std::string& frame, const ros::Time& stamp,
+                                BodyCommand& command, std::string& problem) const {
+  command.kind = CommandKind::wrench;
+  const mpm::Wrench given = from_message(wrench);
+  if (!given.force.allFinite() || !given.torque.allFinite()) {
+    problem = "a component of the wrench is not finite";
+    return;
+  }
+  // The axes alone are the frame's: the torque stays about the body's origin.
+  const mpm::Pose axes = find_frame(frame, stamp, command.frame_body, problem);
+  command.wrench = {axes.orientation * given.force, axes.orientation * given.torque};
+}
+
 void CommandReader::read_pose(const geometry_msgs::Pose& pose, const std::string& frame, const ros::Time& stamp,
                               BodyCommand& command, std::string& problem) const {
   command.kind = CommandKind::pose;
@@ -115,11 +129,19 @@ void CommandReader::read_pose(const geometry_msgs::Pose& pose, const std::string
 }
 
 void CommandReader::push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem) {
-  if (problem.empty()) {
+  if (problem.empty() && leaf == kFollowing) {
+    queue_.push_past_hold(std::move(command));
+  } else if (problem.empty()) {
     queue_.push(std::move(command));
   } else {
     health_.refuse(fmt::format("a command on {}{}/{}: {}", prefix_, bodies_[command.body], leaf, problem));
   }
+  if (leaf == kFollowing) return;  // looked up here, not received
+  {
+    const std::lock_guard<std::mutex> lock(received_mutex_);
+    ++received_;
+  }
+  received_changed_.notify_all();
 }
 
 std::string CommandReader::refusal_of(int body) const {
@@ -127,35 +149,72 @@ std::string CommandReader::refusal_of(int body) const {
   return fmt::format("it follows the tf frame '{}' (drive: tf), and takes no other commands", followed_[body]);
 }
 
-void CommandReader::take(int body, const geometry_msgs::Twist& message) {
+std::uint64_t CommandReader::received() const {
+  const std::lock_guard<std::mutex> lock(received_mutex_);
+  return received_;
+}
+
+bool CommandReader::wait_received(std::uint64_t count, std::chrono::milliseconds patience) const {
+  std::unique_lock<std::mutex> lock(received_mutex_);
+  return received_changed_.wait_for(lock, patience, [&] { return received_ >= count; });
+}
+
+void CommandReader::take(int body, const geometry_msgs::Twist& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   std::string problem = refusal_of(body);
   if (problem.empty()) read_twist(message, world_frame_, ros::Time(), command, problem);
   push_or_refuse(topics::kCmdVel, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::TwistStamped& message) {
+void CommandReader::take(int body, const geometry_msgs::TwistStamped& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   std::string problem = refusal_of(body);
   if (problem.empty()) set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_twist(message.twist, message.header.frame_id, message.header.stamp, command, problem);
   push_or_refuse(topics::kCmdVelStamped, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::PoseStamped& message) {
-  take_pose(topics::kCmdPose, body, message, refusal_of(body));
+void CommandReader::take(int body, const geometry_msgs::Wrench& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
+  BodyCommand command;
+  command.body = body;
+  command.sender = sender;
+  std::string problem;
+  read_wrench(message, world_frame_, ros::Time(), command, problem);
+  push_or_refuse(topics::kCmdWrench, std::move(command), problem);
+}
+
+void CommandReader::take(int body, const geometry_msgs::WrenchStamped& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
+  BodyCommand command;
+  command.body = body;
+  command.sender = sender;
+  std::string problem;
+  set_stamp(message.header.stamp, command, problem);
+  if (problem.empty()) read_wrench(message.wrench, message.header.frame_id, message.header.stamp, command, problem);
+  push_or_refuse(topics::kCmdWrenchStamped, std::move(command), problem);
+}
+
+void CommandReader::take(int body, const geometry_msgs::PoseStamped& message, const std::string& sender) {
+  take_pose(topics::kCmdPose, body, message, sender, refusal_of(body));
 }
 
 void CommandReader::follow(int body, const geometry_msgs::PoseStamped& message) {
-  take_pose(kFollowing, body, message, {});
+  take_pose(kFollowing, body, message, {}, {});
 }
 
 void CommandReader::take_pose(const char* leaf, int body, const geometry_msgs::PoseStamped& message,
-                              std::string problem) {
+                              const std::string& sender, std::string problem) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   if (problem.empty()) set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_pose(message.pose, message.header.frame_id, message.header.stamp, command, problem);
   push_or_refuse(leaf, std::move(command), problem);
@@ -183,9 +242,11 @@ BodyCommand CommandReader::read(const mpm_ros::Command& message, std::string& pr
       command.stamp = stamps_.time_of(message.arrival);
       if (problem.empty()) problem = too_far_ahead(*command.stamp);
     }
+  } else if (message.kind == mpm_ros::Command::WRENCH) {
+    read_wrench(message.wrench, frame, ros::Time(), command, problem);
   } else {
-    problem = fmt::format("kind is {}; it must be VELOCITY ({}) or POSE ({})", message.kind,
-                          +mpm_ros::Command::VELOCITY, +mpm_ros::Command::POSE);
+    problem = fmt::format("kind is {}; it must be VELOCITY ({}), POSE ({}) or WRENCH ({})", message.kind,
+                          +mpm_ros::Command::VELOCITY, +mpm_ros::Command::POSE, +mpm_ros::Command::WRENCH);
   }
   command.requested = message.requested;
   if (!problem.empty()) problem = fmt::format("the command for '{}': {}", message.body, problem);
@@ -197,6 +258,7 @@ AppliedCommand in_world(const DueCommand& due, const std::vector<mpm::BodyState>
   applied.body = due.command.body;
   applied.kind = due.command.kind;
   applied.twist = due.command.twist;
+  applied.wrench = due.command.wrench;
   applied.pose = due.command.pose;
   applied.effect = effect;
   applied.arrival = due.arrival;
@@ -204,6 +266,7 @@ AppliedCommand in_world(const DueCommand& due, const std::vector<mpm::BodyState>
   if (due.command.frame_body >= 0) {
     const mpm::Pose& frame = bodies[due.command.frame_body].pose;
     applied.twist = {frame.orientation * applied.twist.linear, frame.orientation * applied.twist.angular};
+    applied.wrench = {frame.orientation * applied.wrench.force, frame.orientation * applied.wrench.torque};
     applied.pose = {frame.to_world(applied.pose.position), (frame.orientation * applied.pose.orientation).normalized()};
   }
   return applied;

@@ -151,20 +151,42 @@ void SolverStateCsv::add(const mpm::SolverState& state, double real_time_factor)
 
 void SolverStateCsv::close() { close_if_open(writer_); }
 
+void GlobalQuantitiesCsv::add(double time, const std::vector<std::string>& names, const std::vector<std::string>& units,
+                              const std::vector<double>& values) {
+  if (!writer_) {
+    std::vector<std::string> columns = {"time [s]"};
+    for (std::size_t i = 0; i < names.size(); ++i) columns.push_back(fmt::format("{} [{}]", names[i], units.at(i)));
+    writer_.emplace(path_, columns);
+  }
+  *writer_ << time;
+  for (const double value : values) *writer_ << value;
+  writer_->end_row();
+}
+
+void GlobalQuantitiesCsv::close() { close_if_open(writer_); }
+
 CommandsCsv::CommandsCsv(const std::string& folder)
     : writer_(folder + "/commands.csv",
-              {"time [s]", "body", "kind", "vx [m/s]", "vy [m/s]", "vz [m/s]", "wx [rad/s]", "wy [rad/s]", "wz [rad/s]",
-               "x [m]", "y [m]", "z [m]", "qx [1]", "qy [1]", "qz [1]", "qw [1]", "arrival [s]"}) {}
+              {"time [s]",    "body",   "kind",   "vx [m/s]", "vy [m/s]", "vz [m/s]", "wx [rad/s]", "wy [rad/s]",
+               "wz [rad/s]",  "x [m]",  "y [m]",  "z [m]",    "qx [1]",   "qy [1]",   "qz [1]",     "qw [1]",
+               "arrival [s]", "fx [N]", "fy [N]", "fz [N]",   "tx [N m]", "ty [N m]", "tz [N m]"}) {}
 
 void CommandsCsv::add(const CommandRow& command) {
-  writer_ << command.time << command.body << drive_name(command.kind);
-  if (command.kind == mpm::Drive::pose) {
-    for (int i = 0; i < 6; ++i) writer_ << kNone;
+  writer_ << command.time << command.body << command.kind;
+  const auto none = [this](int cells) {
+    for (int i = 0; i < cells; ++i) writer_ << kNone;
+  };
+  if (command.kind == "wrench") {
+    none(14);
+    writer_ << command.wrench.force << command.wrench.torque;
+  } else if (command.kind == "pose") {
+    none(6);
     const mpm::Quat& q = command.pose.orientation;
     writer_ << command.pose.position << mpm::Vec3(q.vec()) << q.w() << command.arrival;
+    none(6);
   } else {
     writer_ << command.twist.linear << command.twist.angular;
-    for (int i = 0; i < 8; ++i) writer_ << kNone;
+    none(14);
   }
   writer_.end_row();
 }

@@ -109,6 +109,7 @@ mpm_ros::BodyState to_message(const mpm::BodyState& state) {
   message.pose = to_message(state.pose);
   message.twist = to_message(state.twist);
   message.drive = static_cast<std::uint8_t>(state.drive);
+  message.mass = state.mass;
   return message;
 }
 
@@ -197,6 +198,10 @@ mpm_ros::SolverState to_message(const mpm::SolverState& state) {
   message.contact_work = state.energy.contact_work;
   message.load_work = state.energy.load_work;
   message.energy_friction = state.energy.friction;
+  message.energy_free_kinetic = state.energy.free_kinetic;
+  message.energy_free_potential = state.energy.free_potential;
+  message.energy_free_loss = state.energy.free_loss;
+  message.free_work = state.energy.free_work;
   message.energy_pair_friction = state.energy.pair_friction;
   message.energy_interface = state.energy.interface;
   message.momentum = to_vector(state.audit.momentum);
@@ -208,6 +213,7 @@ mpm_ros::SolverState to_message(const mpm::SolverState& state) {
     message.impulses.push_back(entry);
   }
   message.momentum_exchanged = state.audit.exchanged;
+  message.momentum_carried = state.audit.carried;
   message.momentum_error = state.audit.residual;
   message.min_j = state.min_j;
   return message;

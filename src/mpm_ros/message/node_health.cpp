@@ -192,7 +192,9 @@ void NodeHealth::fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status
     add_warning(fmt::format("slower than asked: {:.3g} of the wall clock's pace, not {:g}", solver_.real_time_factor,
                             solver_.asked_factor));
   }
-  const int level = solver_.failed ? DiagnosticStatus::ERROR : warn ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
+  if (!solver_.record_failure.empty()) text += "; not recorded any more: " + solver_.record_failure;
+  const bool broken = solver_.failed || !solver_.record_failure.empty();
+  const int level = broken ? DiagnosticStatus::ERROR : warn ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
   status.summary(static_cast<std::uint8_t>(level), one_line(text));
   status.add("simulated time [s]", solver_.time);
   status.add("real-time factor", solver_.real_time_factor);

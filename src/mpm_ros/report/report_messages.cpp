@@ -20,7 +20,7 @@ std::vector<mpm::BodyState> body_states_of(const BodyStates& message) {
   std::vector<mpm::BodyState> states;
   for (const BodyState& body : message.bodies) {
     states.push_back(
-        {body.name, from_message(body.pose), from_message(body.twist), static_cast<mpm::Drive>(body.drive)});
+        {body.name, from_message(body.pose), from_message(body.twist), static_cast<mpm::Drive>(body.drive), body.mass});
   }
   return states;
 }
@@ -32,12 +32,17 @@ mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message) 
   state.energy = {message.energy_kinetic,       message.energy_elastic,   message.energy_plastic,
                   message.energy_potential,     message.contact_work,     message.load_work,
                   message.energy_pair_friction, message.energy_interface, message.energy_friction};
+  state.energy.free_kinetic = message.energy_free_kinetic;
+  state.energy.free_potential = message.energy_free_potential;
+  state.energy.free_work = message.free_work;
+  state.energy.free_loss = message.energy_free_loss;
   state.audit.momentum = from_message(message.momentum);
   state.audit.initial_momentum = from_message(message.initial_momentum);
   for (const Impulse& impulse : message.impulses) {
     state.audit.impulses.push_back({impulse.name, from_message(impulse.impulse)});
   }
   state.audit.exchanged = message.momentum_exchanged;
+  state.audit.carried = message.momentum_carried;
   state.audit.residual = message.momentum_error;
   state.particles = message.particles;
   state.returned = message.particles_returned;
@@ -45,11 +50,17 @@ mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message) 
   return state;
 }
 
+std::string command_kind_name(std::uint8_t kind) {
+  if (kind == Command::WRENCH) return "wrench";
+  return kind == Command::POSE ? "pose" : "velocity";
+}
+
 CommandRow command_row_of(std::int64_t time, const Command& message) {
   CommandRow row;
   row.time = seconds(time);
   row.body = message.body;
-  row.kind = static_cast<mpm::Drive>(message.kind);
+  row.kind = command_kind_name(message.kind);
+  row.wrench = from_message(message.wrench);
   row.twist = from_message(message.twist);
   row.pose = from_message(message.pose);
   row.arrival = seconds(message.arrival_ns);

@@ -1,0 +1,59 @@
+// Nonlinear conjugate gradients around the sweeps of contact: a sweep's change of the impulses stands for the gradient,
+// and each goes on along the direction of those before it, until they grow (then it starts again). A last sweep has to
+// follow, which brings the impulses back to what friction and pressing allow.
+//
+// Plain sweeps need as many rounds as a body is lighter than the nodes that it touches; these need about the root of
+// it. Source: Silcowitz-Hansen, Niebe & Erleben (2010), A nonsmooth nonlinear conjugate gradient method for interactive
+// contact force problems, algorithm 1; changes are weighted here by what the point gives way by.
+#pragma once
+
+#include <vector>
+
+#include "mpm/math/geometry.hpp"
+
+namespace mpm {
+
+/// Kept from solve to solve, so that nothing is allocated.
+struct SweepMemory {
+  std::vector<Vec3> before;     ///< impulses [N s]
+  std::vector<Vec3> direction;  ///< [N s]
+};
+
+/// `Point` has an `impulse` [N s] and a `compliance` [1/kg].
+template <class Point>
+class ConjugateSweeps {
+ public:
+  explicit ConjugateSweeps(SweepMemory& memory) : memory_(memory) {}
+
+  /// A sweep begins.
+  void begin(const std::vector<Point>& points) {
+    if (last_ < 0.0) memory_.direction.assign(points.size(), Vec3::Zero());
+    memory_.before.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) memory_.before[i] = points[i].impulse;
+  }
+
+  /// It has ended: `add(point, impulse)` for every point, along the directions before it.
+  template <class Add>
+  void go_on(std::vector<Point>& points, Add&& add) {
+    double now = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      now += points[i].compliance * (points[i].impulse - memory_.before[i]).squaredNorm();
+    }
+    const double part = last_ > 0.0 ? now / last_ : 0.0;
+    const bool again = part > 1.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec3 change = points[i].impulse - memory_.before[i];
+      Vec3& direction = memory_.direction[i];
+      const Vec3 along = again ? Vec3(Vec3::Zero()) : Vec3(part * direction);
+      if (!again) add(points[i], along);
+      direction = along + change;
+    }
+    last_ = now;
+  }
+
+ private:
+  SweepMemory& memory_;
+  double last_ = -1.0;  ///< weighted square of the sweep's change before; negative: none yet
+};
+
+}  // namespace mpm

@@ -1,0 +1,142 @@
+// The motion of a rigid body that has a mass: Newton's and Euler's equations with impulses.
+//
+// A step: predict() adds gravity and the applied wrench to the velocity; contact pushes it, together with the nodes
+// that it touches (contact/point_contact.hpp); finish() books what each gave; turn() turns the body. Velocities are
+// those of the centre of mass. Each of the six degrees of freedom is free or told; what is told has no answer to an
+// impulse, and what holds it there is booked as the drive's.
+//
+// Semi-implicit: the velocity of the step's end moves the body, as in the material, so the energy of free fall is off
+// by half a step's fall and stays so. Where all rotations are free the angular momentum is what goes from step to step:
+// it is kept to round-off whatever the inertia, and the rotation rate follows from it. The turn is taken with the rate
+// at its middle (implicit midpoint, found by repetition): the energy of a body that spins without torque swings by the
+// square of a step's angle and does not drift.
+//
+// Weak: with rotations of which some are told the gyroscopic torque is that of the step's start, of first order.
+// Source: Newton-Euler equations; midpoint rule on SO(3) with spatial angular momentum: Simo & Wong (1991), section 3.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "mpm/math/state_archive.hpp"
+#include "mpm/rigid/motion.hpp"
+
+namespace mpm {
+
+/// What a scene says of a body that moves freely.
+struct FreeDefinition {
+  double mass = 0.0;            ///< [kg]; of a planar scene's whole thickness
+  Vec3 centre = Vec3::Zero();   ///< of mass, body axes [m]
+  Mat3 inertia = Mat3::Zero();  ///< about the centre of mass, body axes [kg m^2]
+  /// Which velocities are free, world axes: x, y, z, then the rotation rates about them.
+  std::array<bool, 6> axes = {true, true, true, true, true, true};
+  /// Which of them the scene's geometry has.
+  std::array<bool, 6> present = {true, true, true, true, true, true};
+  Twist velocity;  ///< at the start, of the body's origin
+  Wrench wrench;   ///< on it until another one is applied
+
+  bool all_free() const { return axes == present; }
+};
+
+/// A linear and an angular part; the angular one about the centre of mass. [N s], [N m s]
+struct BodyMomentum {
+  Vec3 linear = Vec3::Zero();
+  Vec3 angular = Vec3::Zero();
+
+  BodyMomentum& operator+=(const BodyMomentum& other) {
+    linear += other.linear;
+    angular += other.angular;
+    return *this;
+  }
+};
+
+/// Balance of a free body: momentum = that of the start + contact + gravity + wrench + drive, each since the start.
+struct FreeBodyReport {
+  std::string body;
+  double mass = 0.0;           ///< [kg]
+  Vec3 centre = Vec3::Zero();  ///< of mass, world [m]
+  BodyMomentum momentum, initial_momentum;
+  BodyMomentum contact;  ///< from the material
+  BodyMomentum gravity;
+  BodyMomentum wrench;        ///< applied by apply_wrench()
+  BodyMomentum drive;         ///< that keeps what is told at its velocity
+  double kinetic = 0.0;       ///< [J]
+  double potential = 0.0;     ///< -m g.x [J]
+  double wrench_work = 0.0;   ///< done by the wrench since the start [J]
+  double drive_work = 0.0;    ///< done by the drive [J]
+  double contact_loss = 0.0;  ///< lost where the body and the material met, sliding left out [J]
+};
+
+class FreeMotion {
+ public:
+  /// `name`: of the body, for errors. @throws RigidError when mass or inertia are impossible.
+  FreeMotion(const FreeDefinition& definition, const std::string& name);
+
+  const FreeDefinition& definition() const { return definition_; }
+  bool is_free(int axis) const { return definition_.axes[axis]; }
+  /// `told` where something is told, `own` where the body is free.
+  Twist merged(const Twist& own, const Twist& told) const;
+  /// From now on, about the body's origin.
+  void apply_wrench(const Wrench& wrench) { wrench_ = wrench; }
+  const Wrench& wrench() const { return wrench_; }
+
+  /// The run begins here with this twist of the origin.
+  void start(const Pose& pose, const Twist& twist);
+  /// The step's velocity without contact. `twist`: of the origin; what is told is that of this step.
+  void predict(const Pose& pose, const Twist& twist, const Vec3& gravity, double dt);
+  /// Velocity now, and half the sum of those of the step's start and now, at a world point [m/s].
+  Vec3 velocity_at(const Vec3& point) const { return velocity_ + rate_.cross(point - centre_); }
+  Vec3 mean_velocity_at(const Vec3& point) const {
+    return 0.5 * (velocity_ + start_velocity_ + (rate_ + start_rate_).cross(point - centre_));
+  }
+  /// An impulse [N s] on the body at a world point.
+  void push(const Vec3& impulse, const Vec3& point) {
+    velocity_ += inverse_mass_.cwiseProduct(impulse);
+    rate_ += lifted_ * (point - centre_).cross(impulse);
+  }
+  /// Velocity of a point along each axis by an impulse there along each [1/kg].
+  Mat3 compliance_at(const Vec3& point) const;
+  /// From zero: velocities are then increments, until end_increment() adds them to what they were.
+  void begin_increment();
+  void end_increment();
+  /// Contact has given `impulse`, about the centre of mass, with a loss of energy [J]: books it. Again in the same step
+  /// for what an increment gave.
+  void finish(const BodyMomentum& impulse, double loss);
+  const Vec3& centre() const { return centre_; }
+  /// Of the body's origin.
+  Twist twist(const Pose& pose) const;
+  /// Moves the pose by the step, and the velocity with it. @return the twist of the origin there.
+  Twist turn(Pose& pose, double dt);
+
+  /// `gravity` [m/s^2]
+  FreeBodyReport report(const std::string& name, const Vec3& gravity) const;
+
+  void keep(StateArchive& archive);
+
+ private:
+  Mat3 inertia_at(const Quat& orientation) const;
+  /// Rotation rate by angular momentum, of the free rotations alone [1/(kg m^2)].
+  Mat3 lift_of(const Mat3& inertia) const;
+  BodyMomentum momentum() const { return {definition_.mass * velocity_, inertia_ * rate_}; }
+  /// Of a vector of translations or rotations (`first` 0 or 3): what is told.
+  Vec3 told_part(const Vec3& vector, int first) const;
+
+  FreeDefinition definition_;
+  bool turns_freely_ = false;  ///< angular momentum is what is carried on
+  Wrench wrench_;
+
+  // Of the step.
+  Vec3 centre_ = Vec3::Zero();
+  Vec3 velocity_ = Vec3::Zero(), rate_ = Vec3::Zero();
+  Vec3 start_velocity_ = Vec3::Zero(), start_rate_ = Vec3::Zero();
+  Vec3 kept_velocity_ = Vec3::Zero(), kept_rate_ = Vec3::Zero();  ///< without contact, or without the increment
+  Vec3 inverse_mass_ = Vec3::Zero();
+  Mat3 inertia_ = Mat3::Zero(), lifted_ = Mat3::Zero();
+  BodyMomentum step_wrench_, step_drive_;
+
+  // Since the start.
+  BodyMomentum initial_, contact_, gravity_, applied_, drive_;
+  double wrench_work_ = 0.0, drive_work_ = 0.0, loss_ = 0.0;
+};
+
+}  // namespace mpm

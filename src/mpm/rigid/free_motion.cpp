@@ -1,0 +1,224 @@
+#include "mpm/rigid/free_motion.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "mpm/rigid/surface.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr int kMidpointRounds = 4;  ///< each gains a factor of a step's angle
+constexpr double kRoundOff = 1e-9;  ///< of the largest moment of inertia
+
+void check(const FreeDefinition& free, const std::string& name) {
+  const std::string start = fmt::format("rigid body '{}': free: ", name);
+  if (!(free.mass > 0.0) || !std::isfinite(free.mass)) {
+    throw RigidError(start + fmt::format("mass is {:g} kg; it must be positive and finite", free.mass));
+  }
+  if (!free.centre.allFinite()) throw RigidError(start + "the centre of mass is not finite");
+  if (!free.wrench.force.allFinite() || !free.wrench.torque.allFinite()) {
+    throw RigidError(start + "the wrench is not finite");
+  }
+  if (!free.velocity.linear.allFinite() || !free.velocity.angular.allFinite()) {
+    throw RigidError(start + "the velocity at the start is not finite");
+  }
+  if (!free.inertia.allFinite()) throw RigidError(start + "the inertia is not finite");
+  for (int k = 0; k < 3; ++k) {
+    if (!free.axes[3 + k] || free.inertia(k, k) > 0.0) continue;
+    throw RigidError(start + fmt::format("its rotation is free, and the moment of inertia about {} is {:g} kg m^2; "
+                                         "it must be positive",
+                                         "xyz"[k], free.inertia(k, k)));
+  }
+  if (!(free.axes[3] && free.axes[4] && free.axes[5])) return;
+  if ((free.inertia - free.inertia.transpose()).norm() > kRoundOff * free.inertia.norm()) {
+    throw RigidError(start + "the inertia is not symmetric");
+  }
+  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(free.inertia).eigenvalues();  // ascending
+  if (!(moments[0] > 0.0)) throw RigidError(start + "a principal moment of inertia is not positive");
+  if (moments[2] > (1.0 + kRoundOff) * (moments[0] + moments[1])) {
+    throw RigidError(start + fmt::format("no body has the principal moments of inertia {:g}, {:g} and {:g} kg m^2: the "
+                                         "largest is more than the sum of the others",
+                                         moments[0], moments[1], moments[2]));
+  }
+}
+
+}  // namespace
+
+FreeMotion::FreeMotion(const FreeDefinition& definition, const std::string& name) : definition_(definition) {
+  check(definition_, name);
+  wrench_ = definition_.wrench;
+  turns_freely_ = is_free(3) && is_free(4) && is_free(5);
+  for (int k = 0; k < 3; ++k) inverse_mass_[k] = is_free(k) ? 1.0 / definition_.mass : 0.0;
+}
+
+Twist FreeMotion::merged(const Twist& own, const Twist& told) const {
+  Twist twist = told;
+  for (int k = 0; k < 3; ++k) {
+    if (is_free(k)) twist.linear[k] = own.linear[k];
+    if (is_free(3 + k)) twist.angular[k] = own.angular[k];
+  }
+  return twist;
+}
+
+Vec3 FreeMotion::told_part(const Vec3& vector, int first) const {
+  Vec3 part = vector;
+  for (int k = 0; k < 3; ++k) {
+    if (is_free(first + k)) part[k] = 0.0;
+  }
+  return part;
+}
+
+Mat3 FreeMotion::inertia_at(const Quat& orientation) const {
+  const Mat3 axes = orientation.toRotationMatrix();
+  return axes * definition_.inertia * axes.transpose();
+}
+
+Mat3 FreeMotion::lift_of(const Mat3& inertia) const {
+  // What is told is taken out: one on the diagonal, and zero in the inverse.
+  Mat3 reduced = inertia;
+  for (int k = 0; k < 3; ++k) {
+    if (is_free(3 + k)) continue;
+    reduced.row(k).setZero();
+    reduced.col(k).setZero();
+    reduced(k, k) = 1.0;
+  }
+  Mat3 lifted = reduced.inverse();
+  for (int k = 0; k < 3; ++k) {
+    if (!is_free(3 + k)) lifted(k, k) = 0.0;
+  }
+  return lifted;
+}
+
+void FreeMotion::start(const Pose& pose, const Twist& twist) {
+  centre_ = pose.to_world(definition_.centre);
+  rate_ = twist.angular;
+  velocity_ = twist.linear + rate_.cross(centre_ - pose.position);
+  inertia_ = inertia_at(pose.orientation);
+  initial_ = momentum();
+}
+
+void FreeMotion::predict(const Pose& pose, const Twist& twist, const Vec3& gravity, double dt) {
+  start_velocity_ = velocity_;
+  start_rate_ = rate_;
+  inertia_ = inertia_at(pose.orientation);
+  lifted_ = lift_of(inertia_);
+  centre_ = pose.to_world(definition_.centre);
+  const Vec3 arm = centre_ - pose.position;
+  const double mass = definition_.mass;
+  const Vec3 weight = mass * gravity * dt;
+  gravity_.linear += weight;
+  step_wrench_ = {wrench_.force * dt, (wrench_.torque - arm.cross(wrench_.force)) * dt};
+  applied_ += step_wrench_;
+
+  const Vec3 told_change = told_part(twist.linear - velocity_, 0);
+  const Vec3 told_turn = told_part(twist.angular - rate_, 3);
+  Vec3 turning = step_wrench_.angular;
+  if (!turns_freely_) turning -= dt * rate_.cross(inertia_ * rate_);
+  velocity_ += told_change + inverse_mass_.cwiseProduct(weight + step_wrench_.linear);
+  rate_ += told_turn + lifted_ * (turning - inertia_ * told_turn);
+  step_drive_.linear = told_part(mass * told_change - weight - step_wrench_.linear, 0);
+  step_drive_.angular = told_part(inertia_ * (rate_ - start_rate_) - turning, 3);
+  kept_velocity_ = velocity_;
+  kept_rate_ = rate_;
+}
+
+Mat3 FreeMotion::compliance_at(const Vec3& point) const {
+  const Vec3 arm = point - centre_;
+  Mat3 cross;
+  cross << 0.0, -arm.z(), arm.y(), arm.z(), 0.0, -arm.x(), -arm.y(), arm.x(), 0.0;
+  return Mat3(inverse_mass_.asDiagonal()) - cross * lifted_ * cross;
+}
+
+void FreeMotion::begin_increment() {
+  kept_velocity_ = velocity_;
+  kept_rate_ = rate_;
+  velocity_.setZero();
+  rate_.setZero();
+}
+
+void FreeMotion::end_increment() {
+  velocity_ += kept_velocity_;
+  rate_ += kept_rate_;
+}
+
+void FreeMotion::finish(const BodyMomentum& impulse, double loss) {
+  contact_ += impulse;
+  step_drive_.linear -= told_part(impulse.linear, 0);
+  step_drive_.angular += told_part(inertia_ * (rate_ - kept_rate_) - impulse.angular, 3);
+  loss_ += loss;
+}
+
+Twist FreeMotion::twist(const Pose& pose) const { return {velocity_ + rate_.cross(pose.position - centre_), rate_}; }
+
+Twist FreeMotion::turn(Pose& pose, double dt) {
+  drive_ += step_drive_;
+  const Vec3 mean = 0.5 * (start_velocity_ + velocity_), mean_rate = 0.5 * (start_rate_ + rate_);
+  wrench_work_ += step_wrench_.linear.dot(mean) + step_wrench_.angular.dot(mean_rate);
+  drive_work_ += step_drive_.linear.dot(mean) + step_drive_.angular.dot(mean_rate);
+
+  const Vec3 angular = inertia_ * rate_;
+  Vec3 middle = rate_;
+  for (int round = 0; turns_freely_ && round < kMidpointRounds; ++round) {
+    const Pose half = integrate(pose, {Vec3::Zero(), middle}, 0.5 * dt);
+    middle = inertia_at(half.orientation).inverse() * angular;
+  }
+  centre_ += dt * velocity_;
+  pose.orientation = integrate(pose, {Vec3::Zero(), middle}, dt).orientation;
+  pose.position = centre_ - pose.orientation * definition_.centre;
+  inertia_ = inertia_at(pose.orientation);
+  if (turns_freely_) rate_ = inertia_.inverse() * angular;
+  return twist(pose);
+}
+
+FreeBodyReport FreeMotion::report(const std::string& name, const Vec3& gravity) const {
+  FreeBodyReport report;
+  report.body = name;
+  report.mass = definition_.mass;
+  report.centre = centre_;
+  report.momentum = momentum();
+  report.initial_momentum = initial_;
+  report.contact = contact_;
+  report.gravity = gravity_;
+  report.wrench = applied_;
+  report.drive = drive_;
+  report.kinetic = 0.5 * (report.momentum.linear.dot(velocity_) + report.momentum.angular.dot(rate_));
+  report.potential = -definition_.mass * gravity.dot(centre_);
+  report.wrench_work = wrench_work_;
+  report.drive_work = drive_work_;
+  report.contact_loss = loss_;
+  return report;
+}
+
+void FreeMotion::keep(StateArchive& archive) {
+  archive.keep("wrench_force", wrench_.force);
+  archive.keep("wrench_torque", wrench_.torque);
+  const auto keep_momentum = [&archive](const std::string& name, BodyMomentum& momentum) {
+    archive.keep(name + "_linear", momentum.linear);
+    archive.keep(name + "_angular", momentum.angular);
+  };
+  keep_momentum("initial", initial_);
+  keep_momentum("contact", contact_);
+  keep_momentum("gravity", gravity_);
+  keep_momentum("applied", applied_);
+  keep_momentum("drive", drive_);
+  archive.keep("wrench_work", wrench_work_);
+  archive.keep("drive_work", drive_work_);
+  archive.keep("loss", loss_);
+  // Of the last step: what is reported at a sync point is as it left them.
+  archive.keep("centre", centre_);
+  archive.keep("velocity", velocity_);
+  archive.keep("rate", rate_);
+  archive.keep("start_velocity", start_velocity_);
+  archive.keep("start_rate", start_rate_);
+  archive.keep("kept_velocity", kept_velocity_);
+  archive.keep("kept_rate", kept_rate_);
+  archive.keep("inverse_mass", inverse_mass_);
+  archive.keep("inertia", inertia_);
+  archive.keep("lifted", lifted_);
+}
+
+}  // namespace mpm

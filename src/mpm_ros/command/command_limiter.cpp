@@ -22,7 +22,7 @@ mpm::Vec3 shortened(const mpm::Vec3& vector, double longest) {
 mpm::Vec3 towards(const mpm::Vec3& from, const mpm::Vec3& to, double most) {
   const mpm::Vec3 change = to - from;
   const double size = change.stableNorm();
-  return size <= most ? to : mpm::Vec3(from + most / size * change);
+  return size <= (1.0 + kSame) * most ? to : mpm::Vec3(from + most / size * change);
 }
 
 /// Velocity in the next period on the way to a place `way` from here, to be reached in `time` >= period [s].

@@ -154,7 +154,7 @@ TEST_F(Limiter, NothingIsExceededWhateverIsAsked) {
   std::mt19937_64 dice(11);
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(dice); };
   mpm::Twist before;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < 300; ++i) {
     if (i % 20 == 0) {
       AppliedCommand command = pose(uniform(0.0, 0.1), uniform(-0.03, 0.0), uniform(kPeriod, 0.1));
       command.pose.orientation = Eigen::AngleAxisd(uniform(-1.0, 1.0), mpm::Vec3::UnitY());

@@ -22,7 +22,7 @@ mpm::Vec3 shortened(const mpm::Vec3& vector, double longest) {
 mpm::Vec3 towards(const mpm::Vec3& from, const mpm::Vec3& to, double most) {
   const mpm::Vec3 change = to - from;
   const double size = change.stableNorm();
-  return size <= most ? to : mpm::Vec3(from + most / size * change);
+  return size <= (1.0 + kSame) * most ? to : mpm::Vec3(from + most / size * change);
 }
 
 /// Velocity in the next period on the way to a place `way` from here, to be reached in `time` >= period [s].
@@ -73,7 +73,8 @@ bool CommandLimiter::take(const AppliedCommand& command, const mpm::Simulation& 
   const mpm::GeometryKind geometry = simulation.definition().geometry;
   const mpm::RigidBodyDefinition& definition = simulation.rigid_body(command.body).definition();
   if (command.kind == CommandKind::velocity) {
-    goal.command.twist = mpm::projected(command.twist, geometry, definition);
+    goal.command.twist =
+        told_part(simulation.rigid_body(command.body), mpm::projected(command.twist, geometry, definition));
     AppliedCommand fastest = goal.command;
     fastest.twist.linear = shortened(fastest.twist.linear, limits_[body].speed);
     fastest.twist.angular = shortened(fastest.twist.angular, limits_[body].rotation_rate);
@@ -81,7 +82,6 @@ bool CommandLimiter::take(const AppliedCommand& command, const mpm::Simulation& 
   } else {
     goal.command.pose = mpm::projected(command.pose, geometry, definition);
   }
-  goal.command.twist = told_part(simulation.rigid_body(command.body), goal.command.twist);
   goals_[command.body] = goal;
   return true;
 }

@@ -34,6 +34,10 @@ int main(int argc, char** argv) {
   app.add_option("--namespace", options.name_space, "of the topics, when a bag holds several runs");
   app.add_flag("--check", options.check,
                "check the run: audit, energy, gaps in time, impulses; exit code 3 on failure");
+  app.add_flag("--same", options.same,
+               "whether two bags are of the same run, to the bit; the first difference; exit code 3 if there is one");
+  app.add_option("--tolerance", options.tolerance,
+                 "of --same: numbers may differ by so much of the largest size that they have");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -61,6 +61,7 @@ TEST(NodeParameters, WrongTypesAndRangesNameTheParameter) {
   EXPECT_NE(error_of({{"scene", XmlRpc::XmlRpcValue(7)}}).find("~scene must be text"), std::string::npos);
   EXPECT_NE(error_of(with("command_timeout", -0.1)).find("~command_timeout"), std::string::npos);
   EXPECT_NE(error_of(with("on_timeout", "panic")).find("~on_timeout"), std::string::npos);
+  EXPECT_NE(error_of(with("reset_time", "now")).find("~reset_time is 'now'"), std::string::npos);
   EXPECT_NE(error_of(with("particle_stride", 0)).find("~particle_stride"), std::string::npos);
   EXPECT_NE(error_of(with("record_compression", "zip")).find("~record_compression"), std::string::npos);
   EXPECT_EQ(error_of(with("real_time_factor", 2)), "");  // a whole number is a number
@@ -119,6 +120,7 @@ TEST(NodeParameters, TheTemplateHoldsEveryParameterWithItsDefault) {
   EXPECT_EQ(given.world_frame, plain.world_frame);
   EXPECT_EQ(given.publish_clock, plain.publish_clock);
   EXPECT_EQ(given.clock_rate, plain.clock_rate);
+  EXPECT_EQ(given.reset_time, plain.reset_time);
   EXPECT_EQ(given.wrench_rate, plain.wrench_rate);
   EXPECT_EQ(given.force_scale, plain.force_scale);
   EXPECT_EQ(given.state_hash, plain.state_hash);
@@ -146,6 +148,17 @@ TEST(Pacer, SmallDelaysAreCaughtUpWithAndLargeOnesAreNot) {
   EXPECT_EQ(pacer.overruns(), 1U);
   EXPECT_EQ(pacer.next(start + milliseconds(500)), start + milliseconds(500));
   EXPECT_EQ(pacer.overruns(), 2U);
+}
+
+TEST(Pacer, NoRoundingAddsUp) {
+  // A third of a millisecond is no whole number of nanoseconds; three million of them are 1000 s.
+  Pacer pacer(1'000'000, 3.0);
+  const Pacer::Clock::time_point start{};
+  pacer.restart(start);
+  Pacer::Clock::time_point due = start;
+  for (int i = 0; i < 3'000'000; ++i) due = pacer.next(due);
+  EXPECT_EQ(due, start + std::chrono::seconds(1000));
+  EXPECT_EQ(pacer.overruns(), 0U);
 }
 
 TEST(Mailbox, WorkIsDoneOnTheOtherThread) {

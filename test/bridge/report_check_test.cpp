@@ -94,7 +94,100 @@ TEST_F(ReportCheckTest, CheckFindsARunThatFailed) {
     if (i == HalfSineRun::kIntervals) message.failed = true;
     return true;
   };
-  EXPECT_EQ(failures_of(run), Names{"complete"});
+  EXPECT_EQ(failures_of(run), Names{"run"});
+}
+
+TEST_F(ReportCheckTest, MomentumThatCancelsHasASizeToo) {
+  // Two bodies of 1 kg fly against each other with 2 m/s and touch nothing: nothing is exchanged, 4 N s are carried.
+  double residual = 3e-10;  // 0.75e-10 of that
+  HalfSineRun run;
+  run.on_state = [&residual](int i, SolverState& message) {
+    for (Impulse& impulse : message.impulses) impulse.impulse = geometry_msgs::Vector3();
+    message.momentum = message.initial_momentum = geometry_msgs::Vector3();
+    message.momentum_exchanged = 0.0;
+    message.momentum_carried = 4.0;
+    if (i == 50) message.momentum.x = residual;
+    return true;
+  };
+  run.on_forces = [](int, ContactForces& message) {
+    message.bodies.clear();
+    return true;
+  };
+  run.on_bodies = [](int, BodyStates& message) {
+    message.bodies.clear();
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names());
+  residual = 5e-10;
+  EXPECT_EQ(failures_of(run), Names{"audit"});
+}
+
+TEST_F(ReportCheckTest, CheckFindsStepsThatTheTimeHasNoRoomFor) {
+  HalfSineRun run;  // 10 steps of 0.1 ms a state
+  run.on_state = [](int i, SolverState& message) {
+    if (i >= 40) ++message.steps;
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"steps"});
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 40) message.steps = 390;  // time went on, steps did not
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"steps"});
+  run.on_state = [](int i, SolverState& message) {
+    if (i == 40) message.steps = 380;
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"steps"});
+}
+
+TEST_F(ReportCheckTest, CheckFindsCommandsThatWereRefusedOrLost) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    message.commands_refused = i > 70 ? 1 : 0;
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"commands"});
+  run.on_state = [](int, SolverState& message) {
+    message.commands_applied = 2;  // one is in the bag
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names{"commands"});
+  run.on_state = [](int, SolverState& message) {
+    message.commands_late = 1;  // normal
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names());
+}
+
+TEST(RunChecks, LooksAtTheClockWhereItWasRecorded) {
+  const auto result = [](const std::vector<std::int64_t>& times) {
+    RunChecks checks(1e-3, mpm::Precision::float64, {});
+    for (const std::int64_t time : times) checks.clock(time);
+    for (const CheckResult& one : checks.results()) {
+      if (one.name == "clock") return one;
+    }
+    return CheckResult{};
+  };
+  EXPECT_FALSE(result({}).made);
+  EXPECT_TRUE(result({1, 1000000, 5000000, 5000000}).passed);
+  EXPECT_TRUE(result({1, 1000000, 5000000}).made);
+  EXPECT_FALSE(result({1, 2000000, 1000000}).passed);  // backwards
+  EXPECT_FALSE(result({1, 1500000}).passed);           // between sync points
+}
+
+TEST(RunChecks, FindsAGlobalQuantityThatIsNotFinite) {
+  GlobalQuantities message;
+  message.names = {"sxx"};
+  message.units = {"Pa"};
+  message.values = {1.0};
+  RunChecks checks(1e-3, mpm::Precision::float64, {});
+  checks.global_quantities(0, message);
+  message.values = {std::numeric_limits<double>::quiet_NaN()};
+  checks.global_quantities(1000000, message);
+  for (const CheckResult& one : checks.results()) {
+    if (one.name == "global") EXPECT_FALSE(one.passed);
+  }
 }
 
 TEST_F(ReportCheckTest, CheckFindsALostState) {

@@ -145,6 +145,7 @@ inline void HalfSineRun::write(rosbag::Bag& bag) const {
     state.momentum_exchanged = impulse(t) + std::abs(kWeight) * t;
     state.min_j = 0.9;
     state.real_time_factor = 0.5;
+    state.commands_applied = i >= 10 ? 1 : 0;
     if (on_state(i, state)) bag.write(name_space + "/solver_state", stamp(i), state);
 
     if (i % 10 != 0) continue;

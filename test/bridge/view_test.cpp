@@ -15,7 +15,9 @@ namespace {
 
 /// 5 x 3 x 2 particles 0.1 m apart, from (1, 2, 3) on; the last axis fastest, as bodies are filled.
 sensor_msgs::PointCloud2 lattice(const std::vector<std::string>& fields, bool planar = false) {
-  std::vector<std::vector<float>> columns(3 + fields.size());
+  mpm::ParticleColumns cloud_columns;
+  std::vector<std::vector<float>>& columns = cloud_columns.values;
+  columns.resize(3 + fields.size());
   for (int i = 0; i < 5; ++i) {
     for (int j = 0; j < 3; ++j) {
       for (int k = 0; k < 2; ++k) {
@@ -26,8 +28,9 @@ sensor_msgs::PointCloud2 lattice(const std::vector<std::string>& fields, bool pl
     }
   }
   for (std::size_t f = 3; f < columns.size(); ++f) columns[f].assign(columns[0].size(), 0.0F);
+  for (std::uint32_t id = 0; id < columns[0].size(); ++id) cloud_columns.ids.push_back(id);
   sensor_msgs::PointCloud2 cloud;
-  fill_cloud(fields, columns, 1, cloud);
+  fill_cloud(fields, cloud_columns, cloud);
   return cloud;
 }
 
@@ -70,7 +73,7 @@ TEST(View, ColoursByWhatIsThere) {
 
 TEST(View, AnEmptyCloudHasSomeView) {
   sensor_msgs::PointCloud2 cloud;
-  fill_cloud({"p"}, {{}, {}, {}, {}}, 1, cloud);
+  fill_cloud({"p"}, {{}, {{}, {}, {}, {}}}, cloud);
   EXPECT_GT(view_of(cloud).distance, 0.0);
 }
 

@@ -1,4 +1,4 @@
-// A simulator in a process of its own, below a namespace of its own, as a user would start it; for node tests.
+// Simulators and other programs in processes of their own, as a user would start them; for node tests.
 #pragma once
 
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -12,6 +12,7 @@
 #include <rosbag/view.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -47,36 +48,51 @@ inline mpm_ros::Command velocity(const std::string& body, double vz) {
   return command;
 }
 
-class SimulatorProcess {
+/// Set in the environment of what a test starts: a test program that plays another node must not run its tests there,
+/// and start itself again, and again.
+constexpr const char* kChild = "MPM_TEST_CHILD";
+
+/// A program of this package in a process of its own, below a namespace of its own, as a user would start it.
+class ProgramProcess {
  public:
-  /// `parameters`: "name:=value" without the underscore. Several may live one after the other; each has its namespace.
-  explicit SimulatorProcess(const std::vector<std::string>& parameters) {
+  /// `arguments`: as on the command line. Several may live one after the other; each has its namespace, or that given.
+  /// `largest_file` [byte]: what the disk has room for; 0: all there is.
+  explicit ProgramProcess(const std::string& program, const std::vector<std::string>& arguments,
+                          const std::string& name_space = {}, rlim_t largest_file = 0) {
     static int count = 0;
-    namespace_ = "/sim" + std::to_string(getpid()) + "_" + std::to_string(++count);
+    namespace_ = name_space.empty() ? "/sim" + std::to_string(getpid()) + "_" + std::to_string(++count) : name_space;
     log_ = folder_.file("log");
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "simulator";
-    std::vector<std::string> words{program.string(), "__ns:=" + namespace_};
-    for (const std::string& parameter : parameters) words.push_back("_" + parameter);
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
+    const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe").parent_path() / program;
+    std::vector<std::string> words{path.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    words.push_back("__ns:=" + namespace_);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
     pid_ = fork();
     if (pid_ == 0) {
+      if (largest_file > 0) {
+        ::signal(SIGXFSZ, SIG_IGN);  // writing beyond it then fails, as on a full disk
+        const rlimit limit{largest_file, largest_file};
+        setrlimit(RLIMIT_FSIZE, &limit);
+      }
       const int log = open(log_.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
       dup2(log, STDOUT_FILENO);
       dup2(log, STDERR_FILENO);
-      execv(program.c_str(), arguments.data());
+      execv(path.c_str(), pointers.data());
       _exit(127);
     }
   }
 
-  ~SimulatorProcess() {
+  ~ProgramProcess() {
     if (pid_ <= 0) return;
     kill(pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
   }
 
+  const std::string& name_space() const { return namespace_; }
   std::string name(const std::string& relative) const { return namespace_ + "/" + relative; }
+  pid_t pid() const { return pid_; }
   void signal(int number) const { kill(pid_, number); }
 
   /// Exit code; -1 when it did not end in time, -2 when a signal ended it.
@@ -87,10 +103,6 @@ class SimulatorProcess {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -2;
   }
 
-  bool ready() const {
-    return eventually([&] { return ros::service::exists(name("step"), false); });
-  }
-
   /// What it printed.
   std::string log() const {
     std::ifstream file(log_);
@@ -98,6 +110,24 @@ class SimulatorProcess {
     text << file.rdbuf();
     return text.str();
   }
+
+ private:
+  TemporaryFolder folder_;
+  std::string namespace_;
+  std::string log_;
+  pid_t pid_ = 0;
+};
+
+class SimulatorProcess : public ProgramProcess {
+ public:
+  /// `parameters`: "name:=value" without the underscore. `largest_file` [byte]: as above.
+  explicit SimulatorProcess(const std::vector<std::string>& parameters, rlim_t largest_file = 0)
+      : ProgramProcess("simulator", private_parameters(parameters), {}, largest_file) {}
+
+  bool ready() const {
+    return eventually([&] { return ros::service::exists(name("step"), false); });
+  }
+
   /// Lines with FATAL.
   std::vector<std::string> fatal_lines() const {
     std::vector<std::string> lines;
@@ -122,10 +152,10 @@ class SimulatorProcess {
   }
 
  private:
-  TemporaryFolder folder_;
-  std::string namespace_;
-  std::string log_;
-  pid_t pid_ = 0;
+  static std::vector<std::string> private_parameters(std::vector<std::string> parameters) {
+    for (std::string& parameter : parameters) parameter.insert(0, "_");
+    return parameters;
+  }
 };
 
 /// Hears a topic on a thread of roscpp's and keeps every message.
@@ -184,6 +214,8 @@ inline std::string hash_in(const std::string& path) { return last_state_in(path)
 
 /// main() of a node test: runs the tests as the ROS node `name`.
 inline int run_node_tests(int argc, char** argv, const std::string& name) {
+  if (getenv(kChild) != nullptr) return 1;
+  setenv(kChild, "1", 1);
   testing::InitGoogleTest(&argc, argv);
   setenv("OMP_WAIT_POLICY", "passive", 1);  // several simulators share the cores
   ros::init(argc, argv, name);

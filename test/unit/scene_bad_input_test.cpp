@@ -106,7 +106,6 @@ TEST(SceneBadInput, UnknownWordsSuggestTheNearest) {
 TEST(SceneBadInput, WhatIsNotBuiltYetSaysSo) {
   expect_refused(28, "transport: {}", "transport: not built yet;");
   expect_refused(28, "cracks: {}", "cracks: not built yet;");
-  expect_refused(27, "    drive: tf", "rigid_bodies.ball.drive: not built yet; use motion");
   expect_refused(21, "    shape: {mesh: {file: a.stl}}", "bodies.block.shape.mesh: not built yet; use box");
 }
 

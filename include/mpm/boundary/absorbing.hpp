@@ -57,6 +57,7 @@ class Absorbing final : public Stage {
   void increment_found(StepContext& context, NodalField& increment) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  void keep(StateArchive& archive) override;
   /// Work on the material since the start [J]; negative.
   double work() const { return work_; }
 

@@ -25,6 +25,10 @@ class Axis final : public Stage {
   void increment_found(StepContext& context, NodalField& increment) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  void keep(StateArchive& archive) override {
+    account_.keep(archive);
+    archive.keep("given", given_);
+  }
 
  private:
   struct Node {
@@ -48,6 +52,7 @@ class HoopForce final : public Stage {
   HoopForce() { account_.name = "hoop stress"; }
   void forces_gathered(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  void keep(StateArchive& archive) override { account_.keep(archive); }
 
  private:
   ImpulseAccount account_;

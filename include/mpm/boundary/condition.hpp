@@ -61,6 +61,7 @@ class VelocityConditions final : public Stage {
   void increment_found(StepContext& context, NodalField& increment) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
+  void keep(StateArchive& archive) override;
 
   /// Work on the material since the start [J]: impulse times the mean of the velocities before and after the step.
   double work() const { return work_; }

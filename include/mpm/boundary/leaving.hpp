@@ -26,6 +26,12 @@ class Leaving final {
   std::uint64_t limit() const { return limit_; }
   std::uint64_t count() const { return count_; }  ///< of the particles that have left
   const ImpulseAccount& account() const { return account_; }
+  /// For checkpoints.
+  void keep(StateArchive& archive) {
+    archive.keep("count", count_);
+    archive.list("left", left_);
+    account_.keep(archive);
+  }
 
  private:
   std::uint64_t limit_;

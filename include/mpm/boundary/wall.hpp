@@ -42,6 +42,11 @@ class Wall final : public Stage {
   void increment_found(StepContext& context, NodalField& increment) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  void keep(StateArchive& archive) override {
+    account_.keep(archive);
+    archive.keep("given", given_);
+    held_.keep(archive);
+  }
 
  private:
   struct Node {

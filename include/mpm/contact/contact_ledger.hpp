@@ -31,6 +31,8 @@ class ContactLedger {
   void end_step(double dt, int places, double area);
   /// What the material did to the body since the last call; `now` [s].
   ContactReport take(double now);
+  /// For checkpoints.
+  void keep(StateArchive& archive);
 
   const ImpulseAccount& account() const { return account_; }   ///< given to the material
   double work() const { return work_; }                        ///< of the body on the material since the start [J]

@@ -58,6 +58,7 @@ class MaterialContact final : public Stage {
   void increment_found(StepContext& context, NodalField& increment) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
+  void keep(StateArchive& archive) override;
 
   /// Of each pair since the last call; `now` [s].
   std::vector<PairReport> take(double now);

@@ -31,6 +31,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "mpm/contact/conjugate_sweeps.hpp"
@@ -67,6 +68,7 @@ class PointContact final : public Stage {
   void increment_found(StepContext& context, NodalField&) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
+  void keep(StateArchive& archive) override;
 
   /// Of a body, by its place in the list.
   ContactLedger& ledger(int body) { return ledgers_[body]; }

@@ -42,6 +42,7 @@ class RigidContact final : public Stage {
   void increment_found(StepContext& context, NodalField& increment) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(ledger_.account()); }
+  void keep(StateArchive& archive) override;
 
   ContactLedger& ledger() { return ledger_; }
 

@@ -43,6 +43,8 @@ class ToolSides {
   bool apart(const Grid& first, NodeRef of_first, const Grid& second, NodeRef of_second) const;
   /// Whether a ball around a world point is so near to a tool that particles in it may be on side 1 or in its contact.
   bool near(const Vec3& point, double radius) const;
+  /// For checkpoints.
+  void keep(StateArchive& archive);
 
  private:
   const GridLayout& layout_;

@@ -67,6 +67,10 @@ class DampingControl final : public Stage {
   void momentum_gathered(StepContext& context) override { begin_step(context); }
   void forces_gathered(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  void keep(StateArchive& archive) override {
+    archive.keep("alpha", alpha_);
+    account_.keep(archive);
+  }
 
   /// Of the feedback, now [1/s].
   double alpha() const { return alpha_; }

@@ -60,6 +60,10 @@ class FaceTractions : public Stage {
   void forces_gathered(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  void keep(StateArchive& archive) override {
+    archive.keep("work", work_);
+    account_.keep(archive);
+  }
   /// Work on the material since the start [J]: nodal load times the displacement of its node in the step.
   double work() const { return work_; }
 

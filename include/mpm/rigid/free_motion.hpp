@@ -18,6 +18,7 @@
 #include <array>
 #include <string>
 
+#include "mpm/math/state_archive.hpp"
 #include "mpm/rigid/motion.hpp"
 
 namespace mpm {
@@ -109,6 +110,8 @@ class FreeMotion {
 
   /// `gravity` [m/s^2]
   FreeBodyReport report(const std::string& name, const Vec3& gravity) const;
+
+  void keep(StateArchive& archive);
 
  private:
   Mat3 inertia_at(const Quat& orientation) const;

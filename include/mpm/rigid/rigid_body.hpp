@@ -10,6 +10,7 @@
 #include <string>
 
 #include "mpm/math/function.hpp"
+#include "mpm/math/state_archive.hpp"
 #include "mpm/rigid/contact_law.hpp"
 #include "mpm/rigid/free_motion.hpp"
 #include "mpm/rigid/motion.hpp"
@@ -99,6 +100,8 @@ class RigidBody {
   /// At a sync point: a body that has reached its target pose is put exactly there. Its twist stays that of the step
   /// just made; it rests from the next step on, unless a command says otherwise.
   void at_sync(std::int64_t now);
+  /// For checkpoints: where it is, and what it follows.
+  void keep(StateArchive& archive);
 
  private:
   RigidBodyDefinition definition_;

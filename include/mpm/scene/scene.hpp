@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "mpm/math/error.hpp"
+#include "mpm/rigid/motion_limits.hpp"
 #include "mpm/simulation/definition.hpp"
+#include "mpm/simulation/global_quantity.hpp"
 
 namespace mpm {
 
@@ -57,16 +59,27 @@ struct LoadRegion {
   std::string where;  ///< "file:line: key.path"
 };
 
+/// How commands move a rigid body. For whoever gives the commands: the simulation does not know of it.
+struct CommandDefinition {
+  std::string frame;    ///< tf frame that the body follows; empty: it is commanded on topics
+  MotionLimits limits;  ///< that its commands are kept within
+};
+
 /// What is written out, beside the sync period that carries it.
 struct OutputDefinition {
-  double period = 0.0;                       ///< [s] between particle snapshots; a multiple of the sync period
+  double period = 0.0;  ///< [s] between particle snapshots; a multiple of the sync period
+  double first = 0.0;   ///< [s] of the first snapshot after that of the start; a multiple of the sync period
   std::vector<std::string> particle_fields;  ///< chosen scalars, beside x, y, z, id
   int particle_stride = 1;
+  std::optional<Box> particle_region;  ///< only particles in it are written [m]
+  std::vector<GlobalQuantity> global;  ///< sums and means over bodies, written over time
+  double global_period = 0.0;          ///< [s] between them; a multiple of the sync period
 };
 
 struct Scene {
   SimulationDefinition definition;  ///< all but the particles of the bodies
   std::vector<BodyDefinition> bodies;
+  std::vector<CommandDefinition> commands;   ///< of each of definition.rigid_bodies
   std::vector<LoadRegion> load_regions;      ///< of each of definition.particle_forces
   std::vector<LoadRegion> traction_regions;  ///< of each of definition.tractions
   OutputDefinition output;

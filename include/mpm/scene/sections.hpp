@@ -49,6 +49,10 @@ void read_free(const Map& map, const SimulationDefinition& definition, RigidBody
 std::unique_ptr<Surface> read_polygon(const Value& value, const SimulationDefinition& definition);
 /// The `shape` of a rigid body that is a `height_field`, after `grid`
 std::unique_ptr<Surface> read_height_field(const Value& value, const SimulationDefinition& definition);
+/// The `shape` of a rigid body that is a robot's link, `urdf`
+std::unique_ptr<Surface> read_urdf_link(const Value& value, GeometryKind geometry);
+/// `drive` and `limits` of a rigid body, after its shape
+CommandDefinition read_commands(const Map& body, const std::string& name, Scene& scene);
 /// `boundaries`, after bodies and rigid bodies
 void read_boundaries(const Map& root, Scene& scene);
 /// `loads`, after bodies

@@ -34,6 +34,7 @@ inline constexpr Dimension kTime{0, 0, 1, 0};
 inline constexpr Dimension kAngle{0, 0, 0, 1};
 inline constexpr Dimension kRate{0, 0, -1, 0};
 inline constexpr Dimension kAngularRate{0, 0, -1, 1};
+inline constexpr Dimension kAngularAcceleration{0, 0, -2, 1};
 inline constexpr Dimension kVelocity{1, 0, -1, 0};
 inline constexpr Dimension kAcceleration{1, 0, -2, 0};
 inline constexpr Dimension kDensity{-3, 1, 0, 0};

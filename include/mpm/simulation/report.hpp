@@ -55,7 +55,8 @@ struct AuditReport {
   Vec3 initial_momentum = Vec3::Zero();
   std::vector<NamedImpulse> impulses;
   double exchanged = 0.0;  ///< momentum exchanged: sum over steps and sources of |impulse| [N s]
-  double residual = 0.0;   ///< |change - sum of impulses| / max(exchanged, sum of m |v|)
+  double carried = 0.0;    ///< sum of m |v| of the particles now [N s]
+  double residual = 0.0;   ///< |change - sum of impulses| / max(exchanged, carried)
 };
 
 /// What limited the time step, and the steps taken.

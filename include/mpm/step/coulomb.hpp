@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "mpm/math/geometry.hpp"
+#include "mpm/math/state_archive.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 
 namespace mpm {
@@ -62,6 +63,11 @@ class HeldNodes {
   void clear() { held_.clear(); }
   /// In ascending order of id.
   void add(std::uint64_t id, Hold hold) { held_.push_back({id, hold}); }
+  void keep(StateArchive& archive) {
+    archive.rows("held", held_);
+    archive.column("held/node", held_, &Entry::id);
+    archive.column("held/hold", held_, &Entry::hold);
+  }
   Hold find(std::uint64_t id) const {
     const auto it = std::lower_bound(held_.begin(), held_.end(), id,
                                      [](const Entry& entry, std::uint64_t wanted) { return entry.id < wanted; });

@@ -29,6 +29,7 @@ class InField final : public Stage {
   }
   void grid_advanced(StepContext& context) override { in_field(context, &Stage::grid_advanced); }
   void accounts(std::vector<ImpulseAccount>& list) const override { stage_->accounts(list); }
+  void keep(StateArchive& archive) override { stage_->keep(archive); }
 
  private:
   StepContext of_field(const StepContext& context) const { return {field_, context.dt, context.start}; }

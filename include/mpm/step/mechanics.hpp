@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "mpm/math/state_archive.hpp"
 #include "mpm/step/sorter.hpp"
 #include "mpm/step/step_context.hpp"
 
@@ -49,6 +50,8 @@ class Mechanics {
   /// Particles have left the reach of their blocks, or the place where they may be, or so many have left their groups
   /// that it pays to sort.
   virtual bool needs_sort() const = 0;
+  /// As Stage::keep().
+  virtual void keep(StateArchive&) = 0;
 };
 
 }  // namespace mpm

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/math/state_archive.hpp"
 #include "mpm/step/step_context.hpp"
 
 namespace mpm {
@@ -18,6 +19,10 @@ struct ImpulseAccount {
   void add(const Vec3& step_impulse) {
     impulse += step_impulse;
     exchanged += step_impulse.norm();
+  }
+  void keep(StateArchive& archive) {
+    archive.keep("impulse", impulse);
+    archive.keep("exchanged", exchanged);
   }
 };
 
@@ -49,6 +54,10 @@ class Stage {
 
   /// What this stage gave to the material, under its names.
   virtual void accounts(std::vector<ImpulseAccount>&) const {}
+
+  /// Writes or reads what it remembers from step to step and what it reports, for checkpoints: all but what a step
+  /// finds anew. Between two steps only.
+  virtual void keep(StateArchive&) {}
 };
 
 }  // namespace mpm

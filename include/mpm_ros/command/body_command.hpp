@@ -32,6 +32,7 @@ struct BodyCommand {
   ros::Time requested;  ///< stamp it came with
   std::optional<std::int64_t> stamp;  ///< the same in simulated time [ns]; none: as soon as possible
   bool late = false;                  ///< the stamp was zero, or past when it came
+  std::string sender;                 ///< node that published it, for an order that is not that of arrival
   std::uint64_t order = 0;            ///< of arrival
 };
 
@@ -54,6 +55,11 @@ void apply(const AppliedCommand& command, mpm::Simulation& simulation);
 
 /// What makes a body stand still that was commanded: velocity zero where it is told, no wrench where it is free.
 std::vector<AppliedCommand> stop_commands(int body, const mpm::Simulation& simulation);
+/// The check of apply() for a motion that no tool means. @throws mpm::RigidError
+void check_travel(const AppliedCommand& command, const mpm::Simulation& simulation);
+/// A pose that its body reaches only by more than a cell in a sync period is more of a jump than a motion: that, in
+/// words. Empty for others.
+std::string jump_of(const AppliedCommand& command, const mpm::Simulation& simulation);
 
 /// As recorded and published.
 mpm_ros::Command to_message(const AppliedCommand& command, const std::string& body, const std::string& world_frame,

@@ -11,17 +11,20 @@
 #include <vector>
 
 #include "mpm_ros/command/command_reader.hpp"
+#include "mpm_ros/command/frame_follower.hpp"
 
 namespace mpm_ros {
 
 class CommandBridge {
  public:
-  /// Subscribes at once, on the node handle's callback queue. `queue` and `health` must outlive it.
-  CommandBridge(ros::NodeHandle node, const std::vector<std::string>& bodies, const std::string& world_frame,
-                CommandQueue& queue, NodeHealth& health);
+  /// Subscribes at once, on the node handle's callback queue. `frames`: the tf frame that each body follows, or empty.
+  /// `queue` and `health` must outlive it.
+  CommandBridge(ros::NodeHandle node, const std::vector<std::string>& bodies, const std::vector<std::string>& frames,
+                const std::string& world_frame, CommandQueue& queue, NodeHealth& health);
 
   CommandReader& reader() { return reader_; }
   const CommandReader& reader() const { return reader_; }
+  FrameFollower& follower() { return follower_; }
 
   /// Asks the master for command topics of bodies that the scene does not have, and refuses each once.
   void find_strangers();
@@ -35,6 +38,7 @@ class CommandBridge {
   tf2_ros::Buffer frames_;
   tf2_ros::TransformListener listener_;
   CommandReader reader_;
+  FrameFollower follower_;
   std::vector<ros::Subscriber> subscribers_;
   std::set<std::string> strangers_;
 };

@@ -24,13 +24,16 @@ class CommandLog {
   std::vector<AppliedCommand> take(const mpm::Simulation& simulation);
   /// Begins again.
   void rewind() { next_ = 0; }
+  /// Goes on with what takes effect at `time` [ns] or later: what was before is in a checkpoint.
+  void skip_to(std::int64_t time);
 
  private:
   std::vector<mpm_ros::Command> commands_;
   std::size_t next_ = 0;
 };
 
-/// The commands in a bag, in order. @throws BagError when it cannot be read or has no topic of type mpm_ros/Command.
+/// The commands in a bag and in the parts after it, in order. @throws BagError when it cannot be read or has no topic
+/// of type mpm_ros/Command.
 CommandLog read_commands(const std::string& bag_path);
 
 }  // namespace mpm_ros

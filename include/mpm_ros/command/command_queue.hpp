@@ -7,7 +7,10 @@
 // that takes effect drops those of the other kind that were received before it. Wrench: as velocity, but beside the
 // others, which it neither ends nor is ended by.
 //
-// What is due at a sync point is applied in order of effective time, body, arrival here.
+// What is due at a sync point is applied in order of effective time and body; of equal ones velocities come before
+// poses, then the sender's name decides, then arrival, which for one sender and one topic is the order of sending. So
+// commands that came before their stamps are applied in an order that does not depend on when they came. What came late
+// is applied after them, in the order of arrival.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +19,7 @@
 #include <optional>
 #include <vector>
 
+#include "mpm/math/state_archive.hpp"
 #include "mpm_ros/command/body_command.hpp"
 
 namespace mpm_ros {
@@ -38,6 +42,11 @@ class CommandQueue {
 
   /// Any thread.
   void push(BodyCommand command);
+  /// From hold() on commands wait outside; release() lets them in. A step of the lockstep takes what came before it.
+  void hold();
+  void release();
+  /// Of what was looked up for this sync point, in the middle of a step.
+  void push_past_hold(BodyCommand command);
   /// What takes effect at the sync point `now` [ns], which is later than the one before.
   std::vector<DueCommand> take(std::int64_t now);
   /// Forgets everything but the counts, for a run that begins again.
@@ -52,6 +61,12 @@ class CommandQueue {
   /// A gap in a body's stream of poses longer than this [ns] says nothing of its period.
   static constexpr std::int64_t kLongestPeriod = 1'000'000'000;
 
+  std::int64_t sync_period() const { return sync_period_; }
+  /// For checkpoints: all but the counts. Of what was given in ROS time the simulated time counts.
+  void keep(mpm::StateArchive& archive);
+  /// Waits for what `other` waits for, and keeps its own counts.
+  void take_over(const CommandQueue& other);
+
  private:
   /// The stream of poses of one body.
   struct PoseStream {
@@ -60,6 +75,7 @@ class CommandQueue {
     std::int64_t arrival = 0;      ///< [ns] of the pose under way
   };
 
+  void admit(BodyCommand command);
   std::int64_t round_up(std::int64_t time) const { return (time + sync_period_ - 1) / sync_period_ * sync_period_; }
   bool is_due(const BodyCommand& command, std::int64_t now) const;
   std::int64_t arrival_of(const BodyCommand& command, std::int64_t now);
@@ -67,6 +83,8 @@ class CommandQueue {
   const std::int64_t sync_period_;
   mutable std::mutex mutex_;
   std::vector<BodyCommand> waiting_;
+  std::vector<BodyCommand> outside_;  ///< came while on hold
+  bool on_hold_ = false;
   std::map<int, PoseStream> streams_;
   std::int64_t passed_ = -1;  ///< last sync point taken [ns]
   std::uint64_t arrivals_ = 0;

@@ -9,6 +9,9 @@
 #include <mpm_ros/Command.h>
 #include <tf2/buffer_core.h>
 
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -26,15 +29,24 @@ class CommandReader {
   CommandReader(std::vector<std::string> bodies, std::string world_frame, std::string prefix,
                 const tf2::BufferCore& frames, CommandQueue& queue, NodeHealth& health);
 
-  /// The run began (again): what stamps mean from now on.
+  /// The run began (again): what stamps mean from now on. No message is being read by the old ones when it returns.
   void set_stamps(const Stamps& stamps);
 
-  /// A message for a body (its index): to the queue, or refused. Any thread.
-  void take(int body, const geometry_msgs::Twist& message);
-  void take(int body, const geometry_msgs::TwistStamped& message);
-  void take(int body, const geometry_msgs::Wrench& message);
-  void take(int body, const geometry_msgs::WrenchStamped& message);
-  void take(int body, const geometry_msgs::PoseStamped& message);
+  /// The body follows a tf frame: commands from elsewhere are refused, with the reason.
+  void set_frame(int body, const std::string& frame) { followed_.at(body) = frame; }
+  /// Where that frame is, as a message on cmd_pose. Any thread.
+  void follow(int body, const geometry_msgs::PoseStamped& message);
+
+  /// A message for a body (its index) from a node: to the queue, or refused. Any thread.
+  void take(int body, const geometry_msgs::Twist& message, const std::string& sender = {});
+  void take(int body, const geometry_msgs::TwistStamped& message, const std::string& sender = {});
+  void take(int body, const geometry_msgs::Wrench& message, const std::string& sender = {});
+  void take(int body, const geometry_msgs::WrenchStamped& message, const std::string& sender = {});
+  void take(int body, const geometry_msgs::PoseStamped& message, const std::string& sender = {});
+  /// Messages taken so far, those that were refused too.
+  std::uint64_t received() const;
+  /// Waits until so many have been taken, for `patience` of the wall's time at most. Any thread but those of take().
+  bool wait_received(std::uint64_t count, std::chrono::milliseconds patience) const;
   /// A command of a step request, checked as those on topics are. `problem` says why not; then the result is of no use.
   BodyCommand read(const mpm_ros::Command& message, std::string& problem) const;
 
@@ -52,7 +64,11 @@ class CommandReader {
   void set_stamp(const ros::Time& stamp, BodyCommand& command, std::string& problem) const;
   /// Why a simulated time [ns] cannot be meant, or empty.
   std::string too_far_ahead(std::int64_t stamp) const;
+  void take_pose(const char* leaf, int body, const geometry_msgs::PoseStamped& message, const std::string& sender,
+                 std::string problem);
   void push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem);
+  /// Why the body takes no commands, or empty.
+  std::string refusal_of(int body) const;
   /// Pose of a frame in the world, or the body whose frame it is.
   mpm::Pose find_frame(const std::string& frame, const ros::Time& stamp, int& body, std::string& problem) const;
 
@@ -62,8 +78,13 @@ class CommandReader {
   const tf2::BufferCore& frames_;
   CommandQueue& queue_;
   NodeHealth& health_;
-  mutable std::mutex mutex_;  // of stamps_
+  std::vector<std::string> followed_;  // frame of each body, or empty
+  std::mutex taking_;                  // a message, from its stamp to the queue
+  mutable std::mutex mutex_;           // of stamps_
   Stamps stamps_;
+  mutable std::mutex received_mutex_;
+  mutable std::condition_variable received_changed_;
+  std::uint64_t received_ = 0;
 };
 
 /// A due command in world axes; `bodies` as they are at its effect [ns].

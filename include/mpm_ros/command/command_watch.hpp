@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "mpm/math/state_archive.hpp"
 #include "mpm_ros/command/body_command.hpp"
 
 namespace mpm_ros {
@@ -19,6 +20,8 @@ class CommandWatch {
   /// Bodies, in order, whose last command is the timeout or more ago. Each is named once for each silence.
   std::vector<int> silent(std::int64_t now);
   void clear() { heard_.clear(); }
+  /// For checkpoints.
+  void keep(mpm::StateArchive& archive);
 
  private:
   std::int64_t timeout_;

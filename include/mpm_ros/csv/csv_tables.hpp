@@ -71,6 +71,20 @@ class SolverStateCsv {
   std::vector<std::string> impulses_;
 };
 
+/// global_quantities.csv: one column a quantity; no file of a scene that asks for none.
+class GlobalQuantitiesCsv {
+ public:
+  explicit GlobalQuantitiesCsv(const std::string& folder) : path_(folder + "/global_quantities.csv") {}
+  /// `time` [s]; names and units are those of the first row. @throws CsvError
+  void add(double time, const std::vector<std::string>& names, const std::vector<std::string>& units,
+           const std::vector<double>& values);
+  void close();
+
+ private:
+  std::string path_;
+  std::optional<CsvWriter> writer_;
+};
+
 /// A command as it was applied.
 struct CommandRow {
   double time = 0.0;  ///< [s] since the start, when it took effect

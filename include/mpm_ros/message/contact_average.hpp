@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "mpm/math/state_archive.hpp"
 #include "mpm/simulation/report.hpp"
 
 namespace mpm_ros {
@@ -12,6 +13,8 @@ namespace mpm_ros {
 struct Contacts {
   std::vector<mpm::ContactReport> bodies;
   std::vector<mpm::PairReport> pairs;
+  /// For checkpoints.
+  void keep(mpm::StateArchive& archive);
 };
 
 class ContactAverage {
@@ -21,6 +24,8 @@ class ContactAverage {
   /// Means, and a body's area: over time. Arm of a body, centre of a pair: mean by normal impulse. Peak: of the step
   /// with the largest force. Impulse, energies, nodes, origin, and a pair's area: of the last report. Starts anew.
   Contacts take();
+  /// For checkpoints.
+  void keep(mpm::StateArchive& archive);
 
  private:
   bool empty_ = true;

@@ -1,9 +1,10 @@
 // What went wrong or should be known, for the log and for /diagnostics: two statuses, `commands` and `solver`.
 //
-// solver: ERROR when the run has failed; WARN when the audit does not close, a particle is nearly crushed, particles
-// left the grid and were put back, or the wall clock is not kept up with; else OK. commands: WARN for ten seconds after
-// one was refused, and as long as a body that was commanded hears nothing (past ~command_timeout); else OK. A late
-// command is normal latency: counted, no warning.
+// solver: ERROR when the run has failed, or goes on without its record; WARN when the audit does not close, a particle
+// is nearly crushed, particles left the grid and were put back, or the wall clock is not kept up with; else OK.
+// commands: WARN for ten seconds after one was refused or made a body jump, and as long as a body that was commanded
+// hears nothing (past ~command_timeout), waits for its tf frame, or is behind a pose for the sake of its limits; else
+// OK. A late command is normal latency: counted, no warning.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -22,7 +23,8 @@ namespace mpm_ros {
 struct SolverHealth {
   std::string phase = "starting";  ///< "running", "paused", "waiting for step", "ended", "failed: …"
   bool failed = false;
-  double time = 0.0;  ///< [s] simulated
+  std::string record_failure;  ///< why the run goes on without its record; empty: it has one, or none was asked for
+  double time = 0.0;           ///< [s] simulated
   double real_time_factor = 0.0;
   double asked_factor = 0.0;                           ///< that pacing tries to keep; 0: none
   std::uint64_t overruns = 0;                          ///< sync periods that took longer than their wall time
@@ -43,6 +45,13 @@ struct CommandHealth {
   std::uint64_t waiting = 0;    ///< whose time is to come
 };
 
+/// How a body is kept within its limits.
+struct LimitHealth {
+  std::uint64_t limited = 0;  ///< commands that were not followed as fast as they asked
+  double behind = 0.0;        ///< of a pose whose time has come [m]
+  double behind_angle = 0.0;  ///< [rad]
+};
+
 /// Safe to use from any thread.
 class NodeHealth {
  public:
@@ -57,6 +66,12 @@ class NodeHealth {
   void change(const std::string& what);
   /// A commanded body has not heard a command in time. One log line.
   void time_out(const std::string& body, const std::string& what);
+  /// A body waits for what it follows, and warns until `what` is empty. One log line.
+  void wait(const std::string& body, const std::string& what);
+  /// A body was told to move like no tool. Counted; logged as refusals are.
+  void jump(const std::string& what);
+  /// A body with limits moves. Warns while it is behind; one log line when its first command was limited.
+  void limit(const std::string& body, const LimitHealth& limits);
   void set_solver(const SolverHealth& solver);
   void set_commands(const CommandHealth& commands);
   /// The run begins again: nobody is silent, nobody was commanded. The counts of what was refused stay.
@@ -81,8 +96,10 @@ class NodeHealth {
     std::uint64_t commands = 0;
     double last = 0.0;  // [s] simulated
     bool silent = false;
+    std::string waits;
+    LimitHealth limits;
   };
-  void log_refusal(const std::string& line);
+  void log_refusal(const std::string& line, Clock::time_point now);
 
   mutable std::mutex mutex_;
   SolverHealth solver_;
@@ -93,7 +110,10 @@ class NodeHealth {
   std::uint64_t timeouts_ = 0;
   std::string last_refusal_;
   Clock::time_point refused_at_;
+  Clock::time_point jumped_at_;
   std::string last_timeout_;
+  std::uint64_t jumps_ = 0;
+  std::string last_jump_;
   std::string last_change_;
   std::map<std::string, Clock::time_point> logged_;  // lines of refusals
   Clock::time_point quota_from_;

@@ -14,15 +14,15 @@ namespace mpm_ros {
 /// Which particles and which of their fields are written.
 struct ParticleSelection {
   std::vector<std::string> fields;  ///< names that mpm::Simulation::particle_field() knows, beside x, y, z, id
-  int stride = 1;                   ///< every `stride`-th particle by id, >= 1
+  mpm::ParticleChoice choice;       ///< which particles
 };
 
 /// Why a selection cannot be used, naming the nearest field or the range; empty when it can.
 std::string problem_of(const ParticleSelection& selection);
 
-/// Fills the cloud: x, y, z (float32), id (uint32), then the chosen fields (float32), in order of id. `columns` holds
-/// one vector a field, x, y and z first, with one value a particle; all of one length.
-void fill_cloud(const std::vector<std::string>& fields, const std::vector<std::vector<float>>& columns, int stride,
+/// Fills the cloud: x, y, z (float32), id (uint32), then the fields (float32), in the order of the columns, which hold
+/// x, y and z first.
+void fill_cloud(const std::vector<std::string>& fields, const mpm::ParticleColumns& columns,
                 sensor_msgs::PointCloud2& cloud);
 
 /// Reads a simulation's particles; keeps its buffers from one call to the next.
@@ -35,7 +35,8 @@ class ParticleCloud {
 
  private:
   ParticleSelection selection_;
-  std::vector<std::vector<float>> columns_;
+  std::vector<std::string> names_;  ///< of the columns
+  mpm::ParticleColumns columns_;
   sensor_msgs::PointCloud2 cloud_;
 };
 

@@ -10,6 +10,7 @@ constexpr const char* kContactForces = "contact_forces";
 constexpr const char* kBodies = "bodies";
 constexpr const char* kCommands = "commands";
 constexpr const char* kSolverState = "solver_state";
+constexpr const char* kGlobalQuantities = "global_quantities";
 constexpr const char* kRunInfo = "run_info";
 constexpr const char* kMarkers = "markers";             ///< shapes of the rigid bodies, latched
 constexpr const char* kForceMarkers = "force_markers";  ///< an arrow a body
@@ -19,12 +20,15 @@ constexpr const char* kTf = "/tf";
 constexpr const char* kPause = "pause";
 constexpr const char* kReset = "reset";
 constexpr const char* kStep = "step";
+constexpr const char* kSaveCheckpoint = "save_checkpoint";
+constexpr const char* kLoadCheckpoint = "load_checkpoint";
 
 /// `bodies/<name>/<leaf>`
 inline std::string of_body(const std::string& body, const std::string& leaf) {
   return std::string(kBodies) + "/" + body + "/" + leaf;
 }
 constexpr const char* kWrench = "wrench";
+constexpr const char* kWrenchFiltered = "wrench_filtered";
 constexpr const char* kCmdVel = "cmd_vel";
 constexpr const char* kCmdVelStamped = "cmd_vel_stamped";
 constexpr const char* kCmdWrench = "cmd_wrench";

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "mpm/math/geometry.hpp"
+
 namespace mpm_ros {
 
 /// A parameter that is missing, of the wrong type or out of range. what() is one line that names it.
@@ -31,6 +33,12 @@ enum class OnTimeout {
   error  ///< the run ends
 };
 
+/// Where the stamps of a run go on after a reset.
+enum class ResetTime {
+  resume,  ///< after all stamps before: time never runs backwards
+  zero     ///< at zero again, /clock too
+};
+
 struct NodeParameters {
   std::string scene;             ///< shipped name or path
   std::vector<std::string> set;  ///< "key.path=value", over the scene
@@ -39,20 +47,30 @@ struct NodeParameters {
   int threads = 0;                          ///< 0: as many as the machine has
   std::string isa = "auto";                 ///< instruction set; auto: the widest one available
   std::string record;                       ///< bag to write; empty: none, "auto": named by scene and date
+  std::string record_folder;                ///< that relative names of bags start from; empty: the working folder
   std::string record_compression = "none";  ///< none, lz4, bz2
+  double record_split_size = 0.0;           ///< [MB] at which a part of the bag ends; 0: never
+  double record_split_duration = 0.0;       ///< [s] simulated, the same
+  bool record_required = true;              ///< false: the run goes on when the bag cannot be written any further
+  std::string resume;                       ///< checkpoint to go on from; empty: the scene's start
+  bool checkpoint_on_failure = true;        ///< a run that fails leaves its state in a file
   std::string commands;                     ///< bag whose commands are replayed in place of live ones
   double command_timeout = 0.0;             ///< [s] simulated; 0: never
   OnTimeout on_timeout = OnTimeout::hold;
   std::string world_frame = "world";
   bool publish_clock = true;                                ///< with use_sim_time
   double clock_rate = 0.0;                                  ///< [1/s] simulated; 0: every sync point
+  ResetTime reset_time = ResetTime::resume;                 ///< zero: with use_sim_time alone
   std::optional<double> particle_rate;                      ///< [1/s] simulated; unset: as the scene says
+  std::optional<double> particle_first;                     ///< [s] simulated, of the first cloud; unset: the same
   std::optional<std::vector<std::string>> particle_fields;  ///< unset: as the scene says
   std::optional<int> particle_stride;                       ///< unset: as the scene says
-  double wrench_rate = 0.0;  ///< [1/s] simulated, of forces, bodies, transforms, state; 0: every sync point
-  double force_scale = 0.0;  ///< of contact arrows [m/N]; 0: by the largest force met
-  bool state_hash = false;   ///< in every solver state
-  bool keep_alive = false;   ///< serve on after the run's end; unset: in lockstep only
+  std::optional<mpm::Box> particle_region;                  ///< unset: as the scene says [m]
+  double wrench_cutoff = 0.0;  ///< [Hz] of the filtered wrenches; 0: they are not published
+  double wrench_rate = 0.0;    ///< [1/s] simulated, of forces, bodies, transforms, state; 0: every sync point
+  double force_scale = 0.0;    ///< of contact arrows [m/N]; 0: by the largest force met
+  bool state_hash = false;     ///< in every solver state
+  bool keep_alive = false;     ///< serve on after the run's end; unset: in lockstep only
   bool start_paused = false;
 
   std::string text;  ///< what was given, as YAML

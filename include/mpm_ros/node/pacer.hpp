@@ -14,7 +14,7 @@ class Pacer {
   Pacer(std::int64_t period, double factor);
 
   /// Begins again from `now`: at the start, after a pause.
-  void restart(Clock::time_point now) { deadline_ = now; }
+  void restart(Clock::time_point now);
   /// When the sync period that is computed at `now` is due. A deadline that has passed is an overrun; a delay of more
   /// than kLargestDebt is not caught up with.
   Clock::time_point next(Clock::time_point now);
@@ -23,8 +23,9 @@ class Pacer {
   static constexpr std::chrono::milliseconds kLargestDebt{100};
 
  private:
-  const Clock::duration period_;
-  Clock::time_point deadline_;
+  const double period_;      // [ns] of the wall's clock
+  Clock::time_point start_;  // deadlines are counted from here, so that no rounding adds up
+  std::int64_t count_ = 0;   // of deadlines since
   std::uint64_t overruns_ = 0;
 };
 

@@ -14,8 +14,9 @@ namespace mpm_ros {
 
 class Publishers : public MessageSink {
  public:
-  /// Advertises every topic, below the node's namespace. @param bodies names of the rigid bodies.
-  Publishers(ros::NodeHandle node, const std::vector<std::string>& bodies);
+  /// Advertises every topic, below the node's namespace. @param bodies names of the rigid bodies; `filtered`: their
+  /// filtered wrenches too; `global`: global quantities too.
+  Publishers(ros::NodeHandle node, const std::vector<std::string>& bodies, bool filtered = false, bool global = false);
 
   bool wants(const std::string& topic) const override;
   void put(const std::string& topic, const ros::Time&, const RunInfo& m) override { at(topic).publish(m); }
@@ -28,6 +29,7 @@ class Publishers : public MessageSink {
   }
   void put(const std::string& topic, const ros::Time&, const BodyStates& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const SolverState& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const GlobalQuantities& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const tf2_msgs::TFMessage& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const sensor_msgs::PointCloud2& m) override {
     at(topic).publish(m);

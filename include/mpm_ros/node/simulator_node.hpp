@@ -5,6 +5,7 @@
 // A sync period is: apply the commands that are due, advance, publish and record, then pace.
 #pragma once
 
+#include <mpm_ros/Checkpoint.h>
 #include <mpm_ros/Step.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
@@ -22,6 +23,7 @@
 
 #include "mpm/scene/scene.hpp"
 #include "mpm_ros/command/command_bridge.hpp"
+#include "mpm_ros/command/command_limiter.hpp"
 #include "mpm_ros/command/command_log.hpp"
 #include "mpm_ros/command/command_queue.hpp"
 #include "mpm_ros/command/command_watch.hpp"
@@ -30,6 +32,7 @@
 #include "mpm_ros/node/node_parameters.hpp"
 #include "mpm_ros/node/pacer.hpp"
 #include "mpm_ros/node/publishers.hpp"
+#include "mpm_ros/node/sim_clock.hpp"
 #include "mpm_ros/run/run.hpp"
 
 namespace mpm_ros {
@@ -51,16 +54,22 @@ class SimulatorNode {
 
   RunOptions run_options() const;
   Stamps first_stamps() const;
-  void start_run(const Stamps& stamps);
-  /// One sync period; extra commands are applied after those that are due. False when it failed.
+  /// `resume`: a checkpoint, or empty. @throws mpm::Error, BagError; then the run that is there goes on.
+  void start_run(const Stamps& stamps, const std::string& resume = {});
+  /// One sync period; extra commands are applied after those that are due. False when it failed, or when an extra
+  /// command was refused: then time has not moved, and refusal_ says why.
   bool sync_period(const std::vector<AppliedCommand>& extra);
   void apply_due(const std::vector<AppliedCommand>& extra);
-  void apply(const AppliedCommand& command);
+  /// Why it was refused, or empty.
+  std::string apply(const AppliedCommand& command);
+  /// Moves the bodies that have limits on towards what they were told.
+  void apply_limited();
   void act_on_silence();
   void fail(const std::string& reason, int exit_code);
   void end_run();
+  void say_closed() const;
   void count_commands();
-  void publish_clock(bool always);
+  void tell_clock(bool always) { clock_.tell(run_->simulation().time(), run_->stamps(), always); }
   void report();
   Phase phase() const;
 
@@ -71,11 +80,25 @@ class SimulatorNode {
   void pause(bool paused, std_srvs::SetBool::Response& response);
   void reset(std_srvs::Trigger::Response& response);
   void step(const Step::Request& request, Step::Response& response);
+  /// Waits for the messages on command topics that the request wants first. False, with the answer, when they stay
+  /// away.
+  bool wait_received(const Step::Request& request, Step::Response& response) const;
   /// Sync periods that a step request asks for; 0 with a problem when it makes no sense.
   std::int64_t periods_of(const Step::Request& request, std::string& problem) const;
   std::vector<AppliedCommand> commands_of(const Step::Request& request, std::int64_t periods,
                                           std::string& problem) const;
   void housekeeping();
+
+  // Checkpoints (checkpoint_services.cpp).
+  bool on_save_checkpoint(Checkpoint::Request& request, Checkpoint::Response& response);
+  bool on_load_checkpoint(Checkpoint::Request& request, Checkpoint::Response& response);
+  void save_checkpoint(const std::string& path, Checkpoint::Response& response);
+  void load_checkpoint(const std::string& path, Checkpoint::Response& response);
+  /// Of a run that goes on from that simulated time [ns].
+  Stamps stamps_from(std::int64_t time) const;
+  /// What a checkpoint holds that is the node's.
+  static void keep(mpm::StateArchive& archive, CommandQueue& queue, CommandWatch& watch, CommandLimiter& limiter);
+  void leave_failed_state();
 
   ros::NodeHandle node_;
   const NodeParameters parameters_;
@@ -88,11 +111,12 @@ class SimulatorNode {
   Mailbox mailbox_;
   ros::CallbackQueue topic_callbacks_;
   ros::CallbackQueue service_callbacks_;
-  ros::Publisher clock_;
+  SimClock clock_;
   std::unique_ptr<Publishers> publishers_;
   std::unique_ptr<Run> run_;
   std::unique_ptr<CommandQueue> queue_;
   std::unique_ptr<CommandBridge> bridge_;
+  std::unique_ptr<CommandLimiter> limiter_;
   std::unique_ptr<Pacer> pacer_;
   CommandWatch watch_;
   std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
@@ -104,8 +128,9 @@ class SimulatorNode {
   int runs_ = 0;
   bool paused_ = false;
   std::string failure_;
+  bool record_lost_ = false;  // and said so
+  std::string refusal_;       // of a command of the step that is served
   int exit_code_ = 0;
-  std::int64_t clock_at_ = -1;  // [ns] when /clock was published last
   std::mutex housekeeping_;
   std::chrono::steady_clock::time_point checked_at_;
 };

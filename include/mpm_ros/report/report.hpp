@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct ReportOptions {
   std::size_t snapshots = 10;     ///< of particles, written at most
   std::size_t frames = 150;       ///< of the animation, at most
   bool check = false;
+  bool same = false;                     ///< compare the two bags, and nothing else
+  std::optional<double> tolerance;       ///< of that, relative; none: to the bit
   std::function<bool()> stop_requested;  ///< asked between messages; empty: never
 };
 

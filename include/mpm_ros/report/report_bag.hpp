@@ -1,21 +1,24 @@
 // Reading back a bag that the node or run_scene recorded: which of its topics make up a run, and its messages one
 // after the other with the simulated time they stand for. Messages are handed on and dropped, so a bag of any size
 // is read in the memory of its largest chunk and of its index. A bag that was cut short is read from a copy with an
-// index.
+// index. Of a recording that was split, the first part stands for all.
 #pragma once
 
 #include <mpm_ros/BodyStates.h>
 #include <mpm_ros/Command.h>
 #include <mpm_ros/ContactForces.h>
+#include <mpm_ros/GlobalQuantities.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
 #include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -37,7 +40,10 @@ class RunVisitor {
   virtual void contact_forces(std::int64_t time, const ContactForces& message) { unused(time, message); }
   virtual void bodies(std::int64_t time, const BodyStates& message) { unused(time, message); }
   virtual void solver_state(std::int64_t time, const SolverState& message) { unused(time, message); }
+  virtual void global_quantities(std::int64_t time, const GlobalQuantities& message) { unused(time, message); }
   virtual void command(std::int64_t time, const Command& message) { unused(time, message); }
+  /// A message on /clock, where that was recorded too.
+  virtual void clock(std::int64_t time) { unused(time, 0); }
   virtual void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) { unused(time, message); }
   virtual void markers(const visualization_msgs::MarkerArray& message) { unused(0, message); }
 
@@ -51,11 +57,15 @@ using Reading = std::function<void(double part)>;
 
 class RunBag {
  public:
-  /// Opens the bag and finds the run in it. `name_space` is needed only when the bag holds several runs.
-  /// @throws BagError when the file is missing, not a bag, empty, of another version, holds no run, or lacks a topic
+  /// Opens the bag, and the parts after it, and finds the run in it. `name_space` is needed only when the bag holds
+  /// several runs.
+  /// @throws BagError when the file is missing, not a bag, empty, of another version, holds no run, or lacks a topic,
+  /// or when a part is of another recording
   RunBag(const std::string& path, const std::string& name_space);
 
   const std::string& path() const { return path_; }
+  /// Bags that are read: 1, or more of a recording that was split.
+  std::size_t parts() const { return bags_.size(); }
   /// The namespace that the topics share: "/mpm", or "" for the root.
   const std::string& name_space() const { return name_space_; }
   /// What made the run; nothing when it was not recorded.
@@ -64,20 +74,28 @@ class RunBag {
   const std::vector<std::string>& missing() const { return missing_; }
   /// Whether the recording was cut short, so that only a part of it could be read.
   bool cut_short() const { return copy_.has_value(); }
+  const Stamps& stamps() const { return stamps_; }
+  /// Gives the view the messages on these topics (full names), of all parts.
+  void select(rosbag::View& view, const std::vector<std::string>& topics) const;
   /// Fields of the first particle snapshot, x, y, z and id among them; empty when there is none.
   const std::vector<std::string>& particle_fields() const { return particle_fields_; }
 
   /// One pass over all messages in the order of their recording.
   /// @throws BagError
   void read(const std::vector<RunVisitor*>& visitors, const Reading& reading = {});
+  /// Only the solver states and the commands. @throws BagError
+  void read_states_and_commands(RunVisitor& visitor);
   /// The chosen particle snapshots, counted from 0 in the order of their recording. @throws BagError
   void read_snapshots(const std::set<std::size_t>& chosen, RunVisitor& visitor, const Reading& reading = {});
 
  private:
   void open();
-  void open_copy();
+  /// False when nothing of it can be read, which only a part that follows others may be.
+  bool open_part(const std::string& path, bool first);
+  void open_copy(const std::string& path, rosbag::Bag& bag);
   void find_run(const std::string& wanted);
   void find_start();
+  void check_parts() const;
   void find_fields();
   std::string topic(const std::string& name) const { return name_space_ + "/" + name; }
   template <typename Message>
@@ -86,9 +104,9 @@ class RunBag {
 
   std::string path_;
   std::string name_space_;
-  std::optional<TemporaryFolder> copy_;  ///< holds the bag that is read in place of one cut short
-  rosbag::Bag bag_;
-  std::map<std::string, std::string> types_;  ///< of the topics in the bag
+  std::optional<TemporaryFolder> copy_;             ///< holds the bags that are read in place of those cut short
+  std::vector<std::unique_ptr<rosbag::Bag>> bags_;  ///< in the order of time
+  std::map<std::string, std::string> types_;        ///< of the topics in the bag
   std::optional<RunInfo> info_;
   std::vector<std::string> missing_;
   std::vector<std::string> particle_fields_;

@@ -33,6 +33,9 @@ class RunChecks : public RunVisitor {
   void contact_forces(std::int64_t time, const ContactForces& message) override;
   void bodies(std::int64_t time, const BodyStates& message) override;
   void solver_state(std::int64_t time, const SolverState& message) override;
+  void command(std::int64_t time, const Command& message) override;
+  void global_quantities(std::int64_t time, const GlobalQuantities& message) override;
+  void clock(std::int64_t time) override;
   void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) override;
 
   /// Call once all messages are read.
@@ -62,6 +65,8 @@ class RunChecks : public RunVisitor {
   /// The force over the interval that ends now, and the impulse since the start.
   void add_up(KnownImpulse& known, const std::string& name, std::int64_t time, double interval, const mpm::Vec3& force,
               const mpm::Vec3& impulse);
+  /// Whether time and steps since the last state belong together.
+  void check_steps(std::int64_t time, const mpm::StepReport& step);
   void check_against_material(const std::string& body, std::int64_t time, const mpm::Vec3& impulse);
 
   std::int64_t sync_period_;  ///< [ns]
@@ -70,12 +75,17 @@ class RunChecks : public RunVisitor {
   bool axisymmetric_;
   std::map<std::string, std::string> failures_;  ///< the first of each check, by its name
   std::vector<std::string> gaps_;
-  std::map<std::string, Spacing> spacing_;             ///< by topic
-  std::map<std::string, KnownImpulse> impulses_;       ///< on rigid bodies
-  std::map<std::string, KnownImpulse> pair_impulses_;  ///< between deformable bodies
-  std::set<std::string> posed_;                        ///< bodies with a pose
-  std::optional<mpm::SolverState> state_;              ///< the last one
-  std::vector<std::string> impulse_names_;             ///< of the first state
+  std::map<std::string, Spacing> spacing_;              ///< by topic
+  std::map<std::string, KnownImpulse> impulses_;        ///< on rigid bodies
+  std::map<std::string, KnownImpulse> pair_impulses_;   ///< between deformable bodies
+  std::set<std::string> posed_;                         ///< bodies with a pose
+  std::optional<mpm::SolverState> state_;               ///< the last one
+  bool from_start_ = false;                             ///< the first state is at time zero
+  std::uint64_t commands_ = 0;                          ///< recorded
+  std::uint64_t applied_ = 0, late_ = 0, refused_ = 0;  ///< as the last state counts them
+  std::uint64_t clocks_ = 0;                            ///< messages on /clock
+  std::int64_t last_clock_ = 0;                         ///< [ns]
+  std::vector<std::string> impulse_names_;              ///< of the first state
   double worst_audit_ = 0.0;
   double worst_impulse_ = 0.0;
   double worst_reaction_ = 0.0;

@@ -22,6 +22,7 @@ class CsvExport : public RunVisitor {
   void contact_forces(std::int64_t time, const ContactForces& message) override;
   void bodies(std::int64_t time, const BodyStates& message) override;
   void solver_state(std::int64_t time, const SolverState& message) override;
+  void global_quantities(std::int64_t time, const GlobalQuantities& message) override;
   void command(std::int64_t time, const Command& message) override;
   void markers(const visualization_msgs::MarkerArray& message) override;
   void close();
@@ -32,6 +33,7 @@ class CsvExport : public RunVisitor {
   ContactPairsCsv contact_pairs_;
   BodiesCsv bodies_;
   SolverStateCsv solver_state_;
+  GlobalQuantitiesCsv global_quantities_;
   CommandsCsv commands_;
 };
 

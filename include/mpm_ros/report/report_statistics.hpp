@@ -58,6 +58,14 @@ struct PairStatistics {
   std::optional<std::pair<std::int64_t, std::int64_t>> contact;  ///< end of first, last interval with a force [ns]
 };
 
+/// A global quantity over the run.
+struct GlobalStatistics {
+  std::string name, unit;
+  double first = 0.0, last = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  double most = -std::numeric_limits<double>::infinity();
+};
+
 /// Commands of one kind to one body.
 struct CommandStatistics {
   std::uint64_t count = 0;
@@ -71,11 +79,13 @@ class RunStatistics : public RunVisitor {
   void contact_forces(std::int64_t time, const ContactForces& message) override;
   void bodies(std::int64_t time, const BodyStates& message) override;
   void solver_state(std::int64_t time, const SolverState& message) override;
+  void global_quantities(std::int64_t time, const GlobalQuantities& message) override;
   void command(std::int64_t time, const Command& message) override;
   void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) override;
 
   const std::vector<BodyStatistics>& body_statistics() const { return bodies_; }
   const std::vector<PairStatistics>& pair_statistics() const { return pairs_; }
+  const std::vector<GlobalStatistics>& global_statistics() const { return global_; }
   /// By body and kind.
   const std::map<std::pair<std::string, std::string>, CommandStatistics>& commands() const { return commands_; }
   /// The first and the last state; nothing before the first message.
@@ -89,8 +99,9 @@ class RunStatistics : public RunVisitor {
   std::optional<std::int64_t> peak_time() const;
 
  private:
-  std::vector<BodyStatistics> bodies_;  ///< in the order of the messages
-  std::vector<PairStatistics> pairs_;   ///< the same
+  std::vector<BodyStatistics> bodies_;    ///< in the order of the messages
+  std::vector<PairStatistics> pairs_;     ///< the same
+  std::vector<GlobalStatistics> global_;  ///< the same
   std::map<std::pair<std::string, std::string>, CommandStatistics> commands_;
   std::optional<SolverState> first_state_;
   SolverState last_state_;

@@ -30,7 +30,7 @@ std::string triple(const mpm::Vec3& vector);
 /// All tables of one run: run, contact forces, motion, energies, audit, commands, gaps.
 std::string tables(const RecordedRun& run);
 
-/// "ok    audit      residual at most …", a line each; "-" in place of "ok" for a check that could not be made.
+/// "PASS  audit      residual at most …", a line each; "-" in place of "PASS" for a check that is not made.
 std::string check_lines(const std::vector<CheckResult>& results);
 
 }  // namespace mpm_ros

@@ -1,8 +1,19 @@
 // Writes a run's messages to a bag in this process, without a master: nothing is lost on the way.
+//
+// A long run can be split into parts (message/bag_parts.hpp). A part ends at a sync point only, and each begins with
+// the latched messages, so that it can be replayed alone. What a process that was killed had recorded is on the disk up
+// to the last whole chunk; a chunk ends after 768 kB, at the sync point after kChunkPeriod of wall time, and at the
+// run's start.
+//
+// Weak: rosbag holds an index of all messages of a part in memory, about 100 bytes each; splitting keeps that bounded.
 #pragma once
 
 #include <rosbag/bag.h>
 
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "mpm_ros/message/bag_error.hpp"
@@ -13,44 +24,77 @@ namespace mpm_ros {
 struct BagOptions {
   std::string topics_below = "/mpm";  ///< namespace of the topics in the bag; "/" for none
   std::string compression = "none";   ///< of chunks: "none", "lz4" or "bz2"
+  std::uint64_t split_size = 0;       ///< [byte] at which a part ends; 0: never
+  std::int64_t split_duration = 0;    ///< [ns] simulated, the same
+  bool required = true;               ///< false: a disk that fails ends the record, not the run; see failure()
 };
 
 class BagRecorder : public MessageSink {
  public:
-  /// Overwrites a file of that name. @throws BagError
+  /// Replaces a recording of that name, all its parts. @throws BagError
   explicit BagRecorder(const std::string& path, const BagOptions& options = {});
   /// Closes the bag, so that it can be read whatever ended the run.
   ~BagRecorder() override;
 
+  /// Of the first part.
   const std::string& path() const { return path_; }
+  /// Parts written so far, the present one among them.
+  int parts() const { return part_; }
+  /// Whether files of an earlier recording were replaced.
+  bool replaced() const { return replaced_; }
+  /// Why the record ended before the run, one line; empty while it goes on.
+  const std::string& failure() const { return failure_; }
+
+  /// Everything of a sync point is written: a part, or a chunk, may end here. @throws BagError
+  void sync_point();
   /// @throws BagError when the end of the file cannot be written.
   void close();
 
-  bool wants(const std::string&) const override { return true; }
-  // Each @throws BagError when it cannot be written.
+  bool wants(const std::string&) const override { return bag_ != nullptr; }
+  // Each @throws BagError when it cannot be written and the record is required; once, then nothing more is written.
   void put(const std::string& topic, const ros::Time& stamp, const RunInfo& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const visualization_msgs::MarkerArray& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const ContactForces& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const geometry_msgs::WrenchStamped& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const BodyStates& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const SolverState& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const GlobalQuantities& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const Command& message) override;
 
+  /// Wall time after which a chunk ends at the next sync point.
+  static constexpr std::chrono::seconds kChunkPeriod{1};
+
  private:
+  void open();
+  /// Ends the present part, and begins the next with the latched messages.
+  void begin_part(const ros::Time& stamp);
   template <typename Message>
   void write(const std::string& topic, const ros::Time& stamp, const Message& message);
+  template <typename Message>
+  void write_latched(const std::string& topic, const ros::Time& stamp, const Message& message);
+  /// Does what may fail for want of a disk.
+  template <typename Work>
+  void on_disk(const Work& work);
+  void give_up(const std::string& reason);
   /// The topic's name in the bag.
   std::string resolve(const std::string& topic) const;
 
   std::string path_;
+  const BagOptions options_;
   std::string prefix_;
-  rosbag::Bag bag_;
+  std::unique_ptr<rosbag::Bag> bag_;  ///< of the present part; null when closed or given up
+  int part_ = 1;
+  bool part_over_ = false;
+  bool started_ = false;  ///< the chunk of the run's start has ended
+  bool replaced_ = false;
+  std::string failure_;
+  std::optional<RunInfo> info_;
+  std::optional<visualization_msgs::MarkerArray> markers_;
+  ros::Time last_;         ///< stamp written last
+  std::uint64_t end_ = 0;  ///< [ns] stamp at which the present part ends by its duration; 0: nothing is written yet
+  std::chrono::steady_clock::time_point chunk_began_;
 };
-
-/// `path` as given; "auto" stands for ./mpm_<scene>_<date and time>.bag. `run` > 1 (after resets) is added before the
-/// ending: a bag holds one run.
-std::string bag_path(const std::string& path, const std::string& scene, int run);
 
 }  // namespace mpm_ros

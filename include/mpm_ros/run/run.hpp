@@ -8,6 +8,7 @@
 #include <string>
 
 #include "mpm/scene/scene.hpp"
+#include "mpm/simulation/checkpoint.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/command/body_command.hpp"
 #include "mpm_ros/message/stamps.hpp"
@@ -23,16 +24,23 @@ struct RunOptions {
   std::string bag;  ///< path to write; empty: none
   BagOptions bag_options;
   std::string parameters;  ///< for RunInfo, YAML
+  std::string resume;      ///< checkpoint that it goes on from; empty: none
+  mpm::KeepMore more;      ///< what the caller keeps beside, in that checkpoint
 };
 
 class Run {
  public:
   /// Builds the simulation; opens the bag. `live`: a sink beside the bag, or null; must outlive the run.
-  /// @throws mpm::Error for what cannot be simulated, BagError
+  /// @throws mpm::Error for what cannot be simulated, or resumed; BagError
   Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamps, MessageSink* live);
 
-  /// Writes static content and the state at time zero.
+  /// One more sink beside the bag, before begin(); it must outlive the run.
+  void add(MessageSink& sink) { outputs_.add(sink); }
+  /// Writes static content and the state at time zero, or of the checkpoint.
   void begin();
+  /// Saves a checkpoint of the present sync point. `more`: what the caller keeps beside. With a `failure`: of the state
+  /// that it left, which can be looked at but not resumed. @throws mpm::CheckpointError
+  mpm::CheckpointAbout save(const std::string& path, const mpm::KeepMore& more = {}, const std::string& failure = {});
   /// Applies a command at the present sync point, and writes it. @throws mpm::RigidError; then nothing is changed.
   void apply(const AppliedCommand& command);
   /// Runs to the next sync point and writes what is due. @throws mpm::PhysicsError; call fail() then. @throws BagError
@@ -46,6 +54,9 @@ class Run {
   /// Commands that were late and refused so far, for the solver states.
   void count_commands(std::uint64_t late, std::uint64_t refused) { outputs_.count_commands(late, refused); }
 
+  /// Sync periods that came too late so far, for the same.
+  void count_overruns(std::uint64_t overruns) { outputs_.count_overruns(overruns); }
+
   mpm::Simulation& simulation() { return simulation_; }
   const mpm::Simulation& simulation() const { return simulation_; }
   const RunOutputs& outputs() const { return outputs_; }
@@ -56,11 +67,15 @@ class Run {
   bool ended() const { return end_ > 0 && simulation_.time() >= end_; }
   /// Simulated over wall time so far.
   double real_time_factor() const;
-  /// Empty when none is written.
-  std::string bag() const { return recorder_ ? recorder_->path() : std::string(); }
+  /// Null when none is written.
+  const BagRecorder* recorder() const { return recorder_.get(); }
+  /// The bag's path, and how many parts it has when it is split; empty when none is written.
+  std::string bag() const;
 
  private:
   void close(const std::string& failure);
+  /// What a checkpoint holds beside the simulation.
+  void keep(mpm::StateArchive& archive, const mpm::KeepMore& more);
 
   const mpm::Scene& scene_;
   const std::string parameters_;
@@ -71,6 +86,8 @@ class Run {
   RunOutputs outputs_;
   std::chrono::steady_clock::time_point clock_;
   std::chrono::steady_clock::duration wall_{};  // while not paused
+  std::int64_t from_ = 0;                       // [ns] simulated time of the checkpoint
+  bool resumed_ = false;
   bool closed_ = false;
 };
 

@@ -20,14 +20,21 @@
 #include "mpm_ros/message/message_sink.hpp"
 #include "mpm_ros/message/particle_cloud.hpp"
 #include "mpm_ros/message/stamps.hpp"
+#include "mpm_ros/message/wrench_filter.hpp"
 
 namespace mpm_ros {
 
 struct OutputOptions {
   ParticleSelection particles;
   double particle_period = 0.0;  ///< [s] simulated, rounded to sync periods; 0: at every sync point
+  double particle_first = 0.0;   ///< [s] of the first cloud after that of the start, from which periods count
   double wrench_period = 0.0;    ///< [s] of contact forces, wrenches, bodies, solver state, transforms; 0: the same
+  double wrench_cutoff = 0.0;    ///< [Hz] of the filtered wrenches; 0: there are none
+  std::vector<mpm::GlobalQuantity> global;
+  double global_period = 0.0;  ///< [s] simulated, rounded to sync periods; 0: at every sync point
   std::string world_frame = "world";
+  /// Frames that somebody else publishes: a body of such a name has no transform in /tf. Empty names do not count.
+  std::vector<std::string> others;
   double force_scale = 0.0;  ///< of contact arrows [m/N]; 0: by the largest force met
   bool state_hash = false;   ///< in every solver state, not in the last alone
 };
@@ -41,13 +48,18 @@ RunInfo run_info(const mpm::Scene& scene, const mpm::Simulation& simulation, con
 
 class RunOutputs {
  public:
-  /// Both must outlive it. The simulation stands at its start.
+  /// Both must outlive it. The simulation stands at its start. @throws mpm::DefinitionError for a global quantity that
+  /// is not there, or a cutoff that is not below half of the sync points' rate
   RunOutputs(mpm::Simulation& simulation, const Stamps& stamps, OutputOptions options);
 
   /// Sinks are kept by reference. Add them before begin().
   void add(MessageSink& sink) { sinks_.push_back(&sink); }
   /// Static content, and the state at the start.
   void begin(const RunInfo& info);
+  /// The same for a run that goes on from a checkpoint: averages that are under way go on.
+  void begin_again(const RunInfo& info);
+  /// For checkpoints: averages since the last messages, and counts of commands.
+  void keep(mpm::StateArchive& archive);
   /// A command that was applied just now.
   void command(const AppliedCommand& command);
   /// After each advance. `last`: the run ends here, so everything is written, with the state hash.
@@ -58,6 +70,7 @@ class RunOutputs {
   void finish(double real_time_factor, const std::string& failure = {});
   /// For the solver states from now on.
   void count_commands(std::uint64_t late, std::uint64_t refused);
+  void count_overruns(std::uint64_t overruns) { overruns_ = overruns; }
 
   /// The solver state as it was written last.
   const SolverState& solver_state() const { return state_; }
@@ -76,16 +89,25 @@ class RunOutputs {
   void write_bodies();
   void write_state(bool with_hash, double real_time_factor);
   void write_particles();
+  void write_global();
+  bool particles_due() const;
   std_msgs::Header header(const std::string& frame) const;
 
   mpm::Simulation& simulation_;
   const Stamps& stamps_;
   const OutputOptions options_;
   const std::int64_t particle_period_;  // [ns]
+  const std::int64_t particle_first_;   // [ns]
   const std::int64_t wrench_period_;    // [ns]
+  const std::int64_t global_period_;    // [ns]
   std::vector<MessageSink*> sinks_;
   std::vector<std::string> wrench_topics_;
+  std::vector<std::string> filtered_topics_;
+  std::vector<WrenchFilter> filters_;  // of each body; empty: none
+  std::vector<mpm::Wrench> filtered_;  // body axes
   ParticleCloud cloud_;
+  mpm::GlobalQuantities global_;
+  GlobalQuantities global_message_;
   ForceMarkers force_markers_;
   Contacts contacts_;
   ContactAverage average_;
@@ -93,8 +115,10 @@ class RunOutputs {
   std::uint64_t applied_ = 0;  // commands
   std::uint64_t late_ = 0;
   std::uint64_t refused_ = 0;
+  std::uint64_t overruns_ = 0;
   std::int64_t particles_at_ = -1;  // [ns] when they were written last
   std::int64_t contacts_at_ = -1;   // [ns] the same
+  std::int64_t global_at_ = -1;     // [ns] the same
   bool finished_ = false;
 };
 

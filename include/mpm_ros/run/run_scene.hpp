@@ -9,18 +9,32 @@
 namespace mpm_ros {
 
 struct RunSceneOptions {
-  std::string scene;             ///< a shipped name, or a path
-  std::vector<std::string> set;  ///< overrides, "key.path=value"
-  std::string end;               ///< a time in seconds or with a unit; empty: the scene's
-  int threads = 0;               ///< 0: as many as the machine has
-  std::string isa = "auto";      ///< instruction set; auto: the widest one available
-  std::string bag;               ///< path, "auto", or empty for none
-  std::string csv;               ///< folder, or empty for none
-  std::string summary;           ///< JSON file, or empty for none
+  std::string scene;                     ///< a shipped name, or a path; empty with from_bag
+  std::string from_bag;                  ///< recording to run again in place of a scene
+  std::vector<std::string> set;          ///< overrides, "key.path=value"
+  std::string end;                       ///< a time in seconds or with a unit; empty: the scene's
+  int threads = 0;                       ///< 0: as many as the machine has
+  std::string isa = "auto";              ///< instruction set; auto: the widest one available
+  std::string bag;                       ///< path, "auto", or empty for none
+  std::string bag_compression = "none";  ///< none, lz4, bz2
+  std::string bag_split;   ///< where a part of the bag ends: "500 MB", or a simulated time as "10 s"; empty: never
+  std::string csv;         ///< folder, or empty for none
+  std::string vtk;         ///< folder of files for ParaView, or empty for none
+  std::string summary;     ///< JSON file, or empty for none
+  std::string out;         ///< folder in which the run gets one of its own, with all of these; empty for none
+  std::string resume;      ///< checkpoint to go on from; the scene may then be empty
+  std::string checkpoint;  ///< file to save the run to at its end, or when it is told to stop; empty: none
+  std::string checkpoint_every;  ///< a simulated time with or without unit, after which it is saved each time
 };
 
 /// What a run ended with, as an exit code.
-enum class RunSceneResult { done = 0, bad_input = 2, physics_failed = 3 };
+enum class RunSceneResult {
+  done = 0,
+  machine_failed = 1,  ///< a disk on which the record does not find room
+  bad_input = 2,
+  physics_failed = 3,
+  another_state = 3  ///< a recording that was run again ended in another state
+};
 
 /// Names and descriptions of the shipped scenes, a line each.
 void list_scenes(std::ostream& out);

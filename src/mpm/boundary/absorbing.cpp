@@ -210,4 +210,32 @@ void Absorbing::grid_advanced(StepContext&) {
   given_ = Vec3::Zero();
 }
 
+// Speeds are those of the particles that lay at the face when they were sorted: found anew, they would be others.
+void Absorbing::keep(StateArchive& archive) {
+  archive.rows("nodes", nodes_);
+  archive.column("nodes/block", nodes_, [](Node& node) -> int& { return node.ref.block; });
+  archive.column("nodes/node", nodes_, [](Node& node) -> int& { return node.ref.node; });
+  archive.column("nodes/column", nodes_, &Node::column);
+  archive.column("nodes/beyond", nodes_, &Node::beyond);
+  archive.rows("columns", columns_);
+  archive.column("columns/first", columns_, &Column::first);
+  archive.column("columns/count", columns_, &Column::count);
+  archive.column("columns/pressure", columns_, [](Column& column) -> double& { return column.waves.pressure; });
+  archive.column("columns/shear", columns_, [](Column& column) -> double& { return column.waves.shear; });
+  std::vector<std::pair<std::uint64_t, Vec3>> held(held_.begin(), held_.end());
+  std::sort(held.begin(), held.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  archive.rows("held", held);
+  archive.column("held/column", held, [](auto& one) -> std::uint64_t& { return one.first; });
+  archive.column("held/acceleration", held, [](auto& one) -> Vec3& { return one.second; });
+  if (archive.reading()) {
+    held_.clear();
+    held_.insert(held.begin(), held.end());
+  }
+  archive.keep("started", started_);
+  archive.keep_generation("sorts_since", generation_);
+  account_.keep(archive);
+  archive.keep("given", given_);
+  archive.keep("work", work_);
+}
+
 }  // namespace mpm

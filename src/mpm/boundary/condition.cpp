@@ -226,4 +226,29 @@ void VelocityConditions::accounts(std::vector<ImpulseAccount>& list) const {
   for (const Condition& condition : conditions_) list.push_back(condition.account);
 }
 
+// The nodes last found and their velocities give the next period's largest speed.
+void VelocityConditions::keep(StateArchive& archive) {
+  for (std::size_t c = 0; c < conditions_.size(); ++c) {
+    const StateArchive::Group group(archive, "condition_" + std::to_string(c));
+    conditions_[c].region.keep(archive);
+    conditions_[c].account.keep(archive);
+    archive.keep("given", conditions_[c].given);
+  }
+  archive.rows("held", held_);
+  archive.column("held/block", held_, [](Held& held) -> int& { return held.ref.block; });
+  archive.column("held/node", held_, [](Held& held) -> int& { return held.ref.node; });
+  archive.column("held/position", held_, &Held::position);
+  archive.column("held/direction", held_, &Held::direction);
+  archive.column("held/first", held_, &Held::first);
+  archive.column("held/count", held_, &Held::count);
+  archive.column("held/start", held_, &Held::start);
+  archive.column("held/end", held_, &Held::end);
+  archive.rows("parts", parts_);
+  archive.column("parts/condition", parts_, &Part::condition);
+  archive.column("parts/sign", parts_, &Part::sign);
+  archive.keep("ended", ended_);
+  archive.keep_generation("sorts_since", generation_);
+  archive.keep("work", work_);
+}
+
 }  // namespace mpm

@@ -61,4 +61,22 @@ ContactReport ContactLedger::take(double now) {
   return report;
 }
 
+void ContactLedger::keep(StateArchive& archive) {
+  account_.keep(archive);
+  archive.keep("given", given_);
+  archive.keep("given_angular", given_angular_);
+  archive.keep("work", work_);
+  archive.keep("friction_energy", friction_energy_);
+  archive.keep("impulse_since", impulse_);
+  archive.keep("angular_impulse_since", angular_impulse_);
+  archive.keep("friction_since", friction_);
+  archive.keep("pressed_since", pressed_);
+  archive.keep("pressed_arm_since", pressed_arm_);
+  archive.keep("peak_force", peak_.force);
+  archive.keep("peak_torque", peak_.torque);
+  archive.keep("places", places_);
+  archive.keep("area_time", area_time_);
+  archive.keep("last_report", last_report_);
+}
+
 }  // namespace mpm

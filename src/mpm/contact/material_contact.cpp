@@ -273,4 +273,28 @@ double MaterialContact::interface_energy() const {
   return sum;
 }
 
+void MaterialContact::keep(StateArchive& archive) {
+  archive.keep("started", started_);
+  archive.rows("held", held_);
+  archive.column("held/node", held_, &Held::node);
+  archive.column("held/fields", held_, &Held::fields);
+  archive.column("held/hold", held_, &Held::hold);
+  const std::pair<const char*, std::vector<Sums>*> all[] = {
+      {"last", &last_}, {"interval", &interval_}, {"total", &total_}};
+  for (const auto& [name, sums] : all) {
+    const StateArchive::Group group(archive, name);
+    archive.column("impulse", *sums, &Sums::impulse);
+    archive.column("friction", *sums, &Sums::friction);
+    archive.column("moment", *sums, &Sums::moment);
+    archive.column("pressed", *sums, &Sums::pressed);
+    archive.column("area", *sums, &Sums::area);
+    archive.column("friction_energy", *sums, &Sums::friction_energy);
+    archive.column("interface_energy", *sums, &Sums::interface_energy);
+    archive.column("nodes", *sums, &Sums::nodes);
+  }
+  account_.keep(archive);
+  archive.keep("left_over", left_over_);
+  archive.keep("last_report", last_report_);
+}
+
 }  // namespace mpm

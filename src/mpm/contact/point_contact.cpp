@@ -373,4 +373,17 @@ void PointContact::accounts(std::vector<ImpulseAccount>& list) const {
   for (const ContactLedger& ledger : ledgers_) list.push_back(ledger.account());
 }
 
+void PointContact::keep(StateArchive& archive) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const StateArchive::Group group(archive, "body_" + std::to_string(b));
+    ledgers_[b].keep(archive);
+  }
+  archive.rows("points", memory_);
+  archive.column("points/id", memory_, &Memory::id);
+  archive.column("points/force", memory_, &Memory::force);
+  archive.column("points/slid", memory_, &Memory::slid);
+  archive.column("points/overlap", memory_, &Memory::overlap);
+  archive.column("points/hold", memory_, &Memory::hold);
+}
+
 }  // namespace mpm

@@ -158,6 +158,10 @@ class Continuum final : public Mechanics {
     return found;
   }
   bool needs_sort() const override { return needs_sort_; }
+  void keep(StateArchive& archive) override {
+    archive.keep_generation("sorts_since", generation_);
+    archive.keep("parts_when_sorted", parts_when_sorted_);
+  }
 
  private:
   /// A velocity field at work: its grid, and the sets that have particles in it.

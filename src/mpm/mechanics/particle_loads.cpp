@@ -73,6 +73,13 @@ class ParticleLoadsOf final : public ParticleLoads {
     }
   }
   double work() const override { return work_; }
+  void keep(StateArchive& archive) override {
+    archive.keep("work", work_);
+    for (int kind = 0; kind < kKinds; ++kind) {
+      const StateArchive::Group group(archive, kKindNames[kind]);
+      accounts_[kind].keep(archive);
+    }
+  }
 
  private:
   struct Term {

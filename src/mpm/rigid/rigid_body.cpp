@@ -138,4 +138,19 @@ void RigidBody::at_sync(std::int64_t now) {
   if (drive_ == Drive::pose && now >= arrival_) pose_ = target_;
 }
 
+void RigidBody::keep(StateArchive& archive) {
+  archive.keep("position", pose_.position);
+  archive.keep("orientation", pose_.orientation);
+  archive.keep("linear", twist_.linear);
+  archive.keep("angular", twist_.angular);
+  archive.keep("drive", drive_);
+  archive.keep("target_position", target_.position);
+  archive.keep("target_orientation", target_.orientation);
+  archive.keep("arrival", arrival_);
+  if (free_) {
+    const StateArchive::Group group(archive, "free");
+    free_->keep(archive);
+  }
+}
+
 }  // namespace mpm

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
@@ -79,7 +80,8 @@ void read_time(const Map& root, Scene& scene, std::optional<Value>& sync) {
   sync = map.find("sync");
 }
 
-void choose_periods(const std::optional<Value>& sync_key, const std::optional<Value>& period_key, Scene& scene) {
+void choose_periods(const std::optional<Value>& sync_key, const std::optional<Value>& period_key,
+                    const std::optional<Value>& first_key, Scene& scene) {
   TimeDefinition& time = scene.definition.time;
   const std::int64_t end_ns = std::llround(time.end * 1e9);
   std::int64_t period = 0;
@@ -88,8 +90,14 @@ void choose_periods(const std::optional<Value>& sync_key, const std::optional<Va
   } else {
     period = time.end > 0.0 ? round_down(static_cast<double>(end_ns) / 50.0) : 20'000'000;
   }
+  const std::int64_t first = first_key ? read_nanoseconds(*first_key) : 0;
   if (sync_key) {
     time.sync = read_nanoseconds(*sync_key);
+    if (first % time.sync != 0) {
+      first_key->fail(fmt::format("{:.9g} s is not a whole number of sync periods of {:.9g} s; write {:.12g} s",
+                                  seconds(first), seconds(time.sync),
+                                  seconds((first + time.sync - 1) / time.sync * time.sync)));
+    }
     if (period % time.sync != 0) {
       const std::int64_t parts = std::max<std::int64_t>(1, (period + time.sync / 2) / time.sync);
       if (period_key) {
@@ -101,26 +109,91 @@ void choose_periods(const std::optional<Value>& sync_key, const std::optional<Va
   } else {
     std::int64_t limit = std::min(kMostSync, period);
     if (time.end > 0.0) limit = std::min(limit, std::max<std::int64_t>(1, end_ns / 100));
-    time.sync = largest_divisor(period, limit);
+    const std::int64_t shared = std::gcd(period, first);
+    time.sync = largest_divisor(shared, std::min(limit, shared));
+    if (time.sync > 0 && 100 * time.sync < limit) {
+      first_key->fail(
+          fmt::format("{:.12g} s and the period of {:.12g} s share no sync period of about {:.9g} s; write "
+                      "times that are multiples of one",
+                      seconds(first), seconds(period), seconds(limit)));
+    }
     if (time.sync == 0) {
       period_key->fail(fmt::format("{:.12g} s cannot be divided into sync periods of about {:.9g} s; write {:.12g} s",
                                    seconds(period), seconds(limit), seconds(round_down(static_cast<double>(period)))));
     }
     scene.choices.emplace_back("time.sync",
-                               fmt::format("{:.9g} s: the largest period up to {:.9g} s that divides output.period",
-                                           seconds(time.sync), seconds(limit)));
+                               fmt::format("{:.9g} s: the largest period up to {:.9g} s that divides output.period{}",
+                                           seconds(time.sync), seconds(limit), first > 0 ? " and output.first" : ""));
   }
   if (!period_key) {
     scene.choices.emplace_back("output.period", fmt::format("{:.9g} s{}", seconds(period),
                                                             time.end > 0.0 ? ": 50 to 125 snapshots to the end" : ""));
   }
   scene.output.period = seconds(period);
+  scene.output.first = seconds(first);
 }
 
 /// One of the names that Simulation::body_values() knows.
 std::string read_body_value(const Value& value) {
   const std::vector<std::string>& names = Simulation::body_values();
   return names[value.choice(names)];
+}
+
+/// A quantity by its name, or {quantity: NAME, body: NAME}.
+GlobalQuantity read_global_quantity(const Value& value, const Scene& scene) {
+  GlobalQuantity quantity;
+  if (!value.is_map()) {
+    quantity.name = value.text();
+    if (const std::string problem = problem_of(quantity); !problem.empty()) value.fail(problem);
+    return quantity;
+  }
+  const Map map(value, {"quantity", "body"});
+  const Value name = map.at("quantity");
+  quantity.name = name.text();
+  if (const auto body = map.find("body")) {
+    quantity.body = body->text();
+    const bool rigid = of_rigid_body(quantity);
+    std::vector<std::string> names;
+    if (rigid) {
+      for (const RigidBodyDefinition& one : scene.definition.rigid_bodies) names.push_back(one.name);
+    } else {
+      for (const BodyDefinition& one : scene.bodies) names.push_back(one.name);
+    }
+    if (std::find(names.begin(), names.end(), quantity.body) == names.end()) {
+      body->fail(fmt::format("no {} body '{}'; {}", rigid ? "rigid" : "deformable", quantity.body,
+                             suggest(quantity.body, names)));
+    }
+  }
+  if (const std::string problem = problem_of(quantity); !problem.empty()) name.fail(problem);
+  return quantity;
+}
+
+void read_global(const Map& map, Scene& scene) {
+  if (const auto list = map.find("global")) {
+    for (const Value& one : list->elements()) scene.output.global.push_back(read_global_quantity(one, scene));
+  }
+  const auto period = map.find("global_period");
+  if (!period) return;
+  if (scene.output.global.empty()) period->fail("there is no output.global whose period this is; add a list of names");
+  scene.output.global_period = seconds(read_nanoseconds(*period));
+}
+
+/// After the sync period is known.
+void check_global_period(const Map& map, Scene& scene) {
+  const auto period = map.find("global_period");
+  if (!period) return;
+  const std::int64_t time = read_nanoseconds(*period), sync = scene.definition.time.sync;
+  if (time % sync == 0) return;
+  const std::int64_t parts = std::max<std::int64_t>(1, (time + sync / 2) / sync);
+  period->fail(fmt::format("{:.9g} s is not a whole number of sync periods of {:.9g} s; write {:.12g} s", seconds(time),
+                           seconds(sync), seconds(parts * sync)));
+}
+
+Box read_particle_region(const Value& value) {
+  const Map map(value, {"min", "max"});
+  const Box box{map.at("min").vector(kLength), map.at("max").vector(kLength)};
+  if (box.empty()) value.fail("max is below min along an axis; write the lower corner as min");
+  return box;
 }
 
 }  // namespace
@@ -139,14 +212,17 @@ void read_time_and_output(const Map& root, Scene& scene) {
   OutputDefinition& output = scene.output;
   for (const int axis : axes_of(scene)) output.particle_fields.push_back(std::string("v") + axis_name(axis));
   output.particle_fields.insert(output.particle_fields.end(), {"p", "j"});
-  std::optional<Value> sync, period;
+  std::optional<Value> sync, period, first;
   read_time(root, scene, sync);
+  std::optional<Map> global;
   if (const auto section = root.find("output")) {
-    const Map map(*section, {"period", "particle_fields", "particle_stride"},
-                  {{"first", "snapshots begin at the start"},
-                   {"folder", "name it on the command line: --csv DIR, --bag FILE"},
-                   {"crack_fields", "bodies are whole"}});
+    const Map map(
+        *section,
+        {"period", "first", "particle_fields", "particle_stride", "particle_region", "global", "global_period"},
+        {{"folder", "name it on the command line: --out DIR, --csv DIR, --bag FILE"},
+         {"crack_fields", "bodies are whole"}});
     period = map.find("period");
+    first = map.find("first");
     if (const auto fields = map.find("particle_fields")) {
       output.particle_fields.clear();
       for (const Value& field : fields->elements()) output.particle_fields.push_back(read_particle_field(field));
@@ -155,8 +231,12 @@ void read_time_and_output(const Map& root, Scene& scene) {
       output.particle_stride = stride->integer();
       if (output.particle_stride < 1) stride->fail("write 1 for every particle, 2 for every second, and so on");
     }
+    if (const auto region = map.find("particle_region")) output.particle_region = read_particle_region(*region);
+    read_global(map, scene);
+    global.emplace(map);
   }
-  choose_periods(sync, period, scene);
+  choose_periods(sync, period, first, scene);
+  if (global) check_global_period(*global, scene);
 }
 
 void read_metrics(const Map& root, Scene& scene) {

@@ -97,14 +97,15 @@ std::unique_ptr<Surface> read_capsule(const Value& value, GeometryKind geometry)
 std::unique_ptr<Surface> read_surface(const Value& value, const SimulationDefinition& definition,
                                       RigidBodyDefinition& body) {
   const GeometryKind geometry = definition.geometry;
-  const auto [kind, shape] = only_key(value, {"mesh", "box", "sphere", "cylinder", "capsule", "plane", "height_field",
-                                              "polygon", "revolved", "cone", "ring"});
+  const auto [kind, shape] = only_key(value, {"mesh", "urdf", "box", "sphere", "cylinder", "capsule", "plane",
+                                              "height_field", "polygon", "revolved", "cone", "ring"});
   try {
     if (kind == "capsule") return read_capsule(shape, geometry);
     if (kind == "plane") return read_plane(shape, definition);
     if (kind == "polygon") return read_polygon(shape, definition);
     if (kind == "height_field") return read_height_field(shape, definition);
     if (kind == "mesh") return read_mesh(shape, geometry);
+    if (kind == "urdf") return read_urdf_link(shape, geometry);
     if (kind == "box") return read_box(shape, geometry);
     if (kind == "sphere") return read_sphere(shape, geometry);
     if (kind == "cylinder") return read_cylinder(shape, geometry);
@@ -214,10 +215,10 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
   const FrictionLaw friction = read_contact(root, scene, section.has_value());
   if (!section) return;
   for (const Value& value : section->elements()) {
-    const Map map(value, {"name", "shape", "pose", "motion", "free", "friction", "reach", "sides", "normals"},
-                  {{"drive", "use motion, or velocity and pose commands on topics"},
-                   {"mass", "write free: {mass: ...}, or density, for a body that forces move"},
-                   {"frame", "use commands on topics, which tf2 transforms"}});
+    const Map map(
+        value, {"name", "shape", "pose", "motion", "drive", "limits", "free", "friction", "reach", "sides", "normals"},
+        {{"mass", "write free: {mass: ...}, or density, for a body that forces move"},
+         {"frame", "use commands on topics, which tf2 transforms"}});
     RigidBodyDefinition body;
     body.name = map.at("name").name();
     for (const RigidBodyDefinition& other : scene.definition.rigid_bodies) {
@@ -230,6 +231,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
       }
     }
     read_rigid_shape(map, scene.definition, body);
+    scene.commands.push_back(read_commands(map, body.name, scene));
     const auto own_friction = map.find("friction");
     body.friction = own_friction ? read_friction(*own_friction) : friction;
     read_free(map, scene.definition, body);

@@ -93,6 +93,7 @@ const std::array kDimensions = {
     DimensionText{kAngularRate, "a rotation rate", "10 deg/s"},
     DimensionText{kVelocity, "a velocity", "1.7 km/s"},
     DimensionText{kAcceleration, "an acceleration", "9.81 m/s^2"},
+    DimensionText{kAngularAcceleration, "a rotational acceleration", "90 deg/s^2"},
     DimensionText{kDensity, "a density", "1600 kg/m^3"},
     DimensionText{kPressure, "a pressure", "5 kPa"},
     DimensionText{kForce, "a force", "3 N"},

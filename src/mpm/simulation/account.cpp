@@ -140,6 +140,23 @@ double Simulation::State::kinetic_energy() const {
   });
 }
 
+EnergyReport Simulation::State::given_energy() const {
+  EnergyReport energy;
+  for (const ContactLedger* contact : contacts) {
+    energy.contact_work += contact->work();
+    energy.friction += contact->friction_energy();
+  }
+  if (pairs != nullptr) {
+    energy.pair_friction = pairs->friction_energy();
+    energy.interface = pairs->interface_energy();
+  }
+  if (loads != nullptr) energy.load_work += loads->work();
+  if (tractions != nullptr) energy.load_work += tractions->work();
+  for (const VelocityConditions* all : conditions) energy.load_work += all->work();
+  for (const Absorbing* face : absorbing) energy.load_work += face->work();
+  return energy;
+}
+
 SolverState Simulation::state() const {
   const State& s = *state_;
   const GridLayout& layout = s.layout();
@@ -158,29 +175,18 @@ SolverState Simulation::state() const {
         },
         s.laws[i]);
   }
+  report.energy = s.given_energy();
   report.energy.kinetic = totals.kinetic;
   report.energy.potential = totals.potential;
   report.energy.elastic = totals.elastic;
   report.energy.plastic = totals.plastic;
   report.min_j = totals.min_j;
-  for (const ContactLedger* contact : s.contacts) {
-    report.energy.contact_work += contact->work();
-    report.energy.friction += contact->friction_energy();
-  }
   for (const FreeBodyReport& free : free_bodies()) {
     report.energy.free_kinetic += free.kinetic;
     report.energy.free_potential += free.potential;
     report.energy.free_work += free.wrench_work + free.drive_work;
     report.energy.free_loss += free.contact_loss;
   }
-  if (s.pairs != nullptr) {
-    report.energy.pair_friction = s.pairs->friction_energy();
-    report.energy.interface = s.pairs->interface_energy();
-  }
-  if (s.loads != nullptr) report.energy.load_work += s.loads->work();
-  if (s.tractions != nullptr) report.energy.load_work += s.tractions->work();
-  for (const VelocityConditions* all : s.conditions) report.energy.load_work += all->work();
-  for (const Absorbing* face : s.absorbing) report.energy.load_work += face->work();
   if (s.leaving) report.returned = s.leaving->count();
 
   AuditReport& audit = report.audit;
@@ -196,7 +202,8 @@ SolverState Simulation::state() const {
     audit.exchanged += account.exchanged;
     given += account.impulse;
   }
-  const double scale = std::max(audit.exchanged, totals.carried);
+  audit.carried = totals.carried;
+  const double scale = std::max(audit.exchanged, audit.carried);
   const double error = (audit.momentum - audit.initial_momentum - given).norm();
   audit.residual = scale > 0.0 ? error / scale : error;
   return report;

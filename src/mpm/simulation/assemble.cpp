@@ -311,7 +311,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     if (!geostatic) forget_particles(body);
   }
   if (s.sets.empty()) throw DefinitionError("there is no deformable body, so nothing to simulate; add one to 'bodies'");
-  if (geostatic) s.settle();
+  if (geostatic && options.settle) s.settle();
   for (DeformableBody& body : s.definition.bodies) forget_particles(body);
 
   if (definition.method.damping.any()) {
@@ -382,6 +382,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
   s.rates.resize(definition.metrics.size());
+  for (const MetricDefinition& metric : definition.metrics) {
+    if (needs_start({metric.field})) keep_start();
+  }
   sample_metrics();
 }
 

@@ -1,44 +1,24 @@
-// Particle fields by name: the one list that topics, bags, CSV files and metrics draw from.
+// Particle fields by name: the one list that topics, bags, CSV files, metrics and global quantities draw from. To add
+// one: a line here, and its row in doc/watching.md.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "state.hpp"
+#include "particle_view.hpp"
 
 namespace mpm {
 namespace {
 
-// What a field may look at.
-struct Particle {
-  const ParticleSet& set;
-  const Law& law;
-  int set_index;
-  const GridLayout& layout;
-  GeometryKind geometry;
-  int p;
-
-  template <class Values>
-  double along(const Values& field, int world_axis) const {
-    for (int k = 0; k < layout.dim(); ++k) {
-      if (layout.axis(k) == world_axis) return field[k][p];
-    }
-    return 0.0;
-  }
-  ParticleTensors tensors() const { return particle_tensors(set, geometry, p); }
-  double density() const {
-    return std::visit([](const auto& l) { return l.density(); }, law);
-  }
-  /// [Pa]
-  Symmetric3<double> cauchy() const {
-    const ParticleTensors t = tensors();
-    return scale_shift(t.tau, density() / t.j, 0.0);
-  }
-};
+using View = ParticleView;
 
 struct Field {
   const char* name;
   const char* unit;
-  double (*value)(const Particle&);
+  unsigned needs;  ///< ViewNeeds
+  double (*value)(const View&);
+  bool of_start = false;  ///< looks at where the particle was at the start
 };
 
 double mises(const Symmetric3<double>& s) {
@@ -46,45 +26,90 @@ double mises(const Symmetric3<double>& s) {
   return std::sqrt(1.5 * squared_norm(scale_shift(s, 1.0, -mean)));
 }
 
-double history(const Particle& p, int index) { return index < 0 ? 0.0 : p.set.history[index][p.p]; }
+double mass(const View& a) { return a.set.set.mass_of(a.p); }
+double plastic_work(const View& a) { return a.set.history(a.set.plastic_work, a.p); }
+double heating(const View& a) { return a.set.history(a.set.temperature, a.p); }
+double moved(const View& a, int axis) {
+  return a.set.along(a.set.set.x, axis, a.p) - a.set.along(a.set.set.start_x, axis, a.p);
+}
+double kinetic(const View& a) {
+  double sum = 0.0;
+  for (const auto& component : a.set.set.v) sum += component[a.p] * component[a.p];
+  return 0.5 * mass(a) * sum;
+}
+double stored(const View& a) {
+  const double whole = std::visit([&](const auto& law) { return law.elastic_energy(a.f, a.tau, a.j); }, a.set.law);
+  return mass(a) * (whole - a.set.heat_fraction * plastic_work(a));
+}
+double thermal(const View& a) {
+  if (a.set.heat_capacity == 0.0 || a.set.temperature < 0) return 0.0;
+  return mass(a) * a.set.heat_capacity * heating(a) * heating(a) / (2.0 * a.set.reference_temperature);
+}
 
 const Field kFields[] = {
-    {"x", "m", [](const Particle& p) { return p.along(p.set.x, 0); }},
-    {"y", "m", [](const Particle& p) { return p.along(p.set.x, 1); }},
-    {"z", "m", [](const Particle& p) { return p.along(p.set.x, 2); }},
-    {"vx", "m/s", [](const Particle& p) { return p.along(p.set.v, 0); }},
-    {"vy", "m/s", [](const Particle& p) { return p.along(p.set.v, 1); }},
-    {"vz", "m/s", [](const Particle& p) { return p.along(p.set.v, 2); }},
-    {"speed", "m/s",
-     [](const Particle& p) {
-       double sum = 0.0;
-       for (const auto& component : p.set.v) sum += component[p.p] * component[p.p];
-       return std::sqrt(sum);
-     }},
-    {"sxx", "Pa", [](const Particle& p) { return p.cauchy().xx; }},
-    {"syy", "Pa", [](const Particle& p) { return p.cauchy().yy; }},
-    {"szz", "Pa", [](const Particle& p) { return p.cauchy().zz; }},
-    {"syz", "Pa", [](const Particle& p) { return p.cauchy().yz; }},
-    {"sxz", "Pa", [](const Particle& p) { return p.cauchy().xz; }},
-    {"sxy", "Pa", [](const Particle& p) { return p.cauchy().xy; }},
-    {"p", "Pa", [](const Particle& p) { return -trace(p.cauchy()) / 3.0; }},
-    {"mises", "Pa", [](const Particle& p) { return mises(p.cauchy()); }},
-    {"j", "1", [](const Particle& p) { return p.tensors().j; }},
-    {"density", "kg/m^3", [](const Particle& p) { return p.density() / p.tensors().j; }},
-    {"ep", "1",
-     [](const Particle& p) {
-       return history(p, std::visit([](const auto& law) { return law.kPlasticStrain; }, p.law));
-     }},
+    {"x", "m", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.x, 0, a.p); }},
+    {"y", "m", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.x, 1, a.p); }},
+    {"z", "m", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.x, 2, a.p); }},
+    {"vx", "m/s", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.v, 0, a.p); }},
+    {"vy", "m/s", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.v, 1, a.p); }},
+    {"vz", "m/s", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.v, 2, a.p); }},
+    {"speed", "m/s", kNeedsNothing, [](const View& a) { return std::sqrt(2.0 * kinetic(a) / mass(a)); }},
+    {"sxx", "Pa", kNeedsStress, [](const View& a) { return a.cauchy.xx; }},
+    {"syy", "Pa", kNeedsStress, [](const View& a) { return a.cauchy.yy; }},
+    {"szz", "Pa", kNeedsStress, [](const View& a) { return a.cauchy.zz; }},
+    {"syz", "Pa", kNeedsStress, [](const View& a) { return a.cauchy.yz; }},
+    {"sxz", "Pa", kNeedsStress, [](const View& a) { return a.cauchy.xz; }},
+    {"sxy", "Pa", kNeedsStress, [](const View& a) { return a.cauchy.xy; }},
+    {"p", "Pa", kNeedsStress, [](const View& a) { return -trace(a.cauchy) / 3.0; }},
+    {"mises", "Pa", kNeedsStress, [](const View& a) { return mises(a.cauchy); }},
+    {"exx", "1", kNeedsStrain, [](const View& a) { return a.total.xx; }},
+    {"eyy", "1", kNeedsStrain, [](const View& a) { return a.total.yy; }},
+    {"ezz", "1", kNeedsStrain, [](const View& a) { return a.total.zz; }},
+    {"eyz", "1", kNeedsStrain, [](const View& a) { return a.total.yz; }},
+    {"exz", "1", kNeedsStrain, [](const View& a) { return a.total.xz; }},
+    {"exy", "1", kNeedsStrain, [](const View& a) { return a.total.xy; }},
+    {"exxe", "1", kNeedsElastic, [](const View& a) { return a.elastic.xx; }},
+    {"eyye", "1", kNeedsElastic, [](const View& a) { return a.elastic.yy; }},
+    {"ezze", "1", kNeedsElastic, [](const View& a) { return a.elastic.zz; }},
+    {"eyze", "1", kNeedsElastic, [](const View& a) { return a.elastic.yz; }},
+    {"exze", "1", kNeedsElastic, [](const View& a) { return a.elastic.xz; }},
+    {"exye", "1", kNeedsElastic, [](const View& a) { return a.elastic.xy; }},
+    {"exxp", "1", kNeedsElastic, [](const View& a) { return a.total.xx - a.elastic.xx; }},
+    {"eyyp", "1", kNeedsElastic, [](const View& a) { return a.total.yy - a.elastic.yy; }},
+    {"ezzp", "1", kNeedsElastic, [](const View& a) { return a.total.zz - a.elastic.zz; }},
+    {"eyzp", "1", kNeedsElastic, [](const View& a) { return a.total.yz - a.elastic.yz; }},
+    {"exzp", "1", kNeedsElastic, [](const View& a) { return a.total.xz - a.elastic.xz; }},
+    {"exyp", "1", kNeedsElastic, [](const View& a) { return a.total.xy - a.elastic.xy; }},
+    {"ep", "1", kNeedsNothing, [](const View& a) { return a.set.history(a.set.plastic_strain, a.p); }},
+    {"rx", "rad", kNeedsRotation, [](const View& a) { return a.rotation.x(); }},
+    {"ry", "rad", kNeedsRotation, [](const View& a) { return a.rotation.y(); }},
+    {"rz", "rad", kNeedsRotation, [](const View& a) { return a.rotation.z(); }},
+    {"rotation", "rad", kNeedsRotation, [](const View& a) { return a.rotation.norm(); }},
+    {"ux", "m", kNeedsNothing, [](const View& a) { return moved(a, 0); }, true},
+    {"uy", "m", kNeedsNothing, [](const View& a) { return moved(a, 1); }, true},
+    {"uz", "m", kNeedsNothing, [](const View& a) { return moved(a, 2); }, true},
+    {"displacement", "m", kNeedsNothing,
+     [](const View& a) { return Vec3(moved(a, 0), moved(a, 1), moved(a, 2)).norm(); }, true},
+    {"x0", "m", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.start_x, 0, a.p); }, true},
+    {"y0", "m", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.start_x, 1, a.p); }, true},
+    {"z0", "m", kNeedsNothing, [](const View& a) { return a.set.along(a.set.set.start_x, 2, a.p); }, true},
+    {"j", "1", kNeedsVolume, [](const View& a) { return a.j; }},
+    {"density", "kg/m^3", kNeedsVolume, [](const View& a) { return a.set.density / a.j; }},
+    {"volume", "m^3", kNeedsVolume, [](const View& a) { return mass(a) * a.j / a.set.density; }},
+    {"mass", "kg", kNeedsNothing, mass},
+    {"kinetic_energy", "J", kNeedsNothing, kinetic},
+    {"strain_energy", "J", kNeedsVolume, stored},
+    {"plastic_energy", "J", kNeedsNothing, [](const View& a) { return mass(a) * plastic_work(a); }},
+    {"heat_energy", "J", kNeedsNothing, [](const View& a) { return mass(a) * a.set.heat_fraction * plastic_work(a); }},
+    {"thermal_energy", "J", kNeedsNothing, thermal},
     // Zero where the law has none.
-    {"temperature", "K",
-     [](const Particle& p) {
-       return std::visit(
-           [&](const auto& law) {
-             return law.kTemperature < 0 ? 0.0 : law.reference_temperature() + history(p, law.kTemperature);
-           },
-           p.law);
-     }},
-    {"body", "1", [](const Particle& p) { return static_cast<double>(p.set_index); }},
+    {"temperature", "K", kNeedsNothing,
+     [](const View& a) { return a.set.temperature < 0 ? 0.0 : a.set.reference_temperature + heating(a); }},
+    {"h0", "1", kNeedsNothing, [](const View& a) { return a.set.history(0, a.p); }},
+    {"h1", "1", kNeedsNothing, [](const View& a) { return a.set.history(1, a.p); }},
+    {"h2", "1", kNeedsNothing, [](const View& a) { return a.set.history(2, a.p); }},
+    {"h3", "1", kNeedsNothing, [](const View& a) { return a.set.history(3, a.p); }},
+    {"body", "1", kNeedsNothing, [](const View& a) { return static_cast<double>(a.set.index); }},
 };
 
 const Field& find_field(const std::string& name) {
@@ -96,17 +121,78 @@ const Field& find_field(const std::string& name) {
   throw DefinitionError(fmt::format("no particle field is called '{}'; there are {}", name, known));
 }
 
-template <class T>
-void fill(const std::vector<ParticleSet>& sets, const std::vector<Law>& laws, const GridLayout& layout,
-          GeometryKind geometry, int threads, const Field& field, std::vector<T>& values) {
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    const ParticleSet& set = sets[s];
-#pragma omp parallel for schedule(static) num_threads(threads)
+// Where each particle is written: its number among the chosen ones in order of id, by id; -1: not chosen.
+std::vector<std::int64_t> rows_of(const std::vector<SetView>& sets, std::size_t particles,
+                                  const ParticleChoice& choice) {
+  std::vector<std::int64_t> rows(particles, -1);
+  for (const SetView& view : sets) {
+    const ParticleSet& set = view.set;
     for (int p = 0; p < set.size(); ++p) {
-      values[set.id[p]] = static_cast<T>(field.value({set, laws[s], static_cast<int>(s), layout, geometry, p}));
+      if (set.id[p] % static_cast<std::uint32_t>(choice.stride) != 0) continue;
+      Vec3 place = choice.region ? choice.region->min : Vec3(Vec3::Zero());  // inside along what the grid has not
+      for (int axis = 0; axis < 3; ++axis) {
+        if (view.slot[axis] >= 0) place[axis] = set.x[view.slot[axis]][p];
+      }
+      if (!choice.region || choice.region->contains(place)) rows[set.id[p]] = 0;
+    }
+  }
+  std::int64_t next = 0;
+  for (std::int64_t& row : rows) {
+    if (row == 0) row = next++;
+  }
+  return rows;
+}
+
+/// `row(id)`: where a particle goes in each column, or a negative number.
+template <class T, class Row>
+void fill(const std::vector<SetView>& sets, const std::vector<const Field*>& fields, int threads, const Row& row,
+          std::vector<std::vector<T>>& columns) {
+  unsigned needs = kNeedsNothing;
+  for (const Field* field : fields) needs |= field->needs;
+  for (const SetView& view : sets) {
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int p = 0; p < view.set.size(); ++p) {
+      const std::int64_t at = row(view.set.id[p]);
+      if (at < 0) continue;
+      View particle{view};
+      particle.look(p, needs);
+      for (std::size_t k = 0; k < fields.size(); ++k) {
+        columns[k][static_cast<std::size_t>(at)] = static_cast<T>(fields[k]->value(particle));
+      }
     }
   }
 }
+
+}  // namespace
+
+std::vector<SetView> Simulation::State::views() const {
+  std::vector<SetView> list;
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    list.emplace_back(sets[s], laws[s], find_material(definition, definition.bodies[s]), static_cast<int>(s), layout(),
+                      definition.geometry);
+  }
+  return list;
+}
+
+namespace {
+
+std::vector<const Field*> find_fields(const std::vector<std::string>& names, const std::vector<SetView>& sets) {
+  std::vector<const Field*> fields;
+  for (const std::string& name : names) {
+    fields.push_back(&find_field(name));
+    if (!fields.back()->of_start) continue;
+    for (const SetView& view : sets) {
+      if (!view.set.start_x.empty()) continue;
+      throw DefinitionError(fmt::format(
+          "the particles of '{}' do not remember where they were at the start, which the field '{}' needs; choose it "
+          "before the run begins",
+          view.set.name, name));
+    }
+  }
+  return fields;
+}
+
+std::int64_t by_id(std::uint32_t id) { return id; }
 
 }  // namespace
 
@@ -116,16 +202,59 @@ std::vector<std::pair<std::string, std::string>> Simulation::particle_fields() {
   return list;
 }
 
+bool Simulation::needs_start(const std::vector<std::string>& fields) {
+  return std::any_of(fields.begin(), fields.end(), [](const std::string& name) { return find_field(name).of_start; });
+}
+
+void Simulation::keep_start() {
+  for (ParticleSet& set : state_->sets) {
+    if (!set.start_x.empty()) continue;
+    if (state_->time != 0) throw DefinitionError("where particles were at the start is not known any more");
+    set.start_x = set.x;
+  }
+}
+
 void Simulation::particle_field(const std::string& name, std::vector<float>& values) const {
-  const Field& field = find_field(name);
-  values.resize(particles());
-  fill(state_->sets, state_->laws, state_->layout(), state_->definition.geometry, state_->threads, field, values);
+  ParticleColumns columns;
+  columns.values.emplace_back(std::move(values));
+  read_particles({name}, {}, columns);
+  values = std::move(columns.values.front());
 }
 
 void Simulation::particle_field(const std::string& name, std::vector<double>& values) const {
-  const Field& field = find_field(name);
-  values.resize(particles());
-  fill(state_->sets, state_->laws, state_->layout(), state_->definition.geometry, state_->threads, field, values);
+  std::vector<std::vector<double>> columns;
+  columns.emplace_back(std::move(values));
+  read_fields({name}, columns);
+  values = std::move(columns.front());
+}
+
+void Simulation::read_fields(const std::vector<std::string>& names, std::vector<std::vector<double>>& columns) const {
+  const std::vector<SetView> sets = state_->views();
+  const std::vector<const Field*> fields = find_fields(names, sets);
+  columns.resize(fields.size());
+  for (std::vector<double>& column : columns) column.resize(particles());
+  fill(sets, fields, state_->threads, by_id, columns);
+}
+
+void Simulation::read_particles(const std::vector<std::string>& names, const ParticleChoice& choice,
+                                ParticleColumns& columns) const {
+  const std::vector<SetView> sets = state_->views();
+  const std::vector<const Field*> fields = find_fields(names, sets);
+  const bool whole = choice.stride == 1 && !choice.region;
+  std::vector<std::int64_t> rows;
+  if (!whole) rows = rows_of(sets, particles(), choice);
+  columns.ids.clear();
+  for (std::uint32_t id = 0; id < particles(); ++id) {
+    if (whole || rows[id] >= 0) columns.ids.push_back(id);
+  }
+  columns.values.resize(fields.size());
+  for (std::vector<float>& column : columns.values) column.resize(columns.ids.size());
+  if (whole) {
+    fill(sets, fields, state_->threads, by_id, columns.values);
+  } else {
+    fill(
+        sets, fields, state_->threads, [&rows](std::uint32_t id) { return rows[id]; }, columns.values);
+  }
 }
 
 }  // namespace mpm

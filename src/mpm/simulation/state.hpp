@@ -14,10 +14,14 @@
 #include "mpm/mechanics/damping.hpp"
 #include "mpm/mechanics/face_tractions.hpp"
 #include "mpm/mechanics/particle_loads.hpp"
+#include "mpm/simulation/projected.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/step/schedule.hpp"
 
 namespace mpm {
+
+/// What limits the step when velocity conditions do.
+inline const std::string kConditionsName = "boundaries.conditions";
 
 /// The largest time step that something allows, and what and where that is. Put into words only when asked for.
 struct StepLimit {
@@ -37,11 +41,15 @@ class LineFit {
   void add(double t, double y);
   /// Not a number before the second point.
   double slope() const;
+  /// For checkpoints: of every metric.
+  static void keep(StateArchive& archive, std::vector<LineFit>& fits);
 
  private:
   int count_ = 0;
   double mean_t_ = 0.0, mean_y_ = 0.0, tt_ = 0.0, ty_ = 0.0;
 };
+
+struct SetView;
 
 struct Simulation::State {
   SimulationDefinition definition;
@@ -99,10 +107,14 @@ struct Simulation::State {
   void check_periodic(const RigidBody& body) const;
   /// Velocity conditions, in the list of stages. @throws ConditionError
   void add_conditions();
+  /// Of each set, for particle fields (particle_view.hpp).
+  std::vector<SetView> views() const;
   /// Of all particles [N s].
   Vec3 momentum() const;
   /// Of all particles [J].
   double kinetic_energy() const;
+  /// Work and losses of contact, loads and conditions since the start; nothing that is summed over particles.
+  EnergyReport given_energy() const;
   /// What the material allows now.
   StepLimit survey_material() const;
   /// What material, tools, damping and scene allow in the sync period that begins now. @throws DampingError
@@ -113,6 +125,11 @@ struct Simulation::State {
   void step(double start, double dt);
   /// @throws PhysicsError for a particle that is not where it may be
   void sort(double now);
+  /// All that the run remembers (keep_state.cpp).
+  void keep(StateArchive& archive);
+  void keep_particles(StateArchive& archive);
+  void keep_grid(StateArchive& archive);
+  void keep_limit(StateArchive& archive, const char* name, StepLimit& kept);
   /// Lets the bodies that start geostatic, already under their weight's stress, come to rest. Before anything is
   /// sorted.
   void settle();
@@ -121,13 +138,6 @@ struct Simulation::State {
 
 /// @throws DefinitionError when there is none of that name
 const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body);
-
-/// What a geometry keeps of a body's motion: what is along its axes, and rotation about y in a plane, none in a line.
-/// @throws RigidError in an axisymmetric scene for a motion that is not (axial_motion.hpp).
-Twist projected(const Twist& twist, GeometryKind geometry, const RigidBodyDefinition& body);
-/// The same of a pose; in a plane the part of the rotation that is about y (swing and twist), so that zeros stay exact
-/// zeros. @throws RigidError for a pose that is turned over in a plane, or off the axis or turned in axisymmetry.
-Pose projected(const Pose& pose, GeometryKind geometry, const RigidBodyDefinition& body);
 
 /// Sums over all particles of `term(set, index)`, grouped so that the result does not depend on the number of threads.
 template <class Value, class Term>

@@ -102,14 +102,13 @@ StepLimit Simulation::State::step_limit() const {
     if (tool.speed > 0.0) tighten(limit, tool);
   }
   for (const VelocityConditions* all : conditions) {
-    static const std::string kConditions = "boundaries.conditions";
     StepLimit condition;
     for (const double part : {0.0, 0.5, 1.0}) {
       condition.speed = std::max(condition.speed, all->largest_speed(start + part * period));
     }
     condition.dt = reach / condition.speed;
     condition.cause = StepLimit::Cause::tool;
-    condition.name = &kConditions;
+    condition.name = &kConditionsName;
     if (condition.speed > 0.0) tighten(limit, condition);
   }
   if (damping != nullptr) {

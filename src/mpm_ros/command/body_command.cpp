@@ -30,6 +30,8 @@ double travel_of(const AppliedCommand& command, const mpm::Simulation& simulatio
   return ((command.pose.position - body.pose().position).norm() + turn * reach_of(body)) / periods;
 }
 
+}  // namespace
+
 void check_travel(const AppliedCommand& command, const mpm::Simulation& simulation) {
   mpm::Vec3 size = simulation.definition().grid.max - simulation.definition().grid.min;
   for (const int axis : mpm::axes_beside(simulation.definition().geometry)) size[axis] = 0.0;  // nothing moves there
@@ -43,7 +45,17 @@ void check_travel(const AppliedCommand& command, const mpm::Simulation& simulati
                   static_cast<double>(simulation.sync_period()) * 1e-9, longest));
 }
 
-}  // namespace
+std::string jump_of(const AppliedCommand& command, const mpm::Simulation& simulation) {
+  if (command.kind != CommandKind::pose) return {};
+  const double cell = simulation.definition().grid.cell.minCoeff(), travel = travel_of(command, simulation);
+  if (!(travel > cell)) return {};
+  const double sync = static_cast<double>(simulation.sync_period()) * 1e-9;
+  return fmt::format(
+      "'{}' jumps: the pose it is to reach by {:.6f} s asks for {:.3g} m/s, {:.3g} cells in a sync "
+      "period; give it limits in the scene, or begin where it stands",
+      simulation.rigid_body(command.body).name(), static_cast<double>(command.arrival) * 1e-9, travel / sync,
+      travel / cell);
+}
 
 void apply(const AppliedCommand& command, mpm::Simulation& simulation) {
   if (command.kind == CommandKind::wrench) {

@@ -15,12 +15,15 @@ constexpr std::uint32_t kQueue = 1000;
 }  // namespace
 
 CommandBridge::CommandBridge(ros::NodeHandle node, const std::vector<std::string>& bodies,
-                             const std::string& world_frame, CommandQueue& queue, NodeHealth& health)
+                             const std::vector<std::string>& frames, const std::string& world_frame,
+                             CommandQueue& queue, NodeHealth& health)
     : prefix_(node.resolveName(topics::kBodies) + "/"),
       health_(health),
       listener_(frames_),
-      reader_(bodies, world_frame, prefix_, frames_, queue, health) {
+      reader_(bodies, world_frame, prefix_, frames_, queue, health),
+      follower_(frames, world_frame, frames_, reader_, health) {
   for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
+    reader_.set_frame(body, frames[static_cast<std::size_t>(body)]);
     subscribe<geometry_msgs::Twist>(node, body, topics::kCmdVel);
     subscribe<geometry_msgs::TwistStamped>(node, body, topics::kCmdVelStamped);
     subscribe<geometry_msgs::Wrench>(node, body, topics::kCmdWrench);
@@ -31,10 +34,14 @@ CommandBridge::CommandBridge(ros::NodeHandle node, const std::vector<std::string
 
 template <typename Message>
 void CommandBridge::subscribe(ros::NodeHandle& node, int body, const char* leaf) {
-  subscribers_.push_back(node.subscribe<Message>(
+  // The full callback: it tells who sent the message.
+  using Event = const ros::MessageEvent<const Message>&;
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<Event>(
       topics::of_body(reader_.bodies()[body], leaf), kQueue,
-      [this, body](const boost::shared_ptr<const Message>& message) { reader_.take(body, *message); }, {},
-      ros::TransportHints().tcpNoDelay()));
+      [this, body](Event event) { reader_.take(body, *event.getConstMessage(), event.getPublisherName()); });
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  subscribers_.push_back(node.subscribe(options));
 }
 
 void CommandBridge::find_strangers() {

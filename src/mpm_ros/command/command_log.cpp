@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mpm_ros/message/bag_error.hpp"
+#include "mpm_ros/message/bag_parts.hpp"
 
 namespace mpm_ros {
 
@@ -34,13 +35,19 @@ std::vector<AppliedCommand> CommandLog::take(const mpm::Simulation& simulation) 
   return due;
 }
 
+void CommandLog::skip_to(std::int64_t time) {
+  for (next_ = 0; next_ < commands_.size() && commands_[next_].effect_ns < time;) ++next_;
+}
+
 CommandLog read_commands(const std::string& bag_path) {
   std::vector<mpm_ros::Command> commands;
   try {
-    rosbag::Bag bag(bag_path, rosbag::bagmode::Read);
-    rosbag::View view(bag, rosbag::TypeQuery(ros::message_traits::datatype<mpm_ros::Command>()));
-    for (const rosbag::MessageInstance& instance : view) {
-      if (const auto command = instance.instantiate<mpm_ros::Command>()) commands.push_back(*command);
+    for (const std::string& part : parts_of(bag_path)) {
+      rosbag::Bag bag(part, rosbag::bagmode::Read);
+      rosbag::View view(bag, rosbag::TypeQuery(ros::message_traits::datatype<mpm_ros::Command>()));
+      for (const rosbag::MessageInstance& instance : view) {
+        if (const auto command = instance.instantiate<mpm_ros::Command>()) commands.push_back(*command);
+      }
     }
   } catch (const rosbag::BagException& error) {
     throw BagError(fmt::format("bag {} cannot be read: {}", bag_path, error.what()));

@@ -1,6 +1,10 @@
 #include "mpm_ros/command/command_queue.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <functional>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -8,6 +12,31 @@ namespace mpm_ros {
 
 void CommandQueue::push(BodyCommand command) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (on_hold_) {
+    outside_.push_back(std::move(command));
+  } else {
+    admit(std::move(command));
+  }
+}
+
+void CommandQueue::push_past_hold(BodyCommand command) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  admit(std::move(command));
+}
+
+void CommandQueue::hold() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  on_hold_ = true;
+}
+
+void CommandQueue::release() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  on_hold_ = false;
+  for (BodyCommand& command : outside_) admit(std::move(command));
+  outside_.clear();
+}
+
+void CommandQueue::admit(BodyCommand command) {
   command.order = arrivals_++;
   // Sync points up to passed_ are used up.
   const bool past = command.stamp && *command.stamp <= passed_;
@@ -60,10 +89,14 @@ std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
     return command.late ? now : std::min(command.stamp.value_or(now), now);
   };
   const auto target = [now](const BodyCommand& command) { return std::max(command.stamp.value_or(now), now); };
-  std::sort(waiting_.begin(), waiting_.end(), [&](const BodyCommand& a, const BodyCommand& b) {
-    return std::make_tuple(effect(a), a.body, target(a), a.order) <
-           std::make_tuple(effect(b), b.body, target(b), b.order);
-  });
+  const std::string nobody;
+  const auto key = [&](const BodyCommand& c) {
+    const bool late = c.late || !c.stamp;
+    return std::make_tuple(effect(c), c.body, target(c), late, late ? CommandKind::velocity : c.kind,
+                           std::cref(late ? nobody : c.sender), c.order);
+  };
+  std::sort(waiting_.begin(), waiting_.end(),
+            [&](const BodyCommand& a, const BodyCommand& b) { return key(a) < key(b); });
 
   std::vector<DueCommand> due;
   std::vector<BodyCommand> still_waiting;
@@ -97,6 +130,7 @@ std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
 void CommandQueue::clear() {
   const std::lock_guard<std::mutex> lock(mutex_);
   waiting_.clear();
+  outside_.clear();
   streams_.clear();
   passed_ = -1;
 }
@@ -113,7 +147,56 @@ std::int64_t CommandQueue::passed() const {
 
 std::size_t CommandQueue::waiting() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return waiting_.size();
+  return waiting_.size() + outside_.size();
+}
+
+void CommandQueue::keep(mpm::StateArchive& archive) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const mpm::StateArchive::Group group(archive, "queue");
+  archive.rows("waiting", waiting_);
+  archive.column("waiting/body", waiting_, &BodyCommand::body);
+  archive.column("waiting/kind", waiting_, &BodyCommand::kind);
+  archive.column("waiting/linear", waiting_, [](BodyCommand& one) -> mpm::Vec3& { return one.twist.linear; });
+  archive.column("waiting/angular", waiting_, [](BodyCommand& one) -> mpm::Vec3& { return one.twist.angular; });
+  archive.column("waiting/force", waiting_, [](BodyCommand& one) -> mpm::Vec3& { return one.wrench.force; });
+  archive.column("waiting/torque", waiting_, [](BodyCommand& one) -> mpm::Vec3& { return one.wrench.torque; });
+  archive.column("waiting/position", waiting_, [](BodyCommand& one) -> mpm::Vec3& { return one.pose.position; });
+  archive.column("waiting/orientation", waiting_, [](BodyCommand& one) -> mpm::Quat& { return one.pose.orientation; });
+  archive.column("waiting/frame_body", waiting_, &BodyCommand::frame_body);
+  archive.column("waiting/sec", waiting_, [](BodyCommand& one) -> std::uint32_t& { return one.requested.sec; });
+  archive.column("waiting/nsec", waiting_, [](BodyCommand& one) -> std::uint32_t& { return one.requested.nsec; });
+  for (std::size_t i = 0; i < waiting_.size(); ++i) archive.keep(fmt::format("sender{}", i), waiting_[i].sender);
+  std::vector<std::int64_t> stamps;
+  std::vector<std::uint8_t> has_stamp;
+  for (const BodyCommand& one : waiting_) {
+    has_stamp.push_back(one.stamp ? 1 : 0);
+    stamps.push_back(one.stamp.value_or(0));
+  }
+  archive.list("waiting/has_stamp", has_stamp);
+  archive.list("waiting/stamp", stamps);
+  for (std::size_t i = 0; archive.reading() && i < waiting_.size(); ++i) {
+    waiting_[i].stamp.reset();
+    if (has_stamp[i] != 0) waiting_[i].stamp = stamps[i];
+  }
+  archive.column("waiting/late", waiting_, &BodyCommand::late);
+  archive.column("waiting/order", waiting_, &BodyCommand::order);
+  std::vector<std::pair<int, PoseStream>> streams(streams_.begin(), streams_.end());
+  archive.rows("poses", streams);
+  archive.column("poses/body", streams, [](auto& one) -> int& { return one.first; });
+  archive.column("poses/last_stamp", streams, [](auto& one) -> std::int64_t& { return one.second.last_stamp; });
+  archive.column("poses/period", streams, [](auto& one) -> std::int64_t& { return one.second.period; });
+  archive.column("poses/arrival", streams, [](auto& one) -> std::int64_t& { return one.second.arrival; });
+  if (archive.reading()) streams_ = std::map<int, PoseStream>(streams.begin(), streams.end());
+  archive.keep("passed", passed_);
+  archive.keep("arrivals", arrivals_);
+}
+
+void CommandQueue::take_over(const CommandQueue& other) {
+  const std::scoped_lock lock(mutex_, other.mutex_);
+  waiting_ = other.waiting_;
+  streams_ = other.streams_;
+  passed_ = other.passed_;
+  arrivals_ = other.arrivals_;
 }
 
 }  // namespace mpm_ros

@@ -15,6 +15,7 @@ namespace mpm_ros {
 namespace {
 
 constexpr std::size_t kLongestFrame = 255;
+constexpr const char* kFollowing = "tf";  // stands for a topic where a frame's pose is refused
 /// A stamp farther ahead of the simulation than this [ns] comes from another clock: nobody plans an hour ahead.
 constexpr std::int64_t kFarthest = 3'600'000'000'000;
 
@@ -27,9 +28,11 @@ CommandReader::CommandReader(std::vector<std::string> bodies, std::string world_
       prefix_(std::move(prefix)),
       frames_(frames),
       queue_(queue),
-      health_(health) {}
+      health_(health),
+      followed_(bodies_.size()) {}
 
 void CommandReader::set_stamps(const Stamps& stamps) {
+  const std::lock_guard<std::mutex> taking(taking_);
   const std::lock_guard<std::mutex> lock(mutex_);
   stamps_ = stamps;
 }
@@ -126,54 +129,95 @@ void CommandReader::read_pose(const geometry_msgs::Pose& pose, const std::string
 }
 
 void CommandReader::push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem) {
-  if (problem.empty()) {
+  if (problem.empty() && leaf == kFollowing) {
+    queue_.push_past_hold(std::move(command));
+  } else if (problem.empty()) {
     queue_.push(std::move(command));
   } else {
     health_.refuse(fmt::format("a command on {}{}/{}: {}", prefix_, bodies_[command.body], leaf, problem));
   }
+  if (leaf == kFollowing) return;  // looked up here, not received
+  {
+    const std::lock_guard<std::mutex> lock(received_mutex_);
+    ++received_;
+  }
+  received_changed_.notify_all();
 }
 
-void CommandReader::take(int body, const geometry_msgs::Twist& message) {
+std::string CommandReader::refusal_of(int body) const {
+  if (followed_[body].empty()) return {};
+  return fmt::format("it follows the tf frame '{}' (drive: tf), and takes no other commands", followed_[body]);
+}
+
+std::uint64_t CommandReader::received() const {
+  const std::lock_guard<std::mutex> lock(received_mutex_);
+  return received_;
+}
+
+bool CommandReader::wait_received(std::uint64_t count, std::chrono::milliseconds patience) const {
+  std::unique_lock<std::mutex> lock(received_mutex_);
+  return received_changed_.wait_for(lock, patience, [&] { return received_ >= count; });
+}
+
+void CommandReader::take(int body, const geometry_msgs::Twist& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
-  std::string problem;
-  read_twist(message, world_frame_, ros::Time(), command, problem);
+  command.sender = sender;
+  std::string problem = refusal_of(body);
+  if (problem.empty()) read_twist(message, world_frame_, ros::Time(), command, problem);
   push_or_refuse(topics::kCmdVel, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::TwistStamped& message) {
+void CommandReader::take(int body, const geometry_msgs::TwistStamped& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
-  std::string problem;
-  set_stamp(message.header.stamp, command, problem);
+  command.sender = sender;
+  std::string problem = refusal_of(body);
+  if (problem.empty()) set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_twist(message.twist, message.header.frame_id, message.header.stamp, command, problem);
   push_or_refuse(topics::kCmdVelStamped, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::Wrench& message) {
+void CommandReader::take(int body, const geometry_msgs::Wrench& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   std::string problem;
   read_wrench(message, world_frame_, ros::Time(), command, problem);
   push_or_refuse(topics::kCmdWrench, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::WrenchStamped& message) {
+void CommandReader::take(int body, const geometry_msgs::WrenchStamped& message, const std::string& sender) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
+  command.sender = sender;
   std::string problem;
   set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_wrench(message.wrench, message.header.frame_id, message.header.stamp, command, problem);
   push_or_refuse(topics::kCmdWrenchStamped, std::move(command), problem);
 }
 
-void CommandReader::take(int body, const geometry_msgs::PoseStamped& message) {
+void CommandReader::take(int body, const geometry_msgs::PoseStamped& message, const std::string& sender) {
+  take_pose(topics::kCmdPose, body, message, sender, refusal_of(body));
+}
+
+void CommandReader::follow(int body, const geometry_msgs::PoseStamped& message) {
+  take_pose(kFollowing, body, message, {}, {});
+}
+
+void CommandReader::take_pose(const char* leaf, int body, const geometry_msgs::PoseStamped& message,
+                              const std::string& sender, std::string problem) {
+  const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
-  std::string problem;
-  set_stamp(message.header.stamp, command, problem);
+  command.sender = sender;
+  if (problem.empty()) set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_pose(message.pose, message.header.frame_id, message.header.stamp, command, problem);
-  push_or_refuse(topics::kCmdPose, std::move(command), problem);
+  push_or_refuse(leaf, std::move(command), problem);
 }
 
 BodyCommand CommandReader::read(const mpm_ros::Command& message, std::string& problem) const {
@@ -184,6 +228,11 @@ BodyCommand CommandReader::read(const mpm_ros::Command& message, std::string& pr
     return command;
   }
   const std::string& frame = message.header.frame_id;
+  problem = refusal_of(command.body);
+  if (!problem.empty()) {
+    problem = fmt::format("the command for '{}': {}", message.body, problem);
+    return command;
+  }
   if (message.kind == mpm_ros::Command::VELOCITY) {
     read_twist(message.twist, frame, ros::Time(), command, problem);
   } else if (message.kind == mpm_ros::Command::POSE) {

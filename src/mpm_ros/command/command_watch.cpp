@@ -1,6 +1,7 @@
 #include "mpm_ros/command/command_watch.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace mpm_ros {
 
@@ -20,6 +21,15 @@ std::vector<int> CommandWatch::silent(std::int64_t now) {
     }
   }
   return bodies;
+}
+
+void CommandWatch::keep(mpm::StateArchive& archive) {
+  const mpm::StateArchive::Group group(archive, "watch");
+  std::vector<std::pair<int, std::int64_t>> heard(heard_.begin(), heard_.end());
+  archive.rows("heard", heard);
+  archive.column("heard/body", heard, [](auto& one) -> int& { return one.first; });
+  archive.column("heard/at", heard, [](auto& one) -> std::int64_t& { return one.second; });
+  if (archive.reading()) heard_ = std::map<int, std::int64_t>(heard.begin(), heard.end());
 }
 
 }  // namespace mpm_ros

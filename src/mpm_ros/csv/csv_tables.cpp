@@ -151,6 +151,20 @@ void SolverStateCsv::add(const mpm::SolverState& state, double real_time_factor)
 
 void SolverStateCsv::close() { close_if_open(writer_); }
 
+void GlobalQuantitiesCsv::add(double time, const std::vector<std::string>& names, const std::vector<std::string>& units,
+                              const std::vector<double>& values) {
+  if (!writer_) {
+    std::vector<std::string> columns = {"time [s]"};
+    for (std::size_t i = 0; i < names.size(); ++i) columns.push_back(fmt::format("{} [{}]", names[i], units.at(i)));
+    writer_.emplace(path_, columns);
+  }
+  *writer_ << time;
+  for (const double value : values) *writer_ << value;
+  writer_->end_row();
+}
+
+void GlobalQuantitiesCsv::close() { close_if_open(writer_); }
+
 CommandsCsv::CommandsCsv(const std::string& folder)
     : writer_(folder + "/commands.csv",
               {"time [s]",    "body",   "kind",   "vx [m/s]", "vy [m/s]", "vz [m/s]", "wx [rad/s]", "wy [rad/s]",

@@ -72,4 +72,48 @@ Contacts ContactAverage::take() {
   return std::exchange(sum_, {});
 }
 
+void Contacts::keep(mpm::StateArchive& archive) {
+  archive.rows("bodies", bodies);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const mpm::StateArchive::Group group(archive, "body_" + std::to_string(b));
+    mpm::ContactReport& one = bodies[b];
+    archive.keep("name", one.body);
+    archive.keep("force", one.mean.force);
+    archive.keep("torque", one.mean.torque);
+    archive.keep("peak_force", one.peak.force);
+    archive.keep("peak_torque", one.peak.torque);
+    archive.keep("interval", one.interval);
+    archive.keep("nodes", one.nodes);
+    archive.keep("impulse", one.impulse);
+    archive.keep("area", one.area);
+    archive.keep("friction_energy", one.friction_energy);
+    archive.keep("pressing", one.pressing);
+    archive.keep("friction", one.friction);
+    archive.keep("per_radian", one.per_radian);
+    archive.keep("origin", one.origin);
+    archive.keep("arm", one.arm);
+  }
+  archive.rows("pairs", pairs);
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const mpm::StateArchive::Group group(archive, "pair_" + std::to_string(p));
+    mpm::PairReport& one = pairs[p];
+    archive.keep("name", one.name);
+    archive.keep("force", one.force);
+    archive.keep("friction", one.friction);
+    archive.keep("pressing", one.pressing);
+    archive.keep("area", one.area);
+    archive.keep("interval", one.interval);
+    archive.keep("nodes", one.nodes);
+    archive.keep("impulse", one.impulse);
+    archive.keep("friction_energy", one.friction_energy);
+    archive.keep("interface_energy", one.interface_energy);
+    archive.keep("centre", one.centre);
+  }
+}
+
+void ContactAverage::keep(mpm::StateArchive& archive) {
+  archive.keep("empty", empty_);
+  sum_.keep(archive);
+}
+
 }  // namespace mpm_ros

@@ -213,6 +213,7 @@ mpm_ros::SolverState to_message(const mpm::SolverState& state) {
     message.impulses.push_back(entry);
   }
   message.momentum_exchanged = state.audit.exchanged;
+  message.momentum_carried = state.audit.carried;
   message.momentum_error = state.audit.residual;
   message.min_j = state.min_j;
   return message;

@@ -37,17 +37,16 @@ void NodeHealth::refuse(const std::string& reason) {
   last_refusal_ = line;
   refused_at_ = Clock::now();
   news_ = true;
-  log_refusal(line);
+  log_refusal(line, refused_at_);
 }
 
-void NodeHealth::log_refusal(const std::string& line) {
-  const Clock::time_point now = refused_at_;
+void NodeHealth::log_refusal(const std::string& line, Clock::time_point now) {
   if (logged_.size() > kMostLines) logged_.clear();
   const auto [entry, fresh] = logged_.emplace(line, now);
   if (!fresh && now - entry->second < kQuiet) return;
   entry->second = now;
   if (now - quota_from_ >= kQuiet) {
-    if (unlogged_ > 0) ROS_WARN_STREAM("refused: " << unlogged_ << " more commands, not shown");
+    if (unlogged_ > 0) ROS_WARN_STREAM("refused: " << unlogged_ << " more lines, not shown");
     quota_from_ = now;
     quota_used_ = 0;
     unlogged_ = 0;
@@ -85,6 +84,32 @@ void NodeHealth::time_out(const std::string& body, const std::string& what) {
   ROS_WARN_STREAM(last_timeout_);
 }
 
+void NodeHealth::wait(const std::string& body, const std::string& what) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  followers_[body].waits = one_line(what);
+  news_ = true;
+  if (!what.empty()) ROS_WARN_STREAM(followers_[body].waits);
+}
+
+void NodeHealth::jump(const std::string& what) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++jumps_;
+  last_jump_ = one_line(what);
+  jumped_at_ = Clock::now();
+  news_ = true;
+  log_refusal(last_jump_, jumped_at_);
+}
+
+void NodeHealth::limit(const std::string& body, const LimitHealth& limits) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  LimitHealth& before = followers_[body].limits;
+  if (before.limited == 0 && limits.limited > 0) {
+    ROS_INFO_STREAM("'" << body << "' is kept within its limits; /diagnostics counts its commands that are");
+  }
+  news_ = news_ || (before.behind > 0.0) != (limits.behind > 0.0);
+  before = limits;
+}
+
 void NodeHealth::set_solver(const SolverHealth& solver) {
   const std::lock_guard<std::mutex> lock(mutex_);
   news_ = news_ || solver.phase != solver_.phase;
@@ -112,6 +137,16 @@ void NodeHealth::fill_commands(diagnostic_updater::DiagnosticStatusWrapper& stat
   const bool silent =
       std::any_of(followers_.begin(), followers_.end(), [](const auto& follower) { return follower.second.silent; });
   if (silent) status.mergeSummary(DiagnosticStatus::WARN, last_timeout_);
+  for (const auto& [body, follower] : followers_) {
+    if (!follower.waits.empty()) status.mergeSummary(DiagnosticStatus::WARN, follower.waits);
+    const LimitHealth& limits = follower.limits;
+    if (limits.behind > 0.0 || limits.behind_angle > 0.0) {
+      status.mergeSummary(DiagnosticStatus::WARN, fmt::format("'{}' is behind its pose by {:.3g} m and {:.3g} rad, as "
+                                                              "its limits have it",
+                                                              body, limits.behind, limits.behind_angle));
+    }
+  }
+  if (jumps_ > 0 && now - jumped_at_ < kFresh) status.mergeSummary(DiagnosticStatus::WARN, last_jump_);
   if (refused_ > 0 && now - refused_at_ < kFresh) status.mergeSummary(DiagnosticStatus::WARN, last_refusal_);
   status.add("refused", refused_);
   status.add("last refused", last_refusal_);
@@ -120,10 +155,17 @@ void NodeHealth::fill_commands(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("waiting", commands_.waiting);
   status.add("timeouts", timeouts_);
   status.add("last timeout", last_timeout_);
+  status.add("jumps", jumps_);
+  status.add("last jump", last_jump_);
   status.add("changes of kind", changes_);
   status.add("last change", last_change_);
   for (const auto& [body, follower] : followers_) {
     status.add("applied to " + body, fmt::format("{}, the last at {:.6f} s", follower.commands, follower.last));
+    if (follower.limits.limited > 0) {
+      status.add("limited of " + body, follower.limits.limited);
+      status.add("behind [m] of " + body, follower.limits.behind);
+      status.add("behind [rad] of " + body, follower.limits.behind_angle);
+    }
   }
 }
 
@@ -150,7 +192,9 @@ void NodeHealth::fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status
     add_warning(fmt::format("slower than asked: {:.3g} of the wall clock's pace, not {:g}", solver_.real_time_factor,
                             solver_.asked_factor));
   }
-  const int level = solver_.failed ? DiagnosticStatus::ERROR : warn ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
+  if (!solver_.record_failure.empty()) text += "; not recorded any more: " + solver_.record_failure;
+  const bool broken = solver_.failed || !solver_.record_failure.empty();
+  const int level = broken ? DiagnosticStatus::ERROR : warn ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
   status.summary(static_cast<std::uint8_t>(level), one_line(text));
   status.add("simulated time [s]", solver_.time);
   status.add("real-time factor", solver_.real_time_factor);

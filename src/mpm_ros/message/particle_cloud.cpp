@@ -27,7 +27,11 @@ void add_field(sensor_msgs::PointCloud2& cloud, const std::string& name, std::ui
 }  // namespace
 
 std::string problem_of(const ParticleSelection& selection) {
-  if (selection.stride < 1) return fmt::format("the particle stride is {}; it must be 1 or more", selection.stride);
+  const mpm::ParticleChoice& choice = selection.choice;
+  if (choice.stride < 1) return fmt::format("the particle stride is {}; it must be 1 or more", choice.stride);
+  if (choice.region && choice.region->empty()) {
+    return "the particle region is empty: a maximum is below its minimum; write xmin, ymin, zmin, xmax, ymax, zmax";
+  }
   std::vector<std::string> known;
   for (const auto& [name, unit] : mpm::Simulation::particle_fields()) known.push_back(name);
   for (const std::string& field : selection.fields) {
@@ -44,16 +48,14 @@ std::string problem_of(const ParticleSelection& selection) {
   return {};
 }
 
-void fill_cloud(const std::vector<std::string>& fields, const std::vector<std::vector<float>>& columns, int stride,
+void fill_cloud(const std::vector<std::string>& fields, const mpm::ParticleColumns& columns,
                 sensor_msgs::PointCloud2& cloud) {
   cloud.fields.clear();
   for (const char* name : kPosition) add_field(cloud, name, sensor_msgs::PointField::FLOAT32);
   add_field(cloud, "id", sensor_msgs::PointField::UINT32);
   for (const std::string& name : fields) add_field(cloud, name, sensor_msgs::PointField::FLOAT32);
 
-  const std::size_t step = static_cast<std::size_t>(stride);
-  const std::size_t particles = columns.front().size();
-  const std::size_t points = (particles + step - 1) / step;
+  const std::size_t points = columns.ids.size();
   const std::size_t point_step = kScalar * cloud.fields.size();
   cloud.height = 1;
   cloud.width = static_cast<std::uint32_t>(points);
@@ -64,27 +66,25 @@ void fill_cloud(const std::vector<std::string>& fields, const std::vector<std::v
   cloud.data.resize(point_step * points);
 
   std::uint8_t* out = cloud.data.data();
-  for (std::size_t particle = 0; particle < particles; particle += step) {
-    const std::uint32_t id = static_cast<std::uint32_t>(particle);
-    for (std::size_t column = 0; column < columns.size(); ++column) {
+  for (std::size_t point = 0; point < points; ++point) {
+    for (std::size_t column = 0; column < columns.values.size(); ++column) {
       // The id stands between the position and the other fields.
       const std::size_t slot = column < 3 ? column : column + 1;
-      std::memcpy(out + kScalar * slot, &columns[column][particle], kScalar);
+      std::memcpy(out + kScalar * slot, &columns.values[column][point], kScalar);
     }
-    std::memcpy(out + kScalar * 3, &id, kScalar);
+    std::memcpy(out + kScalar * 3, &columns.ids[point], kScalar);
     out += point_step;
   }
 }
 
 ParticleCloud::ParticleCloud(ParticleSelection selection)
-    : selection_(std::move(selection)), columns_(3 + selection_.fields.size()) {}
+    : selection_(std::move(selection)), names_(std::begin(kPosition), std::end(kPosition)) {
+  names_.insert(names_.end(), selection_.fields.begin(), selection_.fields.end());
+}
 
 const sensor_msgs::PointCloud2& ParticleCloud::read(const mpm::Simulation& simulation) {
-  for (int axis = 0; axis < 3; ++axis) simulation.particle_field(kPosition[axis], columns_[axis]);
-  for (std::size_t field = 0; field < selection_.fields.size(); ++field) {
-    simulation.particle_field(selection_.fields[field], columns_[3 + field]);
-  }
-  fill_cloud(selection_.fields, columns_, selection_.stride, cloud_);
+  simulation.read_particles(names_, selection_.choice, columns_);
+  fill_cloud(selection_.fields, columns_, cloud_);
   return cloud_;
 }
 

@@ -79,6 +79,31 @@ class Reader {
     return true;
   }
 
+  /// [xmin, ymin, zmin, xmax, ymax, zmax]
+  void read(const std::string& name, std::optional<mpm::Box>& result) {
+    const XmlRpc::XmlRpcValue* value = find(name);
+    if (value == nullptr) return;
+    XmlRpc::XmlRpcValue list(*value);
+    if (list.getType() != XmlRpc::XmlRpcValue::TypeArray || list.size() != 6) {
+      fail(name, "must be six numbers, [xmin, ymin, zmin, xmax, ymax, zmax]");
+    }
+    double corners[6];
+    for (int i = 0; i < 6; ++i) {
+      const auto type = list[i].getType();
+      if (type == XmlRpc::XmlRpcValue::TypeInt) {
+        corners[i] = static_cast<int>(list[i]);
+      } else if (type == XmlRpc::XmlRpcValue::TypeDouble) {
+        corners[i] = static_cast<double>(list[i]);
+      } else {
+        fail(name, fmt::format("has something else than a number at place {}", i + 1));
+      }
+    }
+    result = mpm::Box{{corners[0], corners[1], corners[2]}, {corners[3], corners[4], corners[5]}};
+    if (result->empty() || !result->min.allFinite() || !result->max.allFinite()) {
+      fail(name, "is empty or not finite; write [xmin, ymin, zmin, xmax, ymax, zmax]");
+    }
+  }
+
   template <typename Choice>
   void read(const std::string& name, Choice& result, const std::vector<std::pair<std::string, Choice>>& choices) {
     std::string given;
@@ -186,6 +211,12 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   reader.read("record", parameters.record);
   reader.read<std::string>("record_compression", parameters.record_compression,
                            {{"none", "none"}, {"lz4", "lz4"}, {"bz2", "bz2"}});
+  reader.read("record_folder", parameters.record_folder);
+  reader.read("record_split_size", parameters.record_split_size, 0.0);
+  reader.read("record_split_duration", parameters.record_split_duration, 0.0);
+  reader.read("record_required", parameters.record_required);
+  reader.read("resume", parameters.resume);
+  reader.read("checkpoint_on_failure", parameters.checkpoint_on_failure);
   reader.read("commands", parameters.commands);
   reader.read("command_timeout", parameters.command_timeout, 0.0);
   reader.read<OnTimeout>("on_timeout", parameters.on_timeout,
@@ -193,15 +224,22 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   reader.read("world_frame", parameters.world_frame);
   reader.read("publish_clock", parameters.publish_clock);
   reader.read("clock_rate", parameters.clock_rate, 0.0);
+  reader.read<ResetTime>("reset_time", parameters.reset_time,
+                         {{"continue", ResetTime::resume}, {"zero", ResetTime::zero}});
   double particle_rate = 0.0;
   reader.read("particle_rate", particle_rate, 0.0, true);
   if (reader.given("particle_rate")) parameters.particle_rate = particle_rate;
+  double particle_first = 0.0;
+  reader.read("particle_first", particle_first, 0.0);
+  if (reader.given("particle_first")) parameters.particle_first = particle_first;
   std::vector<std::string> fields;
   if (reader.read("particle_fields", fields)) parameters.particle_fields = fields;
   int stride = 1;
   reader.read("particle_stride", stride, 1);
   if (reader.given("particle_stride")) parameters.particle_stride = stride;
+  reader.read("particle_region", parameters.particle_region);
   reader.read("wrench_rate", parameters.wrench_rate, 0.0);
+  reader.read("wrench_cutoff", parameters.wrench_cutoff, 0.0);
   reader.read("force_scale", parameters.force_scale, 0.0);
   reader.read("state_hash", parameters.state_hash);
   parameters.keep_alive = parameters.pacing == Pacing::lockstep;

@@ -1,16 +1,24 @@
 #include "mpm_ros/node/pacer.hpp"
 
+#include <cmath>
+
 namespace mpm_ros {
 
-Pacer::Pacer(std::int64_t period, double factor)
-    : period_(std::chrono::duration_cast<Clock::duration>(
-          std::chrono::duration<double, std::nano>(static_cast<double>(period) / factor))) {}
+Pacer::Pacer(std::int64_t period, double factor) : period_(static_cast<double>(period) / factor) {}
+
+void Pacer::restart(Clock::time_point now) {
+  start_ = now;
+  count_ = 0;
+}
 
 Pacer::Clock::time_point Pacer::next(Clock::time_point now) {
-  deadline_ += period_;
-  if (now > deadline_) ++overruns_;
-  if (now > deadline_ + kLargestDebt) deadline_ = now;
-  return deadline_;
+  ++count_;
+  const std::chrono::nanoseconds since(std::llround(period_ * static_cast<double>(count_)));
+  const Clock::time_point deadline = start_ + std::chrono::duration_cast<Clock::duration>(since);
+  if (now > deadline) ++overruns_;
+  if (now <= deadline + kLargestDebt) return deadline;
+  restart(now);
+  return now;
 }
 
 }  // namespace mpm_ros

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <ros/console.h>
-#include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,8 @@
 #include <utility>
 
 #include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/run/output_names.hpp"
+#include "mpm_ros/run/run_scene_checkpoint.hpp"
 
 namespace mpm_ros {
 
@@ -39,37 +40,52 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
       parameters_(parameters),
       stop_requested_(std::move(stop_requested)),
       scene_(mpm::load_scene(parameters.scene, parameters.set)),
+      clock_(node_, parameters.publish_clock, parameters.clock_rate),
       watch_(std::llround(parameters.command_timeout * 1e9)),
       paused_(parameters.start_paused) {
   if (!parameters_.commands.empty()) log_ = read_commands(parameters_.commands);
   if (const std::string problem = problem_of(run_options().output.particles); !problem.empty()) {
-    throw ParameterError(fmt::format("parameter ~particle_fields or ~particle_stride: {}", problem));
+    throw ParameterError(fmt::format("parameter ~particle_fields, ~particle_stride or ~particle_region: {}", problem));
   }
   for (const mpm::RigidBodyDefinition& body : scene_.definition.rigid_bodies) bodies_.push_back(body.name);
+  std::vector<std::string> frames;
+  std::vector<mpm::MotionLimits> limits;
+  for (const mpm::CommandDefinition& commanded : scene_.commands) {
+    frames.push_back(commanded.frame);
+    // What was recorded is within them already.
+    if (log_.empty()) limits.push_back(commanded.limits);
+  }
+  limiter_ = std::make_unique<CommandLimiter>(std::move(limits), health_);
+
+  if (parameters_.reset_time == ResetTime::zero && !ros::Time::isSimTime()) {
+    throw ParameterError(
+        "parameter ~reset_time is zero, but /use_sim_time is not set: the wall's clock cannot be set back");
+  }
 
   ros::NodeHandle services(node_);
   services.setCallbackQueue(&service_callbacks_);
   ros::NodeHandle commands(node_);
   commands.setCallbackQueue(&topic_callbacks_);
 
-  if (ros::Time::isSimTime() && parameters_.publish_clock) {
-    clock_ = node_.advertise<rosgraph_msgs::Clock>(topics::kClock, 10, true);
-  }
-  publishers_ = std::make_unique<Publishers>(services, bodies_);
-  start_run(first_stamps());
+  publishers_ =
+      std::make_unique<Publishers>(services, bodies_, parameters_.wrench_cutoff > 0.0, !scene_.output.global.empty());
+  queue_ = std::make_unique<CommandQueue>(scene_.definition.time.sync);
+  start_run(parameters_.resume.empty() ? first_stamps() : stamps_from(mpm::read_checkpoint(parameters_.resume).time),
+            parameters_.resume);
   for (const std::string& warning : run_->simulation().warnings()) ROS_WARN_STREAM(warning);
   for (const std::string& note : run_->simulation().notes()) ROS_INFO_STREAM(note);
-  queue_ = std::make_unique<CommandQueue>(run_->simulation().sync_period());
   pacer_ = std::make_unique<Pacer>(run_->simulation().sync_period(), parameters_.real_time_factor);
   // A run that replays recorded commands listens to nobody else.
   if (log_.empty()) {
-    bridge_ = std::make_unique<CommandBridge>(commands, bodies_, parameters_.world_frame, *queue_, health_);
+    bridge_ = std::make_unique<CommandBridge>(commands, bodies_, frames, parameters_.world_frame, *queue_, health_);
     bridge_->reader().set_stamps(run_->stamps());
   }
 
   services_.push_back(services.advertiseService(topics::kPause, &SimulatorNode::on_pause, this));
   services_.push_back(services.advertiseService(topics::kReset, &SimulatorNode::on_reset, this));
   services_.push_back(services.advertiseService(topics::kStep, &SimulatorNode::on_step, this));
+  services_.push_back(services.advertiseService(topics::kSaveCheckpoint, &SimulatorNode::on_save_checkpoint, this));
+  services_.push_back(services.advertiseService(topics::kLoadCheckpoint, &SimulatorNode::on_load_checkpoint, this));
 
   diagnostics_ = std::make_unique<diagnostic_updater::Updater>(services);
   diagnostics_->setHardwareID("none");
@@ -96,15 +112,25 @@ RunOptions SimulatorNode::run_options() const {
   options.isa = parameters_.isa;
   options.output = output_options(scene_);
   if (parameters_.particle_rate) options.output.particle_period = 1.0 / *parameters_.particle_rate;
+  if (parameters_.particle_first) options.output.particle_first = *parameters_.particle_first;
   if (parameters_.particle_fields) options.output.particles.fields = *parameters_.particle_fields;
-  if (parameters_.particle_stride) options.output.particles.stride = *parameters_.particle_stride;
+  if (parameters_.particle_stride) options.output.particles.choice.stride = *parameters_.particle_stride;
+  if (parameters_.particle_region) options.output.particles.choice.region = *parameters_.particle_region;
   if (parameters_.wrench_rate > 0.0) options.output.wrench_period = 1.0 / parameters_.wrench_rate;
+  options.output.wrench_cutoff = parameters_.wrench_cutoff;
   options.output.world_frame = parameters_.world_frame;
+  for (const mpm::CommandDefinition& commanded : scene_.commands) options.output.others.push_back(commanded.frame);
   options.output.force_scale = parameters_.force_scale;
   options.output.state_hash = parameters_.state_hash;
-  if (!parameters_.record.empty()) options.bag = bag_path(parameters_.record, scene_.definition.name, runs_);
+  if (!parameters_.record.empty())
+    options.bag = bag_path(parameters_.record, scene_.definition.name, runs_, parameters_.record_folder);
   options.bag_options.topics_below = node_.getNamespace();
   options.bag_options.compression = parameters_.record_compression;
+  constexpr double kMegabyte = 1e6;
+  options.bag_options.split_size =
+      static_cast<std::uint64_t>(std::min(parameters_.record_split_size * kMegabyte, 1e15));
+  options.bag_options.split_duration = std::llround(std::min(parameters_.record_split_duration, 1e9) * 1e9);
+  options.bag_options.required = parameters_.record_required;
   options.parameters = parameters_.text;
   return options;
 }
@@ -115,16 +141,32 @@ Stamps SimulatorNode::first_stamps() const {
   return Stamps(ros::Time(now.sec, now.nsec));
 }
 
-void SimulatorNode::start_run(const Stamps& stamps) {
+void SimulatorNode::start_run(const Stamps& stamps, const std::string& resume) {
   ++runs_;  // names the next bag
-  auto run = std::make_unique<Run>(scene_, run_options(), stamps, publishers_.get());
+  RunOptions options = run_options();
+  CommandQueue queue(queue_->sync_period());
+  CommandWatch watch(std::llround(parameters_.command_timeout * 1e9));
+  auto limiter = std::make_unique<CommandLimiter>(*limiter_);
+  limiter->clear();
+  if (!resume.empty()) {
+    resume_from(resume, options);
+    options.more = [&](mpm::StateArchive& archive) { keep(archive, queue, watch, *limiter); };
+  }
+  auto run = std::make_unique<Run>(scene_, options, stamps, publishers_.get());
   if (run_) end_run();
   run_ = std::move(run);
-  log_.rewind();
-  watch_.clear();
+  record_lost_ = false;
+  if (const BagRecorder* recorder = run_->recorder()) {
+    ROS_INFO_STREAM("recording to " << recorder->path() << (recorder->replaced() ? ", which is replaced" : ""));
+  }
+  queue_->take_over(queue);
+  log_.skip_to(run_->simulation().time());
+  watch_ = watch;
+  limiter_ = std::move(limiter);
+  if (bridge_) bridge_->follower().clear();
   health_.restart();
   failure_.clear();
-  clock_at_ = -1;
+  clock_.restart();
 }
 
 SimulatorNode::Phase SimulatorNode::phase() const {
@@ -135,7 +177,7 @@ SimulatorNode::Phase SimulatorNode::phase() const {
 }
 
 int SimulatorNode::spin() {
-  publish_clock(true);
+  tell_clock(true);
   run_->begin();
   report();
   pacer_->restart(Pacer::Clock::now());
@@ -162,10 +204,10 @@ int SimulatorNode::spin() {
 bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra) {
   try {
     apply_due(extra);
-    if (!failure_.empty()) return false;
+    if (!failure_.empty() || !refusal_.empty()) return false;
     count_commands();
     run_->advance();
-    publish_clock(run_->ended());
+    tell_clock(run_->ended());
     if (run_->ended()) end_run();
     report();
     return true;
@@ -191,26 +233,50 @@ void SimulatorNode::apply_due(const std::vector<AppliedCommand>& extra) {
     return;
   }
   const std::int64_t now = run_->simulation().time();
+  bridge_->follower().look(run_->stamps().at(now + run_->simulation().sync_period()));
   for (const DueCommand& due : queue_->take(now)) apply(in_world(due, run_->simulation().bodies(), now));
-  for (const AppliedCommand& command : extra) apply(command);
+  for (const AppliedCommand& command : extra) {
+    refusal_ = apply(command);
+    if (!refusal_.empty()) return;
+  }
   act_on_silence();
+  apply_limited();
 }
 
-void SimulatorNode::apply(const AppliedCommand& command) {
+void SimulatorNode::apply_limited() {
+  for (const AppliedCommand& command : limiter_->next(run_->simulation())) {
+    try {
+      run_->apply(command);
+    } catch (const mpm::RigidError& error) {
+      limiter_->drop(command.body);
+      health_.refuse(fmt::format("a command for '{}': {}", bodies_[command.body], error.what()));
+    }
+  }
+}
+
+std::string SimulatorNode::apply(const AppliedCommand& command) {
   const mpm::RigidBody& body = run_->simulation().rigid_body(command.body);
   const mpm::Drive before = body.drive();
+  mpm::Drive after = static_cast<mpm::Drive>(command.kind);
   try {
-    run_->apply(command);
+    if (!limiter_->take(command, run_->simulation())) {
+      const std::string jump = jump_of(command, run_->simulation());
+      run_->apply(command);
+      after = body.drive();
+      if (!jump.empty()) health_.jump(jump);
+    }
   } catch (const mpm::RigidError& error) {
-    health_.refuse(fmt::format("a command for '{}': {}", body.name(), error.what()));
-    return;
+    const std::string reason = fmt::format("a command for '{}': {}", body.name(), error.what());
+    health_.refuse(reason);
+    return reason;
   }
   watch_.heard(command);
   health_.follow(body.name(), static_cast<double>(command.effect) * 1e-9);
-  if (body.drive() != before) {
-    health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(body.drive()),
+  if (after != before) {
+    health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(after),
                                static_cast<double>(command.effect) * 1e-9, drive_text(before)));
   }
+  return {};
 }
 
 void SimulatorNode::act_on_silence() {
@@ -224,7 +290,9 @@ void SimulatorNode::act_on_silence() {
       return;
     }
     if (parameters_.on_timeout == OnTimeout::stop) {
-      for (const AppliedCommand& stop : stop_commands(body, run_->simulation())) run_->apply(stop);
+      for (const AppliedCommand& stop : stop_commands(body, run_->simulation())) {
+        if (!limiter_->take(stop, run_->simulation())) run_->apply(stop);
+      }
       health_.time_out(bodies_[body], silence + ": it stands still");
     } else {
       health_.time_out(bodies_[body], silence + ": it goes on as it was told last");
@@ -239,11 +307,17 @@ void SimulatorNode::fail(const std::string& reason, int exit_code) {
   try {
     count_commands();
     run_->fail(reason);
-    if (!run_->bag().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
+    say_closed();
   } catch (const BagError& error) {
     ROS_FATAL_STREAM(error.what());
   }
+  leave_failed_state();
   report();
+}
+
+void SimulatorNode::say_closed() const {
+  const BagRecorder* recorder = run_->recorder();
+  if (recorder != nullptr && recorder->failure().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
 }
 
 void SimulatorNode::end_run() {
@@ -251,7 +325,7 @@ void SimulatorNode::end_run() {
   try {
     count_commands();
     run_->finish();
-    if (!run_->bag().empty()) ROS_INFO_STREAM("the bag is closed: " << run_->bag());
+    say_closed();
   } catch (const BagError& error) {
     ROS_FATAL_STREAM(error.what());
     exit_code_ = 1;
@@ -261,17 +335,7 @@ void SimulatorNode::end_run() {
 void SimulatorNode::count_commands() {
   const LateCommands late = queue_->late();
   run_->count_commands(late.unstamped + late.past, health_.refused());
-}
-
-void SimulatorNode::publish_clock(bool always) {
-  if (!clock_) return;
-  const std::int64_t time = run_->simulation().time();
-  const double period = parameters_.clock_rate > 0.0 ? 1e9 / parameters_.clock_rate : 0.0;
-  if (!always && clock_at_ >= 0 && static_cast<double>(time - clock_at_) < period) return;
-  clock_at_ = time;
-  rosgraph_msgs::Clock message;
-  message.clock = run_->stamps().at(time);
-  clock_.publish(message);
+  run_->count_overruns(pacer_->overruns());
 }
 
 void SimulatorNode::report() {
@@ -300,6 +364,10 @@ void SimulatorNode::report() {
     solver.asked_factor = parameters_.real_time_factor;
   }
   solver.overruns = pacer_->overruns();
+  if (const BagRecorder* recorder = run_->recorder()) solver.record_failure = recorder->failure();
+  if (!parameters_.record_required && !solver.record_failure.empty() && !std::exchange(record_lost_, true)) {
+    ROS_ERROR_STREAM(solver.record_failure << ". The run goes on without a record");
+  }
   const SolverState& state = run_->outputs().solver_state();
   solver.steps = state.steps;
   solver.step = state.dt;

@@ -3,7 +3,9 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "mpm_ros/message/contact_average.hpp"
 #include "mpm_ros/node/simulator_node.hpp"
@@ -13,6 +15,10 @@ namespace mpm_ros {
 namespace {
 
 constexpr const char* kEnding = "the node is ending";
+/// How long a step waits for command messages that are on their way, by the wall's clock.
+constexpr std::chrono::milliseconds kPatience{5000};
+/// How often it looks whether the node is to stop.
+constexpr std::chrono::milliseconds kGlance{50};
 
 }  // namespace
 
@@ -30,6 +36,7 @@ bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
 
 bool SimulatorNode::on_step(Step::Request& request, Step::Response& response) {
   response.message = kEnding;
+  if (!wait_received(request, response)) return true;
   mailbox_.call([&] { step(request, response); });
   return true;
 }
@@ -45,10 +52,14 @@ void SimulatorNode::pause(bool paused, std_srvs::SetBool::Response& response) {
 }
 
 void SimulatorNode::reset(std_srvs::Trigger::Response& response) {
-  // Stamps never run backwards: simulated time is zero again, at a stamp later than all before.
-  const std::int64_t next = run_->simulation().time() + run_->simulation().sync_period();
-  ros::Time origin = run_->stamps().at(next);
-  if (!ros::Time::isSimTime()) origin = std::max(origin, first_stamps().origin());
+  // Stamps never run backwards unless that was asked for: simulated time is zero again, at a stamp later than all
+  // before.
+  ros::Time origin;
+  if (parameters_.reset_time == ResetTime::resume) {
+    const std::int64_t next = run_->simulation().time() + run_->simulation().sync_period();
+    origin = run_->stamps().at(next);
+    if (!ros::Time::isSimTime()) origin = std::max(origin, first_stamps().origin());
+  }
   try {
     start_run(Stamps(origin));
   } catch (const std::exception& error) {
@@ -57,15 +68,32 @@ void SimulatorNode::reset(std_srvs::Trigger::Response& response) {
     response.message = error.what();
     return;
   }
-  queue_->clear();
   if (bridge_) bridge_->reader().set_stamps(run_->stamps());
-  publish_clock(true);
+  queue_->clear();  // after: a message that was being read by the old stamps is in it
+  tell_clock(true);
   run_->begin();
   pacer_->restart(Pacer::Clock::now());
   report();
   response.success = 1;
   response.message =
       fmt::format("run {}: simulated time is zero again, at stamp {}.{:09d}", runs_, origin.sec, origin.nsec);
+}
+
+bool SimulatorNode::wait_received(const Step::Request& request, Step::Response& response) const {
+  if (request.after_received == 0) return true;
+  response.success = 0;
+  if (!bridge_) {
+    response.message = "recorded commands are being replayed (~commands); others are not received";
+    return false;
+  }
+  for (auto waited = std::chrono::milliseconds(0); waited < kPatience && !stop_requested_(); waited += kGlance) {
+    if (bridge_->reader().wait_received(request.after_received, kGlance)) return true;
+  }
+  response.received = bridge_->reader().received();
+  response.message =
+      fmt::format("waited {} s for {} messages on command topics; {} have come",
+                  std::chrono::duration<double>(kPatience).count(), request.after_received, response.received);
+  return false;
 }
 
 std::int64_t SimulatorNode::periods_of(const Step::Request& request, std::string& problem) const {
@@ -112,6 +140,7 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
   response.stamp = run_->outputs().stamp();
   response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
   response.bodies = run_->outputs().body_states();
+  if (bridge_) response.received = bridge_->reader().received();
 
   std::string problem;
   const Phase now = phase();
@@ -134,15 +163,21 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
     return;
   }
 
+  // What comes on topics from here on waits for the next step: where it took effect would depend on when it came.
+  queue_->hold();
+  refusal_.clear();
   ContactAverage contacts;
   run_->resume_clock();
+  const std::int64_t end = run_->simulation().time() + periods * run_->simulation().sync_period();
   for (std::int64_t period = 0; period < periods && !run_->ended() && !stop_requested_(); ++period) {
     if (!sync_period(period == 0 ? commands : std::vector<AppliedCommand>())) break;
     contacts.add(run_->outputs().contacts());
   }
-  response.success = failure_.empty() ? 1 : 0;
-  response.message = failure_;
-  if (failure_.empty() && run_->ended()) response.message = "the run has ended";
+  queue_->release();
+  response.message = failure_.empty() ? std::exchange(refusal_, {}) : failure_;
+  if (response.message.empty() && !run_->ended() && run_->simulation().time() < end) response.message = kEnding;
+  response.success = response.message.empty() ? 1 : 0;
+  if (response.message.empty() && run_->ended()) response.message = "the run has ended";
   response.stamp = run_->outputs().stamp();
   response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
   response.contact_forces = run_->outputs().contact_forces(contacts.take());

@@ -21,6 +21,7 @@
 #include "mpm_ros/report/report_json.hpp"
 #include "mpm_ros/report/report_momentum.hpp"
 #include "mpm_ros/report/report_plots.hpp"
+#include "mpm_ros/report/report_same.hpp"
 #include "mpm_ros/report/report_tables.hpp"
 
 namespace mpm_ros {
@@ -75,6 +76,12 @@ void write_json(const std::string& path, const nlohmann::ordered_json& json) {
 
 void check_options(const ReportOptions& options) {
   if (options.bags.empty()) throw ReportError("give a bag");
+  if (options.same && options.bags.size() != 2) {
+    throw ReportError(fmt::format("--same compares two bags, {} given; of a recording in parts, give the first part",
+                                  options.bags.size()));
+  }
+  if (options.tolerance && !options.same) throw ReportError("--tolerance belongs to --same; give both");
+  if (options.tolerance && !(*options.tolerance >= 0.0)) throw ReportError("--tolerance: must be 0 or more");
   if (!options.csv.empty()) check_folder("--csv", options.csv);
   if (!options.plots.empty()) check_folder("--plots", options.plots);
   if (!options.json.empty() && options.json != kStandardOutput) check_file("--json", options.json);
@@ -208,6 +215,10 @@ void print(const std::vector<RecordedRun>& runs, std::ostream& out) {
 
 bool report(const ReportOptions& options, std::ostream& out, std::ostream& err, bool bar) {
   check_options(options);
+  if (options.same) {
+    RunBag a(options.bags[0], options.name_space), b(options.bags[1], options.name_space);
+    return same_runs(a, b, options.tolerance, out);
+  }
   const bool only_json = options.json == kStandardOutput;
   const std::vector<std::string> labels = labels_of(options.bags);
   Reader reader(options, err, bar);

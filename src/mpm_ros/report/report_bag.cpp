@@ -2,14 +2,16 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <rosbag/view.h>
+#include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
+#include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/report/reindex.hpp"
 
@@ -74,6 +76,7 @@ RunBag::RunBag(const std::string& path, const std::string& name_space) : path_(p
   try {
     find_run(name_space);
     find_start();
+    check_parts();
     find_fields();
   } catch (const ros::Exception& error) {
     throw damaged(path_, error);
@@ -81,38 +84,59 @@ RunBag::RunBag(const std::string& path, const std::string& name_space) : path_(p
 }
 
 void RunBag::open() {
-  std::error_code error;
-  if (!std::filesystem::exists(path_, error)) throw BagError(path_ + ": no such file");
-  if (!std::filesystem::is_regular_file(path_, error)) throw BagError(path_ + ": not a file; give a bag");
-  if (std::filesystem::file_size(path_, error) == 0) {
-    throw BagError(path_ + ": an empty file, not a bag; was the recording stopped before it began?");
-  }
-  try {
-    bag_.open(path_, rosbag::bagmode::Read);
-  } catch (const rosbag::BagException& problem) {
-    if (!std::ifstream(path_)) throw BagError(path_ + ": cannot be read; check its permissions");
-    if (!is_bag(path_)) {
-      throw BagError(fmt::format("{}: not a bag ({}); give a file that the simulator or run_scene recorded", path_,
-                                 problem.what()));
-    }
-    open_copy();
+  for (const std::string& part : parts_of(path_)) {
+    if (!open_part(part, bags_.empty())) break;
   }
 }
 
-void RunBag::open_copy() {
-  const std::string copy = reindexed_copy(path_, copy_.emplace().path());
-  try {
-    bag_.close();  // the file stays open when it could not be read
-    bag_.open(copy, rosbag::bagmode::Read);
-    if (rosbag::View(bag_).size() > 0) return;
-  } catch (const ros::Exception& problem) {
-    throw BagError(fmt::format("{}: damaged ({}); record again", path_, problem.what()));
+bool RunBag::open_part(const std::string& path, bool first) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw BagError(path + ": no such file");
+  if (!std::filesystem::is_regular_file(path, error)) throw BagError(path + ": not a file; give a bag");
+  if (std::filesystem::file_size(path, error) == 0) {
+    if (!first) return false;
+    throw BagError(path + ": an empty file, not a bag; was the recording stopped before it began?");
   }
-  throw BagError(path_ + ": cut short before its first messages were written; nothing in it can be read");
+  auto bag = std::make_unique<rosbag::Bag>();
+  try {
+    bag->open(path, rosbag::bagmode::Read);
+  } catch (const rosbag::BagException& problem) {
+    if (!std::ifstream(path)) throw BagError(path + ": cannot be read; check its permissions");
+    if (!is_bag(path)) {
+      throw BagError(fmt::format("{}: not a bag ({}); give a file that the simulator or run_scene recorded", path,
+                                 problem.what()));
+    }
+    try {
+      open_copy(path, *bag);
+    } catch (const BagError&) {
+      if (first) throw;
+      return false;
+    }
+  }
+  bags_.push_back(std::move(bag));
+  return true;
+}
+
+void RunBag::open_copy(const std::string& path, rosbag::Bag& bag) {
+  if (!copy_) copy_.emplace();
+  const std::string copy = reindexed_copy(path, copy_->path());
+  try {
+    bag.close();  // the file stays open when it could not be read
+    bag.open(copy, rosbag::bagmode::Read);
+    if (rosbag::View(bag).size() > 0) return;
+  } catch (const ros::Exception& problem) {
+    throw BagError(fmt::format("{}: damaged ({}); record again", path, problem.what()));
+  }
+  throw BagError(path + ": cut short before its first messages were written; nothing in it can be read");
+}
+
+void RunBag::select(rosbag::View& view, const std::vector<std::string>& topics) const {
+  for (const auto& bag : bags_) view.addQuery(*bag, rosbag::TopicQuery(topics));
 }
 
 void RunBag::find_run(const std::string& wanted) {
-  rosbag::View view(bag_);
+  rosbag::View view;
+  for (const auto& bag : bags_) view.addQuery(*bag);
   if (view.size() == 0) throw BagError(path_ + ": a bag without messages; was anything published while it recorded?");
   for (const rosbag::ConnectionInfo* connection : view.getConnections())
     types_[connection->topic] = connection->datatype;
@@ -159,13 +183,15 @@ void RunBag::find_run(const std::string& wanted) {
 }
 
 void RunBag::find_start() {
-  rosbag::View infos(bag_, rosbag::TopicQuery(topic(topics::kRunInfo)));
+  rosbag::View infos;
+  select(infos, {topic(topics::kRunInfo)});
   if (infos.begin() != infos.end()) {
     info_ = *take<RunInfo>(*infos.begin(), path_);
     stamps_ = Stamps(info_->start);
     return;
   }
-  rosbag::View states(bag_, rosbag::TopicQuery(topic(topics::kSolverState)));
+  rosbag::View states;
+  select(states, {topic(topics::kSolverState)});
   if (states.begin() == states.end()) throw BagError(path_ + ": the run has no message; was it stopped at its start?");
   const SolverState::ConstPtr first = take<SolverState>(*states.begin(), path_);
   if (first->header.stamp == ros::TIME_MIN) return;  // stands for time zero of a run with origin zero
@@ -175,8 +201,20 @@ void RunBag::find_start() {
   stamps_ = Stamps(start);
 }
 
+void RunBag::check_parts() const {
+  for (std::size_t i = 1; info_ && i < bags_.size(); ++i) {
+    rosbag::View infos(*bags_[i], rosbag::TopicQuery(topic(topics::kRunInfo)));
+    if (infos.begin() == infos.end()) continue;
+    const RunInfo::ConstPtr info = take<RunInfo>(*infos.begin(), path_);
+    if (info->part == i + info_->part && info->start == info_->start && info->scene_text == info_->scene_text) continue;
+    throw BagError(fmt::format("{}: {} is no part of this recording; move it to another folder", path_,
+                               part_path(path_, static_cast<int>(i) + 1)));
+  }
+}
+
 void RunBag::find_fields() {
-  rosbag::View clouds(bag_, rosbag::TopicQuery(topic(topics::kParticles)));
+  rosbag::View clouds;
+  select(clouds, {topic(topics::kParticles)});
   if (clouds.begin() == clouds.end()) return;
   const auto first = take<sensor_msgs::PointCloud2>(*clouds.begin(), path_);
   for (const sensor_msgs::PointField& field : first->fields) particle_fields_.push_back(field.name);
@@ -191,15 +229,23 @@ void RunBag::hand_on(const rosbag::MessageInstance& instance, const std::vector<
 
 void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& reading) {
   std::vector<std::string> names;
-  for (const char* name : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kCommands,
-                           topics::kParticles, topics::kMarkers}) {
+  for (const char* name : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kGlobalQuantities,
+                           topics::kCommands, topics::kParticles, topics::kMarkers}) {
     names.push_back(topic(name));
   }
+  names.emplace_back(topics::kClock);
   try {
-    rosbag::View view(bag_, rosbag::TopicQuery(names));
+    rosbag::View view;
+    select(view, names);
+    bool shaped = false;
     Count count(view, reading);
     for (const rosbag::MessageInstance& instance : view) {
       count.next();
+      if (instance.getTopic() == topics::kClock) {
+        const auto message = take<rosgraph_msgs::Clock>(instance, path_);
+        for (RunVisitor* visitor : visitors) visitor->clock(stamps_.time_of(message->clock));
+        continue;
+      }
       const std::string name = instance.getTopic().substr(name_space_.size() + 1);
       if (name == topics::kContactForces) {
         hand_on(instance, visitors, &RunVisitor::contact_forces);
@@ -207,11 +253,13 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& readi
         hand_on(instance, visitors, &RunVisitor::bodies);
       } else if (name == topics::kSolverState) {
         hand_on(instance, visitors, &RunVisitor::solver_state);
+      } else if (name == topics::kGlobalQuantities) {
+        hand_on(instance, visitors, &RunVisitor::global_quantities);
       } else if (name == topics::kCommands) {
         hand_on(instance, visitors, &RunVisitor::command);
       } else if (name == topics::kParticles) {
         hand_on(instance, visitors, &RunVisitor::particles);
-      } else {
+      } else if (!std::exchange(shaped, true)) {  // each part has them again
         const auto message = take<visualization_msgs::MarkerArray>(instance, path_);
         for (RunVisitor* visitor : visitors) visitor->markers(*message);
       }
@@ -221,9 +269,26 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& readi
   }
 }
 
+void RunBag::read_states_and_commands(RunVisitor& visitor) {
+  try {
+    rosbag::View view;
+    select(view, {topic(topics::kSolverState), topic(topics::kCommands)});
+    for (const rosbag::MessageInstance& instance : view) {
+      if (instance.getDataType() == type_of<Command>()) {
+        hand_on(instance, {&visitor}, &RunVisitor::command);
+      } else {
+        hand_on(instance, {&visitor}, &RunVisitor::solver_state);
+      }
+    }
+  } catch (const ros::Exception& error) {
+    throw damaged(path_, error);
+  }
+}
+
 void RunBag::read_snapshots(const std::set<std::size_t>& chosen, RunVisitor& visitor, const Reading& reading) {
   try {
-    rosbag::View view(bag_, rosbag::TopicQuery(topic(topics::kParticles)));
+    rosbag::View view;
+    select(view, {topic(topics::kParticles)});
     Count count(view, reading);
     std::size_t index = 0;
     for (const rosbag::MessageInstance& instance : view) {

@@ -13,6 +13,7 @@ namespace mpm_ros {
 namespace {
 
 constexpr std::int64_t kStampRounding = 1;  // [ns]: a time in double precision is rounded to whole nanoseconds
+constexpr double kStepRounding = 1e-9;      // of steps: N equal steps between sync points of whole nanoseconds
 constexpr double kUnitLimit = 1e-9;         // of a quaternion's norm: it is renormalised every step
 constexpr std::size_t kGapsListed = 10;
 // Of impulses on bodies over their size: sums on the grid, which is double whatever the particles are.
@@ -158,14 +159,12 @@ void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
   if (off > kStampRounding) {
     fail("stamps", time, fmt::format("the solver's time is {} s, {:.3g} s off the stamp", message.time, seconds(off)));
   }
-  if (state_ && state.step.steps < state_->step.steps) {
-    fail("stamps", time, fmt::format("steps went back from {} to {}", state_->step.steps, state.step.steps));
-  }
+  check_steps(time, state.step);
 
   const mpm::AuditReport& audit = state.audit;
   mpm::Vec3 residual = audit.momentum - audit.initial_momentum;
   for (const mpm::NamedImpulse& impulse : audit.impulses) residual -= impulse.impulse;
-  const double scale = std::max(audit.exchanged, audit.initial_momentum.norm());
+  const double scale = std::max({audit.exchanged, audit.carried, audit.initial_momentum.norm()});
   const double error = std::max(relative(residual.norm(), scale), audit.residual);
   worst_audit_ = std::max(worst_audit_, error);
   if (!(error <= audit_limit_)) {
@@ -178,7 +177,11 @@ void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
     if (!std::isfinite(value)) fail("energy", time, "an energy is not finite");
   }
   min_j_ = std::min(min_j_, state.min_j);
-  if (message.failed) fail("complete", time, "the run failed: " + message.failure);
+  if (message.failed) fail("run", time, "the run failed: " + message.failure);
+  if (!state_) from_start_ = time == 0;
+  applied_ = message.commands_applied;
+  late_ = message.commands_late;
+  refused_ = message.commands_refused;
   if (!(state.min_j > 0.0)) fail("volume", time, fmt::format("the smallest det F is {}", state.min_j));
 
   std::vector<std::string> names;
@@ -190,6 +193,52 @@ void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
   for (const auto& [body, known] : impulses_) {
     if (known.time == time) check_against_material(body, time, known.impulse);
   }
+}
+
+void RunChecks::check_steps(std::int64_t time, const mpm::StepReport& step) {
+  if (!state_) return;
+  const mpm::StepReport& before = state_->step;
+  if (step.steps < before.steps) {
+    fail("steps", time, fmt::format("steps went back from {} to {}", before.steps, step.steps));
+    return;
+  }
+  const double elapsed = seconds(time - state_->time), steps = static_cast<double>(step.steps - before.steps);
+  if (steps == 0.0 || elapsed <= 0.0) {
+    // Only the message that closes a run repeats a time; a run that failed may have stepped on from it.
+    if (elapsed > 0.0) fail("steps", time, fmt::format("{} s passed in no step", elapsed));
+    return;
+  }
+  const double mean = elapsed / steps;
+  if (mean < step.dt_min * (1.0 - kStepRounding) || mean > step.dt_max * (1.0 + kStepRounding)) {
+    fail("steps", time,
+         fmt::format("{} steps in {} s are {:.6g} s each, not within {:.6g} s to {:.6g} s", steps, elapsed, mean,
+                     step.dt_min, step.dt_max));
+  }
+}
+
+void RunChecks::command(std::int64_t /*time*/, const Command& /*message*/) { ++commands_; }
+
+void RunChecks::global_quantities(std::int64_t time, const GlobalQuantities& message) {
+  if (message.values.size() != message.names.size() || message.units.size() != message.names.size()) {
+    fail("global", time,
+         fmt::format("{} names, {} units and {} values", message.names.size(), message.units.size(),
+                     message.values.size()));
+  }
+  for (std::size_t i = 0; i < std::min(message.names.size(), message.values.size()); ++i) {
+    if (!std::isfinite(message.values[i])) fail("global", time, message.names[i] + " is not finite");
+  }
+  ++spacing_["global_quantities"].count;
+}
+
+void RunChecks::clock(std::int64_t time) {
+  if (clocks_++ > 0 && time < last_clock_) {
+    fail("clock", time, fmt::format("/clock goes back by {} s", seconds(last_clock_ - time)));
+  }
+  // Stamp zero means no time to ROS: the first one may be a nanosecond.
+  if (sync_period_ > 0 && time > kStampRounding && time % sync_period_ != 0) {
+    fail("clock", time, fmt::format("/clock is not at a sync point, every {} s", seconds(sync_period_)));
+  }
+  last_clock_ = time;
 }
 
 void RunChecks::particles(std::int64_t time, const sensor_msgs::PointCloud2& message) {
@@ -206,6 +255,19 @@ std::vector<CheckResult> RunChecks::results() const {
   }
   if (!missing.empty()) failures.emplace("complete", fmt::format("missing: {}", fmt::join(missing, ", ")));
 
+  // Commands of the last sync point come before its state, so all are counted by then.
+  if (from_start_ && commands_ != applied_) {
+    failures.emplace("commands", fmt::format("{} were applied, {} are in the bag", applied_, commands_));
+  }
+  if (refused_ > 0) {
+    failures.emplace("commands",
+                     fmt::format("{} were refused and changed nothing ({} applied, {} late); /diagnostics said why",
+                                 refused_, applied_, late_));
+  }
+  std::map<std::string, std::string> not_made;
+  if (clocks_ == 0) not_made.emplace("clock", "/clock is not in the bag");
+  if (spacing_.count("global_quantities") == 0) not_made.emplace("global", "the scene asks for no global quantities");
+
   const auto spacing = spacing_.find("solver_state");
   Spacing states;
   if (spacing != spacing_.end()) states = spacing->second;
@@ -217,6 +279,10 @@ std::vector<CheckResult> RunChecks::results() const {
       {"gaps", fmt::format("{} states, every {} s from {} s to {} s", states.count, seconds(states.interval),
                            seconds(states.first.value_or(0)), seconds(states.last))},
       {"stamps", fmt::format("at most {:.2g} s off the solver's time", worst_stamp_)},
+      {"steps", "as many as the time between states asks for, none backwards"},
+      {"clock", fmt::format("{} messages, at sync points, none backwards", clocks_)},
+      {"commands", fmt::format("{} applied, {} of them late, none refused", applied_, late_)},
+      {"global", "all values finite"},
       {"volume", fmt::format("smallest det F {:.4g}", min_j_)},
       {"bodies", "poses and twists finite, quaternions of unit length"},
       {"impulse", fmt::format("forces add up to the impulses, within {:.2g} of them", worst_impulse_)},
@@ -225,11 +291,14 @@ std::vector<CheckResult> RunChecks::results() const {
                    worst_reaction_)},
       {"particles",
        fmt::format("{} snapshots, all values finite", snapshots == spacing_.end() ? 0 : snapshots->second.count)},
-      {"complete", "every topic and every body is there"}};
+      {"complete", "every topic and every body is there"},
+      {"run", "did not fail"}};
   std::vector<CheckResult> results;
   for (const auto& [name, detail] : passed) {
     const auto failure = failures.find(name);
-    if (failure == failures.end()) {
+    if (failure == failures.end() && not_made.count(name) > 0) {
+      results.push_back({name, true, not_made.at(name), false});
+    } else if (failure == failures.end()) {
       results.push_back({name, true, detail});
     } else {
       results.push_back({name, false, failure->second});

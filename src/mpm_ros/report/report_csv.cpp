@@ -26,6 +26,7 @@ CsvExport::CsvExport(const std::string& folder, bool axisymmetric)
       contact_pairs_(folder),
       bodies_(folder),
       solver_state_(folder),
+      global_quantities_(folder),
       commands_(folder) {}
 
 void CsvExport::contact_forces(std::int64_t time, const ContactForces& message) {
@@ -39,6 +40,12 @@ void CsvExport::bodies(std::int64_t time, const BodyStates& message) {
 
 void CsvExport::solver_state(std::int64_t time, const SolverState& message) {
   solver_state_.add(solver_state_of(time, message), message.real_time_factor);
+}
+
+void CsvExport::global_quantities(std::int64_t time, const GlobalQuantities& message) {
+  if (message.units.size() != message.names.size())
+    throw BagError("global_quantities: as many units as names are needed");
+  global_quantities_.add(seconds(time), message.names, message.units, message.values);
 }
 
 void CsvExport::command(std::int64_t time, const Command& message) { commands_.add(command_row_of(time, message)); }
@@ -55,6 +62,7 @@ void CsvExport::close() {
   contact_pairs_.close();
   bodies_.close();
   solver_state_.close();
+  global_quantities_.close();
   commands_.close();
 }
 

@@ -109,6 +109,11 @@ Json report_json(const RecordedRun& run) {
   for (const BodyStatistics& body : statistics.body_statistics()) json["bodies"][body.name] = body_json(body);
   json["contact_pairs"] = Json::object();
   for (const PairStatistics& pair : statistics.pair_statistics()) json["contact_pairs"][pair.name] = pair_json(pair);
+  json["global_quantities"] = Json::object();
+  for (const GlobalStatistics& one : statistics.global_statistics()) {
+    json["global_quantities"][one.name] = {
+        {"unit", one.unit}, {"start", one.first}, {"end", one.last}, {"min", one.least}, {"max", one.most}};
+  }
   json["commands"] = Json::array();
   for (const auto& [key, value] : statistics.commands()) {
     json["commands"].push_back({{"body", key.first},

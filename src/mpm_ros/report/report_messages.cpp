@@ -42,6 +42,7 @@ mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message) 
     state.audit.impulses.push_back({impulse.name, from_message(impulse.impulse)});
   }
   state.audit.exchanged = message.momentum_exchanged;
+  state.audit.carried = message.momentum_carried;
   state.audit.residual = message.momentum_error;
   state.particles = message.particles;
   state.returned = message.particles_returned;

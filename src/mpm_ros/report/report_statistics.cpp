@@ -75,6 +75,17 @@ void RunStatistics::solver_state(std::int64_t /*time*/, const SolverState& messa
   worst_audit_ = std::max(worst_audit_, message.momentum_error);
 }
 
+void RunStatistics::global_quantities(std::int64_t /*time*/, const GlobalQuantities& message) {
+  for (std::size_t i = 0; i < std::min({message.names.size(), message.units.size(), message.values.size()}); ++i) {
+    const double value = message.values[i];
+    if (i == global_.size()) global_.push_back({message.names[i], message.units[i], value});
+    GlobalStatistics& known = global_[i];
+    known.last = value;
+    known.least = std::min(known.least, value);
+    known.most = std::max(known.most, value);
+  }
+}
+
 void RunStatistics::command(std::int64_t time, const Command& message) {
   CommandStatistics& known = commands_[{message.body, command_kind_name(message.kind)}];
   if (known.count++ == 0) known.first = time;

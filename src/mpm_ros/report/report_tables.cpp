@@ -150,6 +150,16 @@ std::string audit_table(const RunStatistics& statistics) {
                      table.text(), number(last.momentum_exchanged), last.momentum_error);
 }
 
+/// Of scenes that ask for global quantities; else nothing.
+std::string global_table(const RunStatistics& statistics) {
+  if (statistics.global_statistics().empty()) return {};
+  TextTable table({"quantity", "unit", "start", "end", "least", "most"});
+  for (const GlobalStatistics& one : statistics.global_statistics()) {
+    table.add({one.name, one.unit, number(one.first), number(one.last), number(one.least), number(one.most)});
+  }
+  return "Global quantities\n" + table.text() + "\n";
+}
+
 std::string command_table(const RunStatistics& statistics) {
   if (statistics.commands().empty()) return "Commands: none; the bodies followed the scene\n";
   TextTable table({"commands", "kind", "applied", "first [s]", "last [s]", "late"});
@@ -194,7 +204,7 @@ std::string tables(const RecordedRun& run) {
                                             pair_table(statistics) + motion_table(statistics),
                                             energy_table(statistics),
                                             audit_table(statistics),
-                                            command_table(statistics),
+                                            global_table(statistics) + command_table(statistics),
                                             gap_lines(run.gaps)};
   return fmt::format("{}", fmt::join(parts, "\n"));
 }
@@ -202,7 +212,7 @@ std::string tables(const RecordedRun& run) {
 std::string check_lines(const std::vector<CheckResult>& results) {
   std::string text;
   for (const CheckResult& result : results) {
-    text += fmt::format("{:<6}{:<11}{}\n", !result.made ? "-" : (result.passed ? "ok" : "FAIL"), result.name,
+    text += fmt::format("{:<6}{:<11}{}\n", !result.made ? "-" : (result.passed ? "PASS" : "FAIL"), result.name,
                         result.detail);
   }
   return text;

@@ -1,14 +1,14 @@
 #include "mpm_ros/run/bag_recorder.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <ros/message_traits.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 
+#include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/topics.hpp"
 
 namespace mpm_ros {
@@ -22,9 +22,6 @@ rosbag::CompressionType compression(const std::string& name) {
   throw BagError(fmt::format("there is no bag compression '{}'; use none, lz4 or bz2", name));
 }
 
-/// Topics that players should offer to late subscribers too.
-bool is_latched(const std::string& topic) { return topic == topics::kRunInfo || topic == topics::kMarkers; }
-
 template <typename Message>
 boost::shared_ptr<ros::M_string> latched_header(const std::string& topic) {
   auto header = boost::make_shared<ros::M_string>();
@@ -36,12 +33,21 @@ boost::shared_ptr<ros::M_string> latched_header(const std::string& topic) {
   return header;
 }
 
+/// The system's reason where it has one; rosbag's own names no cause.
+std::string reason_of(const rosbag::BagException& error, int code) {
+  for (const int known : {ENOSPC, EFBIG, EDQUOT, EIO, EROFS, EACCES}) {
+    if (code == known) return std::strerror(code);
+  }
+  return error.what();
+}
+
 }  // namespace
 
 BagRecorder::BagRecorder(const std::string& path, const BagOptions& options)
-    : path_(path), prefix_(options.topics_below) {
+    : path_(path), options_(options), prefix_(options.topics_below) {
   if (prefix_.empty() || prefix_.front() != '/') prefix_.insert(prefix_.begin(), '/');
   if (prefix_.back() != '/') prefix_.push_back('/');
+  compression(options.compression);
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
   if (!std::filesystem::is_directory(folder)) {
     throw BagError(
@@ -50,10 +56,13 @@ BagRecorder::BagRecorder(const std::string& path, const BagOptions& options)
   if (access(folder.c_str(), W_OK) != 0) {
     throw BagError(fmt::format("bag {}: the folder {} is not writable; choose another path", path, folder.string()));
   }
+  std::error_code ignored;
+  replaced_ = std::filesystem::is_regular_file(path, ignored);
+  replaced_ = remove_later_parts(path) > 0 || replaced_;
   try {
-    bag_.open(path, rosbag::bagmode::Write);
-    bag_.setCompression(compression(options.compression));
+    open();
   } catch (const rosbag::BagException& error) {
+    static_cast<void>(bag_.release());  // as in give_up()
     throw BagError(fmt::format("bag {} cannot be written: {}", path, error.what()));
   }
 }
@@ -66,13 +75,70 @@ BagRecorder::~BagRecorder() {
   }
 }
 
-void BagRecorder::close() {
-  if (!bag_.isOpen()) return;
+void BagRecorder::open() {
+  bag_ = std::make_unique<rosbag::Bag>();
+  bag_->open(part_path(path_, part_), rosbag::bagmode::Write);
+  bag_->setCompression(compression(options_.compression));
+  chunk_began_ = std::chrono::steady_clock::now();
+}
+
+template <typename Work>
+void BagRecorder::on_disk(const Work& work) {
+  errno = 0;
   try {
-    bag_.close();
+    work();
   } catch (const rosbag::BagException& error) {
-    throw BagError(fmt::format("bag {} could not be closed: {}", path_, error.what()));
+    give_up(reason_of(error, errno));
   }
+}
+
+void BagRecorder::give_up(const std::string& reason) {
+  // Never destroyed: rosbag's destructor writes the index, and an error in it would end the process.
+  static_cast<void>(bag_.release());
+  const std::string part = part_path(path_, part_);
+  failure_ = fmt::format(
+      "bag {}: cannot be written any further ({}); make room, or record to another disk. What is in it up to the last "
+      "whole chunk is kept: bag_report reads it, `rosbag reindex {}` repairs it",
+      part, reason, part);
+  if (options_.required) throw BagError(failure_);
+}
+
+void BagRecorder::sync_point() {
+  if (!bag_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (!started_ || now - chunk_began_ >= kChunkPeriod) {
+    started_ = true;
+    chunk_began_ = now;
+    // Setting the threshold ends the present chunk.
+    on_disk([this] { bag_->setChunkThreshold(bag_->getChunkThreshold()); });
+    if (!bag_) return;
+  }
+  const bool large = options_.split_size > 0 && bag_->getSize() >= options_.split_size;
+  const bool late = options_.split_duration > 0 && last_.toNSec() >= end_;
+  part_over_ = large || late;
+}
+
+void BagRecorder::close() {
+  if (!bag_) return;
+  on_disk([this] {
+    bag_->close();
+    bag_.reset();
+  });
+}
+
+void BagRecorder::begin_part(const ros::Time& stamp) {
+  part_over_ = false;
+  const auto duration = static_cast<std::uint64_t>(options_.split_duration);
+  while (duration > 0 && end_ <= last_.toNSec()) end_ += duration;
+  bag_->close();
+  ++part_;
+  open();
+  if (info_) {
+    info_->header.stamp = stamp;
+    info_->part = static_cast<std::uint32_t>(part_);
+    write_latched(topics::kRunInfo, stamp, *info_);
+  }
+  if (markers_) write_latched(topics::kMarkers, stamp, *markers_);
 }
 
 std::string BagRecorder::resolve(const std::string& topic) const {
@@ -80,25 +146,38 @@ std::string BagRecorder::resolve(const std::string& topic) const {
 }
 
 template <typename Message>
-void BagRecorder::write(const std::string& topic, const ros::Time& stamp, const Message& message) {
+void BagRecorder::write_latched(const std::string& topic, const ros::Time& stamp, const Message& message) {
   const std::string name = resolve(topic);
-  try {
-    if (is_latched(topic)) {
-      bag_.write(name, stamp, message, latched_header<Message>(name));
-    } else {
-      bag_.write(name, stamp, message);
+  bag_->write(name, stamp, message, latched_header<Message>(name));
+}
+
+template <typename Message>
+void BagRecorder::write(const std::string& topic, const ros::Time& stamp, const Message& message) {
+  if (!bag_) return;
+  on_disk([&] {
+    if (part_over_) begin_part(stamp);
+    if (end_ == 0) {
+      // Time zero may be stamped a nanosecond late.
+      const std::uint64_t begin = stamp == ros::TIME_MIN ? 0 : stamp.toNSec();
+      end_ = begin + static_cast<std::uint64_t>(options_.split_duration);
     }
-  } catch (const rosbag::BagException& error) {
-    throw BagError(fmt::format("bag {}: {} could not be written: {}; is the disk full?", path_, name, error.what()));
-  }
+    bag_->write(resolve(topic), stamp, message);
+    last_ = stamp;
+  });
 }
 
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const RunInfo& message) {
-  write(topic, stamp, message);
+  if (!bag_) return;
+  info_ = message;
+  info_->part = static_cast<std::uint32_t>(part_);
+  on_disk([&] { write_latched(topic, stamp, *info_); });
 }
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp,
                       const visualization_msgs::MarkerArray& message) {
-  write(topic, stamp, message);
+  if (topic != topics::kMarkers) return write(topic, stamp, message);
+  if (!bag_) return;
+  markers_ = message;
+  on_disk([&] { write_latched(topic, stamp, message); });
 }
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const ContactForces& message) {
   write(topic, stamp, message);
@@ -112,6 +191,9 @@ void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Bo
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const SolverState& message) {
   write(topic, stamp, message);
 }
+void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const GlobalQuantities& message) {
+  write(topic, stamp, message);
+}
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) {
   write(topic, stamp, message);
 }
@@ -120,18 +202,6 @@ void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const se
 }
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Command& message) {
   write(topic, stamp, message);
-}
-
-std::string bag_path(const std::string& path, const std::string& scene, int run) {
-  std::string result = path;
-  if (path == "auto") {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    result = fmt::format("./mpm_{}_{:%Y-%m-%d-%H-%M-%S}.bag", scene, fmt::localtime(now));
-  }
-  if (run <= 1) return result;
-  const std::filesystem::path whole(result);
-  return (whole.parent_path() / fmt::format("{}_{}{}", whole.stem().string(), run, whole.extension().string()))
-      .string();
 }
 
 }  // namespace mpm_ros

@@ -1,6 +1,9 @@
 #include "mpm_ros/run/run.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <filesystem>
 
 namespace mpm_ros {
 
@@ -8,17 +11,58 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
     : scene_(scene),
       parameters_(options.parameters),
       stamps_(stamps),
-      simulation_(mpm::build(scene), mpm::SimulationOptions{options.threads, mpm::choose_isa(options.isa)}),
+      simulation_(mpm::build(scene),
+                  mpm::SimulationOptions{options.threads, mpm::choose_isa(options.isa), options.resume.empty()}),
       end_(std::llround(scene.definition.time.end * 1e9)),
-      recorder_(options.bag.empty() ? nullptr : std::make_unique<BagRecorder>(options.bag, options.bag_options)),
       outputs_(simulation_, stamps_, options.output) {
+  if (!options.resume.empty()) {
+    const mpm::KeepMore both = [&](mpm::StateArchive& archive) { keep(archive, options.more); };
+    from_ = mpm::load_checkpoint(options.resume, simulation_, scene.text, both).time;
+    resumed_ = true;
+  }
+  // After it: a checkpoint that does not fit leaves no bag behind.
+  if (!options.bag.empty()) recorder_ = std::make_unique<BagRecorder>(options.bag, options.bag_options);
   if (recorder_) outputs_.add(*recorder_);
   if (live != nullptr) outputs_.add(*live);
 }
 
 void Run::begin() {
-  outputs_.begin(run_info(scene_, simulation_, stamps_, parameters_));
+  const RunInfo info = run_info(scene_, simulation_, stamps_, parameters_);
+  if (resumed_) {
+    outputs_.begin_again(info);
+  } else {
+    outputs_.begin(info);
+  }
+  if (recorder_) recorder_->sync_point();
   resume_clock();
+}
+
+// What the node keeps beside is there when the node has saved; run_scene has no commands that could wait.
+void Run::keep(mpm::StateArchive& archive, const mpm::KeepMore& more) {
+  {
+    const mpm::StateArchive::Group group(archive, "outputs");
+    outputs_.keep(archive);
+  }
+  bool commanded = static_cast<bool>(more);
+  archive.keep("commanded", commanded);
+  if (!commanded) return;
+  if (more) {
+    more(archive);
+    return;
+  }
+  std::uint64_t waiting = 0;
+  archive.keep("queue/waiting/rows", waiting);
+  if (waiting > 0) {
+    throw mpm::CheckpointError(
+        fmt::format("the checkpoint has {} commands that wait for their time, which the node alone can give: resume it "
+                    "there, _resume:=FILE",
+                    waiting));
+  }
+}
+
+mpm::CheckpointAbout Run::save(const std::string& path, const mpm::KeepMore& more, const std::string& failure) {
+  return mpm::save_checkpoint(path, simulation_, {std::filesystem::absolute(scene_.path).string(), scene_.text, failure},
+                              [&](mpm::StateArchive& archive) { keep(archive, more); });
 }
 
 void Run::apply(const AppliedCommand& command) {
@@ -32,11 +76,18 @@ void Run::advance() {
   wall_ += now - clock_;
   clock_ = now;
   outputs_.sync(ended(), real_time_factor());
+  if (recorder_) recorder_->sync_point();
 }
 
 double Run::real_time_factor() const {
   const double wall = std::chrono::duration<double>(wall_).count();
-  return wall > 0.0 ? static_cast<double>(simulation_.time()) * 1e-9 / wall : 0.0;
+  return wall > 0.0 ? static_cast<double>(simulation_.time() - from_) * 1e-9 / wall : 0.0;
+}
+
+std::string Run::bag() const {
+  if (!recorder_) return {};
+  return recorder_->parts() == 1 ? recorder_->path()
+                                 : fmt::format("{} and {} more parts", recorder_->path(), recorder_->parts() - 1);
 }
 
 void Run::finish() { close({}); }

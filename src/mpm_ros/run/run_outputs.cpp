@@ -1,11 +1,15 @@
 #include "mpm_ros/run/run_outputs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/run/scene_files.hpp"
 
 namespace mpm_ros {
 
@@ -24,8 +28,11 @@ constexpr double kArrowLength = 0.25;
 OutputOptions output_options(const mpm::Scene& scene) {
   OutputOptions options;
   options.particles.fields = scene.output.particle_fields;
-  options.particles.stride = scene.output.particle_stride;
+  options.particles.choice = {scene.output.particle_stride, scene.output.particle_region};
+  options.global = scene.output.global;
+  options.global_period = scene.output.global_period;
   options.particle_period = scene.output.period;
+  options.particle_first = scene.output.first;
   return options;
 }
 
@@ -35,7 +42,8 @@ RunInfo run_info(const mpm::Scene& scene, const mpm::Simulation& simulation, con
   info.header.stamp = stamps.at(simulation.time());
   info.scene = scene.definition.name;
   info.scene_text = scene.text;
-  info.scene_path = scene.path;
+  info.scene_path = std::filesystem::absolute(scene.path).string();
+  info.files = scene_files(scene.text, scene.path);
   info.isa = simulation.isa();
   info.sync_period = static_cast<double>(simulation.sync_period()) * 1e-9;
   info.start = stamps.origin();
@@ -49,13 +57,31 @@ RunOutputs::RunOutputs(mpm::Simulation& simulation, const Stamps& stamps, Output
       stamps_(stamps),
       options_(std::move(options)),
       particle_period_(in_syncs(options_.particle_period, simulation.sync_period())),
+      particle_first_(options_.particle_first > 0.0 ? in_syncs(options_.particle_first, simulation.sync_period()) : 0),
       wrench_period_(in_syncs(options_.wrench_period, simulation.sync_period())),
+      global_period_(in_syncs(options_.global_period, simulation.sync_period())),
       cloud_(options_.particles),
+      global_(simulation, options_.global),
       force_markers_(options_.force_scale,
                      kArrowLength * (simulation.definition().grid.max - simulation.definition().grid.min).maxCoeff()) {
   for (const mpm::BodyState& body : simulation.bodies()) {
     wrench_topics_.push_back(topics::of_body(body.name, topics::kWrench));
+    filtered_topics_.push_back(topics::of_body(body.name, topics::kWrenchFiltered));
   }
+  if (mpm::Simulation::needs_start(options_.particles.fields)) simulation.keep_start();
+  if (options_.wrench_cutoff > 0.0) {
+    const double period = static_cast<double>(simulation.sync_period()) * 1e-9;
+    if (!(options_.wrench_cutoff < 0.5 / period)) {
+      throw mpm::DefinitionError(fmt::format(
+          "the cutoff of the filtered wrenches, {} Hz, is not below half of the rate of sync points, {} Hz; "
+          "lower it, or time.sync",
+          options_.wrench_cutoff, 0.5 / period));
+    }
+    filters_.assign(wrench_topics_.size(), WrenchFilter(options_.wrench_cutoff, period));
+    filtered_.resize(wrench_topics_.size());
+  }
+  global_message_.names = global_.names();
+  global_message_.units = global_.units();
 }
 
 ros::Time RunOutputs::stamp() const { return stamps_.at(simulation_.time()); }
@@ -86,6 +112,43 @@ void RunOutputs::begin(const RunInfo& info) {
   write_contacts();
   write_state(options_.state_hash, 0.0);
   write_particles();
+  write_global();
+}
+
+void RunOutputs::begin_again(const RunInfo& info) {
+  put(topics::kRunInfo, info);
+  if (wanted(topics::kMarkers)) put(topics::kMarkers, shape_markers(simulation_));
+  write_bodies();
+  write_state(options_.state_hash, 0.0);
+  write_particles();
+  if (!global_.empty()) global_.read();  // contact forces are means from here
+}
+
+void RunOutputs::keep(mpm::StateArchive& archive) {
+  {
+    const mpm::StateArchive::Group group(archive, "contacts");
+    contacts_.keep(archive);
+  }
+  {
+    const mpm::StateArchive::Group group(archive, "average");
+    average_.keep(archive);
+  }
+  std::uint64_t filters = filters_.size();
+  archive.keep("filters", filters);
+  // Another cutoff than when it was saved is another filter, which begins.
+  double cutoff = options_.wrench_cutoff;
+  archive.keep("wrench_cutoff", cutoff);
+  for (std::size_t body = 0; filters == filters_.size() && cutoff == options_.wrench_cutoff && body < filters; ++body) {
+    const mpm::StateArchive::Group group(archive, fmt::format("filter{}", body));
+    filters_[body].keep(archive);
+  }
+  {
+    const mpm::StateArchive::Group group(archive, "global");
+    global_.keep(archive);
+  }
+  archive.keep("applied", applied_);
+  archive.keep("late", late_);
+  archive.keep("refused", refused_);
 }
 
 void RunOutputs::command(const AppliedCommand& command) {
@@ -102,8 +165,14 @@ void RunOutputs::sync(bool last, double real_time_factor) {
     write_contacts();
     write_state(last || options_.state_hash, real_time_factor);
   }
-  if (last || time % particle_period_ == 0) write_particles();
+  if (last || time % global_period_ == 0) write_global();
+  if (last || particles_due()) write_particles();
   finished_ = last;
+}
+
+bool RunOutputs::particles_due() const {
+  const std::int64_t since = simulation_.time() - particle_first_;
+  return since >= 0 && since % particle_period_ == 0;
 }
 
 void RunOutputs::finish(double real_time_factor, const std::string& failure) {
@@ -119,6 +188,7 @@ void RunOutputs::finish(double real_time_factor, const std::string& failure) {
   }
   write_state(true, real_time_factor);
   if (failed || particles_at_ != simulation_.time()) write_particles();
+  if (failed || global_at_ != simulation_.time()) write_global();
 }
 
 void RunOutputs::count_commands(std::uint64_t late, std::uint64_t refused) {
@@ -133,6 +203,11 @@ void RunOutputs::read_contacts() {
   }
   contacts_.pairs = simulation_.take_pairs();
   average_.add(contacts_);
+  if (filters_.empty()) return;
+  const std::vector<mpm::BodyState> bodies = simulation_.bodies();
+  for (std::size_t body = 0; body < filters_.size(); ++body) {
+    filtered_[body] = filters_[body].filter(in_body_axes(contacts_.bodies[body].mean, bodies[body].pose.orientation));
+  }
 }
 
 ContactForces RunOutputs::contact_forces(const Contacts& contacts) const {
@@ -162,13 +237,27 @@ void RunOutputs::write_contacts() {
     message.wrench = to_message(in_body_axes(contacts.bodies[body].mean, bodies[body].pose.orientation));
     put(wrench_topics_[body], message);
   }
+  for (std::size_t body = 0; body < filters_.size(); ++body) {
+    if (!wanted(filtered_topics_[body])) continue;
+    geometry_msgs::WrenchStamped message;
+    message.header = header(bodies[body].name);
+    message.wrench = to_message(filtered_[body]);
+    put(filtered_topics_[body], message);
+  }
   if (wanted(topics::kForceMarkers)) {
     put(topics::kForceMarkers, force_markers_.markers(contacts.bodies, options_.world_frame, stamp()));
   }
 }
 
 void RunOutputs::write_bodies() {
-  if (wanted(topics::kTf)) put(topics::kTf, to_transforms(simulation_.bodies(), options_.world_frame, stamp()));
+  if (wanted(topics::kTf)) {
+    std::vector<mpm::BodyState> own = simulation_.bodies();
+    const auto elsewhere = [this](const mpm::BodyState& body) {
+      return std::find(options_.others.begin(), options_.others.end(), body.name) != options_.others.end();
+    };
+    own.erase(std::remove_if(own.begin(), own.end(), elsewhere), own.end());
+    put(topics::kTf, to_transforms(own, options_.world_frame, stamp()));
+  }
   if (wanted(topics::kBodies)) put(topics::kBodies, body_states());
 }
 
@@ -177,6 +266,7 @@ void RunOutputs::write_state(bool with_hash, double real_time_factor) {
   SolverState message = to_message(simulation_.state());
   message.header = header(options_.world_frame);
   message.real_time_factor = real_time_factor;
+  message.overruns = overruns_;
   message.commands_applied = applied_;
   message.commands_late = late_;
   message.commands_refused = refused_;
@@ -193,6 +283,14 @@ void RunOutputs::write_particles() {
   cloud_.read(simulation_);
   cloud_.message().header = header(options_.world_frame);
   put(topics::kParticles, cloud_.message());
+}
+
+void RunOutputs::write_global() {
+  global_at_ = simulation_.time();
+  if (global_.empty() || !wanted(topics::kGlobalQuantities)) return;
+  global_message_.header = header(options_.world_frame);
+  global_message_.values = global_.read();
+  put(topics::kGlobalQuantities, global_message_);
 }
 
 }  // namespace mpm_ros

@@ -2,17 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "mpm/scene/explain.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/scene/units.hpp"
+#include "mpm_ros/command/command_log.hpp"
+#include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/progress_bar.hpp"
+#include "mpm_ros/run/output_names.hpp"
+#include "mpm_ros/run/rerun.hpp"
 #include "mpm_ros/run/run.hpp"
+#include "mpm_ros/run/run_scene_checkpoint.hpp"
 #include "mpm_ros/run/run_scene_csv.hpp"
 #include "mpm_ros/run/run_scene_summary.hpp"
+#include "mpm_ros/run/run_scene_vtk.hpp"
+#include "mpm_ros/run/scene_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -26,10 +37,19 @@ mpm::Isa instruction_set(const RunSceneOptions& options) {
   }
 }
 
+/// The recorded scene, to where the recording ends.
+mpm::Scene recorded_scene(const RunSceneOptions& options, const Rerun& rerun) {
+  mpm::Scene scene = mpm::parse_scene(rerun.info.scene_text, rerun.info.scene_path, options.set);
+  // What failed is given the time to fail again.
+  const std::int64_t after = rerun.failed ? 2 * scene.definition.time.sync : 0;
+  scene.definition.time.end = static_cast<double>(rerun.end + after) * 1e-9;
+  return scene;
+}
+
 /// Before the summary is opened: what is refused here leaves that of an earlier run as it is.
-mpm::Scene load(const RunSceneOptions& options) {
+mpm::Scene load(const RunSceneOptions& options, const std::optional<Rerun>& rerun) {
   instruction_set(options);
-  mpm::Scene scene = mpm::load_scene(options.scene, options.set);
+  mpm::Scene scene = rerun ? recorded_scene(options, *rerun) : scene_of(options);
   if (options.end.empty()) return scene;
   // The sync and output periods stay the scene's: a shorter run is the beginning of the longer one, bit for bit.
   double end = 0.0;
@@ -54,6 +74,33 @@ std::ofstream open_summary(const std::string& path) {
   return file;
 }
 
+/// "500 MB" or "10 s". @throws mpm::SceneError
+void read_split(const std::string& text, BagOptions& bag) {
+  if (text.empty()) return;
+  const std::size_t unit = text.find_last_of("0123456789. ");
+  const std::string last = unit == std::string::npos ? text : text.substr(unit + 1);
+  double size = 0.0;
+  std::string rest;
+  for (const auto& [name, bytes] : {std::pair<const char*, double>{"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}}) {
+    if (last != name) continue;
+    if (mpm::split_number(text, size, rest) && size * bytes >= 1.0 && size * bytes < 1e15) {
+      bag.split_size = static_cast<std::uint64_t>(size * bytes);
+      return;
+    }
+  }
+  double time = 0.0;
+  try {
+    if (!last.empty()) time = mpm::parse_quantity(text, mpm::kTime);
+  } catch (const mpm::UnitError&) {
+    // Neither a size nor a time.
+  }
+  if (!(time > 0.0 && time < 1e9)) {
+    throw mpm::SceneError(fmt::format(
+        "--bag-split: '{}' is neither a size nor a time with its unit; write one such as 500 MB or 10 s", text));
+  }
+  bag.split_duration = std::llround(time * 1e9);
+}
+
 void check_fields(const OutputOptions& output) {
   const std::string problem = problem_of(output.particles);
   if (!problem.empty()) throw mpm::SceneError(fmt::format("output: {}", problem));
@@ -62,59 +109,152 @@ void check_fields(const OutputOptions& output) {
 /// The run with its sinks, from beginning to end.
 class OfflineRun {
  public:
-  explicit OfflineRun(const RunSceneOptions& options) : scene_(load(options)), summary_(open_summary(options.summary)) {
+  explicit OfflineRun(const RunSceneOptions& options)
+      : options_(options),
+        rerun_(read(options)),
+        scene_(load(options_, rerun_)),
+        checkpoints_(options, scene_.definition.time.sync) {
     if (!(scene_.definition.time.end > 0.0)) {
       throw mpm::SceneError(
           fmt::format("{}: time.end: the scene has no end; give one with --end, or --set time.end=2", scene_.path));
     }
     RunOptions run_options;
-    run_options.threads = options.threads;
-    run_options.isa = options.isa;
+    run_options.threads = options_.threads;
+    run_options.isa = options_.isa;
     run_options.output = output_options(scene_);
     check_fields(run_options.output);
-    if (!options.bag.empty()) run_options.bag = bag_path(options.bag, scene_.definition.name, 1);
-    if (!options.end.empty()) run_options.parameters = fmt::format("end: {:.17g}\n", scene_.definition.time.end);
-    if (!options.csv.empty())
-      csv_ = std::make_unique<CsvSink>(options.csv, stamps_, mpm::axisymmetric(scene_.definition.geometry));
+    run_options.bag_options.compression = options_.bag_compression;
+    read_split(options_.bag_split, run_options.bag_options);
+    if (rerun_) choose_as_recorded(run_options);
+    if (!options_.out.empty()) choose_folder();
+    summary_ = open_summary(options_.summary);
+    if (!options_.bag.empty()) run_options.bag = bag_path(options_.bag, scene_.definition.name, 1);
+    if (!options_.end.empty()) run_options.parameters += fmt::format("end: {:.17g}\n", scene_.definition.time.end);
+    if (!options_.resume.empty()) resume_from(options_.resume, run_options);
+    if (!options_.csv.empty())
+      csv_ = std::make_unique<CsvSink>(options_.csv, stamps_, mpm::axisymmetric(scene_.definition.geometry));
+    if (!options_.vtk.empty()) vtk_ = std::make_unique<VtkSink>(options_.vtk, stamps_);
     run_ = std::make_unique<Run>(scene_, run_options, stamps_, csv_.get());
+    if (vtk_) run_->add(*vtk_);
+    commands_.skip_to(run_->simulation().time());
   }
 
   RunSceneResult go(std::ostream& out, std::ostream& err, bool bar, const std::function<bool()>& stop_requested) {
     const mpm::Simulation& simulation = run_->simulation();
     for (const std::string& warning : simulation.warnings()) err << "warning: " << warning << "\n";
     for (const std::string& note : simulation.notes()) err << note << "\n";
+    for (std::size_t body = 0; body < scene_.commands.size(); ++body) {
+      if (scene_.commands[body].frame.empty()) continue;
+      err << fmt::format("warning: '{}' stands still: only the node follows a tf frame (drive: tf)\n",
+                         scene_.definition.rigid_bodies[body].name);
+    }
     const mpm::EnergyReport start_energy = simulation.state().energy;
     ProgressBar progress(err, bar);
     const double end = static_cast<double>(run_->end());
     const auto where = [&] {
       return fmt::format("t = {:.4g} of {:.4g} s", static_cast<double>(simulation.time()) / 1e9, end / 1e9);
     };
+    for (const std::string& note : notes_) err << note << "\n";
+    if (run_->recorder() != nullptr && run_->recorder()->replaced())
+      err << "note: the recording " << run_->bag() << " is replaced\n";
     RunSceneResult result = RunSceneResult::done;
     try {
-      run_->begin();
-      while (!run_->ended() && !stop_requested()) {
-        run_->advance();
-        progress.show(static_cast<double>(simulation.time()) / end, where);
+      try {
+        run_->begin();
+        while (!run_->ended() && !stop_requested()) {
+          for (const AppliedCommand& command : commands_.take(simulation)) run_->apply(command);
+          run_->advance();
+          checkpoints_.at_sync(*run_, err);
+          if (check_) check_->look(simulation);
+          progress.show(static_cast<double>(simulation.time()) / end, where);
+        }
+        progress.clear();
+        if (!run_->ended()) {
+          err << fmt::format("stopped at t = {:g} s, before the end\n", static_cast<double>(simulation.time()) / 1e9);
+          if (check_) check_->differs("it was stopped before its end");
+        }
+        run_->finish();
+      } catch (const mpm::PhysicsError& error) {
+        progress.clear();
+        err << "run_scene: " << error.what() << "\n";
+        result = RunSceneResult::physics_failed;
+        run_->fail(error.what());
+        checkpoints_.at_failure(*run_, error.what(), err);
+        if (check_) check_->look(simulation);
       }
-      progress.clear();
-      if (!run_->ended())
-        err << fmt::format("stopped at t = {:g} s, before the end\n", static_cast<double>(simulation.time()) / 1e9);
-      run_->finish();
-    } catch (const mpm::PhysicsError& error) {
+    } catch (const BagError& error) {
+      // Only the record cannot go on; what else was asked for is written.
       progress.clear();
       err << "run_scene: " << error.what() << "\n";
-      run_->fail(error.what());
-      result = RunSceneResult::physics_failed;
+      result = RunSceneResult::machine_failed;
     }
     if (csv_) csv_->close();
+    if (vtk_) vtk_->close();
     const RunSummary summary(scene_, simulation, start_energy, run_->outputs().contacts());
     out << summary.text();
     write(summary);
     if (!run_->bag().empty()) out << "  bag " << run_->bag() << "\n";
+    if (!options_.out.empty()) out << "  all in " << options_.out << "\n";
+    if (check_ && result != RunSceneResult::machine_failed) {
+      (check_->passed() ? out << "  " : err << "run_scene: ") << check_->verdict() << "\n";
+      if (!check_->passed()) result = RunSceneResult::another_state;
+    }
+    if (result == RunSceneResult::done) checkpoints_.at_end(*run_, out);
     return result;
   }
 
  private:
+  static std::optional<Rerun> read(const RunSceneOptions& options) {
+    if (options.from_bag.empty()) return std::nullopt;
+    if (!options.scene.empty()) {
+      throw mpm::SceneError(
+          fmt::format("--from-bag {}: the bag holds its scene; leave out {}", options.from_bag, options.scene));
+    }
+    std::error_code ignored;
+    for (const std::string& part : parts_of(options.from_bag)) {
+      if (!options.bag.empty() && std::filesystem::equivalent(options.bag, part, ignored))
+        throw mpm::SceneError(fmt::format("--bag {}: is the recording that is run again; choose another", options.bag));
+    }
+    return read_rerun(options.from_bag);
+  }
+
+  /// Instruction set and commands of the recording; what makes it another run is noted.
+  void choose_as_recorded(RunOptions& run_options) {
+    const RunInfo& info = rerun_->info;
+    check_.emplace(*rerun_);
+    commands_ = CommandLog(rerun_->commands);
+    run_options.parameters = fmt::format("from_bag: {}\n", nlohmann::json(options_.from_bag).dump());
+    notes_.push_back(
+        fmt::format("{} again: recorded with version {}, instruction set {} and {} command{}, to t = {:g} s",
+                    info.scene, info.version, info.isa, rerun_->commands.size(),
+                    rerun_->commands.size() == 1 ? "" : "s", static_cast<double>(rerun_->end) * 1e-9));
+    for (const std::string& change : changed_files(info.files, info.scene_path)) {
+      notes_.push_back("warning: " + change);
+      check_->differs("a file of the scene has changed");
+    }
+    if (!options_.set.empty()) check_->differs("--set changes the scene");
+    if (!options_.end.empty()) check_->differs("--end changes the end");
+    const std::optional<mpm::Isa> recorded = mpm::find_isa(info.isa);
+    if (run_options.isa == "auto" && recorded && mpm::isa_available(*recorded)) run_options.isa = info.isa;
+    const std::string isa = mpm::isa_name(mpm::choose_isa(run_options.isa));
+    if (isa != info.isa) check_->differs(fmt::format("instruction set {} in place of {}", isa, info.isa));
+  }
+
+  /// A folder of its own, and in it all that was not given a place.
+  void choose_folder() {
+    options_.out = make_run_folder(options_.out, scene_.definition.name);
+    const auto place = [this](std::string& path, const char* name) {
+      if (path.empty()) path = options_.out + "/" + name;
+    };
+    place(options_.bag, "run.bag");
+    place(options_.csv, "csv");
+    place(options_.vtk, "vtk");
+    place(options_.summary, "summary.json");
+    std::ofstream text(options_.out + "/scene.yaml");
+    text << scene_.text << "\n";
+    if (!text.flush()) throw mpm::SceneError(fmt::format("--out: {}/scene.yaml cannot be written", options_.out));
+  }
+
   void write(const RunSummary& summary) {
     if (!summary_.is_open()) return;
     summary_ << summary.json().dump(2) << "\n";
@@ -122,10 +262,17 @@ class OfflineRun {
     if (!summary_) throw mpm::SceneError("--summary: cannot be written; check the space on its disk");
   }
 
+  RunSceneOptions options_;
+  const std::optional<Rerun> rerun_;
   const mpm::Scene scene_;
+  RunSceneCheckpoints checkpoints_;
   std::ofstream summary_;
   const Stamps stamps_;
+  CommandLog commands_;  ///< recorded ones, to be applied again
+  std::optional<RerunCheck> check_;
+  std::vector<std::string> notes_;
   std::unique_ptr<CsvSink> csv_;
+  std::unique_ptr<VtkSink> vtk_;
   std::unique_ptr<Run> run_;
 };
 
@@ -136,7 +283,8 @@ void list_scenes(std::ostream& out) {
 }
 
 void explain_scene(const RunSceneOptions& options, std::ostream& out) {
-  const mpm::Scene scene = load(options);
+  const mpm::Scene scene =
+      load(options, options.from_bag.empty() ? std::nullopt : std::optional<Rerun>(read_rerun(options.from_bag)));
   mpm::SimulationDefinition built = mpm::build(scene);
   out << mpm::explain(scene, built);
   const mpm::Simulation simulation(std::move(built), {options.threads, instruction_set(options)});
@@ -158,6 +306,8 @@ RunSceneResult run_scene(const RunSceneOptions& options, std::ostream& out, std:
   } catch (const BagError& error) {
     err << "run_scene: " << error.what() << "\n";
   } catch (const CsvError& error) {
+    err << "run_scene: " << error.what() << "\n";
+  } catch (const VtkError& error) {
     err << "run_scene: " << error.what() << "\n";
   }
   return RunSceneResult::bad_input;

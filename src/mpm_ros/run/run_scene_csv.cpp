@@ -14,8 +14,8 @@ void CsvSink::close() {
 
 bool CsvSink::wants(const std::string& topic) const {
   // The rest repeats these in another form, or is for displays.
-  for (const char* table :
-       {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kParticles, topics::kCommands}) {
+  for (const char* table : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kGlobalQuantities,
+                            topics::kParticles, topics::kCommands}) {
     if (topic == table) return true;
   }
   return topic == topics::kMarkers;
@@ -29,6 +29,9 @@ void CsvSink::put(const std::string&, const ros::Time& stamp, const BodyStates& 
 }
 void CsvSink::put(const std::string&, const ros::Time& stamp, const SolverState& message) {
   tables_.solver_state(stamps_.time_of(stamp), message);
+}
+void CsvSink::put(const std::string&, const ros::Time& stamp, const GlobalQuantities& message) {
+  tables_.global_quantities(stamps_.time_of(stamp), message);
 }
 void CsvSink::put(const std::string&, const ros::Time& stamp, const Command& message) {
   tables_.command(stamps_.time_of(stamp), message);

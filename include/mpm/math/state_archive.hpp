@@ -1,0 +1,171 @@
+// All that a run remembers, by name: numbers, and arrays of them, in groups. A class that has state says so in one
+// function, keep(StateArchive&), which serves to write and to read: so the two cannot part. What is found anew in every
+// step is not kept.
+//
+//   void Thing::keep(StateArchive& archive) {
+//     archive.keep("work", work_);
+//     archive.rows("held", held_);
+//     archive.column("held/node", held_, &Held::node);
+//   }
+//
+// Numbers are kept to the last bit. Where they go is the derived class's (simulation/hdf5_archive.hpp). Weak: reading
+// trusts the names; a class that keeps another set of numbers than before asks for a new version of the file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "mpm/math/geometry.hpp"
+
+namespace mpm {
+
+class StateArchive {
+ public:
+  enum class Number : std::uint8_t { float32, float64, int32, int64, uint8, uint32, uint64 };
+
+  StateArchive() = default;
+  StateArchive(const StateArchive&) = delete;
+  StateArchive& operator=(const StateArchive&) = delete;
+  virtual ~StateArchive() = default;
+
+  /// Whether what is kept takes the archive's values; else the archive takes them.
+  virtual bool reading() const = 0;
+
+  /// What is kept while it lives has names that begin with "name/".
+  class Group {
+   public:
+    Group(StateArchive& archive, const std::string& name) : archive_(archive), length_(archive.prefix_.size()) {
+      archive.prefix_ += name + "/";
+    }
+    Group(const Group&) = delete;
+    Group& operator=(const Group&) = delete;
+    ~Group() { archive_.prefix_.resize(length_); }
+
+   private:
+    StateArchive& archive_;
+    std::size_t length_;
+  };
+
+  /// A number, bool, enumeration, vector or quaternion.
+  template <class T>
+  void keep(const std::string& name, T& value) {
+    column_of(name, 1, [&value](std::size_t) -> T& { return value; });
+  }
+  void keep(const std::string& name, std::string& text) {
+    if (reading()) text.resize(stored(prefix_ + name));
+    values(prefix_ + name, Number::uint8, text.data(), text.size());
+  }
+  /// An array of such with resize() and data(): of numbers, kept as it lies in memory. Takes on the size that it had.
+  template <class List>
+  void list(const std::string& name, List& list) {
+    using Value = typename List::value_type;
+    if (reading()) {
+      const std::size_t size = stored(prefix_ + name) / Packed<Value>::kCount;
+      if (list.size() != size) list.resize(size);
+    }
+    if constexpr (std::is_arithmetic_v<Value>) {
+      values(prefix_ + name, number<Value>(), list.data(), list.size());
+    } else {
+      column_of(name, list.size(), [&list](std::size_t i) -> Value& { return list[i]; });
+    }
+  }
+  /// The number of entries of a list of structures, which takes it on.
+  template <class List>
+  void rows(const std::string& name, List& list) {
+    std::uint64_t size = list.size();
+    keep(name + "/rows", size);
+    if (reading()) list.resize(size);
+  }
+  /// One member of every entry of a list: a pointer to it, or a function that returns a reference to it.
+  template <class List, class Member>
+  void column(const std::string& name, List& list, Member member) {
+    column_of(name, list.size(), [&](std::size_t i) -> decltype(auto) { return std::invoke(member, list[i]); });
+  }
+  /// A count of sorts (BlockTable::generation()) that something was found at, by how many there have been since.
+  void keep_generation(const std::string& name, std::uint64_t& generation) {
+    std::uint64_t since = generation_ - generation;
+    keep(name, since);
+    if (reading()) generation = generation_ - since;
+  }
+  /// The count now; before what asks for keep_generation().
+  void set_generation(std::uint64_t generation) { generation_ = generation; }
+
+ protected:
+  /// Hands over, or fills, `count` numbers at `data`. @throws Error of the derived class
+  virtual void values(const std::string& name, Number number, void* data, std::size_t count) = 0;
+  /// Reading: how many numbers there are of that name. @throws Error of the derived class
+  virtual std::size_t stored(const std::string& name) = 0;
+
+ private:
+  /// What a value is made of: `Scalar` by kCount.
+  template <class T, class = void>
+  struct Packed;
+  template <class T>
+  struct Packed<T, std::enable_if_t<std::is_arithmetic_v<T>>> {
+    using Scalar = std::conditional_t<std::is_same_v<T, bool>, std::uint8_t, T>;
+    static constexpr std::size_t kCount = 1;
+    static void pack(const T& value, Scalar* to) { *to = static_cast<Scalar>(value); }
+    static void unpack(T& value, const Scalar* from) { value = static_cast<T>(*from); }
+  };
+  template <class T>
+  struct Packed<T, std::enable_if_t<std::is_enum_v<T>>> {
+    using Scalar = std::underlying_type_t<T>;
+    static constexpr std::size_t kCount = 1;
+    static void pack(const T& value, Scalar* to) { *to = static_cast<Scalar>(value); }
+    static void unpack(T& value, const Scalar* from) { value = static_cast<T>(*from); }
+  };
+  template <int Rows, int Columns>
+  struct Packed<Eigen::Matrix<double, Rows, Columns>, void> {
+    using Scalar = double;
+    static constexpr std::size_t kCount = Rows * Columns;
+    static void pack(const Eigen::Matrix<double, Rows, Columns>& value, double* to) {
+      for (std::size_t i = 0; i < kCount; ++i) to[i] = value.data()[i];
+    }
+    static void unpack(Eigen::Matrix<double, Rows, Columns>& value, const double* from) {
+      for (std::size_t i = 0; i < kCount; ++i) value.data()[i] = from[i];
+    }
+  };
+  template <class Unused>
+  struct Packed<Quat, Unused> {
+    using Scalar = double;
+    static constexpr std::size_t kCount = 4;  // x, y, z, w
+    static void pack(const Quat& value, double* to) {
+      for (int i = 0; i < 4; ++i) to[i] = value.coeffs()[i];
+    }
+    static void unpack(Quat& value, const double* from) {
+      for (int i = 0; i < 4; ++i) value.coeffs()[i] = from[i];
+    }
+  };
+
+  template <class T>
+  static constexpr Number number() {
+    if constexpr (std::is_floating_point_v<T>) return sizeof(T) == 4 ? Number::float32 : Number::float64;
+    if constexpr (sizeof(T) == 1) return Number::uint8;
+    if constexpr (std::is_signed_v<T>) return sizeof(T) == 4 ? Number::int32 : Number::int64;
+    return sizeof(T) == 4 ? Number::uint32 : Number::uint64;
+  }
+
+  template <class At>
+  void column_of(const std::string& name, std::size_t size, At&& at) {
+    using Pack = Packed<std::decay_t<decltype(at(0))>>;
+    using Scalar = typename Pack::Scalar;
+    static_assert(sizeof(Scalar) == 1 || sizeof(Scalar) == 4 || sizeof(Scalar) == 8);
+    std::vector<Scalar> packed(size * Pack::kCount);
+    if (!reading()) {
+      for (std::size_t i = 0; i < size; ++i) Pack::pack(at(i), packed.data() + i * Pack::kCount);
+    }
+    values(prefix_ + name, number<Scalar>(), packed.data(), packed.size());
+    if (!reading()) return;
+    for (std::size_t i = 0; i < size; ++i) Pack::unpack(at(i), packed.data() + i * Pack::kCount);
+  }
+
+  std::string prefix_;
+  std::uint64_t generation_ = 0;
+};
+
+}  // namespace mpm

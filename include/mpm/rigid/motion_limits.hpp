@@ -1,0 +1,22 @@
+// How fast a rigid body may be moved by commands.
+#pragma once
+
+#include <limits>
+
+namespace mpm {
+
+/// Of norms; infinite: no limit.
+struct MotionLimits {
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+
+  double speed = kNone;                  ///< of the body's origin [m/s]
+  double rotation_rate = kNone;          ///< [rad/s]
+  double acceleration = kNone;           ///< of the body's origin [m/s^2]
+  double rotation_acceleration = kNone;  ///< [rad/s^2]
+
+  bool any() const {
+    return speed < kNone || rotation_rate < kNone || acceleration < kNone || rotation_acceleration < kNone;
+  }
+};
+
+}  // namespace mpm

@@ -1,0 +1,21 @@
+// The collision geometry of a robot's link as a rigid body, out of a URDF file.
+//
+// Box, sphere, cylinder and mesh, each at its origin; several of one link become one body (compound.hpp). What joints,
+// masses and visuals say does not count. A xacro file must be expanded first.
+// Source: the URDF specification, http://wiki.ros.org/urdf/XML/link; the file is read by urdfdom.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "mpm/rigid/surface.hpp"
+
+namespace mpm {
+
+/// In the link's own frame [m]. `path` may be package://…, file://… or a path; a mesh's may be relative to the file's
+/// folder too.
+/// @throws RigidError with the path: not there, no URDF, no such link, a link without collision geometry, sizes or a
+/// mesh that make no body.
+std::unique_ptr<Surface> load_urdf_link(const std::string& path, const std::string& link);
+
+}  // namespace mpm

@@ -1,0 +1,23 @@
+// Which particles are read, and what is read of them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mpm/math/geometry.hpp"
+
+namespace mpm {
+
+struct ParticleChoice {
+  int stride = 1;             ///< every `stride`-th by id, >= 1
+  std::optional<Box> region;  ///< only those whose centres lie in it, faces included [m]; in a plane y is not looked at
+};
+
+/// Of the chosen particles, in order of id.
+struct ParticleColumns {
+  std::vector<std::uint32_t> ids;
+  std::vector<std::vector<float>> values;  ///< of each field, one a particle; SI
+};
+
+}  // namespace mpm

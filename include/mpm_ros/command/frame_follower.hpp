@@ -1,0 +1,46 @@
+// Bodies that follow tf frames: at each sync point the frame's new transform becomes a pose command.
+//
+// Where tf knows the frame at the next sync point (it was stamped ahead, or is static), the body goes to where the
+// frame is then. Else the latest transform is taken, once, by its stamp: as any pose on a topic that comes late, it is
+// reached one command period after it came. What reaches tf after the sync point counts at the next one.
+#pragma once
+
+#include <ros/time.h>
+#include <tf2/buffer_core.h>
+
+#include <string>
+#include <vector>
+
+#include "mpm_ros/command/command_reader.hpp"
+#include "mpm_ros/message/node_health.hpp"
+
+namespace mpm_ros {
+
+class FrameFollower {
+ public:
+  /// `frames`: of each body of the reader; empty: it follows none. The rest must outlive the follower.
+  FrameFollower(const std::vector<std::string>& frames, std::string world_frame, const tf2::BufferCore& transforms,
+                CommandReader& reader, NodeHealth& health);
+
+  /// Looks frames up. `next`: stamp of the sync point after the present one.
+  void look(const ros::Time& next);
+  /// For a run that begins again.
+  void clear();
+
+ private:
+  struct Followed {
+    int body = 0;
+    std::string frame;
+    ros::Time last;  // stamp of the transform used last
+    bool waits = false;
+  };
+  void look(Followed& followed, const ros::Time& next);
+
+  const std::string world_frame_;
+  const tf2::BufferCore& transforms_;
+  CommandReader& reader_;
+  NodeHealth& health_;
+  std::vector<Followed> followed_;
+};
+
+}  // namespace mpm_ros

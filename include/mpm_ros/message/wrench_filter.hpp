@@ -1,0 +1,53 @@
+// Low-pass filter of a wrench, each component by itself: Butterworth's of second order, made digital by the bilinear
+// transform with its cutoff in place (Oppenheim & Schafer, Discrete-Time Signal Processing, 7.1). Unity at rest, -3 dB
+// at the cutoff, 40 dB a decade beyond; it lags by sqrt(2)/(2 pi cutoff) at low frequencies. Starts from no force.
+#pragma once
+
+#include <cmath>
+
+#include "mpm/math/state_archive.hpp"
+#include "mpm/rigid/motion.hpp"
+
+namespace mpm_ros {
+
+class WrenchFilter {
+ public:
+  /// `cutoff` [Hz] in (0, 1/(2 period)), `period` [s] of the samples.
+  WrenchFilter(double cutoff, double period) {
+    const double k = std::tan(kHalfTurn * cutoff * period), scale = 1.0 / (1.0 + kRoot2 * k + k * k);
+    in_ = k * k * scale;
+    out1_ = 2.0 * (k * k - 1.0) * scale;
+    out2_ = (1.0 - kRoot2 * k + k * k) * scale;
+  }
+  /// The next sample; gives the filtered one.
+  mpm::Wrench filter(const mpm::Wrench& sample) {
+    return {filter(sample.force, force_), filter(sample.torque, torque_)};
+  }
+  void keep(mpm::StateArchive& archive) {
+    archive.keep("force_first", force_.first);
+    archive.keep("force_second", force_.second);
+    archive.keep("torque_first", torque_.first);
+    archive.keep("torque_second", torque_.second);
+  }
+
+ private:
+  static constexpr double kHalfTurn = 3.14159265358979323846;
+  static constexpr double kRoot2 = 1.41421356237309504880;
+
+  /// What a vector's filter remembers (direct form II, transposed).
+  struct Memory {
+    mpm::Vec3 first = mpm::Vec3::Zero(), second = mpm::Vec3::Zero();
+  };
+  mpm::Vec3 filter(const mpm::Vec3& sample, Memory& memory) const {
+    const mpm::Vec3 result = in_ * sample + memory.first;
+    memory.first = 2.0 * in_ * sample - out1_ * result + memory.second;
+    memory.second = in_ * sample - out2_ * result;
+    return result;
+  }
+
+  double in_ = 0.0;                 ///< of the present sample and of the one before the last; of the last twice that
+  double out1_ = 0.0, out2_ = 0.0;  ///< of the last result and of the one before it
+  Memory force_, torque_;
+};
+
+}  // namespace mpm_ros

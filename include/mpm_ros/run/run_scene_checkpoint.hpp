@@ -1,0 +1,38 @@
+// Checkpoints of run_scene: when a run saves itself, and the scene that a resumed one has.
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+
+#include "mpm/scene/scene.hpp"
+#include "mpm_ros/run/run.hpp"
+#include "mpm_ros/run/run_scene.hpp"
+
+namespace mpm_ros {
+
+/// The scene of `options`, or that of the checkpoint to be resumed where none is named. @throws mpm::Error
+mpm::Scene scene_of(const RunSceneOptions& options);
+
+/// Has the run go on from the checkpoint, with the instruction set that it was made with unless another is asked for.
+/// @throws mpm::CheckpointError
+void resume_from(const std::string& path, RunOptions& options);
+
+class RunSceneCheckpoints {
+ public:
+  /// @throws mpm::SceneError for options that make no sense, or a file that cannot be written
+  RunSceneCheckpoints(const RunSceneOptions& options, std::int64_t sync_period);
+
+  /// After each sync period. What cannot be written is told on `err`, and the run goes on.
+  void at_sync(Run& run, std::ostream& err);
+  /// The run has ended, or was told to stop. @throws mpm::CheckpointError
+  void at_end(Run& run, std::ostream& out);
+  /// The run has failed. The file of the last good state stays; that of the failure has _failed in its name.
+  void at_failure(Run& run, const std::string& reason, std::ostream& err);
+
+ private:
+  std::string path_;
+  std::int64_t period_ = 0;  ///< [ns]; 0: at the end alone
+};
+
+}  // namespace mpm_ros

@@ -1,0 +1,48 @@
+// The messages of a run written as files for ParaView while it runs: particles_NNNN.vtp for each particle cloud,
+// body_<name>_NNNN.vtp for each rigid body where it was then, and run.pvd, which names them all with their times. Open
+// that one.
+#pragma once
+
+#include <fstream>
+#include <string>
+
+#include "mpm_ros/message/message_sink.hpp"
+#include "mpm_ros/message/stamps.hpp"
+#include "mpm_ros/run/vtk_file.hpp"
+
+namespace mpm_ros {
+
+class VtkSink : public MessageSink {
+ public:
+  /// Makes the folder. @throws VtkError
+  VtkSink(const std::string& folder, const Stamps& stamps);
+  /// @throws VtkError when run.pvd could not be written.
+  void close();
+
+  bool wants(const std::string& topic) const override;
+  // Each @throws VtkError when it cannot be written.
+  void put(const std::string& topic, const ros::Time& stamp, const RunInfo& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const visualization_msgs::MarkerArray& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const ContactForces& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const geometry_msgs::WrenchStamped& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const BodyStates& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const SolverState& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const Command& message) override;
+
+ private:
+  void write_particles(double time, const sensor_msgs::PointCloud2& cloud);
+  void write_bodies(double time);
+  /// Writes the file, and names it in run.pvd, which is whole after each.
+  void write(const VtkFile& file, const std::string& stem, int part, double time);
+
+  std::string folder_;
+  Stamps stamps_;
+  std::ofstream list_;  ///< run.pvd
+  int count_ = 0;       ///< of clouds
+  visualization_msgs::MarkerArray shapes_;
+  BodyStates bodies_;  ///< as they were last
+};
+
+}  // namespace mpm_ros

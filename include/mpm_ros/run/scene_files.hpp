@@ -1,0 +1,21 @@
+// The files that a scene names beside its own text, with a hash of each: a recording says by it whether a mesh is still
+// the one that it was made with.
+//
+// Weak: files that those name in turn (the meshes in a robot's description) are not looked at.
+#pragma once
+
+#include <mpm_ros/SceneFile.h>
+
+#include <string>
+#include <vector>
+
+namespace mpm_ros {
+
+/// Every text under `rigid_bodies` that names a file which is there, by a path from the scene's folder or in a package.
+/// `text`: the scene's, YAML. `scene_path`: where it was read.
+std::vector<SceneFile> scene_files(const std::string& text, const std::string& scene_path);
+
+/// What became of recorded files, a line for each that is gone or has changed.
+std::vector<std::string> changed_files(const std::vector<SceneFile>& recorded, const std::string& scene_path);
+
+}  // namespace mpm_ros

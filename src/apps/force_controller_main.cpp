@@ -1,0 +1,184 @@
+// Presses a rigid body down into soft material until it feels a target force: admittance control, an example to copy.
+//
+// The body goes down at a speed in proportion to the force that is missing, gain * (target - force), within a limit;
+// the force is that of the last control period behind a low-pass of the first order. Weak: the material's stiffness is
+// in the loop, which is slow where that is low and swings where gain * stiffness * (period + filter) comes near 1.
+//
+// In lockstep each control period is a call of the simulator's service `step` with the command in it: no message can
+// come late, and two runs are equal to the bit. Otherwise it hears bodies/<body>/wrench (the mean of a period: start
+// the simulator with ~wrench_rate at 1/~period) and answers each on bodies/<body>/cmd_vel_stamped, ~lead ahead.
+//
+// Private parameters: ~body; ~target [N]; ~gain [m/s/N]; ~max_speed [m/s]; ~filter [s], time constant; ~lockstep;
+// ~period [s] of control; ~lead [s]; ~duration [s] simulated, 0: without end; ~tolerance and ~hold [s]: it has settled
+// when the force has been within tolerance * target for hold.
+// Exit codes, when ~duration is over: 0 settled, 1 not settled or no simulator, 2 a parameter that makes no sense.
+#include <geometry_msgs/TwistStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <mpm_ros/Step.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+struct Settings {
+  std::string body;
+  double target, gain, max_speed, filter, period, lead, duration, tolerance, hold;
+};
+
+Settings read_settings(const ros::NodeHandle& parameters) {
+  const auto number = [&](const char* name, double standard, bool zero_too) {
+    const double value = parameters.param(name, standard);
+    if (std::isfinite(value) && (value > 0.0 || (zero_too && value == 0.0))) return value;
+    throw std::runtime_error(std::string("parameter ~") + name + " is " + std::to_string(value) + "; it must be " +
+                             (zero_too ? "at least" : "above") + " 0");
+  };
+  return {parameters.param<std::string>("body", "probe"),
+          number("target", 10.0, false),
+          number("gain", 0.005, false),
+          number("max_speed", 0.05, false),
+          number("filter", 0.02, true),
+          number("period", 0.01, false),
+          number("lead", 0.02, true),
+          number("duration", 0.0, true),
+          number("tolerance", 0.02, false),
+          number("hold", 1.0, false)};
+}
+
+class Controller {
+ public:
+  explicit Controller(const Settings& settings)
+      : settings_(settings), share_(settings.period / (settings.period + settings.filter)) {}
+
+  /// Velocity along z [m/s] for the coming period; `force`: upwards on the body, mean of the last one [N].
+  double update(double force) {
+    filtered_ += share_ * (force - filtered_);
+    const double down = settings_.gain * (settings_.target - filtered_);
+    return -std::clamp(down, -settings_.max_speed, settings_.max_speed);
+  }
+
+ private:
+  const Settings& settings_;
+  const double share_;  // of the filter
+  double filtered_ = 0.0;
+};
+
+/// What the force did, by simulated time.
+class Record {
+ public:
+  explicit Record(const Settings& settings) : settings_(settings) {}
+
+  void add(double time, double force) {
+    if (start_ < 0.0) start_ = time;
+    if (touch_ < 0.0 && force > 0.0) touch_ = time;
+    if (std::abs(force - settings_.target) > settings_.tolerance * settings_.target) outside_ = time;
+    time_ = time;
+    force_ = force;
+    largest_ = std::max(largest_, force);
+    ROS_INFO_THROTTLE(1.0, "%.2f s: %.3f N of %g N", time_, force_, settings_.target);
+  }
+
+  bool over() const { return settings_.duration > 0.0 && time_ - start_ >= settings_.duration; }
+
+  /// Says what was reached; the exit code.
+  int judge() const {
+    if (touch_ < 0.0) {
+      ROS_ERROR("the body has touched nothing in %.2f s", time_ - start_);
+      return 1;
+    }
+    const double overshoot = 100.0 * std::max(0.0, largest_ / settings_.target - 1.0);
+    const bool settled = time_ - outside_ >= settings_.hold;
+    ROS_INFO("%.3f N of %g N after %.2f s; %s within %g %%, %.2f s after touch; overshoot %.1f %%", force_,
+             settings_.target, time_ - start_, settled ? "settled" : "not settled", 100.0 * settings_.tolerance,
+             outside_ - touch_, overshoot);
+    return settled ? 0 : 1;
+  }
+
+ private:
+  const Settings& settings_;
+  double start_ = -1.0, touch_ = -1.0;  // [s] of the first force heard, of the first above zero
+  double outside_ = 0.0;                // [s] when it was out of tolerance last
+  double time_ = 0.0, force_ = 0.0, largest_ = 0.0;
+};
+
+double force_on(const std::string& body, const mpm_ros::ContactForces& contacts) {
+  for (const mpm_ros::ContactForce& contact : contacts.bodies) {
+    if (contact.name == body) return contact.wrench.force.z;
+  }
+  throw std::runtime_error("the scene has no rigid body '" + body + "'; set ~body");
+}
+
+int control_in_lockstep(ros::NodeHandle& node, const Settings& settings) {
+  // By the wall's clock: in lockstep simulated time stands still until somebody steps, and so would a wait in it.
+  const std::string name = node.resolveName("step");
+  while (ros::ok() && !ros::service::exists(name, false)) ros::WallDuration(0.05).sleep();
+  ros::ServiceClient service = node.serviceClient<mpm_ros::Step>(name, true);  // one connection for all calls
+  Controller controller(settings);
+  Record record(settings);
+  mpm_ros::Step step;
+  step.request.duration = settings.period;
+  step.request.commands.resize(1);
+  step.request.commands[0].body = settings.body;
+  step.request.commands[0].kind = mpm_ros::Command::VELOCITY;
+  double force = 0.0;
+  while (ros::ok() && !record.over()) {
+    step.request.commands[0].twist.linear.z = controller.update(force);
+    if (!service.call(step)) throw std::runtime_error("the simulator has gone: " + name + " does not answer");
+    if (!step.response.success) throw std::runtime_error(name + ": " + step.response.message);
+    force = force_on(settings.body, step.response.contact_forces);
+    record.add(step.response.time, force);
+  }
+  return record.judge();
+}
+
+int control_by_topics(ros::NodeHandle& node, const Settings& settings) {
+  Controller controller(settings);
+  Record record(settings);
+  const std::string topics = "bodies/" + settings.body + "/";
+  geometry_msgs::TwistStamped command;
+  command.header.frame_id = "world";
+  ros::Publisher publisher = node.advertise<geometry_msgs::TwistStamped>(topics + "cmd_vel_stamped", 10);
+  const auto answer = [&](const geometry_msgs::WrenchStamped::ConstPtr& message) {
+    command.header.stamp = message->header.stamp + ros::Duration(settings.lead);
+    command.twist.linear.z = controller.update(message->wrench.force.z);
+    publisher.publish(command);
+    record.add(message->header.stamp.toSec(), message->wrench.force.z);
+  };
+  const ros::Subscriber subscriber = node.subscribe<geometry_msgs::WrenchStamped>(
+      topics + "wrench", 10, answer, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  while (ros::ok() && !record.over()) {
+    ros::getGlobalCallbackQueue()->callOne(ros::WallDuration(0.1));
+    if (subscriber.getNumPublishers() == 0) {
+      ROS_WARN_THROTTLE(5.0, "nobody publishes %s", subscriber.getTopic().c_str());
+    }
+  }
+  command.header.stamp = ros::Time();  // at once
+  command.twist.linear.z = 0.0;
+  publisher.publish(command);
+  return record.judge();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "force_controller");
+  ros::NodeHandle node;
+  const ros::NodeHandle parameters("~");
+  Settings settings;
+  try {
+    settings = read_settings(parameters);
+  } catch (const std::runtime_error& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 2;
+  }
+  try {
+    return parameters.param("lockstep", true) ? control_in_lockstep(node, settings) : control_by_topics(node, settings);
+  } catch (const std::runtime_error& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,59 @@
+// rigid_bodies.<name>.drive and .limits: what commands the body, and how fast it may follow. The simulation does not
+// know of them: the node turns the frame into pose commands, and keeps commands within the limits.
+#include <fmt/format.h>
+
+#include "mpm/scene/sections.hpp"
+
+namespace mpm {
+namespace {
+
+/// The link of `shape: {urdf: …}`, else nothing.
+std::string link_of(const Map& body) {
+  const YAML::Node urdf = body.at("shape").node()["urdf"];
+  return urdf && urdf["link"] ? urdf["link"].as<std::string>() : std::string();
+}
+
+void read_drive(const Value& drive, const Map& body, const std::string& name, Scene& scene,
+                CommandDefinition& commands) {
+  if (body.find("motion")) drive.fail("a body follows motion or a frame, not both; leave one out");
+  if (drive.is_map()) {
+    const Value frame = Map(drive, {"tf"}).at("tf");
+    commands.frame = frame.text();
+    if (commands.frame.empty() || commands.frame.front() == '/')
+      frame.fail("is no name of a tf frame; write one such as tool0, without a slash before it");
+    return;
+  }
+  drive.choice({"tf"}, {{"velocity", "leave drive out: commands on topics need no word"},
+                        {"pose", "leave drive out: commands on topics need no word"}});
+  const std::string link = link_of(body);
+  commands.frame = link.empty() ? name : link;
+  scene.choices.emplace_back(
+      fmt::format("rigid_bodies.{}.drive", name),
+      fmt::format("tf frame {}, {}", commands.frame, link.empty() ? "as the body's name" : "the link of its shape"));
+}
+
+void read_limits(const Value& value, MotionLimits& limits) {
+  const Map map(value, {"speed", "rotation_rate", "acceleration", "rotation_acceleration"},
+                {{"velocity", "write speed, of the body's origin in any direction"},
+                 {"jerk", "limit the acceleration"},
+                 {"force", "a rigid body moves as it is told, whatever the force"}});
+  const auto read = [&](const char* key, const Dimension& dimension, double& limit) {
+    if (const auto given = map.find(key)) limit = given->positive(dimension);
+  };
+  read("speed", kVelocity, limits.speed);
+  read("rotation_rate", kAngularRate, limits.rotation_rate);
+  read("acceleration", kAcceleration, limits.acceleration);
+  read("rotation_acceleration", kAngularAcceleration, limits.rotation_acceleration);
+  if (!limits.any()) map.fail("limits nothing; write one of speed, rotation_rate, acceleration, rotation_acceleration");
+}
+
+}  // namespace
+
+CommandDefinition read_commands(const Map& body, const std::string& name, Scene& scene) {
+  CommandDefinition commands;
+  if (const auto drive = body.find("drive")) read_drive(*drive, body, name, scene, commands);
+  if (const auto limits = body.find("limits")) read_limits(*limits, commands.limits);
+  return commands;
+}
+
+}  // namespace mpm

@@ -1,0 +1,27 @@
+// rigid_bodies.<name>.shape.urdf: the collision geometry of a robot's link.
+#include <filesystem>
+
+#include "mpm/rigid/urdf.hpp"
+#include "mpm/scene/sections.hpp"
+
+namespace mpm {
+
+std::unique_ptr<Surface> read_urdf_link(const Value& value, GeometryKind geometry) {
+  if (geometry != GeometryKind::solid)
+    value.fail("a robot's link is of a solid scene; write box, sphere or cylinder, as the scene's geometry has them");
+  const Map map(value, {"file", "link"},
+                {{"parameter", "a scene is read without ROS; write the robot_description to a file, and name that"},
+                 {"scale", "a URDF is in metres"}});
+  const Value file = map.at("file");
+  const std::string link = map.at("link").text();
+  std::string path = file.text();
+  if (path.find("://") == std::string::npos && std::filesystem::path(path).is_relative())
+    path = (std::filesystem::path(value.context().source->label()).parent_path() / path).string();
+  try {
+    return load_urdf_link(path, link);
+  } catch (const RigidError& error) {
+    value.fail(error.what());
+  }
+}
+
+}  // namespace mpm

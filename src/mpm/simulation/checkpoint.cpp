@@ -1,0 +1,166 @@
+#include "mpm/simulation/checkpoint.hpp"
+
+#include <fmt/core.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+
+#include "hdf5_archive.hpp"
+#include "mpm/math/geometry_kind.hpp"
+#include "mpm/simulation/method_text.hpp"
+
+namespace mpm {
+namespace {
+
+void keep(StateArchive& archive, CheckpointAbout& about) {
+  const StateArchive::Group group(archive, "about");
+  archive.keep("format", about.format);
+  archive.keep("version", about.version);
+  if (about.format != kCheckpointFormat || about.version != kCheckpointVersion) return;  // the rest may be otherwise
+  archive.keep("program", about.program);
+  archive.keep("scene", about.scene);
+  archive.keep("scene_path", about.label.scene_path);
+  archive.keep("scene_text", about.label.scene_text);
+  archive.keep("failure", about.label.failure);
+  archive.keep("geometry", about.geometry);
+  archive.keep("method", about.method);
+  archive.keep("precision", about.precision);
+  archive.keep("isa", about.isa);
+  archive.keep("particles", about.particles);
+  archive.keep("time", about.time);
+  archive.keep("state_hash", about.state_hash);
+  archive.keep("checksum", about.checksum);
+}
+
+void keep_run(StateArchive& archive, Simulation& simulation, const KeepMore& more) {
+  {
+    const StateArchive::Group group(archive, "simulation");
+    simulation.keep(archive);
+  }
+  if (!more) return;
+  const StateArchive::Group group(archive, "run");
+  more(archive);
+}
+
+CheckpointAbout about_of(const Simulation& simulation) {
+  const SimulationDefinition& definition = simulation.definition();
+  CheckpointAbout about;
+  about.format = kCheckpointFormat;
+  about.version = kCheckpointVersion;
+  about.program = MPM_VERSION;
+  about.scene = definition.name;
+  about.geometry = geometry_name(definition.geometry);
+  about.method = method_text(definition.method);
+  about.precision = precision_name(definition.method.precision);
+  about.isa = simulation.isa();
+  about.particles = simulation.particles();
+  about.time = simulation.time();
+  return about;
+}
+
+/// Of two texts, the first line that differs, in words.
+std::string difference(const std::string& here, const std::string& there) {
+  std::istringstream ours(here), theirs(there);
+  std::string a, b;
+  for (int line = 1;; ++line) {
+    const bool more = static_cast<bool>(std::getline(ours, a)), other = static_cast<bool>(std::getline(theirs, b));
+    if (!more && !other) return "white space at its end";
+    if (!more) a = "(its end)";
+    if (!other) b = "(its end)";
+    if (a != b) return fmt::format("line {} is '{}' there and '{}' here", line, b, a);
+  }
+}
+
+/// @throws CheckpointError
+void check(const std::string& path, const CheckpointAbout& there, const CheckpointAbout& here,
+           const std::string& scene_text) {
+  const std::string start = fmt::format("checkpoint {}: ", path);
+  if (!there.label.failure.empty()) {
+    throw CheckpointError(fmt::format("{}it is of a run that failed and cannot go on ({}); take an earlier one", start,
+                                      there.label.failure));
+  }
+  if (there.label.scene_text != scene_text) {
+    throw CheckpointError(
+        fmt::format("{}it is of another scene, '{}': {}; resume with its own scene, or run this one "
+                    "from its start",
+                    start, there.scene, difference(scene_text, there.label.scene_text)));
+  }
+  if (there.precision != here.precision || there.method != here.method || there.geometry != here.geometry ||
+      there.particles != here.particles) {
+    throw CheckpointError(fmt::format("{}it is of {} particles, {}, {}; this run has {}, {}, {}", start,
+                                      there.particles, there.geometry, there.method, here.particles, here.geometry,
+                                      here.method));
+  }
+  if (there.isa != here.isa) {
+    throw CheckpointError(fmt::format(
+        "{}it was made with the instruction set {}, this run has {}, which rounds otherwise; start it with --isa {} "
+        "(node: _isa:={})",
+        start, there.isa, here.isa, there.isa, there.isa));
+  }
+}
+
+CheckpointAbout read_about(StateArchive& archive, const std::string& path) {
+  CheckpointAbout about;
+  keep(archive, about);
+  if (about.format != kCheckpointFormat) {
+    throw CheckpointError(fmt::format("checkpoint {}: it is HDF5, but no checkpoint of mpm_ros", path));
+  }
+  if (about.version != kCheckpointVersion) {
+    throw CheckpointError(fmt::format(
+        "checkpoint {}: its layout is version {}, this program reads version {}; run it with the program that wrote it",
+        path, about.version, kCheckpointVersion));
+  }
+  return about;
+}
+
+}  // namespace
+
+CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation, const CheckpointLabel& label,
+                                const KeepMore& more) {
+  CheckpointAbout about = about_of(simulation);
+  about.label = label;
+  about.state_hash = simulation.state_hash();
+  about.checksum = simulation.memory_hash();
+  const std::string part = path + ".part";
+  try {
+    Hdf5Writer file(part);
+    keep(file, about);
+    keep_run(file, simulation, more);
+    file.close();
+  } catch (...) {
+    std::remove(part.c_str());
+    throw;
+  }
+  std::error_code error;
+  std::filesystem::rename(part, path, error);
+  if (error) {
+    std::remove(part.c_str());
+    throw CheckpointError(fmt::format("checkpoint {}: cannot be written: {}", path, error.message()));
+  }
+  return about;
+}
+
+CheckpointAbout read_checkpoint(const std::string& path) {
+  Hdf5Reader file(path);
+  return read_about(file, path);
+}
+
+CheckpointAbout load_checkpoint(const std::string& path, Simulation& simulation, const std::string& scene_text,
+                                const KeepMore& more) {
+  Hdf5Reader file(path);
+  const CheckpointAbout about = read_about(file, path);
+  check(path, about, about_of(simulation), scene_text);
+  keep_run(file, simulation, more);
+  if (simulation.memory_hash() != about.checksum || simulation.state_hash() != about.state_hash) {
+    throw CheckpointError(
+        fmt::format("checkpoint {}: what it holds is not what was saved: the file is damaged; take "
+                    "an earlier one",
+                    path));
+  }
+  return about;
+}
+
+}  // namespace mpm

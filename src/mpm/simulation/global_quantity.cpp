@@ -1,0 +1,239 @@
+#include "mpm/simulation/global_quantity.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <ctime>
+#include <iterator>
+#include <tuple>
+
+#include "mpm/math/nearest.hpp"
+#include "mpm/shape/ring.hpp"
+#include "state.hpp"
+
+namespace mpm {
+namespace {
+
+enum class Source { mean, sum, contact, energy, interface, work, potential, alpha, steps, wall, cpu };
+
+struct Quantity {
+  std::string name;
+  std::string unit;
+  Source source;
+  std::vector<std::string> fields = {};  ///< of particles
+  int axis = 0;                          ///< of a contact force; -1: outwards, of a radian
+};
+
+const std::vector<Quantity>& table() {
+  static const std::vector<Quantity> kTable = [] {
+    std::vector<Quantity> list;
+    // Tensors: components, and their names about an axis, where r is x, the hoop is y and z is z.
+    struct Tensor {
+      const char *letter, *end, *unit;
+    };
+    for (const Tensor& tensor :
+         {Tensor{"s", "", "Pa"}, Tensor{"e", "", "1"}, Tensor{"e", "e", "1"}, Tensor{"e", "p", "1"}}) {
+      const auto add = [&](const std::string& name, const std::string& field) {
+        list.push_back(
+            {tensor.letter + name + tensor.end, tensor.unit, Source::mean, {tensor.letter + field + tensor.end}});
+      };
+      for (const char* component : {"xx", "yy", "zz", "xy", "xz", "yz"}) add(component, component);
+      add("rr", "xx");
+      add("tt", "yy");
+      add("rz", "xz");
+    }
+    const Quantity others[] = {
+        {"velx", "m/s", Source::mean, {"vx"}},
+        {"vely", "m/s", Source::mean, {"vy"}},
+        {"velz", "m/s", Source::mean, {"vz"}},
+        {"velr", "m/s", Source::mean, {"vx"}},
+        {"dispx", "m", Source::mean, {"ux"}},
+        {"dispy", "m", Source::mean, {"uy"}},
+        {"dispz", "m", Source::mean, {"uz"}},
+        {"dispr", "m", Source::mean, {"ux"}},
+        {"contactx", "N", Source::contact, {}, 0},
+        {"contacty", "N", Source::contact, {}, 1},
+        {"contactz", "N", Source::contact, {}, 2},
+        {"contactr", "N/rad", Source::contact, {}, -1},
+        {"temp", "K", Source::mean, {"temperature"}},
+        {"kinetic energy", "J", Source::sum, {"kinetic_energy"}},
+        {"strain energy", "J", Source::sum, {"strain_energy"}},
+        {"plastic energy", "J", Source::sum, {"plastic_energy"}},
+        {"heat energy", "J", Source::sum, {"heat_energy"}},
+        {"thermal energy", "J", Source::sum, {"thermal_energy"}},
+        {"energy", "J", Source::sum, {"kinetic_energy", "strain_energy"}},
+        {"interface energy", "J", Source::interface},
+        {"external work", "J", Source::work},
+        {"potential energy", "J", Source::potential, {"kinetic_energy", "strain_energy"}},
+        {"alpha", "1/s", Source::alpha},
+        {"step number", "1", Source::steps},
+        {"elapsed time", "s", Source::wall},
+        {"cpu time", "s", Source::cpu},
+    };
+    list.insert(list.end(), std::begin(others), std::end(others));
+    return list;
+  }();
+  return kTable;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// Its place in the table, or -1.
+int find(const std::string& name) {
+  const std::string wanted = lower(name);
+  const auto& all = table();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Quantity& q) { return wanted == q.name; });
+  return found == all.end() ? -1 : static_cast<int>(found - all.begin());
+}
+
+bool of_bodies(Source source) { return source == Source::mean || source == Source::sum || source == Source::contact; }
+
+bool has_temperature(const Law& law) {
+  return std::visit([](const auto& l) { return l.kTemperature >= 0; }, law);
+}
+
+/// What loads, velocity conditions, absorbing faces and rigid bodies did since the start [J].
+double external_work(const EnergyReport& energy) { return energy.load_work + energy.contact_work; }
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> global_quantity_names() {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const Quantity& quantity : table()) names.emplace_back(quantity.name, quantity.unit);
+  return names;
+}
+
+std::string problem_of(const GlobalQuantity& quantity) {
+  const int known = find(quantity.name);
+  if (known >= 0) {
+    if (quantity.body.empty() || of_bodies(table()[known].source)) return {};
+    return fmt::format("'{}' is of the whole run, not of a body; leave 'body' out", quantity.name);
+  }
+  if (lower(quantity.name) == "concentration") {
+    return "'concentration' belongs to diffusion (transport), which is not built yet; leave it out";
+  }
+  std::vector<std::string> names;
+  for (const Quantity& one : table()) names.emplace_back(one.name);
+  return fmt::format("no global quantity '{}'; {}", quantity.name, suggest(lower(quantity.name), names));
+}
+
+bool of_rigid_body(const GlobalQuantity& quantity) {
+  const int known = find(quantity.name);
+  return known >= 0 && table()[known].source == Source::contact;
+}
+
+GlobalQuantities::GlobalQuantities(Simulation& simulation, const std::vector<GlobalQuantity>& chosen)
+    : simulation_(simulation) {
+  for (const GlobalQuantity& wanted : chosen) {
+    if (const std::string problem = problem_of(wanted); !problem.empty()) throw DefinitionError(problem);
+    Term term{find(wanted.name), {}, 0, static_cast<std::size_t>(simulation.particles()), {}, 0.0};
+    const Quantity& quantity = table()[term.quantity];
+    if (quantity.source == Source::contact) {
+      for (int body = 0; body < static_cast<int>(simulation.state_->bodies.size()); ++body) {
+        if (wanted.body.empty() || body == simulation.find_body(wanted.body)) term.contacts.push_back(body);
+      }
+      if (!wanted.body.empty() && term.contacts.empty()) {
+        throw DefinitionError(fmt::format("{}: no rigid body is called '{}'", wanted.name, wanted.body));
+      }
+    } else if (!wanted.body.empty()) {
+      std::tie(term.first, term.last) = simulation.body_ids(wanted.body);
+    }
+    for (const std::string& field : quantity.fields) {
+      const auto known = std::find(fields_.begin(), fields_.end(), field);
+      term.fields.push_back(static_cast<int>(known - fields_.begin()));
+      if (known == fields_.end()) fields_.push_back(field);
+    }
+    names_.push_back(wanted.body.empty() ? wanted.name : wanted.name + " of " + wanted.body);
+    units_.emplace_back(quantity.unit);
+    terms_.push_back(std::move(term));
+  }
+  if (Simulation::needs_start(fields_)) simulation.keep_start();
+  values_.resize(terms_.size());
+}
+
+double GlobalQuantities::sum(const Term& term) const {
+  double total = 0.0;
+  for (const int field : term.fields) {
+    for (std::size_t id = term.first; id < term.last; ++id) total += columns_[field][id];
+  }
+  return total;
+}
+
+double GlobalQuantities::mean(const Term& term) const {
+  if (fields_[term.fields.front()] != "temperature") return sum(term) / static_cast<double>(term.last - term.first);
+  // Only bodies whose law has a temperature count.
+  double total = 0.0, count = 0.0;
+  const Simulation::State& state = *simulation_.state_;
+  for (std::size_t s = 0; s < state.sets.size(); ++s) {
+    const ParticleSet& set = state.sets[s];
+    if (!has_temperature(state.laws[s]) || set.first_id < term.first || set.first_id >= term.last) continue;
+    const auto begin = columns_[term.fields.front()].begin() + set.first_id;
+    for (auto value = begin; value != begin + set.size(); ++value) total += *value;
+    count += set.size();
+  }
+  return total / count;
+}
+
+double GlobalQuantities::contact_impulse(const Term& term, int axis) const {
+  double total = 0.0;
+  for (const int body : term.contacts) total -= simulation_.state_->contacts[body]->account().impulse[axis];
+  return total;
+}
+
+double GlobalQuantities::value_of(Term& term, double interval) const {
+  const Quantity& quantity = table()[term.quantity];
+  const Simulation::State& state = *simulation_.state_;
+  switch (quantity.source) {
+    case Source::mean:
+      return mean(term);
+    case Source::sum:
+      return sum(term);
+    case Source::contact: {
+      const bool about_axis = axisymmetric(state.definition.geometry);
+      const double before = term.impulse;
+      term.impulse = contact_impulse(term, std::max(quantity.axis, 0));
+      if (!(interval > 0.0)) return 0.0;
+      // Around an axis what points outwards cancels in the whole body.
+      if (about_axis && quantity.axis == 0) return 0.0;
+      const double force = (term.impulse - before) / interval;
+      return quantity.axis < 0 ? force / kTurn : force;
+    }
+    case Source::alpha:
+      return state.damping == nullptr ? 0.0 : state.damping->alpha();
+    case Source::steps:
+      return static_cast<double>(state.steps.steps);
+    case Source::wall:
+      return state.wall.count();
+    case Source::cpu:
+      return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    default:
+      break;
+  }
+  const EnergyReport energy = state.given_energy();
+  if (quantity.source == Source::interface) return energy.interface;
+  if (quantity.source == Source::work) return external_work(energy);
+  return sum(term) + energy.interface - external_work(energy);
+}
+
+const std::vector<double>& GlobalQuantities::read() {
+  if (!fields_.empty()) simulation_.read_fields(fields_, columns_);
+  const double now = static_cast<double>(simulation_.time()) * 1e-9;
+  const double interval = last_ < 0.0 ? 0.0 : now - last_;
+  for (std::size_t k = 0; k < terms_.size(); ++k) values_[k] = value_of(terms_[k], interval);
+  last_ = now;
+  return values_;
+}
+
+void GlobalQuantities::keep(StateArchive& archive) {
+  std::uint64_t count = terms_.size();
+  archive.keep("terms", count);
+  if (count != terms_.size()) return;
+  archive.column("impulse", terms_, &Term::impulse);
+  archive.keep("last", last_);
+}
+
+}  // namespace mpm

@@ -1,0 +1,139 @@
+#include "hdf5_archive.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+namespace mpm {
+namespace {
+
+hid_t type_of(StateArchive::Number number) {
+  switch (number) {
+    case StateArchive::Number::float32:
+      return H5T_NATIVE_FLOAT;
+    case StateArchive::Number::float64:
+      return H5T_NATIVE_DOUBLE;
+    case StateArchive::Number::int32:
+      return H5T_NATIVE_INT32;
+    case StateArchive::Number::int64:
+      return H5T_NATIVE_INT64;
+    case StateArchive::Number::uint8:
+      return H5T_NATIVE_UINT8;
+    case StateArchive::Number::uint32:
+      return H5T_NATIVE_UINT32;
+    case StateArchive::Number::uint64:
+      return H5T_NATIVE_UINT64;
+  }
+  return -1;
+}
+
+constexpr hsize_t kChunk = hsize_t{1} << 20;  ///< numbers that have one checksum
+
+/// Why a file of that name cannot be opened so; empty if it can.
+std::string problem_with(const std::string& path, const char* mode) {
+  std::FILE* file = std::fopen(path.c_str(), mode);
+  if (file == nullptr) return std::strerror(errno);
+  std::fclose(file);
+  return {};
+}
+
+}  // namespace
+
+bool Hdf5Id::close() {
+  if (id_ < 0) return false;
+  return close_(std::exchange(id_, -1)) >= 0;
+}
+
+Hdf5Silence::Hdf5Silence() {
+  H5Eget_auto2(H5E_DEFAULT, &print_, &to_);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Hdf5Silence::~Hdf5Silence() { H5Eset_auto2(H5E_DEFAULT, print_, to_); }
+
+Hdf5Writer::Hdf5Writer(const std::string& path) : path_(path) {
+  if (const std::string problem = problem_with(path, "wb"); !problem.empty()) {
+    throw CheckpointError(
+        fmt::format("checkpoint {}: cannot be written: {}; check its folder and the space on its disk", path, problem));
+  }
+  // The later layouts of HDF5 have checksums for what is not data, and small lists of chunks.
+  const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (!access || H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110) < 0) fail();
+  file_ = {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose};
+  make_groups_ = {H5Pcreate(H5P_LINK_CREATE), H5Pclose};
+  if (!file_ || !make_groups_ || H5Pset_create_intermediate_group(make_groups_, 1) < 0) fail();
+}
+
+void Hdf5Writer::values(const std::string& name, Number number, void* data, std::size_t count) {
+  const hsize_t size = count;
+  const Hdf5Id space(count == 0 ? H5Screate(H5S_NULL) : H5Screate_simple(1, &size, nullptr), H5Sclose);
+  if (!space) fail();
+  const Hdf5Id layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const hsize_t chunk = std::min(size, kChunk);
+  if (!layout || (count > 0 && (H5Pset_chunk(layout, 1, &chunk) < 0 || H5Pset_fletcher32(layout) < 0))) fail();
+  const Hdf5Id set(H5Dcreate2(file_, name.c_str(), type_of(number), space, make_groups_, layout, H5P_DEFAULT),
+                   H5Dclose);
+  if (!set || (count > 0 && H5Dwrite(set, type_of(number), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)) fail();
+}
+
+void Hdf5Writer::close() {
+  if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0 || !file_.close()) fail();
+}
+
+void Hdf5Writer::fail() const {
+  throw CheckpointError(
+      fmt::format("checkpoint {}: cannot be written whole; check the space on its disk, and try again", path_));
+}
+
+Hdf5Reader::Hdf5Reader(const std::string& path) : path_(path) {
+  if (const std::string problem = problem_with(path, "rb"); !problem.empty()) {
+    throw CheckpointError(fmt::format("checkpoint {}: cannot be read: {}", path, problem));
+  }
+  if (H5Fis_hdf5(path.c_str()) <= 0) {
+    throw CheckpointError(fmt::format(
+        "checkpoint {}: it is no HDF5 file; name one that run_scene --checkpoint or save_checkpoint has written",
+        path));
+  }
+  file_ = {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
+  if (!file_) {
+    throw CheckpointError(fmt::format("checkpoint {}: it is cut off or damaged; take an earlier one", path));
+  }
+}
+
+Hdf5Id Hdf5Reader::open(const std::string& name) const {
+  Hdf5Id set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set) {
+    throw CheckpointError(fmt::format(
+        "checkpoint {}: it has no '{}': it is no checkpoint of this scene and version, or damaged", path_, name));
+  }
+  return set;
+}
+
+std::size_t Hdf5Reader::stored(const std::string& name) {
+  const Hdf5Id set = open(name);
+  const Hdf5Id space(H5Dget_space(set), H5Sclose);
+  const hssize_t count = space ? H5Sget_simple_extent_npoints(space) : -1;
+  if (count < 0) throw CheckpointError(fmt::format("checkpoint {}: '{}' is damaged", path_, name));
+  return static_cast<std::size_t>(count);
+}
+
+void Hdf5Reader::values(const std::string& name, Number number, void* data, std::size_t count) {
+  if (const std::size_t there = stored(name); there != count) {
+    throw CheckpointError(
+        fmt::format("checkpoint {}: '{}' has {} numbers where {} belong: it is of another scene, or "
+                    "damaged",
+                    path_, name, there, count));
+  }
+  if (count == 0) return;
+  const Hdf5Id set = open(name);
+  if (H5Dread(set, type_of(number), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) {
+    throw CheckpointError(
+        fmt::format("checkpoint {}: '{}' cannot be read: the file is cut off or damaged", path_, name));
+  }
+}
+
+}  // namespace mpm

@@ -1,0 +1,89 @@
+// State in an HDF5 file: a dataset an array, a group a group of names, with checksums (fletcher32). Private to this
+// room. Source: HDF5 reference manual, C interface.
+#pragma once
+
+#include <hdf5.h>
+
+#include <string>
+#include <vector>
+
+#include "mpm/simulation/checkpoint.hpp"
+
+namespace mpm {
+
+/// An HDF5 identifier, closed by what it was opened with.
+class Hdf5Id {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Hdf5Id() = default;
+  Hdf5Id(hid_t id, Close close) : id_(id), close_(close) {}
+  Hdf5Id(Hdf5Id&& other) noexcept { swap(other); }
+  Hdf5Id& operator=(Hdf5Id other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Hdf5Id() { this->close(); }
+  /// False when it could not be, or was never open.
+  bool close();
+  explicit operator bool() const { return id_ >= 0; }
+  operator hid_t() const { return id_; }  // NOLINT: as the C interface takes it
+
+ private:
+  void swap(Hdf5Id& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+  }
+  hid_t id_ = -1;
+  Close close_ = nullptr;
+};
+
+/// While it lives the library prints no errors: they become ours.
+class Hdf5Silence {
+ public:
+  Hdf5Silence();
+  Hdf5Silence(const Hdf5Silence&) = delete;
+  Hdf5Silence& operator=(const Hdf5Silence&) = delete;
+  ~Hdf5Silence();
+
+ private:
+  H5E_auto2_t print_ = nullptr;
+  void* to_ = nullptr;
+};
+
+class Hdf5Writer final : public StateArchive {
+ public:
+  /// Makes the file anew. @throws CheckpointError
+  explicit Hdf5Writer(const std::string& path);
+  bool reading() const override { return false; }
+  /// All is on the disk then. @throws CheckpointError
+  void close();
+
+ protected:
+  void values(const std::string& name, Number number, void* data, std::size_t count) override;
+  std::size_t stored(const std::string&) override { return 0; }
+
+ private:
+  [[noreturn]] void fail() const;
+  std::string path_;
+  Hdf5Silence silence_;
+  Hdf5Id file_, make_groups_;
+};
+
+class Hdf5Reader final : public StateArchive {
+ public:
+  /// @throws CheckpointError for a file that cannot be read or is not HDF5
+  explicit Hdf5Reader(const std::string& path);
+  bool reading() const override { return true; }
+
+ protected:
+  void values(const std::string& name, Number number, void* data, std::size_t count) override;
+  std::size_t stored(const std::string& name) override;
+
+ private:
+  Hdf5Id open(const std::string& name) const;
+  std::string path_;
+  Hdf5Silence silence_;
+  Hdf5Id file_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,146 @@
+// All that a run remembers at a sync point, in one place for both directions (math/state_archive.hpp): a run that takes
+// it on goes on to the bit like the one that gave it.
+//
+// Kept: every array of the particles as it lies in memory, the groups they were sorted into and the blocks of every
+// field; what bodies, stages and the mechanics keep; the limits that the next period's step comes from; sums for
+// reports. Not kept: nodal fields, and what else every step finds anew; `domain` and `next_x` of the particles, which a
+// step writes before it reads them.
+#include "state.hpp"
+#include "state_hash.hpp"
+
+namespace mpm {
+namespace {
+
+void keep_scalars(StateArchive& archive, const char* name, std::vector<ParticleScalar>& scalars) {
+  for (std::size_t c = 0; c < scalars.size(); ++c) {
+    scalars[c].visit([&](auto& values) { archive.list(name + std::to_string(c), values); });
+  }
+}
+
+void keep_arrays(StateArchive& archive, const char* name, std::vector<PaddedArray<double>>& arrays) {
+  for (std::size_t c = 0; c < arrays.size(); ++c) archive.list(name + std::to_string(c), arrays[c]);
+}
+
+}  // namespace
+
+void LineFit::keep(StateArchive& archive, std::vector<LineFit>& fits) {
+  archive.column("count", fits, &LineFit::count_);
+  archive.column("mean_t", fits, &LineFit::mean_t_);
+  archive.column("mean_y", fits, &LineFit::mean_y_);
+  archive.column("tt", fits, &LineFit::tt_);
+  archive.column("ty", fits, &LineFit::ty_);
+}
+
+void Simulation::State::keep_particles(StateArchive& archive) {
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const StateArchive::Group group(archive, "particles_" + std::to_string(s));
+    ParticleSet& set = sets[s];
+    archive.list("id", set.id);
+    keep_arrays(archive, "x", set.x);
+    keep_scalars(archive, "v", set.v);
+    keep_scalars(archive, "f", set.f);
+    keep_scalars(archive, "tau", set.tau);
+    keep_scalars(archive, "history", set.history);
+    keep_scalars(archive, "mass", set.masses);
+    keep_scalars(archive, "affine", set.affine);
+    archive.rows("start_x", set.start_x);  // whoever resumes may ask for other outputs
+    keep_arrays(archive, "start_x", set.start_x);
+    archive.list("side", set.side);
+    archive.list("begin", set.begin);
+    archive.list("group", set.group);
+    archive.list("group_begin", set.group_begin);
+  }
+}
+
+void Simulation::State::keep_grid(StateArchive& archive) {
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    const StateArchive::Group group(archive, "field_" + std::to_string(f));
+    Grid& grid = *fields[f];
+    std::vector<std::uint64_t> owners;
+    for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
+      owners.push_back(grid.blocks.key(grid.blocks.owner_block(owner)));
+    }
+    archive.list("owners", owners);
+    archive.keep("first_owner", grid.first_owner);
+    if (archive.reading()) grid.rebuild(owners, threads);
+    archive.list("loose", grid.loose);
+  }
+}
+
+void Simulation::State::keep_limit(StateArchive& archive, const char* name, StepLimit& kept) {
+  const StateArchive::Group group(archive, name);
+  // Whose name it is: a set's, then a body's, then that of the conditions.
+  std::vector<const std::string*> names;
+  for (const ParticleSet& set : sets) names.push_back(&set.name);
+  for (const RigidBody& body : bodies) names.push_back(&body.name());
+  names.push_back(&kConditionsName);
+  auto of = static_cast<std::uint64_t>(std::find(names.begin(), names.end(), kept.name) - names.begin());
+  archive.keep("dt", kept.dt);
+  archive.keep("cause", kept.cause);
+  archive.keep("of", of);
+  archive.keep("speed", kept.speed);
+  archive.keep("place", kept.place);
+  archive.keep("foreseen", kept.foreseen);
+  if (archive.reading()) kept.name = of < names.size() ? names[of] : nullptr;
+}
+
+void Simulation::State::keep(StateArchive& archive) {
+  if (archive.reading()) failed = true;  // until all has been read
+  archive.keep("time", time);
+  archive.keep("steps", steps.steps);
+  archive.keep("dt_min", steps.dt_min);
+  archive.keep("dt_max", steps.dt_max);
+  archive.keep("dt_last", steps.dt_last);
+  archive.keep("initial_momentum", initial_momentum);
+  archive.keep("total_mass", total_mass);
+  keep_particles(archive);
+  keep_grid(archive);
+  archive.set_generation(fields.front()->blocks.generation());  // of all: they are rebuilt together
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const StateArchive::Group group(archive, "rigid_body_" + std::to_string(b));
+    bodies[b].keep(archive);
+  }
+  if (sides != nullptr) {
+    const StateArchive::Group group(archive, "sides");
+    sides->keep(archive);
+  }
+  {
+    const StateArchive::Group group(archive, "mechanics");
+    mechanics->keep(archive);
+  }
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const StateArchive::Group group(archive, "stage_" + std::to_string(i));
+    stages[i]->keep(archive);
+  }
+  {
+    const StateArchive::Group group(archive, "gravity");
+    gravity.keep(archive);
+  }
+  if (leaving) {
+    const StateArchive::Group group(archive, "leaving");
+    leaving->keep(archive);
+  }
+  keep_limit(archive, "material_limit", material_limit);
+  keep_limit(archive, "previous_limit", previous_limit);
+  keep_limit(archive, "limit", limit);
+  {
+    const StateArchive::Group group(archive, "rates");
+    LineFit::keep(archive, rates);
+  }
+  if (archive.reading()) failed = false;
+}
+
+void Simulation::keep(StateArchive& archive) {
+  state_->keep(archive);
+  double seconds = state_->wall.count();
+  archive.keep("wall", seconds);
+  state_->wall = std::chrono::duration<double>(seconds);
+}
+
+std::uint64_t Simulation::memory_hash() {
+  StateHash hash;
+  state_->keep(hash);
+  return hash.value();
+}
+
+}  // namespace mpm

@@ -1,0 +1,70 @@
+// One particle as particle fields look at it: tensors in world axes, made once for all fields that are read, and only
+// those that one of them needs.
+//
+// Strain is logarithmic, ln V = 1/2 ln(F F^T), in the axes that Cauchy stress is in; at small strain it is the usual
+// one. Its elastic part is what the law's elasticity makes of the stress, for laws that part the two; of the others all
+// of it is. The plastic part is the difference: exact where both have the same axes, as in proportional loading, and to
+// first order in the elastic strain elsewhere. A body that starts under stress has that stress's strain in its elastic
+// part from the start, and its plastic part is less by it.
+#pragma once
+
+#include "state.hpp"
+
+namespace mpm {
+
+/// What a view has to hold.
+enum ViewNeeds : unsigned {
+  kNeedsNothing = 0,
+  kNeedsVolume = 1,    ///< j
+  kNeedsStress = 2,    ///< cauchy, and j
+  kNeedsStrain = 4,    ///< total
+  kNeedsElastic = 8,   ///< elastic, total
+  kNeedsRotation = 16  ///< rotation
+};
+
+/// What a set's particles have in common.
+struct SetView {
+  SetView(const ParticleSet& set, const Law& law, const MaterialDefinition& material, int index,
+          const GridLayout& layout, GeometryKind geometry);
+
+  /// Component of a vector field along a world axis; 0 across the grid's axes.
+  template <class Values>
+  double along(const Values& values, int axis, int p) const {
+    return slot[axis] < 0 ? 0.0 : static_cast<double>(values[slot[axis]][p]);
+  }
+  /// 0 where the law has none (`which` < 0).
+  double history(int which, int p) const {
+    return which < 0 || which >= static_cast<int>(set.history.size()) ? 0.0 : set.history[which][p];
+  }
+
+  const ParticleSet& set;
+  const Law& law;
+  int index;
+  GeometryKind geometry;
+  int slot[3] = {-1, -1, -1};                                    ///< of each world axis among the grid's
+  double density = 0.0;                                          ///< initial [kg/m^3]
+  int plastic_strain = -1, plastic_work = -1, temperature = -1;  ///< which history scalar
+  double reference_temperature = 0.0;                            ///< [K]
+  double heat_fraction = 0.0;
+  double heat_capacity = 0.0;                  ///< at constant volume [J/(kg K)]; 0: the law has none
+  enum class Parts { none, rate, isochoric };  ///< how elastic strain follows from stress
+  Parts parts = Parts::none;
+  double bulk = 0.0, shear = 0.0;  ///< [Pa], for that
+};
+
+struct ParticleView {
+  const SetView& set;
+  int p = 0;
+  double j = 1.0;
+  Symmetric3<double> tau{};      ///< Kirchhoff stress over initial density [J/kg]
+  Matrix3<double> f{};           ///< deformation gradient
+  Symmetric3<double> cauchy{};   ///< [Pa]
+  Symmetric3<double> total{};    ///< strain
+  Symmetric3<double> elastic{};  ///< strain
+  Vec3 rotation = Vec3::Zero();  ///< of the polar decomposition: axis times angle [rad]
+
+  /// Fills what `needs` (ViewNeeds) asks for of particle `particle`.
+  void look(int particle, unsigned needs);
+};
+
+}  // namespace mpm

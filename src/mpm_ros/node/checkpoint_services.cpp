@@ -1,0 +1,116 @@
+// Checkpoints of the node: the services that save and load one, what the node has to remember beside the run, and the
+// state that a failed run leaves.
+#include <fmt/format.h>
+#include <ros/console.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/node/simulator_node.hpp"
+
+namespace mpm_ros {
+
+namespace {
+
+constexpr const char* kEnding = "the node is ending";
+
+std::string from_root(const std::string& path) { return std::filesystem::absolute(path).lexically_normal().string(); }
+
+std::int64_t nanoseconds(const ros::Time& time) { return static_cast<std::int64_t>(time.toNSec()); }
+
+}  // namespace
+
+bool SimulatorNode::on_save_checkpoint(Checkpoint::Request& request, Checkpoint::Response& response) {
+  response.message = kEnding;
+  mailbox_.call([&] { save_checkpoint(request.path, response); });
+  return true;
+}
+
+bool SimulatorNode::on_load_checkpoint(Checkpoint::Request& request, Checkpoint::Response& response) {
+  response.message = kEnding;
+  mailbox_.call([&] { load_checkpoint(request.path, response); });
+  return true;
+}
+
+void SimulatorNode::keep(mpm::StateArchive& archive, CommandQueue& queue, CommandWatch& watch,
+                         CommandLimiter& limiter) {
+  queue.keep(archive);
+  watch.keep(archive);
+  limiter.keep(archive);
+}
+
+void SimulatorNode::save_checkpoint(const std::string& path, Checkpoint::Response& response) {
+  response.success = 0;
+  try {
+    if (path.empty()) throw mpm::CheckpointError("path is empty; name a file, such as run.h5");
+    if (!failure_.empty()) throw mpm::CheckpointError("the run has failed and cannot go on: " + failure_);
+    const mpm::CheckpointAbout about =
+        run_->save(path, [this](mpm::StateArchive& archive) { keep(archive, *queue_, watch_, *limiter_); });
+    response.state_hash = hash_text(about.state_hash);
+  } catch (const std::exception& error) {
+    response.message = error.what();
+    return;
+  }
+  run_->resume_clock();
+  pacer_->restart(Pacer::Clock::now());
+  response.success = 1;
+  response.path = from_root(path);
+  response.stamp = run_->outputs().stamp();
+  response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
+  response.message = fmt::format("saved at {:.6f} s (simulated)", response.time);
+}
+
+// Stamps go on from those of the run that is there, and without use_sim_time from the wall's.
+Stamps SimulatorNode::stamps_from(std::int64_t time) const {
+  std::int64_t origin = 0;
+  if (run_) {
+    const std::int64_t next = run_->simulation().time() + run_->simulation().sync_period();
+    origin = std::max(nanoseconds(run_->stamps().origin()), nanoseconds(run_->stamps().at(next)) - time);
+  }
+  if (!ros::Time::isSimTime()) origin = std::max(origin, nanoseconds(first_stamps().origin()) - time);
+  ros::Time stamp;
+  stamp.fromNSec(static_cast<std::uint64_t>(origin));
+  return Stamps(stamp);
+}
+
+void SimulatorNode::load_checkpoint(const std::string& path, Checkpoint::Response& response) {
+  response.success = 0;
+  try {
+    const mpm::CheckpointAbout about = mpm::read_checkpoint(path);
+    start_run(stamps_from(about.time), path);
+    response.state_hash = hash_text(about.state_hash);
+  } catch (const std::exception& error) {
+    // A file that does not fit, a bag that cannot be opened, or memory: the run goes on as it was.
+    response.message = error.what();
+    return;
+  }
+  if (bridge_) bridge_->reader().set_stamps(run_->stamps());
+  tell_clock(true);
+  run_->begin();
+  pacer_->restart(Pacer::Clock::now());
+  report();
+  response.success = 1;
+  response.path = from_root(path);
+  response.stamp = run_->outputs().stamp();
+  response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
+  response.message = fmt::format("run {}: goes on from {:.6f} s (simulated), at stamp {}.{:09d}", runs_, response.time,
+                                 response.stamp.sec, response.stamp.nsec);
+}
+
+void SimulatorNode::leave_failed_state() {
+  if (!parameters_.checkpoint_on_failure) return;
+  const std::filesystem::path bag(run_->bag());
+  const std::filesystem::path folder = bag.parent_path();
+  const std::string name = bag.empty() ? scene_.definition.name : bag.stem().string();
+  const std::string path = from_root((folder / (name + "_failed.h5")).string());
+  try {
+    run_->save(
+        path, [this](mpm::StateArchive& archive) { keep(archive, *queue_, watch_, *limiter_); }, failure_);
+    ROS_INFO_STREAM("the state of the failure is in " << path);
+  } catch (const mpm::Error& error) {
+    ROS_ERROR_STREAM(error.what());
+  }
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,74 @@
+#include "mpm_ros/run/rerun.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <optional>
+
+#include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/report/report_bag.hpp"
+
+namespace mpm_ros {
+namespace {
+
+class Reader : public RunVisitor {
+ public:
+  explicit Reader(Rerun& rerun) : rerun_(rerun) {}
+  void command(std::int64_t, const mpm_ros::Command& message) override { rerun_.commands.push_back(message); }
+  void solver_state(std::int64_t time, const SolverState& message) override {
+    if (!begin_) begin_ = time;
+    rerun_.end = time;
+    rerun_.failed = message.failed != 0;
+    if (message.state_hash.empty()) return;
+    rerun_.state_hash = message.state_hash;
+    rerun_.hashed_at = time;
+  }
+  /// [ns] of the first state; none when there is no state.
+  const std::optional<std::int64_t>& begin() const { return begin_; }
+
+ private:
+  Rerun& rerun_;
+  std::optional<std::int64_t> begin_;
+};
+
+}  // namespace
+
+Rerun read_rerun(const std::string& path) {
+  Rerun rerun;
+  rerun.bag = path;
+  RunBag bag(path, {});
+  if (!bag.info() || bag.info()->scene_text.empty()) {
+    throw BagError(
+        fmt::format("{}: tells no scene (topic run_info); give a bag that the simulator or run_scene recorded "
+                    "from its start",
+                    path));
+  }
+  rerun.info = *bag.info();
+  Reader reader(rerun);
+  bag.read_states_and_commands(reader);
+  if (rerun.info.part > 1 || reader.begin().value_or(0) > 0) {
+    throw BagError(
+        fmt::format("{}: begins {} s after the run's start, and the state there is not in it; give the "
+                    "recording's first part, or resume from a checkpoint",
+                    path, static_cast<double>(reader.begin().value_or(0)) * 1e-9));
+  }
+  if (rerun.end == 0 && !rerun.failed) throw BagError(path + ": the recording does not reach beyond the run's start");
+  return rerun;
+}
+
+void RerunCheck::look(const mpm::Simulation& simulation) {
+  if (!comparable() || simulation.time() != rerun_.hashed_at) return;
+  hash_ = hash_text(simulation.state_hash());
+}
+
+std::string RerunCheck::verdict() const {
+  const std::string when = fmt::format("at t = {:g} s", static_cast<double>(rerun_.hashed_at) * 1e-9);
+  if (!differences_.empty()) return fmt::format("not compared with the recording: {}", fmt::join(differences_, "; "));
+  if (rerun_.state_hash.empty()) return "not compared with the recording, which was cut short and holds no state hash";
+  if (hash_.empty()) return fmt::format("the run ended before the recorded state {}", when);
+  if (hash_ == rerun_.state_hash) return fmt::format("state hash {} {}: equal to the recorded one", hash_, when);
+  return fmt::format("state hash {} {}, but {} was recorded: this version of the package computes another run", hash_,
+                     when, rerun_.state_hash);
+}
+
+}  // namespace mpm_ros

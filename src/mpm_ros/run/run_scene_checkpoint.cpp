@@ -1,0 +1,88 @@
+#include "mpm_ros/run/run_scene_checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "mpm/scene/units.hpp"
+#include "mpm/simulation/checkpoint.hpp"
+
+namespace mpm_ros {
+
+mpm::Scene scene_of(const RunSceneOptions& options) {
+  if (options.resume.empty() || !options.scene.empty()) return mpm::load_scene(options.scene, options.set);
+  const mpm::CheckpointAbout about = mpm::read_checkpoint(options.resume);
+  return mpm::parse_scene(about.label.scene_text, about.label.scene_path, options.set);
+}
+
+void resume_from(const std::string& path, RunOptions& options) {
+  const mpm::CheckpointAbout about = mpm::read_checkpoint(path);
+  if (options.isa == "auto") options.isa = about.isa;
+  options.resume = path;
+  options.parameters += fmt::format("resumed_from: {}\nresumed_at: {:.9f}\n", nlohmann::json(path).dump(),
+                                    static_cast<double>(about.time) * 1e-9);
+}
+
+RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::int64_t sync_period)
+    : path_(options.checkpoint) {
+  if (!options.checkpoint_every.empty()) {
+    if (path_.empty()) throw mpm::SceneError("--checkpoint-every: name the file too, with --checkpoint run.h5");
+    double period = 0.0;
+    try {
+      period = mpm::parse_quantity(options.checkpoint_every, mpm::kTime);
+    } catch (const mpm::UnitError& error) {
+      throw mpm::SceneError(fmt::format("--checkpoint-every: {}", error.what()));
+    }
+    if (!(period > 0.0 && period < 1e9)) {
+      throw mpm::SceneError(fmt::format("--checkpoint-every: '{}' is not greater than 0; write a time such as 0.5 s",
+                                        options.checkpoint_every));
+    }
+    const double periods = std::round(period * 1e9 / static_cast<double>(sync_period));
+    period_ = sync_period * std::max<std::int64_t>(1, static_cast<std::int64_t>(periods));
+  }
+  if (path_.empty()) return;
+  // Told before hours of work.
+  const std::string part = path_ + ".part";
+  std::FILE* file = std::fopen(part.c_str(), "ab");
+  if (file == nullptr || std::filesystem::is_directory(path_)) {
+    throw mpm::SceneError(fmt::format("--checkpoint {}: cannot be written: {}", path_,
+                                      file == nullptr ? std::strerror(errno) : "it is a folder"));
+  }
+  std::fclose(file);
+  std::remove(part.c_str());
+}
+
+void RunSceneCheckpoints::at_sync(Run& run, std::ostream& err) {
+  if (period_ == 0 || run.ended() || run.simulation().time() % period_ != 0) return;
+  try {
+    run.save(path_);
+  } catch (const mpm::CheckpointError& error) {
+    err << "warning: " << error.what() << "\n";
+  }
+}
+
+void RunSceneCheckpoints::at_end(Run& run, std::ostream& out) {
+  if (path_.empty()) return;
+  run.save(path_);
+  out << fmt::format("  checkpoint {} at t = {:g} s\n", path_, static_cast<double>(run.simulation().time()) * 1e-9);
+}
+
+void RunSceneCheckpoints::at_failure(Run& run, const std::string& reason, std::ostream& err) {
+  if (path_.empty()) return;
+  std::filesystem::path failed(path_);
+  failed.replace_filename(failed.stem().string() + "_failed" + failed.extension().string());
+  try {
+    run.save(failed.string(), {}, reason);
+    err << fmt::format("run_scene: the state of the failure is in {}\n", failed.string());
+  } catch (const mpm::CheckpointError& error) {
+    err << "warning: " << error.what() << "\n";
+  }
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,118 @@
+#include "mpm_ros/run/run_scene_vtk.hpp"
+
+#include <fmt/format.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+
+#include <filesystem>
+
+#include "mpm_ros/csv/csv_writer.hpp"
+#include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/topics.hpp"
+
+namespace mpm_ros {
+namespace {
+
+constexpr const char* kListEnd = "</Collection>\n</VTKFile>\n";
+
+template <typename Value>
+std::vector<Value> column(const sensor_msgs::PointCloud2& cloud, const std::string& name) {
+  std::vector<Value> values;
+  values.reserve(cloud.width * cloud.height);
+  for (sensor_msgs::PointCloud2ConstIterator<Value> value(cloud, name); value != value.end(); ++value) {
+    values.push_back(*value);
+  }
+  return values;
+}
+
+}  // namespace
+
+VtkSink::VtkSink(const std::string& folder, const Stamps& stamps) : folder_(folder), stamps_(stamps) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  list_.open(folder + "/run.pvd");
+  if (error || !list_) {
+    throw VtkError(fmt::format("{}: the files for ParaView cannot be written there{}; choose another folder", folder,
+                               error ? " (" + error.message() + ")" : ""));
+  }
+  list_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n" << kListEnd;
+}
+
+void VtkSink::close() {
+  list_.close();
+  if (!list_) throw VtkError(folder_ + "/run.pvd: cannot be written; check the space on its disk");
+}
+
+bool VtkSink::wants(const std::string& topic) const {
+  return topic == topics::kParticles || topic == topics::kBodies || topic == topics::kMarkers;
+}
+
+void VtkSink::put(const std::string&, const ros::Time&, const visualization_msgs::MarkerArray& message) {
+  shapes_ = message;
+}
+
+void VtkSink::put(const std::string&, const ros::Time&, const BodyStates& message) { bodies_ = message; }
+
+void VtkSink::put(const std::string&, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) {
+  const double time = static_cast<double>(stamps_.time_of(stamp)) * 1e-9;
+  write_particles(time, message);
+  write_bodies(time);
+  ++count_;
+}
+
+void VtkSink::write_particles(double time, const sensor_msgs::PointCloud2& cloud) {
+  std::vector<float> points;
+  points.reserve(3UL * cloud.width * cloud.height);
+  sensor_msgs::PointCloud2ConstIterator<float> x(cloud, "x"), y(cloud, "y"), z(cloud, "z");
+  for (; x != x.end(); ++x, ++y, ++z) points.insert(points.end(), {*x, *y, *z});
+  VtkFile file(time, points);
+  file.draw_points();
+  for (const sensor_msgs::PointField& field : cloud.fields) {
+    if (field.name == "x" || field.name == "y" || field.name == "z") continue;
+    if (field.datatype == sensor_msgs::PointField::UINT32) {
+      file.add(field.name, column<std::uint32_t>(cloud, field.name));
+    } else {
+      file.add(field.name, column<float>(cloud, field.name));
+    }
+  }
+  write(file, "particles", 0, time);
+}
+
+void VtkSink::write_bodies(double time) {
+  int part = 0;
+  for (const visualization_msgs::Marker& shape : shapes_.markers) {
+    ++part;
+    if (shape.type != visualization_msgs::Marker::TRIANGLE_LIST || shape.points.empty()) continue;
+    for (const BodyState& body : bodies_.bodies) {
+      if (body.name != shape.header.frame_id) continue;
+      const mpm::Pose pose = from_message(body.pose);
+      std::vector<float> points;
+      points.reserve(3 * shape.points.size());
+      for (const geometry_msgs::Point& point : shape.points) {
+        const mpm::Vec3 place = pose.position + pose.orientation * mpm::Vec3(point.x, point.y, point.z);
+        for (const double coordinate : place) points.push_back(static_cast<float>(coordinate));
+      }
+      VtkFile file(time, points);
+      file.draw_triangles();
+      write(file, "body_" + file_stem(body.name), part, time);
+    }
+  }
+}
+
+void VtkSink::write(const VtkFile& file, const std::string& stem, int part, double time) {
+  const std::string name = fmt::format("{}_{:04}.vtp", stem, count_);
+  file.write(folder_ + "/" + name);
+  list_.seekp(-static_cast<std::streamoff>(std::string(kListEnd).size()), std::ios::end);
+  list_ << fmt::format("<DataSet timestep=\"{:.12g}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", time, part,
+                       xml_text(stem), xml_text(name))
+        << kListEnd << std::flush;
+}
+
+// Not wanted.
+void VtkSink::put(const std::string&, const ros::Time&, const RunInfo&) {}
+void VtkSink::put(const std::string&, const ros::Time&, const ContactForces&) {}
+void VtkSink::put(const std::string&, const ros::Time&, const geometry_msgs::WrenchStamped&) {}
+void VtkSink::put(const std::string&, const ros::Time&, const SolverState&) {}
+void VtkSink::put(const std::string&, const ros::Time&, const tf2_msgs::TFMessage&) {}
+void VtkSink::put(const std::string&, const ros::Time&, const Command&) {}
+
+}  // namespace mpm_ros

@@ -1,0 +1,86 @@
+#include "mpm_ros/run/scene_files.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "mpm/rigid/surface.hpp"
+
+namespace mpm_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file that a text of the scene names; none when it names none that is there.
+std::optional<fs::path> file_of(const std::string& text, const std::string& scene_path) {
+  try {
+    fs::path path = mpm::resolve_resource(text);
+    if (path.is_relative()) path = fs::path(scene_path).parent_path() / path;
+    if (fs::is_regular_file(path)) return path;
+  } catch (const mpm::Error&) {
+    // A package that is not there.
+  } catch (const fs::filesystem_error&) {
+    // A text that is no path, or a folder that is closed.
+  }
+  return std::nullopt;
+}
+
+std::string hash_of(const fs::path& path) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 65536> bytes;
+  while (file.read(bytes.data(), bytes.size()), file.gcount() > 0) {
+    for (std::streamsize i = 0; i < file.gcount(); ++i) {
+      hash ^= static_cast<unsigned char>(bytes[static_cast<std::size_t>(i)]);
+      hash *= 1099511628211ULL;
+    }
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+void find_files(const YAML::Node& node, const std::string& scene_path, std::vector<SceneFile>& files) {
+  if (!node.IsScalar()) {
+    for (const auto& entry : node) find_files(node.IsMap() ? entry.second : entry, scene_path, files);
+    return;
+  }
+  const std::string text = node.Scalar();
+  const auto known = [&text](const SceneFile& file) { return file.path == text; };
+  if (std::any_of(files.begin(), files.end(), known)) return;
+  const std::optional<fs::path> path = file_of(text, scene_path);
+  if (!path) return;
+  SceneFile file;
+  file.path = text;
+  file.hash = hash_of(*path);
+  files.push_back(file);
+}
+
+}  // namespace
+
+std::vector<SceneFile> scene_files(const std::string& text, const std::string& scene_path) {
+  std::vector<SceneFile> files;
+  const YAML::Node bodies = YAML::Load(text)["rigid_bodies"];
+  if (bodies) find_files(bodies, scene_path, files);
+  return files;
+}
+
+std::vector<std::string> changed_files(const std::vector<SceneFile>& recorded, const std::string& scene_path) {
+  std::vector<std::string> changes;
+  for (const SceneFile& file : recorded) {
+    const std::optional<fs::path> path = file_of(file.path, scene_path);
+    if (!path) {
+      changes.push_back(
+          fmt::format("{} is not there any more; put it back where the scene {} looks for it", file.path, scene_path));
+    } else if (hash_of(*path) != file.hash) {
+      changes.push_back(fmt::format("{} has changed since the recording ({})", file.path, path->string()));
+    }
+  }
+  return changes;
+}
+
+}  // namespace mpm_ros

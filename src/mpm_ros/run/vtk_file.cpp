@@ -1,0 +1,109 @@
+#include "mpm_ros/run/vtk_file.hpp"
+
+#include <boost/predef/other/endian.h>
+#include <fmt/format.h>
+
+#include <cstring>
+#include <fstream>
+
+namespace mpm_ros {
+
+VtkFile::VtkFile(double time, const std::vector<float>& points) : time_(time), points_(points.size() / 3) {
+  place_.push_back(array("Points", "Float32", 3, points));
+}
+
+template <typename Value>
+VtkFile::Array VtkFile::array(const std::string& name, const char* type, int components,
+                              const std::vector<Value>& values) {
+  Array result{name, type, components, std::string(values.size() * sizeof(Value), '\0')};
+  if (!values.empty()) std::memcpy(result.bytes.data(), values.data(), result.bytes.size());
+  return result;
+}
+
+void VtkFile::draw_points() { corners_ = 1; }
+
+void VtkFile::draw_triangles() { corners_ = 3; }
+
+void VtkFile::add(const std::string& name, const std::vector<float>& values) {
+  values_.push_back(array(name, "Float32", 1, values));
+}
+
+void VtkFile::add(const std::string& name, const std::vector<std::uint32_t>& values) {
+  values_.push_back(array(name, "UInt32", 1, values));
+}
+
+void VtkFile::write(const std::string& path) const {
+  std::vector<Array> cells;
+  if (corners_ > 0) {
+    std::vector<std::int32_t> corners(points_ / corners_ * corners_), ends(points_ / corners_);
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::int32_t>(i);
+    for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = static_cast<std::int32_t>((i + 1) * corners_);
+    cells = {array("connectivity", "Int32", 1, corners), array("offsets", "Int32", 1, ends)};
+  }
+
+  // Each array lies behind its length, 64 bits; `offset` counts from the first byte behind the underscore.
+  std::uint64_t offset = 0;
+  const auto describe = [&offset](const std::vector<Array>& arrays) {
+    std::string text;
+    for (const Array& entry : arrays) {
+      text += fmt::format(
+          "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
+          entry.type, xml_text(entry.name), entry.components, offset);
+      offset += sizeof(std::uint64_t) + entry.bytes.size();
+    }
+    return text;
+  };
+  const std::size_t drawn = corners_ > 0 ? points_ / corners_ : 0;
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n"
+      "<PolyData>\n<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+      "format=\"ascii\">{:.17g}"
+      "</DataArray></FieldData>\n"
+      "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      "NumberOfPolys=\"{}\">\n",
+      BOOST_ENDIAN_LITTLE_BYTE ? "LittleEndian" : "BigEndian", time_, points_, corners_ == 1 ? drawn : 0,
+      corners_ == 3 ? drawn : 0);
+  text += "<Points>\n" + describe(place_) + "</Points>\n";
+  if (corners_ == 1) text += "<Verts>\n" + describe(cells) + "</Verts>\n";
+  if (corners_ == 3) text += "<Polys>\n" + describe(cells) + "</Polys>\n";
+  text +=
+      "<PointData>\n" + describe(values_) + "</PointData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  const auto append = [&file](const std::vector<Array>& arrays) {
+    for (const Array& entry : arrays) {
+      const std::uint64_t size = entry.bytes.size();
+      file.write(reinterpret_cast<const char*>(&size), sizeof(size));
+      file.write(entry.bytes.data(), static_cast<std::streamsize>(size));
+    }
+  };
+  append(place_);
+  append(cells);
+  append(values_);
+  file << "\n</AppendedData>\n</VTKFile>\n";
+  file.close();
+  if (!file) throw VtkError(fmt::format("{}: cannot be written; check the folder and the space on its disk", path));
+}
+
+std::string xml_text(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+}  // namespace mpm_ros

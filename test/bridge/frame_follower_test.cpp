@@ -1,0 +1,126 @@
+// A tf frame's transforms as pose commands: by their stamps, each once, and what is said while there is none.
+#include "mpm_ros/command/frame_follower.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mpm_ros {
+namespace {
+
+constexpr std::int64_t kSync = 10'000'000;  // [ns]
+
+class Follower : public testing::Test {
+ protected:
+  tf2::BufferCore frames_;
+  NodeHealth health_;
+  CommandQueue queue_{kSync};
+  CommandReader reader_{{"plate", "probe"}, "world", "/bodies/", frames_, queue_, health_};
+  FrameFollower follower_{{"", "tool0"}, "world", frames_, reader_, health_};
+
+  void SetUp() override { reader_.set_frame(1, "tool0"); }
+
+  void transform(double x, double stamp, const std::string& parent = "world", const std::string& child = "tool0",
+                 bool constant = false) {
+    geometry_msgs::TransformStamped message;
+    message.header.frame_id = parent;
+    message.header.stamp = ros::Time(stamp);
+    message.child_frame_id = child;
+    message.transform.translation.x = x;
+    message.transform.rotation.w = 1.0;
+    ASSERT_TRUE(frames_.setTransform(message, "test", constant));
+  }
+  /// What is applied at the sync point of that number.
+  std::vector<DueCommand> at(int sync) {
+    follower_.look(Stamps().at((sync + 1) * kSync));
+    return queue_.take(sync * kSync);
+  }
+  std::string diagnostic() const {
+    diagnostic_updater::DiagnosticStatusWrapper status;
+    health_.fill_commands(status);
+    return status.message;
+  }
+};
+
+TEST_F(Follower, WaitsForTheFrameAndSaysSo) {
+  EXPECT_TRUE(at(0).empty());
+  EXPECT_NE(diagnostic().find("'probe' waits for the tf frame 'tool0'"), std::string::npos) << diagnostic();
+  transform(0.5, 0.004);
+  const std::vector<DueCommand> due = at(1);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due[0].command.body, 1);
+  EXPECT_EQ(due[0].command.kind, CommandKind::pose);
+  EXPECT_EQ(due[0].command.pose.position.x(), 0.5);
+  EXPECT_EQ(due[0].command.requested, ros::Time(0.004));
+  EXPECT_EQ(diagnostic(), "commands are applied as they come");
+  EXPECT_EQ(health_.refused(), 0U);
+}
+
+TEST_F(Follower, ATransformIsTakenOnceAndReachedOnePeriodLater) {
+  transform(0.1, 0.005);
+  EXPECT_EQ(at(1).size(), 1U);
+  EXPECT_TRUE(at(2).empty());
+  transform(0.2, 0.025);  // 20 ms after the one before: the period
+  const std::vector<DueCommand> due = at(3);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due[0].arrival, 5 * kSync);
+}
+
+TEST_F(Follower, AFrameThatIsStampedAheadIsFollowedToEachSyncPoint) {
+  transform(0.0, 0.0001);
+  transform(1.0, 0.1001);  // 10 m/s
+  for (int sync = 0; sync < 9; ++sync) {
+    const std::vector<DueCommand> due = at(sync);
+    ASSERT_EQ(due.size(), 1U) << sync;
+    EXPECT_EQ(due[0].arrival, (sync + 1) * kSync);
+    EXPECT_NEAR(due[0].command.pose.position.x(), 10.0 * ((sync + 1) * 0.01 - 0.0001), 1e-12) << sync;
+  }
+  EXPECT_EQ(queue_.late().past, 0U);
+  // The last piece of the way, which ends after that sync point: by the last stamp, and then nothing more.
+  EXPECT_EQ(at(9).size(), 1U);
+  const std::vector<DueCommand> last = at(10);
+  ASSERT_EQ(last.size(), 1U);
+  EXPECT_EQ(last[0].command.pose.position.x(), 1.0);
+  EXPECT_TRUE(at(11).empty());
+}
+
+TEST_F(Follower, ChainsOfFramesAndStaticOnesAreFollowed) {
+  transform(1.0, 0.0, "world", "base", true);
+  transform(0.5, 0.0, "base", "tool0", true);
+  for (int sync = 0; sync < 3; ++sync) {
+    const std::vector<DueCommand> due = at(sync);
+    ASSERT_EQ(due.size(), 1U);  // a body that is told where to be hears something
+    EXPECT_EQ(due[0].command.pose.position.x(), 1.5);
+  }
+}
+
+TEST_F(Follower, OtherCommandsForABodyThatFollowsAreRefused) {
+  reader_.take(1, geometry_msgs::Twist());
+  EXPECT_EQ(health_.refused(), 1U);
+  EXPECT_NE(diagnostic().find("it follows the tf frame 'tool0' (drive: tf)"), std::string::npos) << diagnostic();
+  mpm_ros::Command command;
+  command.body = "probe";
+  command.kind = mpm_ros::Command::VELOCITY;
+  std::string problem;
+  reader_.read(command, problem);
+  EXPECT_NE(problem.find("it follows the tf frame 'tool0'"), std::string::npos) << problem;
+  reader_.take(0, geometry_msgs::Twist());  // the plate does not
+  EXPECT_EQ(health_.refused(), 1U);
+}
+
+TEST_F(Follower, ATransformThatIsNoPoseIsRefused) {
+  geometry_msgs::PoseStamped pose;
+  pose.header.stamp = ros::Time(0.005);
+  reader_.follow(1, pose);  // a quaternion of zeros
+  EXPECT_EQ(health_.refused(), 1U);
+  EXPECT_TRUE(queue_.take(0).empty());
+}
+
+TEST_F(Follower, BeginsAgainWithTheRun) {
+  transform(0.1, 0.005);
+  EXPECT_EQ(at(1).size(), 1U);
+  queue_.clear();
+  follower_.clear();
+  EXPECT_EQ(at(1).size(), 1U);
+}
+
+}  // namespace
+}  // namespace mpm_ros

@@ -1,0 +1,236 @@
+// Checkpoints of run_scene and of a run: what goes on from one ends as what was never stopped.
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "mpm_ros/command/command_queue.hpp"
+#include "mpm_ros/command/command_watch.hpp"
+#include "mpm_ros/report/temporary_folder.hpp"
+#include "mpm_ros/run/run.hpp"
+#include "mpm_ros/run/run_scene.hpp"
+
+namespace mpm_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunCheckpoint : public ::testing::Test {
+ protected:
+  RunCheckpoint() {
+    options_.scene = std::string(MPM_SOURCE_DIR) + "/config/scenes/falling_block.yaml";
+    options_.threads = 1;
+    options_.end = "50 ms";  // twenty sync periods of 2.5 ms
+    options_.summary = folder_.file("summary.json");
+  }
+  RunSceneResult run(const std::function<bool()>& stop = [] { return false; }) {
+    out_.str("");
+    err_.str("");
+    return run_scene(options_, out_, err_, false, stop);
+  }
+  nlohmann::json summary() const {
+    std::ifstream file(options_.summary);
+    return nlohmann::json::parse(file);
+  }
+  void expect_bad_input(const std::string& text) {
+    EXPECT_EQ(run(), RunSceneResult::bad_input);
+    EXPECT_NE(err_.str().find(text), std::string::npos) << err_.str();
+    const std::string all = err_.str();
+    EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 1) << all;
+  }
+
+  const TemporaryFolder folder_;
+  RunSceneOptions options_;
+  std::ostringstream out_, err_;
+};
+
+TEST_F(RunCheckpoint, StoppedAndResumedEndsAsUninterrupted) {
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  const nlohmann::json whole = summary();
+  // Told to stop as by SIGINT, after seven periods.
+  options_.checkpoint = folder_.file("run.h5");
+  int asked = 0;
+  ASSERT_EQ(run([&asked] { return asked++ == 7; }), RunSceneResult::done) << err_.str();
+  EXPECT_EQ(summary()["time"], 0.0175);
+  EXPECT_NE(out_.str().find("checkpoint " + options_.checkpoint + " at t = 0.0175 s"), std::string::npos) << out_.str();
+  // The file alone is enough to go on.
+  options_.resume = options_.checkpoint;
+  options_.checkpoint.clear();
+  options_.scene.clear();
+  options_.bag = folder_.file("rest.bag");
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  const nlohmann::json resumed = summary();
+  for (const char* key : {"state_hash", "steps", "time", "momentum_error", "metrics", "contact_impulse"}) {
+    EXPECT_EQ(resumed[key], whole[key]) << key;
+  }
+  EXPECT_EQ(resumed["energy"]["end"], whole["energy"]["end"]);
+  // The bag holds the rest of the run and says where it began.
+  rosbag::Bag bag(options_.bag);
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TypeQuery("mpm_ros/RunInfo"))) {
+    const auto info = message.instantiate<RunInfo>();
+    EXPECT_EQ(info->header.stamp, ros::Time(0, 17'500'000));
+    EXPECT_NE(info->parameters.find("resumed_at: 0.0175"), std::string::npos) << info->parameters;
+  }
+  for (const rosbag::MessageInstance& message : rosbag::View(bag))
+    EXPECT_GE(message.getTime(), ros::Time(0, 17'500'000));
+}
+
+TEST_F(RunCheckpoint, EverySoOftenOneFileIsReplaced) {
+  options_.checkpoint = folder_.file("run.h5");
+  options_.checkpoint_every = "20 ms";
+  // Stopped by nobody: killed after eighteen periods, 45 ms.
+  struct Killed {};
+  int asked = 0;
+  EXPECT_THROW(run([&asked]() -> bool {
+                 if (asked++ == 18) throw Killed();
+                 return false;
+               }),
+               Killed);
+  EXPECT_EQ(mpm::read_checkpoint(options_.checkpoint).time, 40'000'000);
+  EXPECT_FALSE(fs::exists(options_.checkpoint + ".part"));
+}
+
+TEST_F(RunCheckpoint, AFailedRunLeavesItsStateWhichIsNotResumed) {
+  options_.scene = MPM_TEST_DATA_DIR "/leaves_domain.yaml";
+  options_.end.clear();
+  options_.checkpoint = folder_.file("run.h5");
+  options_.checkpoint_every = "20 ms";
+  ASSERT_EQ(run(), RunSceneResult::physics_failed) << err_.str();
+  const std::string failed = folder_.file("run_failed.h5");
+  EXPECT_NE(err_.str().find("the state of the failure is in " + failed), std::string::npos) << err_.str();
+  const std::string why = mpm::read_checkpoint(failed).label.failure;
+  EXPECT_NE(err_.str().find("run_scene: " + why), std::string::npos) << why;
+  // The block's front at 0.09 m, 2 m/s: at 0.2 m after 0.055 s; 0.04 s is the last good one.
+  EXPECT_EQ(mpm::read_checkpoint(options_.checkpoint).time, 40'000'000);
+  options_.checkpoint.clear();
+  options_.checkpoint_every.clear();
+  options_.resume = failed;
+  expect_bad_input("cannot go on (" + why + ")");
+}
+
+TEST_F(RunCheckpoint, RefusesWhatMakesNoSense) {
+  options_.checkpoint_every = "20 ms";
+  expect_bad_input("--checkpoint-every: name the file too");
+  options_.checkpoint = folder_.file("run.h5");
+  options_.checkpoint_every = "-1";
+  expect_bad_input("--checkpoint-every: '-1' is not greater than 0");
+  options_.checkpoint_every = "20 mm";
+  expect_bad_input("--checkpoint-every: ");
+  options_.checkpoint_every.clear();
+  options_.checkpoint = folder_.file("none/run.h5");
+  expect_bad_input("--checkpoint " + options_.checkpoint + ": cannot be written: No such file or directory");
+  options_.checkpoint.clear();
+  options_.resume = folder_.file("none.h5");
+  expect_bad_input("checkpoint " + options_.resume + ": cannot be read: No such file or directory");
+}
+
+TEST_F(RunCheckpoint, RefusesAnotherScene) {
+  options_.checkpoint = folder_.file("run.h5");
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  options_.resume = options_.checkpoint;
+  options_.set = {"gravity=[0, -1.62]"};
+  expect_bad_input("it is of another scene, 'falling_block'");
+}
+
+/// Three commands ahead of their time, one without a stamp.
+void fill(CommandQueue& queue) {
+  BodyCommand command;
+  command.body = 0;
+  command.twist.linear.z() = -0.1;
+  command.stamp = 60'000'000;
+  command.requested = ros::Time(0, 60'000'000);
+  queue.push(command);
+  command.kind = CommandKind::pose;
+  command.pose.position = {0.1, 0.0, 0.055};
+  command.stamp = 120'000'000;
+  queue.push(command);
+  command.pose.position.z() = 0.052;
+  command.stamp = 160'000'000;
+  queue.push(command);
+  command.kind = CommandKind::velocity;
+  command.body = 1;
+  command.stamp.reset();
+  command.late = true;
+  queue.push(command);
+}
+
+/// The press under commands that wait in the queue, to the end or to a sync point.
+struct Pressed {
+  explicit Pressed(const std::string& resume = {}) : queue(scene.definition.time.sync) {
+    RunOptions options;
+    options.threads = 1;
+    options.output = output_options(scene);
+    options.output.wrench_period = 0.016;  // averages of eight periods
+    options.resume = resume;
+    options.more = [this](mpm::StateArchive& archive) { keep(archive); };
+    run = std::make_unique<mpm_ros::Run>(scene, options, Stamps(), nullptr);
+    run->begin();
+  }
+  void keep(mpm::StateArchive& archive) {
+    queue.keep(archive);
+    watch.keep(archive);
+  }
+  void go(int periods) {
+    for (int n = 0; n < periods && !run->ended(); ++n) {
+      const std::int64_t now = run->simulation().time();
+      for (const DueCommand& due : queue.take(now)) {
+        AppliedCommand command;
+        command.body = due.command.body;
+        command.kind = due.command.kind;
+        command.twist = due.command.twist;
+        command.pose = due.command.pose;
+        command.effect = now;
+        command.arrival = due.arrival;
+        run->apply(command);
+        watch.heard(command);
+      }
+      silences += static_cast<int>(watch.silent(now).size());
+      run->advance();
+    }
+  }
+  mpm::Scene scene = mpm::load_scene(MPM_TEST_DATA_DIR "/press.yaml");
+  CommandQueue queue;
+  CommandWatch watch{30'000'000};
+  std::unique_ptr<mpm_ros::Run> run;
+  int silences = 0;
+};
+
+TEST_F(RunCheckpoint, CommandsThatWaitAndAveragesUnderWayGoOn) {
+  Pressed whole;
+  fill(whole.queue);
+  whole.go(1000000);
+  ASSERT_TRUE(whole.run->ended());
+  EXPECT_EQ(whole.queue.waiting(), 0U);
+  for (const int at : {0, 1, 35, 64}) {  // before, between and after commands have taken effect, averages half done
+    Pressed first;
+    fill(first.queue);
+    first.go(at);
+    first.run->save(folder_.file("press.h5"), [&](mpm::StateArchive& archive) { first.keep(archive); });
+    Pressed second(folder_.file("press.h5"));
+    EXPECT_EQ(second.queue.waiting(), first.queue.waiting());
+    second.go(1000000);
+    EXPECT_EQ(second.run->simulation().memory_hash(), whole.run->simulation().memory_hash()) << at;
+    EXPECT_EQ(first.silences + second.silences, whole.silences) << at;
+    EXPECT_EQ(second.run->outputs().solver_state().commands_applied,
+              whole.run->outputs().solver_state().commands_applied);
+  }
+}
+
+TEST_F(RunCheckpoint, RunSceneDoesNotDropCommandsThatWait) {
+  Pressed first;
+  fill(first.queue);
+  first.go(1);
+  first.run->save(folder_.file("press.h5"), [&](mpm::StateArchive& archive) { first.keep(archive); });
+  options_.scene.clear();
+  options_.end.clear();
+  options_.resume = folder_.file("press.h5");
+  expect_bad_input("3 commands that wait for their time");
+}
+
+}  // namespace
+}  // namespace mpm_ros

@@ -1,0 +1,180 @@
+// Files for ParaView, read back by the rules of VTK's XML format: header, offsets, raw blocks behind their lengths.
+#include <gtest/gtest.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "mpm_ros/report/report_bag.hpp"
+#include "mpm_ros/report/temporary_folder.hpp"
+#include "mpm_ros/run/run_scene.hpp"
+#include "mpm_ros/run/vtk_file.hpp"
+
+namespace mpm_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// What a .vtp file says.
+struct PolyData {
+  double time = -1.0;
+  std::size_t points = 0, verts = 0, polys = 0;
+  std::map<std::string, std::string> types;  ///< of arrays, "Float32" or "Float32 x 3"
+  std::map<std::string, std::string> bytes;
+
+  template <typename Value>
+  std::vector<Value> values(const std::string& name) const {
+    std::vector<Value> result(bytes.at(name).size() / sizeof(Value));
+    std::memcpy(result.data(), bytes.at(name).data(), bytes.at(name).size());
+    return result;
+  }
+};
+
+PolyData read_vtp(const std::string& path) {
+  PolyData result;
+  const std::string file = content(path);
+  const std::size_t appended = file.find("<AppendedData encoding=\"raw\">");
+  EXPECT_NE(appended, std::string::npos) << path;
+  const std::string header = file.substr(0, appended);
+  const std::size_t data = file.find('_', appended) + 1;
+  EXPECT_NE(header.find("header_type=\"UInt64\""), std::string::npos);
+  std::smatch found;
+  EXPECT_TRUE(std::regex_search(header, found, std::regex("Name=\"TimeValue\"[^>]*>([^<]*)<")));
+  result.time = std::stod(found[1]);
+  const auto count = [&](const std::string& name) {
+    EXPECT_TRUE(std::regex_search(header, found, std::regex(name + "=\"([0-9]+)\""))) << name;
+    return static_cast<std::size_t>(std::stoul(found[1]));
+  };
+  result.points = count("NumberOfPoints");
+  result.verts = count("NumberOfVerts");
+  result.polys = count("NumberOfPolys");
+  std::size_t end = data;
+  const std::regex array(
+      "type=\"([A-Za-z0-9]+)\" Name=\"([^\"]+)\" NumberOfComponents=\"([0-9]+)\" format=\"appended\" "
+      "offset=\"([0-9]+)\"");
+  for (std::sregex_iterator entry(header.begin(), header.end(), array), last; entry != last; ++entry) {
+    const std::string name = (*entry)[2];
+    const std::size_t offset = data + std::stoul((*entry)[4]);
+    std::uint64_t size = 0;
+    std::memcpy(&size, file.data() + offset, sizeof(size));
+    EXPECT_EQ(offset, end) << name;  // one behind the other
+    end = offset + sizeof(size) + size;
+    EXPECT_LE(end, file.size()) << name;
+    result.types[name] = (*entry)[1].str() + ((*entry)[3] == "1" ? "" : " x " + (*entry)[3].str());
+    result.bytes[name] = file.substr(offset + sizeof(size), size);
+  }
+  EXPECT_EQ(file.substr(end), "\n</AppendedData>\n</VTKFile>\n");
+  return result;
+}
+
+TEST(Vtk, ATriangleAsTheFormatHasIt) {
+  const TemporaryFolder folder;
+  VtkFile file(0.25, {0, 0, 0, 1, 0, 0, 0, 2, 0});
+  file.draw_triangles();
+  file.add("height & width", std::vector<float>{1.5F, -2.5F, 3.5F});
+  file.write(folder.file("one.vtp"));
+  const PolyData read = read_vtp(folder.file("one.vtp"));
+  EXPECT_EQ(read.time, 0.25);
+  EXPECT_EQ(read.points, 3U);
+  EXPECT_EQ(read.verts, 0U);
+  EXPECT_EQ(read.polys, 1U);
+  EXPECT_EQ(read.types.at("Points"), "Float32 x 3");
+  EXPECT_EQ(read.values<float>("Points"), (std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}));
+  EXPECT_EQ(read.types.at("connectivity"), "Int32");
+  EXPECT_EQ(read.values<std::int32_t>("connectivity"), (std::vector<std::int32_t>{0, 1, 2}));
+  EXPECT_EQ(read.values<std::int32_t>("offsets"), (std::vector<std::int32_t>{3}));
+  EXPECT_EQ(read.values<float>("height &amp; width"), (std::vector<float>{1.5F, -2.5F, 3.5F}));
+}
+
+TEST(Vtk, WhatCannotBeWrittenIsNamed) {
+  EXPECT_THROW(VtkFile(0.0, {}).write("/no/such/folder/one.vtp"), VtkError);
+  EXPECT_THROW(VtkFile(0.0, {0, 0, 0}).write("/dev/full"), VtkError);
+}
+
+/// The clouds and bodies of a bag.
+class Recorded : public RunVisitor {
+ public:
+  void bodies(std::int64_t time, const BodyStates& message) override { bodies_at[time] = message; }
+  void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) override { clouds[time] = message; }
+  void markers(const visualization_msgs::MarkerArray& message) override { shapes = message; }
+  std::map<std::int64_t, BodyStates> bodies_at;
+  std::map<std::int64_t, sensor_msgs::PointCloud2> clouds;
+  visualization_msgs::MarkerArray shapes;
+};
+
+TEST(Vtk, ARunHoldsWhatItsBagHolds) {
+  const TemporaryFolder folder;
+  RunSceneOptions options;
+  options.scene = MPM_TEST_DATA_DIR "/press.yaml";
+  options.set = {"time.end=0.06", "rigid_bodies.plate.motion={velocity: [0.1, -0.2], rotation_rate: 0.5}"};
+  options.threads = 1;
+  options.vtk = folder.file("vtk");
+  options.bag = folder.file("run.bag");
+  std::ostringstream out, err;
+  ASSERT_EQ(run_scene(options, out, err, false, [] { return false; }), RunSceneResult::done) << err.str();
+  Recorded recorded;
+  RunBag(options.bag, "").read({&recorded});
+
+  const std::string list = content(options.vtk + "/run.pvd");
+  std::vector<std::string> files;
+  std::vector<double> times;
+  const std::regex entry("<DataSet timestep=\"([^\"]+)\" part=\"[0-9]+\" name=\"[^\"]+\" file=\"([^\"]+)\"/>");
+  for (std::sregex_iterator set(list.begin(), list.end(), entry), last; set != last; ++set) {
+    times.push_back(std::stod((*set)[1]));
+    files.push_back((*set)[2]);
+  }
+  // Particles, plate and rod at 0, 0.02, 0.04 and 0.06 s.
+  ASSERT_EQ(files.size(), 12U) << list;
+  for (int cloud = 0; cloud < 4; ++cloud) {
+    EXPECT_NEAR(times[3 * static_cast<std::size_t>(cloud)], 0.02 * cloud, 1e-12);  // decimal digits read back
+    const std::string number = "_000" + std::to_string(cloud) + ".vtp";
+    EXPECT_EQ(files[3 * static_cast<std::size_t>(cloud)], "particles" + number);
+    const sensor_msgs::PointCloud2& message = recorded.clouds.at(20'000'000 * cloud);
+    const PolyData particles = read_vtp(options.vtk + "/particles" + number);
+    EXPECT_EQ(particles.points, message.width);
+    EXPECT_EQ(particles.verts, message.width);
+    EXPECT_EQ(particles.types.at("id"), "UInt32");
+    const std::vector<float> places = particles.values<float>("Points"), j = particles.values<float>("j");
+    const std::vector<std::uint32_t> ids = particles.values<std::uint32_t>("id");
+    sensor_msgs::PointCloud2ConstIterator<float> x(message, "x"), z(message, "z"), recorded_j(message, "j");
+    sensor_msgs::PointCloud2ConstIterator<std::uint32_t> id(message, "id");
+    for (std::size_t i = 0; i < message.width; ++i, ++x, ++z, ++recorded_j, ++id) {
+      EXPECT_EQ(places[3 * i], *x);
+      EXPECT_EQ(places[3 * i + 2], *z);
+      EXPECT_EQ(j[i], *recorded_j);
+      EXPECT_EQ(ids[i], *id);
+    }
+
+    // The plate where it was: turned about y, then moved.
+    const BodyState& plate = recorded.bodies_at.at(20'000'000 * cloud).bodies[0];
+    const double angle = 2.0 * std::atan2(plate.pose.orientation.y, plate.pose.orientation.w);
+    EXPECT_NEAR(angle, 0.5 * 0.02 * cloud, 1e-12);  // the rate times the time
+    const PolyData body = read_vtp(options.vtk + "/body_plate" + number);
+    const std::vector<geometry_msgs::Point>& shape = recorded.shapes.markers[0].points;
+    EXPECT_EQ(body.polys, shape.size() / 3);
+    const std::vector<float> corners = body.values<float>("Points");
+    ASSERT_EQ(corners.size(), 3 * shape.size());
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+      // Rounded to a float32: 2^-24 of 0.2 m.
+      EXPECT_NEAR(corners[3 * i], plate.pose.position.x + std::cos(angle) * shape[i].x + std::sin(angle) * shape[i].z,
+                  2e-8);
+      EXPECT_NEAR(corners[3 * i + 2],
+                  plate.pose.position.z - std::sin(angle) * shape[i].x + std::cos(angle) * shape[i].z, 2e-8);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mpm_ros

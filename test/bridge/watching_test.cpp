@@ -1,0 +1,83 @@
+// What doc/watching.md and the RViz configurations say of topics and fields is what there is.
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "mpm/simulation/global_quantity.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "mpm_ros/message/topics.hpp"
+
+namespace mpm_ros {
+namespace {
+
+using Row = std::pair<std::string, std::string>;
+
+/// The words in backticks of each row's first cell, with its second cell, of the table whose header begins so.
+std::vector<Row> table(const std::string& header) {
+  std::ifstream file(MPM_SOURCE_DIR "/doc/watching.md");
+  std::vector<Row> rows;
+  bool inside = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind(header, 0) == 0) inside = true;
+    if (!inside) continue;
+    if (line.empty()) break;
+    std::stringstream cells(line);
+    std::string cell, names, unit;
+    std::getline(cells, cell, '|');
+    std::getline(cells, names, '|');
+    std::getline(cells, unit, '|');
+    unit = unit.substr(1, unit.size() - 2);
+    for (std::size_t begin = names.find('`'); begin != std::string::npos; begin = names.find('`', begin)) {
+      const std::size_t end = names.find('`', begin + 1);
+      rows.emplace_back(names.substr(begin + 1, end - begin - 1), unit);
+      begin = end + 1;
+    }
+  }
+  return rows;
+}
+
+TEST(Watching, EveryParticleFieldIsInTheTableWithItsUnit) {
+  std::set<Row> known, written;
+  for (const Row& field : mpm::Simulation::particle_fields()) known.insert(field);
+  for (const Row& row : table("| field ")) EXPECT_TRUE(written.insert(row).second) << row.first << " is there twice";
+  for (const Row& row : known) EXPECT_EQ(written.count(row), 1U) << row.first << " [" << row.second << "] is not there";
+  for (const Row& row : written) EXPECT_EQ(known.count(row), 1U) << row.first << " [" << row.second << "] is no field";
+}
+
+TEST(Watching, EveryGlobalQuantityIsInTheTableWithItsUnit) {
+  std::set<Row> known, written;
+  for (const Row& quantity : mpm::global_quantity_names()) known.insert(quantity);
+  for (const Row& row : table("| quantity ")) EXPECT_TRUE(written.insert(row).second) << row.first << " is there twice";
+  for (const Row& row : known) EXPECT_EQ(written.count(row), 1U) << row.first << " [" << row.second << "] is not there";
+  for (const Row& row : written) EXPECT_EQ(known.count(row), 1U) << row.first << " [" << row.second << "] is none";
+}
+
+TEST(Watching, EveryRVizConfigurationNamesTopicsThatExist) {
+  const std::set<std::string> topics = {topics::kParticles, topics::kMarkers, topics::kForceMarkers};
+  int configurations = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(MPM_SOURCE_DIR "/config/rviz")) {
+    const std::string path = entry.path().string();
+    ASSERT_EQ(entry.path().extension(), ".rviz") << path;
+    ++configurations;
+    const YAML::Node displays = YAML::LoadFile(path)["Visualization Manager"]["Displays"];
+    ASSERT_TRUE(displays.IsSequence()) << path;
+    int named = 0;
+    for (const YAML::Node& display : displays) {
+      for (const char* key : {"Topic", "Marker Topic"}) {
+        if (!display[key]) continue;
+        ++named;
+        const auto topic = display[key].as<std::string>();
+        EXPECT_EQ(topics.count(topic.substr(topic.rfind('/') + 1)), 1U) << path << ": " << topic;
+      }
+    }
+    EXPECT_EQ(named, 3) << path << ": particles, shapes and forces are shown";
+  }
+  EXPECT_GE(configurations, 3);
+}
+
+}  // namespace
+}  // namespace mpm_ros

@@ -1,0 +1,69 @@
+// Two million steps in lockstep while everything is recorded in parts: the memory stays what it was, and the clock is
+// the number of sync periods.
+#include <fmt/format.h>
+#include <mpm_ros/RunInfo.h>
+
+#include <iostream>
+
+#include "mpm_ros/message/bag_parts.hpp"
+#include "simulator_process.hpp"
+
+namespace mpm_ros::test {
+namespace {
+
+/// Of a process, resident [kB].
+long memory_of(pid_t pid) {
+  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.compare(0, 6, "VmRSS:") == 0) return std::stol(line.substr(6));
+  }
+  ADD_FAILURE() << "no memory is told for process " << pid;
+  return 0;
+}
+
+TEST(FullEndurance, TwoMillionStepsInLockstep) {
+  constexpr std::uint64_t kSteps = 2'000'000, kStepsOfSync = 100, kSyncs = kSteps / kStepsOfSync;
+  constexpr std::uint64_t kSync = 10'000'000;  // [ns]
+  constexpr int kCalls = 200;
+  const TemporaryFolder folder;
+  const std::string bag = folder.file("run.bag");
+  SimulatorProcess simulator({"scene:=" MPM_TEST_DATA_DIR "/endurance.yaml", "pacing:=lockstep", "threads:=1",
+                              "record:=" + bag, "record_split_size:=4"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  const auto began = std::chrono::steady_clock::now();
+  long warm = 0, largest = 0;
+  for (int call = 1; call <= kCalls; ++call) {
+    const Step::Response response = simulator.step(kSyncs / kCalls, {velocity("stop", call % 2 == 0 ? 0.001 : -0.001)});
+    ASSERT_TRUE(response.success) << response.message;
+    const std::uint64_t syncs = call * (kSyncs / kCalls);
+    ASSERT_EQ(response.stamp.toNSec(), syncs * kSync);
+    ASSERT_EQ(response.time, static_cast<double>(syncs * kSync) * 1e-9);
+    const long memory = memory_of(simulator.pid());
+    if (call == kCalls / 10) warm = memory;  // several parts have been closed by then
+    if (call > kCalls / 10) largest = std::max(largest, memory);
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  const long end = memory_of(simulator.pid());
+  simulator.signal(SIGINT);
+  EXPECT_EQ(simulator.wait(), 0) << simulator.log();
+
+  const std::vector<std::string> parts = parts_of(bag);
+  std::uintmax_t bytes = 0;
+  for (const std::string& part : parts) bytes += std::filesystem::file_size(part);
+  std::cout << fmt::format(
+      "{} steps in {:.1f} s; {} parts, {:.1f} MB; memory {} kB after a tenth, {} kB at the end, {} kB at most "
+      "between\n",
+      kSteps, seconds, parts.size(), 1e-6 * static_cast<double>(bytes), warm, end, largest);
+  EXPECT_GT(parts.size(), 5U);
+  EXPECT_LE(static_cast<double>(largest), 1.01 * static_cast<double>(warm));
+  EXPECT_LE(static_cast<double>(end), 1.01 * static_cast<double>(warm));
+  const SolverState last = last_state_in(parts.back());
+  EXPECT_EQ(last.steps, kSteps);
+  EXPECT_EQ(last.time, static_cast<double>(kSyncs * kSync) * 1e-9);
+  EXPECT_EQ(last.header.stamp.toNSec(), kSyncs * kSync);
+}
+
+}  // namespace
+}  // namespace mpm_ros::test
+
+int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "full_endurance_node_test"); }

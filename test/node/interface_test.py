@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""Holds a running simulator against interface.yaml: every topic and service of the table is there with its type, its
+definition (MD5 sum) and its rate in simulated time, and nothing is there that the table does not have."""
+import collections
+import os
+import subprocess
+import sys
+import time
+import unittest
+
+import roslib.message
+import roslib.packages
+import rosgraph
+import rospy
+import rosservice
+import rostest
+import yaml
+
+NAMESPACE = "/mpm"
+NODE = NAMESPACE + "/simulator"
+HERE = os.path.dirname(os.path.realpath(__file__))
+DURATION = 2.0  # [s] simulated, in one step
+COMMANDS = 3
+PATIENCE = 20.0  # [s] by the wall's clock
+
+
+def eventually(ask):
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        if ask():
+            return True
+        time.sleep(0.02)
+    return ask()
+
+
+def full_name(name):
+    if name.startswith("~"):
+        return f"{NODE}/{name[1:]}"
+    return name if name.startswith("/") else f"{NAMESPACE}/{name}"
+
+
+def expand(rows, bodies):
+    """Rows with full names, and one for each body."""
+    for row in rows:
+        for body in bodies if "<body>" in row["name"] else [""]:
+            yield dict(row, name=full_name(row["name"].replace("<body>", body)))
+
+
+class Interface(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with open(os.path.join(HERE, "interface.yaml"), encoding="utf-8") as file:
+            cls.table = yaml.safe_load(file)
+        cls.topics = list(expand(cls.table["topics"], cls.table["bodies"]))
+        cls.services = list(expand(cls.table["services"], cls.table["bodies"]))
+        rospy.init_node("interface_test")
+        program = roslib.packages.find_node("mpm_ros", "simulator")[0]
+        parameters = dict(cls.table["parameters"], pacing="lockstep", threads=1)
+        parameters["scene"] = os.path.join(HERE, "../..", cls.table["scene"])
+        rospy.set_param(NODE, parameters)
+        cls.simulator = subprocess.Popen([program, f"__ns:={NAMESPACE}"])
+        cls.master = rosgraph.Master(rospy.get_name())
+        assert eventually(lambda: full_name("step") in dict(cls.master.getSystemState()[2])), "no service step"
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.simulator.terminate()
+        cls.simulator.wait()
+
+    def names_of_node(self, kind):
+        """Names in the master's list (0: published, 1: subscribed, 2: services) that are the simulator's."""
+        return {name for name, nodes in self.master.getSystemState()[kind] if NODE in nodes}
+
+    def test_1_nothing_is_there_that_the_table_does_not_have_and_nothing_is_missing(self):
+        for kind, direction in enumerate(["out", "in"]):
+            expected = {row["name"] for row in self.topics if row["direction"] == direction}
+            self.assertEqual(self.names_of_node(kind), expected, direction)
+        self.assertEqual(self.names_of_node(2), {row["name"] for row in self.services})
+
+    def test_2_topics_have_their_types(self):
+        types = dict(self.master.getTopicTypes())
+        for row in self.topics:
+            self.assertEqual(types[row["name"]], row["type"], row["name"])
+
+    def test_3_services_have_their_types(self):
+        for row in self.services:
+            headers = rosservice.get_service_headers(row["name"], rosservice.get_service_uri(row["name"]))
+            self.assertEqual(headers["type"], row["type"], row["name"])
+            self.assertEqual(headers["md5sum"], roslib.message.get_service_class(row["type"])._md5sum, row["name"])
+
+    def test_4_commands_are_heard_with_their_types(self):
+        for row in self.topics:
+            if row["direction"] != "in":
+                continue
+            # A publisher of another definition would be turned away in the handshake.
+            publisher = rospy.Publisher(row["name"], roslib.message.get_message_class(row["type"]), queue_size=1)
+            heard = eventually(lambda p=publisher: NODE in [link[1] for link in p.impl.get_stats_info()])
+            publisher.unregister()
+            self.assertTrue(heard, row["name"])
+
+    def test_5_messages_come_at_their_rates_with_their_definitions(self):
+        rows = {row["name"]: row for row in self.topics if row["direction"] == "out" and row["rate"] != "log"}
+        heard = collections.defaultdict(list)
+
+        def hear(message, name):
+            header = message._connection_header
+            if header["callerid"] == NODE:
+                heard[name].append(header)
+
+        subscribers = [rospy.Subscriber(name, rospy.AnyMsg, hear, callback_args=name) for name in rows]
+        self.assertTrue(eventually(lambda: all(s.get_num_connections() > 0 for s in subscribers)))
+        latched = [name for name, row in rows.items() if row.get("latched")]
+        self.assertTrue(eventually(lambda: all(heard[name] for name in latched)),
+                        f"not latched: {[name for name in latched if not heard[name]]}")
+
+        step = roslib.message.get_service_class("mpm_ros/Step")
+        request = step._request_class(duration=DURATION)
+        command = roslib.message.get_message_class("mpm_ros/Command")
+        request.commands = [command(body=self.table["bodies"][1], kind=command.VELOCITY) for _ in range(COMMANDS)]
+        before = {name: len(messages) for name, messages in heard.items()}
+        answer = rospy.ServiceProxy(full_name("step"), step)(request)
+        self.assertTrue(answer.success, answer.message)
+
+        expected = {}  # messages in the step
+        for name, row in rows.items():
+            if row["rate"] == "start":
+                expected[name] = 0
+            elif row["rate"] == "command":
+                expected[name] = COMMANDS
+            elif row["rate"] != "wall":
+                expected[name] = round(DURATION * self.table["parameters"][row["rate"]])
+
+        def counts():
+            return {name: len(heard[name]) - before.get(name, 0) for name in expected}
+
+        eventually(lambda: all(counts()[name] >= expected[name] for name in expected))
+        time.sleep(0.3)  # for more than expected
+        self.assertEqual(counts(), expected)
+        for name, row in rows.items():
+            if row["rate"] == "wall":
+                self.assertTrue(eventually(lambda n=name: heard[n]), name)
+            header = heard[name][0]
+            self.assertEqual(header["type"], row["type"], name)
+            self.assertEqual(header["md5sum"], roslib.message.get_message_class(row["type"])._md5sum, name)
+            self.assertEqual(header.get("latching", "0") == "1", row.get("latched", False), name)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mpm_ros", "interface", Interface, sys.argv)

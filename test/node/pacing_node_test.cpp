@@ -1,0 +1,211 @@
+// Who moves simulated time, /clock, starting paused, and what a reset does to time. The parameter /use_sim_time is set
+// for each simulator by itself.
+#include <mpm_ros/BodyStates.h>
+#include <mpm_ros/RunInfo.h>
+#include <mpm_ros/SolverState.h>
+#include <rosgraph_msgs/Clock.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <cstring>
+
+#include "simulator_process.hpp"
+
+namespace mpm_ros::test {
+namespace {
+
+const std::string kPress = "scene:=" MPM_TEST_DATA_DIR "/press.yaml";
+const std::string kLong = "set:=[time.end=1000]";  // sync points every 10 ms
+constexpr const char* kWaiter =
+    "--wait-for-time";  // makes this program a node that ends when ros::Time::now() is valid
+
+int wait_for_time(int argc, char** argv) {
+  ros::init(argc, argv, "waiter");
+  const ros::NodeHandle node;
+  return ros::Time::waitForValid(ros::WallDuration(10.0)) ? 0 : 1;
+}
+
+void use_sim_time(bool use) { ros::param::set("/use_sim_time", use); }
+
+void pause(const SimulatorProcess& simulator, bool paused) {
+  std_srvs::SetBool call;
+  call.request.data = paused ? 1 : 0;
+  ASSERT_TRUE(ros::service::call(simulator.name("pause"), call)) << simulator.log();
+  EXPECT_TRUE(call.response.success) << call.response.message;
+}
+
+std_srvs::Trigger::Response reset(const SimulatorProcess& simulator) {
+  std_srvs::Trigger call;
+  EXPECT_TRUE(ros::service::call(simulator.name("reset"), call)) << simulator.log();
+  EXPECT_TRUE(call.response.success) << call.response.message;
+  return call.response;
+}
+
+bool publishes_clock(const SimulatorProcess& simulator) {
+  XmlRpc::XmlRpcValue request, response, payload;
+  request[0] = ros::this_node::getName();
+  EXPECT_TRUE(ros::master::execute("getSystemState", request, response, payload, false));
+  for (int i = 0; i < payload[0].size(); ++i) {
+    XmlRpc::XmlRpcValue& nodes = payload[0][i][1];
+    for (int k = 0; static_cast<std::string>(payload[0][i][0]) == "/clock" && k < nodes.size(); ++k) {
+      if (static_cast<std::string>(nodes[k]) == simulator.name("simulator")) return true;
+    }
+  }
+  return false;
+}
+
+TEST(Pacing, RealTimeNeverRunsAheadAndKeepsItsFactor) {
+  use_sim_time(false);
+  SimulatorProcess simulator({kPress, kLong, "threads:=1", "real_time_factor:=0.5"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Ear<SolverState> states(simulator.name("solver_state"));
+  ASSERT_TRUE(states.hears(2));
+  const double first = states.heard().back().time;
+  const auto from = std::chrono::steady_clock::now();
+  ASSERT_TRUE(eventually([&] { return states.heard().back().time >= first + 1.0; })) << simulator.log();
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+  // 1 s of simulated time at half the wall's pace takes 2 s: what was on its way when it was looked at first, and the
+  // 100 ms of delay that are caught up with, come off; more it takes on a machine that is busy.
+  EXPECT_GE(wall, 1.85);
+  EXPECT_LE(wall, 3.0);
+}
+
+TEST(Pacing, OverrunsAreCountedAndShown) {
+  use_sim_time(true);
+  SimulatorProcess simulator({kPress, kLong, "threads:=1", "real_time_factor:=1e6"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Ear<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  Ear<SolverState> states(simulator.name("solver_state"));
+  ASSERT_TRUE(states.hears(20));
+  // No machine is that fast: each period is late, and shows in the next state.
+  const SolverState last = states.heard().back();
+  const auto periods = static_cast<std::uint64_t>(std::llround(last.time / 0.01));
+  EXPECT_EQ(last.overruns, periods - 1);
+  EXPECT_TRUE(diagnosed(diagnostics, simulator, "slower than asked"));
+}
+
+TEST(Pacing, TheClockIsThrottledInSimulatedTime) {
+  use_sim_time(true);
+  SimulatorProcess simulator({kPress, kLong, "pacing:=lockstep", "threads:=1", "clock_rate:=20.0"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  ASSERT_TRUE(publishes_clock(simulator));
+  Ear<rosgraph_msgs::Clock> clock("/clock");
+  ASSERT_TRUE(clock.hears(1));
+  Step::Request request;
+  request.duration = 0.33;
+  ASSERT_TRUE(simulator.step(request).success);
+  ASSERT_TRUE(clock.hears(7));
+  // Zero, which is stamped one nanosecond, and every 50 ms up to 0.30 s.
+  std::vector<std::uint64_t> expected{1};
+  for (std::uint64_t k = 1; k <= 6; ++k) expected.push_back(k * 50'000'000);
+  std::vector<std::uint64_t> times;
+  for (const rosgraph_msgs::Clock& message : clock.heard()) times.push_back(message.clock.toNSec());
+  EXPECT_EQ(times, expected);
+}
+
+TEST(Pacing, TheClockIsLeftToAnotherOwner) {
+  use_sim_time(true);
+  SimulatorProcess simulator({kPress, kLong, "pacing:=lockstep", "threads:=1", "publish_clock:=false"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  EXPECT_FALSE(publishes_clock(simulator));
+  const ros::Publisher owner = ros::NodeHandle().advertise<rosgraph_msgs::Clock>("/clock", 1, true);
+  rosgraph_msgs::Clock message;
+  message.clock = ros::Time(100.0);
+  owner.publish(message);
+  EXPECT_EQ(simulator.step(3).stamp, ros::Time(0, 30'000'000));  // stamps are the solver's own all the same
+}
+
+TEST(Pacing, WithoutSimulatedTimeThereIsNoClock) {
+  use_sim_time(false);
+  const ros::Time before = ros::Time(ros::WallTime::now().toSec());
+  SimulatorProcess simulator({kPress, kLong, "pacing:=lockstep", "threads:=1"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  EXPECT_FALSE(publishes_clock(simulator));
+  const ros::Time first = simulator.step(1).stamp;
+  EXPECT_GT(first, before);
+  EXPECT_EQ(simulator.step(2).stamp - first, ros::Duration(0, 20'000'000));
+}
+
+TEST(Pacing, StartingPausedHangsNobody) {
+  use_sim_time(true);
+  SimulatorProcess simulator({kPress, kLong, "threads:=1", "start_paused:=true"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  // A node that comes later asks for the time and gets it.
+  ProgramProcess waiter("pacing_node_test", {kWaiter});
+  EXPECT_EQ(waiter.wait(20.0), 0) << waiter.log();
+  // Services answer.
+  EXPECT_FALSE(simulator.step(1).success);
+  reset(simulator);
+  Ear<SolverState> states(simulator.name("solver_state"));
+  ASSERT_TRUE(states.hears(1));
+  EXPECT_EQ(states.heard().back().time, 0.0);
+  pause(simulator, false);
+  EXPECT_TRUE(eventually([&] { return states.heard().back().time > 0.05; }));
+  // And again in the middle of a run.
+  pause(simulator, true);
+  ProgramProcess later("pacing_node_test", {kWaiter});
+  EXPECT_EQ(later.wait(20.0), 0) << later.log();
+}
+
+/// Times on /clock over a run, a reset and the same run again.
+std::vector<std::uint64_t> clock_over_reset(const std::string& reset_time, const std::string& bag) {
+  use_sim_time(true);
+  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1", "reset_time:=" + reset_time, "record:=" + bag});
+  EXPECT_TRUE(simulator.ready()) << simulator.log();
+  Ear<rosgraph_msgs::Clock> clock("/clock");
+  Ear<RunInfo> info(simulator.name("run_info"));
+  EXPECT_TRUE(clock.hears(1) && info.hears(1));
+  EXPECT_TRUE(simulator.step(5, {velocity("plate", -0.1)}).success);
+  reset(simulator);
+  EXPECT_TRUE(info.hears(2));
+  const Step::Response again = simulator.step(5, {velocity("plate", -0.1)});
+  EXPECT_TRUE(again.success) << again.message;
+  EXPECT_NEAR(again.time, 0.01, 1e-12);
+  EXPECT_EQ(again.stamp, info.heard()[1].start + ros::Duration(0, 10'000'000));
+  EXPECT_TRUE(clock.hears(12));
+  Ear<SolverState> states(simulator.name("solver_state"));
+  EXPECT_TRUE(states.hears(1));
+  EXPECT_EQ(states.heard().back().commands_applied, 1U);  // of this run
+  EXPECT_EQ(states.heard().back().steps, last_state_in(bag).steps);
+  simulator.signal(SIGINT);
+  EXPECT_EQ(simulator.wait(), 0) << simulator.log();
+  std::vector<std::uint64_t> times;
+  for (const rosgraph_msgs::Clock& message : clock.heard()) times.push_back(message.clock.toNSec());
+  return times;
+}
+
+TEST(Pacing, ResetGoesOnWithLaterStamps) {
+  const TemporaryFolder folder;
+  // Sync points every 2 ms; zero of the second run is stamped as the one after the first run's last.
+  std::vector<std::uint64_t> expected{1};
+  for (std::uint64_t k = 1; k <= 11; ++k) expected.push_back(k * 2'000'000);
+  EXPECT_EQ(clock_over_reset("continue", folder.file("run.bag")), expected);
+  EXPECT_EQ(hash_in(folder.file("run.bag")), hash_in(folder.file("run_2.bag")));
+}
+
+TEST(Pacing, ResetSetsTimeBackToZeroOnRequest) {
+  const TemporaryFolder folder;
+  std::vector<std::uint64_t> expected;
+  for (int run = 0; run < 2; ++run) {
+    expected.push_back(1);
+    for (std::uint64_t k = 1; k <= 5; ++k) expected.push_back(k * 2'000'000);
+  }
+  EXPECT_EQ(clock_over_reset("zero", folder.file("run.bag")), expected);
+  EXPECT_EQ(hash_in(folder.file("run.bag")), hash_in(folder.file("run_2.bag")));
+}
+
+TEST(Pacing, TheWallsClockCannotBeSetBack) {
+  use_sim_time(false);
+  SimulatorProcess simulator({kPress, "reset_time:=zero"});
+  EXPECT_EQ(simulator.wait(), 2) << simulator.log();
+  ASSERT_EQ(simulator.fatal_lines().size(), 1U) << simulator.log();
+  EXPECT_NE(simulator.fatal_lines()[0].find("~reset_time is zero"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mpm_ros::test
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::strcmp(argv[1], mpm_ros::test::kWaiter) == 0) return mpm_ros::test::wait_for_time(argc, argv);
+  return mpm_ros::test::run_node_tests(argc, argv, "pacing_node_test");
+}

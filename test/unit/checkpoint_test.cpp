@@ -1,0 +1,485 @@
+// Checkpoints: a run that takes one on goes on to the bit like one that was never stopped, at whatever sync point it
+// was saved, for every stage, method and law; files that do not fit are refused with the reason.
+#include "mpm/simulation/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <stdlib.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mpm/scene/scene.hpp"
+
+namespace mpm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Gone with the test.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "mpm_checkpoint_XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path_); }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+/// Blocks that cross several cells in kPeriods, so that the particles are sorted on the way, more than once.
+constexpr int kPeriods = 12;
+constexpr int kOfOther = 5;  ///< a simulation that has been elsewhere before it takes on a checkpoint
+
+const char* const kPlane = R"yaml(
+geometry: plane_strain
+grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
+time: {end: 1, sync: 5 ms, cfl: 0.4}
+method: {shape: ugimp}
+gravity: [0, -9.81]
+materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, poisson: 0.3}]
+bodies: [{name: block, material: rubber, shape: {box: {min: [0.3, 0.3], max: [0.7, 0.7]}}, initial: {velocity: ["4+z", "-2-2*x"]}}]
+boundaries: {z_min: {friction: 0.4}}
+metrics: {faster: {mean: vx, rate: {from: 10 ms, to: 1}}, lowest: {min: z}}
+)yaml";
+
+const char* const kTool = R"yaml(
+geometry: plane_strain
+grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
+time: {end: 1, sync: 5 ms, cfl: 0.4}
+method: {shape: ugimp}
+gravity: [0, -9.81]
+materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, poisson: 0.3}]
+bodies: [{name: block, material: rubber, shape: {box: {min: [0.3, 0], max: [1.1, 0.5]}}}]
+rigid_bodies:
+  - {name: press, shape: {box: {size: [0.5, 0.4]}}, pose: {position: [0.7, 0.71]},
+     motion: {velocity: ["0.6*sin(60*t)", -1.2], rotation_rate: "2*t"}, friction: 0.3}
+  - {name: rod, shape: {sphere: {radius: 0.2}}, pose: {position: [0.05, 0.3]}, motion: {velocity: [1.5, 0]}}
+boundaries: {z_min: slip}
+)yaml";
+
+const char* const kPair = R"yaml(
+geometry: plane_strain
+grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
+time: {end: 1, sync: 5 ms, cfl: 0.4}
+method: {shape: ugimp}
+materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, poisson: 0.3}]
+bodies:
+  - {name: left, material: rubber, shape: {box: {min: [0.2, 0.3], max: [0.6, 0.7]}}, initial: {velocity: [4, 1]}}
+  - {name: right, material: rubber, shape: {box: {min: [0.6, 0.3], max: [1, 0.7]}}, initial: {velocity: [1, 0]}}
+)yaml";
+
+const char* const kRings = R"yaml(
+geometry: axisymmetric
+grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
+time: {end: 1, sync: 5 ms, cfl: 0.4}
+method: {shape: ugimp}
+materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, poisson: 0.3}]
+bodies: [{name: disk, material: rubber, shape: {box: {min: [0, 0.4], max: [0.6, 0.8]}}, initial: {velocity: [0, "-3"]}}]
+rigid_bodies:
+  - {name: ball, shape: {sphere: {radius: 0.3}}, pose: {position: [0, 1.15]}, motion: {velocity: [0, -5]}, friction: 0.2}
+  - {name: iris, shape: {ring: {inner: 0.7, outer: 0.9, height: 0.6}}, pose: {position: [0, 0.4]}, motion: {velocity: [-2, 0]}}
+boundaries: {z_min: slip}
+)yaml";
+
+const char* const kLine = R"yaml(
+geometry: line
+grid: {cell: 0.1, min: 0, max: 3.2}
+time: {end: 1, sync: 5 ms, cfl: 0.4}
+method: {shape: ugimp}
+materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, poisson: 0.3}]
+bodies: [{name: bar, material: rubber, shape: {box: {min: 0.5, max: 1.5}}, initial: {velocity: "5*x"}}]
+)yaml";
+
+const char* const kSolid = R"yaml(
+grid: {cell: 0.1, min: [0, 0, 0], max: [0.8, 0.8, 0.8]}
+time: {end: 1, sync: 5 ms, cfl: 0.4}
+method: {shape: ugimp}
+gravity: [0, 0, -9.81]
+materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, poisson: 0.3}]
+bodies: [{name: block, material: rubber, shape: {box: {min: [0.2, 0.2, 0], max: [0.5, 0.5, 0.3]}}, initial: {velocity: ["4+z", 2, 0]}}]
+rigid_bodies:
+  - {name: ball, shape: {sphere: {radius: 0.15}}, pose: {position: [0.4, 0.4, 0.46]}, motion: {velocity: [3, 0, -2]}, friction: 0.3}
+boundaries: {z_min: {friction: 0.2}}
+)yaml";
+
+/// Particles, motion and contact, over kPlane.
+std::string law(const std::string& text) { return "materials.rubber=" + text; }
+
+struct Case {
+  std::string name;
+  const char* scene;
+  std::vector<std::string> changes;
+};
+
+void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
+
+std::vector<Case> cases() {
+  std::vector<Case> list;
+  const auto add = [&](const char* scene, const std::string& name, std::vector<std::string> changes) {
+    list.push_back({name, scene, std::move(changes)});
+  };
+  // Shape functions with update schemes and transfers, each at least once.
+  add(kPlane, "dirac_usf_flip", {"method.shape=dirac", "method.update=usf", "method.transfer={flip: 0.99}"});
+  add(kPlane, "ugimp_usl_pic", {"method.update=usl", "method.transfer=pic"});
+  add(kPlane, "ugimp_usavg_xpic", {"method.transfer={xpic: 3}"});
+  add(kPlane, "stretch_usf_fmpm", {"method.shape=ugimp_stretch", "method.update=usf", "method.transfer={fmpm: 2}"});
+  add(kPlane, "cpdi_usavg_apic", {"method.shape=cpdi", "method.transfer=apic"});
+  add(kPlane, "cpdi_usl_flip", {"method.shape=cpdi", "method.update=usl"});
+  add(kPlane, "qcpdi_usf", {"method.shape=qcpdi", "method.update=usf"});
+  add(kPlane, "bspline2_usl", {"method.shape=bspline2", "method.update=usl"});
+  add(kPlane, "bspline3_apic", {"method.shape=bspline3", "method.transfer=apic"});
+  add(kPlane, "averaged", {"method.average_dilatation=true"});
+  add(kPlane, "single", {"method.precision=single", "method.transfer=apic"});
+  add(kPlane, "plane_stress", {"geometry=plane_stress", "method.shape=cpdi"});
+  // Damping.
+  add(kPlane, "feedback", {"method.damping={feedback: {gain: 100, limit: 50}}"});
+  add(kPlane, "damping", {"method.damping={grid: 5, particle: \"5*(z<0.5)\", pic: 0.01}"});
+  // Laws that remember.
+  add(kPlane, "viscoelastic",
+      {law("{name: rubber, density: 1000, law: viscoelastic, young: 100 kPa, poisson: 0.3, branch_modulus: 20 kPa, "
+           "relaxation_time: 20 ms}")});
+  add(kPlane, "j2",
+      {law("{name: rubber, density: 1000, law: j2_plasticity, young: 100 kPa, poisson: 0.3, "
+           "yield_stress: 1 kPa, hardening_modulus: 5 kPa}")});
+  add(kPlane, "drucker_prager",
+      {law("{name: rubber, density: 1000, law: drucker_prager, young: 100 kPa, poisson: 0.3, "
+           "friction_angle: 30 deg, cohesion: 100 Pa}")});
+  add(kPlane, "mohr_coulomb",
+      {law("{name: rubber, density: 1000, law: mohr_coulomb, young: 100 kPa, poisson: 0.3, "
+           "friction_angle: 30 deg, cohesion: 100 Pa}")});
+  add(kPlane, "fluid", {law("{name: rubber, density: 1000, law: newtonian_fluid, sound_speed: 12, viscosity: 1}")});
+  add(kPlane, "gas",
+      {law("{name: rubber, density: 100, law: ideal_gas, pressure: 10 kPa, temperature: 293, "
+           "ambient_pressure: 10 kPa}")});
+  // Faces and conditions.
+  add(kPlane, "absorbing",
+      {"bodies.block.initial.velocity=[0.5, 0]", "bodies.block.shape={box: {min: [0, 0], max: [1.6, 0.7]}}",
+       "boundaries={z_min: {absorbing: {hold: start}}, x_max: absorbing, x_min: absorbing}"});
+  add(kPlane, "periodic", {"boundaries={x: periodic, z_min: slip}", "bodies.block.initial.velocity=[20, 0]"});
+  add(kPlane, "leaving",
+      {"grid.leave={limit: 1000}", "boundaries={}", "bodies.block.initial.velocity=[0, \"-8-3*x\"]"});
+  add(kPlane, "conditions",
+      {"boundaries={z_min: slip, conditions: [{name: grip, region: {box: {min: [0.3, 0.55], max: [0.8, 0.85]}}, "
+       "motion: {velocity: [3, 0]}, direction: x}, {name: lift, region: {box: {min: [0.2, 0.2], max: [0.5, 0.45]}}, "
+       "direction: z, velocity: \"0.3*sin(50*t)\"}]}"});
+  // Loads.
+  add(kPlane, "loads",
+      {"loads=[{body_force: {acceleration: [\"3*sin(30*t)\", \"X\"]}}, {particle_force: {force: [5, 0], "
+       "body: block}}, {pressure: {body: block, edge: x_max, value: \"1000*t\"}}]",
+       "method.shape=cpdi"});
+  // Tools.
+  add(kTool, "points", {});
+  add(kTool, "points_adhere", {"contact={static_friction: 0.6, friction: 0.2, adhesion: 500 Pa}", "method.shape=cpdi"});
+  add(kTool, "points_xpic", {"method.transfer={xpic: 2}"});
+  add(kTool, "nodes", {"contact={method: nodes, friction: 0.2}"});
+  add(kTool, "particles", {"rigid_bodies.press.normals=particles", "contact={adhesion: 200 Pa}"});
+  add(kTool, "thin",
+      {"rigid_bodies.press.shape={box: {size: [0.06, 0.5]}}", "rigid_bodies.press.pose={position: [0.7, 0.6]}",
+       "rigid_bodies.press.motion={velocity: [2, -0.5]}", "bodies.block.cut_out=all"});
+  add(kTool, "wire",
+      {"rigid_bodies.rod.shape={sphere: {radius: 0.08}}", "rigid_bodies.rod.motion={velocity: [4, \"60*t\"]}"});
+  add(kTool, "free",
+      {"rigid_bodies.press.motion={velocity: [0, 0]}",
+       "rigid_bodies.press.free={mass: 20, velocity: [0.5, -1.2], rotation_rate: 2, force: [3, 0]}"});
+  add(kTool, "free_along_z",
+      {"rigid_bodies.press.motion={velocity: [\"0.6*sin(60*t)\", 0]}", "rigid_bodies.press.free={mass: 20, axes: [z]}",
+       "method.transfer={fmpm: 2}"});
+  // Deformable bodies against each other.
+  add(kPair, "coulomb", {"contact={law: coulomb, friction: 0.3, adhesion: 200 Pa}"});
+  add(kPair, "own_normals", {"contact={law: stick, normals: own}"});
+  add(kPair, "interface", {"contact={law: interface, opened: 1 MPa/m, tangential: 500 kPa/m}"});
+  add(kPair, "touching_start", {"contact={law: coulomb, friction: 0.1, detection: displacements}"});
+  // Geometries.
+  add(kRings, "rings", {});
+  add(kRings, "rings_nodes", {"contact={method: nodes}", "method.shape=cpdi"});
+  add(kLine, "line", {"method.transfer=apic"});
+  add(kSolid, "solid", {});
+  add(kSolid, "solid_single_cpdi", {"method.shape=cpdi", "method.precision=single"});
+  return list;
+}
+
+/// Another state than that of its definition: what it was told is in it too.
+void command(Simulation& simulation, int period) {
+  const int body = simulation.find_body("rod");
+  if (body < 0) return;
+  if (period == 3) simulation.command_velocity(body, {Vec3(1.0, 0.0, 0.2), Vec3::Zero()});
+  if (period == 6) {
+    Pose target = simulation.bodies()[body].pose;
+    target.position.x() += 0.04;
+    simulation.command_pose(body, target, simulation.time() + 4 * simulation.sync_period());
+  }
+}
+
+/// All that a run says of itself, as bits.
+std::vector<std::uint64_t> said(Simulation& simulation) {
+  std::vector<std::uint64_t> bits{simulation.state_hash(), simulation.memory_hash()};
+  const auto number = [&](double value) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, &value, sizeof word);
+    bits.push_back(word);
+  };
+  const auto vector = [&](const Vec3& v) {
+    for (int k = 0; k < 3; ++k) number(v[k]);
+  };
+  const SolverState state = simulation.state();
+  for (const double value :
+       {state.energy.kinetic, state.energy.elastic, state.energy.plastic, state.energy.potential,
+        state.energy.contact_work, state.energy.load_work, state.energy.pair_friction, state.energy.interface,
+        state.energy.friction, state.audit.exchanged, state.audit.residual, state.step.dt_min, state.step.dt_max,
+        state.step.dt_last, state.min_j, static_cast<double>(state.step.steps), static_cast<double>(state.returned)}) {
+    number(value);
+  }
+  bits.push_back(std::hash<std::string>()(state.step.limited_by));
+  for (const NamedImpulse& one : state.audit.impulses) vector(one.impulse);
+  for (const auto& metric : simulation.metrics()) number(metric.second);
+  const std::vector<BodyState> bodies = simulation.bodies();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    vector(bodies[b].pose.position);
+    vector(bodies[b].twist.linear);
+    const ContactReport report = simulation.take_contact(static_cast<int>(b));
+    for (const Vec3& v :
+         {report.mean.force, report.mean.torque, report.peak.force, report.impulse, report.friction, report.arm}) {
+      vector(v);
+    }
+    for (const double value : {report.interval, report.area, report.friction_energy, report.pressing}) number(value);
+    bits.push_back(static_cast<std::uint64_t>(report.nodes));
+  }
+  for (const FreeBodyReport& report : simulation.free_bodies()) {
+    for (const BodyMomentum& one : {report.momentum, report.contact, report.gravity, report.wrench, report.drive}) {
+      vector(one.linear);
+      vector(one.angular);
+    }
+    for (const double value : {report.kinetic, report.wrench_work, report.drive_work, report.contact_loss}) {
+      number(value);
+    }
+  }
+  for (const PairReport& report : simulation.take_pairs()) {
+    for (const Vec3& v : {report.force, report.friction, report.impulse, report.centre}) vector(v);
+    for (const double value : {report.pressing, report.area, report.interval, report.friction_energy}) number(value);
+  }
+  return bits;
+}
+
+SimulationDefinition definition_of(const Case& one) {
+  return build(parse_scene(one.scene, "checkpoint.yaml", one.changes));
+}
+
+void run(Simulation& simulation, int from, int to) {
+  for (int period = from; period < to; ++period) {
+    command(simulation, period);
+    simulation.advance();
+    // Averages since a report that lies between are part of the state.
+    if (period == 4 && simulation.find_body("rod") >= 0) simulation.take_contact(0);
+  }
+}
+
+class Checkpoint : public testing::TestWithParam<Case> {};
+
+// Saved at every sync point of the run: some lie before a sort, some after it.
+TEST_P(Checkpoint, ResumedRunEqualsUninterruptedBitForBit) {
+  const Folder folder;
+  Simulation whole(definition_of(GetParam()), {1});
+  for (int k = 0; k < kPeriods; ++k) {
+    save_checkpoint(folder.file(std::to_string(k)), whole, {});
+    run(whole, k, k + 1);
+  }
+  Simulation other(definition_of(GetParam()), {1});
+  run(other, 0, kOfOther);
+  const std::vector<std::uint64_t> expected = said(whole);
+  const std::uint64_t start = Simulation(definition_of(GetParam()), {1}).state_hash();
+  EXPECT_NE(expected[0], start);  // it has moved at all
+  for (int k = 0; k < kPeriods; ++k) {
+    Simulation fresh(definition_of(GetParam()), {2});
+    load_checkpoint(folder.file(std::to_string(k)), fresh, "");
+    EXPECT_EQ(fresh.time(), k * fresh.sync_period());
+    run(fresh, k, kPeriods);
+    EXPECT_EQ(said(fresh), expected) << "saved at sync point " << k;
+  }
+  load_checkpoint(folder.file("2"), other, "");
+  run(other, 2, kPeriods);
+  EXPECT_EQ(said(other), expected) << "taken on by a run that was elsewhere";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Checkpoint, testing::ValuesIn(cases()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(CheckpointFile, GeostaticStartNeedNotSettleAgain) {
+  const Folder folder;
+  const Case slope{"slope",
+                   kPlane,
+                   {law("{name: rubber, density: 1600, law: drucker_prager, young: 1 MPa, poisson: 0.3, "
+                        "friction_angle: 35 deg, cohesion: 1 kPa}"),
+                    "bodies.block.shape={box: {min: [0, 0], max: [0.8, 0.5]}}", "bodies.block.initial=geostatic"}};
+  Simulation whole(definition_of(slope), {1});
+  run(whole, 0, 3);
+  save_checkpoint(folder.file("slope"), whole, {});
+  run(whole, 3, 6);
+  SimulationOptions unsettled{1};
+  unsettled.settle = false;
+  Simulation again(definition_of(slope), unsettled);
+  EXPECT_TRUE(again.notes().empty());  // it has not settled
+  load_checkpoint(folder.file("slope"), again, "");
+  run(again, 3, 6);
+  EXPECT_EQ(said(again), said(whole));
+}
+
+std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const CheckpointError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+class BadCheckpoint : public testing::Test {
+ protected:
+  BadCheckpoint() : simulation_(definition_of(plane_), {1}) {
+    run(simulation_, 0, 2);
+    save_checkpoint(file_, simulation_, {"plane.yaml", kPlane, {}});
+  }
+  std::string load(const std::string& text = kPlane) {
+    return refusal([&] { load_checkpoint(file_, simulation_, text); });
+  }
+  void expect_refused(const std::string& reason, const std::string& text = kPlane) {
+    const std::uint64_t before = simulation_.memory_hash();
+    const std::string answer = load(text);
+    EXPECT_NE(answer.find(reason), std::string::npos) << answer;
+    EXPECT_NE(answer.find(file_), std::string::npos) << answer;
+    EXPECT_EQ(answer.find('\n'), std::string::npos) << answer;
+    EXPECT_EQ(simulation_.memory_hash(), before);
+  }
+
+  const Folder folder_;
+  const std::string file_ = folder_.file("run.h5");
+  const Case plane_{"plane", kPlane, {}};
+  Simulation simulation_;
+};
+
+TEST_F(BadCheckpoint, SaysOfItselfWhatItIs) {
+  const CheckpointAbout about = read_checkpoint(file_);
+  EXPECT_EQ(about.version, kCheckpointVersion);
+  EXPECT_EQ(about.label.scene_text, kPlane);
+  EXPECT_EQ(about.label.scene_path, "plane.yaml");
+  EXPECT_EQ(about.particles, simulation_.particles());
+  EXPECT_EQ(about.time, simulation_.time());
+  EXPECT_EQ(about.state_hash, simulation_.state_hash());
+  EXPECT_EQ(about.isa, simulation_.isa());
+}
+
+TEST_F(BadCheckpoint, IsNotThere) {
+  fs::remove(file_);
+  expect_refused("No such file");
+}
+
+TEST_F(BadCheckpoint, IsNotHdf5) {
+  std::ofstream(file_) << "grid: {cell: 0.1}\n";
+  expect_refused("it is no HDF5 file");
+}
+
+TEST_F(BadCheckpoint, IsOtherHdf5) {
+  const hid_t file = H5Fcreate(file_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  H5Fclose(file);
+  expect_refused("no checkpoint");
+}
+
+TEST_F(BadCheckpoint, IsCutOff) {
+  fs::resize_file(file_, fs::file_size(file_) / 2);
+  expect_refused("cut off or damaged");
+}
+
+/// Writes a number of the file anew, as a later version would have it.
+void overwrite(const std::string& path, const char* name, hid_t type, const void* value) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
+  ASSERT_GE(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), 0) << name;
+  H5Dclose(set);
+  H5Fclose(file);
+}
+
+TEST_F(BadCheckpoint, IsOfAnotherVersion) {
+  const std::uint32_t version = kCheckpointVersion + 1;
+  overwrite(file_, "about/version", H5T_NATIVE_UINT32, &version);
+  expect_refused("its layout is version 2, this program reads version 1");
+}
+
+TEST_F(BadCheckpoint, IsOfAnotherScene) {
+  std::string text = kPlane;
+  text.replace(text.find("friction: 0.4"), 13, "friction: 0.5");
+  expect_refused(
+      "line 9 is 'boundaries: {z_min: {friction: 0.4}}' there and 'boundaries: {z_min: {friction: 0.5}}' here", text);
+}
+
+TEST_F(BadCheckpoint, IsOfOtherParticles) {
+  Simulation other(definition_of({"", kPair, {}}), {1});
+  const std::string answer = refusal([&] { load_checkpoint(file_, other, kPlane); });
+  EXPECT_NE(answer.find("64 particles"), std::string::npos) << answer;
+  EXPECT_EQ(other.time(), 0);
+}
+
+TEST_F(BadCheckpoint, IsOfAnotherPrecision) {
+  Simulation other(definition_of({"", kPlane, {"method.precision=single"}}), {1});
+  const std::string answer = refusal([&] { load_checkpoint(file_, other, kPlane); });
+  EXPECT_NE(answer.find("single precision"), std::string::npos) << answer;
+}
+
+TEST_F(BadCheckpoint, IsOfAnotherInstructionSet) {
+  // Text of the same length, in the place of the set that is there.
+  const std::string there = simulation_.isa(), other(there.size(), 'x');
+  overwrite(file_, "about/isa", H5T_NATIVE_UINT8, other.data());
+  expect_refused("start it with --isa " + other);
+}
+
+TEST_F(BadCheckpoint, IsOfAFailedRun) {
+  save_checkpoint(file_, simulation_, {"plane.yaml", kPlane, "the volume ratio J is not positive"});
+  expect_refused("cannot go on (the volume ratio J is not positive)");
+}
+
+TEST_F(BadCheckpoint, HoldsOtherNumbersThanWereSaved) {
+  const double other = 0.25;
+  overwrite(file_, "simulation/total_mass", H5T_NATIVE_DOUBLE, &other);
+  EXPECT_NE(load().find("the file is damaged"), std::string::npos);
+}
+
+TEST_F(BadCheckpoint, HasAByteThatFlipped) {
+  // Particles lie in the file as they do in memory: one byte of a position, found by its value.
+  std::vector<double> x;
+  simulation_.particle_field("x", x);
+  std::fstream file(file_, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string all((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::size_t at = all.find(std::string(reinterpret_cast<const char*>(&x[20]), sizeof x[20]));
+  ASSERT_NE(at, std::string::npos);
+  file.clear();
+  file.seekp(static_cast<std::streamoff>(at));
+  file.put(static_cast<char>(all[at] ^ 1));
+  file.close();
+  EXPECT_NE(load().find("cut off or damaged"), std::string::npos);
+}
+
+TEST_F(BadCheckpoint, CannotBeWrittenThere) {
+  const std::string answer = refusal([&] {
+    save_checkpoint(folder_.file("none/run.h5"), simulation_, {"plane.yaml", kPlane, {}});
+  });
+  EXPECT_NE(answer.find("cannot be written: No such file or directory"), std::string::npos) << answer;
+}
+
+// A file that cannot be finished leaves the one before as it is, and nothing beside it.
+TEST_F(BadCheckpoint, LeavesTheOneBefore) {
+  const std::uint64_t hash = read_checkpoint(file_).state_hash;
+  run(simulation_, 2, 3);
+  const auto breaks = [](StateArchive&) { throw CheckpointError("no more room"); };
+  EXPECT_EQ(refusal([&] { save_checkpoint(file_, simulation_, {"plane.yaml", kPlane, {}}, breaks); }), "no more room");
+  EXPECT_EQ(read_checkpoint(file_).state_hash, hash);
+  EXPECT_FALSE(fs::exists(file_ + ".part"));
+}
+
+}  // namespace
+}  // namespace mpm

@@ -1,0 +1,82 @@
+// The collision geometry of a robot's links, out of test/data/robot/tool.urdf. Distances by hand from its figures.
+#include "mpm/rigid/urdf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "scene_tool.hpp"
+
+namespace mpm {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kRobot = MPM_TEST_DATA_DIR "/robot/tool.urdf";
+constexpr double kRound = 1e-12;  // of lengths of 1 m; the file has 17 digits of a quarter of a turn
+
+std::string message(const std::string& path, const std::string& link) {
+  try {
+    load_urdf_link(path, link);
+  } catch (const RigidError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "no error";
+}
+
+void expect_unreadable(const std::string& path, const std::string& link, const std::string& what) {
+  const std::string found = message(path, link);
+  EXPECT_EQ(found.substr(0, path.size() + 2), path + ": ");
+  EXPECT_NE(found.find(what), std::string::npos) << found;
+}
+
+TEST(Urdf, SeveralCollisionElementsAreOneBodyEachAtItsOrigin) {
+  const auto scoop = load_urdf_link(kRobot, "scoop");
+  // The box is turned by a quarter about z: 0.2 along x. The ball stands at y = 0.3.
+  EXPECT_NEAR(scoop->at({0.3, 0.0, 0.1}).distance, 0.2, kRound);
+  EXPECT_NEAR((scoop->at({0.3, 0.0, 0.1}).normal - Vec3::UnitX()).norm(), 0.0, kRound);
+  EXPECT_NEAR(scoop->at({0.0, 0.6, 0.1}).distance, 0.15, kRound);
+  EXPECT_NEAR(scoop->at({0.0, -0.3, 0.1}).distance, 0.1, kRound);
+}
+
+TEST(Urdf, ACylinderLiesAlongItsOwnZ) {
+  const auto probe = load_urdf_link(kRobot, "probe");
+  // Rolled by a quarter about x: along y, from -0.1 to 0.1.
+  EXPECT_NEAR(probe->at({0.5, 0.3, 0.0}).distance, 0.2, kRound);
+  EXPECT_NEAR(probe->at({0.5, 0.0, 0.05}).distance, 0.04, kRound);
+  EXPECT_NEAR(probe->at({0.5, 0.0, 0.0}).distance, -0.01, kRound);
+}
+
+TEST(Urdf, AMeshIsScaledAlongEachAxisAndMayBeMirrored) {
+  const auto wedge = load_urdf_link(kRobot, "wedge");
+  // Corners at the origin, (0.1, 0, 0), (0, 0.2, 0) and (0, 0, -0.3).
+  EXPECT_NEAR((wedge->bounds().max - Vec3(0.1, 0.2, 0.0)).norm(), 0.0, kRound);
+  EXPECT_NEAR((wedge->bounds().min - Vec3(0.0, 0.0, -0.3)).norm(), 0.0, kRound);
+  EXPECT_LT(wedge->at({0.01, 0.02, -0.03}).distance, 0.0);  // mirrored, and not inside out
+  EXPECT_NEAR(wedge->at({0.01, 0.02, 0.5}).distance, 0.5, kRound);
+}
+
+TEST(Urdf, WhatCannotBeABodyIsRefused) {
+  expect_unreadable(kRobot, "scop", "it has no link 'scop'; did you mean 'scoop'?");
+  expect_unreadable(kRobot, "camera",
+                    "link 'camera' has no collision geometry; links that have: lost, probe, scoop, wedge");
+  expect_unreadable(kRobot, "lost", "link 'lost': collision 1: ");
+  EXPECT_NE(message(kRobot, "lost").find("nowhere.obj: no such mesh file"), std::string::npos);
+  expect_unreadable("/no/such/robot.urdf", "scoop", "no such file");
+  expect_unreadable(MPM_TEST_DATA_DIR "/press.yaml", "scoop", "cannot be read as a URDF: ");
+}
+
+TEST(Urdf, ALinkIsTheShapeOfATool) {
+  const RigidBodyDefinition scoop = tool("solid", "urdf: {file: " + kRobot + ", link: scoop}");
+  EXPECT_NEAR(scoop.surface->at({0.3, 0.0, 0.1}).distance, 0.2, kRound);
+  expect_refused(scene("plane_strain", "urdf: {file: a.urdf, link: b}"), "shape.urdf", "a robot's link is of a solid");
+  expect_refused(scene("solid", "urdf: {file: nowhere.urdf, link: b}"), "shape.urdf", "nowhere.urdf: no such file");
+  expect_refused(scene("solid", "urdf: {link: b}"), "shape.urdf", "file");
+  expect_refused(scene("solid", "urdf: {parameter: robot_description, link: b}"), "shape.urdf.parameter",
+                 "a scene is read without ROS");
+}
+
+}  // namespace
+}  // namespace mpm

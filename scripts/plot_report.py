@@ -8,6 +8,7 @@
 contact_<body>.png            force, impulse, torque and velocity of a rigid body over time
 energies.png                  energies by kind
 audit.png                     the momentum's account by source and its residual, time step, smallest det F
+global_quantities.png         those that the scene asks for, a panel a unit
 section_<field>.png           the particles in a slice through the tool
 view_<field>.png              the particles and the tools seen from the side (runs in 3D)
 compare_contact_<body>.png    several runs: force and impulse, a line a run
@@ -50,6 +51,7 @@ def draw(options):
         plot_series.plot_contact(run, body, plots)
     plot_series.plot_energies(run, plots)
     plot_series.plot_audit(run, plots)
+    plot_series.plot_global(run, plots)
     plot_particles.plot_particles(run, plots, fields)
 
 

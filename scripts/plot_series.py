@@ -161,6 +161,29 @@ def plot_energies(run, folder):
     save(figure, folder, "energies.png")
 
 
+def plot_global(run, folder):
+    """The global quantities that the scene asks for, a panel a unit; nothing when it asks for none."""
+    table = run.global_quantities
+    names = [name for name in table.names() if name != "time"] if table else []
+    if not names:
+        return
+    units = list(dict.fromkeys(table.units[name] for name in names))
+    figure, panels = plt.subplots(len(units), 1, figsize=(9.5, 1.2 + 2.6 * len(units)), sharex=True, squeeze=False,
+                                  constrained_layout=True)
+    caption(figure, f"{run.title}: global quantities", run.caption())
+    for panel, unit in zip(panels[:, 0], units):
+        entries = []
+        for i, name in enumerate(name for name in names if table.units[name] == unit):
+            panel.plot(table["time"], table[name], color=CYCLE[i % len(CYCLE)])
+            entries.append((table[name][-1], name, CYCLE[i % len(CYCLE)]))
+        panel.set_ylabel(f"[{unit}]")
+        zero_line(panel)
+        panel.margins(y=0.08)
+        name_lines(panel, entries)
+    steps_of_time(panels[:, 0])
+    save(figure, folder, "global_quantities.png")
+
+
 def impulses_of(state):
     """The axis along which most momentum went, and (name, impulse along it [N s], colour) of each source that acts."""
     names = [name[len("impulse "):-2] for name in state.names() if name.startswith("impulse ") and name.endswith(" x")]

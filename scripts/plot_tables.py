@@ -99,6 +99,8 @@ class Run:
         self.forces = Table(os.path.join(folder, "contact_forces.csv"))
         self.poses = Table(os.path.join(folder, "bodies.csv"))
         self.state = Table(os.path.join(folder, "solver_state.csv"))
+        path = os.path.join(folder, "global_quantities.csv")
+        self.global_quantities = Table(path) if os.path.exists(path) else None
         ending = " interval"
         self.bodies = [name[: -len(ending)] for name in self.forces.names() if name.endswith(ending)]
         self.snapshots = self._snapshots()

@@ -62,7 +62,7 @@ TEST(GlobalQuantities, EnergiesAndCountersAreTheSolvers) {
 TEST(GlobalQuantities, ContactForceIsTheMeanSinceTheLastCall) {
   const Scene scene = load_scene("sphere_indentation");
   Simulation run(build(scene));
-  GlobalQuantities global(run, {{"contactz", "indenter"}, {"contactz", ""}});
+  GlobalQuantities global(run, {{"contactz", "sphere"}, {"contactz", ""}});
   EXPECT_EQ(global.read(), (std::vector<double>{0.0, 0.0}));
   double impulse = 0.0, time = 0.0;
   for (int period = 0; period < 6; ++period) {
@@ -96,8 +96,8 @@ std::string error_of(const std::string& output) {
       "geometry: solid\n"
       "grid: {cell: 0.1, min: [0, 0, 0], max: [1, 1, 1]}\n"
       "time: {end: 0.1, sync: 0.001}\n"
-      "materials: {clay: {law: neo_hookean, density: 1000, young: 1e5, poisson: 0.3}}\n"
-      "bodies: {soil: {material: clay, box: {min: [0, 0, 0], max: [1, 1, 0.5]}}}\n"
+      "materials: [{name: clay, law: neo_hookean, density: 1000, young: 1e5, poisson: 0.3}]\n"
+      "bodies: [{name: soil, material: clay, shape: {box: {min: [0, 0, 0], max: [1, 1, 0.5]}}}]\n"
       "output: {";
   try {
     const Scene read = parse_scene(scene + output + "}\n", "test.yaml");

@@ -121,6 +121,7 @@ void RunOutputs::begin_again(const RunInfo& info) {
   write_bodies();
   write_state(options_.state_hash, 0.0);
   write_particles();
+  if (!global_.empty()) global_.read();  // contact forces are means from here
 }
 
 void RunOutputs::keep(mpm::StateArchive& archive) {
@@ -140,6 +141,10 @@ void RunOutputs::keep(mpm::StateArchive& archive) {
   for (std::size_t body = 0; filters == filters_.size() && cutoff == options_.wrench_cutoff && body < filters; ++body) {
     const mpm::StateArchive::Group group(archive, fmt::format("filter{}", body));
     filters_[body].keep(archive);
+  }
+  {
+    const mpm::StateArchive::Group group(archive, "global");
+    global_.keep(archive);
   }
   archive.keep("applied", applied_);
   archive.keep("late", late_);

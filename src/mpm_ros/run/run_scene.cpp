@@ -136,6 +136,7 @@ class OfflineRun {
     if (!options_.vtk.empty()) vtk_ = std::make_unique<VtkSink>(options_.vtk, stamps_);
     run_ = std::make_unique<Run>(scene_, run_options, stamps_, csv_.get());
     if (vtk_) run_->add(*vtk_);
+    commands_.skip_to(run_->simulation().time());
   }
 
   RunSceneResult go(std::ostream& out, std::ostream& err, bool bar, const std::function<bool()>& stop_requested) {

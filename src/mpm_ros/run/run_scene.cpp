@@ -144,7 +144,7 @@ class OfflineRun {
     for (const std::string& warning : simulation.warnings()) err << "warning: " << warning << "\n";
     for (const std::string& note : simulation.notes()) err << note << "\n";
     for (std::size_t body = 0; body < scene_.commands.size(); ++body) {
-      if (scene_.commands[body].frame.empty()) continue;
+      if (scene_.commands[body].frame.empty() || rerun_) continue;  // what was recorded moves it
       err << fmt::format("warning: '{}' stands still: only the node follows a tf frame (drive: tf)\n",
                          scene_.definition.rigid_bodies[body].name);
     }

@@ -7,6 +7,7 @@
 #include <mpm_ros/SolverState.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstring>
 
 #include "simulator_process.hpp"
@@ -173,6 +174,19 @@ TEST(Determinism, ACommandThatTheBodyRefusesKeepsTimeWhereItIs) {
   const Step::Response next = simulator.step(5);
   EXPECT_TRUE(next.success) << next.message;
   EXPECT_EQ(next.bodies.bodies[0].drive, BodyState::FUNCTIONS);
+}
+
+TEST(Determinism, AStepOfNoSensibleLengthIsRefused) {
+  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Step::Request request;
+  for (const double duration : {-1e-9, 1e300, std::nan("")}) {
+    request.duration = duration;
+    const Step::Response response = simulator.step(request);
+    EXPECT_FALSE(response.success) << duration;
+    EXPECT_NE(response.message.find("it must be at least 0"), std::string::npos) << response.message;
+    EXPECT_EQ(response.time, 0.0);
+  }
 }
 
 TEST(Determinism, AKilledControllersToolStopsInTheTimeout) {

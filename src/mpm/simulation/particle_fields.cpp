@@ -149,15 +149,18 @@ void fill(const std::vector<SetView>& sets, const std::vector<const Field*>& fie
           std::vector<std::vector<T>>& columns) {
   unsigned needs = kNeedsNothing;
   for (const Field* field : fields) needs |= field->needs;
+  std::vector<T*> out;
+  for (std::vector<T>& column : columns) out.push_back(column.data());
   for (const SetView& view : sets) {
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int p = 0; p < view.set.size(); ++p) {
-      const std::int64_t at = row(view.set.id[p]);
-      if (at < 0) continue;
+#pragma omp parallel num_threads(threads)
+    {
       View particle{view};
-      particle.look(p, needs);
-      for (std::size_t k = 0; k < fields.size(); ++k) {
-        columns[k][static_cast<std::size_t>(at)] = static_cast<T>(fields[k]->value(particle));
+#pragma omp for schedule(static)
+      for (int p = 0; p < view.set.size(); ++p) {
+        const std::int64_t at = row(view.set.id[p]);
+        if (at < 0) continue;
+        particle.look(p, needs);
+        for (std::size_t k = 0; k < fields.size(); ++k) out[k][at] = static_cast<T>(fields[k]->value(particle));
       }
     }
   }

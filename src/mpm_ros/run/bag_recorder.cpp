@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 
@@ -109,9 +110,11 @@ void BagRecorder::sync_point() {
   if (!started_ || now - chunk_began_ >= kChunkPeriod) {
     started_ = true;
     chunk_began_ = now;
-    // Setting the threshold ends the present chunk.
+    // Setting the threshold ends the present chunk. Its index is still in the stream's buffer, which rosbag gives
+    // nobody: all streams are flushed, for a chunk without its index is not read.
     on_disk([this] { bag_->setChunkThreshold(bag_->getChunkThreshold()); });
     if (!bag_) return;
+    std::fflush(nullptr);
   }
   const bool large = options_.split_size > 0 && bag_->getSize() >= options_.split_size;
   const bool late = options_.split_duration > 0 && last_.toNSec() >= end_;

@@ -20,16 +20,18 @@ inline mpm::Simulation run_of(const std::string& text, const std::vector<std::st
   return mpm::Simulation(mpm::build(mpm::parse_scene(text, "free.yaml", overrides)), {threads});
 }
 
-/// How far a free body's momentum is from the sum of what it was given, over the sum of the magnitudes.
+/// How far a free body's momentum is from the sum of what it was given, over the sum of the magnitudes; angular
+/// momentum over that of the linear parts at an arm of 0.1 m as well, since torques of a symmetric body cancel.
 inline double imbalance(const mpm::FreeBodyReport& body) {
-  const auto part = [&](mpm::Vec3 mpm::BodyMomentum::*of) {
+  const auto part = [&](mpm::Vec3 mpm::BodyMomentum::*of, double least) {
     const mpm::Vec3 change = body.momentum.*of - body.initial_momentum.*of;
     const mpm::Vec3 given = body.contact.*of + body.gravity.*of + body.wrench.*of + body.drive.*of;
-    const double scale = (body.momentum.*of).norm() + (body.contact.*of).norm() + (body.gravity.*of).norm() +
+    const double scale = least + (body.momentum.*of).norm() + (body.contact.*of).norm() + (body.gravity.*of).norm() +
                          (body.wrench.*of).norm() + (body.drive.*of).norm();
     return scale > 0.0 ? (change - given).norm() / scale : 0.0;
   };
-  return std::max(part(&mpm::BodyMomentum::linear), part(&mpm::BodyMomentum::angular));
+  const double exchanged = body.contact.linear.norm() + body.gravity.linear.norm();
+  return std::max(part(&mpm::BodyMomentum::linear, 0.0), part(&mpm::BodyMomentum::angular, 0.1 * exchanged));
 }
 
 /// Bodies and material together, and what contact, sliding and flow took from them, less what was done on them [J].

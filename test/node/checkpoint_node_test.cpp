@@ -102,7 +102,6 @@ TEST(CheckpointNode, CommandsThatWaitAreSavedAndGoOn) {
   geometry_msgs::TwistStamped later;
   later.header.stamp = start.stamp + ros::Duration(0.04);
   later.twist.linear.z = -0.1;
-  Ear<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   velocities.publish(later);
   ros::WallDuration(0.5).sleep();  // it is on its way by the wall's clock; simulated time stands still
   const Checkpoint::Response saved = call(simulator, "save_checkpoint", file);

@@ -39,7 +39,7 @@ Settings read_settings(const ros::NodeHandle& parameters) {
   };
   return {parameters.param<std::string>("body", "probe"),
           number("target", 10.0, false),
-          number("gain", 0.005, false),
+          number("gain", 0.01, false),
           number("max_speed", 0.05, false),
           number("filter", 0.02, true),
           number("period", 0.01, false),

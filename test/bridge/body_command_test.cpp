@@ -62,6 +62,21 @@ TEST_F(TooFast, PoseThatIsFarForItsTime) {
   expect_taken();
 }
 
+TEST_F(TooFast, APoseOfMoreThanACellInASyncPeriodIsAJump) {
+  command_.kind = CommandKind::pose;
+  command_.pose = simulation_.rigid_body(command_.body).pose();
+  command_.arrival = 2 * simulation_.sync_period();
+  command_.pose.position.z() += 1.99 * 0.01;  // in two periods; a cell is 10 mm
+  EXPECT_EQ(jump_of(command_, simulation_), "");
+  command_.pose.position.z() += 0.02 * 0.01;
+  const std::string jump = jump_of(command_, simulation_);
+  EXPECT_EQ(jump.substr(0, 13), "'plate' jumps") << jump;
+  expect_taken();  // told, and carried out
+  command_.kind = CommandKind::velocity;
+  command_.twist.linear.z() = 100.0;  // who says a speed means it
+  EXPECT_EQ(jump_of(command_, simulation_), "");
+}
+
 TEST_F(TooFast, OverflowIsRefused) {
   command_.twist.linear.x() = 1e308;
   command_.twist.angular.y() = -1e308;

@@ -154,7 +154,7 @@ TEST_F(Limiter, NothingIsExceededWhateverIsAsked) {
   std::mt19937_64 dice(11);
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(dice); };
   mpm::Twist before;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < 300; ++i) {
     if (i % 20 == 0) {
       AppliedCommand command = pose(uniform(0.0, 0.1), uniform(-0.03, 0.0), uniform(kPeriod, 0.1));
       command.pose.orientation = Eigen::AngleAxisd(uniform(-1.0, 1.0), mpm::Vec3::UnitY());
@@ -186,6 +186,17 @@ TEST_F(Limiter, WhatWasAppliedReplaysWithoutTheLimiter) {
   }
   EXPECT_EQ(next, applied_.end());
   EXPECT_EQ(replayed.state_hash(), simulation_.state_hash());
+}
+
+TEST_F(Limiter, WhatAPlaneDoesNotHaveIsNoGoal) {
+  // A robot's link stands beside the plane, and is tilted a little.
+  AppliedCommand command = pose(0.0001, 0.0, kPeriod);
+  command.pose.position.y() = 0.3;
+  command.pose.orientation = Eigen::AngleAxisd(0.1, mpm::Vec3::UnitX());
+  ASSERT_TRUE(limiter_.take(command, simulation_));
+  for (int i = 0; i < 10; ++i) advance();
+  EXPECT_TRUE(limiter_.goals().empty());
+  EXPECT_NEAR(x(), 0.0001, kRound);
 }
 
 TEST_F(Limiter, ABodyWithoutLimitsIsLeftAlone) {

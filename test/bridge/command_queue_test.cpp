@@ -201,5 +201,17 @@ TEST(CommandWatch, ZeroMeansNever) {
   EXPECT_TRUE(watch.silent(1'000'000'000'000).empty());
 }
 
+TEST(CommandQueue, WhatIsLookedUpInAStepIsNotHeld) {
+  CommandQueue queue(10);
+  queue.hold();
+  queue.push(velocity(0, 1.0));
+  queue.push_past_hold(pose(1, 2.0));
+  const std::vector<DueCommand> due = queue.take(0);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due[0].command.body, 1);
+  queue.release();
+  EXPECT_EQ(speeds(queue.take(10)), Speeds{1.0});
+}
+
 }  // namespace
 }  // namespace mpm_ros

@@ -160,5 +160,48 @@ TEST(CommandHealth, WarnsAsLongAsABodyHearsNothing) {
   EXPECT_EQ(value_of(again, "timeouts"), "1");
 }
 
+TEST(CommandHealth, WarnsOfABodyThatWaitsForItsFrame) {
+  NodeHealth health;
+  health.wait("probe", "'probe' waits for the tf frame 'tool0'");
+  Status status;
+  health.fill_commands(status);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status.message, "'probe' waits for the tf frame 'tool0'");
+  EXPECT_TRUE(health.take_news());
+  health.wait("probe", "");
+  Status after;
+  health.fill_commands(after);
+  EXPECT_EQ(after.level, DiagnosticStatus::OK);
+}
+
+TEST(CommandHealth, WarnsOfAJumpForAWhileAndCountsIt) {
+  NodeHealth health;
+  health.jump("'probe' jumps");
+  Status status;
+  health.fill_commands(status);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(value_of(status, "jumps"), "1");
+  Status later;
+  health.fill_commands(later, NodeHealth::Clock::now() + 2 * NodeHealth::kFresh);
+  EXPECT_EQ(later.level, DiagnosticStatus::OK);
+  EXPECT_EQ(value_of(later, "last jump"), "'probe' jumps");
+  EXPECT_EQ(health.refused(), 0U);
+}
+
+TEST(CommandHealth, WarnsWhileABodyIsBehindItsPose) {
+  NodeHealth health;
+  health.limit("sled", {3, 0.25, 0.5});
+  Status status;
+  health.fill_commands(status);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status.message, "'sled' is behind its pose by 0.25 m and 0.5 rad, as its limits have it");
+  EXPECT_EQ(value_of(status, "limited of sled"), "3");
+  health.limit("sled", {3, 0.0, 0.0});
+  Status after;
+  health.fill_commands(after);
+  EXPECT_EQ(after.level, DiagnosticStatus::OK);
+  EXPECT_EQ(value_of(after, "behind [m] of sled"), "0");
+}
+
 }  // namespace
 }  // namespace mpm_ros

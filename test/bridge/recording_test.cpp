@@ -103,7 +103,9 @@ TEST(Recording, IsSplitByTimeAndReadsLikeOneBag) {
     EXPECT_EQ(view.getEndTime().toNSec(), 50'000'000U * (i + 1)) << parts[i];
     std::map<std::string, int> latched;
     for (const rosbag::MessageInstance& message : view) {
-      if (const auto info = message.instantiate<RunInfo>()) EXPECT_EQ(info->part, i + 1);
+      if (const auto info = message.instantiate<RunInfo>()) {
+        EXPECT_EQ(info->part, i + 1);
+      }
       const std::string topic = message.getTopic();
       if (topic == "/mpm/run_info" || topic == "/mpm/markers") {
         ++latched[topic];

@@ -10,6 +10,7 @@
 
 #include "mpm_ros/command/command_log.hpp"
 #include "mpm_ros/report/report_plots.hpp"
+#include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/run.hpp"
 
 namespace mpm_ros {

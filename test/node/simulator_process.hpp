@@ -48,6 +48,10 @@ inline mpm_ros::Command velocity(const std::string& body, double vz) {
   return command;
 }
 
+/// Set in the environment of what a test starts: a test program that plays another node must not run its tests there,
+/// and start itself again, and again.
+constexpr const char* kChild = "MPM_TEST_CHILD";
+
 /// A program of this package in a process of its own, below a namespace of its own, as a user would start it.
 class ProgramProcess {
  public:
@@ -59,8 +63,9 @@ class ProgramProcess {
     namespace_ = name_space.empty() ? "/sim" + std::to_string(getpid()) + "_" + std::to_string(++count) : name_space;
     log_ = folder_.file("log");
     const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe").parent_path() / program;
-    std::vector<std::string> words{path.string(), "__ns:=" + namespace_};
+    std::vector<std::string> words{path.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
+    words.push_back("__ns:=" + namespace_);
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
@@ -209,6 +214,8 @@ inline std::string hash_in(const std::string& path) { return last_state_in(path)
 
 /// main() of a node test: runs the tests as the ROS node `name`.
 inline int run_node_tests(int argc, char** argv, const std::string& name) {
+  if (getenv(kChild) != nullptr) return 1;
+  setenv(kChild, "1", 1);
   testing::InitGoogleTest(&argc, argv);
   setenv("OMP_WAIT_POLICY", "passive", 1);  // several simulators share the cores
   ros::init(argc, argv, name);

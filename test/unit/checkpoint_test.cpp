@@ -38,7 +38,7 @@ class Folder {
 constexpr int kPeriods = 12;
 constexpr int kOfOther = 5;  ///< a simulation that has been elsewhere before it takes on a checkpoint
 
-const char* const kPlane = R"(
+const char* const kPlane = R"yaml(
 geometry: plane_strain
 grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
 time: {end: 1, sync: 5 ms, cfl: 0.4}
@@ -48,9 +48,9 @@ materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, pois
 bodies: [{name: block, material: rubber, shape: {box: {min: [0.3, 0.3], max: [0.7, 0.7]}}, initial: {velocity: ["4+z", "-2-2*x"]}}]
 boundaries: {z_min: {friction: 0.4}}
 metrics: {faster: {mean: vx, rate: {from: 10 ms, to: 1}}, lowest: {min: z}}
-)";
+)yaml";
 
-const char* const kTool = R"(
+const char* const kTool = R"yaml(
 geometry: plane_strain
 grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
 time: {end: 1, sync: 5 ms, cfl: 0.4}
@@ -60,21 +60,12 @@ materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, pois
 bodies: [{name: block, material: rubber, shape: {box: {min: [0.3, 0], max: [1.1, 0.5]}}}]
 rigid_bodies:
   - {name: press, shape: {box: {size: [0.5, 0.4]}}, pose: {position: [0.7, 0.71]},
-     motion: {velocity: ["0.6*sin(60*t)", -1.2], rotation_rate: ["2*t"]
-}
-, friction : 0.3
-}
-- {
-name:
-  rod, shape : {sphere : {radius : 0.2}}, pose : {position : [ 0.05, 0.3 ]}, motion : {
-  velocity:
-    [ 1.5, 0 ]
-  }
-}
+     motion: {velocity: ["0.6*sin(60*t)", -1.2], rotation_rate: "2*t"}, friction: 0.3}
+  - {name: rod, shape: {sphere: {radius: 0.2}}, pose: {position: [0.05, 0.3]}, motion: {velocity: [1.5, 0]}}
 boundaries: {z_min: slip}
-)";
+)yaml";
 
-const char* const kPair = R"(
+const char* const kPair = R"yaml(
 geometry: plane_strain
 grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
 time: {end: 1, sync: 5 ms, cfl: 0.4}
@@ -83,9 +74,9 @@ materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, pois
 bodies:
   - {name: left, material: rubber, shape: {box: {min: [0.2, 0.3], max: [0.6, 0.7]}}, initial: {velocity: [4, 1]}}
   - {name: right, material: rubber, shape: {box: {min: [0.6, 0.3], max: [1, 0.7]}}, initial: {velocity: [1, 0]}}
-)";
+)yaml";
 
-const char* const kRings = R"(
+const char* const kRings = R"yaml(
 geometry: axisymmetric
 grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
 time: {end: 1, sync: 5 ms, cfl: 0.4}
@@ -96,18 +87,18 @@ rigid_bodies:
   - {name: ball, shape: {sphere: {radius: 0.3}}, pose: {position: [0, 1.15]}, motion: {velocity: [0, -5]}, friction: 0.2}
   - {name: iris, shape: {ring: {inner: 0.7, outer: 0.9, height: 0.6}}, pose: {position: [0, 0.4]}, motion: {velocity: [-2, 0]}}
 boundaries: {z_min: slip}
-)";
+)yaml";
 
-const char* const kLine = R"(
+const char* const kLine = R"yaml(
 geometry: line
 grid: {cell: 0.1, min: 0, max: 3.2}
 time: {end: 1, sync: 5 ms, cfl: 0.4}
 method: {shape: ugimp}
 materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, poisson: 0.3}]
 bodies: [{name: bar, material: rubber, shape: {box: {min: 0.5, max: 1.5}}, initial: {velocity: "5*x"}}]
-)";
+)yaml";
 
-const char* const kSolid = R"(
+const char* const kSolid = R"yaml(
 grid: {cell: 0.1, min: [0, 0, 0], max: [0.8, 0.8, 0.8]}
 time: {end: 1, sync: 5 ms, cfl: 0.4}
 method: {shape: ugimp}
@@ -117,7 +108,7 @@ bodies: [{name: block, material: rubber, shape: {box: {min: [0.2, 0.2, 0], max: 
 rigid_bodies:
   - {name: ball, shape: {sphere: {radius: 0.15}}, pose: {position: [0.4, 0.4, 0.46]}, motion: {velocity: [3, 0, -2]}, friction: 0.3}
 boundaries: {z_min: {friction: 0.2}}
-)";
+)yaml";
 
 /// Particles, motion and contact, over kPlane.
 std::string law(const std::string& text) { return "materials.rubber=" + text; }
@@ -127,6 +118,8 @@ struct Case {
   const char* scene;
   std::vector<std::string> changes;
 };
+
+void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 
 std::vector<Case> cases() {
   std::vector<Case> list;
@@ -168,7 +161,7 @@ std::vector<Case> cases() {
            "ambient_pressure: 10 kPa}")});
   // Faces and conditions.
   add(kPlane, "absorbing",
-      {"bodies.block.initial.velocity=[3, 0]", "bodies.block.shape={box: {min: [0, 0], max: [1.6, 0.7]}}",
+      {"bodies.block.initial.velocity=[0.5, 0]", "bodies.block.shape={box: {min: [0, 0], max: [1.6, 0.7]}}",
        "boundaries={z_min: {absorbing: {hold: start}}, x_max: absorbing, x_min: absorbing}"});
   add(kPlane, "periodic", {"boundaries={x: periodic, z_min: slip}", "bodies.block.initial.velocity=[20, 0]"});
   add(kPlane, "leaving",
@@ -193,10 +186,16 @@ std::vector<Case> cases() {
        "rigid_bodies.press.motion={velocity: [2, -0.5]}", "bodies.block.cut_out=all"});
   add(kTool, "wire",
       {"rigid_bodies.rod.shape={sphere: {radius: 0.08}}", "rigid_bodies.rod.motion={velocity: [4, \"60*t\"]}"});
+  add(kTool, "free",
+      {"rigid_bodies.press.motion={velocity: [0, 0]}",
+       "rigid_bodies.press.free={mass: 20, velocity: [0.5, -1.2], rotation_rate: 2, force: [3, 0]}"});
+  add(kTool, "free_along_z",
+      {"rigid_bodies.press.motion={velocity: [\"0.6*sin(60*t)\", 0]}", "rigid_bodies.press.free={mass: 20, axes: [z]}",
+       "method.transfer={fmpm: 2}"});
   // Deformable bodies against each other.
   add(kPair, "coulomb", {"contact={law: coulomb, friction: 0.3, adhesion: 200 Pa}"});
   add(kPair, "own_normals", {"contact={law: stick, normals: own}"});
-  add(kPair, "interface", {"contact={law: interface, opened: 1 MPa, tangential: 500 kPa}"});
+  add(kPair, "interface", {"contact={law: interface, opened: 1 MPa/m, tangential: 500 kPa/m}"});
   add(kPair, "touching_start", {"contact={law: coulomb, friction: 0.1, detection: displacements}"});
   // Geometries.
   add(kRings, "rings", {});
@@ -252,6 +251,15 @@ std::vector<std::uint64_t> said(Simulation& simulation) {
     }
     for (const double value : {report.interval, report.area, report.friction_energy, report.pressing}) number(value);
     bits.push_back(static_cast<std::uint64_t>(report.nodes));
+  }
+  for (const FreeBodyReport& report : simulation.free_bodies()) {
+    for (const BodyMomentum& one : {report.momentum, report.contact, report.gravity, report.wrench, report.drive}) {
+      vector(one.linear);
+      vector(one.angular);
+    }
+    for (const double value : {report.kinetic, report.wrench_work, report.drive_work, report.contact_loss}) {
+      number(value);
+    }
   }
   for (const PairReport& report : simulation.take_pairs()) {
     for (const Vec3& v : {report.force, report.friction, report.impulse, report.centre}) vector(v);

@@ -33,7 +33,7 @@ TEST(Compound, TheNearestPartCounts) {
   EXPECT_NEAR(body->at({-0.3, 0.0, 0.0}).distance, 0.1, kRound);  // of the box's end
   EXPECT_NEAR(body->at({0.6, 0.0, 0.0}).distance, 0.15, kRound);  // of the ball
   EXPECT_NEAR(body->at({0.3, 0.0, 0.0}).distance, -0.15, kRound);
-  EXPECT_EQ(body->bounds().max, Vec3(0.45, 0.15, 0.15));
+  EXPECT_NEAR((body->bounds().max - Vec3(0.45, 0.15, 0.15)).norm(), 0.0, kRound);
   EXPECT_EQ(body->thickness(), 0.1);  // the box's, the ball's is 0.3
   EXPECT_EQ(body->triangles().size(), box()->triangles().size() + ball()->triangles().size());
 }
@@ -55,7 +55,7 @@ TEST(Compound, WithinIsAtUpToTheBand) {
     EXPECT_EQ(found.distance, exact.distance);
     EXPECT_EQ(found.normal, exact.normal);
   }
-  EXPECT_GT(near, 500);  // the bodies and their bands take up some 0.08 of 1.7 m^3
+  EXPECT_GT(near, 200);  // the bodies and their bands take up some 0.06 of 1.7 m^3, which is 350 of the points
 }
 
 TEST(Compound, PartsThatCannotBeAreRefused) {

@@ -49,6 +49,7 @@ TEST(SceneDrive, WhatCannotBeMeantIsRefused) {
   expect_refused("drive: {tf: /tool0}", "drive.tf", "without a slash before it");
   expect_refused("drive: {frame: tool0}", "drive.frame", "unknown key");
   expect_refused("drive: tf, motion: {velocity: [0, 0, 1]}", "drive", "motion or a frame, not both");
+  expect_refused("drive: tf, free: {mass: 1}", "drive", "a free body moves by forces");
   expect_refused("limits: {}", "limits", "limits nothing");
   expect_refused("limits: {speed: 0}", "limits.speed", "is not greater than 0");
   expect_refused("limits: {acceleration: 1 m/s}", "limits.acceleration",

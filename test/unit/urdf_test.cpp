@@ -26,7 +26,7 @@ std::string message(const std::string& path, const std::string& link) {
   return "no error";
 }
 
-void expect_refused(const std::string& path, const std::string& link, const std::string& what) {
+void expect_unreadable(const std::string& path, const std::string& link, const std::string& what) {
   const std::string found = message(path, link);
   EXPECT_EQ(found.substr(0, path.size() + 2), path + ": ");
   EXPECT_NE(found.find(what), std::string::npos) << found;
@@ -59,13 +59,13 @@ TEST(Urdf, AMeshIsScaledAlongEachAxisAndMayBeMirrored) {
 }
 
 TEST(Urdf, WhatCannotBeABodyIsRefused) {
-  expect_refused(kRobot, "scop", "it has no link 'scop'; did you mean 'scoop'?");
-  expect_refused(kRobot, "camera",
-                 "link 'camera' has no collision geometry; links that have: lost, probe, scoop, wedge");
-  expect_refused(kRobot, "lost", "link 'lost': collision 1: ");
+  expect_unreadable(kRobot, "scop", "it has no link 'scop'; did you mean 'scoop'?");
+  expect_unreadable(kRobot, "camera",
+                    "link 'camera' has no collision geometry; links that have: lost, probe, scoop, wedge");
+  expect_unreadable(kRobot, "lost", "link 'lost': collision 1: ");
   EXPECT_NE(message(kRobot, "lost").find("nowhere.obj: no such mesh file"), std::string::npos);
-  expect_refused("/no/such/robot.urdf", "scoop", "no such file");
-  expect_refused(MPM_TEST_DATA_DIR "/press.yaml", "scoop", "cannot be read as a URDF: ");
+  expect_unreadable("/no/such/robot.urdf", "scoop", "no such file");
+  expect_unreadable(MPM_TEST_DATA_DIR "/press.yaml", "scoop", "cannot be read as a URDF: ");
 }
 
 TEST(Urdf, ALinkIsTheShapeOfATool) {

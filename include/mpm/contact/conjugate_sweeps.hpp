@@ -19,7 +19,7 @@ struct SweepMemory {
   std::vector<Vec3> direction;  ///< [N s]
 };
 
-/// `Point` has an `impulse` [N s] and a `compliance` [1/kg].
+/// `Point` has an `impulse` [N s], and `with_body`: velocity along the normal by an impulse [1/kg] comes first.
 template <class Point>
 class ConjugateSweeps {
  public:
@@ -37,7 +37,7 @@ class ConjugateSweeps {
   void go_on(std::vector<Point>& points, Add&& add) {
     double now = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      now += points[i].compliance * (points[i].impulse - memory_.before[i]).squaredNorm();
+      now += points[i].with_body[0] * (points[i].impulse - memory_.before[i]).squaredNorm();
     }
     const double part = last_ > 0.0 ? now / last_ : 0.0;
     const bool again = part > 1.0;

@@ -76,21 +76,21 @@ class PointContact final : public Stage {
  private:
   struct Point {
     int body = 0, field = 0;
-    int law = 0;                    ///< in laws_now_
-    std::uint32_t particle = 0;     ///< its id
-    Vec3 place, normal;             ///< world [m]; out of the body
-    Vec3 velocity;                  ///< of the body there [m/s]
-    double gap = 0.0;               ///< negative inside [m]
-    double area = 0.0;              ///< of the surface that the point stands for [m^2]
-    int first = 0, end = 0;         ///< its parts in parts_
-    double compliance = 0.0;        ///< velocity at the point by an impulse there, along the normal [1/kg]
-    double compliance_along = 0.0;  ///< with a body that is free: at most, along the surface
-    Vec3 impulse = Vec3::Zero();    ///< on the material [N s]
-    Vec3 approach = Vec3::Zero();   ///< relative velocity before the impulses [m/s]
-    double slid = 0.0;              ///< since it was at rest [m]
-    double overlap = 0.0;           ///< that it came with, <= 0; gap is counted from there [m]
-    bool adheres = false;           ///< it was held in the step before, or touches
-    Hold hold = Hold::free;         ///< in the step before, then in this one
+    int law = 0;                   ///< in laws_now_
+    std::uint32_t particle = 0;    ///< its id
+    Vec3 place, normal;            ///< world [m]; out of the body
+    Vec3 velocity;                 ///< of the body there [m/s]
+    double gap = 0.0;              ///< negative inside [m]
+    double area = 0.0;             ///< of the surface that the point stands for [m^2]
+    int first = 0, end = 0;        ///< its parts in parts_
+    double compliance = 0.0;       ///< velocity at the point by an impulse there [1/kg]
+    double with_body[2] = {};      ///< the same with that of a free body: along the normal, at most along the surface
+    Vec3 impulse = Vec3::Zero();   ///< on the material [N s]
+    Vec3 approach = Vec3::Zero();  ///< relative velocity before the impulses [m/s]
+    double slid = 0.0;             ///< since it was at rest [m]
+    double overlap = 0.0;          ///< that it came with, <= 0; gap is counted from there [m]
+    bool adheres = false;          ///< it was held in the step before, or touches
+    Hold hold = Hold::free;        ///< in the step before, then in this one
   };
   /// A node's part in a point.
   struct Part {

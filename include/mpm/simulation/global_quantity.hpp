@@ -27,6 +27,7 @@ std::string problem_of(const GlobalQuantity& quantity);
 bool of_rigid_body(const GlobalQuantity& quantity);
 
 class Simulation;
+class StateArchive;
 
 class GlobalQuantities {
  public:
@@ -40,6 +41,8 @@ class GlobalQuantities {
   const std::vector<std::string>& units() const { return units_; }
   /// Where the simulation stands. A contact force is the mean since the last call, and 0 in the first one.
   const std::vector<double>& read();
+  /// For checkpoints: since when forces are averaged. Of other quantities than these nothing is taken on.
+  void keep(StateArchive& archive);
 
  private:
   /// One quantity: which it is, and of what.

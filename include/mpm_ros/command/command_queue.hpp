@@ -45,6 +45,8 @@ class CommandQueue {
   /// From hold() on commands wait outside; release() lets them in. A step of the lockstep takes what came before it.
   void hold();
   void release();
+  /// Of what was looked up for this sync point, in the middle of a step.
+  void push_past_hold(BodyCommand command);
   /// What takes effect at the sync point `now` [ns], which is later than the one before.
   std::vector<DueCommand> take(std::int64_t now);
   /// Forgets everything but the counts, for a run that begins again.

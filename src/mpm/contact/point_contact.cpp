@@ -158,11 +158,12 @@ double PointContact::relax(Point& point, double dt) {
   const bool bound = !kDecides && point.hold != Hold::free;
   if (Kind != Pass::step && Kind != Pass::strain && !bound) return 0.0;
   Vec3 slip = velocity_at(point);
-  double compliance_along = point.compliance;
+  double compliance = point.compliance, compliance_along = point.compliance;
   const FreeMotion* free = nullptr;
   if constexpr (Free) {
     free = free_motion(point.body);
-    compliance_along = point.compliance_along;
+    compliance = point.with_body[0];
+    compliance_along = point.with_body[1];
   }
   if (free != nullptr) {
     slip -= free->velocity_at(point.place);
@@ -171,7 +172,7 @@ double PointContact::relax(Point& point, double dt) {
   }
   const double approach = slip.dot(point.normal), pressed = point.impulse.dot(point.normal);
   const double wanted = bound ? 0.0 : allowed(point, dt);
-  double normal = pressed + (wanted - approach) / point.compliance;
+  double normal = pressed + (wanted - approach) / compliance;
   Vec3 along = point.impulse - pressed * point.normal;
   const Vec3 sticking = along - (slip - approach * point.normal) / compliance_along;
   if (bound) {
@@ -196,7 +197,7 @@ double PointContact::relax(Point& point, double dt) {
   const Vec3 impulse = normal * point.normal + along, change = impulse - point.impulse;
   point.impulse = impulse;
   push<Free>(point, change);
-  return change.norm() * point.compliance;
+  return change.norm() * compliance;
 }
 
 template <PointContact::Pass Kind, bool Free>
@@ -207,7 +208,7 @@ void PointContact::solve(double dt) {
     double largest = 0.0, scale = 0.0;
     const auto visit = [&](Point& point) {
       largest = std::max(largest, relax<Kind, Free>(point, dt));
-      scale = std::max(scale, point.impulse.norm() * point.compliance);
+      scale = std::max(scale, point.impulse.norm() * (Free ? point.with_body[0] : point.compliance));
     };
     if (sweep % 2 == 0) {
       for (Point& point : points_) visit(point);
@@ -326,14 +327,13 @@ void PointContact::predict_free(double dt) {
   }
   taken_.assign(bodies_.size(), {});
   for (Point& point : points_) {
-    point.compliance_along = point.compliance;
+    point.with_body[0] = point.with_body[1] = point.compliance;
     const FreeMotion* free = free_motion(point.body);
     if (free == nullptr) continue;
     const Mat3 lift = free->compliance_at(point.place);
     const double across = point.normal.dot(lift * point.normal);
-    point.compliance += across;
-    // All along the surface: at least its larger principal value.
-    point.compliance_along += lift.trace() - across;
+    point.with_body[0] += across;
+    point.with_body[1] += lift.trace() - across;  // the sum of the two principal values
   }
 }
 

@@ -15,6 +15,8 @@ std::string link_of(const Map& body) {
 
 void read_drive(const Value& drive, const Map& body, const std::string& name, Scene& scene,
                 CommandDefinition& commands) {
+  if (body.find("free"))
+    drive.fail("a free body moves by forces and cannot be told a pose; leave out one of drive and free");
   if (body.find("motion")) drive.fail("a body follows motion or a frame, not both; leave one out");
   if (drive.is_map()) {
     const Value frame = Map(drive, {"tf"}).at("tf");

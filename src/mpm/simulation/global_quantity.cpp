@@ -228,4 +228,12 @@ const std::vector<double>& GlobalQuantities::read() {
   return values_;
 }
 
+void GlobalQuantities::keep(StateArchive& archive) {
+  std::uint64_t count = terms_.size();
+  archive.keep("terms", count);
+  if (count != terms_.size()) return;
+  archive.column("impulse", terms_, &Term::impulse);
+  archive.keep("last", last_);
+}
+
 }  // namespace mpm

@@ -43,6 +43,7 @@ void Simulation::State::keep_particles(StateArchive& archive) {
     keep_scalars(archive, "history", set.history);
     keep_scalars(archive, "mass", set.masses);
     keep_scalars(archive, "affine", set.affine);
+    archive.rows("start_x", set.start_x);  // whoever resumes may ask for other outputs
     keep_arrays(archive, "start_x", set.start_x);
     archive.list("side", set.side);
     archive.list("begin", set.begin);

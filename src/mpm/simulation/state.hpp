@@ -14,6 +14,7 @@
 #include "mpm/mechanics/damping.hpp"
 #include "mpm/mechanics/face_tractions.hpp"
 #include "mpm/mechanics/particle_loads.hpp"
+#include "mpm/simulation/projected.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/step/schedule.hpp"
 
@@ -137,13 +138,6 @@ struct Simulation::State {
 
 /// @throws DefinitionError when there is none of that name
 const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body);
-
-/// What a geometry keeps of a body's motion: what is along its axes, and rotation about y in a plane, none in a line.
-/// @throws RigidError in an axisymmetric scene for a motion that is not (axial_motion.hpp).
-Twist projected(const Twist& twist, GeometryKind geometry, const RigidBodyDefinition& body);
-/// The same of a pose; in a plane the part of the rotation that is about y (swing and twist), so that zeros stay exact
-/// zeros. @throws RigidError for a pose that is turned over in a plane, or off the axis or turned in axisymmetry.
-Pose projected(const Pose& pose, GeometryKind geometry, const RigidBodyDefinition& body);
 
 /// Sums over all particles of `term(set, index)`, grouped so that the result does not depend on the number of threads.
 template <class Value, class Term>

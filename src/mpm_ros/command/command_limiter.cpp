@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "mpm/simulation/projected.hpp"
+
 namespace mpm_ros {
 
 namespace {
@@ -20,7 +22,7 @@ mpm::Vec3 shortened(const mpm::Vec3& vector, double longest) {
 mpm::Vec3 towards(const mpm::Vec3& from, const mpm::Vec3& to, double most) {
   const mpm::Vec3 change = to - from;
   const double size = change.stableNorm();
-  return size <= most ? to : mpm::Vec3(from + most / size * change);
+  return size <= (1.0 + kSame) * most ? to : mpm::Vec3(from + most / size * change);
 }
 
 /// Velocity in the next period on the way to a place `way` from here, to be reached in `time` >= period [s].
@@ -67,14 +69,20 @@ CommandLimiter::CommandLimiter(std::vector<mpm::MotionLimits> limits, NodeHealth
 bool CommandLimiter::take(const AppliedCommand& command, const mpm::Simulation& simulation) {
   const auto body = static_cast<std::size_t>(command.body);
   if (body >= limits_.size() || !limits_[body].any() || command.kind == CommandKind::wrench) return false;
+  Goal goal{command};
+  const mpm::GeometryKind geometry = simulation.definition().geometry;
+  const mpm::RigidBodyDefinition& definition = simulation.rigid_body(command.body).definition();
   if (command.kind == CommandKind::velocity) {
-    AppliedCommand fastest = command;
-    fastest.twist.linear = shortened(command.twist.linear, limits_[body].speed);
-    fastest.twist.angular = shortened(command.twist.angular, limits_[body].rotation_rate);
+    goal.command.twist =
+        told_part(simulation.rigid_body(command.body), mpm::projected(command.twist, geometry, definition));
+    AppliedCommand fastest = goal.command;
+    fastest.twist.linear = shortened(fastest.twist.linear, limits_[body].speed);
+    fastest.twist.angular = shortened(fastest.twist.angular, limits_[body].rotation_rate);
     check_travel(fastest, simulation);
+  } else {
+    goal.command.pose = mpm::projected(command.pose, geometry, definition);
   }
-  Goal& goal = goals_[command.body] = {command};
-  goal.command.twist = told_part(simulation.rigid_body(command.body), command.twist);
+  goals_[command.body] = goal;
   return true;
 }
 

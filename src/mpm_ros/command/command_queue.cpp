@@ -19,6 +19,11 @@ void CommandQueue::push(BodyCommand command) {
   }
 }
 
+void CommandQueue::push_past_hold(BodyCommand command) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  admit(std::move(command));
+}
+
 void CommandQueue::hold() {
   const std::lock_guard<std::mutex> lock(mutex_);
   on_hold_ = true;

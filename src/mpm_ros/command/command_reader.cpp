@@ -129,7 +129,9 @@ void CommandReader::read_pose(const geometry_msgs::Pose& pose, const std::string
 }
 
 void CommandReader::push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem) {
-  if (problem.empty()) {
+  if (problem.empty() && leaf == kFollowing) {
+    queue_.push_past_hold(std::move(command));
+  } else if (problem.empty()) {
     queue_.push(std::move(command));
   } else {
     health_.refuse(fmt::format("a command on {}{}/{}: {}", prefix_, bodies_[command.body], leaf, problem));

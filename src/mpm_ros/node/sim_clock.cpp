@@ -6,8 +6,16 @@
 
 namespace mpm_ros {
 
+namespace {
+
+/// Times that a subscriber may fall behind before it loses some.
+constexpr std::uint32_t kQueue = 1000;
+
+}  // namespace
+
 SimClock::SimClock(ros::NodeHandle node, bool publish, double rate) : period_(rate > 0.0 ? 1e9 / rate : 0.0) {
-  if (ros::Time::isSimTime() && publish) publisher_ = node.advertise<rosgraph_msgs::Clock>(topics::kClock, 10, true);
+  if (!ros::Time::isSimTime() || !publish) return;
+  publisher_ = node.advertise<rosgraph_msgs::Clock>(topics::kClock, kQueue, true);
 }
 
 void SimClock::tell(std::int64_t time, const Stamps& stamps, bool always) {

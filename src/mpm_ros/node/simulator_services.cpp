@@ -17,6 +17,8 @@ namespace {
 constexpr const char* kEnding = "the node is ending";
 /// How long a step waits for command messages that are on their way, by the wall's clock.
 constexpr std::chrono::milliseconds kPatience{5000};
+/// [s] of simulated time; its nanoseconds are still a whole number of 64 bits.
+constexpr double kLongestStep = 1e9;
 /// How often it looks whether the node is to stop.
 constexpr std::chrono::milliseconds kGlance{50};
 
@@ -98,8 +100,8 @@ bool SimulatorNode::wait_received(const Step::Request& request, Step::Response& 
 
 std::int64_t SimulatorNode::periods_of(const Step::Request& request, std::string& problem) const {
   if (request.count > 0) return request.count;
-  if (!std::isfinite(request.duration) || request.duration < 0.0) {
-    problem = fmt::format("duration is {}; it must be finite and not negative", request.duration);
+  if (!(request.duration >= 0.0 && request.duration <= kLongestStep)) {
+    problem = fmt::format("duration is {} s; it must be at least 0 and at most {:g}", request.duration, kLongestStep);
     return 0;
   }
   const double periods = request.duration * 1e9 / static_cast<double>(run_->simulation().sync_period());

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
 namespace mpm_ros {
 
@@ -60,7 +61,7 @@ void Run::keep(mpm::StateArchive& archive, const mpm::KeepMore& more) {
 }
 
 mpm::CheckpointAbout Run::save(const std::string& path, const mpm::KeepMore& more, const std::string& failure) {
-  return mpm::save_checkpoint(path, simulation_, {scene_.path, scene_.text, failure},
+  return mpm::save_checkpoint(path, simulation_, {std::filesystem::absolute(scene_.path).string(), scene_.text, failure},
                               [&](mpm::StateArchive& archive) { keep(archive, more); });
 }
 

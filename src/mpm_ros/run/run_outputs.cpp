@@ -142,6 +142,10 @@ void RunOutputs::keep(mpm::StateArchive& archive) {
     const mpm::StateArchive::Group group(archive, fmt::format("filter{}", body));
     filters_[body].keep(archive);
   }
+  {
+    const mpm::StateArchive::Group group(archive, "global");
+    global_.keep(archive);
+  }
   archive.keep("applied", applied_);
   archive.keep("late", late_);
   archive.keep("refused", refused_);

@@ -136,6 +136,7 @@ class OfflineRun {
     if (!options_.vtk.empty()) vtk_ = std::make_unique<VtkSink>(options_.vtk, stamps_);
     run_ = std::make_unique<Run>(scene_, run_options, stamps_, csv_.get());
     if (vtk_) run_->add(*vtk_);
+    commands_.skip_to(run_->simulation().time());
   }
 
   RunSceneResult go(std::ostream& out, std::ostream& err, bool bar, const std::function<bool()>& stop_requested) {
@@ -143,7 +144,7 @@ class OfflineRun {
     for (const std::string& warning : simulation.warnings()) err << "warning: " << warning << "\n";
     for (const std::string& note : simulation.notes()) err << note << "\n";
     for (std::size_t body = 0; body < scene_.commands.size(); ++body) {
-      if (scene_.commands[body].frame.empty()) continue;
+      if (scene_.commands[body].frame.empty() || rerun_) continue;  // what was recorded moves it
       err << fmt::format("warning: '{}' stands still: only the node follows a tf frame (drive: tf)\n",
                          scene_.definition.rigid_bodies[body].name);
     }

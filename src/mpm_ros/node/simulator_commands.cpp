@@ -1,0 +1,100 @@
+// What happens to commands at a sync point: those that are due, those of limited bodies under way, and silence.
+#include <fmt/format.h>
+
+#include "mpm_ros/node/simulator_node.hpp"
+
+namespace mpm_ros {
+
+namespace {
+
+const char* drive_text(mpm::Drive drive) {
+  switch (drive) {
+    case mpm::Drive::velocity:
+      return "commanded velocities";
+    case mpm::Drive::pose:
+      return "commanded poses";
+    default:
+      return "the scene's functions of time";
+  }
+}
+
+}  // namespace
+
+void SimulatorNode::apply_due(const std::vector<AppliedCommand>& extra) {
+  if (!log_.empty()) {
+    try {
+      for (const AppliedCommand& command : log_.take(run_->simulation())) apply(command);
+    } catch (const BagError& error) {
+      throw ParameterError(fmt::format("parameter ~commands, {}: {}", parameters_.commands, error.what()));
+    }
+    return;
+  }
+  const std::int64_t now = run_->simulation().time();
+  bridge_->follower().look(run_->stamps().at(now + run_->simulation().sync_period()));
+  for (const DueCommand& due : queue_->take(now)) apply(in_world(due, run_->simulation().bodies(), now));
+  for (const AppliedCommand& command : extra) {
+    refusal_ = apply(command);
+    if (!refusal_.empty()) return;
+  }
+  act_on_silence();
+  apply_limited();
+}
+
+void SimulatorNode::apply_limited() {
+  for (const AppliedCommand& command : limiter_->next(run_->simulation())) {
+    try {
+      run_->apply(command);
+    } catch (const mpm::RigidError& error) {
+      limiter_->drop(command.body);
+      health_.refuse(fmt::format("a command for '{}': {}", bodies_[command.body], error.what()));
+    }
+  }
+}
+
+std::string SimulatorNode::apply(const AppliedCommand& command) {
+  const mpm::RigidBody& body = run_->simulation().rigid_body(command.body);
+  const mpm::Drive before = body.drive();
+  mpm::Drive after = static_cast<mpm::Drive>(command.kind);
+  try {
+    if (!limiter_->take(command, run_->simulation())) {
+      const std::string jump = jump_of(command, run_->simulation());
+      run_->apply(command);
+      after = body.drive();
+      if (!jump.empty()) health_.jump(jump);
+    }
+  } catch (const mpm::RigidError& error) {
+    const std::string reason = fmt::format("a command for '{}': {}", body.name(), error.what());
+    health_.refuse(reason);
+    return reason;
+  }
+  watch_.heard(command);
+  health_.follow(body.name(), static_cast<double>(command.effect) * 1e-9);
+  if (after != before) {
+    health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(after),
+                               static_cast<double>(command.effect) * 1e-9, drive_text(before)));
+  }
+  return {};
+}
+
+void SimulatorNode::act_on_silence() {
+  const std::int64_t now = run_->simulation().time();
+  for (const int body : watch_.silent(now)) {
+    const std::string silence =
+        fmt::format("no command for '{}' in the {:g} s (simulated) before {:.6f} s", bodies_[body],
+                    parameters_.command_timeout, static_cast<double>(now) * 1e-9);
+    if (parameters_.on_timeout == OnTimeout::error) {
+      fail(silence + "; ~on_timeout is error", 3);
+      return;
+    }
+    if (parameters_.on_timeout == OnTimeout::stop) {
+      for (const AppliedCommand& stop : stop_commands(body, run_->simulation())) {
+        if (!limiter_->take(stop, run_->simulation())) run_->apply(stop);
+      }
+      health_.time_out(bodies_[body], silence + ": it stands still");
+    } else {
+      health_.time_out(bodies_[body], silence + ": it goes on as it was told last");
+    }
+  }
+}
+
+}  // namespace mpm_ros

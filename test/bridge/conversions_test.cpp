@@ -236,11 +236,11 @@ TEST(ParticleCloud, IsPackedInOrderOfId) {
 }
 
 TEST(ParticleCloud, RefusesAnUnknownField) {
-  EXPECT_EQ(problem_of(ParticleSelection{{"vx"}, 1}), "");
-  EXPECT_NE(problem_of(ParticleSelection{{"vxx"}, 1}).find("'vxx'"), std::string::npos);
-  EXPECT_NE(problem_of(ParticleSelection{{"vx", "vx"}, 1}), "");
-  EXPECT_NE(problem_of(ParticleSelection{{"x"}, 1}), "");
-  EXPECT_NE(problem_of(ParticleSelection{{}, 0}), "");
+  EXPECT_EQ(problem_of(ParticleSelection{{"vx"}, {}}), "");
+  EXPECT_NE(problem_of(ParticleSelection{{"vxx"}, {}}).find("'vxx'"), std::string::npos);
+  EXPECT_NE(problem_of(ParticleSelection{{"vx", "vx"}, {}}), "");
+  EXPECT_NE(problem_of(ParticleSelection{{"x"}, {}}), "");
+  EXPECT_NE(problem_of(ParticleSelection{{}, {0, {}}}), "");
 }
 
 mpm::ContactReport contact(double force, double peak, double interval, double impulse) {

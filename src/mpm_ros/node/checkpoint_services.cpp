@@ -100,7 +100,7 @@ void SimulatorNode::load_checkpoint(const std::string& path, Checkpoint::Respons
 
 void SimulatorNode::leave_failed_state() {
   if (!parameters_.checkpoint_on_failure) return;
-  const std::filesystem::path bag(run_->bag());
+  const std::filesystem::path bag(run_->recorder() != nullptr ? run_->recorder()->path() : "");
   const std::filesystem::path folder = bag.parent_path();
   const std::string name = bag.empty() ? scene_.definition.name : bag.stem().string();
   const std::string path = from_root((folder / (name + "_failed.h5")).string());

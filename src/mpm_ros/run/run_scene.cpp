@@ -199,7 +199,7 @@ class OfflineRun {
       (check_->passed() ? out << "  " : err << "run_scene: ") << check_->verdict() << "\n";
       if (!check_->passed()) result = RunSceneResult::another_state;
     }
-    if (result == RunSceneResult::done) checkpoints_.at_end(*run_, out);
+    if (result == RunSceneResult::done && !save_last(out, err)) result = RunSceneResult::machine_failed;
     return result;
   }
 
@@ -253,6 +253,16 @@ class OfflineRun {
     std::ofstream text(options_.out + "/scene.yaml");
     text << scene_.text << "\n";
     if (!text.flush()) throw mpm::SceneError(fmt::format("--out: {}/scene.yaml cannot be written", options_.out));
+  }
+
+  bool save_last(std::ostream& out, std::ostream& err) {
+    try {
+      checkpoints_.at_end(*run_, out);
+      return true;
+    } catch (const mpm::CheckpointError& error) {
+      err << "run_scene: " << error.what() << "\n";
+      return false;
+    }
   }
 
   void write(const RunSummary& summary) {

@@ -73,6 +73,7 @@ class Record {
   explicit Record(const Settings& settings) : settings_(settings) {}
 
   void add(double time, double force) {
+    if (time < time_) *this = Record(settings_);  // the simulator was reset
     if (start_ < 0.0) start_ = time;
     if (touch_ < 0.0 && force > 0.0) touch_ = time;
     if (std::abs(force - settings_.target) > settings_.tolerance * settings_.target) outside_ = time;
@@ -99,7 +100,7 @@ class Record {
   }
 
  private:
-  const Settings& settings_;
+  Settings settings_;
   double start_ = -1.0, touch_ = -1.0;  // [s] of the first force heard, of the first above zero
   double outside_ = 0.0;                // [s] when it was out of tolerance last
   double time_ = 0.0, force_ = 0.0, largest_ = 0.0;

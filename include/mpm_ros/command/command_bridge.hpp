@@ -26,6 +26,9 @@ class CommandBridge {
   const CommandReader& reader() const { return reader_; }
   FrameFollower& follower() { return follower_; }
 
+  /// The clock was set back: what tf knows of moving frames is of another run. Static frames stay.
+  void forget_frames() { frames_.clear(); }
+
   /// Asks the master for command topics of bodies that the scene does not have, and refuses each once.
   void find_strangers();
 

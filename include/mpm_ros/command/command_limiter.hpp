@@ -38,7 +38,7 @@ class CommandLimiter {
   /// What the bodies that are under way to a goal do in the sync period to come.
   std::vector<AppliedCommand> next(const mpm::Simulation& simulation);
   /// The body is on its way no longer.
-  void drop(int body) { goals_.erase(body); }
+  void drop(int body);
   /// For a run that begins again.
   void clear();
 

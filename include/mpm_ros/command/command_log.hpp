@@ -22,8 +22,6 @@ class CommandLog {
   /// Commands whose time has come at simulation.time() and that were not taken before.
   /// @throws BagError for a body that the simulation does not have, or an effect between two sync points.
   std::vector<AppliedCommand> take(const mpm::Simulation& simulation);
-  /// Begins again.
-  void rewind() { next_ = 0; }
   /// Goes on with what takes effect at `time` [ns] or later: what was before is in a checkpoint.
   void skip_to(std::int64_t time);
 

@@ -1,7 +1,7 @@
 // The node: a run, its topics and services, and the loop that drives it.
 //
 // Three threads at work: the solver's (the one that calls spin(), the only one that touches the run), one for command
-// topics (checks and queues them), two for services and housekeeping (hand work to the solver's thread and wait).
+// topics (checks and queues them), four for services and housekeeping (hand work to the solver's thread and wait).
 // A sync period is: apply the commands that are due, advance, publish and record, then pace.
 #pragma once
 
@@ -56,6 +56,8 @@ class SimulatorNode {
   Stamps first_stamps() const;
   /// `resume`: a checkpoint, or empty. @throws mpm::Error, BagError; then the run that is there goes on.
   void start_run(const Stamps& stamps, const std::string& resume = {});
+  /// Its first messages, and the pace from now on.
+  void begin_run();
   /// One sync period; extra commands are applied after those that are due. False when it failed, or when an extra
   /// command was refused: then time has not moved, and refusal_ says why.
   bool sync_period(const std::vector<AppliedCommand>& extra);

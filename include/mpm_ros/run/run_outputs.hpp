@@ -117,6 +117,8 @@ class RunOutputs {
   std::uint64_t refused_ = 0;
   std::uint64_t overruns_ = 0;
   std::int64_t particles_at_ = -1;  // [ns] when they were written last
+  bool global_kept_ = false;        // its means go on from a checkpoint
+  std::int64_t read_at_ = -1;       // [ns] when contacts were read last
   std::int64_t contacts_at_ = -1;   // [ns] the same
   std::int64_t global_at_ = -1;     // [ns] the same
   bool finished_ = false;

@@ -175,7 +175,7 @@ double GlobalQuantities::mean(const Term& term) const {
     for (auto value = begin; value != begin + set.size(); ++value) total += *value;
     count += set.size();
   }
-  return total / count;
+  return count > 0.0 ? total / count : 0.0;  // as of a particle
 }
 
 double GlobalQuantities::contact_impulse(const Term& term, int axis) const {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "mpm/simulation/projected.hpp"
 #include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/conversions.hpp"
 
@@ -22,12 +23,16 @@ double reach_of(const mpm::RigidBody& body) {
 double travel_of(const AppliedCommand& command, const mpm::Simulation& simulation) {
   const mpm::RigidBody& body = simulation.rigid_body(command.body);
   const double sync = static_cast<double>(simulation.sync_period()) * 1e-9;
+  // What the geometry does not have is no motion: a link beside the plane of a planar scene.
+  const mpm::GeometryKind geometry = simulation.definition().geometry;
   if (command.kind == CommandKind::velocity) {
-    return sync * (command.twist.linear.norm() + command.twist.angular.norm() * reach_of(body));
+    const mpm::Twist twist = mpm::projected(command.twist, geometry, body.definition());
+    return sync * (twist.linear.norm() + twist.angular.norm() * reach_of(body));
   }
+  const mpm::Pose pose = mpm::projected(command.pose, geometry, body.definition());
   const double periods = static_cast<double>(command.arrival - command.effect) * 1e-9 / sync;
-  const double turn = command.pose.orientation.angularDistance(body.pose().orientation);
-  return ((command.pose.position - body.pose().position).norm() + turn * reach_of(body)) / periods;
+  const double turn = pose.orientation.angularDistance(body.pose().orientation);
+  return ((pose.position - body.pose().position).norm() + turn * reach_of(body)) / periods;
 }
 
 }  // namespace

@@ -63,6 +63,20 @@ double braking_speed(double distance, double acceleration, double period) {
   return (whole + rest) * step;
 }
 
+namespace {
+
+/// What the body would refuse once it is applied is refused now. @throws mpm::RigidError
+void check_told(const AppliedCommand& command, const mpm::Simulation& simulation) {
+  mpm::RigidBody body = simulation.rigid_body(command.body);
+  if (command.kind == CommandKind::velocity) {
+    body.command_velocity(command.twist);
+  } else {
+    body.command_pose(command.pose, command.effect, command.arrival);
+  }
+}
+
+}  // namespace
+
 CommandLimiter::CommandLimiter(std::vector<mpm::MotionLimits> limits, NodeHealth& health)
     : limits_(std::move(limits)), health_(health) {}
 
@@ -81,7 +95,11 @@ bool CommandLimiter::take(const AppliedCommand& command, const mpm::Simulation& 
     check_travel(fastest, simulation);
   } else {
     goal.command.pose = mpm::projected(command.pose, geometry, definition);
+    // Only what nothing keeps slow can be too far.
+    if (std::isinf(limits_[body].speed) && std::isinf(limits_[body].acceleration))
+      check_travel(goal.command, simulation);
   }
+  check_told(goal.command, simulation);
   goals_[command.body] = goal;
   return true;
 }
@@ -149,6 +167,11 @@ AppliedCommand CommandLimiter::towards_pose(Goal& goal, const mpm::RigidBody& bo
 
 void CommandLimiter::count(Goal& goal) {
   if (!std::exchange(goal.limited, true)) ++report_[goal.command.body].limited;
+}
+
+void CommandLimiter::drop(int body) {
+  goals_.erase(body);
+  report_[body].behind = report_[body].behind_angle = 0.0;
 }
 
 void CommandLimiter::clear() {

@@ -7,6 +7,13 @@
 
 namespace mpm_ros {
 
+namespace {
+
+/// A transform farther ahead than this [s] is of another clock: of a run before the clock was set back.
+constexpr double kFarthestAhead = 1.0;
+
+}  // namespace
+
 FrameFollower::FrameFollower(const std::vector<std::string>& frames, std::string world_frame,
                              const tf2::BufferCore& transforms, CommandReader& reader, NodeHealth& health)
     : world_frame_(std::move(world_frame)), transforms_(transforms), reader_(reader), health_(health) {
@@ -21,17 +28,22 @@ void FrameFollower::look(const ros::Time& next) {
 
 void FrameFollower::look(Followed& followed, const ros::Time& next) {
   geometry_msgs::TransformStamped transform;
+  std::string problem;
   try {
     try {
       transform = transforms_.lookupTransform(world_frame_, followed.frame, next);
     } catch (const tf2::ExtrapolationException&) {
       transform = transforms_.lookupTransform(world_frame_, followed.frame, ros::Time());
     }
+    const double ahead = (transform.header.stamp - next).toSec();
+    if (ahead > kFarthestAhead) problem = fmt::format("its latest transform is stamped {:.3f} s ahead", ahead);
   } catch (const tf2::TransformException& error) {
+    problem = error.what();
+  }
+  if (!problem.empty()) {
     if (!std::exchange(followed.waits, true)) {
-      health_.wait(reader_.bodies()[followed.body],
-                   fmt::format("'{}' waits for the tf frame '{}': {}", reader_.bodies()[followed.body], followed.frame,
-                               error.what()));
+      const std::string& body = reader_.bodies()[followed.body];
+      health_.wait(body, fmt::format("'{}' waits for the tf frame '{}': {}", body, followed.frame, problem));
     }
     return;
   }
@@ -49,7 +61,10 @@ void FrameFollower::look(Followed& followed, const ros::Time& next) {
 }
 
 void FrameFollower::clear() {
-  for (Followed& followed : followed_) followed.last = ros::Time();
+  for (Followed& followed : followed_) {
+    followed.last = ros::Time();
+    followed.waits = false;
+  }
 }
 
 }  // namespace mpm_ros

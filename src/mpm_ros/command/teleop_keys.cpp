@@ -9,7 +9,7 @@ namespace mpm_ros {
 namespace {
 
 constexpr double kFaster = 1.25;  // a press of +
-constexpr char kEscape = 0x1b, kEndOfText = 0x03;
+constexpr char kEndOfText = 0x03;  // Ctrl-C
 // Of each axis the key that moves it on and the one that moves it back; in the order of a twist.
 constexpr std::array<std::array<char, 2>, 6> kKeys{
     {{'w', 's'}, {'a', 'd'}, {'r', 'f'}, {'l', 'j'}, {'i', 'k'}, {'u', 'o'}}};
@@ -34,7 +34,6 @@ TeleopKeys::Action TeleopKeys::press(char key, double now) {
       rotation_rate_ /= kFaster;
       return Action::move;
     case 'q':
-    case kEscape:
     case kEndOfText:
       return Action::quit;
     default:

@@ -85,17 +85,14 @@ void SimulatorNode::load_checkpoint(const std::string& path, Checkpoint::Respons
     response.message = error.what();
     return;
   }
-  if (bridge_) bridge_->reader().set_stamps(run_->stamps());
-  tell_clock(true);
-  run_->begin();
-  pacer_->restart(Pacer::Clock::now());
-  report();
-  response.success = 1;
+  begin_run();
+  response.success = failure_.empty() ? 1 : 0;
   response.path = from_root(path);
   response.stamp = run_->outputs().stamp();
   response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
   response.message = fmt::format("run {}: goes on from {:.6f} s (simulated), at stamp {}.{:09d}", runs_, response.time,
                                  response.stamp.sec, response.stamp.nsec);
+  if (!failure_.empty()) response.message = failure_;
 }
 
 void SimulatorNode::leave_failed_state() {

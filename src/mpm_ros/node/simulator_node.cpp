@@ -18,6 +18,8 @@ namespace {
 
 /// How long the solver's thread sleeps at most before it looks whether it is to stop.
 constexpr std::chrono::milliseconds kGlance{50};
+/// Steps that wait for messages hold one each; others are for who pauses or asks meanwhile.
+constexpr std::uint32_t kServiceThreads = 4;
 /// At the end: for messages and answers on their way out.
 constexpr std::chrono::milliseconds kLinger{300};
 
@@ -83,7 +85,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   timer_ = services.createSteadyTimer(ros::WallDuration(0.1), [this](const ros::SteadyTimerEvent&) { housekeeping(); });
 
   topic_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &topic_callbacks_);
-  service_spinner_ = std::make_unique<ros::AsyncSpinner>(2, &service_callbacks_);
+  service_spinner_ = std::make_unique<ros::AsyncSpinner>(kServiceThreads, &service_callbacks_);
   topic_spinner_->start();
   service_spinner_->start();
 }
@@ -112,7 +114,7 @@ RunOptions SimulatorNode::run_options() const {
   options.output.force_scale = parameters_.force_scale;
   options.output.state_hash = parameters_.state_hash;
   if (!parameters_.record.empty())
-    options.bag = bag_path(parameters_.record, scene_.definition.name, runs_, parameters_.record_folder);
+    options.bag = bag_path(parameters_.record, scene_.definition.name, runs_ + 1, parameters_.record_folder);
   options.bag_options.topics_below = node_.getNamespace();
   options.bag_options.compression = parameters_.record_compression;
   constexpr double kMegabyte = 1e6;
@@ -131,7 +133,6 @@ Stamps SimulatorNode::first_stamps() const {
 }
 
 void SimulatorNode::start_run(const Stamps& stamps, const std::string& resume) {
-  ++runs_;  // names the next bag
   RunOptions options = run_options();
   CommandQueue queue(queue_->sync_period());
   CommandWatch watch(std::llround(parameters_.command_timeout * 1e9));
@@ -144,10 +145,13 @@ void SimulatorNode::start_run(const Stamps& stamps, const std::string& resume) {
   auto run = std::make_unique<Run>(scene_, options, stamps, publishers_.get());
   if (run_) end_run();
   run_ = std::move(run);
+  ++runs_;  // names the next bag
   record_lost_ = false;
   if (const BagRecorder* recorder = run_->recorder()) {
     ROS_INFO_STREAM("recording to " << recorder->path() << (recorder->replaced() ? ", which is replaced" : ""));
   }
+  // First: what is being read by the old stamps then comes before it, and goes.
+  if (bridge_) bridge_->reader().set_stamps(run_->stamps());
   queue_->take_over(queue);
   log_.skip_to(run_->simulation().time());
   watch_ = watch;
@@ -165,11 +169,19 @@ SimulatorNode::Phase SimulatorNode::phase() const {
   return parameters_.pacing == Pacing::lockstep ? Phase::waiting : Phase::running;
 }
 
-int SimulatorNode::spin() {
+void SimulatorNode::begin_run() {
   tell_clock(true);
-  run_->begin();
-  report();
+  try {
+    run_->begin();
+  } catch (const BagError& error) {
+    fail(error.what(), 1);
+  }
   pacer_->restart(Pacer::Clock::now());
+  report();
+}
+
+int SimulatorNode::spin() {
+  begin_run();
   while (!stop_requested_()) {
     const Phase now = phase();
     if (now == Phase::failed || (now == Phase::ended && !parameters_.keep_alive)) break;

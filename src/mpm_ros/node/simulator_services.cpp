@@ -70,15 +70,12 @@ void SimulatorNode::reset(std_srvs::Trigger::Response& response) {
     response.message = error.what();
     return;
   }
-  if (bridge_) bridge_->reader().set_stamps(run_->stamps());
-  queue_->clear();  // after: a message that was being read by the old stamps is in it
-  tell_clock(true);
-  run_->begin();
-  pacer_->restart(Pacer::Clock::now());
-  report();
-  response.success = 1;
-  response.message =
-      fmt::format("run {}: simulated time is zero again, at stamp {}.{:09d}", runs_, origin.sec, origin.nsec);
+  if (bridge_ && parameters_.reset_time == ResetTime::zero) bridge_->forget_frames();
+  begin_run();
+  response.success = failure_.empty() ? 1 : 0;
+  response.message = failure_.empty() ? fmt::format("run {}: simulated time is zero again, at stamp {}.{:09d}", runs_,
+                                                    origin.sec, origin.nsec)
+                                      : failure_;
 }
 
 bool SimulatorNode::wait_received(const Step::Request& request, Step::Response& response) const {

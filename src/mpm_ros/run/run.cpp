@@ -50,18 +50,20 @@ void Run::keep(mpm::StateArchive& archive, const mpm::KeepMore& more) {
     more(archive);
     return;
   }
-  std::uint64_t waiting = 0;
+  std::uint64_t waiting = 0, goals = 0;
   archive.keep("queue/waiting/rows", waiting);
-  if (waiting > 0) {
+  archive.keep("limiter/goals/rows", goals);
+  if (waiting + goals > 0) {
     throw mpm::CheckpointError(
-        fmt::format("the checkpoint has {} commands that wait for their time, which the node alone can give: resume it "
-                    "there, _resume:=FILE",
-                    waiting));
+        fmt::format("the checkpoint has {} commands that wait for their time or are under way within limits, which the "
+                    "node alone can give: resume it there, _resume:=FILE",
+                    waiting + goals));
   }
 }
 
 mpm::CheckpointAbout Run::save(const std::string& path, const mpm::KeepMore& more, const std::string& failure) {
-  return mpm::save_checkpoint(path, simulation_, {std::filesystem::absolute(scene_.path).string(), scene_.text, failure},
+  return mpm::save_checkpoint(path, simulation_,
+                              {std::filesystem::absolute(scene_.path).string(), scene_.text, failure},
                               [&](mpm::StateArchive& archive) { keep(archive, more); });
 }
 

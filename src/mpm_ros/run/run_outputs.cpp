@@ -121,7 +121,7 @@ void RunOutputs::begin_again(const RunInfo& info) {
   write_bodies();
   write_state(options_.state_hash, 0.0);
   write_particles();
-  if (!global_.empty()) global_.read();  // contact forces are means from here
+  if (!global_.empty() && !global_kept_) global_.read();  // contact forces are means from here
 }
 
 void RunOutputs::keep(mpm::StateArchive& archive) {
@@ -144,7 +144,12 @@ void RunOutputs::keep(mpm::StateArchive& archive) {
   }
   {
     const mpm::StateArchive::Group group(archive, "global");
-    global_.keep(archive);
+    const std::string own = fmt::format("{}", fmt::join(global_.names(), "\n"));
+    std::string names = own;
+    archive.keep("names", names);
+    // A scene's may be others in a run that watches otherwise: those begin.
+    global_kept_ = names == own;
+    if (global_kept_) global_.keep(archive);
   }
   archive.keep("applied", applied_);
   archive.keep("late", late_);
@@ -182,7 +187,7 @@ void RunOutputs::finish(double real_time_factor, const std::string& failure) {
   state_.failed = failed ? 1 : 0;
   state_.failure = failure;
   if (failed || contacts_at_ != simulation_.time()) {
-    read_contacts();
+    if (read_at_ != simulation_.time()) read_contacts();
     write_bodies();
     write_contacts();
   }
@@ -197,6 +202,7 @@ void RunOutputs::count_commands(std::uint64_t late, std::uint64_t refused) {
 }
 
 void RunOutputs::read_contacts() {
+  read_at_ = simulation_.time();
   contacts_.bodies.clear();
   for (int body = 0; body < static_cast<int>(wrench_topics_.size()); ++body) {
     contacts_.bodies.push_back(simulation_.take_contact(body));

@@ -62,6 +62,17 @@ TEST_F(TooFast, PoseThatIsFarForItsTime) {
   expect_taken();
 }
 
+TEST_F(TooFast, WhatAPlaneDoesNotHaveIsNoTravel) {
+  // A robot's link that stands beside the plane of the scene, tilted a little about x.
+  command_.kind = CommandKind::pose;
+  command_.pose = simulation_.rigid_body(command_.body).pose();
+  command_.pose.position.y() = 20.0 * diagonal_;
+  command_.pose.orientation = Eigen::AngleAxisd(0.1, mpm::Vec3::UnitX());
+  command_.arrival = simulation_.sync_period();
+  EXPECT_EQ(jump_of(command_, simulation_), "");
+  expect_taken();
+}
+
 TEST_F(TooFast, APoseOfMoreThanACellInASyncPeriodIsAJump) {
   command_.kind = CommandKind::pose;
   command_.pose = simulation_.rigid_body(command_.body).pose();

@@ -199,6 +199,19 @@ TEST_F(Limiter, WhatAPlaneDoesNotHaveIsNoGoal) {
   EXPECT_NEAR(x(), 0.0001, kRound);
 }
 
+TEST_F(Limiter, WhatTheBodyWouldRefuseIsRefusedAtOnce) {
+  const mpm::Scene scene =
+      mpm::load_scene(MPM_TEST_DATA_DIR "/drive.yaml", {"rigid_bodies.sled.free={mass: 1 kg, axes: [z]}"});
+  mpm::Simulation simulation(mpm::build(scene), {1});
+  CommandLimiter limiter(limits(), health_);
+  ASSERT_TRUE(limiter.take(velocity(0.1), simulation));
+  EXPECT_THROW(limiter.take(pose(0.01, 0.0, kPeriod), simulation), mpm::RigidError);  // a free body takes no pose
+  // The ramp under way goes on, 0.04 m/s a period, along the axis that is told.
+  const std::vector<AppliedCommand> next = limiter.next(simulation);
+  ASSERT_EQ(next.size(), 1U);
+  EXPECT_NEAR(next[0].twist.linear.x(), 0.04, kRound);
+}
+
 TEST_F(Limiter, ABodyWithoutLimitsIsLeftAlone) {
   AppliedCommand command = velocity(0.1);
   command.body = simulation_.find_body("probe");

@@ -122,5 +122,25 @@ TEST_F(Follower, BeginsAgainWithTheRun) {
   EXPECT_EQ(at(1).size(), 1U);
 }
 
+TEST_F(Follower, TransformsOfBeforeTheClockWasSetBackAreNotFollowed) {
+  transform(0.1, 99.99);
+  follower_.clear();
+  EXPECT_TRUE(at(0).empty());
+  EXPECT_NE(diagnostic().find("stamped 99.980 s ahead"), std::string::npos) << diagnostic();
+  frames_.clear();  // as a reset does
+  transform(0.2, 0.005);
+  const std::vector<DueCommand> due = at(1);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due[0].command.pose.position.x(), 0.2);
+}
+
+TEST_F(Follower, ARunThatBeginsAgainSaysAgainThatItWaits) {
+  at(0);
+  follower_.clear();
+  health_.restart();
+  at(0);
+  EXPECT_NE(diagnostic().find("'probe' waits for the tf frame 'tool0'"), std::string::npos) << diagnostic();
+}
+
 }  // namespace
 }  // namespace mpm_ros

@@ -1,13 +1,12 @@
 // Recordings that are split, replaced, cut off by a full disk, and run again from the bag alone.
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
-#include <signal.h>
-#include <sys/resource.h>
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "full_disk.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/report/report.hpp"
@@ -185,23 +184,7 @@ TEST(Recording, APartOfAnotherRecordingIsRefused) {
   }
 }
 
-/// While it lives no file grows beyond `bytes`: what a full disk is to a process.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) : handler_(signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
+using test::FullDisk;
 
 /// A cloud at each of 501 sync points: some 3 MB.
 const std::vector<std::string> kLarge = {"time.end=1", "time.sync=0.002", "output.period=0.002"};

@@ -160,6 +160,40 @@ TEST_F(ReportCheckTest, CheckFindsCommandsThatWereRefusedOrLost) {
   EXPECT_EQ(failures_of(run), Names());
 }
 
+TEST_F(ReportCheckTest, CommandsCountUpToTheLastState) {
+  // The one command takes effect at the sync point of state 10. A state of a sync point comes before its commands, one
+  // that closes a run after them; of a run that was killed there may be neither.
+  int last = 9;
+  std::uint64_t applied = 0;
+  HalfSineRun run;
+  run.on_state = [&](int i, SolverState& message) {
+    if (i == last) message.commands_applied = applied;
+    return i <= last;
+  };
+  EXPECT_EQ(failures_of(run), Names());
+  last = 10;
+  EXPECT_EQ(failures_of(run), Names());
+  applied = 1;
+  EXPECT_EQ(failures_of(run), Names());
+  applied = 2;
+  EXPECT_EQ(failures_of(run), Names{"commands"});
+  last = 11;
+  applied = 0;
+  EXPECT_EQ(failures_of(run), Names{"commands"});
+}
+
+TEST_F(ReportCheckTest, CommandsThatWereRefusedBeforeAResetAreNotOfThisRun) {
+  std::uint64_t refused = 3;
+  HalfSineRun run;
+  run.on_state = [&refused](int i, SolverState& message) {
+    message.commands_refused = i < 50 ? 3 : refused;
+    return true;
+  };
+  EXPECT_EQ(failures_of(run), Names());
+  refused = 4;
+  EXPECT_EQ(failures_of(run), Names{"commands"});
+}
+
 TEST(RunChecks, LooksAtTheClockWhereItWasRecorded) {
   const auto result = [](const std::vector<std::int64_t>& times) {
     RunChecks checks(1e-3, mpm::Precision::float64, {});
@@ -206,6 +240,26 @@ TEST_F(ReportCheckTest, AShorterLastIntervalIsNoGap) {
   HalfSineRun run;  // states every 2 ms, the last after 1 ms: 101 is odd
   run.on_state = [](int i, SolverState&) { return i % 2 == 0 || i == HalfSineRun::kIntervals; };
   EXPECT_TRUE(failures_of(run).empty());
+}
+
+TEST_F(ReportCheckTest, ARunThatGoesOnBetweenTwoMultiplesBeginsWithLess) {
+  // States every 10 ms of a run that was resumed at 7 ms: the first interval is 3 ms, the last one 1 ms.
+  int lost = -1;
+  const auto recorded = [&lost](int i) {
+    return i != lost && (i == 7 || (i > 7 && i % 10 == 0) || i == HalfSineRun::kIntervals);
+  };
+  HalfSineRun run;
+  run.on_state = [&](int i, SolverState&) { return recorded(i); };
+  run.on_bodies = [&](int i, BodyStates&) { return recorded(i); };
+  EXPECT_EQ(failures_of(run), Names());
+  lost = 50;
+  EXPECT_EQ(failures_of(run), Names{"gaps"});
+}
+
+TEST_F(ReportCheckTest, ALostThirdStateIsAGap) {
+  HalfSineRun run;  // 0, 1, 3, 4 ms, ...: the longer interval does not become the norm
+  run.on_state = [](int i, SolverState&) { return i != 2; };
+  EXPECT_EQ(failures_of(run), Names{"gaps"});
 }
 
 TEST_F(ReportCheckTest, CheckFindsAStampThatIsNotTheSolversTime) {
@@ -269,6 +323,18 @@ TEST_F(ReportCheckTest, CheckFindsForcesOfAPairThatDoNotAddUpToTheImpulse) {
     return true;
   };
   EXPECT_EQ(failures_of(run), Names{"impulse"});
+}
+
+TEST_F(ReportCheckTest, CheckFindsAnEnergyOfFreeBodiesThatIsNotFinite) {
+  for (double SolverState::*energy : {&SolverState::energy_free_kinetic, &SolverState::energy_free_potential,
+                                      &SolverState::energy_free_loss, &SolverState::free_work}) {
+    HalfSineRun run;
+    run.on_state = [energy](int i, SolverState& message) {
+      if (i == 3) message.*energy = std::numeric_limits<double>::quiet_NaN();
+      return true;
+    };
+    EXPECT_EQ(failures_of(run), Names{"energy"});
+  }
 }
 
 TEST_F(ReportCheckTest, CheckFindsAnEnergyOfFrictionThatIsNotFinite) {

@@ -2,6 +2,7 @@
 #include "mpm_ros/report/report_same.hpp"
 
 #include <gtest/gtest.h>
+#include <mpm_ros/GlobalQuantities.h>
 
 #include <sstream>
 
@@ -43,6 +44,31 @@ TEST_F(ReportSame, ARunIsTheSameAsItselfAtAnotherHourAndSpeed) {
   };
   EXPECT_NE(said(later).find("PASS  the same, to the bit"), std::string::npos);
   EXPECT_EQ(result_, ReportResult::done);
+}
+
+TEST_F(ReportSame, WhatTheMachineTookIsNotCompared) {
+  ReportOptions options;
+  options.same = true;
+  GlobalQuantities message;
+  message.header.stamp = ros::Time(0, 5000000);
+  message.names = {"sxx", "elapsed time", "CPU time"};  // as the scene writes them
+  message.units = {"Pa", "s", "s"};
+  const auto result = [&](const std::vector<double>& first, const std::vector<double>& second) {
+    options.bags.clear();
+    for (const auto& [name, values] : {std::pair("a.bag", first), std::pair("b.bag", second)}) {
+      options.bags.push_back(folder_.file(name));
+      rosbag::Bag bag(options.bags.back(), rosbag::bagmode::Write);
+      HalfSineRun().write(bag);
+      message.values = values;
+      bag.write("/mpm/global_quantities", message.header.stamp, message);
+    }
+    std::ostringstream out, err;
+    return run_report(options, out, err, false);
+  };
+  EXPECT_EQ(result({1.0, 2.0, 3.0}, {1.0, 4.0, 5.0}), ReportResult::done);
+  options.tolerance = 0.01;
+  EXPECT_EQ(result({1.0, 2.0, 3.0}, {1.0, 4.0, 5.0}), ReportResult::done);
+  EXPECT_EQ(result({1.0, 2.0, 3.0}, {1.1, 2.0, 3.0}), ReportResult::check_failed);
 }
 
 TEST_F(ReportSame, TellsTheFirstBitThatDiffers) {

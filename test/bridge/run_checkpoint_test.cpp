@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "mpm_ros/command/command_limiter.hpp"
 #include "mpm_ros/command/command_queue.hpp"
 #include "mpm_ros/command/command_watch.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
@@ -176,6 +177,7 @@ struct Pressed {
   void keep(mpm::StateArchive& archive) {
     queue.keep(archive);
     watch.keep(archive);
+    limiter.keep(archive);
   }
   void go(int periods) {
     for (int n = 0; n < periods && !run->ended(); ++n) {
@@ -198,6 +200,8 @@ struct Pressed {
   mpm::Scene scene = mpm::load_scene(MPM_TEST_DATA_DIR "/press.yaml");
   CommandQueue queue;
   CommandWatch watch{30'000'000};
+  NodeHealth health;
+  CommandLimiter limiter{{}, health};
   std::unique_ptr<mpm_ros::Run> run;
   int silences = 0;
 };

@@ -70,6 +70,7 @@ TEST(SceneFree, RefusesWhatCannotBe) {
   says(refusal(ball + "free: {mass: 1, axes: [x, z], centre: [0.01, 0]}"), "off the body's origin");
   says(refusal("shape: {plane: {}}, free: {density: 1}"), "volume of this shape is not known");
   says(refusal("shape: {plane: {}}, free: {mass: 1}"), "inertia of this shape is not known");
+  says(refusal(ball + "free: {mass: 1, centre: [0.01, 0]}"), "inertia about this centre is not known");
   says(refusal(ball + "mass: 3"), "write free: {mass: ...}");
   says(refusal("shape: {polygon: {points: [[0, 0], [1, 0]]}}"), "at least 3");
   says(refusal("shape: {polygon: {points: [[0, 0], [1, 0], [0, 1]]}}", "solid"), "planar");

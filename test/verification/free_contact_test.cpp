@@ -9,8 +9,18 @@ namespace {
 
 using namespace verification;
 
-// The energy that was lost in meeting is counted apart from it; what is left over is what the transfer to the particles
-// lets go (FLIP calms the ringing block) and half a step's fall.
+/// What there is at a sync point.
+struct Bounce {
+  double missing, block, ball;  // [J] not accounted for since the start; of the material; of the free body
+  mpm::Vec3 given;              // [N s] to the ball, by contact
+  std::uint64_t steps;
+};
+
+// The energy that was lost in meeting is counted apart from it. What is not accounted for has three parts: half a
+// step's fall, which is exact; what FLIP lets go while the block rings alone, which no contact takes part in; and the
+// rest while they touch. For that and for the sum there is no theory here: their limits are bounds on what is seen. The
+// rest is 0.5 % as it stands, 1.6 % with steps of a quarter, and 2 % the other way, a gain, with cells of half the
+// size.
 TEST(FreeBodies, BallBouncesOnABlock) {
   constexpr double kHeight = 0.1;
   mpm::Simulation simulation = run_of(R"(
@@ -28,36 +38,60 @@ rigid_bodies:
 )");
   const double start = accounted(simulation.state().energy);
   const double fall = simulation.free_bodies()[0].mass * kGravity * kHeight;
-  double top = 0.0, worst_gain = 0.0;
-  bool bounced = false;
+  const auto look = [&] {
+    const mpm::SolverState now = simulation.state();
+    return Bounce{start - accounted(now.energy), now.energy.total(),
+                  now.energy.free_kinetic + now.energy.free_potential, simulation.free_bodies()[0].contact.linear,
+                  now.step.steps};
+  };
+  std::vector<Bounce> seen = {look()};
+  double top = 0.0, most = 0.0;
+  std::size_t touch = 0, part = 0;  // sync points before the first contact, and after it
   while (seconds(simulation) < 0.3 - 1e-9) {
     simulation.advance();
-    const mpm::BodyState ball = simulation.bodies()[0];
-    bounced = bounced || ball.twist.linear.z() > 0.0;
-    if (bounced) top = std::max(top, ball.pose.position.z() - 0.06);
-    worst_gain = std::max(worst_gain, accounted(simulation.state().energy) - start);
+    seen.push_back(look());
+    const std::size_t now = seen.size() - 1;
+    if (seen[now].given != seen[now - 1].given) {
+      if (touch == 0) touch = now - 1;
+      part = now;
+    }
+    if (part > 0) top = std::max(top, simulation.bodies()[0].pose.position.z() - 0.06);
+    most = std::max(most, -seen[now].missing);
   }
   const mpm::SolverState state = simulation.state();
   const mpm::FreeBodyReport ball = simulation.free_bodies()[0];
   EXPECT_LT(state.audit.residual, 1e-10);
   EXPECT_LT(imbalance(ball), 1e-10);
-  EXPECT_GT(top, 0.1 * kHeight);
-  EXPECT_LT(top, kHeight);
-  EXPECT_LT(worst_gain, 0.01 * fall);
+  EXPECT_LT(most, 0.01 * fall);  // gained, at any time: as the others, a bound on what is seen
   EXPECT_GT(state.energy.free_loss, 0.0);
+  EXPECT_LT(part, seen.size() - 50);  // it has left
+  // In the air a step loses m g^2 dt^2 / 2: the place follows from the velocity at the step's end. Round-off of sums.
+  double flight = 0.0;
+  for (std::size_t i = part + 1; i < seen.size(); ++i) {
+    flight +=
+        0.5 * ball.mass * kGravity * kGravity * 0.002 * 0.002 / static_cast<double>(seen[i].steps - seen[i - 1].steps);
+  }
+  EXPECT_NEAR(seen[part].ball - seen.back().ball, flight, 1e-10 * fall);
+  const double together = seen[part].missing - seen[touch].missing;
+  const double alone = seen.back().missing - seen[part].missing - flight;
+  // What it can rise to: what the fall gave, less what was lost and what the block has as they part.
+  const double left =
+      fall - state.energy.free_loss - state.energy.friction - (seen[part].block - seen[touch].block) + 0.01 * fall;
   Page page("contact", "free_ball", "A ball that falls on an elastic block");
   page.problem(
           "A rigid disc of 60 mm radius, as heavy as rubber, falls 0.1 m onto a block of it (E = 1 MPa) and bounces.")
       .exact("The energy of disc and block, with what contact and friction took, stays.", "balance of energy");
-  // What is missing is what FLIP's transfer lets go while the block rings: 3.7 % here.
-  page.near("energy accounted for, over that of the fall", 1.0 + (accounted(state.energy) - start) / fall, 1.0, 0.05,
-            "1");
-  page.report("rebound height", top, "m");
+  page.near("energy accounted for, over that of the fall", 1.0 - seen.back().missing / fall, 1.0, 0.05, "1");
+  page.near_absolute("not accounted for while they touch, over that of the fall", together / fall, 0.0, 0.02, "1");
+  page.report("let go by FLIP while the block rings alone, over that of the fall", alone / fall, "1");
   page.report("lost where they meet, over that of the fall", state.energy.free_loss / fall, "1");
+  page.below("rebound height; most that the balance of energy leaves", top, left / (ball.mass * kGravity), "m");
   page.meaning(
       "What is lost in meeting is the blow itself: a surface node stops at once. The rest of what the disc does not "
       "get "
-      "back is in the block, which rings; FLIP lets a part of that go, which nothing accounts for.");
+      "back is in the block, which rings; FLIP lets a part of that go, which nothing accounts for. The limits of what "
+      "is "
+      "not accounted for, 5 % in all and 2 % while they touch, are bounds on what was seen, not derived.");
 }
 
 // In a closed tank the water that the block displaces lifts the level. Nine cells deep: a third of a cell is what the

@@ -44,11 +44,12 @@ class RunChecks : public RunVisitor {
   const std::vector<std::string>& gaps() const { return gaps_; }
 
  private:
-  /// Times of one topic: evenly spaced by a multiple of the sync period; the last interval may be shorter.
+  /// Times of one topic: evenly spaced by a multiple of the sync period; the last interval may be shorter, and the
+  /// first of a recording that begins between two multiples of the interval.
   struct Spacing {
     std::optional<std::int64_t> first;
     std::int64_t last = 0;
-    std::int64_t interval = 0;            ///< of the first two messages
+    std::int64_t interval = 0;            ///< between messages, but for the first and the last
     std::optional<std::int64_t> shorter;  ///< end of a shorter interval, allowed at the end alone
     std::uint64_t count = 0;
   };
@@ -75,13 +76,18 @@ class RunChecks : public RunVisitor {
   bool axisymmetric_;
   std::map<std::string, std::string> failures_;  ///< the first of each check, by its name
   std::vector<std::string> gaps_;
-  std::map<std::string, Spacing> spacing_;              ///< by topic
-  std::map<std::string, KnownImpulse> impulses_;        ///< on rigid bodies
-  std::map<std::string, KnownImpulse> pair_impulses_;   ///< between deformable bodies
-  std::set<std::string> posed_;                         ///< bodies with a pose
-  std::optional<mpm::SolverState> state_;               ///< the last one
-  bool from_start_ = false;                             ///< the first state is at time zero
-  std::uint64_t commands_ = 0;                          ///< recorded
+  std::map<std::string, Spacing> spacing_;             ///< by topic
+  std::map<std::string, KnownImpulse> impulses_;       ///< on rigid bodies
+  std::map<std::string, KnownImpulse> pair_impulses_;  ///< between deformable bodies
+  std::set<std::string> posed_;                        ///< bodies with a pose
+  std::optional<mpm::SolverState> state_;              ///< the last one
+  bool from_start_ = false;                            ///< the first state is at time zero
+  std::uint64_t commands_ = 0;                         ///< recorded
+  std::uint64_t earlier_commands_ = 0;                 ///< before the time of the last command
+  std::int64_t last_command_ = -1;                     ///< [ns]
+  /// Before the time of the last state, and up to it: a state has those of its own time where it closes a run alone.
+  std::uint64_t commands_before_ = 0, commands_until_ = 0;
+  std::uint64_t refused_before_ = 0;                    ///< as the first state counts them: of runs before a reset
   std::uint64_t applied_ = 0, late_ = 0, refused_ = 0;  ///< as the last state counts them
   std::uint64_t clocks_ = 0;                            ///< messages on /clock
   std::int64_t last_clock_ = 0;                         ///< [ns]

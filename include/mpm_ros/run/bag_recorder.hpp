@@ -2,10 +2,12 @@
 //
 // A long run can be split into parts (message/bag_parts.hpp). A part ends at a sync point only, and each begins with
 // the latched messages, so that it can be replayed alone. What a process that was killed had recorded is on the disk up
-// to the last whole chunk; a chunk ends after 768 kB, at the sync point after kChunkPeriod of wall time, and at the
-// run's start.
+// to the last whole chunk; a chunk ends after 768 kB, at the sync point after a chunk period of wall time, and at the
+// run's start. rosbag keeps the bytes of a chunk in memory as well, and lets go of them only when a message makes the
+// chunk too large: so the message after a cut is a chunk of its own.
 //
-// Weak: rosbag holds an index of all messages of a part in memory, about 100 bytes each; splitting keeps that bounded.
+// Weak: rosbag holds an entry for each chunk of a part in memory until the part is closed; splitting keeps that
+// bounded.
 #pragma once
 
 #include <rosbag/bag.h>
@@ -27,6 +29,8 @@ struct BagOptions {
   std::uint64_t split_size = 0;       ///< [byte] at which a part ends; 0: never
   std::int64_t split_duration = 0;    ///< [ns] simulated, the same
   bool required = true;               ///< false: a disk that fails ends the record, not the run; see failure()
+  /// Wall time after which a chunk ends at the next sync point.
+  std::chrono::steady_clock::duration chunk_period = std::chrono::seconds(1);
 };
 
 class BagRecorder : public MessageSink {
@@ -63,9 +67,6 @@ class BagRecorder : public MessageSink {
   void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const Command& message) override;
 
-  /// Wall time after which a chunk ends at the next sync point.
-  static constexpr std::chrono::seconds kChunkPeriod{1};
-
  private:
   void open();
   /// Ends the present part, and begins the next with the latched messages.
@@ -74,6 +75,10 @@ class BagRecorder : public MessageSink {
   void write(const std::string& topic, const ros::Time& stamp, const Message& message);
   template <typename Message>
   void write_latched(const std::string& topic, const ros::Time& stamp, const Message& message);
+  /// `name`: of the topic in the bag.
+  template <typename Message>
+  void to_bag(const std::string& name, const ros::Time& stamp, const Message& message,
+              const boost::shared_ptr<ros::M_string>& header = {});
   /// Does what may fail for want of a disk.
   template <typename Work>
   void on_disk(const Work& work);
@@ -88,6 +93,7 @@ class BagRecorder : public MessageSink {
   int part_ = 1;
   bool part_over_ = false;
   bool started_ = false;  ///< the chunk of the run's start has ended
+  bool cut_ = false;      ///< a chunk was cut, and rosbag still holds its bytes
   bool replaced_ = false;
   std::string failure_;
   std::optional<RunInfo> info_;

@@ -25,8 +25,9 @@ struct Rerun {
 };
 
 /// Reads the bag and the parts after it.
+/// `resumed`: it is run again from a checkpoint, and need not begin at the run's start.
 /// @throws BagError when it cannot be read, tells no scene, or does not begin at the run's start
-Rerun read_rerun(const std::string& bag);
+Rerun read_rerun(const std::string& bag, bool resumed = false);
 
 /// Whether a run that is made again is the recorded one, to the bit.
 class RerunCheck {

@@ -70,6 +70,9 @@ void read_mass(const Map& map, const SimulationDefinition& definition, RigidBody
   if (inertia) free.inertia = read_inertia(*inertia, geometry);
   if (mass) free.mass = mass->positive(kMass);
   const bool turns = free.axes[3] || free.axes[4] || free.axes[5];
+  // The shape's is about its own centre of mass.
+  if (turns && centre && !inertia)
+    centre->fail("the inertia about this centre is not known; write inertia beside it, or leave out centre");
   const double across = planar(geometry) ? definition.thickness : std::sqrt(definition.area);
   const auto moments = body.surface->moments(across);
   if (!moments) {

@@ -383,7 +383,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.initial_momentum = s.momentum();
   s.rates.resize(definition.metrics.size());
   for (const MetricDefinition& metric : definition.metrics) {
-    if (needs_start({metric.field})) keep_start();
+    if (find_body(metric.body) < 0 && needs_start({metric.field})) keep_start();  // a rigid body has its own names
   }
   sample_metrics();
 }

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <thread>
 #include <utility>
 
+#include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
@@ -38,6 +40,14 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   if (const std::string problem = problem_of(run_options().output.particles); !problem.empty()) {
     throw ParameterError(fmt::format("parameter ~particle_fields, ~particle_stride or ~particle_region: {}", problem));
   }
+  const std::string bag = run_options().bag;
+  std::error_code ignored;
+  for (const std::string& part : parts_of(parameters_.commands)) {
+    if (std::filesystem::equivalent(bag, part, ignored))
+      throw ParameterError(fmt::format("parameter ~record: {} is the bag of ~commands; choose another name", bag));
+  }
+  if (!parameters_.resume.empty() && std::filesystem::exists(bag, ignored))
+    throw ParameterError(fmt::format("parameter ~record: {} holds the run so far; choose another name", bag));
   for (const mpm::RigidBodyDefinition& body : scene_.definition.rigid_bodies) bodies_.push_back(body.name);
   std::vector<std::string> frames;
   std::vector<mpm::MotionLimits> limits;
@@ -171,6 +181,7 @@ SimulatorNode::Phase SimulatorNode::phase() const {
 
 void SimulatorNode::begin_run() {
   tell_clock(true);
+  count_commands();  // those of an earlier run stay in the count
   try {
     run_->begin();
   } catch (const BagError& error) {

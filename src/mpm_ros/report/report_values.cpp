@@ -1,5 +1,7 @@
 #include "mpm_ros/report/report_values.hpp"
 
+#include <strings.h>
+
 namespace mpm_ros {
 namespace {
 
@@ -32,6 +34,11 @@ class List {
  private:
   std::vector<NamedValue> values_;
 };
+
+/// What the machine took, which is no part of the run. Names are as the scene writes them.
+bool of_machine(const std::string& quantity) {
+  return strcasecmp(quantity.c_str(), "elapsed time") == 0 || strcasecmp(quantity.c_str(), "cpu time") == 0;
+}
 
 }  // namespace
 
@@ -136,7 +143,7 @@ std::vector<NamedValue> values_of(const Command& message) {
 std::vector<NamedValue> values_of(const GlobalQuantities& message) {
   List list;
   for (std::size_t i = 0; i < message.names.size() && i < message.values.size(); ++i) {
-    list.number(message.names[i], message.values[i]);
+    if (!of_machine(message.names[i])) list.number(message.names[i], message.values[i]);
   }
   return list.take();
 }

@@ -16,6 +16,8 @@ namespace mpm_ros {
 
 namespace {
 
+constexpr std::uint32_t kChunkBytes = 768 * 1024;  // rosbag's own
+
 rosbag::CompressionType compression(const std::string& name) {
   if (name == "none") return rosbag::compression::Uncompressed;
   if (name == "lz4") return rosbag::compression::LZ4;
@@ -80,7 +82,9 @@ void BagRecorder::open() {
   bag_ = std::make_unique<rosbag::Bag>();
   bag_->open(part_path(path_, part_), rosbag::bagmode::Write);
   bag_->setCompression(compression(options_.compression));
+  bag_->setChunkThreshold(kChunkBytes);
   chunk_began_ = std::chrono::steady_clock::now();
+  cut_ = false;
 }
 
 template <typename Work>
@@ -107,13 +111,15 @@ void BagRecorder::give_up(const std::string& reason) {
 void BagRecorder::sync_point() {
   if (!bag_) return;
   const auto now = std::chrono::steady_clock::now();
-  if (!started_ || now - chunk_began_ >= kChunkPeriod) {
+  if (!started_ || now - chunk_began_ >= options_.chunk_period) {
     started_ = true;
     chunk_began_ = now;
     // Setting the threshold ends the present chunk. Its index is still in the stream's buffer, which rosbag gives
-    // nobody: all streams are flushed, for a chunk without its index is not read.
-    on_disk([this] { bag_->setChunkThreshold(bag_->getChunkThreshold()); });
+    // nobody: all streams are flushed, for a chunk without its index is not read. The chunk's bytes stay in memory
+    // until a message is above the threshold; the next one is.
+    on_disk([this] { bag_->setChunkThreshold(1); });
     if (!bag_) return;
+    cut_ = true;
     std::fflush(nullptr);
   }
   const bool large = options_.split_size > 0 && bag_->getSize() >= options_.split_size;
@@ -149,9 +155,18 @@ std::string BagRecorder::resolve(const std::string& topic) const {
 }
 
 template <typename Message>
+void BagRecorder::to_bag(const std::string& name, const ros::Time& stamp, const Message& message,
+                         const boost::shared_ptr<ros::M_string>& header) {
+  bag_->write(name, stamp, message, header);
+  if (!cut_) return;
+  cut_ = false;
+  bag_->setChunkThreshold(kChunkBytes);
+}
+
+template <typename Message>
 void BagRecorder::write_latched(const std::string& topic, const ros::Time& stamp, const Message& message) {
   const std::string name = resolve(topic);
-  bag_->write(name, stamp, message, latched_header<Message>(name));
+  to_bag(name, stamp, message, latched_header<Message>(name));
 }
 
 template <typename Message>
@@ -164,7 +179,7 @@ void BagRecorder::write(const std::string& topic, const ros::Time& stamp, const 
       const std::uint64_t begin = stamp == ros::TIME_MIN ? 0 : stamp.toNSec();
       end_ = begin + static_cast<std::uint64_t>(options_.split_duration);
     }
-    bag_->write(resolve(topic), stamp, message);
+    to_bag(resolve(topic), stamp, message);
     last_ = stamp;
   });
 }

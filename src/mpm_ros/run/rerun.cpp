@@ -33,7 +33,7 @@ class Reader : public RunVisitor {
 
 }  // namespace
 
-Rerun read_rerun(const std::string& path) {
+Rerun read_rerun(const std::string& path, bool resumed) {
   Rerun rerun;
   rerun.bag = path;
   RunBag bag(path, {});
@@ -46,7 +46,7 @@ Rerun read_rerun(const std::string& path) {
   rerun.info = *bag.info();
   Reader reader(rerun);
   bag.read_states_and_commands(reader);
-  if (rerun.info.part > 1 || reader.begin().value_or(0) > 0) {
+  if (!resumed && (rerun.info.part > 1 || reader.begin().value_or(0) > 0)) {
     throw BagError(
         fmt::format("{}: begins {} s after the run's start, and the state there is not in it; give the "
                     "recording's first part, or resume from a checkpoint",

@@ -106,6 +106,32 @@ void check_fields(const OutputOptions& output) {
   if (!problem.empty()) throw mpm::SceneError(fmt::format("output: {}", problem));
 }
 
+/// A sink that gets no more once it is left out.
+template <typename Sink>
+class Leavable : public Sink {
+ public:
+  using Sink::Sink;
+  void leave_out() { left_out_ = true; }
+  bool left_out() const { return left_out_; }
+  bool wants(const std::string& topic) const override { return !left_out_ && Sink::wants(topic); }
+
+ private:
+  bool left_out_ = false;
+};
+
+/// What goes on keeps what was recorded so far. @throws mpm::SceneError for a name that holds it
+void check_not_there(const RunSceneOptions& options) {
+  std::error_code ignored;
+  if (options.bag != "auto" && std::filesystem::exists(options.bag, ignored)) {
+    throw mpm::SceneError(fmt::format("--bag {}: holds the run so far; choose another name", options.bag));
+  }
+  for (const auto& [option, folder] : {std::pair("--csv", options.csv), std::pair("--vtk", options.vtk)}) {
+    if (folder.empty() || !std::filesystem::exists(folder, ignored)) continue;
+    if (std::filesystem::is_directory(folder, ignored) && std::filesystem::is_empty(folder, ignored)) continue;
+    throw mpm::SceneError(fmt::format("{} {}: holds the run so far; choose another name", option, folder));
+  }
+}
+
 /// The run with its sinks, from beginning to end.
 class OfflineRun {
  public:
@@ -126,17 +152,20 @@ class OfflineRun {
     run_options.bag_options.compression = options_.bag_compression;
     read_split(options_.bag_split, run_options.bag_options);
     if (rerun_) choose_as_recorded(run_options);
+    if (!options_.resume.empty()) check_not_there(options_);
     if (!options_.out.empty()) choose_folder();
     summary_ = open_summary(options_.summary);
     if (!options_.bag.empty()) run_options.bag = bag_path(options_.bag, scene_.definition.name, 1);
     if (!options_.end.empty()) run_options.parameters += fmt::format("end: {:.17g}\n", scene_.definition.time.end);
     if (!options_.resume.empty()) resume_from(options_.resume, run_options);
     if (!options_.csv.empty())
-      csv_ = std::make_unique<CsvSink>(options_.csv, stamps_, mpm::axisymmetric(scene_.definition.geometry));
-    if (!options_.vtk.empty()) vtk_ = std::make_unique<VtkSink>(options_.vtk, stamps_);
+      csv_ = std::make_unique<Leavable<CsvSink>>(options_.csv, stamps_, mpm::axisymmetric(scene_.definition.geometry));
+    if (!options_.vtk.empty()) vtk_ = std::make_unique<Leavable<VtkSink>>(options_.vtk, stamps_);
     run_ = std::make_unique<Run>(scene_, run_options, stamps_, csv_.get());
     if (vtk_) run_->add(*vtk_);
     commands_.skip_to(run_->simulation().time());
+    if (check_ && run_->simulation().time() > rerun_->hashed_at)
+      check_->differs("it goes on from a checkpoint after the recorded state");
   }
 
   RunSceneResult go(std::ostream& out, std::ostream& err, bool bar, const std::function<bool()>& stop_requested) {
@@ -157,9 +186,29 @@ class OfflineRun {
     for (const std::string& note : notes_) err << note << "\n";
     if (run_->recorder() != nullptr && run_->recorder()->replaced())
       err << "note: the recording " << run_->bag() << " is replaced\n";
-    RunSceneResult result = RunSceneResult::done;
-    try {
+    bool failed = false, room = true;
+    // Where one record cannot go on, what else was asked for is written.
+    const auto recorded = [&](const auto& work) {
+      const auto no_room = [&](const std::exception& error) {
+        progress.clear();
+        err << "run_scene: " << error.what() << "\n";
+        room = false;
+      };
       try {
+        work();
+      } catch (const BagError& error) {
+        no_room(error);
+      } catch (const CsvError& error) {
+        no_room(error);
+        csv_->leave_out();
+      } catch (const VtkError& error) {
+        no_room(error);
+        vtk_->leave_out();
+      }
+    };
+    recorded([&] {
+      try {
+        if (check_) check_->look(simulation);
         run_->begin();
         while (!run_->ended() && !stop_requested()) {
           for (const AppliedCommand& command : commands_.take(simulation)) run_->apply(command);
@@ -175,31 +224,29 @@ class OfflineRun {
         }
         run_->finish();
       } catch (const mpm::PhysicsError& error) {
+        failed = true;
         progress.clear();
         err << "run_scene: " << error.what() << "\n";
-        result = RunSceneResult::physics_failed;
-        run_->fail(error.what());
+        recorded([&] { run_->fail(error.what()); });
         checkpoints_.at_failure(*run_, error.what(), err);
         if (check_) check_->look(simulation);
       }
-    } catch (const BagError& error) {
-      // Only the record cannot go on; what else was asked for is written.
-      progress.clear();
-      err << "run_scene: " << error.what() << "\n";
-      result = RunSceneResult::machine_failed;
-    }
-    if (csv_) csv_->close();
-    if (vtk_) vtk_->close();
+    });
+    if (!room) recorded([&] { run_->finish(); });
+    if (csv_ && !csv_->left_out()) recorded([&] { csv_->close(); });
+    if (vtk_ && !vtk_->left_out()) recorded([&] { vtk_->close(); });
     const RunSummary summary(scene_, simulation, start_energy, run_->outputs().contacts());
     out << summary.text();
-    write(summary);
+    if (!write(summary, err)) room = false;
     if (!run_->bag().empty()) out << "  bag " << run_->bag() << "\n";
     if (!options_.out.empty()) out << "  all in " << options_.out << "\n";
-    if (check_ && result != RunSceneResult::machine_failed) {
+    RunSceneResult result = failed ? RunSceneResult::physics_failed : RunSceneResult::done;
+    if (!room) result = RunSceneResult::machine_failed;
+    if (check_ && room) {
       (check_->passed() ? out << "  " : err << "run_scene: ") << check_->verdict() << "\n";
       if (!check_->passed()) result = RunSceneResult::another_state;
     }
-    if (result == RunSceneResult::done && !save_last(out, err)) result = RunSceneResult::machine_failed;
+    if (!failed && !save_last(out, err) && result == RunSceneResult::done) result = RunSceneResult::machine_failed;
     return result;
   }
 
@@ -215,7 +262,7 @@ class OfflineRun {
       if (!options.bag.empty() && std::filesystem::equivalent(options.bag, part, ignored))
         throw mpm::SceneError(fmt::format("--bag {}: is the recording that is run again; choose another", options.bag));
     }
-    return read_rerun(options.from_bag);
+    return read_rerun(options.from_bag, !options.resume.empty());
   }
 
   /// Instruction set and commands of the recording; what makes it another run is noted.
@@ -265,11 +312,12 @@ class OfflineRun {
     }
   }
 
-  void write(const RunSummary& summary) {
-    if (!summary_.is_open()) return;
+  bool write(const RunSummary& summary, std::ostream& err) {
+    if (!summary_.is_open()) return true;
     summary_ << summary.json().dump(2) << "\n";
     summary_.close();
-    if (!summary_) throw mpm::SceneError("--summary: cannot be written; check the space on its disk");
+    if (!summary_) err << "run_scene: --summary: cannot be written; check the space on its disk\n";
+    return static_cast<bool>(summary_);
   }
 
   RunSceneOptions options_;
@@ -281,8 +329,8 @@ class OfflineRun {
   CommandLog commands_;  ///< recorded ones, to be applied again
   std::optional<RerunCheck> check_;
   std::vector<std::string> notes_;
-  std::unique_ptr<CsvSink> csv_;
-  std::unique_ptr<VtkSink> vtk_;
+  std::unique_ptr<Leavable<CsvSink>> csv_;
+  std::unique_ptr<Leavable<VtkSink>> vtk_;
   std::unique_ptr<Run> run_;
 };
 
@@ -293,8 +341,9 @@ void list_scenes(std::ostream& out) {
 }
 
 void explain_scene(const RunSceneOptions& options, std::ostream& out) {
-  const mpm::Scene scene =
-      load(options, options.from_bag.empty() ? std::nullopt : std::optional<Rerun>(read_rerun(options.from_bag)));
+  const mpm::Scene scene = load(
+      options, options.from_bag.empty() ? std::nullopt
+                                        : std::optional<Rerun>(read_rerun(options.from_bag, !options.resume.empty())));
   mpm::SimulationDefinition built = mpm::build(scene);
   out << mpm::explain(scene, built);
   const mpm::Simulation simulation(std::move(built), {options.threads, instruction_set(options)});

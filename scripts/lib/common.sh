@@ -4,12 +4,13 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build="$root/build"
 export PATH="/usr/bin:$PATH" # ROS belongs to the system's Python
 
-# configure FOLDER [cmake options]: quiet unless it fails.
+# configure FOLDER [cmake options]: quiet unless it fails. A folder that is configured already keeps its generator.
 configure() {
-  local folder=$1
+  local folder=$1 generator=()
   shift
   mkdir -p "$folder"
-  if ! cmake -S "$root" -B "$folder" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
+  [ -f "$folder/CMakeCache.txt" ] || generator=(-G Ninja)
+  if ! cmake -S "$root" -B "$folder" "${generator[@]}" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
     "$@" >"$folder/configure.log" 2>&1; then
     cat "$folder/configure.log" >&2
     return 1

@@ -181,7 +181,10 @@ TEST(CommandWatch, NamesEachSilenceOnce) {
   command.effect = 100;
   watch.heard(command);
   EXPECT_TRUE(watch.silent(149).empty());
-  EXPECT_EQ(watch.silent(150), std::vector<int>{3});
+  const std::vector<Silence> silent = watch.silent(150);
+  ASSERT_EQ(silent.size(), 1U);
+  EXPECT_EQ(silent[0].body, 3);
+  EXPECT_FALSE(silent[0].wrench);
   EXPECT_TRUE(watch.silent(160).empty());
 }
 
@@ -193,6 +196,23 @@ TEST(CommandWatch, APoseIsHeardOfUntilItsArrival) {
   watch.heard(command);
   EXPECT_TRUE(watch.silent(349).empty());
   EXPECT_EQ(watch.silent(350).size(), 1U);
+}
+
+TEST(CommandWatch, WrenchesDoNotHideThatMotionsCeased) {
+  CommandWatch watch(50);
+  AppliedCommand motion;
+  motion.effect = 100;
+  watch.heard(motion);
+  AppliedCommand wrench = motion;
+  wrench.kind = CommandKind::wrench;
+  wrench.effect = 140;
+  watch.heard(wrench);
+  const std::vector<Silence> motions = watch.silent(150);
+  ASSERT_EQ(motions.size(), 1U);
+  EXPECT_FALSE(motions[0].wrench);
+  const std::vector<Silence> wrenches = watch.silent(190);
+  ASSERT_EQ(wrenches.size(), 1U);
+  EXPECT_TRUE(wrenches[0].wrench);
 }
 
 TEST(CommandWatch, ZeroMeansNever) {

@@ -140,5 +140,25 @@ TEST_F(RunSceneKept, ARecordingWhoseEndIsInACheckpointIsCompared) {
       << out_.str();
 }
 
+TEST_F(RunSceneKept, ARecordingOfTheRestRunsAgainFromItsCheckpoint) {
+  options_.end = "0.1";
+  options_.checkpoint = folder_.file("run.h5");
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  options_.resume = options_.checkpoint;
+  options_.checkpoint.clear();
+  options_.end = "0.15";
+  options_.bag = folder_.file("rest.bag");
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  options_ = {};
+  options_.threads = 1;
+  options_.from_bag = folder_.file("rest.bag");
+  EXPECT_EQ(run(), RunSceneResult::bad_input);
+  EXPECT_NE(err_.str().find("rest.bag: begins 0.1 s after the run's start"), std::string::npos) << err_.str();
+  EXPECT_NE(err_.str().find("resume from a checkpoint"), std::string::npos) << err_.str();
+  options_.resume = folder_.file("run.h5");
+  EXPECT_EQ(run(), RunSceneResult::done) << err_.str();
+  EXPECT_NE(out_.str().find("equal to the recorded one"), std::string::npos) << out_.str();
+}
+
 }  // namespace
 }  // namespace mpm_ros

@@ -3,6 +3,8 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistStamped.h>
+#include <geometry_msgs/Wrench.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <mpm_ros/SolverState.h>
 
 #include <cmath>
@@ -80,6 +82,45 @@ TEST(Commands, RandomOnesAreRefusedOrAppliedAndCounted) {
   EXPECT_EQ(simulator.wait(), 0) << simulator.log();
   rosbag::Bag recorded(bag);
   EXPECT_EQ(rosbag::View(recorded, rosbag::TypeQuery("mpm_ros/Command")).size(), static_cast<std::uint32_t>(kEach));
+}
+
+TEST(Commands, AWrenchPushesAFreeBodyUntilTheNext) {
+  const TemporaryFolder folder;
+  SimulatorProcess simulator({"scene:=" MPM_TEST_DATA_DIR "/free_ball.yaml", "pacing:=lockstep", "threads:=1",
+                              "record:=" + folder.file("run.bag")});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  const Ear<mpm_ros::Command> applied(simulator.name("commands"));
+  ros::Publisher now = connect<geometry_msgs::Wrench>(simulator.name("bodies/ball/cmd_wrench"));
+  ros::Publisher later = connect<geometry_msgs::WrenchStamped>(simulator.name("bodies/ball/cmd_wrench_stamped"));
+  const auto speed = [&](std::uint32_t steps, std::uint64_t received) {
+    Step::Request request;
+    request.count = steps;
+    request.after_received = received;
+    return simulator.step(request).bodies.bodies[0].twist.linear.x;
+  };
+  EXPECT_EQ(speed(1, 0), 0.0);
+  geometry_msgs::Wrench wrench;
+  wrench.force.x = 4.0;
+  now.publish(wrench);
+  // 4 N on 2 kg from here, at 0.01 s, until 0.06 s.
+  EXPECT_NEAR(speed(1, 1), 0.02, 1e-12);
+  geometry_msgs::WrenchStamped end;
+  end.header.stamp = ros::Time(0, 60'000'000);
+  end.header.frame_id = "ball";
+  later.publish(end);
+  EXPECT_NEAR(speed(3, 2), 0.08, 1e-12);
+  EXPECT_NEAR(speed(1, 0), 0.10, 1e-12);
+  EXPECT_NEAR(speed(10, 0), 0.10, 1e-12);
+  ASSERT_TRUE(applied.hears(2));
+  EXPECT_EQ(applied.heard()[0].kind, mpm_ros::Command::WRENCH);
+  EXPECT_EQ(applied.heard()[0].wrench.force.x, 4.0);
+  EXPECT_EQ(applied.heard()[1].kind, mpm_ros::Command::WRENCH);
+  EXPECT_EQ(applied.heard()[1].effect_ns, 60'000'000);
+
+  simulator.signal(SIGINT);
+  EXPECT_EQ(simulator.wait(), 0) << simulator.log();
+  rosbag::Bag recorded(folder.file("run.bag"));
+  EXPECT_EQ(rosbag::View(recorded, rosbag::TypeQuery("mpm_ros/Command")).size(), 2U);
 }
 
 }  // namespace

@@ -7,7 +7,8 @@
 #pragma once
 
 #include <list>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,55 +20,44 @@ enum class Outcome { fails, stable, impossible, not_tried };
 
 class MapColumn {
  public:
-  MapColumn(const std::string& method, const std::vector<Outcome>& cells) {
-    json_ = {{"method", method}, {"cells", nlohmann::json::array()}, {"breaks", nullptr}, {"theory", nullptr}};
-    for (const Outcome cell : cells) json_["cells"].push_back(static_cast<int>(cell));
-  }
+  MapColumn(std::string method, std::vector<Outcome> cells) : method_(std::move(method)), cells_(std::move(cells)) {}
   /// Where the method was found to break, in the parameter's unit.
-  MapColumn& breaks_at(double value) { return set("breaks", value); }
+  MapColumn& breaks_at(double value) {
+    breaks_ = value;
+    return *this;
+  }
   /// Where theory says that it breaks.
-  MapColumn& theory(double value) { return set("theory", value); }
+  MapColumn& theory(double value) {
+    theory_ = value;
+    return *this;
+  }
   /// A short text above the column: what is true of the method at any value.
   MapColumn& note(const std::string& text) {
-    json_["note"] = text;
+    note_ = text;
     return *this;
   }
-  const nlohmann::json& json() const { return json_; }
+  nlohmann::json json() const;
 
  private:
-  MapColumn& set(const char* key, double value) {
-    json_[key] = value;
-    return *this;
-  }
-  nlohmann::json json_;
+  std::string method_, note_;
+  std::vector<Outcome> cells_;
+  std::optional<double> breaks_, theory_;
 };
 
 class Map {
  public:
   /// `rows`: values of the parameter, ascending.
-  Map(const std::string& parameter, std::vector<double> rows) : rows_(std::move(rows)) {
-    json_ = {{"parameter", parameter}, {"rows", rows_}};
-  }
+  Map(std::string parameter, std::vector<double> rows);
   /// One outcome a row.
-  MapColumn& column(const std::string& method, const std::vector<Outcome>& cells) {
-    columns_.emplace_back(method, cells);
-    return columns_.back();
-  }
+  MapColumn& column(const std::string& method, const std::vector<Outcome>& cells);
   /// A method that the solver refuses.
-  MapColumn& impossible(const std::string& method) {
-    return column(method, std::vector<Outcome>(rows_.size(), Outcome::impossible));
-  }
+  MapColumn& impossible(const std::string& method);
   const std::vector<double>& rows() const { return rows_; }
-  nlohmann::json json() const {
-    nlohmann::json json = json_;
-    json["columns"] = nlohmann::json::array();
-    for (const MapColumn& column : columns_) json["columns"].push_back(column.json());
-    return json;
-  }
+  nlohmann::json json() const;
 
  private:
+  std::string parameter_;
   std::vector<double> rows_;
-  nlohmann::json json_;
   std::list<MapColumn> columns_;  // references to columns stay good
 };
 

@@ -1,35 +1,43 @@
 #include "mpm_ros/command/command_watch.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace mpm_ros {
 
 void CommandWatch::heard(const AppliedCommand& command) {
-  heard_[command.body] = std::max(command.effect, command.arrival);
+  heard_[{command.body, command.kind == CommandKind::wrench}] = std::max(command.effect, command.arrival);
 }
 
-std::vector<int> CommandWatch::silent(std::int64_t now) {
-  std::vector<int> bodies;
-  if (timeout_ == 0) return bodies;
+std::vector<Silence> CommandWatch::silent(std::int64_t now) {
+  std::vector<Silence> silences;
+  if (timeout_ == 0) return silences;
   for (auto entry = heard_.begin(); entry != heard_.end();) {
     if (now - entry->second >= timeout_) {
-      bodies.push_back(entry->first);
+      silences.push_back({entry->first.first, entry->first.second});
       entry = heard_.erase(entry);
     } else {
       ++entry;
     }
   }
-  return bodies;
+  return silences;
 }
 
 void CommandWatch::keep(mpm::StateArchive& archive) {
   const mpm::StateArchive::Group group(archive, "watch");
-  std::vector<std::pair<int, std::int64_t>> heard(heard_.begin(), heard_.end());
+  struct Row {
+    int body = 0;
+    int wrench = 0;
+    std::int64_t at = 0;
+  };
+  std::vector<Row> heard;
+  for (const auto& [who, at] : heard_) heard.push_back({who.first, who.second ? 1 : 0, at});
   archive.rows("heard", heard);
-  archive.column("heard/body", heard, [](auto& one) -> int& { return one.first; });
-  archive.column("heard/at", heard, [](auto& one) -> std::int64_t& { return one.second; });
-  if (archive.reading()) heard_ = std::map<int, std::int64_t>(heard.begin(), heard.end());
+  archive.column("heard/body", heard, &Row::body);
+  archive.column("heard/wrench", heard, &Row::wrench);
+  archive.column("heard/at", heard, &Row::at);
+  if (!archive.reading()) return;
+  heard_.clear();
+  for (const Row& one : heard) heard_[{one.body, one.wrench != 0}] = one.at;
 }
 
 }  // namespace mpm_ros

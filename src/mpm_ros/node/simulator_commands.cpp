@@ -78,21 +78,23 @@ std::string SimulatorNode::apply(const AppliedCommand& command) {
 
 void SimulatorNode::act_on_silence() {
   const std::int64_t now = run_->simulation().time();
-  for (const int body : watch_.silent(now)) {
+  for (const Silence& silent : watch_.silent(now)) {
+    const std::string& body = bodies_[silent.body];
     const std::string silence =
-        fmt::format("no command for '{}' in the {:g} s (simulated) before {:.6f} s", bodies_[body],
-                    parameters_.command_timeout, static_cast<double>(now) * 1e-9);
+        fmt::format("no {} for '{}' in the {:g} s (simulated) before {:.6f} s", silent.wrench ? "wrench" : "command",
+                    body, parameters_.command_timeout, static_cast<double>(now) * 1e-9);
     if (parameters_.on_timeout == OnTimeout::error) {
       fail(silence + "; ~on_timeout is error", 3);
       return;
     }
     if (parameters_.on_timeout == OnTimeout::stop) {
-      for (const AppliedCommand& stop : stop_commands(body, run_->simulation())) {
+      for (const AppliedCommand& stop : stop_commands(silent.body, run_->simulation())) {
+        if ((stop.kind == CommandKind::wrench) != silent.wrench) continue;
         if (!limiter_->take(stop, run_->simulation())) run_->apply(stop);
       }
-      health_.time_out(bodies_[body], silence + ": it stands still");
+      health_.time_out(body, silence + (silent.wrench ? ": nothing pushes it any more" : ": it stands still"));
     } else {
-      health_.time_out(bodies_[body], silence + ": it goes on as it was told last");
+      health_.time_out(body, silence + ": it goes on as it was told last");
     }
   }
 }

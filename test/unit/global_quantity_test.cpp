@@ -60,7 +60,8 @@ TEST(GlobalQuantities, EnergiesAndCountersAreTheSolvers) {
 }
 
 TEST(GlobalQuantities, ContactForceIsTheMeanSinceTheLastCall) {
-  const Scene scene = load_scene("sphere_indentation");
+  // From the first touch on, on cells twice as wide.
+  const Scene scene = load_scene("sphere_indentation", {"grid.cell=0.002"});
   Simulation run(build(scene));
   GlobalQuantities global(run, {{"contactz", "sphere"}, {"contactz", ""}});
   EXPECT_EQ(global.read(), (std::vector<double>{0.0, 0.0}));

@@ -1,5 +1,5 @@
-// Hundreds of random commands over the topics: what cannot be used is refused and counted, what can is applied, counted
-// and recorded, and the node goes on.
+// Commands over the topics. Hundreds of random ones: what cannot be used is refused and counted, what can is applied,
+// counted and recorded, and the node goes on. And the wrench on a free body, which lasts until the next.
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistStamped.h>

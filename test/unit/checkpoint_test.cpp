@@ -1,54 +1,21 @@
 // Checkpoints: a run that takes one on goes on to the bit like one that was never stopped, at whatever sync point it
-// was saved, for every stage, method and law; files that do not fit are refused with the reason.
+// was saved, for every stage, method and law.
 #include "mpm/simulation/checkpoint.hpp"
 
 #include <gtest/gtest.h>
-#include <hdf5.h>
-#include <stdlib.h>
 
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "mpm/scene/scene.hpp"
+#include "checkpoint_run.hpp"
 
-namespace mpm {
+namespace mpm::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// Gone with the test.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "mpm_checkpoint_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path_); }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
-
-/// Blocks that cross several cells in kPeriods, so that the particles are sorted on the way, more than once.
 constexpr int kPeriods = 12;
 constexpr int kOfOther = 5;  ///< a simulation that has been elsewhere before it takes on a checkpoint
-
-const char* const kPlane = R"yaml(
-geometry: plane_strain
-grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
-time: {end: 1, sync: 5 ms, cfl: 0.4}
-method: {shape: ugimp}
-gravity: [0, -9.81]
-materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, poisson: 0.3}]
-bodies: [{name: block, material: rubber, shape: {box: {min: [0.3, 0.3], max: [0.7, 0.7]}}, initial: {velocity: ["4+z", "-2-2*x"]}}]
-boundaries: {z_min: {friction: 0.4}}
-metrics: {faster: {mean: vx, rate: {from: 10 ms, to: 1}}, lowest: {min: z}}
-)yaml";
 
 const char* const kTool = R"yaml(
 geometry: plane_strain
@@ -63,17 +30,6 @@ rigid_bodies:
      motion: {velocity: ["0.6*sin(60*t)", -1.2], rotation_rate: "2*t"}, friction: 0.3}
   - {name: rod, shape: {sphere: {radius: 0.2}}, pose: {position: [0.05, 0.3]}, motion: {velocity: [1.5, 0]}}
 boundaries: {z_min: slip}
-)yaml";
-
-const char* const kPair = R"yaml(
-geometry: plane_strain
-grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
-time: {end: 1, sync: 5 ms, cfl: 0.4}
-method: {shape: ugimp}
-materials: [{name: rubber, density: 1000, law: neo_hookean, young: 100 kPa, poisson: 0.3}]
-bodies:
-  - {name: left, material: rubber, shape: {box: {min: [0.2, 0.3], max: [0.6, 0.7]}}, initial: {velocity: [4, 1]}}
-  - {name: right, material: rubber, shape: {box: {min: [0.6, 0.3], max: [1, 0.7]}}, initial: {velocity: [1, 0]}}
 )yaml";
 
 const char* const kRings = R"yaml(
@@ -112,14 +68,6 @@ boundaries: {z_min: {friction: 0.2}}
 
 /// Particles, motion and contact, over kPlane.
 std::string law(const std::string& text) { return "materials.rubber=" + text; }
-
-struct Case {
-  std::string name;
-  const char* scene;
-  std::vector<std::string> changes;
-};
-
-void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 
 std::vector<Case> cases() {
   std::vector<Case> list;
@@ -206,18 +154,6 @@ std::vector<Case> cases() {
   return list;
 }
 
-/// Another state than that of its definition: what it was told is in it too.
-void command(Simulation& simulation, int period) {
-  const int body = simulation.find_body("rod");
-  if (body < 0) return;
-  if (period == 3) simulation.command_velocity(body, {Vec3(1.0, 0.0, 0.2), Vec3::Zero()});
-  if (period == 6) {
-    Pose target = simulation.bodies()[body].pose;
-    target.position.x() += 0.04;
-    simulation.command_pose(body, target, simulation.time() + 4 * simulation.sync_period());
-  }
-}
-
 /// All that a run says of itself, as bits.
 std::vector<std::uint64_t> said(Simulation& simulation) {
   std::vector<std::uint64_t> bits{simulation.state_hash(), simulation.memory_hash()};
@@ -266,19 +202,6 @@ std::vector<std::uint64_t> said(Simulation& simulation) {
     for (const double value : {report.pressing, report.area, report.interval, report.friction_energy}) number(value);
   }
   return bits;
-}
-
-SimulationDefinition definition_of(const Case& one) {
-  return build(parse_scene(one.scene, "checkpoint.yaml", one.changes));
-}
-
-void run(Simulation& simulation, int from, int to) {
-  for (int period = from; period < to; ++period) {
-    command(simulation, period);
-    simulation.advance();
-    // Averages since a report that lies between are part of the state.
-    if (period == 4 && simulation.find_body("rod") >= 0) simulation.take_contact(0);
-  }
 }
 
 class Checkpoint : public testing::TestWithParam<Case> {};
@@ -331,155 +254,5 @@ TEST(CheckpointFile, GeostaticStartNeedNotSettleAgain) {
   EXPECT_EQ(said(again), said(whole));
 }
 
-std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const CheckpointError& error) {
-    return error.what();
-  }
-  return "not refused";
-}
-
-class BadCheckpoint : public testing::Test {
- protected:
-  BadCheckpoint() : simulation_(definition_of(plane_), {1}) {
-    run(simulation_, 0, 2);
-    save_checkpoint(file_, simulation_, {"plane.yaml", kPlane, {}});
-  }
-  std::string load(const std::string& text = kPlane) {
-    return refusal([&] { load_checkpoint(file_, simulation_, text); });
-  }
-  void expect_refused(const std::string& reason, const std::string& text = kPlane) {
-    const std::uint64_t before = simulation_.memory_hash();
-    const std::string answer = load(text);
-    EXPECT_NE(answer.find(reason), std::string::npos) << answer;
-    EXPECT_NE(answer.find(file_), std::string::npos) << answer;
-    EXPECT_EQ(answer.find('\n'), std::string::npos) << answer;
-    EXPECT_EQ(simulation_.memory_hash(), before);
-  }
-
-  const Folder folder_;
-  const std::string file_ = folder_.file("run.h5");
-  const Case plane_{"plane", kPlane, {}};
-  Simulation simulation_;
-};
-
-TEST_F(BadCheckpoint, SaysOfItselfWhatItIs) {
-  const CheckpointAbout about = read_checkpoint(file_);
-  EXPECT_EQ(about.version, kCheckpointVersion);
-  EXPECT_EQ(about.label.scene_text, kPlane);
-  EXPECT_EQ(about.label.scene_path, "plane.yaml");
-  EXPECT_EQ(about.particles, simulation_.particles());
-  EXPECT_EQ(about.time, simulation_.time());
-  EXPECT_EQ(about.state_hash, simulation_.state_hash());
-  EXPECT_EQ(about.isa, simulation_.isa());
-}
-
-TEST_F(BadCheckpoint, IsNotThere) {
-  fs::remove(file_);
-  expect_refused("No such file");
-}
-
-TEST_F(BadCheckpoint, IsNotHdf5) {
-  std::ofstream(file_) << "grid: {cell: 0.1}\n";
-  expect_refused("it is no HDF5 file");
-}
-
-TEST_F(BadCheckpoint, IsOtherHdf5) {
-  const hid_t file = H5Fcreate(file_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  H5Fclose(file);
-  expect_refused("no checkpoint");
-}
-
-TEST_F(BadCheckpoint, IsCutOff) {
-  fs::resize_file(file_, fs::file_size(file_) / 2);
-  expect_refused("cut off or damaged");
-}
-
-/// Writes a number of the file anew, as a later version would have it.
-void overwrite(const std::string& path, const char* name, hid_t type, const void* value) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
-  ASSERT_GE(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), 0) << name;
-  H5Dclose(set);
-  H5Fclose(file);
-}
-
-TEST_F(BadCheckpoint, IsOfAnotherVersion) {
-  const std::uint32_t version = kCheckpointVersion + 1;
-  overwrite(file_, "about/version", H5T_NATIVE_UINT32, &version);
-  expect_refused("its layout is version 2, this program reads version 1");
-}
-
-TEST_F(BadCheckpoint, IsOfAnotherScene) {
-  std::string text = kPlane;
-  text.replace(text.find("friction: 0.4"), 13, "friction: 0.5");
-  expect_refused(
-      "line 9 is 'boundaries: {z_min: {friction: 0.4}}' there and 'boundaries: {z_min: {friction: 0.5}}' here", text);
-}
-
-TEST_F(BadCheckpoint, IsOfOtherParticles) {
-  Simulation other(definition_of({"", kPair, {}}), {1});
-  const std::string answer = refusal([&] { load_checkpoint(file_, other, kPlane); });
-  EXPECT_NE(answer.find("64 particles"), std::string::npos) << answer;
-  EXPECT_EQ(other.time(), 0);
-}
-
-TEST_F(BadCheckpoint, IsOfAnotherPrecision) {
-  Simulation other(definition_of({"", kPlane, {"method.precision=single"}}), {1});
-  const std::string answer = refusal([&] { load_checkpoint(file_, other, kPlane); });
-  EXPECT_NE(answer.find("single precision"), std::string::npos) << answer;
-}
-
-TEST_F(BadCheckpoint, IsOfAnotherInstructionSet) {
-  // Text of the same length, in the place of the set that is there.
-  const std::string there = simulation_.isa(), other(there.size(), 'x');
-  overwrite(file_, "about/isa", H5T_NATIVE_UINT8, other.data());
-  expect_refused("start it with --isa " + other);
-}
-
-TEST_F(BadCheckpoint, IsOfAFailedRun) {
-  save_checkpoint(file_, simulation_, {"plane.yaml", kPlane, "the volume ratio J is not positive"});
-  expect_refused("cannot go on (the volume ratio J is not positive)");
-}
-
-TEST_F(BadCheckpoint, HoldsOtherNumbersThanWereSaved) {
-  const double other = 0.25;
-  overwrite(file_, "simulation/total_mass", H5T_NATIVE_DOUBLE, &other);
-  EXPECT_NE(load().find("the file is damaged"), std::string::npos);
-}
-
-TEST_F(BadCheckpoint, HasAByteThatFlipped) {
-  // Particles lie in the file as they do in memory: one byte of a position, found by its value.
-  std::vector<double> x;
-  simulation_.particle_field("x", x);
-  std::fstream file(file_, std::ios::in | std::ios::out | std::ios::binary);
-  const std::string all((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  const std::size_t at = all.find(std::string(reinterpret_cast<const char*>(&x[20]), sizeof x[20]));
-  ASSERT_NE(at, std::string::npos);
-  file.clear();
-  file.seekp(static_cast<std::streamoff>(at));
-  file.put(static_cast<char>(all[at] ^ 1));
-  file.close();
-  EXPECT_NE(load().find("cut off or damaged"), std::string::npos);
-}
-
-TEST_F(BadCheckpoint, CannotBeWrittenThere) {
-  const std::string answer = refusal([&] {
-    save_checkpoint(folder_.file("none/run.h5"), simulation_, {"plane.yaml", kPlane, {}});
-  });
-  EXPECT_NE(answer.find("cannot be written: No such file or directory"), std::string::npos) << answer;
-}
-
-// A file that cannot be finished leaves the one before as it is, and nothing beside it.
-TEST_F(BadCheckpoint, LeavesTheOneBefore) {
-  const std::uint64_t hash = read_checkpoint(file_).state_hash;
-  run(simulation_, 2, 3);
-  const auto breaks = [](StateArchive&) { throw CheckpointError("no more room"); };
-  EXPECT_EQ(refusal([&] { save_checkpoint(file_, simulation_, {"plane.yaml", kPlane, {}}, breaks); }), "no more room");
-  EXPECT_EQ(read_checkpoint(file_).state_hash, hash);
-  EXPECT_FALSE(fs::exists(file_ + ".part"));
-}
-
 }  // namespace
-}  // namespace mpm
+}  // namespace mpm::test

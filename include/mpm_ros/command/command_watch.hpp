@@ -24,7 +24,7 @@ class CommandWatch {
 
   /// A command was applied: the body has heard until its effect, or until its arrival.
   void heard(const AppliedCommand& command);
-  /// Bodies, in order, whose last command is the timeout or more ago. Each is named once for each silence.
+  /// By body, motions first: whose last command is the timeout or more ago. Each silence is told once.
   std::vector<Silence> silent(std::int64_t now);
   void clear() { heard_.clear(); }
   /// For checkpoints.

@@ -18,6 +18,9 @@ const char* drive_text(mpm::Drive drive) {
   }
 }
 
+/// In diagnostics: motions and wrenches of a body come from controllers of their own.
+std::string follower_name(const std::string& body, bool wrench) { return wrench ? body + " (wrench)" : body; }
+
 }  // namespace
 
 void SimulatorNode::apply_due(const std::vector<AppliedCommand>& extra) {
@@ -68,7 +71,8 @@ std::string SimulatorNode::apply(const AppliedCommand& command) {
     return reason;
   }
   watch_.heard(command);
-  health_.follow(body.name(), static_cast<double>(command.effect) * 1e-9);
+  health_.follow(follower_name(body.name(), command.kind == CommandKind::wrench),
+                 static_cast<double>(command.effect) * 1e-9);
   if (after != before) {
     health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(after),
                                static_cast<double>(command.effect) * 1e-9, drive_text(before)));
@@ -79,10 +83,10 @@ std::string SimulatorNode::apply(const AppliedCommand& command) {
 void SimulatorNode::act_on_silence() {
   const std::int64_t now = run_->simulation().time();
   for (const Silence& silent : watch_.silent(now)) {
-    const std::string& body = bodies_[silent.body];
+    const std::string follower = follower_name(bodies_[silent.body], silent.wrench);
     const std::string silence =
         fmt::format("no {} for '{}' in the {:g} s (simulated) before {:.6f} s", silent.wrench ? "wrench" : "command",
-                    body, parameters_.command_timeout, static_cast<double>(now) * 1e-9);
+                    bodies_[silent.body], parameters_.command_timeout, static_cast<double>(now) * 1e-9);
     if (parameters_.on_timeout == OnTimeout::error) {
       fail(silence + "; ~on_timeout is error", 3);
       return;
@@ -92,9 +96,9 @@ void SimulatorNode::act_on_silence() {
         if ((stop.kind == CommandKind::wrench) != silent.wrench) continue;
         if (!limiter_->take(stop, run_->simulation())) run_->apply(stop);
       }
-      health_.time_out(body, silence + (silent.wrench ? ": nothing pushes it any more" : ": it stands still"));
+      health_.time_out(follower, silence + (silent.wrench ? ": nothing pushes it any more" : ": it stands still"));
     } else {
-      health_.time_out(body, silence + ": it goes on as it was told last");
+      health_.time_out(follower, silence + ": it goes on as it was told last");
     }
   }
 }

@@ -1,0 +1,173 @@
+// Files of checkpoints: what one says of itself; one that does not fit, or is damaged, is refused with the reason and
+// changes nothing.
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "checkpoint_run.hpp"
+#include "mpm/simulation/checkpoint.hpp"
+
+namespace mpm::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const CheckpointError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+class BadCheckpoint : public testing::Test {
+ protected:
+  BadCheckpoint() : simulation_(definition_of(plane_), {1}) {
+    run(simulation_, 0, 2);
+    save_checkpoint(file_, simulation_, {"plane.yaml", kPlane, {}});
+  }
+  std::string load(const std::string& text = kPlane) {
+    return refusal([&] { load_checkpoint(file_, simulation_, text); });
+  }
+  void expect_refused(const std::string& reason, const std::string& text = kPlane) {
+    const std::uint64_t before = simulation_.memory_hash();
+    const std::string answer = load(text);
+    EXPECT_NE(answer.find(reason), std::string::npos) << answer;
+    EXPECT_NE(answer.find(file_), std::string::npos) << answer;
+    EXPECT_EQ(answer.find('\n'), std::string::npos) << answer;
+    EXPECT_EQ(simulation_.memory_hash(), before);
+  }
+
+  const Folder folder_;
+  const std::string file_ = folder_.file("run.h5");
+  const Case plane_{"plane", kPlane, {}};
+  Simulation simulation_;
+};
+
+TEST_F(BadCheckpoint, SaysOfItselfWhatItIs) {
+  const CheckpointAbout about = read_checkpoint(file_);
+  EXPECT_EQ(about.version, kCheckpointVersion);
+  EXPECT_EQ(about.label.scene_text, kPlane);
+  EXPECT_EQ(about.label.scene_path, "plane.yaml");
+  EXPECT_EQ(about.particles, simulation_.particles());
+  EXPECT_EQ(about.time, simulation_.time());
+  EXPECT_EQ(about.state_hash, simulation_.state_hash());
+  EXPECT_EQ(about.isa, simulation_.isa());
+}
+
+TEST_F(BadCheckpoint, IsNotThere) {
+  fs::remove(file_);
+  expect_refused("No such file");
+}
+
+TEST_F(BadCheckpoint, IsNotHdf5) {
+  std::ofstream(file_) << "grid: {cell: 0.1}\n";
+  expect_refused("it is no HDF5 file");
+}
+
+TEST_F(BadCheckpoint, IsOtherHdf5) {
+  const hid_t file = H5Fcreate(file_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  H5Fclose(file);
+  expect_refused("no checkpoint");
+}
+
+TEST_F(BadCheckpoint, IsCutOff) {
+  fs::resize_file(file_, fs::file_size(file_) / 2);
+  expect_refused("cut off or damaged");
+}
+
+/// Writes a number of the file anew, as a later version would have it.
+void overwrite(const std::string& path, const char* name, hid_t type, const void* value) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
+  ASSERT_GE(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), 0) << name;
+  H5Dclose(set);
+  H5Fclose(file);
+}
+
+TEST_F(BadCheckpoint, IsOfAnotherVersion) {
+  const std::uint32_t version = kCheckpointVersion + 1;
+  overwrite(file_, "about/version", H5T_NATIVE_UINT32, &version);
+  expect_refused("its layout is version 2, this program reads version 1");
+}
+
+TEST_F(BadCheckpoint, IsOfAnotherScene) {
+  std::string text = kPlane;
+  text.replace(text.find("friction: 0.4"), 13, "friction: 0.5");
+  expect_refused(
+      "line 9 is 'boundaries: {z_min: {friction: 0.4}}' there and 'boundaries: {z_min: {friction: 0.5}}' here", text);
+}
+
+TEST_F(BadCheckpoint, IsOfOtherParticles) {
+  Simulation other(definition_of({"", kPair, {}}), {1});
+  const std::string answer = refusal([&] { load_checkpoint(file_, other, kPlane); });
+  EXPECT_NE(answer.find("64 particles"), std::string::npos) << answer;
+  EXPECT_EQ(other.time(), 0);
+}
+
+TEST_F(BadCheckpoint, IsOfAnotherPrecision) {
+  Simulation other(definition_of({"", kPlane, {"method.precision=single"}}), {1});
+  const std::string answer = refusal([&] { load_checkpoint(file_, other, kPlane); });
+  EXPECT_NE(answer.find("single precision"), std::string::npos) << answer;
+}
+
+TEST_F(BadCheckpoint, IsOfAnotherInstructionSet) {
+  // Text of the same length, in the place of the set that is there.
+  const std::string there = simulation_.isa(), other(there.size(), 'x');
+  overwrite(file_, "about/isa", H5T_NATIVE_UINT8, other.data());
+  expect_refused("start it with --isa " + other);
+}
+
+TEST_F(BadCheckpoint, IsOfAFailedRun) {
+  save_checkpoint(file_, simulation_, {"plane.yaml", kPlane, "the volume ratio J is not positive"});
+  expect_refused("cannot go on (the volume ratio J is not positive)");
+}
+
+TEST_F(BadCheckpoint, HoldsOtherNumbersThanWereSaved) {
+  const double other = 0.25;
+  overwrite(file_, "simulation/total_mass", H5T_NATIVE_DOUBLE, &other);
+  EXPECT_NE(load().find("the file is damaged"), std::string::npos);
+}
+
+TEST_F(BadCheckpoint, HasAByteThatFlipped) {
+  // Particles lie in the file as they do in memory: one byte of a position, found by its value.
+  std::vector<double> x;
+  simulation_.particle_field("x", x);
+  std::fstream file(file_, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string all((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::size_t at = all.find(std::string(reinterpret_cast<const char*>(&x[20]), sizeof x[20]));
+  ASSERT_NE(at, std::string::npos);
+  file.clear();
+  file.seekp(static_cast<std::streamoff>(at));
+  file.put(static_cast<char>(all[at] ^ 1));
+  file.close();
+  EXPECT_NE(load().find("cut off or damaged"), std::string::npos);
+}
+
+TEST_F(BadCheckpoint, CannotBeWrittenThere) {
+  const std::string answer = refusal([&] {
+    save_checkpoint(folder_.file("none/run.h5"), simulation_, {"plane.yaml", kPlane, {}});
+  });
+  EXPECT_NE(answer.find("cannot be written: No such file or directory"), std::string::npos) << answer;
+}
+
+// A file that cannot be finished leaves the one before as it is, and nothing beside it.
+TEST_F(BadCheckpoint, LeavesTheOneBefore) {
+  const std::uint64_t hash = read_checkpoint(file_).state_hash;
+  run(simulation_, 2, 3);
+  const auto breaks = [](StateArchive&) { throw CheckpointError("no more room"); };
+  EXPECT_EQ(refusal([&] { save_checkpoint(file_, simulation_, {"plane.yaml", kPlane, {}}, breaks); }), "no more room");
+  EXPECT_EQ(read_checkpoint(file_).state_hash, hash);
+  EXPECT_FALSE(fs::exists(file_ + ".part"));
+}
+
+}  // namespace
+}  // namespace mpm::test

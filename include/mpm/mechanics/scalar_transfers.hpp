@@ -1,0 +1,19 @@
+// Transfers of step/scalar_transfer.hpp by the kernels of the mechanics, in the run's shape function and precision.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mpm/grid/fields.hpp"
+#include "mpm/kernel/kernels.hpp"
+#include "mpm/particles/particle_set.hpp"
+#include "mpm/step/scalar_transfer.hpp"
+
+namespace mpm {
+
+/// `kernels`: of the sets' precision, T double or float. `fields` and `sets` outlive the result.
+template <class T>
+std::unique_ptr<ScalarTransfer> make_scalar_transfer(const mpm_kernel::KernelTable<T>& kernels, Fields& fields,
+                                                     std::vector<ParticleSet>& sets, int threads);
+
+}  // namespace mpm

@@ -1,5 +1,5 @@
-// The fields of the grid's nodes that every scene has. One array a field, a block after the other, within a block one
-// component after the other: [block][component][node].
+// The nodal fields that every scene has. Each is one array, block after block, and within a block component after
+// component: [block][component][node].
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@ class NodalField {
   NodalField(int components, int nodes_per_block) : components_(components), nodes_(nodes_per_block) {}
 
   int components() const { return components_; }
-  /// Contents are not kept. Room for a few blocks more is made when there is too little: material that moves takes new
-  /// blocks a few at a time.
+  /// Does not preserve the contents. When there is too little room it allocates a few blocks more than needed, since
+  /// moving material takes new blocks a few at a time.
   void resize(int blocks) {
     const std::size_t size = static_cast<std::size_t>(blocks) * components_ * nodes_;
     if (size > data_.capacity()) {
@@ -39,7 +39,7 @@ class NodalField {
   std::vector<double> data_;
 };
 
-/// The grid of one velocity field (grid/fields.hpp), as it is in a step.
+/// The grid of one velocity field (grid/fields.hpp) during a step.
 struct Grid {
   explicit Grid(const GridLayout& grid_layout)
       : layout(grid_layout),
@@ -60,25 +60,25 @@ struct Grid {
     loose.assign(blocks.owners(), 0);
   }
 
-  /// The node takes part in the step. What is lighter than least_mass is left out: a particle that reaches a node with
-  /// 1e-30 of its mass reaches it with 1e-15 of its force, the order of the last bit.
+  /// Whether the node takes part in the step. Nodes lighter than least_mass are left out: a particle that reaches a
+  /// node with 1e-30 of its mass reaches it with 1e-15 of its force, the order of the last bit.
   bool carries(int block, int node) const { return mass.at(block, 0, node) > least_mass; }
 
   GridLayout layout;
   BlockTable blocks;
-  double least_mass = 0.0;         ///< [kg]
-  int wall_layers = 1;             ///< of nodes beyond a wall that particles may reach, and that the wall holds too
+  double least_mass = 0.0;  ///< [kg]
+  int wall_layers = 1;      ///< layers of nodes beyond a wall that particles may reach, which the wall constrains too
   std::array<bool, 6> has_wall{};  ///< faces of the domain that are walls: 2 * axis, + 1 for the upper one
   SymmetryPlanes symmetry;
-  int first_owner = 0;  ///< number of its first owner among those of all fields
-  /// Of each owner, whether some of its particles have moved beyond the block since they were sorted.
+  int first_owner = 0;  ///< number of its first owner among the owners of all fields
+  /// Per owner: whether some of its particles have moved beyond the block since they were sorted.
   std::vector<std::uint8_t> loose;
   NodalField mass;       ///< m_i [kg]
-  NodalField momentum;   ///< p_i as gathered, without conditions; until XPIC or the next gathering use it [N s]
+  NodalField momentum;   ///< p_i as gathered, before conditions; valid until XPIC or the next gathering uses it [N s]
   NodalField velocity;   ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]
   NodalField force;      ///< f_i while forces are gathered [N], then the acceleration a_i [m/s^2]
-  NodalField increment;  ///< XPIC, FMPM: what the velocity that particles adopt is made of; else empty [m/s]
-  NodalField place;  ///< with thin tools, near them: sum of m S x, the mass centre times the mass; else empty [kg m]
+  NodalField increment;  ///< XPIC, FMPM: terms of the velocity that particles adopt; else empty [m/s]
+  NodalField place;      ///< near thin tools: sum of m S x, mass times centre of mass; else empty [kg m]
 };
 
 }  // namespace mpm

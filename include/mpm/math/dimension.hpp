@@ -1,8 +1,8 @@
-// The geometries that the kernels are compiled for: number of axes, which world axes they are, and how the tensors of
-// a particle lie in structure-of-arrays storage. The one place that an out-of-plane policy is stated.
+// The geometries that the kernels are compiled for: the number of axes, which world axes they are, and how a particle's
+// tensors lie in structure-of-arrays storage. An out-of-plane policy is stated here and nowhere else.
 //
 // In every geometry the first kDim x kDim stored components of the deformation gradient are its rows in the grid's
-// axes. Storage is whatever gives component c of particle p as a[c][p]: arrays of numbers, or views of them as
+// axes. Storage is any type that gives component c of particle p as a[c][p]: arrays of numbers, or views of them as
 // registers.
 #pragma once
 
@@ -116,8 +116,8 @@ struct PlaneStrain {
   }
 };
 
-/// Two dimensions, x and z; no stress along y: a thin plate with free faces. The strain along y is what the law makes
-/// it (material/plane_stress.hpp) and is stored beside the others.
+/// Two dimensions, x and z; no stress along y: a thin plate with free faces. The law determines the strain along y
+/// (material/plane_stress.hpp), which is stored beside the others.
 struct PlaneStress : PlaneStrain {
   static constexpr int kMatrix = 5;
 
@@ -134,9 +134,9 @@ struct PlaneStress : PlaneStrain {
 };
 
 /// Two dimensions, r = x and z, about the axis r = 0. Along the hoop direction, y, a particle is stretched by v_r / r,
-/// which is stored beside the others; nothing moves or shears that way. Nairn & Guilkey (2015) eq. (10).
+/// which is stored beside the others; nothing moves or shears along it. Nairn & Guilkey (2015) eq. (10).
 struct Axisymmetric : PlaneStress {
-  /// d v_r / r comes with the gradient, and the hoop stress has a force of its own.
+  /// The velocity gradient includes v_r / r, and the hoop stress has a force of its own.
   static constexpr bool kHoop = true;
 
   template <class T>
@@ -147,7 +147,7 @@ struct Axisymmetric : PlaneStress {
 };
 
 /// One dimension, x; no strain along y and z, whose stresses follow from the law: a column between smooth stiff walls.
-/// A bar with free sides is a line of a material whose Poisson's ratio is 0.
+/// For a bar with free sides use a material whose Poisson's ratio is 0.
 struct Line {
   static constexpr bool kHoop = false;
   static constexpr int kDim = 1;
@@ -190,7 +190,7 @@ struct Line {
   }
 };
 
-/// visit(Line()), visit(PlaneStrain()), … as `kind` says.
+/// Calls visit(Line()), visit(PlaneStrain()), ... according to `kind` and returns its result.
 template <class Visit>
 decltype(auto) with_geometry(GeometryKind kind, Visit&& visit) {
   if (kind == GeometryKind::line) return visit(Line());

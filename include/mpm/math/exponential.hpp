@@ -1,6 +1,6 @@
 // exp(A) truncated after k terms, without matrix products beyond A^2: Cayley-Hamilton gives every power in terms of
-// A^2, A and I. Weak where the step is large: a pure rotation by theta grows J by theta^2 (k = 1) or theta^4 / 4
-// (k = 2) a step. Source: Nairn, GIMP notes 2.1; Nairn & Guilkey (2015) eq. (9); method reference 7.
+// A^2, A and I. Weak for large steps: a pure rotation by theta raises J by theta^2 (k = 1) or theta^4 / 4 (k = 2) in
+// each step. Source: Nairn, GIMP notes 2.1; Nairn & Guilkey (2015) eq. (9); method reference 7.
 #pragma once
 
 #include "mpm/math/tensor.hpp"

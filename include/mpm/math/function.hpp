@@ -1,5 +1,5 @@
-// A scalar of time and place: a constant, or an expression in t and x, y, z parsed once by muParser. What acts on
-// moving material may also use X, Y, Z, the place that the material had at the start.
+// A scalar function of time and position: a constant, or an expression in t and x, y, z parsed once by muParser.
+// Functions that act on moving material may also use X, Y, Z, the position of the material at the start of the run.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace mpm {
 
-/// An expression that does not parse or is not finite.
+/// Thrown for an expression that does not parse or whose value is not finite.
 class FunctionError : public Error {
  public:
   using Error::Error;
@@ -23,7 +23,7 @@ struct FunctionUnits {
   double length = 1.0;  ///< [m]
 };
 
-/// Which places an expression may use: x, y, z alone, or X, Y, Z beside them.
+/// Positions that an expression may use: the present one (x, y, z) alone, or also the one at the start (X, Y, Z).
 enum class FunctionPlaces { present, present_and_start };
 
 /// Value-semantic and cheap to copy; evaluation allocates nothing. Copies share one parsed expression: evaluate them
@@ -33,16 +33,15 @@ class Function {
   /// The constant 0.
   Function() = default;
   /// A constant, in SI.
-  Function(double constant) : constant_(constant) {}  // NOLINT: a number is a function
-  /// An expression in t, x, y, z with muParser's operators and functions, `pi` and `e`; t and the place are given to it
-  /// in `units`, and its result is read in them.
-  /// @throws FunctionError when it does not parse, or names an unknown variable.
+  Function(double constant) : constant_(constant) {}  // NOLINT: implicit, so that a number can stand for a function
+  /// An expression in t, x, y, z with muParser's operators and functions, `pi` and `e`; its variables and its result
+  /// are in `units`. @throws FunctionError when it does not parse, or names an unknown variable.
   static Function parse(const std::string& expression, const FunctionUnits& units = {},
                         FunctionPlaces places = FunctionPlaces::present);
 
-  /// In SI, at t [s] and place [m]. @throws FunctionError when the value is not finite.
+  /// The value in SI, at t [s] and place [m]. @throws FunctionError when the value is not finite.
   double operator()(double t, const Vec3& place = Vec3::Zero()) const { return (*this)(t, place, place); }
-  /// The same where `start` [m] is the place at the start: X, Y, Z.
+  /// As above, for material that was at `start` [m] (X, Y, Z) at the start of the run.
   double operator()(double t, const Vec3& place, const Vec3& start) const;
   bool is_constant() const { return expression_ == nullptr; }
   /// The constant 0.

@@ -1,9 +1,9 @@
-// Arithmetic that is written once for a number and for a wide register of numbers (kernel/wide.hpp). What would be a
-// branch on a value is a select() between two results, or an any() that skips work which no lane needs.
+// Arithmetic that is written once for a number and for a wide register of numbers (kernel/wide.hpp). A branch on a
+// value becomes a select() between two results, or an any() that skips work which no lane needs.
 //
-// Call the functions below without std::, so that those of a register are found by its type. Masks, what comparisons
-// give, combine with & | ! alone, which suit bool too. A register type has what a number has, made from a double by
-// T(x), with a default constructor, and besides
+// Call the functions below without std::, so that those of a register type are found by argument-dependent lookup.
+// Masks, the results of comparisons, are combined with & | ! only, which also work for bool. A register type has the
+// operators of a number, a default constructor, a constructor T(x) from a double, and
 //
 //   static constexpr int kLanes;
 //   friend select, any, all, sqrt, abs, max, min, exp, log, pow, inverse_cbrt    lane by lane
@@ -28,14 +28,14 @@ using std::sqrt;
 inline double inverse_cbrt(double x) { return 1.0 / std::cbrt(x); }
 inline float inverse_cbrt(float x) { return 1.0F / std::cbrt(x); }
 
-/// Where `which`, a; elsewhere b. Both are computed.
+/// a where `which` holds, b elsewhere. Both are computed.
 template <class T>
 T select(bool which, T a, T b) {
   return which ? a : b;
 }
-/// Whether it holds in any lane.
+/// Whether `which` holds in any lane.
 inline bool any(bool which) { return which; }
-/// Whether it holds in every lane.
+/// Whether `which` holds in every lane.
 inline bool all(bool which) { return which; }
 
 template <class T>
@@ -45,17 +45,17 @@ inline constexpr int lane_count<double> = 1;
 template <>
 inline constexpr int lane_count<float> = 1;
 
-/// Lane `i` in [0, lane_count).
+/// The number in lane `i`, 0 <= i < lane_count.
 inline double lane(double x, int) { return x; }
 inline float lane(float x, int) { return x; }
 inline void set_lane(double& x, int, double value) { x = value; }
 inline void set_lane(float& x, int, float value) { x = value; }
 
-/// The number that a lane of T holds.
+/// The type of the number in a lane of T.
 template <class T>
 using ScalarOf = decltype(lane(std::declval<T>(), 0));
 
-/// x^n by products, n >= 1: as exact as x is.
+/// x^n, n >= 1, by repeated multiplication.
 template <class T>
 T whole_power(T x, int n) {
   for (; n % 2 == 0; n /= 2) x *= x;

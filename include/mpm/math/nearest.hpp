@@ -1,4 +1,4 @@
-// The nearest known word to one that is not known, for errors that help.
+// Finds the known word that is nearest to an unknown one, for helpful error messages.
 #pragma once
 
 #include <string>

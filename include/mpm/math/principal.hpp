@@ -1,7 +1,7 @@
 // Principal values and directions of small symmetric tensors. Cyclic Jacobi rotations in three dimensions: exact to
-// round-off for equal and nearly equal values too, where the closed form with a cosine loses half of the digits.
-// For numbers alone: what it takes differs too much from tensor to tensor for wide registers. For them there are bounds
-// on the extreme values. Source: Golub & Van Loan, Matrix Computations, section 8.5.
+// round-off for equal and nearly equal values too, where the closed form with a cosine loses half of the digits. They
+// take single numbers only, because the number of rotations differs too much from tensor to tensor for wide registers.
+// For registers there are bounds on the extreme values. Source: Golub & Van Loan, Matrix Computations, section 8.5.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace mpm {
 
-/// s = sum of value[k] direction[k] (x) direction[k], in no particular order; directions are of unit length.
+/// s = sum of value[k] direction[k] (x) direction[k], in no particular order; directions have unit length.
 template <class T>
 struct Principal {
   T value[3];
@@ -55,8 +55,8 @@ Principal<T> principal(const Symmetric3<T>& s) {
   return result;
 }
 
-/// The largest and the smallest principal value, to about 1e-8 of the largest: the closed form with a cosine, for
-/// bounds, at a twentieth of the cost of principal(). Source: Smith (1961), Commun. ACM 4.
+/// The largest and the smallest principal value, exact to about 1e-8 of the largest, at a twentieth of the cost of
+/// principal(): the closed form with a cosine, meant for bounds. Source: Smith (1961), Commun. ACM 4.
 template <class T>
 std::pair<T, T> principal_extremes(const Symmetric3<T>& s) {
   const T mean = trace(s) / T(3);
@@ -69,7 +69,7 @@ std::pair<T, T> principal_extremes(const Symmetric3<T>& s) {
   return {mean + T(2) * size * std::cos(third), mean + T(2) * size * std::cos(third + T(kThirdTurn))};
 }
 
-/// To round-off.
+/// Planar overload, exact to round-off.
 template <class T>
 std::pair<T, T> principal_extremes(const SymmetricPlane<T>& s) {
   const T mean = T(0.5) * (s.xx + s.zz), half = T(0.5) * (s.xx - s.zz);
@@ -77,29 +77,30 @@ std::pair<T, T> principal_extremes(const SymmetricPlane<T>& s) {
   return {std::max(mean + radius, s.yy), std::min(mean - radius, s.yy)};
 }
 
-/// Not below cos(acos(c)/3), and at most 3e-5 above it; c in [-1, 1]. With x = sqrt((1 + c)/2) this is
-/// cos(2/3 acos(x)), smooth on [0, 1]: its best polynomial of degree 4 (error 8.3e-6), raised above it.
+/// An upper bound of cos(acos(c)/3), at most 3e-5 above it; c in [-1, 1]. With x = sqrt((1 + c)/2) the function is
+/// cos(2/3 acos(x)), smooth on [0, 1]; the bound is its best polynomial of degree 4 (error 8.3e-6), raised above it.
 template <class T>
 T cosine_of_third_bound(T c) {
-  // Where the slope is infinite, at c = -1, round-off of c must not lower the bound.
+  // At c = -1, where the slope is infinite, round-off of c must not lower the bound.
   constexpr double kRoundOff = 16.0 * std::numeric_limits<ScalarOf<T>>::epsilon();
   const T x = sqrt(T(0.5) * (max(min(c, T(1)), T(-1)) + T(1.0 + kRoundOff)));
   return T(0.50002) + x * (T(0.576883) + x * (T(-0.106839) + x * (T(0.038898) - T(0.008959) * x)));
 }
 
-/// Not below the largest and not above the smallest principal value, by at most 1e-4 (in single precision 2e-3) of the
-/// deviator's norm. T: a number or a register of them. Source: Smith (1961), as above, without trigonometric functions.
+/// Bounds {upper, lower} of the principal values: not below the largest and not above the smallest, and off by at most
+/// 1e-4 (in single precision 2e-3) of the deviator's norm. T: a number or a register. Source: Smith (1961), as above,
+/// without trigonometric functions.
 template <class T>
 std::pair<T, T> principal_bounds(const Symmetric3<T>& s) {
   const T mean = T(1.0 / 3.0) * trace(s);
   const Symmetric3<T> deviator = scale_shift(s, T(1), -mean);
   const T size = sqrt(T(1.0 / 6.0) * squared_norm(deviator));
-  constexpr float kAlmostNothing = std::numeric_limits<float>::min();  // a quotient for no deviator too
+  constexpr float kAlmostNothing = std::numeric_limits<float>::min();  // avoids 0 / 0 where the deviator is zero
   const T cosine = T(0.5) * determinant(scale_shift(deviator, T(1) / max(size, T(kAlmostNothing)), T(0)));
   return {mean + T(2) * size * cosine_of_third_bound(cosine), mean - T(2) * size * cosine_of_third_bound(-cosine)};
 }
 
-/// To round-off.
+/// Planar overload, exact to round-off.
 template <class T>
 std::pair<T, T> principal_bounds(const SymmetricPlane<T>& s) {
   const T mean = T(0.5) * (s.xx + s.zz), half = T(0.5) * (s.xx - s.zz);
@@ -107,7 +108,7 @@ std::pair<T, T> principal_bounds(const SymmetricPlane<T>& s) {
   return {max(mean + radius, s.yy), min(mean - radius, s.yy)};
 }
 
-/// yy is the value of the direction out of the plane, the third.
+/// The third value is yy, that of the direction out of the plane.
 template <class T>
 Principal<T> principal(const SymmetricPlane<T>& s) {
   T cosine = T(1), sine = T(0), xx = s.xx, zz = s.zz;
@@ -122,7 +123,7 @@ Principal<T> principal(const SymmetricPlane<T>& s) {
   return {{xx, zz, s.yy}, {{cosine, T(0), -sine}, {sine, T(0), cosine}, {T(0), T(1), T(0)}}};
 }
 
-/// Back from principal values to the tensor that `like` is one of.
+/// The tensor with these principal values and directions, of the type of the second argument.
 template <class T>
 Symmetric3<T> compose(const Principal<T>& p, const Symmetric3<T>&) {
   Symmetric3<T> s{};

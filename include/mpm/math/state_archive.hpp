@@ -1,6 +1,6 @@
-// All that a run remembers, by name: numbers, and arrays of them, in groups. A class that has state says so in one
-// function, keep(StateArchive&), which serves to write and to read: so the two cannot part. What is found anew in every
-// step is not kept.
+// Serialises the state of a run by name: numbers and arrays of numbers, in groups. A class with state has one function,
+// keep(StateArchive&), that serves both to write and to read, so that the two cannot disagree. Values that are computed
+// anew in every step are not stored.
 //
 //   void Thing::keep(StateArchive& archive) {
 //     archive.keep("work", work_);
@@ -8,8 +8,8 @@
 //     archive.column("held/node", held_, &Held::node);
 //   }
 //
-// Numbers are kept to the last bit. Where they go is the derived class's (simulation/hdf5_archive.hpp). Weak: reading
-// trusts the names; a class that keeps another set of numbers than before asks for a new version of the file.
+// Numbers are stored to the last bit. A derived class decides where they go (simulation/hdf5_archive.hpp). Weak:
+// reading trusts the names; a class that stores other numbers than before needs a new version of the file.
 #pragma once
 
 #include <cstddef>
@@ -33,10 +33,10 @@ class StateArchive {
   StateArchive& operator=(const StateArchive&) = delete;
   virtual ~StateArchive() = default;
 
-  /// Whether what is kept takes the archive's values; else the archive takes them.
+  /// True while values are read from the archive, false while they are written to it.
   virtual bool reading() const = 0;
 
-  /// What is kept while it lives has names that begin with "name/".
+  /// While a Group exists, all names are prefixed with "name/".
   class Group {
    public:
     Group(StateArchive& archive, const std::string& name) : archive_(archive), length_(archive.prefix_.size()) {
@@ -51,7 +51,7 @@ class StateArchive {
     std::size_t length_;
   };
 
-  /// A number, bool, enumeration, vector or quaternion.
+  /// Serialises a number, bool, enumeration, vector or quaternion.
   template <class T>
   void keep(const std::string& name, T& value) {
     column_of(name, 1, [&value](std::size_t) -> T& { return value; });
@@ -60,7 +60,8 @@ class StateArchive {
     if (reading()) text.resize(stored(prefix_ + name));
     values(prefix_ + name, Number::uint8, text.data(), text.size());
   }
-  /// An array of such with resize() and data(): of numbers, kept as it lies in memory. Takes on the size that it had.
+  /// Serialises an array of such values that has resize() and data(); an array of numbers is stored as it lies in
+  /// memory. Reading resizes the array to the stored size.
   template <class List>
   void list(const std::string& name, List& list) {
     using Value = typename List::value_type;
@@ -74,35 +75,37 @@ class StateArchive {
       column_of(name, list.size(), [&list](std::size_t i) -> Value& { return list[i]; });
     }
   }
-  /// The number of entries of a list of structures, which takes it on.
+  /// Serialises the number of entries of a list of structures; reading resizes the list to it.
   template <class List>
   void rows(const std::string& name, List& list) {
     std::uint64_t size = list.size();
     keep(name + "/rows", size);
     if (reading()) list.resize(size);
   }
-  /// One member of every entry of a list: a pointer to it, or a function that returns a reference to it.
+  /// Serialises one member of every entry of a list; `member` is a pointer to it or a function that returns a reference
+  /// to it.
   template <class List, class Member>
   void column(const std::string& name, List& list, Member member) {
     column_of(name, list.size(), [&](std::size_t i) -> decltype(auto) { return std::invoke(member, list[i]); });
   }
-  /// A count of sorts (BlockTable::generation()) that something was found at, by how many there have been since.
+  /// Serialises the generation (BlockTable::generation()) at which something was found, as the number of sorts since
+  /// then.
   void keep_generation(const std::string& name, std::uint64_t& generation) {
     std::uint64_t since = generation_ - generation;
     keep(name, since);
     if (reading()) generation = generation_ - since;
   }
-  /// The count now; before what asks for keep_generation().
+  /// Sets the present generation; call it before keep_generation().
   void set_generation(std::uint64_t generation) { generation_ = generation; }
 
  protected:
-  /// Hands over, or fills, `count` numbers at `data`. @throws Error of the derived class
+  /// Writes, or when reading fills, `count` numbers at `data`. @throws Error of the derived class
   virtual void values(const std::string& name, Number number, void* data, std::size_t count) = 0;
-  /// Reading: how many numbers there are of that name. @throws Error of the derived class
+  /// When reading: how many numbers are stored under that name. @throws Error of the derived class
   virtual std::size_t stored(const std::string& name) = 0;
 
  private:
-  /// What a value is made of: `Scalar` by kCount.
+  /// How a value is stored: as kCount numbers of type Scalar.
   template <class T, class = void>
   struct Packed;
   template <class T>

@@ -1,6 +1,6 @@
-// Small tensors of the kernels, by component and by geometry: a solid has all nine (six) components, a planar body
-// lies in x-z and keeps only the out-of-plane yy beside them. Laws are written once against the functions below;
-// what a planar tensor does not have costs nothing. T is a number or a wide register of them (lanes.hpp).
+// Small tensors of the kernels, by component and by geometry: in a solid all nine (six) components; in a planar body
+// the x-z block and the out-of-plane yy. Laws are written once against the functions below; components that a planar
+// tensor lacks cost nothing. T is a number or a wide register (lanes.hpp).
 #pragma once
 
 #include "mpm/math/lanes.hpp"
@@ -50,7 +50,7 @@ Matrix3<T> product(const Matrix3<T>& a, const Matrix3<T>& b) {
           a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
 }
 
-/// a^-1, with det a at hand
+/// a^-1; `det` is the determinant of a
 template <class T>
 Matrix3<T> inverse(const Matrix3<T>& a, T det) {
   const T s = T(1) / det;
@@ -89,7 +89,7 @@ T squared_norm(const Symmetric3<T>& s) {
   return s.xx * s.xx + s.yy * s.yy + s.zz * s.zz + T(2) * (s.yz * s.yz + s.xz * s.xz + s.xy * s.xy);
 }
 
-/// The tensor that lane `i` holds.
+/// The tensor in lane `i`.
 template <class T>
 Symmetric3<ScalarOf<T>> lane(const Symmetric3<T>& s, int i) {
   return {lane(s.xx, i), lane(s.yy, i), lane(s.zz, i), lane(s.yz, i), lane(s.xz, i), lane(s.xy, i)};

@@ -1,7 +1,7 @@
 // A contiguous array that starts on a cache line and has room for a wide register beyond its end.
 //
-// A kernel takes a register of particles at any of them, the last one included. It masks those beyond the end, whose
-// addresses are still addresses of this array.
+// A kernel loads a register that begins at any particle, the last one included. It masks the lanes beyond the end,
+// whose addresses still belong to this array.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace mpm {
 
-/// Array of numbers, 64-byte aligned, with kPadding bytes that can be read beyond the last one.
+/// Array of numbers, 64-byte aligned, with kPadding readable bytes beyond the last one.
 template <class T>
 class PaddedArray {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= 64);
@@ -41,7 +41,8 @@ class PaddedArray {
     std::swap(capacity_, other.capacity_);
   }
 
-  /// Contents are not kept, and not set. Allocates only when there is no room. @throws std::bad_alloc
+  /// Neither preserves nor initialises the contents. Allocates only when there is too little room. @throws
+  /// std::bad_alloc
   void resize(std::size_t size) {
     if (size > capacity_) {
       values_.reset();

@@ -1,8 +1,8 @@
 // One scalar of every particle of a set, stored in the precision of the run.
 //
-// What is not a kernel reads and writes it as double, one particle at a time; a kernel takes the typed array, once a
-// pass. Positions are no ParticleScalar: they are double in every run, since a step moves a particle by little of the
-// distance to the origin.
+// Code outside the kernels reads and writes it as double, one particle at a time; a kernel takes the typed array, once
+// per pass. Positions are not ParticleScalars: they are double in every run, because a step moves a particle by a small
+// fraction of its distance to the origin.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,10 @@
 
 namespace mpm {
 
-/// IEEE 754 format of what particles carry.
+/// IEEE 754 format of the particles' numbers.
 enum class Precision { float32, float64 };
 
-/// As a scene says it: "single" or "double".
+/// The name in a scene: "single" or "double".
 inline const char* precision_name(Precision precision) { return precision == Precision::float32 ? "single" : "double"; }
 
 class ParticleScalar {
@@ -48,8 +48,8 @@ class ParticleScalar {
         values_);
   }
 
-  /// The values, 64-byte aligned and padded (padded_array.hpp). @throws std::bad_variant_access when T is not what is
-  /// stored
+  /// The values, 64-byte aligned and padded (padded_array.hpp). @throws std::bad_variant_access when T is not the
+  /// stored type
   template <class T>
   T* data() {
     return std::get<PaddedArray<T>>(values_).data();
@@ -59,7 +59,7 @@ class ParticleScalar {
     return std::get<PaddedArray<T>>(values_).data();
   }
 
-  /// visit(PaddedArray<double>&) or visit(PaddedArray<float>&).
+  /// Calls visit(PaddedArray<double>&) or visit(PaddedArray<float>&).
   template <class Visit>
   decltype(auto) visit(Visit&& visit) {
     return std::visit(std::forward<Visit>(visit), values_);

@@ -1,9 +1,9 @@
-// The particles of one deformable body: structure of arrays, one material, kept sorted by grid block. Their mass is
-// equal, but for rings about an axis, which have each their own.
+// The particles of one deformable body: a structure of arrays, of one material, kept sorted by grid block. All have the
+// same mass, except in axisymmetric scenes, where each ring has its own.
 //
-// What a body's scene does not need is not stored: history exists as its law asks for it, the second position only when
-// the update scheme updates strain after the motion, a domain when the shape function follows the deformation, an
-// affine matrix for APIC, the place at the start only when a load is a function of it.
+// Only what the scene needs is stored: the history variables of the law; a second position when strain is updated after
+// the motion; a domain when the shape function follows the deformation; an affine matrix for APIC; the position at the
+// start when a load is a function of it.
 #pragma once
 
 #include <algorithm>
@@ -18,32 +18,32 @@ namespace mpm {
 
 struct ParticleSet {
   std::string name;                                      ///< of the body
-  double mass = 0.0;                                     ///< of a particle, where all have the same [kg]
+  double mass = 0.0;                                     ///< of each particle, where all have the same [kg]
   std::array<double, 3> half{};                          ///< half of a particle's box along each grid axis [cells]
-  std::array<double, 3> lowest{}, highest{};             ///< where a centre may be along each grid axis [cells]
-  bool whole_domains = false, planar_functions = false;  ///< about an axis: AxisRules (shape/axis_rules.hpp)
-  std::uint32_t first_id = 0;                            ///< ids run from here
-  int field = 0;                                         ///< velocity field of its particles, the first one
+  std::array<double, 3> lowest{}, highest{};             ///< bounds of particle centres along each grid axis [cells]
+  bool whole_domains = false, planar_functions = false;  ///< in axisymmetry: AxisRules (shape/axis_rules.hpp)
+  std::uint32_t first_id = 0;                            ///< the smallest id
+  int field = 0;  ///< velocity field of its particles; the first one if there are two
 
   Precision precision = Precision::float64;  ///< of velocity, deformation, stress and history
 
-  PaddedArray<std::uint32_t> id;             ///< within the whole run
+  PaddedArray<std::uint32_t> id;             ///< unique within the whole run
   std::vector<PaddedArray<double>> x;        ///< position, along grid axes [m]
   std::vector<ParticleScalar> v;             ///< velocity [m/s]
   std::vector<ParticleScalar> f;             ///< deformation gradient, stored components
   std::vector<ParticleScalar> tau;           ///< Kirchhoff stress over initial density [J/kg]; GIMP notes (1.24)
-  std::vector<ParticleScalar> history;       ///< what the law keeps
-  std::vector<ParticleScalar> masses;        ///< one scalar in axisymmetric scenes, of the whole ring [kg]; else none
+  std::vector<ParticleScalar> history;       ///< history variables of the law
+  std::vector<ParticleScalar> masses;        ///< in axisymmetric scenes one scalar, the mass of the ring [kg]
   std::vector<PaddedArray<double>> start_x;  ///< position at the start of the run [m]
   std::vector<ParticleScalar> affine;        ///< APIC: B, moment of the velocity, [component][axis] [m^2/s]
-  std::vector<ParticleScalar> domain;        ///< F of the step's start, where the shape function follows it
+  std::vector<ParticleScalar> domain;        ///< F at the start of the step, where the shape function follows it
   std::vector<PaddedArray<double>> next_x;   ///< position at the end of the step, when strain is updated after motion
-  /// Where a thin tool parts the body: how many fields after `field` a particle's is.
+  /// Where a thin tool divides the body: a particle's velocity field is field + side.
   PaddedArray<std::uint8_t> side;
 
-  /// First particle of each owner block, those of all fields in their order, and one past the last particle.
+  /// First particle of each owner block (the owners of all fields, field by field), and one past the last particle.
   std::vector<std::uint32_t> begin;
-  /// First particle of each group (step/sorter.hpp: they are worked on together), and one past the last particle.
+  /// First particle of each group (particles computed together, step/sorter.hpp), and one past the last particle.
   std::vector<std::uint32_t> group;
   /// First group of each owner block, and one past the last group.
   std::vector<std::uint32_t> group_begin;
@@ -62,7 +62,7 @@ struct ParticleSet {
     for (int p = 1; p < size() && !masses.empty(); ++p) least = std::min(least, mass_of(p));
     return least;
   }
-  /// visit(PaddedArray<double>&) or visit(PaddedArray<float>&) for every stored scalar but domain and next_x.
+  /// Calls visit(PaddedArray<double>&) or visit(PaddedArray<float>&) for every stored scalar but domain and next_x.
   template <class Visit>
   void each_scalar(Visit&& visit) {
     for (auto& scalar : x) visit(scalar);

@@ -1,6 +1,6 @@
 // How an axisymmetric scene treats the neighbourhood of the axis: what a shape function does with a domain that would
-// reach across it, and how particles near it are moved. The defaults are what measured best (doc/axisymmetric.md); the
-// others are there for comparison with them: Nairn & Guilkey (2015) 4.1.
+// reach across it, and how particles near it are moved. The defaults are those that measured best
+// (doc/axisymmetric.md); the others serve for comparison. Source: Nairn & Guilkey (2015) 4.1.
 #pragma once
 
 #include <array>
@@ -8,23 +8,23 @@
 namespace mpm {
 
 enum class AxisDomains {
-  fitted,  ///< uGIMP's box is cut off at r = 0, a domain that deforms is shrunk until it touches it
-  whole,   ///< as they are, though they reach across
+  fitted,  ///< uGIMP's box is cut off at r = 0; a domain that deforms is shrunk until it touches the axis
+  whole,   ///< domains stay as they are, even where they reach across the axis
 };
 enum class AxisFunctions {
-  weighted,  ///< averages over rings, with the weight r
-  planar,    ///< those of a plane, with T = S / r
+  weighted,  ///< averages over rings, weighted with r
+  planar,    ///< planar shape functions, with T = S / r
 };
-/// Of nodes beyond the axis, which planar functions and whole domains give mass to.
+/// Velocity of nodes beyond the axis, to which planar functions and whole domains give mass.
 enum class AxisGhosts {
-  free,    ///< nothing is asked of them
-  zero,    ///< no radial velocity, as on the axis
-  mirror,  ///< the opposite radial velocity of the node at the same distance from the axis
+  free,    ///< not constrained
+  zero,    ///< zero radial velocity, as on the axis
+  mirror,  ///< opposite radial velocity to that of the node at the same distance from the axis
 };
-/// The radial velocity that moves a particle.
+/// Radial velocity that moves a particle.
 enum class AxisMotion {
-  mean,   ///< the one that its own velocity is made of, by S: that of the mass in its domain
-  point,  ///< the grid's at its place, by the hat functions
+  mean,   ///< averaged by S like the particle's own velocity: that of the mass in its domain
+  point,  ///< of the grid at the particle, interpolated by the hat functions
 };
 
 inline constexpr std::array<const char*, 2> kAxisDomainNames = {"fitted", "whole"};

@@ -1,12 +1,11 @@
-// Shape functions of axisymmetric scenes that are products of a radial one and a planar one along the axis of symmetry:
-// Dirac, uGIMP and uGIMP that stretches. Each is the planar class with what it has along the radius, radial(), beside:
-// values, gradients and the hoop function, which makes v_r / r of a particle and the force of its hoop stress.
+// Shape functions of axisymmetric scenes that are products of a radial function and a planar one along the axis of
+// symmetry: Dirac, uGIMP and uGIMP that stretches. Each is the planar class with an additional radial(): values,
+// gradients and the hoop function, which gives v_r / r of a particle and the force of its hoop stress.
 //
-// Fitted to the axis, uGIMP's box is cut off at r = 0 and stays as it is elsewhere; a box that stretches is made
-// smaller about its particle until it touches the axis, as CPDI's domains are. Whole, either reaches across: S and T
-// then grow without bound as the particle comes to the axis.
-// Weak: as the planar ones; Dirac's T = N / r besides grows without bound beside the axis.
-// Source: Nairn & Guilkey (2015) eq. (14) ff., (17)-(29); method reference 3.1-3.3.
+// Domains fitted to the axis: uGIMP's box is cut off at r = 0; a box that stretches is shrunk about its particle until
+// it touches the axis, as CPDI's domains are. Whole domains reach across the axis: S and T then grow without bound as
+// the particle approaches it. Weak: as the planar functions; in addition Dirac's T = N / r grows without bound near the
+// axis. Source: Nairn & Guilkey (2015) eq. (14) ff., (17)-(29); method reference 3.1-3.3.
 #pragma once
 
 #include "mpm/shape/axis_rules.hpp"
@@ -24,7 +23,7 @@ struct AxisymmetricDirac : Dirac<T> {
   struct Radial {
     T s[3], g[3], t[3];
   };
-  /// In cells: `offset` of the particle from its nearest node, `node`, that node's radius. A point has no box to fit.
+  /// `offset`: particle minus its nearest node; `node`: radius of that node, both in cells. A point has no box to fit.
   static Radial radial(T offset, T node, T /*half*/, T inverse_cell, const AxisRules&) {
     const Dirac<T> plane(offset, typename Dirac<T>::Axis(inverse_cell));
     const T per_radius = inverse_cell / max(node + offset, T(kLeastRadius));
@@ -43,7 +42,7 @@ struct AxisymmetricUgimp : Ugimp<T> {
   static constexpr bool kAxisymmetric = true;
   using Ugimp<T>::Ugimp;
 
-  /// The same, `half` the box's half-width.
+  /// As above; `half` is the half-width of the box [cells].
   static RadialBox<T> radial(T offset, T node, T half, T inverse_cell, const AxisRules& rules) {
     const bool planar = rules.functions == AxisFunctions::planar;
     T below = offset - half;
@@ -65,7 +64,7 @@ struct AxisymmetricUgimpStretch : UgimpStretch<T> {
   }
 
  private:
-  static constexpr double kLeastHalf = 1e-3;  ///< [cells]; of a particle that all but lies on the axis
+  static constexpr double kLeastHalf = 1e-3;  ///< [cells]; for a particle almost on the axis
 };
 
 }  // namespace mpm

@@ -1,13 +1,12 @@
-// CPDI and qCPDI in axisymmetric scenes: the domain is a ring's section, and averages over it have the weight r. Points
-// are those of the plane; their weights and gradients differ from particle to particle,
+// CPDI and qCPDI in axisymmetric scenes: the domain is the section of a ring, and averages over it are weighted with r.
+// The points are those of the plane; their weights and gradients differ from particle to particle,
 //
-//   S_i = sum_a w_a(r) N_i(x_a),   G_i = sum_a N_i(x_a) g_a(r),   T_i = sum_a (w_a / r) N_i(x_a)   with the plane's
-//   w_a,
+//   S_i = sum_a w_a(r) N_i(x_a),   G_i = sum_a N_i(x_a) g_a(r),   T_i = sum_a (w_a / r) N_i(x_a)
 //
-// r the particle's radius. A domain that reaches across the axis is shrunk about its particle until it touches it: by
-// the sum of |d_kr|, where the paper has |d_1r + d_2r|, which two of the four corners escape (method reference, erratum
-// 14). Weak: as the planar ones; a shrunk domain no longer tiles the body.
-// Source: Nairn & Guilkey (2015) eq. (35)-(39); of qCPDI method reference 2.7, derived there.
+// where r is the particle's radius and T_i has the weights w_a of the plane. A domain that reaches across the axis is
+// shrunk about its particle until it touches it, by the sum of |d_kr|. The paper has |d_1r + d_2r|, which misses two of
+// the four corners (method reference, erratum 14). Weak: as the planar functions; a shrunk domain no longer tiles the
+// body. Source: Nairn & Guilkey (2015) eq. (35)-(39); for qCPDI method reference 2.7, derived there.
 #pragma once
 
 #include "mpm/shape/cpdi.hpp"
@@ -20,7 +19,8 @@ struct AxisymmetricCpdi : Cpdi<Dim> {
   static constexpr bool kAxisymmetric = true;
   using Base = Cpdi<Dim>;
 
-  /// Of half vectors `d` about a particle at `radius`, in the unit of d; component 0 is radial. `weight` sums to 1.
+  /// Weights (sum 1) and gradients of the points of the domain with half vectors `d` about a particle at `radius`, in
+  /// the unit of d; component 0 is radial.
   template <class T>
   static void radial(const T (&d)[Dim][Dim], T radius, T (&weight)[Base::kPoints], T (&g)[Base::kPoints][Dim]) {
     static_assert(Dim == 2, "axisymmetric scenes have two axes");

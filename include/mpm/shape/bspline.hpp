@@ -1,22 +1,22 @@
-// B-splines at the particle's centre, quadratic and cubic: smooth (C1, C2) where particles cross cells, and blind to
-// the particle's box. Weak: they say nothing of the particle's size, so a body that is stretched until cells empty
-// falls apart; a body's surface is smeared over more cells than by hat functions; and a spline reaches past a wall of
-// the domain, where no node is.
+// B-splines at the particle's centre, quadratic and cubic: smooth (C1, C2) where particles cross cells. Weak: they do
+// not see the particle's size, so a body that is stretched until cells empty falls apart; a body's surface is smeared
+// over more cells than with hat functions; and a spline reaches past a wall of the domain, where there is no node.
 //
-// The last is mended by folding. The field is continued beyond a wall in a straight line through the wall's node and
-// the next one inside, u(-1) = 2 u(0) - u(1) and u(-2) = 2 u(-1) - u(0), so a node's weight beyond the wall becomes
-// weight of the two nodes inside it:
+// Folding mends the last weakness. The field is continued beyond a wall in a straight line through the wall's node and
+// the next one inside, u(-1) = 2 u(0) - u(1) and u(-2) = 2 u(-1) - u(0), so the weight of a node beyond the wall
+// becomes weight of the two nodes inside it:
 //
 //   S(0) += 2 S(-1), S(1) -= S(-1);   S(0) += 3 S(-2), S(1) -= 2 S(-2);   gradients alike.
 //
-// A linear field is its own continuation. Sums of weights stay 1 and of gradients 0, linear fields keep their values
-// and gradients, and gradients are still the slopes of the values, continuous as before. Inside the domain no weight
+// This continues a linear field exactly. Sums of weights stay 1 and of gradients 0, linear fields keep their values and
+// gradients, and gradients are still the slopes of the values, continuous as before. Inside the domain no weight
 // becomes negative: at a distance x >= 0 [cells] from the wall the quadratic spline is the hat function up to x = 1/2,
-// and the cubic one is 1 - x + x^3/6, x - x^3/3, x^3/6 there. On the wall the wall's node has all the weight: a
-// condition there holds on the wall. The second moment of the weights about the particle, which APIC divides by, is
-// h^2/4 and h^2/3 away from walls; next to one it goes to zero, as x (1 - x) h^2 and (x - x^2 + x^3/3) h^2.
+// and the cubic one is 1 - x + x^3/6, x - x^3/3, x^3/6 there. On the wall the wall's node has all the weight, so a
+// condition at that node holds exactly on the wall. The second moment of the weights about the particle, which APIC
+// divides by, is h^2/4 and h^2/3 away from walls; next to one it goes to zero, as x (1 - x) h^2 and (x - x^2 + x^3/3)
+// h^2.
 //
-// Source: Steffen, Kirby & Berzins (2008) eq. (12); method reference 2.4. The folding is ours.
+// Source: Steffen, Kirby & Berzins (2008) eq. (12); method reference 2.4. The folding was derived for this project.
 #pragma once
 
 #include <initializer_list>
@@ -25,15 +25,15 @@
 
 namespace mpm {
 
-/// What every spline along an axis has of a body.
+/// What the splines of all particles of a body have in common along one axis.
 template <class T>
 struct SplineAxis {
   T inverse_cell;
-  /// A spline does not know the box: the first argument is not used. `per_cell` [1/m].
+  /// The first argument, the half-width of the box, is not used. `per_cell` [1/m].
   SplineAxis(double, double per_cell) : inverse_cell(per_cell) {}
 };
 
-/// Where `beyond`, the weight of the node `outer` past a wall goes to the next two, which lie one and two further in.
+/// Where `beyond` holds, moves the weight of the node `outer`, past a wall, to the next two nodes inward.
 template <class T, class Mask>
 void fold_node(Mask beyond, T& outer, T& next, T& inner) {
   const T lost = select(beyond, outer, T(0));
@@ -65,8 +65,8 @@ struct QuadraticSpline {
     g[2] = above * axis.inverse_cell;
   }
 
-  /// No weight is left beyond the walls. The arguments are whole numbers >= 0: nodes from the lower wall to the nearest
-  /// node, and from that to the upper wall; the domain has at least one cell.
+  /// Folds the weights beyond the walls back into the domain. The arguments are whole numbers >= 0: cells from the
+  /// lower wall to the nearest node, and from that node to the upper wall; the domain has at least one cell.
   void fold(T nearest_minus_low, T high_minus_nearest) {
     const auto on_low = nearest_minus_low < T(0.5), on_high = high_minus_nearest < T(0.5);
     for (T* w : {s, g}) {
@@ -76,7 +76,7 @@ struct QuadraticSpline {
   }
 };
 
-/// Values and gradients at the five nodes nearest-2 to nearest+2; one of the outermost has none.
+/// Values and gradients at the five nodes nearest-2 to nearest+2; those of one outermost node are 0.
 template <class T>
 struct CubicSpline {
   static constexpr int kNodes = 5;
@@ -90,8 +90,7 @@ struct CubicSpline {
 
   /// `offset`: particle minus its nearest node, in cells, in [-1/2, 1/2].
   CubicSpline(T offset, const Axis& axis) {
-    // A branch of the spline is a difference of powers that are zero beyond their ends:
-    // 6 N(a) = (2-a)^3 - 4 (1-a)^3, each for a below 2 and 1.
+    // The spline as a sum of truncated powers: 6 N(a) = (2-a)^3 for a < 2, minus 4 (1-a)^3 for a < 1.
     const T sixth(1.0 / 6.0), half(0.5), four(4.0);
     const T under = max(-offset, T(0)), over = max(offset, T(0));
     const T below = T(1) - offset, above = T(1) + offset;
@@ -109,7 +108,7 @@ struct CubicSpline {
     g[2] = slope * (T(3) * (over2 - under2) - four * offset);
   }
 
-  /// As that of the quadratic spline.
+  /// As in QuadraticSpline.
   void fold(T nearest_minus_low, T high_minus_nearest) {
     const auto near_low = nearest_minus_low < T(1.5), on_low = nearest_minus_low < T(0.5);
     const auto near_high = high_minus_nearest < T(1.5), on_high = high_minus_nearest < T(0.5);

@@ -1,15 +1,14 @@
 // Dirac: the hat function at the particle's centre, the classic MPM. The cheapest, two nodes along each axis. Weak: the
 // gradient jumps where a particle crosses into the next cell, and so does the force (cell-crossing noise); it does not
-// converge once particles cross cells.
-// Source: Sulsky, Chen & Schreyer (1994); GIMP notes (1.21), (1.23) with a point for the particle; method
-// reference 2.3.
+// converge once particles cross cells. Source: Sulsky, Chen & Schreyer (1994); GIMP notes (1.21), (1.23) for a particle
+// that is a point; method reference 2.3.
 #pragma once
 
 #include "mpm/math/lanes.hpp"
 
 namespace mpm {
 
-/// Values and gradients at the three nodes nearest-1, nearest, nearest+1; one of the outer ones has none.
+/// Values and gradients at the three nodes nearest-1, nearest, nearest+1; those of one outer node are 0.
 template <class T>
 struct Dirac {
   static constexpr int kNodes = 3;
@@ -19,13 +18,13 @@ struct Dirac {
 
   struct Axis {
     T inverse_cell;
-    /// A point has no box: the first argument is not used. `per_cell` [1/m].
+    /// The first argument, the half-width of the box, is not used. `per_cell` [1/m].
     Axis(double, double per_cell) : inverse_cell(per_cell) {}
     explicit Axis(T per_cell) : inverse_cell(per_cell) {}
   };
 
   T s[3];  ///< shape function, sums to 1
-  T g[3];  ///< gradient [1/m], sums to 0; on a node that of the cell above
+  T g[3];  ///< gradient [1/m], sums to 0; for a particle on a node that of the cell above
 
   /// `offset`: particle minus its nearest node, in cells, in [-1/2, 1/2].
   Dirac(T offset, const Axis& axis) {

@@ -1,5 +1,5 @@
-// The shape functions that there are, and their names in a scene. Each has a file in this room that says what it does
-// and where it is weak.
+// The shape functions and their names in a scene. Each has a file in this folder that states what it does and where it
+// is weak.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ enum class ShapeKind {
   ugimp,          ///< averaged over a box that keeps its size
   ugimp_stretch,  ///< averaged over a box that stretches with the diagonal of F
   cpdi,           ///< averaged over the deformed box, linear between its corners
-  qcpdi,          ///< the same, quadratic on nine points; planar
+  qcpdi,          ///< as cpdi, but biquadratic on nine points; planar
   bspline2,       ///< quadratic B-splines at the centre
   bspline3,       ///< cubic ones
 };
@@ -21,7 +21,7 @@ inline constexpr std::array<const char*, 7> kShapeNames = {"dirac", "ugimp",    
                                                            "qcpdi", "bspline2", "bspline3"};
 inline const char* shape_name(ShapeKind kind) { return kShapeNames[static_cast<int>(kind)]; }
 
-/// The particle's domain follows its deformation: it is noted at the start of a step and kept through it.
+/// Whether the particle's domain follows its deformation; it is then stored at the start of a step and constant in it.
 constexpr bool follows_deformation(ShapeKind kind) {
   return kind == ShapeKind::ugimp_stretch || kind == ShapeKind::cpdi || kind == ShapeKind::qcpdi;
 }

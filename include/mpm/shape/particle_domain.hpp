@@ -1,17 +1,17 @@
-// The domain of a particle that deforms with it: a segment, a parallelogram or a parallelepiped about the particle,
-// given by its half vectors d_k = F R_k, column k of F times half the undeformed edge along axis k (Nairn & Guilkey
-// (2015) eq. (31) with erratum 10 of the method reference; 2.5 there). In the plane, components 0 and 1 are x and z:
-// formulas in (x, y) hold as they are, and the determinant of d has the sign of F's.
+// The deforming domain of a particle: a segment, a parallelogram or a parallelepiped about the particle, given by its
+// half vectors d_k = F R_k, column k of F times half the undeformed edge along axis k (Nairn & Guilkey (2015) eq. (31)
+// with erratum 10 of the method reference; 2.5 there). In the plane, components 0 and 1 are x and z: formulas in (x, y)
+// hold unchanged, and the determinant of d has the sign of det F.
 #pragma once
 
 namespace mpm {
 
-/// How far from its particle a point of a domain may be, along an axis [cells]; a larger domain is shrunk as a whole,
-/// which keeps it within what the kernels have in cache of a particle's surroundings.
+/// Largest distance of a domain's points from the particle along an axis [cells]. A larger domain is shrunk as a whole,
+/// so that it stays within the surroundings of a particle that the kernels hold in cache.
 constexpr double kDomainReach = 1.5 - 1e-4;
 
-/// r with d_k . r_j = 1 for k = j and 0 otherwise, by cross products: gradients of the coordinates that run from -1 to
-/// 1 over the domain. [1/length of d]. Not finite for a domain without volume; whoever updates F sees to J > 0.
+/// Reciprocal vectors r, with d_k . r_j = 1 for k = j and 0 otherwise: gradients of the coordinates that run from -1 to
+/// 1 over the domain [1/length of d]. Not finite for a domain without volume; the code that updates F ensures J > 0.
 template <class T, int Dim>
 void reciprocal(const T (&d)[Dim][Dim], T (&r)[Dim][Dim]) {
   static_assert(1 <= Dim && Dim <= 3, "a domain of one, two or three dimensions");

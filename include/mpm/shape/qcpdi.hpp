@@ -1,9 +1,10 @@
-// qCPDI: as CPDI (shape/cpdi.hpp), with each hat replaced by a biquadratic over the parallelogram, through its value at
-// the corners, the middles of the edges and the centre. Planar. Values are some ten times nearer to the exact average
-// over a domain that crosses grid lines than CPDI's (two domains of the reference); gradients are as near or up to five
-// times nearer. Weak: nine points for four; corners tangle and must stay on the grid and within reach of the tile as
-// CPDI's; half vectors above a cell still smear. Source: named in the NairnMPM manual without formulas; those of method
-// reference 2.7, derived there: Simpson's rule along both half vectors, and the mean gradient of the biquadratic.
+// qCPDI: as CPDI (shape/cpdi.hpp), but each hat is replaced by a biquadratic interpolation over the parallelogram,
+// through its values at the corners, the middles of the edges and the centre. Planar. Over a domain that crosses grid
+// lines, values are some ten times nearer to the exact average than CPDI's (two domains of the reference); gradients
+// are as near or up to five times nearer. Weak: nine points instead of four; corners tangle and must stay on the grid
+// and within reach of the tile, as CPDI's; half vectors above a cell still smear the fields. Source: named in the
+// NairnMPM manual without formulas; those of method reference 2.7, derived there: Simpson's rule along both half
+// vectors, and the mean gradient of the biquadratic.
 #pragma once
 
 #include "mpm/shape/particle_domain.hpp"
@@ -18,7 +19,7 @@ struct Qcpdi {
   static constexpr int kPoints = 9;
   static constexpr bool kAxisymmetric = false;  ///< has radial() (shape/axisymmetric_points.hpp)
 
-  /// w_a; they sum to 1.
+  /// w_a; the weights sum to 1.
   static constexpr double weight(int a) { return a == 4 ? 4.0 / 9.0 : a % 2 == 0 ? 1.0 / 36.0 : 1.0 / 9.0; }
 
   /// x_a - x_p, in the unit of d.
@@ -27,7 +28,7 @@ struct Qcpdi {
     for (int c = 0; c < Dim; ++c) spread(c, d[0][c], d[1][c], d[0][c], d[1][c], offset);
   }
 
-  /// g_a, per unit of d. Sums to 0; the centre has none.
+  /// g_a, per unit of d. The sum over a is 0, and so is the gradient of the centre.
   template <class T>
   static void gradients(const T (&d)[Dim][Dim], T (&g)[kPoints][Dim]) {
     T r[Dim][Dim];

@@ -3,15 +3,14 @@
 //
 //   f_i = T sum_a A_a N_i(x_a),
 //
-// the sum over the face's corners: N_i is replaced by what is linear along the edges between corners, as CPDI does, and
-// the parts A_a of the face's area are the integrals of those linear functions. In axisymmetry a face is a ring and the
+// the sum over the face's corners: N_i is replaced by its linear interpolation along the edges, as in CPDI, and the
+// parts A_a of the face's area are the integrals of those linear functions. In axisymmetry a face is a ring and the
 // integrand has a factor 2 pi r, so the outer corner of an edge has the larger part.
 //
-// Weak: the sum is the integral over the true hat functions only where the face crosses no grid line; sums over nodes
-// are right always (the force is T times the area). The area is that of the domain it is asked for: a box that keeps
-// its size makes the traction a force per area at the start.
-// Source: Nairn & Guilkey (2015) eq. (40)-(55), checklist; method reference 4.1 to 4.4 (solid faces and loads that
-// follow are derived there). Per radian there, the whole ring here.
+// Weak: the sum equals the integral over the true hat functions only where the face crosses no grid line; the total
+// force is always T times the area. The area is that of the domain passed in: with a box that keeps its size the
+// traction is a force per initial area. Source: Nairn & Guilkey (2015) eq. (40)-(55), checklist; method reference 4.1
+// to 4.4 (solid faces and following loads are derived there). Their forces are per radian, these for the whole ring.
 #pragma once
 
 #include <array>
@@ -21,13 +20,13 @@
 
 namespace mpm {
 
-/// A particle's domain where it lies, in grid axes: the places centre + s_0 d_0 + s_1 d_1 + … with s_k in [-1, 1]. Half
-/// vectors as in shape/particle_domain.hpp.
+/// A particle's domain at its position, in grid axes: the points centre + s_0 d_0 + s_1 d_1 + ... with s_k in [-1, 1].
+/// Half vectors as in shape/particle_domain.hpp.
 struct PlacedDomain {
   using Vector = std::array<double, 3>;
   int dim = 0;
   Vector center{};            ///< [m]
-  std::array<Vector, 3> d{};  ///< half vectors, of which the first `dim` have a meaning [m]
+  std::array<Vector, 3> d{};  ///< half vectors; the first `dim` are used [m]
 };
 
 /// The face at one end of a half vector. The papers' edges 1, 2, 3, 4 are z_min, x_max, z_max, x_min.
@@ -37,18 +36,18 @@ struct DomainFace {
   double side() const { return upper ? 1.0 : -1.0; }
 };
 
-/// What a traction needs to know of a face.
+/// Geometry of a face, as a traction uses it.
 struct FaceParts {
   struct Corner {
     PlacedDomain::Vector at{};  ///< [m]
-    double area = 0.0;          ///< its part of the face's [m^2]
+    double area = 0.0;          ///< its part A_a of the face's area [m^2]
   };
   int corners = 0;
-  std::array<Corner, 4> corner;    ///< the half vector of the lowest axis changes its side first
+  std::array<Corner, 4> corner;    ///< in the order in which the side along the lowest axis changes fastest
   double area = 0.0;               ///< of the whole face [m^2]
   PlacedDomain::Vector middle{};   ///< [m]
   PlacedDomain::Vector outward{};  ///< unit normal
-  /// Unit vectors along the half vectors that span it, in the order of axes: none in a line, one in a plane.
+  /// Unit vectors along the half vectors that span the face, in the order of axes: none in a line, one in a plane.
   std::array<PlacedDomain::Vector, 2> along{};
 };
 
@@ -68,8 +67,8 @@ inline Vector unit(const Vector& v, double sign = 1.0) {
 
 }  // namespace traction
 
-/// Corners, area and directions of a face. `across`: what a particle has beyond the grid's axes, thickness [m] of a
-/// plane, area [m^2] of a line; without meaning in axisymmetry (whole rings) and in a solid.
+/// Corners, area and directions of a face. `across`: the particle's extent beyond the grid's axes, that is thickness
+/// [m] in a plane or area [m^2] in a line; not used in axisymmetry (whole rings) and in a solid.
 inline FaceParts face_parts(GeometryKind geometry, const PlacedDomain& domain, DomainFace face, double across) {
   using traction::Vector;
   const double side = face.side();
@@ -82,7 +81,7 @@ inline FaceParts face_parts(GeometryKind geometry, const PlacedDomain& domain, D
     parts.outward[0] = side;
     return parts;
   }
-  const int a = face.axis == 0 ? 1 : 0, b = 3 - face.axis - a;  // the half vectors that span the face; b in a solid
+  const int a = face.axis == 0 ? 1 : 0, b = 3 - face.axis - a;  // half vectors that span the face; b in a solid
   const Vector &da = domain.d[a], &db = domain.d[b];
   parts.along[0] = traction::unit(da);
   if (domain.dim == 2) {
@@ -114,14 +113,15 @@ inline FaceParts face_parts(GeometryKind geometry, const PlacedDomain& domain, D
   return parts;
 }
 
-/// A box in axisymmetry, cut off at r = 0 (Nairn & Guilkey (2015), after eq. (48)).
+/// Cuts a box in axisymmetry off at r = 0 (Nairn & Guilkey (2015), after eq. (48)).
 inline void truncate_at_axis(PlacedDomain& box) {
   double &r = box.center[0], &half = box.d[0][0];
   if (r < half) r = half = 0.5 * (r + half);
 }
 
-/// A deformed domain in axisymmetry, made smaller as a whole until no corner is at r < 0 (method reference 3.4 with
-/// erratum 14: by |d_1r| + |d_2r|). `along_radius`: of a box that stretches (ugimp_stretch), along the radius alone.
+/// Shrinks a deformed domain in axisymmetry as a whole until no corner is at r < 0 (method reference 3.4 with erratum
+/// 14: by |d_1r| + |d_2r|). `along_radius`: shrinks along the radius alone, as a box that stretches needs
+/// (ugimp_stretch).
 inline void shrink_to_axis(PlacedDomain& domain, bool along_radius = false) {
   const double reach = std::abs(domain.d[0][0]) + std::abs(domain.d[1][0]), r = domain.center[0];
   if (r >= reach) return;

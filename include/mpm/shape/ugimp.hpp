@@ -1,5 +1,5 @@
-// uGIMP: hat functions averaged over a box that moves with the particle and keeps its size. C1 within a step's
-// reach, no cell-crossing noise. Weak at large strain: the boxes overlap or gap, and convergence stalls.
+// uGIMP: hat functions averaged over a box that moves with the particle and keeps its size. C1 within a step's reach,
+// so without cell-crossing noise. Weak at large strain: the boxes overlap or leave gaps, and convergence stalls.
 // Source: Nairn, GIMP notes (4.9)-(4.12); Nairn & Guilkey (2015) (68), (69); branch-free form of method reference 2.1.
 //
 // Along one axis a box of half-width w <= 1/2 cell touches the particle's nearest node and its two neighbours.
@@ -13,24 +13,24 @@ namespace mpm {
 template <class T>
 struct Ugimp {
   static constexpr int kNodes = 3;              ///< along an axis
-  static constexpr bool kStretches = false;     ///< a particle has a half-width of its own
-  static constexpr bool kFoldsAtWalls = false;  ///< has fold(), which leaves no weight beyond the walls of the domain
-  static constexpr bool kAxisymmetric = false;  ///< has radial(), what it is along a radius (shape/axisymmetric.hpp)
+  static constexpr bool kStretches = false;     ///< whether each particle has a half-width of its own
+  static constexpr bool kFoldsAtWalls = false;  ///< has fold(), which removes weight beyond walls
+  static constexpr bool kAxisymmetric = false;  ///< has radial(), the function along a radius (shape/axisymmetric.hpp)
 
   /// What all particles of a body have in common along one axis.
   struct Axis {
     T half, scale, slope;
     /// `half`: w, half the box in cells, (0, 1/2]; `inverse_cell` [1/m].
     Axis(double w, double inverse_cell) : half(w), scale(1.0 / (4.0 * w)), slope(inverse_cell / (2.0 * w)) {}
-    /// Where particles differ: w, 1/(4 w), and 1/(2 w) of the inverse cell [1/m].
+    /// Where half-widths differ between particles: w, 1/(4 w), and inverse_cell/(2 w) [1/m].
     Axis(T w, T quarter_over_w, T per_box) : half(w), scale(quarter_over_w), slope(per_box) {}
   };
 
   T s[3];  ///< shape function, sums to 1
   T g[3];  ///< gradient [1/m], sums to 0
 
-  /// `offset`: particle minus its nearest node, in cells, in [-1/2, 1/2]. Inline always: a call would take its
-  /// registers through memory, a tenth of a step in a plane.
+  /// `offset`: particle minus its nearest node, in cells, in [-1/2, 1/2]. Always inline: a call would pass its
+  /// registers through memory, which costs a tenth of a step in a plane.
   [[gnu::always_inline]] Ugimp(T offset, const Axis& axis) {
     const T a = max(offset + axis.half, T(0)), b = max(offset - axis.half, T(0));
     const T c = min(offset - axis.half, T(0)), d = min(offset + axis.half, T(0));

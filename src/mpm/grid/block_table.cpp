@@ -13,7 +13,7 @@ int BlockTable::find(std::uint64_t key) const {
 void BlockTable::widen(std::uint64_t stride) {
   wider_.clear();
   const std::size_t n = keys_.size();
-  std::size_t above = 0, here = 0, below = 0;  // next of key + stride, key, key - stride
+  std::size_t above = 0, here = 0, below = 0;  // next entry of the lists key + stride, key, key - stride
   while (above < n) {
     std::uint64_t least = keys_[above] + stride;
     if (here < n) least = std::min(least, keys_[here]);
@@ -45,7 +45,7 @@ void BlockTable::go_around() {
   keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
 }
 
-// Where axes are periodic, neighbours are in no order.
+// With periodic axes the neighbours are in no order, so each is looked up.
 void BlockTable::find_neighbours_around(const std::vector<std::uint64_t>& owner_keys, std::size_t begin,
                                         std::size_t end) {
   for (std::size_t o = begin; o < end; ++o) {

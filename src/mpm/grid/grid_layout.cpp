@@ -23,7 +23,8 @@ GridLayout::GridLayout(int dim, const Vec3& cell, const Vec3& min, const Vec3& m
     inverse_cell_[k] = 1.0 / cell[a];
     origin_[k] = min[a];
     last_node_[k] = static_cast<int>(std::ceil(cells - 1e-9));
-    // One block more on each side: the halo of a particle on the border, which may be nearest to one node more.
+    // One block more on each side, for the halo of a particle on the border, whose nearest node may be one node
+    // outside.
     blocks_[k] = (last_node_[k] + 1) / kBlockEdge + 3;
     stride_[k] = stride;
     if (stride > std::numeric_limits<std::int64_t>::max() / (64 * static_cast<std::int64_t>(blocks_[k]))) {

@@ -30,7 +30,7 @@ const char* variables(FunctionPlaces places) {
              : "an expression may use t, x, y, z, X, Y, Z, pi, e and functions such as sin(...)";
 }
 
-// What people write by habit from other programs, and what it is called here.
+// Names that people are used to from other programs, and their equivalents here.
 std::string hint(const std::string& token, FunctionPlaces places) {
   static constexpr std::array<std::array<const char*, 2>, 8> kHabits = {{{"time", "t"},
                                                                          {"T", "t"},

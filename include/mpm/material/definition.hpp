@@ -1,4 +1,5 @@
-// What a scene says of a material: density and a law with its constants, SI. Checked when a law is made from it.
+// The definition of a material in a scene: density and a law with its constants, in SI. The constants are checked when
+// a law is made from it.
 #pragma once
 
 #include <string>
@@ -8,13 +9,13 @@
 
 namespace mpm {
 
-/// Impossible constants.
+/// Thrown for constants outside their range.
 class MaterialError : public Error {
  public:
   using Error::Error;
 };
 
-/// Isotropic elasticity by Young's modulus [Pa] > 0 and Poisson's ratio in (-1, 0.5).
+/// Isotropic elasticity: Young's modulus [Pa] > 0 and Poisson's ratio in (-1, 0.5).
 struct Elasticity {
   double young = 0.0;
   double poisson = 0.0;
@@ -22,17 +23,16 @@ struct Elasticity {
   double shear() const { return young / (2.0 * (1.0 + poisson)); }
 };
 
-/// Hypoelastic: objective (Jaumann) rate of Cauchy stress.
+/// Linear hypoelasticity: the objective (Jaumann) rate of Cauchy stress.
 struct LinearElasticDefinition {
   Elasticity elasticity;
 };
 
-/// Nairn & Guilkey (2015) eq. (64).
 struct NeoHookeanDefinition {
   Elasticity elasticity;
 };
 
-/// Which Mohr-Coulomb state the cone passes through.
+/// The Mohr-Coulomb state through which the cone passes.
 enum class ConeMatch { compression, extension, plane_strain };
 
 /// Drucker-Prager soil; angles in radians.
@@ -54,24 +54,25 @@ struct MohrCoulombDefinition {
   double tension_cutoff = -1.0;  ///< largest principal tension [Pa]; negative: the apex
 };
 
-/// Metal with isotropic hardening: yield + H a + (saturation - yield) (1 - exp(-rate a)) at plastic strain a.
+/// Metal with isotropic hardening: flow stress yield + H a + (saturation - yield) (1 - exp(-rate a)) at plastic strain
+/// a.
 struct J2PlasticityDefinition {
   Elasticity elasticity;
   double yield_stress = 0.0;       ///< Mises stress at first yield [Pa], > 0
   double hardening_modulus = 0.0;  ///< H [Pa], >= 0
-  double saturation_stress = 0.0;  ///< [Pa], >= yield_stress; of no effect when saturation_rate is 0
+  double saturation_stress = 0.0;  ///< [Pa], >= yield_stress; unused when saturation_rate is 0
   double saturation_rate = 0.0;    ///< [-], >= 0
 };
 
-/// Pressure of a solid under shock, by the shock's speed C0 + S u_p at the particle speed u_p.
+/// Pressure of a solid under shock, from the shock speed C0 + S u_p at particle speed u_p.
 struct MieGrueneisenDefinition {
   double sound_speed = 0.0;     ///< C0 [m/s], > 0
   double hugoniot_slope = 0.0;  ///< S, >= 0
   double gamma0 = 0.0;          ///< Grueneisen's constant at rho0, > 0
 };
 
-/// Metal under impact: (A + B a^n) (1 + C ln(rate/reference_rate)) (1 - T*^m) at plastic strain a, with
-/// T* = (T - reference_temperature) / (melting_temperature - reference_temperature).
+/// Metal under impact: flow stress (A + B a^n) (1 + C ln(rate/reference_rate)) (1 - T*^m) at plastic strain a, with T*
+/// = (T - reference_temperature) / (melting_temperature - reference_temperature).
 struct JohnsonCookDefinition {
   double shear_modulus = 0.0;  ///< [Pa], > 0
   MieGrueneisenDefinition pressure;
@@ -79,15 +80,15 @@ struct JohnsonCookDefinition {
   double hardening = 0.0;                ///< B [Pa], >= 0
   double hardening_exponent = 1.0;       ///< n, in (0, 1]
   double rate_sensitivity = 0.0;         ///< C, >= 0
-  double reference_rate = 1.0;           ///< [1/s], > 0; slower flow has the strength of this rate
+  double reference_rate = 1.0;           ///< [1/s], > 0; slower flow has the strength at this rate
   double softening_exponent = 1.0;       ///< m, > 0
-  double melting_temperature = 0.0;      ///< [K], > reference_temperature, or 0: neither softens nor melts
-  double reference_temperature = 293.0;  ///< [K], > 0; that of the start, unless a body says otherwise
+  double melting_temperature = 0.0;      ///< [K], > reference_temperature, or 0 for no softening and no melting
+  double reference_temperature = 293.0;  ///< [K], > 0; initial temperature unless a body has its own
   double heat_capacity = 0.0;            ///< c_v [J/(kg K)], > 0
-  double heat_fraction = 0.9;            ///< of the plastic work that becomes heat, in [0, 1]
+  double heat_fraction = 0.9;            ///< part of the plastic work that becomes heat, in [0, 1]
 };
 
-/// Tait's equation p = K/n (J^-n - 1) and Newtonian viscosity.
+/// Fluid with Tait's equation p = K/n (J^-n - 1) and Newtonian viscosity.
 struct NewtonianFluidDefinition {
   double bulk_modulus = 0.0;  ///< K [Pa], > 0
   double exponent = 7.0;      ///< n, >= 1
@@ -97,16 +98,16 @@ struct NewtonianFluidDefinition {
 
 enum class GasProcess { adiabatic, isothermal };
 
-/// p = p0 (T/T0) / J.
+/// Ideal gas: p = p0 (T/T0) / J.
 struct IdealGasDefinition {
   double pressure = 0.0;             ///< p0, at the material's density and T0 [Pa], > 0
   double temperature = 0.0;          ///< T0, absolute [K], > 0
   double heat_capacity_ratio = 1.4;  ///< > 1
   GasProcess process = GasProcess::adiabatic;
-  double ambient = 0.0;  ///< pressure of what is around and is not modelled [Pa], >= 0: stress counts from it
+  double ambient = 0.0;  ///< pressure of the surroundings, which stress is relative to [Pa], >= 0
 };
 
-/// Neo-Hookean solid of the long-term constants and a Maxwell branch beside it.
+/// Neo-Hookean solid with the long-term constants, parallel to a Maxwell branch.
 struct StandardLinearSolidDefinition {
   Elasticity elasticity;         ///< long-term
   double branch_modulus = 0.0;   ///< shear modulus of the branch's spring [Pa], > 0
@@ -123,9 +124,9 @@ struct MaterialDefinition {
   LawDefinition law;
 };
 
-/// @throws MaterialError naming the constant, its value and the range.
+/// Checks all constants. @throws MaterialError naming the constant, its value and its range.
 void check(const MaterialDefinition& material);
-/// "neo_hookean" and so on, as scenes spell it.
+/// The law's name in scenes, such as "neo_hookean".
 std::string law_name(const LawDefinition& law);
 
 }  // namespace mpm

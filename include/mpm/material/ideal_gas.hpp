@@ -1,11 +1,11 @@
 // Ideal gas without viscosity: p = p0 (T/T0) / J, with p0 the pressure at the material's density and T0. Adiabatic: the
-// temperature follows T = T_old (J_old/J)^(g-1) exactly, so p J^g stays what it was whatever the steps; isothermal: T
-// is kept. Only J of the deformation gradient is kept. Stress is the pressure above an ambient one that acts from
-// outside and is not modelled; without it the gas is under its whole pressure from the start, and flies apart where
-// nothing holds it. Weak: pressure acts on every unevenness of the particles' places and does work there that volume
-// does not know of. Sound in a closed box is stable with the ambient pressure taken off and grows without end with it
-// left on; gas that a piston presses strongly becomes unstable in either case. No heat conduction, and no dissipation
-// in a shock: the method's own alone gives it its entropy. Energy counts from the start at T0. Source: method
+// temperature follows T = T_old (J_old/J)^(g-1) exactly, so p J^g is constant for any steps. Isothermal: T is constant.
+// Of the deformation gradient only J is stored. Stress is the pressure above an ambient one that acts from outside and
+// is not modelled; without it the gas is under its whole pressure from the start and flies apart where nothing holds
+// it. Weak: pressure acts on every unevenness of the particles' positions and does work there that the energy, a
+// function of volume, does not include. Sound in a closed box is stable with the ambient pressure subtracted and grows
+// without end otherwise; gas that a piston compresses strongly becomes unstable in either case. No heat conduction, and
+// no dissipation in a shock beyond that of the method itself. Energy is relative to the start at T0. Source: method
 // reference 10.8.
 #pragma once
 
@@ -42,8 +42,8 @@ class IdealGas : public LawTraits {
     tau = Symmetric::isotropic(T(specific_ambient_) * step.j - pressure);
   }
 
-  /// Adiabatic: internal energy c_v (T - T0). Isothermal: free energy, -(p J / rho0) ln J. Of both, what the ambient
-  /// pressure took up.
+  /// Adiabatic: internal energy c_v (T - T0). Isothermal: free energy, -(p J / rho0) ln J. In both, minus the work done
+  /// against the ambient pressure.
   template <class Matrix, class Symmetric>
   double elastic_energy(const Matrix&, const Symmetric& tau, double j) const {
     const double pressure = whole_pressure(tau, j);

@@ -1,11 +1,11 @@
-// One increment of deformation as a law sees it, and what a law has unless it says otherwise.
+// One increment of deformation, the input of a law, and the defaults of what a law declares.
 #pragma once
 
 #include "mpm/math/tensor.hpp"
 
 namespace mpm {
 
-/// From the state at its start to the one at its end. References live as long as the call.
+/// Deformation from the start to the end of an increment. The references are valid during the call only.
 template <class T, class Matrix>
 struct Increment {
   const Matrix& du;  ///< grad v dt
@@ -16,23 +16,25 @@ struct Increment {
   T dt;              ///< [s]
 };
 
-/// Defaults of the constants and functions that law.hpp asks for; a law derives from this and hides what it has.
+/// Defaults of the constants and functions that law.hpp asks for; a law derives from this and hides those that it
+/// defines itself.
 struct LawTraits {
-  static constexpr int kHistory = 0;         ///< scalars of history a particle, all zero at the start
-  static constexpr int kPlasticStrain = -1;  ///< which of them is the equivalent plastic strain [-]
-  static constexpr int kPlasticWork = -1;    ///< which of them is the dissipated work [J/kg]
-  static constexpr int kTemperature = -1;    ///< which of them is the temperature less the reference one [K]
-  /// Whether only J of the deformation gradient matters, so that it is kept as a pure change of volume: a fluid shears
-  /// without end, and det F of what it has gone through would be a small difference of large numbers.
+  static constexpr int kHistory = 0;         ///< number of history scalars per particle, all zero at the start
+  static constexpr int kPlasticStrain = -1;  ///< index of the equivalent plastic strain [-], or -1
+  static constexpr int kPlasticWork = -1;    ///< index of the dissipated work [J/kg], or -1
+  static constexpr int kTemperature = -1;    ///< index of temperature minus reference temperature [K], or -1
+  /// Whether only J of the deformation gradient matters, so that it is stored as a pure change of volume. A fluid
+  /// shears without end, and det F of its whole deformation would be a small difference of large numbers.
   static constexpr bool kForgetsShape = false;
-  /// Largest kinematic viscosity for any motion, of the present J [m^2/s].
+  /// Largest kinematic viscosity for any motion at the present J [m^2/s].
   template <class T>
   T diffusivity(T) const {
     return T(0);
   }
-  /// Part of the dissipated work that elastic_energy() holds too, as heat: what is stored is elastic_energy() less it.
+  /// The part of the dissipated work that elastic_energy() includes, as heat; the stored energy is elastic_energy()
+  /// minus this part.
   double heat_fraction() const { return 0.0; }
-  /// Temperature that history counts from [K].
+  /// Temperature to which the temperature in history is relative [K].
   double reference_temperature() const { return 0.0; }
 };
 

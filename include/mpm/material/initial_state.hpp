@@ -1,5 +1,5 @@
-// The state that a particle starts in when it is to start under a stress or at a temperature. The same Cauchy stress
-// means the same in every law; what differs is what the law keeps it in:
+// The initial state of a particle that is to start under a stress or at a temperature. The same Cauchy stress means the
+// same in every law; laws differ in the variables from which they compute it:
 //
 //   the stress itself    linear_elastic, drucker_prager, mohr_coulomb: F = I
 //   J and the stress     j2_plasticity, johnson_cook: pressure by a change of volume along the axes that can strain,
@@ -8,11 +8,12 @@
 //   F                    neo_hookean, viscoelastic: F is the pure stretch that has this stress, found in principal
 //                        axes by Newton's method. In plane strain F_yy = 1, so yy follows from the rest.
 //
-// In a line F_yy = F_zz = 1 and the stress has one free component, xx; in plane stress yy is zero and F_yy is found as
-// the rest of F is, where a law keeps it in F.
+// In a line F_yy = F_zz = 1 and the stress has one free component, xx. In plane stress yy is zero, and laws that
+// compute stress from F find F_yy like the rest of F.
 //
-// Found from the laws themselves, by a step without motion that lasts for ever: what relaxes has relaxed, what flows
-// has come to rest. A stress that such a step changes cannot be carried, above all one outside a yield surface.
+// States are found from the laws themselves, by a step of unlimited duration without motion: stress has then relaxed,
+// and flow has come to rest. A stress that changes in such a step cannot be carried, above all one outside a yield
+// surface.
 #pragma once
 
 #include <optional>
@@ -24,7 +25,7 @@
 
 namespace mpm {
 
-/// A state that a material cannot start in; what() has no place, which the caller knows.
+/// Thrown for a state that a material cannot start in; what() does not name the place, which the caller knows.
 class InitialStateError : public Error {
  public:
   using Error::Error;
@@ -33,15 +34,15 @@ class InitialStateError : public Error {
 struct InitialState {
   Matrix3<double> f = Matrix3<double>::identity();
   Symmetric3<double> tau{};         ///< Kirchhoff stress over initial density [J/kg]
-  double temperature_excess = 0.0;  ///< over the law's reference temperature [K]
+  double temperature_excess = 0.0;  ///< temperature minus the law's reference temperature [K]
   double j() const { return determinant(f); }
 };
 
-/// What a particle is asked to start in.
+/// The state that is required of a particle at the start.
 struct InitialRequest {
   std::optional<Symmetric3<double>> cauchy;  ///< [Pa], tension positive
-  bool yy_follows = false;                   ///< plane strain: cauchy.yy is what it makes it; always so in a line
-  std::optional<double> temperature;         ///< [K]
+  bool yy_follows = false;  ///< plane strain: yy follows from the rest, cauchy.yy is ignored; always so in a line
+  std::optional<double> temperature;  ///< [K]
 };
 
 class InitialStates {
@@ -49,19 +50,19 @@ class InitialStates {
   /// @throws MaterialError
   InitialStates(const MaterialDefinition& material, GeometryKind geometry);
 
-  /// @throws InitialStateError
+  /// The state that meets the request. @throws InitialStateError
   InitialState find(const InitialRequest& request) const;
-  /// Whether a stress can be carried.
+  /// Whether the material can carry the stress at rest.
   bool carries(const Symmetric3<double>& cauchy) const;
-  /// Which scalar of history is the temperature less the reference one, or -1.
+  /// Index in history of temperature minus reference temperature, or -1.
   int temperature_index() const;
-  /// Whether yy is not free in plane strain: it follows from the other components.
+  /// Whether the geometry is plane strain and yy follows from the other components.
   bool yy_is_bound() const;
 
  private:
   InitialState volume_for(const Symmetric3<double>& cauchy, double excess) const;
   InitialState stretch_for(const Symmetric3<double>& cauchy, bool yy_follows) const;
-  /// tau of a state that has been held for ever.
+  /// tau of a state after unlimited time at rest.
   Symmetric3<double> held(const InitialState& state) const;
   Symmetric3<double> cauchy_of(const InitialState& state) const;
   [[noreturn]] void refuse(const std::string& why) const;
@@ -69,12 +70,12 @@ class InitialStates {
   MaterialDefinition material_;
   Law law_;
   GeometryKind geometry_;
-  double least_ = 0.0;  ///< stress that is round-off of the stiffness [Pa]
+  double least_ = 0.0;  ///< stress at the round-off of the stiffness [Pa]
 };
 
 /// Ratio of horizontal to vertical stress at rest: 1 - sin(phi) for soils (Jaky 1944), nu / (1 - nu) for elastic
-/// solids, 1 for fluids and for johnson_cook, which has no Poisson's ratio. Nothing for a gas, which is not held by its
-/// weight.
+/// solids, 1 for fluids and for johnson_cook, which has no Poisson's ratio. No value for a gas, whose pressure at rest
+/// does not come from its weight.
 std::optional<double> pressure_at_rest(const LawDefinition& law);
 
 }  // namespace mpm

@@ -1,20 +1,19 @@
 // Metal: J2 (von Mises) plasticity with isotropic hardening at finite strain. The isochoric elastic left Cauchy-Green
 // tensor b gives s = dev tau = G dev b; trial state by the increment, radial return of s to the Mises stress
 //   sigma_y(a) = yield + H a + (saturation - yield) (1 - exp(-rate a))        (linear and Voce hardening).
-// Pressure is that of neo_hookean.hpp, so below yield the law is that one.
-// Source: Simo & Hughes, Computational Inelasticity, box 9.1.
+// Pressure is that of neo_hookean.hpp, and below yield so is the whole law. Source: Simo & Hughes, Computational
+// Inelasticity, box 9.1.
 //
-// Why not logarithmic strain: this needs no principal directions, is exactly hyperelastic, so that closed elastic
-// cycles leave nothing behind, and its b comes back from the stress, so that a particle stores no strain beside it.
+// Logarithmic strain is not used because this form needs no principal directions; it is exactly hyperelastic, so that
+// closed elastic cycles leave no stress behind; and b follows from the stress, so that a particle stores no strain.
 //
-// Two things differ from box 9.1. tr b is what det b = 1 asks for (isochoric.hpp), where the box keeps that of the
-// trial state, which grows without end under plastic flow. And the return's modulus is such that plastic strain times
-// Mises stress is the elastic energy that flow releases (return_modulus()); for small elastic strain it is three
-// times the box's G I1 / 3.
+// Two things differ from box 9.1. tr b follows from det b = 1 (isochoric.hpp), where the box keeps that of the trial
+// state, which grows without end under plastic flow. And the modulus of the return is such that plastic strain times
+// Mises stress is the elastic energy released by flow (return_modulus()); for small elastic strain it is three times
+// the box's G I1 / 3.
 //
-// Plastic work closes the energy balance to second order in the step while elastic strain is small.
-// Weak: yields on Kirchhoff stress (Cauchy stress at yield is sigma_y / J); no rate or temperature, no kinematic
-// hardening.
+// Plastic work closes the energy balance to second order in the step while elastic strain is small. Weak: it yields on
+// Kirchhoff stress (Cauchy stress at yield is sigma_y / J); no rate or temperature, no kinematic hardening.
 #pragma once
 
 #include <cmath>
@@ -47,7 +46,7 @@ class J2Plasticity : public LawTraits {
     const Symmetric before = elastic_deviator<T>(tau);
     Symmetric deviator = stretch_isochoric(step.df, step.j / step.j_old, before, isochoric_excess(before));
     const T j2 = T(0.5) * squared_norm(deviator);
-    // Voce's part, an exponential, is left for where there is more stress than it could take from the strength.
+    // The exponential of Voce's part is evaluated only where the stress exceeds the strength without it.
     const T least = T(yield_) + T(hardening_) * history[kPlasticStrain];
     if (any(T(3.0 * shear_ * shear_) * j2 > least * least)) flow(j2, deviator, history);
     tau = scale_shift(deviator, T(shear_ / density_), T(0.5 * bulk_ / density_) * (step.j * step.j - T(1)));
@@ -59,7 +58,7 @@ class J2Plasticity : public LawTraits {
     return (NeoHookean::volume_energy(j, bulk_) + 1.5 * shear_ * excess) / density_;
   }
 
-  /// Of the elastic response; plastic flow is slower.
+  /// Wave speed of the elastic response; plastic flow is slower.
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
     const Symmetric deviator = elastic_deviator<T>(tau);
@@ -76,7 +75,7 @@ class J2Plasticity : public LawTraits {
     return scale_shift(tau, scale, T(-1.0 / 3.0) * scale * trace(tau));
   }
 
-  /// Returns the deviator to the Mises stress in the lanes where it is beyond it.
+  /// Returns the deviator to the yield stress in the lanes where its Mises stress is larger.
   template <class T, class Symmetric>
   void flow(T j2, Symmetric& deviator, T* history) const {
     const T shear = T(shear_);
@@ -92,27 +91,27 @@ class J2Plasticity : public LawTraits {
     const T after = mises - modulus * plastic;
     deviator = scale_shift(deviator, select(flows, after / mises, T(1)), T(0));
     strain += plastic;
-    // What the return released, less what of it the trial took too much to get there: to second order in the step the
-    // mean Mises stress of the step times its plastic strain.
+    // The energy released by the return, minus the surplus that the trial step took up to get there: to second order in
+    // the step, the mean Mises stress of the step times its plastic strain.
     const T released = T(1.5) * shear * (excess - isochoric_excess(deviator));
     const T work = T(1.0 / density_) * (released - T(0.5) * (mises - before) * plastic);
     history[kPlasticWork] += select(flows, work, T(0));
   }
 
-  /// What Voce's part still lacks of its saturation [Pa].
+  /// The remaining distance of Voce's part from saturation [Pa].
   template <class T>
   T voce_part(T strain) const {
     return voce_ > 0.0 ? T(voce_) * exp(T(-rate_) * strain) : T(0);
   }
-  /// sigma_y [Pa], `lacks` being voce_part().
+  /// sigma_y [Pa]; `lacks` is voce_part().
   template <class T>
   T strength(T strain, T lacks) const {
     return T(yield_) + T(hardening_) * strain + (T(voce_) - lacks);
   }
 
-  /// Root of mises - modulus x = sigma_y(strain + x) where `flows`, elsewhere 0; `before`: sigma_y(strain). The left
-  /// side less the right one falls and is convex, so Newton's method comes to it from below; one step without Voce's
-  /// part.
+  /// Root x of mises - modulus x = sigma_y(strain + x) where `flows` holds, 0 elsewhere; `before`: sigma_y(strain). The
+  /// left side minus the right one decreases and is convex, so Newton's method approaches the root from below; without
+  /// Voce's part one step suffices.
   template <class T, class Mask>
   T plastic_increment(const Mask& flows, T mises, T before, T modulus, T strain) const {
     const T least_slope = modulus + T(hardening_);
@@ -133,7 +132,7 @@ class J2Plasticity : public LawTraits {
 
   double density_, bulk_, shear_;
   double yield_, hardening_;
-  double voce_;  ///< saturation less yield [Pa]
+  double voce_;  ///< saturation minus yield stress [Pa]
   double rate_;
 };
 

@@ -1,24 +1,24 @@
-// Metal under impact: pressure by Mie-Grueneisen (mie_grueneisen.hpp), deviator elastic-plastic with the Johnson-Cook
-// flow stress, which bounds the Mises value of Cauchy stress:
+// Metal under impact: pressure by Mie-Grueneisen (mie_grueneisen.hpp), and an elastic-plastic deviator with the
+// Johnson-Cook flow stress, which limits the Mises value of Cauchy stress:
 //
 //   sigma_y = (A + B a^n) (1 + C ln(a'/a0')) (1 - T*^m),   T* = (T - T_r) / (T_m - T_r) from 0 to 1
 //
-// with plastic strain a, its rate a' (the logarithm is not below 0) and temperature T. At T_m there is no strength.
+// with plastic strain a, its rate a' (the logarithm is at least 0) and temperature T. At T_m there is no strength.
 //
 // The deviator is that of j2_plasticity.hpp: dev tau = G dev b with the isochoric elastic left Cauchy-Green tensor b,
-// which comes back from the stress. No rate of stress has to be chosen, it turns with the material exactly, and is
-// right for the increments of 0.1 and more that a penetrating rod has. Flow is implicit in strain and rate; temperature
-// is that at its start.
+// which follows from the stress. No stress rate has to be chosen, rotation is exact, and increments of 0.1 and more, as
+// in a penetrating rod, are handled correctly. Flow is implicit in strain and rate; temperature is that at the start of
+// the flow.
 //
-// Adiabatic. The internal energy e of the pressure holds the work of pressure and the heat, heat_fraction of the
+// Adiabatic. The internal energy e of the pressure contains the work of pressure and the heat, heat_fraction of the
 // plastic work; not the elastic energy of the deviator, and not the rest of the plastic work, which stays in the
-// lattice. It counts from the start, where stress is zero whatever the temperature. Temperature follows the isentrope,
-// dT = -gamma0 T dJ, and rises by heat / c_v.
+// lattice. It is relative to the start, where stress is zero whatever the temperature. Temperature follows the
+// isentrope, dT = -gamma0 T dJ, and rises by heat / c_v.
 //
-// Weak: a shock gets the entropy that the method's own dissipation gives it, there is no artificial viscosity; so its
-// temperature is low. No spall or damage: only the grid lets material part. G does not soften with heat. Softening
-// localises in bands as wide as the particles are.
-// Source: Johnson & Cook (1983), 7th Int. Symp. Ballistics; method reference 10.3, 10.4.
+// Weak: without artificial viscosity a shock gets only the entropy of the method's own dissipation, so its temperature
+// is too low. No spall or damage: material parts only where the grid lets it. G does not soften with heat. Softening
+// localises in bands as wide as the particles. Source: Johnson & Cook (1983), 7th Int. Symp. Ballistics; method
+// reference 10.3, 10.4.
 #pragma once
 
 #include <cmath>
@@ -62,7 +62,7 @@ class JohnsonCook : public LawTraits {
     T temperature = (T(reference_) + history[kTemperature]) * equation_of_state_.isentropic_heating(step.j_old, step.j);
     const T j2 = T(0.5) * squared_norm(deviator);
     const T homologous = homologous_temperature(temperature);
-    // The exponents are left for where there is more stress than a strength without them: T*^m <= T* where m >= 1.
+    // Powers are evaluated only where the stress exceeds a bound of the strength without them: T*^m <= T* where m >= 1.
     const T least = T(yield_) * step.j * (T(1) - (softening_ < 1.0 ? T(1) : homologous));
     T heat = T(0);
     if (any(T(3.0 * shear_ * shear_) * j2 > least * least)) {
@@ -75,14 +75,14 @@ class JohnsonCook : public LawTraits {
     tau = scale_shift(deviator, T(shear_ / density_), T(-1.0 / density_) * step.j * pressure);
   }
 
-  /// e and the elastic energy of the deviator. Holds the heat of plastic work: see heat_fraction().
+  /// The sum of e and the elastic energy of the deviator. It includes the heat of plastic work; see heat_fraction().
   template <class Matrix, class Symmetric>
   double elastic_energy(const Matrix&, const Symmetric& tau, double j) const {
     const double excess = isochoric_excess(elastic_deviator<double>(tau));
     return equation_of_state_.energy(j, pressure_of(tau, j)) + 1.5 * shear_ / density_ * excess;
   }
 
-  /// Of the elastic response without flow of heat; plastic flow is slower.
+  /// Wave speed of the adiabatic elastic response; plastic flow is slower.
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
     const Symmetric deviator = elastic_deviator<T>(tau);
@@ -96,10 +96,10 @@ class JohnsonCook : public LawTraits {
   double reference_temperature() const { return reference_; }
 
  private:
-  /// Part of the strength at the reference rate above which a step's start counts as in flow. There the stress is the
-  /// last step's strength, from which heat and rate take it by a few parts in a hundred.
+  /// Part of the strength at the reference rate above which the material counts as flowing at the start of a step. Its
+  /// stress is then the strength of the last step, which heat and rate change by a few per cent.
   static constexpr double kFlowed = 0.9;
-  /// Plastic strain below which hardening does not begin: B a^n has no slope at 0.
+  /// Least plastic strain in B a^n, whose slope at 0 is infinite.
   static constexpr double kSmallest = 1e-30;
 
   template <class T, class Symmetric>
@@ -113,7 +113,7 @@ class JohnsonCook : public LawTraits {
     return T(-1.0 / 3.0 * density_) * trace(tau) / j;
   }
 
-  /// T*, 0 where nothing melts.
+  /// T*; 0 for a material that does not melt.
   template <class T>
   T homologous_temperature(T temperature) const {
     return max(min(T(range_) * (temperature - T(reference_)), T(1)), T(0));
@@ -129,20 +129,21 @@ class JohnsonCook : public LawTraits {
   T hardening(T strain) const {
     return hardening_ > 0.0 ? T(hardening_) * pow(max(strain, T(kSmallest)), T(exponent_)) : T(0);
   }
-  /// 1 + C ln(a'/a0') with a step's plastic strain for a', and the one at the reference rate, `slow`, for a0'.
+  /// 1 + C ln(a'/a0'), with the plastic strain of a step, `plastic`, for a', and that of a step at the reference rate,
+  /// `slow`, for a0'.
   template <class T>
   T rate_factor(T plastic, T slow) const {
     return rate_ > 0.0 ? T(1) + T(rate_) * log(max(plastic / slow, T(1))) : T(1);
   }
 
-  /// Returns the deviator to the flow stress in the lanes where it is beyond it. `start`: Mises value of tau at the
-  /// step's start [Pa]; `soft`: 1 - T*^m. Plastic work of the step [J/kg].
+  /// Returns the deviator to the flow stress in the lanes where it exceeds it. `start`: Mises value of tau at the start
+  /// of the step [Pa]; `soft`: 1 - T*^m. Returns the plastic work of the step [J/kg].
   template <class T, class Matrix, class Symmetric>
   T flow(const Increment<T, Matrix>& step, T start, T j2, T soft, Symmetric& deviator, T* history) const {
     T& strain = history[kPlasticStrain];
     const T mises = T(shear_) * sqrt(T(3) * j2);
     const T before = T(yield_) + hardening(strain);
-    // What is molten has no strength that could hide a deviator too small to be divided by.
+    // A molten material has no strength, so a deviator too small to divide by is excluded here.
     const auto flows = (mises > step.j * soft * before) & (j2 > T(kSmallest));
     if (!any(flows)) return T(0);
     const T j3 = determinant(deviator);
@@ -152,8 +153,9 @@ class JohnsonCook : public LawTraits {
     const T plastic = plastic_increment(flows, mises, step.j * soft, modulus, strain, slow);
     deviator = scale_shift(deviator, select(flows, T(1) - modulus * plastic / mises, T(1)), T(0));
     strain += plastic;
-    // What the return released, less what of it the trial took too much to get there: the mean Mises stress of the time
-    // of flow times plastic strain. Flow begins with the stress that was there if that flowed already, else with yield.
+    // The energy released by the return, minus the surplus that the trial step took up to get there: the mean Mises
+    // stress during flow times the plastic strain. Flow begins at the stress at the start if the material flowed
+    // already, else at yield.
     const T yield = step.j_old * soft * before;
     const T first = select(start > T(kFlowed) * yield, start, yield * rate_factor(plastic, slow));
     const T released = T(1.5 * shear_) * (excess - isochoric_excess(deviator));
@@ -162,10 +164,10 @@ class JohnsonCook : public LawTraits {
     return work;
   }
 
-  /// Root x of mises - modulus x = scale (A + B (strain + x)^n) (1 + C ln(x/slow)) where `flows`, elsewhere 0. The
-  /// right side rises and, on either side of x = slow, has its slope falling, so that Newton's method comes to the root
-  /// from below: from what the largest strength leaves, or from `slow` where the root is above it. For n > 1/2 a step
-  /// of a strain like 1 can overshoot: then the middle of the bracket is taken.
+  /// Root x of mises - modulus x = scale (A + B (strain + x)^n) (1 + C ln(x/slow)) where `flows` holds, 0 elsewhere.
+  /// The right side increases and, on either side of x = slow, its slope decreases, so Newton's method approaches the
+  /// root from below; it starts from the value that the largest strength gives, or from `slow` where the root is above
+  /// it. For n > 1/2 a step with a strain of about 1 can overshoot; the middle of the bracket is then taken.
   template <class T, class Mask>
   T plastic_increment(const Mask& flows, T mises, T scale, T modulus, T strain, T slow) const {
     constexpr int kSteps = 60;

@@ -1,6 +1,6 @@
-// Linear elasticity in rate form: Cauchy stress is turned by the rotation of the step (Hughes & Winget 1980) and gains
-// C : sym(grad v) dt. Weak at large elastic strain: hypoelasticity dissipates or creates energy around closed
-// paths, and simple shear follows G sin(gamma) (exact-solutions 4). Source: method reference 10.1.
+// Linear elasticity in rate form: Cauchy stress is rotated with the step (Hughes & Winget 1980) and increased by C :
+// sym(grad v) dt. Weak at large elastic strain: hypoelasticity dissipates or creates energy around closed paths, and
+// simple shear follows G sin(gamma) (exact-solutions 4). Source: method reference 10.1.
 #pragma once
 
 #include "mpm/material/definition.hpp"
@@ -19,12 +19,12 @@ class LinearElastic : public LawTraits {
   static Symmetric stress_rate_update(const Symmetric& cauchy, const Matrix& du, double bulk, double shear) {
     using T = decltype(trace(cauchy));
     const Symmetric strain = symmetric_part(du);
-    // Half of the increment before the rotation and half after it: second order in the step.
+    // Half of the increment is added before the rotation and half after it, which is second order in the step.
     const Symmetric half = scale_shift(strain, T(shear), T(0.5 * (bulk - 2.0 / 3.0 * shear)) * trace(strain));
     return sum(rotate(sum(cauchy, half), du), half);
   }
 
-  /// Law interface (see law.hpp): from specific Kirchhoff stress tau/rho0 to its new value.
+  /// Law interface (law.hpp): advances the specific Kirchhoff stress tau/rho0.
   template <class T, class Matrix, class Symmetric>
   void update(const Increment<T, Matrix>& step, Symmetric& tau, T*) const {
     const Symmetric cauchy = scale_shift(tau, T(density_) / step.j_old, T(0));
@@ -47,14 +47,14 @@ class LinearElastic : public LawTraits {
   T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
     return tangent_wave_speed(tau, j, bulk_, shear_, density_, T(0));
   }
-  /// Bound on the fastest small wave: longitudinal, to which the stress that is there adds nothing (Jaumann rate of
-  /// Cauchy stress), or transverse, G + (s1 - s3)/2 at most, with s1 - s3 <= sqrt(2) |dev s|.
-  /// `flow`: what more there is [Pa].
+  /// Upper bound of the speed of small waves [m/s]: longitudinal ones, which the present stress does not affect
+  /// (Jaumann rate of Cauchy stress), or transverse ones, with at most G + (s1 - s3)/2, where s1 - s3 <= sqrt(2) |dev
+  /// s|. `flow`: a further contribution to rho c^2 [Pa].
   template <class T, class Symmetric>
   static T tangent_wave_speed(const Symmetric& tau, T j, double bulk, double shear, double density, T flow) {
     const T deviator = sqrt(squared_norm(scale_shift(tau, T(1), T(-1.0 / 3.0) * trace(tau)))) * T(density) / j;
     const T along = T(bulk + 4.0 / 3.0 * shear), across = T(shear) + T(1.0 / kRoot2) * deviator;
-    // Not max(): what is not a number must not pass unnoticed.
+    // select() instead of max(), so that NaN is passed on.
     return sqrt((select(across <= along, along, across) + flow) * j * T(1.0 / density));
   }
   double density() const { return density_; }

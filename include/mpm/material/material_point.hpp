@@ -1,4 +1,4 @@
-// One piece of material on its own: a law driven along a path of strain, as a particle in the solver is.
+// A single piece of material, whose law is driven along a path of strain as for a particle in the solver.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,11 @@ namespace mpm {
 
 class MaterialPoint {
  public:
-  /// At rest, undeformed; under stress only where the law is so then, as a gas is. @throws MaterialError
+  /// Starts at rest and undeformed; without stress, except where the law has one then, as a gas does. @throws
+  /// MaterialError
   explicit MaterialPoint(const MaterialDefinition& material);
 
-  /// F = exp(grad v dt) F; `du` = grad v dt, held over `dt` [s].
+  /// Advances F = exp(du) F with `du` = grad v dt, where grad v is constant over `dt` [s].
   void advance(const Matrix3<double>& du, double dt);
 
   const Law& law() const { return law_; }
@@ -21,7 +22,7 @@ class MaterialPoint {
   double j() const { return determinant(f_); }
   const Symmetric3<double>& tau() const { return tau_; }  ///< Kirchhoff stress over initial density [J/kg]
   Symmetric3<double> cauchy() const;                      ///< [Pa]
-  /// Scalar of history, 0 for an index of -1.
+  /// The history scalar of this index; 0 for index -1.
   double history(int index) const { return index < 0 ? 0.0 : history_[index]; }
   double plastic_strain() const;  ///< [-]
   double plastic_work() const;    ///< [J/kg]

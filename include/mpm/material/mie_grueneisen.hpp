@@ -1,17 +1,18 @@
-// Pressure of a solid under shock: Mie-Grueneisen equation of state about a Hugoniot with the shock speed C0 + S u_p,
-// u_p the particle speed behind it. With eta = 1 - J and the specific internal energy e,
+// Pressure of a solid under shock: the Mie-Grueneisen equation of state about a Hugoniot with shock speed C0 + S u_p,
+// where u_p is the particle speed behind the shock. With eta = 1 - J and the specific internal energy e,
 //
 //   compression   p = rho0 C0^2 eta (1 - gamma0 eta/2) / (1 - S eta)^2 + gamma0 rho0 e
 //   tension       p = rho0 C0^2 eta + gamma0 rho0 e
 //
-// On the Hugoniot, e = p eta / (2 rho0), it is rho0 C0^2 eta / (1 - S eta)^2. gamma rho is constant: gamma0 rho0.
+// On the Hugoniot, where e = p eta / (2 rho0), the pressure is rho0 C0^2 eta / (1 - S eta)^2. gamma rho is constant,
+// gamma0 rho0.
 //
-// The formula has a pole at S eta = 1. Beyond S eta = kLargestCompression it goes on with the slope that it has there,
-// so that every J > 0 has a finite pressure and wave speed. Up to there the law is the published one: the Hugoniot up
-// to a particle speed of 4 C0/S, for steel 7 km/s and 1000 GPa.
+// The formula has a pole at S eta = 1. Beyond S eta = kLargestCompression it is continued with its slope there, so that
+// every J > 0 has a finite pressure and wave speed. Up to that point the law is the published one: the Hugoniot up to a
+// particle speed of 4 C0/S, for steel 7 km/s and 1000 GPa.
 //
-// Weak: tension has no end (no spall); no phase change but that gamma0 and S may be fits across one. Source: method
-// reference 10.3; Nairn & Guilkey (2015), Table I.
+// Weak: tension is unlimited (no spall); phase changes enter only where gamma0 and S are fitted across one. Source:
+// method reference 10.3; Nairn & Guilkey (2015), Table I.
 #pragma once
 
 #include <algorithm>
@@ -34,15 +35,15 @@ class MieGrueneisen {
         volume_(1.0 / density),
         largest_(d.hugoniot_slope > 0.0 ? std::min(kLargestCompression / d.hugoniot_slope, 1.0) : 1.0) {}
 
-  /// p [Pa] of J and specific internal energy [J/kg].
+  /// p [Pa] at J and specific internal energy [J/kg].
   template <class T>
   T pressure(T j, T energy) const {
     return cold_pressure(j) + T(coupling_) * energy;
   }
 
-  /// Takes `pressure` [Pa] and `energy` [J/kg] from `j_old` to `j` while `heat` [J/kg] comes in:
+  /// Advances `pressure` [Pa] and `energy` [J/kg] from `j_old` to `j` with added `heat` [J/kg]:
   ///   e = e_old - (p_old + p)/2 (J - J_old)/rho0 + heat.
-  /// p is linear in e, so both are found in closed form; second order in the change of J.
+  /// Since p is linear in e, both are found in closed form. Second order in the change of J.
   template <class T>
   void advance(T j_old, T j, T heat, T& pressure, T& energy) const {
     const T half = T(0.5) * (j - j_old);
@@ -51,24 +52,24 @@ class MieGrueneisen {
     energy = known - pressure * half * T(volume_);
   }
 
-  /// T over T_old of the change of volume without heat, T_old exp(gamma0 (J_old - J)).
+  /// T / T_old = exp(gamma0 (J_old - J)) of a change of volume without heat.
   template <class T>
   T isentropic_heating(T j_old, T j) const {
     return exp(T(gamma_) * (j_old - j));
   }
 
-  /// Adiabatic bulk modulus -J dp/dJ [Pa] at J under `pressure`. Not below 0: far in tension the isentrope falls again.
+  /// Adiabatic bulk modulus -J dp/dJ [Pa] at J under `pressure`. At least 0: far in tension the isentrope falls again.
   template <class T>
   T bulk(T j, T pressure) const {
     const T modulus = j * (cold_slope(within(T(1) - j)) + T(gamma_) * pressure);
     return select(modulus < T(0), T(0), modulus);
   }
 
-  /// Internal energy [J/kg] of a state, from its pressure.
+  /// Internal energy [J/kg] at J, from the pressure.
   double energy(double j, double pressure) const { return (pressure - cold_pressure(j)) / coupling_; }
 
  private:
-  /// eta where the formula holds; 0 in tension.
+  /// eta, limited to where the formula holds; 0 in tension.
   template <class T>
   T within(T eta) const {
     return max(min(eta, T(largest_)), T(0));
@@ -79,7 +80,7 @@ class MieGrueneisen {
     const T inverse = T(1) / (T(1) - T(slope_) * eta);
     return T(stiffness_) * (T(1) + T(slope_ - gamma_) * eta) * inverse * inverse * inverse;
   }
-  /// p at e = 0 [Pa]: the formula, and from its ends on straight.
+  /// p at e = 0 [Pa]: the formula, continued linearly beyond its ends.
   template <class T>
   T cold_pressure(T j) const {
     const T eta = T(1) - j, inner = within(eta);

@@ -1,14 +1,14 @@
 // Mohr-Coulomb soil. Principal stresses s1 >= s2 >= s3, tension positive:
 //   f = (s1 - s3) + (s1 + s3) sin(phi) - 2 c cos(phi) <= 0,   s1 <= tension cut-off (Rankine),
 // flow from the same f with the dilation angle, and normal to the cut-off. Elastic predictor in rate form (as
-// linear_elastic.hpp); its principal axes are kept, its principal values returned to the surface in closed form: main
-// plane, the edges of triaxial compression and extension, the apex, and the planes, edges and corners of the cut-off.
-// Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp). In wide registers only what is surely
-// elastic is done together; the rest goes lane by lane.
-// Weak: plastic work counts the stress at the end of a step; no hardening, no critical state, so dilation never ends;
-// hypoelastic, meant for small elastic strain; an opening is remembered as a volume, not by its direction, and only
-// where no pressure is left across it: a crack in soil that is pressed along it heals as it closes. Source: method
-// reference 10.7; de Souza Neto, Peric & Owen (2008) section 8.2; Clausen, Damkilde & Andersen (2006).
+// linear_elastic.hpp); its principal axes are kept and its principal values are returned to the surface in closed form:
+// to the main plane, the edges of triaxial compression and extension, the apex, and the planes, edges and corners of
+// the cut-off. Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp). In a wide register, lanes
+// that are certainly elastic are computed together and the others one by one. Weak: plastic work is computed with the
+// stress at the end of a step; no hardening, no critical state, so dilation never ends; hypoelastic, meant for small
+// elastic strain; an opening is stored as a volume without direction, and only where no pressure remains: a crack in
+// soil under pressure along the crack heals as it closes. Source: method reference 10.7; de Souza Neto, Peric & Owen
+// (2008) section 8.2; Clausen, Damkilde & Andersen (2006).
 #pragma once
 
 #include <algorithm>
@@ -25,11 +25,11 @@ namespace mpm {
 class MohrCoulomb : public LawTraits {
  public:
   static constexpr int kHistory = 3;
-  static constexpr int kPlasticStrain = 0;  ///< sum of sqrt(2 de:de), de the plastic deviator, as Drucker-Prager's
-  static constexpr int kOpening = 1;        ///< logarithmic volume that the soil has opened by
+  static constexpr int kPlasticStrain = 0;  ///< sum of sqrt(2 de:de) with the plastic deviator de, as in Drucker-Prager
+  static constexpr int kOpening = 1;        ///< logarithmic volume by which the soil has opened
   static constexpr int kPlasticWork = 2;
 
-  /// Where a stress came to lie.
+  /// The part of the surface to which a stress was returned.
   enum class Region { elastic, plane, extension_edge, compression_edge, apex, tension, tension_and_shear };
 
   MohrCoulomb(const MohrCoulombDefinition& d, double density);
@@ -47,11 +47,12 @@ class MohrCoulomb : public LawTraits {
     tau = scale_shift(cauchy, to_tau, T(0));
   }
 
-  /// Never false beyond the surface, from the mean stress [Pa] and the invariant J2 [Pa^2]: outside the largest cones
-  /// that the surface and the cut-off hold, whatever the third invariant. False for what is not a number.
+  /// Whether a stress with this mean [Pa] and invariant J2 [Pa^2] may lie beyond the surface. True outside the largest
+  /// cones inside the surface and the cut-off, whatever the third invariant; so it is never false beyond the surface.
+  /// False for NaN.
   template <class T>
   auto may_flow(T mean, T j2) const {
-    // Of s1 - s3 + (s1 + s3 - 2 mean) sin(phi), the largest for its J2; and of s1 - mean. Squares over J2.
+    // Squares, over J2, of the largest values at given J2: of s1 - s3 + (s1 + s3 - 2 mean) sin(phi), and of s1 - mean.
     const T shear_factor = T(kCaution * (4.0 + 4.0 / 3.0 * sin_friction_ * sin_friction_));
     const T tension_factor = T(kCaution * 4.0 / 3.0);
     const T bears = T(strength_) - T(2.0 * sin_friction_) * mean;
@@ -60,7 +61,7 @@ class MohrCoulomb : public LawTraits {
            (tension_factor * j2 > below * below);
   }
 
-  /// `s`: trial principal stresses in falling order [Pa], returned to the surface; flow at `sin_dilation`.
+  /// Returns `s`, trial principal stresses in descending order [Pa], to the surface, with flow at `sin_dilation`.
   template <class T>
   Region return_to_surface(T* s, T sin_dilation) const {
     const T cutoff = T(cutoff_);
@@ -77,7 +78,7 @@ class MohrCoulomb : public LawTraits {
     return region;
   }
 
-  /// f above, of the largest and the smallest principal stress [Pa].
+  /// The yield function f above, of the largest and the smallest principal stress [Pa].
   template <class T>
   T yield(T largest, T smallest) const {
     return (largest - smallest) + (largest + smallest) * T(sin_friction_) - T(strength_);
@@ -95,8 +96,8 @@ class MohrCoulomb : public LawTraits {
     const auto flows = largest - smallest >= T(kNearYield) * (T(strength_) - (largest + smallest) * T(sin_friction_));
     const auto open = trace(cauchy) > T(-3.0 * kStressFree * bulk_);
     T flow = select(flows, select(open, T(open_flow_), T(closed_flow_)), T(0));
-    // use_room(): volume is free, 4/3 G for shear and (|p - q|/2)^2 / h = 3/4 G at most; more than elastic if K < 3/4
-    // G.
+    // With use_room() volume is free: shear has 4/3 G and (|p - q|/2)^2 / h is at most 3/4 G, more than elastic if K <
+    // 3/4 G.
     if (!cutoff_is_apex_ && 0.75 * shear_ > bulk_) {
       const auto has_room = open & (largest >= T(kNearYield * cutoff_));
       flow = select(has_room, max(flow, T(0.75 * shear_ - bulk_)), flow);
@@ -105,13 +106,13 @@ class MohrCoulomb : public LawTraits {
   }
   double density() const { return density_; }
   double sin_dilation() const { return sin_dilation_; }
-  /// Largest principal stress [Pa]; infinite for a soil without friction and cut-off.
+  /// Largest possible principal stress [Pa]; infinite for a soil without friction and cut-off.
   double cutoff() const { return cutoff_; }
 
  private:
-  static constexpr double kCaution = 1.0 + 1e-6;  ///< against round-off
+  static constexpr double kCaution = 1.0 + 1e-6;  ///< factor against round-off
 
-  /// flow() in the lanes where `suspects` is not zero: principal directions are a matter of single tensors.
+  /// Calls flow() for each lane where `suspects` is not zero, since principal directions are found tensor by tensor.
   template <class T, class Symmetric>
   void flow_by_lanes(const T& suspects, const T& j, Symmetric& cauchy, T* history) const {
     for (int i = 0; i < lane_count<T>; ++i) {
@@ -125,15 +126,15 @@ class MohrCoulomb : public LawTraits {
     }
   }
 
-  /// Returns a stress [Pa] to the surface, if it is beyond it.
+  /// Returns a stress [Pa] that lies beyond the surface to it, and leaves others.
   template <class T, class Symmetric>
   void flow(T j, Symmetric& cauchy, T* history) const {
     const auto [largest, smallest] = principal_extremes(cauchy);
-    // Of what the closed form may miss, tenfold.
+    // Ten times the error of the closed form.
     const T doubt = T(10) * std::sqrt(std::numeric_limits<T>::epsilon()) * (std::abs(largest) + std::abs(smallest));
     if (largest + doubt < T(cutoff_) && yield(largest, smallest) + T(2) * doubt < T(0)) return;
     Principal<T> axes = principal(cauchy);
-    int order[3] = {0, 1, 2};  // the pairs of principal values stay with their directions
+    int order[3] = {0, 1, 2};  // an index, so that principal values stay paired with their directions
     const auto sort = [&axes, &order](int a, int b) {
       if (axes.value[order[a]] < axes.value[order[b]]) std::swap(order[a], order[b]);
     };
@@ -142,13 +143,13 @@ class MohrCoulomb : public LawTraits {
     sort(0, 1);
     T s[3], plastic[3];
     for (int k = 0; k < 3; ++k) plastic[k] = s[k] = axes.value[order[k]];
-    // Opened soil has room to dilate into: no pressure comes of it.
+    // Opened soil has room to dilate into, so dilation builds up no pressure.
     T& opening = history[kOpening];
     const bool has_room = opening > T(0);
     const Region region = return_to_surface(s, has_room ? T(0) : T(sin_dilation_));
     if (region == Region::elastic) return;
     if (region >= Region::apex && has_room) use_room(s);
-    // Plastic strain is the elastic strain lost: C^-1 of the stress that the return took.
+    // Plastic strain is the elastic strain lost: C^-1 applied to the stress removed by the return.
     for (int k = 0; k < 3; ++k) plastic[k] -= s[k];
     const T mean = (plastic[0] + plastic[1] + plastic[2]) / T(3);
     T shear_strain = T(0), work = T(0);
@@ -158,7 +159,7 @@ class MohrCoulomb : public LawTraits {
       work += s[k] * (deviator + mean / T(3.0 * bulk_));
       axes.value[order[k]] = s[k];
     }
-    // Soil that is still pressed across what opened has not parted: with room and pressure at once, the one would close
+    // Soil that is still under pressure has not parted. If an opening were recorded beside pressure, one would cancel
     // the other without any strain.
     const bool parts = has_room || s[0] + s[1] + s[2] >= T(0);
     if (region >= Region::apex && parts) opening += std::max(mean / T(bulk_), T(0));
@@ -169,8 +170,8 @@ class MohrCoulomb : public LawTraits {
 
   double lame() const { return bulk_ - 2.0 / 3.0 * shear_; }
 
-  /// What flow at `sin_dilation` = q may add to rho c^2 [Pa]: (|p - q|/2)^2 / h of the main plane (opening.hpp), and of
-  /// both planes of an edge, as their sum and their difference.
+  /// Largest contribution to rho c^2 of flow at `sin_dilation` = q [Pa]: (|p - q|/2)^2 / h of the main plane
+  /// (opening.hpp), and of both planes of an edge, as their sum and their difference.
   double flow_stiffness(double q) const {
     const double a = lame(), g = shear_, sine = sin_friction_;
     const double volumetric = 4.0 * a * sine * q;
@@ -186,8 +187,9 @@ class MohrCoulomb : public LawTraits {
     return 0.25 * square(sine - q) * most;
   }
 
-  /// To the main plane, f(s1, s3) = 0, or the edge where two planes meet; the order may come out wrong beyond the apex.
-  /// C m = 2 lame q (1, 1, 1) + 2 G m, with m = (1 + q, 0, -1 + q) and q the sine of the dilation angle.
+  /// Returns r to the main plane, f(s1, s3) = 0, or to the edge where two planes meet; beyond the apex the order of r
+  /// may come out wrong. C m = 2 lame q (1, 1, 1) + 2 G m, with m = (1 + q, 0, -1 + q) and q the sine of the dilation
+  /// angle.
   template <class T>
   Region shear_return(T* r, T q) const {
     const T a = T(lame()), g = T(shear_), sine = T(sin_friction_);
@@ -200,9 +202,9 @@ class MohrCoulomb : public LawTraits {
     r[1] -= multiplier * T(2) * a * q;
     r[2] -= multiplier * (T(2) * a * q - T(2) * g * (T(1) - q));
     if (r[0] >= r[1] && r[1] >= r[2]) return Region::plane;
-    // Which edge the flow leads to (de Souza Neto et al. (2008) Box 8.4).
+    // The edge to which the flow leads (de Souza Neto et al. (2008) Box 8.4).
     if ((T(1) - q) * trial[0] - T(2) * trial[1] + (T(1) + q) * trial[2] > T(0)) {
-      // s2 = s3: the planes of (1, 3) and (1, 2); their sum of multipliers moves s1.
+      // s2 = s3: the planes of (1, 3) and (1, 2); the sum of their multipliers moves s1.
       const T other = volumetric + T(2) * g * (T(1) + sine) * (T(1) + q);
       const T both = (f + yield(trial[0], trial[1])) / (own + other);
       const T pair = T(0.5) * (trial[1] + trial[2]) - both * (T(2) * a * q - g * (T(1) - q));
@@ -219,8 +221,8 @@ class MohrCoulomb : public LawTraits {
     return Region::compression_edge;
   }
 
-  /// The cut-off alone, or with shear: once neither of the two alone is enough, the stress lies on the line
-  /// s1 = cut-off, f = 0, between its two ends.
+  /// Returns to the cut-off, alone or together with shear. Where neither of the two alone suffices, the stress lies on
+  /// the line s1 = cut-off, f = 0, between its two ends.
   template <class T>
   Region tension_return(const T* trial, T* r, T q) const {
     const T a = T(lame()), g = T(shear_), cutoff = T(cutoff_);
@@ -245,8 +247,8 @@ class MohrCoulomb : public LawTraits {
     return Region::tension_and_shear;
   }
 
-  /// Soil that has opened before is not pressed by opening on: the pressure that the cut-off's return leaves goes into
-  /// the room there is, the deviator shrinks to the cut-off. Admissible, as the cut-off is not beyond the apex.
+  /// Removes pressure from soil that has opened before: the pressure left by the return to the cut-off goes into the
+  /// room there is, and the deviator shrinks to the cut-off. Admissible, since the cut-off is not beyond the apex.
   template <class T>
   void use_room(T* s) const {
     const T mean = (s[0] + s[1] + s[2]) / T(3);
@@ -255,7 +257,7 @@ class MohrCoulomb : public LawTraits {
     for (int k = 0; k < 3; ++k) s[k] = scale * (s[k] - mean);
   }
 
-  /// The smallest principal stress on the surface beside a largest one.
+  /// The smallest principal stress on the surface that belongs to the largest one `largest` [Pa].
   template <class T>
   T beside(T largest) const {
     return ((T(1) + T(sin_friction_)) * largest - T(strength_)) / (T(1) - T(sin_friction_));
@@ -266,7 +268,7 @@ class MohrCoulomb : public LawTraits {
   double strength_;  ///< 2 c cos(phi) [Pa]
   double cutoff_;    ///< largest principal stress [Pa]
   bool cutoff_is_apex_;
-  double open_flow_, closed_flow_;  ///< flow_stiffness() of soil that has opened, and of other
+  double open_flow_, closed_flow_;  ///< flow_stiffness() of opened soil and of other soil
 };
 
 }  // namespace mpm

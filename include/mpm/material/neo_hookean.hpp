@@ -1,6 +1,6 @@
-// Compressible neo-Hookean solid. W = K/2 [(J^2 - 1)/2 - ln J] + G/2 (I1 J^(-2/3) - 3), so
-// sigma = K/2 (J - 1/J) I + G J^(-5/3) dev B. Weak in extreme stretch: K, G alone do not lock.
-// Source: Nairn & Guilkey (2015) eq. (64); method reference 10.2.
+// Compressible neo-Hookean solid. W = K/2 [(J^2 - 1)/2 - ln J] + G/2 (I1 J^(-2/3) - 3), so sigma = K/2 (J - 1/J) I + G
+// J^(-5/3) dev B. Weak in extreme stretch: with K and G alone it does not lock. Source: Nairn & Guilkey (2015) eq.
+// (64); method reference 10.2.
 #pragma once
 
 #include <cmath>
@@ -32,7 +32,7 @@ class NeoHookean : public LawTraits {
     return (volume_energy(j, bulk_) + 0.5 * shear_ * (invariant - 3.0)) / density_;
   }
 
-  /// Bound on the fastest small wave on the present state, exact without deviatoric stretch.
+  /// Upper bound of the speed of small waves on the present state [m/s], exact without deviatoric stretch.
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix& f, const Symmetric&, T j) const {
     const T root = inverse_cbrt(j), square = root * root;
@@ -41,9 +41,9 @@ class NeoHookean : public LawTraits {
   }
   double density() const { return density_; }
 
-  /// K/2 [(J^2 - 1)/2 - ln J] [Pa]: of all laws with this pressure.
+  /// Stored energy per initial volume of all laws with this pressure: K/2 [(J^2 - 1)/2 - ln J] [Pa].
   static double volume_energy(double j, double bulk) { return 0.5 * bulk * (0.5 * (j * j - 1.0) - std::log(j)); }
-  /// Its part of rho c^2 along a wave [Pa].
+  /// Contribution of this pressure to rho c^2 along a wave [Pa].
   template <class T>
   static T volume_stiffness(T j, double bulk) {
     return T(0.5 * bulk) * (j + T(1) / j);

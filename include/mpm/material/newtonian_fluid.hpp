@@ -1,9 +1,9 @@
 // Weakly compressible Newtonian fluid: pressure by Tait's equation p = K/n (J^-n - 1), n = 7 for water, 1 for a linear
-// one, and viscous stress 2 mu dev(d), d the rate of deformation over the step. Only J of the deformation gradient is
-// kept. Without tension (a free surface) p is cut at zero: spray expands freely, and must come back to its density
-// before it carries pressure. Viscous work counts as dissipated. Weak: J of each particle is an integral of grad v and
-// drifts from the particles' real spacing in long sloshing; a lower bulk modulus than the real one is usual, and its
-// Mach number is the user's to keep small. Source: Monaghan (1994), J. Comput. Phys. 110 (Tait's form).
+// law, and viscous stress 2 mu dev(d), where d is the rate of deformation over the step. Of the deformation gradient
+// only J is stored. Without tension (a free surface) p is cut off at zero: spray expands freely, and carries pressure
+// again only at its initial density. Viscous work counts as dissipated. Weak: J of each particle is an integral of grad
+// v and drifts from the particles' real spacing in long sloshing; a lower bulk modulus than the real one is usual, and
+// the user must keep its Mach number small. Source: Monaghan (1994), J. Comput. Phys. 110 (Tait's form).
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace mpm {
 class NewtonianFluid : public LawTraits {
  public:
   static constexpr int kHistory = 1;
-  static constexpr int kPlasticWork = 0;  ///< of the viscous stress
+  static constexpr int kPlasticWork = 0;  ///< work of the viscous stress
   static constexpr bool kForgetsShape = true;
 
   NewtonianFluid(const NewtonianFluidDefinition& d, double density)
@@ -44,7 +44,7 @@ class NewtonianFluid : public LawTraits {
     history[kPlasticWork] += twice_viscosity * mean_volume * (squared_norm(strain) - T(3) * mean * mean);
   }
 
-  /// -integral of p dJ from 1 [J/kg].
+  /// -integral of p dJ from J = 1 [J/kg].
   template <class Matrix, class Symmetric>
   double elastic_energy(const Matrix&, const Symmetric&, double j) const {
     if (!tension_ && j > 1.0) return 0.0;
@@ -53,8 +53,8 @@ class NewtonianFluid : public LawTraits {
     return bulk_ / exponent_ * ((j - 1.0) - expansion) / density_;
   }
 
-  /// Of pressure. Where tension is cut there is none: that of the fluid's own density stands in, for it may close
-  /// again.
+  /// Speed of pressure waves. Where tension is cut off there is none, and the speed at the fluid's initial density
+  /// stands in, because the fluid may close again.
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix&, const Symmetric&, T j) const {
     const T closed = tension_ ? j : select(j > T(1), T(1), j);
@@ -63,7 +63,7 @@ class NewtonianFluid : public LawTraits {
                                           : pow(closed, T(1.0 - exponent_));
     return sqrt(T(bulk_ / density_) * power);
   }
-  /// Of the longitudinal motion, the fastest.
+  /// Diffusivity of longitudinal motion, the largest [m^2/s].
   template <class T>
   T diffusivity(T j) const {
     return T(4.0 / 3.0 * viscosity_ / density_) * j;
@@ -71,10 +71,10 @@ class NewtonianFluid : public LawTraits {
   double density() const { return density_; }
 
  private:
-  static constexpr double kMostProducts = 64.0;  ///< largest exponent whose power is taken by products
+  static constexpr double kMostProducts = 64.0;  ///< largest exponent whose power is computed by products
 
   double density_, bulk_, exponent_, viscosity_;
-  int whole_exponent_ = 0;  ///< the exponent where it is whole, or 0
+  int whole_exponent_ = 0;  ///< the exponent if it is a whole number, else 0
   bool tension_;
 };
 

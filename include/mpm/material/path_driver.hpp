@@ -1,5 +1,5 @@
-// Drives a material along a path (strain_path.hpp). What is stressed is solved for at every step: Newton's method on
-// copies of the point, with a numerical tangent.
+// Drives a material along a path (strain_path.hpp). Strains of stress-controlled components are solved for at every
+// step by Newton's method on copies of the point, with a numerical tangent.
 //
 //   PathDriver driver(material);
 //   for (const Leg& leg : make_strain_path("triaxial", {})) driver.run(leg, [&] { print(driver.point().cauchy()); });
@@ -12,7 +12,7 @@
 
 namespace mpm {
 
-/// The law gave way: a stress that the material cannot carry, a value that is not finite, J <= 0.
+/// Thrown when the law fails: a stress that the material cannot carry, a value that is not finite, J <= 0.
 class PathFailure : public Error {
  public:
   using Error::Error;
@@ -20,7 +20,7 @@ class PathFailure : public Error {
 
 class PathDriver {
  public:
-  /// At rest at time 0. @throws MaterialError
+  /// Starts at rest at time 0. @throws MaterialError
   explicit PathDriver(const MaterialDefinition& material);
 
   /// Calls `after_step` at the end of every step. @throws PathError, PathFailure
@@ -29,17 +29,17 @@ class PathDriver {
   const MaterialPoint& point() const { return point_; }
   double time() const { return time_; }                 ///< [s]
   const Components& strain() const { return strain_; }  ///< integral of the rate of deformation
-  /// ln V of all that the material went through.
+  /// ln V of the whole deformation since the start.
   Symmetric3<double> logarithmic_strain() const;
-  double work() const { return work_; }  ///< done on the material since the start [J/kg]
+  double work() const { return work_; }  ///< work done on the material since the start [J/kg]
 
  private:
   struct Progress;
   struct Step;
-  /// Drives the leg to `share` of it, in one step or in halves.
+  /// Advances to the part `share` of the leg, in one step or in halves.
   void advance_to(Progress& progress, double share, int divisions);
   MaterialPoint advanced(const Step& step, const Components& increment) const;
-  /// False when the stresses asked for were not reached; `increment` is then the nearest found.
+  /// Returns false when the required stresses were not reached; `increment` is then the nearest found.
   bool solve(const Step& step, Components& increment) const;
   void accept(const Step& step, const Components& increment);
   [[noreturn]] void give_up(const Step& step, const Components& increment) const;
@@ -54,7 +54,7 @@ class PathDriver {
   Components last_{};  ///< increment of the last step, where Newton's method starts from
 };
 
-/// In the order of kComponentNames.
+/// The components in the order of kComponentNames.
 inline Components components(const Symmetric3<double>& s) { return {s.xx, s.yy, s.zz, s.yz, s.xz, s.xy}; }
 
 }  // namespace mpm

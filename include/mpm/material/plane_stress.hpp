@@ -1,19 +1,19 @@
 // Plane stress for any law: the strain along y of an increment is the one that leaves no stress along y.
 //
-// The law is asked for its stress again and again, each time from the state at the increment's start, with other values
-// of the strain along y, e = (grad v dt)_yy: first e = 0, then a step with the stiffness c^2 of the fastest wave, then
-// the secant through the last two. tau_yy rises with e, so its signs bracket the root: a secant that leaves the bracket
-// is replaced by its middle, and so is every second one when there have been kManySteps. Where tau_yy does not rise
-// (soil that has opened) steps grow until it does.
+// The law is evaluated repeatedly from the state at the increment's start, with different values of the strain along y,
+// e = (grad v dt)_yy: first e = 0, then a step with the stiffness c^2 of the fastest wave, then the secant through the
+// last two. tau_yy rises with e, so its signs bracket the root. A secant step that leaves the bracket is replaced by
+// the bracket's middle, and so is every second one after kManySteps. Where tau_yy does not rise (soil that has opened),
+// steps grow until it does.
 //
-// Lanes go on together until all have found their e. One that has keeps it, so that it gets the bits it would get
-// alone. One that is not a number is left as it is: the caller looks at J.
+// Lanes iterate together until all have found their e. A lane that has found it keeps it, so it gets the same bits as
+// it would alone. A lane with NaN is left as it is; the caller checks J.
 //
-// Weak: takes the law's work three or four times in an elastic step, more where it begins to flow. What cannot be
-// brought to zero within one increment stays in tau_yy, and the next one goes on from there: a thickness that would
-// change by more than kMost, or the jump in the stress of soil that has opened and closes. The wave speed that limits
-// the time step is that of a solid: a wave in a plate is slower, sqrt(1 - 2 nu) / (1 - nu) of it where the material is
-// unstrained. Source: de Borst (1991), Eng. Comput. 8, 23-33, for finding the free strain beside any law; he takes
+// Weak: the law is evaluated three or four times in an elastic step, more where it begins to flow. A stress that cannot
+// be brought to zero within one increment stays in tau_yy, and the next increment continues from there: a thickness
+// that would change by more than kMost, or the jump in the stress of opened soil that closes. The wave speed that
+// limits the time step is that of a solid: a wave in a plate is slower, by sqrt(1 - 2 nu) / (1 - nu) where the material
+// is unstrained. Source: de Borst (1991), Eng. Comput. 8, 23-33, for finding the free strain beside any law; he takes
 // Newton's steps with the law's tangent, which laws here do not have.
 #pragma once
 
@@ -25,22 +25,20 @@
 
 namespace mpm {
 
-/// How near to zero tau_yy is brought, as a part of c^2, and how well e is known. Double: a strain of 1e-12, far below
-/// what a scene is about and far above the round-off of a law, 1e-15. Single: 2e-7, the last digit of a deformation
-/// gradient.
+/// Tolerance of tau_yy relative to c^2, and of e. Double precision: a strain of 1e-12, far below the strains of a scene
+/// and far above the round-off of a law, 1e-15. Single precision: 2e-7, the last digit of a deformation gradient.
 template <class Scalar>
 inline constexpr double kFreeStress = std::is_same_v<Scalar, double> ? 1e-12 : 2e-7;
 
-/// One increment of a law in plane stress, from grad v dt in the plane.
-/// `du`: rows d v_i / d x_j dt, i and j of x, z. `terms`: of the exponential, in the plane and along y.
-/// `old_f`, `j_old`: deformation gradient at the start, with yy, and its determinant.
-/// `stress` [J/kg], `history`: in, at the start; out, at the end. `now_f`, `j`: out.
+/// Advances a law over one increment in plane stress. `du`: rows d v_i / d x_j dt, i and j of x, z. `terms`: terms of
+/// the exponential, in the plane and along y. `old_f`, `j_old`: deformation gradient at the start, with yy, and its
+/// determinant. `stress` [J/kg] and `history` are in at the start and out at the end. `now_f`, `j`: out.
 template <class Law, class T>
 void plane_stress_update(const Law& law, const T (&du)[2][2], int terms, const MatrixPlane<T>& old_f, T dt,
                          SymmetricPlane<T>& stress, T* history, MatrixPlane<T>& now_f, T j_old, T& j) {
   constexpr int kSteps = 30, kManySteps = 6;
   constexpr double kMost = 0.5;     // largest |e| of an increment
-  constexpr double kGrowth = 10.0;  // of a step over the one before
+  constexpr double kGrowth = 10.0;  // largest ratio of a step to the one before
   const SymmetricPlane<T> old_stress = stress;
   T old_history[Law::kHistory + 1];
   for (int h = 0; h < Law::kHistory; ++h) old_history[h] = history[h];
@@ -48,7 +46,7 @@ void plane_stress_update(const Law& law, const T (&du)[2][2], int terms, const M
   const T speed = law.wave_speed(old_f, old_stress, j_old), stiffness = speed * speed;
   const T tolerance(kFreeStress<ScalarOf<T>>);
   T e(0.0), low(-kMost), high(kMost);
-  auto open = e <= T(0.0);  // lanes that have not found their e: all of them
+  auto open = e <= T(0.0);  // lanes that have not found their e; at first all of them
   T slope = stiffness, before(0.0), step(0.0);
   for (int i = 0;; ++i) {
     const MatrixPlane<T> gradient{du[0][0], du[0][1], du[1][0], du[1][1], e};

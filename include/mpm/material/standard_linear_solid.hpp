@@ -1,14 +1,14 @@
 // Viscoelastic solid for foam and tissue, the standard linear solid at finite strain: the neo-Hookean solid of the
-// long-term constants beside one Maxwell branch, a spring of shear modulus G1 in line with a dashpot,
+// long-term constants, parallel to one Maxwell branch, a spring of shear modulus G1 in series with a dashpot,
 //
 //   tau = K/2 (J^2 - 1) I + G dev B* + G1 dev b,   b stretched with the material, dev b' = -dev b / T
 //
-// with B* = J^(-2/3) F F^T and b isochoric (isochoric.hpp). Relaxation takes half of its time before the stretch of a
-// step and half after it: second order in the step, stable for any, and exact while strain is held. Volume does not
-// relax. b is what the stress has over that of the long-term spring, so none is stored; energy that the branch loses
-// counts as dissipated. Weak: one relaxation time; isothermal.
-// Source: Reese & Govindjee (1998), Int. J. Solids Struct. 35, for the decomposition; theirs relaxes logarithmic
-// strain, the same to first order in the branch's strain.
+// with B* = J^(-2/3) F F^T and b isochoric (isochoric.hpp). Half of the relaxation of a step takes place before its
+// stretch and half after it: second order in the step, stable for any step, and exact while strain is constant. Volume
+// does not relax. b follows from the stress in excess of the long-term spring, so none is stored; the energy that the
+// branch loses counts as dissipated. Weak: one relaxation time; isothermal. Source: Reese & Govindjee (1998), Int. J.
+// Solids Struct. 35, for the decomposition; theirs relaxes logarithmic strain, which is the same to first order in the
+// branch's strain.
 #pragma once
 
 #include "mpm/material/definition.hpp"
@@ -21,7 +21,7 @@ namespace mpm {
 class StandardLinearSolid : public LawTraits {
  public:
   static constexpr int kHistory = 1;
-  static constexpr int kPlasticWork = 0;  ///< lost in the dashpot
+  static constexpr int kPlasticWork = 0;  ///< energy lost in the dashpot
 
   StandardLinearSolid(const StandardLinearSolidDefinition& d, double density)
       : density_(density),
@@ -57,13 +57,13 @@ class StandardLinearSolid : public LawTraits {
     return (NeoHookean::volume_energy(j, bulk_) + 1.5 * (shear + branch)) / density_;
   }
 
-  /// Of the response without time to relax.
+  /// Wave speed of the response without relaxation.
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix& f, const Symmetric& tau, T j) const {
     const Symmetric strain = left_cauchy_green(f);
     const T root = inverse_cbrt(j), scale = root * root, mean = T(1.0 / 3.0) * scale * trace(strain);
     const T excess = isochoric_excess(branch_deviator(scale_shift(strain, scale, -mean), tau));
-    // The springs' deviators together are that of tau.
+    // The deviators of the two springs add up to that of tau.
     const T inverse = T(1) / j, stress = T(density_) * inverse;
     const T means = (T(shear_) * mean + T(branch_) * (T(1) + excess)) * inverse;
     const Symmetric gb = scale_shift(tau, stress, means - T(1.0 / 3.0) * stress * trace(tau));

@@ -11,7 +11,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 
-/// Throws unless `holds`; false for NaN, so that every condition is written as what must be true.
+/// Throws unless `holds`. Conditions state what must be true, so that NaN fails them.
 void require(bool holds, const MaterialDefinition& material, const std::string& what) {
   if (!holds) throw MaterialError("material '" + material.name + "': " + what);
 }
@@ -24,7 +24,7 @@ void check(const MaterialDefinition& material, const Elasticity& elasticity) {
           fmt::format("Poisson's ratio is {:g}; it must lie between -1 and 0.5, both excluded", poisson));
 }
 
-/// Angles and strengths of either law of soil; `apex` is what the text calls it.
+/// Checks the angles and strengths of a law of soil; `apex` is its name in the text.
 template <class SoilDefinition>
 void check_soil(const MaterialDefinition& material, const SoilDefinition& law, const char* apex) {
   check(material, law.elasticity);
@@ -41,7 +41,8 @@ void check_soil(const MaterialDefinition& material, const SoilDefinition& law, c
           "newtonian_fluid for a liquid");
   require(std::isfinite(law.tension_cutoff), material,
           fmt::format("tension cut-off is {:g} Pa; it must be finite (negative: {})", law.tension_cutoff, apex));
-  // c cot(phi), for every match of the cone too (method reference 10.6: xi / eta); there is none without friction.
+  // The apex c cot(phi) holds for every match of the cone too (method reference 10.6: xi / eta); without friction there
+  // is none.
   if (friction > 0.0) {
     const double largest = law.cohesion / std::tan(friction);
     require(law.tension_cutoff <= largest * (1.0 + 1e-12), material,  // an apex given as the cut-off may be rounded

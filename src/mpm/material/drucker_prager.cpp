@@ -5,7 +5,7 @@
 namespace mpm {
 namespace {
 
-// Slopes of the cone that passes through the Mohr-Coulomb state, method reference 10.6.
+// Slope of the cone that passes through the Mohr-Coulomb state `match`, method reference 10.6.
 double slope(double angle, ConeMatch match) {
   const double s = std::sin(angle);
   switch (match) {

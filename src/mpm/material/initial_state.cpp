@@ -16,14 +16,14 @@ namespace mpm {
 namespace {
 
 constexpr double kForEver = 1e30;  // [s]
-constexpr double kChange = 1e-6;   // of a logarithmic stretch, for differences
+constexpr double kChange = 1e-6;   // change of a logarithmic stretch for differences
 constexpr double kLargest = 0.5;   // change of a logarithmic stretch in one step of Newton's method
 constexpr int kSteps = 100;
-constexpr double kSame = 1e-9;        // of the largest component, for stresses that are the same,
-constexpr double kRoundOff = 1e-14;   // and of the stiffness: a stretch is known to the last digit of 1
-constexpr double kCompatible = 1e-6;  // the same for a stress along y that was written down
+constexpr double kSame = 1e-9;        // part of the largest component below which stresses are equal
+constexpr double kRoundOff = 1e-14;   // part of the stiffness below which they are: the last digit of a stretch
+constexpr double kCompatible = 1e-6;  // as kSame, for a stress along y from the scene
 
-/// What a law keeps its stress in. A law that is not listed does not compile.
+/// The variables from which a law computes its stress. A law that is not listed does not compile.
 enum class Keeps { stress, volume_and_stress, volume, deformation };
 struct WhatIsKept {
   Keeps operator()(const LinearElastic&) const { return Keeps::stress; }
@@ -78,7 +78,7 @@ Matrix3<double> dilatation(double j, GeometryKind geometry) {
   return {edge, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, axes == 1 ? 1.0 : edge};
 }
 
-/// x, z or, turned in the plane, what is principal there; then y.
+/// Principal values and axes; in two dimensions those in the x-z plane, then y.
 Principal<double> principal_axes(const Symmetric3<double>& s, GeometryKind geometry) {
   return free_axes(geometry) == 3 ? principal(s) : principal(SymmetricPlane<double>{s.xx, s.zz, s.xz, s.yy});
 }
@@ -149,7 +149,7 @@ InitialState InitialStates::find(const InitialRequest& request) const {
     refuse(fmt::format("cannot have yy = {:.6g} Pa in plane stress, which has none; leave yy out", cauchy.yy));
   }
   const Keeps keeps = std::visit(WhatIsKept(), law_);
-  // No strain along an axis from the state without stress; a fluid has the same pressure in all directions.
+  // A locked axis has no strain relative to the state without stress; a fluid has the same pressure in all directions.
   const double ratio = std::visit(PoissonRatio(), material_.law).value_or(0.5);
   const bool follows =
       geometry_ == GeometryKind::line || (geometry_ == GeometryKind::plane_strain && request.yy_follows);

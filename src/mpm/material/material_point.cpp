@@ -7,13 +7,13 @@ namespace mpm {
 
 namespace {
 
-constexpr int kTerms = 12;  ///< of exp(du): round-off for increments up to about 0.3
+constexpr int kTerms = 12;  ///< terms of exp(du): exact to round-off for increments up to about 0.3
 
 }  // namespace
 
 MaterialPoint::MaterialPoint(const MaterialDefinition& material)
     : law_(make_law(material)), density_(material.density), history_(history_size(law_), 0.0) {
-  advance({}, 1.0);  // the stress at the start is that of a step without motion
+  advance({}, 1.0);  // a step without motion gives the stress at the start
 }
 
 void MaterialPoint::advance(const Matrix3<double>& du, double dt) {

@@ -12,14 +12,14 @@
 namespace mpm {
 namespace {
 
-constexpr int kTerms = 12;               ///< of exp(du), as MaterialPoint's
-constexpr double kLargestStep = 0.3;     ///< strain a step that kTerms give to round-off
-constexpr double kTolerance = 1e-11;     ///< of the largest stress there is
-constexpr double kRoundOff = 1e-14;      ///< of the modulus
-constexpr double kTangentStrain = 1e-8;  ///< half of the digits
+constexpr int kTerms = 12;               ///< terms of exp(du), as in MaterialPoint
+constexpr double kLargestStep = 0.3;     ///< largest strain of a step for which kTerms are exact to round-off
+constexpr double kTolerance = 1e-11;     ///< part of the largest stress
+constexpr double kRoundOff = 1e-14;      ///< part of the modulus
+constexpr double kTangentStrain = 1e-8;  ///< for differences: half of the digits
 constexpr int kIterations = 50;
 constexpr int kHalvings = 20;
-constexpr int kDivisions = 6;  ///< times that a step is halved when Newton's method does not get through it
+constexpr int kDivisions = 6;  ///< halvings of a step in which Newton's method does not converge
 
 double largest(const Components& c) {
   double result = 0.0;
@@ -33,16 +33,16 @@ bool finite(const Components& c) {
 
 }  // namespace
 
-/// A leg, and how far along it the material is.
+/// A leg and the progress along it.
 struct PathDriver::Progress {
   const Leg& leg;
   double begin;  ///< time [s]
   Components strain, stress;
   std::vector<int> unknowns;  ///< components whose stress is controlled
-  double share = 0.0;         ///< of the leg that is done
+  double share = 0.0;         ///< part of the leg that is done
 };
 
-/// What one step prescribes.
+/// The values prescribed for one step.
 struct PathDriver::Step {
   const Leg& leg;
   const std::vector<int>& unknowns;
@@ -151,14 +151,15 @@ bool PathDriver::solve(const Step& step, Components& increment) const {
   for (int iteration = 0; iteration < kIterations && !reached(r); ++iteration) {
     Eigen::MatrixXd tangent(size, size);
     for (Eigen::Index j = 0; j < size; ++j) {
-      // Towards where the strain has to go: at a corner of a law the other side may have no stiffness.
+      // The difference is taken in the direction of the correction: at a corner of a law the other side may have no
+      // stiffness.
       const double strain = std::copysign(kTangentStrain, -r[j]);
       Components moved = increment;
       moved[step.unknowns[j]] += strain;
       tangent.col(j) = (residual(moved) - r) / strain;
     }
     if (!tangent.allFinite()) return false;
-    // Least squares: a law may have no stiffness left in a direction.
+    // Least squares, because a law may have no stiffness left in a direction.
     const Eigen::VectorXd correction = tangent.completeOrthogonalDecomposition().solve(-r);
     bool better = false;
     double part = std::min(1.0, 0.5 * kLargestStep / std::max(correction.cwiseAbs().maxCoeff(), 1e-300));

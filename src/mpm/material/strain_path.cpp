@@ -9,7 +9,7 @@ namespace mpm {
 namespace {
 
 constexpr int kZz = 2, kXz = 4;
-/// A step in strain or stress takes this part of the time that it is held for.
+/// Duration of a sudden change, relative to the time of constant strain or stress that follows.
 constexpr double kSudden = 1e-6;
 
 void require_positive(double value, const char* what, const char* unit) {
@@ -62,7 +62,7 @@ StrainPath triaxial(const PathDefinition& d) {
   const double confining = d.confining.value_or(1e5);
   require_positive(confining, "the confining pressure", "Pa");
   Leg axial = strain_leg(d, kZz, Control::strain);
-  axial.from_start = true;  // as laboratories count it: soft soil shortens by more under the pressure alone
+  axial.from_start = true;  // as in laboratories; soft soil shortens by more than that under the pressure alone
   free_sides(axial, confining);
   Leg confine = leg(d, axial.duration);
   for (const int k : {0, 1, 2}) {
@@ -81,7 +81,7 @@ StrainPath volumetric(const PathDefinition& d) {
   return {squeeze};
 }
 
-/// The sudden step, and the hold after it with the same targets.
+/// The sudden step, and the time after it with the same targets.
 StrainPath step_and_hold(const PathDefinition& d, Leg step) {
   const double time = d.hold.value_or(1.0);
   require_positive(time, "the time to hold", "s");
@@ -113,7 +113,7 @@ StrainPath creep(const PathDefinition& d) {
 struct NamedPath {
   const char* name;
   StrainPath (*make)(const PathDefinition&);
-  bool strain, confining, stress, rate, hold, shear;  ///< what it has a use for
+  bool strain, confining, stress, rate, hold, shear;  ///< parameters that it uses
 };
 constexpr std::array<NamedPath, 7> kPaths = {{
     {"uniaxial_strain", uniaxial_strain, true, false, false, true, false, false},

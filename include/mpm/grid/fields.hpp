@@ -4,6 +4,8 @@
 //
 // A particle spreads to and gathers from one field, ParticleSet::field_of(). Interaction between fields takes place at
 // nodes that carry mass in both.
+// Source: Bardenhagen, Brackbill & Sulsky (2000), The material-point method for granular materials, Comput. Methods
+// Appl. Mech. Engrg 187, 529-541; here the grids are sparse.
 #pragma once
 
 #include <memory>

@@ -1,22 +1,22 @@
-// `method: auto`: the method that the study's figures prefer for what the scene is like. What a scene without `method`
-// gets.
+// `method: auto`: chooses the method that measured best in the study for problems like the scene. A scene without
+// `method` gets this choice too.
 //
-// The scene's numbers (expected_motion.hpp, or the keys of method.auto) choose suites of the study that look like it:
+// The scene's expected strain, turn and contact (expected_motion.hpp, or the keys of method.auto) select suites of the
+// study that resemble it:
 //
-// - strain up to 2 %: bar_small, and square_small or cube_small,
-// - more strain: square_large or cube_large; of a line bar_crossing,
-// - a turn of 10 degrees: rotation, vortex,
-// - contact: plate_compression, sliding_block,
-// - bodies that move or meet: colliding_disks,
+// - strain up to 2 %: bar_small, and square_small or cube_small, - more strain: square_large or cube_large; in a line
+// bar_crossing, - a turn of 10 degrees: rotation, vortex, - contact: plate_compression, sliding_block, - bodies that
+// move or meet: colliding_disks,
 //
-// and among the methods that were measured there the rule of study/preference.hpp chooses. 2 % is the geometric middle
-// of the two problems' strains, 0.3 % and 16 %; a box that does not turn is wrong by 1 - cos 10 deg = 1.5 % at 10
-// degrees. A cube counts only where a method comes below the error asked for on it: its grids are coarse, and the
-// square's motion is the same along each axis.
+// and the rule of study/preference.hpp chooses among the methods measured in them. 2 % is the geometric mean of the
+// strains of the two problems, 0.3 % and 16 %; a box that does not turn is wrong by 1 - cos 10 deg = 1.5 % at 10
+// degrees. A cube counts only where a method reaches the required error on it: its grids are coarse, and the square's
+// motion is the same along each axis.
 //
-// Not chosen, unless the scene names them: dirac, for any motion through the grid makes its forces jump; and where
-// material flows, other shapes than ugimp and transfers than flip, for the study's problems are elastic.
-// What the scene says of shape, update or transfer is kept. Without a table of figures: ugimp, usavg, flip.
+// Not chosen, unless the scene names them: dirac, because any motion through the grid makes its forces jump; and where
+// material flows, other shapes than ugimp and other transfers than flip, because the study's problems are elastic. A
+// shape, update or transfer that the scene names is kept. Without a table of measurements the choice is ugimp, usavg,
+// flip.
 #pragma once
 
 #include <optional>
@@ -27,27 +27,27 @@
 
 namespace mpm {
 
-/// What a scene says under `method`, where it leaves the choice.
+/// The part of `method` in a scene that concerns the choice.
 struct AutoMethod {
-  std::optional<double> strain, turn;  ///< largest expected [-], [rad]; the scene's own numbers without them
+  std::optional<double> strain, turn;  ///< largest expected [-], [rad]; without a value it is estimated from the scene
   study::Budget budget{0.01, {}};
-  bool keep_shape = false, keep_update = false, keep_transfer = false;  ///< said beside `auto`
+  bool keep_shape = false, keep_update = false, keep_transfer = false;  ///< named in the scene
 };
 
-/// A table, or why there is none.
+/// A table of measurements, or the reason why there is none.
 struct MethodCostsFile {
   study::MethodCosts costs;
   std::string path;
-  std::string fault;  ///< empty when it was read
+  std::string fault;  ///< empty when the table was read
 };
 
-/// The file that the environment variable MPM_ROS_METHOD_COSTS names, else config/method_costs.csv of the package.
+/// Loads the file named by the environment variable MPM_ROS_METHOD_COSTS, else config/method_costs.csv of the package.
 MethodCostsFile load_method_costs();
-/// Never throws: a file that is missing or damaged is a fault.
+/// Loads the file at `path`. Does not throw: a missing or damaged file is reported in MethodCostsFile::fault.
 MethodCostsFile load_method_costs(const std::string& path);
 
-/// Sets shape, update and transfer of the scene's method, all else of which is read, and says in Scene::choices what
-/// was chosen and by which numbers.
+/// Sets shape, update and transfer of the scene's method, whose other sections must have been read, and adds to
+/// Scene::choices the choice and the numbers behind it.
 void choose_method(const AutoMethod& asked, const MethodCostsFile& file, Scene& scene);
 
 }  // namespace mpm

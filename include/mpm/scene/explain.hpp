@@ -1,4 +1,4 @@
-// What a scene amounts to, for --explain: what was chosen and why, and the numbers that follow from it.
+// The text of --explain: what was chosen for a scene and why, and the numbers that follow from it.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What the program material_driver does behind its options: a material as a scene spells it, driven along a path, to a
-// table of what it carries. doc/materials.md shows its use.
+// The work of the program material_driver: a material, written as in a scene, is driven along a path, and its stress
+// and history are written to a table. doc/materials.md shows its use.
 #pragma once
 
 #include <ostream>
@@ -10,15 +10,15 @@
 
 namespace mpm {
 
-/// Numbers are text, SI or with a unit ("100 kPa"); empty: the path's default.
+/// Numbers are text, in SI or with a unit ("100 kPa"); empty text means the path's default.
 struct MaterialDriverOptions {
-  std::string material;  ///< of `scene`, by name; without a scene an element of `materials`, "{law: …, density: …}"
-  std::string scene;     ///< a shipped name, or a path; empty: none
-  std::string path;      ///< one of strain_path_names(); empty: `path_file`
+  std::string material;  ///< name in `scene`; without a scene an element of `materials`, "{law: …, density: …}"
+  std::string scene;     ///< name of a shipped scene, or a path; empty: none
+  std::string path;      ///< one of strain_path_names(); empty: read from `path_file`
   std::string path_file;
   std::string strain, confining, stress, rate, hold;
   bool shear = false;
-  int steps = 0;  ///< a leg; 0: 100, from one row of a file to the next 10
+  int steps = 0;  ///< per leg; 0: the default, 100, or 10 from one row of a file to the next
 };
 
 /// @throws SceneError, MaterialError
@@ -26,11 +26,11 @@ MaterialDefinition read_driven_material(const MaterialDriverOptions& options);
 /// @throws PathError
 StrainPath read_driven_path(const MaterialDriverOptions& options);
 /// A path from a CSV file: a header "t, ezz, sxx [kPa], …", then a row for the end of each leg. Columns: t; strains exx
-/// … exy of the tensor; gyz, gxz, gxy engineering simple shear; stresses sxx … sxy. What has no column is not strained.
-/// @throws PathError "file:line: …"
+/// … exy of the tensor; engineering simple shear gyz, gxz, gxy; stresses sxx … sxy. Components without a column are not
+/// strained. @throws PathError "file:line: …"
 StrainPath read_path_file(const std::string& file, int steps);
-/// Writes the table to `out` as it goes, so that what a law did before it failed is there.
-/// @throws SceneError, MaterialError, PathError (bad input), PathFailure
+/// Writes the table to `out` step by step, so that it contains the steps before a failure of the law. @throws
+/// SceneError, MaterialError, PathError (bad input), PathFailure
 void drive_material(const MaterialDriverOptions& options, std::ostream& out);
 
 }  // namespace mpm

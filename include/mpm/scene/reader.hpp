@@ -1,4 +1,4 @@
-// Reading a scene's tree: each value knows its path and line, each map refuses keys it does not know.
+// Reading the tree of a scene: each value knows its path and line, and each map refuses unknown keys.
 //
 //   const Map grid(value, {"cell", "min", "max"});
 //   const double cell = grid.at("cell").positive(kLength);
@@ -19,14 +19,14 @@
 
 namespace mpm {
 
-/// What all of a scene's values are read with.
+/// Context shared by all values of a scene.
 struct ReadContext {
   const Source* source = nullptr;
   UnitSystem units;
-  GeometryKind geometry = GeometryKind::solid;  ///< says which components vectors have
+  GeometryKind geometry = GeometryKind::solid;  ///< determines which components vectors have
 };
 
-/// A key or word of a feature that is not built yet, and what can be used.
+/// A key or word of a feature that does not exist yet, and advice what to use instead.
 struct Later {
   std::string word;
   std::string advice;
@@ -45,25 +45,26 @@ class Value {
 
   /// "file:line: key.path"
   std::string where() const;
-  /// @throws SceneError always: where, then `what`.
+  /// @throws SceneError always: where(), then `what`.
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// A number or quantity, to SI. The three differ in the range they take.
+  /// A number or quantity, converted to SI. The three functions differ in the range that they accept.
   double number(const Dimension& dimension) const;
   double positive(const Dimension& dimension) const;
   double non_negative(const Dimension& dimension) const;
   int integer() const;
   std::string text() const;
-  /// A word that can stand in topic names: a letter, then letters, digits and '_'.
+  /// A word that is valid in topic names: a letter, then letters, digits and '_'.
   std::string name() const;
-  /// The index of the word in `words`.
+  /// The index of the value in `words`.
   std::size_t choice(const std::vector<std::string>& words, const std::vector<Later>& later = {}) const;
-  /// A number, a quantity, or an expression of t, x, y, z (and X, Y, Z where told) in the scene's units.
+  /// A number, a quantity, or an expression of t, x, y, z (and X, Y, Z if `places` allows it) in the scene's units.
   Function function(const Dimension& dimension, FunctionPlaces places = FunctionPlaces::present) const;
-  /// Three components; two (x, z) in planar scenes; one, with or without brackets, in a line. The others are 0.
+  /// Three components; two (x, z) in planar scenes; one, with or without brackets, in a line. The other components are
+  /// 0.
   Vec3 vector(const Dimension& dimension) const;
   std::array<Function, 3> functions(const Dimension& dimension, FunctionPlaces places = FunctionPlaces::present) const;
-  /// Exactly three components, in planar scenes too (rotations).
+  /// Exactly three components in any geometry (rotations).
   std::array<Function, 3> three_functions(const Dimension& dimension) const;
   /// The elements of a list.
   std::vector<Value> elements() const;
@@ -78,7 +79,7 @@ class Value {
   std::string path_;
 };
 
-/// A map whose keys are all known.
+/// A map that has only known keys.
 class Map {
  public:
   /// @throws SceneError when the value is not a map, or has a key that is not among `keys`.
@@ -86,7 +87,7 @@ class Map {
 
   /// @throws SceneError when the key is not there, or has no value.
   Value at(const std::string& key) const;
-  /// Nothing when the key is not there. @throws SceneError when it has no value.
+  /// The value, or nothing when the key is not there. @throws SceneError when the key has no value.
   std::optional<Value> find(const std::string& key) const;
   const Value& value() const { return value_; }
   [[noreturn]] void fail(const std::string& what) const { value_.fail(what); }

@@ -1,5 +1,5 @@
-// The sections of a scene file, one function each, in the order in which parse_scene() reads them. Each checks what it
-// reads, fills its part of the Scene and notes in Scene::choices what it chose by itself.
+// The sections of a scene file, one function each, in the order in which parse_scene() reads them. Each function checks
+// its section, fills its part of the Scene and records in Scene::choices the defaults that it chose.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace mpm {
 UnitSystem read_units(const Value& value);
 /// `grid`
 void read_grid(const Map& root, Scene& scene);
-/// `method`; what it leaves to be chosen once the rest is read, if anything.
+/// `method`. Returns the part that is to be chosen once all sections are read, if any.
 std::optional<AutoMethod> read_method(const Map& root, Scene& scene);
 /// `method.damping`
 void read_damping(const Value& value, Scene& scene);
@@ -31,17 +31,16 @@ Region read_region(const Value& value, GeometryKind geometry);
 void read_initial(const Value& value, const MaterialDefinition& material, Scene& scene, BodyDefinition& body);
 /// `rigid_bodies`, and by read_contact() `contact`, after bodies
 void read_rigid_bodies(const Map& root, Scene& scene);
-/// `contact` but for its pairs: how contact is found, and the law of tools that have none of their own. `with_tools`:
-/// there are some.
+/// `contact` without its pairs: how contact is found, and the law of tools without a law of their own. `with_tools`:
+/// whether there are tools.
 FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools);
-/// `contact.pairs`, after rigid bodies: gives deformable bodies that have a law with others velocity fields of their
-/// own.
+/// `contact.pairs`, after rigid bodies. Deformable bodies that have a law with others get velocity fields of their own.
 void read_contact_pairs(const Map& root, Scene& scene);
-/// `shape`, `pose` and `motion` of a rigid body, or of the region of a velocity condition; `motion` alone.
+/// `shape`, `pose` and `motion` of a rigid body, or of the region of a velocity condition.
 void read_rigid_shape(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body);
 void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinition& body);
-/// The `shape` of a rigid body that is `revolved`, `cone` or `ring`; of a ring that can open, its inner radius too.
-/// @throws RigidError for numbers that make no body.
+/// The `shape` of a rigid body that is `revolved`, `cone` or `ring`; for a ring that can open it also sets the inner
+/// radius. @throws RigidError for numbers that make no body.
 std::unique_ptr<Surface> read_revolved_shape(const std::string& kind, const Value& value, RigidBodyDefinition& body);
 /// `free` of a rigid body, after its shape and motion
 void read_free(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body);
@@ -57,18 +56,18 @@ CommandDefinition read_commands(const Map& body, const std::string& name, Scene&
 void read_boundaries(const Map& root, Scene& scene);
 /// `loads`, after bodies
 void read_loads(const Map& root, Scene& scene);
-/// `time` and `output`: sync points and snapshots are chosen together
+/// `time` and `output`, because sync points and snapshots are chosen together
 void read_time_and_output(const Map& root, Scene& scene);
 /// `metrics`, after bodies
 void read_metrics(const Map& root, Scene& scene);
 
 /// A number >= 0 or the word stick.
 FrictionLaw read_friction(const Value& value);
-/// One of the names that Simulation::particle_fields() knows.
+/// A name that Simulation::particle_fields() knows.
 std::string read_particle_field(const Value& value);
 /// Distance between particle centres along an axis [m].
 double particle_spacing(const Scene& scene, int axis);
-/// Name of the world's axis.
+/// Name of a world axis.
 const char* axis_name(int axis);
 /// World axes of the scene's grid (math/geometry_kind.hpp).
 std::vector<int> axes_of(const Scene& scene);

@@ -1,6 +1,6 @@
-// The text of a scene as a tree, overrides applied, and where each of its values was written.
+// The text of a scene as a tree with overrides applied, and the place where each of its values was written.
 //
-// Parts of a path are keys; an element of a list is named by its `name`, or by its index when it has none:
+// A path consists of keys; an element of a list stands by its `name`, or by its index when it has none:
 // "bodies.soil.material", "bodies.0.material". Overrides and errors use the same spelling.
 #pragma once
 
@@ -21,14 +21,14 @@ class Source {
   const std::string& label() const { return label_; }
   /// "file:line" of a value, or the override that set it.
   std::string where(const YAML::Node& node) const;
-  /// The tree as YAML, overrides applied.
+  /// The tree as YAML, with overrides applied.
   std::string dump() const { return YAML::Dump(root_); }
 
  private:
   struct Override {
     std::string text;
-    YAML::Node node;                  ///< the value it set
-    std::vector<YAML::Node> created;  ///< keys, and maps on the way to the value, that were not there before
+    YAML::Node node;                  ///< the value that the override set
+    std::vector<YAML::Node> created;  ///< keys and maps on the path to the value that did not exist before
   };
   void apply(const std::string& text);
 
@@ -37,11 +37,11 @@ class Source {
   std::vector<Override> overrides_;
 };
 
-/// The name of an element of a list in paths.
+/// The name of a list's element in paths.
 std::string element_name(const YAML::Node& list, std::size_t index);
 /// The node of a key itself, for its line; the map when there is no such key.
 YAML::Node key_node(const YAML::Node& map, const std::string& key);
-/// `path` with one more part.
+/// `path` extended by one part.
 std::string join_path(const std::string& path, const std::string& part);
 
 }  // namespace mpm

@@ -7,13 +7,14 @@
 
 namespace mpm {
 
-/// A quantity, unit or unit system that is not understood, or is of another dimension than expected.
+/// Thrown for a quantity, unit or unit system that is not understood, or has another dimension than expected.
 class UnitError : public Error {
  public:
   using Error::Error;
 };
 
-/// Exponents of the base dimensions. An angle is one, so that degrees cannot stand where a number is meant.
+/// Exponents of the base dimensions. Angle is one of them, so that degrees are refused where a plain number is
+/// expected.
 struct Dimension {
   int length = 0;
   int mass = 0;
@@ -45,7 +46,7 @@ inline constexpr Dimension kViscosity{-1, 1, -1, 0};
 inline constexpr Dimension kTemperature{0, 0, 0, 0, 1};
 inline constexpr Dimension kHeatCapacity{2, 0, -2, 0, -1};
 
-/// "a pressure", "a length"; for a dimension without a name "a quantity in m^2/s".
+/// A dimension in words: "a pressure", "a length"; for a dimension without a name "a quantity in m^2/s".
 std::string describe(const Dimension& dimension);
 /// An example of a quantity of this dimension: "5 kPa".
 std::string example(const Dimension& dimension);
@@ -55,7 +56,7 @@ struct Unit {
   double factor = 1.0;
   Dimension dimension;
 };
-/// "MPa", "g/cm^3", "kg/(m*s^2)", "1/s". @throws UnitError naming the part that is not known.
+/// Parses a unit such as "MPa", "g/cm^3", "kg/(m*s^2)", "1/s". @throws UnitError naming the unknown part.
 Unit parse_unit(const std::string& text);
 
 /// The units of a scene's plain numbers, as factors to SI. Angles are always radians, temperatures kelvins.
@@ -66,15 +67,15 @@ struct UnitSystem {
   std::string name = "si";
   double factor(const Dimension& dimension) const;
 };
-/// "si", or a consistent system by its length, mass and time: "mm-g-s", "mm-t-s", "cm-g-us", … @throws UnitError
+/// Parses "si", or a consistent system by its length, mass and time: "mm-g-s", "mm-t-s", "cm-g-us", … @throws UnitError
 UnitSystem parse_unit_system(const std::string& name);
 /// @throws UnitError when one of the three is not a length, a mass or a time.
 UnitSystem make_unit_system(const std::string& length, const std::string& mass, const std::string& time);
 
-/// Whether `text` is a number, alone or with something behind it that may be a unit; `value` and `rest` are set.
+/// Whether `text` is a number, alone or followed by something that may be a unit; sets `value` and `rest`.
 bool split_number(const std::string& text, double& value, std::string& rest);
-/// A plain number in `system`, or a number with a unit, to SI.
-/// @throws UnitError when it is neither, not finite, or not of the dimension expected.
+/// Converts a plain number in `system`, or a number with a unit, to SI.
+/// @throws UnitError when it is neither, is not finite, or has another dimension than expected.
 double parse_quantity(const std::string& text, const Dimension& expected, const UnitSystem& system = {});
 
 }  // namespace mpm

@@ -18,13 +18,13 @@ using study::Judged;
 using study::Preference;
 using study::Standing;
 
-constexpr double kLargeStrain = 0.02;  // see the header
+constexpr double kLargeStrain = 0.02;  // as in auto_method.hpp
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kTurned = 10.0 * kDegree;
 const char* const kDefault = "ugimp/usavg/flip";
 
-/// Whether some method has come below the error asked for. Who errs least on grids that are all too coarse for it may
-/// not be the one that comes below it on finer ones.
+/// Whether some method reached the required error. Where all grids are too coarse, the method with the least error may
+/// not be the one that reaches the required error on finer grids.
 bool solved(const study::MethodCosts& costs, const std::string& suite, const study::Budget& budget) {
   const auto methods = costs.find(suite);
   if (methods == costs.end()) return false;
@@ -49,7 +49,7 @@ std::vector<std::string> suites_like(const ExpectedMotion& expected, GeometryKin
   return suites;
 }
 
-/// Shape, update and transfer of `measured` where the scene has not said them.
+/// `method` with shape, update and transfer of `measured` where the scene does not name them.
 MethodDefinition filled(MethodDefinition method, const MethodDefinition& measured, const AutoMethod& asked) {
   if (!asked.keep_shape) method.shape = measured.shape;
   if (!asked.keep_update) method.update = measured.update;
@@ -57,7 +57,7 @@ MethodDefinition filled(MethodDefinition method, const MethodDefinition& measure
   return method;
 }
 
-/// Whether a measured method may stand for this scene's, which keeps `transfer`.
+/// Whether a measured method is allowed for this scene, which keeps `transfer`.
 bool eligible(const MethodDefinition& measured, const AutoMethod& asked, const std::string& transfer, bool flows,
               const SimulationDefinition& definition) {
   const MethodDefinition& said = definition.method;
@@ -66,10 +66,11 @@ bool eligible(const MethodDefinition& measured, const AutoMethod& asked, const s
                        : measured.shape == ShapeKind::dirac || (flows && measured.shape != ShapeKind::ugimp)) {
     return false;
   }
-  // The problems are elastic: what flows keeps what has been tried on it.
+  // The study's problems are elastic, so a flowing material keeps the transfer that is proven for it.
   const bool plain = measured.transfer.kind == TransferKind::flip && measured.transfer.flip == 1.0;
   if (flows && !asked.keep_transfer && !plain) return false;
-  // They keep the velocity of a ring's centre of mass, which is not where the ring is: doc/axisymmetric.md.
+  // XPIC and FMPM preserve the velocity of a ring's centre of mass, which is not at the ring's position:
+  // doc/axisymmetric.md.
   const bool filters = measured.transfer.kind == TransferKind::xpic || measured.transfer.kind == TransferKind::fmpm;
   if (filters && axisymmetric(definition.geometry) && !asked.keep_transfer) return false;
   if (asked.keep_update && measured.update != said.update) return false;
@@ -84,7 +85,7 @@ std::vector<std::string> candidates_for(const AutoMethod& asked, bool flows, con
     for (const auto& [label, points] : methods) labels.insert(label);
   }
   std::vector<std::string> found;
-  // What the study has not run, as a fraction of FLIP, is judged as if it were FLIP.
+  // A transfer that the study has not run, such as a fraction of FLIP, is judged as FLIP.
   for (const std::string& transfer : {study::transfer_label(definition.method.transfer), std::string("flip")}) {
     for (const std::string& label : labels) {
       if (eligible(study::find_method(label).method, asked, transfer, flows, definition)) found.push_back(label);
@@ -102,7 +103,8 @@ std::string name_of(const std::string& label) {
 
 std::string percent(double part) { return fmt::format("{:.3g} %", 100.0 * part); }
 
-/// "1.05 times the least cost in square_large, 1.20 in rotation" of the suites that are judged so; empty without any.
+/// "1.05 times the least cost in square_large, 1.20 in rotation", over the suites judged `by` this measure; empty if
+/// none.
 std::string numbers(const Preference& preference, Judged by, const std::string& unit) {
   std::string text;
   for (std::size_t s = 0; s < preference.suites.size(); ++s) {

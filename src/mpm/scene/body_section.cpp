@@ -1,4 +1,4 @@
-// bodies: what deforms, its material, shape and initial state.
+// bodies: deformable bodies with their material, shape and initial state.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Region read_box(const Value& value, GeometryKind geometry) {
   return region;
 }
 
-/// Bodies of revolution have their centre on the axis.
+/// Refuses a centre off the axis: bodies of revolution have theirs on it.
 void check_centre(const Value& value, const Region& region) {
   if (region.center.x() == 0.0) return;
   value.fail(
@@ -75,7 +75,7 @@ Region read_cylinder(const Value& value, GeometryKind geometry) {
   return region;
 }
 
-/// Rigid bodies by name; that they exist is known when the body is filled.
+/// Reads rigid bodies by name; whether they exist is checked when the body is filled.
 void read_cut_out(const Value& value, BodyDefinition& body) {
   body.cut_out_where = value.where();
   if (value.is_text() && value.text() == "all") {

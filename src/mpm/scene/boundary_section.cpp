@@ -1,4 +1,4 @@
-// boundaries: what the faces of the domain do, and prescribed velocities on the grid.
+// boundaries: conditions on the faces of the domain, and prescribed velocities on the grid.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace mpm {
 namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
-constexpr double kOnFace = 1e-6;  ///< of a cell: nodes on the faces of a region are in it
+constexpr double kOnFace = 1e-6;  ///< part of a cell: nodes on the faces of a region belong to it
 
 WallDefinition read_wall(const Value& value) {
   static const std::vector<Later> later = {
@@ -37,7 +37,7 @@ WallDefinition read_wall(const Value& value) {
   return wall;
 }
 
-/// `x: periodic`
+/// Checks `x: periodic`.
 void check_periodic(const Value& value, int axis, const Scene& scene) {
   constexpr int kMultiple = 8;  // GridLayout::make_periodic
   value.choice({"periodic"});
@@ -56,7 +56,7 @@ void check_periodic(const Value& value, int axis, const Scene& scene) {
                          axis_name(axis), kMultiple, below > 0.0 ? choice(below) + ", or " : "", choice(above)));
 }
 
-/// A region of space as the surface around it, which nodes on its faces are in too.
+/// Turns a region of space into the surface around it, so that nodes on its faces are included.
 void set_region(const Region& region, const Scene& scene, RigidBodyDefinition& body) {
   const GeometryKind geometry = scene.definition.geometry;
   double smallest = kEndless;

@@ -1,4 +1,4 @@
-// Fills bodies with particles on the grid's own lattice, and refuses what cannot start.
+// Fills bodies with particles on the grid's lattice, and refuses scenes that cannot start.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 namespace mpm {
 namespace {
 
-// Particles are numbered by signed 32-bit integers.
+// Largest number of particles: they are numbered by signed 32-bit integers.
 constexpr double kMostParticles = 2147483647.0;
-// A face this much of a cell beyond the grid's is on it: 0.1 is not a binary number.
+// Faces count as equal within this part of a cell, since 0.1 is not a binary number.
 constexpr double kOnFace = 1e-6;
 
 std::string span(const Box& box, const std::vector<int>& axes) {
@@ -51,8 +51,8 @@ void check_place(const BodyDefinition& body, const Scene& scene) {
   }
 }
 
-/// Lattice places along an axis whose centres can lie between `low` and `high`: centre i is at
-/// grid.min + (i + 1/2) spacing.
+/// Lattice positions along an axis whose centres can lie between `low` and `high`: centre i is at grid.min + (i + 1/2)
+/// spacing.
 struct Lattice {
   double origin;
   double spacing;
@@ -66,14 +66,14 @@ Lattice lattice(const Scene& scene, const Box& bounds, int axis) {
   const GridDefinition& grid = scene.definition.grid;
   const double spacing = particle_spacing(scene, axis);
   const double all = std::round((grid.max[axis] - grid.min[axis]) / spacing);
-  // One place more on either side: the region itself decides.
+  // One position more on either side; Region::contains() decides.
   const double first = std::floor((bounds.min[axis] - grid.min[axis]) / spacing) - 1.0;
   const double last = std::ceil((bounds.max[axis] - grid.min[axis]) / spacing) + 1.0;
   return {grid.min[axis], spacing, static_cast<std::int64_t>(std::max(0.0, first)),
           static_cast<std::int64_t>(std::min(all - 1.0, last))};
 }
 
-/// Volume over that of the bounds; area in planar scenes, where a sphere is a disk, length in a line.
+/// Volume of a region relative to its bounds; in planar scenes, where a sphere is a disk, area; in a line length.
 double fullness(const Region& region, GeometryKind geometry) {
   constexpr double kPi = 3.14159265358979323846;
   if (region.kind == Region::Kind::box || geometry == GeometryKind::line) return 1.0;
@@ -81,7 +81,7 @@ double fullness(const Region& region, GeometryKind geometry) {
   return region.kind == Region::Kind::sphere && geometry == GeometryKind::solid ? kPi / 6.0 : kPi / 4.0;
 }
 
-/// Refuses what cannot be numbered or does not fit in memory, before any particle is made.
+/// Refuses scenes with too many particles to number or to hold in memory, before any particle is made.
 void check_size(const Scene& scene) {
   const GeometryKind geometry = scene.definition.geometry;
   const double memory = usable_memory(), bytes = least_bytes_of_particle(scene.definition.method, geometry);
@@ -107,9 +107,10 @@ void check_size(const Scene& scene) {
 }
 
 /// Moves each particle by a number of cells drawn evenly from [-jitter, jitter] along each axis, but not out of the
-/// body. The same draws on every machine: a fixed seed, and of the standard library only what it defines to the bit.
+/// body. The draws are the same on every machine: the seed is fixed, and only the parts of the standard library are
+/// used whose results are specified exactly.
 void jitter(const BodyDefinition& body, const Scene& scene, std::vector<Vec3>& points) {
-  constexpr int kMostDraws = 64;  // more than enough in a body of a cell or larger; then a particle stays in its place
+  constexpr int kMostDraws = 64;  // ample in a body of at least a cell; after that a particle stays in place
   std::mt19937_64 random;
   const std::vector<int> axes = axes_of(scene);
   for (Vec3& point : points) {
@@ -140,7 +141,7 @@ DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
     filled.particle_volume *= lattices[axis].spacing;
   }
   filled.particle_volume *= scene.definition.across();
-  // x runs fastest, as grid blocks are numbered.
+  // x runs fastest, as in the numbering of grid blocks.
   const auto each_place = [&body, &lattices](auto&& visit) {
     const Lattice &x = lattices[0], &y = lattices[1], &z = lattices[2];
     for (std::int64_t k = z.first; k <= z.last; ++k) {
@@ -152,7 +153,7 @@ DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
       }
     }
   };
-  // Counted first: a list that grows needs up to three times its room.
+  // Positions are counted first, because a growing list needs up to three times its memory.
   std::size_t count = 0;
   each_place([&](const Vec3&) { ++count; });
   filled.positions.reserve(count);
@@ -165,7 +166,7 @@ DeformableBody fill(const BodyDefinition& body, const Scene& scene) {
   return filled;
 }
 
-/// `at` of every particle's place. @throws SceneError when a function has no value there.
+/// Fills `values` with `at` of every particle's position. @throws SceneError when a function has no value there.
 template <class T, class At>
 void evaluate(const BodyDefinition& body, const DeformableBody& filled, const char* what, std::vector<T>& values,
               At&& at) {
@@ -199,7 +200,7 @@ void set_initial(const BodyDefinition& body, DeformableBody& filled) {
   filled.geostatic = body.geostatic;
 }
 
-/// Two bodies on one lattice overlap where both hold the same place.
+/// Refuses overlapping bodies. Bodies share one lattice, so they overlap where both contain the same position.
 void check_overlap(const BodyDefinition& first, const BodyDefinition& second, const DeformableBody& filled_second) {
   if (!first.region.bounds().intersects(second.region.bounds())) return;
   std::size_t count = 0;
@@ -222,8 +223,8 @@ Box world_bounds(const RigidBodyDefinition& rigid) {
     const Vec3 point((corner & 1) != 0 ? local.max.x() : local.min.x(),
                      (corner & 2) != 0 ? local.max.y() : local.min.y(),
                      (corner & 4) != 0 ? local.max.z() : local.min.z());
-    // As good as without end. Turned, its other extents are rounded by less than a micrometre; those of a body that is
-    // without end along y alone are not, for it turns about y alone.
+    // Infinite extents become 1e9 m. When the body is turned, this rounds its other extents by less than a micrometre;
+    // a body that is infinite along y only turns about y and is not affected.
     const Vec3 finite = point.unaryExpr([](double c) { return std::isfinite(c) ? c : std::copysign(1e9, c); });
     world.add(rigid.pose.to_world(finite));
   }
@@ -248,7 +249,7 @@ void check_rigid(const BodyDefinition& body, const DeformableBody& filled, const
                   body.where, body.name, rigid.name, count, deepest, rigid.name));
 }
 
-/// Leaves out the particles whose centres lie inside the rigid bodies that the body asks to be cut out.
+/// Removes the particles whose centres lie inside the rigid bodies named in cut_out.
 void cut_out(const BodyDefinition& body, const Scene& scene, DeformableBody& filled) {
   std::vector<std::string> names;
   for (const RigidBodyDefinition& rigid : scene.definition.rigid_bodies) names.push_back(rigid.name);
@@ -275,7 +276,7 @@ void cut_out(const BodyDefinition& body, const Scene& scene, DeformableBody& fil
   }
 }
 
-/// Numbers of the particles of `body` that a load is for; none without a region.
+/// Numbers of the particles of `body` on which a load acts; empty without a region.
 std::vector<std::uint32_t> choose(const LoadRegion& chosen, const DeformableBody& body) {
   std::vector<std::uint32_t> particles;
   if (!chosen.region) return particles;
@@ -289,8 +290,8 @@ std::vector<std::uint32_t> choose(const LoadRegion& chosen, const DeformableBody
   return particles;
 }
 
-/// A traction belongs to the surface: refuses chosen particles that have a neighbour of their body beyond that face.
-/// Places of a body with jitter do not tell its neighbours; it is not looked at.
+/// Refuses tractions inside a body, that is on chosen particles with a neighbour of their body beyond the face. With
+/// jitter this is not checked, since positions then do not show which particles are neighbours.
 void check_faces(const TractionDefinition& load, const LoadRegion& chosen, const DeformableBody& body,
                  const Scene& scene) {
   const auto cell_of = [&](const Vec3& point) {

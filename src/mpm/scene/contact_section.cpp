@@ -11,12 +11,12 @@ namespace {
 
 using Kind = ContactLaw::Kind;
 
-constexpr Dimension kStiffness{-2, 1, -2, 0};  // traction by displacement
+constexpr Dimension kStiffness{-2, 1, -2, 0};  // traction per displacement
 const std::vector<std::string> kLawNames = {"coulomb", "stick", "interface", "one_field"};
 const std::vector<std::string> kLawKeys = {"law",    "friction", "static_friction", "adhesion",
                                            "opened", "closed",   "tangential"};
 
-/// Refuses constants that the law does not have.
+/// Refuses keys of constants that the law does not have.
 void refuse(const Map& map, Kind kind, const std::vector<std::string>& keys, const std::string& advice) {
   for (const std::string& key : keys) {
     if (const auto value = map.find(key)) {
@@ -33,7 +33,8 @@ Function read_function(const Value& value, const Dimension& dimension) {
   return function;
 }
 
-/// Interface stiffness; `perfect`, or a negative number as in the manual, is no displacement that way.
+/// Reads an interface stiffness; `perfect`, or a negative number as in the manual, means no displacement in this
+/// direction.
 double read_stiffness(const Value& value) {
   if (value.is_text() && value.text() == "perfect") return -1.0;
   return value.number(kStiffness);
@@ -54,7 +55,8 @@ Kind read_kind(const Map& map) {
   return Kind::coulomb;
 }
 
-/// The law that the keys of a pair, or of the whole section, say. `needs_friction`: a pair says its own.
+/// Reads the law from the keys of a pair or of the whole section. `needs_friction`: true for a pair, which must state
+/// its friction.
 ContactLaw read_law(const Map& map, bool needs_friction) {
   ContactLaw law;
   law.kind = read_kind(map);
@@ -129,8 +131,8 @@ void read_rules(const Map& map, ContactDefinition& contact) {
   }
 }
 
-/// Two different bodies, one of them deformable: by their places among the deformable bodies and, after these, the
-/// rigid ones.
+/// Reads two different bodies, at least one of them deformable. Returns their indices, counting the deformable bodies
+/// first and then the rigid ones.
 std::pair<int, int> read_between(const Value& value, const Scene& scene) {
   const std::vector<Value> names = value.elements();
   if (names.size() != 2) value.fail("write the names of two bodies, such as [soil, stone]");
@@ -147,12 +149,12 @@ std::pair<int, int> read_between(const Value& value, const Scene& scene) {
   if (found[0] == found[1]) names[1].fail("a body has no law with itself; name two");
   const auto [first, second] = std::minmax(found[0], found[1]);
   if (first >= static_cast<int>(scene.bodies.size())) {
-    value.fail("rigid bodies move as they are told and pass through each other; name a deformable body");
+    value.fail("rigid bodies pass through each other; name a deformable body");
   }
   return {first, second};
 }
 
-/// Laws that the section says of pairs, by the bodies' places as read_between() counts them.
+/// Laws of pairs in the section, by the indices of read_between().
 struct Laws {
   struct Pair {
     int first, second;
@@ -190,8 +192,8 @@ Laws read_pairs(const Value& list, const Scene& scene) {
   return laws;
 }
 
-/// Every body that has a law with another moves in a velocity field of its own; the others share one, and are one with
-/// whatever has no law with them.
+/// Gives every body that has a law with another a velocity field of its own; the other bodies share one field, and move
+/// together with bodies with which they have no law.
 void give_fields(const Laws& laws, const std::optional<ContactLaw>& all, Scene& scene) {
   const int count = static_cast<int>(scene.bodies.size());
   std::vector<bool> own(count, all.has_value());

@@ -1,5 +1,5 @@
-// rigid_bodies.<name>.drive and .limits: what commands the body, and how fast it may follow. The simulation does not
-// know of them: the node turns the frame into pose commands, and keeps commands within the limits.
+// rigid_bodies.<name>.drive and .limits: the source of a body's commands, and the limits of its motion. The simulation
+// does not use them: the node turns the frame into pose commands, and keeps commands within the limits.
 #include <fmt/format.h>
 
 #include "mpm/scene/sections.hpp"
@@ -7,7 +7,7 @@
 namespace mpm {
 namespace {
 
-/// The link of `shape: {urdf: …}`, else nothing.
+/// The link of `shape: {urdf: …}`, or an empty name.
 std::string link_of(const Map& body) {
   const YAML::Node urdf = body.at("shape").node()["urdf"];
   return urdf && urdf["link"] ? urdf["link"].as<std::string>() : std::string();
@@ -16,13 +16,13 @@ std::string link_of(const Map& body) {
 void read_drive(const Value& drive, const Map& body, const std::string& name, Scene& scene,
                 CommandDefinition& commands) {
   if (body.find("free"))
-    drive.fail("a free body moves by forces and cannot be told a pose; leave out one of drive and free");
+    drive.fail("a free body moves by forces and cannot follow a frame; leave out one of drive and free");
   if (body.find("motion")) drive.fail("a body follows motion or a frame, not both; leave one out");
   if (drive.is_map()) {
     const Value frame = Map(drive, {"tf"}).at("tf");
     commands.frame = frame.text();
     if (commands.frame.empty() || commands.frame.front() == '/')
-      frame.fail("is no name of a tf frame; write one such as tool0, without a slash before it");
+      frame.fail("is not a name of a tf frame; write one such as tool0, without a slash before it");
     return;
   }
   drive.choice({"tf"}, {{"velocity", "leave drive out: commands on topics need no word"},
@@ -38,7 +38,7 @@ void read_limits(const Value& value, MotionLimits& limits) {
   const Map map(value, {"speed", "rotation_rate", "acceleration", "rotation_acceleration"},
                 {{"velocity", "write speed, of the body's origin in any direction"},
                  {"jerk", "limit the acceleration"},
-                 {"force", "a rigid body moves as it is told, whatever the force"}});
+                 {"force", "a rigid body moves as commanded, whatever the force"}});
   const auto read = [&](const char* key, const Dimension& dimension, double& limit) {
     if (const auto given = map.find(key)) limit = given->positive(dimension);
   };

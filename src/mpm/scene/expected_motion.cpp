@@ -11,10 +11,10 @@
 namespace mpm {
 namespace {
 
-constexpr double kFlowStrain = 1.0;     // of what deforms without end
-constexpr double kPressedStrain = 0.1;  // by what the scene alone does not tell
+constexpr double kFlowStrain = 1.0;     // of a material that deforms without end
+constexpr double kPressedStrain = 0.1;  // where the scene alone does not determine it
 constexpr double kQuarterTurn = 0.5 * 3.14159265358979323846;
-constexpr int kSamples = 5;  // along an axis, to find a body's largest speed
+constexpr int kSamples = 5;  // points along an axis at which a body's largest speed is sought
 
 bool flows(const MaterialDefinition& material) {
   return std::holds_alternative<DruckerPragerDefinition>(material.law) ||
@@ -31,13 +31,13 @@ const MaterialDefinition& material_of(const BodyDefinition& body, const Scene& s
                        [&](const MaterialDefinition& material) { return material.name == body.material; });
 }
 
-/// Velocity at the start, of points spread over the body's bounds.
+/// Initial motion, from the velocity at points spread over the body's bounds.
 struct Start {
   double speed = 0.0;  ///< largest [m/s]
-  double rate = 0.0;   ///< of rotation about the middle [rad/s]
+  double rate = 0.0;   ///< rate of rotation about the middle [rad/s]
 };
 
-/// Where an expression has no value is for the error that is given when particles are made.
+/// Points where an expression has no value are skipped; the error comes when particles are made.
 Start start_of(const BodyDefinition& body, const Scene& scene) {
   const Box bounds = body.region.bounds();
   const Vec3 middle = 0.5 * (bounds.min + bounds.max);
@@ -69,7 +69,7 @@ Start start_of(const BodyDefinition& body, const Scene& scene) {
 
 struct Arrival {
   double speed = 0.0;   ///< largest, at the start or after a fall to the face of the grid [m/s]
-  double rate = 0.0;    ///< of rotation at the start [rad/s]
+  double rate = 0.0;    ///< rate of rotation at the start [rad/s]
   double weight = 0.0;  ///< g H [m^2/s^2]
 };
 
@@ -107,7 +107,7 @@ void find_elastic_motion(const Scene& scene, ExpectedMotion& expected) {
     const Arrival at = arrival(body, scene);
     const double strain = at.speed / wave + at.weight / (wave * wave);
     const double turn = end > 0.0 ? at.rate * end : kQuarterTurn;
-    // A billionth of the rate at which the fastest point would go round is round-off.
+    // A billionth of the rate at which the fastest point would circle the middle is round-off.
     if (axisymmetric(scene.definition.geometry)) {
       expected.turn_why = "nothing turns as a whole about an axis";
     } else if (at.rate * body_size(body, scene) > 1e-9 * at.speed && turn > expected.turn) {

@@ -35,7 +35,7 @@ void add_bodies(const Scene& scene, const SimulationDefinition& built, std::stri
       if (material.name != body.material) continue;
       const auto count = static_cast<double>(body.positions.size());
       particles += count;
-      double lengths = count;  // of rings, all the way round
+      double lengths = count;  // lengths of the rings; their number in other geometries
       if (axisymmetric(built.geometry)) {
         const double half = 0.5 * particle_spacing(scene, 0);
         const bool whole = built.method.axis.domains == AxisDomains::whole;

@@ -1,4 +1,4 @@
-// `free` of a rigid body: its mass, and what of its motion is free.
+// `free` of a rigid body: its mass, and the directions in which it moves freely.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 namespace mpm {
 namespace {
 
-constexpr double kCentred = 1e-6;  ///< of its size: nearer to the origin a shape's centre of mass is there
+constexpr double kCentred =
+    1e-6;  ///< part of its size: a centre of mass nearer to the origin than this counts as the origin
 constexpr Dimension kInertia{2, 1, 0, 0};
 constexpr Dimension kTorque{2, 1, -2, 0};
 
@@ -34,7 +35,8 @@ std::array<bool, 6> read_axes(const Value& value, GeometryKind geometry) {
   return axes;
 }
 
-/// A number in planar scenes, about y; else three principal moments, or six: xx, yy, zz, yz, xz, xy.
+/// Reads the inertia: in planar scenes one number, about y; else three principal moments, or six: xx, yy, zz, yz, xz,
+/// xy.
 Mat3 read_inertia(const Value& value, GeometryKind geometry) {
   if (planar(geometry)) return Mat3(Vec3(0.0, value.positive(kInertia), 0.0).asDiagonal());
   const std::vector<Value> parts = value.elements();
@@ -51,7 +53,7 @@ Mat3 read_inertia(const Value& value, GeometryKind geometry) {
   return inertia;
 }
 
-/// Along y alone in a plane.
+/// Reads a vector along rotation axes: in a plane one number, about y.
 Vec3 read_about(const Value& value, const Dimension& dimension, GeometryKind geometry) {
   if (planar(geometry)) return {0.0, value.number(dimension), 0.0};
   const std::vector<Value> parts = value.elements();
@@ -59,7 +61,7 @@ Vec3 read_about(const Value& value, const Dimension& dimension, GeometryKind geo
   return {parts[0].number(dimension), parts[1].number(dimension), parts[2].number(dimension)};
 }
 
-/// Mass, centre and inertia, as far as they are not written, from the shape.
+/// Mass, centre of mass and inertia; those that the scene leaves out follow from the shape.
 void read_mass(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body,
                FreeDefinition& free) {
   const GeometryKind geometry = definition.geometry;
@@ -70,7 +72,7 @@ void read_mass(const Map& map, const SimulationDefinition& definition, RigidBody
   if (inertia) free.inertia = read_inertia(*inertia, geometry);
   if (mass) free.mass = mass->positive(kMass);
   const bool turns = free.axes[3] || free.axes[4] || free.axes[5];
-  // The shape's is about its own centre of mass.
+  // The inertia of the shape is about its own centre of mass.
   if (turns && centre && !inertia)
     centre->fail("the inertia about this centre is not known; write inertia beside it, or leave out centre");
   const double across = planar(geometry) ? definition.thickness : std::sqrt(definition.area);
@@ -107,10 +109,10 @@ void read_free(const Map& body_map, const SimulationDefinition& definition, Rigi
   if (const auto value = map.find("force")) free.wrench.force = value->vector(kForce);
   if (const auto value = map.find("torque")) free.wrench.torque = read_about(*value, kTorque, geometry);
   for (int k = 0; k < 6; ++k) {
-    const Function& told = k < 3 ? body.velocity[k] : body.rotation_rate[k - 3];
-    if (free.axes[k] && !told.is_zero()) {
+    const Function& prescribed = k < 3 ? body.velocity[k] : body.rotation_rate[k - 3];
+    if (free.axes[k] && !prescribed.is_zero()) {
       key->fail(
-          "a velocity that is free is told by `motion` too; leave it out of free.axes, or out of motion and write "
+          "a free velocity is prescribed by `motion` too; leave it out of free.axes, or out of motion and write "
           "free.velocity for the start");
     }
     const double start = k < 3 ? free.velocity.linear[k] : free.velocity.angular[k - 3];
@@ -121,7 +123,7 @@ void read_free(const Map& body_map, const SimulationDefinition& definition, Rigi
   for (int k = 0; k < 6; ++k) {
     if (has(geometry, k) && !free.axes[k] && free.centre != Vec3::Zero()) {
       key->fail(
-          "the centre of mass is off the body's origin, and a part of its motion is told; put the origin at the "
+          "the centre of mass is off the body's origin, and part of its motion is prescribed; put the origin at the "
           "centre of mass, or free all axes");
     }
   }

@@ -12,7 +12,7 @@
 namespace mpm {
 namespace {
 
-constexpr int kLongest = 1 << 15;  // points along an axis: a larger number in an image's head is no size
+constexpr int kLongest = 1 << 15;  // points along an axis; a larger number in an image's header is not a size
 
 HeightTable read_text(std::istream& stream, const std::string& path) {
   HeightTable table;
@@ -42,7 +42,7 @@ HeightTable read_text(std::istream& stream, const std::string& path) {
   return table;
 }
 
-/// The next number in the head of an image, behind blanks and comments; -1 where there is none.
+/// The next number in the header of an image, after blanks and comments; -1 if there is none.
 int head_number(std::istream& stream) {
   while (stream >> std::ws && stream.peek() == '#') stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
   int number = 0;
@@ -61,7 +61,7 @@ HeightTable read_image(std::istream& stream, const std::string& path) {
       !between(white, 65535)) {
     throw SceneError(path + ": not a greyscale image; write it as PGM (P2 or P5)");
   }
-  stream.get();  // the one blank behind the head
+  stream.get();  // the single blank after the header
   const auto next = [&]() -> int {
     if (kind == "P2") return head_number(stream);
     const int high = white > 255 ? stream.get() : 0;

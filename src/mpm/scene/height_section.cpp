@@ -11,9 +11,9 @@
 namespace mpm {
 namespace {
 
-constexpr int kMostCells = 4096;  // of an expression, along an axis
+constexpr int kMostCells = 4096;  // of an expression's points, along an axis
 
-/// `[from, to]`, lengths.
+/// Reads an extent `[from, to]` [m].
 void read_extent(const Value& value, int axis, HeightGrid& grid) {
   const std::vector<Value> ends = value.elements();
   if (ends.size() != 2) value.fail(fmt::format("found {} numbers; write [from, to]", ends.size()));
@@ -28,7 +28,8 @@ int read_cells(const Value& value) {
   return cells;
 }
 
-/// Points along x and y where an expression is asked: as many cells as told, else the background grid's size.
+/// Chooses the points along x and y at which an expression is evaluated: `cells` if given, else about the background
+/// grid's size.
 void choose_points(const Map& map, const SimulationDefinition& definition, bool in_plane, HeightGrid& grid) {
   const auto fine = [&](int axis) {
     const double cells = std::ceil((grid.high[axis] - grid.low[axis]) / definition.grid.cell[axis] - 1e-9);
@@ -119,7 +120,7 @@ std::unique_ptr<Surface> read_height_field(const Value& value, const SimulationD
   if (heights.has_value() == file.has_value()) value.fail("a height field has heights or file; write one of them");
   const bool expression = heights && heights->is_text();
   if (const auto cells = map.find("cells"); cells && !expression)
-    cells->fail("the list or file says how many points there are; leave it out");
+    cells->fail("the list or file determines the number of points; leave it out");
   if (const auto scale = map.find("scale"); scale && !file) scale->fail("belongs to file; leave it out");
   if (expression) {
     choose_points(map, definition, in_plane, grid);

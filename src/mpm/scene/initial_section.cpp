@@ -1,4 +1,4 @@
-// bodies.<name>.initial: what a body starts with, checked against its material.
+// bodies.<name>.initial: the initial state of a body, checked against its material.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 const std::array<const char*, 6> kComponents = {"xx", "yy", "zz", "yz", "xz", "xy"};
 
-/// Those that a scene may give; the others are zero, or follow.
+/// Components of stress that a scene may give; the others are zero, or follow from these.
 std::vector<std::string> free_components(GeometryKind geometry) {
   switch (geometry) {
     case GeometryKind::line:

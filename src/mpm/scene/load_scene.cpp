@@ -1,4 +1,4 @@
-// Finding scene files: a path, or the name of a scene that is shipped.
+// Finds scene files by path, or by the name of a shipped scene.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders of shipped scenes, the first one found counts: MPM_ROS_SCENE_PATH (split at ':'), the source tree's, and
-/// where the package is installed.
+/// Folders of shipped scenes in the order in which they are searched: MPM_ROS_SCENE_PATH (split at ':'), the source
+/// tree's, and where the package is installed.
 std::vector<fs::path> scene_folders() {
   std::vector<fs::path> folders;
   if (const char* variable = std::getenv("MPM_ROS_SCENE_PATH")) {

@@ -1,4 +1,4 @@
-// loads: what pushes the material beside gravity, tools and boundaries.
+// loads: forces on the material besides gravity, tools and boundaries.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ void read_particle_force(const Value& value, Scene& scene) {
   scene.load_regions.push_back(read_load_region(map, scene));
 }
 
-/// Which face, and of whose particles: what traction and pressure have in common.
+/// Reads the face and its particles, which traction and pressure have in common.
 TractionDefinition read_face(const Map& map, Scene& scene) {
   TractionDefinition load;
   load.body = read_body(map.at("body"), scene);

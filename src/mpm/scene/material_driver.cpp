@@ -16,7 +16,7 @@ namespace {
 constexpr int kStepsOfALeg = 100;
 constexpr int kStepsOfARow = 10;
 
-/// Whether the text is a map without the key `name`. What is no map at all is told by the reader.
+/// Whether the text is a map without the key `name`. The reader reports a text that is not a map.
 bool is_nameless(const std::string& text) {
   try {
     const YAML::Node node = YAML::Load(text);
@@ -27,7 +27,7 @@ bool is_nameless(const std::string& text) {
 }
 
 MaterialDefinition read_inline(const std::string& text) {
-  // An element of a scene's list: the same keys, units and errors.
+  // Reading it as an element of a scene's list gives the same keys, units and errors.
   const std::vector<std::string> overrides =
       is_nameless(text) ? std::vector<std::string>{"materials.0.name=material"} : std::vector<std::string>{};
   const Source source("materials: [" + text + "]", "MATERIAL", overrides);

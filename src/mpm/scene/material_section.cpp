@@ -30,7 +30,7 @@ LawDefinition read_linear_elastic(const Map& map, Scene&) { return LinearElastic
 
 LawDefinition read_neo_hookean(const Map& map, Scene&) { return NeoHookeanDefinition{read_elasticity(map)}; }
 
-/// What the laws of soil have in common.
+/// Reads the constants that the laws of soil have in common.
 template <class SoilDefinition>
 SoilDefinition read_soil(const Map& map) {
   SoilDefinition law;
@@ -116,7 +116,7 @@ LawDefinition read_viscoelastic(const Map& map, Scene&) {
                                        map.at("relaxation_time").number(kTime)};
 }
 
-/// Heat: c_v, and strength that it takes away.
+/// Reads heat: c_v, and the softening by temperature.
 void read_heat(const Map& map, Scene& scene, JohnsonCookDefinition& law) {
   law.heat_capacity = map.at("heat_capacity").number(kHeatCapacity);
   if (const auto fraction = map.find("heat_fraction")) law.heat_fraction = fraction->number(kPlain);
@@ -163,7 +163,7 @@ LawDefinition read_johnson_cook(const Map& map, Scene& scene) {
 
 struct LawSection {
   const char* name;
-  std::vector<std::string> keys;  ///< beside name, density and law
+  std::vector<std::string> keys;  ///< besides name, density and law
   LawDefinition (*read)(const Map&, Scene&);
 };
 
@@ -196,8 +196,8 @@ const LawSection& find_section(const Value& law) {
   return law_sections()[law.choice(names, later_laws())];
 }
 
-/// A refused constant belongs to the key that it was read from: the check's text begins with the constant's name, which
-/// is the key with spaces, but for three.
+/// Reports a refused constant at the key that it was read from. The text of the check begins with the name of the
+/// constant, which is the key with spaces, except for three.
 [[noreturn]] void fail(const Map& map, const std::string& text) {
   const std::size_t colon = text.find(": ");
   const std::string what = colon == std::string::npos ? text : text.substr(colon + 2);
@@ -215,7 +215,8 @@ const LawSection& find_section(const Value& law) {
 
 MaterialDefinition read_material(const Value& value, Scene& scene) {
   std::vector<std::string> keys = {"name", "density", "law"};
-  // The law decides which keys there are; without one, those of all laws are known, and its own is missed below.
+  // The law determines the keys. Without a law the keys of all laws are allowed, and the missing key `law` is reported
+  // below.
   const YAML::Node law = value.is_map() ? value.node()["law"] : YAML::Node();
   if (value.is_map() && law && law.IsScalar()) {
     const LawSection& section = find_section(value.child(law, "law"));

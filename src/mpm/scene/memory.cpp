@@ -12,7 +12,7 @@ namespace mpm {
 
 double usable_memory() {
   double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  // Control groups, version 2 and 1; "max" is no number.
+  // Control groups, version 2 and 1; "max" is not a number.
   for (const char* path : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
     std::ifstream file(path);
     double limit = 0.0;
@@ -26,14 +26,14 @@ double least_bytes_of_particle(const MethodDefinition& method, GeometryKind geom
   const int carried = with_geometry(geometry, [](auto kind) { return kind.kMatrix + kind.kSymmetric; });
   const double real = method.precision == Precision::float32 ? 4.0 : 8.0;
   const double positions = 8.0 * dim * (method.update == UpdateScheme::usf ? 1 : 2);
-  // mechanics/continuum.hpp: the domain of the step's start, and APIC's matrix.
+  // As in mechanics/continuum.hpp: the domain at the start of a step, and APIC's matrix.
   int kept = follows_deformation(method.shape) ? (method.shape == ShapeKind::ugimp_stretch ? dim : dim * dim) : 0;
   if (method.transfer.kind == TransferKind::apic) kept += dim * dim;
-  if (axisymmetric(geometry)) kept += 1;  // its mass
+  if (axisymmetric(geometry)) kept += 1;  // mass of the ring
   const double id = 4.0;
-  // step/sorter.hpp; the groups, a place each when they are of one particle.
+  // As in step/sorter.hpp; groups take one place each when they consist of one particle.
   const double sorter = (method.precision == Precision::float32 ? 29.0 : 25.0) + 4.0;
-  // grid/nodal_fields.hpp: mass and three vectors.
+  // As in grid/nodal_fields.hpp: mass and three vectors.
   const double node = 8.0 * (1 + 3 * dim);
   return positions + real * (dim + carried + kept) + id + sorter + node / std::pow(method.particles_per_direction, dim);
 }

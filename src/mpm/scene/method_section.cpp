@@ -1,4 +1,4 @@
-// units, grid, method: how the space is divided and stepped.
+// units, grid, method: the discretisation of space and the scheme of a step.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 namespace mpm {
 namespace {
 
-// A grid is a whole number of cells; this much of a cell is forgiven, for 0.1 is not a binary number.
+// A grid is a whole number of cells, within this part of a cell, since 0.1 is not a binary number.
 constexpr double kWholeCells = 1e-6;
-// Node numbers along an axis are 32-bit in the grid's layout, with room for the layers around the domain.
+// Largest number of cells along an axis: node numbers have 32 bits, and there are layers around the domain.
 constexpr double kMostCells = 1e8;
 
 Vec3 read_cell(const Value& value, const Scene& scene) {
@@ -48,7 +48,7 @@ void check_extent(const Value& max, const Scene& scene) {
   }
 }
 
-/// The words of a scene for one of the enums: its names, and others that stand for one of them.
+/// The words in a scene for an enumeration: its names, and other words for some of them.
 template <std::size_t N>
 std::size_t read_name(const Value& value, const std::array<const char*, N>& names,
                       const std::vector<std::pair<std::string, std::size_t>>& aliases = {}) {
@@ -83,7 +83,7 @@ Transfer read_transfer(const Value& value) {
   return transfer;
 }
 
-/// At the deepest part of the fault's key that the scene has written.
+/// Reports a fault at the deepest part of its key that the scene contains.
 [[noreturn]] void refuse(const Value& method, const MethodFault& fault) {
   Value at = method;
   for (std::size_t start = 0; start < fault.key.size() && at.is_map();) {
@@ -179,7 +179,7 @@ void read_grid(const Map& root, Scene& scene) {
     if (limit.integer() < 0) limit.fail("a number of particles; write 0 or more");
     grid.leave_limit = static_cast<std::uint64_t>(limit.integer());
   }
-  // One cell beside the grid's axes, as thick as the scene (of a line a square), about 0.
+  // Along axes that the grid lacks there is one cell about 0, as thick as the scene (a square for a line).
   const GeometryKind geometry = scene.definition.geometry;
   const double width = planar(geometry) ? scene.definition.thickness : std::sqrt(scene.definition.area);
   for (const int axis : axes_beside(geometry)) {
@@ -236,7 +236,7 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   }
   if (const auto axis = map.find("axis")) read_axis(*axis, scene);
   read_particles(map, scene);
-  // What is left to be chosen stands at its default here, which goes with everything that goes with anything.
+  // Parts that are still to be chosen have their defaults here, which are compatible with every valid combination.
   if (const auto fault = method_fault(method, scene.definition.geometry)) refuse(*section, *fault);
   return chosen_later;
 }

@@ -14,19 +14,19 @@ namespace mpm {
 namespace {
 
 constexpr double kNanosecond = 1e-9;
-constexpr double kShortestEnd = 100.0 * kNanosecond;  // a hundred sync points of the least period
-constexpr double kLongest = 1e9;                      // [s], 32 years; 64-bit nanoseconds hold 292
-constexpr std::int64_t kMostSync = 10'000'000;        // [ns], a command waits no longer than this by default
+constexpr double kShortestEnd = 100.0 * kNanosecond;  // a hundred sync points of the shortest period
+constexpr double kLongest = 1e9;                      // [s], 32 years; 64 bits of nanoseconds last 292 years
+constexpr std::int64_t kMostSync = 10'000'000;        // [ns], the longest that a command waits by default
 
 double seconds(std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) / 1e9; }  // rounds once
 
-/// A time of whole nanoseconds.
+/// Reads a time of whole nanoseconds.
 std::int64_t read_nanoseconds(const Value& value) {
   const double time = value.positive(kTime);
   if (time > kLongest) value.fail(fmt::format("{:g} s is longer than {:g} s; write a shorter time", time, kLongest));
   const double exact = time / kNanosecond;
   const double whole = std::round(exact);
-  // A hundred-thousandth of a nanosecond, and the last digits of a double, are forgiven.
+  // Within a hundred-thousandth of a nanosecond, or the last digits of a double.
   if (whole < 1.0 || std::abs(exact - whole) > std::max(1e-5, 1e-12 * exact)) {
     value.fail(fmt::format("{:.12g} s is not a whole number of nanoseconds; write {:.12g} s", time,
                            std::max(1.0, whole) * kNanosecond));
@@ -133,13 +133,13 @@ void choose_periods(const std::optional<Value>& sync_key, const std::optional<Va
   scene.output.first = seconds(first);
 }
 
-/// One of the names that Simulation::body_values() knows.
+/// Reads a name that Simulation::body_values() knows.
 std::string read_body_value(const Value& value) {
   const std::vector<std::string>& names = Simulation::body_values();
   return names[value.choice(names)];
 }
 
-/// A quantity by its name, or {quantity: NAME, body: NAME}.
+/// Reads a quantity by its name, or {quantity: NAME, body: NAME}.
 GlobalQuantity read_global_quantity(const Value& value, const Scene& scene) {
   GlobalQuantity quantity;
   if (!value.is_map()) {
@@ -178,7 +178,7 @@ void read_global(const Map& map, Scene& scene) {
   scene.output.global_period = seconds(read_nanoseconds(*period));
 }
 
-/// After the sync period is known.
+/// To be called when the sync period is known.
 void check_global_period(const Map& map, Scene& scene) {
   const auto period = map.find("global_period");
   if (!period) return;

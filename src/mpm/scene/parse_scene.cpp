@@ -42,8 +42,8 @@ void read_geometry(const Map& root, ReadContext& context, Scene& scene) {
   }
 }
 
-/// The scene's text with the method that was chosen in the place of `auto`: a record runs again to the same bits,
-/// whatever figures a later choice would be made from.
+/// The scene's text with the chosen method in place of `auto`, so that a record runs again to the same bits, even if
+/// later measurements would lead to another choice.
 std::string with_method(const YAML::Node& tree, const MethodDefinition& chosen) {
   YAML::Node root = YAML::Clone(tree);
   if (!root["method"] || !root["method"].IsMap()) root["method"] = YAML::Node(YAML::NodeType::Map);

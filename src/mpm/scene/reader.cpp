@@ -117,7 +117,7 @@ Function Value::function(const Dimension& dimension, FunctionPlaces places) cons
   const std::string word = text();
   double number = 0.0;
   std::string rest;
-  // A number with a word, 1/s or % behind it is a quantity; anything else that is more than a number is an expression.
+  // A number followed by a word, 1/s or % is a quantity; anything else that is more than a number is an expression.
   const bool starts_with_number = split_number(word, number, rest);
   const bool has_unit =
       starts_with_number && !rest.empty() && (std::isalnum(static_cast<unsigned char>(rest[0])) || rest == "%");
@@ -188,7 +188,7 @@ Map::Map(const Value& value, std::vector<std::string> keys, const std::vector<La
   for (const auto& entry : value.node()) {
     const std::string& key = entry.first.Scalar();
     if (contains(keys_, key)) continue;
-    // The line of the key, not of its value.
+    // The error names the line of the key, not of its value.
     const Value culprit = value.child(entry.first, key);
     if (const Later* known = find_later(key, later)) culprit.fail("not built yet; " + known->advice);
     culprit.fail(fmt::format(
@@ -202,7 +202,7 @@ std::optional<Value> Map::find(const std::string& key) const {
   const YAML::Node node = value_.node()[key];
   if (!node) return std::nullopt;
   if (node.IsNull()) {
-    // Nothing has no line of its own: the key's is told.
+    // A missing value has no line of its own, so the error names the line of the key.
     value_.child(key_node(value_.node(), key), key)
         .fail("has no value; write one, or leave the key out for its default");
   }

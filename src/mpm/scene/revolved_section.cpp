@@ -1,4 +1,4 @@
-// Shapes of rigid bodies that are named by their section: revolved, cone, ring.
+// Shapes of rigid bodies that are defined by their section: revolved, cone, ring.
 #include <fmt/format.h>
 
 #include <cmath>

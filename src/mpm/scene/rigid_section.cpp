@@ -135,7 +135,7 @@ Quat read_quaternion(const Value& value) {
   return given.normalized();
 }
 
-/// `inner_radius`: of a ring that opens along x, else 0.
+/// `inner_radius`: the inner radius of a ring that opens along x, else 0.
 Pose read_pose(const Value& value, GeometryKind geometry, double inner_radius) {
   const Map map(value, {"position", "rpy", "quaternion"}, {{"frame", "poses are in the world frame"}});
   Pose pose;
@@ -184,7 +184,7 @@ void read_motion(const Value& value, GeometryKind geometry, RigidBodyDefinition&
   if (const auto rate = map.find("rotation_rate")) body.rotation_rate = read_rotation_rate(*rate, geometry);
 }
 
-/// Of the exact surface, or of particles that fill it.
+/// Reads where contact normals come from: the exact surface, or particles that fill it.
 void read_normals(const Value& value, RigidBodyDefinition& body) {
   body.particles = value.choice({"surface", "particles"}) == 1;
   if (!body.particles) return;

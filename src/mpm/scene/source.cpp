@@ -11,7 +11,7 @@
 namespace mpm {
 namespace {
 
-// Aliases (&a, *a) can make a small text a huge or endless tree; no honest scene comes near these.
+// Aliases (&a, *a) can turn a small text into a huge or endless tree. These limits are far above any real scene.
 constexpr int kDeepest = 32;
 constexpr int kMostValues = 100000;
 
@@ -19,7 +19,7 @@ std::string place(const std::string& label, const YAML::Mark& mark) {
   return mark.is_null() ? label : fmt::format("{}:{}", label, mark.line + 1);
 }
 
-// Every key once, every key a word, and a tree of sensible size.
+// Checks that every key is a word and occurs once, and that the tree has a sensible size.
 void check_tree(const YAML::Node& node, const std::string& label, const std::string& path, int depth, int& values) {
   if (depth > kDeepest || ++values > kMostValues) {
     throw SceneError(
@@ -51,7 +51,7 @@ void check_tree(const YAML::Node& node, const std::string& label, const std::str
   }
 }
 
-// Whether `node` is `tree` or inside it.
+// Whether `node` is `tree` or lies inside it.
 bool holds(const YAML::Node& tree, const YAML::Node& node) {
   if (tree.is(node)) return true;
   if (tree.IsSequence()) {
@@ -140,7 +140,7 @@ Source::Source(const std::string& text, std::string label, const std::vector<std
 }
 
 std::string Source::where(const YAML::Node& node) const {
-  // The last override of a value is the one that holds.
+  // The last override of a value takes effect.
   for (auto it = overrides_.rbegin(); it != overrides_.rend(); ++it) {
     const auto same = [&node](const YAML::Node& created) { return created.is(node); };
     if (holds(it->node, node) || std::any_of(it->created.begin(), it->created.end(), same)) return "--set " + it->text;

@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  // Temporary files are taken away before it ends.
+  // Temporary files are removed before the program ends.
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   options.stop_requested = [] { return stop_signal != 0; };

@@ -1,8 +1,8 @@
 // Commands a rigid body over a topic, in simulated time: a list of phases, each a trapezoid of velocity.
 //
 // Private parameters: ~phases, a list of {name, begin, end, ramp, linear: [3], angular: [3]} in s, m/s and rad/s (world
-// axes; phases that overlap add up); ~topic; ~frame_id; ~period [s] between commands; ~lead [s] of simulated time by
-// which a command is sent before it takes effect, so that it arrives in time whatever the delay on the way.
+// axes; overlapping phases add up); ~topic; ~frame_id; ~period [s] between commands; ~lead [s], the simulated time by
+// which a command is sent before it takes effect, so that it arrives in time.
 #include <geometry_msgs/TwistStamped.h>
 #include <ros/ros.h>
 #include <xmlrpcpp/XmlRpcException.h>
@@ -21,7 +21,7 @@ struct Phase {
   std::string name;
   double begin = 0.0;  // [s]
   double end = 0.0;
-  double ramp = 0.0;              // [s] from rest to full speed, and back
+  double ramp = 0.0;              // [s] duration from rest to full speed, and back
   std::array<double, 6> twist{};  // linear [m/s], angular [rad/s], at full speed
 
   double share(double time) const { return std::clamp(std::min(time - begin, end - time) / ramp, 0.0, 1.0); }
@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
   const auto topic = parameters.param<std::string>("topic", "bodies/blade/cmd_vel_stamped");
   ros::Publisher publisher = node.advertise<geometry_msgs::TwistStamped>(topic, 100);
 
-  // Simulated time counts from the start of the run; without use_sim_time, from the first look at the clock.
+  // Simulated time starts with the run; without use_sim_time, time starts when the clock is first read.
   const ros::Time start = ros::Time::isSimTime() ? ros::Time() : ros::Time::now();
   std::int64_t next = 1;
   double last = 0.0;
@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
     if (publisher.getNumSubscribers() == 0 || now <= 0.0) continue;
     if (now < last) next = 1;  // the run was reset
     last = now;
-    // Before the first command the body follows the scene; what is past is not sent.
+    // Before the first command the body follows the scene. Commands for past times are not sent.
     next = std::max(next, static_cast<std::int64_t>(now / period) + 1);
     for (; static_cast<double>(next) * period <= std::min(now + lead, end); ++next) {
       const double time = static_cast<double>(next) * period;

@@ -1,16 +1,17 @@
-// Presses a rigid body down into soft material until it feels a target force: admittance control, an example to copy.
+// Presses a rigid body down into soft material until it meets a target force: admittance control, an example to copy.
 //
-// The body goes down at a speed in proportion to the force that is missing, gain * (target - force), within a limit;
-// the force is that of the last control period behind a low-pass of the first order. Weak: the material's stiffness is
-// in the loop, which is slow where that is low and swings where gain * stiffness * (period + filter) comes near 1.
+// The body moves down at a speed proportional to the missing force, gain * (target - force), up to a limit; the force
+// is the mean of the last control period, filtered by a first-order low-pass. Weak: the material's stiffness is in the
+// loop, which is slow where the stiffness is low and oscillates where gain * stiffness * (period + filter) approaches
+// 1.
 //
-// In lockstep each control period is a call of the simulator's service `step` with the command in it: no message can
-// come late, and two runs are equal to the bit. Otherwise it hears bodies/<body>/wrench (the mean of a period: start
-// the simulator with ~wrench_rate at 1/~period) and answers each on bodies/<body>/cmd_vel_stamped, ~lead ahead.
+// In lockstep each control period is a call of the simulator's service `step` with the command in it: no message can be
+// late, and two runs are equal to the bit. Otherwise it subscribes to bodies/<body>/wrench (the mean of a period: start
+// the simulator with ~wrench_rate at 1/~period) and answers each message on bodies/<body>/cmd_vel_stamped, ~lead ahead.
 //
 // Private parameters: ~body; ~target [N]; ~gain [m/s/N]; ~max_speed [m/s]; ~filter [s], time constant; ~lockstep;
-// ~period [s] of control; ~lead [s]; ~duration [s] simulated, 0: without end; ~tolerance and ~hold [s]: it has settled
-// when the force has been within tolerance * target for hold.
+// ~period [s] of control; ~lead [s]; ~duration [s] of simulated time, 0: unlimited; ~tolerance and ~hold [s]: the force
+// has settled when it was within tolerance * target for the time hold.
 // Exit codes, when ~duration is over: 0 settled, 1 not settled or no simulator, 2 a parameter that makes no sense.
 #include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
@@ -54,7 +55,7 @@ class Controller {
   explicit Controller(const Settings& settings)
       : settings_(settings), share_(settings.period / (settings.period + settings.filter)) {}
 
-  /// Velocity along z [m/s] for the coming period; `force`: upwards on the body, mean of the last one [N].
+  /// Velocity along z [m/s] for the coming period; `force`: upward force on the body, the mean of the last period [N].
   double update(double force) {
     filtered_ += share_ * (force - filtered_);
     const double down = settings_.gain * (settings_.target - filtered_);
@@ -63,11 +64,11 @@ class Controller {
 
  private:
   const Settings& settings_;
-  const double share_;  // of the filter
+  const double share_;  // weight of a new value in the filter
   double filtered_ = 0.0;
 };
 
-/// What the force did, by simulated time.
+/// The history of the force over simulated time.
 class Record {
  public:
   explicit Record(const Settings& settings) : settings_(settings) {}
@@ -85,7 +86,7 @@ class Record {
 
   bool over() const { return settings_.duration > 0.0 && time_ - start_ >= settings_.duration; }
 
-  /// Says what was reached; the exit code.
+  /// Reports the result and returns the exit code.
   int judge() const {
     if (touch_ < 0.0) {
       ROS_ERROR("the body has touched nothing in %.2f s", time_ - start_);
@@ -101,8 +102,8 @@ class Record {
 
  private:
   Settings settings_;
-  double start_ = -1.0, touch_ = -1.0;  // [s] of the first force heard, of the first above zero
-  double outside_ = 0.0;                // [s] when it was out of tolerance last
+  double start_ = -1.0, touch_ = -1.0;  // time of the first message, and of the first force above zero [s]
+  double outside_ = 0.0;                // last time out of tolerance [s]
   double time_ = 0.0, force_ = 0.0, largest_ = 0.0;
 };
 
@@ -114,7 +115,7 @@ double force_on(const std::string& body, const mpm_ros::ContactForces& contacts)
 }
 
 int control_in_lockstep(ros::NodeHandle& node, const Settings& settings) {
-  // By the wall's clock: in lockstep simulated time stands still until somebody steps, and so would a wait in it.
+  // Waits in wall time: in lockstep simulated time stands still until the first step, and so would a wait in it.
   const std::string name = node.resolveName("step");
   while (ros::ok() && !ros::service::exists(name, false)) ros::WallDuration(0.05).sleep();
   ros::ServiceClient service = node.serviceClient<mpm_ros::Step>(name, true);  // one connection for all calls

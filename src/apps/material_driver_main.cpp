@@ -1,5 +1,5 @@
-// rosrun mpm_ros material_driver MATERIAL [PATH]: one piece of material along a path of strain or stress. Wiring only;
-// see mpm/scene/material_driver.hpp.
+// rosrun mpm_ros material_driver MATERIAL [PATH]: drives one piece of material along a path of strain or stress. Wiring
+// only; see mpm/scene/material_driver.hpp.
 //
 // Exit codes: 0 done, 2 bad input, 3 the law failed.
 #include <CLI/CLI.hpp>

@@ -1,7 +1,8 @@
-// rosrun mpm_ros run_scene SCENE: a scene without a master, as fast as it goes. Wiring only; see mpm_ros/run_scene.hpp.
+// rosrun mpm_ros run_scene SCENE: runs a scene without a ROS master, as fast as possible. Wiring only; see
+// mpm_ros/run_scene.hpp.
 //
-// Exit codes: 0 done (or told to stop), 1 the machine failed (a full disk), 2 bad input, 3 the physics failed, or a
-// recording that was run again ended in another state.
+// Exit codes: 0 done (or stopped on request), 1 the machine failed (a full disk), 2 bad input, 3 the physics failed, or
+// a recording that was run again ended in another state.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 // rosrun mpm_ros simulator _scene:=NAME: the node. Wiring only; see mpm_ros/simulator_node.hpp.
 //
-// Exit codes: 0 done (or told to stop), 1 a bag that cannot be written or another failure of the machine, 2 bad input,
-// 3 the physics failed.
+// Exit codes: 0 done (or stopped on request), 1 a bag that cannot be written or another failure of the machine, 2 bad
+// input, 3 the physics failed.
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/master.h>
@@ -21,7 +21,7 @@ void on_signal(int signal) { stop_signal = signal; }
 
 bool stop_requested() { return stop_signal != 0 || !ros::ok(); }
 
-/// False when told to stop before there was one.
+/// Returns false if the program is stopped before there is a master.
 bool wait_for_master() {
   bool said = false;
   while (stop_signal == 0) {
@@ -46,7 +46,7 @@ int run() {
 
 int main(int argc, char** argv) {
   mpm_ros::spin_only_briefly(argv);
-  // Our own handlers: roscpp's would take the connections away before the bag is closed.
+  // Own signal handlers, because roscpp's would close the connections before the bag is closed.
   ros::init(argc, argv, "simulator", ros::init_options::NoSigintHandler);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);

@@ -1,8 +1,8 @@
 // rosrun mpm_ros teleop [BODY]: moves a rigid body by the keyboard, on its topic cmd_vel.
 //
-// While a key is held it publishes at --frequency, and a zero when it is let go, on space and at the end; then it is
-// silent, and so is what became of a terminal that was lost: ~command_timeout of the simulator sees to that.
-// Exit codes: 0 told to quit, 2 bad input (no terminal, no such body).
+// While a key is held, it publishes at --frequency; when the key is released, on space and at the end it publishes a
+// zero and is then silent. A command from a terminal that was lost ends by the simulator's ~command_timeout.
+// Exit codes: 0 quit by the user, 2 bad input (no terminal, no such body).
 #include <fmt/format.h>
 #include <poll.h>
 #include <ros/master.h>
@@ -42,7 +42,7 @@ struct Options {
   double hold = 0.7;
 };
 
-/// Keys come one by one and unseen while it lives; then the terminal is as it was.
+/// Delivers keys one by one without echo during its lifetime, then restores the terminal.
 class RawTerminal {
  public:
   RawTerminal() {
@@ -53,7 +53,7 @@ class RawTerminal {
     raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
     raw.c_cc[VMIN] = 0;
     raw.c_cc[VTIME] = 0;
-    raw.c_cc[VSUSP] = _POSIX_VDISABLE;  // who suspends it would be left with a terminal that shows nothing
+    raw.c_cc[VSUSP] = _POSIX_VDISABLE;  // a suspended program would leave a terminal without echo
     tcsetattr(STDIN_FILENO, TCSANOW, &raw);
   }
   ~RawTerminal() {
@@ -63,7 +63,7 @@ class RawTerminal {
   RawTerminal(const RawTerminal&) = delete;
   RawTerminal& operator=(const RawTerminal&) = delete;
 
-  /// The keys that have come, after at most `patience`. False when the terminal is gone.
+  /// Reads the keys pressed, waiting at most `patience`. Returns false when the terminal is gone.
   static bool read(std::chrono::milliseconds patience, std::string& keys) {
     keys.clear();
     pollfd input{STDIN_FILENO, POLLIN, 0};
@@ -79,7 +79,7 @@ class RawTerminal {
   termios before_{};
 };
 
-/// Rigid bodies of the simulator below the namespace: those whose wrench is published.
+/// Rigid bodies of the simulator in the namespace: those whose wrench is published.
 std::vector<std::string> bodies_there(const ros::NodeHandle& node) {
   const std::string before = node.resolveName(mpm_ros::topics::kBodies) + "/";
   const std::string after = std::string("/") + mpm_ros::topics::kWrench;
@@ -97,7 +97,7 @@ std::vector<std::string> bodies_there(const ros::NodeHandle& node) {
   return bodies;
 }
 
-/// @throws std::runtime_error when the body is not there, or it is not clear which is meant
+/// @throws std::runtime_error when the body does not exist, or when there are several and none is named
 std::string find_body(const ros::NodeHandle& node, const std::string& asked) {
   constexpr std::chrono::seconds kPatience{5};
   std::vector<std::string> bodies;
@@ -151,7 +151,7 @@ void drive(ros::NodeHandle& node, const std::string& body, const Options& option
   }
   if (!moving) return;
   publisher.publish(geometry_msgs::Twist());
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // for the message on its way out
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // so that the last message is sent
 }
 
 }  // namespace
@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
   app.add_option("--namespace", options.name_space, "of the simulator");
   ros::V_string words;
   ros::removeROSArgs(argc, argv, words);
-  std::vector<std::string> arguments(words.rbegin(), words.rend() - 1);  // as CLI11 takes them, without the program
+  std::vector<std::string> arguments(words.rbegin(), words.rend() - 1);  // reversed, for CLI11, without the program
   try {
     app.parse(arguments);
   } catch (const CLI::ParseError& error) {

@@ -1,6 +1,6 @@
-// rosrun mpm_ros watch [CONFIG.rviz] [_field:=NAME] [__ns:=NAMESPACE]: RViz with a view that fits the run at hand.
-// Waits for the first particles below its namespace, puts the domain, their size and their field into the configuration
-// (left out: the package's config/rviz/mpm.rviz), and becomes RViz.
+// rosrun mpm_ros watch [CONFIG.rviz] [_field:=NAME] [__ns:=NAMESPACE]: starts RViz with a view that fits the run at
+// hand. Waits for the first particles in its namespace, writes the domain, the particles' size and their field into the
+// configuration (by default the package's config/rviz/mpm.rviz), and becomes RViz.
 #include <mpm_ros/RunInfo.h>
 #include <ros/callback_queue.h>
 #include <ros/package.h>
@@ -19,7 +19,7 @@
 
 namespace {
 
-/// How long it waits for particles; a run may be paused [s].
+/// Longest wait for particles, since a run may be paused [s].
 constexpr double kPatience = 20.0;
 
 std::filesystem::path fitted_path() {
@@ -31,18 +31,18 @@ std::filesystem::path fitted_path() {
   return folder / "mpm_ros_watch.rviz";
 }
 
-/// Of the scene that runs; empty when that is not known.
+/// Domain of the running scene; empty when it is not known.
 mpm::Box domain_of(const mpm_ros::RunInfoConstPtr& info) {
   if (!info) return {};
   try {
     const mpm::Scene scene = mpm::parse_scene(info->scene_text, info->scene_path);
     return {scene.definition.grid.min, scene.definition.grid.max};
   } catch (const mpm::Error&) {
-    return {};  // of another version: the particles alone will do
+    return {};  // the scene is of another version; the particles alone suffice
   }
 }
 
-/// The configuration to start RViz with: fitted, or as it is when nothing is heard.
+/// The configuration for RViz: fitted to the run, or unchanged when no particles arrive.
 std::string fitted(const std::string& path, const std::string& field) {
   std::ifstream file(path);
   std::stringstream text;
@@ -55,7 +55,7 @@ std::string fitted(const std::string& path, const std::string& field) {
   mpm_ros::RunInfoConstPtr info;
   const auto info_subscriber = node.subscribe<mpm_ros::RunInfo>(
       mpm_ros::topics::kRunInfo, 1, [&](const mpm_ros::RunInfoConstPtr& message) { info = message; });
-  // By the wall clock: simulated time may stand still.
+  // In wall time, because simulated time may stand still.
   for (const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
        ros::ok() && !(cloud && info) && ros::WallTime::now() < end;) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
@@ -75,7 +75,7 @@ std::string fitted(const std::string& path, const std::string& field) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<char*> words(argv, argv + argc);  // with what roslaunch appended, which RViz takes too
+  std::vector<char*> words(argv, argv + argc);  // with the arguments that roslaunch appended, which RViz accepts too
   ros::init(argc, argv, "watch");
   if (argc > 2) {
     ROS_FATAL("usage: rosrun mpm_ros watch [CONFIG.rviz] [_field:=NAME] [__ns:=NAMESPACE]");

@@ -1,5 +1,5 @@
-// rosrun mpm_ros work_precision [--quick | --full] [--suite S]… [--method M]… [--out DIR]: error against cost for every
-// method. Wiring only; see mpm/study/work_precision.hpp.
+// rosrun mpm_ros work_precision [--quick | --full] [--suite S]… [--method M]… [--out DIR]: measures error against cost
+// of every method. Wiring only; see mpm/study/work_precision.hpp.
 //
 // Exit codes: 0 done, 2 bad input.
 #include <CLI/CLI.hpp>

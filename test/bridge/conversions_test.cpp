@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "mpm/scene/scene.hpp"
 #include "mpm_ros/message/contact_average.hpp"
 #include "mpm_ros/message/particle_cloud.hpp"
 #include "mpm_ros/message/stamps.hpp"
@@ -241,6 +242,15 @@ TEST(ParticleCloud, RefusesAnUnknownField) {
   EXPECT_NE(problem_of(ParticleSelection{{"vx", "vx"}, {}}), "");
   EXPECT_NE(problem_of(ParticleSelection{{"x"}, {}}), "");
   EXPECT_NE(problem_of(ParticleSelection{{}, {0, {}}}), "");
+}
+
+TEST(ParticleCloud, TakesTheFieldsOfEveryShippedScene) {
+  for (const auto& [name, line] : mpm::shipped_scenes()) {
+    const mpm::OutputDefinition output = mpm::load_scene(name).output;
+    EXPECT_EQ(problem_of(ParticleSelection{output.particle_fields, {output.particle_stride, output.particle_region}}),
+              "")
+        << name;
+  }
 }
 
 mpm::ContactReport contact(double force, double peak, double interval, double impulse) {

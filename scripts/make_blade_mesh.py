@@ -3,8 +3,8 @@
 
 The origin is the middle of the cutting edge. Front: an upright cutting plate, and above it a mouldboard that is an arc,
 leaning back by 20 degrees at the plate and forward by 15 degrees at the top. The back is the same line 0.12 m behind,
-so that material in front does not meet material behind; the underside rises to the back by 5 degrees, clear of the
-ground that was cut.
+so that material in front does not meet material behind. The underside rises to the back by 5 degrees, to stay clear of
+the ground that was cut.
 """
 import math
 import pathlib

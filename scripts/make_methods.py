@@ -2,19 +2,19 @@
 """make_methods.py RUNS DOC [PAGES]: writes DOC/methods.md, DOC/methods/*.png and copies of the tables from RUNS, the
 folder that work_precision filled, and from PAGES, the folder where the stability tests left their pages.
 
-    make_methods.py --check DOC     the page says what its text makes of the tables beside it, the last chapter aside
+    make_methods.py --check DOC     fails unless the page, without its last chapter, agrees with the tables beside it
 
-Either is refused where the tables lack runs: on each suite every method that suites.csv says is run there has a row, of
-whatever status, for every grid at the usual time step and number of particles.
+Both fail when the tables lack runs: on each suite every method that suites.csv lists there needs a row, of whatever
+status, for every grid at the usual time step and number of particles.
 
-The text is benchmark/work_precision/methods.md. What stands in {{ }} there is computed from the tables:
+The text is benchmark/work_precision/methods.md. Expressions in {{ }} there are computed from the tables:
 
     {{ percent(error("square_large", "ugimp/usavg/flip", 32)) }}   a number of a row
-    {{ check(error(...) < 0.5 * error(...)) }}                     nothing, but the page is not made unless it holds
+    {{ check(error(...) < 0.5 * error(...)) }}                     prints nothing; the page is not made unless it holds
     {{ charts() }} {{ summary() }} {{ refused() }} {{ stability() }}
 
-A row that is not there, or a check that does not hold, ends this script with the line of the text, so that no claim
-outlives its figures. In the chapter "What the charts say" every point needs a check."""
+A missing row, or a check that does not hold, ends this script with an error that names the line of the text, so that no
+claim outlives its figures. In the chapter "What the charts say" every point needs a check."""
 import csv
 import importlib
 import math
@@ -31,10 +31,10 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 TEMPLATE = ROOT / "benchmark" / "work_precision" / "methods.md"
 TABLES = ("work_precision.csv", "summary.csv", "suites.csv")
 CLAIMS = "## What the charts say"
-LAST = "## Where methods stop working"  # made from the stability tests' pages, which are not kept
+LAST = "## Where methods stop working"  # made from the pages of the stability tests, which are not kept
 
-# What suites.csv says is run on a suite, as a test of a method's row: all methods, or those of main_methods() in
-# src/mpm/study/method_choice.cpp.
+# The column `methods` of suites.csv says which methods are run on a suite: all, or those of main_methods() in
+# src/mpm/study/method_choice.cpp. The functions test a method's row for it.
 RUN_THERE = {
     "all": lambda row: True,
     "main": lambda row: row["shape"] == "ugimp" or (row["update"], row["transfer"]) == ("usavg", "flip"),
@@ -42,11 +42,11 @@ RUN_THERE = {
 
 
 class ClaimError(Exception):
-    """A claim of the text that the tables do not bear out; one line."""
+    """A claim of the text that the tables contradict; its message is one line."""
 
 
 class Study:
-    """The tables, and what the text may ask of them."""
+    """The tables of a study, and the functions that the text may call."""
 
     def __init__(self, runs, doc=None, pages=None):
         self.rows, self.texts = plots.read_rows(runs), plots.read_texts(runs)
@@ -57,7 +57,7 @@ class Study:
                       if plots.good([row for row in self.rows if row["suite"] == suite])]
 
     def check_complete(self):
-        """A study that was cut short, or put together from parts, makes no page."""
+        """Raises ClaimError for a study that was cut short, or put together from parts."""
         methods = {row["method"]: row for row in self.rows}
         lacking = []
         for suite, text in self.texts.items():
@@ -77,7 +77,7 @@ class Study:
             raise ClaimError(f"work_precision.csv lacks runs ({'; '.join(lacking)}); run scripts/methods")
 
     def run(self, suite, method, cells, cfl=plots.USUAL_CFL, ppc=None):
-        """The row of one run; without `ppc` that of the usual number of particles."""
+        """The row of one run; without `ppc`, that with the usual number of particles."""
         found = [row for row in self.rows
                  if (row["suite"], row["method"], row["cells"], row["cfl"]) == (suite, method, cells, cfl)
                  and (row["ppc"] == ppc if ppc else plots.usual_particles(row))]
@@ -102,7 +102,7 @@ class Study:
         return self.run(*which, **more)["status"]
 
     def order(self, suite, method, coarse, fine):
-        """Of the error, from one grid to another."""
+        """Order of convergence of the error between two grids."""
         return math.log(self.error(suite, method, coarse) / self.error(suite, method, fine)) / math.log(fine / coarse)
 
     def worst(self, suite):
@@ -113,14 +113,14 @@ class Study:
         return max(good, key=lambda row: row["error"])
 
     def best(self, suite, target, by="work"):
-        """Label of the cheapest method for an error."""
+        """Label of the method that is cheapest for an error."""
         for line in self.lines:
             if (line["suite"], line["by"]) == (suite, by) and float(line["target_error"]) == target:
                 return line["method"]
         raise ClaimError(f"the summary has no line for {suite}, {target}")
 
     def main_suites(self):
-        """Says on which problems the main methods alone are run."""
+        """A sentence that names the problems on which only the main methods are run."""
         names = [f"`{suite}`" for suite, text in self.texts.items() if text["methods"] == "main"]
         if not names:
             return "Every one of them is run on every problem."
@@ -137,7 +137,7 @@ class Study:
         return "\n".join(parts).rstrip()
 
     def summary(self):
-        """Cheapest method by relative cost and by counted work: a row a suite, a column an error."""
+        """Tables of the cheapest method, by relative cost and by counted work: a row a suite, a column an error."""
         targets = list(dict.fromkeys(line["target_error"] for line in self.lines))
         parts = []
         for by, head in (("cost", "By processor time, relative to uGIMP/USF on the same grid"),
@@ -188,7 +188,7 @@ class Study:
         return "\n".join(lines)
 
     def stability(self):
-        """What stability_pages.py makes of the stability tests' pages, where there are any."""
+        """The chapters that stability_pages.py makes from the pages of the stability tests, if there are any."""
         if self.pages is None or not any(self.pages.glob("*.json")):
             return "The stability tests have left no page; run `scripts/methods` to make them."
         pages = importlib.import_module("stability_pages")
@@ -197,7 +197,7 @@ class Study:
         return pages.sections(self.pages, pictures, link="methods/stability").rstrip()
 
     def names(self):
-        """What the text may use."""
+        """The names that the text may use."""
         return {"error": self.error, "relative_cost": self.relative_cost, "status": self.status, "order": self.order,
                 "best": self.best, "worst": self.worst, "charts": self.charts, "summary": self.summary,
                 "refused": self.refused, "failures": self.failures, "main_suites": self.main_suites,
@@ -207,7 +207,7 @@ class Study:
 
 
 def digits(value):
-    """Two that count."""
+    """A number with two significant digits."""
     return f"{value:#.2g}".rstrip(".")
 
 
@@ -222,7 +222,7 @@ def fill(text, names, first_line=1):
     def value(match):
         line = first_line + text.count("\n", 0, match.start())
         try:
-            # The text is our own file, and sees nothing but these names.
+            # The text is a file of this project, and sees only these names.
             return str(eval(match.group(1).strip(), {"__builtins__": {}}, names))  # pylint: disable=eval-used
         except (ClaimError, NameError, SyntaxError, TypeError) as error:
             raise ClaimError(f"{TEMPLATE.name}:{line}: {match.group(1).strip()}: {error}") from error
@@ -231,7 +231,7 @@ def fill(text, names, first_line=1):
 
 
 def wrap_points(text):
-    """The points of the chapter of claims, which are full of gaps where a formula stood, in even lines."""
+    """Wraps the points of the chapter of claims, whose lines are uneven once their expressions are replaced."""
     head, rest = text.split(CLAIMS + "\n", 1)
     chapter, tail = rest.split("\n## ", 1)
     wrapped = ["" if not point.strip() else textwrap.fill(

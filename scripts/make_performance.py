@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""make_performance.py RESULTS.json DOC: writes DOC/performance.md and DOC/images/performance/scenes.png from what
-run_benchmarks.py found, between the hand-written parts benchmark/head.md and benchmark/tail.md."""
+"""make_performance.py RESULTS.json DOC: writes DOC/performance.md and DOC/images/performance/scenes.png from the
+results of run_benchmarks.py, between the hand-written parts benchmark/head.md and benchmark/tail.md."""
 
 import json
 import pathlib
@@ -15,12 +15,12 @@ from matplotlib.ticker import NullLocator  # noqa: E402
 from plot_style import CYCLE, GREY, style  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# Million particle-steps a second of the field's codes on one core: elastic, uGIMP, USF, double, 64,000 particles.
+# Million particle-steps a second of other MPM codes on one core: elastic, uGIMP, USF, double, 64,000 particles.
 FIELD = {3: 0.8, 2: 1.8}
-LIKE_FIELD = ("3D block, USF", "plane strain block, USF")  # the cases that may be compared with them
-# Multiply-adds a second of one core of the machine on which the targets were set; its prototype is what they ask for.
+LIKE_FIELD = ("3D block, USF", "plane strain block, USF")  # the cases that may be compared with FIELD
+# Multiply-adds a second of one core of the machine on which the targets were set, from the speed of a prototype.
 REFERENCE_PEAK = {"avx512": 68e9, "avx2": 34e9}
-# What was asked for on that kind of machine: million particle-steps a second on one core and on two.
+# Targets on that kind of machine: million particle-steps a second on one core and on two.
 TARGETS = [
     ("3D block, USF", "double", "avx512", 15, 28),
     ("3D block, USF, 1,000,000 particles", "double", "avx512", 15, 28),
@@ -31,7 +31,7 @@ TARGETS = [
     ("3D soil, USAVG", "double", "avx512", 8, 15),
     ("plane strain block, USF", "double", "avx512", 30, 56),
 ]
-LARGE = 1_000_000  # particles, from which on the rest of a process hardly counts in its memory
+LARGE = 1_000_000  # number of particles above which the rest of a process hardly counts in its memory
 
 
 def table(head, rows):
@@ -40,7 +40,7 @@ def table(head, rows):
 
 
 def million(rates):
-    """The median, and how far the others are from it."""
+    """The median in millions, and the largest deviation of the others from it."""
     middle = statistics.median(rates)
     spread = max(max(rates) / middle - 1, 1 - min(rates) / middle)
     return f"{1e-6 * middle:.2f}" + (f" ± {100 * spread:.0f} %" if len(rates) > 1 else "")
@@ -51,7 +51,7 @@ def dimension(run):
 
 
 def pairs(runs):
-    """Runs with one and with two threads, together."""
+    """Runs by (name, precision, instruction set), each with its runs by number of threads."""
     found = {}
     for run in runs:
         method = run["summary"]["method"]
@@ -60,12 +60,12 @@ def pairs(runs):
 
 
 def rate_of(run):
-    """Particle-steps a second: of one thread by its processor time, which others on the machine disturb less."""
+    """Particle-steps a second; with one thread by its processor time, which other processes disturb less."""
     return statistics.median(run["processor_rates" if run["threads"] == 1 else "rates"])
 
 
 def limits(roofline, isa, threads):
-    """The row of this instruction set, or nothing."""
+    """The row of this instruction set and number of threads, or None."""
     return next((row for row in roofline["machine"] if row["isa"] == isa and row["threads"] == threads), None)
 
 
@@ -76,7 +76,7 @@ def counted_step(roofline, method):
 
 
 def arithmetic_share(roofline, run):
-    """Part of the multiply-adds that this instruction set can do, in per cent; nothing where the law is not counted."""
+    """Part of the multiply-adds that this instruction set can do, in per cent; empty where the law is not counted."""
     method = run["summary"]["method"]
     limit = limits(roofline, method["isa"], run["threads"])
     if limit is None or "soil" in run["name"]:
@@ -258,13 +258,13 @@ def roofline_part(roofline):
 
 
 def medians_of(benchmarks):
-    """Nanoseconds an item by name."""
+    """Nanoseconds for each item, by name."""
     rows = [row for row in benchmarks if row.get("aggregate_name") == "median"] or benchmarks
     return {row["run_name"]: 1e9 / row["items_per_second"] for row in rows if "items_per_second" in row}
 
 
 def profile_part(benchmarks, roofline):
-    """Kernels by themselves, put together to a step."""
+    """The table of single kernels, and their sum over a step."""
     times = medians_of(benchmarks)
     lines = ["## Profile of a step by stage", "",
              "Each kernel by itself on one thread, 64,000 particles, processor time: nanoseconds a particle on a "
@@ -299,7 +299,7 @@ def profile_part(benchmarks, roofline):
 
 
 def laws_part(benchmarks):
-    """The pass that strains, by law."""
+    """The table of the pass that computes strain and stress, by law."""
     times = {tuple(name.split("/")[1:]): ns for name, ns in medians_of(benchmarks).items()
              if name.startswith("strain_with_law/")}
     columns = list(dict.fromkeys((isa, precision) for _, _, precision, isa in times))

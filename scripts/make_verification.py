@@ -23,7 +23,7 @@ CHAPTERS = {
     "fluid": "Fluid and gas",
     "viscoelastic": "Viscoelastic material",
 }
-# Okabe & Ito: told apart by colour-blind readers too. Black is for what is exact.
+# Okabe & Ito's colours, which colour-blind readers can distinguish too. Black is for exact solutions.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
 MARKS = ["o", "s", "^", "D", "v", "P"]
 
@@ -52,7 +52,7 @@ def draw_series(axes, series, number, figure):
 
 
 def draw_order(axes, order):
-    """A triangle of the slope, below the lowest points."""
+    """Draws a triangle with the slope of an order, below the lowest points."""
     xs = [v for line in axes.lines for v in line.get_xdata()]
     ys = [v for line in axes.lines for v in line.get_ydata()]
     left, right = min(xs), max(xs)
@@ -114,7 +114,7 @@ def with_unit(row):
 
 
 def scene_path(name):
-    """Where a scene lies, however the test wrote it: its name, its file or its path."""
+    """Path of a scene from the name, the file or the path that the test gave."""
     file = pathlib.PurePath(name).stem + ".yaml"
     for folder in ("test/verification/scenes", "config/scenes"):
         if (ROOT / folder / file).exists():
@@ -137,10 +137,10 @@ def section(page, pictures):
         lines.append("")
     if "meaning" in page:
         lines += [page["meaning"], ""]
-    told = [f"Test `{page['test']}`"]
+    source = [f"Test `{page['test']}`"]
     if "scene" in page:
-        told.append(f"scene `{scene_path(page['scene'])}`")
-    lines += ["<sub>" + ", ".join(told) + ("" if page["passed"] else ", **failed in this run**") + "</sub>", ""]
+        source.append(f"scene `{scene_path(page['scene'])}`")
+    lines += ["<sub>" + ", ".join(source) + ("" if page["passed"] else ", **failed in this run**") + "</sub>", ""]
     return lines
 
 

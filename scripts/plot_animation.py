@@ -1,6 +1,6 @@
-"""A run as a film. bag_report writes to standard input: a line of JSON (frames, field, unit, low, high, min, max), then
-for each snapshot its time [s] (float64), the number of particles (uint64) and x, y, z, value of each (float32). A frame
-is drawn and forgotten before the next is read."""
+"""Makes a film of a run. bag_report writes to standard input: a line of JSON (frames, field, unit, low, high, min,
+max), then for each snapshot its time [s] (float64), the number of particles (uint64) and x, y, z, value of each
+(float32). Each frame is drawn and forgotten before the next is read."""
 import json
 import os
 import shutil
@@ -17,7 +17,7 @@ from plot_tables import TableError
 from plot_view import View
 
 FRAMES_A_SECOND = 20
-LAST = 1.0  # [s] that the last frame stays before a GIF begins again
+LAST = 1.0  # time that the last frame stays before a GIF begins again [s]
 DPI = 100
 
 
@@ -37,7 +37,7 @@ def snapshots_of(stream, count):
 
 
 class Film:
-    """The picture of one time after the other."""
+    """Draws the frames in order of time."""
 
     def __init__(self, run, head, gap):
         self.run = run
@@ -53,7 +53,7 @@ class Film:
         self.coloring.bar(self.figure, self.panel, shrink=0.9, aspect=25, pad=0.02)
 
     def _layout(self):
-        """Even numbers of pixels, as video wants; the strip of forces only where there are tools."""
+        """Even numbers of pixels, which video needs; a strip of forces only if there are tools."""
         wide = 9.0
         high = float(np.clip(7.6 / self.scene.aspect, 2.5, 6.5))
         if self.run.strongest() is None:
@@ -79,7 +79,7 @@ class Film:
         return self.forces.axvline(0, color=BLACK, linewidth=1.2)
 
     def frame(self, time, positions, values):
-        """Rows of red, green, blue."""
+        """One frame as an array of rows of red, green, blue."""
         self.panel.cla()
         self.scene.draw(self.panel, time, positions, self.coloring.map.to_rgba(values))
         self.panel.set_title(f"t = {time:.3f} s")
@@ -87,7 +87,7 @@ class Film:
             self.now.set_xdata([time, time])
         self.figure.canvas.draw()
         if self.figure.get_layout_engine() is not None:
-            self.figure.set_layout_engine("none")  # laid out once: nothing jumps from frame to frame
+            self.figure.set_layout_engine("none")  # laid out once, so that nothing jumps from frame to frame
         return np.asarray(self.figure.canvas.buffer_rgba())[..., :3]
 
 
@@ -118,9 +118,9 @@ class Gif:
         self.path, self.frames = path, []
 
     def add(self, pixels):
-        from PIL import Image  # needed for this kind of file alone
+        from PIL import Image  # needed only for this kind of file
 
-        self.frames.append(Image.fromarray(pixels).quantize(256, dither=Image.Dither.NONE))  # a byte a pixel
+        self.frames.append(Image.fromarray(pixels).quantize(256, dither=Image.Dither.NONE))  # one byte for each pixel
 
     def close(self):
         lengths = [1000 // FRAMES_A_SECOND] * (len(self.frames) - 1) + [int(1000 * LAST)]
@@ -128,7 +128,7 @@ class Gif:
 
 
 def writer_of(path):
-    """mp4 by ffmpeg; a GIF of the same name where there is none."""
+    """A writer of mp4 by ffmpeg, or of a GIF of the same name where there is no ffmpeg."""
     stem, ending = os.path.splitext(path)
     if ending == ".mp4" and shutil.which("ffmpeg"):
         return Mp4(path), ""

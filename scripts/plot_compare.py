@@ -1,4 +1,4 @@
-"""Several runs on one plot: a colour a run, the same in every picture."""
+"""Several runs on one plot; each run has one colour in all pictures."""
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -8,7 +8,7 @@ from plot_tables import file_stem
 
 
 def labels_of(runs):
-    """Scene and file; the scene alone says it where all differ, the file where the scenes are the same."""
+    """Label of each run: the scene if all scenes differ, the file if they are the same, else scene and file."""
     scenes = [run.title for run in runs]
     if len(set(scenes)) == len(runs):
         return scenes
@@ -28,7 +28,7 @@ class Compared:
         return "\n".join(f"{label}:  {run.caption()}" for run, label in zip(self.runs, self.labels))
 
     def draw(self, axes, values_of, runs=None, log=False):
-        """One line a run: values_of(run) is (times, values)."""
+        """Draws one line for each run; values_of(run) returns (times, values)."""
         entries = []
         for i, (run, label, color) in enumerate(zip(self.runs, self.labels, self.colors)):
             if runs is not None and run not in runs:

@@ -1,5 +1,5 @@
-"""A map of where methods work: methods across, a parameter up, a cell blue where the run held and red with a cross
-where it broke; where each method was measured to break, and where theory says that it does."""
+"""A map of where methods work: methods across, a parameter up. A cell is blue where the run held, and red with a cross
+where it broke. Marks show where each method was measured to break, and where it does by theory."""
 import bisect
 import textwrap
 
@@ -16,7 +16,7 @@ THEORY = "#D55E00"
 
 
 def width(panel):
-    """Room that a map needs, in inches."""
+    """Width that a map needs [inches]."""
     return 1.9 + 0.44 * len(panel["map"]["columns"])
 
 
@@ -27,7 +27,7 @@ def height(panel):
 
 
 def place(value, rows):
-    """Where a value lies among rows that are drawn at 0, 1, 2, …, and whether it is beyond them (-1, 0, 1)."""
+    """Position of a value among rows that are drawn at 0, 1, 2, …, and whether it is beyond them (-1, 0, 1)."""
     if value <= rows[0]:
         return -0.42, -1 if value < rows[0] else 0
     if value >= rows[-1]:

@@ -30,7 +30,8 @@ class Snapshot:
 
 
 def choose(run):
-    """The first, the middle and the last snapshot, and the one nearest to the largest force; else four evenly spread."""
+    """The first, the middle and the last snapshot, and the one nearest to the largest force; without a force, four
+    evenly spread ones."""
     times = np.array([time for time, _ in run.snapshots])
     begin, end = times[0], times[-1]
     strongest = run.strongest()
@@ -85,7 +86,7 @@ def coloring_of(snapshots, field):
 
 
 def panels(count, aspect, room):
-    """A figure of equal panels whose content has the given width over height; `room` [in] for a panel's labels."""
+    """A figure of equal panels whose content has the given width over height; `room` [in] is for a panel's labels."""
     if aspect > 4:
         columns = 1
     elif aspect < 0.65:
@@ -93,7 +94,7 @@ def panels(count, aspect, room):
     else:
         columns = min(2, count)
     rows = -(-count // columns)
-    wide = min(10.6 / columns - 0.7, 6.0 * aspect)  # less the colour bar, and a panel's own labels
+    wide = min(10.6 / columns - 0.7, 6.0 * aspect)  # without the colour bar and the panels' labels
     size = (columns * (wide + 0.7) + 1.4, rows * (wide / aspect + room) + 0.9)
     figure, axes = plt.subplots(rows, columns, figsize=(max(size[0], 7.0), size[1]), squeeze=False,
                                 constrained_layout=True)
@@ -103,7 +104,7 @@ def panels(count, aspect, room):
 
 
 def fields_of(run, wanted):
-    """The field that is wanted, else those that tell most of what was recorded."""
+    """The requested field; without a request, the most informative of those that were recorded."""
     if not run.snapshots:
         return []
     known = [name for name in Table(run.snapshots[0][1]).names() if name not in POSITION]

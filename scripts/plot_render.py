@@ -1,7 +1,7 @@
-"""Spheres and triangles drawn with a depth buffer, in parallel projection: what is behind is hidden, whatever its kind."""
+"""Spheres and triangles drawn with a depth buffer, in parallel projection: spheres and surfaces hide each other."""
 import numpy as np
 
-LIGHT = np.array([-0.45, 0.55, 0.70])  # towards the light; right, up, towards the viewer
+LIGHT = np.array([-0.45, 0.55, 0.70])  # direction of the light: right, up, towards the viewer
 
 
 class Camera:
@@ -36,7 +36,7 @@ class Canvas:
         return column, row
 
     def _put(self, column, row, depth, color):
-        """Points in order of depth, farthest first: of those on one pixel the last one stays."""
+        """Draws points in order of depth, farthest first: of those on one pixel the last one stays."""
         inside = (column >= 0) & (column < self.width) & (row >= 0) & (row < self.height)
         pixel, depth, color = (row * self.width + column)[inside], depth[inside], color[inside]
         self._last[pixel] = np.arange(len(pixel))
@@ -47,7 +47,7 @@ class Canvas:
         self.image[pixel[visible]] = color[visible]
 
     def spheres(self, centers, radius, colors):
-        """Spheres of one radius [m], each in its own colour (rows of red, green, blue)."""
+        """Draws spheres of one radius [m], each in its own colour (rows of red, green, blue)."""
         projected = self.camera.project(centers)
         order = np.argsort(projected[:, 2])
         projected, colors = projected[order], colors[order]
@@ -64,14 +64,14 @@ class Canvas:
                 self._put(column + right, row + down, projected[:, 2] + radius * height, np.clip(colors * light, 0, 1))
 
     def triangles(self, vertices, faces, color):
-        """A closed surface in one colour, darker where it turns away from the light; its sharp edges are drawn."""
+        """Draws a closed surface in one colour, darker where it turns away from the light, with its sharp edges."""
         projected = self.camera.project(vertices)
         for face in faces:
             a, b, c = projected[face]
             normal = np.cross(b - a, c - a)
             size = np.linalg.norm(normal)
             if size == 0 or normal[2] <= 0:
-                continue  # turned away
+                continue  # faces away from the viewer
             steps = int(np.ceil(1.5 * self.scale * max(np.linalg.norm((b - a)[:2]), np.linalg.norm((c - a)[:2])))) + 1
             s, t = (grid.ravel() for grid in np.meshgrid(np.linspace(0, 1, steps), np.linspace(0, 1, steps)))
             keep = s + t <= 1.0
@@ -89,7 +89,7 @@ class Canvas:
                 self._put(column + right, row + down, points[:, 2] + before, np.full((steps, 3), 0.12))
 
     def line(self, begin, end, brightness):
-        """A thin line between two points, grey: 0 is black, 1 is white."""
+        """Draws a thin grey line between two points: 0 is black, 1 is white."""
         a, b = self.camera.project([begin, end])
         steps = int(np.ceil(2 * self.scale * np.linalg.norm((b - a)[:2]))) + 2
         points = a + np.outer(np.linspace(0, 1, steps), b - a)

@@ -2,16 +2,16 @@
 """Pictures of runs from the CSV tables that bag_report and run_scene write.
 
     plot_report.py CSV_DIR PLOTS_DIR [--title T] [--field F]       one run
-    plot_report.py CSV_DIR CSV_DIR... PLOTS_DIR                     several runs on one another
+    plot_report.py CSV_DIR CSV_DIR... PLOTS_DIR                     several runs in the same pictures
     plot_report.py CSV_DIR --animate FILE                          as bag_report calls it
 
 contact_<body>.png            force, impulse, torque and velocity of a rigid body over time
 energies.png                  energies by kind
-audit.png                     the momentum's account by source and its residual, time step, smallest det F
-global_quantities.png         those that the scene asks for, a panel a unit
+audit.png                     impulses by source and the audit's residual, time step, smallest det F
+global_quantities.png         the quantities that the scene asks for, a panel for each unit
 section_<field>.png           the particles in a slice through the tool
 view_<field>.png              the particles and the tools seen from the side (runs in 3D)
-compare_contact_<body>.png    several runs: force and impulse, a line a run
+compare_contact_<body>.png    several runs: force and impulse, a line for each run
 compare_energies.png, compare_audit.png
 """
 import argparse
@@ -21,8 +21,8 @@ import sys
 import matplotlib
 
 matplotlib.use("Agg")
-# Its companions lie beside it, also when it runs through the wrapper of the devel space.
-sys.dont_write_bytecode = True  # nothing is left among the sources
+# Its modules lie beside it, also when it runs through the wrapper of the devel space.
+sys.dont_write_bytecode = True  # leaves no files among the sources
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import plot_animation  # noqa: E402
 import plot_compare  # noqa: E402

@@ -9,7 +9,7 @@ from plot_tables import reach_of
 
 
 def cut(vertices, faces, axis, at):
-    """Where a surface meets a plane across an axis: pairs of points."""
+    """The intersection of a surface with a plane across an axis, as pairs of points."""
     height = vertices[:, axis] - at
     height = np.where(height == 0, 1e-12, height)  # a corner on the plane belongs to one side
     segments = []
@@ -29,7 +29,7 @@ def cut(vertices, faces, axis, at):
 
 
 def loops(segments):
-    """Closed polygons from segments whose ends agree."""
+    """Closed polygons made of segments with common ends."""
     ways = {}
     for begin, end in segments:
         ways.setdefault(tuple(begin), []).append(tuple(end))
@@ -51,7 +51,7 @@ def loops(segments):
 
 
 def slice_axis(run, body):
-    """The level axis that the body moves along least: 0 for x, 1 for y."""
+    """The horizontal axis along which the body moves least: 0 for x, 1 for y."""
     if body is None:
         return 1
     travel = np.ptp(run.poses.vector(body + " "), axis=0)
@@ -59,8 +59,8 @@ def slice_axis(run, body):
 
 
 class Section:
-    """A slice through the tool that meets the largest force, or through the middle. Pictures of it all show the same
-    piece of the plane."""
+    """A slice through the tool with the largest force, or through the middle. All its pictures show the same part of
+    the plane."""
 
     kind = "section"
 
@@ -75,7 +75,7 @@ class Section:
         self.outlines = run.outlines()
         low, high = reach_of(run, box, times, gap)
         low, high = low[self.shown], high[self.shown]
-        # The largest force is a quarter of the picture long.
+        # The arrow of the largest force is a quarter of the picture long.
         self.arrow = 0.25 * (high - low).max() / np.linalg.norm(strongest[2]) if strongest else 0.0
         for time in times if self.tool else []:
             tip = run.pressed_at(self.tool, time)[self.shown] + self.arrow * run.force_at(self.tool, time)[self.shown]
@@ -119,7 +119,7 @@ class Section:
         return f"arrow: force on {self.tool}, {np.linalg.norm(self.run.force_at(self.tool, time)):.4g} N"
 
     def _draw_force(self, panel, time):
-        """The path of the tool's origin, and the force on it as an arrow from where it is pressed."""
+        """Draws the path of the tool's origin, and the force on it as an arrow from the centre of pressure."""
         path = self.run.poses.vector(self.tool + " ")[:, self.shown]
         if np.any(np.ptp(path, axis=0) > 0):
             panel.plot(path[:, 0], path[:, 1], color="black", linewidth=0.8, linestyle=":", zorder=5)

@@ -1,5 +1,4 @@
-"""Pictures over time: contact and motion of a body, energies, the account of the momentum and the numbers of the
-solver."""
+"""Pictures over time: contact and motion of a body, energies, the momentum audit and the numbers of the solver."""
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -12,7 +11,7 @@ TIME = "simulated time [s]"
 
 
 def phases(time, velocity):
-    """Spans of one way of moving: (begin, end, "+x"); the direction is the largest component of the velocity."""
+    """Spans of motion in one direction: (begin, end, "+x"), by the largest component of the velocity."""
     speed = np.abs(velocity)
     if len(time) < 3 or speed.max() == 0:
         return []
@@ -44,7 +43,8 @@ def shade(axes, spans, labelled):
 
 
 def draw_vector(axes, time, vector, size_name=None):
-    """Components that are not zero (or round-off) throughout, and the size in black. Entries for name_lines()."""
+    """Draws the components that are not zero (or round-off) throughout, and the magnitude in black. Returns entries for
+    name_lines()."""
     entries = []
     if size_name:
         size = np.linalg.norm(vector, axis=1)
@@ -69,7 +69,7 @@ def plot_contact(run, body, folder):
     force, torque = run.forces.vector(body + " f"), run.forces.vector(body + " t")
     impulse = run.forces.vector(body + " impulse ")
     peak = np.linalg.norm(run.forces.vector(body + " peak f"), axis=1)
-    # Round-off of forces in balance is no torque: compared with the forces at the arm of the body's own size.
+    # A torque that is only round-off of balanced forces is left out, compared with the forces at the body's own arm.
     turns = np.abs(torque).max() > 1e-9 * np.abs(force).max()
     velocity = run.poses.vector(body + " v")
     moves = np.any(velocity)
@@ -125,7 +125,7 @@ def plot_contact(run, body, folder):
 
 
 def energies_of(state):
-    """(name, values [J], colour): potential energy since the start; `rest` is what the others leave over."""
+    """(name, values [J], colour): potential energy is that since the start; `rest` is what remains of the work."""
     kinetic, elastic, plastic = (state["energy " + kind] for kind in ("kinetic", "elastic", "plastic"))
     potential = state["energy potential"] - state["energy potential"][0]
     work = state["contact work"]
@@ -162,7 +162,8 @@ def plot_energies(run, folder):
 
 
 def plot_global(run, folder):
-    """The global quantities that the scene asks for, a panel a unit; nothing when it asks for none."""
+    """Draws the global quantities that the scene asks for, a panel for each unit; returns without a picture if there
+    are none."""
     table = run.global_quantities
     names = [name for name in table.names() if name != "time"] if table else []
     if not names:
@@ -185,7 +186,7 @@ def plot_global(run, folder):
 
 
 def impulses_of(state):
-    """The axis along which most momentum went, and (name, impulse along it [N s], colour) of each source that acts."""
+    """The axis with most momentum exchanged, and (name, impulse along it [N s], colour) of each source that acts."""
     names = [name[len("impulse "):-2] for name in state.names() if name.startswith("impulse ") and name.endswith(" x")]
     impulses = {name: state.vector(f"impulse {name} ") for name in names}
     sizes = {name: np.abs(impulse).max() for name, impulse in impulses.items()}
@@ -209,7 +210,7 @@ def frame_residual(axes, largest):
 
 
 def draw_steps(axes, state, color):
-    """The time step over time; before the first one there is none."""
+    """Draws the time step over time, from the first step on."""
     made = state["dt"] > 0
     axes.plot(state["time"][made], 1e6 * state["dt"][made], color=color)
     return state["dt"][-1] * 1e6

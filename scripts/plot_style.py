@@ -1,4 +1,4 @@
-"""How all pictures look: colours, captions, names beside the lines."""
+"""The style of all pictures: colours, captions, names beside the lines."""
 import os
 import textwrap
 
@@ -6,14 +6,14 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-# Okabe and Ito's colours, which people with any colour vision tell apart.
+# Okabe and Ito's colours, which can be distinguished with any colour vision.
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, RED, PINK = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7",
 )
 CYCLE = [BLUE, ORANGE, GREEN, RED, PINK, SKY, BLACK, YELLOW]  # of sources and of runs
 AXES = {"x": BLUE, "y": ORANGE, "z": GREEN}
 GREY = "#888888"
-# From light to dark: what is at rest stays light, so that its shape can be seen. Its lightness falls evenly.
+# From light to dark, with evenly falling lightness: material at rest stays light, so that its shape can be seen.
 SEQUENTIAL = ListedColormap(plt.get_cmap("magma_r")(np.linspace(0.1, 0.92, 256)), "light_to_dark")
 DIVERGING = "RdBu_r"
 STEEL = (0.62, 0.68, 0.75)
@@ -42,7 +42,7 @@ def style():
 
 
 def caption(figure, title, text):
-    """The run's name and what is seen above, how it was made below."""
+    """Writes the run's name and the subject above the picture, and how the run was made below."""
     figure.suptitle(title, fontweight="bold", fontsize=13, x=0.012, ha="left")
     lines = [part for line in text.splitlines() for part in textwrap.wrap(line, int(15.5 * figure.get_figwidth()))]
     figure.supxlabel("\n".join(lines), fontsize=8, color="#666666", x=0.012, ha="left")
@@ -54,8 +54,8 @@ def save(figure, folder, name):
 
 
 def name_lines(axes, entries):
-    """Names beside the right ends of lines, in their colours and apart from each other: (value at the end, name,
-    colour)."""
+    """Writes names beside the right ends of lines, in their colours and without overlap; each entry is (value at the
+    end, name, colour)."""
     entries = [entry for entry in entries if np.isfinite(entry[0])]
     if not entries:
         return

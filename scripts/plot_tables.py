@@ -7,7 +7,7 @@ import numpy as np
 
 
 class TableError(Exception):
-    """A table that is missing or not ours; one line."""
+    """A table is missing or has another layout; the message is one line."""
 
 
 class Table:
@@ -50,13 +50,13 @@ class Table:
 
 
 def file_stem(name):
-    """A file name's stem from a body's or a field's name."""
+    """The stem of a file name, from a body's or a field's name."""
     return "".join(c if c.isascii() and (c.isalnum() or c in ".-_") else "_" for c in name)
 
 
 def reach_of(run, box, times, gap):
-    """The lower and upper corner of what pictures show: all particles (`box` around their centres, `gap` apart), and
-    the tools at some times as far as half the particles' size beyond them; a plate without end is cut off."""
+    """The lower and upper corner of the pictures. They show all particles (`box` around their centres, `gap` apart), and
+    the tools at some times up to half the particles' size beyond them; an endless plate is cut off."""
     low, high = box[0] - gap, box[1] + gap
     most = 0.5 * (high - low).max()
     least, largest = low - most, high + most
@@ -89,7 +89,7 @@ def _is_number(text):
 
 
 class Run:
-    """All tables of a folder, and what bag_report wrote beside them in run.json."""
+    """All tables of a folder, and the figures that bag_report wrote to run.json there."""
 
     def __init__(self, folder, title=""):
         self.folder = folder
@@ -124,7 +124,7 @@ class Run:
         return "  ·  ".join(part for part in parts if part)
 
     def strongest(self):
-        """The body that meets the largest force, that force's time [s] and vector [N]; None without any force."""
+        """The body with the largest force, and the time [s] and vector [N] of that force; None without any force."""
         best = None
         for body in self.bodies:
             force = self.forces.vector(body + " f")
@@ -140,7 +140,7 @@ class Run:
         return np.array([self.forces[f"{body} f{axis}"][row] for axis in "xyz"])
 
     def pressed_at(self, body, time):
-        """Centre of pressure [m] of the interval that ends nearest to a time [s]; the body's origin where none is."""
+        """Centre of pressure [m] of the interval that ends nearest to a time [s]; else the body's origin."""
         row = int(np.argmin(np.abs(self.forces["time"] - time)))
         if f"{body} cop x" in self.forces:
             center = self.forces.vector(body + " cop ")[row]

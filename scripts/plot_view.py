@@ -7,11 +7,11 @@ from plot_style import STEEL
 from plot_tables import reach_of
 
 WIDTH = 1100  # pixels of a picture
-LARGEST = 20  # pixels of a particle's radius: more is slow, and shows nothing
+LARGEST = 20  # largest radius of a particle in pixels: more is slow, and shows nothing more
 
 
 def in_front(positions, gap, towards):
-    """Whether a particle can be seen: not where all three neighbouring places towards the viewer are taken."""
+    """Whether a particle is visible: it is hidden if all three neighbouring places towards the viewer are occupied."""
     cells = np.floor((positions - positions.min(axis=0)) / gap + 0.5).astype(np.int64) + 1
     sizes = cells.max(axis=0) + 2
     strides = np.array([1, sizes[0], sizes[0] * sizes[1]])
@@ -75,7 +75,7 @@ class View:
 
     def _draw_ground(self, canvas):
         (x0, y0, z), (x1, y1, _) = self.box
-        z -= 0.02 * self.gap  # what stands on the ground hides it
+        z -= 0.02 * self.gap  # below the objects that stand on the ground
         for x in self.ticks[0]:
             canvas.line([x, y0, z], [x, y1, z], 0.85)
         for y in self.ticks[1]:
@@ -84,7 +84,7 @@ class View:
             canvas.line([*begin, z], [*end, z], 0.6)
 
     def _draw_scales(self, panel):
-        """Scales along the near lower edges and the left upright edge of the box, with ticks in metres."""
+        """Draws scales along the near lower edges and the left upright edge of the box, with ticks in metres."""
         camera, box = self.camera, self.box
         near = [1 if camera.towards[i] > 0 else 0 for i in (0, 1)]
         flat_corners = camera.project([[box[i][0], box[j][1], box[0][2]] for i in (0, 1) for j in (0, 1)])

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""plot_work_precision.py DIR [OUT]: error against cost, a chart a suite, from DIR/work_precision.csv that the program
-work_precision writes. OUT/<suite>.png; OUT is DIR when it is left out.
+"""plot_work_precision.py DIR [OUT]: draws error against cost, OUT/<suite>.png for each suite, from the table
+DIR/work_precision.csv that the program work_precision writes. OUT is DIR when it is left out.
 
-Upper panels: shape functions (colour) and updates (line), all with FLIP. Lower panels: transfers (colour) with USAVG,
-by shape function (line). Lines join the grids at the usual time step and number of particles; small marks are other
-time steps and numbers on one of the grids. The grey band is the front of all methods together: nothing cheaper is as
-accurate."""
+The upper panels show shape functions (colour) and updates (line), all with FLIP. The lower panels show transfers
+(colour) with USAVG, by shape function (line). Lines join the grids at the usual time step and number of particles; small
+marks are other time steps and numbers on one of the grids. The grey band is the front of all methods together: no
+cheaper method is as accurate."""
 import argparse
 import csv
 import math
@@ -15,8 +15,8 @@ import sys
 import matplotlib
 
 matplotlib.use("Agg")
-# Its companions lie beside it, also when it runs through the wrapper of the devel space.
-sys.dont_write_bytecode = True  # nothing is left among the sources
+# Its modules lie beside it, also when it runs through the wrapper of the devel space.
+sys.dont_write_bytecode = True  # leaves no files among the sources
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
@@ -27,18 +27,18 @@ from plot_style import BLACK, BLUE, GREEN, ORANGE, PINK, RED, SKY  # noqa: E402
 SHAPES = {"dirac": "#888888", "ugimp": BLUE, "ugimp_stretch": SKY, "cpdi": RED, "qcpdi": ORANGE, "bspline2": GREEN,
           "bspline3": PINK}
 UPDATES = {"usavg": ("-", "o"), "usf": ("--", "s"), "usl": (":", "^")}
-# One colour a family, darker by order.
+# One colour for each family, darker with the order.
 TRANSFERS = {"flip": BLACK, "flip0.99": "#888888", "pic": SKY, "xpic2": "#F5B041", "xpic3": "#B9770E",
              "fmpm2": "#7DCEA0", "fmpm3": "#229954", "fmpm5": "#0B5345", "apic": PINK}
 TRANSFER_SHAPES = {"ugimp": ("-", "o"), "cpdi": ("--", "s"), "bspline2": (":", "D")}
 COSTS = {"cpu_seconds": "processor time of one thread [s]", "work": "counted work [visits of a node by a particle]"}
 USUAL_CFL = 0.5
-SOME = 3.0  # errors above are not looked at: nothing is right there
+SOME = 3.0  # larger errors are not drawn: nothing is right there
 NUMBERS = ("cells", "ppc", "cfl", "steps", "particles", "error", "cpu_seconds", "relative_cost", "cost", "work")
 
 
 class TableError(Exception):
-    """A table that is missing or not ours; one line."""
+    """A table is missing or has another layout; the message is one line."""
 
 
 def read_rows(folder):
@@ -61,7 +61,7 @@ def read_rows(folder):
 
 
 def read_texts(folder):
-    """What suites.csv says of each suite: {name: {title, geometry, problem, exact, measure}}."""
+    """The texts of suites.csv for each suite: {name: {title, geometry, problem, exact, measure}}."""
     path = os.path.join(folder, "suites.csv")
     try:
         with open(path, newline="", encoding="utf-8") as file:
@@ -75,7 +75,7 @@ def usual_particles(row):
 
 
 def front(points):
-    """(cost, error) that no cheaper one matches."""
+    """The points (cost, error) whose error no cheaper point reaches."""
     best = []
     for cost, error in sorted(points):
         if not best or error < best[-1][1]:
@@ -84,7 +84,7 @@ def front(points):
 
 
 def draw_methods(axes, rows, cost, look):
-    """`look`: (colour, line, mark) of a row, or None for one that is not drawn here."""
+    """Draws the rows; `look` returns (colour, line, mark) of a row, or None for a row that is not drawn here."""
     methods = {}
     for row in rows:
         if row["status"] == "ok" and look(row):
@@ -133,7 +133,7 @@ def legend(axes, rows, look, colours, lines, titles):
 
 
 def not_drawn(rows):
-    """What failed or was refused, in words."""
+    """A sentence about the runs that failed or were refused."""
     parts = []
     for status in ("failed", "refused"):
         methods = {}
@@ -148,7 +148,7 @@ def not_drawn(rows):
 
 
 def good(rows):
-    """Those that can be drawn."""
+    """The rows that can be drawn."""
     return [row for row in rows if row["status"] == "ok" and row["error"] > 0]
 
 

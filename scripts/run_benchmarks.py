@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """run_benchmarks.py BUILD RESULTS.json [--quick] [--full]: runs the whole scenes, the kernel benchmarks, the roofline
-and the count of instructions with the programs below BUILD, and writes what they found for make_performance.py."""
+and the count of instructions with the programs below BUILD, and writes the results for make_performance.py."""
 
 import argparse
 import datetime
@@ -14,8 +14,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# What is run: a name for the table, the scene, what is changed in it, and its end [s]; whether for each instruction set
-# and precision. A case's steps are some 150 (of a million particles some 80), enough to fly across two cells.
+# The runs: a name for the table, the scene, the changes to it, and its end [s]; whether to run it for each instruction
+# set and precision. A case's steps are some 150 (of a million particles some 80), enough to fly across two cells.
 CASES = [
     ("3D block, USF", "speed_block_3d", ["method.update=usf"], "0.02", True),
     ("3D block, USF, irregular", "speed_block_3d_irregular", ["method.update=usf"], "0.02", True),
@@ -76,7 +76,7 @@ def describe_machine(build):
 
 
 class Scenes:
-    """Runs of scenes, with what this machine and build can do found out first."""
+    """Runs of scenes; the constructor finds out what this machine and build support."""
 
     def __init__(self, programs):
         self.run_scene = programs / "run_scene"
@@ -103,7 +103,7 @@ def measure_scenes(scenes, quick):
             for threads in (1, 2):
                 runs.append({"name": name, "scene": scene, "changes": changes + [f"method.precision={precision}"],
                              "end": end, "threads": threads, "isa": isa, "rates": [], "processor_rates": []})
-    # Interleaved, so that what disturbs the machine for a while disturbs all of them a little.
+    # Interleaved, so that a disturbance of the machine affects all runs a little.
     rounds = 1 if quick else 5
     for turn in range(rounds):
         for number, run in enumerate(runs):
@@ -141,7 +141,7 @@ def measure_sizes(scenes, quick, full):
 
 
 def measure_output(scenes, quick):
-    """What the report of a run (audit, energies), tables and bags cost: processor seconds, medians of some runs."""
+    """Cost of the report of a run (audit, energies), of tables and of bags: processor seconds, medians of some runs."""
     period, end = 0.001, 0.005 if quick else 0.02
     reports = [scenes.run("speed_block_3d", [f"time.sync={sync}"], max(end, sync), 1, scenes.isas[0])
                for sync in (period, 0.005, 0.02) for _ in range(1 if quick else 3)]
@@ -179,7 +179,7 @@ def function_costs(path):
             if name:
                 names[key] = name
         elif line.startswith("calls="):
-            skip = True  # the next line is the cost of what was called
+            skip = True  # the next line is the cost of the called function
         elif line[:1] in set("0123456789+-*"):
             if not skip and current is not None:
                 costs[current] = costs.get(current, 0) + int(line.split()[-1])
@@ -188,7 +188,7 @@ def function_costs(path):
 
 
 def count_instructions(scenes, quick):
-    """Instructions a particle-step: two runs of 8,000 particles that differ in length alone, one less the other.
+    """Instructions a particle-step: the difference of two runs of 8,000 particles that differ only in length.
     valgrind knows no AVX-512, so the kernels are those that such a processor would get, or AVX2."""
     isa = "avx2" if "avx2" in scenes.isas else "plain"
     found = []

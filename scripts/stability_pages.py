@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""stability_pages.py PAGES OUT: the chapters on where methods fail, from the pages (JSON) that the stability tests left
-in PAGES. Writes OUT/stability.md and OUT/images/*.png; sections() gives the text to a script that makes a larger page."""
+"""stability_pages.py PAGES OUT: makes the chapters on where methods fail, from the pages (JSON) that the stability
+tests left in PAGES. It writes OUT/stability.md and OUT/images/*.png; sections() returns the text for a larger page."""
 
 import json
 import pathlib
@@ -26,7 +26,7 @@ CHAPTERS = {
 
 
 def rows_of(panels):
-    """Panels by rows of the picture: a map has one of its own, curves lie side by side."""
+    """Panels by rows of the picture: a map has a row of its own, curves lie side by side."""
     rows = []
     for panel in panels:
         if "map" in panel or not rows or "map" in rows[-1][0]:
@@ -56,7 +56,7 @@ def draw(page, path):
 
 
 def sections(folder, pictures, link=None):
-    """The chapters as Markdown. Pictures go to the folder `pictures`; `link`: how the text refers to that folder, by
+    """The chapters as Markdown. Pictures go to the folder `pictures`; `link` is the text's path to that folder, by
     default images/<its name>."""
     folder, pictures = pathlib.Path(folder), pathlib.Path(pictures)
     link = link or f"images/{pictures.name}"

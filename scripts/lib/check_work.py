@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """Counts the instructions a particle-step of plain scenes and compares them with recorded figures.
 
-Two runs of a scene under callgrind differ in the number of steps alone; the difference of their instructions, over
-particles and steps, has no start and no end of a run in it. The kernels are those of the plain path on one thread, so
-that the figure depends on the compiler, not on the machine. A feature that a scene does not name must not move it
-(doc/architecture.md, a step: what is not named adds no pass, no field and no branch); a change of the kernels does, and
-records it anew.
+Two runs of a scene under callgrind differ only in the number of steps. The difference of their instructions, over
+particles and steps, therefore leaves out the start and the end of a run. The kernels are those of the plain path on one
+thread, so that the figure depends on the compiler, not on the machine. A feature that a scene does not name must not
+change the figure (doc/architecture.md: what is not named adds no pass, no field and no branch). A change of the kernels
+does change it; record it anew then.
 
   check_work.py RUN_SCENE COMPILER WORK.yaml [--record]
 

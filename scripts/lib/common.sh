@@ -1,10 +1,10 @@
-# Sourced by the scripts: where things lie, and an environment that does not depend on the caller's.
+# Sourced by the scripts: paths, and an environment that does not depend on the caller's.
 # shellcheck shell=bash
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build="$root/build"
 export PATH="/usr/bin:$PATH" # ROS belongs to the system's Python
 
-# configure FOLDER [cmake options]: quiet unless it fails. A folder that is configured already keeps its generator.
+# configure FOLDER [cmake options]: runs cmake, quiet unless it fails. A configured folder keeps its generator.
 configure() {
   local folder=$1 generator=()
   shift
@@ -17,7 +17,7 @@ configure() {
   fi
 }
 
-# use_package: the built package joins the environment, as `source build/devel/setup.bash` does.
+# use_package: adds the built package to the environment, as `source build/devel/setup.bash` does.
 use_package() {
   set +u # the generated file reads variables that may not be set
   # shellcheck source=/dev/null
@@ -25,7 +25,7 @@ use_package() {
   set -u
 }
 
-# free_port: a TCP port on which nothing listens.
+# free_port: prints a TCP port on which nothing listens.
 free_port() {
   /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])'
 }

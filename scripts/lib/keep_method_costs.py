@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""keep_method_costs.py RUNS TABLE: the figures that `method: auto` chooses by, from RUNS/work_precision.csv.
+"""keep_method_costs.py RUNS TABLE: writes the figures by which `method: auto` chooses, from RUNS/work_precision.csv.
 
-Kept are double precision, runs that ended well, and of each method and problem those that no cheaper run matches, to
-four digits, which is finer than costs are measured."""
+It keeps the runs in double precision that ended well and, for each method and problem, those whose error no cheaper run
+reaches, to four digits, which is finer than costs are measured."""
 import csv
 import math
 import pathlib
@@ -10,7 +10,7 @@ import sys
 
 
 def keep_method_costs(runs, table):
-    """Writes the table; how many runs it has."""
+    """Writes the table; returns the number of its runs."""
     with open(pathlib.Path(runs) / "work_precision.csv", newline="", encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if row["status"] == "ok" and row["precision"] == "double"]
     points = {}  # in the order of the study

@@ -1,5 +1,5 @@
-// The shape of the house (doc/architecture.md): no ROS header in the solver library, and each room of the library and
-// of the ROS layer includes only rooms of lower floors.
+// The layers of the project (doc/architecture.md): no ROS header in the solver library, and each folder of the library
+// and of the ROS layer includes only folders of lower layers.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -13,17 +13,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Floors = std::map<std::string, int>;
+using Layers = std::map<std::string, int>;
 
-const Floors kFloors = {{"math", 1},     {"grid", 2},       {"particles", 2}, {"shape", 3},     {"material", 3},
+const Layers kLayers = {{"math", 1},     {"grid", 2},       {"particles", 2}, {"shape", 3},     {"material", 3},
                         {"rigid", 3},    {"step", 4},       {"kernel", 4},    {"mechanics", 5}, {"contact", 5},
                         {"boundary", 5}, {"simulation", 6}, {"study", 7},     {"scene", 8}};
-const Floors kRosFloors = {{"message", 1}, {"csv", 2}, {"command", 3}, {"report", 4}, {"run", 5}, {"node", 6}};
+const Layers kRosLayers = {{"message", 1}, {"csv", 2}, {"command", 3}, {"report", 4}, {"run", 5}, {"node", 6}};
 
 struct Include {
   fs::path file;
   int line = 0;
-  std::string room;    // that the file lies in
+  std::string folder;  // in which the file lies
   std::string header;  // as written between the quotes or brackets
 };
 
@@ -34,12 +34,12 @@ std::vector<Include> includes_of(const std::string& library) {
     const fs::path folder = fs::path(MPM_SOURCE_DIR) / root / library;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       if (!entry.is_regular_file()) continue;
-      const std::string room = fs::relative(entry.path(), folder).begin()->string();
+      const std::string top = fs::relative(entry.path(), folder).begin()->string();
       std::ifstream stream(entry.path());
       std::string text;
       for (int line = 1; std::getline(stream, text); ++line) {
         std::smatch match;
-        if (std::regex_search(text, match, pattern)) found.push_back({entry.path(), line, room, match[1]});
+        if (std::regex_search(text, match, pattern)) found.push_back({entry.path(), line, top, match[1]});
       }
     }
   }
@@ -50,18 +50,18 @@ std::string place(const Include& include) {
   return include.file.string() + ":" + std::to_string(include.line) + " includes " + include.header;
 }
 
-void expect_only_lower_floors(const std::string& library, const Floors& floors) {
+void expect_only_lower_layers(const std::string& library, const Layers& layers) {
   const std::string prefix = library + "/";
   const auto includes = includes_of(library);
   ASSERT_FALSE(includes.empty());
   for (const auto& include : includes) {
-    ASSERT_TRUE(floors.count(include.room)) << include.file << " lies in a room that has no floor";
+    ASSERT_TRUE(layers.count(include.folder)) << include.file << " lies in a folder that has no layer";
     if (include.header.rfind(prefix, 0) != 0) continue;
     const std::string target = fs::path(include.header.substr(prefix.size())).begin()->string();
     if (library == "mpm_ros" && target.find('.') != std::string::npos) continue;  // a generated message
-    ASSERT_TRUE(floors.count(target)) << place(include) << ", a room that has no floor";
-    if (target == include.room) continue;
-    EXPECT_LT(floors.at(target), floors.at(include.room)) << place(include);
+    ASSERT_TRUE(layers.count(target)) << place(include) << ", a folder that has no layer";
+    if (target == include.folder) continue;
+    EXPECT_LT(layers.at(target), layers.at(include.folder)) << place(include);
   }
 }
 
@@ -75,7 +75,7 @@ TEST(Layers, LibraryIncludesNoRosHeader) {
   for (const auto& include : includes) EXPECT_FALSE(std::regex_match(include.header, ros)) << place(include);
 }
 
-TEST(Layers, RoomsIncludeOnlyLowerFloors) {
-  expect_only_lower_floors("mpm", kFloors);
-  expect_only_lower_floors("mpm_ros", kRosFloors);
+TEST(Layers, FoldersIncludeOnlyLowerLayers) {
+  expect_only_lower_layers("mpm", kLayers);
+  expect_only_lower_layers("mpm_ros", kRosLayers);
 }

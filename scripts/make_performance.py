@@ -100,14 +100,15 @@ def machine_part(results):
 
 def scenes_part(runs, roofline):
     lines = ["## Whole scenes", "",
-             "Million particle-steps a second, all of a step: kernels, sorting, step control, contact, walls. "
-             f"Median of {len(runs[0]['rates'])} runs ({min(len(run['rates']) for run in runs)} of a million particles "
-             "and of the plain kernels), taken in turns, and the farthest of them from it: of one "
-             "thread by its processor time and by the wall clock, of two by the wall clock. Share: the counted "
-             "multiply-adds (next chapter) over what was measured as the limit of this instruction set, precision and "
-             "number of threads; contact is not counted, nor the law of soil. Then how many times one thread is what "
-             "the field's codes reach where it is the same problem, two threads over one by the wall clock, and the "
-             "process's memory where it is large.", "",
+             "Million particle-steps a second for whole steps: kernels, sorting, step control, contact, walls. "
+             f"Each figure is the median of {len(runs[0]['rates'])} runs "
+             f"({min(len(run['rates']) for run in runs)} with a million particles and with the plain kernels), "
+             "taken in turns, with the largest deviation of a run from it. One thread is timed by its processor time and "
+             "by the wall clock, two threads by the wall clock. The share is that of the counted multiply-adds (next chapter) "
+             "in the measured limit of this instruction set, precision and number of threads; contact and the law of "
+             "soil are not counted. The next columns are the rate of one thread over that of other MPM codes, where "
+             "the problem is the same; two threads over one by the wall clock; and the process's memory where it is "
+             "large.", "",
              "![Whole scenes](images/performance/scenes.png)", ""]
     rows = []
     like_field = [(name, "double") for name in LIKE_FIELD]
@@ -121,7 +122,7 @@ def scenes_part(runs, roofline):
                      million(two["rates"]), arithmetic_share(roofline, one), arithmetic_share(roofline, two), against,
                      f"{scaling:.2f}{hashes}", f"{memory / particles:.0f} B" if particles >= LARGE else ""])
     lines += table(["scene", "precision", "instruction set", "particles", "one thread", "by the wall clock",
-                    "two threads", "share of one", "of two", "of the field's", "scaling", "a particle"], rows)
+                    "two threads", "share of one", "of two", "over other codes", "scaling", "memory a particle"], rows)
     medians = {key: rate_of(run[1]) for key, run in pairs(runs).items()}
     costs = []
     for (name, precision, isa), rate in medians.items():
@@ -141,16 +142,15 @@ def scenes_part(runs, roofline):
 
 
 def targets_part(runs, roofline):
-    lines = ["### What was asked for, and what was reached", "",
-             "Million particle-steps a second on one core and on two. The targets come from a machine whose core was "
-             "measured to do "
-             f"{1e-9 * REFERENCE_PEAK['avx512']:.0f} G multiply-adds a second with AVX-512 and "
-             f"{1e-9 * REFERENCE_PEAK['avx2']:.0f} with AVX2, in double precision. This one was "
-             "measured, in the same run as the scenes, to do "
+    lines = ["### Targets and what was reached", "",
+             "Million particle-steps a second on one core and on two. The targets were set on a machine of which one "
+             f"core does {1e-9 * REFERENCE_PEAK['avx512']:.0f} G multiply-adds a second with AVX-512 and "
+             f"{1e-9 * REFERENCE_PEAK['avx2']:.0f} with AVX2, in double precision. A core of this machine, measured in "
+             "the same run as the scenes, does "
              + " and ".join(f"{1e-9 * row['double']:.1f} with {row['isa']}" for row in roofline["machine"]
                             if row["threads"] == 1 and row["isa"] in REFERENCE_PEAK)
-             + ". So the share of one core's limit stands beside each: the target's of that machine, and the one "
-             "reached of this.", ""]
+             + ". The last two columns therefore give shares of one core's limit: that of the target on its machine, "
+             "and the reached one on this machine.", ""]
     rows, found = [], pairs(runs)
     for name, precision, isa, one, two in TARGETS:
         run = found.get((name, precision, isa))
@@ -164,15 +164,15 @@ def targets_part(runs, roofline):
                      f"{1e-6 * rate_of(run[1]):.1f} / {1e-6 * rate_of(run[2]):.1f}",
                      f"{rate_of(run[1]) / (1e6 * one):.2f} / {rate_of(run[2]) / (1e6 * two):.2f}",
                      f"{100 * asked:.0f} %" if counted else "", arithmetic_share(roofline, run[1])])
-    return lines + table(["scene", "precision", "instruction set", "asked for", "reached", "reached over asked for",
-                          "asked-for share of that machine's limit", "share of this one's"], rows)
+    return lines + table(["scene", "precision", "instruction set", "target", "reached", "reached over target",
+                          "target's share of its machine's limit", "reached share of this machine's"], rows)
 
 
 def sizes_part(sizes):
     lines = ["### By the number of particles", "",
-             "The block of speed_block_3d_million in other sizes, USF, double, one thread, the widest instruction set: "
-             f"processor time of a particle-step, median of {len(sizes[0]['ns'])}; the process's memory, which with "
-             "few particles is mostly the program; and the time to load the scene.", ""]
+             "The block of speed_block_3d_million in other sizes, USF, double, one thread, the widest instruction set. "
+             f"Columns: processor time of a particle-step, median of {len(sizes[0]['ns'])}; the process's memory, "
+             "which with few particles is mostly the program; and the time to load the scene.", ""]
     first = statistics.median(sizes[0]["ns"])
     rows = []
     for size in sizes:
@@ -184,12 +184,12 @@ def sizes_part(sizes):
 
 def output_part(found):
     lines = ["### Output and audit", "",
-             "The report of a run (momentum audit, energies, smallest J) is made at sync points where output asks for "
-             "it. Its part of the stepping's processor time, one thread, 64,000 particles:", ""]
+             "The report of a run (momentum audit, energies, smallest J) is made at those sync points where output "
+             "needs it. Its share of the processor time of stepping, one thread, 64,000 particles:", ""]
     by_steps = {}
     for one in found["reports"]:
         by_steps.setdefault(round(one["steps_between"]), []).append(one["part"])
-    lines += table(["steps between two reports", "the report's part"],
+    lines += table(["steps between two reports", "share of the report"],
                    [[str(steps), f"{100 * statistics.median(parts):.2f} %"] for steps, parts in by_steps.items()])
     output = found["output"]
     median = {kind: statistics.median(seconds) for kind, seconds in output["seconds"].items()}
@@ -215,7 +215,7 @@ def draw_scenes(runs, path):
             axes.plot(one, place, "o", color=colour, ms=6)
             axes.plot(two, place, "o", color=colour, mfc="white", ms=6)
         axes.axvline(FIELD[dim], color=GREY, ls="--", lw=1)
-        axes.text(FIELD[dim], -0.75, f" {FIELD[dim]}, the field's codes on one core (elastic, USF, double)",
+        axes.text(FIELD[dim], -0.75, f" {FIELD[dim]}, other MPM codes on one core (elastic, USF, double)",
                   color="#555555", fontsize=8, va="center")
         axes.set_yticks(range(len(labels)), [f"{name}, {precision}" for name, precision in labels])
         axes.set_ylim(len(labels) - 0.5, -1.2)
@@ -237,17 +237,17 @@ def draw_scenes(runs, path):
 
 
 def roofline_part(roofline):
-    lines = ["## What the machine can do, and a step's share", "",
-             "Measured by `roofline` in one run: the best of five tries of independent multiply-adds in registers, and "
-             "of the triad a = b + s c (24 bytes a number) in arrays that fit the first cache, the second, and none. "
-             "One thread by its processor time, two by the wall clock, as the scenes.",
+    lines = ["## Limits of the machine, and a step's share", "",
+             "`roofline` measures these in one run: the best of five tries of independent multiply-adds in registers, "
+             "and of the triad a = b + s c (24 bytes a number) in arrays that fit the first cache, the second, and "
+             "neither. One thread is timed by its processor time, two by the wall clock, as for the scenes.",
              ""]
     columns = ("double", "single", "triad_l1", "triad_l2", "triad_memory")
     lines += table(
         ["instruction set", "threads", "double, G multiply-adds/s", "single", "triad L1, GB/s", "L2", "memory"],
         [[row["isa"], str(row["threads"])] + [f"{1e-9 * row[key]:.1f}" for key in columns]
          for row in roofline["machine"]])
-    lines += ["Counted work (`benchmark/roofline/counted_work.hpp` derives it) and its share of these limits, of the "
+    lines += ["Counted work (derived in `benchmark/roofline/counted_work.hpp`) and its share of these limits, for the "
               "widest instruction set, in double precision:", ""]
     lines += table(["scene", "update", "threads", "million particle-steps/s", "multiply-adds a particle",
                     "of the multiply-adds", "bytes a particle", "of memory's bandwidth"],
@@ -267,12 +267,11 @@ def profile_part(benchmarks, roofline):
     """The table of single kernels, and their sum over a step."""
     times = medians_of(benchmarks)
     lines = ["## Profile of a step by stage", "",
-             "Each kernel by itself on one thread, 64,000 particles, processor time: nanoseconds a particle on a "
-             "lattice and on irregular positions; the multiply-adds and bytes counted for it; and, on the lattice, its "
-             "share of what was measured as the limit of the same instruction set and precision. The sum is a step "
-             "without "
-             "sorting, step control and the clearing of nodes. USAVG takes `move_and_regather` in place of `move`, and "
-             "`nodal_velocity` and `strain` once more.", ""]
+             "Each kernel by itself on one thread, 64,000 particles, processor time. Columns: nanoseconds a particle "
+             "on a lattice and on irregular positions; the multiply-adds and bytes counted for the kernel; and, on the "
+             "lattice, its share of the measured limit of the same instruction set and precision. The sum is a step "
+             "without sorting, step control and the clearing of nodes. USAVG uses `move_and_regather` instead of "
+             "`move`, and `nodal_velocity` and `strain` once more.", ""]
     places = {}
     for name in times:
         if name.startswith("kernel/"):
@@ -303,9 +302,9 @@ def laws_part(benchmarks):
     times = {tuple(name.split("/")[1:]): ns for name, ns in medians_of(benchmarks).items()
              if name.startswith("strain_with_law/")}
     columns = list(dict.fromkeys((isa, precision) for _, _, precision, isa in times))
-    lines = ["### Straining, by law", "",
-             "`strain` without force with each law, nanoseconds a particle on the lattice, one thread; soil and metal "
-             "yield everywhere. It includes the velocity gradient, which all have in common.", ""]
+    lines = ["### Strain and stress, by law", "",
+             "The kernel `strain` without force with each law, nanoseconds a particle on the lattice, one thread; soil "
+             "and metal yield everywhere. It includes the velocity gradient, which is common to all laws.", ""]
     rows = [[f"`{law}`"] + [f"{times[law, 'solid', precision, isa]:.1f}" for isa, precision in columns]
             for law in dict.fromkeys(key[0] for key in times)]
     return lines + table(["law"] + [f"{isa}, {precision}" for isa, precision in columns], rows)
@@ -313,7 +312,7 @@ def laws_part(benchmarks):
 
 def others_part(benchmarks):
     lines = ["### Sorting, and steps of small scenes", "",
-             "Nanoseconds a particle (of a step: a particle-step), by the wall clock; median.", ""]
+             "Nanoseconds a particle (for steps: a particle-step), by the wall clock; median.", ""]
     rows = [[f"`{name.replace('/real_time', '').replace('/iterations:4', '')}`", f"{ns:.1f}"]
             for name, ns in medians_of(benchmarks).items() if not name.startswith(("kernel/", "strain_with_law/"))]
     return lines + table(["benchmark", "ns"], sorted(rows))
@@ -327,9 +326,9 @@ def short(function):
 
 def instructions_part(counts):
     lines = ["## Instructions", "",
-             "Instructions a particle-step on one thread, counted by callgrind, which knows no AVX-512: a longer run "
-             "less a shorter one, of a small version of the scene. Step control, once in a sync period, weighs more "
-             "here than in a long period.", ""]
+             "Instructions a particle-step on one thread, counted by callgrind, which does not support AVX-512: the "
+             "difference of a longer and a shorter run of a small version of the scene. Step control, once in a sync "
+             "period, weighs more in these short periods than in long ones.", ""]
     for count in counts:
         lines += [f"{count['name']}, {count['particles']:,} particles, {count['isa']}: **{count['total']:.0f}**", ""]
         costs = {}

@@ -17,7 +17,7 @@ CHAPTERS = {
     "conservation": "Conservation",
     "contact": "Contact with rigid bodies",
     "pairs": "Contact between deformable bodies",
-    "axisymmetric": "About an axis",
+    "axisymmetric": "Axisymmetric scenes",
     "soil": "Soil",
     "metal": "Metal",
     "fluid": "Fluid and gas",

@@ -1,7 +1,7 @@
-// Angular momentum of a disk that spins and flies, by transfer. APIC keeps it: what particles hand to the grid in a
-// step has the angular momentum of the grid at the end of the step before, since a particle keeps the moment of the
-// grid's velocity about it, whatever it moves on to. Source: Jiang, Schroeder, Selle, Teran & Stomakhin (2015); method
-// reference 6.6. PIC forgets it within a turn, FLIP loses some.
+// Angular momentum of a disk that spins and flies, by transfer. APIC conserves it: the angular momentum that particles
+// spread to the grid in a step is that of the grid at the end of the step before, since a particle stores the moment of
+// the grid's velocity about itself, wherever it moves. Source: Jiang, Schroeder, Selle, Teran & Stomakhin (2015);
+// method reference 6.6. PIC loses it within a turn, FLIP loses some.
 #include <gtest/gtest.h>
 
 #include "step_scene.hpp"
@@ -16,9 +16,9 @@ constexpr double kRadius = 0.55, kCentre = 1.5;  // [m]
 constexpr double kRate = 4.0;                    // [1/s]: the rim is at a fifth of the fastest wave's speed
 constexpr double kFlight = 0.1;                  // [m/s], along x
 
-/// About the axis through the start's centre, of what particles hand to the grid in the next step: sum of
-/// m [x × v + sum over nodes of S (x_i - x_p) × B D^-1 (x_i - x_p)], of which the second is the skew part of B,
-/// since sum of S (x_i - x_p) (x_i - x_p)^T is D.
+/// Angular momentum, about the axis through the initial centre, of what particles spread to the grid in the next step:
+/// sum of m [x × v + sum over nodes of S (x_i - x_p) × B D^-1 (x_i - x_p)]. The second term is the skew part of B,
+/// since the sum of S (x_i - x_p) (x_i - x_p)^T is D.
 double angular_momentum(Disk& disk) {
   const ParticleSet& set = disk.set();
   double sum = 0.0;
@@ -28,7 +28,7 @@ double angular_momentum(Disk& disk) {
   }
   return set.mass * sum;
 }
-/// The same of the grid.
+/// Angular momentum of the grid about the same axis.
 double grid_angular_momentum(Disk& disk) {
   double sum = 0.0;
   disk.each_node([&](int b, int n, const std::array<int, 3>& number) {
@@ -47,7 +47,7 @@ Disk spinning_disk(const StepMethod& method) {
   return Disk(method, body);
 }
 
-/// What is left of the angular momentum after a turn, as a part of what there was, and the largest change on the way.
+/// Angular momentum after a turn, relative to the initial one, and its largest relative change on the way.
 struct Spin {
   double left, change = 0.0;
 };
@@ -65,13 +65,13 @@ Spin spin(const StepMethod& method) {
     spin.left = angular_momentum(disk) / start;
     spin.change = std::max(spin.change, std::abs(spin.left - 1.0));
   }
-  EXPECT_GT(disk.sorts, 1) << method.name();  // particles have gone from block to block
+  EXPECT_GT(disk.sorts, 1) << method.name();  // particles have moved from block to block
   return spin;
 }
 
-// To round-off: asserted at 1e-12 a turn of some 730 steps, measured below 1e-13. Not with hat functions at a point:
-// light nodes beside a particle make its second moment, and with it the angular momentum's share of the others, as
-// small as it likes, and the disk flies apart; whether B or its gradient is kept.
+// Exact to round-off: asserted at 1e-12 over a turn of some 730 steps, measured below 1e-13. Hat functions at a point
+// are excluded: light nodes beside a particle make its second moment, and with it the other nodes' share of the angular
+// momentum, arbitrarily small, and the disk flies apart, whether B or its gradient is stored.
 TEST(AngularMomentum, IsKeptByApic) {
   for (const ShapeKind shape : kAllShapes) {
     if (shape == ShapeKind::dirac) continue;
@@ -82,7 +82,7 @@ TEST(AngularMomentum, IsKeptByApic) {
   }
 }
 
-// The sum over particles above is the grid's: D from the shape function drops out of it.
+// The sum over particles above equals that of the grid: D of the shape function drops out.
 TEST(AngularMomentum, IsWhatApicHandsToTheGrid) {
   for (const ShapeKind shape : kAllShapes) {
     Disk disk = spinning_disk({shape, UpdateScheme::usf, {TransferKind::apic, 1.0, 2}});
@@ -94,15 +94,16 @@ TEST(AngularMomentum, IsWhatApicHandsToTheGrid) {
     }
     StepContext context = disk.context();
     disk.mechanics->scatter_momentum(context);
-    // Of some 300 particles with 1 m/s a radius away.
+    // Round-off for some 300 particles with 1 m/s at one radius.
     EXPECT_NEAR(grid_angular_momentum(disk), angular_momentum(disk), 1e-13 * disk.set().mass * 300 * kRadius)
         << shape_name(shape);
   }
 }
 
 // PIC smears velocities over a cell in every step: the rotation of a particle's surroundings is lost each time, and
-// that of the whole before the turn ends (measured: 0.2 % left). FLIP keeps what the grid does not see; what the next
-// step's weights see of it loses 3 to 5 % in the turn here, which no theory bounds: asserted twice as wide.
+// that of the whole disk before the turn ends (measured: 0.2 % left). FLIP keeps velocities that the grid does not
+// resolve; the part that the weights of the next step resolve costs 3 to 5 % in the turn here. No theory bounds this;
+// asserted twice as wide.
 TEST(AngularMomentum, IsLostByPicAndLessByFlip) {
   for (const ShapeKind shape : kAllShapes) {
     const StepMethod pic{shape, UpdateScheme::usavg, {TransferKind::flip, 0.0, 2}};

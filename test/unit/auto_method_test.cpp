@@ -1,5 +1,5 @@
-// method: auto. Choices are worked out by hand from made-up tables by the rule of study/preference.hpp; what a scene is
-// like by the formulas of scene/expected_motion.hpp.
+// method: auto. Expected choices are worked out by hand from made-up tables by the rule of study/preference.hpp, and
+// the expected motion by the formulas of scene/expected_motion.hpp.
 #include "mpm/scene/auto_method.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ study::MethodCosts table(const std::string& rows) {
   return study::read_method_costs(in);
 }
 
-/// A scene of one elastic block at rest in the plane, standing on the grid's floor.
+/// A scene of one elastic block at rest in the plane, standing on the lower face of the grid.
 std::string block(const std::string& rest = "", const std::string& initial = "",
                   const std::string& law = "neo_hookean") {
   return "geometry: plane_strain\n"
@@ -36,7 +36,7 @@ std::string block(const std::string& rest = "", const std::string& initial = "",
          initial + "}]\n" + rest;
 }
 
-/// `auto` as a scene with the rows for its only figures chooses it.
+/// The choice of `auto` for a scene, with `rows` as the only measurements.
 Scene chosen(const std::string& scene, const std::string& rows, AutoMethod asked = {}) {
   Scene read = parse_scene(scene, "test.yaml");
   read.definition.method = MethodDefinition{};
@@ -66,8 +66,8 @@ study::Preference preferred(const std::string& rows, const std::vector<std::stri
 
 const study::Budget kOnePercent{0.01, {}};
 
-// Costs at 1 %, where runs stand: ugimp 100 and 400, cpdi 200 and 200, over the least of each: 1 and 2, 2 and 1.
-// Spline: 120 and 240: 1.2 and 1.2, the least in its worst suite.
+// Costs at 1 % error, at the measured runs: ugimp 100 and 400, cpdi 200 and 200; over the least of each suite 1 and 2,
+// 2 and 1. The spline: 120 and 240, that is 1.2 and 1.2, which is the least in the worst suite.
 const char* const kTwoSuites =
     "square_large,ugimp/usavg/flip,0.01,100\nsquare_large,cpdi/usavg/flip,0.01,200\n"
     "square_large,bspline2/usavg/flip,0.01,120\n"
@@ -82,12 +82,12 @@ TEST(Preference, TheWorstSuiteDecides) {
   EXPECT_DOUBLE_EQ(found.chosen.by_suite.at(0), 1.2);
   EXPECT_DOUBLE_EQ(found.chosen.by_suite.at(1), 1.2);
   EXPECT_DOUBLE_EQ(found.others.at(0).worst, 2.0);
-  // Of one suite alone the cheapest there, and uGIMP of two that are equal.
+  // With one suite the cheapest method wins, and uGIMP among two equal ones.
   EXPECT_EQ(preferred(kTwoSuites, {"square_large"}, kThree, kOnePercent).chosen.method, "ugimp/usavg/flip");
   EXPECT_EQ(preferred(kTwoSuites, {"rotation"}, kThree, kOnePercent).chosen.method, "cpdi/usavg/flip");
 }
 
-// The cost of 1 % between runs of 4 % at 10 and 0.25 % at 1000 is 100 where lines are straight in log-log.
+// The cost of 1 % between runs of 4 % at 10 and 0.25 % at 1000 is 100, on a straight line in log-log.
 TEST(Preference, ReadsBetweenRuns) {
   const study::Preference found = preferred(
       "rotation,ugimp/usavg/flip,0.04,10\nrotation,ugimp/usavg/flip,0.0025,1000\nrotation,cpdi/usavg/flip,0.01,50\n",
@@ -96,7 +96,8 @@ TEST(Preference, ReadsBetweenRuns) {
   EXPECT_NEAR(found.others.at(0).worst, 2.0, 1e-14);  // round-off of a logarithm
 }
 
-// 109 over 100 is no difference, 111 is one; of two tied the one with fewer parts of its own.
+// A cost of 109 ties with 100, 111 does not. Of two methods that tie, the one with fewer parts that are not default
+// wins.
 TEST(Preference, LessThanTenPercentIsATie) {
   const auto pick = [](const std::string& simple, const std::string& cost) {
     return preferred("rotation,cpdi/usavg/flip,0.01,100\nrotation," + simple + ",0.01," + cost + "\n", {"rotation"},
@@ -109,7 +110,8 @@ TEST(Preference, LessThanTenPercentIsATie) {
   EXPECT_EQ(pick("cpdi/usf/flip", "101"), "cpdi/usavg/flip");  // two parts differ, not one
 }
 
-// On one suite nobody comes to 1 %: there 5 % and 4 % are 1.25 and 1, on the other costs 100 and 200 are 1 and 2.
+// On one suite no method reaches 1 %: errors of 5 % and 4 % count as 1.25 and 1. On the other, costs 100 and 200 count
+// as 1 and 2.
 TEST(Preference, ASuiteThatNobodySolvesIsJudgedByItsErrors) {
   const study::Preference found = preferred(
       "plate_compression,ugimp/usavg/flip,0.05,100\nplate_compression,cpdi/usavg/flip,0.04,900\n"
@@ -123,8 +125,8 @@ TEST(Preference, ASuiteThatNobodySolvesIsJudgedByItsErrors) {
   EXPECT_DOUBLE_EQ(found.others.at(0).worst, 2.0);
 }
 
-// Each comes to 1 % on one suite alone. Smallest errors 5 % and 0.2 % against 0.5 % and 6 %, over 1 %: 5 and 1 against
-// 1 and 6.
+// Each method reaches 1 % on one suite only. Smallest errors 5 % and 0.2 % against 0.5 % and 6 %; relative to 1 %: 5
+// and 1 against 1 and 6.
 TEST(Preference, WhereNoneReachesTheErrorErrorsCount) {
   const study::Preference found = preferred(
       "square_large,ugimp/usavg/flip,0.05,100\nsquare_large,cpdi/usavg/flip,0.005,900\n"
@@ -138,8 +140,8 @@ TEST(Preference, WhereNoneReachesTheErrorErrorsCount) {
   EXPECT_DOUBLE_EQ(found.others.at(0).worst, 6.0);
 }
 
-// uGIMP/USF reaches 1 % at 100. For twice that CPDI has 0.4 % and uGIMP/USAVG 0.8 %; for a third of it CPDI cannot be
-// had.
+// uGIMP/USF reaches 1 % at 100. For twice that CPDI has 0.4 % and uGIMP/USAVG 0.8 %; a third of it is less than CPDI's
+// cheapest run.
 TEST(Preference, ACostBuysTheLeastError) {
   const std::string rows =
       "rotation,ugimp/usf/flip,0.01,100\nrotation,ugimp/usavg/flip,0.1,20\nrotation,ugimp/usavg/flip,0.008,200\n"
@@ -153,7 +155,7 @@ TEST(Preference, ACostBuysTheLeastError) {
   EXPECT_FALSE(study::error_at({{10.0, 1.0}}, 9.0));
 }
 
-// A suite that nobody has runs on says nothing; a candidate without a run on one that counts is out.
+// A suite without runs does not count; a candidate without a run on a suite that counts is excluded.
 TEST(Preference, OnlyWhatWasRunCounts) {
   const study::Preference found =
       preferred(std::string(kTwoSuites) + "rotation,bspline3/usavg/flip,0.01,1\n",
@@ -166,14 +168,14 @@ TEST(Preference, OnlyWhatWasRunCounts) {
   EXPECT_FALSE(study::prefer(table(kTwoSuites), {"rotation"}, {"ugimp/usf/flip"}, kOnePercent));
 }
 
-// c = 1 m/s of 1000 Pa over 1000 kg/m^3 without lateral strain.
+// c = 1 m/s from 1000 Pa over 1000 kg/m^3 without lateral strain.
 TEST(ExpectedMotion, IsFromTheScenesNumbers) {
   const auto of = [](const std::string& text) { return expected_motion(parse_scene(text, "test.yaml")); };
   EXPECT_EQ(of(block()).strain, 0.0);
   EXPECT_FALSE(of(block()).free || of(block()).contact || of(block()).flows);
-  // It stands on the floor: g H / c^2 = 0.02 x 0.4.
+  // The block stands on the grid's lower face: g H / c^2 = 0.02 x 0.4.
   EXPECT_NEAR(of(block("gravity: [0, -0.02]\n")).strain, 0.008, 1e-12);
-  // Pulled up it falls 0.6 m: v = sqrt(2 x 0.02 x 0.6) and the weight.
+  // Under upward gravity it falls 0.6 m: v = sqrt(2 x 0.02 x 0.6), plus the weight.
   EXPECT_NEAR(of(block("gravity: [0, 0.02]\n")).strain, std::sqrt(0.024) + 0.008, 1e-12);
   EXPECT_TRUE(of(block("gravity: [0, 0.02]\n")).free);
   EXPECT_NEAR(of(block("", ", initial: {velocity: [\"0.5*x\", 0]}")).strain, 0.3, 1e-12);  // at x = 0.6 m
@@ -184,7 +186,7 @@ TEST(ExpectedMotion, IsFromTheScenesNumbers) {
   EXPECT_NEAR(of(block(tool + ", motion: {rotation_rate: 1}}]\n")).turn, std::acos(0.0), 1e-15);
   EXPECT_TRUE(of(block("boundaries: {z_min: {friction: 0.2}}\n")).contact);
   EXPECT_FALSE(of(block("boundaries: {z_min: slip}\n")).contact);
-  // About its middle at (0.4, 0.2) at 2 rad/s for a tenth of a second; a shear turns at half its rate.
+  // It turns about its middle at (0.4, 0.2) at 2 rad/s for a tenth of a second; a shear turns at half its rate.
   EXPECT_NEAR(of(block("time: {end: 0.1}\n", ", initial: {velocity: [\"2*(z-0.2)\", \"-2*(x-0.4)\"]}")).turn, 0.2,
               1e-12);
   EXPECT_NEAR(of(block("time: {end: 0.1}\n", ", initial: {velocity: [\"2*(z-0.2)\", 0]}")).turn, 0.1, 1e-12);
@@ -196,7 +198,8 @@ TEST(ExpectedMotion, IsFromTheScenesNumbers) {
   EXPECT_NEAR(sand.turn, std::acos(0.0), 1e-15);
 }
 
-// The same table: at rest the bar and the small square count, pressed the large one, turned the rotation too.
+// With the same table, the bar and the small square count at rest, the large square under pressure, and the rotation
+// too in a turn.
 TEST(AutoMethod, SuitesFollowTheScene) {
   const std::string rows =
       "bar_small,ugimp/usavg/flip,0.01,100\nbar_small,bspline2/usavg/flip,0.01,200\nbar_small,cpdi/usavg/"
@@ -214,12 +217,12 @@ TEST(AutoMethod, SuitesFollowTheScene) {
   EXPECT_EQ(said(turned),
             "bspline2, usavg, flip: reaches 1 % at 1.20 times the least cost in square_large, 1.20 in rotation; "
             "cpdi, usavg, flip comes next, with 2.00 at worst; ugimp, usavg, flip has 2.00 at worst");
-  EXPECT_EQ(said(turned, "method.auto.strain"), "");  // the scene said it
+  EXPECT_EQ(said(turned, "method.auto.strain"), "");  // given by the scene
   EXPECT_EQ(said(chosen(block(), rows), "method.auto.strain"), "0 %: nothing moves it");
 }
 
 // For what uGIMP/USF takes for 1 %, CPDI has 0.5 % and uGIMP/USAVG 2 % on the one suite, both the same on the other.
-// For an error that nobody reaches, what is told are errors.
+// Where no method reaches the required error, the reasons state errors.
 TEST(AutoMethod, SaysWhatABudgetBuys) {
   const std::string rows =
       "bar_small,ugimp/usf/flip,0.01,100\nbar_small,ugimp/usavg/flip,0.02,100\nbar_small,cpdi/usavg/flip,0.005,100\n"
@@ -242,7 +245,8 @@ TEST(AutoMethod, SaysWhatABudgetBuys) {
   EXPECT_EQ(said(chosen(block(), rows, asked)).find("ugimp, usavg, flip: the default, for no measured method"), 0U);
 }
 
-// At 2 % the smaller error on the cube is no reason, and the square counts; at 1 % the cube does.
+// Where runs on the cube only reach an error of 2 %, above the required 1 %, the square counts; where one reaches 1 %,
+// the cube counts.
 TEST(AutoMethod, ACubeCountsWhereItIsSolved) {
   const std::string rows =
       "bar_small,ugimp/usavg/flip,0.01,100\nbar_small,cpdi/usavg/flip,0.01,100\n"
@@ -256,7 +260,7 @@ TEST(AutoMethod, ACubeCountsWhereItIsSolved) {
   EXPECT_EQ(label(chosen(solid, rows + "cube_small,ugimp/usavg/flip,0.01,100\n")), "ugimp/usavg/flip");
 }
 
-// Dirac is cheapest here and not taken; where material flows nothing but uGIMP with FLIP is.
+// Dirac is cheapest here but not chosen; where material flows only uGIMP with FLIP is.
 TEST(AutoMethod, LeavesOutWhatIsNotSafe) {
   const std::string rows =
       "bar_small,dirac/usavg/flip,0.01,10\nbar_small,cpdi/usavg/flip,0.01,50\nbar_small,ugimp/usavg/flip,0.01,100\n"
@@ -277,7 +281,7 @@ TEST(AutoMethod, KeepsWhatTheSceneSays) {
   Scene scene = parse_scene(block("method: {transfer: apic}\n"), "test.yaml");
   choose_method(apic, {table(rows), "", ""}, scene);
   EXPECT_EQ(label(scene), "cpdi/usavg/apic");
-  // A fraction of FLIP that was not run is judged as FLIP, and stays.
+  // A fraction of FLIP that was not measured is judged as FLIP and kept.
   scene = parse_scene(block("method: {transfer: {flip: 0.998}}\n"), "test.yaml");
   choose_method(apic, {table(rows), "", ""}, scene);
   EXPECT_EQ(label(scene), "ugimp/usavg/flip0.998");
@@ -286,11 +290,11 @@ TEST(AutoMethod, KeepsWhatTheSceneSays) {
   scene = parse_scene(block("method: {shape: cpdi}\n"), "test.yaml");
   choose_method(shape, {table(rows), "", ""}, scene);
   EXPECT_EQ(label(scene), "cpdi/usavg/apic");
-  // APIC cannot be damped in the update, so that it is not chosen where the scene does so.
+  // APIC cannot be combined with damping of particles, so it is not chosen for a scene with it.
   scene = parse_scene(block("method: {shape: cpdi, damping: {particle: 5}}\n"), "test.yaml");
   choose_method(shape, {table(rows), "", ""}, scene);
   EXPECT_EQ(label(scene), "cpdi/usavg/flip");
-  // From the scene's text.
+  // The same from the text of a scene.
   scene =
       parse_scene(block("method: {auto: {}, transfer: apic, particles_per_cell: 9, precision: single}\n"), "t.yaml");
   EXPECT_EQ(scene.definition.method.transfer.kind, TransferKind::apic);
@@ -301,7 +305,7 @@ TEST(AutoMethod, KeepsWhatTheSceneSays) {
   EXPECT_EQ(said(scene), "qcpdi, usl, pic: the scene says all of it");
 }
 
-/// Puts a table in the place of the package's for one test.
+/// Replaces the package's table for the duration of a test.
 class TableFile {
  public:
   explicit TableFile(const std::string& text)
@@ -345,8 +349,8 @@ TEST(AutoMethod, WithoutATableTheDefaultIsTakenAndSaid) {
                 " cannot be read; run scripts/methods, or name a table in MPM_ROS_METHOD_COSTS");
 }
 
-// A scene without a method, `method: auto` and `method: {auto: {}}` are the same; the choice is told by --explain, and
-// in the record stands what was chosen, not `auto`.
+// A scene without a method, `method: auto` and `method: {auto: {}}` are the same; --explain reports the choice, and the
+// record contains the chosen method, not `auto`.
 TEST(AutoMethod, IsWhatASceneWithoutAMethodGets) {
   const TableFile file(std::string(kHead) +
                        "bar_small,cpdi/usf/flip,0.01,10\nsquare_small,cpdi/usavg/fmpm2,0.01,10\n"
@@ -359,7 +363,7 @@ TEST(AutoMethod, IsWhatASceneWithoutAMethodGets) {
     EXPECT_EQ(said(other), said(scene));
   }
   const std::string told = explain(scene, build(scene));
-  EXPECT_EQ(told, explain(parse_scene(block(), "test.yaml"), build(scene)));  // the same in every run
+  EXPECT_EQ(told, explain(parse_scene(block(), "test.yaml"), build(scene)));  // equal in every run
   EXPECT_NE(told.find("method: plane strain, 1 m thick, bspline2, usavg, fmpm 2,"), std::string::npos) << told;
   EXPECT_NE(told.find("\n  method: bspline2, usavg, fmpm 2: reaches 1 % at 1.00 times the least cost in bar_small, "
                       "1.00 in square_small\n"),
@@ -396,7 +400,7 @@ TEST(AutoMethod, BadKeysSayWhatToWrite) {
   EXPECT_EQ(why("{auto: {}}", line), "no error");
 }
 
-// The table that is shipped: it can be read, and every kind of scene gets a method by it.
+// The shipped table can be read, and gives every kind of scene a method.
 TEST(AutoMethod, TheShippedTableServesEveryScene) {
   const MethodCostsFile file = load_method_costs(std::string(MPM_SOURCE_DIR) + "/config/method_costs.csv");
   ASSERT_EQ(file.fault, "");

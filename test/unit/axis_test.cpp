@@ -1,5 +1,5 @@
-// The condition at r = 0 (boundary/axis.hpp) on a grid with a block of nodes beyond the axis: which radial velocities
-// it sets, and that it owns up to the momentum of nodes that carry any, and to no other.
+// The condition at r = 0 (boundary/axis.hpp) on a grid with a block of nodes beyond the axis: the radial velocities
+// that it sets, and the momentum that it accounts for, that of nodes which carry any, and no other.
 #include "mpm/boundary/axis.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using Scene = StepScene<Axisymmetric>;
 
 double field(const std::array<int, 3>& node) { return 1.0 + 0.3 * node[0] - 0.2 * node[1]; }
 
-/// A body about the axis, its mass on the grid, and a velocity on every node, 2 m/s along z.
+/// A body about the axis with its mass on the grid, and 2 m/s along z at every node.
 struct Fixture {
   Fixture() : scene({ShapeKind::ugimp, UpdateScheme::usf, {}}), context{scene.grid, scene.dt} {
     scene.mechanics->scatter_momentum(context);
@@ -54,7 +54,7 @@ TEST(Axis, SetsTheNodesOnItAndBeyond) {
   }
 }
 
-// Impulse and acceleration of each node that carries mass: m dv and dv / dt; planar functions would leave some of it
+// Impulse and acceleration of each node that carries mass: m dv and dv / dt; planar functions would spread some of it
 // beyond the axis as well.
 TEST(Axis, OwnsUpToTheMomentumItChanges) {
   Fixture f;
@@ -71,21 +71,21 @@ TEST(Axis, OwnsUpToTheMomentumItChanges) {
   axis.accounts(accounts);
   ASSERT_EQ(accounts.size(), 1U);
   EXPECT_EQ(accounts[0].name, "axis");
-  // A sum of some ten products.
+  // Round-off of a sum of some ten products.
   EXPECT_NEAR(accounts[0].impulse.x(), expected, 1e-14 * std::abs(expected));
   EXPECT_EQ(accounts[0].impulse.z(), 0.0);
   f.scene.each_node([&](int b, int n, const std::array<int, 3>& node) {
     const bool held = node[0] <= 0 && f.scene.grid.carries(b, n);
     EXPECT_DOUBLE_EQ(f.scene.grid.force.at(b, 0, n), held ? 7.0 - field(node) / f.scene.dt : 7.0);
   });
-  // What it has said once it does not say again.
+  // An account is reported once.
   axis.grid_advanced(f.context);
   accounts.clear();
   axis.accounts(accounts);
   EXPECT_NEAR(accounts[0].impulse.x(), expected, 1e-14 * std::abs(expected));
 }
 
-// XPIC and FMPM: no momentum of the velocity that is filtered, and that of the increments that it takes away.
+// XPIC and FMPM: setting the filtered velocity takes no momentum; the momentum removed from the increments counts.
 TEST(Axis, HoldsWhatIsFiltered) {
   Fixture f;
   Axis axis(AxisGhosts::zero);
@@ -108,7 +108,7 @@ TEST(Axis, HoldsWhatIsFiltered) {
   });
 }
 
-// The hoop stress's is the sum of the radial forces, times the step.
+// The impulse of the hoop stress is the sum of the radial forces, times the step.
 TEST(Axis, BooksTheHoopStress) {
   Fixture f;
   double sum = 0.0;

@@ -1,5 +1,5 @@
-// For the tests of axisymmetric shape functions: value, gradient and hoop function of a ring at every node that it
-// reaches, from a radial stencil and a planar one, or from the points of a domain as the kernels make them.
+// Tools for the tests of axisymmetric shape functions: value, gradient and hoop function of a ring at every node that
+// it reaches, from a radial and a planar stencil, or from the points of a domain as in the kernels.
 #pragma once
 
 #include <map>
@@ -11,14 +11,14 @@
 
 namespace mpm::test {
 
-/// Of one node: value, gradient [1/m], hoop function [1/m].
+/// Value, gradient [1/m] and hoop function [1/m] at one node.
 struct RingWeight {
   double s = 0.0, g[2] = {}, t = 0.0;
 };
-/// By the node's numbers along r and z.
+/// Weights by the node's numbers along r and z.
 using RingWeights = std::map<std::array<int, 2>, RingWeight>;
 
-/// Of a product; `place.f` stretches the boxes of a shape function that does.
+/// Weights of a product of stencils; `place.f` stretches the boxes of a shape function that stretches.
 template <class Shape>
 RingWeights product_weights(const Place<2>& place, const AxisRules& rules = {}) {
   int nearest[2];
@@ -51,7 +51,7 @@ RingWeights product_weights(const Place<2>& place, const AxisRules& rules = {}) 
   return weights;
 }
 
-/// Of a domain's points, which are shrunk to fit where kernel/domain.hpp shrinks them.
+/// Weights of a domain's points, shrunk to fit as in kernel/domain.hpp.
 template <template <int> class Points>
 RingWeights domain_weights(const Place<2>& place, bool planar = false) {
   mpm_kernel::GridView grid{};
@@ -89,7 +89,7 @@ RingWeights domain_weights(const Place<2>& place, bool planar = false) {
   return weights;
 }
 
-/// Sums over the nodes of a ring, places along r and z [m].
+/// Sums over the nodes of a ring, with positions along r and z [m].
 struct RingSums {
   double s = 0.0, t = 0.0, r_s = 0.0, r_t = 0.0, g[2] = {}, r_g[2] = {}, z_g[2] = {}, z_s = 0.0;
   RingSums(const RingWeights& weights, const Place<2>& place) {

@@ -1,5 +1,5 @@
-// What axisymmetric shape functions must keep wherever a particle is (method reference 1.1, axisymmetric column): sums
-// over the nodes, balance of a tiled cylinder under uniform stress, the plane far from the axis.
+// Identities of axisymmetric shape functions for any particle position (method reference 1.1, axisymmetric column):
+// sums over the nodes, balance of a tiled cylinder under uniform stress, and the planar limit far from the axis.
 #include <algorithm>
 
 #include "axisymmetric_check.hpp"
@@ -9,14 +9,14 @@ namespace {
 
 constexpr AxisRules kWhole = {AxisDomains::whole};
 
-/// Mean radius of a ring's section and of its mass, <r> and <r^2>/<r>, between two radii.
+/// Mean radius of a ring's section, <r>, and of its mass, <r^2>/<r>, between two radii.
 struct Means {
   double of_area, of_mass;
   Means(double a, double b) : of_area(0.5 * (a + b)), of_mass((a * a + a * b + b * b) / (1.5 * (a + b))) {}
 };
 
-// Method reference 1.1; `size`: of the largest value, gradient times cell and hoop function times cell, by whose last
-// digits the sums are off.
+// Method reference 1.1; `size`: the largest of value, gradient times cell and hoop function times cell, whose last
+// digits limit the sums.
 void expect_identities(const RingWeights& weights, const Place<2>& place, double mean, double of_mass, double size) {
   const RingSums sum(weights, place);
   const double cell = *std::min_element(place.cell.begin(), place.cell.end());
@@ -25,7 +25,7 @@ void expect_identities(const RingWeights& weights, const Place<2>& place, double
   EXPECT_NEAR(sum.t, 1.0 / mean, slope);
   for (int k = 0; k < 2; ++k) {
     EXPECT_NEAR(sum.g[k], 0.0, slope);
-    // Places of up to 8 cells.
+    // Positions are up to 8 cells.
     EXPECT_NEAR(sum.r_g[k], k == 0 ? 1.0 : 0.0, 8 * value * place.cell[0] / cell);
     EXPECT_NEAR(sum.z_g[k], k == 1 ? 1.0 : 0.0, 8 * value * place.cell[1] / cell);
   }
@@ -38,7 +38,7 @@ void check_product_identities(const AxisRules& rules) {
   std::mt19937 engine(1);
   std::uniform_real_distribution<double> u(0.0, 1.0);
   for (int i = 0; i < 2000; ++i) {
-    // Half of the places touch the axis, from a fiftieth of a cell on.
+    // Half of the domains touch the axis; radii begin at a fiftieth of a cell.
     const double r = i % 2 == 0 ? 0.02 + 0.5 * u(engine) : 0.02 + 6.0 * u(engine);
     const Place<2> place{{0.5, 0.8},
                          {0.5 * r, 4.0 * u(engine)},
@@ -52,7 +52,7 @@ void check_product_identities(const AxisRules& rules) {
       a = 0.0;
     }
     const Means mean(a, b);
-    // Values of a box that reaches across have <r> in the denominator: half a cell squared over 0.02 x 0.05.
+    // Values of a box that reaches across the axis have <r> in the denominator: half a cell squared over 0.02 x 0.05.
     const double size = rules.domains == AxisDomains::whole ? 500.0 : 50.0;
     expect_identities(product_weights<Shape>(place, rules), place, mean.of_area, mean.of_mass, size);
   }
@@ -66,7 +66,7 @@ TEST(AxisymmetricIdentities, OfStretchingUgimp) {
   check_product_identities<AxisymmetricUgimpStretch<double>>(kWhole);
 }
 
-// A point: <r> is its radius, and so is the mean radius of its mass.
+// For a point both means are its radius.
 TEST(AxisymmetricIdentities, OfDirac) {
   std::mt19937 engine(2);
   std::uniform_real_distribution<double> u(0.0, 1.0);
@@ -78,7 +78,7 @@ TEST(AxisymmetricIdentities, OfDirac) {
   }
 }
 
-/// Half vectors of the domain that touches the axis at most [m].
+/// Shrinks half vectors [m] to a domain that at most touches the axis.
 double fit(const Place<2>& place, double (&d)[2][2]) {
   place.domain(d);
   const double reach = std::abs(d[0][0]) + std::abs(d[1][0]);
@@ -89,8 +89,9 @@ double fit(const Place<2>& place, double (&d)[2][2]) {
   return scale;
 }
 
-// Of a parallelogram <r> is the particle's radius and <r^2>/<r> = r + (d_1r^2 + d_2r^2) / (3 r). Shrunk by both half
-// vectors together it stays on its side: corners of either sign of d_1r d_2r (method reference, erratum 14).
+// For a parallelogram <r> is the particle's radius and <r^2>/<r> = r + (d_1r^2 + d_2r^2) / (3 r). Shrunk by both half
+// vectors together it stays on its side of the axis, for corners of either sign of d_1r d_2r (method reference, erratum
+// 14).
 template <template <int> class Points>
 void check_domain_identities() {
   std::mt19937 engine(3);
@@ -104,7 +105,7 @@ void check_domain_identities() {
     if (fit(place, d) < 1.0) ++shrunk[d[0][0] * d[1][0] < 0.0];
     const double of_mass = place.x[0] + (d[0][0] * d[0][0] + d[1][0] * d[1][0]) / (3.0 * place.x[0]);
     const RingWeights weights = domain_weights<Points>(place);
-    double steepest = 1.0;  // a domain that was shrunk has gradients of cell over its size
+    double steepest = 1.0;  // a shrunk domain has gradients as large as the cell over its size
     for (const auto& [node, w] : weights) {
       EXPECT_TRUE(node[0] >= 0 || std::abs(w.s) + std::abs(w.t) < 1e-12) << "beyond the axis";
       for (const double g : w.g) steepest = std::max(steepest, std::abs(g) * place.cell[0]);
@@ -118,7 +119,7 @@ void check_domain_identities() {
 TEST(AxisymmetricIdentities, OfCpdi) { check_domain_identities<AxisymmetricCpdi>(); }
 TEST(AxisymmetricIdentities, OfQcpdi) { check_domain_identities<AxisymmetricQcpdi>(); }
 
-// Far from the axis a ring is straight: S and G as in the plane, T = 1 / r of S, but for a cell over the radius.
+// Far from the axis a ring is almost straight: S and G are as in the plane and T = S / r, up to a cell over the radius.
 TEST(AxisymmetricIdentities, FarFromTheAxisThePlanes) {
   std::mt19937 engine(8);
   std::uniform_real_distribution<double> u(0.0, 1.0);
@@ -144,8 +145,8 @@ TEST(AxisymmetricIdentities, FarFromTheAxisThePlanes) {
 }
 
 // Uniform stress in a cylinder whose section is tiled: its force is zero at every node inside and on the axis, and R h
-// at the free surface, since the integral of d(r N) is (method reference 1.1). Per radian and unit of stress; 8 x 8
-// cells, so sums of a few units.
+// at the free surface, since the integral of d(r N) is (method reference 1.1). Forces are per radian and unit of
+// stress; with 8 x 8 cells sums are a few units.
 template <class Of>
 void check_tiling(int per_cell, double first_half, Of&& weights_of) {
   const double cell[2] = {0.5, 0.25};
@@ -175,14 +176,14 @@ void check_tiling(int per_cell, double first_half, Of&& weights_of) {
 TEST(AxisymmetricIdentities, TiledDomainsBalance) {
   for (const int per_cell : {1, 2, 3}) {
     check_tiling(per_cell, 1.0, [](const Place<2>& p) { return product_weights<AxisymmetricUgimp<double>>(p); });
-    // Boxes of four fifths, stretched to fit again.
+    // Boxes of four fifths of the size, stretched to fill the section again.
     check_tiling(per_cell, 0.8, [](const Place<2>& p) { return product_weights<AxisymmetricUgimpStretch<double>>(p); });
     check_tiling(per_cell, 0.8, [](const Place<2>& p) { return domain_weights<AxisymmetricCpdi>(p); });
     check_tiling(per_cell, 0.8, [](const Place<2>& p) { return domain_weights<AxisymmetricQcpdi>(p); });
   }
 }
 
-// A particle on the axis itself, where 1 / r is not a number: its weights are numbers and sum to 1.
+// A particle on the axis, where 1 / r is not finite, has finite weights whose sum is 1.
 TEST(AxisymmetricIdentities, OnTheAxisAllIsFinite) {
   const Place<2> place{{0.5, 0.5}, {0.0, 1.1}, {0.25, 0.25}, {{1.0, 0.3}, {-0.2, 0.9}}};
   for (const RingWeights& weights :

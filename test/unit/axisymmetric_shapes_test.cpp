@@ -1,5 +1,5 @@
 // Axisymmetric shape functions against values by quadrature (test/data/axisymmetric_*.csv), the closed forms of Nairn &
-// Guilkey (2015) and the planar functions; numbers and registers agree. Identities are in
+// Guilkey (2015) and the planar functions; single numbers and registers agree. Identities are in
 // axisymmetric_identities_test.cpp.
 #include <algorithm>
 
@@ -12,7 +12,7 @@ namespace {
 constexpr AxisRules kWhole = {AxisDomains::whole};
 constexpr AxisRules kPlanar = {AxisDomains::fitted, AxisFunctions::planar};
 
-// Along the radius alone, S, dS per half cell and T.
+// Radial functions alone: S, dS per half cell and T.
 std::array<double, 3> radial_values(double l_p, int node, double particle, double cell, const AxisRules& rules = {}) {
   const double cells = node + 0.5 * particle;
   const int nearest = nearest_node(cells), place = node - nearest + 1;
@@ -60,7 +60,7 @@ TEST(AxisymmetricQcpdi, MatchesQuadratureRowByRow) {
   check_domain_table<AxisymmetricQcpdi>("axisymmetric_qcpdi.csv", 12);
 }
 
-// Method reference 3.3: by parts, G_r + T = [r N] over D between the ends of the box.
+// Method reference 3.3: integration by parts gives G_r + T = [r N] / D between the ends of the box.
 TEST(AxisymmetricUgimp, GradientAndHoopFunctionAreTheEnds) {
   std::mt19937 engine(4);
   std::uniform_real_distribution<double> radius(0.0, 5.0), l_p(0.1, 1.0);
@@ -83,7 +83,7 @@ TEST(AxisymmetricUgimp, GradientAndHoopFunctionAreTheEnds) {
   }
 }
 
-// Nairn & Guilkey (2015) eq. (19) and (24), of domains as they are; their (68) and (27) for T.
+// Nairn & Guilkey (2015) eq. (19) and (24) for whole domains; their (68) and (27) for T.
 std::array<double, 3> closed_form(double l, int node, double x, double cell) {
   const double q = 2.0 * node + x;
   std::array<double, 3> value{};
@@ -110,7 +110,7 @@ std::array<double, 3> closed_form(double l, int node, double x, double cell) {
   return value;
 }
 
-// Where a box reaches across the axis the forms have 1 / q, here up to 50.
+// Where a box reaches across the axis, the closed forms contain 1 / q, here up to 50.
 TEST(AxisymmetricUgimp, WholeDomainsAreThePapersClosedForms) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> u(0.0, 1.0);
@@ -127,7 +127,7 @@ TEST(AxisymmetricUgimp, WholeDomainsAreThePapersClosedForms) {
   EXPECT_GT(across, 500);
 }
 
-// Eq. (68), (69) whatever the radius, with T = S / r.
+// Eq. (68), (69) at any radius, with T = S / r.
 TEST(AxisymmetricUgimp, PlanarFunctionsAreThoseOfThePlane) {
   std::mt19937 engine(6);
   std::uniform_real_distribution<double> u(0.0, 1.0);
@@ -164,7 +164,7 @@ void check_planar_points() {
 TEST(AxisymmetricCpdi, PlanarFunctionsAreThoseOfThePlane) { check_planar_points<AxisymmetricCpdi, Cpdi<2>>(); }
 TEST(AxisymmetricQcpdi, PlanarFunctionsAreThoseOfThePlane) { check_planar_points<AxisymmetricQcpdi, Qcpdi<2>>(); }
 
-// A stretched box about its particle's centre, from the axis on: the particle's radius is half of it.
+// A stretched box that begins at the axis keeps its particle in the centre, so its half-width is the particle's radius.
 TEST(AxisymmetricUgimpStretch, FitsByShrinkingAboutTheParticle) {
   const double r = 0.3, half = 0.45;
   const auto fitted = AxisymmetricUgimpStretch<double>::radial(r, 0.0, half, 2.0, {});
@@ -175,7 +175,7 @@ TEST(AxisymmetricUgimpStretch, FitsByShrinkingAboutTheParticle) {
     EXPECT_EQ(fitted.t[n], small.t[n]);
   }
   const auto whole = AxisymmetricUgimpStretch<double>::radial(r, 0.0, half, 2.0, kWhole);
-  EXPECT_LT(whole.s[0], 0.0);  // across the axis r is negative
+  EXPECT_LT(whole.s[0], 0.0);  // beyond the axis r is negative
 }
 
 template <class One, class Together>

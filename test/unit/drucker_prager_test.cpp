@@ -38,7 +38,7 @@ struct Element {
   double h[3] = {};
 };
 
-// Triaxial test: compresses along z, holds the stress along x and y at -confining by a secant on the lateral strain.
+// Triaxial test: compresses along z and keeps the stress along x and y at -confining by a secant on the lateral strain.
 double axial_limit(Element& element, double confining, double axial_strain, int steps) {
   const double k = 1e6 / (3.0 * 0.4), first = -confining / (3.0 * k);
   for (int i = 0; i < 100; ++i) element.strain(first / 100, first / 100, first / 100);
@@ -66,7 +66,7 @@ TEST(DruckerPrager, ReachesMohrCoulombInTriaxialCompression) {
   for (const double cohesion : {0.0, 20.0}) {
     DruckerPragerDefinition d{{1e6, 0.3}, 30.0 * kDegree, 0.0, cohesion, -1.0, ConeMatch::compression};
     Element element(d);
-    // 1e-6: the secant holds the confining stress to 1e-9 of itself.
+    // 1e-6: the secant keeps the confining stress within 1e-9 of its value.
     EXPECT_NEAR(axial_limit(element, 100.0, 2e-3, 200), 300.0 + 2.0 * cohesion * std::sqrt(3.0), 300e-6);
   }
 }
@@ -96,7 +96,7 @@ TEST(DruckerPrager, DilatesByTheFlowRuleAndStaysOnTheCone) {
   EXPECT_NEAR(dilation / shear, element.law.eta_bar(), 1e-9);
 }
 
-// Opened soil carries nothing, and pushes back only once it is as dense as it was: volume strain beyond the start.
+// Opened soil carries no stress until it is as dense as before; then it carries the volume strain beyond the start.
 TEST(DruckerPrager, ClosesItsOpeningBeforeItCarriesPressure) {
   DruckerPragerDefinition d{{1e6, 0.3}, 35.0 * kDegree, 0.0, 0.0};
   Element element(d);
@@ -109,7 +109,7 @@ TEST(DruckerPrager, ClosesItsOpeningBeforeItCarriesPressure) {
   EXPECT_NEAR(element.mean(), -3e-4 * d.elasticity.bulk(), 1e-9);
 }
 
-// It has room to dilate into: shear at constant volume builds no pressure while it is open, whatever the dilation
+// Opened soil has room to dilate into: shear at constant volume builds no pressure while it is open, for any dilation
 // angle.
 TEST(DruckerPrager, OpenedSoilDilatesWithoutPressure) {
   DruckerPragerDefinition d{{1e6, 0.3}, 35.0 * kDegree, 10.0 * kDegree, 0.0};

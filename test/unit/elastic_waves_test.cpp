@@ -1,5 +1,5 @@
-// Speeds of waves that absorbing faces are made for: that of pressure is what each law itself calls its fastest wave
-// when it is undeformed; the others follow from the moduli (Timoshenko & Goodier, Theory of Elasticity).
+// Speeds of the waves that absorbing faces absorb: that of pressure is the fastest wave of the undeformed law; the
+// others follow from the moduli (Timoshenko & Goodier, Theory of Elasticity).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ TEST(ElasticWaves, AreThoseOfTheLaws) {
     const Law law = make_law(specimen.material);
     Symmetric3<double> tau{};
     if (const auto* gas = std::get_if<IdealGasDefinition>(&specimen.material.law)) {
-      tau.xx = tau.yy = tau.zz = -gas->pressure / specimen.material.density;  // it is never without
+      tau.xx = tau.yy = tau.zz = -gas->pressure / specimen.material.density;  // a gas is never free of stress
     }
     const double fastest =
         std::visit([&](const auto& l) { return static_cast<double>(l.wave_speed(whole, tau, 1.0)); }, law);
@@ -36,8 +36,8 @@ TEST(ElasticWaves, OfAPlateAndOfShear) {
   EXPECT_EQ(elastic_waves({"water", 1000.0, NewtonianFluidDefinition{2e9}}, GeometryKind::solid).shear, 0.0);
 }
 
-// A cell's particles give half of it to the node of a face by hat functions; splines, folded at the wall, by their
-// integral over the half line (shape/bspline.hpp), which many particles come near to.
+// With hat functions the particles of a cell give half of its mass to the node of a face. Splines, folded at the wall,
+// give their integral over the half line (shape/bspline.hpp), which many particles approximate.
 TEST(FaceMass, IsTheWeightOfHalfALine) {
   EXPECT_EQ(face_mass(ShapeKind::ugimp, 2), 0.5);
   // Quadratic: hat to 1/2, then (3/2 - x)^2 / 2: 3/8 + 1/6. Cubic: 1 - x + x^3/6 to 1, then (2 - x)^3 / 6: 13/24 +

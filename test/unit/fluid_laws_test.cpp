@@ -34,7 +34,7 @@ TEST(NewtonianFluid, FollowsTait) {
   EXPECT_NEAR(pressure(linear), 3e5, 1e-12 * 3e5);  // 3e5 (2 - 1)
 }
 
-// Couette: shear stress mu gamma_dot and nothing else, however far it has sheared.
+// Couette flow: shear stress mu gamma_dot and nothing else, at any shear.
 TEST(NewtonianFluid, ShearsAsInCouetteFlow) {
   const double rate = 20.0, viscosity = 0.3, dt = 1e-3;
   MaterialPoint oil = fluid(1e6, 7.0, viscosity);
@@ -87,7 +87,7 @@ TEST(IdealGas, IsUnderPressureFromTheStart) {
   EXPECT_NEAR(air.wave_speed(), 343.2, 0.05);  // air at 20 C, as printed in tables of physics
 }
 
-// p V^g and T V^(g-1) stay what they were, there and back, whatever the steps.
+// p V^g and T V^(g-1) are constant, there and back, for any steps.
 TEST(IdealGas, IsAdiabatic) {
   MaterialPoint air({"air", kAirDensity, kAir});
   for (const double j : {0.1, 0.5, 3.0, 1.0}) {
@@ -102,7 +102,7 @@ TEST(IdealGas, IsAdiabatic) {
   }
 }
 
-// Stress is the pressure above the ambient one; sound knows the whole pressure, c^2 = g p / rho.
+// Stress is the pressure above the ambient one; the speed of sound follows from the whole pressure, c^2 = g p / rho.
 TEST(IdealGas, CountsFromTheAmbientPressure) {
   IdealGasDefinition definition = kAir;
   definition.ambient = 1e5;
@@ -113,7 +113,7 @@ TEST(IdealGas, CountsFromTheAmbientPressure) {
   air.advance({-0.1, 0, 0, 0, 0, 0, 0, 0, 0}, 1.0);
   const double j = std::exp(-0.1), pressure = 101325.0 * std::pow(j, -1.4);
   EXPECT_NEAR(air.cauchy().xx, 1e5 - pressure, 1e-9 * pressure);
-  // Work on the gas, (p V - p0 V0) / (g - 1), less what the ambient pressure did of it.
+  // Work on the gas, (p V - p0 V0) / (g - 1), minus the work of the ambient pressure.
   EXPECT_NEAR(air.elastic_energy(), ((pressure * j - 101325.0) / 0.4 - 1e5 * (1.0 - j)) / 1.2, 1e-9 * pressure);
 }
 

@@ -1,4 +1,4 @@
-// Functions of time and place: values by hand, and what is refused.
+// Functions of time and place: values worked out by hand, and refused expressions.
 #include "mpm/math/function.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(Function, HasComparisonsAndChoice) {
 }
 
 TEST(Function, TakesAndGivesValuesInItsUnits) {
-  // mm/s of a time in ms and a place in mm: at 2 ms and 3 mm, 2 + 3 = 5 mm/s.
+  // Result in mm/s, time in ms and place in mm: at 2 ms and 3 mm, 2 + 3 = 5 mm/s.
   const Function f = Function::parse("t + x", {1e-3, 1e-3, 1e-3});
   // Three roundings of a few units in the last place.
   EXPECT_NEAR(f(2e-3, Vec3(3e-3, 0, 0)), 5e-3, 1e-17);

@@ -105,7 +105,7 @@ TEST(BlockTable, KnowsNeighboursAndKeepsColoursApart) {
   EXPECT_EQ(seen, table.owners());
 }
 
-// Against the definition: the blocks in use are the owners' neighbours, each once and in order of their keys.
+// By definition the blocks in use are the owners' neighbours, each once and in the order of their keys.
 TEST(BlockTable, HoldsTheNeighboursOfAnyOwners) {
   for (const int dim : {1, 2, 3}) {
     const GridLayout layout(dim, {1, 1, 1}, {0, 0, 0}, Vec3::Constant(dim == 1 ? 2400 : 60));

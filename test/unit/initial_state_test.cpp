@@ -1,4 +1,4 @@
-// Particles that start under a stress: the same Cauchy stress in every law, from formulas of each law by hand.
+// Particles that start under a stress: the same Cauchy stress in every law, checked with the formulas of each law.
 #include "mpm/material/initial_state.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Mat3 full(const Matrix3<double>& f) {
   return m;
 }
 
-/// Cauchy stress that the state carries, by its definition.
+/// Cauchy stress of a state, by definition.
 Mat3 cauchy(const InitialState& state) { return full(state.tau) * kDensity / state.j(); }
 
 InitialState under(const LawDefinition& law, const Symmetric3<double>& stress,
@@ -107,7 +107,7 @@ TEST(InitialState, PlaneStrainDecidesTheStressAlongY) {
               -2.4e4, 1e-9);
 }
 
-// F_yy is free: under uniaxial stress it is what F_zz is.
+// F_yy is free: under uniaxial stress it equals F_zz.
 TEST(InitialState, PlaneStressHasNoStressAlongY) {
   const double k = kElasticity.bulk(), g = kElasticity.shear();
   const Symmetric3<double> asked{-3e4, 0.0, -5e4, 0.0, 1e4, 0.0}, along_x{4e4, 0, 0, 0, 0, 0};
@@ -129,7 +129,7 @@ TEST(InitialState, HoopStressIsFreeAboutAnAxis) {
   const InitialState state = under(NeoHookeanDefinition{kElasticity}, asked, GeometryKind::axisymmetric);
   EXPECT_LT((neo_hookean(full(state.f), k, g) - full(asked)).norm(), 1e-8 * full(asked).norm());
   EXPECT_LT((cauchy(state) - full(asked)).norm(), 1e-8 * full(asked).norm());
-  // Under pressure alone a ring is as short all round: F_yy = J^(1/3).
+  // Under pressure alone a ring is compressed equally in all directions: F_yy = J^(1/3).
   const InitialState pressed =
       under(J2PlasticityDefinition{kElasticity, 1e6}, {-2e4, -2e4, -2e4, 0, 0, 0}, GeometryKind::axisymmetric);
   EXPECT_NEAR(pressed.f.yy, std::cbrt(pressed.j()), 1e-12);
@@ -164,7 +164,7 @@ TEST(InitialState, ALineHasNoStrainAcrossIt) {
 TEST(InitialState, ViscoelasticSolidsStartRelaxed) {
   StandardLinearSolidDefinition law{kElasticity, 3e5, 0.2};
   const InitialState state = under(law, kOblique);
-  // The long-term spring alone carries it.
+  // The long-term spring alone carries the stress.
   EXPECT_LT((neo_hookean(full(state.f), kElasticity.bulk(), kElasticity.shear()) - full(kOblique)).norm(),
             1e-8 * full(kOblique).norm());
   EXPECT_LT((cauchy(state) - full(kOblique)).norm(), 1e-8 * full(kOblique).norm());
@@ -191,8 +191,8 @@ TEST(InitialState, MetalCarriesTheDeviatorAndItsVolumeThePressure) {
       << text;
 }
 
-// J is that of the pressure at no internal energy, rho0 C0^2 eta (1 - gamma0 eta/2) / (1 - S eta)^2; the strength is on
-// Cauchy stress.
+// J is that of the pressure at zero internal energy, rho0 C0^2 eta (1 - gamma0 eta/2) / (1 - S eta)^2; the strength
+// limits Cauchy stress.
 TEST(InitialState, MetalUnderImpactCarriesTheDeviatorAndItsVolumeThePressure) {
   JohnsonCookDefinition law;
   law.shear_modulus = 4e4;
@@ -213,7 +213,7 @@ TEST(InitialState, MetalUnderImpactCarriesTheDeviatorAndItsVolumeThePressure) {
             std::string::npos);
   const InitialState warm = InitialStates({"m", kDensity, law}, GeometryKind::solid).find({std::nullopt, false, 400.0});
   EXPECT_EQ(warm.temperature_excess, 107.0);
-  EXPECT_EQ(warm.j(), 1.0);  // free of stress at the temperature that it starts at
+  EXPECT_EQ(warm.j(), 1.0);  // free of stress at its initial temperature
 }
 
 TEST(InitialState, FluidsTakeAPressure) {
@@ -262,11 +262,11 @@ TEST(InitialState, RefusesWhatYieldsAndWhatIsNotFinite) {
             std::string::npos);
   EXPECT_NE(refusal(sand, {Symmetric3<double>{std::nan(""), 0, 0, 0, 0, 0}, false, std::nullopt}).find("not finite"),
             std::string::npos);
-  // Zero stress of every law but a gas is no deformation at all.
+  // In every law but a gas, zero stress means no deformation.
   EXPECT_EQ(full(under(NeoHookeanDefinition{kElasticity}, {}).f), Mat3(Mat3::Identity()));
 }
 
-// A stress far below the stiffness is found to the last digits of the stretch, not lost.
+// A stress far below the stiffness is still found, to the last digits of the stretch.
 TEST(InitialState, SmallStressInStiffMaterial) {
   J2PlasticityDefinition steel;
   steel.elasticity = {2e11, 0.3};

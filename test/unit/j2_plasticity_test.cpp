@@ -29,13 +29,13 @@ TEST(Isochoric, MeanFollowsFromTheDeviator) {
       const double excess = (std::expm1(u) + std::expm1(v) + std::expm1(-u - v)) / 3.0;
       const double mean = (b[0] + b[1] + b[2]) / 3.0;
       const double found = isochoric_excess(Symmetric3<double>{b[0] - mean, b[1] - mean, b[2] - mean, 0, 0, 0});
-      // The deviator has errors of 1e-16 of b; they come back times the largest of b over its second invariant.
+      // The deviator has errors of 1e-16 of b, which are amplified by the largest value of b over its second invariant.
       EXPECT_NEAR(found, excess, 1e-15 * (size + mean * mean * mean)) << b[0] << ' ' << b[1] << ' ' << b[2];
     }
   }
 }
 
-// Far below yield at large stretch: the neo-Hookean law, whatever the path.
+// Far below yield, at large stretch, the law is the neo-Hookean one for any path.
 TEST(J2Plasticity, IsNeoHookeanBelowYield) {
   MaterialPoint metal = point(1e30), rubber({"rubber", kDensity, NeoHookeanDefinition{kSteel}});
   std::mt19937 random(1);
@@ -46,7 +46,7 @@ TEST(J2Plasticity, IsNeoHookeanBelowYield) {
     rubber.advance(du, 1.0);
     scale = std::max(scale, std::sqrt(squared_norm(rubber.cauchy())));
   }
-  EXPECT_GT(scale, kSteel.young);  // the path is a large one
+  EXPECT_GT(scale, kSteel.young);  // the deformation is large
   // Round-off of 200 steps.
   EXPECT_LE(distance(metal.cauchy(), rubber.cauchy()), 1e-13 * 200 * scale);
   EXPECT_NEAR(metal.elastic_energy(), rubber.elastic_energy(), 1e-12 * rubber.elastic_energy());
@@ -64,7 +64,7 @@ TEST(J2Plasticity, BarYieldsAndHardensAsInTheTextbook) {
     const double strain = n * end / steps, elastic = yield / young;
     const double expected =
         strain <= elastic ? young * strain : yield + young * hardening / (young + hardening) * (strain - elastic);
-    EXPECT_NEAR(bar.cauchy().xx, expected, 2e-5 * yield);  // finite strain is seen to a few times the strain, 5e-6
+    EXPECT_NEAR(bar.cauchy().xx, expected, 2e-5 * yield);  // finite strain enters by a few times the strain, 5e-6
   }
   const double plastic = end - bar.cauchy().xx / young;
   EXPECT_NEAR(bar.plastic_strain(), plastic, 2e-5 * plastic);
@@ -80,8 +80,8 @@ TEST(J2Plasticity, ShearYieldsAtTheMisesStress) {
   EXPECT_NEAR(metal.cauchy().xy, yield / std::sqrt(3.0), 1e-8 * yield);  // second order in yield / shear = 2.6e-5
 }
 
-// A hundred percent of plastic strain in random directions: on or within the yield surface, and no change of volume by
-// flow.
+// A plastic strain of 100 % in random directions: stress stays on or within the yield surface, and flow does not change
+// volume.
 TEST(J2Plasticity, KeepsToTheYieldSurfaceAndTheVolume) {
   const double yield = 250e6, hardening = 1e9, saturation = 400e6, rate = 15.0;
   MaterialPoint metal = point(yield, hardening, saturation, rate);
@@ -97,7 +97,7 @@ TEST(J2Plasticity, KeepsToTheYieldSurfaceAndTheVolume) {
   EXPECT_GT(metal.plastic_strain(), 1.0);
 }
 
-// A step that yields, with saturation: Newton's root, put back into the consistency condition.
+// A yielding step with saturation: Newton's root, inserted in the consistency condition.
 TEST(J2Plasticity, ReturnsOntoTheSaturatingCurve) {
   const double yield = 100e6, saturation = 300e6;
   for (const double rate : {0.1, 10.0, 1000.0, 1e6}) {
@@ -109,8 +109,8 @@ TEST(J2Plasticity, ReturnsOntoTheSaturatingCurve) {
   }
 }
 
-// One-dimensional perfect flow at finite strain: each turn of a closed cycle leaves the same stress, and b does not
-// drift: 20 turns of 10 % shear strain, with the elastic shear modulus measured on the last.
+// Perfect plasticity in shear at finite strain: every turn of a closed cycle leaves the same stress, and b does not
+// drift. 20 turns of 10 % shear strain, with the elastic shear modulus measured in the last.
 TEST(J2Plasticity, StaysElasticInTheSameWayThroughLongFlow) {
   const double yield = 800e6;
   MaterialPoint metal = point(yield);

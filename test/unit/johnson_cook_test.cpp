@@ -1,5 +1,5 @@
-// Johnson-Cook flow: the published flow stress, by hand, over strain, rate and temperature; its heat; melting; and what
-// impact does to it.
+// Johnson-Cook flow: the published flow stress, worked out by hand, over strain, rate and temperature; its heat;
+// melting; and deformations as in an impact.
 #include "mpm/material/johnson_cook.hpp"
 
 #include <gtest/gtest.h>
@@ -19,10 +19,10 @@ constexpr double kDensity = 7850.0;
 
 MaterialPoint point_of(const JohnsonCookDefinition& d) { return MaterialPoint({"metal", kDensity, d}); }
 
-/// Plastic strain that the law takes for none: a^n has no slope at 0.
+/// Plastic strain that the law treats as zero, since the slope of a^n at 0 is infinite.
 constexpr double kSmallest = 1e-30;
 
-/// Method reference 10.4, by hand.
+/// The flow stress of method reference 10.4.
 double flow_stress(const JohnsonCookDefinition& d, double strain, double rate, double kelvin) {
   const double hard = d.yield_stress + d.hardening * std::pow(std::max(strain, kSmallest), d.hardening_exponent);
   const double fast = 1.0 + d.rate_sensitivity * std::log(std::max(rate / d.reference_rate, 1.0));
@@ -36,7 +36,7 @@ Matrix3<double> shear(double gamma) { return {0, 0, gamma, 0, 0, 0, 0, 0, 0}; }
 /// An increment of volume, ln J.
 Matrix3<double> volume(double e) { return {e / 3, 0, 0, 0, e / 3, 0, 0, 0, e / 3}; }
 
-// Every constant on its own, and all together, in shear to a plastic strain of a few.
+// Every constant separately and all together, in shear up to a plastic strain of about 3.
 TEST(JohnsonCook, FlowsAtItsFlowStress) {
   JohnsonCookDefinition plain = armor_steel();
   plain.hardening = plain.rate_sensitivity = plain.melting_temperature = 0.0;
@@ -59,7 +59,7 @@ TEST(JohnsonCook, FlowsAtItsFlowStress) {
         // The return ends within 64 of the last digits of the trial stress, which is up to 20 times the flow stress.
         ASSERT_NEAR(mises(point.cauchy()), expected, 1e-11 * d.yield_stress) << rate << ' ' << n;
       }
-      EXPECT_NEAR(point.plastic_strain(), 5.0 / std::sqrt(3.0), 0.05);  // all but the elastic strain
+      EXPECT_NEAR(point.plastic_strain(), 5.0 / std::sqrt(3.0), 0.05);  // total minus elastic strain
     }
   }
 }
@@ -68,7 +68,7 @@ TEST(JohnsonCook, FlowsAtItsFlowStress) {
 TEST(JohnsonCook, HasTheFlowStressOfTableOne) {
   JohnsonCookDefinition d = armor_steel();
   EXPECT_NEAR(flow_stress(d, 0.3, 1e4, 800.0), 1.9366e9 * 1.02763 * 0.71539, 2e-4 * 1.42e9);  // digits
-  // Along a path at 1e4 1/s of plastic strain without heat of its own, heated to 800 K by its volume:
+  // The path has a plastic strain rate of 1e4 1/s and no heat of its own; the change of volume heats it to 800 K:
   // ln(800/293) = gamma0 (1 - J).
   d.heat_fraction = 0.0;
   const double j = 1.0 - std::log(800.0 / 293.0) / d.pressure.gamma0;
@@ -88,7 +88,7 @@ TEST(JohnsonCook, HasTheFlowStressOfTableOne) {
   EXPECT_NEAR(mises(point.cauchy()), 1.9366e9 * 1.02763 * 0.71539, 4e-4 * 1.42e9);
 }
 
-/// What a random step must do: f(trial) <= 0 and no flow, or flow and stress on the surface.
+/// Checks a random step: either f(trial) <= 0 and no flow, or flow and stress on the surface.
 void check_return(const JohnsonCookDefinition& d, MaterialPoint& point, const Matrix3<double>& du, double dt) {
   const double strain = point.plastic_strain(), kelvin = point.temperature(), j_old = point.j();
   point.advance(du, dt);
@@ -128,11 +128,12 @@ TEST(JohnsonCook, ReturnsFromEveryState) {
   EXPECT_GT(flowed, 2500);
 }
 
-// A first yield by less and less: down to where B a^n cannot be told from 0.
+// First yield by smaller and smaller amounts, down to where B a^n vanishes in round-off.
 TEST(JohnsonCook, YieldsGently) {
   const JohnsonCookDefinition d = armor_steel();
   for (const double excess : {1e-3, 1e-6, 1e-9, 1e-12}) {
-    // Simple shear of gamma is G gamma in Kirchhoff stress but for gamma^2; solved for the Mises stress A (1 + excess).
+    // Simple shear gamma gives a Kirchhoff stress G gamma up to order gamma^2; solved for the Mises stress A (1 +
+    // excess).
     const double wanted = d.yield_stress * (1.0 + excess);
     double gamma = wanted / std::sqrt(3.0) / d.shear_modulus;
     JohnsonCookDefinition elastic = d;
@@ -145,7 +146,7 @@ TEST(JohnsonCook, YieldsGently) {
     MaterialPoint point = point_of(d);
     check_return(d, point, shear(gamma), 1e9);
     if (excess > 1e-10) {
-      // B a^n is what is beyond A, but for 3 G a.
+      // B a^n is the stress beyond A, except for 3 G a.
       const double strain = std::pow(d.yield_stress * excess / d.hardening, 1.0 / d.hardening_exponent);
       EXPECT_NEAR(point.plastic_strain(), strain, 0.02 * strain + 1e-30) << excess;
     }
@@ -185,8 +186,9 @@ TEST(JohnsonCook, IsHeatedByItsPlasticWork) {
     for (int n = 0; n < kSteps; ++n) point.advance(shear(gamma), gamma / rate);
     EXPECT_NEAR(point.j(), 1.0, 1e-10);
     const Heated expected = heated(d, point.plastic_strain(), rate / std::sqrt(3.0));
-    // Temperature is that of the step's start, 1.7/20000 of the strain late: 1e-4 of what it rises by and less. The
-    // rate is lower while stress rises, by 0.1 at most in ln and for the first hundredth of the path: C 0.001.
+    // The law uses the temperature at the start of the step, which lags by 1.7/20000 of strain: at most 1e-4 of the
+    // rise. The rate is lower while stress rises, by 0.1 at most in ln and for the first hundredth of the path: C
+    // 0.001.
     EXPECT_GT(expected.kelvin, d.reference_temperature + 250.0);
     EXPECT_NEAR(point.temperature(), expected.kelvin, 2e-4 * (expected.kelvin - d.reference_temperature));
     EXPECT_NEAR(point.plastic_work() * kDensity, expected.work, 2e-4 * expected.work);
@@ -197,14 +199,14 @@ TEST(JohnsonCook, IsHeatedByItsPlasticWork) {
   }
 }
 
-// A strength that ends at 900 K: shear comes to that temperature and no further, for then there is no work.
+// The strength ends at 900 K: shear heats up to that temperature and no further, for then there is no work.
 TEST(JohnsonCook, MeltsAndCarriesNoShear) {
   const JohnsonCookDefinition d = hot_steel();
   MaterialPoint point = point_of(d);
   for (int n = 0; n < 4000; ++n) point.advance(shear(0.02), 1e-7);
   const double step = d.heat_fraction * d.yield_stress * 4.0 * 0.02 / (kDensity * d.heat_capacity);
   EXPECT_GT(point.temperature(), 899.0);
-  EXPECT_LT(point.temperature(), 900.0 + step);  // a step's heat beyond
+  EXPECT_LT(point.temperature(), 900.0 + step);  // at most the heat of a step beyond
   // Molten by compression, 293 K exp(1.69 0.7) = 956 K: a liquid at once.
   MaterialPoint pressed = point_of(d);
   pressed.advance(shear(0.002), 1e-7);
@@ -213,13 +215,13 @@ TEST(JohnsonCook, MeltsAndCarriesNoShear) {
   EXPECT_NEAR(pressed.temperature(), 293.0 * std::exp(1.69 * 0.7), 1.0);
   for (int n = 0; n < 10; ++n) {
     pressed.advance(shear(0.05), 1e-7);
-    // tau is a deviator scaled by a number that is 0, and pressure's round-off.
+    // tau is a deviator scaled by 0, plus the round-off of pressure.
     EXPECT_LT(mises(pressed.cauchy()), 1e-13 * -trace(pressed.cauchy()));
   }
   EXPECT_GT(pressed.wave_speed(), 5000.0);
 }
 
-// Volume alone: the equation of state's own steps, no flow, no heat.
+// Change of volume alone follows the equation of state, without flow and heat.
 TEST(JohnsonCook, IsElasticInVolume) {
   const JohnsonCookDefinition d = armor_steel();
   const MieGrueneisen eos(d.pressure, kDensity);
@@ -240,7 +242,7 @@ TEST(JohnsonCook, IsElasticInVolume) {
   EXPECT_EQ(point.plastic_strain(), 0.0);
 }
 
-// The strength bounds Cauchy stress, whatever the volume; Kirchhoff stress would be a tenth off here.
+// The strength limits Cauchy stress at any volume; with Kirchhoff stress it would be a tenth off here.
 TEST(JohnsonCook, YieldsOnCauchyStress) {
   JohnsonCookDefinition d = armor_steel();
   d.hardening = d.rate_sensitivity = d.melting_temperature = 0.0;
@@ -252,8 +254,8 @@ TEST(JohnsonCook, YieldsOnCauchyStress) {
   }
 }
 
-// What a penetrating rod goes through, and worse: increments of 0.3, J from far past the pole of the Hugoniot (0.48) to
-// threefold, steps of any time.
+// Deformations as in a penetrating rod, and worse: increments of 0.3, J from far past the pole of the Hugoniot (0.48)
+// to 3, steps of any duration.
 TEST(JohnsonCook, SurvivesAnything) {
   std::mt19937 random(22);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -261,7 +263,7 @@ TEST(JohnsonCook, SurvivesAnything) {
     double lowest = 1.0, highest = 1.0, hottest = 0.0;
     for (int k = 0; k < 150; ++k) {
       MaterialPoint point = point_of(d);
-      for (int n = 0; n < 100; ++n) {  // F has entries of hundreds by then; by 300, det F is round-off
+      for (int n = 0; n < 100; ++n) {  // F then has entries of hundreds; after 300 steps det F would be round-off
         Matrix3<double> du = random_gradient(random, 0.3);
         const double drift = std::log(point.j());
         const double turn = n % 60 < 30 ? -0.07 : 0.07;
@@ -309,12 +311,12 @@ TEST(JohnsonCook, IsDrivenAlongAPath) {
     return 0.0;
   };
   const double strain = column("plastic_strain [1]"), stress = column("szz [Pa]");
-  // The rate of plastic strain is that of the bar, less what hardening keeps elastic: 1 % of it, C 0.01 of the stress.
+  // The plastic strain rate is that of the bar minus the elastic part due to hardening, 1 %: C 0.01 of the stress.
   EXPECT_NEAR(stress, flow_stress(armor_steel(), strain, 1000.0, 293.0), 5e-5 * stress);
   // Elastic strain by Young's modulus: K = rho C0^2, E = 9 K G / (3 K + G); of second order in a strain of 0.01.
   const double bulk = 7850.0 * 3574.0 * 3574.0, young = 9.0 * bulk * 77.3e9 / (3.0 * bulk + 77.3e9);
   EXPECT_NEAR(strain, 0.1 - stress / young, 3e-4);
-  // No heat of work; the isentrope's by the volume alone.
+  // There is no heat of work; temperature follows the isentrope by volume alone.
   EXPECT_NEAR(column("temperature [K]"), 293.0 * std::exp(1.69 * (1.0 - column("j [1]"))), 1e-6);
 }
 

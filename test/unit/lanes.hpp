@@ -1,6 +1,6 @@
-// A register of four numbers that takes no part in any instruction set: what math/lanes.hpp asks of one, for the tests
-// of what is written for registers. No comparison converts to bool and nothing else is there, so that only what every
-// register has compiles.
+// A register of four numbers without any instruction set, with exactly the operations that math/lanes.hpp requires, for
+// tests of code that is written for registers. Comparisons do not convert to bool and there are no other operations, so
+// code that compiles with it compiles with every register.
 #pragma once
 
 #include "mpm/math/lanes.hpp"

@@ -1,5 +1,5 @@
-// Laws and kinematics written for registers: every lane gives what a number alone gives, whatever the others go
-// through.
+// Laws and kinematics written for registers: every lane gives the same result as a single number, whatever the other
+// lanes contain.
 #include "lanes.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 constexpr int kLanes = 4;
 constexpr int kSteps = 60;
 
-/// Of a planar body what a planar path has.
+/// The part of an increment that exists in the geometry.
 Matrix3<double> of_geometry(const Matrix3<double>& m, Solid) { return m; }
 MatrixPlane<double> of_geometry(const Matrix3<double>& m, PlaneStrain) { return {m.xx, m.xz, m.zx, m.zz, 0.0}; }
 
@@ -28,7 +28,7 @@ Matrix3<float> single(const Matrix3<double>& m) {
           float(m.yz), float(m.zx), float(m.zy), float(m.zz)};
 }
 
-/// What a particle holds, or a register of particles, and its step.
+/// The state of a particle, or of a register of particles, and its step.
 template <class T, class Geometry, class LawType>
 struct Element {
   using Matrix = typename Geometry::template Matrix<T>;
@@ -40,7 +40,7 @@ struct Element {
     f = LawType::kForgetsShape ? Geometry::dilatation(j_old * determinant(df)) : product(df, f);
     law.update(Increment<T, Matrix>{du, df, f, j_old, determinant(f), T(dt)}, tau, history);
   }
-  /// All of it, by component.
+  /// All components of the state.
   std::vector<T> state() const {
     T* arrays[Geometry::kMatrix + Geometry::kSymmetric];
     std::vector<T> values(Geometry::kMatrix + Geometry::kSymmetric, T(0));
@@ -56,7 +56,7 @@ struct Element {
   T history[LawType::kHistory + 1] = {};
 };
 
-/// A lane's increment: hardly any strain, the path of the specimen, one that opens and closes again, a wild one.
+/// The increment of a lane: hardly any strain, the path of the specimen, opening and closing, or large random strain.
 template <class Geometry>
 auto increment(const paths::Specimen& specimen, std::mt19937& random, int i, int n) {
   const double size[kLanes] = {1e-4, 1.0, 0.5, 2.0};
@@ -68,7 +68,7 @@ auto increment(const paths::Specimen& specimen, std::mt19937& random, int i, int
   return of_geometry(du, Geometry());
 }
 
-/// Four matrices as one of registers.
+/// Four matrices combined into one of registers.
 template <class Wide, class Matrix>
 Wide gathered(const Matrix (&lanes)[kLanes]) {
   Wide wide;
@@ -83,11 +83,11 @@ Wide gathered(const Matrix (&lanes)[kLanes]) {
   return wide;
 }
 
-/// What the lanes went through, that the test is of lanes that differ.
+/// Counts of differences between lanes, to prove that lanes differed in the test.
 struct Seen {
   int apart = 0;        ///< steps in which some lanes flowed and others did not
-  int open_apart = 0;   ///< in which some were open and others were not
-  int loose_apart = 0;  ///< in which some were larger than at the start and others smaller
+  int open_apart = 0;   ///< steps in which some were open and others were not
+  int loose_apart = 0;  ///< steps in which some were larger than at the start and others smaller
 };
 
 template <class Geometry, class LawType>
@@ -154,9 +154,9 @@ void compare_every_law() {
 TEST(Lanes, OfEveryLawInASolidAreAsNumbersAlone) { compare_every_law<Solid>(); }
 TEST(Lanes, OfEveryLawInPlaneStrainAreAsNumbersAlone) { compare_every_law<PlaneStrain>(); }
 
-// Single precision is the same law to its own round-off: of 20 steps, each of a hundred operations on what the stress
-// is the difference of, as TurnsWithItsPath (laws_test.cpp) has it for double. Round-off may decide whether opened soil
-// has room left, and with it how it dilates: the path presses together.
+// In single precision the law is the same up to round-off: of 20 steps, each of a hundred operations on quantities
+// whose difference is the stress, as in TurnsWithItsPath (laws_test.cpp) for double. Round-off may decide whether
+// opened soil has room left, and with it how it dilates, so the path compresses.
 TEST(Lanes, OfSinglePrecisionFollowTheDouble) {
   for (const paths::Specimen& specimen : paths::zoo()) {
     std::visit(
@@ -186,7 +186,7 @@ TEST(Lanes, OfSinglePrecisionFollowTheDouble) {
   }
 }
 
-// A particle at -0.4, -0.1, 0.2 and 0.5 cells from its node.
+// Particles at -0.4, -0.1, 0.2 and 0.5 cells from their node.
 TEST(Lanes, OfAShapeFunctionAreAsNumbersAlone) {
   Four<double> offset;
   for (int i = 0; i < kLanes; ++i) set_lane(offset, i, -0.4 + 0.3 * i);

@@ -1,5 +1,5 @@
-// What every law must do, whatever it is the law of: turn with the material, agree in two and three dimensions, and
-// account for its work.
+// Requirements on every law: it turns with the material, gives the same in two and three dimensions, and accounts for
+// its work.
 #include <gtest/gtest.h>
 
 #include "material_zoo.hpp"
@@ -21,7 +21,7 @@ Matrix3<double> rotation(double a, double b, double c) {
   return q;
 }
 
-// The whole path turned: the stress turned, the scalars the same.
+// A path that is turned as a whole gives the turned stress and the same scalars.
 TEST(EveryLaw, TurnsWithItsPath) {
   const Matrix3<double> q = rotation(0.3, -1.1, 0.7);
   for (const Specimen& specimen : zoo()) {
@@ -45,7 +45,7 @@ TEST(EveryLaw, TurnsWithItsPath) {
   }
 }
 
-// A material under stress, turned as a rigid body: its stress turns with it, and nothing is stored or lost.
+// The stress of a material that turns as a rigid body turns with it, and no energy is stored or lost.
 TEST(EveryLaw, FollowsARigidRotation) {
   for (const Specimen& specimen : zoo()) {
     std::mt19937 random(5);
@@ -73,7 +73,7 @@ TEST(EveryLaw, FollowsARigidRotation) {
   }
 }
 
-/// A point of a planar body, advanced as the kernels do.
+/// A point of a planar body, advanced as in the kernels.
 struct PlanarPoint {
   explicit PlanarPoint(const MaterialDefinition& material)
       : law(make_law(material)), density(material.density), history(history_size(law)) {
@@ -127,11 +127,11 @@ TEST(EveryLaw, IsTheSameInPlaneStrainAndInThreeDimensions) {
   }
 }
 
-/// Work done less what was stored and dissipated, over what was, along a smooth turning path in `steps` steps.
-/// `lost_part`: dissipated over work.
+/// Work done minus stored and dissipated energy, relative to the work, along a smooth turning path in `steps` steps.
+/// `lost_part`: dissipated energy over work.
 double energy_gap(const Specimen& specimen, int steps, double* lost_part = nullptr) {
   std::mt19937 random(7);
-  MaterialPoint point = worked(specimen, random, 3);  // metals yield already: a kink would hide the order
+  MaterialPoint point = worked(specimen, random, 3);  // metals yield already, since a kink would hide the order
   point.advance(scaled({0.4, 0.3, 0, 0.2, -0.1, 0.1, 0, 0, -0.2}, specimen.strain), specimen.time);
   // Viscous stress belongs to a step: the path begins with its own, and does not turn.
   const bool fluid = std::holds_alternative<NewtonianFluidDefinition>(specimen.material.law);
@@ -152,7 +152,7 @@ double energy_gap(const Specimen& specimen, int steps, double* lost_part = nullp
 }
 
 // Work = stored + dissipated, to second order in the step. The laws in rate form are left out: they have no energy of
-// their own at finite strain, as their heads say.
+// their own at finite strain, as their headers state.
 TEST(EveryLaw, AccountsForItsWork) {
   for (const Specimen& specimen : zoo()) {
     const LawDefinition& law = specimen.material.law;
@@ -161,7 +161,7 @@ TEST(EveryLaw, AccountsForItsWork) {
       continue;
     }
     const double coarse = energy_gap(specimen, 400), fine = energy_gap(specimen, 800);
-    if (fine < 1e-11) continue;  // round-off: an isothermal gas does the same work in any steps
+    if (fine < 1e-11) continue;  // round-off, since the work of an isothermal gas is the same for any steps
     // The return of a metal whose yield strain is large (here 0.3) takes its modulus at the end of the step.
     // The strength of the other soft one changes so much with strain and heat that its 400 steps give 1.8, 1600 give
     // 1.9.
@@ -173,8 +173,8 @@ TEST(EveryLaw, AccountsForItsWork) {
   }
 }
 
-// Soil has an energy at small strain: what stays open is of the order of the path's strain, 3e-5 along an axis, and of
-// the step, a 1600th of it.
+// Soil has an energy at small strain: the gap is of the order of the path's strain, 3e-5 along an axis, and of the
+// step, 1/1600 of it.
 TEST(EveryLaw, OfSoilAccountsForItsWorkAtSmallStrain) {
   const Elasticity soil{1e6, 0.3};
   const double strain = 1e-5;
@@ -188,7 +188,7 @@ TEST(EveryLaw, OfSoilAccountsForItsWorkAtSmallStrain) {
              {{"cut off", 1600.0, MohrCoulombDefinition{soil, 0.6, dilation, 10.0, 2.0}}, strain, strain, 1.0}}) {
       double lost = 0.0;
       EXPECT_LT(energy_gap(specimen, 1600, &lost), 6e-5) << specimen.material.name << ' ' << dilation;
-      EXPECT_GT(lost, 0.02) << specimen.material.name;  // it did flow: 0.3 % of what was lost would show above
+      EXPECT_GT(lost, 0.02) << specimen.material.name;  // it flowed: 0.3 % of the loss would be seen above
     }
   }
 }

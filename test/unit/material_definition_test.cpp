@@ -1,4 +1,4 @@
-// Constants that no material can have are refused, each with its value and range.
+// Constants outside their range are refused, each with its value and range.
 #include <gtest/gtest.h>
 
 #include <cmath>

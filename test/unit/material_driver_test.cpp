@@ -1,4 +1,4 @@
-// What the program material_driver reads and prints.
+// The input and output of the program material_driver.
 #include "mpm/scene/material_driver.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ double last(const std::vector<std::vector<std::string>>& rows, const std::string
   return NAN;
 }
 
-/// A file that is gone at the end of the test.
+/// A file that is removed at the end of the test.
 struct TemporaryFile {
   explicit TemporaryFile(const std::string& text)
       : path((std::filesystem::temp_directory_path() /
@@ -64,8 +64,8 @@ std::string error_of(const MaterialDriverOptions& options) {
   return "";
 }
 
-// 100 kPa around, phi = 30 degrees: 300 kPa along (exact-solutions 24), with units in the options. Ten digits are
-// printed.
+// 100 kPa confining pressure, phi = 30 degrees: 300 kPa axial stress (exact-solutions 24), with units in the options.
+// Ten digits are printed.
 TEST(MaterialDriver, PrintsATriaxialTest) {
   MaterialDriverOptions options;
   options.material = kSand;
@@ -84,7 +84,7 @@ TEST(MaterialDriver, PrintsATriaxialTest) {
   const auto ezz = std::find(rows[0].begin(), rows[0].end(), "ezz [1]") - rows[0].begin();
   const double confined = std::stod(rows[1 + 20][ezz]);
   EXPECT_LT(confined, 0.0);
-  EXPECT_NEAR(last(rows, "ezz [1]") - confined, -0.08, 1e-11);  // beyond what the pressure did
+  EXPECT_NEAR(last(rows, "ezz [1]") - confined, -0.08, 1e-11);  // beyond the strain of the pressure
   EXPECT_NEAR(last(rows, "time [s]"), 2.0 * 0.08 / 2.0, 1e-10);
   EXPECT_GT(last(rows, "plastic_strain [1]"), 0.05);
   EXPECT_GT(last(rows, "wave_speed [m/s]"), 0.0);
@@ -118,7 +118,7 @@ TEST(MaterialDriver, RefusesMaterialsAsAScene) {
   }
 }
 
-// Strained along z, stressed along x, sheared: each where the file says, with the file's units.
+// Strain along z, stress along x and shear are as in the file, in the file's units.
 TEST(MaterialDriver, FollowsAFile) {
   const TemporaryFile file(
       "# by hand\n"
@@ -192,13 +192,13 @@ TEST(MaterialDriver, RefusesOptionsThatDoNotFit) {
   EXPECT_EQ(error_of(options).find("--confining: "), 0U) << error_of(options);
 }
 
-// What the law did before it failed is printed.
+// The rows before a failure of the law are printed.
 TEST(MaterialDriver, KeepsTheRowsBeforeAFailure) {
   MaterialDriverOptions options;
   options.material =
       "{law: mohr_coulomb, density: 1600, young: 10 MPa, poisson: 0.3, friction_angle: 0, cohesion: 1 kPa}";
   options.path = "creep";
-  options.stress = "-3 kPa";  // carries 2 kPa
+  options.stress = "-3 kPa";  // the material carries 2 kPa
   options.steps = 30;
   std::ostringstream out;
   EXPECT_THROW(drive_material(options, out), PathFailure);

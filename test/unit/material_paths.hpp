@@ -1,4 +1,4 @@
-// Driving a material point along paths, for the tests of the laws.
+// Functions that drive a material point along paths, for the tests of the laws.
 #pragma once
 
 #include <cmath>
@@ -23,13 +23,13 @@ inline double distance(const Symmetric3<double>& a, const Symmetric3<double>& b)
   return std::sqrt(squared_norm(sum(a, scale_shift(b, -1.0, 0.0))));
 }
 
-/// Components from -size to size.
+/// A matrix of random components from -size to size.
 inline Matrix3<double> random_gradient(std::mt19937& random, double size) {
   std::uniform_real_distribution<double> d(-size, size);
   return {d(random), d(random), d(random), d(random), d(random), d(random), d(random), d(random), d(random)};
 }
 
-/// One step of axial strain `axial` along x with no stress across: y and z strain alike, by a secant to 1e-12 of
+/// One step of axial strain `axial` along x with no lateral stress: y and z strain equally, by a secant to 1e-12 of
 /// `scale`.
 inline void advance_uniaxial(MaterialPoint& point, double axial, double dt, double scale) {
   const auto moved = [&](double lateral) {

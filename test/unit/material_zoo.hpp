@@ -13,9 +13,9 @@ namespace mpm::paths {
 
 struct Specimen {
   MaterialDefinition material;
-  double strain;    ///< size of an increment's components on a path that shows the law: metals yield, soil shears
-  double pressing;  ///< logarithmic volume strain that a path begins with
-  double time;      ///< of an increment [s]
+  double strain;    ///< size of an increment's components on a path that exercises the law: metals yield, soil shears
+  double pressing;  ///< logarithmic volume strain at the beginning of a path
+  double time;      ///< duration of an increment [s]
 };
 
 /// Nairn & Guilkey (2015), Table I, with a specific heat and reference values of steel.
@@ -33,7 +33,7 @@ inline JohnsonCookDefinition armor_steel() {
   return steel;
 }
 
-/// The same, weak and soon soft: m < 1, n > 1/2 and a strong rate.
+/// A weaker metal that softens early: m < 1, n > 1/2 and a strong rate.
 inline JohnsonCookDefinition hot_steel() {
   JohnsonCookDefinition steel = armor_steel();
   steel.yield_stress = 0.3e9;

@@ -1,4 +1,4 @@
-// The memory that a scene is refused for, against a count by hand.
+// The least memory of a scene, against a count by hand.
 #include "mpm/scene/memory.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ TEST(Memory, CountsWhatAParticleTakes) {
   method.update = UpdateScheme::usf;
   // Planar: 1 position, 2 + 4 + 4 scalars, a quarter of a node's 7 numbers.
   EXPECT_EQ(least_bytes_of_particle(method, GeometryKind::plane_strain), 8 * 2 + 4 * 10 + 4 + 33 + 14);
-  // Plane stress keeps one more, F_yy.
+  // Plane stress stores one more scalar, F_yy.
   EXPECT_EQ(least_bytes_of_particle(method, GeometryKind::plane_stress), 8 * 2 + 4 * 11 + 4 + 33 + 14);
   // A line: 1 position, 1 + 1 + 3 scalars, half of a node's 4 numbers.
   EXPECT_EQ(least_bytes_of_particle(method, GeometryKind::line), 8 * 1 + 4 * 5 + 4 + 33 + 16);

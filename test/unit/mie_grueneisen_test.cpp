@@ -1,5 +1,5 @@
-// Mie-Grueneisen pressure: the Hugoniot that it is made from, tension, the isentrope, and compression past the pole of
-// its formula. Constants: Nairn & Guilkey (2015), Table I.
+// Mie-Grueneisen pressure: its Hugoniot, tension, the isentrope, and compression past the pole of its formula.
+// Constants: Nairn & Guilkey (2015), Table I.
 #include "mpm/material/mie_grueneisen.hpp"
 
 #include <gtest/gtest.h>
@@ -102,7 +102,7 @@ TEST(MieGrueneisen, FollowsTheIsentropeToSecondOrder) {
   }
 }
 
-// The trapezoidal rule is the same forth and back: a cycle leaves nothing.
+// The trapezoidal rule is reversible, so a cycle leaves no residue.
 TEST(MieGrueneisen, ClosesACycle) {
   for (const Metal& metal : kMetals) {
     const MieGrueneisen eos(metal.constants, metal.density);
@@ -127,7 +127,7 @@ TEST(MieGrueneisen, IsPressedByHeat) {
     const double gained = metal.constants.gamma0 * metal.density * 1e5;
     EXPECT_NEAR(state.pressure - before.pressure, gained, 1e-12 * before.pressure);
     EXPECT_NEAR(state.energy - before.energy, 1e5, 1e-12 * state.energy);
-    // First law over a step with heat and a change of volume, by both ends' pressures.
+    // First law over a step with heat and a change of volume, with the mean of the pressures at its ends.
     const State hot = state;
     eos.advance(0.9, 0.93, 2e5, state.pressure, state.energy);
     const double work = 0.5 * (hot.pressure + state.pressure) * 0.03 / metal.density;
@@ -161,7 +161,7 @@ TEST(MieGrueneisen, BulkModulusIsThatOfTheIsentrope) {
       EXPECT_NEAR(eos.bulk(j, state.pressure), expected, 1e-7 * expected) << metal.name << ' ' << j;  // 1e-16 p/(h K)
     }
     EXPECT_EQ(eos.bulk(3.0, -stiffness(metal)),
-              0.0);  // gamma0 p takes more than there is: none, not an imaginary speed
+              0.0);  // gamma0 p is larger than the stiffness: the speed is zero, not imaginary
   }
 }
 
@@ -174,7 +174,7 @@ TEST(MieGrueneisen, GoesOnStraightBeyondItsFormula) {
     const double expected = stiffness(metal) * end * (1.0 - 0.5 * metal.constants.gamma0 * end) * 25.0;
     EXPECT_NEAR(cold(end), expected, 1e-12 * expected);
     const double before = (cold(end) - cold(end - h)) / h, after = (cold(end + h) - cold(end)) / h;
-    // The difference behind is short by half of h times the curvature, 3 S / 0.2 of the slope and less.
+    // The backward difference is too small by half of h times the curvature, at most 3 S / 0.2 of the slope.
     EXPECT_NEAR(before, after, 20.0 * h * metal.constants.hugoniot_slope * after);
     EXPECT_NEAR((cold(1.0) - cold(end)) / (1.0 - end), after, 1e-8 * after);  // round-off of a difference over h
     for (const double j : {1e-300, 1e-6, 0.01, 0.1, 0.479, 0.48, 0.5, 1.0, 10.0, 1e6}) {

@@ -24,7 +24,7 @@ using Stresses = std::array<double, 3>;
 
 double cot(double angle) { return 1.0 / std::tan(angle); }
 
-/// Strain of a principal stress: isotropic elasticity.
+/// Principal strains of principal stresses, by isotropic elasticity.
 Stresses compliance(const Stresses& s, const Elasticity& e) {
   const double trace = s[0] + s[1] + s[2];
   Stresses strain;
@@ -55,11 +55,11 @@ struct RandomSoil {
 };
 
 // 1e5 random trial states: in order, on or inside the surface to round-off of the trial stress (300 to 1500 Pa), and
-// the plastic strain is a non-negative sum of the flow vectors of the planes that the stress lies on.
+// the plastic strain is a non-negative combination of the flow vectors of the planes on which the stress lies.
 TEST(MohrCoulomb, ReturnsEveryStateToTheSurfaceByTheFlowRule) {
   std::mt19937 random(1);
   std::map<Region, int> seen;
-  constexpr double kRoundOff = 1e-11;  // 1e-14 of the stress, times what the soils' numbers may magnify
+  constexpr double kRoundOff = 1e-11;  // 1e-14 of the stress, times the amplification by the soils' constants
   for (int trial = 0; trial < 100000; ++trial) {
     const MohrCoulombDefinition soil = RandomSoil(random, false).soil;
     const MohrCoulomb law(soil, 1600.0);
@@ -71,7 +71,7 @@ TEST(MohrCoulomb, ReturnsEveryStateToTheSurfaceByTheFlowRule) {
     ASSERT_GE(after[0], after[1]);
     ASSERT_GE(after[1], after[2]);
     const double scale = 1000.0 / (1.0 - s);
-    // f = (s1 - s3) + (s1 + s3) sin(phi) - 2 c cos(phi), written anew.
+    // f = (s1 - s3) + (s1 + s3) sin(phi) - 2 c cos(phi), in independent form.
     const double f =
         after[0] - after[2] + (after[0] + after[2]) * s - 2.0 * soil.cohesion * std::cos(soil.friction_angle);
     ASSERT_LE(f, kRoundOff * scale);
@@ -87,7 +87,7 @@ TEST(MohrCoulomb, ReturnsEveryStateToTheSurfaceByTheFlowRule) {
     const Stresses strain = compliance(lost, soil.elasticity);
     const double small = 1e-10 * scale / soil.elasticity.young;
     const double volume = strain[0] + strain[1] + strain[2];
-    // Multipliers by the components that one flow vector alone has; the rest must follow.
+    // Multipliers follow from components that only one flow vector has; the other components must agree.
     switch (region) {
       case Region::plane:
         ASSERT_NEAR(f, 0.0, kRoundOff * scale);
@@ -137,8 +137,8 @@ TEST(MohrCoulomb, ReturnsEveryStateToTheSurfaceByTheFlowRule) {
   for (const auto& [region, count] : seen) EXPECT_GT(count, 300) << static_cast<int>(region);
 }
 
-// What wide registers leave at its elastic stress, without a look at principal values: 1e5 random states about the
-// surface.
+// States that wide registers leave at their elastic stress without computing principal values are elastic: 1e5 random
+// states about the surface.
 TEST(MohrCoulomb, WhatMayNotFlowIsElastic) {
   std::mt19937 random(9);
   int elastic = 0;
@@ -156,8 +156,8 @@ TEST(MohrCoulomb, WhatMayNotFlowIsElastic) {
   EXPECT_GT(elastic, 10000);
 }
 
-// And no cone is larger: it touches the surface where, of all third invariants (6000 Lode angles), that is nearest. The
-// cone keeps away by 5e-7, the nearest of the angles is nearest to 1e-8.
+// The cone is the largest possible: it touches the surface at the nearest of all third invariants (6000 Lode angles).
+// The cone keeps a distance of 5e-7, and the sampled angles miss the nearest by 1e-8.
 TEST(MohrCoulomb, WhatMayNotFlowIsAsMuchAsCanBe) {
   for (const double friction : {0.0, 20.0, 40.0, 60.0}) {
     for (const double cutoff : {-1.0, 10.0}) {
@@ -179,8 +179,8 @@ TEST(MohrCoulomb, WhatMayNotFlowIsAsMuchAsCanBe) {
   }
 }
 
-// With associated flow the return is the closest point of a convex set in the energy norm, which is the one point with
-// (trial - returned) : C^-1 : (admissible - returned) <= 0 for everything admissible.
+// With associated flow the return is the closest point of a convex set in the energy norm, which is the only point with
+// (trial - returned) : C^-1 : (admissible - returned) <= 0 for every admissible stress.
 TEST(MohrCoulomb, AssociatedReturnIsTheClosestPoint) {
   std::mt19937 random(2);
   for (int n = 0; n < 500; ++n) {
@@ -197,11 +197,11 @@ TEST(MohrCoulomb, AssociatedReturnIsTheClosestPoint) {
       for (int i = 0; i < 3; ++i) lost[i] = trials[k][i] - returned[k][i];
       const Stresses strain = compliance(lost, soil.elasticity);
       for (Stresses other : returned) {
-        std::sort(other.begin(), other.end());  // the set holds every order of the three
+        std::sort(other.begin(), other.end());  // the set contains every order of the three
         do {
           Stresses way;
           for (int i = 0; i < 3; ++i) way[i] = other[i] - returned[k][i];
-          // Energies of 1e6 Pa^2 / 1e6 Pa; 1e-10 of that is round-off magnified by 1 / (1 - sin 60).
+          // Energies of 1e6 Pa^2 / 1e6 Pa; 1e-10 of that is round-off amplified by 1 / (1 - sin 60).
           ASSERT_LE(dot(strain, way), 1e-10);
         } while (std::next_permutation(other.begin(), other.end()));
       }
@@ -209,7 +209,7 @@ TEST(MohrCoulomb, AssociatedReturnIsTheClosestPoint) {
   }
 }
 
-// A tensor of the geometry, F and history: what a particle holds.
+// The state of a particle: stress, F and history.
 template <class Matrix, class Symmetric>
 struct Element {
   void advance(const MohrCoulomb& law, const Matrix& du) {
@@ -229,7 +229,7 @@ MohrCoulombDefinition clay(double cohesion, double cutoff = -1.0) {
   return {{10e6, 0.3}, 30.0 * kDegree, 10.0 * kDegree, cohesion, cutoff};
 }
 
-/// Increments that load, shear, turn, pull apart and press together again.
+/// Increments that load, shear, rotate, pull apart and compress again.
 std::vector<MatrixPlane<double>> wandering() {
   std::mt19937 random(3);
   std::normal_distribution<double> normal(0.0, 1e-3);
@@ -238,7 +238,7 @@ std::vector<MatrixPlane<double>> wandering() {
   return path;
 }
 
-// The return reads principal values alone, so a planar element does what a solid one in the same strain does; 10 MPa
+// The return depends on principal values only, so a planar element behaves as a solid one under the same strain; 10 MPa
 // moduli, 400 increments.
 TEST(MohrCoulomb, PlaneIsASolidInPlaneStrain) {
   for (const double cutoff : {-1.0, 2e3}) {
@@ -259,7 +259,7 @@ TEST(MohrCoulomb, PlaneIsASolidInPlaneStrain) {
   }
 }
 
-// The same strain about other axes is the same stress about other axes: x, y, z to y, z, x, and turned by 30 degrees.
+// The same strain in other axes gives the same stress in these axes: x, y, z to y, z, x, and a turn by 30 degrees.
 TEST(MohrCoulomb, HasNoAxesOfItsOwn) {
   const MohrCoulomb law(clay(5e3), 1600.0);
   const double c = std::cos(0.5), s = std::sin(0.5);
@@ -285,7 +285,7 @@ TEST(MohrCoulomb, HasNoAxesOfItsOwn) {
 }
 
 // A rigid turn of 90 degrees about y in 100 increments: xx and zz change places, and nothing flows. Hughes and Winget's
-// rotation is by 2 atan(w/2) a step: to be 90 degrees after 100, w = 2 tan(pi/400).
+// rotation is by 2 atan(w/2) a step: for 90 degrees after 100 steps, w = 2 tan(pi/400).
 TEST(MohrCoulomb, TurnsWithTheMaterial) {
   const MohrCoulomb law(clay(5e3), 1600.0);
   PlaneElement element;
@@ -303,7 +303,7 @@ TEST(MohrCoulomb, TurnsWithTheMaterial) {
   EXPECT_NEAR(element.h[MohrCoulomb::kPlasticStrain], before.h[MohrCoulomb::kPlasticStrain], 1e-13);
 }
 
-// Below the strength it is linear_elastic, to the bit.
+// Below the strength the law equals linear_elastic to the bit.
 TEST(MohrCoulomb, IsElasticInside) {
   const MohrCoulomb soil(clay(1e9), 1600.0);
   const LinearElastic elastic({{10e6, 0.3}}, 1600.0);
@@ -325,7 +325,7 @@ TEST(MohrCoulomb, IsElasticInside) {
   EXPECT_EQ(element.h[MohrCoulomb::kPlasticStrain], 0.0);
 }
 
-// Opened soil carries nothing, and pushes back only once it is as dense as it was (as Drucker-Prager's test).
+// Opened soil carries no stress until it is as dense as before (as in the test of Drucker-Prager).
 TEST(MohrCoulomb, ClosesItsOpeningBeforeItCarriesPressure) {
   MaterialPoint point({"sand", 1600.0, clay(0.0)});
   const auto swell = [&point](double e, int times) {
@@ -340,8 +340,8 @@ TEST(MohrCoulomb, ClosesItsOpeningBeforeItCarriesPressure) {
   EXPECT_NEAR(point.cauchy().zz, -3e-4 * clay(0.0).elasticity.bulk(), 1e-7);  // round-off of 0.03 of the modulus
 }
 
-// Whatever has gone before, stress changes by strain alone, and soil with room to close in bears no pressure. 40 paths
-// through the cut-off; round-off of the 1 MPa modulus.
+// After any path, stress changes only with strain, and soil with room to close carries no pressure. 40 paths through
+// the cut-off; round-off of the 1 MPa modulus.
 TEST(MohrCoulomb, OpenedSoilIsAtRestWithoutStrain) {
   std::mt19937 random(8);
   for (const double cutoff : {0.0, 500.0}) {
@@ -363,7 +363,7 @@ TEST(MohrCoulomb, OpenedSoilIsAtRestWithoutStrain) {
   }
 }
 
-/// Vertical stress -100 kPa, no strain along y, pressed along x: the passive limit.
+/// Vertical stress -100 kPa, no strain along y, compressed along x: the passive limit.
 double passive_limit(const LawDefinition& law) {
   PathDriver driver({"soil", 1600.0, law});
   Leg confine{1.0, 10, {}, {}};
@@ -379,9 +379,9 @@ double passive_limit(const LawDefinition& law) {
   return -driver.point().cauchy().xx;
 }
 
-// Rankine: Kp s3 + 2 c sqrt(Kp), whatever the flow; and Drucker-Prager matched for plane strain, associated, has the
-// same limit (method reference 10.6). Stress is held to 1e-11; the cone creeps up to its limit, which the strain is
-// long past.
+// Rankine: Kp s3 + 2 c sqrt(Kp) for any flow rule; and Drucker-Prager matched for plane strain, associated, has the
+// same limit (method reference 10.6). Stress is controlled to 1e-11; the cone approaches its limit gradually, and the
+// strain is far beyond that.
 TEST(MohrCoulomb, HasRankinesPassiveLimitInPlaneStrain) {
   const double rankine = 300e3 + 2.0 * 5e3 * std::sqrt(3.0);
   MohrCoulombDefinition soil = clay(5e3);

@@ -1,4 +1,4 @@
-// What particles are stored in: aligned arrays that may be read beyond their end, in either precision.
+// Storage of particles: aligned arrays that may be read beyond their end, in either precision.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -37,7 +37,7 @@ TEST(PaddedArray, CopiesMovesAndKeepsItsRoom) {
 }
 
 TEST(ParticleScalar, RoundsToThePrecisionThatItStores) {
-  // 1/3 is no binary number: IEEE 754 binary32 keeps 24 bits of it.
+  // 1/3 is not a binary fraction: IEEE 754 binary32 keeps 24 bits of it.
   ParticleScalar single(Precision::float32, 4, 1.0 / 3.0), full(Precision::float64, 4, 1.0 / 3.0);
   EXPECT_EQ(single[3], 11184811.0 / 33554432.0);
   EXPECT_EQ(full[3], 1.0 / 3.0);

@@ -1,4 +1,4 @@
-// Single elements along paths of strain and stress, against what theory says they carry.
+// Single elements along paths of strain and stress, against theory.
 #include "mpm/material/path_driver.hpp"
 
 #include <gtest/gtest.h>
@@ -30,12 +30,12 @@ PathDriver driven(const LawDefinition& law, const std::string& path, const PathD
 
 Components stress_of(const PathDriver& driver) { return components(driver.point().cauchy()); }
 
-// Stresses are held to 1e-11 of the largest, which the slope Kp = 3 of the strength takes to 3e-11; round-off beside
-// it.
+// Stresses are controlled to 1e-11 of the largest, which the slope Kp = 3 of the strength amplifies to 3e-11, plus
+// round-off.
 constexpr double kSolved = 1e-10;
 
 // exact-solutions 24: axial strength Kp s3 + 2 c sqrt(Kp), Kp = 3 at 30 degrees: 300 kPa at 100 kPa without cohesion.
-// Whatever the dilation angle and the number of steps, for both laws.
+// This holds for any dilation angle and number of steps, and for both laws.
 TEST(PathDriver, TriaxialCompressionReachesTheStrength) {
   for (const double cohesion : {0.0, 20e3}) {
     const double strength = 300e3 + 2.0 * cohesion * std::sqrt(3.0);
@@ -57,9 +57,9 @@ TEST(PathDriver, TriaxialCompressionReachesTheStrength) {
   }
 }
 
-// Soil so soft that the pressure alone shortens it by more than the test does is compressed all the same: strain counts
-// from where the pressure left it. E = 0.5 MPa, nu = 0.3, hypoelastic: Cauchy stress follows logarithmic strain by
-// Hooke's law, p (1 - 2 nu) / E = 8 % under 100 kPa, then E times 2 % more with constant sides.
+// Soil so soft that the pressure alone shortens it by more than the test does is still compressed further: strain
+// counts from the confined state. E = 0.5 MPa, nu = 0.3, hypoelastic: Cauchy stress follows logarithmic strain by
+// Hooke's law, p (1 - 2 nu) / E = 8 % under 100 kPa, then E times 2 % more at constant lateral stress.
 TEST(PathDriver, TriaxialStrainCountsFromTheConfinedState) {
   PathDriver driver({"m", 1600.0, LinearElasticDefinition{{500e3, 0.3}}});
   PathDefinition definition;
@@ -73,7 +73,7 @@ TEST(PathDriver, TriaxialStrainCountsFromTheConfinedState) {
   EXPECT_NEAR(stress_of(driver)[kZz], -110e3, kSolved * 110e3);
 }
 
-// The same pulled: s3 = Kp s1 - 2 c sqrt(Kp) the other way round, (100 - 2 c sqrt(Kp)) / 3.
+// In extension the roles are exchanged: axial stress is (100 - 2 c sqrt(Kp)) / 3.
 TEST(PathDriver, TriaxialExtensionReachesTheStrength) {
   for (const double cohesion : {0.0, 20e3}) {
     const double strength = (100e3 - 2.0 * cohesion * std::sqrt(3.0)) / 3.0;
@@ -99,19 +99,19 @@ TEST(PathDriver, MohrCoulombDilatesByTheFlowRule) {
     for (const Leg& leg : path) driver.run(leg);
     const Components before = driver.strain();
     Leg more = path.back();
-    more.target[kZz] = -0.01;  // from where it is
+    more.target[kZz] = -0.01;  // from the present state
     driver.run(more);
     const Components after = driver.strain();
     const double sine = std::sin(dilation * kDegree);
     const double volume = after[kXx] + after[kYy] + after[kZz] - before[kXx] - before[kYy] - before[kZz];
-    // Stress is held to 1e-11 of 300 kPa, elastic strain to that over 10 MPa, of the 0.01 driven.
+    // Stress is controlled to 1e-11 of 300 kPa, hence elastic strain to that over 10 MPa, relative to the driven 0.01.
     EXPECT_NEAR(volume / -0.01, 1.0 - (1.0 + sine) / (1.0 - sine), 1e-9) << dilation;
   }
 }
 
 // exact-solutions 24: s_h / s_v = nu / (1 - nu) until yield; with phi = 20 degrees and c = 5 kPa this meets the
-// strength s_v = Kp s_h + 2 c sqrt(Kp) at s_v = 2 c sqrt(Kp) / (1 - Kp nu / (1 - nu)), and the stress stays on it after
-// that.
+// strength s_v = Kp s_h + 2 c sqrt(Kp) at s_v = 2 c sqrt(Kp) / (1 - Kp nu / (1 - nu)), and from then on the stress
+// stays on that line.
 TEST(PathDriver, OedometerIsElasticUntilYield) {
   const double kp = std::tan(55.0 * kDegree) * std::tan(55.0 * kDegree), ratio = 0.3 / 0.7, cohesion = 5e3;
   const double yields_at = 2.0 * cohesion * std::sqrt(kp) / (1.0 - kp * ratio);
@@ -172,7 +172,7 @@ TEST(PathDriver, NeoHookeanFollowsItsClosedForms) {
   EXPECT_NEAR(stress_of(sheared)[kZz], -shear * 0.64 / 3.0, 1e-13 * bulk);
 }
 
-// Work is summed by the trapezoidal rule: twice the steps, a quarter of its difference from the elastic energy.
+// Work is summed by the trapezoidal rule: with twice the steps its difference from the elastic energy is a quarter.
 TEST(PathDriver, WorkIsTheEnergyStored) {
   const auto error = [](int steps) {
     PathDefinition definition;
@@ -183,10 +183,10 @@ TEST(PathDriver, WorkIsTheEnergyStored) {
   };
   const double coarse = error(20), fine = error(40);
   EXPECT_LT(std::abs(fine), 1e-3);
-  EXPECT_NEAR(coarse / fine, 4.0, 0.05);  // the next order is (1/20)^2 of it, times a factor of order 10
+  EXPECT_NEAR(coarse / fine, 4.0, 0.05);  // the next order is (1/20)^2 of this, times about 10
 }
 
-// p V^ratio stays in a gas that no heat leaves: p0 J^-1.4, in every direction, whatever the path.
+// p V^ratio is constant in an adiabatic gas: p0 J^-1.4 in every direction, for any path.
 TEST(PathDriver, GasIsCompressedAdiabatically) {
   IdealGasDefinition gas;
   gas.pressure = 1e5;
@@ -195,10 +195,11 @@ TEST(PathDriver, GasIsCompressedAdiabatically) {
   definition.strain = -0.7;
   definition.steps = 1000;
   const Components stress = stress_of(driven(gas, "uniaxial_strain", definition));
-  for (const int k : {kXx, kYy, kZz}) EXPECT_NEAR(stress[k], -1e5 * std::exp(1.4 * 0.7), 1e-6 * 1e5);  // steps of law
+  for (const int k : {kXx, kYy, kZz}) EXPECT_NEAR(stress[k], -1e5 * std::exp(1.4 * 0.7), 1e-6 * 1e5);  // finite steps
 }
 
-// Metal: axial stress of a bar is the yield stress plus H times the plastic strain, what is not elastic of the strain.
+// Metal: the axial stress of a bar is the yield stress plus H times the plastic strain, the total minus the elastic
+// strain.
 TEST(PathDriver, MetalBarHardens) {
   J2PlasticityDefinition metal;
   metal.elasticity = {200e9, 0.3};
@@ -208,8 +209,9 @@ TEST(PathDriver, MetalBarHardens) {
   definition.strain = 0.05;
   const PathDriver driver = driven(metal, "uniaxial_stress", definition);
   const double kirchhoff = stress_of(driver)[kZz] * driver.point().j();
-  // t = Y + H (e - t / E), t the Kirchhoff stress, were the elastic strain logarithmic. It is neo-Hookean, which
-  // differs by the square of it, (450 MPa / 200 GPa)^2 = 5e-6, times a factor of a few that H turns into stress.
+  // t = Y + H (e - t / E), with the Kirchhoff stress t, would hold if the elastic strain were logarithmic. It is
+  // neo-Hookean, which differs by its square, (450 MPa / 200 GPa)^2 = 5e-6, times a factor of a few that H turns into
+  // stress.
   EXPECT_NEAR(kirchhoff, (400e6 + 1e9 * 0.05) / (1.0 + 1e9 / 200e9), 3.0 * 5e-6 * 1e9);
 }
 
@@ -221,7 +223,7 @@ StandardLinearSolidDefinition foam() {
   return law;
 }
 
-// A shear of 0.1 held: G gamma stays, G1 gamma exp(-t/T) goes.
+// At a constant shear of 0.1 the stress G gamma stays and G1 gamma exp(-t/T) decays.
 TEST(PathDriver, FoamRelaxesExponentially) {
   PathDefinition definition;
   definition.strain = 0.1;
@@ -230,7 +232,7 @@ TEST(PathDriver, FoamRelaxesExponentially) {
   PathDriver driver({"m", 50.0, foam()});
   driver.run(path[0]);
   const double stays = 0.1 * foam().elasticity.shear(), goes = 0.1 * 3e4;
-  // The sudden step takes 1e-6 s of the relaxation time, 0.2 s.
+  // The sudden step takes 1e-6 s; the relaxation time is 0.2 s.
   EXPECT_NEAR(stress_of(driver)[kXz], stays + goes, 5e-6 * goes);
   const double after_step = stress_of(driver)[kXz] - stays, begin = driver.time();
   driver.run(path[1], [&] {
@@ -239,7 +241,7 @@ TEST(PathDriver, FoamRelaxesExponentially) {
   EXPECT_NEAR(driver.time(), 1.0 + 1e-6, 1e-12);
 }
 
-// A small shear stress held: gamma = s/G (1 - G1/(G + G1) exp(-t G / ((G + G1) T))).
+// Under a constant small shear stress, gamma = s/G (1 - G1/(G + G1) exp(-t G / ((G + G1) T))).
 TEST(PathDriver, FoamCreeps) {
   const double shear = foam().elasticity.shear(), stress = 1e-6 * shear;
   PathDefinition definition;
@@ -251,7 +253,7 @@ TEST(PathDriver, FoamCreeps) {
   const double branch = 3e4 / (shear + 3e4);
   const double expected = 1e-6 * (1.0 - branch * std::exp(-1.0 * (1.0 - branch) / 0.2));
   EXPECT_NEAR(stress_of(driver)[kXz], stress, 1e-8 * stress);
-  // Steps of 1/80 of the relaxation time, second order: (1/80)^2 / 12 = 1.3e-5 of what creeps.
+  // Steps of 1/80 of the relaxation time, second order: (1/80)^2 / 12 = 1.3e-5 of the creep.
   EXPECT_NEAR(2.0 * driver.strain()[kXz], expected, 2e-5 * 1e-6);
 }
 
@@ -264,7 +266,8 @@ std::string failure(const LawDefinition& law, const std::string& path, const Pat
   return "carried";
 }
 
-// Sand without confinement; a cohesive column above its strength of 2 c sqrt(Kp) = 34.64 kPa; suction on a gas.
+// Stresses that cannot be carried: sand without confinement; a cohesive column above its strength of 2 c sqrt(Kp) =
+// 34.64 kPa; suction on a gas.
 TEST(PathDriver, SaysWhatCannotBeCarried) {
   PathDefinition definition;
   definition.stress = -35e3;

@@ -1,5 +1,5 @@
-// Plane stress of any law (material/plane_stress.hpp): closed forms, scalar equations solved here by bisection, and the
-// solid that is strained as the plate was found to be. For numbers of both precisions and for lanes.
+// Plane stress of any law (material/plane_stress.hpp): closed forms, scalar equations solved here by bisection, and a
+// solid with the strain found for the plate. For numbers of both precisions and for lanes.
 #include "mpm/material/plane_stress.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kDensity = 1000.0;
 const Elasticity kElasticity{1e5, 0.3};
-constexpr int kTerms = 12;  // of the exponential: all digits of a double
+constexpr int kTerms = 12;  // terms of the exponential: all digits of a double
 
 /// A particle of a plate.
 template <class T, class LawType>
@@ -44,7 +44,7 @@ template <class T>
 class PlaneStressTest : public testing::Test {
  public:
   static constexpr double kLastDigit = std::numeric_limits<ScalarOf<T>>::epsilon();
-  /// Strain to which an increment finds F_yy, with what the law itself rounds off.
+  /// Strain to which an increment determines F_yy, including the law's round-off.
   static constexpr double kStrain = kFreeStress<ScalarOf<T>> + 16.0 * kLastDigit;
 };
 using Numbers = testing::Types<double, float, Four<double>, Four<float>>;
@@ -58,7 +58,7 @@ double bisect(const std::function<double(double)>& rising, double low, double hi
   return 0.5 * (low + high);
 }
 
-/// Kirchhoff stress along a principal axis with stretch l of a neo-Hookean solid, of the other two stretches:
+/// Kirchhoff stress of a neo-Hookean solid along a principal axis with stretch l; m and n are the other two stretches:
 /// K/2 (J^2 - 1) + G J^(-2/3) (l^2 - I1/3), Nairn & Guilkey (2015) eq. (64).
 double neo_hookean(double l, double m, double n) {
   const double j = l * m * n;
@@ -72,7 +72,7 @@ TYPED_TEST(PlaneStressTest, OfALinearElasticPlateIsHookesLaw) {
   const double size = 1e-4, exx = 1.0 * size, ezz = -0.4 * size, exz = 0.3 * size, nu = 0.3;
   Plate<TypeParam, LinearElastic> plate;
   plate.advance(law, exx, ezz, exz, exz);
-  // The law is the linear one to the order of the strain, and yy is zero to the tolerance of the iteration.
+  // The law is linear up to the order of the strain, and yy is zero up to the tolerance of the iteration.
   const double tolerance = 4.0 * size * size + 4.0 * this->kStrain, modulus = kElasticity.young / (1.0 - nu * nu);
   EXPECT_NEAR(lane(plate.tau.xx, 0) * kDensity, modulus * (exx + nu * ezz), tolerance * modulus);
   EXPECT_NEAR(lane(plate.tau.zz, 0) * kDensity, modulus * (ezz + nu * exx), tolerance * modulus);
@@ -81,7 +81,7 @@ TYPED_TEST(PlaneStressTest, OfALinearElasticPlateIsHookesLaw) {
   EXPECT_NEAR(lane(plate.f.yy, 0) - 1.0, -nu / (1.0 - nu) * (exx + ezz), tolerance);
 }
 
-// In one increment and in many: hyperelastic, so the path does not matter.
+// The result is the same in one increment and in many: the law is hyperelastic.
 TYPED_TEST(PlaneStressTest, OfANeoHookeanPlateIsUniaxialStress) {
   const NeoHookean law({kElasticity}, kDensity);
   const double along = 1.5;
@@ -89,7 +89,7 @@ TYPED_TEST(PlaneStressTest, OfANeoHookeanPlateIsUniaxialStress) {
   for (const int steps : {1, 40}) {
     Plate<TypeParam, NeoHookean> plate;
     for (int i = 0; i < steps; ++i) plate.advance(law, std::log(along) / steps, std::log(across) / steps);
-    // The last increment's tolerance, and the round-off of the products of all of them.
+    // The tolerance of the last increment, and the round-off of the product of all.
     const double tolerance = 4.0 * this->kStrain + 4.0 * steps * this->kLastDigit;
     EXPECT_NEAR(lane(plate.f.yy, 0), across, tolerance) << steps;
     EXPECT_NEAR(lane(plate.tau.xx, 0) * kDensity, neo_hookean(along, across, across), tolerance * 1e6);
@@ -118,9 +118,10 @@ double mises(const SymmetricPlane<T>& tau) {
   return kDensity * std::sqrt(1.5 * lane(squared_norm(scale_shift(tau, T(1.0), -mean)), 0));
 }
 
-// Without hardening. Uniaxial: flow keeps the volume, so that strain -1/2 along z leaves no stress there once it goes
-// on. Equibiaxial: yield is the same (von Mises). In shear the stress is yield / sqrt(3), but for the square of the
-// elastic strain, 1e-6. The deviator comes to the direction of flow geometrically, by 3e-9 in 25 yield strains: 40.
+// Without hardening. Uniaxial: flow preserves volume, so a strain of -1/2 along z leaves no stress there while it goes
+// on. Equibiaxial: yield is the same (von Mises). In shear the stress is yield / sqrt(3), up to the square of the
+// elastic strain, 1e-6. The deviator approaches the direction of flow geometrically, by 3e-9 in 25 yield strains: 40
+// are used.
 TYPED_TEST(PlaneStressTest, OfMetalFlowsAtItsYieldStress) {
   const double yield = 100.0, strain = 40.0 * yield / kElasticity.young;
   const J2Plasticity law({kElasticity, yield, 0.0, 0.0, 0.0}, kDensity);
@@ -143,8 +144,8 @@ TYPED_TEST(PlaneStressTest, OfMetalFlowsAtItsYieldStress) {
   }
 }
 
-// The terms of the exponential hold along y as in the plane: 1 + e (k = 1), 1 + e + e^2 / 2 (k = 2), where e is found
-// so that the thickness has no stress: F_yy is the same, whatever its series.
+// The exponential has the same terms along y as in the plane: 1 + e (k = 1), 1 + e + e^2 / 2 (k = 2), where e is found
+// so that there is no stress along y: F_yy is the same for any number of terms.
 TYPED_TEST(PlaneStressTest, ThicknessDoesNotDependOnTheTermsAlongY) {
   const NeoHookean law({kElasticity}, kDensity);
   for (const int terms : {1, 2, 3}) {
@@ -159,7 +160,7 @@ TYPED_TEST(PlaneStressTest, ThicknessDoesNotDependOnTheTermsAlongY) {
   }
 }
 
-/// Every law that plane stress is meant for.
+/// Visits every law that plane stress is meant for.
 template <class Visit>
 void each_solid(Visit&& visit) {
   for (const paths::Specimen& specimen : paths::zoo()) {
@@ -171,7 +172,7 @@ void each_solid(Visit&& visit) {
   }
 }
 
-/// A lane's increment: hardly any strain, the path of the specimen, half of it, double.
+/// The increment of a lane: hardly any strain, the path of the specimen, half of it, double.
 MatrixPlane<double> increment(const paths::Specimen& specimen, std::mt19937& random, int i, int n) {
   const double size[4] = {1e-4, 1.0, 0.5, 2.0};
   const Matrix3<double> du = paths::random_gradient(random, size[i] * specimen.strain);
@@ -189,9 +190,9 @@ double stress_along_y(const LawType& law, Plate<double, LawType> plate, const do
   return plate.tau.yy;
 }
 
-// The solid that is strained as the plate was found to be has no stress along y, and the plate's in the plane. Soil's
-// stress jumps where what had opened closes, since only closed soil dilates: an increment may end at such a jump, and
-// is not compared with the solid's, which round-off may put on its other side.
+// A solid with the strain found for the plate has no stress along y, and the plate's stress in the plane. The stress of
+// soil jumps where an opening closes, since only closed soil dilates. An increment that ends at such a jump is not
+// compared with the solid, because round-off may put the solid on the other side.
 TEST(PlaneStress, IsTheSolidWithoutStressAlongY) {
   each_solid([](const paths::Specimen& specimen, const auto& law) {
     using LawType = std::decay_t<decltype(law)>;
@@ -222,7 +223,7 @@ TEST(PlaneStress, IsTheSolidWithoutStressAlongY) {
       std::copy(std::begin(before.history), std::end(before.history), history);
       law.update(Increment<double, Matrix3<double>>{whole, df, now, determinant(f), determinant(now), specimen.time}, s,
                  history);
-      // The logarithm above is off by its last digit, and a law's round-off in a solid is another one.
+      // The logarithm above is off by its last digit, and the round-off of the law differs in a solid.
       const double tolerance = 1e-12 * stiffness;
       for (const double difference : {s.xx - plate.tau.xx, s.zz - plate.tau.zz, s.xz - plate.tau.xz}) {
         EXPECT_NEAR(difference, 0.0, tolerance) << specimen.material.name << ' ' << n;
@@ -233,7 +234,7 @@ TEST(PlaneStress, IsTheSolidWithoutStressAlongY) {
   });
 }
 
-/// A law that counts how often it is asked.
+/// A law that counts its evaluations.
 template <class LawType>
 struct Counted : LawType {
   explicit Counted(const LawType& law) : LawType(law) {}
@@ -245,7 +246,7 @@ struct Counted : LawType {
   mutable int calls = 0;
 };
 
-// What the header says of its cost, for increments as steps have them: at most four calls where the law is elastic.
+// The cost stated in the header, for increments as in steps: at most four evaluations where the law is elastic.
 TEST(PlaneStress, AsksAnElasticLawAtMostFourTimes) {
   each_solid([](const paths::Specimen& specimen, const auto& law) {
     using LawType = std::decay_t<decltype(law)>;
@@ -254,7 +255,7 @@ TEST(PlaneStress, AsksAnElasticLawAtMostFourTimes) {
       Plate<double, Counted<LawType>> plate;
       plate.advance(counted, strain, -0.2 * strain, 0.3 * strain);
       const auto changed = [](double h) { return h != 0.0; };
-      if (std::any_of(plate.history, plate.history + LawType::kHistory, changed)) continue;  // it flows, or opens
+      if (std::any_of(plate.history, plate.history + LawType::kHistory, changed)) continue;  // flows or opens
       EXPECT_LE(counted.calls, 4) << specimen.material.name << ' ' << strain;
     }
   });
@@ -289,8 +290,8 @@ TEST(PlaneStress, OfLanesIsAsOfNumbersAlone) {
   });
 }
 
-// A register's empty lanes hold zeros: F = 0 gives no number there, which must not keep the others at work, nor spoil
-// them.
+// The empty lanes of a register contain zeros. F = 0 gives NaN there, which must neither keep the other lanes iterating
+// nor change them.
 TEST(PlaneStress, OfALaneThatIsNoNumberLeavesTheOthersAlone) {
   const NeoHookean law({kElasticity}, kDensity);
   Plate<Four<double>, NeoHookean> plate;

@@ -1,5 +1,5 @@
-// Axisymmetric scenes: what their values become, and each refusal, of a scene and of a definition made by hand.
-// Expected texts are written by hand from the rule "file:line: key.path: what; what to write instead".
+// Axisymmetric scenes: how values are read, and each refusal, of a scene and of a definition made in code. Expected
+// texts are written by hand from the rule "file:line: key.path: what; what to write instead".
 #include <gtest/gtest.h>
 
 #include "mpm/scene/scene.hpp"
@@ -98,7 +98,7 @@ TEST(SceneAxisymmetric, ShapeFunctionsWithoutAnAxis) {
   EXPECT_EQ(method_fault(method, GeometryKind::axisymmetric)->key, "shape");
 }
 
-// A grid that begins at the axis, or two cells outside it, where no domain's nodes reach the axis.
+// A grid begins at the axis, or at least two cells outside it, where the nodes of no domain reach the axis.
 TEST(SceneAxisymmetric, TheGridHasNodesOnTheAxis) {
   const std::string outer = "{box: {min: [0.5, 0.5], max: [1, 1]}}";
   EXPECT_EQ(error_of(with_grid("{cell: 0.1, min: [0, 0], max: [2, 2]}", outer)), "no error");
@@ -124,7 +124,7 @@ TEST(SceneAxisymmetric, MaterialLiesAtPositiveRadii) {
                  "bad.yaml:5: bodies.disk.shape.cylinder.axis: an axisymmetric scene turns about z; write z");
 }
 
-// Shaken places stay on their side of the axis: a sphere about it has no other boundary there.
+// Positions with jitter stay on their side of the axis, where a sphere about it has no other boundary.
 TEST(SceneAxisymmetric, JitterKeepsToPositiveRadii) {
   for (const char* shape : {"{cylinder: {center: [0, 1], radius: 0.5, height: 1.8}}",
                             "{sphere: {center: [0, 1], radius: 0.9}}", "{box: {min: [0, 0.1], max: [0.5, 1.9]}}"}) {
@@ -133,7 +133,7 @@ TEST(SceneAxisymmetric, JitterKeepsToPositiveRadii) {
     double least = 1.0;
     for (const Vec3& place : definition.bodies[0].positions) least = std::min(least, place.x());
     EXPECT_GE(least, 0.0) << shape;
-    EXPECT_LT(least, 0.02) << shape;  // of a first row at 0.025 m that is shaken by 0.04 m
+    EXPECT_LT(least, 0.02) << shape;  // the first row is at 0.025 m, with a jitter of 0.04 m
     EXPECT_EQ(error_of(parts), "no error") << shape;
   }
 }
@@ -145,12 +145,12 @@ TEST(SceneAxisymmetric, TheAxisIsNoWallAndGravityIsAlongIt) {
       with_rest("gravity: [1, -9.81]\n"),
       "bad.yaml:6: gravity: 1 m/s^2 along r; an axisymmetric scene has gravity along z alone: write [0, -9.81]");
   EXPECT_EQ(error_of(with_rest("gravity: [0, -9.81]\nboundaries: {x_max: slip, z_min: fixed}\n")), "no error");
-  // `all` means the faces that there are.
+  // `all` means all faces of the geometry.
   EXPECT_EQ(error_of(with_rest("boundaries: {all: slip}\n")), "no error");
   expect_refused(with_rest("thickness: 1\n"), "bad.yaml:6: thickness: only a planar scene has a thickness");
 }
 
-// The same of definitions made by hand.
+// Definitions made in code are refused for the same reasons.
 TEST(SceneAxisymmetric, TheSimulationRefusesTheSame) {
   const auto refusal = [](const std::function<void(SimulationDefinition&)>& spoil) -> std::string {
     SimulationDefinition definition = build(parse_scene(Parts().text(), "good.yaml"));

@@ -1,5 +1,5 @@
-// Bad scenes: each refusal with its place and the text that helps. Expected texts are written by hand from the rule
-// "file:line: key.path: what; what to write instead".
+// Bad scenes: each refusal with its place and its advice. Expected texts are written by hand from the rule "file:line:
+// key.path: what; what to write instead".
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 namespace mpm {
 namespace {
 
-// One key a line, so that a replaced line is the line of the error.
+// One key per line, so that a replaced line is the line of the error.
 const std::vector<std::string> kLines = {
     "name: good",                                                      // 1
     "grid:",                                                           // 2
@@ -164,7 +164,7 @@ TEST(SceneBadInput, SoilConstantsOutOfRange) {
   starts("cohesion: -1", "bad.yaml:19: materials.soft.cohesion: ");
   starts("tension_cutoff: -1", "bad.yaml:19: materials.soft.tension_cutoff: '-1' is less than 0;");
   starts("match: inner", "bad.yaml:19: materials.soft.match: 'inner' is not known; write one of compression");
-  // Without a unit an angle is in radians: 30 of them are beyond a right angle.
+  // Without a unit an angle is in radians, and 30 is beyond a right angle.
   const std::string found =
       refusal(with_line(17, "    poisson: 0.3\n    friction_angle: 30"), {"materials.soft.law=drucker_prager"});
   EXPECT_EQ(found.find("bad.yaml:18: materials.soft.friction_angle: friction angle is 1718.87 degrees"), 0U) << found;
@@ -230,26 +230,26 @@ TEST(SceneBadInput, PlacesThatCannotBe) {
 }
 
 TEST(SceneBadInput, BodiesThatOverlap) {
-  // Both hold the cube from 0.5 to 0.6: one cell, 2 x 2 x 2 particles.
+  // Both contain the cube from 0.5 to 0.6: one cell, 2 x 2 x 2 particles.
   const std::string second =
       "    initial: {}\n  - {name: other, material: soft, shape: {box: {min: [0.5, 0.5, 0.5], max: [0.7, 0.7, 0.7]}}}";
   const std::string found = refusal(with_line(22, second));
   EXPECT_EQ(found.find("bad.yaml:23: bodies.other.shape: bodies 'other' and 'block' overlap: both hold 8 "), 0U)
       << found;
-  // Sharing a face is no overlap.
+  // Bodies that share a face do not overlap.
   const std::string beside =
       "    initial: {}\n  - {name: other, material: soft, shape: {box: {min: [0.2, 0.2, 0.6], max: [0.6, 0.6, 0.7]}}}";
   EXPECT_EQ(refusal(with_line(22, beside)), "no error");
 }
 
 TEST(SceneBadInput, ABodyInsideARigidBody) {
-  // The ball's centre on the block's top: the deepest particle centres, at (0.375, 0.375, 0.575) and around, are
-  // 0.1 - 0.025 sqrt(3) = 0.0567 m inside.
+  // The ball's centre is on the block's top: the deepest particle centres, at (0.375, 0.375, 0.575) and around, are 0.1
+  // - 0.025 sqrt(3) = 0.0567 m inside.
   const std::string found = refusal(with_line(26, "    pose: {position: [0.4, 0.4, 0.6]}"));
   EXPECT_EQ(found.find("bad.yaml:21: bodies.block.shape: body 'block' overlaps rigid body 'ball' at the start: "), 0U)
       << found;
   EXPECT_NE(found.find("the deepest by 0.0567 m"), std::string::npos) << found;
-  // Touching: the lowest point of the ball on the block's face.
+  // The ball touches: its lowest point is on the block's face.
   EXPECT_EQ(refusal(with_line(26, "    pose: {position: [0.4, 0.4, 0.7]}")), "no error");
 }
 
@@ -258,7 +258,7 @@ TEST(SceneBadInput, TimesThatDoNotFit) {
             "bad.yaml:30: output.period: 0.025 s is not a whole number of sync periods of 0.01 s; write 0.03 s");
   EXPECT_EQ(refusal(text_of(kLines), {"time.sync=1.5 ns"}),
             "--set time.sync=1.5 ns: time.sync: 1.5e-09 s is not a whole number of nanoseconds; write 2e-09 s");
-  // A prime number of nanoseconds has no divisor but itself.
+  // A prime number of nanoseconds has no divisor.
   expect_refused(30, "output: {period: 0.020000003}",
                  "output.period: 0.020000003 s cannot be divided into sync periods");
 }
@@ -297,7 +297,7 @@ TEST(SceneBadInput, PlanarScenesRefuseTheThirdDimension) {
             0U);
 }
 
-// A scene spoilt at random is read or refused with a SceneError; nothing else happens.
+// A randomly mutated scene is either read or refused with a SceneError.
 TEST(SceneBadInput, MutatedScenesNeverEscape) {
   const std::string good = text_of(kLines);
   const std::string letters = " \n:{}[],-.0159eE\"'#&*|>%?@!xyzt";
@@ -331,7 +331,7 @@ TEST(SceneBadInput, MutatedScenesNeverEscape) {
       ADD_FAILURE() << "round " << round << ": " << error.what() << "\n" << text;
     }
   }
-  EXPECT_GT(refused, 100);  // or the mutations spoil nothing
+  EXPECT_GT(refused, 100);  // otherwise the mutations are too mild
 }
 
 }  // namespace

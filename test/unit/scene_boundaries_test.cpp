@@ -1,4 +1,4 @@
-// boundaries and grid.leave: what is read, and each refusal with its place.
+// boundaries and grid.leave: how they are read, and each refusal with its place.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,7 +56,7 @@ TEST(SceneBoundaries, Conditions) {
   EXPECT_EQ(first.where, "bad.yaml:8: boundaries.conditions.0");
   EXPECT_NEAR((first.direction - Vec3(0.6, 0.0, 0.8)).norm(), 0.0, 1e-15);
   EXPECT_NEAR((*first.velocity)(1.0, Vec3(2e-3, 0, 0)), 4e-3, 1e-15);  // 2 mm/s + 2 mm/s
-  // Nodes on its faces are in it, those beside it are not.
+  // Nodes on the faces of the region belong to it, nodes beside it do not.
   const auto inside = [](const ConditionDefinition& c, double x, double z) {
     return c.region.surface->at(c.region.pose.to_body({x, 0.0, z})).distance <= 0.0;
   };

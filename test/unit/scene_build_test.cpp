@@ -1,4 +1,4 @@
-// Particles of bodies: number, place, volume and velocity, counted by hand.
+// Particles of bodies: number, position, volume and velocity, counted by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ TEST(SceneBuild, FillsABoxOnTheGridsLattice) {
 }
 
 TEST(SceneBuild, AMovedLatticeOfTheBodyDoesNotMoveTheParticles) {
-  // The box begins a fifth of a spacing after the lattice's planes: it holds the centres inside it, no others.
+  // The box begins a fifth of a spacing after the lattice's planes and contains exactly the centres inside it.
   const auto d = built(solid("{box: {min: [0.01, 0, 0], max: [0.21, 0.2, 0.2]}}"));
   EXPECT_EQ(d.bodies[0].positions.size(), 4U * 4U * 4U);
   for (const Vec3& p : d.bodies[0].positions) EXPECT_GT(p.x(), 0.0249);
@@ -61,7 +61,8 @@ TEST(SceneBuild, JitterMovesParticlesEvenlyWithinTheBody) {
   }
   EXPECT_LE(farthest, 0.06 + 1e-15);
   EXPECT_GT(farthest, 0.059);
-  // Even in [-a, a] the square is a^2 / 3 on average, with a deviation of a^2 sqrt(4 / 45) a number: four of them.
+  // For an even distribution in [-a, a] the mean square is a^2 / 3, with a standard deviation of a^2 sqrt(4 / 45) per
+  // number; four of them.
   const double a2 = 0.06 * 0.06;
   EXPECT_NEAR(square / inner, a2 / 3.0, 4.0 * a2 * std::sqrt(4.0 / 45.0 / (3.0 * inner)));
   EXPECT_EQ(built(solid(box, ", jitter: 0.6")).bodies[0].positions, moved.positions);
@@ -77,7 +78,7 @@ TEST(SceneBuild, AJitteredPlanarBodyStaysInItsPlane) {
 }
 
 TEST(SceneBuild, SpheresAndCylindersHaveTheirVolume) {
-  // A circle of 8 spacings in radius holds 208 centres for its area of 201 squares: the lattice's roughness is 4 %.
+  // A circle with a radius of 8 spacings contains 208 centres and has an area of 201 squares, a difference of 4 %.
   const auto volume = [](const SimulationDefinition& d) {
     return static_cast<double>(d.bodies[0].positions.size()) * d.bodies[0].particle_volume;
   };

@@ -1,4 +1,4 @@
-// The contact section of scenes: laws of pairs, velocity fields, normals and detection, and what is refused.
+// The contact section of scenes: laws of pairs, velocity fields, normals and detection, and refusals.
 #include <gtest/gtest.h>
 
 #include "mpm/scene/scene.hpp"
@@ -64,7 +64,7 @@ TEST(SceneContact, BodiesOfAPairHaveFieldsOfTheirOwn) {
   ASSERT_NE(pair, nullptr);
   EXPECT_EQ(pair->friction(2.0), 0.2);
   EXPECT_EQ(pair->at(0.0).adhesion, 5.0);
-  // c has no law with the two: it sticks to them as before.
+  // c has no law with the two and sticks to them.
   EXPECT_EQ(law(read_scene, "a", "c")->kind, ContactLaw::Kind::one_field);
   EXPECT_EQ(law(read_scene, "b", "c")->kind, ContactLaw::Kind::one_field);
   EXPECT_EQ(build(read_scene).bodies[1].field, 2);
@@ -95,7 +95,7 @@ TEST(SceneContact, InterfacesNormalsAndDetection) {
   EXPECT_EQ(law(read_scene, "c", "tool")->friction(0.0), 0.7);
   EXPECT_EQ(read("{normals: own}").definition.contact.normals.method, NormalMethod::own);
   const DetectionRule usual = read("{friction: 0}").definition.contact.detection;
-  EXPECT_EQ(usual.kind, Detection::positions);  // the sources' advice, 0.8 cells
+  EXPECT_EQ(usual.kind, Detection::positions);  // as the sources advise, 0.8 cells
   EXPECT_EQ(usual.position, 0.8);
 }
 

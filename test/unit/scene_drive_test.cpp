@@ -1,4 +1,4 @@
-// rigid_bodies: what commands a body, and its limits.
+// rigid_bodies: the source of a body's commands, and its limits.
 #include <gtest/gtest.h>
 
 #include "scene_tool.hpp"

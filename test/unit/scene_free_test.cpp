@@ -1,4 +1,4 @@
-// `free` of a rigid body in a scene: what it reads, and what it refuses.
+// `free` of a rigid body in a scene: how it is read, and refusals.
 #include <gtest/gtest.h>
 
 #include "mpm/scene/scene.hpp"

@@ -1,5 +1,5 @@
-// Spoilt scene files: each is built and runs, or is refused in one line that says what and where. 2,000 of them with
-// fixed seeds; the environment variable MPM_FUZZ_CASES sets another number.
+// Mutated scene files: each is built and runs, or is refused in one line that states the fault and its place. 2,000 of
+// them with fixed seeds; the environment variable MPM_FUZZ_CASES sets another number.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -28,14 +28,14 @@ namespace {
 
 constexpr int kCases = 2000;
 constexpr int kHangSeconds = 120;     // a case takes milliseconds; a loaded machine or a sanitizer is not a hang
-constexpr double kMostToBuild = 2e5;  // particles: larger ones are sound, but not cheap
+constexpr double kMostToBuild = 2e5;  // particles: larger scenes are valid, but not cheap
 constexpr double kMostToRun = 5000;
-constexpr double kCoarse = 600;  // particles of a scene before it is spoilt
+constexpr double kCoarse = 600;  // particles of a scene before it is mutated
 constexpr int kPeriods = 2;
 constexpr double kStepsAPeriod = 4.0;
 constexpr double kMostSteps = 1000.0;
 
-/// Ends the program when a case does not come back.
+/// Ends the program when a case does not return.
 class HangGuard {
  public:
   HangGuard() : thread_([this] { watch(); }) {}
@@ -69,7 +69,7 @@ class HangGuard {
   std::thread thread_;
 };
 
-/// Places of the lattice in the bodies' bounds: no fewer than the particles that build() makes.
+/// Lattice positions in the bodies' bounds: at least as many as the particles that build() makes.
 double places(const Scene& scene) {
   double sum = 0.0;
   for (const BodyDefinition& body : scene.bodies) {
@@ -83,7 +83,7 @@ double places(const Scene& scene) {
   return sum;
 }
 
-/// A scene of the repository, on a grid so coarse that it is cheap; empty when it has none.
+/// A scene of the repository on a grid coarse enough to be cheap; empty when there is none.
 std::string coarse(const std::string& path) {
   const Vec3 cell = load_scene(path).definition.grid.cell;
   for (const char* particles : {"", "1"}) {
@@ -98,7 +98,7 @@ std::string coarse(const std::string& path) {
         if (places(scene) > kCoarse) continue;
         build(scene);
         return scene.text;
-      } catch (const SceneError&) {  // not a whole number of such cells, or a body thinner than one
+      } catch (const SceneError&) {  // the domain is not a whole number of such cells, or a body is thinner than one
       }
     }
   }
@@ -125,17 +125,17 @@ double norm_at_start(const std::array<Function, 3>& motion) {
   try {
     return Vec3(motion[0](0.0), motion[1](0.0), motion[2](0.0)).norm();
   } catch (const FunctionError&) {
-    return 0.0;  // for the simulation to tell
+    return 0.0;  // the simulation reports it
   }
 }
 
-/// A period of few steps, whatever the material's stiffness: the real one may be thousands of steps long. False when a
-/// nanosecond already is.
+/// Shortens the sync period to few steps, whatever the material's stiffness; the real period may be thousands of steps
+/// long. Returns false when even a nanosecond has too many.
 bool shorten_period(SimulationDefinition& definition) {
   const std::vector<int> axes = axes_of(definition.geometry);
   double cell = definition.grid.cell.x();
   for (const int axis : axes) cell = std::min(cell, definition.grid.cell[axis]);
-  double rate = 1.0;  // how often a second the fastest crosses a cell
+  double rate = 1.0;  // cells crossed per second by the fastest wave
   for (const MaterialDefinition& material : definition.materials) {
     const MaterialPoint point(material);
     const double diffusivity = std::visit([](const auto& law) { return law.diffusivity(1.0); }, point.law());
@@ -158,15 +158,15 @@ bool shorten_period(SimulationDefinition& definition) {
   return step * 1e9 > 1.0 / kMostSteps;
 }
 
-/// Builds and runs; gives what became of it.
+/// Builds and runs a scene; returns the outcome.
 std::string outcome(const std::string& text) {
   const Scene scene = parse_scene(text, "fuzz.yaml");
   const double count = places(scene);
-  if (count > kMostToBuild && count * 160.0 < 2.0 * usable_memory()) return "large";  // build() may well make it
+  if (count > kMostToBuild && count * 160.0 < 2.0 * usable_memory()) return "large";  // build() may make it
   SimulationDefinition definition = build(scene);
   if (count > kMostToRun || !shorten_period(definition)) return "built";
   Simulation simulation(definition, {1});
-  simulation.keep_start();  // for the fields that look at it
+  simulation.keep_start();  // for the fields that use it
   for (int n = 0; n < kPeriods; ++n) simulation.advance();
   for (std::size_t b = 0; b < definition.rigid_bodies.size(); ++b) simulation.take_contact(static_cast<int>(b));
   std::vector<double> values;
@@ -177,7 +177,7 @@ std::string outcome(const std::string& text) {
   return "ran";
 }
 
-/// What is wrong with an error's text, or "".
+/// The fault of an error's text, or "".
 std::string fault_of(const std::string& what) {
   if (what.empty()) return "no text";
   if (what.size() > 1000) return "more than a line of text";
@@ -218,7 +218,7 @@ TEST(SceneFuzz, SpoiltScenesRunOrAreRefusedInOneLine) {
     EXPECT_EQ(fault, "") << "case " << number << ": " << what << "\n" << text;
   }
   for (const auto& [kind, count] : seen) std::printf("%5d %s\n", count, kind.c_str());
-  // The changes are neither so mild that nothing is refused nor so wild that nothing runs.
+  // The mutations are neither so mild that nothing is refused nor so wild that nothing runs.
   EXPECT_GT(seen["refused"], cases / 3);
   EXPECT_GT(seen["ran"], cases / 20);
 }

@@ -1,4 +1,4 @@
-// Scenes of every geometry: what their values become, and what a line or plane stress refuses.
+// Scenes of every geometry: how values are read, and the refusals of a line and of plane stress.
 #include <gtest/gtest.h>
 
 #include "mpm/scene/explain.hpp"
@@ -110,7 +110,7 @@ TEST(SceneGeometry, ASphereInALineIsAnInterval) {
   const std::string box = "box: {min: 0.5, max: 1.5}";
   std::string sphere = text;
   sphere.replace(sphere.find(box), box.size(), "sphere: {center: 1, radius: 0.3}");
-  EXPECT_EQ(build(parse_scene(sphere, "line.yaml")).bodies[0].positions.size(), 12U);  // 0.6 m of 0.05 m each
+  EXPECT_EQ(build(parse_scene(sphere, "line.yaml")).bodies[0].positions.size(), 12U);  // 0.6 m at 0.05 m each
 }
 
 TEST(SceneGeometry, ALineRefusesWhatItDoesNotHave) {
@@ -185,7 +185,7 @@ TEST(SceneGeometry, ParticlesACell) {
                  "method.particles_per_cell: 8 is not possible; a planar scene has 1, 4, 9, 16 or 25 particles a cell");
 }
 
-// Definitions made by hand are refused for the same reasons.
+// Definitions made in code are refused for the same reasons.
 TEST(SceneGeometry, TheSimulationRefusesTheSame) {
   const auto refused = [](SimulationDefinition definition) -> std::string {
     try {

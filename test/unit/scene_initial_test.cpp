@@ -1,4 +1,4 @@
-// bodies.<name>.initial and cut_out: what is read, and each refusal with its place.
+// bodies.<name>.initial and cut_out: how they are read, and each refusal with its place.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace mpm {
 namespace {
 
-// The body's line is the fifth.
+// The body is on line 5.
 std::string scene(const std::string& rest, const std::string& gravity = "[0, -9.81]") {
   return "geometry: plane_strain\n"
          "grid: {cell: 0.1, min: [0, 0], max: [1, 1]}\n"
@@ -76,7 +76,8 @@ TEST(SceneInitial, CutOutLeavesRoomForTools) {
             std::string::npos);
   for (const char* which : {"cut_out: [ball]", "cut_out: all"}) {
     const auto d = build(parse_scene(scene(which) + ball, "t"));
-    // Half a disk of radius 0.2 m is 25 particles of (0.05 m)^2, give or take those that its edge cuts through.
+    // Half a disk of radius 0.2 m has the area of 25 particles of (0.05 m)^2; the count differs by those that its edge
+    // cuts.
     EXPECT_NEAR(static_cast<double>(d.bodies[0].positions.size()), 200.0 - M_PI * 0.04 / 2.0 / 0.0025, 3.0);
     for (const Vec3& p : d.bodies[0].positions) EXPECT_GT(std::hypot(p.x() - 0.5, p.z() - 0.5), 0.2);
   }

@@ -1,4 +1,4 @@
-// loads: what is read, and each refusal with its place.
+// loads: how they are read, and each refusal with its place.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -70,7 +70,8 @@ TEST(SceneLoads, AreRefusedWhenWrong) {
                  at + "body: no deformable body 'blok'; did you mean 'block'?");
 }
 
-// A force of 6 N on all of a region together, or on each of its particles; numbers of those whose centres lie in it.
+// A force of 6 N on all particles of a region together, or on each of them; the particles are those with centres in the
+// region.
 TEST(SceneLoads, ForcesOnParticles) {
   const std::string loads =
       "loads:\n"
@@ -117,7 +118,7 @@ TEST(SceneLoads, ForcesOnParticlesAreRefusedWhenWrong) {
       at + ".region: no particle of body 'block' has its centre in it; make it larger, or move it");
 }
 
-// Without a region the choice is the simulation's; with one it is of the centres that lie in it.
+// Without a region the simulation chooses the particles; with one, they are those with centres in it.
 TEST(SceneLoads, TractionsOnFaces) {
   const std::string loads =
       "loads:\n"

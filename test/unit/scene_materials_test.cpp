@@ -1,4 +1,4 @@
-// The keys of each law, with their units and refusals.
+// The keys of each law, with units and refusals.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ Definition law_of(const std::string& material) {
   return std::get<Definition>(scene_of(material).definition.materials.at(0).law);
 }
 
-// What is said after the file and line.
+// The text of a refusal after file and line.
 std::string refusal(const std::string& material) {
   try {
     scene_of(material);
@@ -69,9 +69,9 @@ TEST(SceneMaterials, Fluid) {
   EXPECT_EQ(water.viscosity, 1e-3);
   EXPECT_EQ(water.exponent, 7.0);
   EXPECT_FALSE(water.tension);
-  bool told = false;
-  for (const auto& [key, choice] : scene.choices) told = told || key == "materials.m.tension";
-  EXPECT_TRUE(told);
+  bool recorded = false;
+  for (const auto& [key, choice] : scene.choices) recorded = recorded || key == "materials.m.tension";
+  EXPECT_TRUE(recorded);
   const auto other = law_of<NewtonianFluidDefinition>(start + ", bulk_modulus: 2.2 GPa, exponent: 1, tension: allow");
   EXPECT_EQ(other.bulk_modulus, 2.2e9);
   EXPECT_EQ(other.exponent, 1.0);
@@ -132,8 +132,8 @@ TEST(SceneMaterials, MetalUnderImpact) {
   EXPECT_EQ(plain.heat_fraction, 0.9);
   const Scene scene = scene_of(least + ", C: 0.003");
   for (const char* key : {"reference_rate", "reference_temperature", "melting_temperature"}) {
-    const auto told = [&](const auto& choice) { return choice.first == std::string("materials.m.") + key; };
-    EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), told), 1) << key;
+    const auto recorded = [&](const auto& choice) { return choice.first == std::string("materials.m.") + key; };
+    EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), recorded), 1) << key;
   }
   const auto all = law_of<JohnsonCookDefinition>(
       least +

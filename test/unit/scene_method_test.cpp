@@ -1,4 +1,4 @@
-// method: every word and form that is read, what goes with what, and each refusal with its place. Expected texts are
+// method: every word and form that is read, valid combinations, and each refusal with its place. Expected texts are
 // written by hand from the rule "file:line: key.path: what; what to write instead".
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ TEST(SceneMethod, BadTransfersSayWhatToWrite) {
   expect_refused("gradient_terms: 13", "gradient_terms: 13 is not possible; write 1 to 12 terms");
 }
 
-// What cannot work is refused with what can be used in its place; in the same words for a definition made by hand.
+// Impossible combinations are refused with an alternative, and in the same words for a definition made in code.
 TEST(SceneMethod, CombinationsThatCannotWork) {
   EXPECT_NO_THROW(method_of("shape: qcpdi"));
   expect_refused("shape: qcpdi", "shape: qcpdi has the nine points of a parallelogram and is planar; use cpdi", kSolid);
@@ -101,7 +101,7 @@ TEST(SceneMethod, CombinationsThatCannotWork) {
   }
   expect_refused("shape: dirac, transfer: apic", "transfer: apic needs the inverse");
   expect_said("shape: dirac, transfer: apic", "use another shape, such as ugimp, or transfer {xpic: 2}");
-  // A planar scene of 9 particles a cell is one of 3 along an edge; a solid one is not.
+  // 9 particles per cell are 3 along an edge in a planar scene; in a solid one they are not possible.
   EXPECT_EQ(method_of("particles_per_cell: 9").particles_per_direction, 3);
   expect_refused("particles_per_cell: 9", "particles_per_cell: 9 is not possible; a solid scene has 1, 8 or 27",
                  kSolid);
@@ -137,7 +137,7 @@ TEST(SceneMethod, DampingIsANumberAFunctionOrAMap) {
   EXPECT_EQ(of_time.grid(0.5), 10.0);
   EXPECT_EQ(of_time.grid(1.5), 0.0);
   EXPECT_TRUE(of_time.in_force);
-  // A rate of place is read at the particles.
+  // A rate that depends on position is evaluated at the particles.
   const DampingDefinition of_place = method_of("damping: \"10*x\"").damping;
   EXPECT_FALSE(of_place.in_force);
   EXPECT_TRUE(of_place.in_update());
@@ -162,7 +162,7 @@ TEST(SceneMethod, DampingIsANumberAFunctionOrAMap) {
   EXPECT_TRUE(feedback.any() && feedback.in_force && !feedback.in_update());
 }
 
-// mm-g-s: a rate stays, a gain is per mm^2, an energy is g mm^2/s^2 = 1e-9 J.
+// mm-g-s: a rate is unchanged, a gain is per mm^2, an energy is g mm^2/s^2 = 1e-9 J.
 TEST(SceneMethod, DampingIsInTheUnitsOfTheScene) {
   const DampingDefinition damping =
       parse_scene(std::string("units: mm-g-s\n") + kPlanar +
@@ -194,7 +194,7 @@ TEST(SceneMethod, BadDampingSaysWhatToWrite) {
                  "damping.feedback.target: the target is the energy of all bodies; write a function of t alone");
 }
 
-// PIC is one end of FLIP; other transfers have no such part, and a fraction is said once.
+// A part of PIC is possible with FLIP only, and may be given once.
 TEST(SceneMethod, PartsOfPicGoWithFlipAlone) {
   EXPECT_NO_THROW(method_of("damping: {pic: \"0.1*(t<1)\"}"));
   EXPECT_NO_THROW(method_of("transfer: flip, damping: {pic: \"0.1*x\"}"));
@@ -205,7 +205,7 @@ TEST(SceneMethod, PartsOfPicGoWithFlipAlone) {
   }
 }
 
-// Damping of the particles' velocity would leave APIC's matrix as it is: rotation and shear would go on.
+// Damping of the particles' velocity would not damp APIC's matrix, so rotation and shear would continue.
 TEST(SceneMethod, ApicIsDampedOnTheNodes) {
   EXPECT_NO_THROW(method_of("transfer: apic, damping: 5"));
   EXPECT_NO_THROW(method_of("transfer: apic, damping: {feedback: {gain: 1}}"));
@@ -216,7 +216,7 @@ TEST(SceneMethod, ApicIsDampedOnTheNodes) {
 }
 
 // The largest stable steps of APIC and of FMPM(5) are smaller than a cell over the wave speed (doc/methods.md, the time
-// step); what is at the border, and FMPM(3), runs without a word.
+// step); steps at the limit, and FMPM(3), run without a warning.
 TEST(SceneMethod, StepsThatATransferCannotTakeAreWarnedOf) {
   const auto warnings = [](const std::string& transfer, const std::string& cfl) {
     return Simulation(build(parse_scene(

@@ -1,4 +1,4 @@
-// Spoils scene files, the same way for the same number: a tree of YAML, or its text.
+// Mutates scene files, as a tree of YAML or as text. The same number gives the same mutation.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -15,7 +15,7 @@ class SceneMutator {
  public:
   explicit SceneMutator(unsigned seed) : random_(seed) {}
 
-  /// `scene` with one change, or a few.
+  /// Returns `scene` with one or a few changes.
   std::string mutate(const std::string& scene) {
     std::string text = scene;
     int changes = pick(4) < 3 ? 1 : 2 + pick(2);
@@ -26,7 +26,7 @@ class SceneMutator {
   int pick(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random_); }
 
  private:
-  /// A value and where it hangs: under a key of a map, or at a place of a list.
+  /// A value and its position: under a key of a map, or in a list.
   struct Spot {
     YAML::Node parent;
     std::string key;
@@ -46,7 +46,7 @@ class SceneMutator {
     return list[static_cast<std::size_t>(pick(static_cast<int>(list.size())))];
   }
 
-  /// False when there are too many, or no end to them (aliases).
+  /// Returns false when there are too many, or infinitely many (aliases).
   static bool collect(const YAML::Node& node, std::vector<Spot>& spots, int depth = 0) {
     if (depth > 40 || spots.size() > 3000) return false;
     if (node.IsMap()) {
@@ -71,7 +71,7 @@ class SceneMutator {
                              "1e-300", "9.9e307", "0.5",   "2",     "100000", "4294967296.", "1e18",   "1e9"});
   }
 
-  /// What a user might write in its place: the same unit, or expression, and another number.
+  /// A replacement that a user might write: the same unit or expression with another number.
   std::string other_number(const std::string& text) {
     double value = 0.0;
     int used = 0;
@@ -257,7 +257,7 @@ class SceneMutator {
     return changed;
   }
 
-  /// As text where the tree cannot take the change (text that is no YAML any more, keys that are no words).
+  /// Mutates the text where the tree cannot represent the change (text that is not YAML, keys that are not words).
   std::string mutate_tree(const std::string& text) {
     try {
       return change_tree(text);
@@ -270,7 +270,7 @@ class SceneMutator {
     const YAML::Node root = YAML::Load(text);
     std::vector<Spot> spots;
     if (text.size() > 100000 || !collect(root, spots) || spots.empty()) return mutate_text(text);
-    // A node is not assigned to: yaml-cpp would change the tree.
+    // Nodes are not assigned to, because yaml-cpp would change the tree.
     const Spot* chosen = &any(spots);
     const int change = pick(16);
     if (change > 3) {  // most values are scalars deep in the tree
@@ -332,7 +332,7 @@ class SceneMutator {
         const std::size_t begin = place();
         return text.erase(begin, static_cast<std::size_t>(pick(30)));
       }
-      case 4: {  // a line twice, or somewhere else
+      case 4: {  // a line is repeated or moved
         const std::vector<std::string> lines = split(text);
         if (lines.empty()) return text;
         const std::string line = any(lines);

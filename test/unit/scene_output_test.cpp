@@ -1,4 +1,4 @@
-// output.first and output.period: the sync points that they ask for, and what is refused.
+// output.first and output.period: the sync points that they require, and refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,9 +31,9 @@ TEST(SceneOutput, SyncPointsHitTheFirstSnapshotAndThePeriod) {
   EXPECT_EQ(with_output("{end: 1}", "{period: 0.02}").output.first, 0.0);
   const Scene scene = with_output("{end: 1}", "{period: 0.02, first: 50 ms}");
   EXPECT_EQ(scene.output.first, 0.05);
-  // The largest common divisor of both is 10 ms, and not above the usual limit of 10 ms.
+  // The greatest common divisor of both is 10 ms, which is not above the default limit of 10 ms.
   EXPECT_EQ(scene.definition.time.sync, 10'000'000);
-  // Of 20 and 35 ms it is 5 ms.
+  // For 20 and 35 ms it is 5 ms.
   EXPECT_EQ(with_output("{end: 1}", "{period: 0.02, first: 0.035}").definition.time.sync, 5'000'000);
   EXPECT_EQ(with_output("{end: 1, sync: 5 ms}", "{period: 0.02, first: 0.035}").output.first, 0.035);
 }

@@ -1,4 +1,4 @@
-// What a scene's text becomes: defaults, units, overrides, sync points.
+// How a scene's text is read: defaults, units, overrides, sync points.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -35,7 +35,7 @@ TEST(SceneReader, ASmallSceneHasSoundDefaults) {
   EXPECT_FALSE(d.time.step.has_value());
   EXPECT_EQ(d.time.sync, 10'000'000);
   EXPECT_EQ(scene.output.period, 0.02);
-  EXPECT_EQ(d.method.particles_per_direction, 2);  // what else of the method is chosen: auto_method_test.cpp
+  EXPECT_EQ(d.method.particles_per_direction, 2);  // the choice of the method is tested in auto_method_test.cpp
   EXPECT_EQ(d.method.gradient_terms, 2);
   EXPECT_EQ(d.method.precision, Precision::float64);
   EXPECT_EQ(d.gravity, Vec3::Zero());
@@ -141,7 +141,7 @@ rigid_bodies:
   EXPECT_EQ(d.grid.max, Vec3(1, 0.25, 2));
   EXPECT_EQ(d.gravity, Vec3(1, 0, -9.81));
   EXPECT_EQ(d.method.particles_per_direction, 3);
-  // Without end along y: the distance does not depend on y.
+  // The body is infinite along y: the distance does not depend on y.
   EXPECT_NEAR(d.rigid_bodies[0].surface->at(Vec3(0, 1000, 0.3)).distance, 0.1, 1e-12);
   EXPECT_NEAR(d.rigid_bodies[1].surface->at(Vec3(0.3, 1000, 0)).distance, 0.1, 1e-12);
   EXPECT_EQ(d.rigid_bodies[0].rotation_rate[1](2.0), 2.0);
@@ -161,7 +161,7 @@ rigid_bodies:
 )yaml",
                                   "small.yaml");
   const SimulationDefinition& d = scene.definition;
-  // Three or four roundings each.
+  // Round-off of three or four operations each.
   EXPECT_NEAR(d.grid.max.x(), 1.0, 1e-15);
   EXPECT_NEAR(d.time.end, 0.2, 1e-16);
   EXPECT_NEAR(d.materials[0].density, 1000.0, 1e-11);
@@ -178,7 +178,7 @@ TEST(SceneReader, SyncDividesTheOutputPeriod) {
   using Pair = std::pair<std::int64_t, double>;
   // end/50 = 0.04 rounded down to 0.02; sync at most 10 ms and end/100 = 20 ms.
   EXPECT_EQ(times("{end: 2}", "{}"), Pair(10'000'000, 0.02));
-  // At most 10 ms: 25 ms / 3 is not whole in ns, 25 ms / 4 is.
+  // At most 10 ms: 25 ms / 3 is not a whole number of nanoseconds, 25 ms / 4 is.
   EXPECT_EQ(times("{end: 2}", "{period: 0.025}"), Pair(6'250'000, 0.025));
   // end/100 = 1 ms.
   EXPECT_EQ(times("{end: 0.1}", "{}"), Pair(1'000'000, 0.002));
@@ -187,7 +187,7 @@ TEST(SceneReader, SyncDividesTheOutputPeriod) {
   EXPECT_EQ(times("{end: 100 us}", "{}"), Pair(1'000, 2e-6));
   // A period below the limit is its own sync period.
   EXPECT_EQ(times("{end: 2}", "{period: 0.004}"), Pair(4'000'000, 0.004));
-  // A sync period that the default snapshots do not fit: they move to the nearest multiple.
+  // The default snapshots do not fit this sync period and move to the nearest multiple.
   EXPECT_EQ(times("{end: 2, sync: 0.007}", "{}"), Pair(7'000'000, 0.021));
 }
 
@@ -232,7 +232,7 @@ TEST(SceneReader, ShippedScenesLoadAndHaveADescription) {
   EXPECT_GE(scenes.size(), 4U);
   for (const auto& [name, line] : scenes) {
     EXPECT_NE(line, "") << name;
-    // Meshes by package:// are found in a sourced workspace only; those scenes are run by other tests.
+    // Meshes at package:// are found in a sourced workspace only; other tests run these scenes.
     std::ifstream file(std::string(MPM_SOURCE_DIR) + "/config/scenes/" + name + ".yaml");
     const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
     if (text.find("package://") != std::string::npos) continue;
@@ -241,8 +241,8 @@ TEST(SceneReader, ShippedScenesLoadAndHaveADescription) {
 }
 
 TEST(Nearest, CountsEdits) {
-  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);  // the textbook's pair
-  EXPECT_EQ(edit_distance("methdo", "method"), 1);   // two neighbours swapped
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);  // the textbook example
+  EXPECT_EQ(edit_distance("methdo", "method"), 1);   // two neighbouring letters swapped
   EXPECT_EQ(edit_distance("", "abc"), 3);
   EXPECT_EQ(nearest("metod", {"grid", "method"}), "method");
   EXPECT_EQ(nearest("zzz", {"grid", "method"}), "");

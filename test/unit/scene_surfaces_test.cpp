@@ -1,4 +1,4 @@
-// Planes, capsules and height fields in scenes: in which geometry they are what, and what is refused.
+// Planes, capsules and height fields in scenes: their meaning in each geometry, and refusals.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -21,7 +21,7 @@ TEST(SceneSurfaces, APlaneInEachGeometry) {
   EXPECT_EQ(tool("line", "plane: {}").surface->at({0.5, 0.0, 0.0}).normal, Vec3::UnitX());
   EXPECT_NEAR(tool("plane_strain", "plane: {normal: [3, 4]}").surface->at({1.0, 9.0, 1.0}).distance, 1.4, 1e-15);
   EXPECT_NEAR(tool("solid", "plane: {normal: [0, 3, 4]}").surface->at({9.0, 1.0, 1.0}).distance, 1.4, 1e-15);
-  // A pose turns it: the roll takes z to -y.
+  // A pose turns the plane: the roll takes z to -y.
   const RigidBodyDefinition turned = tool("solid", "plane: {}", "pose: {position: [0, 1, 0], rpy: [90 deg, 0, 0]}");
   EXPECT_NEAR(turned.surface->at(turned.pose.to_body({5.0, 0.75, 7.0})).distance, 0.25, 1e-14);  // rounding of 7
 }
@@ -37,10 +37,10 @@ TEST(SceneSurfaces, ACapsuleInEachGeometry) {
 TEST(SceneSurfaces, AHeightFieldFromAListAndAnExpression) {
   const auto roof = tool("plane_strain", "height_field: {x: [-1, 1], heights: [0, 100 cm, 0]}").surface;
   EXPECT_NEAR(roof->at({0.0, 0.0, 2.0}).distance, 1.0, 1e-15);
-  // Rows along y: it rises along y alone.
+  // Rows run along y: the field rises along y only.
   const auto ramp = tool("solid", "height_field: {x: [0, 1], y: [0, 3], heights: [[0, 0], [3, 3]]}").surface;
   EXPECT_NEAR(ramp->at({0.5, 1.0, 2.0}).distance, std::sqrt(0.5), 1e-15);
-  // An expression is asked at the points, x = 0, 0.25, …; by itself as far apart as the grid's, 0.1.
+  // An expression is evaluated at the points x = 0, 0.25, …; by default they have the spacing of the grid, 0.1.
   const auto coarse = tool("plane_strain", "height_field: {x: [0, 1], heights: x^2, cells: 4}").surface;
   EXPECT_NEAR(coarse->at({0.25, 0.0, 0.0625}).distance, 0.0, 1e-15);
   EXPECT_LT(coarse->at({0.125, 0.0, 0.125 * 0.125}).distance, -0.01);
@@ -74,7 +74,7 @@ TEST_F(SceneHeightFile, TextRowByRow) {
 }
 
 TEST_F(SceneHeightFile, AnImageWithItsTopAtHighY) {
-  // Dark below, white (3 m) above; 8 bits plain and 16 bits binary.
+  // The image is dark below and white (3 m) above, in 8 bits plain and 16 bits binary.
   const std::string plain = write("plain.pgm", "P2 # dark below\n2 2\n255\n255 255\n0 0\n");
   const std::string binary = write("binary.pgm", std::string("P5 2 2 65535\n\xff\xff\xff\xff\0\0\0\0", 21));
   for (const std::string& file : {plain, binary}) {

@@ -1,4 +1,4 @@
-// A scene with one tool, for tests of what a tool may be.
+// A scene with one tool, for tests of tools.
 #pragma once
 
 #include <gtest/gtest.h>

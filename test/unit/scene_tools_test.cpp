@@ -1,4 +1,4 @@
-// Tools of revolution in scenes: their shapes, in solid scenes and in axisymmetric ones, and what is refused there.
+// Tools of revolution in scenes: their shapes in solid and in axisymmetric scenes, and refusals.
 #include <gtest/gtest.h>
 
 #include "scene_tool.hpp"

@@ -1,5 +1,5 @@
-// For the tests of shape functions: what a particle gives to every node it reaches, from a stencil along each axis or
-// from a set of points, and the identities that hold for any of them (method reference 1.1).
+// Tools for the tests of shape functions: the weights of a particle at every node that it reaches, from a stencil along
+// each axis or from a set of points, and the identities that hold for all shape functions (method reference 1.1).
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,11 +30,11 @@ inline std::vector<std::vector<double>> table_rows(const std::string& name) {
   return rows;
 }
 
-/// A particle among nodes at multiples of the cell. Lengths [m].
+/// A particle among nodes at multiples of the cell. Lengths in [m].
 template <int Dim>
 struct Place {
   std::array<double, Dim> cell, x;
-  std::array<double, Dim> half;  ///< of the undeformed box [cells]
+  std::array<double, Dim> half;  ///< half-widths of the undeformed box [cells]
   double f[Dim][Dim];            ///< deformation gradient
 
   /// Half vectors of the domain [m].
@@ -45,18 +45,18 @@ struct Place {
   }
 };
 
-/// Of one node: value, and gradient [1/m].
+/// Value and gradient [1/m] at one node.
 template <int Dim>
 struct Weight {
   double s = 0.0;
   std::array<double, Dim> g{};
 };
 
-/// By the node's number along each axis; a node without an entry has no weight.
+/// Weights by the node's number along each axis; a node without an entry has weight 0.
 template <int Dim>
 using NodeWeights = std::map<std::array<int, Dim>, Weight<Dim>>;
 
-/// N values, and N gradients [1/m], at nodes nearest - N/2 and on.
+/// N values and N gradients [1/m] at the nodes from nearest - N/2.
 struct Along {
   int nearest;
   std::vector<double> s, g;
@@ -64,7 +64,7 @@ struct Along {
 
 inline int nearest_node(double cells) { return static_cast<int>(std::floor(cells + 0.5)); }
 
-/// `along(k)` is the stencil on axis k.
+/// Weights of a product of stencils; `along(k)` is the stencil on axis k.
 template <int Dim, class AlongAxis>
 NodeWeights<Dim> stencil_weights(const AlongAxis& along) {
   std::array<Along, Dim> axes;
@@ -93,13 +93,13 @@ NodeWeights<Dim> stencil_weights(const AlongAxis& along) {
   return weights;
 }
 
-/// Of the stencil `shape` at `cells`.
+/// Values of the stencil `shape` at `cells`.
 template <class Shape>
 Along along_axis(const Shape& shape, double cells) {
   return {nearest_node(cells), {std::begin(shape.s), std::end(shape.s)}, {std::begin(shape.g), std::end(shape.g)}};
 }
 
-/// S = sum of w_a N(x_a), G = sum of N(x_a) g_a with the hat N.
+/// Weights of a set of points: S = sum of w_a N(x_a), G = sum of N(x_a) g_a with the hat N.
 template <int Dim, class Points>
 NodeWeights<Dim> point_weights(const Place<Dim>& particle) {
   double d[Dim][Dim], offset[Points::kPoints][Dim], g[Points::kPoints][Dim];
@@ -131,8 +131,9 @@ NodeWeights<Dim> point_weights(const Place<Dim>& particle) {
   return weights;
 }
 
-/// Sum of S is 1, of G is 0; linear fields keep value and gradient. `value`, `gradient`: what round-off may do to sums
-/// of S and of G, places taken from the particle's nearest node, so a few cells at most.
+/// Checks that the sum of S is 1, that of G is 0, and that linear fields keep value and gradient. `value`, `gradient`:
+/// round-off of sums of S and of G. Positions are relative to the particle's nearest node, so they are a few cells at
+/// most.
 template <int Dim>
 void check_identities(const NodeWeights<Dim>& weights, const Place<Dim>& particle, double value, double gradient) {
   double one = 0.0;
@@ -155,7 +156,8 @@ void check_identities(const NodeWeights<Dim>& weights, const Place<Dim>& particl
   }
 }
 
-/// Unequal cells, boxes of 1/10 to 1 cell, and a deformation that keeps at least a quarter of the volume.
+/// A random particle: unequal cells, boxes of 1/10 to 1 cell, and a deformation that leaves at least a quarter of the
+/// volume.
 template <int Dim>
 Place<Dim> random_place(std::mt19937& engine) {
   std::uniform_real_distribution<double> x(-2.0, 2.0), half(0.05, 0.5), strain(-0.7, 0.7);
@@ -183,7 +185,7 @@ Place<Dim> random_place(std::mt19937& engine) {
   return place;
 }
 
-/// A row of a table of point sets: the particle, and what one node has of it.
+/// A row of a table of point sets: the particle, and its weight at one node.
 template <int Dim>
 struct TableRow {
   Place<Dim> particle;
@@ -214,7 +216,7 @@ std::vector<TableRow<Dim>> point_table(const std::string& name) {
   return table;
 }
 
-/// Every row to 1e-12 relative to max(1, |value|), as method reference 13 suggests.
+/// Checks every row to 1e-12 relative to max(1, |value|), as method reference 13 suggests.
 template <int Dim, class Points>
 void check_table(const std::string& name, int rows) {
   const auto table = point_table<Dim>(name);

@@ -35,8 +35,7 @@ TEST(Cpdi, ReproducesConstantsAndLinearFields) {
 
 TEST(Qcpdi, ReproducesConstantsAndLinearFields) { check_points<2, Qcpdi<2>>(4); }
 
-// Where the papers' corners are: 1 (-,-), 2 (+,-), 3 (+,+), 4 (-,+) are 0, 1, 3, 2. A box of 2 a x 2 b has the
-// gradients
+// The papers' corners 1 (-,-), 2 (+,-), 3 (+,+), 4 (-,+) are 0, 1, 3, 2 here. A box of 2 a x 2 b has the gradients
 // (+-1/a, +-1/b) / 4.
 TEST(Cpdi, CornersAreNumberedByTheirSides) {
   const double d[2][2] = {{0.5, 0.0}, {0.0, 0.25}};
@@ -56,7 +55,7 @@ TEST(Cpdi, CornersAreNumberedByTheirSides) {
   }
 }
 
-// Weights of method reference 2.7, and places s d_0 + t d_1.
+// Weights of method reference 2.7 at the points s d_0 + t d_1.
 TEST(Qcpdi, PointsAreNumberedAlongTheHalfVectors) {
   const double d[2][2] = {{0.5, 0.125}, {-0.25, 0.75}};
   double x[9][2], g[9][2];
@@ -74,7 +73,7 @@ TEST(Qcpdi, PointsAreNumberedAlongTheHalfVectors) {
   EXPECT_EQ(g[4][1], 0.0);
 }
 
-// Between two grid lines the hats are linear: two corners see what the average over the box sees.
+// Between two grid lines the hats are linear, so the mean of two corners is the average over the box.
 TEST(Cpdi, IsStretchedUgimpAlongALineWhereNoGridLineIsCrossed) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> stretch(0.3, 1.8), part(0.0, 1.0);
@@ -95,7 +94,7 @@ TEST(Cpdi, IsStretchedUgimpAlongALineWhereNoGridLineIsCrossed) {
   }
 }
 
-// What the header warns of: on a node two corners see 1 - w, the average is 1 - w/2.
+// The weakness stated in the header: on a node two corners give 1 - w, where the average is 1 - w/2.
 TEST(Cpdi, IsNotUgimpOnAGridLine) {
   const double w = 0.25;
   const Place<1> place{{1.0}, {3.0}, {w}, {{1.0}}};
@@ -120,7 +119,8 @@ std::pair<double, double> distance_from_exact() {
   return largest;
 }
 
-// Method reference 2.6 gives 0.2 and 0.4 for CPDI, to the digit printed. That of qCPDI is the header's claim.
+// Method reference 2.6 gives 0.2 and 0.4 for CPDI, to the digit printed. The value for qCPDI is the claim of the
+// header.
 TEST(Qcpdi, ComesNearerToTheExactAverageThanCpdi) {
   const auto four = distance_from_exact<Cpdi<2>>(), nine = distance_from_exact<Qcpdi<2>>();
   EXPECT_NEAR(four.first, 0.2, 0.05);
@@ -157,7 +157,7 @@ void check_lanes() {
       for (int c = 0; c < Dim; ++c) {
         EXPECT_EQ(lane(x[a][c], i), x_alone[a][c]);
         EXPECT_EQ(lane(g[a][c], i), g_alone[a][c]);
-        // Gradients of a few units, of domains whose determinant loses no digit: a hundred epsilon.
+        // Gradients of a few units, of domains whose determinant loses no digits: a hundred epsilon.
         EXPECT_NEAR(g_single[a][c], g_alone[a][c], 1e-5);
       }
     }

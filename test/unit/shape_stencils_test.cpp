@@ -75,7 +75,7 @@ void check_spline_table(int value, int slope) {
 TEST(QuadraticSpline, MatchesTheReferenceRowByRow) { check_spline_table<QuadraticSpline>(1, 2); }
 TEST(CubicSpline, MatchesTheReferenceRowByRow) { check_spline_table<CubicSpline>(3, 4); }
 
-// Offsets over the whole range, its ends among them.
+// Offsets over the whole range, including its ends.
 std::vector<double> offsets() {
   std::vector<double> all;
   for (int i = -500; i <= 500; ++i) all.push_back(0.001 * i);
@@ -94,11 +94,11 @@ TEST(QuadraticSpline, IsUgimpOfAWholeCell) {
   }
 }
 
-// The box's average of a hat differs from the hat at the centre where a kink is inside: most on the kink, by w/2 at the
-// node and w/4 at its neighbours. Where none is inside both agree, gradients too.
+// The box's average of a hat differs from the hat at the centre where a kink is inside: most when the particle is at
+// the kink, by w/2 at the node and w/4 at its neighbours. Without a kink inside, both agree, including gradients.
 TEST(Dirac, IsTheLimitOfUgimpOfASmallBox) {
   for (const double w : {1e-1, 1e-2, 1e-3, 1e-4}) {
-    const double round_off = 1e-16 / w;  // of differences of squares, and of numbers, over the box
+    const double round_off = 1e-16 / w;  // of differences of squares and of numbers, divided by the box
     double value = 0.0, gradient = 0.0;
     for (const double x : offsets()) {
       const Dirac<double> point(x, {w, 1.0});
@@ -126,7 +126,8 @@ TEST(Dirac, OnANodeHasTheGradientOfTheCellAbove) {
   }
 }
 
-// Undeformed it is uGIMP; stretched, uGIMP of the longer box; within a hundredth of a cell and half a cell.
+// Undeformed it is uGIMP; stretched, it is uGIMP of the longer box, with a half-width between a hundredth of a cell and
+// half a cell.
 TEST(UgimpStretch, IsUgimpOfItsBox) {
   const double w = 0.2, per_cell = 4.0;
   const UgimpStretch<double>::Axis axis(w, per_cell);
@@ -172,7 +173,7 @@ void check_walls() {
           EXPECT_EQ(spline.s[n], 0.0);
           EXPECT_EQ(spline.g[n], 0.0);
         }
-        EXPECT_GE(spline.s[n], -1e-16) << cells << " of " << high;  // zero by a difference of numbers below 1
+        EXPECT_GE(spline.s[n], -1e-16) << cells << " of " << high;  // zero up to a difference of numbers below 1
         if (nearest >= kReach && nearest <= high - kReach) {
           EXPECT_EQ(spline.s[n], plain.s[n]);
           EXPECT_EQ(spline.g[n], plain.g[n]);
@@ -193,7 +194,7 @@ void check_walls() {
 TEST(QuadraticSpline, FoldedKeepsItsIdentities) { check_walls<QuadraticSpline>(); }
 TEST(CubicSpline, FoldedKeepsItsIdentities) { check_walls<CubicSpline>(); }
 
-// A field of three or more nodal values at a particle, by the stencil that reaches them.
+// Interpolates a field of three or more nodal values at a particle.
 template <template <class> class Spline>
 std::pair<double, double> field(double cells, const std::vector<double>& nodes) {
   const Spline<double> spline = folded<Spline>(cells, static_cast<int>(nodes.size()) - 1);
@@ -223,7 +224,7 @@ void check_slopes() {
 TEST(QuadraticSpline, FoldedHasTheSlopeOfItsValue) { check_slopes<QuadraticSpline>(); }
 TEST(CubicSpline, FoldedHasTheSlopeOfItsValue) { check_slopes<CubicSpline>(); }
 
-// What the header derives: the hat within half a cell of a wall; 1 - x + x^3/6, x - x^3/3, x^3/6; the second moments.
+// As derived in the header: the hat within half a cell of a wall; 1 - x + x^3/6, x - x^3/3, x^3/6; the second moments.
 TEST(QuadraticSpline, FoldedIsTheHatNextToAWall) {
   for (double x = 0.0; x < 0.4995; x += 0.001) {
     const auto low = folded<QuadraticSpline>(x, 4), high = folded<QuadraticSpline>(4.0 - x, 4);
@@ -247,7 +248,7 @@ TEST(CubicSpline, FoldedIsTheHeadersPolynomialNextToAWall) {
   }
 }
 
-// A particle that is a little past the wall is on the straight continuation of the field.
+// A particle slightly past the wall sees the straight continuation of the field.
 TEST(CubicSpline, BeyondAWallContinuesALinearField) {
   for (const double x : {-0.4, -0.1, -1e-9}) {
     const auto low = folded<CubicSpline>(x, 4), high = folded<CubicSpline>(4.0 - x, 4);

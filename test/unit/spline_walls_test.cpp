@@ -1,6 +1,6 @@
-// Splines folded at walls (shape/bspline.hpp): through the kernels, particles beside a wall see and make what is zero
-// on it as zero. A field linear in place that vanishes on a wall's nodes, as walls leave it, with nothing on the nodes
-// beyond.
+// Splines folded at walls (shape/bspline.hpp), tested through the kernels: a field that is zero on a wall is zero there
+// for particles beside the wall, and so is one that they spread. The field is linear in position and vanishes on a
+// wall's nodes, as walls leave it, with nothing on the nodes beyond.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr ShapeKind kSplines[] = {ShapeKind::bspline2, ShapeKind::bspline3};
 
-// A block in the corner of the walls at the domain's lower faces, from them on.
+// A block in the corner between the walls at the domain's lower faces, touching them.
 template <class Geometry>
 typename StepScene<Geometry>::Body corner() {
   using Scene = StepScene<Geometry>;
@@ -23,7 +23,7 @@ typename StepScene<Geometry>::Body corner() {
   return body;
 }
 
-// Each component grows from its own wall: v_k = rate_k x_k.
+// Each component increases from its own wall: v_k = rate_k x_k.
 constexpr double kRate[3] = {0.5, -0.3, 0.8};  // [1/s]
 
 template <class Geometry>
@@ -41,7 +41,7 @@ void check_seen() {
           scene.grid.force.at(b, k, n) = 0.0;
         }
       });
-      // No force: what particles adopt is the field; FLIP takes over accelerations alone.
+      // Without force, particles adopt the field; FLIP adopts accelerations only.
       const auto before = scene.set();
       scene.mechanics->strain_and_force(context, scene.dt);
       for (int p = 0; p < scene.set().size(); ++p) {
@@ -67,8 +67,7 @@ void check_seen() {
 TEST(SplineWalls, ALinearFieldIsSeenBesideThemInAPlane) { check_seen<PlaneStrain>(); }
 TEST(SplineWalls, ALinearFieldIsSeenBesideThemInASolid) { check_seen<Solid>(); }
 
-// With APIC the particles make the field as well: nothing beyond the walls, and zero on them, without a condition
-// there.
+// With APIC the particles also spread the field: nothing beyond the walls, and zero on them, without a condition there.
 template <class Geometry>
 void check_made() {
   for (const ShapeKind shape : kSplines) {
@@ -78,7 +77,7 @@ void check_made() {
     });
     scene.set_affine({{kRate[0], 0.0, 0.0}, {0.0, kRate[1], 0.0}, {0.0, 0.0, kRate[2]}});
     scene.dt = 0.0;
-    scene.advance(20);  // to and fro
+    scene.advance(20);  // back and forth
     StepContext context = scene.context();
     scene.mechanics->scatter_momentum(context);
     int on_wall = 0;
@@ -100,8 +99,8 @@ void check_made() {
 TEST(SplineWalls, ApicMakesALinearFieldBesideThemInAPlane) { check_made<PlaneStrain>(); }
 TEST(SplineWalls, ApicMakesALinearFieldBesideThemInASolid) { check_made<Solid>(); }
 
-// A particle that is pressed a little beyond a wall, where the second moment of the weights is negative, and one on it,
-// where there is none: what they take back of what they gave is finite and the field's.
+// A particle slightly beyond a wall, where the second moment of the weights is negative, and one on the wall, where it
+// is zero: the values that they gather are finite and equal to the field.
 TEST(SplineWalls, ApicGoesOnBeyondThem) {
   for (const ShapeKind shape : kSplines) {
     StepScene<PlaneStrain> scene({shape, UpdateScheme::usf, {TransferKind::apic, 1.0, 2}}, corner<PlaneStrain>());

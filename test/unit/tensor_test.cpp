@@ -90,9 +90,9 @@ TYPED_TEST(TensorTest, ExponentialIsTheTaylorSumToTheTermAskedFor) {
   }
 }
 
-// Method reference 7: a pure rotation by theta a step grows J by theta^2 (k = 1) or theta^4 / 4 (k = 2).
-// Jacobi's rotations give the values; what the bounds may be off by is stated with them. Tensors with two equal values
-// and nearly so, where the third of an angle is sensitive to round-off, among those of every shape.
+// Method reference 7: a pure rotation by theta per step raises J by theta^2 (k = 1) or theta^4 / 4 (k = 2). Jacobi
+// rotations give the exact values; the errors of the bounds are as stated in the header. The tensors include ones with
+// two equal or nearly equal values, where the third of an angle is sensitive to round-off.
 template <class T>
 void expect_bounds(double round_off, double loose) {
   std::mt19937 engine(7);
@@ -133,7 +133,7 @@ TEST(PrincipalBounds, OfEqualValuesAreExact) {
   EXPECT_EQ(smallest, 3.0);
 }
 
-// A plane's values are the solid's.
+// The values of a planar tensor are those of the solid one.
 TEST(PrincipalBounds, OfAPlaneAreItsValues) {
   std::mt19937 engine(8);
   std::uniform_real_distribution<double> u(-1.0, 1.0);

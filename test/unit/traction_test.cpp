@@ -1,5 +1,5 @@
 // Tractions on faces of particle domains: areas and weights against the quadrature of the reference values, directions,
-// and what sums over closed domains must be (Nairn & Guilkey (2015) eq. (40)-(55); method reference 4.1 to 4.4).
+// and sums over closed domains (Nairn & Guilkey (2015) eq. (40)-(55); method reference 4.1 to 4.4).
 #include "mpm/shape/traction.hpp"
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ TEST(TractionWeights, OfFacesInASolidAreTheReferenceValues) {
     const DomainFace face{static_cast<int>(std::abs(v[0])) - 1, v[0] > 0.0};
     const FaceParts parts = face_parts(GeometryKind::solid, domain, face, 1.0);
     ASSERT_EQ(parts.corners, 4);
-    int corner = 0;  // of those of the face: the half vector of the lowest axis changes its side first
+    int corner = 0;  // index among the face's corners, in which the side along the lowest axis changes fastest
     for (int k = 0, bit = 1; k < 3; ++k) {
       if (k == face.axis) continue;
       corner += v[1 + k] > 0.0 ? bit : 0;
@@ -90,7 +90,7 @@ TEST(TractionWeights, OfFacesInASolidAreTheReferenceValues) {
   }
 }
 
-// An end of a line is the area across it, at the end of the half vector.
+// The end of a line has the area across it, at the end of the half vector.
 TEST(TractionWeights, OfAnEnd) {
   PlacedDomain domain;
   domain.dim = 1;
@@ -123,7 +123,7 @@ PlacedDomain random_domain(std::mt19937& engine) {
 
 struct Closed {
   PlacedDomain::Vector normal{};  ///< sum over all faces of area times outward normal
-  double volume = 0.0;            ///< sum of area times normal times middle, over the number of axes: Gauss
+  double volume = 0.0;            ///< sum of area times normal times middle, divided by the number of axes (Gauss)
 };
 
 template <int Dim>
@@ -151,7 +151,7 @@ Closed all_faces(GeometryKind geometry, const PlacedDomain& domain) {
   return sum;
 }
 
-// Outward normals times areas of a closed domain sum to nothing, and to its volume with the places that they are at. In
+// Outward normals times areas of a closed domain sum to zero, and times the positions of the faces to its volume. In
 // axisymmetry they sum to 2 pi A_p along r, which the hoop stress balances.
 TEST(TractionNormals, CloseTheDomain) {
   std::mt19937 engine(7);

@@ -71,7 +71,7 @@ TEST(Ugimp, ReproducesConstantsAndLinearFields) {
   }
 }
 
-// The weights of a register of particles put them on the right nodes: sum of x_i S is x_p, sum of x_i G is 1.
+// The weights of a register of particles are at the right nodes: the sum of x_i S is x_p, the sum of x_i G is 1.
 TEST(Weights, FindTheirNodesInTheTile) {
   const GridLayout layout(3, {0.1, 0.2, 0.25}, {-1.0, 0.0, 2.0}, {3.0, 4.0, 6.0});
   const double place[3][2] = {{0.431, 0.478}, {1.97, 2.02}, {3.08, 3.13}};  // two particles of one block

@@ -8,7 +8,7 @@
 namespace mpm {
 namespace {
 
-// A few roundings of a double.
+// Round-off of a few operations.
 constexpr double kRoundOff = 1e-14;
 
 void expect_si(const std::string& text, const Dimension& dimension, double expected) {
@@ -69,7 +69,7 @@ TEST(Units, PlainNumbersAreInTheSceneSystem) {
   EXPECT_EQ(si("mm-g-s", kAngle), 1.0);
   EXPECT_EQ(si("mm-g-s", kTemperature), 1.0);
   EXPECT_NEAR(si("mm-g-s", kViscosity), 1.0, kRoundOff);
-  // A written unit does not care for the system.
+  // A written unit does not depend on the system.
   EXPECT_NEAR(parse_quantity("2 m", kLength, parse_unit_system("mm-g-s")), 2.0, kRoundOff);
 }
 
@@ -102,7 +102,7 @@ TEST(Units, BadSystemsAreRefused) {
   EXPECT_THROW(make_unit_system("mm", "g", "fortnight"), UnitError);
 }
 
-// Found by the fuzz test: exponents that no integer holds, and powers of powers.
+// Found by the fuzz test: exponents that exceed every integer type, and powers of powers.
 TEST(Units, ExponentsStaySmall) {
   const std::string small = "has an exponent that is not a small whole number";
   for (const char* text : {"m^10", "m^-2147483648", "m^99999999999999999999"}) {

@@ -28,7 +28,8 @@ MaterialPoint stiff() {
 
 const Matrix3<double> kStretch{0.2, 0.1, 0, 0, -0.1, 0.05, 0.15, 0, 0.1};
 
-// Held at a large strain: from both springs' stress to the long-term one, G(t) = G + G1 exp(-t/T), for any steps.
+// At a large constant strain the stress goes from that of both springs to the long-term one, G(t) = G + G1 exp(-t/T),
+// for any steps.
 TEST(Viscoelastic, RelaxesExactly) {
   MaterialPoint point = foam(), instant = stiff(), relaxed({"soft", kDensity, NeoHookeanDefinition{kLongTerm}});
   point.advance(kStretch, kInstant);
@@ -44,7 +45,7 @@ TEST(Viscoelastic, RelaxesExactly) {
     const auto expected = sum(scale_shift(instant.cauchy(), left, 0.0), scale_shift(relaxed.cauchy(), 1.0 - left, 0.0));
     EXPECT_LE(distance(point.cauchy(), expected), 1e-12 * scale) << time;
   }
-  // What the branch stored at first is lost.
+  // The energy that the branch stored at first is lost.
   EXPECT_NEAR(point.plastic_work() + point.elastic_energy(), instant.elastic_energy(), 1e-12 * scale / kDensity);
 }
 
@@ -83,7 +84,8 @@ TEST(Viscoelastic, CreepsAtSecondOrder) {
   EXPECT_LT(std::log2(coarse / fine), 2.05);
 }
 
-// Fast: both springs; slow: the long-term one. The branch lags a slow strain rate by G1 T times it.
+// In fast strain both springs act, in slow strain the long-term one. At a slow strain rate the branch adds G1 T times
+// the rate.
 TEST(Viscoelastic, IsAsStiffAsTimeAllows) {
   MaterialPoint fast = foam(), slow = foam(), both = stiff(), soft({"soft", kDensity, NeoHookeanDefinition{kLongTerm}});
   for (int n = 0; n < 100; ++n) {

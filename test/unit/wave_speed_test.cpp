@@ -1,8 +1,8 @@
-// The wave speed that the time step is taken from, against the acoustic tensor found by small increments of every law.
+// The wave speed that determines the time step, against the acoustic tensor found by small increments of every law.
 //
 // A plane wave a f(n.x - c t) on a uniform state: rho0 u'' = Div P with P = rho0 tau F^-T gives
 //   c^2 a = delta tau(a n) n - tau n (a.n),
-// delta tau(a n) the change of tau = Kirchhoff stress over initial density for a velocity gradient a n.
+// where delta tau(a n) is the change of tau = Kirchhoff stress over initial density for a velocity gradient a n.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -16,8 +16,8 @@ using namespace mpm::paths;
 using Vector = Eigen::Vector3d;
 using Tensor = Eigen::Matrix3d;
 
-/// [s] too short to relax, and so short that Johnson-Cook's strength is beyond the stress: an increment of 1e-6 is as
-/// fast as 1e19 1/s.
+/// [s] too short to relax, and so short that Johnson-Cook's strength exceeds the stress: an increment of 1e-6 then has
+/// a rate of 1e19 1/s.
 constexpr double kInstant = 1e-25;
 constexpr double kLong = 1e12;  ///< [s] too long for viscous stress
 
@@ -27,7 +27,7 @@ Tensor full(const Symmetric3<double>& s) {
   return m;
 }
 
-/// Change of tau n for a small velocity gradient e a n, over e; whether it was in plastic flow.
+/// Change of tau n for a small velocity gradient e a n, divided by e, and whether the material flowed plastically.
 struct Probe {
   Vector response;
   bool flows;
@@ -61,7 +61,7 @@ Speeds speeds(const MaterialPoint& point, const Vector& n, double dt) {
   for (int axis = 0; axis < 3; ++axis) {
     const Probe forth = probe(point, Vector::Unit(axis), n, dt), back = probe(point, -Vector::Unit(axis), n, dt);
     const Vector mean = 0.5 * (forth.response - back.response);
-    // Plastic flow is one-sided: each side of the surface has its own tangent.
+    // Plastic flow is one-sided: each side of the yield surface has its own tangent.
     elastic.col(axis) = forth.flows == back.flows ? mean : Vector(forth.flows ? -back.response : forth.response);
     plastic.col(axis) = forth.flows == back.flows ? mean : Vector(forth.flows ? forth.response : -back.response);
   }
@@ -78,7 +78,7 @@ Speeds speeds(const MaterialPoint& point, const Vector& n, double dt) {
   return {confirmed(elastic, false), confirmed(plastic, true)};
 }
 
-/// The largest over many directions.
+/// The largest speeds over many directions.
 Speeds fastest(const MaterialPoint& point, double dt, std::mt19937& random, int directions) {
   std::normal_distribution<double> normal;
   Speeds found;
@@ -91,7 +91,7 @@ Speeds fastest(const MaterialPoint& point, double dt, std::mt19937& random, int 
   return {std::sqrt(found.elastic), std::sqrt(found.plastic)};
 }
 
-/// What has opened carries less than its speed says, which is that of the material closed again.
+/// Whether the material has opened: it is then softer than its wave speed, which is that of closed material.
 bool parted(const MaterialPoint& point) {
   if (std::holds_alternative<DruckerPrager>(point.law())) return point.history(DruckerPrager::kOpening) > 0.0;
   if (std::holds_alternative<MohrCoulomb>(point.law())) return point.history(MohrCoulomb::kOpening) > 0.0;
@@ -106,10 +106,10 @@ TEST(WaveSpeed, IsThatOfTheElasticStateAtTheStart) {
   std::mt19937 random(1);
   for (const Specimen& specimen : zoo()) {
     MaterialPoint point(specimen.material);
-    // Without tension there is none on one side of the start: a breath of pressure.
+    // Without tension there is no stress on one side of the start, so a slight pressure is applied.
     if (specimen.material.name == "free_surface_fluid") point.advance({-1e-5, 0, 0, 0, 0, 0, 0, 0, 0}, kLong);
     const double found = fastest(point, probe_time(specimen), random, 50).elastic;
-    // Differences of increments of 1e-6: second order where central, and 1e-16 / 1e-6 of round-off.
+    // Differences of increments of 1e-6: second order where central, and round-off of 1e-16 / 1e-6.
     EXPECT_NEAR(point.wave_speed(), found, 1e-6 * found) << specimen.material.name;
   }
 }
@@ -120,7 +120,7 @@ TEST(WaveSpeed, BoundsTheTangentInEveryState) {
     double closest = 1e9, farthest = 0.0;
     for (int state = 0; state < 60; ++state) {
       MaterialPoint point = worked(specimen, random, 1 + state);
-      // The viscous part of the last stress is no state of the fluid.
+      // The viscous part of the last stress does not belong to the state of the fluid.
       if (probe_time(specimen) == kLong) point.advance({}, kLong);
       const Speeds found = fastest(point, probe_time(specimen), random, 100);
       const double ratio = point.wave_speed() / std::max(found.elastic, found.plastic);

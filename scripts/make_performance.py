@@ -105,9 +105,9 @@ def scenes_part(runs, roofline):
              f"({min(len(run['rates']) for run in runs)} with a million particles and with the plain kernels), "
              "taken in turns, with the largest deviation of a run from it. One thread is timed by its processor time "
              "and by the wall clock, two threads by the wall clock. The share is that of the counted multiply-adds "
-             "(next chapter) in the measured limit of this instruction set, precision and number of threads; contact "
-             "and the law of soil are not counted. The next columns are the rate of one thread over that of other MPM codes, "
-             "where the problem is the same; two threads over one by the wall clock; and the process's memory where it "
+             "(next chapter) in the measured limit of this instruction set, precision and number of threads; "
+             "contact and the law of soil are not counted. The next columns are the rate of one thread over that of "
+             "other MPM codes, where the problem is the same; two threads over one by the wall clock; and the process's memory where it "
              "is large.", "",
              "![Whole scenes](images/performance/scenes.png)", ""]
     rows = []

@@ -107,8 +107,8 @@ def scenes_part(runs, roofline):
              "and by the wall clock, two threads by the wall clock. The share is that of the counted multiply-adds "
              "(next chapter) in the measured limit of this instruction set, precision and number of threads; "
              "contact and the law of soil are not counted. The next columns are the rate of one thread over that of "
-             "other MPM codes, where the problem is the same; two threads over one by the wall clock; and the process's memory where it "
-             "is large.", "",
+             "other MPM codes, where the problem is the same; two threads over one by the wall clock; and the "
+             "process's memory where it is large.", "",
              "![Whole scenes](images/performance/scenes.png)", ""]
     rows = []
     like_field = [(name, "double") for name in LIKE_FIELD]

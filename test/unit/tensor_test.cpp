@@ -90,9 +90,8 @@ TYPED_TEST(TensorTest, ExponentialIsTheTaylorSumToTheTermAskedFor) {
   }
 }
 
-// Method reference 7: a pure rotation by theta per step raises J by theta^2 (k = 1) or theta^4 / 4 (k = 2). Jacobi
-// rotations give the exact values; the errors of the bounds are as stated in the header. The tensors include ones with
-// two equal or nearly equal values, where the third of an angle is sensitive to round-off.
+// Jacobi rotations give the exact values; the errors of the bounds are as stated in the header. The tensors include
+// ones with two equal or nearly equal values, where the third of an angle is sensitive to round-off.
 template <class T>
 void expect_bounds(double round_off, double loose) {
   std::mt19937 engine(7);
@@ -146,6 +145,7 @@ TEST(PrincipalBounds, OfAPlaneAreItsValues) {
   }
 }
 
+// Method reference 7: a pure rotation by theta per step raises J by theta^2 (k = 1) or theta^4 / 4 (k = 2).
 TEST(Exponential, GrowsVolumeUnderRotationAsTheorySays) {
   const double theta = 0.1;
   MatrixPlane<double> spin{0.0, theta, -theta, 0.0, 0.0};

@@ -1,6 +1,6 @@
-// What must hold to round-off in an axisymmetric run, of every shape function, update and transfer: the momentum audit
-// along both axes, motion along the axis, the mass of bodies of revolution; that no ring crosses the axis; and energy,
-// kept as well as in a plane.
+// Properties that hold to round-off in an axisymmetric run, for every shape function, update and transfer: the momentum
+// audit along both axes, motion along the axis, the mass of bodies of revolution; that no ring crosses the axis; and
+// energy, which is conserved as well as in a plane.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kCell = 0.1, kDensity = 1000.0, kYoung = 1e6;  ///< [m], [kg/m^3], [Pa]
 constexpr TransferKind kTransfers[] = {TransferKind::flip, TransferKind::xpic, TransferKind::fmpm, TransferKind::apic};
 
-/// A cylinder about the axis, four particles a cell, on a grid of 3 m; in a plane the right half of a block.
+/// A cylinder about the axis, four particles per cell, on a grid of 3 m; in a plane the right half of a block.
 SimulationDefinition cylinder(double radius, double bottom, double top,
                               GeometryKind geometry = GeometryKind::axisymmetric) {
   SimulationDefinition d;
@@ -40,7 +40,7 @@ SimulationDefinition cylinder(double radius, double bottom, double top,
   return d;
 }
 
-/// visit(method, its name) for every method of axisymmetric scenes.
+/// Calls visit(method, its name) for every method of axisymmetric scenes.
 template <class Visit>
 void each_method(Visit&& visit) {
   for (const ShapeKind shape :
@@ -59,8 +59,8 @@ void each_method(Visit&& visit) {
   }
 }
 
-// Gravity, walls, damping in either place and random motion; radially the sum is closed by the axis and the hoop
-// stress, of which each is found from its own nodes and forces.
+// Gravity, walls, damping on nodes or particles, and random motion. Along the radius the axis and the hoop stress close
+// the sum, each computed from its own nodes and forces.
 TEST(AxisymmetricConservation, AuditClosesAlongBothAxes) {
   each_method([](const MethodDefinition& method, const std::string& name) {
     SimulationDefinition d = cylinder(0.6, 0.0, 0.8);
@@ -88,7 +88,8 @@ TEST(AxisymmetricConservation, AuditClosesAlongBothAxes) {
   });
 }
 
-// What is there for comparison keeps it too: planar functions with either ghosts, domains across the axis, mean motion.
+// The audit also closes with the rules kept for comparison: planar functions with either kind of ghosts, domains across
+// the axis, mean motion.
 TEST(AxisymmetricConservation, AuditClosesWithOtherRulesAtTheAxis) {
   for (const ShapeKind shape :
        {ShapeKind::dirac, ShapeKind::ugimp, ShapeKind::ugimp_stretch, ShapeKind::cpdi, ShapeKind::qcpdi}) {
@@ -105,9 +106,9 @@ TEST(AxisymmetricConservation, AuditClosesWithOtherRulesAtTheAxis) {
           }
           Simulation simulation(d, {1});
           for (int i = 0; i < 4; ++i) simulation.advance();
-          // A domain across the axis has negative weights beyond it; nodes of negative mass take no part, and what they
-          // were given is lost: found at 1e-7 to 1e-6 here. A corner of qCPDI on the axis has the weight 0, give or
-          // take round-off, but a gradient: a node that it alone reaches may be left out too (2e-8 here).
+          // A domain across the axis has negative weights beyond it; nodes of negative mass take no part, and their
+          // momentum is lost: 1e-7 to 1e-6 was found here. A corner of qCPDI on the axis has weight 0 up to round-off,
+          // but a gradient: a node that only this corner reaches may be left out too (2e-8 here).
           const bool leaves_out =
               functions == AxisFunctions::weighted && (domains == AxisDomains::whole || shape == ShapeKind::qcpdi);
           EXPECT_LT(simulation.state().audit.residual, leaves_out ? 1e-5 : 1e-12)
@@ -135,7 +136,8 @@ TEST(AxisymmetricConservation, ThreadsChangeNoBit) {
   }
 }
 
-// A free body along z, two cells far: nothing radial and no strain comes of it. Some hundred steps of round-off.
+// A free body that moves two cells along z gets no radial motion and no strain, up to the round-off of some hundred
+// steps.
 TEST(AxisymmetricConservation, MotionAlongTheAxisIsKept) {
   each_method([](const MethodDefinition& method, const std::string& name) {
     SimulationDefinition d = cylinder(0.5, 0.4, 0.9);
@@ -159,9 +161,9 @@ TEST(AxisymmetricConservation, MotionAlongTheAxisIsKept) {
   });
 }
 
-// A cylinder that falls in on its axis: moved by the grid's velocity at its place a ring stays on its side, since the
-// grid's radial velocity is zero on the axis. XPIC and FMPM move particles by half their own velocity, which nothing
-// holds at zero there; that it is near enough is shown here, not proved.
+// A cylinder that collapses onto its axis. A ring that moves with the grid's velocity at its position stays on its
+// side, since the grid's radial velocity is zero on the axis. XPIC and FMPM move particles with half their own
+// velocity, which need not be zero there; that rings do not cross is shown here, not proved.
 TEST(AxisymmetricConservation, NoRingCrossesTheAxis) {
   each_method([](const MethodDefinition& method, const std::string& name) {
     SimulationDefinition d = cylinder(0.6, 0.5, 1.1);
@@ -179,13 +181,13 @@ TEST(AxisymmetricConservation, NoRingCrossesTheAxis) {
       least_j = std::min(least_j, *std::min_element(j.begin(), j.end()));
     }
     EXPECT_GT(least, 0.0) << name;
-    EXPECT_LT(least_j, 0.7) << name;  // it was a compression to speak of
+    EXPECT_LT(least_j, 0.7) << name;  // the compression was large
   });
 }
 
-// What point motion is for: the mean velocity of the mass in a box of fixed size is that of 4/3 of the first ring's
-// radius, and takes it across the axis (method reference 3.5), where the run ends. Moved by the velocity at its place
-// it stays, in the same run.
+// The reason for point motion: the mean velocity of the mass in a box of fixed size is that at 4/3 of the first ring's
+// radius, which takes the ring across the axis (method reference 3.5), where the run ends. With the velocity at its
+// position it stays, in the same run.
 TEST(AxisymmetricConservation, MeanMotionTakesTheFirstRingAcross) {
   const auto least_radius = [](AxisMotion motion) {
     SimulationDefinition d = cylinder(0.6, 0.5, 1.1);
@@ -222,18 +224,18 @@ double mass_of(const std::string& shape) {
   return simulation.state().audit.momentum.z();  // of 1 m/s
 }
 
-// 2 pi rho A <r> of rings that tile the section is the whole body's mass.
+// The masses 2 pi rho A <r> of rings that tile the section sum to the mass of the whole body.
 TEST(AxisymmetricConservation, MassIsThatOfTheWholeBody) {
   const double cylinder = kPi * 0.5 * 0.5 * 1.2 * 1000.0;
   EXPECT_NEAR(mass_of("cylinder: {center: [0, 1], radius: 0.5, height: 1.2, axis: z}"), cylinder, 1e-12 * cylinder);
   const double ring = kPi * (0.8 * 0.8 - 0.3 * 0.3) * 0.5 * 1000.0;
   EXPECT_NEAR(mass_of("box: {min: [0.3, 1.0], max: [0.8, 1.5]}"), ring, 1e-12 * ring);
-  // Forty particles a radius: cells are counted whole or not, errors of either sign on 60 at its rim. One in a hundred.
+  // Forty particles per radius: about 60 cells at the rim count fully or not at all, with errors of either sign. 1 %.
   const double sphere = 4.0 / 3.0 * kPi * 1000.0;
   EXPECT_NEAR(mass_of("sphere: {center: [0, 1.5], radius: 1}"), sphere, 0.01 * sphere);
 }
 
-/// Largest change of energy over two radial periods, of what there is; held between smooth walls along z.
+/// Largest relative change of energy over two radial periods, between smooth walls along z.
 double change_of_energy(GeometryKind geometry, const MethodDefinition& method) {
   SimulationDefinition d = cylinder(1.0, 0.0, 0.4, geometry);
   d.grid.max.z() = 0.4;
@@ -252,7 +254,7 @@ double change_of_energy(GeometryKind geometry, const MethodDefinition& method) {
   };
   const double start = energy();
   double change = 0.0;
-  // Of the longitudinal wave, four radii a period in a plane: 0.11 s.
+  // The period of the longitudinal wave, four radii in a plane: 0.11 s.
   for (int i = 0; i < 44; ++i) {
     simulation.advance();
     change = std::max(change, std::abs(energy() / start - 1.0));

@@ -1,5 +1,5 @@
-// Body forces as functions of time, place and place at the start: what they must give to bodies that move as a whole,
-// where the motion is known, and that the accounts close.
+// Body forces as functions of time, position and initial position: their effect on bodies that move as a whole, where
+// the motion is known, and closed accounts.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -64,7 +64,7 @@ Vec3 impulse(const mpm::SolverState& state, const std::string& name) {
   return Vec3::Zero();
 }
 
-// A uniform acceleration is gravity by another name: on a block that lands on a wall, the same motion to round-off.
+// A uniform acceleration is equivalent to gravity: a block that lands on a wall moves in the same way to round-off.
 TEST_P(BodyForceOf, UniformIsGravity) {
   const Vec3 g(1.0, 0.0, -9.81);
   auto falling = definition(mpm::NeoHookeanDefinition{{1e5, 0.3}});
@@ -87,7 +87,7 @@ TEST_P(BodyForceOf, UniformIsGravity) {
       scale = std::max(scale, std::abs(of_a[p]));
       worst = std::max(worst, std::abs(of_a[p] - of_b[p]));
     }
-    // (f + m g) / m against f / m + g: a digit a step, of which some hundreds grow in the bounce.
+    // (f + m g) / m against f / m + g: round-off of some hundred steps, which grows in the bounce.
     EXPECT_LT(worst, 1e-9 * scale) << name;
   }
   EXPECT_LT((impulse(a.state(), "gravity") - impulse(b.state(), "body_force")).norm(),
@@ -95,8 +95,8 @@ TEST_P(BodyForceOf, UniformIsGravity) {
   EXPECT_LT(b.state().audit.residual, 1e-10);  // of the momentum exchanged, as README.md promises of every run
 }
 
-// b = -w^2 (x - X) is the same for all particles of a block that moves as a whole, which therefore swings as
-// u = v0/w sin(w t). The error falls by four when the step is halved.
+// b = -w^2 (x - X) is the same for all particles of a block that moves as a whole, which therefore oscillates as u =
+// v0/w sin(w t). The error falls by four when the step is halved.
 TEST_P(BodyForceOf, SpringToTheStartIsSecondOrder) {
   const double w = 2.0 * M_PI, v0 = 1.0;
   const auto error = [&](double step) {
@@ -110,7 +110,7 @@ TEST_P(BodyForceOf, SpringToTheStartIsSecondOrder) {
     std::vector<double> x, j;
     simulation.particle_field("x", x);
     simulation.particle_field("j", j);
-    for (const double ratio : j) EXPECT_NEAR(ratio, 1.0, 1e-10);  // it did move as a whole
+    for (const double ratio : j) EXPECT_NEAR(ratio, 1.0, 1e-10);  // it moved as a whole
     const mpm::SolverState state = simulation.state();
     EXPECT_LT(state.audit.residual, 1e-10);
     // All work becomes kinetic energy, to round-off of the energy that it started with.
@@ -120,7 +120,7 @@ TEST_P(BodyForceOf, SpringToTheStartIsSecondOrder) {
   };
   const double coarse = error(5e-3), fine = error(2.5e-3);
   EXPECT_LT(coarse, 1e-3);
-  // Two, less what the next term of the error leaves at 200 steps a swing.
+  // Two, minus the effect of the next term of the error at 200 steps per oscillation.
   EXPECT_GT(std::log2(coarse / fine), 1.95);
 }
 
@@ -139,7 +139,8 @@ TEST_P(BodyForceOf, ImpulseIsTheIntegralOverTime) {
   EXPECT_LT(state.audit.residual, 1e-10);
 }
 
-// A load of X alone does not change while the block flies through the grid: m times the mean of X a second.
+// A load that depends on X only does not change while the block flies through the grid: its force is m times the mean
+// of X.
 TEST_P(BodyForceOf, LargePlacesStayWithTheMaterial) {
   auto d = definition(mpm::NeoHookeanDefinition{{1e5, 0.3}});
   d.bodies[0].velocities.assign(d.bodies[0].positions.size(), Vec3(5.0, 0.0, 3.0));
@@ -198,7 +199,7 @@ TEST(BodyForce, NamesThePlaceWhereItIsNotFinite) {
     EXPECT_EQ(text.find("body force on 'block', along y: expression 't < 0.1 ? 0 : sqrt(-1)' is not finite at t = 0.1"),
               0u)
         << text;
-    EXPECT_NE(text.find("place (0.525, 0.525, 0.525) m"), std::string::npos) << text;  // of its first particle
+    EXPECT_NE(text.find("place (0.525, 0.525, 0.525) m"), std::string::npos) << text;  // its first particle
   }
 }
 

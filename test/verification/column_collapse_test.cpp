@@ -1,11 +1,11 @@
 // A column of dry sand released on a rough floor: run-out against published scalings.
 //
 // There is no exact solution. Experiments in channels agree on (d - d0) / d0 ~ a for low columns and a^(2/3) for high
-// ones, a = h0 / d0, with factors that depend on the sand and on whom one asks: 1.2 a and 1.9 a^(2/3) (G. Lube,
-// H. E. Huppert, R. S. J. Sparks, M. A. Freundt 2005), 1.8 a and 2.3 a^(2/3) (E. Lajeunesse, J. B. Monnier, G. M. Homsy
-// 2005); a continuum with the mu(I) law ran 2.2 a (P.-Y. Lagree, L. Staron, S. Popinet 2011, who collect these
-// factors). The factors are quoted from secondary sources. Sure besides: sand without cohesion cannot rest steeper than
-// its friction angle, a low column keeps its height, and a higher column runs out farther.
+// ones, a = h0 / d0, with factors that differ between sands and authors: 1.2 a and 1.9 a^(2/3) (G. Lube, H. E. Huppert,
+// R. S. J. Sparks, M. A. Freundt 2005), 1.8 a and 2.3 a^(2/3) (E. Lajeunesse, J. B. Monnier, G. M. Homsy 2005); a
+// continuum with the mu(I) law ran 2.2 a (P.-Y. Lagree, L. Staron, S. Popinet 2011, who collect these factors). The
+// factors are quoted from secondary sources. In addition it is certain that sand without cohesion cannot rest steeper
+// than its friction angle, that a low column keeps its height, and that a higher column runs out farther.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -26,13 +26,13 @@ constexpr double kStrip = 0.25 * kWidth;  // [m]
 struct Collapse {
   double aspect = 0.0;
   double run_out = 0.0;  ///< (d - d0) / d0
-  double height = 0.0;   ///< final, of the strip at x = 0, over d0
-  double slope = 0.0;    ///< of the deposit, steepest mean over d0 [degrees]
-  double kinetic = 0.0;  ///< left at the end, over the potential energy that was lost
+  double height = 0.0;   ///< final height of the strip at x = 0, over d0
+  double slope = 0.0;    ///< slope of the deposit, steepest mean over d0 [degrees]
+  double kinetic = 0.0;  ///< kinetic energy at the end, over the potential energy lost
   Numbers x, surface;    ///< the deposit, over d0
 };
 
-/// Column of height aspect * d0, `cells` on d0, run for 6 sqrt(h0 / g): twice as long as published collapses last.
+/// Column of height aspect * d0, `cells` on d0, run for 6 sqrt(h0 / g), twice the duration of published collapses.
 Collapse collapse(double aspect, int cells) {
   const double cell = kWidth / cells;
   const double end = std::round(6.0 * std::sqrt(aspect * kWidth / 9.81) / 0.005) * 0.005;
@@ -47,8 +47,8 @@ Collapse collapse(double aspect, int cells) {
   Collapse result;
   result.aspect = aspect;
   result.kinetic = energy.kinetic / (potential - energy.potential);
-  // The surface is where the sand of a strip reaches to at its first density. For the front the strips are cells; for
-  // heights and slopes a quarter of d0, as particles of sand that has been drawn out lie unevenly among cells.
+  // The surface is the height of a strip's sand at its initial density. For the front the strips are cells; for heights
+  // and slopes they are a quarter of d0, as particles of drawn-out sand are distributed unevenly among cells.
   const auto depths = [&](double width) {
     Numbers depth;
     for (const double at : x) {
@@ -94,7 +94,7 @@ void verify(verification::Page& page, const std::vector<double>& aspects, int ce
     const double low = aspect < 1.8 ? 1.2 * aspect : 1.9 * std::pow(aspect, 2.0 / 3.0);
     page.beside(label + ": run-out, beside Lube et al.", result.run_out, low, "d0");
     page.report(label + ": final height", result.height, "d0");
-    // Published factors differ by 1.8 (1.2 to 2.2 a); two cells is what the grid can tell of a front.
+    // Published factors differ by 1.8 (1.2 to 2.2 a); a front is resolved to two cells.
     const double most = aspect < 3.0 ? 2.2 * aspect : 3.9 * std::pow(aspect, 0.7);
     EXPECT_GE(result.run_out, std::min(low, 1.2 * aspect) - 2.0 / cells) << label;
     EXPECT_LE(result.run_out, most + 2.0 / cells) << label;

@@ -1,4 +1,4 @@
-// What must hold to round-off in any run: free fall, momentum audit, the same bits for any number of threads.
+// Properties that hold to round-off in any run: free fall, momentum audit, the same bits for any number of threads.
 #include <gtest/gtest.h>
 
 #include "mpm/simulation/simulation.hpp"
@@ -88,7 +88,7 @@ TEST_P(EveryMethod, AuditClosesWithWallsGravityDampingAndPic) {
     if (impulse.name == "wall/z_min") wall_z = impulse.impulse.z();
     if (impulse.name == "damping") damping = impulse.impulse.norm();
   }
-  // Both walls were hit, and damping worked: the audit had something to close.
+  // The block hit both walls and damping acted, so the audit is not trivial.
   EXPECT_GT(wall_x, 0.0);
   EXPECT_GT(wall_z, 0.0);
   EXPECT_GT(damping, 0.0);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-// Pressure is the weight above: rho g depth below the surface, the surface where the water came to rest. Compressed by
-// its own weight by rho g H / (2 K) = 0.2 % on average (sound 50 m/s): neglected. Source: exact-solutions 9.
+// Pressure is the weight above, rho g times the depth below the surface of the water at rest. Compressed by its own
+// weight by rho g H / (2 K) = 0.2 % on average (sound 50 m/s): neglected. Source: exact-solutions 9.
 TEST(Fluid, WaterInATankCarriesItsWeight) {
   Page page("fluid", "tank", "Water at rest");
   page.scene("test/verification/scenes/tank.yaml");
@@ -50,8 +50,8 @@ TEST(Fluid, WaterInATankCarriesItsWeight) {
   page.near("slope of pressure over depth", with_depth / depth_depth, base, 0.01, "Pa/m");
   page.below("largest error of a row of cells' mean, over the pressure at the base", 100.0 * worst_row / base, 1.0,
              "%");
-  // The grid gives all particles of a cell nearly one gradient of velocity, so one pressure: a quarter of a cell of
-  // depth off, h / 4 H = 1.25 %.
+  // All particles of a cell get nearly the same velocity gradient, so the same pressure, which is off by a quarter of a
+  // cell of depth, h / 4 H = 1.25 %.
   page.below("root mean square error of single particles, over the pressure at the base",
              100.0 * std::sqrt(squares / static_cast<double>(z.size())) / base, 1.25, "%");
   page.below("largest shear stress", shear, 1e-3 * base, "Pa");
@@ -171,11 +171,11 @@ TEST(Fluid, SoundStandsInABoxOfAir) {
   }
   for (double& t : time) t *= 1e3;
   const double found = 2.0 * (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
-  // 40 cells a half wave: the period of the bar at 20 cells is asked to 0.5 %.
+  // 40 cells per half wave; for comparison, the bar with 20 cells must have its period within 0.5 %.
   page.near("period", 1e3 * found, 1e3 * period, 0.005, "ms");
   const double exact_swing = kDensity * speed * 0.1;
   page.near("largest pressure above the ambient one", swing, exact_swing, 0.05, "Pa");
-  // One law gives pressure and temperature: their ratio is exact but for the square of the swing, 4e-4.
+  // Pressure and temperature follow from one law: their ratio is exact up to the square of the amplitude, 4e-4.
   page.near("largest warming, over that pressure", warming / swing, kTemperature * (kRatio - 1.0) / kRatio / kPressure,
             1e-3, "K/Pa");
   page.figure()

@@ -1,6 +1,6 @@
-// Soil at rest at the start. On the grid's own lattice the weight of the particles above is exactly in balance with the
-// nodal forces, so a level bed is at rest to round-off at once; where there is no such stress (free sides, slopes), the
-// bed settles to the residual that was asked for.
+// Soil at rest at the start. On the grid's lattice the weight of the particles above is exactly in balance with the
+// nodal forces, so a level bed is at rest to round-off immediately. Where no such stress exists (free sides, slopes),
+// the bed settles to the required residual.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,8 +52,8 @@ std::string level_bed(const std::string& law, const std::string& geometry = "pla
 
 const std::string kSand = "law: drucker_prager, young: 1 MPa, poisson: 0.3, friction_angle: 34 deg";
 
-// Vertical stress rho g times depth, horizontal stress k0 of it; nothing moves for a second without damping. The first
-// cell is no exception here: its nodes beyond the surface carry little mass and as little weight.
+// Vertical stress rho g times depth, horizontal stress k0 of it; nothing moves for a second without damping. This
+// includes the first cell: its nodes beyond the surface carry little mass and little weight.
 TEST(Geostatic, LevelBedRestsExactly) {
   const struct {
     std::string law;
@@ -87,15 +87,16 @@ TEST(Geostatic, LevelBedRestsExactly) {
   }
 }
 
-// The same bed without: its weight comes on at once and it bounces. The first swing of a column under its weight
-// reaches the speed g H / c, c the wave speed (a wave of speed -g t runs down from nothing held): 0.17 m/s here.
+// The same bed without a geostatic start: its weight acts suddenly and it bounces. The first swing of a column under
+// its weight reaches the speed g H / c with the wave speed c (a wave of speed -g t runs down from the free surface):
+// 0.17 m/s here.
 TEST(Geostatic, WithoutItTheBedBounces) {
   mpm::Simulation run = simulation(level_bed(kSand), {"bodies.bed.initial={velocity: [0, 0]}"});
   const double c = std::sqrt(1e6 * 0.7 / (1.3 * 0.4) / 1600.0);
   EXPECT_GT(largest_speed(run, 0.2), 0.5 * kG * 0.5 / c);
 }
 
-// Layers: heavy over light over heavy, each with its own k0; every particle carries what lies above it.
+// Layers: heavy over light over heavy, each with its own k0; every particle carries the weight above it.
 TEST(Geostatic, LayersCarryEachOther) {
   const std::string scene =
       "grid: {cell: 0.1, min: [0, 0, 0], max: [0.4, 0.4, 1]}\n"
@@ -126,13 +127,13 @@ TEST(Geostatic, LayersCarryEachOther) {
   }
 }
 
-// Water in a basin: k0 is 1, and the weight strains it, so that the stress that is exact at the start is settled for
-// the particles that have one mass between them.
+// Water in a basin: k0 is 1, and the weight compresses the water, so the initial stress has to settle, because all
+// particles have the same mass.
 TEST(Geostatic, WaterRestsInItsBasin) {
   mpm::Simulation run =
       simulation(level_bed("law: newtonian_fluid, bulk_modulus: 2 MPa, viscosity: 0.001"), {"boundaries.z_min=slip"});
-  // Asked: 1e-3 of the weight out of balance, which a swing of the column turns into 1e-3 g H / c, c = 35 m/s; three
-  // times that for the modes that swing together.
+  // Required: a residual of 1e-3 of the weight, which an oscillation of the column turns into 1e-3 g H / c, c = 35 m/s;
+  // three times that for several modes together.
   EXPECT_LT(largest_speed(run, 0.5), 3.0 * 1e-3 * kG * 0.5 / 35.0);
   const std::vector<double> z = field(run, "z"), p = field(run, "p");
   for (std::size_t i = 0; i < z.size(); ++i) {
@@ -140,7 +141,7 @@ TEST(Geostatic, WaterRestsInItsBasin) {
   }
 }
 
-// A soft block with free sides: it cannot stay under the horizontal stress that it is given, and settles.
+// A soft block with free sides cannot carry the horizontal stress of a bed, and settles.
 TEST(Geostatic, AFreeBlockSettlesToTheResidualAskedFor) {
   const std::string scene =
       "geometry: plane_strain\n"
@@ -160,7 +161,8 @@ TEST(Geostatic, AFreeBlockSettlesToTheResidualAskedFor) {
     EXPECT_EQ(run.time(), 0);
     EXPECT_EQ(run.state().energy.kinetic, 0.0);
     EXPECT_GT(run.state().energy.elastic, 0.0);
-    // The unbalanced part of gravity makes the same swing as all of it did, scaled; ten times that for its modes.
+    // The unbalanced part of gravity causes the same oscillation as all of it, scaled; ten times that for several
+    // modes.
     EXPECT_LT(largest_speed(run, 0.3), 10.0 * std::stod(residual) * before) << residual;
     // Mean vertical stress: half of the weight above the base.
     const std::vector<double> szz = field(run, "szz");
@@ -171,7 +173,8 @@ TEST(Geostatic, AFreeBlockSettlesToTheResidualAskedFor) {
   }
 }
 
-// A pile that is steeper than the sand can stand slides down before the run begins; and a tool that will move is held.
+// A pile that is steeper than the sand can stand slides down before the run begins; and a tool that will move is kept
+// at rest until then.
 TEST(Geostatic, ToolsAreHeldAndAPileSlidesFirst) {
   const std::string scene =
       "geometry: plane_strain\n"
@@ -190,7 +193,7 @@ TEST(Geostatic, ToolsAreHeldAndAPileSlidesFirst) {
   mpm::Simulation run = simulation(scene);
   EXPECT_EQ(run.bodies()[0].pose.position.x(), 0.4);
   const std::vector<double> x = field(run, "x"), z = field(run, "z");
-  EXPECT_GT(*std::max_element(x.begin(), x.end()), 1.05);  // it slid to the right, away from the plate
+  EXPECT_GT(*std::max_element(x.begin(), x.end()), 1.05);  // the sand slid to the right, away from the plate
   EXPECT_GT(*std::min_element(x.begin(), x.end()), 0.45);
   ASSERT_EQ(run.state().audit.impulses.size(), 3u);
   for (const mpm::NamedImpulse& impulse : run.state().audit.impulses) EXPECT_EQ(impulse.impulse.norm(), 0.0);

@@ -28,7 +28,7 @@ const double kTan = std::tan(kPi / 6.0);  // phi = 30 degrees
 const double kEta = 3.0 * kTan / std::sqrt(9.0 + 12.0 * kTan * kTan);
 
 struct Slide {
-  Numbers time, velocity;     ///< of the upper half of the strip's middle [s], [m/s]
+  Numbers time, velocity;     ///< time, and velocity of the upper half of the strip's middle [s], [m/s]
   double acceleration = 0.0;  ///< slope of the straight line through them from kFrom to kTo [m/s^2]
 };
 
@@ -86,7 +86,8 @@ TEST(InfiniteSlope, StaysOrSlidesAsItsFrictionSays) {
   auto& panel = page.figure().panel("Speed of the layer", "time [s]", "v [m/s]");
   const auto draw = [&](const std::string& label, double degrees, double friction, const Slide& run) {
     panel.line(label, run.time, run.velocity);
-    // Through the middle of what was measured: how fast it set out depends on the shock of loading at once.
+    // The line goes through the mean of the measured values, since the initial velocity depends on the shock of sudden
+    // loading.
     double mean = 0.0;
     int count = 0;
     for (std::size_t i = 0; i < run.time.size(); ++i) {
@@ -99,7 +100,7 @@ TEST(InfiniteSlope, StaysOrSlidesAsItsFrictionSays) {
     panel.exact(run.acceleration < 0.1 ? "exact acceleration" : "", {kFrom, kTo}, {mean - half, mean + half});
   };
 
-  // 5 % of what a layer without friction has: the weight comes at once, and the layer swings on its foot.
+  // 5 % of the acceleration without friction: the weight acts suddenly, and the layer oscillates on its foot.
   const Slide resting = slide(20.0, "sand");
   const double free = kGravity * std::sin(20.0 * kPi / 180.0);
   page.near_absolute("20°, Drucker-Prager: acceleration over g sin θ", resting.acceleration / free, 0.0, 0.05, "-");

@@ -1,11 +1,11 @@
 // A thick elastic cylinder under a pressure inside (Lamé), about its axis and as a quarter of its section in plane
 // strain.
 //
-// Exact: sigma_r = A - B / r^2, sigma_theta = A + B / r^2, A = p a^2 / (b^2 - a^2), B = p a^2 b^2 / (b^2 - a^2),
-// u = (1 + nu) / E ((1 - 2 nu) A r + B / r). The pressure is 1e-6 of Young's modulus: what is of second order in strain
-// is below every error here. In the quarter the rims are stairs of particles; a pressure on the faces of stairs has the
-// resultant of that on the circle.
-// Source: Timoshenko and Goodier, Theory of Elasticity, section 28; tractions on edge 4: Nairn & Guilkey (2015) 3.4.
+// Exact: sigma_r = A - B / r^2, sigma_theta = A + B / r^2, A = p a^2 / (b^2 - a^2), B = p a^2 b^2 / (b^2 - a^2), u = (1
+// + nu) / E ((1 - 2 nu) A r + B / r). The pressure is 1e-6 of Young's modulus, so effects of second order in strain are
+// below every error here. In the quarter the rims are stairs of particles; a pressure on the faces of the stairs has
+// the same resultant as on the circle. Source: Timoshenko and Goodier, Theory of Elasticity, section 28; tractions on
+// edge 4: Nairn & Guilkey (2015) 3.4.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ namespace {
 constexpr int kThreads = 1;                                      // tests run side by side
 constexpr double kInner = 0.1, kOuter = 0.2;                     // radii [m]
 constexpr double kYoung = 1e6, kPoisson = 0.3, kPressure = 1.0;  // [Pa]
-constexpr double kEnd = 0.15;  // the ramp ends at 0.05 s; what swings then has died to 1e-6 [s]
+constexpr double kEnd = 0.15;  // the ramp ends at 0.05 s; oscillations have then decayed to 1e-6 [s]
 constexpr double kA = kPressure * kInner * kInner / (kOuter * kOuter - kInner * kInner);
 
 double radial_stress(double r) { return kA * (1.0 - kOuter * kOuter / (r * r)); }
@@ -38,7 +38,7 @@ struct Pressed {
   Numbers r, us, radials, hoops;
 };
 
-/// Compares by the places at the start; `place` gives (r, radial displacement, sigma_r, sigma_theta) of a particle.
+/// Compares at the initial positions; `place` returns (r, radial displacement, sigma_r, sigma_theta) of a particle.
 template <class Place>
 Pressed measure(std::size_t count, double cell, Place place) {
   Pressed pressed;
@@ -63,7 +63,7 @@ struct Place {
   double r, u, radial, hoop;
 };
 
-/// `inner`: the least r of the grid.
+/// `inner`: the smallest r of the grid.
 Pressed about_axis(const std::string& shape, double cell, double inner = 0.0) {
   mpm::Simulation simulation = start(
       "lame_cylinder",
@@ -98,7 +98,7 @@ Pressed in_plane(mpm::ShapeKind shape, double cell) {
   const std::vector<mpm::Vec3> first = body.positions;
   d.bodies = {body};
   d.walls[0].kind = d.walls[4].kind = mpm::WallKind::slip;
-  for (const int face : {0, 4}) {  // where a row ends on a plane of symmetry, the wall bears it
+  for (const int face : {0, 4}) {  // where a row ends on a plane of symmetry, the wall carries it
     mpm::TractionDefinition pressure;
     pressure.body = "cylinder";
     pressure.face = face;
@@ -143,7 +143,7 @@ TEST(LameCylinder, Pressure) {
     const std::string name = names[m];
     std::vector<Pressed> runs;
     for (const double cell : {0.01, 0.005, 0.0025}) {
-      if (m == 2 && cell < 0.005) continue;  // stairs have no order to show
+      if (m == 2 && cell < 0.005) continue;  // no order of convergence is expected with stairs
       runs.push_back(m == 2 ? in_plane(mpm::ShapeKind::ugimp, cell) : about_axis(m == 0 ? "ugimp" : "cpdi", cell));
       errors[m].push_back(runs.back().u);
       hoops[m].push_back(runs.back().hoop);
@@ -158,13 +158,13 @@ TEST(LameCylinder, Pressure) {
       page.near(name + ": u of the innermost particles over Lamé's, 10 cells", runs[0].bore, 1.0, 0.025, "");
       continue;
     }
-    // Second order in u: half the error that 10 cells may have, (1/10)^2 / 2, at the bore, where it is largest.
+    // Second order in u: (1/10)^2 / 2 for 10 cells, at the bore, where the error is largest.
     page.near(name + ": u of the innermost particles over Lamé's, 10 cells", runs[0].bore, 1.0, 0.005, "");
     page.report(name + ": root mean square error of u over u(a), 10 cells", 100.0 * runs[0].u, "%");
     page.report(name + ": the same of sigma_r over the pressure", 100.0 * runs[0].radial, "%");
     page.report(name + ": the same of sigma_theta over the pressure", 100.0 * runs[0].hoop, "%");
-    // What smooth problems have (method reference, section 6): second order in u, first in the stress of a particle,
-    // which is that of its cell; a tenth below for grids that are not yet fine.
+    // As for smooth problems (method reference, section 6): second order in u, and first order in the stress of a
+    // particle, which is that of its cell; the limit is a tenth lower because the grids are not yet fine.
     page.above(name + ": order of u, 20 to 40 cells", order(runs[1].u, runs[2].u), 1.9, "");
     page.above(name + ": order of sigma_r, 20 to 40 cells", order(runs[1].radial, runs[2].radial), 0.9, "");
     page.above(name + ": order of sigma_theta, 20 to 40 cells", order(runs[1].hoop, runs[2].hoop), 0.9, "");
@@ -188,8 +188,8 @@ TEST(LameCylinder, Pressure) {
         .points("radial", over(runs[0].r, 1e-3), runs[0].radials)
         .points("hoop", over(runs[0].r, 1e-3), runs[0].hoops);
   }
-  // A grid that begins outside the axis: no nodes at r = 0, and the same cylinder. To round-off of the places, 1e-16 of
-  // 0.1 m, over u(a), 2e-7 m.
+  // A grid that begins outside the axis: it has no nodes at r = 0, and the same cylinder. The difference is round-off
+  // of positions, 1e-16 of 0.1 m, over u(a), 2e-7 m.
   page.near_absolute("change of the error when the grid begins at r = 50 mm",
                      about_axis("cpdi", 0.01, 0.05).u - errors[1][0], 0.0, 1e-9, "");
   Panel& panel = page.figure().panel("Errors, root mean square", "cell / wall", "error").log_x().log_y().order(2.0);

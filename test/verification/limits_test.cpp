@@ -1,5 +1,5 @@
-// What a run refuses or survives at its edges: particles that leave slowly, tools that start at full speed, conditions
-// that would destabilise it, definitions that cannot be.
+// Limits of a run: particles that leave slowly, tools that start at full speed, conditions that would destabilise it,
+// impossible definitions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,10 +54,10 @@ TEST(Limits, NoticesASlowParticleOutsideAtOnce) {
   EXPECT_NE(text.find("outside the domain"), std::string::npos) << text;
   // The last column starts 0.025 m from the border: outside after 0.25 s.
   EXPECT_NEAR(1e-9 * static_cast<double>(simulation.time()), 0.24, 0.011);
-  EXPECT_NE(physics_error([&] { simulation.advance(); }), "");  // and stays failed
+  EXPECT_NE(physics_error([&] { simulation.advance(); }), "");  // and it stays failed
 }
 
-// Soft material thrown at a wall goes up to half a particle's box beyond it, and comes back.
+// Soft material thrown at a wall moves up to half a particle's box beyond it, and comes back.
 TEST(Limits, ParticlesPressedAgainstAWallStayInTheRun) {
   auto d = block(0.0, 0.5, 0.5, 2e4);
   set_velocity(d, {-5, 0.0, 0.0});
@@ -75,7 +75,8 @@ TEST(Limits, ParticlesPressedAgainstAWallStayInTheRun) {
   EXPECT_GT(simulation.state().audit.momentum.x(), 0.0);
 }
 
-// Rigid translation across every node at a whole number of steps a cell: values an ulp from the border of a tile.
+// Rigid translation across every node with a whole number of steps per cell: positions are an ulp from the border of a
+// tile.
 TEST(Limits, CrossesTilesOnAlignedLattices) {
   auto d = block(0.1, 0.6, 0.5);
   set_velocity(d, {1.0, 0.0, 0.5});
@@ -87,7 +88,7 @@ TEST(Limits, CrossesTilesOnAlignedLattices) {
   for (std::size_t p = 0; p < x.size(); ++p) EXPECT_NEAR(x[p], d.bodies[0].positions[p].x() + 1.0, 1e-12);
 }
 
-// Full speed from the first step, by a function: the step obeys it in the first period.
+// A tool has full speed from the first step, by a function, and the step respects it in the first period.
 TEST(Limits, CountsAToolsSpeedBeforeItMoves) {
   auto d = block(0.1, 0.5, 0.5);
   mpm::RigidBodyDefinition tool;
@@ -103,8 +104,8 @@ TEST(Limits, CountsAToolsSpeedBeforeItMoves) {
   EXPECT_EQ(step.limited_by.rfind("speed of 'tool'", 0), 0u) << step.limited_by;
 }
 
-// Two bodies, one four times as stiff: it limits the step, and the place named is in it. At rest and undeformed the
-// limit is cfl h / sqrt((K + 4 G / 3) / rho).
+// Two bodies, one four times as stiff: it limits the step, and the reported place lies in it. At rest and undeformed
+// the limit is cfl h / sqrt((K + 4 G / 3) / rho).
 TEST(Limits, NamesTheBodyThatLimitsTheStepAndThePlace) {
   auto d = block(0.1, 0.5, 0.5);
   auto stiff = block(1.0, 1.4, 0.5, 4e5);
@@ -128,8 +129,8 @@ TEST(Limits, NamesTheBodyThatLimitsTheStepAndThePlace) {
   EXPECT_NEAR(step.dt_last, 0.01 / steps, 1e-12);
 }
 
-// Tait's fluid is pressed by a piston: c^2 = K/rho J^(1 - n). The step falls with it and obeys the tangent at the
-// densest particle, without ever having been above the limit (the run would have ended).
+// Tait's fluid is compressed by a piston: c^2 = K/rho J^(1 - n). The step falls with it and respects the tangent at the
+// densest particle. It never exceeded the limit, or the run would have ended.
 TEST(Limits, FollowsWhatStiffens) {
   auto d = block(0.0, 2.0, 1.0);
   const double bulk = 1e5, exponent = 7.0;
@@ -152,7 +153,7 @@ TEST(Limits, FollowsWhatStiffens) {
   EXPECT_LT(state.step.dt_last, 0.7 * first);
 }
 
-// A plane has no end to turn about: the domain's size counts.
+// A plane is infinite, so for a turn the size of the domain counts.
 TEST(Limits, ATurningPlaneIsAsLargeAsTheDomain) {
   auto d = block(0.1, 0.5, 0.5);
   mpm::RigidBodyDefinition plane;
@@ -177,7 +178,7 @@ TEST(Limits, KeepsStrongDampingStable) {
   EXPECT_LT(std::abs(simulation.state().audit.momentum.x()), 1e-9);
 }
 
-// y does not exist in a planar scene: the audit closes whatever a definition says of it.
+// y does not exist in a planar scene: the audit closes whatever values a definition has along y.
 TEST(Limits, PlanarScenesIgnoreY) {
   auto d = block(0.1, 0.9, 0.5);
   d.gravity = {0.0, 3.0, -9.81};
@@ -194,7 +195,7 @@ TEST(Limits, PlanarScenesIgnoreY) {
   EXPECT_LT(simulation.state().audit.residual, 1e-10);
   EXPECT_NE(simulation.take_contact(0).mean.force.z(), 0.0);
   EXPECT_EQ(simulation.bodies()[0].pose.position.y(), 0.0);
-  // Half a turn about x has no part in the plane.
+  // Half a turn about x leaves the plane.
   EXPECT_THROW(simulation.command_pose(0, {{0.5, 0.0, 0.7}, mpm::Quat(0, 1, 0, 0)}, simulation.time() + 1),
                mpm::RigidError);
 }

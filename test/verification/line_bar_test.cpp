@@ -1,7 +1,7 @@
 // A line: a bar that vibrates along it, the strip between smooth walls that it stands for, and a piston that drives a
 // wave into it. With c = sqrt(M / rho), M the modulus of uniaxial strain (E where Poisson's ratio is 0):
-//   a bar fixed at x = 0 and free at x = L, started with v0 sin(pi x / 2L), has the period 4 L / c   (exact-solutions
-//   1) a piston of velocity v presses with rho c v an area until its wave is back (exact-solutions 10)
+//   a bar fixed at x = 0 and free at x = L, started with v0 sin(pi x / 2L), has the period 4 L / c (exact-solutions 1);
+//   a piston of velocity v presses with rho c v per area until its wave is back (exact-solutions 10).
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr double kPeriod = 4.0 * kLength / kSpeed;
 struct Vibration {
   Numbers time, mode;   // [s], amplitude of sin(pi X / 2L) in the displacement [m]
   double drift = 0.0;   // largest change of kinetic + elastic energy, over the start
-  double across = 0.0;  // largest coordinate beside x
+  double across = 0.0;  // largest coordinate along y or z
 };
 
 /// Ten and a quarter periods.
@@ -70,8 +70,8 @@ TEST(LineBar, KeepsItsPeriodAndAmplitude) {
       .scene("vibrating_line");
   const double exact = 1e-4 * kSpeed / (0.5 * kPi / kLength * kSpeed);
   const Vibration usavg = vibrate({}), usf = vibrate({"method.update=usf"});
-  // The grid's waves are slow by the square of cell over wave length, (2 pi / 80)^2 / 24 = 0.03 %; the rest is the
-  // step.
+  // Waves on the grid are too slow by the square of cell over wave length, (2 pi / 80)^2 / 24 = 0.03 %; the rest comes
+  // from the step.
   page.near("period, USAVG", 1e3 * period(usavg), 1e3 * kPeriod, 0.002, "ms");
   page.near("period, USF", 1e3 * period(usf), 1e3 * kPeriod, 0.005, "ms");
   // At 10 1/4 periods the displacement is at its largest; by then a period's error of 0.2 % has turned the phase by 7
@@ -79,7 +79,7 @@ TEST(LineBar, KeepsItsPeriodAndAmplitude) {
   page.near("amplitude after ten periods, USAVG", 1e6 * usavg.mode.back(), 1e6 * exact, 0.01, "µm");
   page.report("largest drift of the energy, USAVG", 100.0 * usavg.drift, "% of the start");
   page.report("largest drift of the energy, USF", 100.0 * usf.drift, "% of the start");
-  EXPECT_EQ(usavg.across, 0.0);  // nothing is or moves beside the line
+  EXPECT_EQ(usavg.across, 0.0);  // nothing lies or moves off the line
   Numbers exact_mode, milliseconds, micrometres;
   for (std::size_t i = usavg.time.size() - 250; i < usavg.time.size(); ++i) {
     milliseconds.push_back(1e3 * usavg.time[i]);
@@ -93,8 +93,8 @@ TEST(LineBar, KeepsItsPeriodAndAmplitude) {
 }
 
 // The same problem in two dimensions: a strip one cell high between smooth walls, in plane strain. Whatever the law,
-// the shape function's weights along z add up to one, so particles do the same but for round-off. The tip travels
-// by more than a cell.
+// the shape function's weights along z add up to one, so particles move in the same way up to round-off. The tip
+// travels by more than a cell.
 TEST(LineBar, IsAStripBetweenSmoothWalls) {
   for (const char* law : {"neo_hookean", "linear_elastic"}) {
     const std::vector<std::string> material = {fmt::format("materials.bar.law={}", law), "materials.bar.poisson=0.3"};
@@ -114,7 +114,7 @@ TEST(LineBar, IsAStripBetweenSmoothWalls) {
     EXPECT_GT(travel, line.definition().grid.cell.x());
     struct Scale {
       const char* field;
-      double size;  // that round-off is measured by
+      double size;  // reference for round-off
     };
     for (const auto& [name, size] :
          {Scale{"x", 1.0}, {"vx", 10.0}, {"sxx", 1e5}, {"syy", 1e5}, {"szz", 1e5}, {"j", 1.0}}) {
@@ -151,7 +151,7 @@ TEST(LineBar, APistonDrivesAWaveOfConstantStress) {
   page.near("force on the piston, mean of 1 to 15 ms", 1e3 * contact.mean.force.x(), 1e3 * force, 0.01, "mN");
   EXPECT_EQ(contact.mean.force.y(), 0.0);
   EXPECT_EQ(contact.mean.force.z(), 0.0);
-  // The wave is in the free half by now, 0.75 m of rod behind it are compressed by v / c.
+  // The wave is in the free half now, and 0.75 m of rod behind it are compressed by v / c.
   const std::vector<double> sxx = field(simulation, "sxx"), szz = field(simulation, "szz"), x = field(simulation, "x");
   double along = 0.0, beside = 0.0, count = 0.0;
   for (std::size_t p = 0; p < x.size(); ++p) {
@@ -160,7 +160,7 @@ TEST(LineBar, APistonDrivesAWaveOfConstantStress) {
   }
   ASSERT_GT(count, 5.0);
   page.near("stress behind the piston", -along / count, density * wave * speed, 0.02, "Pa");
-  // nu / (1 - nu): uniaxial strain, and no more than round-off beside it.
+  // nu / (1 - nu): uniaxial strain.
   EXPECT_NEAR(beside / along, poisson / (1.0 - poisson), 1e-3);
   page.below("momentum left over by the audit", simulation.state().audit.residual, 1e-10, "of what was exchanged");
 }

@@ -1,9 +1,9 @@
-// A manufactured solution along the axes: in a unit square or cube whose faces are held along their normals, a body
+// A manufactured solution along the axes: in a unit square or cube whose faces are fixed along their normals, a body
 // force makes every particle follow u_i = s_i A sin(pi X_i) sin(c pi t), A = 0.001, with s = +1 along x and y, -1 along
 // z. Signs are phases of 0 and pi, for which displacement and F begin at rest and only velocities are given at the
-// start. With the neo-Hookean energy of Nairn & Guilkey (2015) eq. (64), W = K/2 [(J^2 - 1)/2 - ln J] +
-// G/2 (I1 J^(-2/3) - 3), the force is found by differentiating P_i = [K/2 (J^2 - 1) + G J^(-2/3) (F_i^2 - I/3)] / F_i
-// by X_i. It is written out in the scene.
+// start. With the neo-Hookean energy of Nairn & Guilkey (2015) eq. (64), W = K/2 [(J^2 - 1)/2 - ln J] + G/2 (I1
+// J^(-2/3) - 3), the force is found by differentiating P_i = [K/2 (J^2 - 1) + G J^(-2/3) (F_i^2 - I/3)] / F_i by X_i.
+// It is written out in the scene.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr double kAmplitude = 0.001;  // of the scenes [m]
 
 struct Error {
   int cells = 0;
-  double rms = 0.0, worst = 0.0;  // over A; the largest of one period
+  double rms = 0.0, worst = 0.0;  // over A; the largest value of one period
   Numbers time, history;          // [s], RMS error over A
 };
 
@@ -55,7 +55,7 @@ Error measure(const std::string& scene, int cells, const std::string& update) {
     error.history.push_back(rms);
     error.rms = std::max(error.rms, rms);
   }
-  EXPECT_NEAR(static_cast<double>(simulation.state().step.steps), 2.0 / step, 0.5);  // the step asked for
+  EXPECT_NEAR(static_cast<double>(simulation.state().step.steps), 2.0 / step, 0.5);  // the step prescribed by the scene
   return error;
 }
 
@@ -68,7 +68,7 @@ const char* const kExact =
     "[5I/(9F_i²) - "
     "1/3] - c² }.";
 
-/// Errors of one family of grids, with the order between each and the next checked.
+/// Shows the errors of one family of grids, and checks the order between each grid and the next.
 void check_order(Page& page, const std::string& what, const std::vector<Error>& errors) {
   for (const Error& error : errors) {
     page.report(fmt::format("{}: RMS error over A, {} cells", what, error.cells), error.rms, "");
@@ -92,7 +92,7 @@ void draw(Panel& panel, const std::string& label, const std::vector<Error>& erro
 }
 
 // The scheme is second order in the cell, and USAVG in the step: with a step proportional to the square of the cell the
-// error falls with its square. 1.8 is what the project asks for.
+// error falls with its square. The project requires 1.8.
 TEST(Manufactured, OrderOfAccuracyInThePlane) {
   Page page("waves", "manufactured", "A manufactured solution along the axes");
   page.problem(

@@ -1,9 +1,8 @@
-// A bar of metal is pressed past its yield stress by a smooth plate: uniaxial stress. With linear hardening H the
+// A bar of metal is compressed past its yield stress by a smooth plate, in uniaxial stress. With linear hardening H the
 // Kirchhoff stress along the axis follows
 //   tau = yield + H a,   a = |ln(stretch)| - tau / E
 // once it has yielded, so tau = (yield + H |ln stretch|) / (1 + H / E). Elastic strain is below 0.5 %, so finite
-// elastic strain changes this by that part of itself. Source: the definition of linear isotropic hardening; derived
-// here.
+// elastic strain changes tau by that fraction. Source: the definition of linear isotropic hardening; derived here.
 #include <algorithm>
 #include <cmath>
 
@@ -71,11 +70,11 @@ TEST(Metal, BarYieldsAndHardens) {
     pressed.push_back(force_stress / 1e6);
   }
   ASSERT_GT(strain, 0.02);
-  // 1 %: what the elastic part of the strain (0.4 %) and the scatter of stress within cells may do together.
+  // 1 %: the elastic part of the strain (0.4 %) and the scatter of stress within cells together.
   page.near("Kirchhoff stress at the end", tau / 1e6, kirchhoff(strain) / 1e6, 0.01, "MPa");
   page.near("plastic strain at the end", plastic, strain - kirchhoff(strain) / kYoung, 0.01, "1");
   page.below("largest deviation of the stress past yield (strain above 0.6 %)", 100.0 * worst, 3.0, "%");
-  // Cauchy stress is tau / J with ln J = -(1 - 2 nu) tau / E. 3 %: asked for; contact is the weaker part.
+  // Cauchy stress is tau / J with ln J = -(1 - 2 nu) tau / E. 3 % is required; contact contributes most of the error.
   const double cauchy = kirchhoff(strain) * std::exp((1.0 - 2.0 * kPoisson) * kirchhoff(strain) / kYoung);
   page.near("plate's force over the section's area at the end", force_stress / 1e6, cauchy / 1e6, 0.03, "MPa");
   Numbers exact_e, exact_s;

@@ -1,11 +1,11 @@
 // Order of convergence of each method on the suites of the work-precision study (mpm/study): the manufactured problem
-// along the axes, with the displacement's RMS error over all particles and directions, the largest of one period, and a
-// time step that is divided by four when the cell is halved, so that errors in time and space fall alike.
+// along the axes, with the displacement's RMS error over all particles and directions, the largest value of one period,
+// and a time step that is divided by four when the cell is halved, so that errors in time and space decrease equally.
 //
-// What theory gives: second order for shape functions that reproduce linear fields, on smooth problems of small strain;
-// 1.8 is what the project asks for. At a strain of 0.16 boxes of fixed size overlap and gap, and uGIMP stalls, while
-// domains that follow the deformation go on: method reference 15 has the figures of a trial in one dimension, at a
-// fixed Courant number and with another neo-Hookean law.
+// In theory, shape functions that reproduce linear fields are of second order on smooth problems of small strain; the
+// project requires 1.8. At a strain of 0.16 boxes of fixed size overlap or leave gaps, and uGIMP stalls, while domains
+// that follow the deformation continue to converge: method reference 15 has the figures of a one-dimensional trial, at
+// a fixed Courant number and with another neo-Hookean law.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ void show(Page& page, Panel& panel, const Errors& found) {
   panel.points(found.label, cell, found.error);
 }
 
-/// Order between each grid and the next at least what is asked for.
+/// Checks that the order between each grid and the next reaches the required one.
 void expect_order(Page& page, const Errors& found) {
   for (std::size_t i = 1; i < found.cells.size(); ++i) {
     page.above(fmt::format("{}: order, {} to {} cells", found.label, found.cells[i - 1], found.cells[i]),
@@ -102,11 +102,12 @@ TEST(MethodOrder, DomainsThatFollowTheDeformationKeepItAtLargeStrain) {
     const Errors found = measure("bar_crossing", shape, {}, cells);
     show(page, panel, found);
     expect_order(page, found);
-    // On the finest grid the one stalls and the other does not: by how much, no theory says; twice is a clear case.
+    // On the finest grid one method stalls and the other does not. No theory states by how much; a factor of two is
+    // clear.
     page.below(fmt::format("{}: error over that of uGIMP, 64 cells", found.label), found.error[3] / fixed.error[3], 0.5,
                "");
   }
-  // An independent code in one dimension had 1.9, 1.5 and 0.9 on these grids: below 1.5 is no second order.
+  // An independent code in one dimension had 1.9, 1.5 and 0.9 on these grids: an order below 1.5 is not second order.
   page.below("ugimp: order, 32 to 64 cells", fixed.order(3), 1.5, "");
   page.beside("ugimp/usavg/flip: order, 32 to 64 cells, beside an independent code's in one dimension", fixed.order(3),
               0.9, "");

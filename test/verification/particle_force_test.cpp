@@ -1,5 +1,5 @@
-// Forces on particles, spread by their domains or put at their centres: what they must give to a body however it
-// deforms, and that the accounts close. Source: GIMP notes (1.6), (1.18)-(1.22), (1.27).
+// Forces on particles, spread by their domains or applied at their centres: their effect on a body however it deforms,
+// and closed accounts. Source: GIMP notes (1.6), (1.18)-(1.22), (1.27).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr double kDensity = 1000.0;
 
 class ParticleForce : public testing::TestWithParam<std::tuple<mpm::GeometryKind, mpm::UpdateScheme, mpm::LoadSpread>> {
  protected:
-  // A soft block of 3 cells along each edge in a domain of 4 m that nothing holds.
+  // A soft block of 3 cells along each edge in a domain of 4 m, unsupported.
   mpm::SimulationDefinition definition() const {
     mpm::SimulationDefinition d;
     d.geometry = std::get<0>(GetParam());
@@ -81,7 +81,7 @@ double worst_difference(const mpm::Simulation& a, const mpm::Simulation& b, cons
   return worst / scale;
 }
 
-// A force of F on some particles together is an impulse of F t on the body, which pulls it apart by per cents.
+// A total force F on some particles is an impulse F t on the body, and stretches it by some per cent.
 TEST_P(ParticleForce, GivesItsImpulse) {
   auto d = definition();
   const double f = 6.0 * mass(d);
@@ -114,11 +114,11 @@ TEST_P(ParticleForce, OnEachIsTheirNumberTimesIt) {
     a.advance();
     b.advance();
   }
-  // The same force in other roundings: a digit a step, of some hundred.
+  // The same force with other rounding: round-off of some hundred steps.
   for (const char* name : {"x", "vx", "vz", "sxx"}) EXPECT_LT(worst_difference(a, b, name), 1e-9) << name;
 }
 
-// F = M b on all particles together is the body force b, and its work is what the body's energy grows by.
+// F = M b on all particles together is the body force b, and its work is the increase of the body's energy.
 TEST_P(ParticleForce, OnAllIsABodyForce) {
   auto pushed = definition();
   auto falling = pushed;
@@ -140,7 +140,7 @@ TEST_P(ParticleForce, OnAllIsABodyForce) {
   }
 }
 
-// The place at the start moves with the particles: a spring of each particle to where it was.
+// The initial position moves with the particles: each particle has a spring to its initial position.
 TEST_P(ParticleForce, MayBeAFunctionOfTheStart) {
   auto d = definition();
   auto load =

@@ -27,15 +27,15 @@ struct Mean {
 struct Impact {
   Mean velocity, stress;                           // between the shocks [m/s], [GPa]
   Mean tungsten, steel;                            // pressure in either [GPa]
-  double force = 0.0;                              // on the steel, the mean of the second half [GPa]
+  double force = 0.0;                              // force on the steel, mean of the second half [GPa]
   double steel_shock = 0.0, tungsten_shock = 0.0;  // [km/s]
-  double energy = 0.0;                             // kinetic + elastic + plastic, change over the start
-  double audit = 0.0;                              // momentum left over, of what was exchanged
+  double energy = 0.0;                             // relative change of kinetic + elastic + plastic energy
+  double audit = 0.0;                              // residual of the momentum audit
   double hottest = 0.0;                            // [K]
   Numbers x, v, p;                                 // [mm], [m/s], [GPa]
 };
 
-/// Where the velocity, averaged over three cells, goes through `level`, from the end `from` inwards [mm].
+/// Position at which the velocity, averaged over three cells, crosses `level`, searched inwards from one end [mm].
 double front(const Numbers& x, const Numbers& v, double level, bool from_right) {
   constexpr int kWindow = 6;  // particles
   const int n = static_cast<int>(x.size());
@@ -45,7 +45,7 @@ double front(const Numbers& x, const Numbers& v, double level, bool from_right) 
     return sum / kWindow;
   };
   const int first = from_right ? n - kWindow : 0, step = from_right ? -1 : 1;
-  const double sign = from_right ? 1.0 : -1.0;  // velocity rises from the right, falls from the left
+  const double sign = from_right ? 1.0 : -1.0;  // velocity increases from the right, decreases from the left
   for (int i = first; i + step >= 0 && i + step + kWindow <= n; i += step) {
     const double a = sign * (average(v, i) - level), b = sign * (average(v, i + step) - level);
     if (b < 0.0) continue;
@@ -84,7 +84,7 @@ Impact hit(const std::vector<std::string>& overrides) {
   for (std::size_t i = 0; i < sxx.size(); ++i) {
     const double x = impact.x[i] *= 1e3, p = impact.p[i] *= 1e-9;
     impact.hottest = std::max(impact.hottest, heat[i]);
-    // A millimetre, ten cells, from the face and two from the shocks.
+    // The regions end 1 mm, ten cells, from the face and 2 mm from the shocks.
     const double past = x - face;
     if (past > -6.2 && past < 7.1) impact.velocity.add(impact.v[i]), impact.stress.add(-1e-9 * sxx[i]);
     if (past > -6.2 && past < -1.0) impact.tungsten.add(p);
@@ -104,7 +104,8 @@ void show(Page& page, const std::string& what, const Impact& impact) {
   page.report(what + ": highest temperature", impact.hottest, "K");
 }
 
-// Two runs: constants and method as a user has them, and without strength by a transfer that takes the ringing away.
+// Two runs: with constants and method as a user has them, and without strength, with a transfer that removes the
+// ringing.
 TEST(PlanarImpact, OfTungstenIntoSteel) {
   Page page("metal", "planar_impact", "Planar impact of tungsten into steel");
   page.problem(
@@ -132,14 +133,15 @@ TEST(PlanarImpact, OfTungstenIntoSteel) {
   std::vector<std::string> by_apic = no_strength;
   by_apic.emplace_back("method.transfer=apic");
   const Impact liquid = hit(by_apic), ringing = hit(no_strength);
-  // 1 %: the entropy that is missing lowers the pressure by 5 % in the steel and 1 % in the tungsten; the interface
-  // takes the share of the impedances, half of a per cent.
+  // 1 %: the missing entropy lowers the pressure by 5 % in the steel and 1 % in the tungsten; the interface velocity
+  // follows by the share of the impedances, half of a per cent.
   page.near("interface velocity, with strength", metal.velocity.value(), kInterface, 0.01, "m/s");
   page.near("interface velocity, without", liquid.velocity.value(), kInterface, 0.01, "m/s");
-  // 4 %: the isentrope of the steel is 5 % below the Hugoniot, that of the tungsten 1 %, and the stress between them.
+  // 4 %: the isentrope of the steel is 5 % below the Hugoniot, that of the tungsten 1 %, and the stress lies between
+  // them.
   page.near("force on the steel, with strength", metal.force, kStress, 0.04, "GPa");
   page.near("force on the steel, without", liquid.force, kStress, 0.04, "GPa");
-  // By two places 1 us apart, each known to a cell of 0.1 mm: 2 %; without the heat 1 % slower.
+  // From two positions 1 us apart, each known to a cell of 0.1 mm: 2 %; without the heat 1 % slower.
   page.near("shock in the steel, with strength", metal.steel_shock, kSteelShock, 0.02, "km/s");
   page.near("shock in the steel, without", liquid.steel_shock, kSteelShock, 0.03, "km/s");
   page.near("shock in the tungsten, with strength", metal.tungsten_shock, kTungstenShock, 0.02, "km/s");

@@ -1,5 +1,5 @@
-// Plane stress: a plate that vibrates along its axis, a rubber plate pressed by 10 %, and a spinning disk. What tells
-// it from plane strain: the modulus is E, not E / (1 - nu^2), and the thickness gives way.
+// Plane stress: a plate that vibrates along its axis, a rubber plate compressed by 10 %, and a spinning disk. It
+// differs from plane strain in its modulus, E instead of E / (1 - nu^2), and in its free thickness.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -82,15 +82,15 @@ TEST(PlaneStress, APlateVibratesAsABar) {
     if (mode[i - 1] * mode[i] > 0.0 || ++passages < 19) continue;
     tenth = (time[i - 1] + (time[i] - time[i - 1]) * mode[i - 1] / (mode[i - 1] - mode[i])) / 9.5;
   }
-  // 0.5 %: the error of a grid of 80 cells a quarter wave is 2e-5; the rest is the step.
+  // 0.5 %: the error of a grid of 80 cells per quarter wave is 2e-5; the rest comes from the step.
   page.near("period", 1e3 * tenth, 40.0, 0.005, "ms");
-  // 1 %: the fourth of a period is met to 0.5 %, and stress and volume are of one particle each.
+  // 1 %: the quarter period is met to 0.5 %, and stress and volume are those of one particle.
   page.near("change of volume over stress", volume / stress * kYoung, 1.0 - 2.0 * kPoisson, 0.01, "1/E");
-  // The stress that is left is 1e-12 of the stiffness, 1.35 E; stress is 1e-4 E.
+  // The remaining stress is 1e-12 of the stiffness, 1.35 E; the stress along the plate is 1e-4 E.
   page.below("largest stress along the thickness", left, 2e-8, "of the largest along the plate");
 }
 
-/// Root of a rising function.
+/// Root of an increasing function.
 double bisect(const std::function<double(double)>& rising, double low, double high) {
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
@@ -99,7 +99,8 @@ double bisect(const std::function<double(double)>& rising, double low, double hi
   return 0.5 * (low + high);
 }
 
-/// Cauchy stress along a principal axis of stretch l, of the other two: Nairn & Guilkey (2015) eq. (64).
+/// Cauchy stress along a principal axis with stretch l; m and n are the other two stretches: Nairn & Guilkey (2015) eq.
+/// (64).
 double neo_hookean(double l, double m, double n) {
   const double bulk = kYoung / (3.0 * (1.0 - 2.0 * kPoisson)), shear = 0.5 * kYoung / (1.0 + kPoisson);
   const double j = l * m * n;
@@ -128,8 +129,8 @@ TEST(PlaneStress, APressedPlateIsInUniaxialStress) {
   const double across = stretch(start_z, field(simulation, "z"), gauge);
   const double exact = bisect([&](double l) { return neo_hookean(l, l, along); }, 0.9, 1.2);
   const double thickness = mean_of(field(simulation, "j"), gauge) / (along * across);
-  EXPECT_NEAR(along, 0.9, 0.02);  // 10 %, but for a part of a cell, 6 % of the length, that the jaw's nodes stand off
-  // 1 %: what damping holds back, rho k v L / 2 = 0.5 kPa of 93, and scatter of stress in cells.
+  EXPECT_NEAR(along, 0.9, 0.02);  // 10 %; the jaw's nodes stand off by part of a cell, 6 % of the length
+  // 1 %: damping takes rho k v L / 2 = 0.5 kPa of 93, and stress scatters in cells.
   page.near("stress along the plate", mean_of(field(simulation, "sxx"), gauge) / 1e3,
             neo_hookean(along, exact, exact) / 1e3, 0.01, "kPa");
   page.near("growth of the width", 100.0 * (across - 1.0), 100.0 * (exact - 1.0), 0.02, "%");
@@ -140,7 +141,7 @@ TEST(PlaneStress, APressedPlateIsInUniaxialStress) {
 struct Spin {
   RingStress stress;
   double rim = 0.0, exact_rim = 0.0;  // mean displacement of the particles beyond 0.9 R [m]
-  double widening = 0.0;              // what FLIP's position update adds to it [m]
+  double widening = 0.0;              // contribution of FLIP's position update to it [m]
   double volume = 0.0;                // mean J - 1
 };
 
@@ -172,7 +173,7 @@ Spin spin(int cells, const SteadyDisk& exact, double young) {
   }
   turn.rim /= samples;
   turn.volume /= samples;
-  // Half of (omega dt)^2 a step; its mean over the turn is half of that at its end.
+  // Half of (omega dt)^2 per step; the mean over the turn is half of its value at the end.
   const double steps = static_cast<double>(simulation.state().step.steps);
   turn.widening = 0.95 * 0.25 * exact.rate * exact.rate / steps;
   return turn;
@@ -200,13 +201,13 @@ TEST(PlaneStress, ASpinningDiskWidensAndCarriesItsStress) {
   for (const int cells : {20, 40}) {
     const Spin usavg = spin(cells, exact, young);
     const std::string grid = fmt::format(", {} cells across", cells);
-    // The strain, rho omega^2 R^2 / E = 2 %, is not small beside 1; with it go 3 % of stresses and more of what follows
-    // from them. Plane strain is 30 % away.
+    // The strain, rho omega^2 R^2 / E = 2 %, is not small beside 1; it changes stresses by 3 %, and quantities derived
+    // from them by more. Plane strain differs by 30 %.
     page.near("mean change of volume" + grid, 1e3 * usavg.volume, volume, 0.05, "‰");
     page.near("mean of σr + σθ" + grid, usavg.stress.mean_sum(), stress, 0.03, "kPa");
     page.report("largest error of a ring's stress" + grid, usavg.stress.error(exact), "% of the centre's");
     page.beside("displacement of the rim" + grid, 1e3 * usavg.rim, 1e3 * usavg.exact_rim, "mm");
-    // 10 %: of the strain as above, and a ring that is not all rim.
+    // 10 %: the strain as above, and a ring of finite width.
     page.near("displacement of the rim, with what the position update adds" + grid, 1e3 * usavg.rim,
               1e3 * (usavg.exact_rim + usavg.widening), 0.1, "mm");
     if (cells != 40) continue;

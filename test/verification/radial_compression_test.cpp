@@ -1,10 +1,10 @@
 // Uniform radial compression of a disk, Nairn & Guilkey (2015) 4.1: figure 5 (domains fitted to the axis, or not),
-// figure 6 (planar functions in place of those with the weight r), figure 7 (stresses against volume) and the
-// compressions at which methods break down.
+// figure 6 (planar functions instead of those weighted with r), figure 7 (stresses against volume) and the compressions
+// at which methods break down.
 //
 // Exact: F = diag(l, 1, l), J = l^2, stresses (66), (67), and every particle at l times its first radius. The rim
-// closes like an iris, so the disk is asked for an even motion; what is uneven is the method's. Of the two rules of
-// motion `mean` is the paper's, `point` the remedy of method reference 3.5.
+// closes like an iris, so the exact motion is uniform, and any nonuniformity is an error of the method. Of the two
+// rules of motion `mean` is the paper's, `point` the remedy of method reference 3.5.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -26,9 +26,9 @@ constexpr int kThreads = 1;       // tests run side by side
 constexpr double kRadius = 0.05;  // [m]
 constexpr double kSpeed = 20.0;   // of the rim [m/s]
 constexpr double kSpacing = 1.25e-3;
-constexpr double kNear = 0.016;       // what figures 5 and 6 show of the radius [m]
+constexpr double kNear = 0.016;       // part of the radius shown in figures 5 and 6 [m]
 constexpr double kBroken = 0.25;      // error of a J near the axis that counts as breakdown: noise as large as strain
-constexpr double kOffTheChart = 1.0;  // error of a J that would leave the others no room in a picture
+constexpr double kOffTheChart = 1.0;  // error of a J above which it is left out of a picture
 constexpr double kEnd = 0.4;          // stretch of figures 5 and 6
 constexpr double kBulk = 2300e6 / (3.0 * (1.0 - 2.0 * 0.33)), kShear = 2300e6 / (2.0 * 1.33);  // [Pa]
 
@@ -44,13 +44,13 @@ double mean_of(const Numbers& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// The disk at one moment; what depends on the radius is the mean over the height, by first radius.
+/// The disk at one time. Quantities by radius are means over the height, by initial radius.
 struct Disk {
-  double stretch = 1.0;                               ///< exact, of the radius
-  Numbers start, j, radius;                           ///< first radius [m], J, present radius over the exact one
-  double mean_j = 1.0, mean_rr = 0.0, mean_zz = 0.0;  ///< of all particles; stresses [Pa]
+  double stretch = 1.0;                               ///< exact stretch of the radius
+  Numbers start, j, radius;                           ///< initial radius [m], J, present radius over the exact one
+  double mean_j = 1.0, mean_rr = 0.0, mean_zz = 0.0;  ///< means over all particles; stresses [Pa]
   double exact_j() const { return stretch * stretch; }
-  double compression() const { return 100.0 * (1.0 - exact_j()); }  ///< of the volume [%]
+  double compression() const { return 100.0 * (1.0 - exact_j()); }  ///< compression of the volume [%]
   /// Largest |J / exact - 1| over the radii up to `within` [m].
   double worst_j(double within = 1.0) const {
     double worst = 0.0;
@@ -77,7 +77,7 @@ class Compression {
     first_ = field(simulation_, "x");
   }
   double stretch() const { return 1.0 - seconds(simulation_) * kSpeed / kRadius; }
-  /// One sync period, 2 % of the first radius. @throws mpm::PhysicsError when the method breaks down
+  /// Advances one sync period, 2 % of the initial radius. @throws mpm::PhysicsError when the method breaks down
   void advance() { simulation_.advance(); }
   Disk disk() const {
     Disk disk;
@@ -112,7 +112,7 @@ struct Method {
   Overrides overrides;
 };
 
-/// `axis`: keys of method.axis. FLIP with steps as short as it needs here; APIC with the scene's own.
+/// `axis`: keys of method.axis. FLIP gets the short steps that it needs here; APIC has those of the scene.
 Method method(const std::string& label, const std::string& shape, const std::string& transfer, const Overrides& axis) {
   Method one{label, {"method.shape=" + shape, "method.transfer=" + transfer}};
   if (transfer == "flip") one.overrides.emplace_back("time.cfl=0.2");
@@ -120,7 +120,7 @@ Method method(const std::string& label, const std::string& shape, const std::str
   return one;
 }
 
-/// Where a run came to: the disk at stretch kEnd, or where the method broke down.
+/// The end of a run: the disk at stretch kEnd, or the point at which the method broke down.
 struct Outcome {
   Disk disk;
   bool broke = false;
@@ -149,7 +149,7 @@ Drawing draw_on(Page& page) {
   return {page, of_j, of_radius};
 }
 
-/// Runs a method, draws it, and tells its errors without asking for anything.
+/// Runs a method, draws it, and reports its errors without a check.
 Outcome show(Drawing& drawing, const Method& method) {
   const Outcome outcome = run(method);
   const Disk& disk = outcome.disk;
@@ -172,7 +172,7 @@ Outcome show(Drawing& drawing, const Method& method) {
   return outcome;
 }
 
-/// What the issue asks of the best: J flat to the axis within 1 %, the mean within 1 %.
+/// The requirement on the best methods: J uniform to the axis within 1 %, the mean within 1 %.
 void ask(Page& page, const std::string& label, const Disk& disk) {
   page.below(label + ": largest error of J", 100.0 * disk.worst_j(), 1.0, "%");
   page.near(label + ": mean J", disk.mean_j, disk.exact_j(), 0.01, "");
@@ -214,14 +214,14 @@ TEST(RadialCompression, DomainsAtTheAxis) {
   for (const char* shape : {"cpdi", "ugimp_stretch", "qcpdi"}) {
     ask(page, fmt::format("{}, APIC, point", shape), run(method("", shape, "apic", {})).disk);
   }
-  // What the paper shows to fail.
+  // Methods that fail in the paper.
   page.above("CPDI whole, mean: error of J at the first particle", 100.0 * std::abs(cpdi_whole.disk.j[0] / 0.16 - 1.0),
              3.0, "%");
   page.below("CPDI, mean: error of J at the first particle", 100.0 * std::abs(cpdi.disk.j[0] / 0.16 - 1.0), 1.0, "%");
   page.above("Dirac: largest error of J", 100.0 * dirac.disk.worst_j(), 50.0, "%");
   page.below("uGIMP, APIC, point: error of J at the first particle", 100.0 * std::abs(ugimp.disk.j[0] / 0.16 - 1.0),
              1.0, "%");
-  // A trial of one dimension found 0.74 for a domain that follows F, with the standard update (method reference 3.5).
+  // A one-dimensional trial found 0.74 for a domain that follows F, with the standard update (method reference 3.5).
   page.near("CPDI, FLIP, mean: first radius over the exact one", cpdi.disk.radius[0], 0.74, 0.02, "");
 }
 
@@ -250,7 +250,7 @@ TEST(RadialCompression, PlanarFunctions) {
   page.below("weight r, point: error of J at the first particle", first(by_point), 1.0, "%");
 }
 
-/// Mean stresses until `good` fails or the method does.
+/// Mean stresses until `good` or the method fails.
 struct Course {
   Numbers j, rr, zz;
   double worst_to_84 = 0.0;  ///< Disk::worst_stress() up to a compression of 84 %

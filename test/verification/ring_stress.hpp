@@ -50,7 +50,7 @@ class RingStress {
     }
     return 100.0 * worst / exact.radial(0.0);
   }
-  /// Of radial + hoop stress over the disk [kPa].
+  /// Mean of radial + hoop stress over the disk [kPa].
   double mean_sum() const {
     double sum = 0.0, count = 0.0;
     for (int i = 0; i < kRings; ++i) {

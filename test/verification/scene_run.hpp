@@ -1,4 +1,4 @@
-// Running the scenes of the verification tests: test/verification/scenes/NAME.yaml, or a shipped scene.
+// Functions that run the scenes of the verification tests: test/verification/scenes/NAME.yaml, or a shipped scene.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace verification {
 
-/// A simulation of a scene; `overrides` as run_scene's --set: "grid.cell=0.1".
+/// A simulation of a scene; `overrides` have the form of run_scene's --set: "grid.cell=0.1".
 inline mpm::Simulation start(const std::string& name, const std::vector<std::string>& overrides = {}, int threads = 0) {
   const std::filesystem::path file =
       std::filesystem::path(MPM_SOURCE_DIR) / "test/verification/scenes" / (name + ".yaml");

@@ -15,12 +15,12 @@ namespace {
 
 constexpr double kHeight = 1.0, kBaseStress = 1000.0 * 10.0 * 1.0;  // rho0 g H [Pa]
 
-/// One column of particles at rest, from the floor up.
+/// One column of particles at rest, from the bottom up.
 struct Rest {
   Numbers height;        // Z [m]
   Numbers stress;        // [Pa]
   Numbers displacement;  // [m]
-  double kinetic = 0.0;  // energy over the elastic one
+  double kinetic = 0.0;  // kinetic over elastic energy
 };
 
 Rest settle(const std::vector<std::string>& overrides) {
@@ -87,7 +87,7 @@ TEST(SelfWeight, StressAndSinking) {
     sinking_error = std::max(sinking_error, std::abs(rest.displacement[p] - exact_displacement(rest.height[p])) /
                                                 std::abs(exact_displacement(kHeight)));
   }
-  // 1 % as asked. The steps are h / 4 H = 0.6 % of it.
+  // 1 % is required. The steps of stress between cells are h / 4 H = 0.6 % of it.
   page.below("largest error of any particle's stress", 100.0 * stress_error(rest, 1), 1.0, "% of the base's stress");
   page.report("the same for the mean over a cell", 100.0 * stress_error(rest, 2), "% of the base's stress");
   page.below("largest error of a displacement", 100.0 * sinking_error, 1.0, "% of the top's");
@@ -117,7 +117,7 @@ TEST(SelfWeight, StressAndSinking) {
   page.below("largest error of any particle's stress, law linear_elastic", 100.0 * stress_error(rate, 1), 1.0,
              "% of the base's stress");
   for (const int kilopascal : {100, 50}) {
-    // Critical damping goes with the wave speed.
+    // Critical damping is proportional to the wave speed.
     const Rest soft = settle({fmt::format("materials.rubber.young={} kPa", kilopascal),
                               fmt::format("method.damping={}", 100.0 * std::sqrt(kilopascal / 1000.0))});
     page.report(fmt::format("largest error of any particle's stress, E = {} kPa", kilopascal),

@@ -1,5 +1,5 @@
-// The shipped scenes as they are: the audit closes, the same bits for one and two threads. The demo's scene runs on a
-// grid twice as coarse here, and as it is in the suite of long tests.
+// The shipped scenes: the audit closes, and one and two threads give the same bits. The demo's scene runs on a grid
+// twice as coarse here, and unchanged in the suite of long tests.
 #include <gtest/gtest.h>
 
 #include "mpm/scene/scene.hpp"
@@ -34,7 +34,8 @@ double impulse(const mpm::SolverState& state, const std::string& name) {
 
 const std::vector<std::string> kCoarse = {"grid.cell=0.07"};
 
-// What measures speed is large for its own sake: on coarser cells it is the same motion of about 1,000 particles.
+// Scenes that measure speed are large on purpose: on coarser cells they show the same motion with about 1,000
+// particles.
 std::vector<std::string> coarse(const std::string& name) {
   if (name == "blade_in_soil") return kCoarse;
   if (name == "cone_penetrometer") return {"grid.cell=0.008"};
@@ -63,7 +64,7 @@ TEST(ShippedScenes, BladeHasTheSameBitsForTwoThreads) {
   const mpm::SolverState state = run("blade_in_soil", kCoarse, 1, &one);
   run("blade_in_soil", kCoarse, 2, &two);
   EXPECT_EQ(one, two);
-  EXPECT_GT(impulse(state, "contact/blade"), 50.0);  // [N s] it did push
+  EXPECT_GT(impulse(state, "contact/blade"), 50.0);  // [N s] the blade pushed the soil
 }
 
 TEST(FullShippedScenes, BladeClosesTheAuditAsShipped) { run("blade_in_soil", {}, 0); }

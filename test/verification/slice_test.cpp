@@ -1,7 +1,7 @@
 // A planar scene in plane strain and the same scene as a slice of one cell in three dimensions between smooth walls are
-// one problem, and the method's sums are the same, with contact at nodes (at points sweeps end when they change
-// velocities by a thousandth, and the force differs by as much): weights are products along the axes, and those along y
-// add up to one over a cell. So the results agree to round-off, whatever the law, the contact and the schedule.
+// one problem, and the sums of the method are the same: weights are products along the axes, and those along y add up
+// to one over a cell. So the results agree to round-off, for any law, contact and schedule. Contact is at nodes here;
+// at points the sweeps end when they change velocities by a thousandth, and the force differs by as much.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace verification {
 namespace {
 
-/// Particles of the slice that belong to those of the plane, by their place at the start: one of each pair along y.
+/// Particles of the slice that correspond to those of the plane by their initial position: one of each pair along y.
 struct Pairs {
   std::vector<std::size_t> front, back;
 };
@@ -34,10 +34,10 @@ Pairs pair_up(const mpm::Simulation& plane, const mpm::Simulation& slice) {
   return pairs;
 }
 
-/// Over the run, of each field: the largest difference over the field's largest value.
+/// Largest difference of each field over the run, relative to the field's largest value.
 struct Agreement {
   std::vector<double> difference;  // in the order of kFields
-  double force = 0.0;              // of the force on the tool, over its largest
+  double force = 0.0;              // difference of the force on the tool, over its largest value
   Numbers time, history;           // [s], largest of all fields so far
   Numbers x, z, mises;             // of the plane's particles at the end; [m], [Pa]
 };
@@ -77,7 +77,7 @@ Agreement compare(const std::string& law, const std::string& update) {
   agreement.z = field(plane, "z");
   agreement.mises = field(plane, "mises");
   EXPECT_EQ(plane.state().step.steps, slice.state().step.steps);
-  EXPECT_GT(force_scale, 100.0);  // [N]; the tool did press
+  EXPECT_GT(force_scale, 100.0);  // [N]; the tool pressed
   return agreement;
 }
 
@@ -113,7 +113,7 @@ TEST(Slice, AgreesWithPlaneStrain) {
       const Agreement agreement = compare(override_text, update);
       const std::string label = law + ", " + update;
       const double most = *std::max_element(agreement.difference.begin(), agreement.difference.end());
-      // 1e-9 as asked; measured is what some hundred steps of round-off make.
+      // 1e-9 is required; the measured difference is the round-off of some hundred steps.
       page.below("largest difference of any field, " + label, most, 1e-9, "of the field's largest value");
       page.below("difference of the force on the tool, " + label, agreement.force, 1e-9, "of its largest");
       panel.line(label, agreement.time, agreement.history);

@@ -1,6 +1,7 @@
-// A cube of sand squeezed by plates, through the whole solver: the paths of a soil laboratory, whose stress is exact.
+// A cube of sand squeezed by plates, through the whole solver, along the paths of a soil laboratory, for which the
+// exact stress is known.
 //
-// Exact, of Drucker-Prager that matches Mohr-Coulomb in triaxial compression, no cohesion (exact-solutions 24): at the
+// Exact, for Drucker-Prager matched to Mohr-Coulomb in triaxial compression, no cohesion (exact-solutions 24): at the
 // limit the axial stress is Kp = tan^2(45 + phi/2) times the lateral. In the oedometer, yielding from the start, the
 // stress stays on the cone, sqrt(J2) = eta p, with the strain eps axial: with d lambda = c d eps,
 //   G (2 / sqrt 3 - c) = eta K (1 + eta_bar c),   sigma_v = K (1 + eta_bar c) (1 + 2 eta / sqrt 3) eps,
@@ -27,7 +28,7 @@ double slope_of_cone(double degrees) {
   return 6.0 * s / (std::sqrt(3.0) * (3.0 - s));
 }
 
-/// Mean over the particles, and the largest departure from it.
+/// Mean over the particles, and the largest deviation from it.
 struct Spread {
   double mean = 0.0, most = 0.0;
 };
@@ -67,12 +68,13 @@ TEST(SoilBox, OedometerAndTriaxialTestAreExact) {
     lateral.push_back(-spread(oedometer, "sxx").mean / 1e3);
   }
   const double shortening = 0.01 * strain.back();
-  // 0.1 %: the plate moves 10 mm/s, and the cube swings by what that is of the wave speed, 25 m/s, after a soft start.
+  // 0.1 %: the plate moves 10 mm/s, and the cube oscillates by the ratio of that to the wave speed, 25 m/s, after a
+  // soft start.
   page.near("oedometer: σv", vertical.back(), modulus * shortening / 1e3, 1e-3, "kPa");
   page.near("oedometer: σv/σh", vertical.back() / lateral.back(), kPassive, 1e-3, "-");
   page.report("oedometer: largest departure of a particle's σv from the mean", spread(oedometer, "szz").most / 1e3,
               "kPa");
-  // 3 %: virtual work on the grid, whose loaded row of nodes has not moved with the plate, gives force times H0 =
+  // 3 %: virtual work on the grid, whose loaded row of nodes does not move with the plate, gives force times H0 =
   // stress times present volume, so the force is low by the strain, 2 %.
   page.near("oedometer: force on the plate over σv times area",
             oedometer.take_contact(2).mean.force.z() / (vertical.back() * 1e3 * 0.16), 1.0, 0.03, "-");

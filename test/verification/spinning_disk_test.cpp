@@ -1,7 +1,7 @@
-// A disk that spins freely: its angular momentum about the centre should stay. FLIP does not keep it: a particle moves
-// with the velocity of the grid, not with its own, so that position x momentum changes though the forces balance.
-// Source: exact-solutions 4. Beside it the stress of a disk in steady rotation, plane strain, small strain
-// (exact-solutions 5): with n = nu / (1 - nu), s = rho omega^2 / 8,
+// A disk that spins freely: its angular momentum about the centre should be constant. FLIP does not conserve it: a
+// particle moves with the velocity of the grid, not with its own, so position x momentum changes although the forces
+// balance. Source: exact-solutions 4. The test also checks the stress of a disk in steady rotation, plane strain, small
+// strain (exact-solutions 5): with n = nu / (1 - nu), s = rho omega^2 / 8,
 //   sigma_r = (3 + n) s (R^2 - r^2), sigma_theta = s [(3 + n) R^2 - (1 + 3 n) r^2].
 #include <fmt/core.h>
 
@@ -98,9 +98,9 @@ TEST(SpinningDisk, AngularMomentumOfATurn) {
   page.report(change + "USAVG, 20 cells, FLIP 0.99", damped.change, "%");
   // An independent code lost 5.5 % at 20 cells across.
   page.below("largest change of these, FLIP", largest({usavg, fine, usf, fine_usf, small_step, stiff}), 5.5, "%");
-  // Round-off, as in all runs.
+  // Round-off, as in every run.
   page.below("linear momentum, USAVG, 20 cells", usavg.linear, 1e-10, "of the sum of mass times speed");
-  // What is asked of colliding disks is asked here too.
+  // The same limit as for colliding disks.
   page.below("growth of the energy, USAVG, 20 cells", 100.0 * (usavg.most_energy - 1.0), 0.1, "%");
   page.below("growth of the energy, USAVG, 40 cells", 100.0 * (fine.most_energy - 1.0), 0.1, "%");
   page.report("growth of the energy, USF, 20 cells", 100.0 * (usf.most_energy - 1.0), "%");

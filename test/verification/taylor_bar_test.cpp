@@ -1,5 +1,5 @@
-// Taylor's test with the constants that codes are compared with: a copper rod, 32.4 mm long and 3.2 mm in radius, hits
-// a smooth rigid wall at 227 m/s; E = 117 GPa, nu = 0.35, 8930 kg/m^3, yield 400 MPa, hardening 100 MPa. No exact
+// Taylor's test with the constants used for comparing codes: a copper rod, 32.4 mm long and 3.2 mm in radius, hits a
+// smooth rigid wall at 227 m/s; E = 117 GPa, nu = 0.35, 8930 kg/m^3, yield 400 MPa, hardening 100 MPa. No exact
 // solution; finite elements give a final length of 21.4 to 21.7 mm and a mushroom of 6.9 to 7.2 mm in radius at 80 us
 // (Kamoulakos 1990, "A simple benchmark for impact"; Zhu and Cescotto 1995, Int. J. Numer. Methods Eng. 38).
 #include <fmt/core.h>
@@ -17,14 +17,14 @@ constexpr double kLength = 21.5, kRadius = 7.05;  // middles of the published ra
 
 struct Rod {
   double length = 0.0, radius = 0.0;  // [mm]
-  double drift = 0.0;                 // of kinetic + elastic + dissipated energy, over the start's
-  double kinetic = 0.0;               // at the end, over the start's
+  double drift = 0.0;                 // relative drift of kinetic + elastic + dissipated energy
+  double kinetic = 0.0;               // kinetic energy at the end, over the initial one
   double largest_strain = 0.0;
   Numbers r, z, strain;
   Numbers time, height;  // [us], [mm]
 };
 
-// Ends of the rod lie half of a particle's extent beyond the outermost centres.
+// The ends of the rod lie half of a particle's extent beyond the outermost centres.
 Rod hit(double cell) {
   mpm::Simulation simulation = start("taylor_bar", {fmt::format("grid.cell={} mm", cell)});
   Rod rod;
@@ -45,7 +45,7 @@ Rod hit(double cell) {
     const double r = 1e3 * std::hypot(x[p], y[p]);
     rod.radius = std::max(rod.radius, r + half);
     rod.largest_strain = std::max(rod.largest_strain, ep[p]);
-    if (y[p] > x[p] || y[p] < 0.0) continue;  // an eighth holds all there is to see
+    if (y[p] > x[p] || y[p] < 0.0) continue;  // by symmetry an eighth is enough
     rod.r.push_back(r);
     rod.z.push_back(1e3 * z[p]);
     rod.strain.push_back(ep[p]);
@@ -70,7 +70,8 @@ void show(Page& page, const Rod& rod) {
       .published("published range at 80 us", {80.0, 80.0}, {21.4, 21.7});
 }
 
-/// Hits with cells of this edge [mm]; the length must be the published one within `length_share` of it.
+/// Runs the impact with cells of this edge [mm]; the length must equal the published one within the part
+/// `length_share`.
 void check(Page& page, double cell, const std::string& across, double length_share) {
   page.scene("test/verification/scenes/taylor_bar.yaml");
   page.problem(fmt::format(
@@ -83,7 +84,7 @@ void check(Page& page, double cell, const std::string& across, double length_sha
              "Kamoulakos (1990); Zhu and Cescotto (1995)");
   const Rod rod = hit(cell);
   show(page, rod);
-  // A gross fault shows (no plasticity, wrong hardening or mass); the mushroom is known to be too small.
+  // Gross faults are detected (no plasticity, wrong hardening or mass); the mushroom is known to be too small.
   EXPECT_NEAR(rod.length, kLength, length_share * kLength);
   EXPECT_GT(rod.radius, 1.5 * 3.2);
 }

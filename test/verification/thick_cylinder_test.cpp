@@ -1,11 +1,11 @@
-// Limit load of a thick cylinder in plane strain, of metal without hardening (von Mises): the load is a radial body
-// force in its inner part, slowly growing. For any radial load q(r) per volume on smooth rims, equilibrium over the
-// thickness says  integral of q dr = integral of (sigma_theta - sigma_r) / r dr,  and fully plastic metal has
+// Limit load of a thick cylinder in plane strain, of metal without hardening (von Mises). The load is a radial body
+// force in its inner part that grows slowly. For any radial load q(r) per volume on smooth rims, equilibrium over the
+// thickness requires  integral of q dr = integral of (sigma_theta - sigma_r) / r dr,  and fully plastic metal has
 // sigma_theta - sigma_r = 2 / sqrt(3) yield, so the limit is the one of a pressure inside:
 //   p = 2 / sqrt(3) yield ln(b / a).
 // Source: Hill (1950), The Mathematical Theory of Plasticity, chapter 5, for a pressure; the body force derived here.
-// What the cylinder resists is found from the load less the mass times acceleration, by virtual work with the velocity
-// field of an incompressible cylinder, 1 / r: no quasi-static run is needed.
+// The resistance of the cylinder is found from the load minus mass times acceleration, by virtual work with the
+// velocity field of an incompressible cylinder, 1 / r: no quasi-static run is needed.
 #include <algorithm>
 #include <cmath>
 
@@ -68,8 +68,8 @@ TEST(Metal, ThickCylinderReachesItsLimitLoad) {
   std::vector<double> start_r;
   for (const mpm::Vec3& p : definition.bodies[0].positions) start_r.push_back(std::hypot(p.x(), p.z()));
   const double mass = kDensity * definition.bodies[0].particle_volume;
-  // Virtual work of the load at time 1 s, and of inertia, with the velocity (1 / r) radially, over a right angle: what
-  // it gives for a pressure p at the inner rim is p.
+  // Virtual work of the load at time 1 s, and of inertia, with the velocity (1 / r) radially, over a right angle,
+  // normalised so that a pressure p at the inner rim gives p.
   double load = 0.0;
   std::size_t inner = 0;
   for (std::size_t p = 0; p < start_r.size(); ++p) {

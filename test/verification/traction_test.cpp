@@ -1,6 +1,6 @@
-// Tractions on faces of particles, in bodies at rest under them: uniform stress, with CPDI at any strain, for its
-// internal force is the integral over the faces of the same interpolants. Source: Nairn & Guilkey (2015) eq. (40)-(55);
-// for a tube under pressure Lamé's solution (Timoshenko & Goodier, Theory of Elasticity, art. 28).
+// Tractions on faces of particles, in bodies at rest under them: stress is uniform, with CPDI at any strain, because
+// its internal force is the integral of the same interpolants over the faces. Source: Nairn & Guilkey (2015) eq.
+// (40)-(55); for a tube under pressure Lamé's solution (Timoshenko & Goodier, Theory of Elasticity, art. 28).
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ using verification::field;
 
 constexpr double kCell = 0.1, kYoung = 1e5, kPoisson = 0.3;
 
-// Particles 2 along a cell's edge in a box of `cells` from `low` on, of soft neo-Hookean material with damping.
+// A box of `cells` cells from `low`, two particles along each edge of a cell, of soft neo-Hookean material with
+// damping.
 mpm::SimulationDefinition block(GeometryKind geometry, ShapeKind shape, const Vec3& low, const Vec3& cells) {
   mpm::SimulationDefinition d;
   d.geometry = geometry;
@@ -47,8 +48,9 @@ mpm::SimulationDefinition block(GeometryKind geometry, ShapeKind shape, const Ve
   return d;
 }
 
-// Grows smoothly to its value, in many times the 0.07 s in which a wave crosses the blocks. Strain that damping or
-// waves make uneven while cells are crossed stays in part, for the grid does not see all of it: the slower, the evener.
+// Grows smoothly to its value over many times the 0.07 s in which a wave crosses the blocks. Uneven strain, from
+// damping or waves while cells are crossed, remains in part, because the grid does not resolve all of it: a slower ramp
+// is more even.
 Function ramp(double value, int seconds = 1) {
   return Function::parse(fmt::format("{0}*(t < {1} ? 0.5 - 0.5*cos(pi*t/{1}) : 1)", value, seconds));
 }
@@ -66,7 +68,7 @@ mpm::TractionDefinition pressure(int face, const Function& value) { return on(fa
 struct Range {
   double least, most;
 };
-/// Of a stress [Pa], over all particles.
+/// Range of a stress over all particles [Pa].
 Range range(const mpm::Simulation& simulation, const std::string& name) {
   const std::vector<double> values = field(simulation, name);
   return {*std::min_element(values.begin(), values.end()), *std::max_element(values.begin(), values.end())};
@@ -77,8 +79,8 @@ void expect_even(const mpm::Simulation& simulation, const std::string& name, dou
   EXPECT_NEAR(found.most, value, tolerance) << name;
 }
 
-// Pulled by a fifth of Young's modulus against smooth walls on two sides: that Cauchy stress in every particle, and
-// none along z. The section shrinks by 8 %: a nominal stress would show.
+// A block is pulled by a fifth of Young's modulus against smooth walls on two sides: every particle has that Cauchy
+// stress, and none along z. The section shrinks by 8 %: a nominal stress would show.
 TEST(Traction, GivesEvenStress) {
   auto d = block(GeometryKind::plane_strain, ShapeKind::cpdi, Vec3::Zero(), {8, 1, 4});
   d.thickness = 0.5;
@@ -94,7 +96,7 @@ TEST(Traction, GivesEvenStress) {
   EXPECT_LT(simulation.state().audit.residual, 1e-10);
 }
 
-// Pressure on all faces of a free block: no force on the whole, and that pressure inside, though every face has shrunk.
+// Pressure on all faces of a free block: no net force, and the same pressure inside, although every face has shrunk.
 TEST(Traction, PressureOnAllFacesIsPressureInside) {
   for (const GeometryKind geometry : {GeometryKind::plane_strain, GeometryKind::solid}) {
     const bool solid = geometry == GeometryKind::solid;
@@ -109,13 +111,13 @@ TEST(Traction, PressureOnAllFacesIsPressureInside) {
     if (solid) expect_even(simulation, "syy", -p, 1e-3 * p);
     expect_even(simulation, "sxz", 0.0, 1e-3 * p);
     const mpm::SolverState state = simulation.state();
-    // Of the impulse of one face.
+    // Relative to the impulse of one face.
     EXPECT_LT(state.audit.momentum.norm(), 1e-12 * p * std::pow(4 * kCell, solid ? 2 : 1));
     EXPECT_LT(state.audit.residual, 1e-10);
   }
 }
 
-// The same about the axis: a cylinder under pressure on its side and its end, on a smooth plane.
+// In axisymmetry: a cylinder under pressure on its side and its end, on a smooth plane.
 TEST(Traction, PressureOnACylinderIsPressureInside) {
   auto d = block(GeometryKind::axisymmetric, ShapeKind::cpdi, Vec3::Zero(), {4, 1, 4});
   d.walls[4].kind = mpm::WallKind::slip;
@@ -127,9 +129,9 @@ TEST(Traction, PressureOnACylinderIsPressureInside) {
   EXPECT_LT(simulation.state().audit.residual, 1e-10);
 }
 
-// A tube from r = a to b = 2 a, held along z, under pressure inside. Strain is all but constant over a cell, so stress
-// is compared cell by cell, of which there are 8 across the wall: it is second order, and
-// the square of a cell over the inner radius is 1.6 %.
+// A tube from r = a to b = 2 a, fixed along z, under pressure inside. Strain is almost constant over a cell, so stress
+// is compared cell by cell, of which there are 8 across the wall: it is second order, and the square of a cell over the
+// inner radius is 1.6 %.
 TEST(Traction, TubeUnderPressureIsLames) {
   for (const ShapeKind shape : {ShapeKind::ugimp, ShapeKind::cpdi}) {
     constexpr double kInner = 0.8, kOuter = 1.6;
@@ -137,7 +139,7 @@ TEST(Traction, TubeUnderPressureIsLames) {
     auto d = block(GeometryKind::axisymmetric, shape, {kInner, 0.0, 0.0}, {kCells, 1, 4});
     d.grid.max.z() = 0.4;
     d.walls[4].kind = d.walls[5].kind = mpm::WallKind::slip;
-    d.method.damping = 15.0;  // the tube breathes at 8 rad/s: about critical
+    d.method.damping = 15.0;  // the tube oscillates radially at 8 rad/s; damping is about critical
     const double p = 1e-3 * kYoung;
     d.tractions = {pressure(0, ramp(p))};
     mpm::Simulation simulation(d, {1});
@@ -164,10 +166,10 @@ TEST(Traction, TubeUnderPressureIsLames) {
   }
 }
 
-// Without damping all of the load's work is energy of the block, but for the little that FLIP loses (at most 0.3 %
-// here); and the state has the same bits for any number of threads, in every shape function. Not so the work with
-// dirac: corners of its particles' boxes lie in cells where they themselves are not, whose nodes move otherwise (1.1
-// %).
+// Without damping all work of the load becomes energy of the block, except for the little that FLIP loses (at most 0.3
+// % here); and the state has the same bits for any number of threads, with every shape function. With dirac the work is
+// an exception (1.1 %): corners of its particles' boxes lie in other cells than the particles, whose nodes move
+// differently.
 TEST(Traction, WorksAndRepeats) {
   for (std::size_t kind = 0; kind < mpm::kShapeNames.size(); ++kind) {
     const auto shape = static_cast<ShapeKind>(kind);
@@ -193,7 +195,7 @@ TEST(Traction, WorksAndRepeats) {
   }
 }
 
-// A force that rings share by their mass pushes them all alike.
+// A force that is shared among rings by mass accelerates them equally.
 TEST(Traction, ForceOnRingsIsSharedByMass) {
   auto d = block(GeometryKind::axisymmetric, ShapeKind::ugimp, {0.0, 0.0, 1.0}, {4, 1, 4});
   d.method.damping = 0.0;

@@ -1,6 +1,6 @@
 // One element of the standard linear solid in simple shear. G of the long-term spring, G1 and T of the Maxwell branch:
-//   relaxation (shear gamma at once, held):  tau = gamma (G + G1 exp(-t / T))
-//   creep (stress s at once, held):          gamma = s / G (1 - G1 / (G + G1) exp(-t G / ((G + G1) T)))
+//   relaxation (sudden constant shear gamma):  tau = gamma (G + G1 exp(-t / T))
+//   creep (sudden constant stress s):          gamma = s / G (1 - G1 / (G + G1) exp(-t G / ((G + G1) T)))
 // Relaxation of the shear stress is exact at any strain; creep is the solution for small strain. Source: textbook
 // (Ferry, Viscoelastic Properties of Polymers, ch. 1); derived from tau = G gamma + q, dq/dt = G1 dgamma/dt - q / T.
 #include <cmath>
@@ -68,7 +68,8 @@ TEST(Viscoelastic, OneElementRelaxesAndCreeps) {
     exact_shear.push_back(1e6 * exact);
     worst_shear = std::max(worst_shear, std::abs(reached / exact - 1.0));
   });
-  // Steps of 1/20 of the relaxation time at second order: (1/20)^2 / 12 = 2e-4 of what creeps, two fifths of the shear.
+  // Steps of 1/20 of the relaxation time at second order: (1/20)^2 / 12 = 2e-4 of the creep, which is two fifths of the
+  // shear.
   page.below("creep: largest relative error of the shear", worst_shear, 2e-4, "1");
   page.figure()
       .panel("Relaxation at a shear of 0.5", "time [s]", "shear stress [kPa]")

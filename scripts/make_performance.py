@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """make_performance.py RESULTS.json DOC: writes DOC/performance.md and DOC/images/performance/scenes.png from the
-results of run_benchmarks.py, between the hand-written parts benchmark/head.md and benchmark/tail.md."""
+results of run_benchmarks.py, after the hand-written introduction benchmark/head.md."""
 
 import json
 import pathlib
@@ -354,7 +354,6 @@ def main():
     lines += targets_part(results["scenes"], roofline) + sizes_part(results["sizes"]) + output_part(results["output"])
     lines += roofline_part(roofline) + profile_part(kernels, roofline) + laws_part(kernels) + others_part(kernels)
     lines += instructions_part(results["instructions"])
-    lines += [(ROOT / "benchmark" / "tail.md").read_text().rstrip(), ""]
     (doc / "performance.md").write_text("\n".join(lines).rstrip() + "\n")
     print(doc / "performance.md")
 

@@ -2,7 +2,7 @@
 // set which the file is compiled for: 16 bytes (plain), 32 (AVX2) or 64 (AVX-512).
 //
 // Compiler vectors (GCC, Clang) with a few intrinsics for what they do not have: masks, square roots, part loads.
-// Why not a library, see doc/performance.md. Laws and shape functions are written once for numbers and registers
+// doc/decisions.md says why this is no library. Laws and shape functions are written once for numbers and registers
 // (math/lanes.hpp). Whoever includes this file is compiled once an instruction set under another name of the namespace
 // (kernels.hpp): no inline function of one is linked into another.
 #pragma once

@@ -19,25 +19,25 @@ int main(int argc, char** argv) {
   mpm_ros::ReportOptions options;
   CLI::App app(
       "Tables, CSV files, JSON, pictures, an animation and checks of runs that the simulator or run_scene recorded.");
-  app.add_option("bag", options.bags, "the bag; several are put side by side")->required();
+  app.add_option("bag", options.bags, "the bag; several bags are compared side by side")->required();
   app.add_option("--csv", options.csv, "write the tables as CSV files, with units in their headers, to this folder");
   app.add_option("--json", options.json, "write the figures of the tables to this file; -: to standard output alone");
   app.add_option("--plots", options.plots, "draw pictures (PNG) to this folder");
   app.add_option("--animate", options.animate, "draw the particles in motion to this file, .mp4 (by ffmpeg) or .gif");
-  app.add_option("--snapshots", options.snapshots, "write at most so many particle snapshots as CSV")
+  app.add_option("--snapshots", options.snapshots, "largest number of particle snapshots to write as CSV")
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{1}, std::size_t{10000}));
-  app.add_option("--frames", options.frames, "at most so many frames of the animation")
+  app.add_option("--frames", options.frames, "largest number of frames of the animation")
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{2}, std::size_t{10000}));
   app.add_option("--field", options.field, "particle field that colours the pictures");
-  app.add_option("--namespace", options.name_space, "of the topics, when a bag holds several runs");
+  app.add_option("--namespace", options.name_space, "namespace of the topics, for a bag with several runs");
   app.add_flag("--check", options.check,
                "check the run: audit, energy, gaps in time, impulses; exit code 3 on failure");
   app.add_flag("--same", options.same,
-               "whether two bags are of the same run, to the bit; the first difference; exit code 3 if there is one");
+               "compare two bags to the bit and report the first difference; exit code 3 if there is one");
   app.add_option("--tolerance", options.tolerance,
-                 "of --same: numbers may differ by so much of the largest size that they have");
+                 "for --same: largest difference of numbers, relative to their largest magnitude");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -12,7 +12,8 @@
 int main(int argc, char** argv) {
   mpm::MaterialDriverOptions options;
   std::string csv;
-  CLI::App app("Drives one piece of material along a path of strain or stress, and prints what it carries as CSV.");
+  CLI::App app(
+      "Drives one piece of material along a path of strain or stress, and prints its stress and state as CSV.");
   app.add_option("MATERIAL", options.material,
                  "'{law: neo_hookean, density: 1000, young: 1 MPa, poisson: 0.3}', as in a scene; with --scene a name")
       ->required();
@@ -20,15 +21,16 @@ int main(int argc, char** argv) {
                  "uniaxial_strain, uniaxial_stress, triaxial, simple_shear, volumetric, relaxation or creep");
   app.add_option("--scene", options.scene, "take the material from this scene: a shipped name, or a path");
   app.add_option("--path", options.path_file, "a path of your own: CSV with columns such as t, ezz, sxx [kPa], gxz");
-  app.add_option("--strain", options.strain, "to reach (-0.01; in shear 0.01); compression is negative");
-  app.add_option("--confining", options.confining, "triaxial: pressure around (100 kPa)");
-  app.add_option("--stress", options.stress, "creep: stress to hold; compression is negative");
-  app.add_option("--rate", options.rate, "of the strain, in 1/s (1)");
-  app.add_option("--hold", options.hold, "relaxation, creep: for how long, in s (1)");
-  app.add_flag("--shear", options.shear, "relaxation, creep: in shear xz, in place of along z with free sides");
-  app.add_option("--steps", options.steps, "a leg of the path (100), or from one row of a file to the next (10)")
+  app.add_option("--strain", options.strain, "strain at the end (-0.01; in shear 0.01); compression is negative");
+  app.add_option("--confining", options.confining, "triaxial: confining pressure (100 kPa)");
+  app.add_option("--stress", options.stress, "creep: the constant stress; compression is negative");
+  app.add_option("--rate", options.rate, "strain rate, in 1/s (1)");
+  app.add_option("--hold", options.hold, "relaxation, creep: time at constant strain or stress, in s (1)");
+  app.add_flag("--shear", options.shear, "relaxation, creep: shear xz instead of strain along z with free sides");
+  app.add_option("--steps", options.steps,
+                 "steps per leg of the path (100), or from one row of a file to the next (10)")
       ->check(CLI::Range(1, 10000000));
-  app.add_option("--csv", csv, "write to this file, not to the terminal");
+  app.add_option("--csv", csv, "write to this file instead of the terminal");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -25,33 +25,33 @@ int main(int argc, char** argv) {
   mpm_ros::RunSceneOptions options;
   bool list = false;
   bool explain = false;
-  CLI::App app("Runs a scene without a ROS master, as fast as it goes.");
+  CLI::App app("Runs a scene without a ROS master, as fast as possible.");
   auto* scene = app.add_option("SCENE", options.scene, "a shipped scene's name (--list), or a path to a YAML file");
-  app.add_option("--bag", options.bag, "record everything to this bag; auto: a name of its own in this folder");
-  app.add_option("--bag-compression", options.bag_compression, "of the bag: none, lz4 or bz2")
+  app.add_option("--bag", options.bag, "record everything to this bag; auto: a new name in this folder");
+  app.add_option("--bag-compression", options.bag_compression, "compression of the bag: none, lz4 or bz2")
       ->check(CLI::IsMember({"none", "lz4", "bz2"}));
   app.add_option("--bag-split", options.bag_split,
                  "begin another part of the bag at this size (\"500 MB\") or simulated time (\"10 s\")");
   app.add_option("--from-bag", options.from_bag,
                  "run what this bag recorded again, its scene and its commands, and compare the state at its end");
   app.add_option("--out", options.out,
-                 "make a folder of its own in this one, with bag, tables, ParaView files, summary and scene");
+                 "make a new folder in this one, with bag, tables, ParaView files, summary and scene");
   app.add_option("--vtk", options.vtk, "write files for ParaView to this folder (open run.pvd)");
   app.add_option("--csv", options.csv, "write tables (contact forces, bodies, solver state, particles) to this folder");
   app.add_option("--summary", options.summary, "write the run's numbers as JSON to this file");
   app.add_option("--checkpoint", options.checkpoint,
                  "save the run to this HDF5 file at its end, or when it is stopped");
   app.add_option("--checkpoint-every", options.checkpoint_every,
-                 "save it each time so much simulated time has passed, too, in seconds or with a unit");
-  app.add_option("--resume", options.resume, "go on from this checkpoint, which holds its scene; bit for bit");
+                 "save it also each time this simulated time has passed, in seconds or with a unit");
+  app.add_option("--resume", options.resume, "continue bit for bit from this checkpoint, which contains its scene");
   app.add_option("--threads", options.threads, "threads; 0: as many as the machine has")->check(CLI::Range(0, 1024));
   app.add_option("--isa", options.isa,
                  "instruction set of the kernels: plain, avx2 or avx512; auto: the widest one available");
   app.add_option("--end", options.end, "stop at this time, in seconds or with a unit (\"20 ms\")");
-  app.add_option("--set", options.set, "change the scene: key.path=value, as in grid.cell=0.02; may be given often")
+  app.add_option("--set", options.set, "change the scene: key.path=value, as in grid.cell=0.02; may be repeated")
       ->allow_extra_args(false);
-  app.add_flag("--list", list, "name the shipped scenes, and exit");
-  app.add_flag("--explain", explain, "say what was chosen for the scene and why, and exit");
+  app.add_flag("--list", list, "list the shipped scenes, and exit");
+  app.add_flag("--explain", explain, "report what was chosen for the scene and why, and exit");
   try {
     app.parse(argc, argv);
     if (!list && scene->empty() && options.from_bag.empty() && options.resume.empty())

@@ -48,7 +48,7 @@ class RawTerminal {
   RawTerminal() {
     if (tcgetattr(STDIN_FILENO, &before_) != 0)
       throw std::runtime_error(
-          "the input is no terminal; run it in one (in a launch file: launch-prefix=\"xterm -e\")");
+          "the input is not a terminal; run it in one (in a launch file: launch-prefix=\"xterm -e\")");
     termios raw = before_;
     raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
     raw.c_cc[VMIN] = 0;
@@ -160,13 +160,15 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Moves a rigid body of a running simulator by the keyboard.");
   app.add_option("BODY", options.body, "name of the rigid body; may be left out when there is one");
-  app.add_option("--speed", options.speed, "of a key that is held [m/s]")->check(CLI::PositiveNumber);
-  app.add_option("--rotation-rate", options.rotation_rate, "the same [rad/s]")->check(CLI::PositiveNumber);
-  app.add_option("--frequency", options.frequency, "of messages while it moves [1/s]")->check(CLI::Range(1.0, 200.0));
-  app.add_option("--hold", options.hold,
-                 "how long a key counts that was pressed once [s]; more than the keyboard's delay before it repeats")
+  app.add_option("--speed", options.speed, "speed while a key is held [m/s]")->check(CLI::PositiveNumber);
+  app.add_option("--rotation-rate", options.rotation_rate, "rotation rate while a key is held [rad/s]")
       ->check(CLI::PositiveNumber);
-  app.add_option("--namespace", options.name_space, "of the simulator");
+  app.add_option("--frequency", options.frequency, "messages per second while the body moves [1/s]")
+      ->check(CLI::Range(1.0, 200.0));
+  app.add_option("--hold", options.hold,
+                 "time for which a single key press counts [s]; more than the keyboard's delay before repetition")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--namespace", options.name_space, "namespace of the simulator");
   ros::V_string words;
   ros::removeROSArgs(argc, argv, words);
   std::vector<std::string> arguments(words.rbegin(), words.rend() - 1);  // reversed, for CLI11, without the program

@@ -13,13 +13,13 @@ int main(int argc, char** argv) {
   options.folder = "work_precision";
   bool quick = false, charts = true;
   CLI::App app("Runs every method on problems with known answers, and charts error against cost.");
-  auto* short_run = app.add_flag("--quick", quick, "some minutes; what is run without --full too");
+  auto* short_run = app.add_flag("--quick", quick, "some minutes; the default");
   app.add_flag("--full", options.full, "finer grids, every method on every problem, longer timing; an hour or more")
       ->excludes(short_run);
-  app.add_option("--suite", options.suites, "run this problem alone; may be given again");
-  app.add_option("--method", options.methods, "run this method alone, such as cpdi/usavg/flip; may be given again");
+  app.add_option("--suite", options.suites, "run only this problem; may be repeated");
+  app.add_option("--method", options.methods, "run only this method, such as cpdi/usavg/flip; may be repeated");
   app.add_option("--out", options.folder, "folder for work_precision.csv, summary.csv and the charts");
-  app.add_flag("!--no-charts", charts, "tables alone");
+  app.add_flag("!--no-charts", charts, "tables only");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

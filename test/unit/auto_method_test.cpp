@@ -218,7 +218,7 @@ TEST(AutoMethod, SuitesFollowTheScene) {
             "bspline2, usavg, flip: reaches 1 % at 1.20 times the least cost in square_large, 1.20 in rotation; "
             "cpdi, usavg, flip comes next, with 2.00 at worst; ugimp, usavg, flip has 2.00 at worst");
   EXPECT_EQ(said(turned, "method.auto.strain"), "");  // given by the scene
-  EXPECT_EQ(said(chosen(block(), rows), "method.auto.strain"), "0 %: nothing moves it");
+  EXPECT_EQ(said(chosen(block(), rows), "method.auto.strain"), "0 %: nothing moves the material");
 }
 
 // For what uGIMP/USF takes for 1 %, CPDI has 0.5 % and uGIMP/USAVG 2 % on the one suite, both the same on the other.
@@ -233,16 +233,16 @@ TEST(AutoMethod, SaysWhatABudgetBuys) {
   const Scene scene = chosen(block(), rows, asked);
   EXPECT_EQ(
       said(scene),
-      "cpdi, usavg, flip: comes, for 1 times what ugimp, usf, flip takes for 1 %, to 1.00 times the least error in "
+      "cpdi, usavg, flip: at 1 times the cost of ugimp, usf, flip for 1 %, errs by 1.00 times the least error in "
       "bar_small, 1.00 in square_small; ugimp, usf, flip comes next, with 2.00 at worst; ugimp, usavg, flip has 4.00 "
       "at worst");
   asked.budget = {0.001, {}};
-  EXPECT_EQ(
-      said(chosen(block(), rows, asked)),
-      "cpdi, usavg, flip: comes, where not all reach 0.1 %, to 1.00 times the smallest error or 0.1 % in bar_small, "
-      "1.00 in square_small; ugimp, usf, flip comes next, with 2.00 at worst; ugimp, usavg, flip has 4.00 at worst");
+  EXPECT_EQ(said(chosen(block(), rows, asked)),
+            "cpdi, usavg, flip: where not all methods reach 0.1 %, errs by 1.00 times the smallest error or 0.1 % in "
+            "bar_small, 1.00 in square_small; ugimp, usf, flip comes next, with 2.00 at worst; ugimp, usavg, flip has "
+            "4.00 at worst");
   asked.budget = {{}, 0.5};
-  EXPECT_EQ(said(chosen(block(), rows, asked)).find("ugimp, usavg, flip: the default, for no measured method"), 0U);
+  EXPECT_EQ(said(chosen(block(), rows, asked)).find("ugimp, usavg, flip: the default; no measured method"), 0U);
 }
 
 // Where runs on the cube only reach an error of 2 %, above the required 1 %, the square counts; where one reaches 1 %,
@@ -302,7 +302,7 @@ TEST(AutoMethod, KeepsWhatTheSceneSays) {
   EXPECT_EQ(scene.definition.method.precision, Precision::float32);
   scene = parse_scene(block("method: {auto: {}, shape: qcpdi, update: usl, transfer: pic}\n"), "t.yaml");
   EXPECT_EQ(label(scene), "qcpdi/usl/pic");
-  EXPECT_EQ(said(scene), "qcpdi, usl, pic: the scene says all of it");
+  EXPECT_EQ(said(scene), "qcpdi, usl, pic: all named by the scene");
 }
 
 /// Replaces the package's table for the duration of a test.
@@ -340,12 +340,12 @@ TEST(AutoMethod, WithoutATableTheDefaultIsTakenAndSaid) {
     const TableFile file(text);
     const Scene scene = parse_scene(block(), "test.yaml");
     EXPECT_EQ(label(scene), "ugimp/usavg/flip");
-    EXPECT_EQ(said(scene).find("ugimp, usavg, flip: the default, for " + file.path() + fault), 0U) << said(scene);
+    EXPECT_EQ(said(scene).find("ugimp, usavg, flip: the default; " + file.path() + fault), 0U) << said(scene);
   }
   const TableFile file("");
   std::remove(file.path().c_str());
   EXPECT_EQ(said(parse_scene(block("method: {auto: {}, shape: cpdi}\n"), "test.yaml")),
-            "cpdi, usavg, flip: the default, for " + file.path() +
+            "cpdi, usavg, flip: the default; " + file.path() +
                 " cannot be read; run scripts/methods, or name a table in MPM_ROS_METHOD_COSTS");
 }
 
@@ -413,7 +413,7 @@ TEST(AutoMethod, TheShippedTableServesEveryScene) {
           parse_scene(block("boundaries: {z_min: {friction: 0.2}}\n", ", initial: {velocity: [0.1, 0]}"), "t");
       scene.choices.clear();
       choose_method(asked, file, scene);
-      EXPECT_EQ(said(scene).find("the default, for"), std::string::npos) << said(scene);
+      EXPECT_EQ(said(scene).find("the default;"), std::string::npos) << said(scene);
     }
   }
 }

@@ -66,7 +66,7 @@ TEST(SceneFree, RefusesWhatCannotBe) {
   says(refusal(ball + "free: {mass: 1, axes: []}"), "no axis is free");
   says(refusal(ball + "free: {mass: 1, speed: 2}"), "free");
   says(refusal(ball + "motion: {velocity: [1, 0]}, free: {mass: 1}"), "prescribed by `motion` too");
-  says(refusal(ball + "free: {mass: 1, axes: [x], velocity: [1, 1]}"), "what is not free");
+  says(refusal(ball + "free: {mass: 1, axes: [x], velocity: [1, 1]}"), "a direction that is not free");
   says(refusal(ball + "free: {mass: 1, axes: [x, z], centre: [0.01, 0]}"), "off the body's origin");
   says(refusal("shape: {plane: {}}, free: {density: 1}"), "volume of this shape is not known");
   says(refusal("shape: {plane: {}}, free: {mass: 1}"), "inertia of this shape is not known");

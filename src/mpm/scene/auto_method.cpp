@@ -124,11 +124,11 @@ std::string reasons(const Preference& preference, const study::Budget& budget) {
   if (budget.error) {
     const std::string error = percent(*budget.error);
     add(Judged::cost, fmt::format("reaches {} at ", error), "the least cost");
-    add(Judged::smallest_error, fmt::format("comes, where not all reach {}, to ", error),
+    add(Judged::smallest_error, fmt::format("where not all methods reach {}, errs by ", error),
         "the smallest error or " + error);
   } else {
     add(Judged::error_at_cost,
-        fmt::format("comes, for {:g} times what ugimp, usf, flip takes for 1 %, to ", *budget.cost), "the least error");
+        fmt::format("at {:g} times the cost of ugimp, usf, flip for 1 %, errs by ", *budget.cost), "the least error");
   }
   if (!preference.others.empty()) {
     const Standing& next = preference.others.front();
@@ -153,8 +153,8 @@ void choose_method(const AutoMethod& asked, const MethodCostsFile& file, Scene& 
     scene.choices.emplace_back("method", fmt::format("{}, {}, {}: {}", shape_name(method.shape),
                                                      update_name(method.update), transfer_text(method.transfer), why));
   };
-  if (asked.keep_shape && asked.keep_update && asked.keep_transfer) return say("the scene says all of it");
-  if (!file.fault.empty()) return say(fmt::format("the default, for {}", file.fault));
+  if (asked.keep_shape && asked.keep_update && asked.keep_transfer) return say("all named by the scene");
+  if (!file.fault.empty()) return say(fmt::format("the default; {}", file.fault));
 
   ExpectedMotion expected = expected_motion(scene);
   if (asked.strain) {
@@ -173,9 +173,10 @@ void choose_method(const AutoMethod& asked, const MethodCostsFile& file, Scene& 
       study::prefer(file.costs, suites_like(expected, definition.geometry, file.costs, asked.budget),
                     candidates_for(asked, expected.flows, file.costs, definition), asked.budget);
   if (!preference) {
-    return say(fmt::format("the default, for no measured method {}",
-                           asked.budget.error ? "has what the scene keeps; say shape, update and transfer, or keep less"
-                                              : "has what the scene keeps and is as cheap; raise method.auto.cost"));
+    return say(fmt::format("the default; no measured method {}",
+                           asked.budget.error
+                               ? "has what the scene keeps; name shape, update and transfer, or keep less"
+                               : "has what the scene keeps and is as cheap; raise method.auto.cost"));
   }
   method = filled(method, study::find_method(preference->chosen.method).method, asked);
   say(reasons(*preference, asked.budget));

@@ -100,7 +100,7 @@ double body_size(const BodyDefinition& body, const Scene& scene) {
 }
 
 void find_elastic_motion(const Scene& scene, ExpectedMotion& expected) {
-  expected.strain_why = "nothing moves it";
+  expected.strain_why = "nothing moves the material";
   const double end = scene.definition.time.end;
   for (const BodyDefinition& body : scene.bodies) {
     const double wave = MaterialPoint(material_of(body, scene)).wave_speed();
@@ -126,11 +126,11 @@ void find_elastic_motion(const Scene& scene, ExpectedMotion& expected) {
       !definition.body_forces.empty() || !definition.particle_forces.empty() || !definition.tractions.empty();
   const char* unknown = !definition.rigid_bodies.empty() ? "rigid bodies may press"
                         : loaded                         ? "loads act"
-                        : stressed                       ? "stress at the start"
+                        : stressed                       ? "there is stress at the start"
                                                          : nullptr;
   if (unknown != nullptr && expected.strain < kPressedStrain) {
     expected.strain = kPressedStrain;
-    expected.strain_why = fmt::format("{}, and how far is not known", unknown);
+    expected.strain_why = fmt::format("not known, since {}", unknown);
   }
 }
 
@@ -158,7 +158,7 @@ ExpectedMotion expected_motion(const Scene& scene) {
       });
   if (definition.geometry != GeometryKind::line && (expected.flows || turned)) {
     expected.turn = kQuarterTurn;
-    expected.turn_why = expected.flows ? "what flows turns" : "a rigid body turns";
+    expected.turn_why = expected.flows ? "flowing material turns" : "a rigid body turns";
   }
   expected.contact = !definition.rigid_bodies.empty() ||
                      std::any_of(definition.walls.begin(), definition.walls.end(),

@@ -102,7 +102,7 @@ std::string explain(const Scene& scene, const SimulationDefinition& built) {
   add_bodies(scene, built, text);
   add_steps(scene, built, text);
   text += fmt::format("output: every {:.9g} s\n", scene.output.period);
-  if (!scene.choices.empty()) text += "chosen, for the scene does not say:\n";
+  if (!scene.choices.empty()) text += "chosen, because the scene does not specify them:\n";
   for (const auto& [key, reason] : scene.choices) text += fmt::format("  {}: {}\n", key, reason);
   return text;
 }

@@ -117,7 +117,7 @@ void read_free(const Map& body_map, const SimulationDefinition& definition, Rigi
     }
     const double start = k < 3 ? free.velocity.linear[k] : free.velocity.angular[k - 3];
     if (!free.axes[k] && start != 0.0) {
-      key->fail("a velocity at the start is given for what is not free; write it into `motion`");
+      key->fail("a velocity at the start is given for a direction that is not free; write it into `motion`");
     }
   }
   for (int k = 0; k < 6; ++k) {

@@ -41,8 +41,8 @@ class BlockTable {
  private:
   void widen(std::uint64_t stride);
   /// Replaces blocks beyond the face of a periodic axis by the blocks at the other end that they coincide with.
-  void go_around();
-  void find_neighbours_around(const std::vector<std::uint64_t>& owner_keys, std::size_t begin, std::size_t end);
+  void wrap_blocks();
+  void find_wrapped_neighbours(const std::vector<std::uint64_t>& owner_keys, std::size_t begin, std::size_t end);
   void find_neighbours(const std::vector<std::uint64_t>& owner_keys, std::size_t begin, std::size_t end);
 
   const GridLayout* layout_;

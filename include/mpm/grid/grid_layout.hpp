@@ -59,8 +59,8 @@ class GridLayout {
   /// unless the number of cells is a multiple of 8: the axis must consist of whole blocks, and of an even number of
   /// them, so that neighbours have different colours.
   void make_periodic(int k);
-  bool periodic(int k) const { return around_[k] > 0; }
-  bool any_periodic() const { return around_[0] + around_[1] + around_[2] > 0; }
+  bool periodic(int k) const { return periodic_blocks_[k] > 0; }
+  bool any_periodic() const { return periodic_blocks_[0] + periodic_blocks_[1] + periodic_blocks_[2] > 0; }
 
   /// World position of a node of a block; 0 along axes that the grid does not have.
   Vec3 node_position(const std::array<int, 3>& block, int local) const;
@@ -71,7 +71,7 @@ class GridLayout {
   int dim_;
   std::array<double, 3> cell_{}, inverse_cell_{}, origin_{};
   std::array<int, 3> last_node_{}, blocks_{};
-  std::array<int, 3> around_{};  ///< number of blocks along a periodic axis, 0 along others
+  std::array<int, 3> periodic_blocks_{};  ///< number of blocks along a periodic axis, 0 along others
   std::array<std::int64_t, 3> stride_{};
 };
 

@@ -32,9 +32,9 @@ class DruckerPrager : public LawTraits {
     Symmetric deviator = scale_shift(trial, T(1), -trial_mean);
     T mean = close_opening(trial_mean, bulk_, history[kOpening]);
     const T j2 = T(0.5) * squared_norm(deviator);
-    const T bears = T(strength_) - T(eta_) * mean;  // sqrt(J2) at yield
-    const auto shears = (bears < T(0)) | (j2 > bears * bears);
-    if (any(shears | (mean > T(cutoff_)))) flow(shears, j2, bears, to_tau, mean, deviator, history);
+    const T yield_root_j2 = T(strength_) - T(eta_) * mean;
+    const auto shears = (yield_root_j2 < T(0)) | (j2 > yield_root_j2 * yield_root_j2);
+    if (any(shears | (mean > T(cutoff_)))) flow(shears, j2, yield_root_j2, to_tau, mean, deviator, history);
     tau = scale_shift(deviator, to_tau, mean * to_tau);
   }
 
@@ -70,12 +70,12 @@ class DruckerPrager : public LawTraits {
   /// Returns `mean` and `deviator` to the cone or its apex in the lanes where `shears` holds, and to the cut-off in
   /// all.
   template <class T, class Mask, class Symmetric>
-  void flow(const Mask& shears, T j2, T bears, T to_tau, T& mean, Symmetric& deviator, T* history) const {
+  void flow(const Mask& shears, T j2, T yield_root_j2, T to_tau, T& mean, Symmetric& deviator, T* history) const {
     const T root_j2 = sqrt(j2);
     // Opened soil has room to dilate into, so dilation builds up no pressure.
     const T eta_bar = select(history[kOpening] > T(0), T(0), T(eta_bar_));
     // Increment of the equivalent plastic shear strain, sqrt(2 de:de).
-    T multiplier = select(shears, (root_j2 - bears) / (T(shear_) + T(bulk_ * eta_) * eta_bar), T(0));
+    T multiplier = select(shears, (root_j2 - yield_root_j2) / (T(shear_) + T(bulk_ * eta_) * eta_bar), T(0));
     const T beyond = root_j2 - T(shear_) * multiplier;
     const T left = max(beyond, T(0));
     // Without friction there is no apex; values below zero are round-off.

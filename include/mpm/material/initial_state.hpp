@@ -63,7 +63,7 @@ class InitialStates {
   InitialState volume_for(const Symmetric3<double>& cauchy, double excess) const;
   InitialState stretch_for(const Symmetric3<double>& cauchy, bool yy_follows) const;
   /// tau of a state after unlimited time at rest.
-  Symmetric3<double> held(const InitialState& state) const;
+  Symmetric3<double> relaxed(const InitialState& state) const;
   Symmetric3<double> cauchy_of(const InitialState& state) const;
   [[noreturn]] void refuse(const std::string& why) const;
 

@@ -55,9 +55,9 @@ class MohrCoulomb : public LawTraits {
     // Squares, over J2, of the largest values at given J2: of s1 - s3 + (s1 + s3 - 2 mean) sin(phi), and of s1 - mean.
     const T shear_factor = T(kCaution * (4.0 + 4.0 / 3.0 * sin_friction_ * sin_friction_));
     const T tension_factor = T(kCaution * 4.0 / 3.0);
-    const T bears = T(strength_) - T(2.0 * sin_friction_) * mean;
+    const T shear_limit = T(strength_) - T(2.0 * sin_friction_) * mean;
     const T below = T(cutoff_) - mean;
-    return (bears < T(0)) | (shear_factor * j2 > bears * bears) | (below < T(0)) |
+    return (shear_limit < T(0)) | (shear_factor * j2 > shear_limit * shear_limit) | (below < T(0)) |
            (tension_factor * j2 > below * below);
   }
 

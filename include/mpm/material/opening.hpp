@@ -27,8 +27,8 @@ T close_opening(T mean, double bulk, T& opening) {
 /// q|/2)^2 / h.
 template <class T, class Symmetric>
 T soil_wave_speed(const Symmetric& tau, T j, double bulk, double shear, double density, T flow) {
-  const auto bears = abs(trace(tau)) > T(3.0 * kStressFree * bulk / density);
-  const T closed = select((j > T(1)) & !bears, T(1), j);
+  const auto carries = abs(trace(tau)) > T(3.0 * kStressFree * bulk / density);
+  const T closed = select((j > T(1)) & !carries, T(1), j);
   return LinearElastic::tangent_wave_speed(tau, closed, bulk, shear, density, flow);
 }
 

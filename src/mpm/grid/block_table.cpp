@@ -39,15 +39,15 @@ void BlockTable::find_neighbours(const std::vector<std::uint64_t>& owner_keys, s
   for (std::size_t o = begin; o < end; ++o) owner_block_[o] = neighbours_[o * span_ + span_ / 2];
 }
 
-void BlockTable::go_around() {
+void BlockTable::wrap_blocks() {
   for (std::uint64_t& key : keys_) key = layout_->key(layout_->block(key));
   std::sort(keys_.begin(), keys_.end());
   keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
 }
 
 // With periodic axes the neighbours are in no order, so each is looked up.
-void BlockTable::find_neighbours_around(const std::vector<std::uint64_t>& owner_keys, std::size_t begin,
-                                        std::size_t end) {
+void BlockTable::find_wrapped_neighbours(const std::vector<std::uint64_t>& owner_keys, std::size_t begin,
+                                         std::size_t end) {
   for (std::size_t o = begin; o < end; ++o) {
     const std::array<int, 3> owner = layout_->block(owner_keys[o]);
     for (int s = 0; s < span_; ++s) {
@@ -74,7 +74,7 @@ void BlockTable::rebuild(const std::vector<std::uint64_t>& owner_keys, int threa
 
   keys_ = owner_keys;
   for (int k = dim - 1; k >= 0; --k) widen(static_cast<std::uint64_t>(layout_->key_stride(k)));
-  if (layout_->any_periodic()) go_around();
+  if (layout_->any_periodic()) wrap_blocks();
 
   coordinates_.resize(keys_.size());
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -88,7 +88,7 @@ void BlockTable::rebuild(const std::vector<std::uint64_t>& owner_keys, int threa
     const std::size_t begin = owners * t / threads, end = owners * (t + 1) / threads;
     if (begin == end) continue;
     if (layout_->any_periodic()) {
-      find_neighbours_around(owner_keys, begin, end);
+      find_wrapped_neighbours(owner_keys, begin, end);
     } else {
       find_neighbours(owner_keys, begin, end);
     }

@@ -45,13 +45,13 @@ void GridLayout::make_periodic(int k) {
         fmt::format("grid: {} cells along {}, which is periodic; their number must be a multiple of {}: {}{}", cells,
                     "xyz"[axis(k)], kMultiple, below > 0 ? fmt::format("{} or ", below) : "", below + kMultiple));
   }
-  around_[k] = cells / kBlockEdge;
+  periodic_blocks_[k] = cells / kBlockEdge;
 }
 
 std::uint64_t GridLayout::key(const std::array<int, 3>& block) const {
   std::int64_t key = 0;
   for (int k = 0; k < dim_; ++k) {
-    const int b = around_[k] > 0 ? (block[k] + around_[k]) % around_[k] : block[k];
+    const int b = periodic_blocks_[k] > 0 ? (block[k] + periodic_blocks_[k]) % periodic_blocks_[k] : block[k];
     key += (b + 1) * stride_[k];
   }
   return static_cast<std::uint64_t>(key);

@@ -15,26 +15,26 @@
 namespace mpm {
 namespace {
 
-constexpr double kForEver = 1e30;  // [s]
-constexpr double kChange = 1e-6;   // change of a logarithmic stretch for differences
-constexpr double kLargest = 0.5;   // change of a logarithmic stretch in one step of Newton's method
+constexpr double kUnlimited = 1e30;  // [s]
+constexpr double kChange = 1e-6;     // change of a logarithmic stretch for differences
+constexpr double kLargest = 0.5;     // change of a logarithmic stretch in one step of Newton's method
 constexpr int kSteps = 100;
 constexpr double kSame = 1e-9;        // part of the largest component below which stresses are equal
 constexpr double kRoundOff = 1e-14;   // part of the stiffness below which they are: the last digit of a stretch
 constexpr double kCompatible = 1e-6;  // as kSame, for a stress along y from the scene
 
 /// The variables from which a law computes its stress. A law that is not listed does not compile.
-enum class Keeps { stress, volume_and_stress, volume, deformation };
-struct WhatIsKept {
-  Keeps operator()(const LinearElastic&) const { return Keeps::stress; }
-  Keeps operator()(const DruckerPrager&) const { return Keeps::stress; }
-  Keeps operator()(const MohrCoulomb&) const { return Keeps::stress; }
-  Keeps operator()(const J2Plasticity&) const { return Keeps::volume_and_stress; }
-  Keeps operator()(const JohnsonCook&) const { return Keeps::volume_and_stress; }
-  Keeps operator()(const NewtonianFluid&) const { return Keeps::volume; }
-  Keeps operator()(const IdealGas&) const { return Keeps::volume; }
-  Keeps operator()(const NeoHookean&) const { return Keeps::deformation; }
-  Keeps operator()(const StandardLinearSolid&) const { return Keeps::deformation; }
+enum class StressSource { stress, volume_and_stress, volume, deformation };
+struct StressSourceOf {
+  StressSource operator()(const LinearElastic&) const { return StressSource::stress; }
+  StressSource operator()(const DruckerPrager&) const { return StressSource::stress; }
+  StressSource operator()(const MohrCoulomb&) const { return StressSource::stress; }
+  StressSource operator()(const J2Plasticity&) const { return StressSource::volume_and_stress; }
+  StressSource operator()(const JohnsonCook&) const { return StressSource::volume_and_stress; }
+  StressSource operator()(const NewtonianFluid&) const { return StressSource::volume; }
+  StressSource operator()(const IdealGas&) const { return StressSource::volume; }
+  StressSource operator()(const NeoHookean&) const { return StressSource::deformation; }
+  StressSource operator()(const StandardLinearSolid&) const { return StressSource::deformation; }
 };
 
 struct PoissonRatio {
@@ -93,7 +93,7 @@ Matrix3<double> stretch(const Principal<double>& axes) {
 InitialStates::InitialStates(const MaterialDefinition& material, GeometryKind geometry)
     : material_(material), law_(make_law(material)), geometry_(geometry) {
   const double speed =
-      std::visit([&](const auto& law) { return law.wave_speed(Matrix3<double>::identity(), held({}), 1.0); }, law_);
+      std::visit([&](const auto& law) { return law.wave_speed(Matrix3<double>::identity(), relaxed({}), 1.0); }, law_);
   least_ = kRoundOff * material.density * speed * speed;
 }
 
@@ -106,10 +106,10 @@ int InitialStates::temperature_index() const {
 }
 
 bool InitialStates::yy_is_bound() const {
-  return geometry_ == GeometryKind::plane_strain && std::visit(WhatIsKept(), law_) == Keeps::deformation;
+  return geometry_ == GeometryKind::plane_strain && std::visit(StressSourceOf(), law_) == StressSource::deformation;
 }
 
-Symmetric3<double> InitialStates::held(const InitialState& state) const {
+Symmetric3<double> InitialStates::relaxed(const InitialState& state) const {
   return std::visit(
       [&](const auto& law) {
         std::array<double, std::decay_t<decltype(law)>::kHistory + 1> scalars{};
@@ -119,14 +119,14 @@ Symmetric3<double> InitialStates::held(const InitialState& state) const {
         const Matrix3<double> none{}, same = Matrix3<double>::identity();
         const double j = state.j();
         Symmetric3<double> tau = state.tau;
-        law.update(Increment<double, Matrix3<double>>{none, same, state.f, j, j, kForEver}, tau, scalars.data());
+        law.update(Increment<double, Matrix3<double>>{none, same, state.f, j, j, kUnlimited}, tau, scalars.data());
         return tau;
       },
       law_);
 }
 
 Symmetric3<double> InitialStates::cauchy_of(const InitialState& state) const {
-  return scale_shift(held(state), material_.density / state.j(), 0.0);
+  return scale_shift(relaxed(state), material_.density / state.j(), 0.0);
 }
 
 InitialState InitialStates::find(const InitialRequest& request) const {
@@ -140,7 +140,7 @@ InitialState InitialStates::find(const InitialRequest& request) const {
         *request.temperature - std::visit([](const auto& law) { return law.reference_temperature(); }, law_);
   }
   if (!request.cauchy) {
-    state.tau = held(state);
+    state.tau = relaxed(state);
     return state;
   }
   Symmetric3<double> cauchy = *request.cauchy;
@@ -148,7 +148,7 @@ InitialState InitialStates::find(const InitialRequest& request) const {
   if (geometry_ == GeometryKind::plane_stress && cauchy.yy != 0.0) {
     refuse(fmt::format("cannot have yy = {:.6g} Pa in plane stress, which has none; leave yy out", cauchy.yy));
   }
-  const Keeps keeps = std::visit(WhatIsKept(), law_);
+  const StressSource source = std::visit(StressSourceOf(), law_);
   // A locked axis has no strain relative to the state without stress; a fluid has the same pressure in all directions.
   const double ratio = std::visit(PoissonRatio(), material_.law).value_or(0.5);
   const bool follows =
@@ -156,25 +156,25 @@ InitialState InitialStates::find(const InitialRequest& request) const {
   if (geometry_ == GeometryKind::line) {
     const double across = ratio / (1.0 - ratio) * cauchy.xx;
     cauchy = {cauchy.xx, across, across, 0.0, 0.0, 0.0};
-  } else if (follows && keeps != Keeps::deformation) {
+  } else if (follows && source != StressSource::deformation) {
     cauchy.yy = ratio * (cauchy.xx + cauchy.zz);
   }
-  switch (keeps) {
-    case Keeps::stress:
+  switch (source) {
+    case StressSource::stress:
       state.tau = scale_shift(cauchy, 1.0 / material_.density, 0.0);
       break;
-    case Keeps::volume_and_stress:
-    case Keeps::volume:
+    case StressSource::volume_and_stress:
+    case StressSource::volume:
       state = volume_for(cauchy, state.temperature_excess);
       break;
-    case Keeps::deformation:
+    case StressSource::deformation:
       state = stretch_for(cauchy, follows);
       cauchy = cauchy_of(state);
       break;
   }
   const Symmetric3<double> carried = cauchy_of(state);
   if (!(distance(carried, cauchy) <= kSame * largest(cauchy) + least_)) {
-    if (keeps == Keeps::volume) {
+    if (source == StressSource::volume) {
       refuse(fmt::format("is a fluid and carries pressure alone at rest, not {}; write equal xx, yy and zz",
                          text(cauchy)));
     }
@@ -183,7 +183,7 @@ InitialState InitialStates::find(const InitialRequest& request) const {
                     "difference of its components, bring k0 nearer to 1, or give the material more strength",
                     text(cauchy), text(carried)));
   }
-  state.tau = held(state);
+  state.tau = relaxed(state);
   return state;
 }
 

@@ -1,12 +1,12 @@
-// Benchmarks whose names are put together when the program starts.
+// Benchmarks that are registered when the program starts, because their names depend on the machine.
 #pragma once
 
 namespace bench {
 
-/// kernel/KERNEL/GEOMETRY/PRECISION/ISA/POSITIONS and strain_with_law/LAW/GEOMETRY/PRECISION/ISA, of the instruction
-/// sets that this machine has.
+/// Registers kernel/KERNEL/GEOMETRY/PRECISION/ISA/POSITIONS and strain_with_law/LAW/GEOMETRY/PRECISION/ISA for each
+/// instruction set that this machine has.
 void register_kernels();
-/// sort/GEOMETRY/PRECISION/threads:N.
+/// Registers sort/GEOMETRY/PRECISION/threads:N.
 void register_sort();
 
 }  // namespace bench

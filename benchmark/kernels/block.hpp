@@ -1,4 +1,4 @@
-// What kernels, laws and the sort are measured on: the 64,000 particles of a shipped scene in a grid of theirs.
+// The subject on which kernels, laws and the sort are measured: the 64,000 particles of a shipped scene, in one grid.
 #pragma once
 
 #include <string>
@@ -11,22 +11,22 @@
 
 namespace bench {
 
-/// The scene's only body, at rest in its shape, moving as the scene says; not sorted yet.
+/// The scene's only body, undeformed and with the velocity that the scene gives it. It is not sorted yet.
 struct Block {
   /// `scene`: a shipped one; `changes`: "key.path=value". @throws mpm::SceneError
   Block(const std::string& scene, const std::vector<std::string>& changes, mpm::Precision precision);
-  /// The body is of another material; particles forget what they have gone through.
+  /// Gives the body another material and resets deformation, stress and history of its particles.
   void make_of(const mpm::MaterialDefinition& material);
-  /// Sorts as kernels that take `grouping` want it. @throws mpm::Error when a particle left the grid
+  /// Sorts the particles for kernels that work on `grouping`. @throws mpm::Error when a particle left the grid
   void sort(int threads, const mpm::Grouping& grouping);
 
   int dim() const { return grid.layout.dim(); }
   int particles() const { return sets.front().size(); }
 
   mpm::SimulationDefinition definition;
-  mpm::Fields fields;  ///< one
+  mpm::Fields fields;  ///< one field
   mpm::Grid& grid = *fields.front();
-  std::vector<mpm::ParticleSet> sets;  ///< one
+  std::vector<mpm::ParticleSet> sets;  ///< one set
   mpm::Law law;
 };
 

@@ -1,8 +1,9 @@
-// Every kernel of the table by itself, for each instruction set that the machine has, in both precisions, in a plane
-// and a solid, on one thread, on a lattice and on irregular positions; and the pass that strains with each law in turn.
+// Measures every kernel of the table by itself, for each instruction set that the machine has, in both precisions, in
+// two and three dimensions, on one thread, on a lattice and on irregular positions; and the strain pass with each law.
 //
-// A turn does the same work as the one before: its time step is too small to move particles or to strain them further.
-// With a law, particles have been sheared past yielding first, and go on so by 1e-5 a turn: the return counts.
+// Every iteration does the same work: its time step is too small to move particles or to strain them further. For the
+// laws, particles are first sheared past yielding and strained by a further 1e-5 in each iteration, so that the time
+// includes the return to the yield surface.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -19,8 +20,8 @@
 namespace bench {
 namespace {
 
-constexpr double kHardlyAny = 1e-14;  ///< time step of a turn [s]
-constexpr int kTerms = 2;             ///< of the exponential, as scenes have it
+constexpr double kHardlyAny = 1e-14;  ///< time step of an iteration [s]
+constexpr int kTerms = 2;             ///< terms of the exponential, the default of scenes
 
 struct Place {
   const char* geometry;
@@ -36,7 +37,7 @@ constexpr Place kPlaces[] = {{"solid", "lattice", "speed_block_3d", "0"},
 template <class T>
 constexpr mpm::Precision kPrecision = sizeof(T) == 4 ? mpm::Precision::float32 : mpm::Precision::float64;
 
-/// A block, sorted for one table of kernels, whose nodes have its mass and velocity.
+/// A block that is sorted for one table of kernels, with its mass and velocity on the nodes.
 template <class T>
 class Subject {
  public:
@@ -48,7 +49,7 @@ class Subject {
     block_.sort(1, mpm::kernel_grouping(kernels_));
     look();
   }
-  /// Of another material, and all of it sheared and pressed in one way, past yielding.
+  /// A block of another material, uniformly sheared and compressed past yielding.
   Subject(const Place& place, mpm::Isa isa, const mpm::MaterialDefinition& material) : Subject(place, isa) {
     block_.make_of(material);
     mpm::ParticleSet& set = block_.sets.front();
@@ -64,8 +65,8 @@ class Subject {
     for (int n = 0; n < 10; ++n) strain({2e-3, kTerms, false});
   }
 
-  /// Nodes are filled anew, without force: a kernel that works on its own result time and again, as the update of nodes
-  /// divides by mass, would get to denormal numbers.
+  /// Fills the nodes anew, without force. A kernel that is applied to its own result again and again, like the update
+  /// of nodes with its division by mass, would reach denormal numbers.
   void look() {
     mpm::Grid& grid = block_.grid;
     const int blocks = grid.blocks.size(), nodes = grid.layout.nodes_per_block();
@@ -106,8 +107,8 @@ class Subject {
   mpm_kernel::SetView<T> set_{};
 };
 
-/// Benchmarks of one subject come one after the other, and each is called a few times to find how often to run it: the
-/// last subject is kept. With a law, if there is one.
+/// The subject of a benchmark; it has the material of `law`, if one is given. The last subject is kept, because
+/// benchmarks of one subject follow each other and each is called several times to find its number of iterations.
 template <class T>
 Subject<T>& subject(const Place& place, mpm::Isa isa, const mpm::LawDefinition* law = nullptr) {
   static std::unique_ptr<Subject<T>> kept;

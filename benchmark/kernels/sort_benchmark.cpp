@@ -1,5 +1,5 @@
-// Sorting nearly sorted particles, as a run does when some have left their place: each turn moves all of them by a
-// quarter of a cell along x, there and back. Groups are those of the kernels of the widest instruction set.
+// Sorting of nearly sorted particles, as in a run: each iteration moves all of them by a quarter of a cell along x,
+// forth and back in turn. They are grouped as the kernels of the widest instruction set need them.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 

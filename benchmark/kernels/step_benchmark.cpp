@@ -1,5 +1,6 @@
-// Whole steps of small versions of the shipped scenes (cells twice as wide), sorting and step control included; contact
-// is the scene with a tool beside the same scene without. Each turn is a sync period of some 80 steps.
+// Whole steps of small versions of the shipped scenes (cells twice as wide), sorting and step control included. The
+// scene with a tool and the same scene without it show the cost of contact. An iteration is a sync period of about 80
+// steps.
 #include <benchmark/benchmark.h>
 
 #include <string>

@@ -1,9 +1,11 @@
-// What publishing and recording cost beside stepping: 20,000 particles of soil under a moving blade, with everything
-// published and recorded at 30 Hz of simulated time, and with contact forces, bodies and state at every sync point.
+// The cost of publishing and recording relative to stepping: 20,000 particles of soil under a moving blade, once with
+// everything published and recorded at 30 Hz of simulated time, and once with contact forces, bodies and state at every
+// sync point.
 //
-// Recorded: to a bag, in memory where there is /dev/shm. Published: each message serialised once, as a publisher does
-// for its subscribers. Stepping and output are timed apart in one run, since what else runs on the machine changes more
-// from run to run than the output costs. Writes one JSON object; ratios are of the time of stepping.
+// Recording writes a bag, in memory if /dev/shm exists. Publishing serialises each message once, as a publisher does
+// for its subscribers. Stepping and output are timed separately within one run, because the load of the machine varies
+// more between runs than the output costs. The program writes one JSON array; ratios are relative to the time of
+// stepping.
 #include <fmt/format.h>
 #include <ros/serialization.h>
 
@@ -19,7 +21,7 @@
 
 namespace {
 
-// 20 x 10 x 12.5 cells of 8 particles. As soft as speed_soil_3d: a stiffer soil steps more often between messages.
+// 20 x 10 x 12.5 cells of 8 particles, as soft as speed_soil_3d: stiffer soil takes more steps between messages.
 const char* const kScene = R"(
 geometry: solid
 grid: {cell: 0.01, min: [0, 0, 0], max: [0.2, 0.1, 0.2]}
@@ -45,7 +47,7 @@ double now() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Serialises what it gets, as a publisher with a subscriber does.
+/// Serialises each message that it receives, as a publisher with a subscriber does.
 class Serialiser : public mpm_ros::MessageSink {
  public:
   bool wants(const std::string&) const override { return true; }

@@ -1,5 +1,5 @@
-// The loops that find what the machine can do, built once an instruction set (loops_*.cpp), so that nothing inline is
-// shared between two of them.
+// The loops that measure the limits of the machine. They are built once for each instruction set (loops_*.cpp), so that
+// no inline function is shared between two of them.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@ namespace roofline {
 
 struct Loops {
   const char* isa;
-  bool (*available)();  ///< on this processor
-  int doubles;          ///< in a register
-  /// Runs `turns` turns of independent multiply-adds; returns how many it did, counted a number (not a register).
+  bool (*available)();  ///< whether this processor has the instruction set
+  int doubles;          ///< doubles in a register
+  /// Runs `turns` iterations of independent multiply-adds. Returns their count, of numbers rather than registers.
   double (*multiply_add_double)(long turns);
   double (*multiply_add_single)(long turns);
   /// a = b + s c over n doubles, `turns` times; 24 bytes a number, as STREAM counts (no read of a before its write).

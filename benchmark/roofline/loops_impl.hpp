@@ -1,8 +1,8 @@
-// What loops_*.cpp define for their instruction set. Include in the anonymous namespace's place: everything is local.
+// The loops that loops_*.cpp compile for their instruction set. Everything is local to the including file.
 //
-// The compiler cannot remove the work: every accumulator passes through an empty asm statement that it must take for a
-// change, at every turn, so no turn can be left out or done ahead; the asm holds no instruction, and the numbers stay
-// in registers. Sweeps of the triad end in one that may have read all memory.
+// The compiler cannot remove the work: in every iteration each accumulator passes through an empty asm statement that
+// might change it, so that no iteration can be left out or done ahead. The asm holds no instruction, and the numbers
+// stay in registers. Each sweep of the triad ends in an asm statement that might read all memory.
 #pragma once
 
 #include "loops.hpp"
@@ -17,7 +17,7 @@ template <class Real, int bytes>
 double multiply_add(long turns) {
   typedef Real Register __attribute__((vector_size(bytes)));
   constexpr int kLanes = bytes / static_cast<int>(sizeof(Real));
-  // Toward the fixed point x = f x + g: neither overflow nor denormal numbers, which take longer.
+  // x converges to the fixed point of x = f x + g: no overflow, and no denormal numbers, which would take longer.
   Register f = Register{} + Real(0.5), g = Register{} + Real(0.5), x[kChains];
 #pragma GCC unroll 12
   for (int k = 0; k < kChains; ++k) x[k] = Register{} + Real(k + 1);

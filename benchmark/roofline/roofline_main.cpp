@@ -1,5 +1,5 @@
-// What this machine can do, and what part of it a step of the solver does: multiply-adds and memory's bandwidth
-// measured in the same run as the kernels. benchmarks/roofline --json FILE writes everything, for scripts/benchmark.
+// The limits of this machine, and the share of them that a step of the solver reaches: multiply-adds and the bandwidth
+// of memory, measured in the same run as the steps. roofline --json FILE writes everything for scripts/benchmark.
 #include <fmt/format.h>
 #include <omp.h>
 
@@ -21,15 +21,15 @@ namespace {
 
 using nlohmann::json;
 
-/// [s]: processor time of the process for one thread, which other programs on the machine disturb less; else the wall
-/// clock.
+/// Present time [s]. For one thread this is the processor time of the process, which other programs on the machine
+/// disturb less; for more threads it is the wall clock.
 double now(int threads) {
   timespec t{};
   clock_gettime(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Seconds of `work(thread)` on all threads together, from the common start to the end of the last.
+/// Duration of `work(thread)` on all threads [s], from the common start to the end of the last thread.
 double seconds(int threads, const std::function<void(int)>& work) {
   double start = 0.0;
 #pragma omp parallel num_threads(threads)
@@ -43,7 +43,7 @@ double seconds(int threads, const std::function<void(int)>& work) {
   return now(threads) - start;
 }
 
-/// Best of several tries, each long enough to time: what else runs can only slow it down.
+/// Best rate of several tries, each long enough to time: other programs can only lower it.
 double best_rate(int threads, double least, const std::function<double(int, long)>& count_of) {
   constexpr int kTries = 5;
   double best = 0.0;
@@ -67,7 +67,7 @@ double best_rate(int threads, double least, const std::function<double(int, long
 double triad_rate(const Loops& loops, int threads, double bytes, double least) {
   const auto n = static_cast<std::size_t>(bytes / (3 * sizeof(double)));
   std::vector<std::vector<double>> arrays(threads);
-  seconds(threads, [&](int t) { arrays[t].assign(3 * n + 64, 1.0); });  // each on its own thread, so near it
+  seconds(threads, [&](int t) { arrays[t].assign(3 * n + 64, 1.0); });  // each thread fills its own: near memory
   return best_rate(threads, least, [&](int t, long turns) {
     double* a = arrays[t].data();
     loops.triad(a, a + n + 16, a + 2 * n + 32, n, turns);
@@ -104,7 +104,7 @@ json measure_machine(const std::vector<int>& threads, double least) {
       json row = {{"isa", loops->isa}, {"threads", count}};
       row["double"] = best_rate(count, least, [&](int, long turns) { return loops->multiply_add_double(turns); });
       row["single"] = best_rate(count, least, [&](int, long turns) { return loops->multiply_add_single(turns); });
-      // Half of the nearest caches of this kind of machine, then more than its last; on each thread.
+      // On each thread: half of the first and of the second cache of usual machines, then more than the last cache.
       row["triad_l1"] = triad_rate(*loops, count, 24e3, least);
       row["triad_l2"] = triad_rate(*loops, count, 768e3, least);
       row["triad_memory"] = triad_rate(*loops, count, 600e6 / count, least);
@@ -145,7 +145,7 @@ json measure_steps(const json& machine, const std::vector<int>& threads, double 
     }
     for (const int count : threads) {
       const double rate = step_rate(which, count, 5.0 * least);
-      // The widest registers that there are set the limit, whatever the kernels use.
+      // The widest registers of the machine set the limit, whichever the kernels use.
       json limit;
       for (const json& row : machine) {
         if (row["threads"] == count) limit = row;

@@ -1,7 +1,7 @@
-// What a call of the service `step` costs beyond the step itself: the way there and back, the hand-over between
-// threads, commands and answer. A sync period is stepped by a call of its own, and as one of many in one call; both
-// publish the same, so what the first takes more than the second is the call. In turns, since the machine's speed
-// changes.
+// The cost of a call of the service `step` beyond the step itself: transport of request and response, the hand-over
+// between threads, commands and the answer. Sync periods are stepped with one call each, and many with one call. Both
+// publish the same, so the difference is the cost of a call. The two are measured in turns, because the speed of the
+// machine changes.
 //
 //   roslaunch benchmark/step_round_trip/step_round_trip.launch
 #include <fmt/format.h>
@@ -17,9 +17,9 @@
 namespace {
 
 constexpr int kRounds = 400;
-constexpr int kCalls = 10;  // a round, and sync periods of the one call it is compared with
+constexpr int kCalls = 10;  // single calls of a round, and sync periods of the call that they are compared with
 
-/// Wall time of a call [ms].
+/// Wall time of a call that steps `count` sync periods [ms].
 double call(ros::ServiceClient& service, std::uint32_t count) {
   mpm_ros::Step step;
   step.request.count = count;
@@ -43,7 +43,7 @@ void measure(ros::ServiceClient& service) {
     for (int i = 0; i < kCalls; ++i) single.push_back(call(service, 1));
     batch.push_back(call(service, kCalls));
   }
-  // With s for a sync period and c for the call: s + c, and kCalls * s + c.
+  // With s the time of a sync period and c that of a call, `one` is s + c and `many` is kCalls * s + c.
   const double one = quantile(single, 0.5), many = quantile(batch, 0.5);
   const double step = (many - one) / (kCalls - 1);
   fmt::print(

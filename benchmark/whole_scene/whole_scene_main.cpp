@@ -1,6 +1,6 @@
-// One run of a scene, timed: stepping alone, by the wall clock and by the processor time of all threads, which other
-// programs on the machine disturb less; and what the report of the run (momentum audit, energies) costs at each sync
-// point, apart. Writes one JSON object to standard output; run_scene --summary has the same numbers but those two.
+// Times one run of a scene: stepping alone, by the wall clock and by the processor time of all threads, which other
+// programs on the machine disturb less; and, separately, the report of the run (momentum audit, energies) at each sync
+// point. Writes one JSON object to standard output; run_scene --summary has the same numbers except these times.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -16,7 +16,7 @@
 
 namespace {
 
-/// Seconds by the wall clock and of the process.
+/// Time measured by the wall clock and by the processor time of the process [s].
 struct Clock {
   double wall = 0.0, processor = 0.0;
 

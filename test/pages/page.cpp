@@ -79,7 +79,7 @@ Page::Page(const std::string& chapter, std::string name, const std::string& titl
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   const std::string suite = test->test_suite_name();
   json["test"] = suite + "." + test->name();
-  if (suite.rfind("Full", 0) == 0) name_ = "full_" + name_;  // kept when only the short tests are run again
+  if (suite.rfind("Full", 0) == 0) name_ = "full_" + name_;  // it stays when only the short tests run again
   json["name"] = name_;
 }
 

@@ -1,5 +1,5 @@
-// Shape functions along one axis, in cells, written down once more for the theory of the atlas: nothing of the solver
-// is in them. In the plane they are multiplied; particles are undeformed. Source: method reference 2.1 (uGIMP), 2.3
+// Shape functions along one axis, in cells, implemented once more for the theory of the atlas, independently of the
+// solver. In the plane they are multiplied; particles are undeformed. Source: method reference 2.1 (uGIMP), 2.3
 // (Dirac), 2.4 (splines), 2.6 and 2.7 (CPDI, qCPDI of an upright box).
 #pragma once
 
@@ -12,10 +12,11 @@
 
 namespace stability {
 
-/// Value and gradient at a node of a particle at distance `s` = particle - node; `half`: of the particle's box.
+/// Value and gradient at a node, for a particle at distance `s` = particle - node; `half`: half-width of the particle's
+/// box.
 inline std::array<double, 2> axis_weight(mpm::ShapeKind shape, double s, double half) {
   const auto hat = [](double x) { return std::max(0.0, 1.0 - std::abs(x)); };
-  const auto integral = [](double x) {  // of the hat, from -1
+  const auto integral = [](double x) {  // integral of the hat from -1
     const double c = std::clamp(x, -1.0, 1.0);
     return c < 0.0 ? 0.5 * (1.0 + c) * (1.0 + c) : 0.5 + c - 0.5 * c * c;
   };
@@ -42,8 +43,8 @@ inline std::array<double, 2> axis_weight(mpm::ShapeKind shape, double s, double 
   throw std::invalid_argument("no such shape function");
 }
 
-/// The same of node number `node` for a particle at `place`, between walls at the nodes `low` and `high`: what a spline
-/// has beyond a wall is folded on the two nodes inside (shape/bspline.hpp).
+/// Value and gradient at node number `node` for a particle at `place`, between walls at the nodes `low` and `high`: the
+/// weight of a spline beyond a wall is folded onto the two nodes inside (shape/bspline.hpp).
 inline std::array<double, 2> walled_weight(mpm::ShapeKind shape, double place, double node, double half, double low,
                                            double high) {
   if (node < low || node > high) return {0.0, 0.0};

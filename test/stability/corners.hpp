@@ -1,7 +1,7 @@
-// How well the domains of neighbouring particles fit together. Particles start on a lattice, where four domains meet at
-// a corner; each carries its own F, and finds the corner from its own place: x + F R. In a uniform deformation the four
-// find one point. In any other they part by what is beyond the linear, and by every error in x and F.
-// The domains are whole here: without the cut that keeps them in reach (kernel/domain.hpp).
+// The fit of the domains of neighbouring particles. Particles start on a lattice, where four domains meet at a corner;
+// each has its own F and computes the corner from its own position, x + F R. In a uniform deformation the four agree.
+// In any other they differ by the nonlinear part, and by every error in x and F. Domains are whole here, without the
+// limit that keeps them in reach (kernel/domain.hpp).
 #pragma once
 
 #include <Eigen/Dense>
@@ -17,20 +17,20 @@
 
 namespace stability {
 
-/// Where a particle is, in the plane [m], and how it is deformed.
+/// Position of a particle in the plane [m], and its deformation.
 struct Placed {
   Eigen::Vector2d x;
   Eigen::Matrix2d f;
 };
 
 struct Fit {
-  double parted = 0.0;   ///< largest distance of the places where two domains see the corner that they share [m]
-  double tangled = 0.0;  ///< part of the domains whose corners, means of what the four see, are no convex quadrilateral
+  double parted = 0.0;   ///< largest distance between the positions of a shared corner in two domains [m]
+  double tangled = 0.0;  ///< part of the domains that are not convex, with corners at the mean of four positions
 };
 
 class LatticeCorners {
  public:
-  /// `start`: places of the lattice, `spacing` [m] apart; the corners that four particles inside share are looked at.
+  /// `start`: positions of the lattice, `spacing` [m] apart; corners that four particles inside share are evaluated.
   LatticeCorners(const std::vector<Vec3>& start, double spacing, const std::function<bool(const Vec3&)>& inside)
       : half_(0.5 * spacing) {
     Places particle_at, corner_at;
@@ -56,7 +56,7 @@ class LatticeCorners {
       std::array<Eigen::Vector2d, 4> seen;
       for (int n = 0; n < 4; ++n) {
         const Placed& one = particles[corners_[c][n]];
-        // Seen from the first of the four the corner is the upper right one, from the third the lower left one.
+        // For the first of the four the corner is the upper right one, for the third the lower left one.
         seen[n] = one.x + one.f * (half_ * Eigen::Vector2d(1 - 2 * kSide[n][0], 1 - 2 * kSide[n][1]));
         for (int m = 0; m < n; ++m) fit.parted = std::max(fit.parted, (seen[n] - seen[m]).norm());
       }
@@ -64,7 +64,7 @@ class LatticeCorners {
     }
     std::size_t tangled = 0;
     for (const auto& four : domains_) {
-      bool right = true;  // counter-clockwise at each corner: the bilinear map onto it has a Jacobian above 0
+      bool right = true;  // counter-clockwise at each corner: the bilinear map onto it has a positive Jacobian
       for (int n = 0; n < 4; ++n) {
         const Eigen::Vector2d a = mean[four[(n + 1) % 4]] - mean[four[n]];
         const Eigen::Vector2d b = mean[four[(n + 3) % 4]] - mean[four[n]];
@@ -80,7 +80,7 @@ class LatticeCorners {
   using Places = std::map<std::pair<long, long>, std::size_t>;
   using Four = std::array<std::size_t, 4>;
 
-  /// What is at `place` and its neighbours to the right, above both and above, when all are there.
+  /// The particles at `place` and to its right, upper right and above, if all exist.
   static std::optional<Four> square(const Places& at, const std::pair<long, long>& place) {
     Four four{};
     for (int n = 0; n < 4; ++n) {
@@ -93,8 +93,8 @@ class LatticeCorners {
 
   static constexpr int kSide[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   double half_;
-  std::vector<Four> corners_;  // particles that share each, counter-clockwise
-  std::vector<Four> domains_;  // corners of each, counter-clockwise
+  std::vector<Four> corners_;  // particles that share each corner, counter-clockwise
+  std::vector<Four> domains_;  // corners of each domain, counter-clockwise
 };
 
 }  // namespace stability

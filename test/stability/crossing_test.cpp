@@ -1,6 +1,6 @@
-// A bar that vibrates so widely that particles pass from cell to cell. With hat functions at points the gradient jumps
-// where a particle crosses, and with it the force (Bardenhagen & Kober (2004)). Exact for small strain: J - 1 has the
-// amplitude v0 / c everywhere at most, and energy stays; exact-solutions 1.
+// A bar that vibrates with such an amplitude that particles pass from cell to cell. With hat functions at points the
+// gradient jumps where a particle crosses, and with it the force (Bardenhagen & Kober (2004)). Exact for small strain:
+// the amplitude of J - 1 is at most v0 / c, and energy is constant; exact-solutions 1.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -20,8 +20,8 @@ using verification::Page;
 
 constexpr double kLength = 16.0, kHeight = 2.0;                 // [cells]
 constexpr double kPeriod = 4.0 * kLength * kCell / kWaveSpeed;  // [s]
-constexpr double kNoise = 2.0;   // largest |J - 1| over its exact amplitude that is still sound
-constexpr double kEnergy = 0.1;  // change of the energy that counts as broken
+constexpr double kNoise = 2.0;                                  // largest acceptable |J - 1| over its exact amplitude
+constexpr double kEnergy = 0.1;                                 // change of the energy that counts as broken
 
 /// `ratio`: v0 / c; the end travels 2/π kLength ratio cells to either side.
 mpm::SimulationDefinition bar(const mpm::MethodDefinition& method, double ratio, double sync) {
@@ -33,7 +33,7 @@ mpm::SimulationDefinition bar(const mpm::MethodDefinition& method, double ratio,
   return d;
 }
 
-/// The same mode in a bar twice as long with free ends, its node of rest in the middle: no wall touches it.
+/// The same mode in a bar twice as long with free ends and a node of the mode in the middle: no wall touches it.
 mpm::SimulationDefinition free_bar(const mpm::MethodDefinition& method, double ratio, double sync) {
   mpm::SimulationDefinition d = domain(method, {-kLength - 8.0, 0.0, 0.0}, {kLength + 8.0, 0.0, kHeight}, sync);
   const double k = 0.5 * kPi / (kLength * kCell);
@@ -99,7 +99,7 @@ TEST(Crossing, OfCellsByAVibratingBar) {
       if (method.definition.shape == mpm::ShapeKind::dirac) {
         page.report(noise, run.noise, "");
       } else {
-        page.below(noise, run.noise, 1.1, "");  // finite strain of 5 % makes 5 %, as much for the grid
+        page.below(noise, run.noise, 1.1, "");  // finite strain of 5 % contributes 5 %, and the grid as much
       }
       page.report("change of the energy, " + method.name, 100.0 * run.change, "%");
     }

@@ -1,5 +1,5 @@
-// Energy of two elastic disks that collide and part, by update and time step. Exact: it stays. Source: exact
-// conservation; the example is that of Sulsky, Chen and Schreyer (1994). Bardenhagen (2002) compared updates by it.
+// Energy of two elastic disks that collide and part, by update and time step. Exact: energy is constant. The example is
+// that of Sulsky, Chen and Schreyer (1994); Bardenhagen (2002) compared updates with it.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using verification::Page;
 
 constexpr double kSpeed = 0.1 * kWaveSpeed;  // of each disk
 constexpr double kRadius = 4.0;              // [cells]
-constexpr double kDrift = 0.01;              // of the energy that counts as broken
+constexpr double kDrift = 0.01;              // change of the energy that counts as broken
 
 mpm::SimulationDefinition disks(const mpm::MethodDefinition& method, double cfl) {
   mpm::SimulationDefinition d = domain(method, {-4.0, 0.0, -4.0}, {24.0, 0.0, 24.0}, 0.25 * kCell / kSpeed);
@@ -42,7 +42,7 @@ struct Energy {
   bool broke = false;
 };
 
-/// Until the disks have met and parted by as much as they came from.
+/// Runs until the disks have met and are as far apart as at the start.
 Energy collide(const mpm::SimulationDefinition& d) {
   mpm::Simulation simulation(d, {1});
   const double start = simulation.state().energy.total();
@@ -98,7 +98,7 @@ TEST(Energy, OfCollidingDisks) {
       }
     }
     if (method.definition.transfer.kind == mpm::TransferKind::flip && method.definition.transfer.flip == 1.0) {
-      // Of first order in the step, USAVG of second; a quarter for the steps that sync points round.
+      // First order in the step, with USAVG second; a quarter is allowed because sync points round the steps.
       const double order = method.definition.update == mpm::UpdateScheme::usavg ? 2.0 : 1.0;
       page.near("their ratio, for a step four times as long, " + method.name, coarse / fine, std::pow(4.0, order), 0.25,
                 "");

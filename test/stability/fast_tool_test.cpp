@@ -1,10 +1,10 @@
 // A tool that travels far in one step. Contact gives the tool's velocity to the nodes that lie in the tool when the
-// step begins; material that the tool sweeps within the step is not looked at, and nothing pushes out what is inside.
-// The solver counts a tool's speed in its time step, so this is seen only beyond its limit, by single steps.
+// step begins; material swept within the step is not considered, and nothing pushes out material that is inside. The
+// solver takes a tool's speed into account in its time step, so this occurs only beyond its limit, in single steps.
 //
 // Nodes are a cell apart: a tool that travels more than a cell in a step sweeps material that no node in the tool has
-// moved, and each step that is late leaves a particle half of its way behind, since its position moves with the mean of
-// its old and its new velocity.
+// moved, and each such step leaves a particle behind by half of the tool's travel, since its position moves with the
+// mean of its old and its new velocity.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -24,23 +24,23 @@ using verification::Outcome;
 using verification::Page;
 
 constexpr double kDt = 1e-4;     // [s]
-constexpr double kThick = 6.0;   // of the tool [cells]
-constexpr double kSheet = 14.0;  // where the sheet of material stands [cells]
-constexpr double kFront = 10.0;  // of the tool at the start
-constexpr double kWay = 16.0;    // that it travels
-constexpr double kInside = 1.0;  // depth in the tool that counts as run over
+constexpr double kThick = 6.0;   // thickness of the tool [cells]
+constexpr double kSheet = 14.0;  // position of the sheet of material [cells]
+constexpr double kFront = 10.0;  // front of the tool at the start [cells]
+constexpr double kWay = 16.0;    // distance that it travels [cells]
+constexpr double kInside = 1.0;  // depth in the tool that counts as overrun [cells]
 
 mpm::SimulationDefinition sheet(const mpm::MethodDefinition& method, double cells_a_step) {
   mpm::SimulationDefinition d = domain(method, Vec3::Zero(), {48.0, 0.0, 8.0}, 1e-2);
   d.time.cfl = 0.5;
-  // So soft that nothing but contact acts.
+  // The sheet is so soft that only contact acts.
   add_body(d, "sheet", {kSheet, 0.0, 2.0}, {kSheet + 1.0, 0.0, 6.0}, linear_elastic(0.0, 1e-6 * kCell / kDt));
   d.rigid_bodies = {
       box("tool", {kFront - kThick, 0.0, -10.0}, {kFront, 0.0, 18.0}, {cells_a_step * kCell / kDt, 0.0, 0.0})};
   return d;
 }
 
-/// How deep a particle is inside the tool at most, after the tool has travelled kWay [cells].
+/// Largest depth of a particle in the tool after the tool has travelled kWay [cells].
 double depth(const std::vector<double>& x, double front) {
   return front - *std::min_element(x.begin(), x.end()) / kCell;
 }
@@ -82,7 +82,7 @@ TEST(FastTool, RunsOverWhatItSweepsInOneStep) {
     panel.points(method.name, rows, depths);
     map.column(method.name, cells).theory(1.0);
 
-    // The solver itself, at a speed of 20 cells a sync period.
+    // The solver itself, at a speed of 20 cells per sync period.
     mpm::SimulationDefinition d = sheet(method.definition, 1.0);
     d.time.sync = 1'000'000;
     d.rigid_bodies[0].velocity[0] = mpm::Function(20.0 * kCell * 1e3);

@@ -1,8 +1,8 @@
-// The gap at which contact is first felt. Nodes in or on a tool take its velocity as soon as they carry mass: when the
-// support of the particle next to the surface reaches the first row of nodes under the tool's surface. With support of
-// half width r about the particle's centre and half a particle's box b between centre and surface, and nodes at a depth
-// d under the tool's surface, that is at a gap of r - b - d. Source: geometry of the shape functions (method reference
-// 2); contact by nodes (contact/rigid_contact.hpp).
+// The gap at which contact first acts. Nodes in or on a tool take its velocity as soon as they carry mass, that is when
+// the support of the particle next to the surface reaches the first row of nodes under the tool's surface. With a
+// support of half-width r about the particle's centre, half a particle's box b between centre and surface, and nodes at
+// a depth d under the tool's surface, this is at a gap of r - b - d. Source: geometry of the shape functions (method
+// reference 2); contact by nodes (contact/rigid_contact.hpp).
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -21,11 +21,11 @@ using verification::Outcome;
 using verification::Page;
 
 constexpr double kNode = 4.0;    // row of nodes under the plate's surface [cells]
-constexpr double kStep = 0.005;  // the block falls by this between two looks [cells]
+constexpr double kStep = 0.005;  // fall of the block between two observations [cells]
 constexpr double kTolerance = 2.01 * kStep;
 constexpr double kSpeed = 0.01 * kWaveSpeed;
 
-/// Half width of the support about the particle's centre [cells].
+/// Half-width of the support about the particle's centre [cells].
 double reach(mpm::ShapeKind shape, double half) {
   switch (shape) {
     case mpm::ShapeKind::dirac:
@@ -50,7 +50,7 @@ mpm::SimulationDefinition fall(const mpm::MethodDefinition& method, double depth
   return d;
 }
 
-/// Between the block's lower surface and the plate when the plate first feels it [cells].
+/// Distance between the block's lower surface and the plate when contact force first acts [cells].
 double gap(const mpm::SimulationDefinition& d, double depth) {
   mpm::Simulation simulation(d, {1});
   const double half = 0.5 / d.method.particles_per_direction;
@@ -93,10 +93,10 @@ TEST(EarlyContact, GapIsThatOfTheSupport) {
       std::vector<Outcome> cells;
       for (const double depth : depths) {
         const double found = gap(fall(method.definition, depth), depth);
-        // At points the surfaces have met: the particle's reach is half its box.
+        // With contact at points the surfaces have met: the particle's reach is half its box.
         EXPECT_NEAR(gap(fall(method.definition, depth, mpm::ContactMethod::points), depth), 0.0, kTolerance)
             << label << " at points, " << depth;
-        // The block falls by kStep between two looks, and by as much in the step that first sees the node.
+        // The block falls by kStep between two observations, and by as much in the step that first reaches the node.
         EXPECT_NEAR(found, free - depth, kTolerance) << label << " at " << depth;
         cells.push_back(found < 0.5 ? Outcome::stable : Outcome::fails);
         if (depth == 0.0)

@@ -1,14 +1,14 @@
 // Theory of the time step: one step of the method as a matrix, for small motion about an unstressed lattice of
-// particles in plane strain. Built from the shape functions alone, with nothing of the solver in it. Units: cell 1,
+// particles in plane strain. It is built from the shape functions alone, independently of the solver. Units: cell 1,
 // density 1, speed of pressure waves 1, so that the time step is the Courant number.
 //
 // With lumped nodal mass M, consistent mass C = S^T m S and the grid's stiffness K = sum V G^T D G, FLIP with nodal
 // velocities M^-1 S m v changes stress by A v dt and velocity by -A* stress dt, where A* is the adjoint of A in the
-// particles' mass and compliance. So USF is the leapfrog of an oscillator, and stable while dt < 2 / omega with omega^2
-// the largest eigenvalue of M^-1 C M^-1 K. Modified USL and USAVG do the same two changes in another order, cut into
-// halves: similar matrices, the same limit. (Derived here; method reference 1.1, 5.4 and 6 for the passes.)
-// With walls, or a transfer other than FLIP, the step is no leapfrog: there the matrix is applied again and again.
-// Weak: particles that move, rotate or deform are not in it.
+// particles' mass and compliance. So USF is the leapfrog scheme of an oscillator, stable while dt < 2 / omega with
+// omega^2 the largest eigenvalue of M^-1 C M^-1 K. Modified USL and USAVG make the same two changes in another order,
+// divided into halves: similar matrices with the same limit. (Derived here; method reference 1.1, 5.4 and 6 for the
+// passes.) With walls, or a transfer other than FLIP, the step is not a leapfrog, and the matrix is applied repeatedly.
+// Weak: moving, rotating and deforming particles are not included.
 #pragma once
 
 #include <Eigen/Dense>
@@ -29,7 +29,7 @@ class LinearStep {
 
   static constexpr std::array<double, 2> kFree = {-1e9, 1e9};
 
-  /// `held`: numbers of the nodes along either axis where walls let nothing move.
+  /// `held`: numbers of the nodes along either axis that walls fix.
   LinearStep(const mpm::MethodDefinition& method, std::vector<Place> places, double poisson,
              std::array<double, 2> held = kFree)
       : method_(method), places_(std::move(places)), lambda_(poisson / (1.0 - poisson)), shear_(0.5 * (1.0 - lambda_)) {
@@ -60,7 +60,7 @@ class LinearStep {
   }
 
   Eigen::Index particles() const { return s_.cols(); }
-  /// Numbers of a state, as one_step() has them.
+  /// Size of a state of one_step().
   Eigen::Index states() const { return s_.cols() * (apic() ? 9 : 5); }
 
   /// One step of a state: vx and vz of all particles, xx, zz and xz of stress over density, and with APIC the four
@@ -88,7 +88,7 @@ class LinearStep {
 
   bool apic() const { return method_.transfer.kind == mpm::TransferKind::apic; }
 
-  // Nodes in reach, and their weights.
+  // Fills the weights of the nodes in reach.
   void fill(const std::array<double, 2>& held) {
     const double half = 0.5 / method_.particles_per_direction;
     Place low = places_[0], high = places_[0];
@@ -111,7 +111,7 @@ class LinearStep {
           row[2].push_back(sx * dz);
           carried += sx * sz;
         }
-        if (!(carried > 1e-30)) continue;  // as the solver leaves out nodes that carry nothing
+        if (!(carried > 1e-30)) continue;  // as in the solver, which leaves out nodes without mass
         nodes_.push_back({x, z});
         moves_.push_back(std::min(x, z) > held[0] && std::max(x, z) < held[1]);
         rows.push_back(std::move(row));
@@ -127,7 +127,7 @@ class LinearStep {
     }
   }
 
-  // Weight times way from particle to node, and the inverse second moments of the weights.
+  // Fills weight times distance from particle to node, and the inverse second moments of the weights.
   void fill_affine() {
     arm_ = {s_, s_};
     for (Eigen::Index p = 0; p < s_.cols(); ++p) {
@@ -180,7 +180,7 @@ class LinearStep {
     s.stress[1] += dt * (lambda_ * xx + zz);
     s.stress[2] += dt * shear_ * (g_[1].transpose() * grid[0] + g_[0].transpose() * grid[1]);
   }
-  // A wall takes what a node has gathered: its acceleration stops it within the step.
+  // A wall cancels the momentum of a node: its acceleration stops the node within the step.
   Pair accelerate(const Parts& s, const Pair& gathered, double dt) const {
     Pair a;
     for (int k = 0; k < 2; ++k) {
@@ -234,12 +234,12 @@ class LinearStep {
 
   mpm::MethodDefinition method_;
   std::vector<Place> places_;
-  double lambda_, shear_;  // over K + 4 G / 3
-  double mass_ = 0.0;      // and volume, of a particle
+  double lambda_, shear_;  // relative to K + 4 G / 3
+  double mass_ = 0.0;      // mass, and volume, of a particle
   std::vector<Place> nodes_;
-  std::vector<bool> moves_;    // of each node: no wall holds it
+  std::vector<bool> moves_;    // per node: not fixed by a wall
   Matrix s_;                   // nodes x particles
-  std::array<Matrix, 2> g_;    // the same, gradient along x and z
+  std::array<Matrix, 2> g_;    // gradients along x and z, nodes x particles
   Vector lumped_;              // M
   Matrix average_;             // M^-1 S m
   std::array<Matrix, 2> arm_;  // APIC only

@@ -1,8 +1,8 @@
 // Volumetric locking. A square with slip walls swings in an isochoric mode: velocity
 //   (sin kx cos kz, -cos kx sin kz), k = pi / L.
-// Its divergence is zero and it puts no shear on the walls, so that omega = k sqrt(2 G / rho) whatever the bulk modulus
-// is. Solves rho u_tt = G laplace u, div u = 0 with the walls' conditions. On the grid the gradients of the mode have a
-// divergence that is not zero within a cell, and the nearer the material is to incompressible, the more it costs.
+// Its divergence is zero and it causes no shear on the walls, so omega = k sqrt(2 G / rho) for any bulk modulus. It
+// solves rho u_tt = G laplace u, div u = 0 with the walls' conditions. On the grid the divergence of the mode is not
+// zero within a cell, which stiffens the motion the more, the nearer the material is to incompressible.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using verification::Outcome;
 using verification::Page;
 
 constexpr double kShearSpeed = 10.0;  // sqrt(G / rho) [m/s]
-constexpr double kLocked = 1.1;       // frequency over the method's own at ν = 0.3 that counts as locked
+constexpr double kLocked = 1.1;       // ratio to the method's frequency at ν = 0.3 that counts as locked
 
 mpm::SimulationDefinition square(const mpm::MethodDefinition& method, int cells, double poisson) {
   const double length = cells * kCell, period = std::sqrt(2.0) * length / kShearSpeed;
@@ -36,7 +36,7 @@ mpm::SimulationDefinition square(const mpm::MethodDefinition& method, int cells,
   return d;
 }
 
-/// Frequency over the exact one, from the time at which the mode's displacement has come back to zero.
+/// Frequency over the exact one, from the time at which the displacement of the mode returns to zero.
 double frequency(const mpm::SimulationDefinition& d, int cells) {
   mpm::Simulation simulation(d, {1});
   const std::vector<double> x0 = field(simulation, "x"), z0 = field(simulation, "z");

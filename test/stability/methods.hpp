@@ -1,5 +1,5 @@
-// The methods that the atlas compares: one list a question. What the solver refuses becomes an empty column of a map,
-// and fills itself when it is built.
+// The methods that the atlas compares: one list per question. A method that the solver refuses gives an empty column of
+// a map, which is filled once the method exists.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// Motion of particles that the grid cannot see: velocities that alternate from particle to particle have next to no
-// mean at any node. FLIP keeps them for ever, PIC and its kin throw them away. Theory: the one-step matrix of
-// linear_step.hpp, which knows the method by its equations alone, applied as often as the solver steps.
+// Motion of particles that the grid cannot see: velocities that alternate from particle to particle have almost no mean
+// at any node. FLIP preserves them, PIC and related transfers remove them. Theory: the one-step matrix of
+// linear_step.hpp, which contains only the equations of the method, applied as often as the solver steps.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -20,11 +20,11 @@ using verification::Page;
 
 constexpr double kPoisson = 0.3;
 constexpr double kCourant = 0.5;
-constexpr double kLow = 4.0, kEdge = 4.0;  // of the block [cells]
-constexpr double kGone = 0.1;              // part of the motion that counts as none
+constexpr double kLow = 4.0, kEdge = 4.0;  // corner and edge of the block [cells]
+constexpr double kGone = 0.1;              // part of the motion below which it counts as gone
 const double kSpeed = 1e-11 * kWaveSpeed;
 
-// +1 and -1 in turn along x and z.
+// +1 and -1 alternating along x and z.
 double sign(const Vec3& place) {
   const auto row = [](double x) { return std::lround(2.0 * (x / kCell - kLow) - 0.5); };
   return (row(place.x()) + row(place.z())) % 2 == 0 ? 1.0 : -1.0;
@@ -37,7 +37,7 @@ mpm::SimulationDefinition block(const mpm::MethodDefinition& method) {
   return d;
 }
 
-/// Part of the alternating motion that is left after each number of steps, in the solver and in theory.
+/// Remaining part of the alternating motion after each number of steps, in the solver and in theory.
 struct Left {
   Numbers solver, theory;
 };
@@ -95,7 +95,7 @@ TEST(NullSpace, IsKeptByFlipAlone) {
       const Left left = ring(d, steps);
       std::vector<Outcome> cells;
       for (std::size_t i = 0; i < steps.size(); ++i) {
-        // Velocities are 1e-11 of the wave speed: what moves in 100 steps changes weights by 1e-9.
+        // Velocities are 1e-11 of the wave speed: motion in 100 steps changes weights by 1e-9.
         EXPECT_NEAR(left.solver[i], left.theory[i], 1e-8) << label << " after " << steps[i];
         cells.push_back(std::abs(left.solver[i]) < kGone ? Outcome::stable : Outcome::fails);
       }

@@ -1,8 +1,8 @@
-// What deformed particles make of a uniform stress. A lattice is deformed by F, its particles carry F and a uniform
-// Cauchy stress, and one step tells the acceleration of particles deep inside: exactly none, as there is no gradient of
-// stress. On the grid it is -sum V_p sigma G_ip / m_i, which vanishes while the domains tile space and the shape
-// function sees them whole (method reference 1.1). A size s of the error means that a stress sigma pushes a particle as
-// if it changed by s sigma across a cell.
+// Deformed particles under a uniform stress. A lattice is deformed by F, its particles have F and a uniform Cauchy
+// stress, and one step gives the acceleration of particles deep inside. The exact value is zero, since stress has no
+// gradient. On the grid it is -sum V_p sigma G_ip / m_i, which vanishes while the domains tile space and the shape
+// function represents them fully (method reference 1.1). An error of size s means that a stress sigma accelerates a
+// particle as if it changed by s sigma across a cell.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -22,14 +22,14 @@ using verification::Numbers;
 using verification::Outcome;
 using verification::Page;
 
-constexpr double kEdge = 24.0;         // of the domain [cells]
-constexpr double kMargin = 4.0;        // from its border to the material [cells]
-constexpr double kInside = 5.0;        // from the material's border to the particles that are looked at [cells]
+constexpr double kEdge = 24.0;         // edge of the domain [cells]
+constexpr double kMargin = 4.0;        // distance from its border to the material [cells]
+constexpr double kInside = 5.0;        // distance from the material's border to the evaluated particles [cells]
 constexpr double kStress = 1.0;        // Cauchy, over initial density [J/kg]
 constexpr double kPushed = 0.2;        // error that counts as broken
-const Vec3 kShift(0.137, 0.0, 0.291);  // of the lattice against the grid: nothing is symmetric [cells]
+const Vec3 kShift(0.137, 0.0, 0.291);  // shift of the lattice against the grid, without symmetry [cells]
 
-/// All places of the deformed lattice in the middle of the domain.
+/// All particles of the deformed lattice in the middle of the domain.
 mpm::SimulationDefinition deformed(const mpm::MethodDefinition& method, const Eigen::Matrix2d& f) {
   mpm::SimulationDefinition d = domain(method, Vec3::Zero(), {kEdge, 0.0, kEdge}, 1e-3);
   add_body(d, "block", Vec3::Zero(), {1.0, 0.0, 1.0}, linear_elastic(0.3));
@@ -72,7 +72,7 @@ double error(const mpm::MethodDefinition& method, const Eigen::Matrix2d& f) {
   return worst * kCell / (j * kStress);
 }
 
-/// A path of deformations from the undeformed lattice on.
+/// A path of deformations that begins at the undeformed lattice.
 struct Family {
   std::string name, parameter;
   Eigen::Matrix2d (*f)(double);
@@ -80,7 +80,7 @@ struct Family {
   Numbers rows;
 };
 
-/// F along an axis at 30° to the grid: along the grid, sheared rows would stay on its lattice.
+/// F along an axis at 30° to the grid: along the grid, sheared rows would remain on its lattice.
 Eigen::Matrix2d tilted(const Eigen::Matrix2d& f) {
   const Eigen::Matrix2d q = Eigen::Rotation2Dd(kPi / 6.0).toRotationMatrix();
   return q * f * q.transpose();
@@ -94,7 +94,7 @@ const std::vector<Family> kFamilies = {
     {"Compression", "stretch", stretched, 1.0, 0.1, {0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}},
     {"Simple shear", "shear", sheared, 0.0, 6.0, {0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0}},
     {"Rotation", "angle [°]", rotated, 0.0, 45.0, {5.0, 10.0, 15.0, 20.0, 30.0, 45.0}}};
-constexpr int kSamples = 90;  // of a path
+constexpr int kSamples = 90;  // points of a path
 
 TEST(Patch, UniformStressOfDeformedParticles) {
   Page page("strain", "patch", "Uniform stress on a deformed lattice");
@@ -122,7 +122,8 @@ TEST(Patch, UniformStressOfDeformedParticles) {
         map.impossible(method.name);
         continue;
       }
-      // The lattice at rest, shifted against the grid: each cell holds as many particles of each place. Round-off.
+      // For the undeformed lattice, shifted against the grid, each cell contains equally many particles of each
+      // position. Round-off.
       EXPECT_LT(error(method.definition, Eigen::Matrix2d::Identity()), 1e-9) << method.name;
       double breaks = sign * kInfinity, worst = 0.0;
       for (int i = 1; i <= kSamples; ++i) {
@@ -140,7 +141,7 @@ TEST(Patch, UniformStressOfDeformedParticles) {
       const mpm::ShapeKind shape = method.definition.shape;
       const bool tiles = shape == mpm::ShapeKind::cpdi || shape == mpm::ShapeKind::qcpdi;
       if (tiles && family.f != sheared) {
-        page.below(quantity, worst, 1e-9, "σ/h");  // round-off: parallelograms that are not cut tile the plane
+        page.below(quantity, worst, 1e-9, "σ/h");  // round-off: parallelograms that are not shrunk tile the plane
       } else {
         page.report(quantity, worst, "σ/h");
       }

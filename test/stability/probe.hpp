@@ -1,5 +1,5 @@
-// Single steps of a simulation, of any size: the solver itself refuses steps above the limit that waves set, and the
-// atlas asks what happens there. Nothing is checked but what a step itself checks.
+// Single steps of a simulation, of any size: the solver itself refuses steps above the limit set by waves, and the
+// atlas examines what happens there. Only the checks inside a step are made.
 #pragma once
 
 #include <cmath>
@@ -16,21 +16,21 @@ class SimulationProbe {
   explicit SimulationProbe(const SimulationDefinition& definition)
       : simulation_(definition, {1}), state_(*simulation_.state_) {}
 
-  /// One step of `dt` [s]. @throws PhysicsError
+  /// Makes one step of `dt` [s]. @throws PhysicsError
   void step(double dt) {
     state_.step(time_, dt);
     time_ += dt;
   }
-  /// To the next sync point, in steps that the solver chooses. @throws PhysicsError
+  /// Advances to the next sync point, in steps that the solver chooses. @throws PhysicsError
   void advance() {
     simulation_.advance();
     time_ = 1e-9 * static_cast<double>(simulation_.time());
   }
   double time() const { return time_; }  ///< [s]
   const Simulation& simulation() const { return simulation_; }
-  /// Particles of the first body, in an order that a step may change: set.id tells which is which.
+  /// Particles of the first body, in an order that a step may change; set.id identifies them.
   ParticleSet& set() { return state_.sets[0]; }
-  /// Puts particles back into order after they were moved by hand.
+  /// Sorts the particles after they were moved from outside.
   void sort() { state_.sort(time_); }
   /// Pose and motion of a rigid body.
   const RigidBody& body(int index) const { return state_.bodies[index]; }

@@ -1,7 +1,7 @@
-// Two equal bars meet end to end and part. Exact, one-dimensional: they exchange their velocities, stay in touch for
-// 2 L / c, and nothing holds them when they part. Source: wave equation; exact-solutions 10. Bodies share one velocity
-// field, without a contact law, so on the grid they feel each other while they have a node in common: too early when
-// they meet and too long when they part. A rigid plate lets go at each node that moves away.
+// Two equal bars meet end to end and separate. Exact, one-dimensional: they exchange their velocities, stay in contact
+// for 2 L / c, and nothing holds them when they separate. Source: wave equation; exact-solutions 10. Bodies share one
+// velocity field, without a contact law, so on the grid they interact while they have a node in common: too early when
+// they meet and too long when they separate. A rigid plate releases each node that moves away.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -45,8 +45,8 @@ double mean(const std::vector<double>& values, std::pair<std::uint64_t, std::uin
 struct Parting {
   double restitution = 0.0;  // relative velocity at the end over that at the start
   double pulled = 0.0;       // relative velocity lost after its largest value, over that at the start
-  double felt = 0.0;         // gap when a hundredth of the momentum was gone [cells]
-  double let_go = 0.0;       // gap from which the velocity changes by less than a thousandth any more [cells]
+  double felt = 0.0;         // gap at which a hundredth of the momentum was lost [cells]
+  double let_go = 0.0;       // gap beyond which the velocity changes by less than a thousandth [cells]
 };
 
 Parting meet(const mpm::SimulationDefinition& d, double approach) {
@@ -55,7 +55,7 @@ Parting meet(const mpm::SimulationDefinition& d, double approach) {
   const double start = approach * kWaveSpeed;
   Parting parting;
   Numbers parts, gaps;
-  // Until a gap of twelve cells; a pair that sticks never gets there.
+  // Until a gap of twelve cells; a pair that sticks does not reach it.
   while (simulation.time() < 400 * simulation.sync_period()) {
     simulation.advance();
     const std::vector<double> v = field(simulation, "vx"), x = field(simulation, "x");
@@ -123,7 +123,7 @@ TEST(Release, OfTwoBarsThatMeet) {
   page.figure().panel("They part with nine tenths of the speed", "", "").map(map);
 }
 
-// The same bar against a rigid plate: from the moment it is let go nothing pulls it back.
+// The same bar against a rigid plate: after release nothing pulls it back.
 TEST(Release, FromAPlatePullsNothing) {
   Page page("contact", "release_plate", "A body parts from a rigid plate");
   constexpr double kApproach = 0.03;
@@ -151,7 +151,7 @@ TEST(Release, FromAPlatePullsNothing) {
     }
     page.report("speed after over before, " + method.name, -last / (kApproach * kWaveSpeed), "");
     EXPECT_GT(push, 0.0);
-    // Not even round-off: a node that would be pulled is not in contact.
+    // Exactly zero: a node that would be pulled is not in contact.
     page.below("largest pull of the plate over its largest push, " + method.name, pull / push, 0.0, "");
   }
 }

@@ -1,7 +1,7 @@
-// Imposed rotation: particles stand on a lattice and are given the velocity of a rigid rotation before every step. What
-// a step does to their volume is then the truncated exponential's doing alone: det of the sum of (theta W)^j / j! up to
-// k, 1 + theta^2 for k = 1, 1 + theta^4 / 4 for k = 2. Source: method reference 7; for k = 3 and 4 from the real and
-// imaginary part of the truncated exp(i theta).
+// Imposed rotation: particles lie on a lattice and get the velocity of a rigid rotation before every step. The change
+// of their volume in a step then comes from the truncated exponential alone: det of the sum of (theta W)^j / j! up to
+// k, which is 1 + theta^2 for k = 1 and 1 + theta^4 / 4 for k = 2. Source: method reference 7; for k = 3 and 4 from the
+// real and imaginary part of the truncated exp(i theta).
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -21,9 +21,10 @@ using verification::Numbers;
 using verification::Outcome;
 using verification::Page;
 
-constexpr double kCentre = 16.0;   // of rotation: a node, about which the lattice is symmetric [cells]
-constexpr double kHalfEdge = 5.0;  // of the block: all nodes of a particle next to the centre lie deep inside it
-constexpr double kDt = 1e-3;       // [s]
+constexpr double kCentre = 16.0;  // centre of rotation: a node, about which the lattice is symmetric [cells]
+constexpr double kHalfEdge =
+    5.0;                      // half edge of the block: nodes of a particle next to the centre lie deep inside [cells]
+constexpr double kDt = 1e-3;  // [s]
 constexpr int kSteps = 20;
 constexpr double kSwollen = 0.01;  // change of volume in a turn that counts as broken
 
@@ -34,7 +35,7 @@ double growth(int terms, double theta) {
   return std::norm(sum);
 }
 double theory(const mpm::MethodDefinition& method, double theta) {
-  // USAVG updates strain twice a step, by half.
+  // USAVG updates strain twice per step, by half of it.
   return method.update == mpm::UpdateScheme::usavg ? std::pow(growth(method.gradient_terms, 0.5 * theta), 2.0)
                                                    : growth(method.gradient_terms, theta);
 }
@@ -42,7 +43,7 @@ double theory(const mpm::MethodDefinition& method, double theta) {
 mpm::SimulationDefinition block(const mpm::MethodDefinition& method) {
   mpm::SimulationDefinition d = domain(method, Vec3::Zero(), {2 * kCentre, 0.0, 2 * kCentre}, 1e-3);
   const double low = kCentre - kHalfEdge, high = kCentre + kHalfEdge;
-  // So soft that the stress of a swollen particle moves nothing: waves go 1e-8 of a cell a step.
+  // The material is so soft that stress moves nothing: waves travel 1e-8 of a cell per step.
   add_body(d, "block", {low, 0.0, low}, {high, 0.0, high}, neo_hookean(0.3, 1e-8 * kCell / kDt));
   return d;
 }
@@ -73,7 +74,7 @@ double measured(const mpm::SimulationDefinition& d, double theta, int steps = kS
   return worst / steps;
 }
 
-/// |J - 1| after a turn of steps that each change ln J by `rate`.
+/// |J - 1| after a turn in steps that each change ln J by `rate`.
 double turn(double rate, double theta) { return std::abs(std::expm1(rate * 2.0 * kPi / theta)); }
 
 TEST(Rotation, ChangesVolumeByTheTermsOfTheExponential) {
@@ -105,7 +106,7 @@ TEST(Rotation, ChangesVolumeByTheTermsOfTheExponential) {
       std::vector<Outcome> cells;
       for (const double degree : degrees) {
         const double theta = per_degree * degree, rate = measured(d, theta);
-        // Round-off of the velocities' sums at a distance of ten cells, a step: 1e-13.
+        // Round-off of sums of velocities at a distance of ten cells, per step: 1e-13.
         EXPECT_NEAR(rate, std::log(theory(method, theta)), 1e-13) << label << " at " << degree;
         cells.push_back(turn(rate, theta) < kSwollen ? Outcome::stable : Outcome::fails);
       }
@@ -116,7 +117,7 @@ TEST(Rotation, ChangesVolumeByTheTermsOfTheExponential) {
       };
       const double found = breaks([&](double theta) { return measured(d, theta); });
       const double expected = breaks([&](double theta) { return std::log(theory(method, theta)); });
-      // 1e-3: ten times what bisection leaves open.
+      // 1e-3: ten times the accuracy of bisection.
       page.near("rotation a step at which a turn changes J by 1 %, " + label, found, expected, 1e-3, "°");
       map.column(label, cells).breaks_at(found).theory(expected);
     }
@@ -124,9 +125,9 @@ TEST(Rotation, ChangesVolumeByTheTermsOfTheExponential) {
   page.figure().panel("A turn changes J by less than 1 %", "", "").map(map);
 }
 
-// The same for every shape function: their gradients reproduce a linear velocity whatever the domain has become. In a
-// few steps only: domains at the block's edge are deformed otherwise, since their nodes see one side of the rotation,
-// and where domains follow the deformation that spreads inwards by some cells a step.
+// The same for every shape function, since their gradients reproduce a linear velocity whatever the domain. Only for a
+// few steps: domains at the block's edge deform differently, because their nodes see one side of the rotation only, and
+// where domains follow the deformation this spreads inwards by some cells per step.
 TEST(Rotation, IsTheSameForEveryShapeFunction) {
   for (Method method : shapes(mpm::UpdateScheme::usf)) {
     const mpm::SimulationDefinition d = block(method.definition);

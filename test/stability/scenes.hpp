@@ -1,5 +1,5 @@
-// Scenes of the atlas, put together by hand: a plane-strain domain, blocks and disks on the lattice of the grid, tools
-// that are boxes. Cell, density and stiffness are plain numbers, so that a test can think in cells and wave speeds.
+// Scenes of the atlas, defined in code: a plane-strain domain, blocks and disks on the lattice of the grid, and tools
+// that are boxes. Cell, density and stiffness are plain numbers, so that a test can be stated in cells and wave speeds.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kCell = 0.1;         ///< [m]
 constexpr double kDensity = 1000.0;   ///< [kg/m^3]
-constexpr double kWaveSpeed = 100.0;  ///< of pressure waves, unless a scene says otherwise [m/s]
+constexpr double kWaveSpeed = 100.0;  ///< speed of pressure waves, unless a scene has another [m/s]
 
 /// Young's modulus [Pa] of a material whose pressure waves travel at `speed` [m/s].
 inline double young_of(double poisson, double speed = kWaveSpeed) {
@@ -43,8 +43,8 @@ inline mpm::SimulationDefinition domain(const mpm::MethodDefinition& method, con
   return d;
 }
 
-/// A body whose particles lie on a lattice between `low` and `high` [cells], where `inside` says so; `velocity` of the
-/// place [m/s].
+/// Adds a body whose particles lie on a lattice between `low` and `high` [cells], where `inside` is true; `velocity` is
+/// a function of position [m/s].
 inline void add_body(mpm::SimulationDefinition& d, const std::string& name, const Vec3& low, const Vec3& high,
                      const mpm::LawDefinition& law, const std::function<Vec3(const Vec3&)>& velocity = {},
                      const std::function<bool(const Vec3&)>& inside = {}) {
@@ -65,7 +65,7 @@ inline void add_body(mpm::SimulationDefinition& d, const std::string& name, cons
   d.bodies.push_back(body);
 }
 
-/// A box without end along y, its edges in cells.
+/// A box that is infinite along y, with its edges in cells.
 inline mpm::RigidBodyDefinition box(const std::string& name, const Vec3& low, const Vec3& high,
                                     const Vec3& velocity = Vec3::Zero()) {
   mpm::RigidBodyDefinition body;
@@ -91,7 +91,7 @@ inline std::vector<double> field(const mpm::Simulation& simulation, const std::s
 }
 inline double seconds(const mpm::Simulation& simulation) { return 1e-9 * static_cast<double>(simulation.time()); }
 
-/// The value between `holds` and `breaks` at which `stable` changes, to `relative` of itself.
+/// The value between `holds` and `breaks` at which `stable` changes, to the relative accuracy `relative`.
 inline double breaking_point(double holds, double breaks, double relative, const std::function<bool(double)>& stable) {
   while (std::abs(breaks - holds) > relative * holds) {
     const double middle = 0.5 * (holds + breaks);

@@ -1,7 +1,7 @@
-// Shear that is not uniform: the generalised vortex of the study (src/mpm/study/vortex.cpp), turned farther and
-// farther. CPDI's domains are parallelograms, made of each particle's own F, that fit together in a uniform deformation
-// only; here they part and tangle even if x and F are exact, and how much is told by the exact motion. Parallelograms
-// that overlap or leave gaps in such motions are why CPDI2 lets neighbours share corners (Sadeghirad, Brannon & Guilkey
+// Nonuniform shear: the generalised vortex of the study (src/mpm/study/vortex.cpp) at increasing turns. CPDI's domains
+// are parallelograms, computed from each particle's own F, that fit together only in a uniform deformation; here they
+// separate and tangle even with exact x and F, by amounts that follow from the exact motion. Parallelograms that
+// overlap or leave gaps in such motions are why CPDI2 lets neighbours share corners (Sadeghirad, Brannon & Guilkey
 // (2013)); CPDI for large shear: Sadeghirad, Brannon & Burghardt (2011).
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -27,17 +27,17 @@ using verification::Numbers;
 using verification::Outcome;
 using verification::Page;
 
-constexpr double kEnd = 1.0, kMostTurned = 0.5;  // of the motion, and when it is farthest from the start [s]
-// Error that counts as broken, of the way: well above the 10 % by which uGIMP errs at the smallest turn.
+constexpr double kEnd = 1.0, kMostTurned = 0.5;  // end of the motion, and time of the largest turn [s]
+// Error, relative to the distance travelled, that counts as broken: well above the 10 % of uGIMP at the smallest turn.
 constexpr double kAstray = 0.2;
-// Distance of corners that counts as broken [cells]: farther off, a corner weighs nodes that its neighbours' do not.
+// Distance of corners that counts as broken [cells]: beyond it, corners reach different nodes.
 constexpr double kParted = 1.0;
 constexpr double kCut = 1.5;  // reach of a domain from which CPDI shrinks it, kernel/domain.hpp [cells]
 
 Eigen::Vector2d flat(const Vec3& x) { return {x.x(), x.z()}; }
 bool in_ring(const Vec3& start) { return std::abs(start.norm() - 1.0) < 0.25; }
 
-/// Places and F of the exact motion.
+/// Positions and F of the exact motion.
 std::vector<Placed> exact(const Suite& suite, const std::vector<Vec3>& start, double time) {
   constexpr double kStep = 1e-5;  // [m]; central differences are then good to 1e-8
   std::vector<Placed> placed(start.size());
@@ -74,7 +74,7 @@ class Ring {
     return stability::exact(mpm::study::vortex("vortex", turn), start_, kMostTurned);
   }
   Fit exact_fit(double turn) const { return fit(exact(turn)); }
-  /// Of the domains of the exact motion, along a grid axis [cells].
+  /// Reach of the domains of the exact motion along a grid axis [cells].
   double exact_reach(double turn) const {
     double reach = 0.0;
     for (const Placed& one : exact(turn)) {
@@ -91,17 +91,18 @@ class Ring {
 };
 
 struct Turned {
-  double error = 0.0;  // largest RMS distance from the exact places over the way of the ring's middle, as in the study
+  double error = 0.0;  // largest RMS distance from the exact positions over the distance travelled by the ring's
+                       // middle, as in the study
   double smallest_j = 1.0, largest_j = 1.0;
-  Fit fit;          // the worst
-  std::string why;  // what ended the run
+  Fit fit;          // the worst fit
+  std::string why;  // cause of the end of the run
   double swelling() const { return std::max(std::log(largest_j), -std::log(smallest_j)); }
   bool held() const { return why.empty(); }
   bool fits() const { return fit.parted < kParted; }
   bool ordered() const { return fit.tangled == 0.0; }
 };
 
-/// There and back, until the run breaks.
+/// Turns the ring there and back, until the run breaks.
 Turned turn_ring(const Ring& ring, const mpm::MethodDefinition& method, double turn) {
   const Suite suite = mpm::study::vortex("vortex", turn);
   const double way = 2.0 * std::sin(0.5 * turn);
@@ -129,12 +130,12 @@ Turned turn_ring(const Ring& ring, const mpm::MethodDefinition& method, double t
     }
   } catch (const mpm::PhysicsError& physics) {
     const std::string text = physics.what();
-    run.why = text.substr(0, text.find_first_of(":("));  // without the particle, the place and the remedy
+    run.why = text.substr(0, text.find_first_of(":("));  // without the particle, the place and the advice
   }
   return run;
 }
 
-/// Runs of a method at rising turns; each turn is run once.
+/// Runs of a method at increasing turns; each turn is run once.
 class Runs {
  public:
   Runs(const Ring& ring, const mpm::MethodDefinition& method) : ring_(ring), method_(method) {}
@@ -143,8 +144,8 @@ class Runs {
     const auto found = runs_.find(turn);
     return found != runs_.end() ? found->second : runs_[turn] = turn_ring(ring_, method_, turn);
   }
-  /// A turn above one at which the run broke is not run: it does not hold either; whether corners part there is not
-  /// known, unless they parted below.
+  /// A turn above one at which the run broke is not run and counts as broken too; whether corners separate there is not
+  /// known, unless they separated below.
   std::vector<Outcome> outcomes(const Numbers& turns, bool (Turned::*sound)() const) {
     std::vector<Outcome> cells;
     bool over = false;
@@ -160,7 +161,7 @@ class Runs {
     }
     return cells;
   }
-  /// Where `cells` change from stable to broken, to 3 % of a radian; nothing where they do not.
+  /// The turn at which `cells` change from stable to broken, to 3 % of a radian; no value if they do not.
   std::optional<double> breaks(const Numbers& turns, const std::vector<Outcome>& cells, bool (Turned::*sound)() const) {
     const auto broken = std::find(cells.begin(), cells.end(), Outcome::fails) - cells.begin();
     if (broken == static_cast<long>(cells.size())) return {};
@@ -191,7 +192,8 @@ std::vector<Method> compared() {
 
 const Numbers kTurns = {0.25, 0.5, 0.75, 1.0, 1.5};
 
-/// The three maps of a grid and curves of the runs that held. `refine`: find breaking points by bisection.
+/// Draws the three maps of a grid and curves of the runs that did not break. `refine`: find breaking points by
+/// bisection.
 void scan(Page& page, const Ring& ring, const std::vector<Method>& methods, const std::string& label, bool refine) {
   struct Question {
     std::string title;
@@ -199,7 +201,7 @@ void scan(Page& page, const Ring& ring, const std::vector<Method>& methods, cons
     double theory;
     Map map;
   };
-  const double infinite = 8.0;  // more than a turn: the search for what the exact motion does ends there
+  const double infinite = 8.0;  // more than a turn: the search in the exact motion ends there
   const double parts =
       breaking_point(0.1, infinite, 1e-3, [&](double turn) { return ring.exact_fit(turn).parted < kParted; });
   const double tangles =
@@ -260,7 +262,8 @@ void scan(Page& page, const Ring& ring, const std::vector<Method>& methods, cons
   }
 }
 
-// What measures: in a uniform deformation four domains see a corner at one place, and a reflection turns all over.
+// The measures themselves: in a uniform deformation four domains agree on a corner, and a reflection inverts all
+// domains.
 TEST(Tangling, IsSeenAndOnlySeenWhereItIs) {
   const Ring ring(12, 2);
   std::vector<Placed> particles(ring.start().size());
@@ -269,7 +272,7 @@ TEST(Tangling, IsSeenAndOnlySeenWhereItIs) {
     return ring.fit(particles);
   };
   const Fit sheared = deform(Eigen::Matrix2d{{1.0, 6.0}, {0.0, 1.0}});
-  EXPECT_LT(sheared.parted, 1e-12);  // round-off of places up to ten cells, sheared
+  EXPECT_LT(sheared.parted, 1e-12);  // round-off of positions up to ten cells, sheared
   EXPECT_EQ(sheared.tangled, 0.0);
   EXPECT_EQ(deform(Eigen::Matrix2d{{-1.0, 0.0}, {0.0, 1.0}}).tangled, 1.0);
   for (const Placed& one : ring.exact(1.5)) EXPECT_NEAR(one.f.determinant(), 1.0, 1e-6);  // of central differences
@@ -303,8 +306,8 @@ TEST(Tangling, OfDomainsInAVortex) {
       "and go astray sooner; APIC errs least up to 0.5 rad. On this coarse grid nothing turns by 1 rad. There is "
       "no published turn to compare with that we know of.");
   scan(page, Ring(12, 2), compared(), "12 cells a metre", false);
-  // At the smallest turn, where the exact motion asks little of domains: shear up to 1.5, corners a seventh of a cell
-  // apart. On a finer grid, since at 12 cells the error is the grid's whatever the shape function.
+  // At the smallest turn the exact motion deforms domains little: shear up to 1.5, corners a seventh of a cell apart.
+  // The grid is finer, because with 12 cells the error is that of the grid for any shape function.
   const Ring ring(14, 2);
   const double turn = kTurns.front();
   std::map<mpm::ShapeKind, Turned> runs;
@@ -315,13 +318,13 @@ TEST(Tangling, OfDomainsInAVortex) {
     EXPECT_TRUE(run.held()) << method.name << ": " << run.why;
   }
   const Turned &cpdi = runs[mpm::ShapeKind::cpdi], &ugimp = runs[mpm::ShapeKind::ugimp];
-  // A box that stays as it was sees neighbours at a shear of 1.5 where they are not; CPDI was made for that.
+  // An undeformed box does not meet its neighbours at a shear of 1.5; CPDI was designed for that.
   page.below("CPDI's error over uGIMP's, 0.25 rad, 14 cells a metre", cpdi.error / ugimp.error, 1.0, "");
   page.below("CPDI's largest |ln J| over uGIMP's, 0.25 rad, 14 cells a metre", cpdi.swelling() / ugimp.swelling(), 1.0,
              "");
-  // Half of what counts as broken: the exact motion's part by a seventh of a cell.
+  // Half of the distance that counts as broken; in the exact motion corners are a seventh of a cell apart.
   page.below("corners part by, 0.25 rad, CPDI, 14 cells a metre", cpdi.fit.parted, 0.5 * kParted, "cells");
-  page.below("domains that tangle, 0.25 rad, CPDI, 14 cells a metre", cpdi.fit.tangled, 0.0, "");  // as exactly
+  page.below("domains that tangle, 0.25 rad, CPDI, 14 cells a metre", cpdi.fit.tangled, 0.0, "");  // exact: 0
 }
 
 TEST(FullTangling, OfDomainsInAVortex) {

@@ -1,7 +1,6 @@
-// The largest stable time step, as a Courant number c dt / h with c the speed of pressure waves. A block free in space
-// is given small random velocities and stepped: it is unstable when its motion has grown a millionfold, a thousandfold
-// in velocity, within 300 steps. Theory: the one-step matrix of linear_step.hpp. A simulation itself refuses a Courant
-// number above 1.
+// The largest stable time step, as a Courant number c dt / h with c the speed of pressure waves. A free block gets
+// small random velocities: it is unstable if the sum of v^2 grows a millionfold, velocity a thousandfold, within 300
+// steps. Theory: the one-step matrix of linear_step.hpp. A simulation itself refuses a Courant number above 1.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -23,19 +22,19 @@ using verification::Page;
 
 constexpr double kPoisson = 0.3;
 constexpr int kEdge = 3;        // cells along an edge of the block
-constexpr double kStart = 4.0;  // its corner when it lies on the grid [cells]
-constexpr int kHeldEdge = 5;    // of a block between walls
+constexpr double kStart = 4.0;  // position of its corner when aligned with the grid [cells]
+constexpr int kHeldEdge = 5;    // cells along an edge of a block between walls
 constexpr int kSteps = 300;
 constexpr double kGrowth = 1e6;
-constexpr double kSearch = 0.004;  // bisection stops at this part of the value
-constexpr double kLargest = 6.0;   // Courant number that is tried
+constexpr double kSearch = 0.004;  // relative accuracy of bisection
+constexpr double kLargest = 6.0;   // largest Courant number that is tried
 
 /// A block of `edge` cells whose lower corner lies at kStart + `shift` along x and z [cells], in random motion.
 mpm::SimulationDefinition block(const mpm::MethodDefinition& method, double shift, int edge = kEdge) {
   mpm::SimulationDefinition d = domain(method, Vec3::Zero(), {12.0, 0.0, 12.0}, 1e-3);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
-  // So slow that nothing moves by more than 1e-6 of a cell while the motion grows a thousandfold.
+  // The block is so slow that nothing moves by more than 1e-6 of a cell while velocities grow a thousandfold.
   const double speed = 1e-11 * kWaveSpeed;
   const double low = kStart + shift;
   add_body(d, "block", {low, 0.0, low}, {low + edge, 0.0, low + edge}, linear_elastic(kPoisson),
@@ -43,7 +42,7 @@ mpm::SimulationDefinition block(const mpm::MethodDefinition& method, double shif
   return d;
 }
 
-/// A block that fills a domain whose walls hold it.
+/// A block that fills a domain with fixed walls.
 mpm::SimulationDefinition held_block(const mpm::MethodDefinition& method) {
   mpm::SimulationDefinition d = block(method, 0.0, kHeldEdge);
   d.grid.min = Vec3::Constant(kCell * kStart);
@@ -76,7 +75,7 @@ double measured(const mpm::SimulationDefinition& d) {
   return breaking_point(0.05, kLargest, kSearch, [&](double courant) { return stable(d, courant); });
 }
 
-/// The same by the one-step matrix: a random motion, stepped as often.
+/// The same with the one-step matrix: a random motion, stepped as often.
 bool stable(const LinearStep& step, double dt) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -108,8 +107,8 @@ std::vector<Outcome> outcomes(const Map& map, const mpm::SimulationDefinition& d
   return cells;
 }
 
-/// A column of the map, checked against theory: 1 %, twice what both bisections leave open and what the criterion of
-/// growth adds close to the limit.
+/// A column of the map, checked against theory: 1 %, twice the accuracy of both bisections plus the effect of the
+/// growth criterion near the limit.
 void compare(Page& page, Map& map, const std::string& label, const mpm::SimulationDefinition& d) {
   if (!possible(d, d.method)) {
     map.impossible(label);
@@ -174,7 +173,7 @@ TEST(TimeStep, OfUpdatesAndTransfers) {
   page.figure().panel("Updates and transfers", "", "").map(map);
 }
 
-// A block whose edge lies a little beyond a row of nodes gives them hardly any mass.
+// A block whose edge lies slightly beyond a row of nodes gives them hardly any mass.
 TEST(TimeStep, OfABlockAboutToLeaveItsCells) {
   Page page("time_step", "time_step_offset", "The largest stable time step: nodes with little mass");
   page.problem(

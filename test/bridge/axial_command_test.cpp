@@ -7,13 +7,14 @@
 #include "mpm/scene/scene.hpp"
 #include "mpm_ros/command/body_command.hpp"
 #include "mpm_ros/message/markers.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
 
 class AxialCommand : public testing::Test {
  protected:
-  mpm::Simulation simulation_{mpm::build(mpm::load_scene(MPM_TEST_DATA_DIR "/indenter.yaml")), {1}};
+  mpm::Simulation simulation_{mpm::build(mpm::load_scene(data_file("indenter.yaml"))), {1}};
   int cone_ = simulation_.find_body("cone"), jaws_ = simulation_.find_body("jaws");
 
   static AppliedCommand velocity(int body, const mpm::Vec3& linear, const mpm::Vec3& angular = mpm::Vec3::Zero()) {

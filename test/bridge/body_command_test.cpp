@@ -6,13 +6,14 @@
 #include <cmath>
 
 #include "mpm/scene/scene.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
 
 class TooFast : public testing::Test {
  protected:
-  mpm::Scene scene_ = mpm::load_scene(MPM_TEST_DATA_DIR "/press.yaml");
+  mpm::Scene scene_ = mpm::load_scene(data_file("press.yaml"));
   mpm::Simulation simulation_{mpm::build(scene_), {1}};
   // The domain is 0.2 x 0.12 m.
   double diagonal_ = std::hypot(0.2, 0.12);

@@ -10,6 +10,7 @@
 #include "mpm_ros/command/command_log.hpp"
 #include "mpm_ros/command/command_reader.hpp"
 #include "mpm_ros/run/run.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -38,7 +39,7 @@ class CommandKeeper : public MessageSink {
 };
 
 const mpm::Scene& press() {
-  static const mpm::Scene scene = mpm::load_scene(MPM_TEST_DATA_DIR "/press.yaml", {"time.end=1000"});
+  static const mpm::Scene scene = mpm::load_scene(data_file("press.yaml"), {"time.end=1000"});
   return scene;
 }
 

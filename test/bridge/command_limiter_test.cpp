@@ -8,6 +8,7 @@
 #include <random>
 
 #include "mpm/scene/scene.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -17,7 +18,7 @@ constexpr double kRound = 1e-12;  // of lengths of 0.1 m, added up over some hun
 
 class Limiter : public testing::Test {
  protected:
-  mpm::Scene scene_ = mpm::load_scene(MPM_TEST_DATA_DIR "/drive.yaml");
+  mpm::Scene scene_ = mpm::load_scene(data_file("drive.yaml"));
   mpm::Simulation simulation_{mpm::build(scene_), {1}};
   NodeHealth health_;
   CommandLimiter limiter_{limits(), health_};
@@ -200,8 +201,7 @@ TEST_F(Limiter, WhatAPlaneDoesNotHaveIsNoGoal) {
 }
 
 TEST_F(Limiter, WhatTheBodyWouldRefuseIsRefusedAtOnce) {
-  const mpm::Scene scene =
-      mpm::load_scene(MPM_TEST_DATA_DIR "/drive.yaml", {"rigid_bodies.sled.free={mass: 1 kg, axes: [z]}"});
+  const mpm::Scene scene = mpm::load_scene(data_file("drive.yaml"), {"rigid_bodies.sled.free={mass: 1 kg, axes: [z]}"});
   mpm::Simulation simulation(mpm::build(scene), {1});
   CommandLimiter limiter(limits(), health_);
   ASSERT_TRUE(limiter.take(velocity(0.1), simulation));
@@ -234,8 +234,7 @@ TEST_F(Limiter, GoalsCanBeSavedAndTakenAgain) {
 }
 
 TEST(Limits, OfAccelerationAloneDoNotLetAWildVelocityPass) {
-  const mpm::Scene scene =
-      mpm::load_scene(MPM_TEST_DATA_DIR "/drive.yaml", {"rigid_bodies.sled.limits={acceleration: 20}"});
+  const mpm::Scene scene = mpm::load_scene(data_file("drive.yaml"), {"rigid_bodies.sled.limits={acceleration: 20}"});
   const mpm::Simulation simulation(mpm::build(scene), {1});
   NodeHealth health;
   std::vector<mpm::MotionLimits> limits;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mpm/scene/scene.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -84,7 +85,7 @@ TEST(ForceMarkers, AllGoWhenTheContactEnds) {
 }
 
 TEST(ShapeMarkers, PlanarBodiesAreSlices) {
-  const mpm::Scene scene = mpm::load_scene(MPM_TEST_DATA_DIR "/press.yaml");
+  const mpm::Scene scene = mpm::load_scene(data_file("press.yaml"));
   const mpm::Simulation simulation(mpm::build(scene), {1});
   const visualization_msgs::MarkerArray array = shape_markers(simulation);
   ASSERT_EQ(array.markers.size(), 2U);

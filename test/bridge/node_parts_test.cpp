@@ -9,6 +9,7 @@
 #include "mpm_ros/node/mailbox.hpp"
 #include "mpm_ros/node/node_parameters.hpp"
 #include "mpm_ros/node/pacer.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -87,7 +88,7 @@ TEST(NodeParameters, FieldsAreAListOrOneText) {
 
 TEST(NodeParameters, TheTemplateHoldsEveryParameterWithItsDefault) {
   ParameterValues values;
-  for (const auto& entry : YAML::LoadFile(MPM_SOURCE_DIR "/config/simulator.yaml")) {
+  for (const auto& entry : YAML::LoadFile(source_file("config/simulator.yaml"))) {
     const auto name = entry.first.as<std::string>();
     const YAML::Node& value = entry.second;
     if (value.IsSequence()) {

@@ -14,13 +14,14 @@
 #include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/run.hpp"
 #include "mpm_ros/run/run_scene.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kPress = MPM_TEST_DATA_DIR "/press.yaml";
+const std::string kPress = data_file("press.yaml");
 
 /// 0.2 s in sync periods of 2 ms, with commands of both kinds; returns the state hash at the end.
 std::uint64_t press_run(const std::string& bag, const BagOptions& bag_options = {},
@@ -316,7 +317,7 @@ TEST(FromBag, AnotherStateIsToldAndExitCodeThree) {
 TEST(FromBag, ARunThatFailedFailsAgain) {
   const TemporaryFolder folder;
   RunSceneOptions options;
-  options.scene = MPM_TEST_DATA_DIR "/leaves_domain.yaml";
+  options.scene = data_file("leaves_domain.yaml");
   options.threads = 1;
   options.bag = folder.file("run.bag");
   ASSERT_EQ(run(options).result, RunSceneResult::physics_failed);

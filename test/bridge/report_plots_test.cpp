@@ -11,11 +11,12 @@
 
 #include "mpm_ros/report/report.hpp"
 #include "report_run.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
 
-const std::string kScript = MPM_SOURCE_DIR "/scripts/plot_report.py";
+const std::string kScript = source_file("scripts/plot_report.py");
 
 class ReportPlotsTest : public ::testing::Test {
  protected:

@@ -17,6 +17,7 @@
 #include "mpm_ros/report/report_statistics.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
 #include "mpm_ros/run/run_scene.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -148,7 +149,7 @@ TEST_F(ReportRecorded, ARunThatEndedEarlyIsTold) {
 
 TEST_F(ReportRecorded, ThePythonOfTheDocumentationReadsABag) {
   const std::string bag = record();
-  std::ifstream page(MPM_SOURCE_DIR "/doc/analysis.md");
+  std::ifstream page(source_file("doc/analysis.md"));
   std::stringstream text;
   text << page.rdbuf();
   const std::string begin = "```python\n";

@@ -12,11 +12,12 @@
 #include "mpm_ros/report/report_plots.hpp"
 #include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/run.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
 
-mpm::Scene press() { return mpm::load_scene(MPM_TEST_DATA_DIR "/press.yaml"); }
+mpm::Scene press() { return mpm::load_scene(data_file("press.yaml")); }
 
 AppliedCommand push_down(const Run& run, double speed) {
   AppliedCommand command;

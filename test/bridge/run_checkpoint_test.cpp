@@ -15,6 +15,7 @@
 #include "mpm_ros/report/temporary_folder.hpp"
 #include "mpm_ros/run/run.hpp"
 #include "mpm_ros/run/run_scene.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 class RunCheckpoint : public ::testing::Test {
  protected:
   RunCheckpoint() {
-    options_.scene = std::string(MPM_SOURCE_DIR) + "/config/scenes/falling_block.yaml";
+    options_.scene = source_file("config/scenes/falling_block.yaml");
     options_.threads = 1;
     options_.end = "50 ms";  // twenty sync periods of 2.5 ms
     options_.summary = folder_.file("summary.json");
@@ -97,7 +98,7 @@ TEST_F(RunCheckpoint, EverySoOftenOneFileIsReplaced) {
 }
 
 TEST_F(RunCheckpoint, AFailedRunLeavesItsStateWhichIsNotResumed) {
-  options_.scene = MPM_TEST_DATA_DIR "/leaves_domain.yaml";
+  options_.scene = data_file("leaves_domain.yaml");
   options_.end.clear();
   options_.checkpoint = folder_.file("run.h5");
   options_.checkpoint_every = "20 ms";
@@ -197,7 +198,7 @@ struct Pressed {
       run->advance();
     }
   }
-  mpm::Scene scene = mpm::load_scene(MPM_TEST_DATA_DIR "/press.yaml");
+  mpm::Scene scene = mpm::load_scene(data_file("press.yaml"));
   CommandQueue queue;
   CommandWatch watch{30'000'000};
   NodeHealth health;

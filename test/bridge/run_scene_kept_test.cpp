@@ -11,6 +11,7 @@
 #include "mpm_ros/report/report_bag.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
 #include "mpm_ros/run/run_scene.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 class RunSceneKept : public ::testing::Test {
  protected:
   RunSceneKept() {
-    options_.scene = MPM_TEST_DATA_DIR "/press.yaml";
+    options_.scene = data_file("press.yaml");
     options_.threads = 1;
     options_.summary = folder_.file("summary.json");
   }

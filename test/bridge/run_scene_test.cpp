@@ -14,6 +14,7 @@
 
 #include "mpm_ros/message/progress_bar.hpp"
 #include "mpm_ros/report/report.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -24,7 +25,7 @@ class RunScene : public ::testing::Test {
  protected:
   RunScene() : folder_(fs::temp_directory_path() / ("mpm_run_scene_test_" + std::to_string(getpid()))) {
     fs::create_directories(folder_);
-    options_.scene = std::string(MPM_SOURCE_DIR) + "/config/scenes/falling_block.yaml";
+    options_.scene = source_file("config/scenes/falling_block.yaml");
     options_.threads = 1;
     options_.end = "50 ms";
     options_.summary = (folder_ / "summary.json").string();
@@ -97,7 +98,7 @@ TEST_F(RunScene, AShorterRunIsTheBeginningOfALongerOne) {
 TEST_F(RunScene, WritesTablesAndABagThatOpens) {
   options_.csv = (folder_ / "tables").string();
   options_.bag = (folder_ / "run.bag").string();
-  options_.scene = std::string(MPM_SOURCE_DIR) + "/config/scenes/compressed_block.yaml";
+  options_.scene = source_file("config/scenes/compressed_block.yaml");
   options_.end = "0.01";
   ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
   for (const char* name : {"contact_forces.csv", "bodies.csv", "solver_state.csv", "particles_0000.csv"}) {

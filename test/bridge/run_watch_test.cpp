@@ -7,6 +7,7 @@
 #include "mpm_ros/message/wrench_filter.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
 #include "mpm_ros/run/run.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -26,7 +27,7 @@ std::vector<Message> read(const std::string& path, const std::string& topic) {
 /// The press of test/data, its plate pushed down from the start, for 0.1 s of 2 ms sync periods.
 void record(const std::string& path, const std::function<void(OutputOptions&)>& choose) {
   const mpm::Scene scene =
-      mpm::load_scene(MPM_TEST_DATA_DIR "/press.yaml",
+      mpm::load_scene(data_file("press.yaml"),
                       {"time.end=0.1", "output.global=[{quantity: contactz, body: plate}, Kinetic Energy, dispx]",
                        "output.global_period=0.01"});
   RunOptions options;

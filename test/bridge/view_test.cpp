@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "mpm_ros/message/particle_cloud.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -78,7 +79,7 @@ TEST(View, AnEmptyCloudHasSomeView) {
 }
 
 TEST(View, IsPutIntoTheShippedConfiguration) {
-  std::ifstream file(MPM_SOURCE_DIR "/config/rviz/mpm.rviz");
+  std::ifstream file(source_file("config/rviz/mpm.rviz"));
   std::stringstream text;
   text << file.rdbuf();
   View view;

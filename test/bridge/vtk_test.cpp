@@ -14,6 +14,7 @@
 #include "mpm_ros/report/temporary_folder.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 #include "mpm_ros/run/vtk_file.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -117,7 +118,7 @@ class Recorded : public RunVisitor {
 TEST(Vtk, ARunHoldsWhatItsBagHolds) {
   const TemporaryFolder folder;
   RunSceneOptions options;
-  options.scene = MPM_TEST_DATA_DIR "/press.yaml";
+  options.scene = data_file("press.yaml");
   options.set = {"time.end=0.06", "rigid_bodies.plate.motion={velocity: [0.1, -0.2], rotation_rate: 0.5}"};
   options.threads = 1;
   options.vtk = folder.file("vtk");

@@ -10,6 +10,7 @@
 #include "mpm/simulation/global_quantity.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/message/topics.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -18,7 +19,7 @@ using Row = std::pair<std::string, std::string>;
 
 /// The words in backticks of each row's first cell, with its second cell, of the table whose header begins so.
 std::vector<Row> table(const std::string& header) {
-  std::ifstream file(MPM_SOURCE_DIR "/doc/watching.md");
+  std::ifstream file(source_file("doc/watching.md"));
   std::vector<Row> rows;
   bool inside = false;
   for (std::string line; std::getline(file, line);) {
@@ -59,7 +60,7 @@ TEST(Watching, EveryGlobalQuantityIsInTheTableWithItsUnit) {
 TEST(Watching, EveryRVizConfigurationNamesTopicsThatExist) {
   const std::set<std::string> topics = {topics::kParticles, topics::kMarkers, topics::kForceMarkers};
   int configurations = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(MPM_SOURCE_DIR "/config/rviz")) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_file("config/rviz"))) {
     const std::string path = entry.path().string();
     ASSERT_EQ(entry.path().extension(), ".rviz") << path;
     ++configurations;

@@ -6,11 +6,12 @@
 #include "mpm/simulation/checkpoint.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "simulator_process.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros::test {
 namespace {
 
-const std::string kPress = "scene:=" MPM_TEST_DATA_DIR "/press.yaml";
+const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr std::uint32_t kWhole = 60, kHalf = 25;  // sync periods of 2 ms
 
 Checkpoint::Response call(const SimulatorProcess& simulator, const std::string& service, const std::string& path) {
@@ -138,14 +139,14 @@ TEST(CheckpointNode, WrongFilesAreRefusedAndTheRunGoesOn) {
 
 TEST(CheckpointNode, AFailedRunLeavesItsState) {
   const TemporaryFolder folder;
-  SimulatorProcess simulator({"scene:=" MPM_TEST_DATA_DIR "/leaves_domain.yaml", "pacing:=free", "threads:=1",
-                              "record:=" + folder.file("run.bag")});
+  SimulatorProcess simulator(
+      {"scene:=" + data_file("leaves_domain.yaml"), "pacing:=free", "threads:=1", "record:=" + folder.file("run.bag")});
   EXPECT_EQ(simulator.wait(), 3) << simulator.log();
   const std::string file = folder.file("run_failed.h5");
   EXPECT_NE(simulator.log().find("the state of the failure is in " + file), std::string::npos) << simulator.log();
   const mpm::CheckpointAbout about = mpm::read_checkpoint(file);
   EXPECT_EQ(about.label.failure, last_state_in(folder.file("run.bag")).failure);
-  SimulatorProcess again({"scene:=" MPM_TEST_DATA_DIR "/leaves_domain.yaml", "resume:=" + file});
+  SimulatorProcess again({"scene:=" + data_file("leaves_domain.yaml"), "resume:=" + file});
   EXPECT_EQ(again.wait(), 2) << again.log();
   EXPECT_NE(again.log().find("cannot go on"), std::string::npos) << again.log();
 }

@@ -12,11 +12,12 @@
 #include <random>
 
 #include "simulator_process.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros::test {
 namespace {
 
-const std::string kPress = "scene:=" MPM_TEST_DATA_DIR "/press.yaml";
+const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr std::uint64_t kSeed = 20240607;
 constexpr int kEach = 50;  // of each of six kinds of bad command, and of good ones
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -86,8 +87,8 @@ TEST(Commands, RandomOnesAreRefusedOrAppliedAndCounted) {
 
 TEST(Commands, AWrenchPushesAFreeBodyUntilTheNext) {
   const TemporaryFolder folder;
-  SimulatorProcess simulator({"scene:=" MPM_TEST_DATA_DIR "/free_ball.yaml", "pacing:=lockstep", "threads:=1",
-                              "record:=" + folder.file("run.bag")});
+  SimulatorProcess simulator(
+      {"scene:=" + data_file("free_ball.yaml"), "pacing:=lockstep", "threads:=1", "record:=" + folder.file("run.bag")});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
   const Ear<mpm_ros::Command> applied(simulator.name("commands"));
   ros::Publisher now = connect<geometry_msgs::Wrench>(simulator.name("bodies/ball/cmd_wrench"));

@@ -11,11 +11,12 @@
 #include <cstring>
 
 #include "simulator_process.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros::test {
 namespace {
 
-const std::string kPress = "scene:=" MPM_TEST_DATA_DIR "/press.yaml";
+const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr const char* kSender = "--sender";  // makes this program a node that says one thing: topic, vz, stamp [ns]
 
 int send(int argc, char** argv, char** words) {

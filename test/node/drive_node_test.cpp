@@ -7,11 +7,12 @@
 #include <set>
 
 #include "simulator_process.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros::test {
 namespace {
 
-const std::string kDrive = "scene:=" MPM_TEST_DATA_DIR "/drive.yaml";
+const std::string kDrive = "scene:=" + data_file("drive.yaml");
 constexpr int kProbe = 0, kHand = 1, kSled = 2;
 constexpr double kRound = 1e-12;  // of places of 0.1 m, interpolated by tf
 

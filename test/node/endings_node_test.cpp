@@ -6,11 +6,12 @@
 #include <std_srvs/SetBool.h>
 
 #include "simulator_process.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros::test {
 namespace {
 
-const std::string kPress = "scene:=" MPM_TEST_DATA_DIR "/press.yaml";
+const std::string kPress = "scene:=" + data_file("press.yaml");
 
 /// Messages of a type in a bag; throws when rosbag cannot open it.
 std::size_t messages_in(const std::string& path, const std::string& type) {
@@ -59,7 +60,7 @@ TEST(Endings, FailedPhysicsIsExitCodeThreeAndLeavesABag) {
   const TemporaryFolder folder;
   const std::string bag = folder.file("run.bag");
   SimulatorProcess simulator(
-      {"scene:=" MPM_TEST_DATA_DIR "/leaves_domain.yaml", "pacing:=free", "threads:=1", "record:=" + bag});
+      {"scene:=" + data_file("leaves_domain.yaml"), "pacing:=free", "threads:=1", "record:=" + bag});
   EXPECT_EQ(simulator.wait(), 3) << simulator.log();
   const std::vector<std::string> lines = simulator.fatal_lines();
   ASSERT_EQ(lines.size(), 1U) << simulator.log();

@@ -7,6 +7,7 @@
 
 #include "mpm_ros/message/bag_parts.hpp"
 #include "simulator_process.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros::test {
 namespace {
@@ -29,7 +30,7 @@ TEST(FullEndurance, TwoMillionStepsInLockstep) {
   setenv("MALLOC_ARENA_MAX", "1", 1);
   const TemporaryFolder folder;
   const std::string bag = folder.file("run.bag");
-  SimulatorProcess simulator({"scene:=" MPM_TEST_DATA_DIR "/endurance.yaml", "pacing:=lockstep", "threads:=1",
+  SimulatorProcess simulator({"scene:=" + data_file("endurance.yaml"), "pacing:=lockstep", "threads:=1",
                               "record:=" + bag, "record_split_size:=1"});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
   const auto began = std::chrono::steady_clock::now();

@@ -19,11 +19,12 @@
 #include <mutex>
 
 #include "simulator_process.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros::test {
 namespace {
 
-const std::string kPress = "scene:=" MPM_TEST_DATA_DIR "/press.yaml";
+const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Publishes until the simulator's subscriber is there, then once.

@@ -10,11 +10,12 @@
 #include <cstring>
 
 #include "simulator_process.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros::test {
 namespace {
 
-const std::string kPress = "scene:=" MPM_TEST_DATA_DIR "/press.yaml";
+const std::string kPress = "scene:=" + data_file("press.yaml");
 const std::string kLong = "set:=[time.end=1000]";  // sync points every 10 ms
 constexpr const char* kWaiter =
     "--wait-for-time";  // makes this program a node that ends when ros::Time::now() is valid

@@ -8,11 +8,12 @@
 #include "mpm_ros/report/report_bag.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 #include "simulator_process.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros::test {
 namespace {
 
-const std::string kPress = "scene:=" MPM_TEST_DATA_DIR "/press.yaml";
+const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr std::int64_t kSync = 2'000'000;  // [ns]
 
 /// Times of the body states in a recording, which must follow each other from the start without a gap.

@@ -5,11 +5,12 @@
 #include <termios.h>
 
 #include "simulator_process.hpp"
+#include "test_files.hpp"
 
 namespace mpm_ros::test {
 namespace {
 
-const std::string kPress = "scene:=" MPM_TEST_DATA_DIR "/press.yaml";
+const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr int kPlate = 0;
 
 /// `teleop` in a terminal of its own.

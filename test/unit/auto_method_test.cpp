@@ -13,6 +13,7 @@
 #include "mpm/scene/expected_motion.hpp"
 #include "mpm/scene/explain.hpp"
 #include "mpm/study/method_choice.hpp"
+#include "test_files.hpp"
 
 namespace mpm {
 namespace {
@@ -402,7 +403,7 @@ TEST(AutoMethod, BadKeysSayWhatToWrite) {
 
 // The shipped table can be read, and gives every kind of scene a method.
 TEST(AutoMethod, TheShippedTableServesEveryScene) {
-  const MethodCostsFile file = load_method_costs(std::string(MPM_SOURCE_DIR) + "/config/method_costs.csv");
+  const MethodCostsFile file = load_method_costs(source_file("config/method_costs.csv"));
   ASSERT_EQ(file.fault, "");
   for (const double strain : {0.001, 0.5}) {
     for (const double turn : {0.0, 1.5}) {

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "mpm/math/build_info.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +33,7 @@ std::vector<Include> includes_of(const std::string& library) {
   const std::regex pattern(R"re(^\s*#\s*include\s*[<"]([^>"]+)[>"])re");
   std::vector<Include> found;
   for (const char* root : {"include", "src"}) {
-    const fs::path folder = fs::path(MPM_SOURCE_DIR) / root / library;
+    const fs::path folder = fs::path(mpm::source_folder()) / root / library;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       if (!entry.is_regular_file()) continue;
       const std::string top = fs::relative(entry.path(), folder).begin()->string();

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "scene_tool.hpp"
+#include "test_files.hpp"
 
 namespace mpm {
 namespace {
@@ -27,7 +28,7 @@ TEST(SceneDrive, WithoutKeysABodyTakesAnyCommandOnTopics) {
 TEST(SceneDrive, ABodyFollowsAFrame) {
   EXPECT_EQ(commands("drive: {tf: left/tool0}").frame, "left/tool0");
   EXPECT_EQ(commands("drive: tf").frame, "tool");  // the body's name
-  const std::string link = "urdf: {file: " MPM_TEST_DATA_DIR "/robot/tool.urdf, link: scoop}";
+  const std::string link = "urdf: {file: " + data_file("robot/tool.urdf") + ", link: scoop}";
   EXPECT_EQ(commands("drive: tf", link).frame, "scoop");
   EXPECT_EQ(commands("drive: {tf: tool0}", link).frame, "tool0");
 }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "mpm/material/material_point.hpp"
+#include "mpm/math/build_info.hpp"
 #include "mpm/scene/memory.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/scene/sections.hpp"
@@ -109,7 +110,7 @@ std::vector<std::string> base_scenes() {
   std::vector<std::string> texts;
   for (const char* folder : {"/config/scenes", "/test/data", "/test/verification/scenes"}) {
     std::vector<std::string> paths;
-    for (const auto& entry : std::filesystem::directory_iterator(MPM_SOURCE_DIR + std::string(folder))) {
+    for (const auto& entry : std::filesystem::directory_iterator(mpm::source_folder() + folder)) {
       if (entry.path().extension() == ".yaml") paths.push_back(entry.path().string());
     }
     std::sort(paths.begin(), paths.end());

@@ -9,6 +9,7 @@
 
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/scene.hpp"
+#include "test_files.hpp"
 
 namespace mpm {
 namespace {
@@ -233,7 +234,7 @@ TEST(SceneReader, ShippedScenesLoadAndHaveADescription) {
   for (const auto& [name, line] : scenes) {
     EXPECT_NE(line, "") << name;
     // Meshes at package:// are found in a sourced workspace only; other tests run these scenes.
-    std::ifstream file(std::string(MPM_SOURCE_DIR) + "/config/scenes/" + name + ".yaml");
+    std::ifstream file(source_file("config/scenes/" + name + ".yaml"));
     const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
     if (text.find("package://") != std::string::npos) continue;
     EXPECT_NO_THROW(build(load_scene(name))) << name;

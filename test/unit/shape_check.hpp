@@ -14,11 +14,13 @@
 #include <string>
 #include <vector>
 
+#include "test_files.hpp"
+
 namespace mpm::test {
 
 /// Rows of test/data/`name`; lines that begin with # are skipped.
 inline std::vector<std::vector<double>> table_rows(const std::string& name) {
-  std::ifstream file(std::string(MPM_TEST_DATA_DIR) + "/" + name);
+  std::ifstream file(data_file(name));
   EXPECT_TRUE(file) << name;
   std::vector<std::vector<double>> rows;
   for (std::string line; std::getline(file, line);) {

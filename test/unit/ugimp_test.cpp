@@ -9,6 +9,7 @@
 
 #include "mpm/grid/grid_layout.hpp"
 #include "mpm/kernel/weights.hpp"
+#include "test_files.hpp"
 
 namespace {
 
@@ -30,7 +31,7 @@ std::pair<double, double> evaluate(const Axis& axis) {
 }
 
 TEST(Ugimp, MatchesQuadratureRowByRow) {
-  std::ifstream file(std::string(MPM_TEST_DATA_DIR) + "/ugimp.csv");
+  std::ifstream file(data_file("ugimp.csv"));
   ASSERT_TRUE(file);
   int rows = 0;
   for (std::string line; std::getline(file, line);) {

@@ -7,13 +7,14 @@
 #include <fstream>
 
 #include "scene_tool.hpp"
+#include "test_files.hpp"
 
 namespace mpm {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kRobot = MPM_TEST_DATA_DIR "/robot/tool.urdf";
+const std::string kRobot = data_file("robot/tool.urdf");
 constexpr double kRound = 1e-12;  // of lengths of 1 m; the file has 17 digits of a quarter of a turn
 
 std::string message(const std::string& path, const std::string& link) {
@@ -65,7 +66,7 @@ TEST(Urdf, WhatCannotBeABodyIsRefused) {
   expect_unreadable(kRobot, "lost", "link 'lost': collision 1: ");
   EXPECT_NE(message(kRobot, "lost").find("nowhere.obj: no such mesh file"), std::string::npos);
   expect_unreadable("/no/such/robot.urdf", "scoop", "no such file");
-  expect_unreadable(MPM_TEST_DATA_DIR "/press.yaml", "scoop", "cannot be read as a URDF: ");
+  expect_unreadable(data_file("press.yaml"), "scoop", "cannot be read as a URDF: ");
 }
 
 TEST(Urdf, ALinkIsTheShapeOfATool) {

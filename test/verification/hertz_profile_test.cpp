@@ -11,6 +11,7 @@
 
 #include "hertz_curve.hpp"
 #include "rigid_contact_cases.hpp"
+#include "test_files.hpp"
 
 namespace verification {
 namespace {
@@ -26,8 +27,7 @@ struct Pressed {
 };
 
 Pressed press(const ContactMethod& method, const std::string& scene, double whole) {
-  const std::filesystem::path file =
-      std::filesystem::path(MPM_SOURCE_DIR) / "test/verification/scenes" / (scene + ".yaml");
+  const std::filesystem::path file = source_file("test/verification/scenes/" + scene + ".yaml");
   mpm::SimulationDefinition d =
       mpm::build(mpm::load_scene(file.string(), {fmt::format("grid.cell=[{0}, {0}]", kCell)}));
   method.choose(d);

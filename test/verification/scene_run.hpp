@@ -7,13 +7,13 @@
 
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "test_files.hpp"
 
 namespace verification {
 
 /// A simulation of a scene; `overrides` have the form of run_scene's --set: "grid.cell=0.1".
 inline mpm::Simulation start(const std::string& name, const std::vector<std::string>& overrides = {}, int threads = 0) {
-  const std::filesystem::path file =
-      std::filesystem::path(MPM_SOURCE_DIR) / "test/verification/scenes" / (name + ".yaml");
+  const std::filesystem::path file = source_file("test/verification/scenes/" + name + ".yaml");
   const mpm::Scene scene = mpm::load_scene(std::filesystem::exists(file) ? file.string() : name, overrides);
   return mpm::Simulation(mpm::build(scene), {threads});
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "mpm/math/build_info.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/scene.hpp"
 
@@ -26,8 +27,8 @@ std::vector<fs::path> scene_folders() {
       if (!part.empty()) folders.emplace_back(part);
     }
   }
-  folders.emplace_back(MPM_SCENE_DIR);
-  folders.emplace_back(MPM_INSTALLED_SCENE_DIR);
+  folders.emplace_back(source_folder() + "/config/scenes");
+  folders.emplace_back(installed_folder() + "/config/scenes");
   return folders;
 }
 

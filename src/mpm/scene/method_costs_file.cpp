@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "mpm/math/build_info.hpp"
 #include "mpm/scene/auto_method.hpp"
 
 namespace mpm {
@@ -25,8 +26,8 @@ MethodCostsFile load_method_costs(const std::string& path) {
 MethodCostsFile load_method_costs() {
   if (const char* variable = std::getenv("MPM_ROS_METHOD_COSTS")) return load_method_costs(std::string(variable));
   namespace fs = std::filesystem;
-  const fs::path beside = fs::path(MPM_SCENE_DIR).parent_path() / "method_costs.csv";
-  const fs::path installed = fs::path(MPM_INSTALLED_SCENE_DIR).parent_path() / "method_costs.csv";
+  const fs::path beside = source_folder() + "/config/method_costs.csv";
+  const fs::path installed = installed_folder() + "/config/method_costs.csv";
   std::error_code ignored;
   return load_method_costs(fs::is_regular_file(beside, ignored) ? beside.string() : installed.string());
 }

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "hdf5_archive.hpp"
+#include "mpm/math/build_info.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/simulation/method_text.hpp"
 
@@ -50,7 +51,7 @@ CheckpointAbout about_of(const Simulation& simulation) {
   CheckpointAbout about;
   about.format = kCheckpointFormat;
   about.version = kCheckpointVersion;
-  about.program = MPM_VERSION;
+  about.program = build_version();
   about.scene = definition.name;
   about.geometry = geometry_name(definition.geometry);
   about.method = method_text(definition.method);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "mpm/math/build_info.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/run/scene_files.hpp"
@@ -47,7 +48,7 @@ RunInfo run_info(const mpm::Scene& scene, const mpm::Simulation& simulation, con
   info.isa = simulation.isa();
   info.sync_period = static_cast<double>(simulation.sync_period()) * 1e-9;
   info.start = stamps.origin();
-  info.version = MPM_VERSION;
+  info.version = mpm::build_version();
   info.parameters = parameters;
   return info;
 }

@@ -21,10 +21,9 @@ using verification::Numbers;
 using verification::Outcome;
 using verification::Page;
 
-constexpr double kCentre = 16.0;  // centre of rotation: a node, about which the lattice is symmetric [cells]
-constexpr double kHalfEdge =
-    5.0;                      // half edge of the block: nodes of a particle next to the centre lie deep inside [cells]
-constexpr double kDt = 1e-3;  // [s]
+constexpr double kCentre = 16.0;   // centre of rotation: a node, about which the lattice is symmetric [cells]
+constexpr double kHalfEdge = 5.0;  // half edge of the block, so that the centre is deep inside [cells]
+constexpr double kDt = 1e-3;       // [s]
 constexpr int kSteps = 20;
 constexpr double kSwollen = 0.01;  // change of volume in a turn that counts as broken
 

@@ -1,5 +1,6 @@
-// Nothing allocates in a step after the first ones: what a sync period allocates does not grow with its steps. And what
-// a plain scene takes a particle and a node, counted as it is allocated: features that a scene does not name take none.
+// No step after the first ones allocates memory: the number of allocations in a sync period does not grow with its
+// steps. And the bytes of a plain scene for each particle and node, counted as they are allocated: features that a
+// scene does not name take none.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -15,7 +16,7 @@
 namespace {
 
 std::atomic<long> allocations{0};
-std::atomic<long> bytes{0};  ///< in use
+std::atomic<long> bytes{0};  ///< bytes in use
 
 void* counted(void* memory) {
   if (memory == nullptr) throw std::bad_alloc();
@@ -30,7 +31,7 @@ void give_back(void* memory) {
 
 }  // namespace
 
-// noinline: inlined, gcc takes the pair for mismatched.
+// noinline, because gcc warns of mismatched new and delete when they are inlined.
 [[gnu::noinline]] void* operator new(std::size_t size) { return counted(std::malloc(size)); }
 [[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto multiple = static_cast<std::size_t>(alignment);
@@ -45,7 +46,7 @@ namespace {
 
 using mpm::Vec3;
 
-// A few pascals on top of a body, as a function.
+// A pressure of a few pascals on the upper side of a body, given as a function.
 mpm::TractionDefinition pulsing_pressure(const std::string& body) {
   mpm::TractionDefinition load;
   load.body = body;
@@ -55,8 +56,8 @@ mpm::TractionDefinition pulsing_pressure(const std::string& body) {
   return load;
 }
 
-// A box full of material under gravity, touched by a tool that moves along its surface and shaken by loads that are
-// functions; a sync period is the time in which the fastest wave crosses 0.4 cells, `steps` of them.
+// Number of allocations in a sync period of `steps` steps. A box full of material under gravity is touched by a tool
+// that moves along its surface, and shaken by loads that are functions. In a step the fastest wave crosses 0.4 cells.
 long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material, const mpm::MethodDefinition& method,
                              mpm::Isa isa, mpm::GeometryKind geometry = mpm::GeometryKind::solid) {
   mpm::SimulationDefinition d;
@@ -65,7 +66,7 @@ long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material,
   const double h = 0.1;
   const int edge = 8;
   const double side = edge * h / 2;
-  mpm::MaterialPoint rest(material);  // a gas has its pressure at rest
+  mpm::MaterialPoint rest(material);  // a gas at rest has its initial pressure
   rest.advance({}, 0.0);
   d.time.sync = std::llround(1e9 * 0.4 * h / rest.wave_speed());
   d.time.step = 1e-9 * static_cast<double>(d.time.sync) / steps;
@@ -89,7 +90,7 @@ long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material,
   tool.surface = mpm::make_box({0.2, 0.2, 0.2});
   tool.pose.position = {0.5 * side, planar ? 0.0 : 0.5 * side, side + 0.09};
   tool.velocity[0] = mpm::Function(0.1);
-  if (mpm::axisymmetric(geometry)) {  // on the axis, and along it
+  if (mpm::axisymmetric(geometry)) {  // the tool lies on the axis and moves along it
     tool.pose.position.x() = 0.0;
     tool.velocity = {mpm::Function(), mpm::Function(), mpm::Function(-0.01)};
   }
@@ -107,7 +108,7 @@ long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material,
   return during;
 }
 
-// A block that crosses the grid is sorted again and again; the tool meets new nodes all the while.
+// Number of allocations while a block crosses the grid: it is sorted repeatedly, and the tool keeps meeting new nodes.
 long allocations_of_a_crossing(int periods) {
   mpm::SimulationDefinition d;
   d.grid = {Vec3::Constant(0.1), Vec3::Zero(), Vec3::Constant(9.0)};
@@ -137,11 +138,11 @@ long allocations_of_a_crossing(int periods) {
 }
 
 TEST(Allocation, SortingAndContactDoNotAllocate) {
-  // What a period allocates is the same for ten and for twenty periods, two metres and four of grid.
+  // A period allocates the same over ten and over twenty periods, in which the block crosses two and four metres.
   EXPECT_EQ(2 * allocations_of_a_crossing(10), allocations_of_a_crossing(20));
 }
 
-// What a period allocates is the same for 4 and for 16 steps.
+// The number of allocations in a period is the same for 4 and for 16 steps.
 TEST(Allocation, StepsOfEveryLawDoNotAllocate) {
   for (const mpm::Isa isa : {mpm::Isa::plain, mpm::Isa::avx2, mpm::Isa::avx512}) {
     if (!mpm::isa_available(isa)) continue;
@@ -160,7 +161,7 @@ TEST(Allocation, StepsOfEveryLawDoNotAllocate) {
   }
 }
 
-// The same of every shape function, update and transfer, in a plane, which has them all, and about an axis.
+// This holds for every shape function, update and transfer: in plane strain, which has them all, and about an axis.
 TEST(Allocation, StepsOfEveryMethodDoNotAllocate) {
   using mpm::TransferKind;
   const mpm::MaterialDefinition material = mpm::paths::zoo()[2].material;
@@ -184,7 +185,7 @@ TEST(Allocation, StepsOfEveryMethodDoNotAllocate) {
   }
 }
 
-/// The plainest scene: particles of an elastic body that flies freely, as it is after a step.
+/// The plainest scene: an elastic body in free flight, after a step.
 struct Plain {
   Plain(bool planar, mpm::Precision precision, mpm::UpdateScheme update) {
     definition.geometry = planar ? mpm::GeometryKind::plane_strain : mpm::GeometryKind::solid;
@@ -198,7 +199,7 @@ struct Plain {
     body.material = "rubber";
     definition.bodies = {body};
   }
-  /// In use by the run.
+  /// Bytes in use by the run.
   long bytes_in_use() const {
     const long before = bytes;
     mpm::Simulation simulation(definition, {1, mpm::Isa::plain});
@@ -208,7 +209,8 @@ struct Plain {
   mpm::SimulationDefinition definition;
 };
 
-/// `per_cell` particles along each axis of a cell, of 24 cells along each axis (96 in a plane).
+/// Bytes in use for a block of 24 cells along each axis (96 in a plane), with `per_cell` particles along each axis of a
+/// cell.
 long bytes_of_block(Plain plain, int per_cell) {
   const bool planar = plain.definition.geometry == mpm::GeometryKind::plane_strain;
   const int edge = (planar ? 96 : 24) * per_cell;
@@ -225,9 +227,9 @@ long bytes_of_block(Plain plain, int per_cell) {
   return plain.bytes_in_use();
 }
 
-// More particles in the same cells: the difference is of particles alone. By hand: positions, velocity, F and stress,
-// the number; and what sorting keeps (step/sorter.hpp: 25 bytes, 29 in single precision). A group of particles, at most
-// one a particle, is a number of 4 bytes: a field more would be 4 or 8 beyond.
+// With more particles in the same cells the difference comes from particles alone. By hand: position, velocity, F,
+// stress and id; and the arrays of the sorter (step/sorter.hpp: 25 bytes, 29 in single precision). There is at most one
+// group for each particle, a number of 4 bytes; another field would take 4 or 8 bytes more.
 TEST(Allocation, PlainScenesTakeTheBytesOfTheirFields) {
   const auto bytes_a_particle = [](bool planar, mpm::Precision precision, mpm::UpdateScheme update) {
     const Plain plain(planar, precision, update);
@@ -248,8 +250,8 @@ TEST(Allocation, PlainScenesTakeTheBytesOfTheirFields) {
   expect(2 * 8 + (2 + 4 + 4) * 8 + 4 + 25, true, Precision::float64, UpdateScheme::usf);
 }
 
-// Particles each alone in 27 blocks of 64 nodes: nearly all is of nodes. By hand: mass, momentum, velocity, force, with
-// a sixteenth of room for blocks to come.
+// Each particle is alone in 27 blocks of 64 nodes, so nearly all memory is that of nodes. By hand: mass, momentum,
+// velocity and force, with a sixteenth more as room for new blocks.
 TEST(Allocation, PlainScenesTakeTheBytesOfTheirNodes) {
   const auto bytes_of = [](int edge) {
     Plain plain(false, mpm::Precision::float64, mpm::UpdateScheme::usf);
@@ -264,7 +266,7 @@ TEST(Allocation, PlainScenesTakeTheBytesOfTheirNodes) {
   const double found = static_cast<double>(bytes_of(8) - bytes_of(4)) / nodes;
   const double by_hand = 8.0 * (1 + 3 + 3 + 3) * 17.0 / 16.0;
   EXPECT_GE(found, by_hand);
-  EXPECT_LT(found, by_hand + 4.0);  // the table of blocks takes 0.6, a field more would take 8.5
+  EXPECT_LT(found, by_hand + 4.0);  // the table of blocks takes 0.6, another field would take 8.5
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-// A smooth rigid sphere pressed onto an elastic block about its axis (Hertz's problem in a block of its own size), and
-// the same sphere in three dimensions.
+// A smooth rigid sphere pressed onto an elastic block about its axis (Hertz's problem in a finite block), and the same
+// sphere in three dimensions.
 //
-// The block is a cylinder in a smooth wall, for which layer_contact.hpp is exact: neither the base nor the wall are
-// taken to be far away. As in hertz_test.cpp cells are thin (a quarter of their width), the sphere goes down through
-// six rows of nodes in five steps, each followed by rest, and one offset of its depth is fitted to all steps but the
-// first. Source: Johnson, Contact Mechanics (1985) 3.4, 4.2, 5.8; Lebedev and Ufliand (1958).
+// The block is a cylinder in a smooth wall, for which layer_contact.hpp is exact: base and wall need not be far away.
+// As in hertz_test.cpp cells are thin (a quarter of their width), the sphere goes down through six rows of nodes in
+// five steps, each followed by rest, and one offset of its depth is fitted to all steps but the first. Source: Johnson,
+// Contact Mechanics (1985) 3.4, 4.2, 5.8; Lebedev and Ufliand (1958).
 #include <fmt/core.h>
 
 #include <cmath>
@@ -20,24 +20,24 @@ namespace verification {
 namespace {
 
 constexpr int kThreads = 1;  // tests run side by side
-// Of the scenes axisymmetric_hertz and hertz_sphere.
+// Numbers of the scenes axisymmetric_hertz and hertz_sphere.
 constexpr double kToolRadius = 0.5;                // [m]
 constexpr double kCell = 0.0125, kRow = 0.003125;  // width and height of a cell [m]
-constexpr double kStep = 0.04, kMeasure = 0.0075;  // of motion and rest; at the end of each rest [s]
+constexpr double kStep = 0.04, kMeasure = 0.0075;  // motion and rest; the mean at its end [s]
 constexpr int kSteps = 5;
 const ElasticBlock kRound{1e6, 0.3, 0.2, 0.225, true}, kSquare{1e6, 0.3, 0.2, 0.2};
-constexpr double kAsked = 0.03;     // of the force at eight cells a radius of the contact
-constexpr double kCells = 3.5;      // to a radius of the contact, from which on the next is asked
-constexpr double kTogether = 0.05;  // of the force in three dimensions
+constexpr double kAsked = 0.03;     // relative tolerance of the force with eight cells to a radius of the contact
+constexpr double kCells = 3.5;      // cells to a radius of the contact, from which on kTogether is checked
+constexpr double kTogether = 0.05;  // relative tolerance against the force in three dimensions
 
-/// At the end of each rest; of the whole tool.
+/// Depth of the tool, and force on the whole tool, at the end of each rest.
 struct Pressed {
   Numbers depth, force;  ///< [m], [N]
-  Numbers r, pressure;   ///< of particles 2.5 to 3.5 rows below the sphere, at the end [m], [Pa]
+  Numbers r, pressure;   ///< at particles 2.5 to 3.5 rows below the sphere, at the end [m], [Pa]
   double particles = 0.0, particle_steps = 0.0, seconds = 0.0, bytes = 0.0;
 };
 
-/// Cells are `refine` times smaller than those of the scene.
+/// Runs the scene with cells that are `refine` times smaller.
 Pressed press(bool solid, double refine) {
   const std::string wide = fmt::format("{}", kCell / refine), high = fmt::format("{}", kRow / refine);
   const std::string cell = "grid.cell=[" + wide + ", " + (solid ? wide + ", " : "") + high + "]";
@@ -57,7 +57,7 @@ Pressed press(bool solid, double refine) {
   result.bytes = result.particles * mpm::least_bytes_of_particle(definition.method, definition.geometry);
   result.particle_steps = result.particles * static_cast<double>(state.step.steps);
   result.seconds = state.wall_seconds;
-  // The rows that the sphere's nodes hold keep the stress that they were taken in with: look below them.
+  // Rows at the sphere's nodes keep the stress that they had when contact began, so the pressure is read below them.
   const double middle = simulation.rigid_body(0).pose().position.z(), row = kRow / refine;
   const Numbers x = field(simulation, "x"), z = field(simulation, "z"), szz = field(simulation, "szz");
   for (std::size_t p = 0; p < x.size() && !solid; ++p) {
@@ -138,7 +138,7 @@ TEST(AxisymmetricHertz, Sphere) {
       "pressure: read the pressure a few rows below.");
 }
 
-/// `refine` as in press().
+/// Compares the axisymmetric run with the one in three dimensions; `refine` as in press().
 void beside_solid(double refine) {
   Page page("axisymmetric", "axisymmetric_hertz_cost", "The same sphere in three dimensions");
   page
@@ -154,7 +154,7 @@ void beside_solid(double refine) {
   for (int i = 1; i < kSteps; ++i) {
     const std::string name =
         fmt::format("force about the axis at {:.0f} mm, beside that in three dimensions", 1e3 * ring.depth[i]);
-    // Fewer cells feel the edge of the contact a cell to either side.
+    // With fewer cells the edge of the contact, known to a cell on either side, matters too much.
     if (round.radius_at_depth(ring.depth[i]) >= kCells * kCell / refine) {
       page.near(name, ring.force[i], solid.force[i], kTogether, "N");
     } else {

@@ -1,9 +1,8 @@
-// A smooth rigid flat punch on an elastic block about their axis (Boussinesq's problem in a block of its own size).
+// A smooth rigid flat punch on an elastic block about their axis (Boussinesq's problem in a finite block).
 //
-// The block is a cylinder in a smooth wall, for which layer_contact.hpp is exact: neither the base nor the wall are
-// taken to be far away. As in flat_punch_test.cpp the punch goes a small part of a cell deep, so that no question of
-// when contact begins arises, and its edge lies between two nodes. Source: Johnson, Contact Mechanics (1985) 3.8;
-// Lebedev and Ufliand (1958).
+// The block is a cylinder in a smooth wall, for which layer_contact.hpp is exact: base and wall need not be far away.
+// As in flat_punch_test.cpp the punch goes a small part of a cell deep, so that it does not matter when contact begins,
+// and its edge lies between two nodes. Source: Johnson, Contact Mechanics (1985) 3.8; Lebedev and Ufliand (1958).
 #include <fmt/core.h>
 
 #include <cmath>
@@ -19,22 +18,22 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kThreads = 1;  // tests run side by side
-// Of the scene.
-constexpr double kSide = 0.3;                     // height and radius of the block [m]
-constexpr double kDepth = 2e-4;                   // [m]
-constexpr double kAsked = 0.05;                   // of the force at eight cells a radius, as in plane strain
-constexpr double kRest = 0.14, kPunchEnd = 0.16;  // the ramp ends at 0.1 s; force is the mean between [s]
+// Numbers of the scene.
+constexpr double kSide = 0.3;    // height and radius of the block [m]
+constexpr double kDepth = 2e-4;  // [m]
+constexpr double kAsked = 0.05;  // relative, of the force with eight cells to a radius, as in plane strain
+constexpr double kRest = 0.14, kPunchEnd = 0.16;  // force is the mean between these, after the ramp of 0.1 s [s]
 
 struct Punched {
-  double cells = 0.0;  ///< to the radius
-  double force = 0.0;  ///< [N]
-  double told = 0.0;   ///< the radius whose exact force this is [cells]
+  double cells = 0.0;    ///< radius of the punch [cells]
+  double force = 0.0;    ///< [N]
+  double matched = 0.0;  ///< the radius whose exact force this is [cells]
   PressedTool exact;
-  Numbers r, pressure;  ///< of the particles nearest the face, up to 1.5 radii
+  Numbers r, pressure;  ///< at the particles nearest the face, up to 1.5 radii [m], [Pa]
   double error() const { return force / exact.force - 1.0; }
 };
 
-/// A punch whose edge lies half a cell beyond the node number `count` / 3.
+/// Runs a punch whose edge lies half a cell beyond node number `count` / 3.
 Punched punch(const std::string& shape, int count) {
   const ElasticBlock block{1e6, 0.3, kSide, kSide, true};
   const double cell = kSide / count, edge = count / 3 + 0.5, radius = edge * cell;
@@ -50,10 +49,10 @@ Punched punch(const std::string& shape, int count) {
   simulation.take_contact(0);
   run_until(simulation, kPunchEnd);
   result.force = simulation.take_contact(0).mean.force.z();
-  // Between radii half a cell apart the exact force is a power of the radius.
+  // Between radii half a cell apart the exact force is approximated by a power of the radius.
   const double smaller = LayerContact(block, ToolShape::circular, radius - 0.5 * cell).flat_punch(kDepth).force;
   const double power = std::log(result.exact.force / smaller) / std::log(radius / (radius - 0.5 * cell));
-  result.told = edge * std::pow(result.force / result.exact.force, 1.0 / power);
+  result.matched = edge * std::pow(result.force / result.exact.force, 1.0 / power);
   const Numbers x = field(simulation, "x"), z = field(simulation, "z"), szz = field(simulation, "szz");
   for (std::size_t p = 0; p < x.size(); ++p) {
     if (z[p] < kSide - 0.5 * cell || x[p] > 1.5 * radius) continue;
@@ -87,12 +86,12 @@ TEST(AxisymmetricPunch, Force) {
       page.beside("force" + at, run.force, run.exact.force, "N");
     }
     page.report("its error" + at, 100.0 * run.error(), "%");
-    // A node is in contact or not, so the punch's edge is known to half a cell to either side.
-    page.near_absolute("radius whose exact force this is," + at, run.told, run.cells, 0.5, "cells");
+    // A node is in contact or not, so the grid resolves the punch's edge to half a cell on either side.
+    page.near_absolute("radius whose exact force this is," + at, run.matched, run.cells, 0.5, "cells");
     cells.push_back(1.0 / run.cells);
     errors.push_back(std::abs(run.error()));
   }
-  // First order: halving the cell takes off a third of the error or more.
+  // First order halves the error with the cell; a third less is asked.
   page.below("error at 16.5 over error at 8.5 cells", runs[2].error() / runs[1].error(), 0.67, "");
   const double half_space =
       LayerContact({1e6, 0.3}, ToolShape::circular, runs[1].exact.radius).flat_punch(kDepth).force;

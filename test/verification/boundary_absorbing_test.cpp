@@ -1,5 +1,5 @@
-// Waves that leave through an absorbing face: what comes back of a pulse that meets it straight. The exact answer is
-// nothing; the lattice sends back tan^2(k h / 4) of a wave of wave number k (boundary/absorbing.hpp).
+// Waves that leave through an absorbing face: the reflection of a pulse at normal incidence. The exact reflection is
+// zero; the lattice reflects tan^2(k h / 4) of a wave of wave number k (boundary/absorbing.hpp).
 // Source: Lysmer & Kuhlemeyer (1969), Finite dynamic model for infinite media, J. Eng. Mech. Div. ASCE 95, 859-877.
 #include <fmt/core.h>
 
@@ -8,12 +8,12 @@
 namespace verification {
 namespace {
 
-constexpr double kDensity = 100.0, kYoung = 1e6, kPoisson = 0.25, kSpeed = 0.01;  // of the pulse [m/s]
+constexpr double kDensity = 100.0, kYoung = 1e6, kPoisson = 0.25, kSpeed = 0.01;  // velocity of the pulse [m/s]
 
 struct Case {
   const char* geometry;
   bool shear;
-  int width;  // of the pulse [cells]
+  int width;  // width of the pulse [cells]
   const char* shape;
   const char* update;
   const char* transfer;
@@ -30,7 +30,7 @@ double wave_speed(const Case& c) {
   return std::sqrt(modulus / kDensity);
 }
 
-/// A column of 64 cells of 0.01 m along x, periodic beside it, with a pulse 1 - cos that runs towards x_max.
+/// A column of 64 cells of 0.01 m along x, periodic across x, with a pulse 1 - cos that travels towards x_max.
 mpm::Simulation pulse(const Case& c) {
   const std::string geometry = c.geometry;
   const int dim = geometry == "line" ? 1 : (geometry == "solid" ? 3 : 2);
@@ -47,7 +47,7 @@ mpm::Simulation pulse(const Case& c) {
   } else if (dim > 1) {
     const std::string across =
         fmt::format("\"-{}*{}\"", geometry == "plane_stress" ? 0.0 : beside * kDensity * speed, shape);
-    // In plane stress a column that is periodic along z is held there too.
+    // In plane stress a column that is periodic along z cannot expand along z either.
     const std::string held = fmt::format("\"-{}*{}\"", kPoisson * kDensity * speed, shape);
     initial += ", zz: " + (geometry == "plane_stress" ? held : across);
     if (dim == 3) initial += ", yy: " + across;
@@ -65,20 +65,20 @@ mpm::Simulation pulse(const Case& c) {
       around));
 }
 
-/// Largest speed that is left when the pulse has left, over that of the pulse.
+/// Largest speed after the pulse has left, over that of the pulse.
 double reflected(const Case& c) {
   mpm::Simulation run = pulse(c);
   const mpm::SolverState before = run.state();
-  // Its end passes the face after 0.34 m and half its width, with a margin for what is slower on the grid.
+  // Its end passes the face after 0.34 m and half its width, with a margin for waves that are slower on the grid.
   run_until(run, std::ceil((0.34 + 0.006 * c.width + 0.06) / wave_speed(c) / 1e-4) * 1e-4);
   const mpm::SolverState after = run.state();
   EXPECT_LT(after.audit.residual, 1e-10) << c.name();
   const double energy = before.energy.kinetic + before.energy.elastic;
-  // All of its energy has gone into the dashpots; what particles lose between them (PIC's part) is the rest.
+  // With FLIP all of its energy has gone into the dashpots; other transfers dissipate a part themselves.
   if (std::string(c.transfer) == "flip") {
     EXPECT_NEAR(after.energy.load_work, -energy, 0.01 * energy) << c.name();
   }
-  // The momentum that it carried has gone there too.
+  // The dashpots have taken its momentum, too.
   EXPECT_NEAR((impulse(run, "absorbing/x_max") + before.audit.momentum).norm(), 0.0,
               0.02 * before.audit.momentum.norm())
       << c.name();
@@ -101,13 +101,13 @@ TEST(Absorbing, LetsPulsesOut) {
         Case{"solid", true, 30, "ugimp", "usavg", "flip"}}) {
     const double back = reflected(c);
     fmt::print("{}: {:.2f} % comes back\n", c.name(), 100.0 * back);
-    // Asked of it: 2 % of the amplitude at normal incidence. A pulse of 20 cells holds waves of 10 and less, of which
-    // the lattice sends back 2.5 % and more.
+    // Asked: 2 % of the amplitude at normal incidence. A pulse of 20 cells contains waves of 10 cells and less, of
+    // which the lattice reflects 2.5 % and more.
     EXPECT_LT(back, c.width < 30 ? 0.03 : 0.02) << c.name();
   }
 }
 
-/// A column of soil, geostatic, on an absorbing face.
+/// A column of soil with a geostatic start on an absorbing face.
 std::string ground(const char* face) {
   return fmt::format(
       "geometry: plane_strain\ngrid: {{cell: 0.1, min: [0, 0], max: [0.8, 2]}}\ntime: {{end: 1, sync: 1 ms}}\n"
@@ -128,8 +128,9 @@ TEST(Absorbing, HoldsTheForcesOfTheStartOrGivesWay) {
   EXPECT_LT(moved, 1e-9);  // in balance to round-off
   EXPECT_NEAR(impulse(held, "absorbing/z_min").z(), 2000.0 * 0.8 * 10.0 * 0.2, 1e-6 * 3200.0);
   EXPECT_LT(held.state().audit.residual, 1e-10);
-  // Without it the column sinks: weight over rho c an area, 2e4 Pa / (2000 kg/m^3 * 77.5 m/s) = 0.129 m/s, reached in a
-  // few of the 13 ms that a wave takes through it; 2 % for what the face, an eighth of a cell down, does to the rows.
+  // Without it the column sinks with its weight an area over rho c, 2e4 Pa / (2000 kg/m^3 * 77.5 m/s) = 0.129 m/s,
+  // which it reaches in a few of the 13 ms that a wave takes through it. 2 % allows for the rows next to the face,
+  // which lies an eighth of a cell below.
   const double modulus = 1e7 * 0.75 / (1.25 * 0.5), speed = std::sqrt(modulus / 2000.0);
   run_until(free, 0.1);
   EXPECT_NEAR(free.state().audit.momentum.z() / 1600.0, -2e4 / (2000.0 * speed), 0.02 * 0.129);

@@ -1,5 +1,5 @@
 // Velocities prescribed on the grid, and tractions, against d'Alembert's solution and uniform strain. A bar whose end
-// x = 0 moves with v(t) carries v(t - x/c) and presses on what moves it with rho c v an area, until the wave is back.
+// x = 0 moves with v(t) carries v(t - x/c), and the pressure at its end is rho c v until the wave is back.
 // Sources: the wave equation; Nairn, GIMP notes (3.1)-(3.11). A cylinder under pressure is in traction_test.cpp, a
 // spinning disk in spinning_disk_test.cpp.
 #include <fmt/core.h>
@@ -10,7 +10,7 @@ namespace verification {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kSpeed = 100.0, kDensity = 100.0, kArea = 4e-4;  // of the bar [m/s], [kg/m^3], [m^2]
+constexpr double kSpeed = 100.0, kDensity = 100.0, kArea = 4e-4;  // bar [m/s], [kg/m^3], [m^2]
 
 /// A bar of 1 m in 100 cells, linear elastic, c = 100 m/s.
 std::string bar(const std::string& rest) {
@@ -20,7 +20,7 @@ std::string bar(const std::string& rest) {
          rest;
 }
 
-/// Rises smoothly from 0 to 0.1 in 3 ms, 30 cells of the wave.
+/// Rises smoothly from 0 to 0.1 in 3 ms, in which the wave travels 30 cells.
 double ramp(double t) { return t <= 0.0 ? 0.0 : (t < 3e-3 ? 0.05 * (1.0 - std::cos(kPi * t / 3e-3)) : 0.1); }
 const char* const kRamp = "(t < 3e-3 ? 0.05*(1 - cos(pi*t/3e-3)) : 0.1)";
 
@@ -41,9 +41,9 @@ TEST_P(Drive, AMovingEndSendsDAlembertsWave) {
     impulse_exact += force * 1e-6;
     work += force * now * 1e-6;
   }
-  // The ramp is 30 cells long and has come 50 cells far: (2 pi / 60)^2 / 24 = 0.05 % slow, a fortieth of a cell, which
-  // is 0.2 % of the ramp; splines are five times as slow and APIC smooths the ramp's ends. The end has moved by 0.07
-  // cells inside the row of nodes that is driven, late by as much, 0.4 %.
+  // The ramp is 30 cells long and has travelled 50 cells. It is slow by (2 pi / 60)^2 / 24 = 0.05 %, a fortieth of a
+  // cell, which is 0.2 % of the ramp; splines are five times as slow, and APIC smooths the ramp's ends. The end has
+  // moved by 0.07 cells against the row of nodes that is driven, which delays the wave by as much, 0.4 %.
   EXPECT_LT(worst, 0.025 * 0.1);
   EXPECT_NEAR(impulse(run, "condition/end").x(), impulse_exact, 0.01 * impulse_exact);
   const mpm::SolverState state = run.state();
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Drive,
                                            "{shape: ugimp, update: usavg, transfer: {fmpm: 2}}",
                                            "{shape: ugimp, update: usavg, transfer: {xpic: 2}}"));
 
-// A pressure on the free end is rho c v: the wave that it sends has that velocity, and at rest that stress.
+// A pressure rho c v on the free end sends a wave of velocity v whose stress is the pressure.
 TEST(Traction, AtTheEndOfABarSendsItsWave) {
   const double pressure = 0.1 * kDensity * kSpeed;
   mpm::Simulation run =
@@ -80,7 +80,7 @@ TEST(Traction, AtTheEndOfABarSendsItsWave) {
   EXPECT_LT(run.state().audit.residual, 1e-10);
 }
 
-/// A block of 8 by 8 cells, all of whose nodes lie in the regions that follow.
+/// A block of 8 by 8 cells; all its nodes lie in the regions of the conditions.
 std::string block(const std::string& conditions) {
   return "geometry: plane_strain\ngrid: {cell: 0.1, min: [0, 0], max: [2, 2]}\ntime: {end: 1, sync: 1 ms}\n"
          "method: {shape: ugimp, update: usavg, transfer: flip}\n"
@@ -91,10 +91,10 @@ std::string block(const std::string& conditions) {
 }
 const char* const kAll = "region: {box: {min: [0.3, 0.3], max: [1.7, 1.7]}}";
 
-// Stretch along a direction that is turned by 30 degrees, and nothing across it: uniform uniaxial strain. Two
-// conditions add up along one direction, one of them pointing the other way, and a third is orthogonal to them. Stress
-// is M e along it and lambda e across, e = 1e-3 the logarithmic strain; what Cauchy and Kirchhoff stress and the second
-// order of strain differ by is of the order of e.
+// Stretch along a direction that is turned by 30 degrees, and none across it: uniform uniaxial strain. Two conditions,
+// one with the opposite direction, add up along one line; a third is orthogonal to them. Stress is M e along it and
+// lambda e across, with the logarithmic strain e = 1e-3. Cauchy and Kirchhoff stress, and strain of second order,
+// differ relatively by the order of e.
 TEST(VelocityConditions, StretchAlongATurnedDirectionIsUniformStrain) {
   const double c = std::cos(kPi / 6.0), s = 0.5, strain = 1e-3;
   const std::string along = fmt::format("({:.17g}*x + 0.5*z)", c);
@@ -113,10 +113,10 @@ TEST(VelocityConditions, StretchAlongATurnedDirectionIsUniformStrain) {
   }
   EXPECT_LT(run.state().audit.residual, 1e-10);
   const mpm::Vec3 part = impulse(run, "condition/part"), rest = impulse(run, "condition/rest");
-  EXPECT_NEAR((part - rest).norm(), 0.0, 1e-12 * part.norm());  // equal parts of what both gave
+  EXPECT_NEAR((part - rest).norm(), 0.0, 1e-12 * part.norm());  // equal shares of one impulse
 }
 
-// All nodes move along the direction as told, and across it as they did: free flight there.
+// All nodes move along the direction as prescribed; across it they are in free flight.
 TEST(VelocityConditions, LeaveFreeWhatIsAcross) {
   const double c = std::cos(kPi / 6.0);
   std::string text =
@@ -125,16 +125,17 @@ TEST(VelocityConditions, LeaveFreeWhatIsAcross) {
   mpm::Simulation run = scene(text);
   const mpm::Vec3 before = run.state().audit.momentum;
   run_until(run, 0.1);
-  const double told = 0.5 * std::sin(2.0);
-  for (const double vx : field(run, "vx")) ASSERT_NEAR(vx, -0.1 + told * c, 1e-12);
-  for (const double vz : field(run, "vz")) ASSERT_NEAR(vz, 0.2 * c + told * 0.5, 1e-12);
+  const double prescribed = 0.5 * std::sin(2.0);
+  for (const double vx : field(run, "vx")) ASSERT_NEAR(vx, -0.1 + prescribed * c, 1e-12);
+  for (const double vz : field(run, "vz")) ASSERT_NEAR(vz, 0.2 * c + prescribed * 0.5, 1e-12);
   const double mass = 1000.0 * 0.64;
-  EXPECT_NEAR(impulse(run, "condition/n").x(), mass * told * c, 1e-10 * mass);
-  EXPECT_NEAR((run.state().audit.momentum - before).norm(), mass * told, 1e-10 * mass);
-  EXPECT_NEAR(run.state().energy.load_work, 0.5 * mass * told * told, 1e-3 * mass * told * told);  // trapezoids
+  EXPECT_NEAR(impulse(run, "condition/n").x(), mass * prescribed * c, 1e-10 * mass);
+  EXPECT_NEAR((run.state().audit.momentum - before).norm(), mass * prescribed, 1e-10 * mass);
+  EXPECT_NEAR(run.state().energy.load_work, 0.5 * mass * prescribed * prescribed,
+              1e-3 * mass * prescribed * prescribed);  // trapezoids
 }
 
-// Without a velocity of its own a condition is the region's, which takes the material along.
+// A condition without a velocity prescribes that of its region, which carries the material along.
 TEST(VelocityConditions, ARegionTakesAlongWhatItHolds) {
   std::string text = block(
       "  - {name: grip, shape: {box: {size: [0.42, 4]}}, pose: {position: [0.8, 1]}, motion: {velocity: [1, 0]}, "
@@ -142,7 +143,7 @@ TEST(VelocityConditions, ARegionTakesAlongWhatItHolds) {
   text.replace(text.find("transfer: flip"), 14, "transfer: apic");  // particles have the grid's velocity
   mpm::Simulation run = scene(text);
   run_until(run, 0.05);
-  // Held are the columns of nodes from 0.6 to 1.0 m and, when the region has come 5 cm on, from 0.7 to 1.0.
+  // The region prescribes the columns of nodes from 0.6 to 1.0 m and, after it has moved by 5 cm, from 0.7 to 1.0.
   const std::vector<double> x = field(run, "x"), vx = field(run, "vx");
   int counted = 0;
   for (std::size_t p = 0; p < x.size(); ++p) {
@@ -154,8 +155,8 @@ TEST(VelocityConditions, ARegionTakesAlongWhatItHolds) {
   EXPECT_LT(run.state().audit.residual, 1e-10);
 }
 
-// Two bodies with velocity fields of their own: a condition holds both, and its account is that of both. They go around
-// a periodic axis in their fields.
+// Two bodies have velocity fields of their own. A condition prescribes both, and its account is their sum. Both cross
+// the faces of a periodic axis in their fields.
 TEST(VelocityConditions, HoldEveryVelocityField) {
   std::string text = block(fmt::format("  - {{name: n, {}, direction: x, velocity: '0.5*sin(20*t)'}}\n", kAll));
   text.replace(text.find("max: [2, 2]"), 11, "max: [2.4, 1.6]");
@@ -168,10 +169,10 @@ TEST(VelocityConditions, HoldEveryVelocityField) {
   d.bodies[1].field = 1;
   mpm::Simulation run(std::move(d), {1});
   run_until(run, 0.03);  // the other has fallen by 0.24 m, and is still in the region
-  const double told = 0.5 * std::sin(0.6), mass = 1000.0 * 0.64;
-  for (const double vx : field(run, "vx")) ASSERT_NEAR(vx, told, 1e-12);
-  EXPECT_NEAR(impulse(run, "condition/n").x(), mass * told, 1e-10 * mass);
-  run_until(run, 0.2);  // all of it through the lower face, back from above
+  const double prescribed = 0.5 * std::sin(0.6), mass = 1000.0 * 0.64;
+  for (const double vx : field(run, "vx")) ASSERT_NEAR(vx, prescribed, 1e-12);
+  EXPECT_NEAR(impulse(run, "condition/n").x(), mass * prescribed, 1e-10 * mass);
+  run_until(run, 0.2);  // all of it has left through the lower face and come back from above
   const auto [first, last] = run.body_ids("other");
   const std::vector<double> vz = field(run, "vz"), z = field(run, "z");
   for (std::size_t p = 0; p < vz.size(); ++p) {

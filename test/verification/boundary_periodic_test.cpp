@@ -1,5 +1,5 @@
-// Periodic axes: a standing shear wave, v_z = V sin(k x) cos(k c_s t), is exact in an endless body; a material that
-// flies around is where it was after each turn; and the place of the domain's faces means nothing.
+// Periodic axes: a standing shear wave, v_z = V sin(k x) cos(k c_s t), is exact in an endless body; material that
+// crosses the faces is back at its start after each period; and the place of the domain's faces does not matter.
 #include <fmt/core.h>
 
 #include "boundary_run.hpp"
@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// A square of 16 by 8 cells of 0.05 m, full. `drift`: velocity along x [m/s]; `phase`: of the wave [m].
+/// A domain of 16 by 8 cells of 0.05 m, full of material. `drift`: velocity along x [m/s]; `phase`: shift of the wave
+/// along x [m].
 std::string shear(const char* method, double drift = 0.0, double phase = 0.0) {
   return fmt::format(
       "geometry: plane_strain\ngrid: {{cell: 0.05, min: [0, 0], max: [0.8, 0.4]}}\ntime: {{end: 1, sync: 1 ms}}\n"
@@ -23,9 +24,9 @@ const double kShearSpeed = std::sqrt(1e6 / 1000.0), kPeriod = 0.8 / kShearSpeed;
 
 struct Method {
   const char* text;
-  /// Of the amplitude. A lattice of 16 cells a wave is slow by (2 pi / 16)^2 / 24 = 0.6 %, 5 degrees after two periods,
-  /// and steps double it. Splines spread mass with the variance h^2 / 4 and h^2 / 3: 2 % and 2.6 % slow, up to 20
-  /// degrees.
+  /// Tolerance over the amplitude. On a lattice of 16 cells a wave is slow by (2 pi / 16)^2 / 24 = 0.6 %, 5 degrees
+  /// after two periods, and time steps double that. Splines spread mass with the variance h^2 / 4 and h^2 / 3, which
+  /// makes the wave slow by 2 % and 2.6 %, up to 20 degrees.
   double tolerance;
 };
 class Around : public ::testing::TestWithParam<Method> {};
@@ -33,7 +34,7 @@ class Around : public ::testing::TestWithParam<Method> {};
 TEST_P(Around, AStandingShearWaveKeepsItsPeriod) {
   mpm::Simulation run = scene(shear(GetParam().text));
   const std::vector<double> x = field(run, "x");
-  run_until(run, 0.05);  // two periods, 0.0506 s, but for a little
+  run_until(run, 0.05);  // nearly two periods, which take 0.0506 s
   const double amplitude = 0.01 * std::cos(2.0 * kPi * 0.05 / kPeriod);
   double worst = 0.0;
   const std::vector<double> vz = field(run, "vz");
@@ -42,7 +43,7 @@ TEST_P(Around, AStandingShearWaveKeepsItsPeriod) {
   }
   EXPECT_LT(worst, GetParam().tolerance * 0.01) << GetParam().text;
   const mpm::SolverState state = run.state();
-  EXPECT_LT(state.audit.momentum.norm(), 1e-13 * 320.0);  // of the mass times 1 m/s: nothing pushes from outside
+  EXPECT_LT(state.audit.momentum.norm(), 1e-13 * 320.0);  // relative to mass times 1 m/s: there is no external force
   EXPECT_LT(state.audit.residual, 1e-10);
 }
 INSTANTIATE_TEST_SUITE_P(Methods, Around,
@@ -53,11 +54,11 @@ INSTANTIATE_TEST_SUITE_P(Methods, Around,
                                            Method{"{shape: bspline2, update: usavg, transfer: apic}", 0.3},
                                            Method{"{shape: bspline3, update: usavg, transfer: flip}", 0.3}));
 
-/// Place in the domain of what may lie in an image of it.
+/// The periodic image of `x` in the domain.
 double home(double x) { return x - 0.8 * std::floor(x / 0.8); }
 
-// A sixth of a cell a step and less, three times around: what is far from the faces and what crosses them does the
-// same, and the same as a body at rest does but for what crossing cells costs.
+// A body drifts through the domain three times, by a sixth of a cell a step or less. Particles far from the faces and
+// particles that cross them move alike, and like those of a body at rest, except for the error of crossing cells.
 TEST(Periodic, WhatFliesAroundComesBack) {
   const char* const method = "{shape: bspline2, update: usavg, transfer: apic}";
   mpm::Simulation run = scene(shear(method, 16.0));
@@ -70,14 +71,14 @@ TEST(Periodic, WhatFliesAroundComesBack) {
   EXPECT_NEAR(run.state().energy.kinetic, energy, 1e-6 * energy);
   for (std::size_t p = 0; p < x.size(); ++p) {
     ASSERT_NEAR(std::remainder(x[p] - start[p], 0.8), 0.0, 1e-4) << p;
-    ASSERT_GE(x[p], -0.5 * 0.05 - 0.06) << p;  // half a cell, and what it flies until it is sorted
+    ASSERT_GE(x[p], -0.5 * 0.05 - 0.06) << p;  // half a cell, and its travel until it is sorted
     ASSERT_LE(x[p], 0.8 + 0.06) << p;
   }
   EXPECT_LT(run.state().audit.residual, 1e-10);
 }
 
-// The wave moved by half the domain along x: particle by particle the same but for round-off, though other particles
-// now lie at the faces.
+// A wave that is shifted by half the domain along x gives the same particle by particle, to round-off, although other
+// particles lie at the faces.
 TEST(Periodic, FacesAreNoPlaces) {
   for (const char* method :
        {"{shape: ugimp, update: usavg, transfer: flip}", "{shape: cpdi, update: usf, transfer: apic}"}) {
@@ -86,7 +87,7 @@ TEST(Periodic, FacesAreNoPlaces) {
     run_until(here, 0.03);
     run_until(there, 0.03);
     const std::vector<double> a = field(here, "vz"), b = field(there, "vz");
-    // In the order of x then z, 32 places a row: the place half a row on.
+    // Rows along x have 32 particles: the partner lies half a row on.
     for (std::size_t p = 0; p < x.size(); ++p) {
       const std::size_t q = p / 32 * 32 + (p % 32 + 16) % 32;
       ASSERT_NEAR(home(moved[q] + 0.4 - x[p] + 0.1), 0.1, 1e-12);
@@ -103,7 +104,7 @@ TEST(Periodic, HasTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one.state_hash(), three.state_hash());
 }
 
-// A column in free fall through faces of its own: a solid, around along all three axes.
+// A column in free fall through the faces of a solid domain that is periodic along all three axes.
 TEST(Periodic, ASolidFallsThroughItsFaces) {
   mpm::Simulation run = scene(
       "grid: {cell: 0.1, min: [0, 0, 0], max: [0.8, 0.8, 0.8]}\ntime: {end: 1, sync: 1 ms}\ngravity: [0, 0, -10]\n"
@@ -121,8 +122,8 @@ TEST(Periodic, ASolidFallsThroughItsFaces) {
   EXPECT_LT(run.state().audit.residual, 1e-10);
 }
 
-// A slab without end under a pressure that comes on its upper side: every place along it does the same, also where the
-// corners of a particle's face lie on both sides of the domain's.
+// An endless slab under a pressure on its upper side: it moves alike everywhere along x, also where the corners of a
+// particle's face lie on both sides of the domain's face.
 TEST(Periodic, TractionsGoAround) {
   for (const char* shape : {"ugimp", "cpdi"}) {
     mpm::Simulation run = scene(fmt::format(
@@ -137,8 +138,7 @@ TEST(Periodic, TractionsGoAround) {
     const std::vector<double> vx = field(run, "vx"), vz = field(run, "vz");
     ASSERT_GT(largest(vz), 0.05);
     for (std::size_t p = 0; p < vx.size(); ++p) {
-      // A row of 16 particles lies on two places of a cell each, which weights tell apart when the slab moves on: they
-      // come by in turns.
+      // Particles of a row have two positions in a cell, in turns; their weights differ once the slab has moved.
       ASSERT_NEAR(vz[p], vz[p / 16 * 16 + p % 2], 1e-9) << shape << ' ' << p;
       ASSERT_NEAR(vx[p], 2.0, 0.02) << shape << ' ' << p;
     }
@@ -146,7 +146,7 @@ TEST(Periodic, TractionsGoAround) {
   }
 }
 
-// The owners at one face have those at the other as neighbours, in a different colour.
+// Blocks at one face are neighbours of those at the opposite face and have a different colour.
 TEST(Periodic, BlocksGoAround) {
   mpm::GridLayout layout(2, mpm::Vec3::Constant(0.1), mpm::Vec3::Zero(), mpm::Vec3::Constant(1.6));
   layout.make_periodic(0);

@@ -15,7 +15,7 @@ inline mpm::Simulation scene(const std::string& text, int threads = 1) {
   return mpm::Simulation(mpm::build(mpm::parse_scene(text, "boundary.yaml")), {threads});
 }
 
-/// The impulse that the material was given under a name [N s].
+/// The account of `name`: the impulse that it gave to the material since the start [N s].
 inline mpm::Vec3 impulse(const mpm::Simulation& simulation, const std::string& name) {
   for (const mpm::NamedImpulse& impulse : simulation.state().audit.impulses) {
     if (impulse.name == name) return impulse.impulse;

@@ -1,4 +1,5 @@
-// A plane of symmetry: half of a problem with a wall of symmetry is the half of the whole. And what leaves the grid.
+// A symmetry plane: half of a problem with a symmetry plane equals half of the whole problem. And particles that leave
+// the grid.
 #include <fmt/core.h>
 
 #include "boundary_run.hpp"
@@ -7,7 +8,7 @@
 namespace verification {
 namespace {
 
-/// A block under a tool that comes down on it, whole or its right half.
+/// A block under a tool that presses on it: the whole, or its right half.
 std::string pressed(bool half) {
   return fmt::format(
       "geometry: plane_strain\ngrid: {{cell: 0.05, min: [{0}, 0], max: [0.8, 0.8]}}\ntime: {{end: 1, sync: 1 ms}}\n"
@@ -26,9 +27,9 @@ TEST(Symmetry, TheHalfIsHalfOfTheWhole) {
   run_until(half, 0.06);
   const mpm::Vec3 all = whole.take_contact(0).impulse, part = half.take_contact(0).impulse;
   ASSERT_GT(all.z(), 0.0);
-  // Contact at nodes, whose sums mirror to round-off. The same sums in both, but where particles beside the plane swing
-  // across it with part of their box: there the wall holds nodes beyond, and in the whole material from the other side
-  // comes to meet them.
+  // Contact is at nodes, whose sums mirror to round-off. The two runs differ only where the boxes of particles beside
+  // the plane reach across it: there the wall constrains the nodes beyond, whereas in the whole problem they carry
+  // material of the other side.
   EXPECT_NEAR(part.z(), 0.5 * all.z(), 1e-3 * all.z());
   EXPECT_NEAR(all.x(), 0.0, 1e-9 * all.z());
   EXPECT_NEAR(half.state().energy.elastic, 0.5 * whole.state().energy.elastic, 1e-3 * whole.state().energy.elastic);
@@ -49,7 +50,7 @@ TEST(Symmetry, PlanesAreKnownAtTheirNodes) {
   EXPECT_EQ(planes.axes_at(layout, {-1, 8, 0}), 3u);
 }
 
-/// Four cells' particles of a block that flies out of the grid, 16 in all.
+/// A block of four cells, 16 particles, that flies out of the grid.
 std::string flying(int limit) {
   return fmt::format(
       "geometry: plane_strain\ngrid: {{cell: 0.1, min: [0, 0], max: [1, 1], leave: {{limit: {}}}}}\n"

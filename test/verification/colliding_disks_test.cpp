@@ -1,7 +1,7 @@
-// Two equal elastic disks, R = 0.2 m, meet head-on on a diagonal, 0.1 m/s along x and z each. No exact solution is
-// known for the impact; exact are: total momentum 0, energy kept (part of it as vibration after the impact), and the
-// time at which the disks touch, (|distance of the centres| - 2 R) / |relative velocity| = 1.585786 s. Source:
-// exact-solutions 11; the example is that of Sulsky, Chen and Schreyer (1994).
+// Two equal elastic disks, R = 0.2 m, collide head-on along a diagonal with 0.1 m/s along x and z each. No exact
+// solution is known for the impact. Exact are the total momentum (zero), the energy (constant, in part as vibration
+// after the impact), and the time of first touch, (|distance of the centres| - 2 R) / |relative velocity| = 1.585786 s.
+// Source: exact-solutions 11; the example is that of Sulsky, Chen and Schreyer (1994).
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace {
 const double kTouch = (0.6 * std::sqrt(2.0) - 0.4) / (0.2 * std::sqrt(2.0));  // [s]
 
 struct Collision {
-  Numbers time, kinetic, elastic, total;  // [s], energies over that of the start
-  Numbers left_vx;                        // mean velocity of the left disk along x, over that of the start
+  Numbers time, kinetic, elastic, total;  // time [s]; energies over the initial total
+  Numbers left_vx;                        // mean velocity of the left disk along x, over its initial value
   double drift = 0.0;                     // largest |total - 1|
-  double touch = 0.0;                     // when the left disk had lost 0.1 % of its momentum [s]
+  double touch = 0.0;                     // time at which the left disk has lost 0.1 % of its momentum [s]
   double rebound = 0.0;                   // mean velocity after the impact over that before
-  double momentum = 0.0;                  // largest total momentum over what one disk gave to the other
-  Numbers x, z, mises;                    // when the elastic energy was largest; [m], [Pa]
+  double momentum = 0.0;                  // largest total momentum over the momentum that the disks exchanged
+  Numbers x, z, mises;                    // at the time of the largest elastic energy [m], [Pa]
 };
 
 Collision collide(const std::vector<std::string>& overrides) {
@@ -35,7 +35,7 @@ Collision collide(const std::vector<std::string>& overrides) {
     return sum / static_cast<double>(last - first);
   };
   const double before = velocity("vx");
-  // Half of all is the left disk's, and it moves along the diagonal.
+  // The left disk has half of the energy and moves along the diagonal.
   const double left_mass = start_energy / (2.0 * before * before);
   Collision run;
   double largest_momentum = 0.0, most_elastic = 0.0;
@@ -88,7 +88,7 @@ TEST(CollidingDisks, MomentumAndEnergy) {
   const Collision fine = collide({"grid.cell=0.025"}), finest = collide({"grid.cell=0.0125"});
   const Collision small_step = collide({"time.cfl=0.25"});
 
-  // Round-off: 1e-10 of the momentum exchanged. 0.1 % as asked, of the energy at the start, at any time of the run.
+  // Momentum: round-off, 1e-10 of the momentum exchanged. Energy: 0.1 % of the initial energy, at any time of the run.
   page.below("total momentum, USAVG", usavg.momentum, 1e-10, "of the momentum exchanged");
   page.below("total momentum, USF", usf.momentum, 1e-10, "of the momentum exchanged");
   page.below("largest drift of the energy, USAVG", 100.0 * usavg.drift, 0.1, "% of the start");
@@ -101,7 +101,7 @@ TEST(CollidingDisks, MomentumAndEnergy) {
   page.report("rebound over approach speed, 8 cells across", usavg.rebound, "");
   page.report("rebound over approach speed, 16 cells across", fine.rebound, "");
   page.report("rebound over approach speed, 32 cells across", finest.rebound, "");
-  // They did collide and part.
+  // The disks collided and separated.
   EXPECT_GT(*std::max_element(usavg.elastic.begin(), usavg.elastic.end()), 0.5);
   EXPECT_GT(usavg.rebound, 0.5);
 

@@ -1,9 +1,9 @@
 // The shipped cone penetrometer: its tip resistance against depth, beside the bearing capacity of a strip.
 //
 // No exact solution is known for a cone in this sand. N_q = e^(pi tan phi) tan^2(45 + phi/2), times the vertical stress
-// beside the tip, is exact for a strip on weightless soil with associated flow (Prandtl; Reissner (1924)); a round
-// footing bears more than a strip, by a factor of 1 + tan phi after De Beer (1970), and one deep down more than one on
-// the surface. So N_q is a lower estimate of what is reached at depth, and no bound: flow here is without dilation.
+// beside the tip, is exact for a strip on weightless soil with associated flow (Prandtl; Reissner (1924)). A round
+// footing bears more than a strip, by a factor of 1 + tan phi after De Beer (1970), and a deep footing more than one on
+// the surface. So N_q is a low estimate of the resistance at depth. It is not a bound, since flow is without dilation.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -17,16 +17,16 @@ namespace verification {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-// Of the scene.
+// Numbers of the scene.
 constexpr double kRadius = 0.01784, kFriction = 34.0 * kPi / 180.0, kUnitWeight = 1417.0 * 9.81;  // [m], [], [N/m^3]
 constexpr double kSurface = 0.44;                                                                 // [m]
 const double kStrip = std::exp(kPi * std::tan(kFriction)) * std::pow(std::tan(0.25 * kPi + 0.5 * kFriction), 2);
 
-/// Resistance over area of the cone, in the mean over each centimetre of depth.
+/// Resistance over the cone's area, as means over each centimetre of depth.
 struct Sounding {
   Numbers depth, resistance;  ///< [m], [kPa]
-  Numbers r, z, speed;        ///< of the particles at the end [m], [m/s]
-  /// Of the vertical stress that was there, from `least` on [m].
+  Numbers r, z, speed;        ///< at the particles, at the end [m], [m/s]
+  /// Mean ratio of the resistance to the initial vertical stress, at depths from `least` on [m].
   double factor(double least) const {
     double sum = 0.0, count = 0.0;
     for (std::size_t i = 0; i < depth.size(); ++i) {
@@ -51,7 +51,7 @@ Sounding push(const std::vector<std::string>& overrides) {
   return sounding;
 }
 
-/// `cell` [m]; with `rough` the rod and the cone rub.
+/// Runs the scene with cells of `cell` [m]; `rough`: rod and cone have friction.
 void sound(const std::string& name, double cell, bool rough) {
   Page page("axisymmetric", name, "Cone penetrometer in loose sand");
   page.problem(

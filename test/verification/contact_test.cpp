@@ -1,7 +1,7 @@
 // Contact with rigid bodies through the public interface: reported forces against stress, weight and Coulomb's law.
 //
-// Node rows lie on the surfaces of block and tool at the start. A tool that then moves by less than a cell keeps the
-// same row of nodes in contact, so that the grid's idea of the gap is off by that part of a cell.
+// Rows of nodes lie on the surfaces of block and tool at the start. A tool that then moves by less than a cell keeps
+// the same row of nodes in contact, so the position of the contact on the grid is wrong by that part of a cell.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGravity = 9.81;  // [m/s^2]
-// Round-off of the momentum exchanged (design rule 7).
+// Round-off, over the momentum exchanged.
 constexpr double kAuditTolerance = 1e-10;
 
 SimulationDefinition empty_scene(UpdateScheme update, double cell, const Vec3& low, const Vec3& high, double sync) {
@@ -75,7 +75,7 @@ double mean(const Simulation& simulation, const std::string& name) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Width of a body that began with `count` particles along `axis`: their centres lie half a spacing inside its faces.
+/// Width of a body that has `count` particles along `axis` [m]: their centres lie half a spacing inside its faces.
 double width(const Simulation& simulation, const std::string& axis, int count) {
   const std::vector<double> values = field(simulation, axis);
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -115,7 +115,7 @@ TEST_P(Contact, UniaxialCompression) {
   simulation.take_contact(1);
   advance(simulation, 20);
   const double low = -simulation.take_contact(0).mean.force.z(), high = simulation.take_contact(1).mean.force.z();
-  // Thickness along y 1 m. 2 %: a node row stays in contact while the plate has moved half a percent of the height on.
+  // The thickness along y is 1 m. 2 %: a row of nodes stays in contact while the plate moves on by 0.5 % of the height.
   const double expected = -mean(simulation, "szz") * width(simulation, "x", 20);
   EXPECT_NEAR(low, expected, 0.02 * expected);
   EXPECT_NEAR(high, expected, 0.02 * expected);
@@ -126,7 +126,7 @@ TEST_P(Contact, UniaxialCompression) {
   RecordProperty("force_high_over_stress_area", std::to_string(high / expected));
   expect_audit_closed(simulation);
 
-  // The plates retreat five cells: they are never pulled, and once clear of the block's nodes feel nothing at all.
+  // The plates retreat by five cells. They are never pulled, and once clear of the block's nodes the force is zero.
   simulation.command_velocity(0, {{0.0, 0.0, -1.0}, Vec3::Zero()});
   simulation.command_velocity(1, {{0.0, 0.0, 1.0}, Vec3::Zero()});
   for (int i = 0; i < 50; ++i) {
@@ -166,7 +166,7 @@ TEST_P(Contact, WeightAtRest) {
 }
 
 TEST(ContactSolid, WeightOnAMesh) {
-  // In three dimensions, a floor of triangles, turned a quarter about z so that body axes are not world axes.
+  // In three dimensions on a floor of triangles, turned by 90 degrees about z so that body axes are not world axes.
   SimulationDefinition d = empty_scene(UpdateScheme::usavg, 0.01, {-0.05, -0.05, -0.05}, {0.11, 0.11, 0.11}, 1e-2);
   d.geometry = GeometryKind::solid;
   d.method.damping = 100.0;
@@ -208,8 +208,8 @@ SimulationDefinition incline(UpdateScheme update, double friction, double young)
 }
 
 TEST_P(Contact, SlidesDownAnIncline) {
-  // No damping: it would brake the slide. The block bounces a little on its own elasticity, so the acceleration is
-  // the slope of a straight line through its velocity over 0.4 s, some twenty bounces.
+  // There is no damping, which would brake the slide. The block bounces a little on its own elasticity, so the
+  // acceleration is the slope of a straight line through its velocity over 0.4 s, about twenty bounces.
   Simulation simulation(incline(GetParam(), 0.3, 1e7), {1});
   advance(simulation, 50);
   simulation.take_contact(0);
@@ -223,7 +223,7 @@ TEST_P(Contact, SlidesDownAnIncline) {
   // g (sin 30 - 0.3 cos 30) = 2.35629 m/s^2.
   const double expected = kGravity * (std::sin(kPi / 6.0) - 0.3 * std::cos(kPi / 6.0));
   EXPECT_NEAR(slope, expected, 0.02 * expected);
-  // Coulomb's cone while it slides everywhere.
+  // The force lies on Coulomb's cone, since the block slides everywhere.
   const ContactReport report = simulation.take_contact(0);
   EXPECT_NEAR(report.mean.force.x(), -0.3 * report.mean.force.z(), 0.01 * 0.3 * std::abs(report.mean.force.z()));
   RecordProperty("acceleration_over_exact", std::to_string(slope / expected));
@@ -231,7 +231,7 @@ TEST_P(Contact, SlidesDownAnIncline) {
 }
 
 TEST_P(Contact, SticksOnAnIncline) {
-  // tan 30 = 0.577 < 0.6. Damping settles the bounce of gravity's sudden start; then the block stays.
+  // tan 30 = 0.577 < 0.6: the block sticks. Damping ends the bounce that the sudden start of gravity causes.
   SimulationDefinition d = incline(GetParam(), 0.6, 1e6);
   d.method.damping = 200.0;
   Simulation simulation(d, {1});
@@ -241,7 +241,7 @@ TEST_P(Contact, SticksOnAnIncline) {
   advance(simulation, 250);
   const double creep = (mean(simulation, "x") - before) / 0.5 / 0.02;  // cells a second
   EXPECT_LT(std::abs(creep), 1e-3);
-  // It carries the whole weight: normal W cos 30, tangential W sin 30.
+  // The contact carries the whole weight: normal W cos 30, tangential W sin 30.
   const ContactReport report = simulation.take_contact(0);
   const double weight = 2000.0 * 0.2 * 0.1 * kGravity;
   EXPECT_NEAR(report.mean.force.x(), weight * std::sin(kPi / 6.0), 0.01 * weight);
@@ -251,8 +251,8 @@ TEST_P(Contact, SticksOnAnIncline) {
 }
 
 TEST_P(Contact, PosesCarryAsVelocitiesDo) {
-  // A platform that swings to the side, lifts and tilts, commanded anew at each sync point: by velocities, and by the
-  // poses that these lead to.
+  // A platform swings to the side, lifts and tilts. It is commanded anew at each sync point: once by velocities, and
+  // once by the poses that these lead to.
   const double sync = 2e-3;
   SimulationDefinition d = empty_scene(GetParam(), 0.02, {-0.3, 0.0, -0.2}, {0.7, 0.0, 0.5}, sync);
   d.gravity = {0.0, 0.0, -kGravity};
@@ -269,7 +269,7 @@ TEST_P(Contact, PosesCarryAsVelocitiesDo) {
     by_pose.command_pose(0, pose, by_pose.time() + by_pose.sync_period());
     by_velocity.advance();
     by_pose.advance();
-    // What is given to a body by poses is where it is.
+    // A body that is commanded by poses has exactly these poses.
     ASSERT_EQ(by_pose.rigid_body(0).pose().position, pose.position);
   }
   EXPECT_EQ(by_pose.state().step.steps, by_velocity.state().step.steps);
@@ -277,10 +277,10 @@ TEST_P(Contact, PosesCarryAsVelocitiesDo) {
     const std::vector<double> a = field(by_velocity, name), b = field(by_pose, name);
     double worst = 0.0;
     for (std::size_t p = 0; p < a.size(); ++p) worst = std::max(worst, std::abs(a[p] - b[p]));
-    EXPECT_LT(worst, 1e-12) << name;  // of coordinates of size one: round-off of the twist, through a thousand steps
+    EXPECT_LT(worst, 1e-12) << name;  // round-off of the twist over a thousand steps, for coordinates of size one
     RecordProperty(std::string("largest_difference_") + name, fmt::format("{:.2e}", worst));
   }
-  // It was carried, not left behind: it has gone sideways with the platform, to a cell.
+  // The platform carried the block: it has moved sideways with the platform, to within a cell.
   const double went = pose.position.x() - d.rigid_bodies[0].pose.position.x();
   EXPECT_GT(went, 0.1);
   EXPECT_NEAR(mean(by_pose, "x") - 0.1, went, 0.02);

@@ -1,5 +1,5 @@
-// A closed container that carries material about, ever faster, to 0.02 cells a step: nothing gets out. In a plane four
-// plates that move as one; in three dimensions a mesh with a cavity.
+// A closed container moves material to and fro, ever faster, up to 0.02 cells a step, and none may leave it. In a plane
+// it consists of four plates that move together; in three dimensions it is a mesh with a cavity.
 #include <algorithm>
 #include <array>
 
@@ -13,7 +13,7 @@ constexpr int kThreads = 1;
 constexpr double kCell = 0.01, kInner = 0.1, kWall = 0.04, kStep = 1e-4, kMost = 0.02;  // [cells a step]
 constexpr int kSteps = 10000, kStepsASync = 5;
 
-/// Floor, ceiling and sides, in the container's frame.
+/// Bottom, top and sides, in the container's frame.
 struct Container {
   std::array<mpm::Pose, 4> places;
   Container() {
@@ -29,8 +29,8 @@ struct Container {
 
 enum class Motion { translation, rotation };
 
-/// Where the container is: to and fro along x and z, or turned to and fro, with its largest speed growing in proportion
-/// to time up to kMost.
+/// Pose of the container. It swings along x and z, or turns to and fro; its largest speed grows in proportion to time,
+/// up to kMost.
 mpm::Pose pose_at(Motion motion, double time) {
   const double end = kSteps * kStep, speed = kMost * kCell / kStep;
   // amplitude * (t / end) has the speed `speed` at the end, where the phase turns at `rate`.
@@ -40,7 +40,7 @@ mpm::Pose pose_at(Motion motion, double time) {
     const double amplitude = speed / rate * time / end;
     pose.position = amplitude * mpm::Vec3(std::sin(rate * time), 0.0, 1.0 - std::cos(rate * time));
   } else {
-    // The inner corner goes at that speed.
+    // The inner corner has that speed.
     const double amplitude = speed / (std::sqrt(0.5) * kInner) / rate * time / end;
     pose.orientation = mpm::Quat(Eigen::AngleAxisd(amplitude * std::sin(rate * time), mpm::Vec3::UnitY()));
   }
@@ -48,9 +48,9 @@ mpm::Pose pose_at(Motion motion, double time) {
 }
 
 struct Leak {
-  double deepest = 0.0;  ///< of a particle's centre behind the inner side of a wall, at any sync point [cells]
+  double deepest = 0.0;  ///< largest depth of a particle's centre in a wall, at any sync point [cells]
   int escaped = 0;       ///< particles beyond the middle of a wall at the end
-  double fastest = 0.0;  ///< of the walls [cells a step]
+  double fastest = 0.0;  ///< largest speed of the walls [cells a step]
 };
 
 Leak carry(const ContactMethod& method, Motion motion) {
@@ -126,7 +126,7 @@ TEST(RigidContact, ContainerLeaksNothing) {
   }
 }
 
-/// Triangles of a box, turned inwards where it is a cavity.
+/// Adds the triangles of a box of edge `side`; those of a cavity face inwards.
 void add_box(mpm::TriangleMesh& mesh, double side, bool cavity) {
   for (auto triangle : mpm::make_box(mpm::Vec3::Constant(side))->triangles()) {
     if (cavity) std::swap(triangle[1], triangle[2]);

@@ -31,9 +31,9 @@ constexpr double kAsked = 0.05;
 constexpr double kEdge = 0.5;  // [cells]
 
 struct Punched {
-  double force = 0.0;  // of the whole punch [N], [N/m]
-  double cells = 0.0;  // to the radius
-  double told = 0.0;   // the radius whose exact force this is [cells]
+  double force = 0.0;    // of the whole punch [N], [N/m]
+  double cells = 0.0;    // to the radius
+  double matched = 0.0;  // the radius whose exact force this is [cells]
   PressedTool exact;
   std::vector<double> r, pressure;  // of the particles nearest the face, within the punch
   double error() const { return force / exact.force - 1.0; }
@@ -59,7 +59,7 @@ Punched press(ToolShape shape, int count, int cells) {
   // Between radii half a cell apart the exact force is a power of the radius.
   const double smaller = LayerContact(kBlock, shape, radius - 0.5 * cell).flat_punch(kDepth).force;
   const double power = std::log(result.exact.force / smaller) / std::log(radius / (radius - 0.5 * cell));
-  result.told = result.cells * std::pow(result.force / result.exact.force, 1.0 / power);
+  result.matched = result.cells * std::pow(result.force / result.exact.force, 1.0 / power);
 
   const std::vector<double> x = field(simulation, "x"), z = field(simulation, "z"), szz = field(simulation, "szz");
   const std::vector<double> y = strip ? std::vector<double>(x.size(), 0.0) : field(simulation, "y");
@@ -105,7 +105,7 @@ TEST(FlatPunch, Strip) {
   page.near("force at 8.5 cells", runs[1].force, runs[1].exact.force, kAsked, "N/m");
   for (const Punched& run : runs) {
     page.report(fmt::format("error of the force at {} cells", run.cells), 100.0 * run.error(), "%");
-    page.near_absolute("half width whose exact force this is", run.told, run.cells, kEdge, "cells");
+    page.near_absolute("half width whose exact force this is", run.matched, run.cells, kEdge, "cells");
   }
   // First order: halving the cell takes off a third of the error or more.
   page.below("error at 16.5 over error at 8.5 cells", runs[2].error() / runs[1].error(), 0.67, "");
@@ -145,7 +145,7 @@ void round_punch(const std::vector<int>& counts) {
     const ElasticBlock half_space{kBlock.young, kBlock.poisson};
     const double boussinesq = LayerContact(half_space, ToolShape::circular, run.exact.radius).flat_punch(kDepth).force;
     const std::string at = fmt::format(" at {} cells a radius", run.cells);
-    page.near_absolute("radius whose exact force this is," + at, run.told, run.cells, kEdge, "cells");
+    page.near_absolute("radius whose exact force this is," + at, run.matched, run.cells, kEdge, "cells");
     if (run.cells > 12.0) {
       page.near("force" + at, run.force, run.exact.force, kAsked, "N");
     } else {

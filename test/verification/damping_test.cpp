@@ -1,5 +1,5 @@
-// Damping of a run against what each rate must do to a motion that is known, wherever it is placed, and that the
-// accounts close. Source: method reference 6.1 to 6.5; exact-solutions 29.
+// Damping with each rate and placement against known motions, and the balance of the accounts. Source: method reference
+// 6.1 to 6.5; exact-solutions 29.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using verification::seconds;
 
 constexpr double kCell = 0.1;
 
-// A soft block of 4 cells along each edge in a domain of 4 m that nothing holds.
+// A soft free block of 4 cells along each edge in a domain of 4 m.
 mpm::SimulationDefinition block(mpm::GeometryKind geometry, mpm::UpdateScheme update) {
   mpm::SimulationDefinition d;
   d.geometry = geometry;
@@ -46,7 +46,7 @@ void move(mpm::SimulationDefinition& d, const Vec3& velocity) {
   d.bodies[0].velocities.assign(d.bodies[0].positions.size(), velocity);
 }
 
-// It stretches and shears, by some per cent.
+// Gives velocities by which the block stretches and shears by some per cent.
 void shake(mpm::SimulationDefinition& d) {
   d.bodies[0].velocities.clear();
   for (const Vec3& x : d.bodies[0].positions) {
@@ -70,8 +70,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, Damping,
                          testing::Combine(testing::Values(mpm::GeometryKind::plane_strain, mpm::GeometryKind::solid),
                                           testing::Values(mpm::UpdateScheme::usf, mpm::UpdateScheme::usavg)));
 
-// Grid damping on the nodes, grid damping in the update, particle damping: the same for a motion as a whole. Velocity
-// falls by (1 - k dt) a step, so that the kinetic energy falls as exp(-2 k t) (exact-solutions 29).
+// Grid damping on the nodes, grid damping in the update and particle damping act alike on a translation. Velocity is
+// multiplied by (1 - k dt) in a step, so that the kinetic energy falls as exp(-2 k t) (exact-solutions 29).
 TEST_P(Damping, SlowsRigidTranslation) {
   const double k = 3.0;
   DampingDefinition on_nodes(k), in_update(k), of_particles;
@@ -87,9 +87,9 @@ TEST_P(Damping, SlowsRigidTranslation) {
     const mpm::SolverState state = simulation.state();
     const double kept = std::pow(1.0 - k * state.step.dt_last, static_cast<double>(state.step.steps));
     EXPECT_EQ(state.step.dt_min, state.step.dt_max);  // one dt for the power
-    // A digit a step, of some hundred.
+    // Round-off of one digit in each of some hundred steps.
     EXPECT_NEAR(state.energy.kinetic / start.energy.kinetic, kept * kept, 1e-11);
-    // (1 - k dt)^2 is exp(-2 k dt) but for (k dt)^2: k^2 t dt = 9 * 0.2 * 0.005 of it at most.
+    // (1 - k dt)^2 differs from exp(-2 k dt) by (k dt)^2, which adds up to k^2 t dt = 9 * 0.2 * 0.005 at most.
     EXPECT_NEAR(state.energy.kinetic / start.energy.kinetic, std::exp(-2.0 * k * 0.2), 0.01);
     EXPECT_NEAR((impulse(state, "damping") - start.audit.momentum * (kept - 1.0)).norm(), 0.0,
                 1e-11 * start.audit.momentum.norm());
@@ -97,8 +97,8 @@ TEST_P(Damping, SlowsRigidTranslation) {
   }
 }
 
-// So it is whatever particles take over of the grid's motion: of the velocity that XPIC and FMPM adopt, too (method
-// reference 6.6). APIC is damped on the nodes.
+// The same holds for every transfer, including the velocity that XPIC and FMPM take from the grid (method reference
+// 6.6). APIC is damped on the nodes.
 TEST_P(Damping, SlowsWhateverIsTransferred) {
   using mpm::TransferKind;
   const double k = 3.0;
@@ -129,7 +129,7 @@ TEST_P(Damping, SlowsWhateverIsTransferred) {
   }
 }
 
-// A body that deforms, damped in every way that a transfer has: the account holds what was taken.
+// A body that deforms is damped in every way that a transfer has: the account contains the momentum removed.
 TEST_P(Damping, AuditClosesForEveryTransfer) {
   using mpm::TransferKind;
   for (const TransferKind kind : {TransferKind::flip, TransferKind::xpic, TransferKind::fmpm, TransferKind::apic}) {
@@ -149,7 +149,7 @@ TEST_P(Damping, AuditClosesForEveryTransfer) {
   }
 }
 
-// A rate of time is read at the middle of each step.
+// A rate that is a function of time is read at the middle of each step.
 TEST_P(Damping, FollowsAFunctionOfTime) {
   DampingDefinition on_nodes, in_update, of_particles;
   on_nodes.grid = in_update.grid = of_particles.particle = Function::parse("1+20*t");
@@ -157,7 +157,7 @@ TEST_P(Damping, FollowsAFunctionOfTime) {
   for (const DampingDefinition& damping : {on_nodes, in_update, of_particles}) {
     auto d = definition();
     d.method.damping = damping;
-    d.time.step = 1e-3;  // always taken: the waves allow more
+    d.time.step = 1e-3;  // always used, since waves allow a larger step
     move(d, {1.0, 0.0, -0.5});
     mpm::Simulation simulation(d, {1});
     const double before = simulation.state().audit.momentum.x();
@@ -169,7 +169,7 @@ TEST_P(Damping, FollowsAFunctionOfTime) {
   }
 }
 
-// Method reference 6.3: grid damping in the force and in the update are the same where nothing holds a node.
+// Method reference 6.3: grid damping in the force and in the update are the same at nodes without a constraint.
 TEST_P(Damping, BothPlacementsAgree) {
   const auto run = [&](bool in_force) {
     auto d = definition();
@@ -192,17 +192,17 @@ TEST_P(Damping, BothPlacementsAgree) {
       scale = std::max(scale, std::abs(a[p]));
       worst = std::max(worst, std::abs(a[p] - b[p]));
     }
-    // Sums over nodes against sums over particles: a digit a step, grown in some tens of steps.
+    // Sums over nodes differ from sums over particles by round-off, which grows over some tens of steps.
     EXPECT_LT(worst, 1e-10 * scale) << name;
   }
   EXPECT_LT(update.state().audit.residual, 1e-10);
 }
 
-// Part of the block is in honey: what lies beyond x = 1.25 m is slowed, by damping of place.
+// Damping as a function of place: only material beyond x = 1.25 m is slowed.
 TEST_P(Damping, OfPlaceActsThereAlone) {
   for (const bool of_grid : {true, false}) {
     auto d = definition();
-    d.materials[0].law = mpm::NeoHookeanDefinition{{1e-6, 0.3}};  // as good as loose
+    d.materials[0].law = mpm::NeoHookeanDefinition{{1e-6, 0.3}};  // practically without stiffness
     d.time.step = 1e-3;
     const Function rate = Function::parse("5*(x>1.25)");
     (of_grid ? d.method.damping.grid : d.method.damping.particle) = rate;
@@ -213,7 +213,7 @@ TEST_P(Damping, OfPlaceActsThereAlone) {
     simulation.advance();
     const std::vector<double> v = field(simulation, "vz");
     for (std::size_t p = 0; p < v.size(); ++p) {
-      // One period of ten steps: away from the border only a particle's own rate has been felt.
+      // In a period of ten steps only the local rate acts on particles away from the border.
       if (start[p].x() > 1.25 + kCell) {
         EXPECT_LT(v[p], 1.0 - 0.04);  // exp(-5 * 0.01)
       }
@@ -226,7 +226,7 @@ TEST_P(Damping, OfPlaceActsThereAlone) {
   }
 }
 
-// Feedback with target 0 on a body that moves as a whole: v = v0 sech(sqrt(K) v0 t) (unit tests have the equation).
+// Feedback with target 0 on a body in translation: v = v0 sech(sqrt(K) v0 t) (unit tests have the equation).
 TEST_P(Damping, FeedbackStopsARigidTranslation) {
   using Of = mpm::FeedbackDefinition::Of;
   const double gain = 40.0, v0 = 1.0;
@@ -244,13 +244,13 @@ TEST_P(Damping, FeedbackStopsARigidTranslation) {
     mpm::Simulation simulation(d, {1});
     for (int i = 0; i < 40; ++i) simulation.advance();
     const double exact = v0 / std::cosh(std::sqrt(gain) * v0 * 0.4);
-    // First order: sqrt(K) v0 dt / 2 = 0.3 %, twice over.
+    // The error is of first order: sqrt(K) v0 dt / 2 = 0.3 %; twice that is allowed.
     for (const double v : field(simulation, "vx")) EXPECT_NEAR(v, exact, 0.006 * v0);
     EXPECT_LT(simulation.state().audit.residual, 1e-10);
   }
 }
 
-// Everything at once, against a wall: what every source gave closes the balance, for any number of threads.
+// Everything at once, against a wall: the accounts of all sources close the balance for any number of threads.
 TEST_P(Damping, AuditClosesWithEverything) {
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2}) {
@@ -290,8 +290,8 @@ TEST(DampingOfABar, VibrationLosesEnergyHalfAsFast) {
   }
 }
 
-// A step that a rate would turn round ends the run in a clear error, as does a rate below 0. The first of these is
-// between the three times that a period's largest rate is looked for at.
+// A rate that would reverse velocities within a step ends the run with a clear error, and so does a negative rate. The
+// first rate peaks between the three times at which a period's largest rate is sought.
 TEST(DampingOfABar, EndsTheRunWhereItCannotBe) {
   for (const char* rate : {"t>0.1005 && t<0.1035 ? 1e6 : 0", "1-20*t"}) {
     auto d = block(mpm::GeometryKind::plane_strain, mpm::UpdateScheme::usf);

@@ -1,9 +1,10 @@
-// A cylinder drawn out by a tension on its end to half as long again, Nairn & Guilkey (2015) 4.2, figure 8: tractions
-// on the deformed edge against forces on the particles of the last row.
+// A cylinder that tension on its end stretches by half its length, Nairn & Guilkey (2015) 4.2, figure 8: tractions on
+// the deformed edge compared with forces on the particles of the last row.
 //
 // Exact: uniaxial stress of the neo-Hookean law of the paper, its two stretches found from sigma_zz = 1000 MPa and
 // sigma_rr = 0 (exact-solutions: 1.500222 along z, 0.878833 along r). Forces F_p = rate r_p l_p dr t a radian, with the
-// radius of the start, keep the nominal stress: 1000 MPa of it is a stretch of 1.73597 and a stress of 1411 MPa.
+// initial radius, keep the nominal stress: a nominal stress of 1000 MPa gives a stretch of 1.73597 and a Cauchy stress
+// of 1411 MPa.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -18,16 +19,16 @@
 namespace verification {
 namespace {
 
-constexpr int kThreads = 1;                                                                    // tests run side by side
-constexpr double kTension = 1e9, kEnd = 4e-3;                                                  // [Pa], [s]
-constexpr double kRadius = 0.01, kLength = 0.04, kSpacing = 1e-3;                              // of particles [m]
+constexpr int kThreads = 1;                                        // tests run side by side
+constexpr double kTension = 1e9, kEnd = 4e-3;                      // [Pa], [s]
+constexpr double kRadius = 0.01, kLength = 0.04, kSpacing = 1e-3;  // initial; spacing of particles [m]
 constexpr double kBulk = 2300e6 / (3.0 * (1.0 - 2.0 * 0.33)), kShear = 2300e6 / (2.0 * 1.33);  // [Pa]
 
 /// Stretches under uniaxial stress.
 struct Uniaxial {
   double radial = 1.0, axial = 1.0;
   double j() const { return radial * radial * axial; }
-  /// Cauchy stress of the law, Nairn & Guilkey (2015) eq. (64), along a direction of this stretch [Pa].
+  /// Cauchy stress of the law, Nairn & Guilkey (2015) eq. (64), along a direction with this stretch [Pa].
   double stress(double stretch) const {
     const double b = stretch * stretch, mean = (2.0 * radial * radial + axial * axial) / 3.0;
     return 0.5 * kBulk * (j() - 1.0 / j()) + kShear * std::pow(j(), -5.0 / 3.0) * (b - mean);
@@ -36,7 +37,7 @@ struct Uniaxial {
   double nominal() const { return cauchy() * radial * radial; }
 };
 
-/// With no stress along r.
+/// The stretches with this axial stretch and no stress along r.
 Uniaxial drawn_to(double axial) {
   double low = 0.5, high = 1.0;
   for (int i = 0; i < 60; ++i) {
@@ -56,15 +57,15 @@ Uniaxial drawn_by(double tension, Stress stress) {
   return drawn_to(0.5 * (low + high));
 }
 
-constexpr double kCalm = 0.4e-3;  // until then waves of the start are more than a tenth of the stress [s]
+constexpr double kCalm = 0.4e-3;  // before this, waves from the start exceed a tenth of the stress [s]
 
-/// The cylinder at one moment. Ratios over the first place are means over the row or column farthest out.
+/// The cylinder at one moment. Stretches are means over the outermost row or column.
 struct Drawn {
   double time = 0.0;         ///< [s]
-  Numbers distance, stress;  ///< of each particle: first distance from the loaded edge [m], sigma_zz [Pa]
+  Numbers distance, stress;  ///< for each particle: initial distance from the loaded edge [m], sigma_zz [Pa]
   double axial = 1.0, radial = 1.0;
 
-  /// Largest |sigma_zz / tension - 1|, of the particles up to `from` < distance < `to`.
+  /// Largest |sigma_zz / tension - 1| over particles with `from` < distance < `to`.
   double worst(double tension, double from = 0.0, double to = kLength) const {
     double most = 0.0;
     for (std::size_t p = 0; p < stress.size(); ++p) {
@@ -81,13 +82,13 @@ struct Drawn {
   }
 };
 
-/// Runs to the end, or to the error that ends the run.
+/// A run to the end, or to the error that ended it.
 struct History {
   Drawn last;
   std::string error;
   Numbers time, axial, scatter;  ///< stretch, and standard deviation of sigma_zz over its mean, at sync points
 
-  /// The stretch at which the scatter passes a tenth.
+  /// The stretch at which the scatter exceeds a tenth.
   double broken_at() const {
     for (std::size_t i = 0; i < scatter.size(); ++i) {
       if (time[i] > kCalm && scatter[i] > 0.1) return axial[i];
@@ -151,14 +152,14 @@ TEST(EndLoadedCylinder, FigureEight) {
       .scene("end_loaded_cylinder");
   const Uniaxial exact = drawn_by(kTension, [](const Uniaxial& u) { return u.cauchy(); });
   const Uniaxial nominal = drawn_by(kTension, [](const Uniaxial& u) { return u.nominal(); });
-  // The solver of this test against the table that was made apart from it (exact-solutions 7), to its last digit.
+  // The exact stretches of this test agree with an independent table (exact-solutions 7) to its last digit.
   EXPECT_NEAR(exact.axial, 1.500222, 1e-6);
   EXPECT_NEAR(exact.radial, 0.878833, 1e-6);
   EXPECT_NEAR(nominal.axial, 1.73597, 1e-5);
 
   const History traction = draw({});
   ASSERT_EQ(traction.error, "");
-  // Asked: 2 % of the stress everywhere, 1 % of the stretch.
+  // Asked: 2 % in the stress everywhere, 1 % in the stretch.
   page.near_absolute("traction, CPDI: largest error of sigma_zz in the loaded row",
                      100.0 * traction.last.worst(kTension, 0.0, kSpacing), 0.0, 2.0, "%");
   page.near_absolute("traction, CPDI: largest error of sigma_zz of any particle", 100.0 * traction.last.worst(kTension),
@@ -166,18 +167,18 @@ TEST(EndLoadedCylinder, FigureEight) {
   page.near("traction, CPDI: stretch along z", traction.last.axial, exact.axial, 0.01, "");
   page.near("traction, CPDI: stretch along r", traction.last.radial, exact.radial, 0.01, "");
 
-  // Its end rises by three quarters of its length; with APIC this load breaks up.
+  // The end rises by three quarters of the length. With APIC the cylinder breaks up under this load.
   const History forces = draw({kForces, "grid.max=[16 mm, 80 mm]", "method.transfer={flip: 0.95}"});
   ASSERT_EQ(forces.error, "");
   const double inside = forces.last.mean(4.0 * kSpacing, kLength) / 1e6;
   const double edge = forces.last.mean(0.0, kSpacing) / 1e6;
-  // The force is spread by the particle's domain, so half of it pulls at nodes inside the row: about half the stress.
+  // The particle's domain spreads the force, so half of it acts on nodes inside the row: about half the stress there.
   page.near("particle forces: sigma_zz four rows and more from the edge", inside, nominal.cauchy() / 1e6, 0.02, "MPa");
   page.below("particle forces: sigma_zz of the loaded row over that inside", edge / inside, 0.6, "");
   page.near("particle forces: stretch along z", forces.last.axial, nominal.axial, 0.01, "");
 
   const History boxes = draw({"method.shape=ugimp"}), flip = draw({"method.transfer=flip"});
-  // The paper: not stable at 50 %.
+  // The paper finds uGIMP unstable at 50 %.
   page.below("traction, uGIMP: stretch at which sigma_zz scatters by 10 %", boxes.broken_at(), exact.axial, "");
   page.report("traction, CPDI with FLIP: stretch at which sigma_zz scatters by 10 %", flip.broken_at(), "");
   const auto in = [](Numbers values, double unit) {

@@ -1,8 +1,8 @@
-// A smooth rigid flat punch on an elastic block between smooth walls (Boussinesq's problem in a block of its own size).
+// A smooth rigid flat punch on an elastic block between smooth walls (Boussinesq's problem in a finite block).
 //
-// The exact solution is that of layer_contact.hpp for the very block of the scene: a lattice of punches on a layer. The
-// force is linear in the depth, so the punch goes 0.016 of a cell deep and no question of when contact begins arises:
-// the row of nodes on the block's face is in contact from the first step.
+// The exact solution is that of layer_contact.hpp for the block of the scene: a lattice of punches on a layer. The
+// force is linear in the depth, so the punch goes 0.016 of a cell deep, and it does not matter when contact begins: the
+// row of nodes on the block's face is in contact from the first step.
 // Source: Johnson, Contact Mechanics (1985) 3.8; Lebedev and Ufliand (1958); the sums over walls: layer_contact.hpp.
 #include <fmt/core.h>
 
@@ -17,25 +17,25 @@
 namespace verification {
 namespace {
 
-// Of the scenes.
+// Numbers of the scenes.
 constexpr double kSide = 0.3;    // height of the block and distance from its middle to the walls [m]
 constexpr double kDepth = 2e-4;  // [m]
-constexpr double kRest = 0.14;   // the ramp ends at 0.1 s; what swings then has died to 1e-3 of the force [s]
+constexpr double kRest = 0.14;   // after the ramp of 0.1 s vibration has decayed to 1e-3 of the force [s]
 constexpr double kEnd = 0.16;    // [s]
 constexpr int kThreads = 1;      // tests run side by side
 constexpr double kPi = 3.14159265358979323846;
 const ElasticBlock kBlock{1e6, 0.3, kSide, kSide};
-// Asked at eight cells a radius.
+// Relative tolerance of the force with eight cells to a radius.
 constexpr double kAsked = 0.05;
-// A node is in contact or not, so the punch's edge is known to half a cell to either side.
+// A node is in contact or not, so the grid resolves the punch's edge to half a cell on either side.
 constexpr double kEdge = 0.5;  // [cells]
 
 struct Punched {
-  double force = 0.0;    // of the whole punch [N], [N/m]
-  double cells = 0.0;    // to the radius
+  double force = 0.0;    // on the whole punch [N], [N/m]
+  double cells = 0.0;    // radius of the punch [cells]
   double matched = 0.0;  // the radius whose exact force this is [cells]
   PressedTool exact;
-  std::vector<double> r, pressure;  // of the particles nearest the face, within the punch
+  std::vector<double> r, pressure;  // at the particles nearest the face, under the punch [m], [Pa]
   double error() const { return force / exact.force - 1.0; }
 };
 
@@ -56,7 +56,7 @@ Punched press(ToolShape shape, int count, int cells) {
   // Half of a strip and a quarter of a round punch are computed.
   result.force = simulation.take_contact(0).mean.force.z() * (strip ? 2.0 : 4.0);
 
-  // Between radii half a cell apart the exact force is a power of the radius.
+  // Between radii half a cell apart the exact force is approximated by a power of the radius.
   const double smaller = LayerContact(kBlock, shape, radius - 0.5 * cell).flat_punch(kDepth).force;
   const double power = std::log(result.exact.force / smaller) / std::log(radius / (radius - 0.5 * cell));
   result.matched = result.cells * std::pow(result.force / result.exact.force, 1.0 / power);
@@ -72,7 +72,7 @@ Punched press(ToolShape shape, int count, int cells) {
   return result;
 }
 
-/// Exact pressure under the punch and measured stress of the particles nearest to it, over the mean pressure.
+/// Draws the exact pressure under the punch and the stress of the particles nearest to it, over the mean pressure.
 void draw_pressure(Page& page, const Punched& punched, double area) {
   const double mean = punched.exact.force / area;
   Numbers r, exact, measured;
@@ -107,7 +107,7 @@ TEST(FlatPunch, Strip) {
     page.report(fmt::format("error of the force at {} cells", run.cells), 100.0 * run.error(), "%");
     page.near_absolute("half width whose exact force this is", run.matched, run.cells, kEdge, "cells");
   }
-  // First order: halving the cell takes off a third of the error or more.
+  // First order halves the error with the cell; a third less is asked.
   page.below("error at 16.5 over error at 8.5 cells", runs[2].error() / runs[1].error(), 0.67, "");
   draw_pressure(page, runs[2], 2.0 * runs[2].exact.radius);
   Numbers cells, errors;
@@ -128,7 +128,7 @@ TEST(FlatPunch, Strip) {
       "force is 5 % low at 8 cells.");
 }
 
-/// `counts`: cells to the side of the block; the last run is drawn.
+/// Runs round punches with `counts` cells along the side of the block and draws the last run.
 void round_punch(const std::vector<int>& counts) {
   Page page("contact", "flat_punch", "Flat round punch");
   page.problem(

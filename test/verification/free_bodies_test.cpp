@@ -1,6 +1,6 @@
-// Free rigid bodies by themselves and against material: motion without contact, balances to round-off, rest and spin.
+// Free rigid bodies alone and against material: motion without contact, balances to round-off, rest and spin.
 //
-// doc/free_bodies.md has what is solved. Round-off is 1e-10 of the momentum exchanged, as everywhere.
+// doc/free_bodies.md gives the equations. Round-off is 1e-10 of the momentum exchanged, as everywhere.
 #include <gtest/gtest.h>
 
 #include "free_run.hpp"
@@ -13,7 +13,7 @@ using namespace verification;
 
 constexpr double kRoundOff = 1e-10;
 
-/// A solid scene with a little block in a corner, out of the way, and one free body.
+/// A scene in three dimensions with one free body, and a small block in a corner that it does not meet.
 std::string alone(const std::string& body, const std::string& gravity, double end) {
   return fmt::format(R"(
 name: alone
@@ -29,7 +29,7 @@ rigid_bodies: [{{name: free, {}}}]
                      gravity, end, body);
 }
 
-// Velocity first, then place: after n steps of dt the body has fallen by g dt^2 n (n + 1) / 2, an arithmetic series.
+// A step updates the velocity before the position: after n steps of dt the body has fallen by g dt^2 n (n + 1) / 2.
 TEST(FreeBodies, FreeFallIsThatOfTheScheme) {
   mpm::Simulation simulation = run_of(
       alone("shape: {sphere: {radius: 0.1}}, free: {density: 500, velocity: [0.3, 0.2, 1]}", "[0, 0, -9.81]", 0.5));
@@ -46,8 +46,8 @@ TEST(FreeBodies, FreeFallIsThatOfTheScheme) {
   EXPECT_LT(imbalance(simulation.free_bodies()[0]), 1e-13);
 }
 
-// About the middle axis of inertia, where Euler's equations are unstable: the body turns over again and again. Angular
-// momentum is what is carried from step to step; the energy swings by the square of a step's angle, 0.006 rad here.
+// Rotation about the intermediate principal axis is unstable: the body turns over repeatedly. The scheme carries the
+// angular momentum from step to step; the energy varies by the square of a step's angle, 0.006 rad here.
 TEST(FreeBodies, SpinningBoxKeepsItsAngularMomentum) {
   mpm::Simulation simulation = run_of(alone(
       "shape: {box: {size: [0.3, 0.2, 0.1]}}, free: {density: 1000, rotation_rate: [0.05, 6, 0.1]}", "[0, 0, 0]", 5.0));
@@ -62,11 +62,11 @@ TEST(FreeBodies, SpinningBoxKeepsItsAngularMomentum) {
   }
   EXPECT_LT(change, 1e-12 * start.momentum.angular.norm());
   EXPECT_LT(energy, 0.006 * 0.006);
-  EXPECT_LT(least, -0.5);  // it did turn over
+  EXPECT_LT(least, -0.5);  // it has turned over
 }
 
-// A constant torque about a principal axis: rate = torque t / inertia, exact for a scheme that adds impulses; a force
-// on the origin of a body whose centre of mass is elsewhere turns it as well.
+// Under a constant torque about a principal axis the rate is torque t / inertia, exactly so for a scheme that adds
+// impulses. A force on the origin of a body whose centre of mass lies elsewhere turns it as well.
 TEST(FreeBodies, WrenchGivesItsImpulse) {
   mpm::Simulation simulation = run_of(
       alone("shape: {box: {size: [0.3, 0.2, 0.1]}}, free: {mass: 2, inertia: [0.1, 0.1, 0.15]}", "[0, 0, 0]", 1.0));
@@ -90,7 +90,7 @@ TEST(FreeBodies, WrenchGivesItsImpulse) {
   EXPECT_NEAR(offset.bodies()[0].twist.angular.z(), 0.05 * 0.01 / 0.15, 1e-9);
 }
 
-/// A body that flies into a block in space, off its middle.
+/// A free body that hits a block off its centre, without gravity.
 std::string collision(const std::string& method) {
   return fmt::format(R"(
 name: collision
@@ -111,8 +111,9 @@ rigid_bodies:
                      method);
 }
 
-// Without gravity nothing outside acts: what one loses the other gains. Linear momentum with any transfer. What the
-// body says that contact gave it is what the material's audit says that contact took, found from the other side.
+// Without gravity there is no external force: the momentum that one loses the other gains, with any transfer. The
+// impulse that the body reports from contact equals the account of contact in the material's audit, which is computed
+// independently.
 TEST(FreeBodies, CollisionInSpaceKeepsMomentum) {
   for (const char* method : {"{transfer: flip}", "{transfer: apic}", "{update: usf, transfer: {xpic: 2}}",
                              "{update: usl, transfer: {fmpm: 2}}"}) {
@@ -130,7 +131,7 @@ TEST(FreeBodies, CollisionInSpaceKeepsMomentum) {
   }
 }
 
-// The same bits for any number of threads: points are found in parallel and solved in order.
+// Results have the same bits for any number of threads.
 TEST(FreeBodies, HaveTheSameBitsForAnyNumberOfThreads) {
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2, 3}) {
@@ -142,7 +143,7 @@ TEST(FreeBodies, HaveTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(hashes[2], hashes[0]);
 }
 
-// A free body of the material's own mass turns with what it is told: rotation from outside, and the way by itself.
+// A commanded velocity sets only the directions in which a body is not free: here the rotation; translation is free.
 TEST(FreeBodies, CommandsReachWhatIsTold) {
   const std::string text =
       alone("shape: {sphere: {radius: 0.1}}, free: {density: 500, axes: [x, y, z]}", "[0, 0, -9.81]", 0.5);
@@ -163,8 +164,8 @@ TEST(FreeBodies, CommandsReachWhatIsTold) {
   mpm::Simulation whole = run_of(alone("shape: {sphere: {radius: 0.1}}, free: {density: 500}", "[0, 0, 0]", 0.5));
   EXPECT_THROW(whole.command_velocity(0, {}), mpm::RigidError);
   EXPECT_THROW(whole.apply_wrench(0, {{NAN, 0.0, 0.0}, {}}), mpm::RigidError);
-  mpm::Simulation told = run_of(alone("shape: {sphere: {radius: 0.1}}", "[0, 0, 0]", 0.5));
-  EXPECT_THROW(told.apply_wrench(0, {}), mpm::RigidError);
+  mpm::Simulation prescribed = run_of(alone("shape: {sphere: {radius: 0.1}}", "[0, 0, 0]", 0.5));
+  EXPECT_THROW(prescribed.apply_wrench(0, {}), mpm::RigidError);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Free rigid bodies on material: a ball that bounces, a block that floats, bodies much lighter than what they lie on, a
-// wheel at rest. doc/free_bodies.md has what is solved.
+// Free rigid bodies on material: a ball that bounces, a block that floats, bodies much lighter than the material below
+// them, a wheel at rest. doc/free_bodies.md gives the equations.
 #include <gtest/gtest.h>
 
 #include "free_run.hpp"
@@ -9,18 +9,17 @@ namespace {
 
 using namespace verification;
 
-/// What there is at a sync point.
+/// Energies and impulse at a sync point.
 struct Bounce {
-  double missing, block, ball;  // [J] not accounted for since the start; of the material; of the free body
-  mpm::Vec3 given;              // [N s] to the ball, by contact
+  double missing, block, ball;  // energy not accounted for since the start, of the material, of the free body [J]
+  mpm::Vec3 given;              // impulse of contact on the ball [N s]
   std::uint64_t steps;
 };
 
-// The energy that was lost in meeting is counted apart from it. What is not accounted for has three parts: half a
-// step's fall, which is exact; what FLIP lets go while the block rings alone, which no contact takes part in; and the
-// rest while they touch. For that and for the sum there is no theory here: their limits are bounds on what is seen. The
-// rest is 0.5 % as it stands, 1.6 % with steps of a quarter, and 2 % the other way, a gain, with cells of half the
-// size.
+// The energy that is lost at impact has an account of its own. The energy without an account has three parts: the error
+// of the scheme in free fall, which is known exactly; the loss by FLIP while the block vibrates after contact; and a
+// rest while they touch. There is no theory for this rest and for the sum, so their limits bound measured values. The
+// rest is 0.5 % here, 1.6 % with a quarter of the step, and 2 % of gain with cells of half the size.
 TEST(FreeBodies, BallBouncesOnABlock) {
   constexpr double kHeight = 0.1;
   mpm::Simulation simulation = run_of(R"(
@@ -46,7 +45,7 @@ rigid_bodies:
   };
   std::vector<Bounce> seen = {look()};
   double top = 0.0, most = 0.0;
-  std::size_t touch = 0, part = 0;  // sync points before the first contact, and after it
+  std::size_t touch = 0, part = 0;  // the last sync point before contact, and the first after it
   while (seconds(simulation) < 0.3 - 1e-9) {
     simulation.advance();
     seen.push_back(look());
@@ -62,10 +61,11 @@ rigid_bodies:
   const mpm::FreeBodyReport ball = simulation.free_bodies()[0];
   EXPECT_LT(state.audit.residual, 1e-10);
   EXPECT_LT(imbalance(ball), 1e-10);
-  EXPECT_LT(most, 0.01 * fall);  // gained, at any time: as the others, a bound on what is seen
+  EXPECT_LT(most, 0.01 * fall);  // gain at any time: also a bound on a measured value
   EXPECT_GT(state.energy.free_loss, 0.0);
-  EXPECT_LT(part, seen.size() - 50);  // it has left
-  // In the air a step loses m g^2 dt^2 / 2: the place follows from the velocity at the step's end. Round-off of sums.
+  EXPECT_LT(part, seen.size() - 50);  // the ball has left the block
+  // In free flight a step loses m g^2 dt^2 / 2, since the position follows from the velocity at the end of the step.
+  // The rest is round-off of sums.
   double flight = 0.0;
   for (std::size_t i = part + 1; i < seen.size(); ++i) {
     flight +=
@@ -74,7 +74,7 @@ rigid_bodies:
   EXPECT_NEAR(seen[part].ball - seen.back().ball, flight, 1e-10 * fall);
   const double together = seen[part].missing - seen[touch].missing;
   const double alone = seen.back().missing - seen[part].missing - flight;
-  // What it can rise to: what the fall gave, less what was lost and what the block has as they part.
+  // The energy left for the rise is that of the fall, less the losses and the block's energy when they separate.
   const double left =
       fall - state.energy.free_loss - state.energy.friction - (seen[part].block - seen[touch].block) + 0.01 * fall;
   Page page("contact", "free_ball", "A ball that falls on an elastic block");
@@ -94,9 +94,9 @@ rigid_bodies:
       "not accounted for, 5 % in all and 2 % while they touch, are bounds on what was seen, not derived.");
 }
 
-// In a closed tank the water that the block displaces lifts the level. Nine cells deep: a third of a cell is what the
-// place of the water's surface beside a body is known to, 4 % of that; a block three cells deep lies 13 % too high. It
-// is held upright, and water is stiff enough for 0.3 % of compression.
+// In a closed tank the displaced water lifts the level. The block is nine cells deep in the water. The water's surface
+// beside a body is resolved to a third of a cell, 4 % of that; a block three cells deep lies 13 % too high. The block
+// is kept upright, and the water is compressed by 0.3 %.
 TEST(FreeBodies, BlockFloatsAtArchimedesDepth) {
   constexpr double kTank = 1.04, kLength = 0.4, kHeight = 0.6, kDensity = 600.0;
   mpm::Simulation simulation = run_of(fmt::format(R"(
@@ -138,7 +138,7 @@ rigid_bodies:
   EXPECT_LT(imbalance(simulation.free_bodies()[0]), 1e-10);
 }
 
-/// A slab over rubber or soil, and what it does in `end` [s].
+/// A light slab above rubber or soil.
 mpm::Simulation slab(const std::string& material, const std::string& initial, double density, double height) {
   return run_of(fmt::format(R"(
 name: slab
@@ -157,8 +157,9 @@ rigid_bodies:
                             material, initial, 0.05 + height, density));
 }
 
-// A hundredth and a thousandth of the material's density, dropped by half its height. Stable: it never goes faster than
-// by the fall and never as high again, and in the end lies on the surface within a tenth of a cell.
+// A slab of a hundredth and of a thousandth of the material's density is dropped by half its height. Stable means that
+// it is never faster than by the fall, never rises as high again, and in the end lies on the surface within a tenth of
+// a cell.
 TEST(FreeBodies, LightBodiesLieStill) {
   const std::string soil =
       "{name: bed, law: drucker_prager, match: plane_strain, density: 1600, young: 1 MPa, poisson: 0.3, "
@@ -189,9 +190,9 @@ TEST(FreeBodies, LightBodiesLieStill) {
   }
 }
 
-// Let down on soil that is at rest under its own weight, a wheel rolls into the dimple that it makes and rocks there
-// for some seconds, as nothing but the soil calms it. It neither creeps nor spins up: from one second to the next the
-// rocking gets less, and its middle moves by less than a hundredth of the radius.
+// A wheel that is set down on soil at rest under its own weight rolls into its own dimple and rocks there for some
+// seconds, as only the soil damps it. It neither creeps nor spins up: from one second to the next the rocking
+// decreases, and its mean position moves by less than a hundredth of the radius.
 TEST(FreeBodies, WheelAtRestStays) {
   mpm::Simulation simulation = run_of(R"(
 name: wheel
@@ -220,7 +221,7 @@ rigid_bodies:
     return Rocking{0.5 * (*least + *most), *most - *least};
   };
   run_until(simulation, 0.3);
-  const Rocking first = rocking_until(1.1), second = rocking_until(1.9);  // a swing takes 0.6 s
+  const Rocking first = rocking_until(1.1), second = rocking_until(1.9);  // its period is 0.6 s
   EXPECT_LT(second.swing, first.swing);
   EXPECT_LT(std::abs(second.middle - first.middle), 0.01 * 0.15);
 }

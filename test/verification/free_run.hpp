@@ -1,4 +1,4 @@
-// What the verification of free rigid bodies shares: scenes as text, and what their bodies do.
+// Helpers for the verification of free rigid bodies: simulations of scenes given as text, and balances.
 #pragma once
 
 #include <fmt/core.h>
@@ -20,8 +20,8 @@ inline mpm::Simulation run_of(const std::string& text, const std::vector<std::st
   return mpm::Simulation(mpm::build(mpm::parse_scene(text, "free.yaml", overrides)), {threads});
 }
 
-/// How far a free body's momentum is from the sum of what it was given, over the sum of the magnitudes; angular
-/// momentum over that of the linear parts at an arm of 0.1 m as well, since torques of a symmetric body cancel.
+/// Difference between a free body's momentum and the sum of its accounts, over the sum of their magnitudes. For angular
+/// momentum the magnitudes include the linear parts at an arm of 0.1 m, since torques on a symmetric body cancel.
 inline double imbalance(const mpm::FreeBodyReport& body) {
   const auto part = [&](mpm::Vec3 mpm::BodyMomentum::*of, double least) {
     const mpm::Vec3 change = body.momentum.*of - body.initial_momentum.*of;
@@ -34,7 +34,8 @@ inline double imbalance(const mpm::FreeBodyReport& body) {
   return std::max(part(&mpm::BodyMomentum::linear, 0.0), part(&mpm::BodyMomentum::angular, 0.1 * exchanged));
 }
 
-/// Bodies and material together, and what contact, sliding and flow took from them, less what was done on them [J].
+/// Energy of bodies and material, plus the energy dissipated by contact, friction and plastic flow, less the work done
+/// on them [J].
 inline double accounted(const mpm::EnergyReport& e) {
   return e.whole() + e.plastic + e.friction + e.free_loss - e.free_work - e.load_work;
 }

@@ -1,9 +1,9 @@
-// What the Hertz tests share: the exact force of a sphere or cylinder (layer_contact.hpp) as a curve over its depth,
-// and the offset of the depth that a run is fitted with.
+// Helpers for the Hertz tests: the exact force of a sphere or cylinder (layer_contact.hpp) as a curve over its depth,
+// and the fit of an offset of the depth.
 //
-// A node is in contact when it lies in the tool, so a curved tool is felt right only once it has gone down through some
-// rows of nodes; the offset, between none and the reach of a particle's box, is the depth at which contact seems to
-// begin.
+// A node is in contact when it lies in the tool, so the force of a curved tool is right only once the tool has passed
+// some rows of nodes. The offset, between zero and the reach of a particle's box, is the depth at which contact appears
+// to begin.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 
 namespace verification {
 
-/// The exact solution as a table over the contact radius, which all else grows with.
+/// The exact solution as a table over the contact radius; all other entries increase with it.
 struct HertzCurve {
-  Numbers radius, approach, force;  ///< [m], [m], [N] or of a strip [N/m]
+  Numbers radius, approach, force;  ///< [m], [m], [N] or [N/m] for a strip
 
-  /// Contact radii from `least` to `most` [m].
+  /// Tabulates contact radii from `least` to `most` [m].
   HertzCurve(const ElasticBlock& block, ToolShape shape, double tool_radius, double least, double most) {
     const int entries = 22;
     for (int i = 0; i <= entries; ++i) {
@@ -30,7 +30,7 @@ struct HertzCurve {
       force.push_back(tool.force);
     }
   }
-  /// A power law between two entries: within 1e-3 of the curve.
+  /// Interpolates by a power law between two entries, within 1e-3 of the curve.
   static double at(const Numbers& xs, const Numbers& ys, double x) {
     const auto above = std::clamp<std::ptrdiff_t>(std::upper_bound(xs.begin(), xs.end(), x) - xs.begin(), 1,
                                                   static_cast<std::ptrdiff_t>(xs.size()) - 1);
@@ -43,8 +43,8 @@ struct HertzCurve {
   double radius_at_force(double f) const { return at(force, radius, f); }
 };
 
-/// The offset in [0, 1.25 rows] with the least squares of the relative errors of the force, all steps but the first
-/// [m].
+/// The offset in [0, 1.25 rows] that minimises the squares of the relative errors of the force over all steps but the
+/// first [m].
 inline double fit_offset(const HertzCurve& curve, const Numbers& depth, const Numbers& force, double row) {
   constexpr double kMost = 1.25;  // the reach of a particle's box [rows]
   double best = 0.0, least = 1e300;

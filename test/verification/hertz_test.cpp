@@ -1,14 +1,13 @@
 // A smooth rigid sphere, and a cylinder in plane strain, pressed into an elastic block between smooth walls (Hertz's
-// problem in a block of its own size).
+// problem in a finite block).
 //
-// The exact solution is that of layer_contact.hpp for the very block of the scene. A node is in contact when it lies in
-// the tool, so a curved tool is felt right only once it has gone down through some rows of nodes; the cells are thin
-// (a quarter of their width), and the tool goes down through six rows. It does so in steps, each followed by rest.
+// The exact solution is that of layer_contact.hpp for the block of the scene. A node is in contact when it lies in the
+// tool, so the force of a curved tool is right only once the tool has passed some rows of nodes. Therefore cells are
+// thin (a quarter of their width), and the tool goes down through six rows, in steps that are each followed by rest.
 //
-// One offset of the depth is fitted, between none and 1.25 rows, to all steps but the first. The contact radius, which
-// has no offset, is taken from the centre of pressure that contact reports for the part of the tool that is computed:
-// under p = p0 sqrt(1 - r^2/a^2) it lies at 4 a / (3 pi) for half a strip, and at 3 a / 8 along x for a quarter of a
-// circle.
+// One offset of the depth, between zero and 1.25 rows, is fitted to all steps but the first. The contact radius, which
+// has no offset, is computed from the centre of pressure that contact reports for the computed part of the tool: under
+// p = p0 sqrt(1 - r^2/a^2) it lies at 4 a / (3 pi) for half a strip, and at 3 a / 8 along x for a quarter of a circle.
 // Source: Johnson, Contact Mechanics (1985) 3.4, 4.2, 5.8; the sums over walls: layer_contact.hpp.
 #include <fmt/core.h>
 
@@ -26,18 +25,18 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kThreads = 1;  // tests run side by side
-// Of the scenes.
+// Numbers of the scenes.
 constexpr double kSide = 0.2;        // height of the block and distance from its middle to the walls [m]
 constexpr double kToolRadius = 0.5;  // [m]
 constexpr double kCell = 0.0125;     // along x and y [m]
 constexpr double kRow = 0.003125;    // height of a cell [m]
 constexpr double kStep = 0.04;       // 0.02 s of motion and as long at rest [s]
-constexpr double kMeasure = 0.0075;  // at the end of each rest [s]
+constexpr double kMeasure = 0.0075;  // duration of the mean at the end of each rest [s]
 constexpr int kSteps = 5;
 const ElasticBlock kBlock{1e6, 0.3, kSide, kSide};
-constexpr double kAsked = 0.05;  // of the force at eight cells a contact radius
+constexpr double kAsked = 0.05;  // relative tolerance of the force with eight cells to a contact radius
 
-/// At the end of each rest; of the whole tool.
+/// Depth of the tool, force on the whole tool and contact radius at the end of each rest.
 struct Pressed {
   Numbers depth, force, radius;  // [m], [N] or [N/m], from the centre of pressure [m]
 };
@@ -59,7 +58,7 @@ Pressed press(ToolShape shape) {
   return result;
 }
 
-/// Rows and figures of a page.
+/// Runs the problem and fills the rows and figures of a page.
 void compare(Page& page, ToolShape shape, const std::string& unit) {
   const HertzCurve curve(kBlock, shape, kToolRadius, 0.02, 0.13);
   const Pressed run = press(shape);
@@ -71,7 +70,7 @@ void compare(Page& page, ToolShape shape, const std::string& unit) {
     const double across = curve.radius_at_force(exact) / kCell;
     const std::string name =
         fmt::format("force at a depth of {:.0f} mm, {:.1f} cells a contact radius", 1e3 * run.depth[i], across);
-    // Asked at eight cells; with fewer, and fewer rows passed, it is shown.
+    // The force is checked with eight cells; with fewer cells, and fewer rows passed, it is only shown.
     if (across >= 7.5) {
       page.near(name, run.force[i], exact, kAsked, unit);
     } else {
@@ -90,8 +89,8 @@ void compare(Page& page, ToolShape shape, const std::string& unit) {
               by_radius[kSteps - 2], "");
   page.near(fmt::format("force over the exact force at that radius, {:.1f} cells", cells[kSteps - 1]),
             by_radius[kSteps - 1], 1.0, kAsked, "");
-  // It comes from above, as the tool passes rows of nodes: the contact is never found too narrow, and ever less too
-  // wide.
+  // The radius converges from above as the tool passes rows of nodes: it is never too small, and less and less too
+  // large.
   for (int i = 0; i < kSteps; ++i) {
     EXPECT_LT(by_radius[i], 1.0 + kAsked);
     if (i > 0) {

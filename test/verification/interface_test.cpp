@@ -1,8 +1,9 @@
 // Imperfect interfaces between deformable bodies: traction = stiffness D times displacement jump.
-//   two bars in a row under tension s: jump s / D, effective modulus 1/E* = 1/E + 1/(D L)          (exact-solutions 16)
-//   an interface oblique to the bar, equally stiff both ways, under uniform stress: traction s cos(theta) along the
-//   bar, the same all over it, so the halves stay straight and part by s cos(theta) / D along the bar   (worked out
-//   here) any stiffness: nothing grows
+// - Two bars in a row under tension s: the jump is s / D, the effective modulus 1/E* = 1/E + 1/(D L) (exact-solutions
+//   16).
+// - An interface oblique to the bar, equally stiff in both directions, under uniform stress: the traction s cos(theta)
+//   along the bar is uniform, so the halves stay straight and part by s cos(theta) / D along the bar (derived here).
+// - Any stiffness: nothing grows.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -14,8 +15,8 @@
 namespace verification {
 namespace {
 
-// Openings are small beside a cell: an open gap takes volume away that areas are found from, 1.7 % of the stiffness at
-// a hundredth of a cell.
+// Openings are small compared with a cell: areas are computed from volumes, which an open gap reduces. At a hundredth
+// of a cell this costs 1.7 % of the stiffness.
 constexpr double kModulus = 1e6, kPull = 10.0;  // [Pa]
 
 /// Two bars of half a metre, the left one held at x = 0, the right one pulled, damped to rest.
@@ -31,9 +32,9 @@ std::string pulled_bars(double cell, double first_node, double stiffness, const 
       cell, first_node, first_node + 30 * cell, stiffness, damping);
 }
 
-/// Straight line through the displacements of a body's particles.
+/// A straight line fitted to the displacements of a body's particles.
 struct Fit {
-  double value, slope;  // at X = 0.5; d u / d X
+  double value, slope;  // u at X = 0.5 [m]; d u / d X
 };
 Fit fit(const mpm::Simulation& run, const std::vector<double>& start, const std::string& body, int margin) {
   const std::vector<double> x = field(run, "x");
@@ -61,7 +62,7 @@ TEST(Interface, OpensByStressOverStiffness) {
   for (const double part : {0.1, 1.0, 10.0}) {
     const double stiffness = part * kModulus / 1.0;  // over L
     for (const double offset : {0.0, 0.5}) {
-      // With a grid that begins half a cell earlier the left bar is that much longer.
+      // If the grid begins half a cell earlier, the left bar is that much longer.
       const double first_node = -offset * cell, length = 1.0 - first_node;
       mpm::Simulation run = from_text(pulled_bars(cell, first_node, stiffness, ", damping: {grid: 60}"));
       const std::vector<double> start = field(run, "x");
@@ -69,15 +70,14 @@ TEST(Interface, OpensByStressOverStiffness) {
       const Fit left = fit(run, start, "left", 2), right = fit(run, start, "right", 2);
       const std::string note =
           fmt::format(", D = {:g} E/L, interface {}", part, offset == 0.0 ? "on a node" : "between nodes");
-      // 1 % as asked: the strain is uniform but for round-off, and the areas at nodes are those of the interface.
-      // Ten times E/L is (omega dt)^2 = 0.5: strain is taken from a part of the opening alone, and the jump is 4.9 %
-      // small.
+      // 1 % as asked: the strain is uniform to round-off, and the areas at nodes are those of the interface. With ten
+      // times E/L, (omega dt)^2 is 0.5: strain comes from a part of the opening only, and the jump is 4.9 % too small.
       page.near("jump" + note, right.value - left.value, kPull / stiffness, part > 1.0 ? 0.06 : 0.01, "m");
       const double end = right.value + 0.5 * right.slope;
       page.near("effective modulus" + note, kPull * length / end, 1.0 / (1.0 / kModulus + 1.0 / (stiffness * length)),
                 0.01, "Pa");
       EXPECT_LT(run.state().audit.residual, 1e-10);
-      // Of the interface: D jump^2 / 2.
+      // The energy of the interface is D jump^2 / 2.
       EXPECT_NEAR(run.state().energy.interface, 0.5 * kPull * kPull / stiffness,
                   0.02 * 0.5 * kPull * kPull / stiffness);
     }
@@ -142,15 +142,15 @@ TEST(Interface, IsTheSameAtAnyAngleToTheGrid) {
       for (std::uint64_t i = first; i < last; ++i) mean += x[i] - start[i] * (1.0 + kPull / kModulus);
       jump += (body[0] == 'l' ? -1.0 : 1.0) * mean / static_cast<double>(last - first);
     }
-    // 1 % on the grid; oblique the area formula is an estimate (contact_area()).
+    // 1 % along the grid; for oblique interfaces the formula of the area is an estimate (contact_area()).
     page.near(fmt::format("jump over s cos(θ)/D at {:g}°", degrees), jump / (kPull * std::cos(angle) / stiffness), 1.0,
               degrees == 0.0 ? 0.01 : 0.1, "");
     EXPECT_LT(run.state().audit.residual, 1e-10);
   }
 }
 
-// E/h times a million: hundreds of times stiffer than a step of the grid resolves. Undamped; the load's work bounds the
-// energy.
+// Up to a million times E/h, hundreds of times stiffer than a step resolves. Without damping the work of the load
+// bounds the energy.
 TEST(Interface, IsStableAtAnyStiffness) {
   for (const double part : {1.0, 1e2, 1e4, 1e6}) {
     const double cell = 0.05, stiffness = part * kModulus / cell;
@@ -165,12 +165,11 @@ TEST(Interface, IsStableAtAnyStiffness) {
       const std::vector<double> x = field(run, "x");
       largest = std::max(largest, x.back() - start.back());
     }
-    // Energy is what the load put in, and no more; 5 % of the most it put in, since an interface's is that of a moment
-    // half a step away from the others.
+    // The energy never exceeds the work of the load. 5 % of the largest work is allowed, since the energy of an
+    // interface belongs to a time half a step away from the others.
     EXPECT_LT(most / work, 0.05) << part;
-    // Suddenly loaded, the end goes to twice its rest and no farther. An interface that a step does not resolve
-    // (stiffer than E/h) creeps: it keeps the energy in bounds but opens several times too far, which doc/contact.md
-    // tells.
+    // Under a sudden load the end moves to twice its position at rest and no farther. An interface that a step does not
+    // resolve (stiffer than E/h) creeps: its energy is bounded, but it opens several times too far (doc/contact.md).
     const double rest = kPull / kModulus + kPull / stiffness;
     if (part == 1.0) {
       EXPECT_NEAR(largest, 2.0 * rest, 0.07 * 2.0 * rest);  // 6 % measured where (omega dt)^2 is 1

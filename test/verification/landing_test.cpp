@@ -1,8 +1,8 @@
-// A falling block is caught by a floor that can let go: contact must not create energy.
+// A block falls onto a rigid floor and bounces: contact must not create energy.
 //
-// The floor does no work (it does not move), gravity's is in the potential energy, so kinetic + elastic + potential may
-// only fall: grid contact is inelastic at the nodes it catches. 1 % is allowed for the schemes' own drift over the
-// bounce.
+// The floor does not move and so does no work, and the work of gravity is in the potential energy. Contact at nodes is
+// inelastic, so kinetic + elastic + potential energy may only fall. 1 % is allowed for the drift of the schemes over
+// the bounce.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -19,7 +19,7 @@ class Landing : public testing::TestWithParam<std::tuple<mpm::UpdateScheme, Floo
 INSTANTIATE_TEST_SUITE_P(Schemes, Landing,
                          testing::Combine(testing::Values(mpm::UpdateScheme::usf, mpm::UpdateScheme::usavg),
                                           testing::Values(Floor::wall, Floor::box),
-                                          testing::Values(0.0, 0.37)));  // of a cell: height of the floor over a node
+                                          testing::Values(0.0, 0.37)));  // height of the floor above a node [cells]
 
 TEST_P(Landing, CreatesNoEnergy) {
   const auto [update, floor, offset] = GetParam();
@@ -55,7 +55,7 @@ TEST_P(Landing, CreatesNoEnergy) {
   }
   mpm::Simulation simulation(d, {1});
   const mpm::EnergyReport start = simulation.state().energy;
-  const double floor_energy = 10.0 * 9.81 * 0.1;  // potential energy that no fall can use
+  const double floor_energy = 10.0 * 9.81 * 0.1;  // potential energy of 10 kg at the height of the floor [J]
   double most = 0.0, strain = 0.0, upward = 0.0;
   for (int i = 0; i < 60; ++i) {
     simulation.advance();
@@ -65,7 +65,7 @@ TEST_P(Landing, CreatesNoEnergy) {
     upward = std::max(upward, state.audit.momentum.z());
   }
   RecordProperty("energy_gain", std::to_string(most / start.total() - 1.0));
-  EXPECT_GT(strain, 0.2 * start.kinetic);  // it did land
+  EXPECT_GT(strain, 0.2 * start.kinetic);  // it has landed
   EXPECT_GT(upward, 0.0);                  // and bounced
   EXPECT_LT(most - start.total(), 0.01 * (start.total() - floor_energy));
 }

@@ -1,20 +1,20 @@
 // Exact contact of a smooth rigid tool with an elastic layer or block that rests on a smooth rigid base: flat punch
 // (Boussinesq's problem) and paraboloid (Hertz's problem), circular and in plane strain.
 //
-// A surface pressure of wave number k presses the surface of a layer of height H down by g(k) times itself,
+// A surface pressure of wave number k deflects the surface of a layer of height H by g(k) times the pressure,
 //   g(k) = 2 K(kH) / (E* k),   K(u) = 2 sinh^2 u / (2 u + sinh 2u),   E* = E / (1 - nu^2)
 // (Airy's stress function with no shear on both faces and no deflection of the lower one; K = 1 is the half space).
-// Smooth rigid side walls are planes of symmetry: a block between them is one cell of a layer pressed by a lattice of
-// tools, so it has the same g at the wave numbers of the lattice alone, and the oedometer's H (1 + nu)(1 - 2 nu) /
-// (E (1 - nu)) at k = 0, where the walls keep it from widening. In a round block of radius L with a smooth rigid wall a
-// pressure J0(kr) moves the material along r as J1(kr), and shears it so: what the wall asks for holds term by term at
-// the zeros of J1(kL), and a pressure is a sum of those (Dini's series).
+// Smooth rigid side walls are planes of symmetry: a block between them is one cell of a layer under a lattice of tools.
+// It therefore has the same g, at the wave numbers of the lattice only, and the value H (1 + nu)(1 - 2 nu) /
+// (E (1 - nu)) of the oedometer at k = 0, where the walls prevent expansion. In a round block of radius L with a smooth
+// rigid wall, a pressure J0(kr) displaces the material along r as J1(kr), and shears it likewise. The conditions at the
+// wall hold term by term at the zeros of J1(kL), and a pressure is a sum of these terms (Dini's series).
 //
-// The pressure is the combination of p_n = (1 - r^2/a^2)^(n - 1/2), n = 0 ... N-1, whose deflection has the tool's
-// shape under the tool in the mean weighted by each p_n. Exact with N = 1 for a flat punch and N = 2 for a paraboloid
-// on a half space; the terms above bend the pressure as layer and images ask, and fall off fast. In a block the
-// pressure under a circular tool is taken round, though four walls make it very slightly square. Source: Johnson,
-// Contact Mechanics (1985), sections 3.8, 4.2, 5.8; Lebedev and Ufliand (1958) for the layer.
+// The pressure is the combination of p_n = (1 - r^2/a^2)^(n - 1/2), n = 0 ... N-1, whose deflection equals the shape of
+// the tool in the means weighted by each p_n. It is exact on a half space with N = 1 for a flat punch and N = 2 for a
+// paraboloid; further terms account for the layer and the images, and decrease fast. In a block the pressure under a
+// circular tool is assumed to be round, though four walls make it very slightly square. Source: Johnson, Contact
+// Mechanics (1985), sections 3.8, 4.2, 5.8; Lebedev and Ufliand (1958) for the layer.
 #pragma once
 
 #include <Eigen/Dense>
@@ -26,7 +26,8 @@ namespace verification {
 
 enum class ToolShape { circular, strip };  ///< round about z, or endless along y in plane strain
 
-/// What is pressed: by one tool, on the middle of its upper face. Lengths in m; a strip's block has no width.
+/// The elastic block, on whose upper face one tool presses at the middle. Lengths are in m; the block of a strip has no
+/// width.
 struct ElasticBlock {
   double young = 1.0;  ///< [Pa]
   double poisson = 0.3;
@@ -42,10 +43,10 @@ struct ElasticBlock {
 struct PressedTool {
   double force;                  ///< [N], or [N/m] for a strip
   double approach;               ///< depth of the tool's lowest point below the undisturbed surface [m]
-  double radius;                 ///< of the contact, or half its width [m]
-  Eigen::VectorXd coefficients;  ///< of the pressure, by p_n [Pa]
+  double radius;                 ///< radius of the contact, or half its width [m]
+  Eigen::VectorXd coefficients;  ///< coefficients of p_n in the pressure [Pa]
 
-  /// At a distance r < radius from the middle [Pa].
+  /// Pressure at a distance r < radius from the middle [Pa].
   double pressure(double r) const {
     const double q = 1.0 - r * r / (radius * radius);
     double sum = 0.0;
@@ -56,17 +57,18 @@ struct PressedTool {
 
 class LayerContact {
  public:
-  /// Contact within `radius` (half the width of a strip) [m]. `terms`: N; four give 1e-4 up to radius = height.
+  /// `radius`: radius of the contact, or half the width of a strip [m]; `terms`: N. Four terms give 1e-4 up to
+  /// radius = height.
   LayerContact(const ElasticBlock& block, ToolShape tool, double radius, int terms = 4)
       : block_(block), tool_(tool), a_(radius), terms_(terms) {
     build();
   }
 
-  /// A flat punch of this radius pressed in by `approach` [m].
+  /// A flat punch of this radius, pressed in by `approach` [m].
   PressedTool flat_punch(double approach) const { return pressed(approach * solve(area_), approach); }
 
-  /// A paraboloid z = r^2 / (2 R) that touches out to this radius: there the pressure falls to zero as a square root,
-  /// which fixes the approach.
+  /// A paraboloid z = r^2 / (2 R) in contact up to this radius. There the pressure falls to zero as a square root,
+  /// which determines the approach.
   PressedTool paraboloid(double tool_radius) const {
     const Eigen::VectorXd by_depth = solve(area_), by_shape = solve(second_ / (2.0 * tool_radius));
     const double approach = by_shape[0] / by_depth[0];
@@ -75,7 +77,7 @@ class LayerContact {
 
  private:
   static constexpr double kPi = 3.14159265358979323846;
-  static constexpr double kLast = 150.0;  ///< largest k a that is summed; what follows is taken in the mean
+  static constexpr double kLast = 150.0;  ///< largest k a that is summed; the remainder is estimated by its mean
 
   PressedTool pressed(const Eigen::VectorXd& coefficients, double approach) const {
     return {coefficients.dot(area_), approach, a_, coefficients};
@@ -91,7 +93,7 @@ class LayerContact {
   /// g(k) [m/Pa], k > 0.
   double deflection(double k) const { return 2.0 * shape_factor(k) / (block_.plane_modulus() * k); }
 
-  /// Fourier transforms of all p_n at wave number k: over the plane (circular) or along x (strip).
+  /// Fourier transforms of all p_n at wave number k, over the plane (circular) or along x (strip).
   Eigen::VectorXd transforms(double k) const {
     Eigen::VectorXd result(terms_);
     const double x = k * a_;
@@ -138,7 +140,7 @@ class LayerContact {
         tool_ == ToolShape::circular ? 2.0 * kPi * a_ * a_ * a_ / (e * kLast) : 2.0 * a_ * a_ / (e * kLast);
   }
 
-  /// Layer without walls: over all wave numbers, by Simpson's rule.
+  /// Layer without walls: integrates over all wave numbers by Simpson's rule.
   void integrate(double last) {
     const int intervals = 20000;
     const double step = last / intervals;
@@ -149,7 +151,7 @@ class LayerContact {
     }
   }
 
-  /// Block: over the lattice of wave numbers pi m / L.
+  /// Block: sums over the lattice of wave numbers pi m / L.
   void sum(double last) {
     const double spacing = kPi / block_.half_length, length = 2.0 * block_.half_length;
     const int most = static_cast<int>(last / spacing);
@@ -173,7 +175,7 @@ class LayerContact {
     }
   }
 
-  /// Round block: over the zeros of J1, by Newton from McMahon's first terms; `most` of them.
+  /// Round block: sums over the first `most` zeros of J1, which Newton's method finds from McMahon's first terms.
   void sum_round(double oedometer, int most) {
     const double radius = block_.half_length, area = kPi * radius * radius;
     compliance_ += oedometer / area * area_ * area_.transpose();
@@ -193,7 +195,7 @@ class LayerContact {
   ToolShape tool_;
   double a_;
   int terms_;
-  Eigen::MatrixXd compliance_;  ///< p_i against the deflection under p_j [m^3/Pa], strip [m^2/Pa]
+  Eigen::MatrixXd compliance_;  ///< integral of p_i times the deflection by p_j [m^3/Pa], strip [m^2/Pa]
   Eigen::VectorXd area_;        ///< integrals of p_n [m^2], strip [m]
   Eigen::VectorXd second_;      ///< integrals of p_n r^2
 };

@@ -1,4 +1,4 @@
-// The exact solution that the punch and sphere tests compare with, against what is known of it in closed form.
+// The exact solution of the punch and sphere tests, compared with solutions that are known in closed form.
 #include "layer_contact.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@ namespace verification {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-// The sum over wave numbers ends at 150 / radius; what follows is added in the mean, which leaves about 1e-5.
+// The sum over wave numbers ends at 150 / radius; its remainder is estimated by a mean, with an error of about 1e-5.
 constexpr double kEndOfSum = 1e-4;
 
 TEST(LayerContact, HalfSpace) {
@@ -36,7 +36,7 @@ TEST(LayerContact, LineLoadOnAHalfPlane) {
 }
 
 TEST(LayerContact, ThickLayer) {
-  // Pressure far from the tool acts as one force: the layer lowers the deflection under the tool by
+  // Far from the tool its pressure acts as a single force: the layer lowers the deflection under the tool by
   // F (1/(pi E* H)) I, I = integral of 1 - K(u) over u = 1.168; so F = 2 E* a delta / (1 - 2 I a / (pi H)), with an
   // error of (a / H)^3. I: Vorovich, Aleksandrov and Babeshko (1974).
   const ElasticBlock layer{1e6, 0.3, 20.0};
@@ -46,8 +46,8 @@ TEST(LayerContact, ThickLayer) {
 }
 
 TEST(LayerContact, ThinLayer) {
-  // A strip four thicknesses wide or more bears E* / H under its inside, and its two edges no longer know each other:
-  // the force grows by 2 E* delta (difference of a) / H.
+  // A strip at least four thicknesses wide has the stiffness E* / H away from its edges, and the two edges do not
+  // influence each other: the force grows by 2 E* delta (difference of a) / H.
   const ElasticBlock layer{1e6, 0.3, 1.0};
   const double narrow = LayerContact(layer, ToolShape::strip, 4.0, 8).flat_punch(1e-3).force;
   const double wide = LayerContact(layer, ToolShape::strip, 8.0, 8).flat_punch(1e-3).force;
@@ -75,11 +75,11 @@ TEST(LayerContact, Block) {
     const ElasticBlock block{1e6, 0.3, height, half_length};
     return LayerContact(block, ToolShape::circular, 0.1).flat_punch(1e-3).force;
   };
-  // Walls twenty radii away leave the layer, but for the part that the tool has in the whole area, 1e-3.
+  // Walls twenty radii away change the layer only by the ratio of the tool's area to that of the block, 1e-3.
   const double layer = force(0.2, std::numeric_limits<double>::infinity());
   EXPECT_NEAR(force(0.2, 2.0), layer, 1e-3 * layer);
   // A layer ten radii deep is 1 / (1 - 2 1.168 / (10 pi)) = 1.080 times as stiff as the half space, an error of 1e-3 in
-  // that (see ThickLayer); walls at ten radii allow no widening and add to it.
+  // that (see ThickLayer); walls at ten radii prevent expansion and stiffen it further.
   EXPECT_NEAR(force(1.0, std::numeric_limits<double>::infinity()) / 219.780, 1.080, 2e-3);
   EXPECT_GT(force(1.0, 1.0) / 219.780, 1.080);
 }
@@ -89,12 +89,12 @@ TEST(LayerContact, RoundBlock) {
     const ElasticBlock block{1e6, 0.3, height, half_length, round};
     return LayerContact(block, ToolShape::circular, 0.1).flat_punch(1e-3).force;
   };
-  // A wall twenty radii away leaves the layer, but for the part that the tool has in the whole area, 2.5e-3.
+  // A wall twenty radii away changes the layer only by the ratio of the tool's area to that of the block, 2.5e-3.
   const double layer = force(0.2, std::numeric_limits<double>::infinity(), false);
   EXPECT_NEAR(force(0.2, 2.0, true), layer, 2.5e-3 * layer);
-  // A round block is stiffer than the square around it, and nearly as stiff as the one of the same area: the walls tell
-  // by the mean deflection above all, which depends on the area alone. Here that is a fifth of the stiffness, and what
-  // the corners change is a part of it.
+  // A round block is stiffer than the square around it, and nearly as stiff as the square of the same area: the walls
+  // act mainly through the mean deflection, which depends on the area alone. Here this is a fifth of the stiffness, and
+  // the corners change a part of it.
   const double kEqualArea = 0.5 * std::sqrt(kPi);
   const double square = force(0.2, 0.2 * kEqualArea, false), round = force(0.2, 0.2, true);
   EXPECT_GT(round, force(0.2, 0.2, false));

@@ -1,9 +1,10 @@
 // Contact between deformable bodies against exact solutions and identities:
-//   one field: bodies that share one velocity are one body                                          (exact-solutions
-//   15) bars: two equal elastic bars exchange their velocities, and press with rho c dv / 2 for 2L / c (exact-solutions
-//   10) three bars in a row: the last one leaves with the velocity of the first (the same waves) disks: they touch
-//   at 1.585786 s by their geometry; momentum and energy are kept                  (exact-solutions 11) release:
-//   nothing pulls, with any normal
+// - One field: bodies that share one velocity are one body (exact-solutions 15).
+// - Bars: two equal elastic bars exchange their velocities, and press with rho c dv / 2 for 2L / c (exact-solutions
+//   10).
+// - Three bars in a row: the last one leaves with the velocity of the first (the same waves).
+// - Disks: they touch at 1.585786 s by their geometry; momentum and energy are conserved (exact-solutions 11).
+// - Release: nothing pulls, with any normal.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 namespace verification {
 namespace {
 
-/// Two blocks that lie on each other and are thrown at an angle; with `contact` or as one field.
+/// Two blocks, one on top of the other, that are thrown at an angle; with `contact` or in one velocity field.
 std::string stacked(const std::string& geometry, const std::string& method, const std::string& contact) {
   const bool solid = geometry == "solid", line = geometry == "line";
   const auto point = [&](double x, double z) {
@@ -50,8 +51,8 @@ double largest_difference(const mpm::Simulation& a, const mpm::Simulation& b, co
   return largest;
 }
 
-// The same sums in another order: 20 to 40 steps of round-off, of positions of the order of 1 m and velocities of the
-// order of 2 m/s.
+// The sums are the same in another order: 20 to 40 steps of round-off, with positions of the order of 1 m and
+// velocities of the order of 2 m/s.
 TEST(MaterialContact, OneFieldIsASingleField) {
   struct Case {
     const char *geometry, *method;
@@ -84,7 +85,7 @@ TEST(MaterialContact, OneFieldIsASingleField) {
 
 constexpr double kModulus = 1e6, kDensity = 100.0, kWave = 100.0;  // [Pa], [kg/m^3], [m/s]
 
-/// Bars along a line with Poisson's ratio 0: each from, to and velocity.
+/// A bar along a line with Poisson's ratio 0: its ends and velocity.
 struct Bar {
   double from, to, velocity;
 };
@@ -130,31 +131,31 @@ TEST(MaterialContact, BarsExchangeTheirVelocities) {
     }
     const double stress = 0.5 * kDensity * kWave * 2 * speed, time = 2 * length / kWave;
     const std::string note = fmt::format(", {:g} cells in a bar", length / cell);
-    // A cell over the speed of approach, as gaps are read to a part of a cell.
+    // Tolerance: a cell over the speed of approach, as gaps are resolved to a part of a cell.
     page.near_absolute("contact begins" + note, 1e3 * first, 1e3 * gap / (2 * speed), 1e3 * cell / (2 * speed), "ms");
     page.near_absolute("contact lasts" + note, 1e3 * (last - first), 1e3 * time, 1e3 * cell / (2 * speed), "ms");
-    // The wave's front is some cells wide when it comes back, and the surfaces part at its foot: of the momentum about
-    // a cell's share stays, as vibration; measured 0.8 of it (and twice that of the relative velocity) with either
-    // grid.
+    // The front of the returning wave is some cells wide, and the surfaces separate at its foot. About the share of one
+    // cell of the momentum remains as vibration; measured are 0.8 of it, and twice that of the relative velocity, with
+    // either grid.
     page.near("impulse" + note, pressed, stress * time, cell / length, "N s");
     page.near("velocity after" + note, mean_of(run, "vx", "b1"), speed, 2.0 * cell / length, "m/s");
     page.below("total momentum" + note, run.state().audit.residual, 1e-10, "of the momentum exchanged");
   }
 }
 
-// The same waves: the first bar stops, the last one leaves with its velocity.
+// The waves of two bars, twice: the first bar stops, and the last one leaves with its velocity.
 TEST(MaterialContact, ThreeBarsPassTheVelocityOn) {
   mpm::Simulation run = from_text(
       bars({{1.0, 1.5, 1.0}, {1.52, 2.02, 0.0}, {2.02, 2.52, 0.0}}, 0.02, "contact: {law: coulomb, friction: 0.2}\n"));
   run_until(run, 0.05);
-  // What vibration keeps, as above: two cells' share of the first bar's momentum, 25 cells in a bar.
+  // Vibration keeps the share of two cells of the first bar's momentum, as above; a bar has 25 cells.
   EXPECT_NEAR(mean_of(run, "vx", "b0"), 0.0, 0.08);
   EXPECT_NEAR(mean_of(run, "vx", "b1"), 0.0, 0.08);
   EXPECT_NEAR(mean_of(run, "vx", "b2"), 1.0, 0.08);
   EXPECT_LT(run.state().audit.residual, 1e-10);
 }
 
-/// Two blocks of a plane that fall onto each other at an angle to the grid and rebound.
+/// Two disks in plane strain that collide at an angle to the grid and rebound.
 std::string disks(const std::string& contact, double cell = 0.05, const std::string& method = "usavg") {
   return fmt::format(
       "geometry: plane_strain\ngrid: {{cell: {}, min: [-0.2, -0.2], max: [1.2, 1.2]}}\n"
@@ -188,19 +189,20 @@ TEST(MaterialContact, DisksTouchWhenTheyTouch) {
       drift = std::max(drift, std::abs(run.state().energy.total() / energy - 1.0));
     }
     const std::string note = fmt::format(", {:g} cells across", 0.4 / cell);
-    // 0.3 cells over the speed of approach: a tenth by the detection (pair_detection.hpp), and the disks are staircases
-    // of half cells; measured 0.23.
+    // Tolerance: 0.3 cells over the speed of approach. The detection (pair_detection.hpp) accounts for a tenth, and the
+    // disks are staircases of half cells; measured 0.23.
     page.near_absolute("first touch" + note, first, touch, 0.3 * cell / (0.2 * std::sqrt(2.0)), "s");
     const mpm::AuditReport audit = run.state().audit;
     page.below("total momentum" + note, audit.momentum.norm() / exchanged, 1e-10, "of the momentum exchanged");
-    // Surfaces that touch lose their relative velocity at once over a layer of a cell: of first order in the cell,
-    // measured 11.7 and 5.3 %. By approach alone nodes are taken in while they weigh little, and less is lost.
+    // Surfaces that touch lose their relative velocity at once over a layer of a cell: a loss of first order in the
+    // cell, measured as 11.7 and 5.3 %. With detection by approach alone nodes come into contact while their mass is
+    // small, and less is lost.
     page.below("largest drift of the energy" + note, 100.0 * drift, 100.0 * 0.5 * cell / 0.2, "% of the start");
     page.report("rebound over approach speed" + note, -mean_of(run, "vx", "a") / 0.1, "");
   }
 }
 
-// Whatever the normal: the force between the two does not pull, and is none at all once nothing presses.
+// With any normal the force between the two does not pull, and it is zero once no node presses.
 TEST(MaterialContact, NothingPullsOnRelease) {
   for (const char* normals : {"larger_gradient", "larger_volume", "average", "own"}) {
     for (const char* detection : {"approach", "displacements", "positions"}) {
@@ -212,7 +214,7 @@ TEST(MaterialContact, NothingPullsOnRelease) {
         run.advance();
         const mpm::PairReport report = run.take_pairs().at(0);
         const double along = (report.force - report.friction).dot(mpm::Vec3(1, 0, 1)) / std::sqrt(2.0);
-        // By own normals one side may still be pressed when the other is not.
+        // With own normals one side may still be pressed when the other is not.
         if (report.pressing == 0.0 && normals != std::string("own")) {
           EXPECT_EQ(report.force, mpm::Vec3::Zero());
         }
@@ -220,9 +222,9 @@ TEST(MaterialContact, NothingPullsOnRelease) {
         pulled = std::min(pulled, along);
       }
       EXPECT_GT(pressed, 0.0) << normals << " " << detection;
-      // A node at the rim of the contact, the last to part, may have a normal that points sideways.
+      // A node at the rim of the contact, the last to separate, may have a normal that points sideways.
       EXPECT_GE(pulled, -1e-3 * pressed) << normals << " " << detection;
-      EXPECT_LT(mean_of(run, "vx", "a"), -0.05) << normals << " " << detection;  // they part
+      EXPECT_LT(mean_of(run, "vx", "a"), -0.05) << normals << " " << detection;  // they separate
       EXPECT_LT(run.state().audit.residual, 1e-10);
     }
   }

@@ -1,5 +1,5 @@
-// When contact with a rigid plane begins and ends: the gap at which a slow block is first felt, at places of the plane
-// between the nodes and at angles to the grid; and that force ends at once, and never pulls, when the plane goes away.
+// Begin and end of contact with a rigid plane: the gap at which a slow block is first felt, for positions of the plane
+// between the nodes and for angles to the grid; and the release, at which the force ends at once and never pulls.
 #include <algorithm>
 
 #include "rigid_contact_cases.hpp"
@@ -10,7 +10,7 @@ namespace {
 constexpr int kThreads = 1;
 constexpr double kCell = 0.025, kSide = 0.1, kYoung = 1e6;
 
-/// A block of 4 x 4 cells, its lower side `above` the plate along the normal, and the plate's surface through `origin`.
+/// A block of 4 x 4 cells whose lower side is `above` the plate's surface, along the normal [m].
 mpm::SimulationDefinition block_above(const ContactMethod& method, const Slope& slope, double above, double sync) {
   mpm::SimulationDefinition d = rubber_scene(method, kCell, kYoung, sync);
   const double spacing = 0.5 * kCell;
@@ -21,22 +21,23 @@ mpm::SimulationDefinition block_above(const ContactMethod& method, const Slope& 
   return d;
 }
 
-/// The nodes lie `off` of a cell along the normal from the plate.
+/// Lays the grid so that nodes lie `off` cells from the plate along the normal.
 void lay_grid(mpm::SimulationDefinition& d, const Slope& slope, double off) {
   const mpm::Vec3 around = mpm::Vec3(0.4, 0.0, 0.4);
   const mpm::Vec3 low = kCell * (-around / kCell).array().floor().matrix();
   set_domain(d, low + off * kCell * slope.normal(), around);
 }
 
-/// Gap between the block's lower side and the plate [cells] when force first is a thousandth of what stops it.
+/// Gap between the block's lower side and the plate [cells] when the force first exceeds a thousandth of the force that
+/// stops the block.
 double gap_at_onset(const ContactMethod& method, const Slope& slope, double off) {
   const double speed = 0.1, start = 2.0 * kCell;
   mpm::SimulationDefinition d = block_above(method, slope, start, 5e-4);
   lay_grid(d, slope, off);
   for (mpm::Vec3& v : d.bodies[0].velocities) v = -speed * slope.normal();
   mpm::Simulation simulation(d, {kThreads});
-  const double middle = mean_along(simulation, "", slope.normal()) - start;  // of a block that lies on the plate
-  // Pressure rho c v of a plane wave in the block, on its whole side.
+  const double middle = mean_along(simulation, "", slope.normal()) - start;  // for a block that lies on the plate
+  // The stopping force is the pressure rho c v of a plane wave, on the block's whole side.
   const double wave = std::sqrt(kYoung * 0.7 / (1.3 * 0.4) / 1000.0), stopping = 1000.0 * wave * speed * kSide;
   double gap = start;
   while (seconds(simulation) < 4.0 * kCell / speed) {
@@ -64,9 +65,9 @@ TEST(RigidContact, BlockIsFeltWhereItMeetsThePlane) {
         say("gap, " + name, gaps.back(), 0.0, "cells");
       }
       const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
-      // Nodes in the plate are held as soon as they have mass, which a particle gives to nodes up to 1.25 cells from
-      // its middle, a quarter of a cell inside the face: up to a cell early, along an axis. At 45 degrees the reach is
-      // longer by the square root of two.
+      // Nodes in the plate are constrained as soon as they have mass. A particle gives mass to nodes up to 1.25 cells
+      // from its centre, which lies a quarter of a cell inside the face: up to a cell early along an axis. At 45
+      // degrees the reach is longer by the square root of two.
       const double early = method.at_nodes ? std::sqrt(2.0) : 0.1;
       page.below(fmt::format("largest gap, {}, {:g} degrees", method.name, degrees), *most, early, "cells");
       page.above(fmt::format("smallest gap, {}, {:g} degrees", method.name, degrees), *least, -0.1, "cells");
@@ -118,7 +119,7 @@ TEST(RigidContact, ForceEndsWithContactAndNeverPulls) {
       const std::string name = fmt::format("{}, {:g} degrees", method.name, degrees);
       EXPECT_GT(most, 0.0);
       page.below("largest pull over the largest force, " + name, -pull / most, 0.0, "");
-      // The plane moves 0.04 cells a step, and the block springs back by less: parted in the first step, number 0.
+      // The plane moves by 0.04 cells a step, and the block springs back by less: they separate in the first step, 0.
       page.below("last step with force after the plane went, " + name, last, 0.0, "");
       say("largest pull over largest force, " + name, -pull / most, 0.0, "");
       say("last step with force, " + name, last, -1.0, "");

@@ -1,4 +1,4 @@
-// Scenes of bodies that touch, from text, for the verification of contact between deformable bodies.
+// Helpers for the verification of contact between deformable bodies: simulations of scenes given as text.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace verification {
 
-/// A simulation of a scene's text.
+/// A simulation of the scene given as text.
 inline mpm::Simulation from_text(const std::string& text, int threads = 1) {
   return mpm::Simulation(mpm::build(mpm::parse_scene(text, "test.yaml")), {threads});
 }

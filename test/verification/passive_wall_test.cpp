@@ -1,8 +1,8 @@
 // A smooth wall pushed into level sand, against Rankine's passive earth pressure.
 //
 // Exact (exact-solutions 25): the wall's force on a bed of depth H, a metre wide, is F = 1/2 rho g Kp H^2 with
-// Kp = tan^2(45 + phi/2); where it can choose, the sand fails on planes at 45 - phi/2 to the level. It is the exact
-// limit load for associated flow; in plane strain the cone matched to it is then Mohr-Coulomb's.
+// Kp = tan^2(45 + phi/2), and the sand fails on planes at 45 - phi/2 to the horizontal. This is the exact limit load
+// for associated flow, for which the Drucker-Prager cone that is matched in plane strain equals Mohr-Coulomb's.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,17 +20,17 @@ constexpr double kDepth = 1.0, kWeight = 1600.0 * 9.81, kPassive = 3.0;  // [m],
 const double kRankine = 0.5 * kWeight * kPassive * kDepth * kDepth;      // [N] on a metre of wall
 constexpr double kCell = 0.0625;                                         // [m]
 constexpr double kFrom = 0.02, kTo = 0.03;                               // the limit: displacement over H [-]
-constexpr double kBackFrom = 0.003, kBackTo = 0.0045;                    // of the wall that draws back
+constexpr double kBackFrom = 0.003, kBackTo = 0.0045;                    // the same for the wall that retreats
 
 struct Push {
   mpm::Simulation simulation;
   Numbers displacement;  ///< over H
   Numbers force;         ///< over Rankine's
-  double limit = 0.0;    ///< mean of `force` where the limit is taken
-  Numbers start;         ///< heights of the particles at the start [m]
+  double limit = 0.0;    ///< mean of `force` over the interval of the limit
+  Numbers start;         ///< initial heights of the particles [m]
 };
 
-/// The limit is taken from displacement `from` to `to`, over H.
+/// Pushes the wall. The limit is the mean between the displacements `from` and `to`, over H.
 Push push(const std::vector<std::string>& overrides, double from = kFrom, double to = kTo) {
   Push run{verification::start("passive_wall", overrides), {}, {}, 0.0, {}};
   mpm::Simulation& simulation = run.simulation;
@@ -76,19 +76,19 @@ TEST(PassiveWall, ForceIsRankines) {
   const Push smooth = push({});
   const Push rough = push({"boundaries.z_min={friction: 0.577}"});
 
-  // Asked: 15 %. The bed heaves, so it resists with a little more than its first depth; see the last rows.
+  // Asked: 15 %. The bed heaves, so its resistance is that of a slightly larger depth; see the last rows.
   page.near("force, smooth floor", smooth.limit * kRankine / 1e3, kRankine / 1e3, 0.15, "kN");
   page.near("force, rough floor", rough.limit * kRankine / 1e3, kRankine / 1e3, 0.15, "kN");
   page.report("displacement of the wall, from", kFrom, "H");
   page.report("displacement of the wall, to", kTo, "H");
 
-  // A wall that draws back is followed by the bed until that yields the other way, at 1/9 of the force.
+  // The bed follows a wall that retreats until it yields in the opposite sense, at 1/9 of the force.
   const Push back =
       push({"rigid_bodies.wall.motion.velocity=['-0.003 * max(0, min(1, (t - 0.4) / 0.1))', 0]"}, kBackFrom, kBackTo);
   page.near("force on a wall that draws back by 0.3 to 0.45 % of H", back.limit * kRankine / 1e3,
             kRankine / kPassive / kPassive / 1e3, 0.15, "kN");
-  // Slow enough: what pushes on one side is held on the other. 1 %: the sand itself, 4 t at up to 3 cm/s, carries 0.1 t
-  // m/s of the 35 t m/s that pass through it.
+  // The motion is slow, so the opposite wall carries the same force. 1 %: the sand itself, 4 t at up to 3 cm/s, carries
+  // 0.1 t m/s of the 35 t m/s that pass through it.
   const double held = -impulse_x(smooth.simulation, "wall/x_max");
   page.near("impulse on the far wall over the wall's", held / impulse_x(smooth.simulation, "contact/wall"), 1.0, 0.01,
             "-");
@@ -106,7 +106,7 @@ TEST(PassiveWall, ForceIsRankines) {
     heave += z[i] - smooth.start[i];
     ++surface;
   }
-  // The same weight on a bed that is shorter by the displacement and higher by the heave.
+  // The bed has the same weight, but is shorter by the displacement and higher by the heave.
   const double end = smooth.displacement.back();
   const double heaved = (1.0 + heave / surface / kDepth) / (1.0 - end * kDepth / 2.5);
   page.report("displacement at the end", end, "H");

@@ -1,5 +1,6 @@
-// Contact with rigid bodies at points of the material's surface: force where the surface lies between nodes, and the
-// laws at a point. Blocks and plates whose figures follow from equilibrium; source: statics, Coulomb's law.
+// Contact with rigid bodies at points of the material's surface: the force when the surface lies between nodes, and the
+// laws at a point. For these blocks and plates the exact values follow from equilibrium; source: statics, Coulomb's
+// law.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -18,15 +19,15 @@ struct Curve {
   Numbers depth, ratio;  ///< [cells]; force over the exact one
 };
 
-// The plate's force is the mean of a look, long enough for the waves of the plate's start to cancel out.
+// The plate's force is a mean over kLook, long enough for the waves of the plate's start to cancel out.
 Curve press(const std::string& method, const std::string& shape) {
-  constexpr double kYoung = 1e6, kSpeed = 0.1, kCell = 0.1, kLook = 0.2;  // of pressed_column
+  constexpr double kYoung = 1e6, kSpeed = 0.1, kCell = 0.1, kLook = 0.2;  // numbers of the scene pressed_column
   mpm::Simulation simulation = start("pressed_column", {"contact.method=" + method, "method.shape=" + shape}, kThreads);
   Curve curve;
   for (int i = 1; i <= 10; ++i) {
     run_until(simulation, i * kLook);
     const double depth = kSpeed * (i - 0.5) * kLook;
-    // The law's stress is E times the logarithm of the stretch, and no area changes.
+    // The stress is E times the logarithm of the stretch, and the area is constant.
     const double exact = -kYoung * std::log(1.0 - depth);
     curve.depth.push_back(depth / kCell);
     curve.ratio.push_back(simulation.take_contact(0).mean.force.z() / exact);
@@ -47,11 +48,11 @@ TEST(PointContact, ForceBetweenNodesIsExact) {
     panel.line(shape + ", at points", points.depth, points.ratio);
     if (shape == "ugimp") panel.line("ugimp, at nodes", nodes.depth, nodes.ratio);
     double worst = 0.0;
-    // The first look has the plate's start in it: a wave that comes back after 0.06 s.
+    // The first mean contains the plate's start, a wave that returns after 0.06 s.
     for (std::size_t i = 1; i < points.ratio.size(); ++i) worst = std::max(worst, std::abs(points.ratio[i] - 1.0));
-    // The domains of cpdi and ugimp_stretch stay in touch as the column is pressed. The boxes of uGIMP come to overlap
-    // by a fifth, and their density on the grid is off by what that makes at its ends. Splines do not know where the
-    // material ends.
+    // The domains of cpdi and ugimp_stretch fit together while the column is compressed. The boxes of uGIMP overlap by
+    // up to a fifth, which makes the density on the grid wrong at the ends of the column. Splines do not resolve the
+    // material's boundary.
     const bool fits = shape == "cpdi" || shape == "ugimp_stretch";
     if (fits) {
       page.below(shape + ": largest error of the force, at points", 100.0 * worst, 0.5, "%");
@@ -79,7 +80,7 @@ TEST(PointContact, AdhesionHoldsUpToItsStrength) {
             kThreads);
   double most = 0.0;
   bool parted = false;
-  int apart = 0;  // looks since; after half a swing the block is back
+  int apart = 0;  // samples since separation; after half a period the block is back
   while (seconds(simulation) < 0.6 - 1e-12) {
     simulation.advance();
     const mpm::ContactReport report = simulation.take_contact(0);
@@ -94,21 +95,21 @@ TEST(PointContact, AdhesionHoldsUpToItsStrength) {
           "A block hangs from a fixed wall and sticks to a plate that is drawn away from it; the contact bears 2 kPa.")
       .exact("It parts when the tension in the contact comes to its strength.", "statics")
       .scene("block_on_plate");
-  // In a look of 5 ms the plate draws the tension up by 0.02 mm of the block's length, 4 % of the strength.
+  // Between samples, 5 ms apart, the plate moves by 0.02 mm, which raises the tension by 4 % of the strength.
   page.near("tension when the surfaces part", most, kStrength * kWidth, 0.04, "N/m");
   page.meaning("The strength is a stress: the part of the surface that a point stands for bears it.");
   EXPECT_TRUE(parted);
 }
 
 TEST(PointContact, FrictionAtRestIsThatOfTheLaw) {
-  constexpr double kGravity = 10.0, kRate = 10.0;  // of the pull [m/s^3]
+  constexpr double kGravity = 10.0, kRate = 10.0;  // gravity [m/s^2]; growth of the pull [m/s^3]
   Page page("contact", "static_friction", "A block that is pulled harder and harder");
   page.problem(
           "A block on a plate is pulled along it by an acceleration of 10 t m/s^2; friction 0.6 at rest, 0.3 "
           "sliding, and 0.4 either way.")
       .exact("It starts when the pull comes to mu_s g, and then gains 10 t - mu g.", "Coulomb's law")
       .scene("block_on_plate");
-  // It is long and flat: the pull acts above the surface and shifts the pressure along it, by 6 h mu / (2 L) of itself.
+  // The block is long and flat, since the pull acts above the surface and redistributes the pressure by 6 h mu / (2 L).
   constexpr double kHeight = 0.05, kLength = 1.6;
   for (const double at_rest : {0.6, 0.4}) {
     const double sliding = at_rest > 0.5 ? 0.3 : 0.4;
@@ -129,7 +130,7 @@ TEST(PointContact, FrictionAtRestIsThatOfTheLaw) {
     while (started == 0.0 && seconds(simulation) < 1.0) {
       simulation.advance();
       constexpr double kMoving = 5e-3;  // [m/s]; at rest the block sways by less
-      // By then it has slid under what is more than friction: v = 10 tau^2 / 2 + (mu_s - mu) g tau.
+      // By then it has slid for a time tau under the excess over friction: v = 10 tau^2 / 2 + (mu_s - mu) g tau.
       const double excess = (at_rest - sliding) * kGravity / kRate;
       const double slid = std::sqrt(excess * excess + 2.0 * kMoving / kRate) - excess;
       if (speed() > kMoving) started = seconds(simulation) - slid;

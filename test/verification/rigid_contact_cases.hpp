@@ -1,8 +1,8 @@
-// What the verification of contact with rigid bodies shares: planar scenes with a surface at any angle to the grid, and
-// what is measured in them. Lengths are in metres, forces in N on 1 m of thickness.
+// Helpers for the verification of contact with rigid bodies: planar scenes with a surface at any angle to the grid, and
+// measurements in them. Lengths are in metres, forces in N on 1 m of thickness.
 //
-// Each case runs with both ways to find contact. What is asked is asserted of contact at points; of contact at nodes,
-// which does not know the gap, what it reaches.
+// Each case runs with both methods of contact. Contact at points must meet what is asked; contact at nodes, which does
+// not resolve the gap, is checked for the accuracy that it reaches.
 #pragma once
 
 #include <fmt/core.h>
@@ -24,23 +24,23 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr double kGravity = 9.81;  // [m/s^2]
 
-/// How contact is found.
+/// A method of contact with rigid bodies.
 struct ContactMethod {
   std::string name;
   std::function<void(mpm::SimulationDefinition&)> choose;
-  bool at_nodes = true;  ///< felt up to a cell early: limits that this rules out are wider
+  bool at_nodes = true;  ///< contact is felt up to a cell early, so some limits are wider
 };
 inline std::vector<ContactMethod> contact_methods() {
   return {{"points", [](mpm::SimulationDefinition& d) { d.contact.method = mpm::ContactMethod::points; }, false},
           {"nodes", [](mpm::SimulationDefinition& d) { d.contact.method = mpm::ContactMethod::nodes; }, true}};
 }
 
-/// A row of the page, printed as well.
+/// Prints a row of the page.
 inline void say(const std::string& quantity, double reached, double exact, const std::string& unit) {
   fmt::print("{:<64} {:>11.5g}   exact {:>9.4g} {}\n", quantity, reached, exact, unit);
 }
 
-/// A surface at `angle` to the grid's x axis: down the slope is +x, turned clockwise.
+/// A surface that is turned clockwise by `angle` against the grid's x axis; its +x points down the slope.
 struct Slope {
   double angle = 0.0;  ///< [rad]
   mpm::Vec3 along() const { return {std::cos(angle), 0.0, -std::sin(angle)}; }
@@ -65,14 +65,14 @@ inline mpm::SimulationDefinition rubber_scene(const ContactMethod& method, doubl
   return d;
 }
 
-/// The domain: `low` to `high` in whole cells, so that the first node lies at low.
+/// Sets the domain from `low` to about `high` in whole cells, with the first node at `low`.
 inline void set_domain(mpm::SimulationDefinition& d, const mpm::Vec3& low, const mpm::Vec3& high) {
   const double cell = d.grid.cell.x();
   d.grid.min = low;
   d.grid.max = low + cell * ((high - low) / cell).array().ceil().matrix();
 }
 
-/// A body of the particles at `places`, each `area` large in the plane, moving at `velocity`.
+/// Adds a body with particles at `places`, each of the area `area` in the plane, that moves at `velocity`.
 inline void add_particles(mpm::SimulationDefinition& d, const std::string& name, std::vector<mpm::Vec3> places,
                           double area, const mpm::Vec3& velocity = mpm::Vec3::Zero()) {
   mpm::DeformableBody body;
@@ -84,7 +84,7 @@ inline void add_particles(mpm::SimulationDefinition& d, const std::string& name,
   d.bodies.push_back(std::move(body));
 }
 
-/// Places of a lattice over the rectangle from (0, 0) to (length, height) of the slope.
+/// Points of a lattice along the slope, over its rectangle from (0, 0) to (length, height).
 inline std::vector<mpm::Vec3> turned_lattice(const Slope& slope, double length, double height, double spacing) {
   std::vector<mpm::Vec3> places;
   for (double s = 0.5 * spacing; s < length; s += spacing) {
@@ -93,7 +93,7 @@ inline std::vector<mpm::Vec3> turned_lattice(const Slope& slope, double length, 
   return places;
 }
 
-/// The same rectangle cut out of a lattice along the grid's axes: its lower side is a staircase of particles.
+/// Points of a lattice along the grid's axes within the same rectangle, whose lower side is a staircase of particles.
 inline std::vector<mpm::Vec3> cut_lattice(const Slope& slope, double length, double height, double spacing) {
   std::vector<mpm::Vec3> places;
   const int reach = static_cast<int>((length + height) / spacing) + 2;
@@ -107,7 +107,7 @@ inline std::vector<mpm::Vec3> cut_lattice(const Slope& slope, double length, dou
   return places;
 }
 
-/// A thick plate whose upper side is the slope, through the origin.
+/// A thick plate whose upper side is the slope through the origin.
 inline mpm::RigidBodyDefinition plate(const Slope& slope, double friction, double length = 8.0, double depth = 0.5) {
   mpm::RigidBodyDefinition body;
   body.name = "plate";
@@ -122,12 +122,12 @@ inline double mean_of(const mpm::Simulation& simulation, const std::string& name
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Mean of a vector field ("v" of vx and vz) along a direction of the plane; of places x and z with an empty name.
+/// Mean component of a vector field along a direction of the plane: "v" means vx and vz, an empty name the position.
 inline double mean_along(const mpm::Simulation& simulation, const std::string& name, const mpm::Vec3& direction) {
   return mean_of(simulation, name + "x") * direction.x() + mean_of(simulation, name + "z") * direction.z();
 }
 
-/// Rate of turning of a body of equal particles, about y: its angular momentum over its moment of inertia [rad/s].
+/// Angular velocity about y of a body of equal particles: its angular momentum over its moment of inertia [rad/s].
 inline double spin(const mpm::Simulation& simulation) {
   const std::vector<double> x = field(simulation, "x"), z = field(simulation, "z"), vx = field(simulation, "vx"),
                             vz = field(simulation, "vz");
@@ -143,7 +143,7 @@ inline double spin(const mpm::Simulation& simulation) {
   return momentum / inertia;
 }
 
-/// Slope of the straight line with the least squares through (x, y).
+/// Slope of the straight line that fits (x, y) by least squares.
 inline double line_slope(const std::vector<double>& x, const std::vector<double>& y) {
   const double n = static_cast<double>(x.size());
   const double mx = std::accumulate(x.begin(), x.end(), 0.0) / n, my = std::accumulate(y.begin(), y.end(), 0.0) / n;

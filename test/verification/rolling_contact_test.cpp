@@ -1,5 +1,5 @@
-// Bodies that friction turns, or must not turn: a disk that rolls down an incline, a box at rest on its side and on its
-// edge, and a belt round a drum.
+// Friction and rotation: a disk that rolls down an incline, a box at rest on its side and on its edge, and a belt round
+// a drum.
 #include <algorithm>
 
 #include "rigid_contact_cases.hpp"
@@ -16,7 +16,7 @@ struct Rolling {
 Rolling roll(const ContactMethod& method, const Slope& slope, double steepness, double radius, double cell) {
   mpm::SimulationDefinition d = rubber_scene(method, cell, 1e6, 2e-3);
   const double spacing = 0.5 * cell;
-  // In rings, for what rolls on a lattice is a staircase. All particles are of one size.
+  // Particles lie on rings, since the rim of a disk cut from a lattice is a staircase. All have the same size.
   std::vector<mpm::Vec3> places;
   const int rings = static_cast<int>(std::lround(radius / spacing));
   for (int ring = 0; ring < rings; ++ring) {
@@ -60,8 +60,8 @@ TEST(RigidContact, DiskRollsWithoutSlip) {
       const Rolling found =
           roll(method, {degrees * kPi / 180.0}, steepness, radius, radius / (method.at_nodes ? 8.0 : 14.0));
       const std::string name = fmt::format("{}, {:g} degrees", method.name, degrees);
-      // 3 % is what is asked for. At nodes material before the disk's lowest point is met a cell early and brakes it:
-      // 28 % slower was found along the grid, 63 % at 30 degrees. It rolls none the less.
+      // Asked: 3 %. With contact at nodes material ahead of the lowest point meets the plane a cell early and brakes
+      // the disk: it is 28 % slower along the grid and 63 % at 30 degrees, but it rolls.
       if (method.at_nodes) {
         page.beside("acceleration, " + name, found.acceleration, exact, "m/s²");
         EXPECT_GT(found.acceleration, 0.0);
@@ -76,7 +76,7 @@ TEST(RigidContact, DiskRollsWithoutSlip) {
   }
 }
 
-/// Spin of a box of 0.1 m that starts at rest on its lower side, or on its edge, after `time`, over sqrt(g / side).
+/// Spin, over sqrt(g / side), after `time` [s] of a box of 0.1 m that starts at rest on its lower side or on its edge.
 double spin_from_rest(const ContactMethod& method, const Slope& slope, bool on_edge, double time) {
   const double cell = 0.0125, side = 0.1, spacing = 0.5 * cell;
   mpm::SimulationDefinition d = rubber_scene(method, cell, 1e6, 2e-3);
@@ -114,10 +114,10 @@ TEST(RigidContact, BoxAtRestDoesNotBeginToTurn) {
       const Slope slope{degrees * kPi / 180.0};
       const double side = spin_from_rest(method, slope, false, 0.5), edge = spin_from_rest(method, slope, true, 0.1);
       const std::string name = fmt::format("{}, {:g} degrees", method.name, degrees);
-      // A thousandth: a turn of 0.6 degrees in a second. On the edge a tenth of a cell beside the middle, what rounding
-      // of the surface to cells would be, falls to 0.02 in this time.
+      // A spin of 1e-3 is a turn of 0.6 degrees in a second. A box on its edge that is supported a tenth of a cell
+      // beside its middle, as by a surface rounded to cells, reaches 0.02 in this time.
       page.near_absolute("on its side, " + name, side, 0.0, 1e-3, "");
-      // At nodes the surface is known to a cell: 0.14 was found.
+      // Contact at nodes resolves the surface to a cell: 0.14 was measured.
       page.near_absolute("on its edge, " + name, edge, 0.0, method.at_nodes ? 0.2 : 0.02, "");
       say("on its side, " + name, side, 0.0, "");
       say("on its edge, " + name, edge, 0.0, "");
@@ -131,11 +131,11 @@ struct Belt {
 };
 
 struct BeltForces {
-  double ratio = 0.0;    ///< of the tensions where the strip leaves the drum
-  double slipped = 0.0;  ///< way of the strip's ends [cells]
+  double ratio = 0.0;    ///< ratio of the tensions where the strip leaves the drum
+  double slipped = 0.0;  ///< slip of the strip's ends [cells]
 };
 
-/// The larger force grows until the whole strip has slipped by a tenth of a cell.
+/// Increases the larger force until the whole strip has slipped by a tenth of a cell.
 BeltForces pull_belt(const ContactMethod& method, const Belt& belt, double friction) {
   mpm::SimulationDefinition d = rubber_scene(method, belt.cell, 1e6, 2e-3);
   d.method.damping.pic = mpm::Function(0.05);
@@ -158,8 +158,8 @@ BeltForces pull_belt(const ContactMethod& method, const Belt& belt, double frict
     }
   }
   add_particles(d, "belt", places, spacing * spacing);
-  // [N], 0.2 % of strain; [N/s], and [N] where it slows down: what is above the limit accelerates the belt, and when
-  // that has moved a tenth of a cell it is 2 N.
+  // Pull [N], which strains the belt by 0.2 %; its rate at first and from `near` [N] on [N/s]. The excess over the
+  // limit accelerates the belt; it is 2 N when the belt has moved by a tenth of a cell.
   const double pull = 40.0, ramp = 150.0, slowly = 8.0, near = 85.0;
   const auto hang = [&](const std::vector<std::uint32_t>& particles, const std::string& force) {
     mpm::ParticleForceDefinition end;
@@ -193,7 +193,7 @@ BeltForces pull_belt(const ContactMethod& method, const Belt& belt, double frict
     simulation.take_contact(0);
     for (int i = 0; i < 5; ++i) simulation.advance();
     const mpm::ContactReport report = simulation.take_contact(0);
-    // Force and moment of the strip's arc on the drum are those of the two tensions, at the middle of the strip.
+    // Force and moment of the strip on the drum equal those of the two tensions at the middle of its thickness.
     const double sum = -report.mean.force.z(), difference = report.mean.torque.y() / middle;
     result.ratio = (sum + difference) / (sum - difference);
     result.slipped = (height(slack) - before) / belt.cell;
@@ -205,7 +205,7 @@ TEST(RigidContact, BeltRoundADrum) {
   Page page("contact", "rigid_belt", "A belt round a drum");
   const Belt belt;
   const double friction = 0.3, thin = std::exp(friction * kPi);
-  // Friction acts at the drum, tension at the middle of the strip: (R + t/2) dT = mu R T dphi.
+  // Friction acts at the drum, tension at the middle of the thickness: (R + t/2) dT = mu R T dphi.
   const double exact = std::exp(friction * kPi * belt.radius / (belt.radius + 0.5 * belt.thickness));
   page.problem(
           "A strip 0.02 m thick (2 cells, E = 1 MPa) lies over half a drum of 0.2 m radius, friction 0.3. Its ends are "

@@ -1,9 +1,9 @@
-// A block on a rigid plane that lies at 0, 10, 30 and 45 degrees to the grid, its particles in rows along the plane or
-// on a lattice of the grid that the plane cuts: acceleration, the ratio of the forces, when it begins to slide, and how
-// even the force is. Gravity turns with the plane, so that the exact solution is the same at each angle.
+// A block on a rigid plane at 0, 10, 30 and 45 degrees to the grid, with particles in rows along the plane or on a
+// lattice of the grid that the plane cuts: its acceleration, the ratio of the forces, the onset of sliding, and the
+// ripple of the force. Gravity turns with the plane, so that the exact solution is the same at each angle.
 //
-// The motion is that of a rigid block; the block is elastic, and its waves are taken out by a part of PIC, which does
-// not slow a body that moves as a whole.
+// The exact motion is that of a rigid block. The block is elastic; a part of PIC damps its waves, but not its
+// translation.
 // Source: exact-solutions 14.
 #include <algorithm>
 
@@ -17,11 +17,11 @@ constexpr double kCell = 0.025, kLength = 0.2, kHeight = 0.1, kYoung = 1e6, kSte
 
 enum class Lattice { turned, cut };
 
-/// A block at rest on the plate, or moving down it at `speed`. Its corner lies off the nodes, as any block's does.
+/// A block that is at rest on the plate or moves down it at `speed` [m/s]. Its corner does not lie on a node.
 mpm::SimulationDefinition block_on_slope(const ContactMethod& method, const Slope& slope, Lattice lattice,
                                          double friction, double speed, double way) {
   mpm::SimulationDefinition d = rubber_scene(method, kCell, kYoung, 1e-3);
-  d.method.damping.pic = mpm::Function::parse("0.02 + 0.3 * (t < 0.15)");  // its weight comes upon it at once
+  d.method.damping.pic = mpm::Function::parse("0.02 + 0.3 * (t < 0.15)");  // gravity starts suddenly
   const double spacing = 0.5 * kCell;
   const auto places = lattice == Lattice::turned ? turned_lattice(slope, kLength, kHeight, spacing)
                                                  : cut_lattice(slope, kLength, kHeight, spacing);
@@ -85,7 +85,7 @@ TEST(RigidContact, BlockSlidesDownAtAnyAngleToTheGrid) {
     mpm::SimulationDefinition d = block_on_slope(method, slope, lattice, friction, 0.5, 0.45);
     d.gravity = slope.gravity(kSteepness);
     const Slide found = slide(d, slope);
-    // 2 % is what is asked for.
+    // Asked: 2 %.
     page.near("acceleration, " + name, found.acceleration, exact, 0.02, "m/s²");
     page.near("friction over pressing force, " + name, found.friction, friction, 0.02, "");
     say("acceleration, " + name, found.acceleration, exact, "m/s2");
@@ -112,7 +112,7 @@ TEST(RigidContact, BlockBeginsToSlideWhenItShould) {
     }
     d.body_forces = {pull};
     mpm::Simulation simulation(d, {kThreads});
-    // It is looked at while it slides at 0.05 to 0.2 m/s: fast enough to be told from creep, after two cells at most.
+    // Sampled while it slides at 0.05 to 0.2 m/s: fast enough to distinguish from creep, within the first two cells.
     Numbers begun;
     run_until(simulation, start);
     const double before = mean_along(simulation, "", slope.along());
@@ -126,7 +126,7 @@ TEST(RigidContact, BlockBeginsToSlideWhenItShould) {
     }
     const double threshold =
         ramp * (std::accumulate(begun.begin(), begun.end(), 0.0) / static_cast<double>(begun.size()) - start);
-    // 2 % is what is asked for. At nodes one case, 10 degrees cut, begins 2.1 % early.
+    // Asked: 2 %. With contact at nodes one case, the cut lattice at 10 degrees, begins 2.1 % early.
     page.near("acceleration at which it begins, " + name, threshold, exact, method.at_nodes ? 0.025 : 0.02, "m/s²");
     page.report("way before it moves at 1 cm/s, " + name, crept / kCell, "cells");
     say("acceleration at which it begins, " + name, threshold, exact, "m/s2");
@@ -135,7 +135,7 @@ TEST(RigidContact, BlockBeginsToSlideWhenItShould) {
   page.meaning("What is held is held to the limit of friction, and not beyond.");
 }
 
-/// Deviations of a force from its mean, over means of windows as long as a cell's travel and over the samples.
+/// Relative deviations of a force from its mean: of means over windows of one cell's travel, and of single samples.
 struct Ripple {
   double windows = 0.0, deviation = 0.0, lowest = 0.0, highest = 0.0;  ///< over the mean
 };
@@ -170,10 +170,10 @@ TEST(RigidContact, ForceOfSteadySlidingIsEven) {
           "incline that keeps its speed, with a part of PIC of 0.3 and of 0.02. Force on the plane each millisecond, "
           "that is each fiftieth of a cell, after 4 cells.")
       .exact("weight times cos, and 0.3 of it along the plane, at every moment", "Coulomb's law");
-  // 2 % is what is asked for, over windows of one cell's travel. Without friction all keep to it, by far. With friction
-  // the block swings by itself, up and down in its lowest mode, and the limits are a little above what is found. That
-  // elastic bodies do so on Coulomb's law is known (Martins, Oden and Simoes 1990); how much of it is the method's is
-  // not: at the same damping contact at points swings more than contact at nodes.
+  // Asked: 2 %, over windows of one cell's travel. Without friction all cases are far below. With friction the block
+  // vibrates up and down in its lowest mode without an external cause, and the limits are slightly above the measured
+  // values. Elastic bodies are known to do so with Coulomb's law (Martins, Oden and Simoes 1990). The share of the
+  // method is unknown: at the same damping the block vibrates more with contact at points than at nodes.
   struct Gliding {
     double friction, pic, limit;
   };

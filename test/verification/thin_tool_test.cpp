@@ -1,8 +1,8 @@
-// Tools thinner than the reach of the shape functions: material on one side feels nothing of the other, and where the
+// Tools thinner than the reach of the shape functions: material on one side does not act on the other, and where the
 // tool is not between them the two sides are one body.
 //
-// Zero is exact here: what a field does not hold cannot reach it. That two glued fields are as one is true to
-// round-off: sums are grouped by fields, and a few hundred steps pass it on.
+// Zero is exact here, since material acts only on its own velocity field. Two glued fields equal one field to
+// round-off: their sums are grouped by fields, and the difference grows over a few hundred steps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,8 +29,8 @@ SimulationDefinition empty_scene(GeometryKind geometry) {
   return d;
 }
 
-/// A block of `size` cells with its lower corner at `corner`, two particles a cell along each axis; in axisymmetric
-/// scenes about the axis.
+/// A block of `size` cells with its lower corner at `corner` and two particles along each axis of a cell; about the
+/// axis in axisymmetric scenes.
 DeformableBody block(GeometryKind geometry, const std::string& name, const Vec3& corner,
                      const std::array<int, 3>& size) {
   DeformableBody body;
@@ -93,10 +93,10 @@ void each_method(GeometryKind geometry, Visit&& visit) {
   }
 }
 
-// ---- what is on the other side is not felt
+// ---- the two sides do not act on each other
 
-/// Two blocks lie on the two faces of a plate of one cell, which reaches beyond them all round. The upper one is a
-/// thousandth of a cell off: in touch, but for round-off that contact at points would take for an overlap.
+/// Two blocks on the two faces of a plate that is one cell thick and extends beyond them on all sides. The upper block
+/// is a thousandth of a cell away, because contact at points would take round-off for an overlap.
 SimulationDefinition sandwich(GeometryKind geometry, Sides sides) {
   SimulationDefinition d = empty_scene(geometry);
   const bool axial = geometry == GeometryKind::axisymmetric;
@@ -121,14 +121,14 @@ TEST(ThinTool, WhatIsPressedAgainstOneFaceIsNotFeltAtTheOther) {
         Simulation run(d, {1});
         for (int n = 0; n < 3; ++n) run.advance();
         const std::string all = name + name_of(contact);
-        EXPECT_GT(largest(run, "szz", "below"), 100.0) << all;  // it was pressed: rho c v is 11 kPa
+        EXPECT_GT(largest(run, "szz", "below"), 100.0) << all;  // it is compressed: rho c v is 11 kPa
         EXPECT_EQ(largest(run, "szz", "above"), 0.0) << all;
         EXPECT_EQ(largest(run, "vz", "above"), 0.0) << all;
         EXPECT_LT(run.state().audit.residual, 1e-10) << all;
       }
     });
   }
-  // With one field it is felt: the test sees what it is for.
+  // With one field the blocks do act on each other, so the test can fail.
   SimulationDefinition d = sandwich(GeometryKind::plane_strain, Sides::one);
   d.contact.method = ContactMethod::nodes;
   move(d.bodies[0], {0.0, 0.0, 1.0});
@@ -153,7 +153,7 @@ TEST(ThinTool, PulledAwayItDrawsNothingAlong) {
       EXPECT_GT(largest(run, "vz", "below"), 0.9) << name;
       const SolverState state = run.state();
       EXPECT_LT(state.audit.residual, 1e-10) << name;
-      // All momentum that there is was given by the plate.
+      // All momentum comes from the plate.
       const Vec3 given = -run.take_contact(0).impulse;
       EXPECT_NEAR(state.audit.momentum.z(), given.z(), 1e-10 * std::abs(given.z())) << name;
       EXPECT_LT(given.z(), 0.0) << name;
@@ -161,7 +161,7 @@ TEST(ThinTool, PulledAwayItDrawsNothingAlong) {
   }
 }
 
-// Two bodies with a field each and a contact law between them: what is on two sides of a tool is not in contact.
+// Two bodies with a field each and a contact law between them are not in contact through a tool.
 TEST(ThinTool, BodiesOnItsTwoSidesAreNotInContact) {
   for (const ContactMethod contact : kContacts) {
     SimulationDefinition d = sandwich(GeometryKind::plane_strain, Sides::automatic);
@@ -171,7 +171,7 @@ TEST(ThinTool, BodiesOnItsTwoSidesAreNotInContact) {
     pair.first = "below";
     pair.second = "above";
     d.contact.pairs = {pair};
-    d.contact.detection.kind = Detection::approach;  // does not look at gaps: without sides 0.5 m/s
+    d.contact.detection.kind = Detection::approach;  // ignores gaps: 0.5 m/s without sides
     move(d.bodies[0], {0.0, 0.0, 1.0});
     Simulation run(d, {1});
     for (int n = 0; n < 3; ++n) run.advance();
@@ -203,7 +203,7 @@ TEST(ThinTool, ItIsSaidWhatWasChosen) {
 
 // ---- where the tool is not between them, the sides are one body
 
-/// A block flies past the edge of a short plate that points at it and touches nothing, shaken by random velocities.
+/// A block with random velocities that flies past the edge of a short plate, which points at it and touches nothing.
 SimulationDefinition past_an_edge(GeometryKind geometry, Sides sides) {
   SimulationDefinition d = empty_scene(geometry);
   const bool axial = geometry == GeometryKind::axisymmetric;
@@ -266,8 +266,8 @@ SimulationDefinition cut(GeometryKind geometry, double thickness) {
   return d;
 }
 
-// No particle passes through: none comes past the middle of the blade, and none that began more than a cell from its
-// plane is found on the other side of it later.
+// No particle passes through the blade: none crosses its middle, and none that began more than a cell from its plane is
+// on the other side later.
 TEST(ThinTool, ABladeCutsWithoutLosingMomentumOrParticles) {
   for (const GeometryKind geometry : kGeometries) {
     for (int i = 0; i < 4; ++i) {
@@ -283,7 +283,7 @@ TEST(ThinTool, ABladeCutsWithoutLosingMomentumOrParticles) {
       const std::vector<double> start = field(run, "x");
       for (int n = 0; n < 50; ++n) run.advance();
       EXPECT_LT(run.state().audit.residual, 1e-10) << name;
-      EXPECT_GT(run.take_contact(0).impulse.z(), 0.0) << name;  // it was held up
+      EXPECT_GT(run.take_contact(0).impulse.z(), 0.0) << name;  // it is slowed down
       const RigidBody& blade = run.rigid_body(0);
       const std::vector<double> x = field(run, "x"), y = field(run, "y"), z = field(run, "z");
       double deepest = 0.0;

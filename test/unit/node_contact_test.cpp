@@ -64,13 +64,22 @@ TEST(PairNormal, LeansToTheRigidSide) {
   EXPECT_EQ(normal(NormalMethod::larger_gradient, 4.1), Vec3(0, 0, -1));
 }
 
-TEST(PairNormal, PlanesOfSymmetryTakeTheirComponentAndDoubleTheVolume) {
+// Nairn & Guilkey (2015) section 3.3. Two mirrors show three images; along them alone round-off is no direction.
+TEST(PairNormal, MirrorsTakeTheirComponentAndDoubleTheVolume) {
+  const GridLayout space(3, Vec3::Constant(0.1), Vec3::Zero(), Vec3::Ones());
   NodeMaterial a = material(1, Vec3::Zero(), 1.5, {3, 2, 1});
   a.start_volume = 1.5;
-  mirror(a, {true, false, false});
+  mirror(a, space, {true, false, false});
   EXPECT_EQ(a.gradient, Vec3(0, 2, 1));
   EXPECT_EQ(a.start_volume, 3.0);
   EXPECT_EQ(a.volume, 1.5);
+  mirror(a, space, {true, true, false});
+  EXPECT_EQ(a.gradient, Vec3(0, 0, 1));
+  EXPECT_EQ(a.start_volume, 12.0);
+  const GridLayout plane(2, Vec3::Constant(0.1), Vec3::Zero(), Vec3::Ones());  // the grid's second axis is z
+  NodeMaterial b = material(1, Vec3::Zero(), 1.0, {1e-16, 0, 2});
+  mirror(b, plane, {false, true, false});
+  EXPECT_EQ(b.gradient, Vec3::Zero());
 }
 
 // Two half spaces of particles, two along a cell's edge, that touch at distance d from a node: method reference 8.2

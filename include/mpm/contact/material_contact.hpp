@@ -127,9 +127,7 @@ class MaterialContact final : public Stage {
   /// Fields that share one velocity become one group. Returns the number of groups.
   int group(Member* members, int count) const;
   NodeMaterial material_at(const Member& member, const Vec3& position) const;
-  void add_pairs(Node& node, const std::array<bool, 3>& planes, double dt, BlockNodes& found) const;
-  /// World axes that a symmetry plane or wall through the node is normal to.
-  std::array<bool, 3> symmetry(const std::array<int, 3>& node) const;
+  void add_pairs(Node& node, const std::array<bool, 3>& mirrored, double dt, BlockNodes& found) const;
   /// Length that a section's contact at this place stands for: 1 but about an axis.
   double around(const Vec3& position) const;
   PairHold held(std::uint64_t node, int fields) const;

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "mpm/grid/grid_layout.hpp"
 #include "mpm/math/geometry.hpp"
 
 namespace mpm {
@@ -13,7 +14,7 @@ struct NodeMaterial {
   double mass = 0.0;                 ///< m_i [kg]
   Vec3 velocity = Vec3::Zero();      ///< [m/s]
   double volume = 0.0;               ///< sum of V_p S, as deformed [m^3]; about an axis areas of sections [m^2]
-  double start_volume = 0.0;         ///< the same, undeformed, on both sides of planes of symmetry; where asked for
+  double start_volume = 0.0;         ///< the same, undeformed, with its mirror images; where asked for
   Vec3 gradient = Vec3::Zero();      ///< sum of V_p G: out of the material [m^2]; about an axis of areas [m]
   Vec3 place = Vec3::Zero();         ///< sum of m x S over m; or of displacements, as the detection asks for [m]
   Vec3 displacement = Vec3::Zero();  ///< since the start, of the material at the node itself; where asked for [m]
@@ -42,15 +43,18 @@ inline NodeMaterial lumped(const NodeMaterial& a, const NodeMaterial& b) {
   return sum;
 }
 
-/// At a node on planes of symmetry (world axes that they are normal to; the axis of revolution is one): the gradient
-/// has no part across, and half of the undeformed volume, which minimum volumes are held against, lies beyond. Nairn &
-/// Guilkey (2015) section 3.3.
-inline void mirror(NodeMaterial& material, const std::array<bool, 3>& planes) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!planes[axis]) continue;
-    material.gradient[axis] = 0.0;
+/// Adds the mirror images of the material at a node on mirrors (Grid::mirrored): the gradient keeps no component across
+/// them, and the undeformed volume, which minimum volumes are compared with, doubles with each. A gradient of which no
+/// more than round-off is left becomes zero, for its direction would be arbitrary. Nairn & Guilkey (2015) section 3.3.
+inline void mirror(NodeMaterial& material, const GridLayout& layout, const std::array<bool, 3>& across) {
+  constexpr double kRoundOff = 1e-9;
+  const double before = material.gradient.norm();
+  for (int k = 0; k < layout.dim(); ++k) {
+    if (!across[k]) continue;
+    material.gradient[layout.axis(k)] = 0.0;
     material.start_volume *= 2.0;
   }
+  if (material.gradient.norm() <= kRoundOff * before) material.gradient.setZero();
 }
 
 }  // namespace mpm

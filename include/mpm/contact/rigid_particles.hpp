@@ -2,26 +2,31 @@
 // have at nodes of the grid, as the sources' rigid materials do. They carry no momentum.
 //
 // The lattice lies in the body's own frame, so a body that turns keeps its particles; their boxes stay along the grid's
-// axes. Particles deeper than three cells below the surface are left out: no node that material reaches would see
-// them. Weak: the surface is a staircase of particles, and a tool thinner than one holds none. Source: manual, rigid
-// materials with SetDirection 8; method reference 8.1, 2.1 (uGIMP without branches).
+// axes, and are cut off at mirrors (Grid::mirrored) as the material ends there. Their functions are uGIMP's; about the
+// axis of revolution those with the weight r, as the material's are. Particles deeper than three cells below the
+// surface are left out: no node that material reaches would see them. Weak: the surface is a staircase of particles,
+// and a tool thinner than one holds none. Source: manual, rigid materials with SetDirection 8; method
+// reference 8.1, 2.1; Nairn & Guilkey (2015) eq. (55) and section 3.3.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mpm/grid/grid_layout.hpp"
 #include "mpm/grid/nodal_fields.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/shape/radial_box.hpp"
 
 namespace mpm {
 
 class RigidParticles {
  public:
   /// `per_cell`: particles along a cell's edge; `across`: thickness or area beside the grid's axes, 1 of a solid.
-  /// `body` and `layout` outlive this. @throws RigidError for a body without end, or one that holds no particle.
-  RigidParticles(const RigidBody& body, const GridLayout& layout, GeometryKind geometry, int per_cell, double across);
+  /// `body` and `grid`, of which the layout and the mirrors are used, outlive this. @throws RigidError for a body
+  /// without end, or one that holds no particle.
+  RigidParticles(const RigidBody& body, const Grid& grid, GeometryKind geometry, int per_cell, double across);
 
   /// Sums at the nodes of the blocks with these keys (ascending), as the body lies now.
   void gather(const std::vector<std::uint64_t>& keys);
@@ -37,9 +42,19 @@ class RigidParticles {
   int size() const { return static_cast<int>(local_.size()); }
 
  private:
-  void add(const Vec3& place, const Vec3& moved, const std::vector<std::uint64_t>& keys);
+  /// A box along one grid axis, cut off at mirrors.
+  struct Along {
+    int first;             ///< node that the functions begin at
+    double part;           ///< of the box that is left
+    double middle;         ///< of what is left [cells]
+    RadialBox<double> of;  ///< values, and gradients [1/m], at three nodes
+  };
+  /// Nothing where none of the box is left.
+  std::optional<Along> along(int k, double cells) const;
+  void add(const Vec3& particle, const Vec3& moved, const std::vector<std::uint64_t>& keys);
 
   const RigidBody& body_;
+  const Grid& grid_;
   const GridLayout& layout_;
   bool axisymmetric_;
   Pose start_;

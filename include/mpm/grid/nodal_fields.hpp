@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "mpm/grid/block_table.hpp"
-#include "mpm/grid/symmetry_planes.hpp"
 
 namespace mpm {
 
@@ -64,12 +63,23 @@ struct Grid {
   /// node with 1e-30 of its mass reaches it with 1e-15 of its force, the order of the last bit.
   bool carries(int block, int node) const { return mass.at(block, 0, node) > least_mass; }
 
+  /// The grid axes across which a node, given by its numbers, has material on one side only, because it lies on a
+  /// mirror or beyond it.
+  std::array<bool, 3> mirrored(const std::array<int, 3>& node) const {
+    std::array<bool, 3> across{};
+    for (int k = 0; k < layout.dim(); ++k) {
+      across[k] = (mirrors[2 * k] && node[k] <= 0) || (mirrors[2 * k + 1] && node[k] >= layout.last_node(k));
+    }
+    return across;
+  }
+
   GridLayout layout;
   BlockTable blocks;
   double least_mass = 0.0;  ///< [kg]
   int wall_layers = 1;      ///< layers of nodes beyond a wall that particles may reach, which the wall constrains too
   std::array<bool, 6> has_wall{};  ///< faces of the domain that are walls: 2 * axis, + 1 for the upper one
-  SymmetryPlanes symmetry;
+  /// Faces at which the domain ends in its own mirror image, numbered as in has_wall: walls, and r = 0.
+  std::array<bool, 6> mirrors{};
   int first_owner = 0;  ///< number of its first owner among the owners of all fields
   /// Per owner: whether some of its particles have moved beyond the block since they were sorted.
   std::vector<std::uint8_t> loose;

@@ -51,7 +51,7 @@ void MaterialContact::find_nodes(const SharedBlock& block, double dt, BlockNodes
       node.id = HeldNodes::id(block.key, n);
       node.groups = group(found.members.data() + node.first_member, node.members);
       node.first_pair = static_cast<int>(found.pairs.size());
-      add_pairs(node, symmetry(first.layout.node(place, n)), dt, found);
+      add_pairs(node, first.mirrored(first.layout.node(place, n)), dt, found);
       node.pairs = static_cast<int>(found.pairs.size()) - node.first_pair;
     }
     if (node.members > 1 && (node.pairs > 0 || node.groups < node.members)) {
@@ -115,7 +115,7 @@ NodeMaterial MaterialContact::material_at(const Member& member, const Vec3& posi
   return material;
 }
 
-void MaterialContact::add_pairs(Node& node, const std::array<bool, 3>& planes, double dt, BlockNodes& found) const {
+void MaterialContact::add_pairs(Node& node, const std::array<bool, 3>& mirrored, double dt, BlockNodes& found) const {
   const GridLayout& layout = fields_.front()->layout;
   const Member* members = found.members.data() + node.first_member;
   found.materials.resize(found.members.size());
@@ -129,7 +129,7 @@ void MaterialContact::add_pairs(Node& node, const std::array<bool, 3>& planes, d
   }
   double start_volume = 0.0;
   for (int g = 0; g < node.groups; ++g) {
-    mirror(materials[g], planes);
+    mirror(materials[g], layout, mirrored);
     start_volume += materials[g].start_volume;
   }
   const bool room = start_volume >= settings_.detection.minimum_volume * settings_.cell_volume;
@@ -166,18 +166,6 @@ void MaterialContact::add_pairs(Node& node, const std::array<bool, 3>& planes, d
       found.pairs.push_back(pair);
     }
   }
-}
-
-std::array<bool, 3> MaterialContact::symmetry(const std::array<int, 3>& node) const {
-  const Grid& grid = *fields_.front();
-  std::array<bool, 3> planes{};
-  for (int k = 0; k < grid.layout.dim(); ++k) {
-    const bool low = grid.has_wall[2 * k] && node[k] <= 0;
-    const bool high = grid.has_wall[2 * k + 1] && node[k] >= grid.layout.last_node(k);
-    planes[grid.layout.axis(k)] = low || high;
-  }
-  if (axisymmetric(settings_.geometry) && grid.layout.origin(0) == 0.0 && node[0] <= 0) planes[0] = true;
-  return planes;
 }
 
 double MaterialContact::around(const Vec3& position) const {

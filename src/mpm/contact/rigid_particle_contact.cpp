@@ -15,7 +15,7 @@ RigidParticleContact::RigidParticleContact(const RigidBody& body, RigidParticleS
       settings_(std::move(settings)),
       fields_(fields),
       survey_(survey),
-      particles_(body, fields.front()->layout, settings_.geometry, settings_.per_cell, settings_.across),
+      particles_(body, *fields.front(), settings_.geometry, settings_.per_cell, settings_.across),
       ledger_(body, axisymmetric(settings_.geometry)),
       cell_volume_(settings_.across),
       volumes_(fields.size(), NodalVolumes(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())),
@@ -115,9 +115,9 @@ void RigidParticleContact::add_nodes(int field, double dt) {
         a.place = nodal_vector(volumes.displacement, layout, node.ref) / a.mass;
         rigid.place = particles_.displacement(place, n);
       }
-      const bool on_axis = about_axis && layout.origin(0) == 0.0 && layout.node(grid.blocks.block(b), n)[0] <= 0;
-      mirror(a, {on_axis, false, false});
-      mirror(rigid, {on_axis, false, false});
+      const std::array<bool, 3> mirrored = grid.mirrored(layout.node(grid.blocks.block(b), n));
+      mirror(a, layout, mirrored);
+      mirror(rigid, layout, mirrored);
       NodePair& pair = node.pair;
       pair.a = 0;
       pair.b = 1;
@@ -125,7 +125,7 @@ void RigidParticleContact::add_nodes(int field, double dt) {
       pair.normals.of_b = pair.normals.of_a;  // the rigid side has no impulse of its own
       if (pair.normals.of_a.isZero(0.0)) continue;
       const double across = across_cell(layout, pair.normals.of_a);
-      const double around = !about_axis ? 1.0 : kTurn * (on_axis ? layout.cell(0) / 3.0 : position.x());
+      const double around = !about_axis ? 1.0 : kTurn * (position.x() > 0.0 ? position.x() : layout.cell(0) / 3.0);
       pair.friction = friction_[field];
       pair.area = contact_area(a.volume, rigid.volume, across) * around;
       pair.touching = a.start_volume + rigid.start_volume >= rule.minimum_volume * cell_volume_ &&

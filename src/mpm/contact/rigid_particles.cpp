@@ -11,51 +11,31 @@ namespace {
 
 constexpr double kDepth = 3.0;  // below the surface that particles matter [cells]
 
-// Integral of the hat function from -1, and the hat function, of s in [-1, 1].
-double hat_integral(double s) { return s < 0.0 ? 0.5 * (1.0 + s) * (1.0 + s) : 0.5 + s - 0.5 * s * s; }
-double hat(double s) { return 1.0 - std::abs(s); }
-
-/// uGIMP along one axis: values and gradients [1/cell] at the nodes that a box reaches.
-struct Along {
-  int first = 0, count = 0;
-  std::array<double, 4> s{}, g{};
-};
-Along along(double cells, double half) {
-  Along a;
-  a.first = static_cast<int>(std::ceil(cells - half - 1.0));
-  for (int node = a.first; node < cells + half + 1.0 && a.count < 4; ++node) {
-    const double low = std::clamp(cells - half - node, -1.0, 1.0), high = std::clamp(cells + half - node, -1.0, 1.0);
-    a.s[a.count] = (hat_integral(high) - hat_integral(low)) / (2.0 * half);
-    a.g[a.count] = (hat(high) - hat(low)) / (2.0 * half);
-    ++a.count;
-  }
-  return a;
-}
-
 int block_of(int node) { return node >= 0 ? node / kBlockEdge : (node + 1) / kBlockEdge - 1; }
 
 }  // namespace
 
-RigidParticles::RigidParticles(const RigidBody& body, const GridLayout& layout, GeometryKind geometry, int per_cell,
+RigidParticles::RigidParticles(const RigidBody& body, const Grid& grid, GeometryKind geometry, int per_cell,
                                double across)
     : body_(body),
-      layout_(layout),
+      grid_(grid),
+      layout_(grid.layout),
       axisymmetric_(axisymmetric(geometry)),
       start_(body.pose()),
       half_(0.5 / per_cell),
       volume_each_(across),
-      volume_(1, layout.nodes_per_block()),
-      gradient_(layout.dim(), layout.nodes_per_block()),
-      place_(layout.dim(), layout.nodes_per_block()),
-      moved_(layout.dim(), layout.nodes_per_block()) {
+      volume_(1, layout_.nodes_per_block()),
+      gradient_(layout_.dim(), layout_.nodes_per_block()),
+      place_(layout_.dim(), layout_.nodes_per_block()),
+      moved_(layout_.dim(), layout_.nodes_per_block()) {
   const Box bounds = body.surface().bounds();
   std::array<int, 3> count{1, 1, 1};
   Vec3 spacing = Vec3::Zero(), first = Vec3::Zero();
   double largest = 0.0;
-  for (int k = 0; k < layout.dim(); ++k) {
-    const int axis = layout.axis(k);
-    largest = std::max(largest, layout.cell(k));
-    spacing[axis] = layout.cell(k) / per_cell;
+  for (int k = 0; k < layout_.dim(); ++k) {
+    const int axis = layout_.axis(k);
+    largest = std::max(largest, layout_.cell(k));
+    spacing[axis] = layout_.cell(k) / per_cell;
     volume_each_ *= spacing[axis];
     const double length = bounds.max[axis] - bounds.min[axis];
     if (!std::isfinite(length)) {
@@ -72,7 +52,6 @@ RigidParticles::RigidParticles(const RigidBody& body, const GridLayout& layout, 
     for (int j = 0; j < count[1]; ++j) {
       for (int k = 0; k < count[2]; ++k) {
         const Vec3 point = first + spacing.cwiseProduct(Vec3(i, j, k));
-        if (axisymmetric_ && start_.to_world(point).x() < 0.0) continue;
         const double distance = body.surface().at(point).distance;
         if (distance < 0.0 && distance > -kDepth * largest) local_.push_back(point);
       }
@@ -111,36 +90,56 @@ void RigidParticles::gather(const std::vector<std::uint64_t>& keys) {
   }
 }
 
-void RigidParticles::add(const Vec3& place, const Vec3& moved, const std::vector<std::uint64_t>& keys) {
+std::optional<RigidParticles::Along> RigidParticles::along(int k, double cells) const {
+  const int nearest = GridLayout::nearest(cells);
+  const double offset = cells - nearest;
+  double below = offset - half_, above = offset + half_;
+  if (grid_.mirrors[2 * k]) below = std::max(below, 0.0 - nearest);
+  if (grid_.mirrors[2 * k + 1]) above = std::min<double>(above, layout_.last_node(k) - nearest);
+  if (above <= below) return std::nullopt;
+  const bool radial = axisymmetric_ && k == 0;
+  const double radius = radial ? nearest + layout_.origin(0) * layout_.inverse_cell(0) : 1.0;  // not read in a plane
+  return Along{nearest - 1, (above - below) / (2.0 * half_), nearest + 0.5 * (below + above),
+               RadialBox<double>(offset, radius, below, above, layout_.inverse_cell(k), !radial)};
+}
+
+void RigidParticles::add(const Vec3& particle, const Vec3& moved, const std::vector<std::uint64_t>& keys) {
   const int dim = layout_.dim();
-  std::array<Along, 3> axes;
-  for (Along& one : axes) one.count = 1, one.s[0] = 1.0;
-  for (int k = 0; k < dim; ++k) axes[k] = along(layout_.in_cells(k, place[layout_.axis(k)]), half_);
+  std::array<std::optional<Along>, 3> axes;
+  Vec3 place = particle;
+  double left = volume_each_;
+  for (int k = 0; k < dim; ++k) {
+    axes[k] = along(k, layout_.in_cells(k, particle[layout_.axis(k)]));
+    if (!axes[k]) return;
+    place[layout_.axis(k)] = layout_.origin(k) + axes[k]->middle * layout_.cell(k);
+    left *= axes[k]->part;
+  }
   std::array<int, 3> step{};
-  for (step[0] = 0; step[0] < axes[0].count; ++step[0]) {
-    for (step[1] = 0; step[1] < axes[1].count; ++step[1]) {
-      for (step[2] = 0; step[2] < axes[2].count; ++step[2]) {
+  const auto nodes = [dim](int k) { return k < dim ? 3 : 1; };
+  for (step[0] = 0; step[0] < nodes(0); ++step[0]) {
+    for (step[1] = 0; step[1] < nodes(1); ++step[1]) {
+      for (step[2] = 0; step[2] < nodes(2); ++step[2]) {
         std::array<int, 3> block{};
         int local = 0;
-        double s = volume_each_;
+        double s = left;
         bool inside = true;
         for (int k = 0; k < dim; ++k) {
-          const int node = axes[k].first + step[k];
+          const int node = axes[k]->first + step[k];
           block[k] = block_of(node);
           inside = inside && node >= -kBlockEdge && node <= layout_.last_node(k) + kBlockEdge;
           local = local * kBlockEdge + node - block[k] * kBlockEdge;
-          s *= axes[k].s[step[k]];
+          s *= axes[k]->of.s[step[k]];
         }
-        if (!inside) continue;
+        if (!inside || !(s > 0.0)) continue;
         const std::uint64_t key = layout_.key(block);
         const auto it = std::lower_bound(keys.begin(), keys.end(), key);
         if (it == keys.end() || *it != key) continue;
         const int b = static_cast<int>(it - keys.begin());
         volume_.at(b, 0, local) += s;
         for (int k = 0; k < dim; ++k) {
-          double g = volume_each_ * layout_.inverse_cell(k);
+          double g = left;
           for (int other = 0; other < dim; ++other) {
-            g *= other == k ? axes[other].g[step[other]] : axes[other].s[step[other]];
+            g *= other == k ? axes[other]->of.g[step[other]] : axes[other]->of.s[step[other]];
           }
           gradient_.at(b, k, local) += g;
           place_.at(b, k, local) += s * place[layout_.axis(k)];

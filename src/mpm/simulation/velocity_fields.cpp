@@ -43,7 +43,8 @@ Fields fields_of(const SimulationDefinition& definition) {
     for (int face = 0; face < 2 * layout.dim(); ++face) {
       const WallKind kind = definition.walls[2 * layout.axis(face / 2) + face % 2].kind;
       grid->has_wall[face] = kind != WallKind::none && kind != WallKind::periodic;
-      if (kind == WallKind::symmetry) grid->symmetry.add(face);
+      grid->mirrors[face] =
+          grid->has_wall[face] || (axisymmetric(definition.geometry) && face == 0 && layout.origin(0) == 0.0);
     }
   }
   return fields;

@@ -6,8 +6,8 @@
 namespace mpm {
 namespace {
 
-/// Three bodies and a tool; the contact section is on line 8.
-std::string scene(const std::string& contact, const std::string& tool = "") {
+/// Three bodies and, with_tool, a tool; the contact section is on line 8.
+std::string scene(const std::string& contact, const std::string& tool = "", bool with_tool = true) {
   return "geometry: plane_strain\n"
          "grid: {cell: 0.1, min: [0, 0], max: [2, 2]}\n"
          "materials: [{name: soft, density: 1000, law: neo_hookean, young: 1 MPa, poisson: 0.3}]\n"
@@ -16,8 +16,10 @@ std::string scene(const std::string& contact, const std::string& tool = "") {
          "  - {name: b, material: soft, shape: {box: {min: [0.5, 0], max: [1, 0.5]}}}\n"
          "  - {name: c, material: soft, shape: {box: {min: [1, 0], max: [1.5, 0.5]}}}\n"
          "contact: " +
-         contact + "\nrigid_bodies: [{name: tool, shape: {sphere: {radius: 0.2}}, pose: {position: [1, 1.5]}" + tool +
-         "}]\n";
+         contact + "\n" +
+         (with_tool
+              ? "rigid_bodies: [{name: tool, shape: {sphere: {radius: 0.2}}, pose: {position: [1, 1.5]}" + tool + "}]\n"
+              : "");
 }
 
 Scene read(const std::string& contact, const std::string& tool = "") {
@@ -31,10 +33,11 @@ const ContactLaw* law(const Scene& scene, const std::string& first, const std::s
   return nullptr;
 }
 
-void expect_refused(const std::string& contact, const std::string& where, const std::string& what) {
+void expect_refused(const std::string& contact, const std::string& where, const std::string& what,
+                    bool with_tool = true) {
   const std::string start = "bad.yaml:8: contact" + where + ": ";
   try {
-    parse_scene(scene(contact), "bad.yaml");
+    parse_scene(scene(contact, "", with_tool), "bad.yaml");
     FAIL() << "taken: " << contact;
   } catch (const SceneError& error) {
     const std::string found = error.what();
@@ -81,9 +84,11 @@ TEST(SceneContact, ANamedLawIsThatOfAllBodies) {
 
 TEST(SceneContact, InterfacesNormalsAndDetection) {
   const Scene read_scene = read(
-      "{normals: 0, rigid_bias: 5, minimum_volume: 0.5, detection: displacements, pairs: [{between: [a, b], law: "
-      "interface, opened: 2 MPa/m, closed: perfect, tangential: 0}, {between: [b, c], law: interface, opened: 1, "
-      "closed: 3, tangential: perfect}, {between: [c, tool], friction: 0.7}]}");
+      "{normals: 0, rigid_bias: 5, minimum_volume: 0.5, detection: displacements, pairs: [{between: [a, c], friction: "
+      "0.1}, {between: [a, b], law: interface, opened: 2 MPa/m, closed: perfect, tangential: 0}, {between: [b, c], "
+      "law: interface, opened: 1, "
+      "closed: 3, tangential: perfect}, {between: [c, tool], friction: 0.7}]}",
+      ", normals: particles");
   const ContactDefinition& contact = read_scene.definition.contact;
   EXPECT_EQ(contact.normals.method, NormalMethod::larger_gradient);
   EXPECT_EQ(contact.normals.rigid_bias, 5.0);
@@ -93,10 +98,55 @@ TEST(SceneContact, InterfacesNormalsAndDetection) {
   EXPECT_LT(law(read_scene, "a", "b")->interface.closed, 0.0);
   EXPECT_LT(law(read_scene, "b", "c")->interface.tangential, 0.0);
   EXPECT_EQ(law(read_scene, "c", "tool")->friction(0.0), 0.7);
-  EXPECT_EQ(read("{normals: own}").definition.contact.normals.method, NormalMethod::own);
+  EXPECT_EQ(read("{normals: own, law: stick}").definition.contact.normals.method, NormalMethod::own);
   const DetectionRule usual = read("{friction: 0}").definition.contact.detection;
   EXPECT_EQ(usual.kind, Detection::positions);  // as the sources advise, 0.8 cells
   EXPECT_EQ(usual.position, 0.8);
+}
+
+// The manual's Dn is the stiffness across, whether opened or closed, of which Dnt and Dnc take one each.
+TEST(SceneContact, OneNormalStiffnessIsOfBothSides) {
+  const auto interface_of = [](const std::string& keys) {
+    return law(read("{pairs: [{between: [a, b], law: interface, tangential: 1, " + keys + "}]}"), "a", "b")->interface;
+  };
+  EXPECT_EQ(interface_of("normal: 2 MPa/mm").opened, 2e9);
+  EXPECT_EQ(interface_of("normal: 2 MPa/mm").closed, 2e9);
+  EXPECT_EQ(interface_of("normal: 2, closed: 5").opened, 2.0);
+  EXPECT_EQ(interface_of("normal: 2, closed: 5").closed, 5.0);
+  EXPECT_EQ(interface_of("normal: 2, opened: 5").opened, 5.0);
+  EXPECT_LT(interface_of("opened: 5").closed, 0.0);  // perfect
+  const std::string start = "{pairs: [{between: [a, b], law: ";
+  expect_refused(start + "interface, tangential: 1, normal: 1, opened: 1, closed: 1}]}", ".pairs.0.normal",
+                 "leave one of the three out");
+  expect_refused(start + "coulomb, friction: 0, normal: 1}]}", ".pairs.0.normal", "write law: interface");
+}
+
+// What nothing in the scene would read is refused, so that no one takes it for said.
+TEST(SceneContact, RefusesWhatNothingReads) {
+  for (const char* key : {"friction: 0.3", "static_friction: 0.3", "adhesion: 1"}) {
+    const std::string name = std::string(key).substr(0, std::string(key).find(':'));
+    const std::string pairs = ", pairs: [{between: [a, b], friction: 0.1}]}";
+    expect_refused("{" + std::string(key) + pairs, "." + name, "it is of tools, and there are none", false);
+    EXPECT_NO_THROW(read("{" + std::string(key) + pairs));
+  }
+  EXPECT_NO_THROW(parse_scene(scene("{law: coulomb, friction: 0.3}", "", false), "good.yaml"));
+  const std::string no_bodies = "it concerns contact between deformable bodies and with rigid bodies of particles";
+  for (const char* key : {"normals: 0", "detection: approach", "position: 0.7", "minimum_volume: 0.5"}) {
+    const std::string name = std::string(key).substr(0, std::string(key).find(':'));
+    expect_refused("{friction: 0.3, " + std::string(key) + "}", "." + name, no_bodies);
+    expect_refused("{pairs: [{between: [a, b], law: one_field}], " + std::string(key) + "}", "." + name, no_bodies);
+    EXPECT_NO_THROW(read("{" + std::string(key) + "}", ", normals: particles"));
+    EXPECT_NO_THROW(read("{" + std::string(key) + ", pairs: [{between: [a, b], friction: 0}]}"));
+    const std::string with_interface =
+        "{" + std::string(key) + ", pairs: [{between: [a, b], law: interface, normal: 1, tangential: 1}]}";
+    if (name == "normals") {
+      EXPECT_NO_THROW(read(with_interface));
+    } else {
+      expect_refused(with_interface, "." + name, "the scene's contact is by interfaces alone");
+    }
+  }
+  expect_refused("{rigid_bias: 5, law: stick}", ".rigid_bias", "it concerns rigid bodies of particles");
+  EXPECT_NO_THROW(read("{rigid_bias: 5}", ", normals: particles"));
 }
 
 TEST(SceneContact, RigidBodiesMayBeParticles) {
@@ -124,7 +174,7 @@ TEST(SceneContact, RefusesWhatItCannotMean) {
   expect_refused("{pairs: [{between: [a, tool], law: one_field}]}", ".pairs.0.law", "for two deformable bodies");
   expect_refused("{law: interface, opened: 1, tangential: 1}", ".law", "not for tools");
   expect_refused("{law: sticky}", ".law", "sticky");
-  expect_refused("{normals: 4}", ".normals", "4");
+  expect_refused("{normals: 4, law: stick}", ".normals", "4");
   expect_refused("{detection: approach, position: 0.7}", ".position", "detection: positions");
   expect_refused("{friction: 0.3, distance: 1}", ".distance", "distance");
   expect_refused("{friction: \"0.1*t\"}", ".friction", "write functions of time in pairs");

@@ -55,7 +55,8 @@ TEST(SceneMethod, EveryShapeAndItsOtherName) {
   }
   EXPECT_EQ(method_of("shape: classic").shape, ShapeKind::dirac);
   EXPECT_EQ(method_of("shape: lcpdi").shape, ShapeKind::cpdi);
-  expect_refused("shape: gimp", "shape: 'gimp' is not known; did you mean 'ugimp'?");
+  EXPECT_EQ(method_of("shape: gimp").shape, ShapeKind::ugimp);
+  expect_refused("shape: gmp", "shape: 'gmp' is not known; did you mean 'gimp'?");
 }
 
 TEST(SceneMethod, EveryUpdateAndItsOtherName) {
@@ -133,6 +134,13 @@ TEST(SceneMethod, DampingIsANumberAFunctionOrAMap) {
   EXPECT_EQ(number.grid(0.0), 5.0);
   EXPECT_TRUE(number.in_force && number.any() && !number.in_update());
   EXPECT_FALSE(method_of("damping: 0").damping.any());
+  EXPECT_NO_THROW(method_of("damping: {grid: 0, placement: force}"));
+  for (const char* keys : {"", "particle: 3, ", "pic: 0.1, "}) {
+    expect_refused(
+        "damping: {" + std::string(keys) + "placement: update}",
+        "damping.placement: it says where grid and feedback act, and neither is there; write one of them, or "
+        "leave it out");
+  }
   const DampingDefinition of_time = method_of("damping: \"10*(t<1)\"").damping;
   EXPECT_EQ(of_time.grid(0.5), 10.0);
   EXPECT_EQ(of_time.grid(1.5), 0.0);

@@ -48,8 +48,29 @@ TEST(Units, QuantitiesBecomeSi) {
   expect_si("293.15 K", kTemperature, 293.15);
   expect_si("1e-3 Pa s", kViscosity, 1e-3);
   expect_si("2 kg/(m*s)", kViscosity, 2.0);
+  expect_si("1 cP", kViscosity, 1e-3);  // of water
+  expect_si("2 P", kViscosity, 0.2);
+  expect_si("3 uJ", kEnergy, 3e-6);
+  expect_si("5 nW", {2, 1, -3}, 5e-9);
   expect_si("-1e-3 m", kLength, -1e-3);
   expect_si("+2", kPlain, 2.0);
+}
+
+// Nairn, GIMP notes, tables 7.1 and 7.3: a fracture toughness of 1 MPa sqrt(m) is 1e6 N/m^(3/2).
+TEST(Units, RootsAreHalfExponents) {
+  constexpr Dimension kToughness{-0.5, 1, -2};
+  for (const char* text : {"1 MPa m^0.5", "1 MPa*m^0.5", "1 MPa sqrt(m)", "1MPa√m", "1 MPa √(m)", "1 MN/m^1.5",
+                           "1 N/(mm sqrt(m))*1", "1 MPa m/√m"}) {
+    expect_si(text, kToughness, text == std::string("1 N/(mm sqrt(m))*1") ? 1e3 : 1e6);
+  }
+  expect_si("2 sqrt(MPa^2 mm)", kToughness, 2e6 * std::sqrt(1e-3));
+  expect_si("4 sqrt(m^2)", kLength, 4.0);
+  // A plain number in mm-g-s: 1 g^1 mm^-1/2 s^-2.
+  EXPECT_NEAR(parse_quantity("1", kToughness, parse_unit_system("mm-g-s")), 1e-3 / std::sqrt(1e-3), kRoundOff);
+  EXPECT_EQ(refusal("1 MPa m^0.5", kPressure),
+            "'1 MPa m^0.5' is a fracture toughness, but a pressure is expected; write one such as 5 kPa");
+  EXPECT_EQ(refusal("1 m^1.5", kLength),
+            "'1 m^1.5' is a quantity in m^1.5, but a length is expected; write one such as 10 mm");
 }
 
 TEST(Units, PlainNumbersAreInTheSceneSystem) {
@@ -88,8 +109,9 @@ TEST(Units, AWrongDimensionNamesWhatWasExpected) {
 TEST(Units, WhatIsNotAQuantityIsRefused) {
   EXPECT_EQ(refusal("3 MPaa", kPressure), "unknown unit 'MPaa'; did you mean 'MPa'?");
   EXPECT_EQ(refusal("fast", kVelocity), "'fast' is not a number; write a velocity, such as 1.7 km/s");
-  for (const char* bad : {"", " ", "nan", "inf", "1e400", "3 m^x", "3 m^99", "3 (m", "3 m)", "3 **m", "3 ((((((((((m",
-                          "3 m/", "0x10", "1,5", "5 m m^-1 m^"}) {
+  for (const char* bad : {"",       " ",    "nan",           "inf",           "1e400", "3 m^x",      "3 m^99",
+                          "3 (m",   "3 m)", "3 **m",         "3 ((((((((((m", "3 m/",  "3 m^0.3",    "3 m^nan",
+                          "3 sqrt", "3 √",  "3 √√√√√√√√√√m", "0x10",          "1,5",   "5 m m^-1 m^"}) {
     EXPECT_NE(refusal(bad, kLength), "") << bad;
   }
 }
@@ -104,7 +126,7 @@ TEST(Units, BadSystemsAreRefused) {
 
 // Found by the fuzz test: exponents that exceed every integer type, and powers of powers.
 TEST(Units, ExponentsStaySmall) {
-  const std::string small = "has an exponent that is not a small whole number";
+  const std::string small = "has an exponent that is not a small whole number or a half";
   for (const char* text : {"m^10", "m^-2147483648", "m^99999999999999999999"}) {
     EXPECT_THROW(parse_unit(text), UnitError) << text;
   }

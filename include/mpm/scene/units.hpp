@@ -13,14 +13,14 @@ class UnitError : public Error {
   using Error::Error;
 };
 
-/// Exponents of the base dimensions. Angle is one of them, so that degrees are refused where a plain number is
-/// expected.
+/// Exponents of the base dimensions, whole numbers and halves (a toughness is in MPa m^0.5). Angle is one of them, so
+/// that degrees are refused where a plain number is expected.
 struct Dimension {
-  int length = 0;
-  int mass = 0;
-  int time = 0;
-  int angle = 0;
-  int temperature = 0;
+  double length = 0;
+  double mass = 0;
+  double time = 0;
+  double angle = 0;
+  double temperature = 0;
   friend bool operator==(const Dimension& a, const Dimension& b) {
     return a.length == b.length && a.mass == b.mass && a.time == b.time && a.angle == b.angle &&
            a.temperature == b.temperature;
@@ -56,7 +56,8 @@ struct Unit {
   double factor = 1.0;
   Dimension dimension;
 };
-/// Parses a unit such as "MPa", "g/cm^3", "kg/(m*s^2)", "1/s". @throws UnitError naming the unknown part.
+/// Parses a unit such as "MPa", "g/cm^3", "kg/(m*s^2)", "1/s", "MPa m^0.5", "MPa sqrt(m)", "MPa√m". @throws UnitError
+/// naming the unknown part.
 Unit parse_unit(const std::string& text);
 
 /// The units of a scene's plain numbers, as factors to SI. Angles are always radians, temperatures kelvins.

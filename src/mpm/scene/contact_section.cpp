@@ -13,8 +13,10 @@ using Kind = ContactLaw::Kind;
 
 constexpr Dimension kStiffness{-2, 1, -2, 0};  // traction per displacement
 const std::vector<std::string> kLawNames = {"coulomb", "stick", "interface", "one_field"};
+const std::vector<std::string> kFrictional = {"friction", "static_friction", "adhesion"};
+const std::vector<std::string> kStiffnesses = {"normal", "opened", "closed", "tangential"};
 const std::vector<std::string> kLawKeys = {"law",    "friction", "static_friction", "adhesion",
-                                           "opened", "closed",   "tangential"};
+                                           "normal", "opened",   "closed",          "tangential"};
 
 /// Refuses keys of constants that the law does not have.
 void refuse(const Map& map, Kind kind, const std::vector<std::string>& keys, const std::string& advice) {
@@ -49,10 +51,21 @@ Kind read_kind(const Map& map) {
     return kind;
   }
   if (word) return Kind::stick;
-  for (const char* key : {"opened", "closed", "tangential"}) {
+  for (const std::string& key : kStiffnesses) {
     if (const auto value = map.find(key)) value->fail("a stiffness of an imperfect interface; write law: interface");
   }
   return Kind::coulomb;
+}
+
+InterfaceLaw read_interface(const Map& map) {
+  InterfaceLaw law;
+  const auto normal = map.find("normal"), opened = map.find("opened"), closed = map.find("closed");
+  if (normal && opened && closed) normal->fail("opened and closed say all of it; leave one of the three out");
+  if (normal) law.opened = law.closed = read_stiffness(*normal);
+  if (opened || !normal) law.opened = read_stiffness(map.at("opened"));
+  if (closed) law.closed = read_stiffness(*closed);
+  law.tangential = read_stiffness(map.at("tangential"));
+  return law;
 }
 
 /// Reads the law from the keys of a pair or of the whole section. `needs_friction`: true for a pair, which must state
@@ -60,10 +73,8 @@ Kind read_kind(const Map& map) {
 ContactLaw read_law(const Map& map, bool needs_friction) {
   ContactLaw law;
   law.kind = read_kind(map);
-  const std::vector<std::string> frictional = {"static_friction", "adhesion"};
-  const std::vector<std::string> stiffnesses = {"opened", "closed", "tangential"};
   if (law.kind == Kind::coulomb || law.kind == Kind::stick) {
-    refuse(map, law.kind, stiffnesses, "leave it out, or write law: interface");
+    refuse(map, law.kind, kStiffnesses, "leave it out, or write law: interface");
     if (const auto adhesion = map.find("adhesion")) law.adhesion = read_function(*adhesion, kPressure);
   }
   if (law.kind != Kind::coulomb) {
@@ -90,14 +101,12 @@ ContactLaw read_law(const Map& map, bool needs_friction) {
     }
     case Kind::interface: {
       refuse(map, law.kind, {"adhesion"}, "leave it out");
-      law.interface.opened = read_stiffness(map.at("opened"));
-      law.interface.tangential = read_stiffness(map.at("tangential"));
-      if (const auto closed = map.find("closed")) law.interface.closed = read_stiffness(*closed);
+      law.interface = read_interface(map);
       break;
     }
     case Kind::one_field:
       refuse(map, law.kind, {"adhesion"}, "leave it out");
-      refuse(map, law.kind, stiffnesses, "leave it out, or write law: interface");
+      refuse(map, law.kind, kStiffnesses, "leave it out, or write law: interface");
       break;
     case Kind::stick:
       break;
@@ -229,6 +238,44 @@ Map contact_map(const Value& section) {
   return Map(section, keys, {{"interface", "write law: interface, with opened, closed and tangential"}});
 }
 
+/// Refuses what is said of contact that the scene does not have.
+void refuse_unused(const Map& map, const Scene& scene) {
+  const auto& tools = scene.definition.rigid_bodies;
+  const auto refuse_all = [&](const std::vector<std::string>& keys, const char* why) {
+    for (const std::string& key : keys) {
+      if (const auto value = map.find(key)) value->fail(why);
+    }
+  };
+  if (tools.empty() && !map.find("law")) {
+    refuse_all(kFrictional,
+               "it is of tools, and there are none; for deformable bodies write law: coulomb beside it, or pairs");
+  }
+  const bool of_particles =
+      std::any_of(tools.begin(), tools.end(), [](const RigidBodyDefinition& tool) { return tool.particles; });
+  bool with_gap = of_particles, with_normals = of_particles;
+  for (const PairDefinition& pair : scene.definition.contact.pairs) {
+    const bool of_tool = std::any_of(tools.begin(), tools.end(),
+                                     [&](const RigidBodyDefinition& tool) { return tool.name == pair.second; });
+    if (of_tool || pair.law.kind == Kind::one_field) continue;
+    with_normals = true;
+    with_gap = with_gap || pair.law.kind != Kind::interface;
+  }
+  if (!of_particles) {
+    refuse_all({"rigid_bias"},
+               "it concerns rigid bodies of particles; write normals: particles for one, or leave it out");
+  }
+  if (!with_normals) {
+    refuse_all(
+        {"normals", "detection", "position", "minimum_volume"},
+        "it concerns contact between deformable bodies and with rigid bodies of particles; write law or pairs, or "
+        "normals: particles for a rigid body, or leave it out");
+  }
+  if (!with_gap) {
+    refuse_all({"detection", "position", "minimum_volume"},
+               "the scene's contact is by interfaces alone, which act wherever both bodies are; leave it out");
+  }
+}
+
 }  // namespace
 
 FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools) {
@@ -272,6 +319,7 @@ void read_contact_pairs(const Map& root, Scene& scene) {
     scene.definition.contact.pairs.push_back(
         {scene.bodies[pair.first].name, scene.definition.rigid_bodies[pair.second - count].name, pair.law});
   }
+  refuse_unused(map, scene);
 }
 
 }  // namespace mpm

@@ -38,6 +38,9 @@ void read_damping(const Value& value, Scene& scene) {
     if (const auto pic = map.find("pic")) damping.pic = read_part(*pic, kPlain);
     if (const auto feedback = map.find("feedback")) damping.feedback = read_feedback(*feedback);
     placement = map.find("placement");
+    if (placement && !map.find("grid") && !map.find("feedback")) {
+      placement->fail("it says where grid and feedback act, and neither is there; write one of them, or leave it out");
+    }
   } else {
     damping.grid = read_part(value, kRate);
   }

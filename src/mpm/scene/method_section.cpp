@@ -205,8 +205,9 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   const auto shape = map.find("shape");
   if (shape) {
     const auto index = [](ShapeKind kind) { return static_cast<std::size_t>(kind); };
-    method.shape = static_cast<ShapeKind>(
-        read_name(*shape, kShapeNames, {{"classic", index(ShapeKind::dirac)}, {"lcpdi", index(ShapeKind::cpdi)}}));
+    method.shape = static_cast<ShapeKind>(read_name(
+        *shape, kShapeNames,
+        {{"classic", index(ShapeKind::dirac)}, {"gimp", index(ShapeKind::ugimp)}, {"lcpdi", index(ShapeKind::cpdi)}}));
   }
   const auto update = map.find("update");
   if (update) {

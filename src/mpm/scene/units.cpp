@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include "mpm/math/nearest.hpp"
 
@@ -18,6 +19,7 @@ struct NamedUnit {
 };
 
 constexpr Dimension kPower{2, 1, -3, 0};
+constexpr Dimension kToughness{-0.5, 1, -2, 0};
 
 // Inch, foot, pound, ounce, pound-force: international definitions (NIST SP 811, appendix B).
 constexpr double kPound = 0.45359237;
@@ -70,9 +72,16 @@ const std::array kUnits = {
     NamedUnit{"J", {1.0, kEnergy}},
     NamedUnit{"kJ", {1e3, kEnergy}},
     NamedUnit{"mJ", {1e-3, kEnergy}},
+    NamedUnit{"uJ", {1e-6, kEnergy}},
     NamedUnit{"nJ", {1e-9, kEnergy}},
     NamedUnit{"erg", {1e-7, kEnergy}},
     NamedUnit{"W", {1.0, kPower}},
+    NamedUnit{"kW", {1e3, kPower}},
+    NamedUnit{"mW", {1e-3, kPower}},
+    NamedUnit{"uW", {1e-6, kPower}},
+    NamedUnit{"nW", {1e-9, kPower}},
+    NamedUnit{"P", {0.1, kViscosity}},
+    NamedUnit{"cP", {1e-3, kViscosity}},
     NamedUnit{"K", {1.0, kTemperature}},
     NamedUnit{"%", {0.01, kPlain}},
 };
@@ -96,6 +105,7 @@ const std::array kDimensions = {
     DimensionText{kAngularAcceleration, "a rotational acceleration", "90 deg/s^2"},
     DimensionText{kDensity, "a density", "1600 kg/m^3"},
     DimensionText{kPressure, "a pressure", "5 kPa"},
+    DimensionText{kToughness, "a fracture toughness", "2 MPa m^0.5"},
     DimensionText{kForce, "a force", "3 N"},
     DimensionText{kEnergy, "an energy", "3 J"},
     DimensionText{kPower, "a power", "3 W"},
@@ -106,10 +116,10 @@ const std::array kDimensions = {
 
 std::string base_units(const Dimension& dimension) {
   std::string text;
-  const auto add = [&text](const char* name, int exponent) {
-    if (exponent == 0) return;
+  const auto add = [&text](const char* name, double exponent) {
+    if (exponent == 0.0) return;
     if (!text.empty()) text += ' ';
-    text += exponent == 1 ? std::string(name) : fmt::format("{}^{}", name, exponent);
+    text += exponent == 1.0 ? std::string(name) : fmt::format("{}^{:g}", name, exponent);
   };
   add("m", dimension.length);
   add("kg", dimension.mass);
@@ -119,9 +129,10 @@ std::string base_units(const Dimension& dimension) {
   return text;
 }
 
-// product := factor { ('*' | ' ' | '/') factor };  factor := ( name | '1' | '(' product ')' ) [ ['^'] integer ]
+// product := factor { ['*' | ' ' | '/'] factor };  factor := [ '√' | 'sqrt' ] ( name | '1' | '(' product ')' ) [ ['^']
+// number ], the number a multiple of a half
 class UnitParser {
-  static constexpr int kLargestExponent = 99;  ///< of a base unit, for integers that cannot overflow
+  static constexpr double kLargestExponent = 99.0;  ///< of a base unit, so that factors stay finite
 
  public:
   explicit UnitParser(const std::string& text) : text_(text) {}
@@ -147,9 +158,17 @@ class UnitParser {
 
   Unit factor() {
     skip_spaces();
+    for (const std::string_view root : {"√", "sqrt"}) {
+      if (text_.compare(position_, root.size(), root) != 0) continue;
+      position_ += root.size();
+      if (++depth_ > kDeepest) fail("is nested too deep");
+      const Unit squared = factor();
+      --depth_;
+      return combine(Unit{}, squared, 0.5);
+    }
     Unit unit;
     if (peek() == '(') {
-      if (++depth_ > 8) fail("is nested too deep");
+      if (++depth_ > kDeepest) fail("is nested too deep");
       ++position_;
       unit = rest_of_product(factor());
       if (peek() != ')') fail("lacks ')'");
@@ -182,26 +201,29 @@ class UnitParser {
     throw UnitError(fmt::format("unknown unit '{}'; {}", name, suggest(name, names)));
   }
 
-  int exponent() {
-    int value = 0;
+  double exponent() {
+    double value = 0.0;
     const char* end = text_.data() + text_.size();
-    const auto [stop, error] = std::from_chars(text_.data() + position_, end, value);
-    if (error != std::errc() || value < -9 || value > 9) fail("has an exponent that is not a small whole number");
+    const auto [stop, error] = std::from_chars(text_.data() + position_, end, value, std::chars_format::fixed);
+    if (error != std::errc() || !(std::abs(value) <= 9.0) || std::floor(2.0 * value) != 2.0 * value) {
+      fail("has an exponent that is not a small whole number or a half");
+    }
     position_ = static_cast<std::size_t>(stop - text_.data());
     return value;
   }
 
-  Unit combine(const Unit& a, const Unit& b, int power) const {
+  Unit combine(const Unit& a, const Unit& b, double power) const {
     const Dimension& p = a.dimension;
     const Dimension& q = b.dimension;
     const Dimension d{p.length + power * q.length, p.mass + power * q.mass, p.time + power * q.time,
                       p.angle + power * q.angle, p.temperature + power * q.temperature};
-    for (const int exponent : {d.length, d.mass, d.time, d.angle, d.temperature}) {
-      if (exponent < -kLargestExponent || exponent > kLargestExponent) fail("has exponents that are too large");
+    for (const double exponent : {d.length, d.mass, d.time, d.angle, d.temperature}) {
+      if (std::abs(exponent) > kLargestExponent) fail("has exponents that are too large");
     }
     return {a.factor * std::pow(b.factor, power), d};
   }
 
+  static constexpr int kDeepest = 8;  ///< brackets and roots in each other
   static bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
   static bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
   char peek() const { return position_ < text_.size() ? text_[position_] : '\0'; }

@@ -106,12 +106,9 @@ TEST(AxisymmetricConservation, AuditClosesWithOtherRulesAtTheAxis) {
           }
           Simulation simulation(d, {1});
           for (int i = 0; i < 4; ++i) simulation.advance();
-          // A domain across the axis has negative weights beyond it; nodes of negative mass take no part, and their
-          // momentum is lost: 1e-7 to 1e-6 was found here. A corner of qCPDI on the axis has weight 0 up to round-off,
-          // but a gradient: a node that only this corner reaches may be left out too (2e-8 here).
-          const bool leaves_out =
-              functions == AxisFunctions::weighted && (domains == AxisDomains::whole || shape == ShapeKind::qcpdi);
-          EXPECT_LT(simulation.state().audit.residual, leaves_out ? 1e-5 : 1e-12)
+          // A domain across the axis has negative weights beyond it, and a corner of qCPDI on the axis has weight 0, but a
+          // gradient. The force on nodes without mass is lost, and booked.
+          EXPECT_LT(simulation.state().audit.residual, 1e-12)
               << shape_name(shape) << ", " << kAxisDomainNames[static_cast<int>(domains)] << ", "
               << kAxisFunctionNames[static_cast<int>(functions)] << ", " << kAxisGhostNames[static_cast<int>(ghosts)];
         }

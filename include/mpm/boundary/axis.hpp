@@ -58,4 +58,20 @@ class HoopForce final : public Stage {
   ImpulseAccount account_;
 };
 
+/// Books the force and the weight on nodes that take no part because they have no mass or a negative one (Grid::carries).
+/// They are lost to the material. The weight r makes such nodes beside the axis: a corner of a qCPDI domain that touches
+/// the axis has no weight but a gradient, and a domain that reaches across it has negative weights beyond. Comes after
+/// whoever adds forces to the grid. Weak: what PIC and APIC lose of such nodes' momentum is not in it.
+class MasslessNodes final : public Stage {
+ public:
+  explicit MasslessNodes(const Vec3& gravity) : gravity_(gravity) { account_.name = "massless nodes"; }
+  void forces_gathered(StepContext& context) override;
+  void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  void keep(StateArchive& archive) override { account_.keep(archive); }
+
+ private:
+  Vec3 gravity_;  ///< [m/s^2]
+  ImpulseAccount account_;
+};
+
 }  // namespace mpm

@@ -73,4 +73,16 @@ void HoopForce::forces_gathered(StepContext& context) {
   account_.add(sum * context.dt * Vec3::UnitX());
 }
 
+void MasslessNodes::forces_gathered(StepContext& context) {
+  const Grid& grid = context.grid;
+  Vec3 lost = Vec3::Zero();
+  for (int b = 0; b < grid.blocks.size(); ++b) {
+    for (int n = 0; n < grid.layout.nodes_per_block(); ++n) {
+      if (grid.carries(b, n)) continue;
+      lost += nodal_vector(grid.force, grid.layout, {b, n}) + grid.mass.at(b, 0, n) * gravity_;
+    }
+  }
+  account_.add(-context.dt * lost);
+}
+
 }  // namespace mpm

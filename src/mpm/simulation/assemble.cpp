@@ -367,6 +367,14 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     }
   }
 
+  const AxisRules& axis = definition.method.axis;
+  const bool to_zero = definition.method.shape == ShapeKind::qcpdi || axis.domains == AxisDomains::whole;
+  if (axisymmetric(definition.geometry) && axis.functions == AxisFunctions::weighted && to_zero) {
+    for (auto& field : s.fields) {
+      s.stages.push_back(in_field(*field, std::make_unique<MasslessNodes>(definition.gravity)));
+    }
+  }
+
   if (definition.method.precision == Precision::float32) {
     s.add_mechanics<float>();
   } else {

@@ -256,7 +256,7 @@ TEST(NodeContact, ManyMaterialsKeepEveryLawAndMomentum) {
     for (const NodeMaterial& one : m) after += 0.5 * one.mass * one.velocity.squaredNorm();
     EXPECT_LT((momentum(m) - before).norm(), 1e-13);  // some hundred additions of numbers of the order of 1
     EXPECT_LE(after, energy * (1.0 + 1e-12));
-    EXPECT_LE(sweeps, kMostSweeps);
+    EXPECT_LE(sweeps, kMostNodeSweeps);
     for (const NodePair& pair : pairs) {
       const double n = pair.on_a.dot(pair.normals.of_a);
       const Vec3 t = pair.on_a - n * pair.normals.of_a;
@@ -264,7 +264,7 @@ TEST(NodeContact, ManyMaterialsKeepEveryLawAndMomentum) {
       const double opening = relative.dot(pair.normals.of_a);
       EXPECT_LE(n, 0.0);
       EXPECT_LE(t.norm(), -mu * n + 1e-12);
-      // Sweeps end when they change nothing any more, or after kMostSweeps of the slowest combinations.
+      // Sweeps end when they change nothing any more, or after kMostNodeSweeps of the slowest combinations.
       EXPECT_GT(opening, -1e-6) << "trial " << trial << " sweeps " << sweeps;
       EXPECT_LT(std::abs(n * opening), 1e-6);
     }

@@ -6,7 +6,8 @@
 // is on one and against another, so momentum holds to round-off after any number of sweeps. What they settle on
 // satisfies the laws of all pairs at once, since a pair's law sees its whole impulse and not a sweep's share
 // (projected Gauss-Seidel, as for rigid bodies: Catto (2005), "Iterative dynamics with temporal coherence").
-// Weak: materials that hardly weigh anything beside others need many sweeps; after kMostSweeps the node is left as is.
+// Weak: materials that hardly weigh anything beside others need many sweeps; after kMostNodeSweeps the node is left as
+// is.
 #pragma once
 
 #include <vector>
@@ -17,7 +18,7 @@
 
 namespace mpm {
 
-constexpr int kMostSweeps = 200;
+constexpr int kMostNodeSweeps = 200;
 
 /// Two materials of a node, and the law between them in this step.
 struct NodePair {

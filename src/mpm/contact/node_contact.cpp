@@ -65,7 +65,7 @@ int solve_contact(std::vector<NodeMaterial>& materials, std::vector<NodePair>& p
   const bool once =
       pairs.size() == 1 || std::any_of(pairs.begin(), pairs.end(), [](const NodePair& pair) { return !pair.opposite; });
   int sweeps = 0;
-  for (double change = 1.0; change > kSettled * scale && sweeps < kMostSweeps; ++sweeps) {
+  for (double change = 1.0; change > kSettled * scale && sweeps < kMostNodeSweeps; ++sweeps) {
     change = 0.0;
     for (NodePair& pair : pairs) change = std::max(change, act(materials, pair, dt));
     scale = std::max(scale, change);

@@ -4,11 +4,12 @@
 
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
+
 namespace mpm {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 
 /// Throws unless `holds`. Conditions state what must be true, so that NaN fails them.

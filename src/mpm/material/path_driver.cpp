@@ -12,11 +12,11 @@
 namespace mpm {
 namespace {
 
-constexpr int kTerms = 12;               ///< terms of exp(du), as in MaterialPoint
-constexpr double kLargestStep = 0.3;     ///< largest strain of a step for which kTerms are exact to round-off
-constexpr double kTolerance = 1e-11;     ///< part of the largest stress
-constexpr double kRoundOff = 1e-14;      ///< part of the modulus
-constexpr double kTangentStrain = 1e-8;  ///< for differences: half of the digits
+constexpr int kTermsOfStep = 12;      ///< terms of exp(du), as in MaterialPoint
+constexpr double kLargestStep = 0.3;  ///< largest strain of a step for which kTermsOfStep are exact to round-off
+constexpr double kTolerance = 1e-11;  ///< part of the largest stress
+constexpr double kRoundOffOfModulus = 1e-14;  ///< part of the modulus
+constexpr double kTangentStrain = 1e-8;       ///< for differences: half of the digits
 constexpr int kIterations = 50;
 constexpr int kHalvings = 20;
 constexpr int kDivisions = 6;  ///< halvings of a step in which Newton's method does not converge
@@ -106,7 +106,7 @@ void PathDriver::advance_to(Progress& progress, double share, int divisions) {
     }
   }
   const Components stress = components(point_.cauchy());
-  step.tolerance = kTolerance * std::max(largest(stress), largest(step.goal)) + kRoundOff * modulus_;
+  step.tolerance = kTolerance * std::max(largest(stress), largest(step.goal)) + kRoundOffOfModulus * modulus_;
   if (!step.unknowns.empty() && !solve(step, increment)) {
     if (divisions == kDivisions) give_up(step, increment);
     last_ = {};
@@ -133,7 +133,7 @@ void PathDriver::accept(const Step& step, const Components& increment) {
     strain_[k] += increment[k];
   }
   last_ = increment;
-  f_ = product(exponential(step.gradient(increment), kTerms), f_);
+  f_ = product(exponential(step.gradient(increment), kTermsOfStep), f_);
   point_ = std::move(next);
   time_ = step.time;
 }

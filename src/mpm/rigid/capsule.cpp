@@ -5,15 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr int kMeridians = 32;  // of the display mesh
-constexpr int kParallels = 8;   // of each end
+constexpr int kCapsuleMeridians = 32;  // of the display mesh
+constexpr int kEndParallels = 8;       // of each end
 
 class CapsuleSurface final : public Surface {
  public:
@@ -48,11 +48,11 @@ class CapsuleSurface final : public Surface {
 
   std::vector<std::array<Vec3, 3>> triangles() const override {
     // Parallels from one pole to the other; the equator is there twice, at both ends of the straight part.
-    const int last = 2 * kParallels + 1;
+    const int last = 2 * kEndParallels + 1;
     const auto vertex = [&](int parallel, int meridian) {
-      const bool upper = parallel <= kParallels;
-      const double theta = 0.5 * kPi * (upper ? parallel : parallel - 1) / kParallels;
-      const double phi = 2.0 * kPi * (meridian % kMeridians) / kMeridians;
+      const bool upper = parallel <= kEndParallels;
+      const double theta = 0.5 * kPi * (upper ? parallel : parallel - 1) / kEndParallels;
+      const double phi = 2.0 * kPi * (meridian % kCapsuleMeridians) / kCapsuleMeridians;
       const double ring = parallel == 0 || parallel == last ? 0.0 : radius_ * std::sin(theta);  // one vertex a pole
       Vec3 p;
       p[axis_] = radius_ * std::cos(theta) + (upper ? half_ : -half_);
@@ -62,7 +62,7 @@ class CapsuleSurface final : public Surface {
     };
     std::vector<std::array<Vec3, 3>> result;
     for (int i = 0; i < last; ++i) {
-      for (int j = 0; j < kMeridians; ++j) {
+      for (int j = 0; j < kCapsuleMeridians; ++j) {
         if (i + 1 < last) result.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
         if (i > 0) result.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
       }

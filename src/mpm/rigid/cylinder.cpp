@@ -3,14 +3,14 @@
 #include <cmath>
 #include <sstream>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr int kSegments = 48;  // of the display mesh
+constexpr int kCylinderSegments = 48;  // of the display mesh
 
 class CylinderSurface final : public Surface {
  public:
@@ -59,7 +59,7 @@ class CylinderSurface final : public Surface {
     const int u = (axis_ + 1) % 3;
     const int v = (axis_ + 2) % 3;
     const auto vertex = [&](double radius, int segment, double along) {
-      const double angle = 2.0 * kPi * (segment % kSegments) / kSegments;
+      const double angle = 2.0 * kPi * (segment % kCylinderSegments) / kCylinderSegments;
       Vec3 p;
       p[axis_] = along;
       p[u] = radius * std::cos(angle);
@@ -67,7 +67,7 @@ class CylinderSurface final : public Surface {
       return p;
     };
     std::vector<std::array<Vec3, 3>> result;
-    for (int i = 0; i < kSegments; ++i) {
+    for (int i = 0; i < kCylinderSegments; ++i) {
       const Vec3 low = vertex(radius_, i, -half), low_next = vertex(radius_, i + 1, -half);
       const Vec3 high = vertex(radius_, i, half), high_next = vertex(radius_, i + 1, half);
       result.push_back({low, low_next, high_next});

@@ -8,18 +8,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "height_profile.hpp"
+#include "mpm/math/constants.hpp"
 #include "mpm/rigid/surface.hpp"
 #include "triangle.hpp"
 
 namespace mpm {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The nearest point of the surface, and what it is on.
 struct Found {

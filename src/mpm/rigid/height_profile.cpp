@@ -6,16 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "mpm/math/constants.hpp"
 
 namespace mpm {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct Nearest {
+struct NearestOnProfile {
   double squared = kInfinity;
   Vec2 point = Vec2::Zero(), normal = Vec2::Zero();  ///< nearest point, and outward normal of the piece it is on
   bool inner = true;                                 ///< not an end of the piece
@@ -33,7 +32,7 @@ class HeightProfile final : public Surface {
 
   SurfacePoint at(const Vec3& point) const override {
     const Vec2 p(point.x(), point.z());
-    const Nearest nearest = find_nearest(p);
+    const NearestOnProfile nearest = find_nearest(p);
     const Vec2 away = p - nearest.point;
     SurfacePoint result;
     const auto in_space = [](const Vec2& v) { return Vec3(v.x(), 0.0, v.y()); };
@@ -97,8 +96,8 @@ class HeightProfile final : public Surface {
     return heights_[i] + (x - place(i)) / (place(i + 1) - place(i)) * (heights_[i + 1] - heights_[i]);
   }
 
-  Nearest find_nearest(const Vec2& p) const {
-    Nearest best;
+  NearestOnProfile find_nearest(const Vec2& p) const {
+    NearestOnProfile best;
     const int own = column(p.x());
     for (int ring = 0, nearer = 1; nearer != 0; ++ring) {
       nearer = 0;
@@ -115,7 +114,7 @@ class HeightProfile final : public Surface {
     return best;
   }
 
-  void look_at(int i, const Vec2& p, Nearest& best) const {
+  void look_at(int i, const Vec2& p, NearestOnProfile& best) const {
     const Vec2 from(place(i), heights_[i]), along = Vec2(place(i + 1), heights_[i + 1]) - from;
     const double t = (p - from).dot(along) / along.squaredNorm();
     const Vec2 point = from + std::clamp(t, 0.0, 1.0) * along;
@@ -124,7 +123,7 @@ class HeightProfile final : public Surface {
     best = {squared, point, Vec2(-along.y(), along.x()).normalized(), t > 0.0 && t < 1.0};
   }
 
-  static void look_at_side(double x, double top, double outwards, const Vec2& p, Nearest& best) {
+  static void look_at_side(double x, double top, double outwards, const Vec2& p, NearestOnProfile& best) {
     const double squared = (p.x() - x) * (p.x() - x);
     if (p.y() < top && squared < best.squared) best = {squared, {x, p.y()}, {outwards, 0.0}, true};
   }

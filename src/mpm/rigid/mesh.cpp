@@ -4,11 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <unsupported/Eigen/BVH>
 #include <utility>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/rigid/mesh_topology.hpp"
 #include "mpm/rigid/surface.hpp"
 #include "triangle.hpp"
@@ -16,8 +16,6 @@
 namespace mpm {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class MeshSurface final : public Surface {
  public:

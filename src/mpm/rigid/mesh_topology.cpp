@@ -8,22 +8,22 @@
 #include <string>
 #include <utility>
 
+#include "mpm/math/constants.hpp"
+
 namespace mpm {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 using Edge = std::pair<int, int>;
 
-std::string text_of(const Vec3& point) {
+std::string place_of(const Vec3& point) {
   std::ostringstream text;
   text << "(" << point.x() << ", " << point.y() << ", " << point.z() << ")";
   return text.str();
 }
 
-std::string text_of(const TriangleMesh& mesh, const Edge& edge) {
-  return text_of(mesh.vertices[edge.first]) + " to " + text_of(mesh.vertices[edge.second]);
+std::string place_of(const TriangleMesh& mesh, const Edge& edge) {
+  return place_of(mesh.vertices[edge.first]) + " to " + place_of(mesh.vertices[edge.second]);
 }
 
 void check_numbers(const TriangleMesh& mesh) {
@@ -31,7 +31,7 @@ void check_numbers(const TriangleMesh& mesh) {
   const int count = static_cast<int>(mesh.vertices.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (!mesh.vertices[v].allFinite()) {
-      throw RigidError("mesh: vertex " + std::to_string(v) + " is not finite: " + text_of(mesh.vertices[v]));
+      throw RigidError("mesh: vertex " + std::to_string(v) + " is not finite: " + place_of(mesh.vertices[v]));
     }
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -55,7 +55,7 @@ std::vector<std::array<int, 3>> with_area(const TriangleMesh& mesh) {
     const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
     // 1e-12: a height a million million times smaller than the side is rounding, not shape.
     if (!((b - a).cross(c - a).norm() > 1e-12 * longest)) {
-      throw RigidError("mesh: triangle " + std::to_string(t) + " at " + text_of(a) +
+      throw RigidError("mesh: triangle " + std::to_string(t) + " at " + place_of(a) +
                        " has no area; repair the mesh (merge vertices, remove degenerate faces)");
     }
     kept.push_back(mesh.triangles[t]);
@@ -71,7 +71,7 @@ std::map<Edge, int> paired_edges(const TriangleMesh& mesh) {
     for (int e = 0; e < 3; ++e) {
       const Edge edge{mesh.triangles[t][e], mesh.triangles[t][(e + 1) % 3]};
       if (!owner.emplace(edge, static_cast<int>(t)).second) {
-        throw RigidError("mesh: not consistently oriented: the edge " + text_of(mesh, edge) +
+        throw RigidError("mesh: not consistently oriented: the edge " + place_of(mesh, edge) +
                          " is used twice in one direction; turn the faces alike, and join no more than two at an edge");
       }
     }
@@ -84,7 +84,7 @@ std::map<Edge, int> paired_edges(const TriangleMesh& mesh) {
   }
   if (open > 0) {
     throw RigidError("mesh: not closed: " + std::to_string(open) +
-                     " edges have a triangle on one side only, the first from " + text_of(mesh, first) +
+                     " edges have a triangle on one side only, the first from " + place_of(mesh, first) +
                      "; fill the holes and merge vertices");
   }
   return owner;
@@ -142,10 +142,10 @@ void check_parts(const TriangleMesh& mesh, const std::vector<int>& part) {
     }
     // Whole numbers, but one half where parts touch: the quarters decide.
     if (volume[p] > 0.0 && turns > 0.75) {
-      throw RigidError("mesh: the part at " + text_of(sample[p]) + " lies inside another part; unite the parts");
+      throw RigidError("mesh: the part at " + place_of(sample[p]) + " lies inside another part; unite the parts");
     }
     if (volume[p] < 0.0 && turns < 0.25) {
-      throw RigidError("mesh: the part at " + text_of(sample[p]) + " is turned inside out; turn its faces");
+      throw RigidError("mesh: the part at " + place_of(sample[p]) + " is turned inside out; turn its faces");
     }
   }
 }

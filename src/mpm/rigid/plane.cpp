@@ -2,15 +2,14 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <limits>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDrawnDepth = 0.05;  // of the slab's side
 
 class PlaneSurface final : public Surface {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/rigid/surface.hpp"
 #include "outline.hpp"
 
@@ -17,9 +18,8 @@ namespace mpm {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr int kSegments = 48;  // of the display mesh
-constexpr int kSamples = 64;   // of an edge, for the thickness
+constexpr int kRevolvedSegments = 48;  // of the display mesh
+constexpr int kSamples = 64;           // of an edge, for the thickness
 // Faces that enclose less than 45 degrees are the two sides of a wall; more is an edge or a tip that ends a body.
 const double kOpposed = std::cos(0.25 * kPi);
 constexpr double kThinPart = 0.05;  // of the surface: less may be thinner than the thickness
@@ -62,12 +62,12 @@ class RevolvedSurface final : public Surface {
 
   std::vector<std::array<Vec3, 3>> triangles() const override {
     const auto vertex = [](const Vec2& p, int segment) {
-      const double angle = 2.0 * kPi * (segment % kSegments) / kSegments;
+      const double angle = 2.0 * kPi * (segment % kRevolvedSegments) / kRevolvedSegments;
       return Vec3(p.x() * std::cos(angle), p.x() * std::sin(angle), p.y());
     };
     std::vector<std::array<Vec3, 3>> result;
     for (const OutlineEdge& edge : outline_.edges()) {
-      for (int i = 0; i < kSegments; ++i) {
+      for (int i = 0; i < kRevolvedSegments; ++i) {
         const Vec3 from = vertex(edge.from, i), from_next = vertex(edge.from, i + 1);
         const Vec3 to = vertex(edge.to, i), to_next = vertex(edge.to, i + 1);
         if (edge.from.x() > 0.0) result.push_back({from, from_next, to_next});

@@ -2,15 +2,15 @@
 #include <cmath>
 #include <sstream>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr int kMeridians = 32;  // of the display mesh
-constexpr int kParallels = 16;
+constexpr int kSphereMeridians = 32;  // of the display mesh
+constexpr int kSphereParallels = 16;
 
 class SphereSurface final : public Surface {
  public:
@@ -37,15 +37,15 @@ class SphereSurface final : public Surface {
 
   std::vector<std::array<Vec3, 3>> triangles() const override {
     const auto vertex = [&](int parallel, int meridian) {
-      const double theta = kPi * parallel / kParallels;
-      const double phi = 2.0 * kPi * (meridian % kMeridians) / kMeridians;
-      const double ring = parallel == 0 || parallel == kParallels ? 0.0 : std::sin(theta);  // one vertex a pole
+      const double theta = kPi * parallel / kSphereParallels;
+      const double phi = 2.0 * kPi * (meridian % kSphereMeridians) / kSphereMeridians;
+      const double ring = parallel == 0 || parallel == kSphereParallels ? 0.0 : std::sin(theta);  // one vertex a pole
       return Vec3(radius_ * Vec3(ring * std::cos(phi), ring * std::sin(phi), std::cos(theta)));
     };
     std::vector<std::array<Vec3, 3>> result;
-    for (int i = 0; i < kParallels; ++i) {
-      for (int j = 0; j < kMeridians; ++j) {
-        if (i + 1 < kParallels) result.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+    for (int i = 0; i < kSphereParallels; ++i) {
+      for (int j = 0; j < kSphereMeridians; ++j) {
+        if (i + 1 < kSphereParallels) result.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
         if (i > 0) result.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
       }
     }

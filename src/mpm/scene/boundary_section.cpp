@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
 namespace {
 
-constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr double kOnFace = 1e-6;  ///< part of a cell: nodes on the faces of a region belong to it
 
 WallDefinition read_wall(const Value& value) {
@@ -59,14 +58,14 @@ void check_periodic(const Value& value, int axis, const Scene& scene) {
 /// Turns a region of space into the surface around it, so that nodes on its faces are included.
 void set_region(const Region& region, const Scene& scene, RigidBodyDefinition& body) {
   const GeometryKind geometry = scene.definition.geometry;
-  double smallest = kEndless;
+  double smallest = kInfinity;
   for (const int axis : axes_of(scene)) smallest = std::min(smallest, scene.definition.grid.cell[axis]);
   const double margin = kOnFace * smallest;
   const std::vector<int> beside = axes_beside(geometry);
   if (region.kind == Region::Kind::box) {
     Vec3 size = region.box.size() + Vec3::Constant(2.0 * margin);
     body.pose.position = region.box.center();
-    for (const int axis : beside) size[axis] = kEndless, body.pose.position[axis] = 0.0;
+    for (const int axis : beside) size[axis] = kInfinity, body.pose.position[axis] = 0.0;
     body.surface = make_box(size);
     return;
   }
@@ -75,9 +74,9 @@ void set_region(const Region& region, const Scene& scene, RigidBodyDefinition& b
   if (region.kind == Region::Kind::cylinder) {
     body.surface = make_cylinder(radius, region.height + 2.0 * margin, region.axis);
   } else if (geometry == GeometryKind::line) {
-    body.surface = make_box({2.0 * radius, kEndless, kEndless});
+    body.surface = make_box({2.0 * radius, kInfinity, kInfinity});
   } else if (planar(geometry)) {
-    body.surface = make_cylinder(radius, kEndless, 1);
+    body.surface = make_cylinder(radius, kInfinity, 1);
   } else {
     body.surface = make_sphere(radius);
   }

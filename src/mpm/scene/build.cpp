@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/memory.hpp"
 #include "mpm/scene/sections.hpp"
@@ -18,7 +19,7 @@ namespace {
 // Largest number of particles: they are numbered by signed 32-bit integers.
 constexpr double kMostParticles = 2147483647.0;
 // Faces count as equal within this part of a cell, since 0.1 is not a binary number.
-constexpr double kOnFace = 1e-6;
+constexpr double kFaceSlack = 1e-6;
 
 std::string span(const Box& box, const std::vector<int>& axes) {
   std::string text;
@@ -34,7 +35,7 @@ void check_place(const BodyDefinition& body, const Scene& scene) {
   const Box bounds = body.region.bounds();
   const std::vector<int> axes = axes_of(scene);
   for (const int axis : axes) {
-    const double slack = kOnFace * grid.cell[axis];
+    const double slack = kFaceSlack * grid.cell[axis];
     if (bounds.min[axis] < grid.min[axis] - slack || bounds.max[axis] > grid.max[axis] + slack) {
       throw SceneError(
           fmt::format("{}: body '{}' reaches out of the grid along {}: it spans {}, the grid {}; move it or "
@@ -75,7 +76,6 @@ Lattice lattice(const Scene& scene, const Box& bounds, int axis) {
 
 /// Volume of a region relative to its bounds; in planar scenes, where a sphere is a disk, area; in a line length.
 double fullness(const Region& region, GeometryKind geometry) {
-  constexpr double kPi = 3.14159265358979323846;
   if (region.kind == Region::Kind::box || geometry == GeometryKind::line) return 1.0;
   if (axisymmetric(geometry) && region.kind == Region::Kind::cylinder) return 1.0;
   return region.kind == Region::Kind::sphere && geometry == GeometryKind::solid ? kPi / 6.0 : kPi / 4.0;

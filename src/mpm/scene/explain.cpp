@@ -13,7 +13,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kNanosecond = 1e-9;
+constexpr double kSyncUnit = 1e-9;
 
 std::string geometry_text(const SimulationDefinition& definition) {
   if (definition.geometry == GeometryKind::line) return fmt::format("line, {:g} m^2 across", definition.area);
@@ -65,7 +65,7 @@ void add_steps(const Scene& scene, const SimulationDefinition& built, std::strin
   }
   const TimeDefinition& time = built.time;
   const double by_wave = time.cfl * smallest_cell(scene) / fastest;
-  const double sync = static_cast<double>(time.sync) * kNanosecond;
+  const double sync = static_cast<double>(time.sync) * kSyncUnit;
   double limit = by_wave;
   std::string reason =
       fmt::format("the wave in {} ({:.5g} m/s) crosses {:g} of a cell", material_name, fastest, time.cfl);

@@ -12,7 +12,7 @@
 namespace mpm {
 namespace {
 
-constexpr int kLongest = 1 << 15;  // points along an axis; a larger number in an image's header is not a size
+constexpr int kMostPoints = 1 << 15;  // points along an axis; a larger number in an image's header is not a size
 
 HeightTable read_text(std::istream& stream, const std::string& path) {
   HeightTable table;
@@ -57,7 +57,7 @@ HeightTable read_image(std::istream& stream, const std::string& path) {
   table.rows = head_number(stream);
   const int white = head_number(stream);
   const auto between = [](int value, int most) { return value > 0 && value <= most; };
-  if ((kind != "P2" && kind != "P5") || !between(table.columns, kLongest) || !between(table.rows, kLongest) ||
+  if ((kind != "P2" && kind != "P5") || !between(table.columns, kMostPoints) || !between(table.rows, kMostPoints) ||
       !between(white, 65535)) {
     throw SceneError(path + ": not a greyscale image; write it as PGM (P2 or P5)");
   }

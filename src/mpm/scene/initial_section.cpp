@@ -11,7 +11,7 @@
 namespace mpm {
 namespace {
 
-const std::array<const char*, 6> kComponents = {"xx", "yy", "zz", "yz", "xz", "xy"};
+const std::array<const char*, 6> kStressComponents = {"xx", "yy", "zz", "yz", "xz", "xy"};
 
 /// Components of stress that a scene may give; the others are zero, or follow from these.
 std::vector<std::string> free_components(GeometryKind geometry) {
@@ -27,7 +27,7 @@ std::vector<std::string> free_components(GeometryKind geometry) {
     case GeometryKind::solid:
       break;
   }
-  return {kComponents.begin(), kComponents.end()};
+  return {kStressComponents.begin(), kStressComponents.end()};
 }
 
 const char* stress_example(GeometryKind geometry) {
@@ -51,9 +51,9 @@ void read_stress(const Value& value, GeometryKind geometry, BodyDefinition& body
   const std::vector<std::string> names = free_components(geometry);
   const Map map(value, names);
   std::array<Function, 6> stress;
-  for (std::size_t k = 0; k < kComponents.size(); ++k) {
-    if (std::find(names.begin(), names.end(), kComponents[k]) == names.end()) continue;
-    if (const auto component = map.find(kComponents[k])) stress[k] = component->function(kPressure);
+  for (std::size_t k = 0; k < kStressComponents.size(); ++k) {
+    if (std::find(names.begin(), names.end(), kStressComponents[k]) == names.end()) continue;
+    if (const auto component = map.find(kStressComponents[k])) stress[k] = component->function(kPressure);
   }
   body.stress = stress;
   body.yy_follows = geometry == GeometryKind::plane_strain && !map.find("yy");

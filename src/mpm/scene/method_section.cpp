@@ -16,7 +16,7 @@ namespace {
 // A grid is a whole number of cells, within this part of a cell, since 0.1 is not a binary number.
 constexpr double kWholeCells = 1e-6;
 // Largest number of cells along an axis: node numbers have 32 bits, and there are layers around the domain.
-constexpr double kMostCells = 1e8;
+constexpr double kMostGridCells = 1e8;
 
 Vec3 read_cell(const Value& value, const Scene& scene) {
   if (value.is_text()) return Vec3::Constant(value.positive(kLength));
@@ -36,7 +36,7 @@ void check_extent(const Value& max, const Scene& scene) {
       max.fail(fmt::format("{} = {} m is not above grid.min ({} m); put max above min", axis_name(axis), grid.max[axis],
                            grid.min[axis]));
     }
-    if (!(cells < kMostCells)) {
+    if (!(cells < kMostGridCells)) {
       max.fail(fmt::format("{:.3g} cells along {}; make grid.cell larger or the grid smaller", cells, axis_name(axis)));
     }
     const double whole = std::max(1.0, std::round(cells));

@@ -3,12 +3,11 @@
 
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 std::unique_ptr<Surface> read_revolved(const Value& value) {
   Profile profile;

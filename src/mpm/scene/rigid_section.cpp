@@ -3,14 +3,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
 namespace {
-
-constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 std::unique_ptr<Surface> read_mesh(const Value& value, GeometryKind geometry) {
   if (axisymmetric(geometry)) value.fail("a mesh is not a body of revolution; write its section as revolved");
@@ -32,23 +30,23 @@ std::unique_ptr<Surface> read_mesh(const Value& value, GeometryKind geometry) {
   }
 }
 
-std::unique_ptr<Surface> read_box(const Value& value, GeometryKind geometry) {
+std::unique_ptr<Surface> read_box_surface(const Value& value, GeometryKind geometry) {
   if (axisymmetric(geometry)) value.fail("a box is not a body of revolution; write cylinder or ring");
   const Value size_value = Map(value, {"size"}, {{"min", "write size, and put the body by its pose"}}).at("size");
   Vec3 size = size_value.vector(kLength);
-  for (const int axis : axes_beside(geometry)) size[axis] = kEndless;
+  for (const int axis : axes_beside(geometry)) size[axis] = kInfinity;
   if (!(size.array() > 0.0).all()) size_value.fail("an edge is not greater than 0; write the lengths of its edges");
   return make_box(size);
 }
 
-std::unique_ptr<Surface> read_sphere(const Value& value, GeometryKind geometry) {
+std::unique_ptr<Surface> read_sphere_surface(const Value& value, GeometryKind geometry) {
   const double radius = Map(value, {"radius"}).at("radius").positive(kLength);
-  if (geometry == GeometryKind::line) return make_box({2.0 * radius, kEndless, kEndless});
-  if (planar(geometry)) return make_cylinder(radius, kEndless, 1);
+  if (geometry == GeometryKind::line) return make_box({2.0 * radius, kInfinity, kInfinity});
+  if (planar(geometry)) return make_cylinder(radius, kInfinity, 1);
   return make_sphere(radius);
 }
 
-std::unique_ptr<Surface> read_cylinder(const Value& value, GeometryKind geometry) {
+std::unique_ptr<Surface> read_cylinder_surface(const Value& value, GeometryKind geometry) {
   if (geometry == GeometryKind::line) value.fail("a line has no cylinder; write box or sphere, each an interval of it");
   const Map map(value, {"radius", "height", "axis"});
   const double radius = map.at("radius").positive(kLength);
@@ -58,7 +56,7 @@ std::unique_ptr<Surface> read_cylinder(const Value& value, GeometryKind geometry
     if (axis_key && axis_key->choice({"x", "y", "z"}) != 1)
       axis_key->fail("a planar scene's cylinder lies along y; write y");
     if (height) height->fail("a planar scene's cylinder has no end along y; leave it out");
-    return make_cylinder(radius, kEndless, 1);
+    return make_cylinder(radius, kInfinity, 1);
   }
   const int axis = axis_key ? static_cast<int>(axis_key->choice({"x", "y", "z"})) : 2;
   if (axisymmetric(geometry) && axis != 2)
@@ -106,9 +104,9 @@ std::unique_ptr<Surface> read_surface(const Value& value, const SimulationDefini
     if (kind == "height_field") return read_height_field(shape, definition);
     if (kind == "mesh") return read_mesh(shape, geometry);
     if (kind == "urdf") return read_urdf_link(shape, geometry);
-    if (kind == "box") return read_box(shape, geometry);
-    if (kind == "sphere") return read_sphere(shape, geometry);
-    if (kind == "cylinder") return read_cylinder(shape, geometry);
+    if (kind == "box") return read_box_surface(shape, geometry);
+    if (kind == "sphere") return read_sphere_surface(shape, geometry);
+    if (kind == "cylinder") return read_cylinder_surface(shape, geometry);
     return read_revolved_shape(kind, shape, body);
   } catch (const RigidError& error) {
     shape.fail(error.what());

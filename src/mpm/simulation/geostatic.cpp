@@ -20,9 +20,9 @@
 namespace mpm {
 namespace {
 
-constexpr double kGap = 1.5;                  ///< particle spacings from centre to centre that part a column
-constexpr std::uint64_t kMostSteps = 10'000;  ///< of settling
-constexpr std::uint64_t kSurveyEvery = 10;    ///< steps between looks at the wave speed
+constexpr double kGap = 1.5;                          ///< particle spacings from centre to centre that part a column
+constexpr std::uint64_t kMostSettlingSteps = 10'000;  ///< of settling
+constexpr std::uint64_t kSurveyEvery = 10;            ///< steps between looks at the wave speed
 
 struct Part {
   std::int64_t column;  ///< which column of the lattice
@@ -213,7 +213,7 @@ void Simulation::State::settle() {
   double before = 0.0;
   std::uint64_t count = 0;
   try {
-    for (bool at_rest = true; residual.mean > wanted && count < kMostSteps; ++count) {
+    for (bool at_rest = true; residual.mean > wanted && count < kMostSettlingSteps; ++count) {
       if (count % kSurveyEvery == 0) r.previous_limit = r.material_limit = r.survey_material();
       r.step(0.0, std::min(r.step_limit().dt, period));
       if (at_rest) {

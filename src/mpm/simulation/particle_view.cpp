@@ -9,7 +9,7 @@
 namespace mpm {
 namespace {
 
-Eigen::Matrix3d full(const Symmetric3<double>& s) {
+Eigen::Matrix3d matrix_of(const Symmetric3<double>& s) {
   Eigen::Matrix3d m;
   m << s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz;
   return m;
@@ -17,7 +17,7 @@ Eigen::Matrix3d full(const Symmetric3<double>& s) {
 
 /// 1/2 ln s, s symmetric and positive.
 Symmetric3<double> half_logarithm(const Symmetric3<double>& s) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(full(s));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix_of(s));
   const Eigen::Vector3d logarithms = 0.5 * solver.eigenvalues().array().log();
   const Eigen::Matrix3d m = solver.eigenvectors() * logarithms.asDiagonal() * solver.eigenvectors().transpose();
   return {m(0, 0), m(1, 1), m(2, 2), m(1, 2), m(0, 2), m(0, 1)};

@@ -7,7 +7,7 @@
 #include "mpm/study/problems.hpp"
 
 namespace mpm::study {
-namespace {
+namespace colliding_disks_problem {
 
 constexpr double kRadius = 0.2, kEnd = 3.6;
 
@@ -27,9 +27,10 @@ SimulationDefinition definition(const MethodDefinition& method, const Discretisa
   return d;
 }
 
-}  // namespace
+}  // namespace colliding_disks_problem
 
 Suite colliding_disks() {
+  using namespace colliding_disks_problem;
   Suite suite;
   suite.name = "colliding_disks";
   suite.title = "Two disks collide";

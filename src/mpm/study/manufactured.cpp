@@ -11,14 +11,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/study/lattice.hpp"
 #include "mpm/study/measures.hpp"
 #include "mpm/study/problems.hpp"
 
 namespace mpm::study {
-namespace {
+namespace manufactured_problem {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kDensity = 1000.0, kYoung = 1000.0;  // so that c is 1 m/s
 constexpr double kPeriod = 2.0;                       // of sin(c pi t) [s]
 
@@ -81,9 +81,10 @@ SimulationDefinition make_definition(const Problem& problem, const MethodDefinit
   return d;
 }
 
-}  // namespace
+}  // namespace manufactured_problem
 
 Suite manufactured(const std::string& name, GeometryKind geometry, double amplitude) {
+  using namespace manufactured_problem;
   const Problem problem = {name, geometry, amplitude};
   const int directions = dimensions(geometry);
   const char* body = directions == 1 ? "bar" : directions == 2 ? "square" : "cube";

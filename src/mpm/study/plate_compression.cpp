@@ -9,13 +9,13 @@
 #include <cmath>
 #include <limits>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/study/lattice.hpp"
 #include "mpm/study/problems.hpp"
 
 namespace mpm::study {
-namespace {
+namespace plate_compression_problem {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kDensity = 1000.0;
 constexpr Elasticity kElasticity = {1000.0, 0.3};
 constexpr double kEdge = 1.0, kPressed = 0.2;       // [m]
@@ -71,9 +71,10 @@ SimulationDefinition definition(const MethodDefinition& method, const Discretisa
   return d;
 }
 
-}  // namespace
+}  // namespace plate_compression_problem
 
 Suite plate_compression() {
+  using namespace plate_compression_problem;
   Suite suite;
   suite.name = "plate_compression";
   suite.title = "A plate compresses a block";

@@ -5,14 +5,14 @@
 
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/study/lattice.hpp"
 #include "mpm/study/measures.hpp"
 #include "mpm/study/problems.hpp"
 
 namespace mpm::study {
-namespace {
+namespace rotation_problem {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kDensity = 1000.0, kSpin = 0.2;  // w [rad/s]; a corner moves at a quarter of the wave speed
 constexpr double kHalf = 1.0, kEnd = 0.5 * kPi / kSpin;
 
@@ -39,9 +39,10 @@ Vec3 motion(double time, const Vec3& start) {
   return {c * start.x() - s * start.z(), 0.0, s * start.x() + c * start.z()};
 }
 
-}  // namespace
+}  // namespace rotation_problem
 
 Suite rotation() {
+  using namespace rotation_problem;
   Suite suite;
   suite.name = "rotation";
   suite.title = "A quarter turn";

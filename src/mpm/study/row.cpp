@@ -13,7 +13,7 @@ namespace {
 std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 /// How a column is written and read.
-struct Column {
+struct RowColumn {
   const char* name;
   std::string (*write)(const Row&);
   void (*read)(Row&, const std::string&);
@@ -28,17 +28,17 @@ double number(const std::string& text) {
 }
 
 template <std::string Row::*Member>
-Column text_column(const char* name) {
+RowColumn text_column(const char* name) {
   return {name, [](const Row& row) { return row.*Member; },
           [](Row& row, const std::string& text) { row.*Member = text; }};
 }
 template <double Row::*Member>
-Column number_column(const char* name) {
+RowColumn number_column(const char* name) {
   return {name, [](const Row& row) { return cell(row.*Member); },
           [](Row& row, const std::string& text) { row.*Member = number(text); }};
 }
 template <auto Member>
-Column count_column(const char* name) {
+RowColumn count_column(const char* name) {
   return {name, [](const Row& row) { return fmt::format("{}", row.*Member); },
           [](Row& row, const std::string& text) {
             using Count = std::decay_t<decltype(row.*Member)>;
@@ -46,8 +46,8 @@ Column count_column(const char* name) {
           }};
 }
 
-const std::vector<Column>& columns() {
-  static const std::vector<Column> list = {
+const std::vector<RowColumn>& columns() {
+  static const std::vector<RowColumn> list = {
       text_column<&Row::suite>("suite"),
       text_column<&Row::method>("method"),
       text_column<&Row::shape>("shape"),
@@ -110,12 +110,12 @@ std::string quoted(const std::string& text) {
 }
 
 void write_header(std::ostream& out) {
-  for (const Column& column : columns()) out << (&column == columns().data() ? "" : ",") << column.name;
+  for (const RowColumn& column : columns()) out << (&column == columns().data() ? "" : ",") << column.name;
   out << '\n';
 }
 
 void write_row(std::ostream& out, const Row& row) {
-  for (const Column& column : columns()) {
+  for (const RowColumn& column : columns()) {
     out << (&column == columns().data() ? "" : ",") << quoted(column.write(row));
   }
   out << '\n' << std::flush;

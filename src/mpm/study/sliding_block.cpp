@@ -6,13 +6,13 @@
 #include <limits>
 #include <numeric>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/study/lattice.hpp"
 #include "mpm/study/problems.hpp"
 
 namespace mpm::study {
-namespace {
+namespace sliding_block_problem {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kGravity = 9.81, kFriction = 0.3, kAngle = kPi / 6.0;
 constexpr double kHeight = 0.1, kLength = 0.2, kVelocity = 0.5, kEnd = 0.4;
 const Vec3 kDown(std::cos(kAngle), 0.0, -std::sin(kAngle)), kNormal(std::sin(kAngle), 0.0, std::cos(kAngle));
@@ -60,9 +60,10 @@ SimulationDefinition definition(const MethodDefinition& method, const Discretisa
   return d;
 }
 
-}  // namespace
+}  // namespace sliding_block_problem
 
 Suite sliding_block() {
+  using namespace sliding_block_problem;
   Suite suite;
   suite.name = "sliding_block";
   suite.title = "A block slides down an incline";

@@ -12,7 +12,7 @@ namespace mpm::study {
 namespace {
 
 constexpr double kTargets[] = {0.1, 0.03, 0.01, 0.003};
-const char* const kReference = "ugimp/usf/flip";
+const char* const kReferenceMethod = "ugimp/usf/flip";
 
 struct Measure {
   const char* name;
@@ -20,7 +20,7 @@ struct Measure {
 };
 constexpr Measure kMeasures[] = {{"work", &Row::work}, {"cost", &Row::cost}};
 
-std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+std::string cell_of(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 Cheapest cheapest(const std::string& suite, double target, const Measure& measure,
                   const std::map<std::string, std::vector<FrontPoint>>& points) {
@@ -33,7 +33,7 @@ Cheapest cheapest(const std::string& suite, double target, const Measure& measur
     const auto cost = cost_at(front(of_method), target);
     if (!cost) continue;
     found.emplace_back(*cost, method);
-    if (method == kReference) line.reference = *cost;
+    if (method == kReferenceMethod) line.reference = *cost;
   }
   std::sort(found.begin(), found.end());
   for (const auto& one : found) line.reached_by.push_back(one.second);
@@ -94,9 +94,9 @@ void write_summary(std::ostream& out, const std::vector<Cheapest>& lines) {
   for (const Cheapest& line : lines) {
     std::string reached;
     for (const std::string& method : line.reached_by) reached += (reached.empty() ? "" : " ") + method;
-    out << quoted(line.suite) << ',' << cell(line.target) << ',' << line.by << ',' << quoted(line.method) << ','
-        << cell(line.value) << ',' << quoted(line.second) << ',' << cell(line.second_value) << ','
-        << cell(line.reference) << ',' << quoted(reached) << '\n';
+    out << quoted(line.suite) << ',' << cell_of(line.target) << ',' << line.by << ',' << quoted(line.method) << ','
+        << cell_of(line.value) << ',' << quoted(line.second) << ',' << cell_of(line.second_value) << ','
+        << cell_of(line.reference) << ',' << quoted(reached) << '\n';
   }
 }
 

@@ -4,14 +4,14 @@
 // Source: exact-solutions 1 (it solves rho u_tt = E u_xx).
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/study/lattice.hpp"
 #include "mpm/study/measures.hpp"
 #include "mpm/study/problems.hpp"
 
 namespace mpm::study {
-namespace {
+namespace vibrating_bar_problem {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kLength = 1.0, kSpeed = 1.0, kDensity = 1000.0;  // L [m], c [m/s], rho [kg/m^3]
 constexpr double kVelocity = 1e-4 * kSpeed;                       // v0
 constexpr double kBeta = kPi / (2.0 * kLength);
@@ -34,9 +34,10 @@ Vec3 motion(double time, const Vec3& start) {
   return start + Vec3(kAmplitude * std::sin(kBeta * start.x()) * std::sin(kBeta * kSpeed * time), 0.0, 0.0);
 }
 
-}  // namespace
+}  // namespace vibrating_bar_problem
 
 Suite vibrating_bar() {
+  using namespace vibrating_bar_problem;
   Suite suite;
   suite.name = "bar_small";
   suite.title = "A bar that vibrates freely";

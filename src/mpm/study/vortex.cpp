@@ -10,14 +10,14 @@
 
 #include <cmath>
 
+#include "mpm/math/constants.hpp"
 #include "mpm/study/lattice.hpp"
 #include "mpm/study/measures.hpp"
 #include "mpm/study/problems.hpp"
 
 namespace mpm::study {
-namespace {
+namespace vortex_problem {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kDensity = 1000.0;
 constexpr Elasticity kElasticity = {1000.0, 0.3};
 constexpr double kInner = 0.625, kOuter = 1.375;  // of the body, around the ring [m]
@@ -75,9 +75,10 @@ SimulationDefinition make_definition(const std::string& name, double turn, const
   return d;
 }
 
-}  // namespace
+}  // namespace vortex_problem
 
 Suite vortex(const std::string& name, double turn) {
+  using namespace vortex_problem;
   Suite suite;
   suite.name = name;
   suite.title = "Generalised vortex";

@@ -13,7 +13,7 @@ namespace mpm_ros {
 
 namespace {
 
-constexpr const char* kEnding = "the node is ending";
+constexpr const char* kNodeEnds = "the node is ending";
 
 std::string from_root(const std::string& path) { return std::filesystem::absolute(path).lexically_normal().string(); }
 
@@ -22,13 +22,13 @@ std::int64_t nanoseconds(const ros::Time& time) { return static_cast<std::int64_
 }  // namespace
 
 bool SimulatorNode::on_save_checkpoint(Checkpoint::Request& request, Checkpoint::Response& response) {
-  response.message = kEnding;
+  response.message = kNodeEnds;
   mailbox_.call([&] { save_checkpoint(request.path, response); });
   return true;
 }
 
 bool SimulatorNode::on_load_checkpoint(Checkpoint::Request& request, Checkpoint::Response& response) {
-  response.message = kEnding;
+  response.message = kNodeEnds;
   mailbox_.call([&] { load_checkpoint(request.path, response); });
   return true;
 }

@@ -4,17 +4,15 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "mpm/kernel/isa.hpp"
+#include "mpm/math/constants.hpp"
 #include "mpm/math/nearest.hpp"
 
 namespace mpm_ros {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Reads values by name and remembers which names it was asked for.
 class Reader {
@@ -45,7 +43,7 @@ class Reader {
       fail(name, "must be a number");
     }
     const bool inside = open ? result > min : result >= min;
-    if (!inside || !(result < kInfinity)) {
+    if (!inside || !(result < mpm::kInfinity)) {
       fail(name, fmt::format("is {}; it must be finite and {} {}", result, open ? "above" : "at least", min));
     }
   }

@@ -20,7 +20,7 @@ constexpr std::chrono::milliseconds kPatience{5000};
 /// [s] of simulated time; its nanoseconds are still a whole number of 64 bits.
 constexpr double kLongestStep = 1e9;
 /// How often it looks whether the node is to stop.
-constexpr std::chrono::milliseconds kGlance{50};
+constexpr std::chrono::milliseconds kPoll{50};
 
 }  // namespace
 
@@ -85,8 +85,8 @@ bool SimulatorNode::wait_received(const Step::Request& request, Step::Response& 
     response.message = "recorded commands are being replayed (~commands); others are not received";
     return false;
   }
-  for (auto waited = std::chrono::milliseconds(0); waited < kPatience && !stop_requested_(); waited += kGlance) {
-    if (bridge_->reader().wait_received(request.after_received, kGlance)) return true;
+  for (auto waited = std::chrono::milliseconds(0); waited < kPatience && !stop_requested_(); waited += kPoll) {
+    if (bridge_->reader().wait_received(request.after_received, kPoll)) return true;
   }
   response.received = bridge_->reader().received();
   response.message =

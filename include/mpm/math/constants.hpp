@@ -1,0 +1,11 @@
+// Numbers that have a name everywhere.
+#pragma once
+
+#include <limits>
+
+namespace mpm {
+
+inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace mpm

@@ -17,6 +17,7 @@ using verification::Page;
 
 constexpr double kPressSpeed = 0.02;  // of the bar's end, over the wave speed
 constexpr double kSwing = 0.5;
+constexpr double kFast = 0.08;  // of a bar that is pulled fast, over the wave speed
 
 /// Stretch from which particles that touched at the start may share no node, wherever they are in their cells; without
 /// end where domains follow the stretch. A node lies in reach of both while their distance s h / n is at most the width
@@ -55,8 +56,12 @@ TEST(Stretch, UntilTheBarParts) {
           "they should be or J is off by half, or the run ended with an error.")
       .exact(
           "x = s(t) X, J = s. Theory, an upper bound: from the stretch at which particles that touched at the start "
-          "may share no node the bar cannot hold (Dirac 2, uGIMP 3, splines 4 and 6; none for domains that stretch).",
-          "equilibrium of uniform stress; supports of the shape functions")
+          "may share no node the bar cannot hold (Dirac 2, uGIMP 3, splines 4 and 6; none for domains that stretch). "
+          "It "
+          "is far above what is reached, so it is shown beside it and asks nothing. Asked: uGIMP breaks near the 50 % "
+          "at "
+          "which it is said to, and CPDI carries 50 % as in Nairn & Guilkey's end-loaded cylinder, both pulled fast.",
+          "equilibrium of uniform stress; supports of the shape functions; Nairn & Guilkey (2015) section 4.2")
       .meaning(
           "Folklore says that uGIMP fails near 50 % of tension and CPDI beyond 200 %. That is what is found when the "
           "bar "
@@ -66,7 +71,7 @@ TEST(Stretch, UntilTheBarParts) {
           "gap. XPIC and FMPM, which damp least of what the grid sees, bear least; a hundredth of PIC or APIC helps "
           "CPDI. Where material is to be stretched by more than a quarter, look whether its columns stay together.");
   Map map("stretch", {1.1, 1.2, 1.3, 1.4, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0, 5.0});
-  for (const double speed : {0.01, 0.08}) {
+  for (const double speed : {0.01, kFast}) {
     for (const Method& method : shapes()) {
       const std::string label = fmt::format("{}, {} %", method.name, 100.0 * speed);
       const mpm::SimulationDefinition d = loaded_bar(method.definition, speed, kEnd);
@@ -80,9 +85,16 @@ TEST(Stretch, UntilTheBarParts) {
       if (run.broke()) column.breaks_at(run.reached);
       if (std::isfinite(limit)) {
         column.theory(limit);
-        page.below("stretch reached, " + label + run.end(), run.reached, limit, "");
+        page.beside("stretch reached, " + label + run.end() + ", beside that at which supports part", run.reached,
+                    limit, "");
       } else {
         page.report("stretch reached, " + label + run.end(), run.reached, "");
+      }
+      if (speed < kFast) continue;
+      if (method.definition.shape == mpm::ShapeKind::ugimp) {
+        page.near("uGIMP, pulled fast, beside the 50 % of the literature", run.reached, 1.5, 0.15, "");
+      } else if (method.definition.shape == mpm::ShapeKind::cpdi) {
+        page.above("CPDI, pulled fast: the stretch that the paper's cylinder was drawn to", run.reached, 1.5, "");
       }
     }
   }
@@ -92,12 +104,12 @@ TEST(Stretch, UntilTheBarParts) {
   for (const auto shape : {mpm::ShapeKind::ugimp, mpm::ShapeKind::cpdi}) {
     for (const Method& method : transfers(shape)) {
       const std::string label = fmt::format("{}, {}", method.name, mpm::shape_name(shape));
-      const mpm::SimulationDefinition d = loaded_bar(method.definition, 0.08, kEnd);
+      const mpm::SimulationDefinition d = loaded_bar(method.definition, kFast, kEnd);
       if (!possible(d, method.definition)) {
         others.impossible(label);
         continue;
       }
-      const BarRun run = run_bar(d, 0.08, kEnd, kSwing);
+      const BarRun run = run_bar(d, kFast, kEnd, kSwing);
       verification::MapColumn& column = others.column(label, outcomes(others, run, 1.0));
       if (run.broke()) column.breaks_at(run.reached);
       page.report("stretch reached at 8 %, " + label + run.end(), run.reached, "");

@@ -106,8 +106,8 @@ TEST(AxisymmetricConservation, AuditClosesWithOtherRulesAtTheAxis) {
           }
           Simulation simulation(d, {1});
           for (int i = 0; i < 4; ++i) simulation.advance();
-          // A domain across the axis has negative weights beyond it, and a corner of qCPDI on the axis has weight 0, but a
-          // gradient. The force on nodes without mass is lost, and booked.
+          // A domain across the axis has negative weights beyond it, and a corner of qCPDI on the axis has weight 0,
+          // but a gradient. The force on nodes without mass is lost, and booked.
           EXPECT_LT(simulation.state().audit.residual, 1e-12)
               << shape_name(shape) << ", " << kAxisDomainNames[static_cast<int>(domains)] << ", "
               << kAxisFunctionNames[static_cast<int>(functions)] << ", " << kAxisGhostNames[static_cast<int>(ghosts)];

@@ -2,8 +2,11 @@
 //
 // No exact solution is known for a cone in this sand. N_q = e^(pi tan phi) tan^2(45 + phi/2), times the vertical stress
 // beside the tip, is exact for a strip on weightless soil with associated flow (Prandtl; Reissner (1924)). A round
-// footing bears more than a strip, by a factor of 1 + tan phi after De Beer (1970), and a deep footing more than one on
-// the surface. So N_q is a low estimate of the resistance at depth. It is not a bound, since flow is without dilation.
+// footing bears more than a strip, by a factor of 1 + tan phi after De Beer (1970), and one at a depth D more than one
+// on the surface, by 1 + 2 tan phi (1 - sin phi)^2 arctan(D / B) after Brinch Hansen (1970), of width B < D. Other
+// authors' factors come to a third more (Meyerhof (1963): 1 + K / 10 and 1 + sqrt(K) D / 10 B, K = tan^2(45 + phi/2)),
+// and flow without dilation, as here, bears less than what they are made for: asked is Brinch Hansen's product within a
+// third.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -21,6 +24,11 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kRadius = 0.01784, kFriction = 34.0 * kPi / 180.0, kUnitWeight = 1417.0 * 9.81;  // [m], [], [N/m^3]
 constexpr double kSurface = 0.44;                                                                 // [m]
 const double kStrip = std::exp(kPi * std::tan(kFriction)) * std::pow(std::tan(0.25 * kPi + 0.5 * kFriction), 2);
+
+constexpr double kFrom = 0.2;  ///< depth from which the resistance is compared [m]
+double depth_factor(double depth) {
+  return 1.0 + 2.0 * std::tan(kFriction) * std::pow(1.0 - std::sin(kFriction), 2) * std::atan(depth / (2.0 * kRadius));
+}
 
 /// Resistance over the cone's area, as means over each centimetre of depth.
 struct Sounding {
@@ -59,14 +67,18 @@ void sound(const std::string& name, double cell, bool rough) {
                       "34 degrees, no dilation) at rest, at 0.5 m/s. Cells of {:.0f} mm.",
                       1e3 * cell))
       .exact(
-          "none is known; drawn is the bearing capacity of a strip, N_q times the vertical stress at the tip's depth, "
-          "and De Beer's for a round footing, 1 + tan phi times that.",
-          "Reissner (1924); E. E. De Beer (1970), Geotechnique 20(4), 387-411")
+          "none is known; asked is the bearing capacity of a round footing at the tip's depth: that of a strip, N_q "
+          "times the vertical stress there, with De Beer's factor of shape and Brinch Hansen's of depth. Drawn are the "
+          "first two alone.",
+          "Reissner (1924); E. E. De Beer (1970), Geotechnique 20(4), 387-411; J. Brinch Hansen (1970), Danish "
+          "Geotechnical Institute, Bulletin 28")
       .scene("cone_penetrometer");
   const std::string cells = fmt::format("grid.cell={}", cell);
   const Sounding smooth = push({cells});
-  const double factor = smooth.factor(0.2), shape = 1.0 + std::tan(kFriction);
-  page.above("tip resistance over vertical stress, smooth, below 0.2 m", factor, kStrip, "");
+  const double factor = smooth.factor(kFrom), shape = 1.0 + std::tan(kFriction);
+  const double at_depth = shape * kStrip * depth_factor(0.5 * (kFrom + smooth.depth.back()));
+  page.near("tip resistance over vertical stress, smooth, below 0.2 m", factor, at_depth, 1.0 / 3.0, "");
+  page.beside("the same, beside N_q of a strip", factor, kStrip, "");
   page.beside("the same, beside N_q with De Beer's factor", factor, shape * kStrip, "");
   page.report("tip resistance at the end", smooth.resistance.back(), "kPa");
   Numbers millimetres, strip, round;

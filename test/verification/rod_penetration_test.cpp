@@ -5,7 +5,9 @@
 // asked comes from bounds. The hydrodynamic speed of the nose, v / (1 + sqrt(rho_t / rho_p)) = 1.019 km/s, leaves out
 // strength and is an upper one. With it, 1/2 rho_p (v - u)^2 + Y_p = 1/2 rho_t u^2 + R_t (Alekseevskii, Tate): Y_p
 // from 1.5 to 2 GPa and R_t from 5 to 6 GPa give 0.83 to 0.85 km/s. Asked: 0.8 to 1.0 (exact solutions, 18). The rod's
-// tail hears of the impact by elastic waves of its strength alone: dv/dt = -Y_p / (rho_p L).
+// tail is slowed by elastic waves of its strength alone, dv/dt = -Y_p / (rho_p L), while the rod's length L goes down
+// by v - u. Integrated from v = 1.70 km/s and L = 50 mm with these Y_p and u from 0.8 to 1.0 km/s, the mean of 10 to 50
+// us is 1.592 to 1.630 km/s: asked 1.61 +- 0.02.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -23,6 +25,7 @@ namespace {
 constexpr double kSpeed = 1700.0;         // [m/s]
 constexpr double kHydrodynamic = 1019.3;  // of the nose [m/s]
 constexpr double kSlowest = 800.0, kFastest = 1000.0;
+constexpr double kTail = 1610.0, kTailRange = 20.0;  // [m/s]
 constexpr double kMicro = 1e-6;
 
 struct Penetration {
@@ -86,7 +89,7 @@ void describe(Page& page) {
 
 void tell(Page& page, const std::string& label, const Penetration& run) {
   page.below(label + ": speed of the nose, 10 to 50 us", run.nose_speed, kHydrodynamic, "m/s");
-  page.report(label + ": speed of the tail, 10 to 50 us", run.tail_speed, "m/s");
+  page.near_absolute(label + ": speed of the tail, 10 to 50 us", run.tail_speed, kTail, kTailRange, "m/s");
   page.report(label + ": nose at 60 us below the face that was struck", run.nose.back(), "mm");
   page.below(label + ": momentum error over the momentum exchanged", run.momentum_error, 1e-10, "");
   page.report(label + fmt::format(": {} particles, {} steps, in", run.particles, run.steps), run.wall, "s");
@@ -106,9 +109,8 @@ TEST(RodPenetration, AtTwiceThePapersCells) {
   const Penetration run = penetrate(0.5, {}, [](const mpm::Simulation&, double) {});
   tell(page, "0.5 mm", run);
   draw_course(page, {{"0.5 mm", run}});
-  // The tail is slowed by Y_p / (rho_p L): by 5 % while half of the rod is left (Y_p = 2 GPa).
-  EXPECT_GT(run.tail_speed, 0.9 * kSpeed);
-  EXPECT_LT(run.tail_speed, kSpeed);
+  // What is asked of the nose is met by the limit of fine cells alone (the full test): here it is shown, and not asked.
+  page.beside("0.5 mm: speed of the nose, 800 to 1000 asked of fine cells", run.nose_speed, kSlowest, "m/s");
 }
 
 TEST(FullRodPenetration, AtThePapersCells) {

@@ -58,10 +58,11 @@ class HoopForce final : public Stage {
   ImpulseAccount account_;
 };
 
-/// Books the force and the weight on nodes that take no part because they have no mass or a negative one (Grid::carries).
-/// They are lost to the material. The weight r makes such nodes beside the axis: a corner of a qCPDI domain that touches
-/// the axis has no weight but a gradient, and a domain that reaches across it has negative weights beyond. Comes after
-/// whoever adds forces to the grid. Weak: what PIC and APIC lose of such nodes' momentum is not in it.
+/// Books the force and the weight on nodes that take no part because they have no mass or a negative one
+/// (Grid::carries). They are lost to the material. The weight r makes such nodes beside the axis: a corner of a qCPDI
+/// domain that touches the axis has no weight but a gradient, and a domain that reaches across it has negative weights
+/// beyond. Comes after whoever adds forces to the grid. Weak: what PIC and APIC lose of such nodes' momentum is not in
+/// it.
 class MasslessNodes final : public Stage {
  public:
   explicit MasslessNodes(const Vec3& gravity) : gravity_(gravity) { account_.name = "massless nodes"; }

@@ -1,7 +1,9 @@
 // A face of the domain as a condition on the velocity of the nodes on it and beyond it.
 //
 // fixed: no velocity. slip: no velocity along the normal, in or out. frictional: Coulomb contact, lets go. symmetry: as
-// slip; what meets on the plane knows besides that it is half of a whole (grid/symmetry_planes.hpp).
+// slip, by the name of what it stands for. For contact that is found from volume, every wall is a mirror
+// (Grid::mirrored).
+//
 // Two walls that meet act one after the other; as their normals are orthogonal neither undoes the other. Contact may: a
 // wall that always holds acts before it and again after it (again.hpp).
 // Source: Nairn, GIMP notes (3.1)-(3.11): a condition replaces the momentum along one direction, force and momentum

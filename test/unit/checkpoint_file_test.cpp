@@ -1,5 +1,5 @@
-// Files of checkpoints: what one says of itself; one that does not fit, or is damaged, is refused with the reason and
-// changes nothing.
+// Checkpoint files: their description; a file that does not fit the run, or is damaged, is refused with the reason and
+// leaves the simulation unchanged.
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
@@ -84,7 +84,7 @@ TEST_F(BadCheckpoint, IsCutOff) {
   expect_refused("cut off or damaged");
 }
 
-/// Writes a number of the file anew, as a later version would have it.
+/// Overwrites a number of the file, as a later version would write it.
 void overwrite(const std::string& path, const char* name, hid_t type, const void* value) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
@@ -120,7 +120,7 @@ TEST_F(BadCheckpoint, IsOfAnotherPrecision) {
 }
 
 TEST_F(BadCheckpoint, IsOfAnotherInstructionSet) {
-  // Text of the same length, in the place of the set that is there.
+  // A text of the same length replaces the name of the instruction set.
   const std::string there = simulation_.isa(), other(there.size(), 'x');
   overwrite(file_, "about/isa", H5T_NATIVE_UINT8, other.data());
   expect_refused("start it with --isa " + other);
@@ -138,7 +138,7 @@ TEST_F(BadCheckpoint, HoldsOtherNumbersThanWereSaved) {
 }
 
 TEST_F(BadCheckpoint, HasAByteThatFlipped) {
-  // Particles lie in the file as they do in memory: one byte of a position, found by its value.
+  // Positions lie in the file as in memory: one byte of a position, found by its value, is damaged.
   std::vector<double> x;
   simulation_.particle_field("x", x);
   std::fstream file(file_, std::ios::in | std::ios::out | std::ios::binary);
@@ -159,7 +159,7 @@ TEST_F(BadCheckpoint, CannotBeWrittenThere) {
   EXPECT_NE(answer.find("cannot be written: No such file or directory"), std::string::npos) << answer;
 }
 
-// A file that cannot be finished leaves the one before as it is, and nothing beside it.
+// A checkpoint that cannot be completed leaves the previous file unchanged and no other file beside it.
 TEST_F(BadCheckpoint, LeavesTheOneBefore) {
   const std::uint64_t hash = read_checkpoint(file_).state_hash;
   run(simulation_, 2, 3);

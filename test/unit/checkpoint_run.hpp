@@ -1,5 +1,4 @@
-// Small scenes that save and load their state, and a run through them with commands on the way; for tests of
-// checkpoints.
+// Small scenes for tests of checkpoints, and commands in the course of their runs.
 #pragma once
 
 #include <stdlib.h>
@@ -14,7 +13,7 @@
 
 namespace mpm::test {
 
-/// Gone with the test.
+/// A temporary folder that is removed with the object.
 class Folder {
  public:
   Folder() {
@@ -28,7 +27,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-// Blocks that cross several cells in a dozen sync periods, so that the particles are sorted on the way, more than once.
+// Blocks that cross several cells in a dozen sync periods, so that particles are sorted more than once.
 const char* const kPlane = R"yaml(
 geometry: plane_strain
 grid: {cell: 0.1, min: [0, 0], max: [1.6, 1.6]}
@@ -60,7 +59,7 @@ struct Case {
 
 inline void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 
-/// Another state than that of its definition: what it was told is in it too.
+/// Gives commands, so that the state also contains values that the scene does not define.
 inline void command(Simulation& simulation, int period) {
   const int body = simulation.find_body("rod");
   if (body < 0) return;
@@ -80,7 +79,7 @@ inline void run(Simulation& simulation, int from, int to) {
   for (int period = from; period < to; ++period) {
     command(simulation, period);
     simulation.advance();
-    // Averages since a report that lies between are part of the state.
+    // Contact averages since an earlier report are part of the state.
     if (period == 4 && simulation.find_body("rod") >= 0) simulation.take_contact(0);
   }
 }

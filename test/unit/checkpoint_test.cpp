@@ -1,4 +1,4 @@
-// Checkpoints: a run that takes one on goes on to the bit like one that was never stopped, at whatever sync point it
+// Checkpoints: a run that loads one continues to the bit like a run that was never stopped, at whatever sync point it
 // was saved, for every stage, method and law.
 #include "mpm/simulation/checkpoint.hpp"
 
@@ -15,7 +15,7 @@ namespace mpm::test {
 namespace {
 
 constexpr int kPeriods = 12;
-constexpr int kOfOther = 5;  ///< a simulation that has been elsewhere before it takes on a checkpoint
+constexpr int kOfOther = 5;  ///< sync periods of a simulation that runs before it loads a checkpoint
 
 const char* const kTool = R"yaml(
 geometry: plane_strain
@@ -66,7 +66,7 @@ rigid_bodies:
 boundaries: {z_min: {friction: 0.2}}
 )yaml";
 
-/// Particles, motion and contact, over kPlane.
+/// A change of kPlane: another law for its rubber.
 std::string law(const std::string& text) { return "materials.rubber=" + text; }
 
 std::vector<Case> cases() {
@@ -90,7 +90,7 @@ std::vector<Case> cases() {
   // Damping.
   add(kPlane, "feedback", {"method.damping={feedback: {gain: 100, limit: 50}}"});
   add(kPlane, "damping", {"method.damping={grid: 5, particle: \"5*(z<0.5)\", pic: 0.01}"});
-  // Laws that remember.
+  // Laws with a history.
   add(kPlane, "viscoelastic",
       {law("{name: rubber, density: 1000, law: viscoelastic, young: 100 kPa, poisson: 0.3, branch_modulus: 20 kPa, "
            "relaxation_time: 20 ms}")});
@@ -107,7 +107,7 @@ std::vector<Case> cases() {
   add(kPlane, "gas",
       {law("{name: rubber, density: 100, law: ideal_gas, pressure: 10 kPa, temperature: 293, "
            "ambient_pressure: 10 kPa}")});
-  // Faces and conditions.
+  // Boundaries and conditions.
   add(kPlane, "absorbing",
       {"bodies.block.initial.velocity=[0.5, 0]", "bodies.block.shape={box: {min: [0, 0], max: [1.6, 0.7]}}",
        "boundaries={z_min: {absorbing: {hold: start}}, x_max: absorbing, x_min: absorbing}"});
@@ -154,7 +154,7 @@ std::vector<Case> cases() {
   return list;
 }
 
-/// All that a run says of itself, as bits.
+/// All reported values of a run, as bits.
 std::vector<std::uint64_t> said(Simulation& simulation) {
   std::vector<std::uint64_t> bits{simulation.state_hash(), simulation.memory_hash()};
   const auto number = [&](double value) {
@@ -206,7 +206,7 @@ std::vector<std::uint64_t> said(Simulation& simulation) {
 
 class Checkpoint : public testing::TestWithParam<Case> {};
 
-// Saved at every sync point of the run: some lie before a sort, some after it.
+// The run is saved at every sync point: some lie before a sort, some after it.
 TEST_P(Checkpoint, ResumedRunEqualsUninterruptedBitForBit) {
   const Folder folder;
   Simulation whole(definition_of(GetParam()), {1});
@@ -218,7 +218,7 @@ TEST_P(Checkpoint, ResumedRunEqualsUninterruptedBitForBit) {
   run(other, 0, kOfOther);
   const std::vector<std::uint64_t> expected = said(whole);
   const std::uint64_t start = Simulation(definition_of(GetParam()), {1}).state_hash();
-  EXPECT_NE(expected[0], start);  // it has moved at all
+  EXPECT_NE(expected[0], start);  // the state has changed
   for (int k = 0; k < kPeriods; ++k) {
     Simulation fresh(definition_of(GetParam()), {2});
     load_checkpoint(folder.file(std::to_string(k)), fresh, "");
@@ -248,7 +248,7 @@ TEST(CheckpointFile, GeostaticStartNeedNotSettleAgain) {
   SimulationOptions unsettled{1};
   unsettled.settle = false;
   Simulation again(definition_of(slope), unsettled);
-  EXPECT_TRUE(again.notes().empty());  // it has not settled
+  EXPECT_TRUE(again.notes().empty());  // no settling took place
   load_checkpoint(folder.file("slope"), again, "");
   run(again, 3, 6);
   EXPECT_EQ(said(again), said(whole));

@@ -1,4 +1,4 @@
-// Several surfaces as one: distances and normals of parts that are moved and turned, in figures worked out by hand.
+// Several surfaces as one: distances and normals of parts that are moved and turned, against values computed by hand.
 #include "mpm/rigid/compound.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kRound = 1e-14;  // of numbers of size 1, after a rotation
+constexpr double kRound = 1e-14;  // round-off of numbers of size 1, after a rotation
 
 Quat about_z(double angle) { return Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())); }
 
@@ -18,7 +18,7 @@ std::shared_ptr<const Surface> ball() { return make_sphere(0.15); }
 
 TEST(Compound, OnePartIsThatPartWhereItIsPut) {
   const auto turned = make_compound({{box(), {{0.0, 0.0, 0.1}, about_z(0.5 * M_PI)}}});
-  // A quarter of a turn about z: 0.2 along x and 0.4 along y.
+  // Turned by 90 degrees about z, it is 0.2 along x and 0.4 along y.
   EXPECT_NEAR(turned->at({0.3, 0.0, 0.1}).distance, 0.2, kRound);
   EXPECT_NEAR((turned->at({0.3, 0.0, 0.1}).normal - Vec3::UnitX()).norm(), 0.0, kRound);
   EXPECT_NEAR(turned->at({0.0, 0.3, 0.1}).distance, 0.1, kRound);
@@ -30,11 +30,11 @@ TEST(Compound, OnePartIsThatPartWhereItIsPut) {
 
 TEST(Compound, TheNearestPartCounts) {
   const auto body = make_compound({{box(), {}}, {ball(), {{0.3, 0.0, 0.0}, Quat::Identity()}}});
-  EXPECT_NEAR(body->at({-0.3, 0.0, 0.0}).distance, 0.1, kRound);  // of the box's end
-  EXPECT_NEAR(body->at({0.6, 0.0, 0.0}).distance, 0.15, kRound);  // of the ball
+  EXPECT_NEAR(body->at({-0.3, 0.0, 0.0}).distance, 0.1, kRound);  // the end of the box
+  EXPECT_NEAR(body->at({0.6, 0.0, 0.0}).distance, 0.15, kRound);  // the ball
   EXPECT_NEAR(body->at({0.3, 0.0, 0.0}).distance, -0.15, kRound);
   EXPECT_NEAR((body->bounds().max - Vec3(0.45, 0.15, 0.15)).norm(), 0.0, kRound);
-  EXPECT_EQ(body->thickness(), 0.1);  // the box's, the ball's is 0.3
+  EXPECT_EQ(body->thickness(), 0.1);  // that of the box; the ball's is 0.3
   EXPECT_EQ(body->triangles().size(), box()->triangles().size() + ball()->triangles().size());
 }
 
@@ -55,7 +55,7 @@ TEST(Compound, WithinIsAtUpToTheBand) {
     EXPECT_EQ(found.distance, exact.distance);
     EXPECT_EQ(found.normal, exact.normal);
   }
-  EXPECT_GT(near, 200);  // the bodies and their bands take up some 0.06 of 1.7 m^3, which is 350 of the points
+  EXPECT_GT(near, 200);  // bodies and bands fill about 0.06 of 1.7 m^3: 350 points
 }
 
 TEST(Compound, PartsThatCannotBeAreRefused) {

@@ -1,4 +1,4 @@
-// Elastic laws at a point against the numbers of exact-solutions 4 and 6 (E = 2300, nu = 0.33).
+// Elastic laws at a material point against the numbers of exact-solutions 4 and 6 (E = 2300, nu = 0.33).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ mpm::Symmetric3<double> neo_hookean(const Matrix3<double>& f, double density = 7
   return scale_shift(tau, density / j, 0.0);
 }
 
-// The reference gives six significant decimals: 5e-4.
+// Round-off of the reference, which prints six significant digits.
 constexpr double kPrinted = 5e-4;
 
 TEST(NeoHookean, MatchesThePrintedStresses) {

@@ -1,4 +1,4 @@
-// Global quantities: means and sums by name, against closed forms and against what the solver says elsewhere.
+// Global quantities: means and sums by name, against closed forms and against other reports of the solver.
 #include "mpm/simulation/global_quantity.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(GlobalQuantities, MeansCountEveryParticleAlike) {
   EXPECT_NEAR(values[1], 5.0, 1e-12);
   EXPECT_NEAR(values[2], 1e-4, 1e-14);  // 10 steps of 1 us, round-off of positions of 1 m
   EXPECT_NEAR(values[3], 0.0, 1e-6);    // round-off of the strain times 1e5 Pa
-  EXPECT_EQ(values[4], 0.0);            // no body has a temperature: as of a particle
+  EXPECT_EQ(values[4], 0.0);            // zero without a temperature, as for a particle
 }
 
 TEST(GlobalQuantities, EnergiesAndCountersAreTheSolvers) {
@@ -51,7 +51,7 @@ TEST(GlobalQuantities, EnergiesAndCountersAreTheSolvers) {
   EXPECT_NEAR(values[1], state.energy.elastic, round_off);
   EXPECT_NEAR(values[2], state.energy.plastic, round_off);
   EXPECT_NEAR(values[3], state.energy.kinetic + state.energy.elastic, round_off);
-  EXPECT_NEAR(values[4], values[3], round_off);  // no work from outside
+  EXPECT_NEAR(values[4], values[3], round_off);  // there is no external work
   EXPECT_EQ(values[5], 0.0);
   EXPECT_EQ(values[6], 1.0);
   EXPECT_EQ(values[7], state.wall_seconds);
@@ -60,7 +60,7 @@ TEST(GlobalQuantities, EnergiesAndCountersAreTheSolvers) {
 }
 
 TEST(GlobalQuantities, ContactForceIsTheMeanSinceTheLastCall) {
-  // The ball touches from the start. On cells of 2 mm, for it is sums that are compared.
+  // The ball is in contact from the start. Cells of 2 mm are enough, since only sums are compared.
   const Scene scene = load_scene("sphere_indentation", {"grid.cell=0.002"});
   Simulation run(build(scene));
   GlobalQuantities global(run, {{"contactz", "sphere"}, {"contactz", ""}});
@@ -74,11 +74,11 @@ TEST(GlobalQuantities, ContactForceIsTheMeanSinceTheLastCall) {
       time += report.interval;
     }
     const std::vector<double> values = global.read();
-    // Differences of the same impulse, which grows with the run: round-off of it.
+    // Differences of one impulse, which grows with the run: their error is its round-off.
     EXPECT_NEAR(values[0], impulse / time, 1e-9 * std::max(1.0, std::abs(impulse / time)));
     EXPECT_EQ(values[0], values[1]);
     if (period > 0) {
-      EXPECT_GT(values[0], 0.0);  // or nothing would be compared
+      EXPECT_GT(values[0], 0.0);  // otherwise nothing would be compared
     }
     impulse = time = 0.0;
   }

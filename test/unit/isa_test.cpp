@@ -1,4 +1,4 @@
-// Instruction sets by name, and which one a run gets.
+// Instruction sets: their names, and the choice for a run.
 #include "mpm/kernel/isa.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Particles in the places that kernels find difficult, on a grid, with the reference beside them in the same state.
+// Particles on a grid at positions that are difficult for kernels, and the reference in the same state.
 #pragma once
 
 #include <limits>
@@ -14,16 +14,16 @@
 
 namespace mpm::test {
 
-/// Where the particles are.
+/// Arrangements of particles.
 enum class Places {
   lattice,    ///< two a cell along each axis
-  irregular,  ///< the same, shaken
-  mixed,      ///< moved since they were sorted, inside their blocks: groups are not what they were
+  irregular,  ///< a lattice with random displacements
+  mixed,      ///< moved inside their blocks since they were sorted, so that groups are mixed
   loose,      ///< moved as far as their blocks' tiles reach
-  bodies,     ///< three bodies that share all blocks, of different laws
-  half_way,   ///< half way between nodes along every axis, or next to it by less than a kernel's rounding
+  bodies,     ///< three bodies with different laws that share all blocks
+  half_way,   ///< half way between nodes along every axis, to within a kernel's rounding
   lone,       ///< each alone in its block
-  walled      ///< in a box of walls that they fill, some a little beyond them
+  walled      ///< in a box of walls that they fill, some slightly beyond them
 };
 constexpr Places kAllPlaces[] = {Places::lattice, Places::irregular, Places::mixed, Places::loose,
                                  Places::bodies,  Places::half_way,  Places::lone,  Places::walled};
@@ -40,7 +40,7 @@ inline std::vector<Isa> available_isas() {
   return there;
 }
 
-/// `T`: what particles carry. Cells differ along the axes; they are powers of two, so that half way is exactly so.
+/// `T`: precision of the particles. Cells differ between the axes; they are powers of two, so that half way is exact.
 template <class Geometry, class T>
 struct KernelScene {
   static constexpr int kDim = Geometry::kDim;
@@ -67,7 +67,7 @@ struct KernelScene {
         1.0};
     const paths::Specimen* of[] = {&specimen, &rubber, &soil};
     for (int s = 0; s < count; ++s) laws.push_back(make_law(of[s]->material));
-    ReferenceParticle<Solid> rest;  // a gas has its pressure at rest
+    ReferenceParticle<Solid> rest;  // a gas at rest has its initial pressure
     rest.deform(laws[0], {}, 0.0, 1);
     const double speed = std::visit([&](const auto& law) { return law.wave_speed(rest.f, rest.tau, 1.0); }, laws[0]);
     stiffness = speed * speed;
@@ -91,7 +91,7 @@ struct KernelScene {
 
   double smallest_cell() const { return grid.layout.smallest_cell(); }
 
-  /// The reference's particles become those of the sets, in their order.
+  /// Copies the particles of the sets, in their order, to the reference.
   void read_particles() {
     reference.sets.resize(sets.size());
     for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -116,12 +116,12 @@ struct KernelScene {
     }
   }
 
-  /// visit(particle of the reference) for all of them.
+  /// Calls visit(particle) for all particles of the reference.
   template <class Visit>
   void each_reference(Visit&& visit) {
     reference.each([&](const auto&, auto& p) { visit(p); });
   }
-  /// visit(block, node of it, the reference's node).
+  /// Calls visit(block, node in the block, node of the reference) for all nodes.
   template <class Visit>
   void each_node(Visit&& visit) {
     for (int b = 0; b < grid.blocks.size(); ++b) {
@@ -130,7 +130,7 @@ struct KernelScene {
       }
     }
   }
-  /// The reference's nodes become those of the grid, so that the next pass begins with the same numbers.
+  /// Copies the nodes of the grid to the reference, so that the next pass begins with the same numbers.
   void read_nodes() {
     for (ReferenceNode& n : reference.nodes()) n = {};
     each_node([&](int b, int n, ReferenceNode& to) {
@@ -144,7 +144,7 @@ struct KernelScene {
   }
 
   ShapeKind shape;
-  AxisRules axis;  ///< of rings
+  AxisRules axis;  ///< rules of the shape function at the axis, for rings
   Isa isa;
   mpm_kernel::KernelTable<T> kernels;
   Places places;
@@ -156,8 +156,8 @@ struct KernelScene {
   std::vector<Law> laws;
   ContinuumSettings settings;
   std::unique_ptr<Mechanics> mechanics;
-  double dt = 0.0;         ///< three tenths of a cell's time, or the specimen's
-  double stiffness = 0.0;  ///< of the first law: squared wave speed [J/kg]
+  double dt = 0.0;         ///< a Courant number of 0.3, or the step of the specimen [s]
+  double stiffness = 0.0;  ///< squared wave speed of the first law [J/kg]
 
  private:
   static constexpr int kEdge = kDim == 3 ? 9 : 20;  ///< particles along an axis, two a cell
@@ -178,11 +178,11 @@ struct KernelScene {
   }
   double uniform(double size) { return std::uniform_real_distribution<double>(-size, size)(random); }
 
-  // Of a ring [cells]: 1 / r of a place that is rounded in single precision, by 1e-6 of a cell, is as exact as the
-  // rest.
+  // Least radius of a ring [cells]: from there on 1 / r is as exact as the rest, although single precision rounds the
+  // position by 1e-6 of a cell.
   static constexpr double kLeastRadius = 0.1;
 
-  // A place in cells, particle `p` of all.
+  // Sets the position of particle `p` [cells].
   bool place(int p, double (&cells)[3]) {
     const int edge = places == Places::lone ? 3 : kEdge;
     int count = 1;
@@ -192,7 +192,8 @@ struct KernelScene {
       const int i = p % edge;
       switch (places) {
         case Places::lone:
-          cells[k] = 5.0 + 4.0 * i + uniform(1.4);  // blocks are four cells, the first nearest node is 3.5 cells on
+          cells[k] =
+              5.0 + 4.0 * i + uniform(1.4);  // a block is four cells; the one for the nearest node begins at 3.5 cells
           break;
         case Places::half_way: {
           const double middle = 4.5 + i / 2;
@@ -208,7 +209,7 @@ struct KernelScene {
           cells[k] = 4.25 + 0.5 * i + (places == Places::lattice ? 0.0 : uniform(0.6));
       }
     }
-    // Rings begin at the axis.
+    // Rings lie from the axis on.
     if (Geometry::kHoop) cells[0] = std::max(places == Places::walled ? cells[0] : cells[0] - 4.0, kLeastRadius);
     return true;
   }
@@ -237,7 +238,7 @@ struct KernelScene {
       set.planar_functions = axis.functions == AxisFunctions::planar;
       set.masses.assign(1, ParticleScalar(kPrecision, count));
       for (std::size_t p = 0; p < count; ++p) set.masses[0].set(p, set.mass * at[p][0]);
-      set.mass = std::numeric_limits<double>::quiet_NaN();  // nobody asks for it
+      set.mass = std::numeric_limits<double>::quiet_NaN();  // never used
     }
     set.x.assign(kDim, PaddedArray<double>(count));
     set.next_x.assign(kDim, PaddedArray<double>(count));
@@ -246,7 +247,7 @@ struct KernelScene {
     set.tau.assign(Geometry::kSymmetric, ParticleScalar(kPrecision, count));
     set.history.assign(history_size(laws[body]), ParticleScalar(kPrecision, count));
     set.id.resize(count);
-    double gradient[3][3];  // of the bodies' mean motion [1/s]
+    double gradient[3][3];  // velocity gradient of the bodies' mean motion [1/s]
     for (auto& row : gradient) {
       for (double& l : row) l = uniform(specimen.strain / dt);
     }
@@ -262,7 +263,7 @@ struct KernelScene {
     }
   }
 
-  // What a particle has gone through before the test: hardly any strain, or the path that shows the law.
+  // The state of a particle before the test: after hardly any strain, or after the strain path of the specimen.
   Particle worked(const paths::Specimen& specimen, const Law& law) {
     Particle particle;
     const double size = specimen.strain * std::pow(10.0, uniform(1.0) - 0.7);
@@ -281,7 +282,7 @@ struct KernelScene {
     }
     return particle;
   }
-  // Domains that are stretched, compressed and sheared, some beyond their reach.
+  // A deformation that stretches, compresses and shears a domain, sometimes beyond its largest reach.
   typename Geometry::template Matrix<double> stretched() {
     double m[Geometry::kMatrix], *at[Geometry::kMatrix];
     for (int c = 0; c < Geometry::kMatrix; ++c) at[c] = m + c;
@@ -292,7 +293,7 @@ struct KernelScene {
     }
     return Geometry::load_matrix(at, 0);
   }
-  // The affine fields of APIC, of gradients of up to 0.1 a step.
+  // Sets the affine fields of APIC, with velocity gradients of up to 0.1 per step.
   void turn_particles() {
     for (ParticleSet& set : sets) {
       for (ParticleScalar& component : set.affine) {
@@ -312,7 +313,7 @@ struct KernelScene {
     for (std::size_t h = 0; h < set.history.size(); ++h) set.history[h].set(p, particle.history[h]);
   }
 
-  // As after some steps without a sort: anywhere in the block, or in what its tile reaches.
+  // Moves particles as some steps without a sort do: anywhere in the block, or in the reach of its tile.
   void move_on() {
     const bool far = places == Places::loose;
     const double reach = far ? (shape == ShapeKind::bspline3 ? 0.99 : 1.49) : 0.49;  // beyond the block
@@ -321,7 +322,7 @@ struct KernelScene {
       for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
         const auto& block = grid.blocks.block(grid.blocks.owner_block(owner));
         for (std::uint32_t p = set.begin[owner]; p < set.begin[owner + 1]; ++p) {
-          if (random() % 4 == 0) continue;  // some have stayed
+          if (random() % 4 == 0) continue;  // some stay in place
           const std::array<double, 3> room = room_of(set, static_cast<int>(p));
           for (int k = 0; k < kDim; ++k) {
             const double most = std::min(reach, room[k]);
@@ -334,7 +335,7 @@ struct KernelScene {
       }
     }
   }
-  // How far beyond its block a particle may be before its domain leaves the block's tile [cells].
+  // Distance by which a particle may leave its block before its domain leaves the block's tile [cells].
   std::array<double, 3> room_of(ParticleSet& set, int p) {
     std::array<double, 3> room{9.0, 9.0, 9.0};
     if (!follows_deformation(shape) || shape == ShapeKind::ugimp_stretch) return room;
@@ -344,7 +345,7 @@ struct KernelScene {
     ReferenceSet<Geometry> one;
     one.half = set.half;
     double d[kDim][kDim];
-    ReferenceGrid plane = reference.grid();  // a ring's domain may shrink where it goes
+    ReferenceGrid plane = reference.grid();  // the domain of a ring may shrink when the ring moves
     plane.rings = false;
     reference_domain(plane, Reference<Geometry>::place_of(one, particle), d);
     for (int k = 0; k < kDim; ++k) {

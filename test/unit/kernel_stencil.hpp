@@ -1,8 +1,8 @@
-// The nodes of one particle with the value and the gradient of its shape function there, by the classes of shape/
+// The nodes of one particle with the value and the gradient of its shape function there, from the classes of shape/
 // alone: products along the axes of three or five values, or sums over the points of a deformed domain, each point with
-// the hat functions of its cell. Nodes of two points come twice. In double precision, whatever the kernels' is. Weak:
-// slow, a list that is made anew for each particle. Source: method reference 2.1 to 2.7, 3; the bounds on a domain's
-// size are those of kernel/domain.hpp.
+// the hat functions of its cell. A node of two points is listed twice. Always in double precision. It is slow, since
+// the list is made anew for each particle. Source: method reference 2.1 to 2.7, 3; the bounds on a domain's size are
+// those of kernel/domain.hpp.
 #pragma once
 
 #include <algorithm>
@@ -24,13 +24,13 @@
 
 namespace mpm::test {
 
-/// The grid as shape functions see it.
+/// The properties of the grid on which shape functions depend.
 struct ReferenceGrid {
   std::array<double, 3> origin{}, cell{1.0, 1.0, 1.0};  ///< [m]
   std::array<double, 3> low_wall{-mpm_kernel::kNoWall, -mpm_kernel::kNoWall, -mpm_kernel::kNoWall};
   std::array<double, 3> high_wall{mpm_kernel::kNoWall, mpm_kernel::kNoWall, mpm_kernel::kNoWall};  ///< node numbers
 
-  bool rings = false;  ///< about the axis x = 0, by these rules
+  bool rings = false;  ///< axisymmetric about x = 0, with the rules of `axis`
   AxisRules axis;
 
   double in_cells(int k, double x) const { return (x - origin[k]) / cell[k]; }
@@ -38,10 +38,10 @@ struct ReferenceGrid {
   double position(int k, int node) const { return origin[k] + node * cell[k]; }
 };
 
-/// What a particle's weights depend on.
+/// The properties of a particle on which its weights depend.
 struct ReferencePlace {
   std::array<double, 3> x{};     ///< [m]
-  std::array<double, 3> half{};  ///< of its box [cells]
+  std::array<double, 3> half{};  ///< half edges of its box [cells]
   double f[3][3] = {};           ///< deformation gradient in the grid's axes as the step began
 };
 
@@ -49,15 +49,15 @@ struct NodeWeight {
   std::array<int, 3> at{};
   double s = 0.0;
   double g[3] = {};    ///< [1/m]
-  double t = 0.0;      ///< of rings, what makes v_r / r of v_r [1/m]
-  double point = 0.0;  ///< of rings, what moves them with AxisMotion::point
+  double t = 0.0;      ///< for rings, the weight of v_r in v_r / r [1/m]
+  double point = 0.0;  ///< for rings, the weight of v_r in their motion with AxisMotion::point
 };
 
-/// How far from its particle a point of a domain may be along an axis [cells]; kernel/domain.hpp.
+/// Largest distance of a domain's point from its particle along an axis [cells]; kernel/domain.hpp.
 constexpr double kReferenceReach = 1.5 - 1e-4;
 
-/// Half vectors of a particle's domain [m], made shorter as a whole where it reaches too far, or across an axis that it
-/// is fitted to.
+/// Half vectors of a particle's domain [m], scaled down together if the domain reaches too far, or across an axis to
+/// which it is fitted.
 template <int Dim>
 void reference_domain(const ReferenceGrid& grid, const ReferencePlace& place, double (&d)[Dim][Dim]) {
   double reach = 0.0;
@@ -221,7 +221,7 @@ class ReferenceStencil {
   }
 
   static double hat(double cells) { return std::max(0.0, 1.0 - std::abs(cells)); }
-  // The nodes of the cell of a point at `offset` from the particle [m]; weigh(node, its hat function there).
+  // Visits the nodes of the cell that holds the point at `offset` [m] from the particle: weigh(node, hat function).
   template <class Weigh>
   void add_cell(const ReferenceGrid& grid, const ReferencePlace& place, const double (&offset)[Dim], Weigh&& weigh) {
     double cells[Dim];

@@ -1,4 +1,4 @@
-// The kernels that tests ask for by the number of axes, or by the type of a geometry.
+// Tables of kernels by the number of axes, or by the type of a geometry.
 #pragma once
 
 #include <type_traits>
@@ -8,7 +8,7 @@
 
 namespace mpm::test {
 
-/// Of uGIMP in plane strain (`dim` 2) or a solid (3).
+/// The kernels of uGIMP in plane strain (`dim` 2) or three dimensions (3).
 template <class T>
 mpm_kernel::KernelTable<T> ugimp_kernels(int dim, Isa isa) {
   return kernel_table<T>(ShapeKind::ugimp, dim == 3 ? GeometryKind::solid : GeometryKind::plane_strain, isa);

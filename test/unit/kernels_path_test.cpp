@@ -1,5 +1,5 @@
-// Many steps of the kernels: how far the instruction sets and the reference grow apart, and that threads change
-// nothing.
+// Many steps of the kernels: how far the results of instruction sets and the reference diverge, and that the number of
+// threads changes nothing.
 #include <gtest/gtest.h>
 
 #include "kernel_scene.hpp"
@@ -8,7 +8,7 @@
 namespace mpm::test {
 namespace {
 
-/// What the particles carry, by id.
+/// The state of the particles, by id.
 struct State {
   std::vector<double> x, v, tau;
 };
@@ -49,7 +49,7 @@ class Run {
       }
     }
   }
-  /// The same steps of the reference, from the same start.
+  /// Advances the reference by as many steps, from the same start.
   void advance_reference(int steps) {
     auto& r = scene_.reference;
     double gravity[3] = {};
@@ -101,7 +101,7 @@ class Run {
   int sorts = 0;
 
  private:
-  static constexpr double kSlow = 0.5;  ///< of the scene's step: material that is torn stays in its limit
+  static constexpr double kSlow = 0.5;  ///< part of the scene's step, stable also for torn material
 
   static ContinuumSettings settings(int threads, double flip) {
     ContinuumSettings settings;
@@ -132,7 +132,7 @@ void check_growth(Isa isa) {
   for (const bool usavg : {false, true}) {
     for (const int law : {2, 3, 7}) {  // neo-Hookean, soil, metal
       paths::Specimen specimen = paths::zoo()[law];
-      specimen.strain = std::min(specimen.strain, 0.01);  // what is thrown far would leave the grid in 100 steps
+      specimen.strain = std::min(specimen.strain, 0.01);  // faster material would leave the grid in 100 steps
       Run<Geometry, double> run(specimen, Places::irregular, isa, usavg);
       int done = 0;
       for (const int steps : {1, 10, 100}) {
@@ -146,7 +146,7 @@ void check_growth(Isa isa) {
         EXPECT_LE(apart, 1e-12) << specimen.material.name << " after " << steps << " steps, usavg " << usavg;
         worst = std::max(worst, apart);
       }
-      EXPECT_GT(run.sorts, 0) << specimen.material.name;  // groups have been mixed, and made again
+      EXPECT_GT(run.sorts, 0) << specimen.material.name;  // groups became mixed and were made anew
     }
   }
   testing::Test::RecordProperty("apart", std::to_string(1e15 * worst) + "e-15");

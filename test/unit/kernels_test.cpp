@@ -1,5 +1,5 @@
 // The kernels of uGIMP against the reference (kernel_check.hpp): on every instruction set of this machine, in both
-// geometries and precisions, for every law and every arrangement of particles that takes another way through them.
+// geometries and precisions, for every law and every arrangement of particles that takes another path through them.
 #include "kernel_check.hpp"
 
 namespace mpm::test {

@@ -1,4 +1,4 @@
-// Mesh files of each format, and package:// paths.
+// Mesh files of all formats, and package:// paths.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class MeshFile : public ::testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return (folder_ / name).string();
   }
-  /// The box 2 x 3 x 4 about the origin, as it must come out of every format.
+  /// Expects the box 2 x 3 x 4 about the origin, which every format must give.
   static void expect_box(const TriangleMesh& mesh, double scale = 1.0) {
     EXPECT_EQ(mesh.vertices.size(), 8U);
     EXPECT_EQ(mesh.triangles.size(), 12U);
@@ -71,7 +71,7 @@ std::string binary_stl(const TriangleMesh& mesh) {
   const auto put = [&](const auto& value) { text.append(reinterpret_cast<const char*>(&value), sizeof value); };
   put(static_cast<std::uint32_t>(mesh.triangles.size()));
   for (const auto& triangle : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) put(0.0F);  // normal: left to the reader
+    for (int i = 0; i < 3; ++i) put(0.0F);  // normal: the reader computes it
     for (const int v : triangle) {
       for (int i = 0; i < 3; ++i) put(static_cast<float>(mesh.vertices[v][i]));
     }
@@ -80,7 +80,7 @@ std::string binary_stl(const TriangleMesh& mesh) {
   return text;
 }
 
-/// COLLADA with the given unit [m] and up axis; the box hangs on a node that is moved by (10, 20, 30) units.
+/// COLLADA text with the given unit [m] and up axis; the box belongs to a node that is moved by (10, 20, 30) units.
 std::string collada(const TriangleMesh& mesh, const std::string& unit, const std::string& up) {
   std::ostringstream positions, indices;
   for (const Vec3& vertex : mesh.vertices) positions << vertex.transpose() << " ";
@@ -137,7 +137,7 @@ TEST_F(MeshFile, Unreadable) {
 
 TEST_F(MeshFile, Packages) {
   const auto manifest = [](const std::string& name) { return "<package><name> " + name + " </name></package>"; };
-  // One itself an entry, one beside others in a workspace, one in a folder of another name, one a level deeper.
+  // A package that is itself an entry of the path, one among others, one in a folder with another name, one nested.
   write("ws/alone/package.xml", manifest("tools"));
   write("ws/src/more_tools/package.xml", manifest("more_tools"));
   write("ws/src/folder/package.xml", manifest("renamed"));

@@ -1,4 +1,4 @@
-// Meshes as rigid bodies: distances against closed forms and brute force, and what is refused.
+// Meshes as rigid bodies: distances against closed forms and brute force, and refused meshes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Prism of an L: the square [0, 2] x [0, 2] without (1, 2] x (1, 2], from y = 0 to 1; reentrant edge at x = z = 1.
+/// L-shaped prism: the square [0, 2] x [0, 2] without (1, 2] x (1, 2], from y = 0 to 1; reentrant edge at x = z = 1.
 TriangleMesh ell_mesh() {
   const double outline[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};  // counter-clockwise in (x, z)
   TriangleMesh mesh;
@@ -36,7 +36,7 @@ TriangleMesh ell_mesh() {
   return mesh;
 }
 
-/// An octahedron whose faces are split in four `levels` times, pushed out to a sphere: 8 * 4^levels triangles.
+/// An octahedron whose faces are split in four `levels` times and projected to a sphere: 8 * 4^levels triangles.
 TriangleMesh sphere_mesh(double radius, int levels) {
   TriangleMesh mesh;
   mesh.vertices = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), -Vec3::UnitX(), -Vec3::UnitY(), -Vec3::UnitZ()};
@@ -108,7 +108,7 @@ TEST(Mesh, OnFacesEdgesAndCorners) {
   const auto mesh = make_mesh(box_mesh({-1, -1, -1}, {1, 1, 1}));
   EXPECT_EQ(mesh->at({1.0, 0.2, 0.3}).distance, 0.0);
   EXPECT_EQ(mesh->at({1.0, 0.2, 0.3}).normal, Vec3::UnitX());
-  EXPECT_NEAR(mesh->at({1.0, 0.2, 1.0}).distance, 0.0, 3e-16);  // the foot is found by a quotient
+  EXPECT_NEAR(mesh->at({1.0, 0.2, 1.0}).distance, 0.0, 3e-16);  // the nearest point comes from a quotient
   EXPECT_LT((mesh->at({1.0, 0.2, 1.0}).normal - Vec3(1, 0, 1).normalized()).norm(), 1e-15);
   EXPECT_EQ(mesh->at({1, 1, 1}).distance, 0.0);
   // Three right angles, however the faces are cut into triangles: weighting by angle gives the diagonal.
@@ -116,7 +116,7 @@ TEST(Mesh, OnFacesEdgesAndCorners) {
 }
 
 TEST(Mesh, ReentrantEdge) {
-  // Independent of the mesh code: the two boxes that make the L, and by hand inside near the reentrant edge.
+  // Independent of the mesh code: the two boxes that form the L, and by hand inside near the reentrant edge.
   const auto mesh = make_mesh(ell_mesh());
   const auto low = make_box({2.0, 1.0, 1.0}), high = make_box({1.0, 1.0, 2.0});
   const Vec3 low_centre(1.0, 0.5, 0.5), high_centre(0.5, 0.5, 1.0);
@@ -131,14 +131,15 @@ TEST(Mesh, ReentrantEdge) {
       EXPECT_LE(found, unite + 2e-15);  // inside: at least as deep as in either box
     }
   }
-  // Inside, the reentrant edge is nearest: to (1, 1) from (0.8, 0.85) 0.25, outwards along (0.8, 0.6).
+  // Inside, the reentrant edge is nearest: (1, 1) is 0.25 from (0.8, 0.85), outwards along (0.8, 0.6).
   const SurfacePoint s = mesh->at({0.8, 0.5, 0.85});
   EXPECT_NEAR(s.distance, -0.25, 1e-15);
   EXPECT_LT((s.normal - Vec3(0.8, 0.0, 0.6)).norm(), 1e-14);
 }
 
 TEST(Mesh, SignNearSharpCorners) {
-  // Needles: the nearest face's normal alone gives the wrong sign beside a tip. Inside is inside of all four planes.
+  // Needles: the normal of the nearest face alone gives the wrong sign beside a tip. Inside means behind all four
+  // planes.
   Random random;
   for (int needle = 0; needle < 50; ++needle) {
     TriangleMesh mesh;
@@ -158,9 +159,9 @@ TEST(Mesh, SignNearSharpCorners) {
       const double found = surface->at(p).distance;
       EXPECT_EQ(found < 0.0, deepest < 0.0) << p.transpose();
       if (deepest < 0.0) {
-        EXPECT_NEAR(found, deepest, 1e-14);  // inside a convex body the nearest plane is nearest
+        EXPECT_NEAR(found, deepest, 1e-14);  // inside a convex body it is the distance to the nearest plane
       } else {
-        EXPECT_GE(found, deepest - 1e-14);  // outside, the body is beyond each plane
+        EXPECT_GE(found, deepest - 1e-14);  // outside, the distance to the body exceeds that to each plane
       }
     }
   }
@@ -168,8 +169,8 @@ TEST(Mesh, SignNearSharpCorners) {
 
 TEST(Mesh, SphereMesh) {
   const auto mesh = make_mesh(sphere_mesh(0.5, 4));  // 2048 triangles
-  // Between the sphere inscribed in the facets and the one around: sagitta r (1 - cos(half angle)); the longest edges
-  // of a face split four times span less than 9 degrees, their circumradius less than 5.5.
+  // The facets lie between the sphere and one smaller by the sagitta r (1 - cos(half angle)). The longest edges of a
+  // face that was split four times span less than 9 degrees, and its circumscribed circle has a radius below 5.5.
   const double sagitta = 0.5 * (1.0 - std::cos(5.5 * kPi / 180.0));
   Random random;
   for (int i = 0; i < 2000; ++i) {
@@ -177,7 +178,7 @@ TEST(Mesh, SphereMesh) {
     const SurfacePoint s = mesh->at(p);
     EXPECT_GE(s.distance, p.norm() - 0.5 - 1e-15);
     EXPECT_LE(s.distance, p.norm() - 0.5 + sagitta);
-    // p - d n is on the facets.
+    // p - d n lies on the facets.
     EXPECT_NEAR(mesh->at(p - s.distance * s.normal).distance, 0.0, 1e-14);
     SurfacePoint found;
     ASSERT_EQ(mesh->within(p, 0.1, found), s.distance <= 0.1);
@@ -189,7 +190,7 @@ TEST(Mesh, SphereMesh) {
 }
 
 TEST(Mesh, NearestTriangleIsFoundByTheTree) {
-  // All triangles, one by one, by the distance to each edge and plane: no tree, no Voronoi regions.
+  // Reference: all triangles one by one, by the distance to each edge and plane, without a tree or Voronoi regions.
   TriangleMesh mesh = sphere_mesh(1.0, 2);
   Random random;
   for (Vec3& vertex : mesh.vertices) vertex *= 0.7 + 0.2 * random.uniform(random.engine);
@@ -200,7 +201,7 @@ TEST(Mesh, NearestTriangleIsFoundByTheTree) {
     for (const auto& triangle : mesh.triangles) {
       const Vec3 corner[3] = {mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]};
       const Vec3 n = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
-      bool above = true;  // the foot on the plane lies within the triangle
+      bool above = true;  // whether the projection onto the plane lies within the triangle
       for (int e = 0; e < 3; ++e) {
         const Vec3 &a = corner[e], &b = corner[(e + 1) % 3];
         above = above && n.dot((b - a).cross(p - a)) >= 0.0;
@@ -216,7 +217,7 @@ TEST(Mesh, NearestTriangleIsFoundByTheTree) {
 TEST(Mesh, Thickness) {
   EXPECT_DOUBLE_EQ(make_mesh(box_mesh({0, 0, 0}, {1.0, 0.6, 0.05}))->thickness(), 0.05);
   EXPECT_DOUBLE_EQ(make_mesh(box_mesh({0, 0, 0}, {1.0, 2.0, 3.0}))->thickness(), 1.0);
-  // The arms of the L are 1 thick, and so is the prism.
+  // The arms of the L and the prism have a thickness of 1.
   EXPECT_DOUBLE_EQ(make_mesh(ell_mesh())->thickness(), 1.0);
 }
 
@@ -241,7 +242,7 @@ TEST(Mesh, SeveralParts) {
   EXPECT_EQ(hollow->at({1.25, 0.0, 0.0}).distance, -0.25);
   EXPECT_EQ(hollow->at({1.25, 0.1, 0.2}).normal, -Vec3::UnitX());
   EXPECT_DOUBLE_EQ(hollow->thickness(), 1.0);
-  // The hollow box as a whole inside out is turned as a whole.
+  // A hollow box that is inside out as a whole is turned as a whole.
   EXPECT_EQ(make_mesh(inside_out(joined(outer, inside_out(inner))))->at({0.1, 0.0, 0.0}).distance, 0.9);
   EXPECT_TRUE(starts_with(refusal(joined(outer, inner)), "mesh: the part at "));
   EXPECT_NE(refusal(joined(outer, inner)).find("lies inside another part"), std::string::npos);
@@ -269,7 +270,7 @@ TEST(Mesh, RefusedMeshes) {
   EXPECT_TRUE(starts_with(refusal(nan), "mesh: vertex 2 is not finite"));
   TriangleMesh flat = box_mesh({0, 0, 0}, {1, 1, 0});
   EXPECT_NE(refusal(flat), "");
-  TriangleMesh sheet;  // two sides of one triangle: closed, but nothing within
+  TriangleMesh sheet;  // two sides of one triangle: closed, but without volume
   sheet.vertices = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()};
   sheet.triangles = {{0, 1, 2}, {0, 2, 1}};
   EXPECT_EQ(refusal(sheet), "mesh: it encloses no volume");
@@ -277,9 +278,9 @@ TEST(Mesh, RefusedMeshes) {
 
 TEST(Mesh, DegenerateTriangles) {
   TriangleMesh repeated = box_mesh({0, 0, 0}, {1, 1, 1});
-  repeated.triangles.push_back({0, 1, 1});  // an edge used twice: nothing is missing without it
+  repeated.triangles.push_back({0, 1, 1});  // uses an edge twice; the mesh is closed without it
   EXPECT_EQ(make_mesh(repeated)->triangles().size(), 12U);
-  // A vertex in the middle of an edge, with a triangle of no area to fill the gap on one side.
+  // A vertex in the middle of an edge, and a triangle without area that closes the gap on one side.
   TriangleMesh line = box_mesh({0, 0, 0}, {1, 1, 1});
   line.vertices.emplace_back(0.5, 0.0, 0.0);  // on the edge 0-1, face {0, 3, 1} split and {0, 1, 5} not
   line.triangles[1] = {0, 3, 8};

@@ -1,4 +1,4 @@
-// Motion of a rigid body: exact for constant twist, and pose and twist are each other's inverse.
+// Motion of a rigid body: exact for constant twist; pose from twist and twist from poses are inverse to each other.
 #include "mpm/rigid/motion.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ struct Random {
 };
 
 TEST(Motion, QuarterTurnAboutWorldZ) {
-  // By hand: x goes to y in a quarter turn about z; the origin moves on a straight line all the same.
+  // By hand: a turn of 90 degrees about z takes x to y, and the origin moves on a straight line.
   Pose pose;
   pose.position = {1.0, 2.0, 3.0};
   const Twist twist{{0.5, 0.0, -1.0}, {0.0, 0.0, kPi}};
@@ -35,8 +35,8 @@ TEST(Motion, QuarterTurnAboutWorldZ) {
 }
 
 TEST(Motion, RotationRateIsInWorldAxes) {
-  // Body turned so that its z lies along world x; a turn about world z takes that z on to world y. A rate read in
-  // body axes would leave it where it is.
+  // The body's z axis lies along world x; a turn about world z takes it to world y. If the rate were in body axes, the
+  // axis would stay where it is.
   Pose pose;
   pose.orientation = Quat(Eigen::AngleAxisd(0.5 * kPi, Vec3::UnitY()));
   const Pose after = integrate(pose, {Vec3::Zero(), {0.0, 0.0, 0.5 * kPi}}, 1.0);
@@ -84,7 +84,7 @@ TEST(Motion, TinyAngles) {
   for (const double angle : {1e-3, 1e-7, 1e-8, 1e-9, 1e-10, 1e-100, 1e-300, 0.0}) {
     const Twist twist{Vec3::Zero(), {angle, -2.0 * angle, 0.0}};
     const Twist found = twist_between({}, integrate({}, twist, 1.0), 1.0);
-    // Relative: the components of the quaternion keep full precision however small.
+    // The tolerance is relative: components of the quaternion have full precision however small they are.
     EXPECT_LE((found.angular - twist.angular).cwiseAbs().maxCoeff(), 1e-15 * angle) << angle;
   }
 }
@@ -102,11 +102,11 @@ TEST(Motion, HalfTurn) {
 }
 
 TEST(Motion, TurnsTheShortWay) {
-  // 350 degrees one way is 10 the other.
+  // 350 degrees one way equal 10 degrees the other way.
   const Pose to{Vec3::Zero(), Quat(Eigen::AngleAxisd(350.0 * kPi / 180.0, Vec3::UnitZ()))};
   const Twist twist = twist_between({}, to, 2.0);
   EXPECT_LT((twist.angular - Vec3(0.0, 0.0, -0.5 * 10.0 * kPi / 180.0)).norm(), 1e-14);
-  // The same orientation written with the opposite quaternion is no turn at all.
+  // The opposite quaternion is the same orientation, so there is no rotation.
   const Pose same{Vec3::Zero(), Quat(-1.0, 0.0, 0.0, 0.0)};
   EXPECT_EQ(twist_between({}, same, 1.0).angular.norm(), 0.0);
 }
@@ -118,7 +118,7 @@ TEST(Motion, ManyStepsEqualOne) {
   Pose pose = start;
   for (int i = 0; i < 1000; ++i) pose = integrate(pose, twist, 1e-3);
   const Pose once = integrate(start, twist, 1.0);
-  // 2e-13: a thousand steps that each round by at most an epsilon (2.2e-16).
+  // 2e-13: a thousand steps, each with a rounding of at most an epsilon (2.2e-16).
   EXPECT_LT((pose.position - once.position).norm(), 2e-13);
   EXPECT_LT(angle_between(pose.orientation, once.orientation), 2e-13);
   EXPECT_NEAR(pose.orientation.norm(), 1.0, 1e-15);

@@ -1,5 +1,5 @@
-// A block of material in free flight under a uniform velocity gradient: after one step the particles inside have the
-// deformation gradient exp(L dt), whatever the method, since the grid reproduces linear fields.
+// A block in free flight with a uniform velocity gradient L. After one step the particles inside have the deformation
+// gradient exp(L dt) with any method, since the grid reproduces linear fields.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ namespace mpm::test {
 constexpr double kSide = 0.8, kBlockCell = 0.1, kBlockStep = 1e-6;  // [m] [m] [s]
 constexpr double kBlockDensity = 1000.0;
 
-/// Centres on a lattice, 16 along each axis; the block's middle is at (1, 1, 1) m. `rate`: L [1/s]; `drift`: of the
-/// middle [m/s]. One step to the next sync point.
+/// A block of 16 particles along each axis with its middle at (1, 1, 1) m. `rate`: L [1/s]; `drift`: velocity of the
+/// middle [m/s]. A sync period is one step.
 inline SimulationDefinition observed_block(const LawDefinition& law, const Eigen::Matrix3d& rate,
                                            const Vec3& drift = Vec3::Zero()) {
   SimulationDefinition d;
@@ -39,7 +39,7 @@ inline SimulationDefinition observed_block(const LawDefinition& law, const Eigen
   return d;
 }
 
-/// Of a particle next to the middle.
+/// The value of `field` at a particle next to the middle.
 inline double inside(const Simulation& simulation, const std::string& field) {
   std::vector<double> values;
   simulation.particle_field(field, values);

@@ -1,5 +1,5 @@
-// Surfaces that end nowhere or only upwards: the plane, the stadium of planar scenes and height fields, against closed
-// forms, against a search through all pieces, and against a closed mesh of the same shape.
+// Surfaces of unbounded bodies: the plane, the stadium of planar scenes and height fields, against closed forms,
+// against a search through all pieces, and against a closed mesh of the same shape.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace mpm {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-14;  // of coordinates of size one
+constexpr double kRounding = 1e-14;  // round-off of coordinates of size one
 
 struct Random {
   std::mt19937 engine{5};
@@ -50,7 +50,7 @@ TEST(Plane, DistanceAlongItsNormal) {
     const Vec3 normal = random.point();
     const auto plane = make_plane(3.0 * normal);
     const Vec3 unit = normal / normal.norm();
-    // A point of the plane, and from there some way along the normal.
+    // A point of the plane, and a point at some distance from it along the normal.
     const Vec3 foot = unit.cross(random.point());
     const double way = random();
     const SurfacePoint s = plane->at(foot + way * unit);
@@ -73,12 +73,12 @@ TEST(Plane, EndsAlongItsNormalAlone) {
 TEST(Plane, IsDrawnAsASlabBelowIt) {
   for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0.6, 0, 0.8), Vec3(1, 2, 3)}) {
     const auto plane = make_plane(normal, 2.0);
-    EXPECT_NEAR(signed_volume(mesh_of(*plane)), 2.0 * 2.0 * 0.1, 1e-13);  // a twentieth of the side deep
+    EXPECT_NEAR(signed_volume(mesh_of(*plane)), 2.0 * 2.0 * 0.1, 1e-13);  // the slab's depth is a twentieth of its side
     double highest = -kInfinity;
     for (const auto& triangle : plane->triangles()) {
       for (const Vec3& corner : triangle) {
         highest = std::max(highest, plane->at(corner).distance);
-        // Of a planar scene's normal the slab is upright to the plane: its corners are 1 m to either side.
+        // With the normal of a planar scene two sides of the slab are parallel to it, with corners 1 m to either side.
         if (normal.y() == 0.0) {
           EXPECT_NEAR(std::abs(corner.y()), 1.0, kRounding) << normal.transpose();
         }
@@ -111,14 +111,14 @@ TEST(Stadium, DistanceIsThatOfTheMiddleLine) {
     EXPECT_EQ(stadium->bounds().max.y(), kInfinity);
     EXPECT_EQ(stadium->bounds().max[axis], 0.4 + 0.2);
     EXPECT_EQ(stadium->thickness(), 0.4);
-    // On the line itself: across it, in the plane.
+    // On the line itself the normal is perpendicular to it, in the plane.
     const SurfacePoint middle = stadium->at({0.0, 0.3, 0.0});
     EXPECT_EQ(middle.distance, -0.2);
     EXPECT_EQ(middle.normal, Vec3(Vec3::Unit(2 - axis)));
   }
 }
 
-/// A roof: up at 45 degrees from x = -1 to its ridge at (0, 1), and down; in a valley the other way round.
+/// A roof that rises at 45 degrees from x = -1 to its ridge at (0, `up`) and falls again; a valley if `up` is negative.
 HeightGrid roof(double up) { return {{-1.0, 0.0}, {1.0, 0.0}, 3, 1, {0.0, up, 0.0}}; }
 
 TEST(HeightProfile, RoofByHand) {
@@ -127,11 +127,11 @@ TEST(HeightProfile, RoofByHand) {
   const SurfacePoint slope = surface->at({0.5, 7.0, 1.0});  // the slope x + z = 1
   EXPECT_NEAR(slope.distance, half * 0.5, kRounding);
   EXPECT_LT((slope.normal - Vec3(half, 0.0, half)).norm(), kRounding);
-  // Beyond the ridge the normal fans out: it points from the ridge to the point.
+  // Above the ridge the normal points from the ridge to the point.
   const SurfacePoint above = surface->at({0.3, 0.0, 1.4});
   EXPECT_NEAR(above.distance, 0.5, kRounding);
   EXPECT_LT((above.normal - Vec3(0.6, 0.0, 0.8)).norm(), kRounding);
-  // On the ridge a face's; below it, at equal distance from both, one of theirs.
+  // On the ridge the normal is that of a face; below it, at equal distance from both faces, that of either.
   const SurfacePoint ridge = surface->at({0.0, 0.0, 1.0});
   EXPECT_EQ(ridge.distance, 0.0);
   EXPECT_NEAR(std::abs(ridge.normal.x()), half, kRounding);
@@ -140,7 +140,7 @@ TEST(HeightProfile, RoofByHand) {
   EXPECT_NEAR(bisector.distance, -half * 0.4, kRounding);
   EXPECT_NEAR(std::abs(bisector.normal.x()), half, kRounding);
   EXPECT_NEAR(bisector.normal.z(), half, kRounding);
-  // At the end of the rectangle an upright side, and an edge without end below.
+  // At the end of the rectangle there is an upright side, endless downwards.
   EXPECT_EQ(surface->at({1.25, 0.0, -3.0}).normal, Vec3::UnitX());
   EXPECT_EQ(surface->at({1.25, 0.0, -3.0}).distance, 0.25);
   EXPECT_EQ(surface->at({-0.75, 0.0, -9.0}).distance, -0.25);
@@ -153,13 +153,13 @@ TEST(HeightProfile, RoofByHand) {
 TEST(HeightProfile, ValleyByHand) {
   const auto surface = make_height_field(roof(-1.0));
   const double half = std::sqrt(0.5);
-  // Outside a notch two faces are nearest on its bisector: one of them is taken, and either side its own.
+  // Above a notch both faces are nearest on its bisector: one of them counts there, and on either side its own face.
   const SurfacePoint bisector = surface->at({0.0, 0.0, -0.5});
   EXPECT_NEAR(bisector.distance, half * 0.5, kRounding);
   EXPECT_NEAR(std::abs(bisector.normal.x()), half, kRounding);
   EXPECT_NEAR(bisector.normal.z(), half, kRounding);
   EXPECT_GT(surface->at({-0.01, 0.0, -0.5}).normal.x(), 0.5);
-  // Below it the surface is an edge seen from inside: distance to the edge, normal towards it.
+  // Below the notch, inside the body, its edge is nearest: the normal points towards it.
   const SurfacePoint below = surface->at({0.0, 0.0, -1.25});
   EXPECT_EQ(below.distance, -0.25);
   EXPECT_LT((below.normal - Vec3::UnitZ()).norm(), kRounding);
@@ -196,7 +196,7 @@ TEST(HeightProfile, NearestOfAllPieces) {
     const bool inside = p.x() > grid.low.x() && p.x() < grid.high.x() && p.z() < height;
     const SurfacePoint s = surface->at(p);
     EXPECT_NEAR(s.distance, inside ? -nearest : nearest, kRounding);
-    // Distance and normal together lead to the surface.
+    // Going back along the normal by the distance leads to the surface.
     EXPECT_NEAR(surface->at(p - s.distance * s.normal).distance, 0.0, kRounding);
     EXPECT_NEAR(s.normal.norm(), 1.0, kRounding);
     expect_within_agrees(*surface, p);
@@ -215,8 +215,8 @@ HeightGrid rough_field(Random& random) {
 }
 
 TEST(HeightField, AgreesWithTheMeshOfTheSameShape) {
-  // The mesh: its own tree, and signs by pseudonormals. It ends 0.85 m below the lowest height, -0.2 m at least: where
-  // the surface is nearer than that bottom the two must agree.
+  // The mesh is independent: it has its own tree, and signs by pseudonormals. It ends 0.85 m below the lowest height,
+  // which is -0.2 m or more. The two must agree where the surface is nearer than that bottom.
   Random random;
   const auto field = make_height_field(rough_field(random));
   const TriangleMesh triangles = mesh_of(*field);
@@ -236,7 +236,7 @@ TEST(HeightField, AgreesWithTheMeshOfTheSameShape) {
 }
 
 TEST(HeightField, OfOneProfileIsThatProfile) {
-  // The same heights in each row: in the middle, away from the ends along y, the planar field.
+  // With the same heights in each row the field equals the planar one, away from the ends along y.
   Random random;
   HeightGrid profile = rough_profile(random);
   const auto planar = make_height_field(profile);
@@ -262,7 +262,7 @@ TEST(HeightField, FlatIsABoxWithoutEndBelow) {
     EXPECT_NEAR(field->at(p).distance, box->at(in_box).distance, 2e-14 * 100.0);  // rounding of the box's 100 m
     EXPECT_LT((field->at(p).normal - box->at(in_box).normal).norm(), 1e-9) << p.transpose();
   }
-  // On the edge between two of its triangles, and a hair above it: a face's normal.
+  // On the edge between two triangles, and just above it, the normal is that of a face.
   EXPECT_EQ(field->at({0.0, 0.0, 0.1}).normal, Vec3::UnitZ());
   EXPECT_EQ(field->at({0.25, 0.1, 0.1 + 1e-15}).normal, Vec3::UnitZ());
   EXPECT_EQ(field->thickness(), 0.8);

@@ -15,8 +15,8 @@ using test::observed_block;
 
 constexpr double kYoung = 1e5, kPoisson = 0.25;
 constexpr Elasticity kElasticity{kYoung, kPoisson};
-// exp(L dt) is taken to second order (gradient_terms: 2): off by (1e-3)^3 / 6, and as much from the grid's own strain
-// of the surface, which has not come far in one step.
+// exp(L dt) is computed to second order (gradient_terms: 2), with an error of (1e-3)^3 / 6. Strain near the surface of
+// the block adds as much at most, since it spreads by little in one step.
 constexpr double kThirdOrder = 1e-9;
 
 Eigen::Matrix3d diagonal(double x, double y, double z) { return Vec3(x, y, z).asDiagonal(); }
@@ -36,7 +36,7 @@ TEST(ParticleFields, StrainIsTheLogarithmOfTheStretch) {
   for (const char* shear : {"exy", "exz", "eyz", "rotation"})
     EXPECT_NEAR(inside(run, shear), 0.0, kThirdOrder) << shear;
   EXPECT_NEAR(inside(run, "j"), std::exp(7e-4), kThirdOrder);
-  // A law that does not part strains: all of it is elastic.
+  // With a law without plastic strain all strain is elastic.
   EXPECT_EQ(inside(run, "exxe"), inside(run, "exx"));
   EXPECT_EQ(inside(run, "exxp"), 0.0);
 }
@@ -47,7 +47,7 @@ TEST(ParticleFields, ShearStrainIsHalfOfTheShear) {
   Simulation run(observed_block(NeoHookeanDefinition{kElasticity}, shear));
   run.advance();
   EXPECT_NEAR(inside(run, "exz"), 5e-4, kThirdOrder);
-  EXPECT_NEAR(inside(run, "ry"), std::atan(5e-4), kThirdOrder);  // tan of it is half of the shear
+  EXPECT_NEAR(inside(run, "ry"), std::atan(5e-4), kThirdOrder);  // its tangent is half of the shear
   EXPECT_NEAR(inside(run, "rotation"), std::atan(5e-4), kThirdOrder);
 }
 
@@ -65,18 +65,18 @@ TEST(ParticleFields, RotationIsThatOfTheMotion) {
 }
 
 TEST(ParticleFields, PlasticStrainIsWhatTheStressDoesNotExplain) {
-  // Isochoric, far beyond a yield stress of 20 Pa: an elastic stretch of 20 Pa / 3 G is left.
+  // Isochoric strain far beyond a yield stress of 20 Pa: an elastic strain of 20 Pa / 3 G is left.
   J2PlasticityDefinition law{kElasticity, 20.0};
   Simulation run(observed_block(law, diagonal(1000.0, -500.0, -500.0)));
   run.advance();
-  const double elastic = 20.0 / (3.0 * kElasticity.shear());  // 1.7e-4; laws of this strain to second order in it
+  const double elastic = 20.0 / (3.0 * kElasticity.shear());  // 1.7e-4; the law is exact to second order in it
   EXPECT_NEAR(inside(run, "exxe"), elastic, 1e-3 * elastic);
   EXPECT_NEAR(inside(run, "eyye"), -0.5 * elastic, 1e-3 * elastic);
   EXPECT_NEAR(inside(run, "exxp"), 1e-3 - elastic, 1e-3 * elastic);
-  // Uniaxial: the equivalent plastic strain is that along the axis, to first order in the elastic strain.
+  // In uniaxial strain the equivalent plastic strain is that along the axis, to first order in the elastic strain.
   EXPECT_NEAR(inside(run, "ep"), inside(run, "exxp"), 2.0 * elastic * inside(run, "ep"));
   EXPECT_EQ(inside(run, "h0"), inside(run, "ep"));
-  EXPECT_EQ(inside(run, "h3"), 0.0);  // there is none
+  EXPECT_EQ(inside(run, "h3"), 0.0);  // the law has no such history
 }
 
 TEST(ParticleFields, ElasticStrainOfARateLawIsHookesOfTheStress) {
@@ -87,7 +87,7 @@ TEST(ParticleFields, ElasticStrainOfARateLawIsHookesOfTheStress) {
   EXPECT_NEAR(inside(run, "exxe"), (-30.0 + kPoisson * 60.0) / kYoung, 1e-15);
   EXPECT_NEAR(inside(run, "eyye"), (-20.0 + kPoisson * 70.0) / kYoung, 1e-15);
   EXPECT_NEAR(inside(run, "exze"), 5.0 / (2.0 * kElasticity.shear()), 1e-15);
-  // Started under stress: the plastic part is less by what that explains.
+  // With an initial stress the plastic strain is smaller by the elastic strain of that stress.
   EXPECT_EQ(inside(run, "exxp"), -inside(run, "exxe"));
 }
 
@@ -101,19 +101,19 @@ TEST(ParticleFields, DisplacementIsFromWhereTheParticleWas) {
   run.keep_start();
   const double start = inside(run, "x");
   for (int i = 0; i < 100; ++i) run.advance();
-  constexpr double kRoundings = 100 * 1.2e-16;  // one a step, of positions of 1 m
+  constexpr double kRoundings = 100 * 1.2e-16;  // one rounding a step, of positions of 1 m
   EXPECT_NEAR(inside(run, "ux"), 100 * kBlockStep * drift.x(), kRoundings);
   EXPECT_NEAR(inside(run, "uz"), 100 * kBlockStep * drift.z(), kRoundings);
   EXPECT_NEAR(inside(run, "displacement"), 100 * kBlockStep * drift.norm(), 2.0 * kRoundings);
   EXPECT_EQ(inside(run, "x0"), start);
-  EXPECT_NO_THROW(run.keep_start());  // they do already
+  EXPECT_NO_THROW(run.keep_start());  // the start is kept already
   Simulation late(observed_block(NeoHookeanDefinition{kElasticity}, Eigen::Matrix3d::Zero(), drift));
   late.advance();
   EXPECT_THROW(late.keep_start(), DefinitionError);
 }
 
 TEST(ParticleFields, EnergiesAddUpToThoseOfTheSolver) {
-  // Sums of 4096 numbers in another order: round-off of the sum of their sizes.
+  // Sums of 4096 numbers in another order differ by round-off of the sum of their magnitudes.
   Simulation run(observed_block(J2PlasticityDefinition{kElasticity, 20.0}, diagonal(1000.0, -500.0, -500.0)));
   run.advance();
   const EnergyReport energy = run.state().energy;

@@ -1,5 +1,5 @@
 // Distances and normals of bodies of revolution: against the nearest of densely sampled points of the surface, against
-// closed forms of cylinder, sphere and cone, and by finite differences; and profiles that are refused.
+// closed forms of cylinder, sphere and cone, and by finite differences; and refused profiles.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace mpm {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kRounding = 1e-15;  // of a few operations on lengths of order 1, 2e-16 each
+constexpr double kRounding = 1e-15;  // a few operations on lengths of order 1, 2e-16 each
 
 /// A profile with a hollow in its side and one in its top, counter-clockwise.
 const Profile kSpool = {{0.0, -0.5}, {0.6, -0.5}, {0.2, 0.0}, {0.5, 0.4}, {0.3, 0.4}, {0.0, 0.1}};
@@ -25,8 +25,8 @@ const Profile kTube = {{0.3, -0.4}, {0.5, -0.2}, {0.5, 0.5}, {0.3, 0.3}};
 struct Case {
   std::string name;
   Profile profile;
-  double gap;                                      ///< the widest between samples on the surface [m]
-  std::function<bool(double r, double z)> inside;  ///< by hand
+  double gap;                                      ///< largest distance of a surface point from a sample [m]
+  std::function<bool(double r, double z)> inside;  ///< written by hand
 };
 
 double along(double from, double to, double part) { return from + part * (to - from); }
@@ -42,7 +42,7 @@ bool in_tube(double r, double z) { return r > 0.3 && r < 0.5 && z > r - 0.7 && z
 
 std::vector<Case> cases() { return {{"spool", kSpool, 0.015, in_spool}, {"tube", kTube, 0.015, in_tube}}; }
 
-/// Points on the surface: along each edge off the axis, and round.
+/// Points on the surface: along each edge that is not on the axis, and around.
 std::vector<Vec3> samples(const Profile& profile) {
   constexpr int kAlong = 80, kRound = 300;
   std::vector<Vec3> points;
@@ -76,7 +76,7 @@ TEST(Revolved, DistanceIsThatOfTheNearestSample) {
       double nearest = std::numeric_limits<double>::infinity();
       for (const Vec3& sample : points) nearest = std::min(nearest, (p - sample).norm());
       const double distance = surface->at(p).distance;
-      // A sample is on the surface, so it is no nearer; and one lies within a gap of the nearest point.
+      // A sample lies on the surface, so it cannot be nearer, and one lies within a gap of the nearest point.
       EXPECT_LE(std::abs(distance), nearest + kRounding) << c.name;
       EXPECT_GE(std::abs(distance), nearest - c.gap) << c.name;
       EXPECT_EQ(distance < 0.0, c.inside(std::hypot(p.x(), p.y()), p.z())) << c.name << " at " << p.transpose();
@@ -96,7 +96,7 @@ TEST(Revolved, NormalIsTheGradientAndLeadsToTheSurface) {
       EXPECT_NEAR(s.normal.norm(), 1.0, kRounding) << c.name;
       EXPECT_NEAR(surface->at(p - s.distance * s.normal).distance, 0.0, kRounding) << c.name;
       Vec3 gradient;
-      bool kink = false;  // two nearest edges: no gradient
+      bool kink = false;  // two nearest edges: the gradient does not exist
       for (int k = 0; k < 3; ++k) {
         const SurfacePoint a = surface->at(p + h * Vec3::Unit(k)), b = surface->at(p - h * Vec3::Unit(k));
         gradient[k] = (a.distance - b.distance) / (2.0 * h);
@@ -148,7 +148,7 @@ TEST(Revolved, AnArcIsASphereToItsSagitta) {
     EXPECT_LE(below, sagitta + kRounding);
     EXPECT_GE(below, -kRounding);
   }
-  // Rays inwards pass the centre within half an edge: they are chords of almost the diameter.
+  // Rays inwards pass the centre within half an edge, so they are nearly as long as the diameter.
   EXPECT_NEAR(surface->thickness(), 2.0 * radius, 0.01 * radius);
 }
 
@@ -163,7 +163,7 @@ TEST(Revolved, AConePointsDownWithItsTipAtTheOrigin) {
   EXPECT_NEAR(cone->at({0.0, 0.3, height + 0.1}).distance, 0.1, kRounding);
   EXPECT_EQ(cone->at({0.0, 0.3, height + 0.1}).normal, Vec3::UnitY());
   EXPECT_NEAR(cone->at({0.1, 0.0, height + shaft + 0.05}).distance, 0.05, kRounding);
-  // Outside a corner, from the corner; below the tip, from the tip.
+  // Outside a corner the normal points from the corner, below the tip from the tip.
   const Vec3 shoulder(radius, 0.0, height + shaft);
   const SurfacePoint corner = cone->at(shoulder + Vec3(0.03, 0.0, 0.04));
   EXPECT_NEAR(corner.distance, 0.05, kRounding);
@@ -176,14 +176,14 @@ TEST(Revolved, AConePointsDownWithItsTipAtTheOrigin) {
 
 TEST(Revolved, OnTheAxisTheNormalHasNoPartAcrossIt) {
   const auto cone = make_cone(0.2, 0.3, 0.5);
-  // Inside near the tip the cone's side is nearest: its distance z sin(half angle).
+  // Inside near the tip the cone's side is nearest, at a distance z sin(half angle).
   const SurfacePoint tip = cone->at({0.0, 0.0, 0.1});
   EXPECT_NEAR(tip.distance, -0.1 * 0.2 / std::hypot(0.2, 0.3), kRounding);
   EXPECT_EQ(tip.normal, Vec3(-Vec3::UnitZ()));
   const SurfacePoint top = cone->at({0.0, 0.0, 0.75});
   EXPECT_NEAR(top.distance, -0.05, kRounding);
   EXPECT_EQ(top.normal, Vec3::UnitZ());
-  // In a tube the wall is nearest all round: towards the nearer end.
+  // On the axis of a tube the wall is equally near all round: the normal points to the nearer end.
   const auto ring = make_ring(0.2, 0.3, 1.0);
   EXPECT_EQ(ring->at({0.0, 0.0, 0.1}).distance, 0.2);
   EXPECT_EQ(ring->at({0.0, 0.0, 0.1}).normal, Vec3::UnitZ());
@@ -227,12 +227,12 @@ TEST(Revolved, TrianglesAreClosedAndTurnedOutwards) {
 }
 
 TEST(Revolved, ThicknessIsThatOfWallsAndNeedlesNotOfBluntTips) {
-  // The side of a cone of 60 degrees faces neither itself nor its base within 45 degrees: its bounds count.
+  // No two faces of a cone of 60 degrees are opposite within 45 degrees, so its bounding box determines the thickness.
   EXPECT_EQ(make_cone(0.2, 0.2 * std::sqrt(3.0))->thickness(), 0.2 * std::sqrt(3.0));
-  // Under a shaft, which is 2 radii thick: not thinner than that by what its tip is.
+  // Under a shaft, which is 2 radii thick, the tip does not reduce the thickness.
   EXPECT_GT(make_cone(0.2, 0.2 * std::sqrt(3.0), 0.6)->thickness(), 0.2);
-  // A needle of radius R whose faces enclose the angle a: rays meet the other face after 2 r cos(a/2) / cos(a), and 5 %
-  // of the cone's area lies within r < sqrt(0.05) R (its base, the small rest, adds to the whole).
+  // A needle of radius R with the angle a at its tip: rays meet the other side after 2 r cos(a/2) / cos(a), and 5 % of
+  // the side's area lies within r < sqrt(0.05) R (the base adds little to the area).
   const double radius = 0.1, height = 2.0, half = std::atan(radius / height);
   const double sine = std::sin(half), r5 = radius * std::sqrt(0.05 * (1.0 + sine));
   EXPECT_NEAR(make_cone(radius, height)->thickness(), 2.0 * r5 * std::cos(half) / std::cos(2.0 * half), 0.05 * radius);
@@ -241,7 +241,7 @@ TEST(Revolved, ThicknessIsThatOfWallsAndNeedlesNotOfBluntTips) {
 
 TEST(Revolved, TheSectionOfARingThatMovesIsExactOnEitherSideOfTheAxis) {
   const auto ring = make_ring(0.2, 0.3, 1.0, true);
-  // Opened by 0.5, the point r = 0.1 lies at x = -0.4 of the body: 0.6 from the inner face, not within the wall.
+  // When the ring is opened by 0.5, r = 0.1 lies at x = -0.4 of the body: 0.6 from the inner face, not within the wall.
   EXPECT_DOUBLE_EQ(ring->at({-0.4, 0.0, 0.0}).distance, 0.6);
   EXPECT_EQ(ring->at({-0.4, 0.0, 0.0}).normal, Vec3(-Vec3::UnitX()));
   EXPECT_NEAR(ring->at({0.26, 0.0, 0.1}).distance, -0.04, kRounding);

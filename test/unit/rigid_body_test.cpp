@@ -1,4 +1,4 @@
-// A rigid body follows what it was told last, and refuses what cannot be followed.
+// A rigid body follows the last command, and refuses commands that it cannot follow.
 #include "mpm/rigid/rigid_body.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ RigidBodyDefinition blade() {
   return definition;
 }
 
-/// `steps` equal steps over the 10 ms that follow `from` [ns], and the sync point at their end.
+/// Makes `steps` equal steps over the 10 ms after `from` [ns], and the sync point at their end.
 void run_sync(RigidBody& body, std::int64_t from, int steps) {
   const double dt = 0.01 / steps;
   for (int i = 0; i < steps; ++i) {
@@ -47,14 +47,14 @@ TEST(RigidBody, FollowsItsFunctions) {
   RigidBody body(definition);
   EXPECT_EQ(body.drive(), Drive::functions);
   for (int i = 0; i < 10; ++i) run_sync(body, i * 10'000'000LL, 7);
-  EXPECT_LT((body.pose().position - Vec3(1.02, 0.0, 0.49)).norm(), 1e-14);  // 0.1 s; 70 steps round
+  EXPECT_LT((body.pose().position - Vec3(1.02, 0.0, 0.49)).norm(), 1e-14);  // 0.1 s; round-off of 70 steps
   const Quat turned(Eigen::AngleAxisd(0.3, Vec3::UnitY()));
   EXPECT_LT((body.pose().orientation.coeffs() - turned.coeffs()).norm(), 1e-14);
   EXPECT_EQ(body.twist().linear, Vec3(0.2, 0.0, -0.1));
 }
 
 TEST(RigidBody, FunctionsAreReadInTheMiddleOfTheStep) {
-  // v = 2 t: the midpoint rule is exact for it, x = t^2.
+  // For v = 2 t the midpoint rule is exact: x = t^2.
   RigidBodyDefinition definition = blade();
   definition.velocity[0] = Function::parse("2*t");
   RigidBody body(definition);
@@ -81,14 +81,14 @@ TEST(RigidBody, ReachesTheTargetPoseAndRests) {
   const Pose target{{1.3, -0.7, 0.11}, Quat(0.3, -0.5, 0.7, 0.2).normalized()};
   body.command_pose(target, 0, 30'000'000);
   EXPECT_EQ(body.drive(), Drive::pose);
-  EXPECT_LT((body.twist().linear - Vec3(0.3, -0.7, -0.39) / 0.03).norm(), 1e-13);  // of numbers of size 30
+  EXPECT_LT((body.twist().linear - Vec3(0.3, -0.7, -0.39) / 0.03).norm(), 1e-13);  // for numbers of size 30
   run_sync(body, 0, 13);
   run_sync(body, 10'000'000, 13);
   EXPECT_GT((body.pose().position - target.position).norm(), 0.1);  // one third to go
   run_sync(body, 20'000'000, 13);
   EXPECT_EQ(body.pose().position, target.position);  // exactly, not to rounding
   EXPECT_EQ(body.pose().orientation.coeffs(), target.orientation.coeffs());
-  EXPECT_GT(body.twist().linear.norm(), 20.0);  // of the step just made, not yet at rest
+  EXPECT_GT(body.twist().linear.norm(), 20.0);  // that of the last step, not yet at rest
   run_sync(body, 30'000'000, 5);
   EXPECT_EQ(body.twist().linear, Vec3::Zero());
   EXPECT_EQ(body.twist().angular, Vec3::Zero());
@@ -118,7 +118,7 @@ TEST(RigidBody, NewCommandReplacesTheOld) {
   Pose far = body.pose();
   far.position.x() += 10.0;
   body.command_pose(far, 0, 20'000'000);
-  run_sync(body, 0, 4);  // half of the way: x = 6
+  run_sync(body, 0, 4);  // half of the distance: x = 6
   Pose near = body.pose();
   near.position.z() += 0.2;
   body.command_pose(near, 10'000'000, 20'000'000);
@@ -126,7 +126,7 @@ TEST(RigidBody, NewCommandReplacesTheOld) {
   run_sync(body, 10'000'000, 4);
   EXPECT_EQ(body.pose().position, near.position);
   body.command_velocity({{0.0, 0.0, -1.0}, Vec3::Zero()});
-  run_sync(body, 20'000'000, 4);  // the pose that was reached pulls no more
+  run_sync(body, 20'000'000, 4);  // the pose has been reached and has no further effect
   EXPECT_NEAR(body.pose().position.z(), near.position.z() - 0.01, 1e-15);
 }
 

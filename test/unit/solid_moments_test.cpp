@@ -1,4 +1,4 @@
-// Volume, centre and inertia of what surfaces enclose, against formulas of textbooks and against each other.
+// Volume, centre and inertia of closed surfaces, against formulas of textbooks and against each other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ using mpm::Vec3;
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-/// Sums over a fine lattice of what lies inside: right to the volume of the cells that the surface cuts.
+/// Sums over the points of a fine lattice that lie inside: exact to the volume of the cells that the surface cuts.
 SolidMoments counted(const mpm::Surface& surface, const mpm::Box& box, int cells) {
   SolidMoments sum;
   const Vec3 cell = box.size() / cells;
@@ -49,13 +49,13 @@ TEST(SolidMoments, OfBoxSphereAndCylinder) {
   const SolidMoments rod = *mpm::make_cylinder(0.1, 2.0, 0)->moments(1.0);
   EXPECT_NEAR(rod.inertia()(0, 0), 0.5 * rod.volume * 0.01, 1e-15);
   EXPECT_NEAR(rod.inertia()(1, 1), rod.volume * (3.0 * 0.01 + 4.0) / 12.0, 1e-15);
-  // In a plane the thickness is that of the scene.
+  // In a planar scene the thickness is that of the scene.
   const SolidMoments disc = *mpm::make_cylinder(0.1, kEndless, 1)->moments(0.3);
   EXPECT_NEAR(disc.volume, M_PI * 0.01 * 0.3, 1e-15);
   EXPECT_NEAR(disc.inertia()(1, 1), 0.5 * disc.volume * 0.01, 1e-15);
 }
 
-// A lattice of 100^3 over the body leaves about a hundredth of its surface cells in doubt, by halves: 1e-3 is asked.
+// On a lattice of 100^3 points the cells at the surface contribute errors that largely cancel: 1e-3 is asked.
 TEST(SolidMoments, OfCapsuleAsCounted) {
   const auto capsule = mpm::make_capsule(0.2, 0.5, 0);
   expect_near(*capsule->moments(1.0), counted(*capsule, capsule->bounds(), 100), 1e-3);
@@ -98,7 +98,7 @@ TEST(SolidMoments, OfMeshAndPolygonAreThoseOfTheBox) {
 
 TEST(SolidMoments, OfWhatHasNoEndAreNotKnown) { EXPECT_FALSE(mpm::make_plane(Vec3::UnitZ())->moments(1.0)); }
 
-// Inside and outside, beside a face, beyond a corner and in a notch.
+// Points inside and outside, beside a face, beyond a corner and in a notch.
 TEST(Polygon, KnowsItsDistance) {
   const mpm::Profile notched = {{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 0.5}, {0.0, 1.0}};
   const auto polygon = mpm::make_polygon(notched);

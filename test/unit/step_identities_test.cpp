@@ -1,5 +1,6 @@
-// What every method must keep, whatever the scene: linear momentum, a rigid motion, linear fields; and what transfers
-// are by their definitions (method reference 6.6). Steps of the real schedules, without walls and gravity.
+// Identities that every method must satisfy in any scene: conservation of linear momentum, a uniform motion, linear
+// fields; and the definitions of the transfers (method reference 6.6). The steps are those of the real schedules,
+// without walls and gravity.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -14,7 +15,7 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-/// Momentum, and the sum of the sizes of its parts [N s].
+/// Momentum, and the sum of the magnitudes of its parts [N s].
 struct Momentum {
   Vector sum{};
   double size = 0.0;
@@ -32,7 +33,8 @@ Momentum momentum_of(Scene& scene) {
   return momentum;
 }
 
-/// Random, up to 1 m/s, a tenth of the fastest wave's here; of rings less towards the axis, where they stay.
+/// Sets random velocities of up to 1 m/s, a tenth of the wave speed here. Those of rings decrease towards the axis,
+/// where they are zero.
 template <class Geometry, class T>
 void shake(StepScene<Geometry, T>& scene) {
   std::mt19937 random(3);
@@ -43,8 +45,8 @@ void shake(StepScene<Geometry, T>& scene) {
   });
 }
 
-// Weights sum to one, gradients to zero: method reference 1.1. A step rounds by some epsilon of what passes to and fro,
-// at random: 100 steps by ten times as much.
+// Weights sum to one, gradients to zero: method reference 1.1. The round-off of a step is some epsilon of the
+// transferred momentum, and random: that of 100 steps is ten times as large.
 template <class Geometry>
 void check_momentum(int steps) {
   each_method<Geometry>([&](const StepMethod& method) {
@@ -53,7 +55,7 @@ void check_momentum(int steps) {
     const Momentum before = momentum_of(scene);
     scene.advance(steps);
     const Momentum after = momentum_of(scene);
-    // The radial momentum of rings changes with their hoop stress.
+    // The hoop stress of rings changes their radial momentum.
     for (int k = Geometry::kHoop ? 1 : 0; k < Geometry::kDim; ++k) {
       EXPECT_NEAR(after.sum[k], before.sum[k], 1e-13 * before.size) << method.name();
     }
@@ -63,13 +65,13 @@ TEST(StepIdentities, KeepMomentumInAPlane) { check_momentum<PlaneStrain>(100); }
 TEST(StepIdentities, KeepMomentumInASolid) { check_momentum<Solid>(10); }
 TEST(StepIdentities, RingsKeepAxialMomentum) { check_momentum<Axisymmetric>(100); }
 
-// The gradients of a uniform velocity are differences of equal numbers rounded, epsilon v / h; 100 steps of dt add up
-// to at most 100 epsilon v dt / h of strain, here 100 epsilon.
+// Gradients of a uniform velocity are differences of equal numbers, rounded: epsilon v / h. 100 steps of dt add up to a
+// strain of at most 100 epsilon v dt / h, here 100 epsilon.
 template <class Geometry>
 void check_translation() {
   each_method<Geometry>([&](const StepMethod& method) {
     StepScene<Geometry> scene(method);
-    const double v = 0.5 * scene.kCell / scene.dt / 100.0;  // half a cell in all
+    const double v = 0.5 * scene.kCell / scene.dt / 100.0;  // half a cell in 100 steps
     const Vector velocity{Geometry::kHoop ? 0.0 : v, -0.5 * v, 0.0};
     scene.set_velocity([&](const Vector&) { return velocity; });
     scene.advance(100);
@@ -93,7 +95,7 @@ Vector linear(const Vector& x) {
   return v;
 }
 
-/// The grid's velocity becomes `field` of place; zero beyond walls.
+/// Sets the velocity of nodes to `field` of their positions, and to zero beyond walls.
 template <class Scene>
 void set_grid_velocity(Scene& scene, const std::function<Vector(const Vector&)>& field) {
   scene.each_node([&](int b, int n, const std::array<int, 3>& number) {
@@ -108,7 +110,7 @@ void set_grid_velocity(Scene& scene, const std::function<Vector(const Vector&)>&
   });
 }
 
-/// About an axis v_r is a multiple of r, or its hoop strain is not the same everywhere.
+/// About an axis v_r is a multiple of r, since otherwise the hoop strain would not be uniform.
 template <class Geometry>
 Vector linear_in(const Vector& x) {
   const Vector v = linear(x);
@@ -125,8 +127,8 @@ auto gradient_in(double dt) {
   return gradient;
 }
 
-// Linear completeness, method reference 1.1: F = I + grad v dt with one term of the exponential would do; with two it
-// is that of a linear field all the same. Of numbers of the size of place over cell, 24, times epsilon.
+// Linear completeness, method reference 1.1: every shape function reproduces the gradient of a linear field. Round-off
+// is that of numbers of the size of position over cell, 24, times epsilon.
 template <class Geometry>
 void check_gradient() {
   for (const ShapeKind shape : kAllShapes) {
@@ -150,8 +152,8 @@ TEST(StepIdentities, LinearVelocityIsReproducedInAPlane) { check_gradient<PlaneS
 TEST(StepIdentities, LinearVelocityIsReproducedInASolid) { check_gradient<Solid>(); }
 TEST(StepIdentities, HomologousVelocityIsReproducedAboutAnAxis) { check_gradient<Axisymmetric>(); }
 
-// XPIC(1) and FMPM(1) are PIC: the velocity that particles have after a step from one state. (Places differ by
-// definition: PIC's by 6.2, those of XPIC and FMPM by 6.6.)
+// XPIC(1) and FMPM(1) are PIC: from one state, particles have the same velocity after a step. (Positions differ by
+// definition: those of PIC follow 6.2, those of XPIC and FMPM 6.6.)
 template <class Geometry>
 void check_first_orders() {
   for (const ShapeKind shape : kAllShapes) {
@@ -170,7 +172,7 @@ void check_first_orders() {
           if (transfer.kind == TransferKind::flip) {
             pic.push_back(v);
           } else {
-            EXPECT_NEAR(v, pic[p], 1e-14) << method.name() << " particle " << p;  // of 1 m/s
+            EXPECT_NEAR(v, pic[p], 1e-14) << method.name() << " particle " << p;  // for velocities of 1 m/s
           }
         }
       }
@@ -218,7 +220,7 @@ void check_matrices() {
         const StepMethod method{shape, UpdateScheme::usf, {kind, 1.0, order}};
         StepScene<Geometry> scene(method, {3});
         shake(scene);
-        scene.advance(3);  // some stress
+        scene.advance(3);  // creates some stress
         StepContext context = scene.context();
         scene.mechanics->scatter_momentum(context);
         const Dense dense = dense_of(scene);
@@ -261,9 +263,9 @@ void check_matrices() {
 TEST(StepIdentities, XpicAndFmpmAreTheirMatrices) { check_matrices<PlaneStrain>(); }
 TEST(StepIdentities, XpicAndFmpmOfRingsAreTheirMatrices) { check_matrices<Axisymmetric>(); }
 
-// APIC hands a linear field to the grid and takes it back as it was, 50 times with particles in their places (steps of
-// no time); velocities are those of the mean places of their values. Gradients are differences over second moments, at
-// least 1e-3 of a cell squared here.
+// APIC transfers a linear field to the grid and back without change, 50 times with particles that do not move (steps of
+// zero time). The velocity of a particle is the field's at the mean position of its shape function. Gradients are
+// differences over second moments, which are at least 1e-3 of a cell squared here.
 template <class Geometry>
 void check_affine() {
   for (const ShapeKind shape : kAllShapes) {

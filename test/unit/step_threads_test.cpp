@@ -1,5 +1,5 @@
-// Every method has the same bits for any number of threads: sums at a node are grouped by the colours of blocks, and
-// what belongs to a particle is written by one thread.
+// Every method gives the same bits for any number of threads: sums at a node are grouped by the colours of blocks, and
+// the values of a particle are written by one thread.
 #include <gtest/gtest.h>
 
 #include "step_scene.hpp"
@@ -7,7 +7,7 @@
 namespace mpm::test {
 namespace {
 
-/// All that a step leaves behind: places, and what particles carry, by id.
+/// The complete result of a step: positions and the values of particles, by id.
 template <class Geometry, class T>
 std::vector<double> state_after(const StepMethod& method, int threads, int steps) {
   typename StepScene<Geometry, T>::Body body;

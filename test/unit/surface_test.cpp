@@ -1,5 +1,5 @@
-// Signed distances and normals of box, sphere, cylinder and capsule against closed forms found another way: by the
-// nearest of densely sampled points of the surface, by finite differences, and by hand at chosen points.
+// Signed distances and normals of box, sphere, cylinder and capsule against independent values: the nearest of densely
+// sampled points of the surface, finite differences, and values computed by hand at chosen points.
 #include "mpm/rigid/surface.hpp"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A surface with what the test knows of it on its own: whether a point is inside, and points on the surface that
-/// leave no gap wider than `gap`.
+/// A surface with independent knowledge of it: whether a point is inside, and points of the surface such that one lies
+/// within `gap` of every point of it.
 struct Case {
   std::string name;
   std::shared_ptr<Surface> surface;
@@ -135,7 +135,7 @@ TEST(Surface, DistanceIsThatOfTheNearestSample) {
       double nearest = kInfinity;
       for (const Vec3& sample : c.samples) nearest = std::min(nearest, (p - sample).norm());
       const double distance = c.surface->at(p).distance;
-      // A sample is on the surface, so it is no nearer; and one lies within a gap of the nearest point.
+      // A sample lies on the surface, so it cannot be nearer, and one lies within a gap of the nearest point.
       EXPECT_LE(std::abs(distance), nearest + 1e-14) << c.name;
       EXPECT_GE(std::abs(distance), nearest - c.gap) << c.name;
       EXPECT_EQ(distance < 0.0, c.inside(p)) << c.name << " at " << p.transpose();
@@ -144,7 +144,7 @@ TEST(Surface, DistanceIsThatOfTheNearestSample) {
 }
 
 TEST(Surface, NearestPointLiesOnTheSurface) {
-  // p - distance * normal: the distance there is zero only if distance and normal are both right.
+  // The distance at p - distance * normal is zero only if distance and normal are both right.
   for (const Case& c : cases()) {
     Random random;
     for (int i = 0; i < 1000; ++i) {
@@ -165,7 +165,7 @@ TEST(Surface, NormalIsTheGradient) {
       const Vec3 p = random.point();
       const SurfacePoint s = c.surface->at(p);
       Vec3 gradient;
-      bool kink = false;  // two nearest faces inside: no gradient
+      bool kink = false;  // two nearest faces inside: the gradient does not exist
       for (int k = 0; k < 3; ++k) {
         const SurfacePoint a = c.surface->at(p + h * Vec3::Unit(k)), b = c.surface->at(p - h * Vec3::Unit(k));
         gradient[k] = (a.distance - b.distance) / (2.0 * h);
@@ -208,8 +208,8 @@ TEST(Surface, TrianglesCloseAndLieOnTheSurface) {
       for (const Vec3& corner : {a, b, d}) EXPECT_NEAR(c.surface->at(corner).distance, 0.0, 1e-15) << c.name;
       volume += a.dot(b.cross(d)) / 6.0;
     }
-    // By hand: box 1 x 0.6 x 0.4, sphere and cylinder a few percent less for the flat faces (32 and 48 to a turn).
-    const double ends = 4.0 / 3.0 * kPi * 0.027;  // of the capsule, a sphere together
+    // By hand: box 1 x 0.6 x 0.4; sphere and cylinder a few per cent less because of flat faces (32 and 48 to a turn).
+    const double ends = 4.0 / 3.0 * kPi * 0.027;  // the capsule's ends, together a sphere
     const double exact = c.name == "box"               ? 0.24
                          : c.name == "sphere"          ? 4.0 / 3.0 * kPi * 0.064
                          : c.name.find("capsule") == 0 ? kPi * 0.09 * 0.5 + ends
@@ -258,7 +258,7 @@ TEST(Surface, SphereAndCylinderByHand) {
 }
 
 TEST(Surface, WithoutEndAlongY) {
-  // A planar scene: the same as the two-dimensional distance in x-z, whatever y is.
+  // In a planar scene it is the two-dimensional distance in x-z, whatever y is.
   const auto box = make_box({1.0, kInfinity, 0.5});
   const auto disc = make_cylinder(0.5, kInfinity, 1);
   Random random;
@@ -281,7 +281,7 @@ TEST(Surface, WithoutEndAlongY) {
   EXPECT_EQ(box->thickness(), 0.5);
   EXPECT_EQ(disc->thickness(), 1.0);
   EXPECT_EQ(box->bounds().max.y(), kInfinity);
-  // In a line: the distance along x, whatever y and z are; drawn as a cube.
+  // In a one-dimensional scene it is the distance along x, whatever y and z are; it is drawn as a cube.
   const auto interval = make_box({1.0, kInfinity, kInfinity});
   EXPECT_EQ(interval->at({0.7, 3.0, -9.0}).distance, 0.7 - 0.5);
   EXPECT_EQ(interval->at({-0.4, 3.0, -9.0}).distance, 0.4 - 0.5);

@@ -1,4 +1,4 @@
-// Which side of a thin tool a point is on, and whether the tool is between two points.
+// The side of a thin tool on which a point lies, and whether the tool is between two points.
 #include "mpm/contact/thin_tool.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ TEST(ThinTool, APlateHasTheSidesOfItsPlaneHoweverItLies) {
   const RigidBody plate = body_of(make_box({1.0, 0.8, 0.05}), {{0.3, -0.2, 0.5}, turn});
   const ThinTool tool(plate, GeometryKind::solid);
   EXPECT_EQ(tool.told_apart(), 1.0);
-  // The second point is beside it, far beyond its edge.
+  // The second point lies far beyond the edge of the tool.
   for (const Vec3& along : {Vec3(0.1, -0.2, 0.0), Vec3(2.0, 1.0, 0.0)}) {
     const int above = tool.side(plate.pose().to_world(along + Vec3(0.0, 0.0, 0.02)));
     EXPECT_NE(above, tool.side(plate.pose().to_world(along - Vec3(0.0, 0.0, 0.02))));
@@ -41,7 +41,8 @@ TEST(ThinTool, ItIsBetweenPointsWhoseLineMeetsIt) {
   EXPECT_TRUE(tool.between({1.2, 0.0, 2.0}, {1.2, 0.0, 2.0}));
 }
 
-// A tube of 1 cm wall: inside and outside; but in the half plane of an axisymmetric scene its section, a plate.
+// A tube with a wall of 1 cm has an inside and an outside. In the half plane of an axisymmetric scene its section is a
+// plate.
 TEST(ThinTool, ATubeHasAnInsideAndAnOutside) {
   const RigidBody tube = body_of(make_ring(0.3, 0.31, 0.5));
   for (const GeometryKind geometry : {GeometryKind::solid, GeometryKind::axisymmetric}) {
@@ -57,7 +58,7 @@ TEST(ThinTool, ATubeHasAnInsideAndAnOutside) {
   }
 }
 
-// A washer is empty in the middle, and a plate all the same.
+// A washer counts as a plate although it is empty in the middle.
 TEST(ThinTool, AWasherIsAPlate) {
   const RigidBody washer = body_of(make_ring(0.3, 0.6, 0.02));
   for (const GeometryKind geometry : {GeometryKind::solid, GeometryKind::axisymmetric}) {
@@ -76,7 +77,7 @@ TEST(ThinTool, AWireHasABeforeAndABehind) {
   wire.begin_step(0.0, 1e-3);
   tool.aim();
   EXPECT_NE(tool.side({0.1, 0.0, 0.0}), tool.side({-0.1, 0.0, 0.0}));
-  wire.command_velocity({{2.0, 0.0, 1.0}, Vec3::Zero()});  // 24 degrees farther: it stays
+  wire.command_velocity({{2.0, 0.0, 1.0}, Vec3::Zero()});  // 24 degrees farther: the side does not change
   wire.begin_step(0.0, 1e-3);
   tool.aim();
   EXPECT_EQ(tool.side({0.1, 0.0, 0.0}), tool.side({0.1, 0.0, -0.25}));

@@ -1,8 +1,8 @@
-// Velocity fields: a body in a field of its own moves as it does alone, whatever the method, and what acts on every
-// field is booked once.
+// Velocity fields: a body in a field of its own moves as it does alone, with any method, and impulses that act on every
+// field are counted once.
 //
-// Two bodies that share no node are moved alike by one field and by two: each node sums the same numbers in the same
-// order, so the bits are the same. Only sums over all nodes (accounts, the reports of contacts) are in another order.
+// Two bodies that share no node move alike in one field and in two: each node sums the same numbers in the same order,
+// so the bits are the same. Only sums over all nodes (accounts, the reports of contacts) are in another order.
 #include <gtest/gtest.h>
 
 #include "mpm/rigid/surface.hpp"
@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kCell = 0.1;
 
-/// A body of `cells` cells along each axis, its lower corner at `corner`, two particles a cell along each axis.
+/// A body of `cells` cells along each axis with its lower corner at `corner` and two particles along each axis of a
+/// cell.
 DeformableBody body(GeometryKind geometry, const std::string& name, const Vec3& corner, int cells, int field) {
   DeformableBody body;
   body.name = name;
@@ -90,7 +91,7 @@ void expect_same(const SimulationDefinition& in_one, const SimulationDefinition&
   ASSERT_EQ(a.audit.impulses.size(), b.audit.impulses.size()) << name;
   for (std::size_t i = 0; i < a.audit.impulses.size(); ++i) {
     EXPECT_EQ(a.audit.impulses[i].name, b.audit.impulses[i].name) << name;
-    // Some thousand numbers of the size of what was exchanged at most, summed in another order.
+    // Round-off of some thousand numbers, each at most of the size of the exchanged momentum, in another order.
     EXPECT_LT((a.audit.impulses[i].impulse - b.audit.impulses[i].impulse).norm(), 1e-12 * a.audit.exchanged)
         << name << ", " << a.audit.impulses[i].name;
   }
@@ -153,7 +154,7 @@ TEST(VelocityFields, VolumeAveragingSinglePrecisionAndAFieldWithoutMaterialChang
   EXPECT_EQ(run.state_hash(), same.state_hash());
 }
 
-/// Two squares that touch; the left one runs into the right one, which rests.
+/// Two squares that touch; the left one moves towards the right one, which is at rest.
 SimulationDefinition touching(int second_field) {
   SimulationDefinition d;
   d.geometry = GeometryKind::plane_strain;
@@ -182,7 +183,7 @@ TEST(VelocityFields, BodiesInTwoFieldsFeelNothingOfEachOther) {
     two.advance();
   }
   EXPECT_GT(fastest_of_second(one), 0.1);
-  EXPECT_EQ(fastest_of_second(two), 0.0);  // though the first has come to overlap it
+  EXPECT_EQ(fastest_of_second(two), 0.0);  // although the first overlaps it
   EXPECT_LT(two.state().audit.residual, 1e-12);
 }
 

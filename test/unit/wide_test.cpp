@@ -1,4 +1,4 @@
-// Registers of every instruction set that this machine has: functions against long double, moves against loops.
+// Registers of every instruction set of this machine: functions against long double, moves of numbers against loops.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,7 +49,7 @@ class WideTest : public testing::TestWithParam<Isa> {
     if (!isa_available(GetParam())) GTEST_SKIP() << "this machine does not have " << isa_name(GetParam());
   }
 
-  /// check(ops) of double and of float.
+  /// Calls check(ops) for double and for float.
   template <class Check>
   void each_precision(Check&& check) {
     check(ops<double>(GetParam()), 0.0);
@@ -59,8 +59,7 @@ class WideTest : public testing::TestWithParam<Isa> {
 INSTANTIATE_TEST_SUITE_P(Isas, WideTest, testing::Values(Isa::plain, Isa::avx2, Isa::avx512),
                          [](const auto& info) { return isa_name(info.param); });
 
-/// The largest error, in epsilons of the exact value, of 100000 numbers `draw` gives; a register of different ones each
-/// time.
+/// The largest error of `apply`, in epsilons of the exact value, for 100000 random numbers from `draw`.
 template <class T, class Draw, class Apply, class Exact>
 double worst_error(int lanes, Draw&& draw, Apply&& apply, Exact&& exact) {
   std::mt19937_64 random(5);
@@ -78,19 +77,19 @@ double worst_error(int lanes, Draw&& draw, Apply&& apply, Exact&& exact) {
   return worst;
 }
 
-/// Between `low` and `high`, evenly.
+/// Draws numbers between `low` and `high`, uniformly.
 auto even(double low, double high) {
   return [=](std::mt19937_64& random) { return std::uniform_real_distribution<double>(low, high)(random); };
 }
-/// Evenly by their logarithm.
+/// Draws numbers whose logarithm is uniform.
 auto by_size(double low, double high) {
   return [=](std::mt19937_64& random) {
     return std::exp(std::uniform_real_distribution<double>(std::log(low), std::log(high))(random));
   };
 }
 
-// Horner's rule rounds a number near 1 last, and the reduced argument is off by half an epsilon: one epsilon, and half
-// of one for what the sum before the last had.
+// The last operation of Horner's rule rounds a number near 1, and the reduced argument has an error of half an epsilon:
+// together one epsilon, and half of one for the sum before the last.
 TEST_P(WideTest, ExponentialIsExact) {
   each_precision([](const auto& o, auto zero) {
     using T = decltype(zero);
@@ -101,22 +100,21 @@ TEST_P(WideTest, ExponentialIsExact) {
     T x[kMostLanes], found[kMostLanes];
     std::fill(x, x + kMostLanes, T(1e6));
     o.exp(x, found);
-    EXPECT_TRUE(std::isfinite(found[0]));  // cut off
+    EXPECT_TRUE(std::isfinite(found[0]));  // finite, since the argument is limited
     std::fill(x, x + kMostLanes, T(0));
     o.exp(x, found);
     EXPECT_EQ(found[0], T(1));
   });
 }
 
-// A quotient, a sum and two products, each rounded by half an epsilon, and the difference that the quotient is of by
-// one.
+// A quotient, a sum and two products are each rounded by half an epsilon, and the difference in the quotient by one.
 TEST_P(WideTest, LogarithmIsExact) {
   each_precision([](const auto& o, auto zero) {
     using T = decltype(zero);
     const auto exact = [](long double x) { return std::log(x); };
     const double smallest = std::numeric_limits<T>::min(), largest = std::numeric_limits<T>::max();
     EXPECT_LE(worst_error<T>(o.lanes, by_size(smallest, largest), o.log, exact), 3.0);
-    // Where the logarithm is small it is as exact, relative to itself.
+    // The relative error is as small where the logarithm itself is small.
     EXPECT_LE(worst_error<T>(o.lanes, even(0.5, 2.0), o.log, exact), 3.0);
     EXPECT_LE(worst_error<T>(o.lanes, even(0.999, 0.9999), o.log, exact), 3.0);
     EXPECT_LE(worst_error<T>(o.lanes, even(1.0001, 1.001), o.log, exact), 3.0);
@@ -127,8 +125,8 @@ TEST_P(WideTest, LogarithmIsExact) {
   });
 }
 
-// Two steps of fourth order from a start that is 3.4 % off leave nothing but the last correction's rounding. Numbers of
-// three octaves show what all do.
+// After two steps of fourth order from a start with an error of 3.4 % only the rounding of the last correction is left.
+// Three octaves of numbers represent all, since the algorithm repeats in each.
 TEST_P(WideTest, InverseThirdRootIsExact) {
   each_precision([](const auto& o, auto zero) {
     using T = decltype(zero);
@@ -139,8 +137,8 @@ TEST_P(WideTest, InverseThirdRootIsExact) {
   });
 }
 
-// The error of y log x is that of the exponent, so that of x^y in proportion: 3.5 epsilons of |y log x| (a product
-// after the logarithm), and exp's.
+// The absolute error of y log x is the relative error of x^y: 3.5 epsilons of |y log x| (a product after the
+// logarithm), and the error of exp.
 TEST_P(WideTest, PowerIsAsExactAsItsExponent) {
   each_precision([](const auto& o, auto zero) {
     using T = decltype(zero);
@@ -193,7 +191,7 @@ TEST_P(WideTest, FunctionsLaneByLane) {
       expect("sqrt", [&](int l) { return std::sqrt(a[l]); });
       if (testing::Test::HasFailure()) return;
     }
-    // A number that is none is neither less, nor equal, nor the larger one's excuse.
+    // No comparison with NaN holds.
     T none[kMostLanes], one[kMostLanes];
     std::fill(none, none + kMostLanes, std::numeric_limits<T>::quiet_NaN());
     std::fill(one, one + kMostLanes, T(1));
@@ -230,7 +228,7 @@ TEST_P(WideTest, MovesNumbersWhereTheyBelong) {
       std::int64_t at[kMostLanes];
       for (std::int64_t& i : at) i = static_cast<std::int64_t>(random() % 64) - 32;
       o.permute(a, at, found);
-      // Of an index only the bits that number the lanes count.
+      // Only the bits of an index that number the lanes count.
       for (int l = 0; l < o.lanes; ++l) EXPECT_EQ(found[l], a[at[l] & (o.lanes - 1)]);
     }
     for (int count = 0; count <= o.lanes; ++count) {
@@ -244,7 +242,7 @@ TEST_P(WideTest, MovesNumbersWhereTheyBelong) {
   });
 }
 
-// Positions stay double whatever the register holds; where they are in a tile is rounded once, to the register's.
+// Positions stay double in any register; their coordinates in a tile are rounded once, to the register's precision.
 TEST_P(WideTest, PlacesAndDisplacesInDouble) {
   each_precision([](const auto& o, auto zero) {
     using T = decltype(zero);
@@ -260,7 +258,7 @@ TEST_P(WideTest, PlacesAndDisplacesInDouble) {
       o.displace(moved, x, displacement, count);
       for (int l = 0; l < count; ++l) {
         const double expected = (x[l] - 99.5) * 10.0 - 4.0;
-        // Rounded to T; and of 5, what is subtracted, in double.
+        // The result is rounded to T, and the number 5 that is subtracted in double.
         EXPECT_NEAR(cells[l], expected, 0.5 * std::numeric_limits<T>::epsilon() * 4.0 + 1e-15 * 5.0);
         EXPECT_EQ(moved[l], x[l] + static_cast<double>(displacement[l]));
       }

@@ -32,7 +32,7 @@ class ToolAmongNodes {
     return {grid_.velocity.at(block(), 0, node(r, z)), grid_.velocity.at(block(), 1, node(r, z))};
   }
   void step() {
-    StepContext context{grid_, kStep};
+    StepContext context{fields_, kStep};
     contact_.momentum_gathered(context);
     contact_.momentum_updated(context);
     contact_.grid_advanced(context);

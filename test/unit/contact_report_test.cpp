@@ -35,7 +35,7 @@ class PlateBelowNodes {
   }
 
   void step() {
-    StepContext context{grid_, kStep};
+    StepContext context{fields_, kStep};
     contact_.momentum_gathered(context);
     contact_.momentum_updated(context);
     contact_.grid_advanced(context);

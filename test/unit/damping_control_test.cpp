@@ -32,7 +32,7 @@ struct Plane {
     }
     sets.push_back(std::move(set));
   }
-  StepContext step(double start, double dt) { return {grid, dt, start}; }
+  StepContext step(double start, double dt) { return {fields, dt, start}; }
   double mass() const { return sets[0].mass * sets[0].size(); }
   Fields fields;
   Grid& grid = *fields.front();

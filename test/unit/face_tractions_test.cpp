@@ -76,7 +76,7 @@ struct Stand {
   /// Forces by node numbers; those that are not zero.
   std::map<std::array<int, 3>, Vec3> forces(FaceTractions& stage, double start = 0.0) {
     fill(grid.force, 0.0);
-    StepContext context{grid, kDt, start};
+    StepContext context{fields, kDt, start};
     stage.forces_gathered(context);
     std::map<std::array<int, 3>, Vec3> found;
     for (int b = 0; b < grid.blocks.size(); ++b) {
@@ -300,7 +300,7 @@ TEST(FaceTractions, DoWork) {
   const double force = sum(stand.forces(stage)).x();
   stand.fill(stand.grid.velocity, 3.0);
   stand.fill(stand.grid.force, 400.0);  // the acceleration by now
-  StepContext context{stand.grid, kDt, 0.0};
+  StepContext context{stand.fields, kDt, 0.0};
   stage.momentum_updated(context);
   const double expected = force * (3.0 * kDt - 0.5 * 400.0 * kDt * kDt);
   EXPECT_NEAR(stage.work(), expected, 1e-14 * expected);

@@ -35,7 +35,7 @@ class Kernels : KernelComparison<Geometry, T> {
       : Base(std::string(shape_name(shape)) + ", " + specimen.material.name + ", " + name_of(places) + ", " +
                  isa_name(isa) + ", " + kTransferNames[static_cast<int>(transfer.kind)],
              shape, specimen, places, isa, settings(transfer, average_dilatation), axis),
-        context_{scene_.grid, scene_.dt} {}
+        context_{scene_.fields, scene_.dt} {}
 
   /// A step of either schedule, pass by pass; a force of the stress as it is beside that of the strain's pass.
   void check(bool regather) {

@@ -37,9 +37,9 @@ class Run {
   }
 
   void advance(int steps) {
-    StepContext context{scene_.grid, scene_.dt};
+    StepContext context{scene_.fields, scene_.dt};
     Sorter sorter(scene_.settings.threads, kernel_grouping(scene_.kernels));
-    Stages none;
+    const Modules none;
     for (int n = 0; n < steps; ++n) {
       (usavg_ ? step_usavg : step_usf)(*scene_.mechanics, none, context);
       ASSERT_FALSE(scene_.mechanics->failed());

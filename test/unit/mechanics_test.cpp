@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Dimensions, MechanicsTest, testing::Values(2, 3));
 
 TEST_P(MechanicsTest, ScatterKeepsMassAndMomentum) {
   Scene scene(GetParam(), 0.3, mpm::NeoHookeanDefinition{{1e6, 0.3}});
-  mpm::StepContext context{scene.grid, 1e-4};
+  mpm::StepContext context{scene.fields, 1e-4};
   scene.mechanics->scatter_momentum(context);
   double mass = 0.0, scale = 0.0;
   Vec3 momentum = Vec3::Zero(), expected = Vec3::Zero();
@@ -92,7 +92,7 @@ TEST_P(MechanicsTest, ScatterKeepsMassAndMomentum) {
 
 TEST_P(MechanicsTest, InternalForcesSumToZero) {
   Scene scene(GetParam(), 0.3, mpm::NeoHookeanDefinition{{1e6, 0.3}});
-  mpm::StepContext context{scene.grid, 1e-3};
+  mpm::StepContext context{scene.fields, 1e-3};
   scene.mechanics->scatter_momentum(context);
   scene.mechanics->strain_and_force(context, context.dt);
   Vec3 sum = Vec3::Zero();
@@ -118,7 +118,7 @@ TEST_P(MechanicsTest, UniformStressGivesNoForceInside) {
     for (int k = 0; k < dim; ++k) set.f[k * (dim + 1)].set(p, 0.9 + 0.1 * k);
     set.f[1].set(p, 0.05);
   }
-  mpm::StepContext context{scene.grid, 1e-3};
+  mpm::StepContext context{scene.fields, 1e-3};
   scene.mechanics->scatter_momentum(context);
   scene.mechanics->strain_and_force(context, context.dt);
   double inside = 0.0, surface = 0.0;
@@ -139,7 +139,7 @@ TEST_P(MechanicsTest, ForcesDoNotDependOnThreads) {
   std::vector<double> force[2];
   for (const int threads : {1, 2}) {
     Scene scene(GetParam(), 0.3, mpm::DruckerPragerDefinition{{1e6, 0.3}, 0.5, 0.1, 100.0}, threads);
-    mpm::StepContext context{scene.grid, 1e-3};
+    mpm::StepContext context{scene.fields, 1e-3};
     scene.mechanics->scatter_momentum(context);
     scene.mechanics->strain_and_force(context, context.dt);
     scene.each_node([&](mpm::NodeRef n) {
@@ -166,7 +166,7 @@ TEST_P(MechanicsTest, MotionKeepsMomentumForEveryFlipFraction) {
       return sum;
     };
     const Vec3 before = momentum();
-    mpm::StepContext context{scene.grid, 1e-3};
+    mpm::StepContext context{scene.fields, 1e-3};
     scene.mechanics->scatter_momentum(context);
     scene.mechanics->strain_and_force(context, context.dt);
     scene.mechanics->update_momentum(context);

@@ -87,7 +87,7 @@ TYPED_TEST(Spread, GoesToTheNodesThatItShould) {
   push.value[2] = Function(2.0);
   push.spread = LoadSpread::center;
   const auto loads = make_particle_loads(plane.kernels, plane.fields, plane.sets, plane.laws, {pull, push}, 2);
-  StepContext context{plane.grid, 1e-3, 0.0};
+  StepContext context{plane.fields, 1e-3, 0.0};
   loads->forces_gathered(context);
   const Grid& grid = plane.grid;
   for (int b = 0; b < grid.blocks.size(); ++b) {

@@ -136,7 +136,8 @@ TEST(Sorter, PartsTheFieldsAndTheSidesOfASet) {
     Bodies bodies(2, {2000, 500, 60}, Precision::float64, 4);
     std::vector<std::uint8_t> side_of(2560);
     bodies.sets[1].field = 1;
-    bodies.sets[2].field = 3;  // no one is in field 2 but what its side puts there
+    bodies.sets[1].far_field = 2;
+    bodies.sets[2].field = 3;
     bodies.sets[1].side.resize(500);
     for (int p = 0; p < 500; ++p) {
       bodies.sets[1].side[p] = static_cast<std::uint8_t>(p % 3 == 0);

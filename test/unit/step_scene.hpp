@@ -78,7 +78,7 @@ class StepScene {
     settings_.threads = threads;
     if (Geometry::kHoop) {
       settings_.axis_motion = AxisMotion::point;
-      stages_.push_back(std::make_unique<Axis>(AxisGhosts::zero));
+      modules_.add_in_field(std::make_unique<Axis>(AxisGhosts::zero), 0);
     }
     sort();
     grid.least_mass = 1e-30 * set().least_mass();
@@ -89,7 +89,7 @@ class StepScene {
 
   ParticleSet& set() { return sets_[0]; }
   const mpm_kernel::KernelTable<T>& kernels() const { return kernels_; }
-  StepContext context() { return {grid, dt}; }
+  StepContext context() { return {fields, dt}; }
 
   /// v(x_p) [m/s]
   void set_velocity(const std::function<Vector(const Vector&)>& v) {
@@ -148,13 +148,13 @@ class StepScene {
     StepContext now = context();
     switch (method_.update) {
       case UpdateScheme::usf:
-        step_usf(*mechanics, stages_, now);
+        step_usf(*mechanics, modules_, now);
         break;
       case UpdateScheme::usl:
-        step_usl(*mechanics, stages_, now);
+        step_usl(*mechanics, modules_, now);
         break;
       case UpdateScheme::usavg:
-        step_usavg(*mechanics, stages_, now);
+        step_usavg(*mechanics, modules_, now);
         break;
     }
     if (mechanics->failed()) throw Error("a particle of the test is crushed");
@@ -239,7 +239,7 @@ class StepScene {
   std::vector<ParticleSet> sets_;
   std::vector<Law> laws_;
   ContinuumSettings settings_;
-  Stages stages_;  ///< the condition at an axis
+  Modules modules_;  ///< the condition at an axis
   Sorter sorter_;
 };
 

@@ -43,19 +43,22 @@ ElasticWaves elastic_waves(const MaterialDefinition& material, GeometryKind geom
 /// Mass of a node on a face over that of a cell, rho A h, where the body's particles fill the lattice up to the face.
 double face_mass(ShapeKind shape, int particles_per_direction);
 
-class Absorbing final : public Stage {
+class Absorbing final : public FieldStage {
  public:
   /// `face`: 2 * grid axis, + 1 for the upper one; `name` as in scenes ("x_min"). `waves`: of each set, which outlive
   /// this. `phi`: face_mass(). `hold`: the forces that the face's nodes need at the first step are held for good.
   Absorbing(int face, const std::string& name, const std::vector<ParticleSet>& sets, std::vector<ElasticWaves> waves,
             double phi, bool hold);
 
-  void momentum_gathered(StepContext& context) override;
-  void before_strain(StepContext& context) override;
-  void momentum_updated(StepContext& context) override;
-  void velocity_found(StepContext& context, NodalField& velocity) override;
-  void increment_found(StepContext& context, NodalField& increment) override;
-  void grid_advanced(StepContext& context) override;
+  std::string name() const override { return account_.name; }
+  Ranks ranks(Hook) const override { return {Rank::absorbing}; }
+
+  void momentum_gathered(FieldContext& context) override;
+  void before_strain(FieldContext& context) override;
+  void momentum_updated(FieldContext& context) override;
+  void velocity_found(FieldContext& context) override;
+  void increment_found(FieldContext& context) override;
+  void grid_advanced(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void keep(StateArchive& archive) override;
   /// Work on the material since the start [J]; negative.

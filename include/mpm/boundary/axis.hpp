@@ -14,16 +14,19 @@
 
 namespace mpm {
 
-class Axis final : public Stage {
+class Axis final : public FieldStage {
  public:
   explicit Axis(AxisGhosts ghosts) : ghosts_(ghosts) { account_.name = "axis"; }
 
-  void momentum_gathered(StepContext& context) override;
-  void before_strain(StepContext& context) override;
-  void momentum_updated(StepContext& context) override;
-  void velocity_found(StepContext& context, NodalField& velocity) override;
-  void increment_found(StepContext& context, NodalField& increment) override;
-  void grid_advanced(StepContext& context) override;
+  std::string name() const override { return account_.name; }
+  Ranks ranks(Hook hook) const override { return holding(hook, Rank::axis, Rank::axis_again); }
+
+  void momentum_gathered(FieldContext& context) override;
+  void before_strain(FieldContext& context) override;
+  void momentum_updated(FieldContext& context) override;
+  void velocity_found(FieldContext& context) override;
+  void increment_found(FieldContext& context) override;
+  void grid_advanced(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void keep(StateArchive& archive) override {
     account_.keep(archive);
@@ -37,6 +40,8 @@ class Axis final : public Stage {
   };
   /// The radial velocity that the condition gives the node in this field.
   static double wanted(const NodalField& velocity, const Node& node);
+  /// Gives it to all nodes.
+  void hold(NodalField& velocity) const;
 
   AxisGhosts ghosts_;
   ImpulseAccount account_;
@@ -47,10 +52,13 @@ class Axis final : public Stage {
 
 /// Books the radial impulse of the internal forces, which is that of the hoop stress (their sum over the nodes is zero
 /// but for it). Comes before whoever adds forces to the grid.
-class HoopForce final : public Stage {
+class HoopForce final : public FieldStage {
  public:
   HoopForce() { account_.name = "hoop stress"; }
-  void forces_gathered(StepContext& context) override;
+  std::string name() const override { return account_.name; }
+  Ranks ranks(Hook) const override { return {Rank::hoop_stress}; }
+
+  void forces_gathered(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void keep(StateArchive& archive) override { account_.keep(archive); }
 
@@ -63,10 +71,13 @@ class HoopForce final : public Stage {
 /// domain that touches the axis has no weight but a gradient, and a domain that reaches across it has negative weights
 /// beyond. Comes after whoever adds forces to the grid. Weak: what PIC and APIC lose of such nodes' momentum is not in
 /// it.
-class MasslessNodes final : public Stage {
+class MasslessNodes final : public FieldStage {
  public:
   explicit MasslessNodes(const Vec3& gravity) : gravity_(gravity) { account_.name = "massless nodes"; }
-  void forces_gathered(StepContext& context) override;
+  std::string name() const override { return account_.name; }
+  Ranks ranks(Hook) const override { return {Rank::massless_node}; }
+
+  void forces_gathered(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void keep(StateArchive& archive) override { account_.keep(archive); }
 

@@ -44,7 +44,7 @@ struct HeldFace {
 
 /// All conditions of a scene. Audit: "condition/<name>", the impulse that each gave; what several along one direction
 /// give together at a node is booked in equal parts.
-class VelocityConditions final : public Stage {
+class VelocityConditions final : public FieldStage {
  public:
   /// `faces`: slip walls. @throws ConditionError for a direction that is not a unit vector of the grid's axes
   VelocityConditions(const std::vector<ConditionDefinition>& definitions, std::vector<HeldFace> faces,
@@ -54,12 +54,16 @@ class VelocityConditions final : public Stage {
   /// direction and a slip wall, are neither the same nor orthogonal
   void find_nodes(const Grid& grid);
 
-  void momentum_gathered(StepContext& context) override;
-  void before_strain(StepContext& context) override;
-  void momentum_updated(StepContext& context) override;
-  void velocity_found(StepContext& context, NodalField& velocity) override;
-  void increment_found(StepContext& context, NodalField& increment) override;
-  void grid_advanced(StepContext& context) override;
+  std::string name() const override { return "conditions"; }
+  Ranks ranks(Hook hook) const override { return holding(hook, Rank::condition, Rank::condition_again); }
+
+  void run_begun(FieldContext& context) override { find_nodes(context.grid); }
+  void momentum_gathered(FieldContext& context) override;
+  void before_strain(FieldContext& context) override;
+  void momentum_updated(FieldContext& context) override;
+  void velocity_found(FieldContext& context) override;
+  void increment_found(FieldContext& context) override;
+  void grid_advanced(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
   void keep(StateArchive& archive) override;
 

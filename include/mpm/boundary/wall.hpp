@@ -5,7 +5,7 @@
 // (Grid::mirrored).
 //
 // Two walls that meet act one after the other; as their normals are orthogonal neither undoes the other. Contact may: a
-// wall that always holds acts before it and again after it (again.hpp).
+// wall that always holds acts before it and again after it (step/order.hpp).
 // Source: Nairn, GIMP notes (3.1)-(3.11): a condition replaces the momentum along one direction, force and momentum
 // alike.
 #pragma once
@@ -32,17 +32,23 @@ struct WallDefinition {
   bool hold = false;     ///< absorbing only: the forces of the start are held
 };
 
-class Wall final : public Stage {
+class Wall final : public FieldStage {
  public:
   /// `face`: 2 * grid axis, + 1 for the upper one. `name` as in scenes ("z_min").
   Wall(int face, const WallDefinition& definition, const std::string& name);
 
-  void momentum_gathered(StepContext& context) override;
-  void before_strain(StepContext& context) override;
-  void momentum_updated(StepContext& context) override;
-  void velocity_found(StepContext& context, NodalField& velocity) override;
-  void increment_found(StepContext& context, NodalField& increment) override;
-  void grid_advanced(StepContext& context) override;
+  std::string name() const override { return account_.name; }
+  Ranks ranks(Hook hook) const override {
+    if (definition_.kind == WallKind::frictional) return {Rank::frictional_wall};
+    return holding(hook, Rank::wall, Rank::wall_again);
+  }
+
+  void momentum_gathered(FieldContext& context) override;
+  void before_strain(FieldContext& context) override;
+  void momentum_updated(FieldContext& context) override;
+  void velocity_found(FieldContext& context) override;
+  void increment_found(FieldContext& context) override;
+  void grid_advanced(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void keep(StateArchive& archive) override {
     account_.keep(archive);

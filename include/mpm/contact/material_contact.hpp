@@ -50,12 +50,15 @@ class MaterialContact final : public Stage {
   /// `fields` and `survey` outlive the stage.
   MaterialContact(MaterialContactSettings settings, Fields& fields, VolumeSurvey& survey);
 
+  std::string name() const override { return "pairs"; }
+  Ranks ranks(Hook) const override { return {Rank::pair}; }
+
   /// @throws FunctionError when a law's function is not finite.
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
-  void velocity_found(StepContext& context, NodalField& velocity) override;
-  void increment_found(StepContext& context, NodalField& increment) override;
+  void velocity_found(StepContext& context) override;
+  void increment_found(StepContext& context) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
   void keep(StateArchive& archive) override;

@@ -61,11 +61,14 @@ class PointContact final : public Stage {
   PointContact(std::vector<const RigidBody*> bodies, const std::vector<ParticleSet>& sets, Fields& fields,
                std::vector<ContactLaw> laws, const PointContactSettings& settings);
 
+  std::string name() const override { return "point_contact"; }
+  Ranks ranks(Hook) const override { return {Rank::rigid_body}; }
+
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
-  void velocity_found(StepContext& context, NodalField&) override;
-  void increment_found(StepContext& context, NodalField&) override;
+  void velocity_found(StepContext& context) override;
+  void increment_found(StepContext& context) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
   void keep(StateArchive& archive) override;

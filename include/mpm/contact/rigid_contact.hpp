@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "mpm/contact/contact_ledger.hpp"
-#include "mpm/contact/thin_tool.hpp"
+#include "mpm/contact/tool_sides.hpp"
 #include "mpm/grid/fields.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/rigid/rigid_body.hpp"
@@ -30,16 +30,19 @@ namespace mpm {
 
 class RigidContact final : public Stage {
  public:
-  /// `body`, `fields` and `thin`, if the body's sides have fields of their own, outlive the stage. Solid stands for
-  /// every geometry that is not axisymmetric.
+  /// `body`, `fields` and `sides`, of a scene with thin tools, outlive the stage. Solid stands for every geometry that
+  /// is not axisymmetric.
   RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry = GeometryKind::solid,
-               const ThinTool* thin = nullptr);
+               const ToolSides* sides = nullptr);
+
+  std::string name() const override { return ledger_.account().name; }
+  Ranks ranks(Hook) const override { return {Rank::rigid_body}; }
 
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
-  void velocity_found(StepContext& context, NodalField& velocity) override;
-  void increment_found(StepContext& context, NodalField& increment) override;
+  void velocity_found(StepContext& context) override;
+  void increment_found(StepContext& context) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(ledger_.account()); }
   void keep(StateArchive& archive) override;
@@ -71,7 +74,8 @@ class RigidContact final : public Stage {
   Fields& fields_;
   int threads_;
   bool axisymmetric_;
-  const ThinTool* thin_;
+  const ToolSides* sides_;
+  const ThinTool* thin_;                  ///< the body, if its sides have a field each
   std::vector<NearBlock> near_;           ///< blocks whose nodes may lie in the body
   std::vector<std::vector<Node>> nodes_;  ///< of each block in near_
   std::vector<HeldNodes> held_;           ///< of each field

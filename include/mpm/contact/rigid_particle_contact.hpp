@@ -34,12 +34,15 @@ class RigidParticleContact final : public Stage {
   /// `body`, `fields` and `survey` outlive the stage. @throws RigidError as RigidParticles.
   RigidParticleContact(const RigidBody& body, RigidParticleSettings settings, Fields& fields, VolumeSurvey& survey);
 
+  std::string name() const override { return ledger_.account().name; }
+  Ranks ranks(Hook) const override { return {Rank::rigid_body}; }
+
   /// @throws FunctionError when a law's function is not finite.
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
-  void velocity_found(StepContext& context, NodalField& velocity) override;
-  void increment_found(StepContext& context, NodalField& increment) override;
+  void velocity_found(StepContext& context) override;
+  void increment_found(StepContext& context) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(ledger_.account()); }
   void keep(StateArchive& archive) override;

@@ -1,8 +1,9 @@
-// A velocity field a side: of every body, the material on side 1 of a thin tool near it is in the field after the
-// body's own. Where the two fields share a node and the tool is not between them, beyond its tip and beside it, they
-// are one continuum: the node has one momentum, one force and one velocity for both, as if there were one field, to
-// round-off (SideGlue). Where the tool is between them they know nothing of each other; contact with the tool acts on
-// each (contact/rigid_contact.hpp). The tool is between them if the line from one mass centre to the other meets it.
+// A velocity field a side: of every body that thin tools divide, the material on side 1 of one near it has a field of
+// its own (grid/field_map.hpp). Where the two fields share a node and the tool is not between them, beyond its tip and
+// beside it, they are one continuum: the node has one momentum, one force and one velocity for both, as if there were
+// one field, to round-off (SideGlue). Where the tool is between them they know nothing of each other; contact with the
+// tool acts on each (contact/rigid_contact.hpp). The tool is between them if the line from one mass centre to the other
+// meets it.
 //
 // Particles change sides only by the sort, which is asked for when tool and material near it have moved a part of a
 // cell against each other. Nothing jumps with a change of sides: what a particle carries is its own, and where it
@@ -13,11 +14,12 @@
 // share the field between them. Volume changes averaged over the grid are averaged a side.
 #pragma once
 
+#include <array>
 #include <deque>
-#include <memory>
 #include <vector>
 
 #include "mpm/contact/thin_tool.hpp"
+#include "mpm/grid/field_map.hpp"
 #include "mpm/grid/fields.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/step/stage.hpp"
@@ -26,14 +28,18 @@ namespace mpm {
 
 class ToolSides {
  public:
-  /// `layout` outlives this.
-  ToolSides(const GridLayout& layout, int threads) : layout_(layout), threads_(threads) {}
+  /// Both outlive this. `map` says which bodies are divided, and the fields of their sides.
+  ToolSides(const GridLayout& layout, const FieldMap& map, int threads)
+      : layout_(layout), map_(map), threads_(threads) {}
 
   /// `body` outlives this; what is returned lives as long.
   const ThinTool& add(const RigidBody& body, GeometryKind geometry) { return tools_.emplace_back(body, geometry); }
   const std::deque<ThinTool>& tools() const { return tools_; }
+  /// The thin tool that a body is, or null.
+  const ThinTool* find(const RigidBody& body) const;
+  const FieldMap& map() const { return map_; }
 
-  /// Before a sort: the side of every particle; sets have room for it.
+  /// Before a sort: the side of every particle of the bodies that are divided.
   void label(std::vector<ParticleSet>& sets);
   /// Tool and material near it have moved against each other by so much [m].
   void add_travel(double travel) { travelled_ += travel; }
@@ -48,36 +54,38 @@ class ToolSides {
 
  private:
   const GridLayout& layout_;
+  const FieldMap& map_;
   int threads_;
   std::deque<ThinTool> tools_;
   bool labelled_ = false;
   double travelled_ = 0.0;  ///< since sides were given [m]
 };
 
-/// Makes one continuum of the two fields of each body where no thin tool is between them. Fields 2 k and 2 k + 1 are
-/// the sides of the same bodies. Comes first of the stages, and its late() last. Needs Grid::place.
+/// Makes one continuum of the two fields of each divided body where no thin tool is between them: before other stages,
+/// and again after them for the forces they added and the velocities they changed on one side alone. Needs Grid::place.
 class SideGlue final : public Stage {
  public:
   /// Both outlive the stage.
   SideGlue(ToolSides& sides, Fields& fields) : sides_(sides), fields_(fields) {}
 
-  /// Glues what other stages have added: forces, and velocities that they changed on one side alone.
-  std::unique_ptr<Stage> late();
+  std::string name() const override { return "sides"; }
+  Ranks ranks(Hook hook) const override;
 
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext&) override { share(&Grid::velocity); }
-  void velocity_found(StepContext&, NodalField&) override { share(&Grid::increment); }
-  void increment_found(StepContext&, NodalField&) override { share(&Grid::increment); }
+  void forces_gathered(StepContext&) override { part(&Grid::force); }
+  void momentum_updated(StepContext&) override;
+  void velocity_found(StepContext&) override { share(&Grid::increment); }
+  void increment_found(StepContext&) override { share(&Grid::increment); }
 
  private:
-  class Late;
   /// A node that is one in both fields.
   struct Node {
-    int pair;
+    std::array<int, 2> field;
     NodeRef ref[2];
     double part[2];  ///< of the node's mass
   };
-  void find_nodes(int pair);
+  void find_nodes(const std::array<int, 2>& sides);
   void watch(const Grid& grid, double dt);
   /// Both get the mean by mass.
   void share(NodalField Grid::*field);

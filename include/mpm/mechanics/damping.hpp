@@ -64,6 +64,9 @@ class DampingControl final : public Stage {
   double flip() const { return flip_; }
   void end_step(const StepContext& context, const Damped& damped);
 
+  std::string name() const override { return account_.name; }
+  Ranks ranks(Hook) const override { return {Rank::damping}; }
+
   void momentum_gathered(StepContext& context) override { begin_step(context); }
   void forces_gathered(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }

@@ -56,6 +56,9 @@ class FaceTractions : public Stage {
   FaceTractions(const TractionSettings& settings, Fields& fields, const std::vector<ParticleSet>& sets,
                 std::vector<TractionTerm> terms);
 
+  std::string name() const override { return account_.name; }
+  Ranks ranks(Hook) const override { return {Rank::traction}; }
+
   /// @throws LoadError for a traction that is not finite, or a corner that lies off the grid
   void forces_gathered(StepContext& context) override;
   void momentum_updated(StepContext& context) override;

@@ -23,7 +23,8 @@ struct ParticleSet {
   std::array<double, 3> lowest{}, highest{};             ///< bounds of particle centres along each grid axis [cells]
   bool whole_domains = false, planar_functions = false;  ///< in axisymmetry: AxisRules (shape/axis_rules.hpp)
   std::uint32_t first_id = 0;                            ///< the smallest id
-  int field = 0;  ///< velocity field of its particles; the first one if there are two
+  int field = 0;                                         ///< velocity field of its particles
+  int far_field = 0;                                     ///< of those on side 1, where a thin tool divides the body
 
   Precision precision = Precision::float64;  ///< of velocity, deformation, stress and history
 
@@ -38,8 +39,7 @@ struct ParticleSet {
   std::vector<ParticleScalar> affine;        ///< APIC: B, moment of the velocity, [component][axis] [m^2/s]
   std::vector<ParticleScalar> domain;        ///< F at the start of the step, where the shape function follows it
   std::vector<PaddedArray<double>> next_x;   ///< position at the end of the step, when strain is updated after motion
-  /// Where a thin tool divides the body: a particle's velocity field is field + side.
-  PaddedArray<std::uint8_t> side;
+  PaddedArray<std::uint8_t> side;  ///< of a divided body: the side of a thin tool, 0 or 1
 
   /// First particle of each owner block (the owners of all fields, field by field), and one past the last particle.
   std::vector<std::uint32_t> begin;
@@ -49,7 +49,7 @@ struct ParticleSet {
   std::vector<std::uint32_t> group_begin;
 
   int size() const { return static_cast<int>(id.size()); }
-  int field_of(int p) const { return field + (side.empty() ? 0 : side[p]); }
+  int field_of(int p) const { return side.empty() || side[p] == 0 ? field : far_field; }
   double mass_of(int p) const { return masses.empty() ? mass : masses[0][p]; }
   double total_mass() const {
     if (masses.empty()) return mass * size();

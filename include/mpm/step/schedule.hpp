@@ -7,11 +7,9 @@
 #pragma once
 
 #include <array>
-#include <memory>
-#include <vector>
 
 #include "mpm/step/mechanics.hpp"
-#include "mpm/step/stage.hpp"
+#include "mpm/step/modules.hpp"
 
 namespace mpm {
 
@@ -20,10 +18,8 @@ enum class UpdateScheme { usf, usl, usavg };
 /// In the order of UpdateScheme.
 inline constexpr std::array<const char*, 3> kUpdateNames = {"usf", "usl", "usavg"};
 
-using Stages = std::vector<std::unique_ptr<Stage>>;
-
-void step_usf(Mechanics& mechanics, Stages& stages, StepContext& context);
-void step_usl(Mechanics& mechanics, Stages& stages, StepContext& context);
-void step_usavg(Mechanics& mechanics, Stages& stages, StepContext& context);
+void step_usf(Mechanics& mechanics, const Modules& modules, StepContext& context);
+void step_usl(Mechanics& mechanics, const Modules& modules, StepContext& context);
+void step_usavg(Mechanics& mechanics, const Modules& modules, StepContext& context);
 
 }  // namespace mpm

@@ -1,12 +1,23 @@
-// What a stage sees of the step it works in.
+// What a stage sees of the step it works in: all velocity fields, or the grid of the one that it works in.
 #pragma once
 
-#include "mpm/grid/nodal_fields.hpp"
+#include "mpm/grid/fields.hpp"
 
 namespace mpm {
 
+/// For what acts across velocity fields.
 struct StepContext {
-  Grid& grid;          ///< the velocity field that the stage works in; the first, for one that works in all
+  Fields& fields;
+  double dt;           ///< [s]
+  double start = 0.0;  ///< when the step begins [s]
+
+  /// Of every field.
+  const GridLayout& layout() const { return fields.front()->layout; }
+};
+
+/// For what acts in one velocity field and knows of no other.
+struct FieldContext {
+  Grid& grid;          ///< of the field
   double dt;           ///< [s]
   double start = 0.0;  ///< when the step begins [s]
 };

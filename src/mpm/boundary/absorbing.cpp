@@ -133,7 +133,7 @@ void Absorbing::find_waves(const Grid& grid) {
   }
 }
 
-void Absorbing::momentum_gathered(StepContext& context) {
+void Absorbing::momentum_gathered(FieldContext& context) {
   if (generation_ == context.grid.blocks.generation()) return;
   generation_ = context.grid.blocks.generation();
   find_nodes(context.grid);
@@ -165,13 +165,13 @@ void Absorbing::tie(const Grid& grid, NodalField& velocity) const {
   }
 }
 
-void Absorbing::before_strain(StepContext& context) { tie(context.grid, context.grid.velocity); }
+void Absorbing::before_strain(FieldContext& context) { tie(context.grid, context.grid.velocity); }
 
-void Absorbing::velocity_found(StepContext& context, NodalField& velocity) { tie(context.grid, velocity); }
+void Absorbing::velocity_found(FieldContext& context) { tie(context.grid, context.grid.increment); }
 
-void Absorbing::increment_found(StepContext& context, NodalField& increment) { tie(context.grid, increment); }
+void Absorbing::increment_found(FieldContext& context) { tie(context.grid, context.grid.increment); }
 
-void Absorbing::momentum_updated(StepContext& context) {
+void Absorbing::momentum_updated(FieldContext& context) {
   Grid& grid = context.grid;
   const GridLayout& layout = grid.layout;
   const int axis = face_ / 2;
@@ -205,7 +205,7 @@ void Absorbing::momentum_updated(StepContext& context) {
   started_ = true;
 }
 
-void Absorbing::grid_advanced(StepContext&) {
+void Absorbing::grid_advanced(FieldContext&) {
   account_.add(given_);
   given_ = Vec3::Zero();
 }

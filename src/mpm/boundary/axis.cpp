@@ -2,7 +2,7 @@
 
 namespace mpm {
 
-void Axis::momentum_gathered(StepContext& context) {
+void Axis::momentum_gathered(FieldContext& context) {
   const BlockTable& blocks = context.grid.blocks;
   if (generation_ == blocks.generation()) return;
   generation_ = blocks.generation();
@@ -29,9 +29,9 @@ double Axis::wanted(const NodalField& velocity, const Node& node) {
   return node.twin.block < 0 ? 0.0 : -velocity.at(node.twin.block, 0, node.twin.node);
 }
 
-void Axis::before_strain(StepContext& context) { velocity_found(context, context.grid.velocity); }
+void Axis::before_strain(FieldContext& context) { hold(context.grid.velocity); }
 
-void Axis::momentum_updated(StepContext& context) {
+void Axis::momentum_updated(FieldContext& context) {
   Grid& grid = context.grid;
   for (const Node& node : nodes_) {
     if (!grid.carries(node.ref.block, node.ref.node)) continue;
@@ -43,12 +43,15 @@ void Axis::momentum_updated(StepContext& context) {
   }
 }
 
-void Axis::velocity_found(StepContext&, NodalField& velocity) {
+void Axis::velocity_found(FieldContext& context) { hold(context.grid.increment); }
+
+void Axis::hold(NodalField& velocity) const {
   for (const Node& node : nodes_) velocity.at(node.ref.block, 0, node.ref.node) = wanted(velocity, node);
 }
 
-void Axis::increment_found(StepContext& context, NodalField& increment) {
-  const Grid& grid = context.grid;
+void Axis::increment_found(FieldContext& context) {
+  Grid& grid = context.grid;
+  NodalField& increment = grid.increment;
   for (const Node& node : nodes_) {
     if (!grid.carries(node.ref.block, node.ref.node)) continue;
     double& value = increment.at(node.ref.block, 0, node.ref.node);
@@ -58,12 +61,12 @@ void Axis::increment_found(StepContext& context, NodalField& increment) {
   }
 }
 
-void Axis::grid_advanced(StepContext&) {
+void Axis::grid_advanced(FieldContext&) {
   account_.add(given_ * Vec3::UnitX());
   given_ = 0.0;
 }
 
-void HoopForce::forces_gathered(StepContext& context) {
+void HoopForce::forces_gathered(FieldContext& context) {
   const Grid& grid = context.grid;
   double sum = 0.0;
   for (int b = 0; b < grid.blocks.size(); ++b) {
@@ -73,7 +76,7 @@ void HoopForce::forces_gathered(StepContext& context) {
   account_.add(sum * context.dt * Vec3::UnitX());
 }
 
-void MasslessNodes::forces_gathered(StepContext& context) {
+void MasslessNodes::forces_gathered(FieldContext& context) {
   const Grid& grid = context.grid;
   Vec3 lost = Vec3::Zero();
   for (int b = 0; b < grid.blocks.size(); ++b) {

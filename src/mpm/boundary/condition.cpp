@@ -152,7 +152,7 @@ double VelocityConditions::largest_speed(double time) const {
   return largest;
 }
 
-void VelocityConditions::momentum_gathered(StepContext& context) {
+void VelocityConditions::momentum_gathered(FieldContext& context) {
   for (Condition& condition : conditions_) {
     try {
       condition.region.begin_step(context.start, context.dt);
@@ -168,7 +168,7 @@ void VelocityConditions::momentum_gathered(StepContext& context) {
   ended_ = false;
 }
 
-void VelocityConditions::before_strain(StepContext& context) {
+void VelocityConditions::before_strain(FieldContext& context) {
   Grid& grid = context.grid;
   for (const Held& held : held_) {
     const double change =
@@ -177,7 +177,7 @@ void VelocityConditions::before_strain(StepContext& context) {
   }
 }
 
-void VelocityConditions::momentum_updated(StepContext& context) {
+void VelocityConditions::momentum_updated(FieldContext& context) {
   Grid& grid = context.grid;
   ended_ = true;
   for (const Held& held : held_) {
@@ -189,7 +189,8 @@ void VelocityConditions::momentum_updated(StepContext& context) {
   }
 }
 
-void VelocityConditions::velocity_found(StepContext& context, NodalField& velocity) {
+void VelocityConditions::velocity_found(FieldContext& context) {
+  NodalField& velocity = context.grid.increment;
   const GridLayout& layout = context.grid.layout;
   for (const Held& held : held_) {
     const double change = held.end - along(velocity, layout, held.ref, held.direction);
@@ -197,8 +198,9 @@ void VelocityConditions::velocity_found(StepContext& context, NodalField& veloci
   }
 }
 
-void VelocityConditions::increment_found(StepContext& context, NodalField& increment) {
-  const Grid& grid = context.grid;
+void VelocityConditions::increment_found(FieldContext& context) {
+  Grid& grid = context.grid;
+  NodalField& increment = grid.increment;
   for (const Held& held : held_) {
     if (!grid.carries(held.ref.block, held.ref.node)) continue;
     const Vec3 change = -along(increment, grid.layout, held.ref, held.direction) * held.direction;
@@ -214,7 +216,7 @@ void VelocityConditions::give(const Held& held, const Vec3& impulse) {
   work_ += 0.5 * (held.start + held.end) * impulse.dot(held.direction);
 }
 
-void VelocityConditions::grid_advanced(StepContext& context) {
+void VelocityConditions::grid_advanced(FieldContext& context) {
   for (Condition& condition : conditions_) {
     condition.account.add(condition.given);
     condition.given = Vec3::Zero();

@@ -27,7 +27,7 @@ ContactChange Wall::change(const Vec3& velocity, const Vec3& normal) const {
   return {Vec3::Zero(), Hold::free};
 }
 
-void Wall::momentum_gathered(StepContext& context) {
+void Wall::momentum_gathered(FieldContext& context) {
   const BlockTable& blocks = context.grid.blocks;
   if (generation_ == blocks.generation()) return;
   generation_ = blocks.generation();
@@ -50,7 +50,7 @@ void Wall::momentum_gathered(StepContext& context) {
   }
 }
 
-void Wall::before_strain(StepContext& context) {
+void Wall::before_strain(FieldContext& context) {
   Grid& grid = context.grid;
   if (definition_.kind != WallKind::frictional) {
     // What always holds needs no vectors: slip takes the component along the normal, fixed takes all.
@@ -68,7 +68,7 @@ void Wall::before_strain(StepContext& context) {
   }
 }
 
-void Wall::momentum_updated(StepContext& context) {
+void Wall::momentum_updated(FieldContext& context) {
   Grid& grid = context.grid;
   const Vec3 n = normal(grid.layout);
   held_.clear();
@@ -85,7 +85,8 @@ void Wall::momentum_updated(StepContext& context) {
   }
 }
 
-void Wall::velocity_found(StepContext& context, NodalField& velocity) {
+void Wall::velocity_found(FieldContext& context) {
+  NodalField& velocity = context.grid.increment;
   const GridLayout& layout = context.grid.layout;
   const Vec3 n = normal(layout);
   for (const Node& node : nodes_) {
@@ -93,18 +94,18 @@ void Wall::velocity_found(StepContext& context, NodalField& velocity) {
   }
 }
 
-void Wall::increment_found(StepContext& context, NodalField& increment) {
-  const Grid& grid = context.grid;
+void Wall::increment_found(FieldContext& context) {
+  Grid& grid = context.grid;
   const Vec3 n = normal(grid.layout);
   for (const Node& node : nodes_) {
     if (!grid.carries(node.ref.block, node.ref.node)) continue;
-    const Vec3 change = held_part(nodal_vector(increment, grid.layout, node.ref), n, node.hold);
-    add_nodal_vector(increment, grid.layout, node.ref, change);
+    const Vec3 change = held_part(nodal_vector(grid.increment, grid.layout, node.ref), n, node.hold);
+    add_nodal_vector(grid.increment, grid.layout, node.ref, change);
     given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
   }
 }
 
-void Wall::grid_advanced(StepContext&) {
+void Wall::grid_advanced(FieldContext&) {
   account_.add(given_);
   given_ = Vec3::Zero();
 }

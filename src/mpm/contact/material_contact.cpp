@@ -160,11 +160,11 @@ void MaterialContact::update(BlockNodes& block, const Node& node, double dt, Scr
   }
 }
 
-void MaterialContact::velocity_found(StepContext& context, NodalField& /*velocity*/) {
+void MaterialContact::velocity_found(StepContext& context) {
   hold_nodes(Pass::filter, context.dt, [](Grid& grid) -> NodalField& { return grid.increment; });
 }
 
-void MaterialContact::increment_found(StepContext& context, NodalField& /*increment*/) {
+void MaterialContact::increment_found(StepContext& context) {
   hold_nodes(Pass::filter, context.dt, [](Grid& grid) -> NodalField& { return grid.increment; });
   for (const BlockNodes& block : blocks_) book(block, false, context.dt);
 }

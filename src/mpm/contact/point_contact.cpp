@@ -43,10 +43,10 @@ void PointContact::momentum_gathered(StepContext& context) {
                           "': friction or adhesion is negative, or friction at rest less than that of sliding");
     }
   }
-  push_out_ = kPushOut * context.grid.layout.smallest_cell();
-  touching_ = kTouching * context.grid.layout.smallest_cell();
-  at_rest_ = kAtRest * context.grid.layout.smallest_cell();
-  weakening_ = kWeakening * context.grid.layout.smallest_cell();
+  push_out_ = kPushOut * context.layout().smallest_cell();
+  touching_ = kTouching * context.layout().smallest_cell();
+  at_rest_ = kAtRest * context.layout().smallest_cell();
+  weakening_ = kWeakening * context.layout().smallest_cell();
   find_points(context);
   connect(context);
   // What friction takes is counted with the slip of the step's start and end: in between forces push held points that
@@ -56,7 +56,7 @@ void PointContact::momentum_gathered(StepContext& context) {
 }
 
 void PointContact::connect(const StepContext& context) {
-  const int per_block = context.grid.layout.nodes_per_block();
+  const int per_block = context.layout().nodes_per_block();
   slot_.resize(fields_.size());
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     slot_[f].resize(static_cast<std::size_t>(fields_[f]->blocks.size()) * per_block, -1);
@@ -280,7 +280,7 @@ void PointContact::decide(StepContext& context) {
   std::sort(memory_.begin(), memory_.end(), [](const Memory& a, const Memory& b) { return a.id < b.id; });
 }
 
-void PointContact::velocity_found(StepContext& context, NodalField&) {
+void PointContact::velocity_found(StepContext& context) {
   if (points_.empty()) return;
   load(&Grid::increment);
   for (Point& point : points_) point.impulse.setZero();
@@ -288,7 +288,7 @@ void PointContact::velocity_found(StepContext& context, NodalField&) {
   store(&Grid::increment);
 }
 
-void PointContact::increment_found(StepContext& context, NodalField&) {
+void PointContact::increment_found(StepContext& context) {
   if (points_.empty()) return;
   load(&Grid::increment);
   for (Point& point : points_) point.impulse.setZero();

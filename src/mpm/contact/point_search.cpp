@@ -57,7 +57,7 @@ void PointContact::find_blocks(const GridLayout& layout, double band) {
 
 template <class Geometry>
 void PointContact::find_points_in(const StepContext& context) {
-  const GridLayout& layout = context.grid.layout;
+  const GridLayout& layout = context.layout();
   const double watched = kWatched * layout.smallest_cell();
   // From a particle's centre, which may be stretched to three times its box; in a step neither material nor tool moves
   // by more than a cell.

@@ -31,12 +31,13 @@ Box world_bounds(const RigidBody& body) {
 }  // namespace
 
 RigidContact::RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry,
-                           const ThinTool* thin)
+                           const ToolSides* sides)
     : body_(body),
       fields_(fields),
       threads_(threads),
       axisymmetric_(axisymmetric(geometry)),
-      thin_(thin),
+      sides_(sides),
+      thin_(sides == nullptr ? nullptr : sides->find(body)),
       held_(fields.size()),
       ledger_(body, axisymmetric(geometry)) {}
 
@@ -50,12 +51,12 @@ bool RigidContact::touches(int field, NodeRef node, const Vec3& place, double re
   if (point.distance > reach && !thin_->between(centre, place)) return false;
   point = surface.at(body_.pose().to_body(centre));
   // Pressed past the middle of the tool, it is still to be pushed out where it came from.
-  if (point.distance < 0.0 && thin_->side(centre) != field % 2) point.normal = -point.normal;
+  if (point.distance < 0.0 && thin_->side(centre) != sides_->map().side(field)) point.normal = -point.normal;
   return true;
 }
 
 void RigidContact::momentum_gathered(StepContext& context) {
-  const GridLayout& layout = context.grid.layout;
+  const GridLayout& layout = context.layout();
   const double on_surface = kOnSurface * layout.smallest_cell();
   const double reach = on_surface + body_.reach() * layout.smallest_cell();
   // Nodes that a field reaches through a thin tool are no farther from their mass centres, along each axis.
@@ -131,14 +132,14 @@ void RigidContact::momentum_updated(StepContext& context) {
   touching_ = touching;
 }
 
-void RigidContact::velocity_found(StepContext&, NodalField&) {
+void RigidContact::velocity_found(StepContext&) {
   each_node([&](const Node& node, Grid& grid) {
     const Vec3 relative = nodal_vector(grid.increment, grid.layout, node.ref) - node.velocity;
     add_nodal_vector(grid.increment, grid.layout, node.ref, held_part(relative, node.normal, node.hold));
   });
 }
 
-void RigidContact::increment_found(StepContext&, NodalField&) {
+void RigidContact::increment_found(StepContext&) {
   each_node([&](const Node& node, Grid& grid) {
     const Vec3 change = held_part(nodal_vector(grid.increment, grid.layout, node.ref), node.normal, node.hold);
     add_nodal_vector(grid.increment, grid.layout, node.ref, change);

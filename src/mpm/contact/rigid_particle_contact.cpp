@@ -193,7 +193,7 @@ void RigidParticleContact::give(const Node& node, const Vec3& before, const Vec3
                 0.5 * (before + after) - node.rigid.velocity});
 }
 
-void RigidParticleContact::velocity_found(StepContext&, NodalField&) {
+void RigidParticleContact::velocity_found(StepContext&) {
   for (const Node& node : nodes_) {
     Grid& grid = *fields_[node.field];
     const Vec3 relative = nodal_vector(grid.increment, grid.layout, node.ref) - node.rigid.velocity;
@@ -202,7 +202,7 @@ void RigidParticleContact::velocity_found(StepContext&, NodalField&) {
   }
 }
 
-void RigidParticleContact::increment_found(StepContext&, NodalField&) {
+void RigidParticleContact::increment_found(StepContext&) {
   for (const Node& node : nodes_) {
     Grid& grid = *fields_[node.field];
     const Vec3 change =

@@ -39,6 +39,7 @@ void ToolSides::label(std::vector<ParticleSet>& sets) {
   double largest = 0.0;
   for (int k = 0; k < layout_.dim(); ++k) largest = std::max(largest, layout_.cell(k));
   for (ParticleSet& set : sets) {
+    if (set.side.empty()) continue;
     double half = std::numeric_limits<double>::infinity();
     for (int k = 0; k < layout_.dim(); ++k) half = std::min(half, set.half[k] * layout_.cell(k));
 #pragma omp parallel for schedule(static) num_threads(threads_)
@@ -84,32 +85,31 @@ bool ToolSides::near(const Vec3& point, double radius) const {
   });
 }
 
-/// The glue once more, after whoever acted on one side alone.
-class SideGlue::Late final : public Stage {
- public:
-  explicit Late(SideGlue& glue) : glue_(glue) {}
-  void before_strain(StepContext&) override { glue_.share(&Grid::velocity); }
-  void forces_gathered(StepContext&) override { glue_.part(&Grid::force); }
-  void momentum_updated(StepContext&) override {
-    glue_.share(&Grid::velocity);
-    glue_.share(&Grid::force);  // the acceleration
-  }
-  void velocity_found(StepContext&, NodalField&) override { glue_.share(&Grid::increment); }
-  void increment_found(StepContext&, NodalField&) override { glue_.share(&Grid::increment); }
+const ThinTool* ToolSides::find(const RigidBody& body) const {
+  const auto own = [&](const ThinTool& tool) { return &tool.body() == &body; };
+  const auto found = std::find_if(tools_.begin(), tools_.end(), own);
+  return found == tools_.end() ? nullptr : &*found;
+}
 
- private:
-  SideGlue& glue_;
-};
-
-std::unique_ptr<Stage> SideGlue::late() { return std::make_unique<Late>(*this); }
+// What others do to one side alone is shared after them; nothing has been done to the momentum before.
+Ranks SideGlue::ranks(Hook hook) const {
+  if (hook == Hook::momentum_gathered) return {Rank::side};
+  if (hook == Hook::forces_gathered || hook == Hook::momentum_updated) return {Rank::side_again};
+  return {Rank::side, Rank::side_again};
+}
 
 void SideGlue::momentum_gathered(StepContext& context) {
   for (const auto& grid : fields_) watch(*grid, context.dt);
   nodes_.clear();
-  for (int pair = 0; 2 * pair < static_cast<int>(fields_.size()); ++pair) find_nodes(pair);
+  for (const std::array<int, 2>& sides : sides_.map().divisions()) find_nodes(sides);
   part(&Grid::momentum);
   part(&Grid::place);
   share(&Grid::velocity);
+}
+
+void SideGlue::momentum_updated(StepContext&) {
+  share(&Grid::velocity);
+  share(&Grid::force);  // the acceleration
 }
 
 // How far the material near a tool moves against it in this step.
@@ -133,8 +133,8 @@ void SideGlue::watch(const Grid& grid, double dt) {
   sides_.add_travel(std::sqrt(fastest) * dt);
 }
 
-void SideGlue::find_nodes(int pair) {
-  const Grid &first = *fields_[2 * pair], &second = *fields_[2 * pair + 1];
+void SideGlue::find_nodes(const std::array<int, 2>& sides) {
+  const Grid &first = *fields_[sides[0]], &second = *fields_[sides[1]];
   const GridLayout& layout = first.layout;
   for (int b = 0; b < second.blocks.size(); ++b) {
     const int other = first.blocks.find(second.blocks.key(b));
@@ -144,14 +144,14 @@ void SideGlue::find_nodes(int pair) {
       const double mass[2] = {first.mass.at(other, 0, n), second.mass.at(b, 0, n)};
       if (sides_.apart(first, {other, n}, second, {b, n})) continue;
       const double total = mass[0] + mass[1];
-      nodes_.push_back({pair, {{other, n}, {b, n}}, {mass[0] / total, mass[1] / total}});
+      nodes_.push_back({sides, {{other, n}, {b, n}}, {mass[0] / total, mass[1] / total}});
     }
   }
 }
 
 void SideGlue::share(NodalField Grid::*field) {
   for (const Node& node : nodes_) {
-    NodalField &first = *fields_[2 * node.pair].*field, &second = *fields_[2 * node.pair + 1].*field;
+    NodalField &first = *fields_[node.field[0]].*field, &second = *fields_[node.field[1]].*field;
     for (int k = 0; k < first.components(); ++k) {
       double &a = first.at(node.ref[0].block, k, node.ref[0].node),
              &b = second.at(node.ref[1].block, k, node.ref[1].node);
@@ -162,7 +162,7 @@ void SideGlue::share(NodalField Grid::*field) {
 
 void SideGlue::part(NodalField Grid::*field) {
   for (const Node& node : nodes_) {
-    NodalField &first = *fields_[2 * node.pair].*field, &second = *fields_[2 * node.pair + 1].*field;
+    NodalField &first = *fields_[node.field[0]].*field, &second = *fields_[node.field[1]].*field;
     for (int k = 0; k < first.components(); ++k) {
       double &a = first.at(node.ref[0].block, k, node.ref[0].node),
              &b = second.at(node.ref[1].block, k, node.ref[1].node);

@@ -118,7 +118,7 @@ void DampingControl::begin_step(const StepContext& context) {
   });
   if (!of_place_) return;
   const bool exchanges = definition().pic.uses_place();
-  each_particle(t, alpha_, context.grid.layout, [&](int, std::size_t s, int p, const Sample& sample) {
+  each_particle(t, alpha_, context.layout(), [&](int, std::size_t s, int p, const Sample& sample) {
     check(sample);
     const double pic = exchanges ? sample.pic / dt : 0.0;
     grid_values_[s][p] = (on_nodes ? 0.0 : sample.grid) - pic;

@@ -91,7 +91,7 @@ double FaceTractions::across(const ParticleSet& set, int p) const {
 
 Vec3 FaceTractions::value_at(const TractionTerm& term, const FaceParts& parts, int p,
                              const StepContext& context) const {
-  const GridLayout& layout = context.grid.layout;
+  const GridLayout& layout = context.layout();
   const ParticleSet& set = sets_[term.set];
   const double half = 0.5 * context.dt;
   Vec3 place = Vec3::Zero(), start = Vec3::Zero();
@@ -163,7 +163,8 @@ void FaceTractions::spread(const ParticleSet& set, int p, const PlacedDomain::Ve
 }
 
 void FaceTractions::forces_gathered(StepContext& context) {
-  const std::uint64_t generation = context.grid.blocks.generation();  // of all fields: they are rebuilt together
+  const std::uint64_t generation =
+      context.fields.front()->blocks.generation();  // of all fields: they are rebuilt together
   if (generation_ != generation) {
     find_places();
     generation_ = generation;
@@ -174,7 +175,7 @@ void FaceTractions::forces_gathered(StepContext& context) {
     const TractionTerm& term = terms_[i];
     const ParticleSet& set = sets_[term.set];
     for (const int p : places_[i]) {
-      const PlacedDomain domain = domain_of(set, p, context.grid.layout);
+      const PlacedDomain domain = domain_of(set, p, context.layout());
       const FaceParts parts = face_parts(settings_.geometry, domain, term.face, across(set, p));
       const Vec3 traction = value_at(term, parts, p, context);
       impulse += traction * (parts.area * context.dt);

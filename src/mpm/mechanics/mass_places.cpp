@@ -17,6 +17,9 @@ class MassPlaces final : public Stage {
              const std::vector<Law>& laws, NearBall near, int threads)
       : kernels_(kernels), fields_(fields), sets_(sets), laws_(laws), near_(std::move(near)), threads_(threads) {}
 
+  std::string name() const override { return "mass_places"; }
+  Ranks ranks(Hook) const override { return {Rank::mass_centre}; }
+
   void momentum_gathered(StepContext&) override {
     for (auto& grid : fields_) fill(*grid);
   }

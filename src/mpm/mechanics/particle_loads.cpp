@@ -48,6 +48,9 @@ class ParticleLoadsOf final : public ParticleLoads {
     sums_.resize(groups);
   }
 
+  std::string name() const override { return "particle_loads"; }
+  Ranks ranks(Hook) const override { return {Rank::load}; }
+
   void forces_gathered(StepContext& context) override {
     evaluate(context);
     for (std::size_t f = 0; f < fields_.size(); ++f) add_to(*fields_[f], nodal_[f]);
@@ -127,7 +130,7 @@ class ParticleLoadsOf final : public ParticleLoads {
 
   // The accelerations of one particle; its forces are added to `sum`.
   void at_particle(const StepContext& context, std::size_t s, int p, int thread, ByKind& sum) {
-    const GridLayout& layout = context.grid.layout;
+    const GridLayout& layout = context.layout();
     const ParticleSet& set = sets_[s];
     const double half = 0.5 * context.dt;
     Vec3 place = Vec3::Zero(), start = Vec3::Zero();

@@ -93,24 +93,6 @@ class Hash {
   std::uint64_t value_ = 14695981039346656037ull;
 };
 
-// Stages that do the same in several velocity fields have accounts of one name: they become one. What it exchanged is
-// then the sum over the fields.
-void merge(std::vector<ImpulseAccount>& accounts) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < accounts.size(); ++i) {
-    const auto end = accounts.begin() + static_cast<std::ptrdiff_t>(kept);
-    const auto same = std::find_if(accounts.begin(), end, [&](const auto& a) { return a.name == accounts[i].name; });
-    if (same == end) {
-      if (kept != i) accounts[kept] = accounts[i];
-      ++kept;
-    } else {
-      same->impulse += accounts[i].impulse;
-      same->exchanged += accounts[i].exchanged;
-    }
-  }
-  accounts.resize(kept);
-}
-
 const Matrix3<double>& full(const Matrix3<double>& m) { return m; }
 Matrix3<double> full(const MatrixPlane<double>& m) { return {m.xx, 0.0, m.xz, 0.0, m.yy, 0.0, m.zx, 0.0, m.zz}; }
 const Symmetric3<double>& full(const Symmetric3<double>& s) { return s; }
@@ -193,9 +175,8 @@ SolverState Simulation::state() const {
   audit.momentum = s.momentum();
   audit.initial_momentum = s.initial_momentum;
   std::vector<ImpulseAccount> accounts{s.gravity};
-  for (const auto& stage : s.stages) stage->accounts(accounts);
+  s.modules.accounts(accounts);
   if (s.leaving) accounts.push_back(s.leaving->account());
-  merge(accounts);
   Vec3 given = Vec3::Zero();
   for (const ImpulseAccount& account : accounts) {
     audit.impulses.push_back({account.name, account.impulse});

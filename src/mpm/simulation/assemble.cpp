@@ -8,7 +8,6 @@
 #include "axial_motion.hpp"
 #include "initial.hpp"
 #include "load_terms.hpp"
-#include "mpm/boundary/again.hpp"
 #include "mpm/boundary/axis.hpp"
 #include "mpm/boundary/periodic.hpp"
 #include "mpm/boundary/wall.hpp"
@@ -18,7 +17,6 @@
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
-#include "mpm/step/in_field.hpp"
 #include "state.hpp"
 #include "velocity_fields.hpp"
 
@@ -75,7 +73,6 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
   }
   ParticleSet set;
   set.name = body.name;
-  set.field = body.field;
   const int dim = layout.dim();
   for (int k = 0; k < dim; ++k) {
     set.half[k] = 0.5 / definition.method.particles_per_direction;
@@ -244,21 +241,16 @@ void Simulation::State::add_mechanics() {
   if (const std::vector<ParticleLoadTerm> terms = make_load_terms(definition, sets); !terms.empty()) {
     const LoadKernels<T> load_kernels{kernels, kernel_table<T>(ShapeKind::dirac, definition.geometry, isa)};
     auto all = make_particle_loads(load_kernels, fields, sets, laws, terms, threads);
-    loads = all.get();
-    stages.push_back(std::move(all));
+    loads = &modules.add(std::move(all));
   }
   if (std::vector<TractionTerm> terms = make_traction_terms(definition, sets, layout()); !terms.empty()) {
     const TractionSettings settings{definition.geometry, method.shape, definition.across()};
-    auto all = std::make_unique<FaceTractions>(settings, fields, sets, std::move(terms));
-    tractions = all.get();
-    stages.push_back(std::move(all));
+    tractions = &modules.add(std::make_unique<FaceTractions>(settings, fields, sets, std::move(terms)));
   }
   if (sides != nullptr) {
-    auto glue = std::make_unique<SideGlue>(*sides, fields);
-    stages.push_back(glue->late());
-    stages.insert(stages.begin(), std::move(glue));
+    modules.add(std::make_unique<SideGlue>(*sides, fields));
     const auto near = [this](const Vec3& middle, double radius) { return sides->near(middle, radius); };
-    stages.insert(stages.begin(), make_mass_places(kernels, fields, sets, laws, near, threads));
+    modules.add(make_mass_places(kernels, fields, sets, laws, near, threads));
   }
   ContinuumSettings settings;
   settings.transfer = method.transfer;
@@ -287,9 +279,10 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
   const int dim = dimensions(definition.geometry);
   project(s.definition);
-  s.fields = fields_of(definition);
+  s.field_map = field_map(definition);
+  s.fields = make_fields(definition, s.field_map.count());
   const GridLayout& layout = s.layout();
-  if (any_sides(definition)) s.sides = std::make_unique<ToolSides>(layout, s.threads);
+  if (!s.field_map.divisions().empty()) s.sides = std::make_unique<ToolSides>(layout, s.field_map, s.threads);
 
   const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
                                      [](const DeformableBody& body) { return body.geostatic.has_value(); });
@@ -301,10 +294,10 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     s.laws.push_back(make_law(material));
     s.sets.push_back(make_set(definition, body, material, s.laws.back(), layout, s.warnings));
     ParticleSet& set = s.sets.back();
-    if (s.sides != nullptr) {
-      set.field *= 2;
-      set.side.assign(set.id.size(), 0);
-    }
+    const int number = static_cast<int>(s.sets.size()) - 1;
+    set.field = s.field_map.field(number, 0);
+    set.far_field = s.field_map.field(number, 1);
+    if (s.field_map.divided(number)) set.side.assign(set.id.size(), 0);
     set.first_id = next_id;
     for (std::uint32_t& id : set.id) id = next_id++;
     s.total_mass += set.total_mass();
@@ -314,67 +307,31 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (geostatic && options.settle) s.settle();
   for (DeformableBody& body : s.definition.bodies) forget_particles(body);
 
-  if (definition.method.damping.any()) {
-    auto damping = std::make_unique<DampingControl>(definition.method.damping, definition.method.transfer.flip,
-                                                    s.fields, s.sets, s.threads);
-    s.damping = damping.get();
-    s.stages.push_back(std::move(damping));
-  }
-  // Walls that always hold act before contact, so that friction knows no velocity through them, and once more after it
-  // (method reference 5.4, steps 7 to 9).
-  struct Holding {
-    Grid* field;
-    Stage* stage;
-  };
-  std::vector<Holding> holding;
-  const auto in_field = [&s](Grid& field, std::unique_ptr<Stage> stage) -> std::unique_ptr<Stage> {
-    if (s.fields.size() == 1) return stage;
-    return std::make_unique<InField>(field, std::move(stage));
-  };
-  const auto add_walls = [&](bool lets_go) {
-    for (int grid_face = 0; grid_face < 2 * dim; ++grid_face) {
-      const int face = 2 * layout.axis(grid_face / 2) + grid_face % 2;
-      const WallKind kind = definition.walls[face].kind;
-      if (!is_wall(kind) || (kind == WallKind::frictional) != lets_go) continue;
-      for (auto& field : s.fields) {
-        auto wall = std::make_unique<Wall>(grid_face, definition.walls[face], kWallNames[face]);
-        if (!lets_go) holding.push_back({field.get(), wall.get()});
-        s.stages.push_back(in_field(*field, std::move(wall)));
-      }
-    }
-  };
   if (axisymmetric(definition.geometry)) {
-    for (auto& field : s.fields) {
-      s.stages.insert(s.stages.begin(), in_field(*field, std::make_unique<HoopForce>()));
-      if (definition.grid.min.x() != 0.0) continue;
-      auto axis = std::make_unique<Axis>(definition.method.axis.ghosts);
-      holding.push_back({field.get(), axis.get()});
-      s.stages.push_back(in_field(*field, std::move(axis)));
+    s.add_in_fields([] { return std::make_unique<HoopForce>(); });
+    if (definition.grid.min.x() == 0.0) {
+      s.add_in_fields([&] { return std::make_unique<Axis>(definition.method.axis.ghosts); });
     }
+    const AxisRules& axis = definition.method.axis;
+    const bool to_zero = definition.method.shape == ShapeKind::qcpdi || axis.domains == AxisDomains::whole;
+    if (axis.functions == AxisFunctions::weighted && to_zero) {
+      s.add_in_fields([&] { return std::make_unique<MasslessNodes>(definition.gravity); });
+    }
+  }
+  if (definition.method.damping.any()) {
+    s.damping = &s.modules.add(std::make_unique<DampingControl>(
+        definition.method.damping, definition.method.transfer.flip, s.fields, s.sets, s.threads));
   }
   s.add_absorbing();
-  add_walls(false);
+  for (int grid_face = 0; grid_face < 2 * dim; ++grid_face) {
+    const int face = 2 * layout.axis(grid_face / 2) + grid_face % 2;
+    if (!is_wall(definition.walls[face].kind)) continue;
+    s.add_in_fields([&] { return std::make_unique<Wall>(grid_face, definition.walls[face], kWallNames[face]); });
+  }
   s.add_conditions();
-  for (std::size_t f = 0; f < s.conditions.size(); ++f) holding.push_back({s.fields[f].get(), s.conditions[f]});
-  const std::size_t before_contact = s.stages.size();
   s.add_pairs();
   s.add_rigid_bodies();
-  add_walls(true);
   if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);
-  if (s.stages.size() > before_contact) {
-    for (const Holding& one : holding) {
-      s.stages.push_back(in_field(*one.field, std::make_unique<StageAgain>(*one.stage)));
-    }
-  }
-
-  const AxisRules& axis = definition.method.axis;
-  const bool to_zero = definition.method.shape == ShapeKind::qcpdi || axis.domains == AxisDomains::whole;
-  if (axisymmetric(definition.geometry) && axis.functions == AxisFunctions::weighted && to_zero) {
-    for (auto& field : s.fields) {
-      s.stages.push_back(in_field(*field, std::make_unique<MasslessNodes>(definition.gravity)));
-    }
-  }
-
   if (definition.method.precision == Precision::float32) {
     s.add_mechanics<float>();
   } else {
@@ -386,7 +343,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.gravity.name = "gravity";
   if (definition.grid.leave_limit > 0) s.leaving.emplace(definition.grid.leave_limit);
   s.sort(0.0);
-  for (std::size_t f = 0; f < s.conditions.size(); ++f) s.conditions[f]->find_nodes(*s.fields[f]);
+  StepContext start{s.fields, 0.0};
+  s.modules.act(Hook::run_begun, start);
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
   s.rates.resize(definition.metrics.size());

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include "mpm/boundary/periodic.hpp"
-#include "mpm/step/in_field.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -12,11 +11,6 @@ namespace {
 template <class Visit>
 void each_face(const GridLayout& layout, Visit&& visit) {
   for (int face = 0; face < 2 * layout.dim(); ++face) visit(face, 2 * layout.axis(face / 2) + face % 2);
-}
-
-std::unique_ptr<Stage> in_field(const Fields& fields, Grid& field, std::unique_ptr<Stage> stage) {
-  if (fields.size() == 1) return stage;
-  return std::make_unique<InField>(field, std::move(stage));
 }
 
 }  // namespace
@@ -30,10 +24,9 @@ void Simulation::State::add_absorbing() {
       waves.push_back(elastic_waves(find_material(definition, body), definition.geometry));
     }
     const double phi = face_mass(definition.method.shape, definition.method.particles_per_direction);
-    for (auto& field : fields) {
+    for (int f = 0; f < field_map.count(); ++f) {
       auto stage = std::make_unique<Absorbing>(face, kWallNames[name], sets, waves, phi, wall.hold);
-      absorbing.push_back(stage.get());
-      stages.push_back(in_field(fields, *field, std::move(stage)));
+      absorbing.push_back(&modules.add_in_field(std::move(stage), f));
     }
   });
 }
@@ -54,10 +47,9 @@ void Simulation::State::add_conditions() {
     const WallKind kind = definition.walls[name].kind;
     if (kind == WallKind::slip || kind == WallKind::symmetry) slip.push_back({face, kWallNames[name]});
   });
-  for (auto& field : fields) {
+  for (int f = 0; f < field_map.count(); ++f) {
     auto stage = std::make_unique<VelocityConditions>(definition.conditions, slip, layout());
-    conditions.push_back(stage.get());
-    stages.push_back(in_field(fields, *field, std::move(stage)));
+    conditions.push_back(&modules.add_in_field(std::move(stage), f));
   }
 }
 

@@ -13,15 +13,9 @@
 namespace mpm {
 namespace {
 
-std::vector<int> fields_of(const ParticleSet& set) {
-  std::vector<int> fields{set.field};
-  if (!set.side.empty()) fields.push_back(set.field + 1);
-  return fields;
-}
-
-const ParticleSet& set_of(const std::string& name, const PairDefinition& pair, const std::vector<ParticleSet>& sets) {
-  for (const ParticleSet& set : sets) {
-    if (set.name == name) return set;
+int body_of(const std::string& name, const PairDefinition& pair, const std::vector<ParticleSet>& sets) {
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    if (sets[s].name == name) return static_cast<int>(s);
   }
   throw DefinitionError(fmt::format("contact of '{}' and '{}': no body is called '{}'", pair.first, pair.second, name));
 }
@@ -41,7 +35,7 @@ void remember_starts(std::vector<ParticleSet>& sets) {
 }  // namespace
 
 MaterialContactSettings make_contact_settings(const SimulationDefinition& definition, std::vector<ParticleSet>& sets,
-                                              const GridLayout& layout, int threads) {
+                                              const FieldMap& map, const GridLayout& layout, int threads) {
   MaterialContactSettings settings;
   settings.normals = definition.contact.normals;
   settings.detection = definition.contact.detection;
@@ -52,13 +46,13 @@ MaterialContactSettings make_contact_settings(const SimulationDefinition& defini
   bool displacements = settings.detection.kind == Detection::displacements;
   for (const PairDefinition& pair : definition.contact.pairs) {
     if (is_rigid(pair.second, definition)) continue;  // simulation/rigid_contacts.cpp
-    const ParticleSet &first = set_of(pair.first, pair, sets), &second = set_of(pair.second, pair, sets);
-    if (first.field == second.field) {
+    const int first = body_of(pair.first, pair, sets), second = body_of(pair.second, pair, sets);
+    if (map.field(first) == map.field(second)) {
       throw DefinitionError(fmt::format("contact of '{}' and '{}': both are in velocity field {}; give each its own",
-                                        pair.first, pair.second, first.field));
+                                        pair.first, pair.second, definition.bodies[first].field));
     }
     displacements = displacements || pair.law.kind == ContactLaw::Kind::interface;
-    MaterialPair made{pair.first + "/" + pair.second, fields_of(first), fields_of(second), pair.law};
+    MaterialPair made{pair.first + "/" + pair.second, map.fields(first), map.fields(second), pair.law};
     const auto same = std::find_if(settings.pairs.begin(), settings.pairs.end(), [&](const MaterialPair& other) {
       return (other.first == made.first && other.second == made.second) ||
              (other.first == made.second && other.second == made.first);
@@ -75,12 +69,10 @@ MaterialContactSettings make_contact_settings(const SimulationDefinition& defini
 }
 
 void Simulation::State::add_pairs() {
-  MaterialContactSettings settings = make_contact_settings(definition, sets, layout(), threads);
+  MaterialContactSettings settings = make_contact_settings(definition, sets, field_map, layout(), threads);
   if (settings.pairs.empty()) return;
   settings.sides = sides.get();
-  auto stage = std::make_unique<MaterialContact>(std::move(settings), fields, volumes());
-  pairs = stage.get();
-  stages.push_back(std::move(stage));
+  pairs = &modules.add(std::make_unique<MaterialContact>(std::move(settings), fields, volumes()));
 }
 
 namespace {
@@ -130,14 +122,13 @@ void Simulation::State::add_rigid_bodies() {
   std::vector<ContactLaw> laws_at_points;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const RigidBodyDefinition& body = bodies[b].definition();
-    const ThinTool* thin = add_sides(bodies[b]);
+    add_sides(bodies[b]);
     if (body.particles) {
       contacts[b] = &add_rigid_particles(bodies[b], {laws_of(b), laws_of(b + 1)});
     } else if (definition.contact.method == ContactMethod::nodes) {
       check_laws_at_nodes(definition, body);
-      auto contact = std::make_unique<RigidContact>(bodies[b], fields, threads, definition.geometry, thin);
-      contacts[b] = &contact->ledger();
-      stages.push_back(std::move(contact));
+      auto contact = std::make_unique<RigidContact>(bodies[b], fields, threads, definition.geometry, sides.get());
+      contacts[b] = &modules.add(std::move(contact)).ledger();
     } else {
       met_at_points.push_back(&bodies[b]);
       laws_at_points.insert(laws_at_points.end(), laws_of(b), laws_of(b + 1));
@@ -154,7 +145,7 @@ void Simulation::State::add_rigid_bodies() {
   for (std::size_t i = 0; i < met_at_points.size(); ++i) {
     contacts[met_at_points[i] - bodies.data()] = &contact->ledger(static_cast<int>(i));
   }
-  stages.push_back(std::move(contact));
+  modules.add(std::move(contact));
 }
 
 ContactLedger& Simulation::State::add_rigid_particles(const RigidBody& body,
@@ -168,12 +159,10 @@ ContactLedger& Simulation::State::add_rigid_particles(const RigidBody& body,
   settings.across = definition.across();
   settings.laws.resize(fields.size());
   for (std::size_t s = 0; s < sets.size(); ++s) {
-    for (const int field : fields_of(sets[s])) settings.laws[field] = laws_of_sets[s];
+    for (const int field : field_map.fields(static_cast<int>(s))) settings.laws[field] = laws_of_sets[s];
   }
   auto stage = std::make_unique<RigidParticleContact>(body, std::move(settings), fields, volumes());
-  ContactLedger& ledger = stage->ledger();
-  stages.push_back(std::move(stage));
-  return ledger;
+  return modules.add(std::move(stage)).ledger();
 }
 
 VolumeSurvey& Simulation::State::volumes() {

@@ -9,9 +9,9 @@
 
 namespace mpm {
 
-/// `sets`: of each body. @throws DefinitionError for a pair that names no body, or bodies of one field; for two laws
-/// between the same fields.
+/// `sets`: of each body; `map`: their fields. @throws DefinitionError for a pair that names no body, or bodies of one
+/// field; for two laws between the same fields.
 MaterialContactSettings make_contact_settings(const SimulationDefinition& definition, std::vector<ParticleSet>& sets,
-                                              const GridLayout& layout, int threads);
+                                              const FieldMap& map, const GridLayout& layout, int threads);
 
 }  // namespace mpm

@@ -108,9 +108,9 @@ void Simulation::State::keep(StateArchive& archive) {
     const StateArchive::Group group(archive, "mechanics");
     mechanics->keep(archive);
   }
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    const StateArchive::Group group(archive, "stage_" + std::to_string(i));
-    stages[i]->keep(archive);
+  {
+    const StateArchive::Group group(archive, "modules");
+    modules.keep(archive);
   }
   {
     const StateArchive::Group group(archive, "gravity");

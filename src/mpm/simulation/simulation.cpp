@@ -63,9 +63,9 @@ void Simulation::State::sort(double now) {
 
 void Simulation::State::step(double start, double dt) {
   for (RigidBody& body : bodies) body.begin_step(start, dt);
-  StepContext context{*fields.front(), dt, start};
+  StepContext context{fields, dt, start};
   constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg};  // in the order of UpdateScheme
-  kSchedules[static_cast<int>(definition.method.update)](*mechanics, stages, context);
+  kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
   gravity.add(definition.gravity * (total_mass * dt));
   for (RigidBody& body : bodies) body.end_step(dt);
   ++steps.steps;

@@ -59,20 +59,21 @@ struct Simulation::State {
 
   std::vector<ParticleSet> sets;
   std::vector<Law> laws;  ///< of each set
+  FieldMap field_map;
   Fields fields;
   std::unique_ptr<Sorter> sorter;
   std::unique_ptr<ToolSides> sides;  ///< of thin tools, in a scene that has any
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;
-  Stages stages;
-  std::vector<ContactLedger*> contacts;         ///< of each body, owned by stages
+  Modules modules;
+  std::vector<ContactLedger*> contacts;         ///< of each body, owned by modules
   std::unique_ptr<VolumeSurvey> survey;         ///< of contact between deformable bodies, when the scene has any
-  MaterialContact* pairs = nullptr;             ///< the same, owned by stages
-  ParticleLoads* loads = nullptr;               ///< owned by stages, when the scene has any
+  MaterialContact* pairs = nullptr;             ///< the same, owned by modules
+  ParticleLoads* loads = nullptr;               ///< owned by modules, when the scene has any
   FaceTractions* tractions = nullptr;           ///< the same
   DampingControl* damping = nullptr;            ///< the same
   std::vector<VelocityConditions*> conditions;  ///< of each field, the same
-  std::vector<Absorbing*> absorbing;            ///< of each absorbing face and field, owned by stages
+  std::vector<Absorbing*> absorbing;            ///< of each absorbing face and field, owned by modules
   std::optional<Leaving> leaving;               ///< of a scene that lets particles leave
 
   std::int64_t time = 0;  ///< [ns]
@@ -91,8 +92,13 @@ struct Simulation::State {
   const GridLayout& layout() const { return fields.front()->layout; }
   template <class T>
   void add_mechanics();
-  /// Says of a thin body what becomes of its two sides; null if they have no field each.
-  const ThinTool* add_sides(const RigidBody& body);
+  /// A stage of each field.
+  template <class Make>
+  void add_in_fields(Make&& make) {
+    for (int f = 0; f < field_map.count(); ++f) modules.add_in_field(make(), f);
+  }
+  /// Says of a thin body what becomes of its two sides.
+  void add_sides(const RigidBody& body);
   /// Contact between deformable bodies, when the scene has any (contact_terms.cpp).
   void add_pairs();
   /// Contact with a rigid body that is made of particles.
@@ -101,11 +107,11 @@ struct Simulation::State {
   void add_rigid_bodies();
   /// What either asks of the mechanics.
   VolumeSurvey& volumes();
-  /// Absorbing faces, in the list of stages: before whatever holds a node, which hides the force on it.
+  /// Absorbing faces.
   void add_absorbing();
   /// @throws RigidError for a body at a periodic face
   void check_periodic(const RigidBody& body) const;
-  /// Velocity conditions, in the list of stages. @throws ConditionError
+  /// Velocity conditions. @throws ConditionError
   void add_conditions();
   /// Of each set, for particle fields (particle_view.hpp).
   std::vector<SetView> views() const;

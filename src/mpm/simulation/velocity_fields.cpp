@@ -21,23 +21,27 @@ GridLayout layout_of(const SimulationDefinition& definition) {
 
 }  // namespace
 
-bool any_sides(const SimulationDefinition& definition) {
+// A tool may come to any body, so where one is thin it divides all of them.
+FieldMap field_map(const SimulationDefinition& definition) {
   const double cell = layout_of(definition).smallest_cell();
-  return std::any_of(definition.rigid_bodies.begin(), definition.rigid_bodies.end(),
-                     [&](const auto& body) { return has_sides(body, definition.geometry, cell); });
-}
-
-Fields fields_of(const SimulationDefinition& definition) {
-  int count = 1;
+  const auto& tools = definition.rigid_bodies;
+  const bool divided = std::any_of(tools.begin(), tools.end(), [&](const RigidBodyDefinition& body) {
+    return has_sides(body, definition.geometry, cell);
+  });
+  std::vector<int> groups;
   for (const DeformableBody& body : definition.bodies) {
     if (body.field < 0) {
       throw DefinitionError(fmt::format("body '{}': its velocity field is {}", body.name, body.field));
     }
-    count = std::max(count, body.field + 1);
+    groups.push_back(body.field);
   }
+  return {groups, std::vector<bool>(groups.size(), divided)};
+}
+
+Fields make_fields(const SimulationDefinition& definition, int count) {
   const GridLayout layout = layout_of(definition);
   const ShapeKind shape = definition.method.shape;
-  Fields fields = make_fields(layout, any_sides(definition) ? 2 * count : count);
+  Fields fields = make_fields(layout, count);
   for (auto& grid : fields) {
     if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) grid->wall_layers = 2;
     for (int face = 0; face < 2 * layout.dim(); ++face) {
@@ -50,7 +54,7 @@ Fields fields_of(const SimulationDefinition& definition) {
   return fields;
 }
 
-const ThinTool* Simulation::State::add_sides(const RigidBody& body) {
+void Simulation::State::add_sides(const RigidBody& body) {
   const double cell = layout().smallest_cell();
   const bool thin = is_thin(body.definition(), definition.geometry, cell);
   const std::string start = fmt::format("rigid body '{}' is {:.2g} cells thick where it is thinnest: ", body.name(),
@@ -64,14 +68,13 @@ const ThinTool* Simulation::State::add_sides(const RigidBody& body) {
                       "it of several bodies, or write sides: one",
                       body.name(), 100.0 * (1.0 - tool.told_apart())));
     }
-    return &tool;
+    return;
   }
   if (thin) {
     warnings.push_back(start +
                        "material on its two sides shares nodes and feels each other when it is thinner than 3; write "
                        "sides: two, use a finer grid.cell or a thicker body");
   }
-  return nullptr;
 }
 
 }  // namespace mpm

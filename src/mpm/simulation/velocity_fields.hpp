@@ -1,16 +1,17 @@
-// Which velocity fields a scene has: one each that its bodies name, two in their place with thin tools, the second for
-// the material on the far side (contact/tool_sides.hpp). Private to this room.
+// Which velocity fields a scene has: one for each group of bodies that its bodies name, and a second one for a group
+// that thin tools divide (grid/field_map.hpp). Private to this room.
 #pragma once
 
+#include "mpm/grid/field_map.hpp"
 #include "mpm/grid/fields.hpp"
 #include "mpm/simulation/definition.hpp"
 
 namespace mpm {
 
-/// Whether some tool is thin, so that field k of a definition is the two fields 2 k and 2 k + 1.
-bool any_sides(const SimulationDefinition& definition);
+/// @throws DefinitionError for a body whose field is negative
+FieldMap field_map(const SimulationDefinition& definition);
 
-/// The fields with walls, without blocks yet. @throws DefinitionError, GridError
-Fields fields_of(const SimulationDefinition& definition);
+/// The fields with walls, `count` of them, without blocks yet. @throws GridError
+Fields make_fields(const SimulationDefinition& definition, int count);
 
 }  // namespace mpm

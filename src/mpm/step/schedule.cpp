@@ -3,69 +3,62 @@
 namespace mpm {
 namespace {
 
-using Joint = void (Stage::*)(StepContext&);
-
-void join(Stages& stages, Joint joint, StepContext& context) {
-  for (auto& stage : stages) (stage.get()->*joint)(context);
-}
-
-void gather_momentum(Mechanics& mechanics, Stages& stages, StepContext& context) {
+void gather_momentum(Mechanics& mechanics, const Modules& modules, StepContext& context) {
   mechanics.scatter_momentum(context);
-  join(stages, &Stage::momentum_gathered, context);
+  modules.act(Hook::momentum_gathered, context);
 }
 
 // XPIC, FMPM: what particles adopt is the grid's velocity and increments of it.
-void filter(Mechanics& mechanics, Stages& stages, StepContext& context) {
+void filter(Mechanics& mechanics, const Modules& modules, StepContext& context) {
   if (mechanics.increments() == 0) return;
-  NodalField& increment = context.grid.increment;
   mechanics.begin_increments(context);
-  for (auto& stage : stages) stage->velocity_found(context, increment);
+  modules.act(Hook::velocity_found, context);
   for (int n = 0; n < mechanics.increments(); ++n) {
     mechanics.find_increment(context);
-    for (auto& stage : stages) stage->increment_found(context, increment);
+    modules.act(Hook::increment_found, context);
     mechanics.add_increment(context);
   }
 }
 
 // From the internal force to v^{n+1} and the acceleration on the grid, and to what particles adopt of them.
-void advance_grid(Mechanics& mechanics, Stages& stages, StepContext& context) {
-  join(stages, &Stage::forces_gathered, context);
+void advance_grid(Mechanics& mechanics, const Modules& modules, StepContext& context) {
+  modules.act(Hook::forces_gathered, context);
   mechanics.update_momentum(context);
-  join(stages, &Stage::momentum_updated, context);
-  filter(mechanics, stages, context);
-  join(stages, &Stage::grid_advanced, context);
+  modules.act(Hook::momentum_updated, context);
+  filter(mechanics, modules, context);
+  modules.act(Hook::grid_advanced, context);
 }
 
 // The particles' momentum of the end of the step, and the strain that it gives.
-void finish_with_strain(Mechanics& mechanics, Stages& stages, StepContext& context, double dt) {
+void finish_with_strain(Mechanics& mechanics, const Modules& modules, StepContext& context, double dt) {
   mechanics.move_and_regather(context);
-  join(stages, &Stage::before_strain, context);
+  modules.act(Hook::before_strain, context);
   mechanics.strain_and_place(context, dt);
 }
 
 }  // namespace
 
-void step_usf(Mechanics& mechanics, Stages& stages, StepContext& context) {
-  gather_momentum(mechanics, stages, context);
-  join(stages, &Stage::before_strain, context);
+void step_usf(Mechanics& mechanics, const Modules& modules, StepContext& context) {
+  gather_momentum(mechanics, modules, context);
+  modules.act(Hook::before_strain, context);
   mechanics.strain_and_force(context, context.dt);
-  advance_grid(mechanics, stages, context);
+  advance_grid(mechanics, modules, context);
   mechanics.move_particles(context);
 }
 
-void step_usl(Mechanics& mechanics, Stages& stages, StepContext& context) {
-  gather_momentum(mechanics, stages, context);
+void step_usl(Mechanics& mechanics, const Modules& modules, StepContext& context) {
+  gather_momentum(mechanics, modules, context);
   mechanics.internal_force(context);
-  advance_grid(mechanics, stages, context);
-  finish_with_strain(mechanics, stages, context, context.dt);
+  advance_grid(mechanics, modules, context);
+  finish_with_strain(mechanics, modules, context, context.dt);
 }
 
-void step_usavg(Mechanics& mechanics, Stages& stages, StepContext& context) {
-  gather_momentum(mechanics, stages, context);
-  join(stages, &Stage::before_strain, context);
+void step_usavg(Mechanics& mechanics, const Modules& modules, StepContext& context) {
+  gather_momentum(mechanics, modules, context);
+  modules.act(Hook::before_strain, context);
   mechanics.strain_and_force(context, 0.5 * context.dt);
-  advance_grid(mechanics, stages, context);
-  finish_with_strain(mechanics, stages, context, 0.5 * context.dt);
+  advance_grid(mechanics, modules, context);
+  finish_with_strain(mechanics, modules, context, 0.5 * context.dt);
 }
 
 }  // namespace mpm

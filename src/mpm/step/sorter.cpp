@@ -35,11 +35,12 @@ int Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout, Scratc
     std::uint64_t stride;
   };
   std::array<Axis, Dim> axes{};
-  // Key of block (0, 0, 0) in the set's first field.
-  std::uint64_t corner = static_cast<std::uint64_t>(set.field) * layout.keys();
+  // Keys of block (0, 0, 0) in the set's fields.
+  std::array<std::uint64_t, 2> corner = {static_cast<std::uint64_t>(set.field) * layout.keys(),
+                                         static_cast<std::uint64_t>(set.far_field) * layout.keys()};
   for (int k = 0; k < Dim; ++k) {
     axes[k] = {set.x[k].data(), set.lowest[k], set.highest[k], static_cast<std::uint64_t>(layout.key_stride(k))};
-    corner += axes[k].stride;
+    for (std::uint64_t& key : corner) key += axes[k].stride;
   }
   const std::uint8_t* side = set.side.empty() ? nullptr : set.side.data();
   int outside = set.size();
@@ -49,7 +50,7 @@ int Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout, Scratc
     std::vector<std::uint64_t>& blocks = parts_[t].blocks;
     const std::size_t end = part_begin(n, t + 1);
     for (std::size_t p = part_begin(n, t); p < end; ++p) {
-      std::uint64_t key = corner + (side == nullptr ? 0 : side[p] * layout.keys()), local = 0;
+      std::uint64_t key = corner[side == nullptr ? 0 : side[p]], local = 0;
       bool inside = true;
       for (int k = 0; k < Dim; ++k) {
         const double cells = layout.in_cells(k, axes[k].x[p]);

@@ -1,0 +1,35 @@
+// Which velocity field material belongs to: a map from a body and a side to the number of a field (grid/fields.hpp).
+// Bodies of one group share a velocity, so they share a field. A body that a thin tool divides has a second field, for
+// its material on side 1; the other bodies have one.
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace mpm {
+
+class FieldMap {
+ public:
+  FieldMap() = default;
+  /// `groups`: of each body, counted from 0. `divided`: of each body, whether something divides it.
+  FieldMap(const std::vector<int>& groups, const std::vector<bool>& divided);
+
+  /// How many fields there are; one at least.
+  int count() const { return static_cast<int>(side_.size()); }
+  /// Of the material of `body` on `side`, 0 or 1; of a body that nothing divides, side 0 is meant always.
+  int field(int body, int side = 0) const { return fields_[body][divided(body) ? side : 0]; }
+  bool divided(int body) const { return fields_[body][0] != fields_[body][1]; }
+  /// Fields that hold material of a body, one or two.
+  std::vector<int> fields(int body) const;
+  /// Which side's material a field holds; 0 where nothing is divided.
+  int side(int field) const { return side_[field]; }
+  /// The fields of side 0 and side 1 of every group that is divided.
+  const std::vector<std::array<int, 2>>& divisions() const { return divisions_; }
+
+ private:
+  std::vector<std::array<int, 2>> fields_;  ///< of each body, by side; twice the same for one that nothing divides
+  std::vector<std::array<int, 2>> divisions_;
+  std::vector<int> side_{0};  ///< of each field
+};
+
+}  // namespace mpm

@@ -1,0 +1,71 @@
+// The modules of a run, and the order in which those that are stages act. Put together when the scene is loaded.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+class Modules {
+ public:
+  /// A module that acts across fields, or not on the grid at all.
+  template <class M>
+  M& add(std::unique_ptr<M> module) {
+    static_assert(!std::is_base_of_v<FieldStage, M>, "say in which field: add_in_field()");
+    M& added = *module;
+    Entry entry;
+    if constexpr (std::is_base_of_v<Stage, M>) entry.across = &added;
+    entry.module = std::move(module);
+    add_entry(std::move(entry));
+    return added;
+  }
+  /// A stage of velocity field `field`.
+  template <class M>
+  M& add_in_field(std::unique_ptr<M> stage, int field) {
+    M& added = *stage;
+    Entry entry;
+    entry.in_field = &added;
+    entry.field = field;
+    entry.module = std::move(stage);
+    add_entry(std::move(entry));
+    return added;
+  }
+
+  /// The stages act, in the order of their ranks.
+  void act(Hook hook, StepContext& context) const;
+
+  /// In the order in which they were added.
+  const std::vector<Module*>& list() const { return list_; }
+  /// Of all modules; those of one name become one. What it exchanged is then their sum.
+  void accounts(std::vector<ImpulseAccount>& list) const;
+  /// As Module::keep(), of each module in a group of its own.
+  void keep(StateArchive& archive);
+
+ private:
+  struct Entry {
+    std::unique_ptr<Module> module;
+    Stage* across = nullptr;         ///< the module, if it acts across fields
+    FieldStage* in_field = nullptr;  ///< the module, if it acts in one
+    int field = 0;
+  };
+  /// A stage at a hook.
+  struct Call {
+    Rank rank;
+    Stage* across;
+    FieldStage* in_field;
+    int field;
+  };
+  void add_entry(Entry entry);
+  void put_in_order();
+
+  std::vector<Entry> entries_;
+  std::vector<Module*> list_;
+  std::array<std::vector<Call>, kHooks> calls_;
+};
+
+}  // namespace mpm

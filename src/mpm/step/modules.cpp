@@ -1,0 +1,98 @@
+#include "mpm/step/modules.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+namespace mpm {
+namespace {
+
+template <class Context>
+using AtHook = void (StageWith<Context>::*)(Context&);
+
+/// In the order of Hook.
+template <class Context>
+constexpr std::array<AtHook<Context>, kHooks> kAtHook = {
+    &StageWith<Context>::run_begun,       &StageWith<Context>::momentum_gathered, &StageWith<Context>::before_strain,
+    &StageWith<Context>::forces_gathered, &StageWith<Context>::momentum_updated,  &StageWith<Context>::velocity_found,
+    &StageWith<Context>::increment_found, &StageWith<Context>::grid_advanced};
+
+/// What an archive takes as the name of a group.
+std::string group_name(std::string name) {
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  return name;
+}
+
+}  // namespace
+
+void Modules::add_entry(Entry entry) {
+  list_.push_back(entry.module.get());
+  entries_.push_back(std::move(entry));
+  put_in_order();
+}
+
+void Modules::put_in_order() {
+  const auto ranks = [](const Entry& entry, Hook hook) -> std::optional<Ranks> {
+    if (entry.across != nullptr) return entry.across->ranks(hook);
+    if (entry.in_field != nullptr) return entry.in_field->ranks(hook);
+    return std::nullopt;
+  };
+  for (int h = 0; h < kHooks; ++h) {
+    std::vector<Call>& calls = calls_[h];
+    calls.clear();
+    bool contact = false;
+    for (const Entry& entry : entries_) {
+      const auto at = ranks(entry, static_cast<Hook>(h));
+      if (!at) continue;
+      contact = contact || is_contact(at->first);
+      calls.push_back({at->first, entry.across, entry.in_field, entry.field});
+      if (at->again) calls.push_back({*at->again, entry.across, entry.in_field, entry.field});
+    }
+    if (!contact) {
+      const auto idle = [](const Call& call) { return mends_contact(call.rank); };
+      calls.erase(std::remove_if(calls.begin(), calls.end(), idle), calls.end());
+    }
+    std::stable_sort(calls.begin(), calls.end(), [](const Call& a, const Call& b) { return a.rank < b.rank; });
+  }
+}
+
+void Modules::act(Hook hook, StepContext& context) const {
+  const auto h = static_cast<std::size_t>(hook);
+  for (const Call& call : calls_[h]) {
+    if (call.across != nullptr) {
+      (call.across->*kAtHook<StepContext>[h])(context);
+    } else {
+      FieldContext own{*context.fields[call.field], context.dt, context.start};
+      (call.in_field->*kAtHook<FieldContext>[h])(own);
+    }
+  }
+}
+
+void Modules::accounts(std::vector<ImpulseAccount>& list) const {
+  std::vector<ImpulseAccount> all;
+  for (const Module* module : list_) module->accounts(all);
+  for (ImpulseAccount& account : all) {
+    const auto same = std::find_if(list.begin(), list.end(), [&](const auto& a) { return a.name == account.name; });
+    if (same == list.end()) {
+      list.push_back(std::move(account));
+    } else {
+      same->impulse += account.impulse;
+      same->exchanged += account.exchanged;
+    }
+  }
+}
+
+void Modules::keep(StateArchive& archive) {
+  std::set<std::string> taken;
+  for (Module* module : list_) {
+    const std::string name = group_name(module->name());
+    std::string unique = name;
+    for (int copy = 2; !taken.insert(unique).second; ++copy) unique = name + "_" + std::to_string(copy);
+    const StateArchive::Group group(archive, unique);
+    module->keep(archive);
+  }
+}
+
+}  // namespace mpm

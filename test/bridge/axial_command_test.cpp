@@ -1,5 +1,5 @@
-// Commands in an axisymmetric scene: a tool stays on the axis and upright, whatever it is told, and a refused
-// command changes nothing.
+// Commands in an axisymmetric scene: a tool stays on the axis and upright under any command, and a refused command
+// changes nothing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -68,13 +68,13 @@ TEST_F(AxialCommand, OffTheAxisTiltedOrTurnedIsRefused) {
                  "its pose is turned by 0.2 rad");
   expect_refused(pose(cone_, {0.0, 0.0, 0.045}, mpm::Quat(Eigen::AngleAxisd(0.2, mpm::Vec3::UnitZ()))),
                  "its pose is turned by 0.2 rad");
-  // What it followed before it goes on to follow.
+  // It continues to follow the command before.
   apply(velocity(cone_, {0.0, 0.0, -0.1}), simulation_);
   expect_refused(velocity(cone_, {1.0, 0.0, 0.0}), "velocity along x is 1 m/s");
 }
 
 TEST_F(AxialCommand, NoiseIsDropped) {
-  // The command's size is 0.1 m/s; the cone's farthest corner is hypot(0.03, 0.03, 0.05) = 0.066 m from its origin.
+  // The commanded speed is 0.1 m/s; the cone's farthest corner is hypot(0.03, 0.03, 0.05) = 0.066 m from its origin.
   apply(velocity(cone_, {0.9e-7, -0.9e-7, -0.1}, {1e-6, 0.0, -1e-6}), simulation_);
   EXPECT_EQ(simulation_.rigid_body(cone_).twist().linear, mpm::Vec3(0.0, 0.0, -0.1));
   EXPECT_EQ(simulation_.rigid_body(cone_).twist().angular, mpm::Vec3::Zero());
@@ -98,7 +98,7 @@ TEST_F(AxialCommand, ARingOpensAlongXAlone) {
 }
 
 TEST_F(AxialCommand, ARingThatClosesEndsTheRun) {
-  // Its inner radius is 0.055 m, which 3 m/s use up in 18 ms; nothing else is in its way.
+  // Its inner radius is 0.055 m, which it closes at 3 m/s in 18 ms without meeting anything.
   apply(velocity(jaws_, {-3.0, 0.0, 0.0}), simulation_);
   try {
     while (simulation_.time() < 20'000'000) simulation_.advance();

@@ -1,4 +1,4 @@
-// What a simulation is not told: a motion that no tool means.
+// Commands that a simulation refuses: motions that cannot be meant for a tool.
 #include "mpm_ros/command/body_command.hpp"
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST_F(TooFast, PoseThatIsFarForItsTime) {
 }
 
 TEST_F(TooFast, WhatAPlaneDoesNotHaveIsNoTravel) {
-  // A robot's link that stands beside the plane of the scene, tilted a little about x.
+  // The pose of a robot's link beside the plane of the scene, slightly tilted about x.
   command_.kind = CommandKind::pose;
   command_.pose = simulation_.rigid_body(command_.body).pose();
   command_.pose.position.y() = 20.0 * diagonal_;
@@ -78,14 +78,14 @@ TEST_F(TooFast, APoseOfMoreThanACellInASyncPeriodIsAJump) {
   command_.kind = CommandKind::pose;
   command_.pose = simulation_.rigid_body(command_.body).pose();
   command_.arrival = 2 * simulation_.sync_period();
-  command_.pose.position.z() += 1.99 * 0.01;  // in two periods; a cell is 10 mm
+  command_.pose.position.z() += 1.99 * 0.01;  // over two periods; a cell is 10 mm
   EXPECT_EQ(jump_of(command_, simulation_), "");
   command_.pose.position.z() += 0.02 * 0.01;
   const std::string jump = jump_of(command_, simulation_);
   EXPECT_EQ(jump.substr(0, 13), "'plate' jumps") << jump;
-  expect_taken();  // told, and carried out
+  expect_taken();  // accepted and carried out
   command_.kind = CommandKind::velocity;
-  command_.twist.linear.z() = 100.0;  // who says a speed means it
+  command_.twist.linear.z() = 100.0;  // an explicit velocity has no such limit
   EXPECT_EQ(jump_of(command_, simulation_), "");
 }
 

@@ -1,4 +1,4 @@
-// Random parts of commands: sound ones, and all that can come over the wire.
+// Random parts of commands: valid ones, and any that can arrive over the network.
 #pragma once
 
 #include <geometry_msgs/Pose.h>
@@ -16,7 +16,7 @@ namespace mpm_ros::test {
 
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Simulated time zero: so late that a stamp can lie 1e9 s before it and still be one.
+/// Stamp of simulated time zero, late enough for a stamp 1e9 s before it to be valid.
 inline const ros::Time kOrigin(1'500'000'000, 0);
 
 class Dice {
@@ -55,7 +55,7 @@ class Dice {
     const double angle = uniform(-1.0, 1.0), scale = kind == 1 ? uniform(0.0, 2.0) : 1.0;
     pose.orientation.w = scale * std::cos(angle);
     pose.orientation.y = scale * std::sin(angle);
-    if (kind == 2) pose.orientation = geometry_msgs::Quaternion();  // zero: an empty message
+    if (kind == 2) pose.orientation = geometry_msgs::Quaternion();  // zero, as in an empty message
     if (kind == 3) pose.orientation.x = number();
     return pose;
   }
@@ -68,11 +68,11 @@ class Dice {
   std::string frame() {
     return below(8) == 0 ? unknown_frame() : one_of<std::string>({"", "world", "plate", "rod", "sensor"});
   }
-  /// More than the hour ahead that is believed.
+  /// A stamp farther ahead than the hour that is accepted.
   ros::Time far_stamp(double now) {
     switch (below(3)) {
       case 0:
-        return raw(4'000'000'000U + word() % 200'000'000U, word());  // nanoseconds beyond a second
+        return raw(4'000'000'000U + word() % 200'000'000U, word());  // more nanoseconds than a second has
       case 1:
         return raw(0xffffffffU, 0xffffffffU);
       default:
@@ -95,7 +95,7 @@ class Dice {
   }
 
  private:
-  /// As it could come over the wire: not normalised.
+  /// A stamp as it may arrive over the network, not normalised.
   static ros::Time raw(std::uint32_t sec, std::uint32_t nsec) {
     ros::Time time;
     time.sec = sec;

@@ -1,6 +1,5 @@
-// Ten thousand random commands through the reader, the queue and a run that goes on meanwhile: nothing crashes or
-// hangs, every refusal is one line that says why, what is refused changes nothing, what is applied is recorded and
-// replays.
+// Ten thousand random commands pass the reader and the queue into a run in progress: nothing crashes or hangs, every
+// refusal is one line with the reason and changes nothing, and applied commands are recorded and replay.
 #include <gtest/gtest.h>
 #include <ros/console.h>
 
@@ -49,7 +48,7 @@ RunOptions options() {
   return options;
 }
 
-/// The part of the node between topics and run: reader, queue, run, without a connection.
+/// The part of the node between topics and run, without a connection: reader, queue and run.
 class Console {
  public:
   Console() : reader_({"plate", "rod"}, "world", "/mpm/bodies/", frames_, queue_, health_) {
@@ -118,7 +117,7 @@ class Console {
   std::uint64_t applied_ = 0;
 };
 
-/// A command as the service takes it, applied at once when it is sound.
+/// Sends a command as a service request; it is applied at once if it is valid.
 void request(Console& console, const mpm_ros::Command& message) {
   std::string problem;
   DueCommand due;
@@ -148,8 +147,8 @@ class CommandFuzz : public testing::Test {
 
 double seconds_of(Console& console) { return static_cast<double>(console.simulation().time()) * 1e-9; }
 
-/// A command that is sound but for one thing. Those that are too fast are refused when their time has come, the others
-/// at once.
+/// Sends a command that is valid except for one part. Commands that are too fast are refused when they are due, the
+/// others at once.
 void send_bad(Console& console, Dice& dice) {
   const int body = dice.below(2);
   const double now = seconds_of(console);
@@ -266,7 +265,7 @@ void send_any(Console& console, Dice& dice) {
   }
 }
 
-/// The same commands as recorded, in a run of their own; ends as the first did, with the same state.
+/// Replays the recorded commands in a new run and expects it to end as the first did, with the same state.
 void expect_replay(const std::vector<Command>& recorded, std::int64_t end, bool failed, std::uint64_t hash) {
   Run run(press(), options(), Stamps(kOrigin), nullptr);
   run.begin();
@@ -307,14 +306,14 @@ TEST_F(CommandFuzz, WhatIsAppliedIsRecordedAndReplays) {
     try {
       console->advance();
     } catch (const mpm::PhysicsError& error) {
-      // A tool that is driven through the strip may tear it: that ends a run, in one line, and another begins.
+      // A tool that is driven through the strip may tear it. This ends the run with one line, and another begins.
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
       finish(true);
       console = std::make_unique<Console>();
     }
   }
   finish(false);
-  // The dice are loaded so that both ends are met often; otherwise this test would say nothing.
+  // Refused and applied commands must both be frequent, otherwise the test would show nothing.
   EXPECT_GT(refused, 1000U);
   EXPECT_GT(applied, 1000U);
   EXPECT_GE(sync_points, static_cast<std::uint64_t>(kMessages / kMessagesBetweenSyncPoints));

@@ -1,5 +1,5 @@
-// Bodies with limits: ramps and braking in numbers worked out by hand. Sync points are 2 ms apart; the sled of
-// test/data/drive.yaml may do 0.4 m/s and 20 m/s^2, 0.04 m/s a sync period.
+// Bodies with limits: ramps and braking against numbers computed by hand. Sync points are 2 ms apart; the sled of
+// test/data/drive.yaml is limited to 0.4 m/s and 20 m/s^2, which is 0.04 m/s a sync period.
 #include "mpm_ros/command/command_limiter.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace mpm_ros {
 namespace {
 
 constexpr double kPeriod = 0.002;
-constexpr double kRound = 1e-12;  // of lengths of 0.1 m, added up over some hundred periods
+constexpr double kRound = 1e-12;  // round-off of lengths of 0.1 m, summed over some hundred periods
 
 class Limiter : public testing::Test {
  protected:
@@ -50,7 +50,7 @@ class Limiter : public testing::Test {
     command.arrival = simulation_.time() + std::llround(seconds * 1e9);
     return command;
   }
-  /// One sync period; how many commands it took.
+  /// Advances by one sync period and returns the number of commands that it applied.
   std::size_t advance() {
     const std::vector<AppliedCommand> commands = limiter_.next(simulation_);
     for (const AppliedCommand& command : commands) {
@@ -86,13 +86,13 @@ class Limiter : public testing::Test {
 
 TEST_F(Limiter, VelocityIsARampToTheSpeedThatIsAllowed) {
   ASSERT_TRUE(limiter_.take(velocity(1.0), simulation_));
-  // 1 m/s is asked for, 0.4 m/s allowed: ten steps of 0.04 m/s.
+  // 1 m/s is commanded and 0.4 m/s allowed: ten steps of 0.04 m/s.
   expect_near(steps(12), {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 10, 10});
-  EXPECT_EQ(applied_.size(), 10U);  // from there on it goes on by itself
+  EXPECT_EQ(applied_.size(), 10U);  // after that no command is needed
   // 0.04 m/s times 2 ms times 55, and two periods at full speed.
   EXPECT_NEAR(x(), 0.04 * kPeriod * (55.0 + 20.0), kRound);
   EXPECT_EQ(diagnostic("limited of sled"), "1");  // one command
-  // Told to turn back, it slows down first.
+  // Commanded to turn back, it slows down first.
   ASSERT_TRUE(limiter_.take(velocity(-0.04), simulation_));
   expect_near(steps(12), {9, 8, 7, 6, 5, 4, 3, 2, 1, 0, -1, -1});
   EXPECT_EQ(diagnostic("limited of sled"), "2");
@@ -107,11 +107,11 @@ TEST_F(Limiter, VelocityWithinTheLimitsIsAppliedAsItIs) {
 }
 
 TEST_F(Limiter, BrakingSpeedLeadsToRestInWholeSteps) {
-  // A step of speed is 0.04 m/s, which goes 80 um in a period. From n steps it goes on by 1 + ... + n of those.
+  // A step of speed is 0.04 m/s, 80 um in a period. Braking from n steps takes 1 + ... + n of these.
   const double unit = 0.04 * kPeriod;
   EXPECT_NEAR(braking_speed(unit * 1.0, 20.0, kPeriod), 0.04 * 1.0, 1e-15);
   EXPECT_NEAR(braking_speed(unit * 10.0, 20.0, kPeriod), 0.04 * 4.0, 1e-15);
-  // 3.75 steps and then 2.75, 1.75, 0.75: 9.
+  // 3.75 steps, then 2.75, 1.75 and 0.75: 9 in all.
   EXPECT_NEAR(braking_speed(unit * 9.0, 20.0, kPeriod), 0.04 * 3.75, 1e-15);
   EXPECT_NEAR(braking_speed(unit * 0.5, 20.0, kPeriod), 0.04 * 0.5, 1e-15);
   EXPECT_EQ(braking_speed(0.1, mpm::MotionLimits::kNone, kPeriod), 0.1 / kPeriod);
@@ -119,10 +119,10 @@ TEST_F(Limiter, BrakingSpeedLeadsToRestInWholeSteps) {
 }
 
 TEST_F(Limiter, PoseIsReachedLateAndAtRest) {
-  // 10 of those units away, asked for in one period.
+  // A pose 10 of those units away, commanded for the next period.
   ASSERT_TRUE(limiter_.take(pose(10.0 * 0.04 * kPeriod, 0.0, kPeriod), simulation_));
-  // By hand: in steps, the least of one more than before and what leads to rest from the units that are left:
-  // 10, 9, 7, 4, 5/3, 1/3.
+  // By hand, in steps of speed: the lesser of one more than before and the speed from which it can stop within the
+  // units that are left, which are 10, 9, 7, 4, 5/3, 1/3.
   expect_near(steps(7), {1, 2, 3, 7.0 / 3.0, 4.0 / 3.0, 1.0 / 3.0, 0});
   EXPECT_EQ(applied_.size(), 6U);
   EXPECT_EQ(x(), (sled().definition().pose.position.x() + 10.0 * 0.04 * kPeriod) - 0.02);  // exactly there
@@ -130,11 +130,11 @@ TEST_F(Limiter, PoseIsReachedLateAndAtRest) {
 }
 
 TEST_F(Limiter, ABodyThatIsBehindItsPoseSaysSo) {
-  // 8 mm in 10 ms asks for twice what is allowed: after 10 ms it has made 0.04 m/s times 2 ms times 15, 1.2 mm.
+  // 8 mm in 10 ms is twice the allowed speed: after 10 ms it has moved by 0.04 m/s times 2 ms times 15, 1.2 mm.
   ASSERT_TRUE(limiter_.take(pose(0.008, 0.0, 5 * kPeriod), simulation_));
   for (int i = 0; i < 5; ++i) advance();
   EXPECT_EQ(std::stod(diagnostic("behind [m] of sled")), 0.0);
-  advance();  // its time has come: it is told at the sync point
+  advance();  // the pose is due: the sync point reports the lag
   EXPECT_EQ(std::stod(diagnostic("behind [m] of sled")), 0.0068);
   EXPECT_NE(diagnostic("message").find("'sled' is behind its pose by 0.0068 m"), std::string::npos)
       << diagnostic("message");
@@ -145,8 +145,8 @@ TEST_F(Limiter, ABodyThatIsBehindItsPoseSaysSo) {
 }
 
 TEST_F(Limiter, APoseIsReachedAsSoonAsLimitsAllow) {
-  // 25 units in ten periods. By hand: what is lost at the start is made good for (22 units in eight periods are 2.75 a
-  // period), and one step in the end must be spared for braking.
+  // 25 units in ten periods. By hand: the body makes up for the delay at the start (22 units in eight periods are 2.75
+  // a period), and keeps one step at the end for braking.
   ASSERT_TRUE(limiter_.take(pose(25.0 * 0.04 * kPeriod, 0.0, 10 * kPeriod), simulation_));
   expect_near(steps(12), {1, 2, 2.75, 2.75, 2.75, 2.75, 2.75, 2.75, 2.75, 1.875, 0.875, 0});
 }
@@ -165,7 +165,7 @@ TEST_F(Limiter, NothingIsExceededWhateverIsAsked) {
     }
     advance();
     const mpm::Twist& now = sled().twist();
-    // Twists are worked out of poses again, which have round-off over 2 ms.
+    // Twists are computed from poses, whose round-off is divided by 2 ms.
     EXPECT_LE(now.linear.norm(), 0.4 + 1e-9);
     EXPECT_LE(now.angular.norm(), 5.0 + 1e-9);
     EXPECT_LE((now.linear - before.linear).norm(), 0.04 + 1e-9);
@@ -190,7 +190,7 @@ TEST_F(Limiter, WhatWasAppliedReplaysWithoutTheLimiter) {
 }
 
 TEST_F(Limiter, WhatAPlaneDoesNotHaveIsNoGoal) {
-  // A robot's link stands beside the plane, and is tilted a little.
+  // The pose of a robot's link beside the plane, slightly tilted.
   AppliedCommand command = pose(0.0001, 0.0, kPeriod);
   command.pose.position.y() = 0.3;
   command.pose.orientation = Eigen::AngleAxisd(0.1, mpm::Vec3::UnitX());
@@ -206,7 +206,7 @@ TEST_F(Limiter, WhatTheBodyWouldRefuseIsRefusedAtOnce) {
   CommandLimiter limiter(limits(), health_);
   ASSERT_TRUE(limiter.take(velocity(0.1), simulation));
   EXPECT_THROW(limiter.take(pose(0.01, 0.0, kPeriod), simulation), mpm::RigidError);  // a free body takes no pose
-  // The ramp under way goes on, 0.04 m/s a period, along the axis that is told.
+  // The present ramp continues by 0.04 m/s a period, along the axis that is prescribed.
   const std::vector<AppliedCommand> next = limiter.next(simulation);
   ASSERT_EQ(next.size(), 1U);
   EXPECT_NEAR(next[0].twist.linear.x(), 0.04, kRound);

@@ -1,5 +1,5 @@
-// In which order commands are applied must not depend on when they came, where stamps allow it. Sync points are 10 ns
-// apart here.
+// The order in which commands are applied must not depend on their time of arrival, where stamps allow it. Sync points
+// are 10 ns apart here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -70,7 +70,7 @@ TEST(CommandOrder, WhatComesOnHoldWaitsOutside) {
   EXPECT_EQ(speeds(queue.take(10)), Speeds{1.0});
   EXPECT_TRUE(queue.take(20).empty());
   queue.release();
-  EXPECT_EQ(queue.late().past, 1U);  // 10 ns had passed when it was let in
+  EXPECT_EQ(queue.late().past, 1U);  // 10 ns had passed when it was accepted
   EXPECT_EQ(speeds(queue.take(30)), (Speeds{3.0, 2.0}));
   queue.push(velocity(4.0, "/a", {}));
   EXPECT_EQ(speeds(queue.take(40)), Speeds{4.0});

@@ -1,4 +1,4 @@
-// When a command takes effect, in which order, and what it puts an end to. Sync points are 10 ns apart here.
+// When a command takes effect, in which order, and which other commands it ends. Sync points are 10 ns apart here.
 #include "mpm_ros/command/command_queue.hpp"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ TEST(CommandQueue, PastStampIsAppliedAtTheNextSyncPointAndCounted) {
   queue.push(velocity(0, 2.0, 11));
   EXPECT_EQ(queue.late().past, 1U);
   BodyCommand unstamped = velocity(0, 3.0);
-  unstamped.late = true;  // a stamped topic's message with stamp zero
+  unstamped.late = true;  // as a message with stamp zero on a stamped topic
   CommandQueue other(10);
   other.push(unstamped);
   EXPECT_EQ(other.late().unstamped, 1U);
@@ -117,7 +117,7 @@ TEST(CommandQueue, LatePosesArriveOneCommandPeriodLater) {
   queue.push(pose(0, 1.0, 0));
   std::vector<DueCommand> due = queue.take(10);
   ASSERT_EQ(due.size(), 1U);
-  EXPECT_EQ(due[0].arrival, 20);  // no period is known: one sync period
+  EXPECT_EQ(due[0].arrival, 20);  // the period is not known yet: one sync period
   queue.take(20);
   queue.take(30);
   queue.push(pose(0, 2.0, 30));
@@ -135,14 +135,14 @@ TEST(CommandQueue, PosesWithoutStampTakeTheirPeriodFromTheSyncPoints) {
   queue.push(pose(0, 2.0));
   const std::vector<DueCommand> due = queue.take(30);
   ASSERT_EQ(due.size(), 1U);
-  EXPECT_EQ(due[0].arrival, 50);  // they set out at 10 and at 30
+  EXPECT_EQ(due[0].arrival, 50);  // their motions begin at 10 and at 30
 }
 
 TEST(CommandQueue, VelocityEndsThePosesReceivedBeforeIt) {
   CommandQueue queue(10);
   queue.push(pose(0, 1.0, 20));
   queue.push(pose(0, 2.0, 40));
-  queue.push(pose(1, 9.0, 40));  // another body's
+  queue.push(pose(1, 9.0, 40));  // for another body
   queue.take(0);
   queue.push(velocity(0, 1.0));
   EXPECT_EQ(speeds(queue.take(10)), Speeds{1.0});
@@ -175,7 +175,7 @@ TEST(CommandQueue, PoseEndsAVelocityThatWaits) {
 
 TEST(CommandWatch, NamesEachSilenceOnce) {
   CommandWatch watch(50);
-  EXPECT_TRUE(watch.silent(1000).empty());  // nobody was commanded
+  EXPECT_TRUE(watch.silent(1000).empty());  // no body was commanded
   AppliedCommand command;
   command.body = 3;
   command.effect = 100;

@@ -1,4 +1,4 @@
-// Conversions, stamps and clouds, against values worked out by hand.
+// Conversions, stamps and clouds, against values computed by hand.
 #include "mpm_ros/message/conversions.hpp"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(Conversions, QuaternionIsNormalisedWithinOneThousandthAndRefusedBeyond) {
   EXPECT_NE(problem_of(pose_message(1.0011, 0.0, 0.0, 0.0)), "");
   EXPECT_NE(problem_of(pose_message(0.9989, 0.0, 0.0, 0.0)), "");
   EXPECT_NE(problem_of(pose_message(0.0, 0.0, 0.0, 0.0)), "");
-  // One division and one square root: a few units in the last place.
+  // One division and one square root: an error of a few units in the last place.
   EXPECT_NEAR(checked_pose(pose_message(1.0009, 0.0, 0.0, 0.0)).orientation.norm(), 1.0, 1e-15);
 }
 
@@ -301,9 +301,9 @@ TEST(ContactAverage, ArmsGoByTheNormalImpulse) {
   average.add({{pressed(0.0, 1.0, 0.0, 1.0)}, {}});  // nothing pressed: no arm
   average.add({{pressed(6.0, 1.0, 2.0, 2.0)}, {}});  // 6 N s
   average.add({{pressed(1.0, 2.0, 6.0, 3.0)}, {}});  // 2 N s
-  average.add({{pressed(0.0, 4.0, 0.0, 4.0)}, {}});  // nothing again, but the body went on
+  average.add({{pressed(0.0, 4.0, 0.0, 4.0)}, {}});  // nothing again, but the body moved on
   const std::vector<mpm::ContactReport> taken = average.take().bodies;
-  // (6 x 2 m + 2 x 6 m) / 8 from where the body is now
+  // (6 x 2 m + 2 x 6 m) / 8 from the present position of the body
   EXPECT_EQ(taken[0].centre_of_pressure(), mpm::Vec3(7.0, 0.0, 0.0));
   EXPECT_EQ(taken[0].pressing, 1.0);  // 8 N s in 8 s
   EXPECT_EQ(taken[0].friction.y(), 1.0);

@@ -1,4 +1,4 @@
-// A tf frame's transforms as pose commands: by their stamps, each once, and what is said while there is none.
+// Transforms of a tf frame as pose commands: by their stamps, each once, and the report while there is none.
 #include "mpm_ros/command/frame_follower.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ class Follower : public testing::Test {
     message.transform.rotation.w = 1.0;
     ASSERT_TRUE(frames_.setTransform(message, "test", constant));
   }
-  /// What is applied at the sync point of that number.
+  /// Commands that are due at the sync point of that number.
   std::vector<DueCommand> at(int sync) {
     follower_.look(Stamps().at((sync + 1) * kSync));
     return queue_.take(sync * kSync);
@@ -58,7 +58,7 @@ TEST_F(Follower, ATransformIsTakenOnceAndReachedOnePeriodLater) {
   transform(0.1, 0.005);
   EXPECT_EQ(at(1).size(), 1U);
   EXPECT_TRUE(at(2).empty());
-  transform(0.2, 0.025);  // 20 ms after the one before: the period
+  transform(0.2, 0.025);  // 20 ms after the one before, which is the period
   const std::vector<DueCommand> due = at(3);
   ASSERT_EQ(due.size(), 1U);
   EXPECT_EQ(due[0].arrival, 5 * kSync);
@@ -74,7 +74,7 @@ TEST_F(Follower, AFrameThatIsStampedAheadIsFollowedToEachSyncPoint) {
     EXPECT_NEAR(due[0].command.pose.position.x(), 10.0 * ((sync + 1) * 0.01 - 0.0001), 1e-12) << sync;
   }
   EXPECT_EQ(queue_.late().past, 0U);
-  // The last piece of the way, which ends after that sync point: by the last stamp, and then nothing more.
+  // The last part of the motion ends after that sync point: there is a command for the last stamp, and then none.
   EXPECT_EQ(at(9).size(), 1U);
   const std::vector<DueCommand> last = at(10);
   ASSERT_EQ(last.size(), 1U);
@@ -87,7 +87,7 @@ TEST_F(Follower, ChainsOfFramesAndStaticOnesAreFollowed) {
   transform(0.5, 0.0, "base", "tool0", true);
   for (int sync = 0; sync < 3; ++sync) {
     const std::vector<DueCommand> due = at(sync);
-    ASSERT_EQ(due.size(), 1U);  // a body that is told where to be hears something
+    ASSERT_EQ(due.size(), 1U);  // a body with a prescribed pose receives a command
     EXPECT_EQ(due[0].command.pose.position.x(), 1.5);
   }
 }
@@ -102,14 +102,14 @@ TEST_F(Follower, OtherCommandsForABodyThatFollowsAreRefused) {
   std::string problem;
   reader_.read(command, problem);
   EXPECT_NE(problem.find("it follows the tf frame 'tool0'"), std::string::npos) << problem;
-  reader_.take(0, geometry_msgs::Twist());  // the plate does not
+  reader_.take(0, geometry_msgs::Twist());  // the plate follows no frame
   EXPECT_EQ(health_.refused(), 1U);
 }
 
 TEST_F(Follower, ATransformThatIsNoPoseIsRefused) {
   geometry_msgs::PoseStamped pose;
   pose.header.stamp = ros::Time(0.005);
-  reader_.follow(1, pose);  // a quaternion of zeros
+  reader_.follow(1, pose);  // its quaternion is zero
   EXPECT_EQ(health_.refused(), 1U);
   EXPECT_TRUE(queue_.take(0).empty());
 }

@@ -1,4 +1,4 @@
-// A disk without room, for tests.
+// A full disk, for tests.
 #pragma once
 
 #include <signal.h>
@@ -6,7 +6,7 @@
 
 namespace mpm_ros::test {
 
-/// While it lives no file grows beyond `bytes`: what a full disk is to a process.
+/// As long as the object exists, no file grows beyond `bytes`, which acts on the process as a full disk does.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : handler_(signal(SIGXFSZ, SIG_IGN)) {

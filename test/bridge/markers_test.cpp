@@ -1,4 +1,4 @@
-// What RViz is told of contact, and of the shapes.
+// Markers of contact and of shapes for RViz.
 #include "mpm_ros/message/markers.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ TEST(ForceText, HasThreeDigitsAndAPrefix) {
   EXPECT_EQ(force_text(53.72), "53.7 N");
   EXPECT_EQ(force_text(1.0), "1.00 N");
   EXPECT_EQ(force_text(1000.0), "1.00 kN");
-  EXPECT_EQ(force_text(999.6), "1.00 kN");  // rounded before it gets its prefix
+  EXPECT_EQ(force_text(999.6), "1.00 kN");  // rounded before the choice of a prefix
   EXPECT_EQ(force_text(12345.0), "12.3 kN");
   EXPECT_EQ(force_text(2.5e6), "2.50 MN");
   EXPECT_EQ(force_text(0.035), "35.0 mN");
@@ -77,9 +77,9 @@ TEST(ForceMarkers, AllGoWhenTheContactEnds) {
   ASSERT_EQ(gone.markers.size(), there.markers.size());
   for (std::size_t i = 0; i < gone.markers.size(); ++i) {
     EXPECT_EQ(gone.markers[i].action, Marker::DELETE);
-    EXPECT_EQ(gone.markers[i].ns, there.markers[i].ns);  // a marker is known by its namespace and number
+    EXPECT_EQ(gone.markers[i].ns, there.markers[i].ns);  // namespace and number identify a marker
     EXPECT_EQ(gone.markers[i].id, there.markers[i].id);
-    // RViz refuses what is not finite, whatever the action.
+    // RViz refuses markers that are not finite, whatever their action.
     EXPECT_TRUE(std::isfinite(gone.markers[i].pose.position.x));
   }
 }
@@ -91,7 +91,7 @@ TEST(ShapeMarkers, PlanarBodiesAreSlices) {
   ASSERT_EQ(array.markers.size(), 2U);
   for (const Marker& marker : array.markers) {
     ASSERT_FALSE(marker.points.empty());
-    // As thick as a cell, 0.01 m.
+    // The shape is as thick as a cell, 0.01 m.
     for (const geometry_msgs::Point& point : marker.points) EXPECT_LE(std::abs(point.y), 0.005);
   }
   EXPECT_EQ(array.markers[0].header.frame_id, "plate");

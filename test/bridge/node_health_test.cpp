@@ -1,4 +1,4 @@
-// The two statuses on /diagnostics: a level each, and what they say.
+// The levels and messages of the two statuses on /diagnostics.
 #include "mpm_ros/message/node_health.hpp"
 
 #include <gtest/gtest.h>
@@ -96,10 +96,10 @@ TEST(SolverHealth, WarnsOfACrushedParticle) {
 TEST(SolverHealth, WarnsWhenTheWallClockIsNotKeptUpWith) {
   SolverHealth solver = running();
   solver.real_time_factor = 0.3;
-  EXPECT_EQ(solver_status(solver).level, DiagnosticStatus::OK);  // no period was late yet: it has just begun
+  EXPECT_EQ(solver_status(solver).level, DiagnosticStatus::OK);  // just started: no period was late yet
   solver.overruns = 12;
   EXPECT_EQ(solver_status(solver).level, DiagnosticStatus::WARN);
-  solver.asked_factor = 0.0;  // free, lockstep, paused: nobody asked
+  solver.asked_factor = 0.0;  // free, in lockstep or paused: no factor is asked for
   EXPECT_EQ(solver_status(solver).level, DiagnosticStatus::OK);
 }
 
@@ -140,7 +140,7 @@ TEST(CommandHealth, WarnsOfARefusalForAWhile) {
   Status later;
   health.fill_commands(later, NodeHealth::Clock::now() + NodeHealth::kFresh);
   EXPECT_EQ(later.level, DiagnosticStatus::OK);
-  EXPECT_EQ(value_of(later, "refused"), "1");  // it is not forgotten
+  EXPECT_EQ(value_of(later, "refused"), "1");  // the count is kept
   EXPECT_EQ(value_of(later, "last refused"), "refused: frame 'a?b' is not known");
 }
 

@@ -14,7 +14,7 @@
 namespace mpm_ros {
 namespace {
 
-/// The error's text, or "" when the parameters are taken.
+/// The text of the error, or "" if the parameters are accepted.
 std::string error_of(const ParameterValues& values) {
   std::vector<std::string> warnings;
   try {
@@ -65,7 +65,7 @@ TEST(NodeParameters, WrongTypesAndRangesNameTheParameter) {
   EXPECT_NE(error_of(with("reset_time", "now")).find("~reset_time is 'now'"), std::string::npos);
   EXPECT_NE(error_of(with("particle_stride", 0)).find("~particle_stride"), std::string::npos);
   EXPECT_NE(error_of(with("record_compression", "zip")).find("~record_compression"), std::string::npos);
-  EXPECT_EQ(error_of(with("real_time_factor", 2)), "");  // a whole number is a number
+  EXPECT_EQ(error_of(with("real_time_factor", 2)), "");  // an integer is accepted
 }
 
 TEST(NodeParameters, MisspeltNamesAreWarnedOf) {
@@ -152,7 +152,7 @@ TEST(Pacer, SmallDelaysAreCaughtUpWithAndLargeOnesAreNot) {
 }
 
 TEST(Pacer, NoRoundingAddsUp) {
-  // A third of a millisecond is no whole number of nanoseconds; three million of them are 1000 s.
+  // A third of a millisecond is not a whole number of nanoseconds; three million of them are 1000 s.
   Pacer pacer(1'000'000, 3.0);
   const Pacer::Clock::time_point start{};
   pacer.restart(start);

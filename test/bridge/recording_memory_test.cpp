@@ -1,4 +1,4 @@
-// A recording that is never split needs no more memory the longer it gets, whatever ends its chunks.
+// The memory of a recording that is never split does not grow with its length, however its chunks end.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -13,10 +13,10 @@ namespace mpm_ros {
 namespace {
 
 constexpr std::int64_t kMegabyte = 1000000;
-constexpr std::int64_t kCloud = 80000;  // [byte] of a message
-constexpr int kCut = 5;                 // messages from cut to cut: 0.4 MB, less than the 768 kB that end a chunk
+constexpr std::int64_t kCloud = 80000;  // size of a message [byte]
+constexpr int kCut = 5;                 // messages between cuts: 0.4 MB, less than the 768 kB that end a chunk
 
-/// [byte] in memory now.
+/// Present memory of the process [byte].
 std::int64_t memory() {
   std::ifstream file("/proc/self/statm");
   std::int64_t pages = 0, resident = 0;
@@ -35,14 +35,14 @@ void record(BagRecorder& recorder, int from, int to) {
 
 class RecordingMemory : public ::testing::TestWithParam<const char*> {};
 
-// After the first 4 MB every buffer has its size. What is left over is an entry for each chunk: 1000 of them here, with
-// 50 bytes for each topic in it and as much for the rest, 0.1 MB; and what the allocator does not give back. A recorder
-// that kept its chunks would hold 200 MB.
+// After the first 4 MB every buffer has its final size. Only the entries of chunks remain, 1000 of them here with 50
+// bytes for each topic and as much again, 0.1 MB; and memory that the allocator does not return. A recorder that kept
+// its chunks would hold 200 MB.
 TEST_P(RecordingMemory, DoesNotGrowWithARecordingThatIsCutOften) {
   const TemporaryFolder folder;
   BagOptions options;
   options.compression = GetParam();
-  options.chunk_period = std::chrono::seconds(0);  // each sync point cuts
+  options.chunk_period = std::chrono::seconds(0);  // each sync point ends a chunk
   BagRecorder recorder(folder.file("run.bag"), options);
   const int begun = 50, all = static_cast<int>(200 * kMegabyte / kCloud);
   record(recorder, 0, begun);

@@ -1,4 +1,4 @@
-// Recordings that are split, replaced, cut off by a full disk, and run again from the bag alone.
+// Recordings that are split, replaced, ended by a full disk, and run again from the bag alone.
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 const std::string kPress = data_file("press.yaml");
 
-/// 0.2 s in sync periods of 2 ms, with commands of both kinds; returns the state hash at the end.
+/// Runs 0.2 s in sync periods of 2 ms, with commands of both kinds; returns the state hash at the end.
 std::uint64_t press_run(const std::string& bag, const BagOptions& bag_options = {},
                         const std::vector<std::string>& set = {}) {
   const mpm::Scene scene = mpm::load_scene(kPress, set);
@@ -55,7 +55,7 @@ std::uint64_t press_run(const std::string& bag, const BagOptions& bag_options = 
   return run.simulation().state_hash();
 }
 
-/// Counts what a recording holds.
+/// Counts the messages of a recording.
 class Counter : public RunVisitor {
  public:
   void bodies(std::int64_t time, const BodyStates&) override { times.push_back(time); }
@@ -94,12 +94,12 @@ TEST(Recording, IsSplitByTimeAndReadsLikeOneBag) {
   press_run(folder.file("split.bag"), options);
 
   const std::vector<std::string> parts = parts_of(folder.file("split.bag"));
-  // Ends at 0.05, 0.1, 0.15 s; nothing is left to be written after 0.2 s.
+  // Parts end at 0.05, 0.1, 0.15 and 0.2 s; nothing is left for a fifth part.
   ASSERT_EQ(parts.size(), 4U);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     rosbag::Bag bag(parts[i]);
     rosbag::View view(bag);
-    // A sync point and what belongs to it are in one part: the last of a part is at a multiple of 0.05 s.
+    // All messages of a sync point are in one part, so a part ends at a multiple of 0.05 s.
     EXPECT_EQ(view.getEndTime().toNSec(), 50'000'000U * (i + 1)) << parts[i];
     std::map<std::string, int> latched;
     for (const rosbag::MessageInstance& message : view) {
@@ -109,12 +109,12 @@ TEST(Recording, IsSplitByTimeAndReadsLikeOneBag) {
       const std::string topic = message.getTopic();
       if (topic == "/mpm/run_info" || topic == "/mpm/markers") {
         ++latched[topic];
-        EXPECT_EQ(message.getTime(), view.getBeginTime()) << parts[i];  // before anything else, and not from the past
+        EXPECT_EQ(message.getTime(), view.getBeginTime()) << parts[i];  // the first message, and not of an earlier time
       }
     }
     EXPECT_EQ(latched["/mpm/run_info"], 1) << parts[i];
     EXPECT_EQ(latched["/mpm/markers"], 1) << parts[i];
-    read_all(parts[i]);  // alone: topics and start are there
+    read_all(parts[i]);  // each part alone has the topics and the start
   }
 
   const Counter whole = read_all(folder.file("whole.bag")), split = read_all(folder.file("split.bag"));
@@ -140,8 +140,8 @@ TEST(Recording, IsSplitBySize) {
   press_run(folder.file("split.bag"), options);
   const std::vector<std::string> parts = parts_of(folder.file("split.bag"));
   ASSERT_GT(parts.size(), 2U);
-  // A part ends at the first sync point beyond the size: all but the last reach it, with less than a sync point more.
-  // The largest is one with particles, some 12 kB; the index behind the messages is less than they are.
+  // A part ends at the first sync point beyond the size: all but the last reach it, and exceed it by less than a sync
+  // point. The largest sync point has particles, about 12 kB; the index at the end is smaller than the messages.
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     EXPECT_GE(fs::file_size(parts[i]), 100'000U) << parts[i];
     EXPECT_LE(fs::file_size(parts[i]), 200'000U) << parts[i];
@@ -187,7 +187,7 @@ TEST(Recording, APartOfAnotherRecordingIsRefused) {
 
 using test::FullDisk;
 
-/// A cloud at each of 501 sync points: some 3 MB.
+/// A cloud at each of 501 sync points: about 3 MB.
 const std::vector<std::string> kLarge = {"time.end=1", "time.sync=0.002", "output.period=0.002"};
 
 TEST(Recording, AFullDiskIsNamedAndWhatIsThereCanBeRead) {
@@ -203,15 +203,16 @@ TEST(Recording, AFullDiskIsNamedAndWhatIsThereCanBeRead) {
     }
   }
   EXPECT_NE(problem.find(bag), std::string::npos) << problem;
-  EXPECT_NE(problem.find("File too large"), std::string::npos) << problem;  // as the system says it
+  EXPECT_NE(problem.find("File too large"), std::string::npos) << problem;  // the system's own words
   EXPECT_NE(problem.find("rosbag reindex"), std::string::npos) << problem;
   EXPECT_EQ(problem.find('\n'), std::string::npos) << problem;
   const Counter counter = read_all(bag);
   ASSERT_GT(counter.times.size(), 1U);
-  // Without a gap from the start, to within a chunk (768 kB) of the 2 MB that found room.
+  // Without a gap from the start, and to within a chunk (768 kB) of the 2 MB that the disk holds.
   for (std::size_t i = 0; i < counter.times.size(); ++i) EXPECT_EQ(counter.times[i], 2'000'000 * std::int64_t(i));
   press_run(folder.file("whole.bag"), {}, kLarge);
-  const double each = static_cast<double>(fs::file_size(folder.file("whole.bag"))) / 501.0;  // bytes a sync point
+  const double each =
+      static_cast<double>(fs::file_size(folder.file("whole.bag"))) / 501.0;  // bytes for each sync point
   EXPECT_GE(static_cast<double>(counter.times.size()) * each, 2e6 - 768.0 * 1024.0 - 2.0 * each);
 }
 
@@ -227,7 +228,7 @@ TEST(Recording, TheRunGoesOnWithoutARecordThatIsNotRequired) {
 TEST(Recording, FirstSnapshotAndPeriod) {
   const TemporaryFolder folder;
   press_run(folder.file("run.bag"), {}, {"output.first=0.05"});
-  // The start; 0.05 s and every 0.02 s from there on; the end.
+  // The start; every 0.02 s from 0.05 s on; the end.
   std::vector<std::int64_t> expected = {0};
   for (std::int64_t time = 50'000'000; time < 200'000'000; time += 20'000'000) expected.push_back(time);
   expected.push_back(200'000'000);
@@ -275,7 +276,7 @@ TEST(FromBag, EndsInTheRecordedState) {
   EXPECT_EQ(outcome.result, RunSceneResult::done) << outcome.err;
   EXPECT_NE(outcome.out.find("equal to the recorded one"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.err.find("2 commands, to t = 0.2 s"), std::string::npos) << outcome.err;
-  // And its recording again.
+  // The recording of that run replays as well.
   const Outcome third = run(from_bag(folder.file("again.bag")));
   EXPECT_EQ(third.result, RunSceneResult::done) << third.err;
   EXPECT_NE(third.out.find("equal to the recorded one"), std::string::npos) << third.out;
@@ -295,7 +296,7 @@ TEST(FromBag, AnotherRunIsNotCompared) {
 TEST(FromBag, AnotherStateIsToldAndExitCodeThree) {
   const TemporaryFolder folder;
   press_run(folder.file("run.bag"));
-  // The same recording with one command a thousandth faster.
+  // A copy of the recording in which one command is faster by a thousandth.
   {
     rosbag::Bag source(folder.file("run.bag"));
     rosbag::Bag changed(folder.file("changed.bag"), rosbag::bagmode::Write);
@@ -409,7 +410,7 @@ TEST(RunFolder, HoldsEverythingOfARun) {
          {"run.bag", "summary.json", "scene.yaml", "csv/contact_forces.csv", "vtk/run.pvd", "vtk/particles_0000.vtp"}) {
       EXPECT_TRUE(fs::is_regular_file(entry.path() / name)) << entry.path() / name;
     }
-    // The scene in it is a scene.
+    // The scene in it can be loaded.
     EXPECT_EQ(mpm::load_scene((entry.path() / "scene.yaml").string()).definition.time.end, 0.02);
   }
   EXPECT_EQ(runs, 2);

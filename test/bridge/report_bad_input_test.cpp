@@ -1,5 +1,5 @@
-// bag_report on bags and options that it cannot report on: exit code 2 and one line that says what to do; and on bags
-// that were cut short, which it reads as far as they are whole.
+// bag_report with unusable bags and options: exit code 2 and one line that says what to do; and with bags that were cut
+// short, which it reads as far as they are intact.
 #include <gtest/gtest.h>
 #include <std_msgs/String.h>
 #include <topic_tools/shape_shifter.h>
@@ -29,7 +29,7 @@ class ReportBadInput : public ::testing::Test {
     return in_folder(name);
   }
 
-  /// What the program prints as its error, which must be one line that begins with its name.
+  /// The program's error message, which must be one line that begins with its name.
   static std::string error_of(const ReportOptions& options) {
     std::ostringstream out, err;
     EXPECT_EQ(run_report(options, out, err, false), ReportResult::bad_input);
@@ -44,7 +44,7 @@ class ReportBadInput : public ::testing::Test {
     options.name_space = name_space;
     return error_of(options);
   }
-  /// The tables of a bag that can be reported on.
+  /// The tables of a readable bag.
   static std::string text_of(const std::string& bag, const std::string& name_space = "") {
     ReportOptions options;
     options.bags = {bag};
@@ -148,7 +148,7 @@ TEST_F(ReportBadInput, AFieldThatWasNotRecorded) {
 }
 
 TEST_F(ReportBadInput, FilesAndFoldersThatCannotBeWritten) {
-  // A file stands where a folder is wanted, which stops the superuser too.
+  // A file has the name of the folder, which stops root as well.
   std::ofstream(in_folder("file")) << "x";
   ReportOptions options;
   options.bags = {bag_of({})};
@@ -165,7 +165,7 @@ TEST_F(ReportBadInput, FilesAndFoldersThatCannotBeWritten) {
   EXPECT_TRUE(contains(error_of(options), "--animate " + in_folder("file")));
 }
 
-// `--json A.bag B.bag`: the first bag is taken for the file to write.
+// `--json A.bag B.bag` makes the first bag the file to write.
 TEST_F(ReportBadInput, ABagIsNotWrittenOver) {
   ReportOptions options;
   options.json = bag_of({}, "first.bag");
@@ -197,7 +197,7 @@ TEST_F(ReportBadInput, StopsWithoutATrace) {
   options.bags = {bag_of({})};
   options.plots = in_folder("plots");
   int asked = 0;
-  options.stop_requested = [&] { return ++asked > 20; };  // amid the messages, when the tables are half written
+  options.stop_requested = [&] { return ++asked > 20; };  // among the messages, with half of the tables written
   std::ostringstream out, err;
   EXPECT_EQ(run_report(options, out, err, false), ReportResult::stopped);
   EXPECT_EQ(err.str(), "bag_report: stopped\n");
@@ -239,7 +239,7 @@ TEST_F(ReportBadInput, AnAnimationWithoutParticles) {
   EXPECT_TRUE(contains(error_of(options), "holds no particle snapshot; record /mpm/particles"));
 }
 
-/// Sets the place of the index to 0, as in a bag that was never closed.
+/// Sets the position of the index to 0, as in a bag that was never closed.
 void forget_index(const std::string& path) {
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
   std::string head(4096, '\0');
@@ -259,14 +259,14 @@ TEST_F(ReportBadInput, AnUnindexedBagIsReadWhole) {
   EXPECT_TRUE(contains(text, "simulated time    0.101 s")) << text;
   EXPECT_TRUE(contains(text, "cut short")) << text;
   EXPECT_TRUE(contains(text, "rosbag reindex " + path)) << text;
-  EXPECT_EQ(fs::last_write_time(path), before);  // the bag itself stays as it is
+  EXPECT_EQ(fs::last_write_time(path), before);  // the bag itself is unchanged
 }
 
 TEST_F(ReportBadInput, ABagThatWasCutOffIsReadAsFarAsItIsWhole) {
   const std::string path = in_folder("cut.bag.active");
   {
     rosbag::Bag bag(path, rosbag::bagmode::Write);
-    bag.setChunkThreshold(4096);  // of a size to lose only the last few
+    bag.setChunkThreshold(4096);  // so that only the last few messages are lost
     HalfSineRun().write(bag);
     bag.close();
   }
@@ -275,7 +275,8 @@ TEST_F(ReportBadInput, ABagThatWasCutOffIsReadAsFarAsItIsWhole) {
   EXPECT_TRUE(contains(text, "cut short")) << text;
   const std::size_t place = text.find("simulated time    ");
   ASSERT_NE(place, std::string::npos);
-  // Messages are spread evenly over the file, but for the index at its end: half of it is 30 to 60 % of the time.
+  // Messages are spread evenly over the file, except for the index at its end: half of the file has 30 to 60 % of the
+  // time.
   const double time = std::stod(text.substr(place + 18));
   EXPECT_GT(time, 0.3 * HalfSineRun::kDuration) << text;
   EXPECT_LT(time, 0.6 * HalfSineRun::kDuration) << text;

@@ -40,7 +40,7 @@ TEST_F(ReportCheckTest, AGoodRunPassesAllChecks) { EXPECT_EQ(failures_of({}), st
 TEST_F(ReportCheckTest, CheckFindsMomentumFromNowhere) {
   HalfSineRun run;
   run.on_state = [](int i, SolverState& message) {
-    if (i == 60) message.momentum.y += 1e-8;  // of about 1.8 N s exchanged: above the limit of 1e-10
+    if (i == 60) message.momentum.y += 1e-8;  // about 1.8 N s are exchanged: above the limit of 1e-10
     return true;
   };
   EXPECT_EQ(failures_of(run), Names{"audit"});
@@ -63,7 +63,7 @@ TEST_F(ReportCheckTest, AnAuditInSinglePrecisionMayBeOffByTheRoundingOfFloats) {
     return true;
   };
   EXPECT_EQ(failures_of(run, mpm::Precision::float32), Names());
-  error = 2e-7;  // more than three roundings of a float, 2^-24 each, all the same way
+  error = 2e-7;  // more than three roundings of a float, 2^-24 each, in one direction
   EXPECT_EQ(failures_of(run, mpm::Precision::float32), Names{"audit"});
 }
 
@@ -98,7 +98,8 @@ TEST_F(ReportCheckTest, CheckFindsARunThatFailed) {
 }
 
 TEST_F(ReportCheckTest, MomentumThatCancelsHasASizeToo) {
-  // Two bodies of 1 kg fly against each other with 2 m/s and touch nothing: nothing is exchanged, 4 N s are carried.
+  // Two bodies of 1 kg approach each other with 2 m/s each, without contact: no momentum is exchanged; they carry 4 N
+  // s.
   double residual = 3e-10;  // 0.75e-10 of that
   HalfSineRun run;
   run.on_state = [&residual](int i, SolverState& message) {
@@ -123,14 +124,14 @@ TEST_F(ReportCheckTest, MomentumThatCancelsHasASizeToo) {
 }
 
 TEST_F(ReportCheckTest, CheckFindsStepsThatTheTimeHasNoRoomFor) {
-  HalfSineRun run;  // 10 steps of 0.1 ms a state
+  HalfSineRun run;  // 10 steps of 0.1 ms between states
   run.on_state = [](int i, SolverState& message) {
     if (i >= 40) ++message.steps;
     return true;
   };
   EXPECT_EQ(failures_of(run), Names{"steps"});
   run.on_state = [](int i, SolverState& message) {
-    if (i == 40) message.steps = 390;  // time went on, steps did not
+    if (i == 40) message.steps = 390;  // time advanced without steps
     return true;
   };
   EXPECT_EQ(failures_of(run), Names{"steps"});
@@ -149,7 +150,7 @@ TEST_F(ReportCheckTest, CheckFindsCommandsThatWereRefusedOrLost) {
   };
   EXPECT_EQ(failures_of(run), Names{"commands"});
   run.on_state = [](int, SolverState& message) {
-    message.commands_applied = 2;  // one is in the bag
+    message.commands_applied = 2;  // the bag has one
     return true;
   };
   EXPECT_EQ(failures_of(run), Names{"commands"});
@@ -161,8 +162,8 @@ TEST_F(ReportCheckTest, CheckFindsCommandsThatWereRefusedOrLost) {
 }
 
 TEST_F(ReportCheckTest, CommandsCountUpToTheLastState) {
-  // The one command takes effect at the sync point of state 10. A state of a sync point comes before its commands, one
-  // that closes a run after them; of a run that was killed there may be neither.
+  // The only command takes effect at the sync point of state 10. The state of a sync point precedes its commands, but
+  // the last state of a run follows them; a run that was killed there may have neither.
   int last = 9;
   std::uint64_t applied = 0;
   HalfSineRun run;
@@ -237,13 +238,13 @@ TEST_F(ReportCheckTest, CheckFindsALostContactMessage) {
 }
 
 TEST_F(ReportCheckTest, AShorterLastIntervalIsNoGap) {
-  HalfSineRun run;  // states every 2 ms, the last after 1 ms: 101 is odd
+  HalfSineRun run;  // states every 2 ms, the last after 1 ms, since 101 is odd
   run.on_state = [](int i, SolverState&) { return i % 2 == 0 || i == HalfSineRun::kIntervals; };
   EXPECT_TRUE(failures_of(run).empty());
 }
 
 TEST_F(ReportCheckTest, ARunThatGoesOnBetweenTwoMultiplesBeginsWithLess) {
-  // States every 10 ms of a run that was resumed at 7 ms: the first interval is 3 ms, the last one 1 ms.
+  // A run that was resumed at 7 ms has states every 10 ms: the first interval is 3 ms, the last one 1 ms.
   int lost = -1;
   const auto recorded = [&lost](int i) {
     return i != lost && (i == 7 || (i > 7 && i % 10 == 0) || i == HalfSineRun::kIntervals);
@@ -257,7 +258,7 @@ TEST_F(ReportCheckTest, ARunThatGoesOnBetweenTwoMultiplesBeginsWithLess) {
 }
 
 TEST_F(ReportCheckTest, ALostThirdStateIsAGap) {
-  HalfSineRun run;  // 0, 1, 3, 4 ms, ...: the longer interval does not become the norm
+  HalfSineRun run;  // 0, 1, 3, 4 ms, ...: the longer interval is not taken for the usual one
   run.on_state = [](int i, SolverState&) { return i != 2; };
   EXPECT_EQ(failures_of(run), Names{"gaps"});
 }

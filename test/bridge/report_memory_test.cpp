@@ -1,4 +1,4 @@
-// bag_report reads a bag of any size in the memory of its largest message, whatever is asked for.
+// bag_report reads a bag of any size in the memory of its largest message, with any options.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMegabyte = 1000000;
 
-/// A line of /proc/self/status [bytes]: VmRSS is what is in memory now, VmHWM the most since it was reset.
+/// A line of /proc/self/status [bytes]: VmRSS is the present memory, VmHWM the largest since it was reset.
 std::size_t memory(const std::string& line) {
   std::ifstream file("/proc/self/status");
   for (std::string text; std::getline(file, text);) {
@@ -30,10 +30,10 @@ bool reset_peak() {
   return static_cast<bool>(file);
 }
 
-constexpr std::uint32_t kParticles = 50000;       // of a cloud
-constexpr std::size_t kCloud = 20U * kParticles;  // its bytes
+constexpr std::uint32_t kParticles = 50000;       // particles of a cloud
+constexpr std::size_t kCloud = 20U * kParticles;  // bytes of a cloud
 
-/// A bag with so many clouds of 1 MB.
+/// A bag with this number of clouds of 1 MB each.
 std::string bag_with_clouds(const TemporaryFolder& folder, int clouds) {
   const std::string path = folder.file("run.bag");
   rosbag::Bag bag(path, rosbag::bagmode::Write);
@@ -56,7 +56,7 @@ std::string bag_with_clouds(const TemporaryFolder& folder, int clouds) {
   return path;
 }
 
-/// How much more memory than before a report needs at its peak; 0 when that cannot be measured here.
+/// Increase of memory at the peak of a report [bytes]; 0 if it cannot be measured here.
 std::size_t growth(int clouds) {
   const TemporaryFolder folder;
   ReportOptions options;
@@ -74,10 +74,10 @@ std::size_t growth(int clouds) {
   return memory("VmHWM") - before;
 }
 
-/// Of one cloud: the bag library holds its chunk and its record, ROS its message; its columns are as large again while
-/// it is written as CSV or given to the animation. Each buffer may be twice as large as it is full, since it grew by
-/// doubling. The rest is for the index, the sample of values that gives the colours their scale (0.8 MB, twice while it
-/// is sorted), the tables and the allocator.
+/// Memory for one cloud: the bag library holds its chunk and its record, ROS its message, and its columns are as large
+/// again while it is written as CSV or passed to the animation. Each buffer may be twice as large as its content, since
+/// it grew by doubling. The rest is for the index, the sample of values for the scale of colours (0.8 MB, twice while
+/// it is sorted), the tables and the allocator.
 constexpr std::size_t kBound = 2U * 4U * kCloud + 6U * kMegabyte;
 
 TEST(ReportMemory, IsThatOfTheLargestCloud) {

@@ -1,4 +1,4 @@
-// What bag_report writes beside its tables: JSON, several bags side by side, an animation.
+// Outputs of bag_report other than its tables: JSON, a comparison of several bags, an animation.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ using test::HalfSineRun;
 using test::kPi;
 namespace fs = std::filesystem;
 
-/// Sums of about a hundred doubles.
+/// Round-off of sums of about a hundred doubles.
 constexpr double kRoundOff = 1e-13;
 
 class ReportOutputs : public ::testing::Test {
@@ -33,7 +33,7 @@ class ReportOutputs : public ::testing::Test {
     run.write(in_folder(name));
     return in_folder(name);
   }
-  /// What the program prints.
+  /// The program's output.
   static std::string text_of(const ReportOptions& options) {
     std::ostringstream out, err;
     EXPECT_EQ(run_report(options, out, err, false), ReportResult::done) << err.str();
@@ -66,13 +66,13 @@ TEST_F(ReportOutputs, JsonHasTheFiguresOfTheTables) {
   const double impulse = 2.0 * HalfSineRun::kAmplitude * HalfSineRun::kDuration / kPi;  // the integral of a half sine
   EXPECT_NEAR(tool.at("impulse").at(0), impulse, kRoundOff * impulse);
   EXPECT_NEAR(tool.at("mean_force").at(0), impulse / HalfSineRun::kDuration, 1e-12 * impulse / HalfSineRun::kDuration);
-  EXPECT_EQ(tool.at("peak_force").at("time"), 0.051);  // the middle one of 101 intervals
+  EXPECT_EQ(tool.at("peak_force").at("time"), 0.051);  // the middle of 101 intervals
   EXPECT_EQ(run.at("audit").at("impulses").at("gravity").at(2), HalfSineRun::kWeight * 0.101);
   EXPECT_EQ(run.at("snapshots").at("count"), 11);
   EXPECT_EQ(run.at("commands").at(0).at("late"), 1);
   ASSERT_EQ(run.at("checks").size(), 16U);
   for (const json& check : run.at("checks")) {
-    // The run is made up: it has no scene from which the particles' masses are known, no /clock, no global quantities.
+    // The run is artificial: it has no scene that gives the masses of particles, no /clock and no global quantities.
     const bool made = check.at("name") != "momentum" && check.at("name") != "clock" && check.at("name") != "global";
     EXPECT_EQ(check.at("result"), made ? "ok" : "not made") << check.dump();
   }
@@ -177,7 +177,7 @@ TEST_F(ReportOutputs, WhatIsNotFiniteIsNullInJson) {
 TEST(ReportLabels, AreTheFilesNamesAndDiffer) {
   EXPECT_EQ(labels_of({"a/run.bag", "b/run.bag", "run_2.bag", "x.bag.active"}),
             (std::vector<std::string>{"run", "run_2", "run_2_2", "x.bag"}));
-  EXPECT_EQ(labels_of({"a b.bag", "a_b.bag"}), (std::vector<std::string>{"a_b", "a_b_2"}));  // a folder each
+  EXPECT_EQ(labels_of({"a b.bag", "a_b.bag"}), (std::vector<std::string>{"a_b", "a_b_2"}));  // each has its own folder
 }
 
 TEST_F(ReportOutputs, SeveralBagsAreSetSideBySide) {
@@ -192,13 +192,13 @@ TEST_F(ReportOutputs, SeveralBagsAreSetSideBySide) {
   options.csv = in_folder("csv");
   options.plots = in_folder("plots");
   const std::string text = text_of(options);
-  // A body in one of them only is shown for that one.
+  // A body that only one bag has is shown for that bag.
   bool found = false;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     if (!contains(line, "blade impulse")) continue;
     found = true;
-    EXPECT_LT(line.find(" - "), line.find("2.572")) << line;  // impulse 2 A T / pi [N s] of the second
+    EXPECT_LT(line.find(" - "), line.find("2.572")) << line;  // impulse 2 A T / pi [N s] of the second bag
   }
   EXPECT_TRUE(found) << text;
   EXPECT_TRUE(contains(text, "instruction set")) << text;
@@ -223,7 +223,7 @@ TEST_F(ReportOutputs, AnimationHasAFrameASnapshot) {
       python(fmt::format("import sys, PIL.Image as i; g = i.open(\"{}\"); sys.exit(g.n_frames)", options.animate)), 4);
 }
 
-/// PATH for the time of a test.
+/// Sets PATH for the duration of a test.
 class WithPath {
  public:
   explicit WithPath(const std::string& path) : before_(std::getenv("PATH")) { setenv("PATH", path.c_str(), 1); }
@@ -234,7 +234,7 @@ class WithPath {
 };
 
 TEST_F(ReportOutputs, Mp4IsMadeByFfmpegFromEveryFrame) {
-  // A stand-in that keeps how it was called and how many bytes it was given.
+  // A substitute that stores its arguments and the number of bytes that it received.
   fs::create_directory(in_folder("bin"));
   std::ofstream(in_folder("bin/ffmpeg")) << "#!/bin/sh\nfor last; do :; done\nprintf '%s ' \"$@\" >\"$last\"\n"
                                             "/usr/bin/wc -c >>\"$last\"\n";
@@ -278,8 +278,9 @@ TEST(ReportField, IsTheOneAskedForOrTheMostTelling) {
 }
 
 TEST(ReportFieldRange, QuantilesOfManyValuesFromAnEvenSample) {
-  // 0 to 999,999 in order, in 100 clouds: more than are kept. Every stride-th value is, so a quantile is off by at most
-  // one stride, 16 here (a million values, at most 200,000 kept, strides are powers of two), of a million.
+  // 0 to 999,999 in order, in 100 clouds: more values than are kept. Every stride-th value is kept, so a quantile is
+  // off by at most one stride, 16 here (a million values, at most 200,000 kept, strides are powers of two), of a
+  // million.
   FieldRange range("v");
   sensor_msgs::PointCloud2 cloud;
   const char* names[] = {"x", "y", "z", "v"};

@@ -1,4 +1,4 @@
-// scripts/plot_report.py on the tables of a run made up by hand: every picture is there and shows something.
+// scripts/plot_report.py on the tables of an artificial run: every picture exists and shows something.
 #include "mpm_ros/report/report_plots.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ class ReportPlotsTest : public ::testing::Test {
     return WEXITSTATUS(std::system(fmt::format("{} {} {} 2>{}", kScript, csv_, arguments, errors_).c_str()));
   }
 
-  /// Whether a picture has pixels that are not white, and not all of one colour, in more than a hundredth of its area.
+  /// Whether more than a hundredth of a picture is not white, with more than one colour.
   static bool shows_something(const std::string& picture) {
     const std::string look =
         "import sys, matplotlib.image as i; p = i.imread(sys.argv[1])[..., :3]; w = p.min(axis=2) < 0.95; "

@@ -1,5 +1,4 @@
-// bag_report on runs that were really made: the check `momentum`, which needs a scene, and the Python of
-// doc/analysis.md.
+// bag_report on real runs: the check `momentum`, which needs a scene, and the Python of doc/analysis.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -26,7 +25,7 @@ using nlohmann::json;
 
 class ReportRecorded : public ::testing::Test {
  protected:
-  /// A block that a press squeezes, for 50 ms: 2,000 particles, two bodies, damping.
+  /// Records 50 ms of a block under a press: 2,000 particles, two bodies, damping.
   std::string record(const std::vector<std::string>& set = {}, const std::string& scene = "compressed_block") const {
     RunSceneOptions options;
     options.scene = scene;
@@ -48,7 +47,7 @@ class ReportRecorded : public ::testing::Test {
     EXPECT_NE(run_report(options, out, err, false), ReportResult::bad_input) << err.str();
     return json::parse(out.str());
   }
-  /// "ok", "failed" or "not made", by the check's name; without those of what these bags do not hold.
+  /// "ok", "failed" or "not made" by the name of the check, without the checks of messages that these bags do not have.
   static std::map<std::string, std::string> results_of(const json& report) {
     std::map<std::string, std::string> results;
     for (const json& check : report.at("checks")) results[check.at("name")] = check.at("result");
@@ -85,8 +84,8 @@ TEST_F(ReportRecorded, ARunInSinglePrecisionPassesByItsOwnLimit) {
 }
 
 TEST_F(ReportRecorded, MomentumFindsForcesThatAreWrongInAllBooks) {
-  // Force, impulse, the audit's impulses and its momentum a thousandth larger: all that the run says of itself agrees.
-  // What the particles did does not.
+  // Force, impulse, and the audit's impulses and momentum are larger by a thousandth: they agree with each other, but
+  // not with the motion of the particles.
   const std::string path = record(), wrong = folder_.file("wrong.bag");
   rosbag::Bag in(path, rosbag::bagmode::Read), out(wrong, rosbag::bagmode::Write);
   const auto grow = [](geometry_msgs::Vector3& vector) {
@@ -131,7 +130,7 @@ TEST_F(ReportRecorded, MomentumSaysWhenItCannotBeMade) {
 }
 
 TEST_F(ReportRecorded, ARunThatEndedEarlyIsTold) {
-  // run_scene --end moves the end; a run that is stopped before it has not reached it.
+  // run_scene --end changes the end of a run; a run that is stopped earlier has not reached it.
   EXPECT_TRUE(report_of(record()).at("notes").empty());
   RunSceneOptions options;
   options.scene = "compressed_block";
@@ -166,7 +165,7 @@ TEST_F(ReportRecorded, ThePythonOfTheDocumentationReadsABag) {
   for (char line[512]; std::fgets(line, sizeof line, pipe) != nullptr;) printed += line;
   ASSERT_EQ(pclose(pipe), 0) << printed;
 
-  // The same numbers as bag_report's.
+  // The numbers equal those of bag_report.
   RunBag run(bag, "");
   RunStatistics statistics;
   run.read({&statistics});

@@ -1,4 +1,4 @@
-// A run made up by hand, written to a bag as the node writes it, with closed forms for everything a report says of it.
+// An artificial run, written to a bag as the node writes it, with closed forms for all reported numbers.
 #pragma once
 
 #include <mpm_ros/BodyStates.h>
@@ -20,14 +20,14 @@ namespace mpm_ros::test {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// A tool feels a half sine of force along x, F = A sin(pi t / T), and slides along x while it turns about y.
+/// A tool that moves along x and turns about y under a half sine of force along x, F = A sin(pi t / T).
 struct HalfSineRun {
   static constexpr double kAmplitude = 40.0;  // A [N]
   static constexpr int kIntervals = 101;      // odd: one interval lies in the middle
-  static constexpr double kStep = 1e-3;       // [s] between messages, the sync period
+  static constexpr double kStep = 1e-3;       // time between messages, the sync period [s]
   static constexpr double kSpeed = 0.2;       // [m/s]
   static constexpr double kTurnRate = 0.5;    // [rad/s]
-  static constexpr double kWeight = -3.0;     // [N] of the material, along z
+  static constexpr double kWeight = -3.0;     // weight of the material, along z [N]
   static constexpr double kDuration = kIntervals * kStep;
 
   /// Impulse on the tool since the start, A T / pi (1 - cos(pi t / T)) [N s].
@@ -35,7 +35,8 @@ struct HalfSineRun {
   /// Mean force over an interval [N].
   static double mean(double begin, double end) { return (impulse(end) - impulse(begin)) / (end - begin); }
 
-  /// Called on each message before it is written; false leaves it out. `index` counts the messages of a topic.
+  /// Called with each message before it is written; if it returns false the message is left out. `index` counts the
+  /// messages of a topic.
   std::function<bool(int index, SolverState& message)> on_state = [](int, SolverState&) { return true; };
   std::function<bool(int index, ContactForces& message)> on_forces = [](int, ContactForces&) { return true; };
   std::function<bool(int index, BodyStates& message)> on_bodies = [](int, BodyStates&) { return true; };
@@ -168,7 +169,7 @@ inline void HalfSineRun::write(rosbag::Bag& bag) const {
       const float x = 0.01F * static_cast<float>(particle);
       const float values[] = {x, -x, 0.5F, 0.0F, static_cast<float>(i)};
       std::memcpy(cloud.data.data() + 20 * particle, values, 20);
-      const std::uint32_t id = 3 * particle;  // as with a stride of 3
+      const std::uint32_t id = 3 * particle;  // as for a stride of 3
       std::memcpy(cloud.data.data() + 20 * particle + 12, &id, 4);
     }
     if (on_particles(i / 10, cloud)) bag.write(name_space + "/particles", stamp(i), cloud);

@@ -1,4 +1,4 @@
-// Two recordings side by side: the first difference, to the bit, and the worst one of a tolerance.
+// Comparison of two recordings: the first difference, to the bit, and the largest one with a tolerance.
 #include "mpm_ros/report/report_same.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ using test::HalfSineRun;
 
 class ReportSame : public ::testing::Test {
  protected:
-  /// What the program says of the run as it is and as `other` has it; its result is kept.
+  /// Compares the unchanged run with `other`: returns the program's output and keeps its result.
   std::string said(const HalfSineRun& other, std::optional<double> tolerance = {}) {
     const std::string a = folder_.file("a.bag"), b = folder_.file("b.bag");
     HalfSineRun().write(a);
@@ -51,7 +51,7 @@ TEST_F(ReportSame, WhatTheMachineTookIsNotCompared) {
   options.same = true;
   GlobalQuantities message;
   message.header.stamp = ros::Time(0, 5000000);
-  message.names = {"sxx", "elapsed time", "CPU time"};  // as the scene writes them
+  message.names = {"sxx", "elapsed time", "CPU time"};  // as written in the scene
   message.units = {"Pa", "s", "s"};
   const auto result = [&](const std::vector<double>& first, const std::vector<double>& second) {
     options.bags.clear();
@@ -102,7 +102,7 @@ TEST_F(ReportSame, FindsAMessageThatIsMissing) {
 }
 
 TEST_F(ReportSame, AToleranceCountsFromTheLargestSize) {
-  // The largest mean force is nearly the amplitude, 40 N: 0.3 N are 0.75 % of it, whatever the force is there.
+  // The largest mean force is nearly the amplitude, 40 N. 0.3 N are 0.75 % of it, whatever the force at that time.
   HalfSineRun other;
   other.on_forces = [](int i, ContactForces& message) {
     if (i == 2) message.bodies[0].wrench.force.y += 0.3;

@@ -1,4 +1,4 @@
-// bag_report on runs made up by hand: its tables and CSV files against closed forms, and its errors.
+// bag_report on artificial runs: its tables and CSV files against closed forms, and its errors.
 #include "mpm_ros/report/report.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ namespace {
 using test::HalfSineRun;
 using test::kPi;
 
-/// Sums of about a hundred doubles.
+/// Round-off of sums of about a hundred doubles.
 constexpr double kRoundOff = 1e-13;
 
 class ReportTest : public ::testing::Test {
@@ -57,7 +57,7 @@ class ReportTest : public ::testing::Test {
     return rows;
   }
 
-  /// The number in a row under a column's header.
+  /// The number in a row of the column with this header.
   static double value(const std::vector<std::vector<std::string>>& rows, std::size_t row, const std::string& column) {
     const auto found = std::find(rows.front().begin(), rows.front().end(), column);
     if (found == rows.front().end()) {
@@ -100,7 +100,8 @@ TEST_F(ReportTest, RangeOfMotionAndTurn) {
   EXPECT_DOUBLE_EQ(tool.range.min.x(), 0.0);
   EXPECT_DOUBLE_EQ(tool.range.max.x(), HalfSineRun::kSpeed * HalfSineRun::kDuration);
   EXPECT_DOUBLE_EQ(tool.range.max.z(), 0.3);
-  // An angle from a quaternion's dot product: the square root of round-off where the angle is small, better here.
+  // The angle comes from the dot product of quaternions: its error is the square root of round-off for small angles,
+  // and smaller here.
   EXPECT_NEAR(tool.largest_turn, HalfSineRun::kTurnRate * HalfSineRun::kDuration, 1e-12);
 }
 
@@ -132,7 +133,7 @@ TEST_F(ReportTest, CommandsAreCountedAndLateOnesToo) {
   const CommandStatistics& tool = commands.at({"tool", "velocity"});
   EXPECT_EQ(tool.count, 1U);
   EXPECT_EQ(tool.first, 10000000);
-  EXPECT_EQ(tool.late, 1U);  // asked for at 8 ms, applied at 10 ms
+  EXPECT_EQ(tool.late, 1U);  // stamped 8 ms, applied at 10 ms
 }
 
 TEST_F(ReportTest, CsvHasTheNumbersOfTheMessages) {
@@ -182,7 +183,7 @@ TEST_F(ReportTest, OutlineOfABodyIsAMeshWithSharedCorners) {
     corners += line.rfind("v ", 0) == 0;
     if (line.rfind("f ", 0) == 0) faces.push_back(line);
   }
-  EXPECT_EQ(corners, 4);  // a tetrahedron; corners are numbered as they are met
+  EXPECT_EQ(corners, 4);  // a tetrahedron; corners are numbered in order of appearance
   EXPECT_EQ(faces, (std::vector<std::string>{"f 1 2 3", "f 1 3 4", "f 1 4 2", "f 3 2 4"}));
 }
 

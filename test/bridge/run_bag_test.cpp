@@ -1,4 +1,4 @@
-// A run with its bag, without a master: what is recorded, and that recorded commands give the same state again.
+// A run with its bag, without a master: its recorded messages, and the same state again from the recorded commands.
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <sys/stat.h>
@@ -35,7 +35,8 @@ RunOptions options_for(const mpm::Scene& scene, const std::string& bag, int thre
   return options;
 }
 
-/// Presses for the whole run, changing speed and then kind on the way; returns the state hash at the end.
+/// Presses for the whole run, with a change of speed and then of the kind of command; returns the state hash at the
+/// end.
 std::uint64_t press_run(const std::string& bag, int threads) {
   const mpm::Scene scene = press();
   mpm_ros::Run run(scene, options_for(scene, bag, threads), Stamps(), nullptr);
@@ -135,9 +136,9 @@ TEST(RunBag, ForceMeansImpulseOverTime) {
     impulse = message->bodies[0].impulse.z;
     largest = std::max(largest, message->bodies[0].wrench.force.z);
   }
-  // The strip pushes the plate up once it is reached.
+  // The strip pushes the plate up as soon as they touch.
   EXPECT_GT(largest, 0.0);
-  // Both are sums of the same impulses in another order: round-off of some thousand additions.
+  // Both are sums of the same impulses in another order and differ by round-off of some thousand additions.
   EXPECT_NEAR(sum, impulse, 1e-10 * std::abs(impulse));
 }
 

@@ -1,4 +1,4 @@
-// Checkpoints of run_scene and of a run: what goes on from one ends as what was never stopped.
+// Checkpoints of run_scene and of a run: a resumed run ends like one that was never stopped.
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -54,13 +54,13 @@ class RunCheckpoint : public ::testing::Test {
 TEST_F(RunCheckpoint, StoppedAndResumedEndsAsUninterrupted) {
   ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
   const nlohmann::json whole = summary();
-  // Told to stop as by SIGINT, after seven periods.
+  // Stopped after seven periods, as by SIGINT.
   options_.checkpoint = folder_.file("run.h5");
   int asked = 0;
   ASSERT_EQ(run([&asked] { return asked++ == 7; }), RunSceneResult::done) << err_.str();
   EXPECT_EQ(summary()["time"], 0.0175);
   EXPECT_NE(out_.str().find("checkpoint " + options_.checkpoint + " at t = 0.0175 s"), std::string::npos) << out_.str();
-  // The file alone is enough to go on.
+  // The file alone is enough to continue.
   options_.resume = options_.checkpoint;
   options_.checkpoint.clear();
   options_.scene.clear();
@@ -71,7 +71,7 @@ TEST_F(RunCheckpoint, StoppedAndResumedEndsAsUninterrupted) {
     EXPECT_EQ(resumed[key], whole[key]) << key;
   }
   EXPECT_EQ(resumed["energy"]["end"], whole["energy"]["end"]);
-  // The bag holds the rest of the run and says where it began.
+  // The bag holds the rest of the run and the time at which it was resumed.
   rosbag::Bag bag(options_.bag);
   for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TypeQuery("mpm_ros/RunInfo"))) {
     const auto info = message.instantiate<RunInfo>();
@@ -85,7 +85,7 @@ TEST_F(RunCheckpoint, StoppedAndResumedEndsAsUninterrupted) {
 TEST_F(RunCheckpoint, EverySoOftenOneFileIsReplaced) {
   options_.checkpoint = folder_.file("run.h5");
   options_.checkpoint_every = "20 ms";
-  // Stopped by nobody: killed after eighteen periods, 45 ms.
+  // Killed, not stopped, after eighteen periods, 45 ms.
   struct Killed {};
   int asked = 0;
   EXPECT_THROW(run([&asked]() -> bool {
@@ -107,7 +107,7 @@ TEST_F(RunCheckpoint, AFailedRunLeavesItsStateWhichIsNotResumed) {
   EXPECT_NE(err_.str().find("the state of the failure is in " + failed), std::string::npos) << err_.str();
   const std::string why = mpm::read_checkpoint(failed).label.failure;
   EXPECT_NE(err_.str().find("run_scene: " + why), std::string::npos) << why;
-  // The block's front at 0.09 m, 2 m/s: at 0.2 m after 0.055 s; 0.04 s is the last good one.
+  // The block's front starts at 0.09 m with 2 m/s and is at 0.2 m after 0.055 s: the last checkpoint is of 0.04 s.
   EXPECT_EQ(mpm::read_checkpoint(options_.checkpoint).time, 40'000'000);
   options_.checkpoint.clear();
   options_.checkpoint_every.clear();
@@ -139,7 +139,7 @@ TEST_F(RunCheckpoint, RefusesAnotherScene) {
   expect_bad_input("it is of another scene, 'falling_block'");
 }
 
-/// A velocity ahead of its time; two poses, of which the second sets out when the first has been reached; a velocity
+/// Queues a velocity for a later time; two poses, of which the second begins when the first is reached; and a velocity
 /// without a stamp.
 void fill(CommandQueue& queue) {
   BodyCommand command;
@@ -163,7 +163,7 @@ void fill(CommandQueue& queue) {
   queue.push(command);
 }
 
-/// The press under commands that wait in the queue, to the end or to a sync point.
+/// A run of the press with commands that wait in the queue, to the end or to a sync point.
 struct Pressed {
   explicit Pressed(const std::string& resume = {}) : queue(scene.definition.time.sync) {
     RunOptions options;
@@ -213,7 +213,7 @@ TEST_F(RunCheckpoint, CommandsThatWaitAndAveragesUnderWayGoOn) {
   whole.go(1000000);
   ASSERT_TRUE(whole.run->ended());
   EXPECT_EQ(whole.queue.waiting(), 0U);
-  for (const int at : {0, 1, 35, 64}) {  // before, between and after commands have taken effect, averages half done
+  for (const int at : {0, 1, 35, 64}) {  // before, between and after commands, and within averages
     Pressed first;
     fill(first.queue);
     first.go(at);

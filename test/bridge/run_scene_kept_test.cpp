@@ -1,4 +1,4 @@
-// What run_scene keeps: of a run whose disk is full, and of a recording that is there when it goes on.
+// Files that run_scene keeps: those of a run on a full disk, and an existing recording when a run is resumed.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -41,7 +41,7 @@ class RunSceneKept : public ::testing::Test {
 };
 
 TEST_F(RunSceneKept, ACheckpointOfARunWhoseRecordFoundNoRoom) {
-  // A cloud at each of 501 sync points: some 3 MB.
+  // A cloud at each of 501 sync points: about 3 MB.
   options_.set = {"time.end=1", "time.sync=0.002", "output.period=0.002"};
   ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
   const std::string whole = hash();
@@ -64,7 +64,7 @@ TEST_F(RunSceneKept, ACheckpointOfARunWhoseRecordFoundNoRoom) {
   EXPECT_EQ(hash(), whole);
 }
 
-/// The hash that a recording ends with; empty: its last state has none.
+/// The hash in the last state of a recording; empty if it has none.
 struct LastHash : RunVisitor {
   void solver_state(std::int64_t, const SolverState& message) override { hash = message.state_hash; }
   std::string hash;
@@ -74,7 +74,7 @@ TEST_F(RunSceneKept, TheRestOfARunWhoseTablesFindNoRoom) {
   ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
   options_.csv = folder_.file("csv");
   options_.vtk = folder_.file("vtk");
-  // Tables and files for ParaView each on a disk that is full: in the middle of the run, and as they are closed.
+  // Tables and files for ParaView, each on a full disk: in the middle of the run, and when they are closed.
   for (const char* name : {"csv/solver_state.csv", "csv/particles_0003.csv", "csv/commands.csv",
                            "vtk/particles_0003.vtp", "vtk/run.pvd"}) {
     fs::remove_all(options_.csv);
@@ -86,7 +86,7 @@ TEST_F(RunSceneKept, TheRestOfARunWhoseTablesFindNoRoom) {
     fs::create_symlink("/dev/full", folder_.file(name));
     options_.bag = folder_.file("run.bag");
     EXPECT_EQ(run(), RunSceneResult::machine_failed) << name;
-    // Told once, by name.
+    // Reported once, by name.
     EXPECT_EQ(err_.str().find("run_scene: " + folder_.file(name)), 0U) << err_.str();
     EXPECT_EQ(err_.str().find('\n'), err_.str().size() - 1) << err_.str();
     LastHash last;

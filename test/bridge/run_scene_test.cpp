@@ -1,4 +1,4 @@
-// The program run_scene behind its options: results, exit codes, and what is written whatever ends the run.
+// The program run_scene with its options: results, exit codes, and the files that it writes however a run ends.
 #include "mpm_ros/run/run_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -86,7 +86,7 @@ TEST_F(RunScene, SaysOnWhatItRunsAndRan) {
 TEST_F(RunScene, AShorterRunIsTheBeginningOfALongerOne) {
   ASSERT_EQ(run(), RunSceneResult::done);
   const std::string whole = summary()["state_hash"];
-  // Twenty sync periods of 2.5 ms, then told to stop: as far as the run before.
+  // Stopped after twenty sync periods of 2.5 ms, at the end of the run before.
   options_.end.clear();
   int asked = 0;
   ASSERT_EQ(run([&asked] { return asked++ == 20; }), RunSceneResult::done);
@@ -134,18 +134,18 @@ metrics:
   ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
   const nlohmann::json root = summary();
   const nlohmann::json& pair = root["contact_pairs"]["left/right"];
-  // No force from outside: the impulse on the right one is the change of its momentum; 0.2 m x 0.2 m x 1 m of it are
-  // 40 kg. Round-off of some hundred steps that each exchange no more than 40 N s.
+  // Without an external force the impulse on the right block is the change of its momentum; its mass is 40 kg (0.2 m x
+  // 0.2 m x 1 m). Round-off of some hundred steps, each of which exchanges at most 40 N s.
   const double mass = 40.0, round_off = 1e-10 * mass;
   EXPECT_NEAR(pair["impulse"][0].get<double>(), mass * (root["metrics"]["vx"].get<double>() + 0.5), round_off);
   EXPECT_NEAR(pair["impulse"][2].get<double>(), mass * root["metrics"]["vz"].get<double>(), round_off);
-  EXPECT_GT(pair["impulse"][0].get<double>(), 20.0);  // that would stop it; it is thrown back
+  EXPECT_GT(pair["impulse"][0].get<double>(), 20.0);  // 20 N s would stop it; it rebounds
   EXPECT_GE(pair["friction_energy"].get<double>(), 0.0);
   EXPECT_EQ(pair["friction_energy"], root["energy"]["end"]["pair_friction"]);
   EXPECT_NE(out_.str().find("contact of left/right: impulse on the second "), std::string::npos) << out_.str();
   EXPECT_TRUE(fs::is_regular_file(fs::path(options_.csv) / "contact_pairs.csv"));
 
-  // The bag has the same, message by message.
+  // The bag has the same values, message by message.
   ReportOptions report;
   report.bags = {options_.bag};
   report.check = true;
@@ -155,8 +155,8 @@ metrics:
 }
 
 TEST_F(RunScene, CountsParticlesThatWerePutBack) {
-  // Nothing catches the block. Its lowest row of ten, 0.205 m high, is past the grid's edge after 0.2044 s, the next,
-  // 0.01 m above, after 0.2094 s: sqrt(2 h / g).
+  // The block falls out of the grid. Its lowest row of ten particles, at 0.205 m, leaves after 0.2044 s; the next, 0.01
+  // m above, after 0.2094 s: sqrt(2 h / g).
   options_.set = {"boundaries={}", "grid.leave={limit: 10}"};
   options_.end = "207.5 ms";
   ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
@@ -165,7 +165,7 @@ TEST_F(RunScene, CountsParticlesThatWerePutBack) {
 }
 
 TEST_F(RunScene, PhysicsThatFailEndWithThreeAndLeaveEverythingWritten) {
-  // Nothing catches the block: it leaves the grid after 0.2 s.
+  // The block falls out of the grid after 0.2 s.
   options_.set = {"boundaries={}"};
   options_.end.clear();
   options_.bag = (folder_ / "run.bag").string();
@@ -173,7 +173,7 @@ TEST_F(RunScene, PhysicsThatFailEndWithThreeAndLeaveEverythingWritten) {
   for (const char* part : {"particle ", "step ", "grid.min"}) {
     EXPECT_NE(err_.str().find(part), std::string::npos) << part << " not in: " << err_.str();
   }
-  // sqrt(2 h / g) for the lower particle centres, half a spacing above the block's face at 0.2 m.
+  // sqrt(2 h / g) for the lowest particles, half a spacing above the block's face at 0.2 m.
   EXPECT_NEAR(summary()["time"].get<double>(), std::sqrt(2.0 * 0.205 / 9.81), 0.0025);  // a sync period
   rosbag::Bag bag(options_.bag, rosbag::bagmode::Read);
   EXPECT_GT(rosbag::View(bag).size(), 0U);

@@ -1,4 +1,4 @@
-// What a run writes when a part of it is watched: a region, global quantities, filtered wrenches.
+// Output of a run of which a part is watched: a region, global quantities, filtered wrenches.
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
@@ -24,7 +24,7 @@ std::vector<Message> read(const std::string& path, const std::string& topic) {
   return messages;
 }
 
-/// The press of test/data, its plate pushed down from the start, for 0.1 s of 2 ms sync periods.
+/// Records 0.1 s of the press of test/data in sync periods of 2 ms, with the plate pushed down from the start.
 void record(const std::string& path, const std::function<void(OutputOptions&)>& choose) {
   const mpm::Scene scene =
       mpm::load_scene(data_file("press.yaml"),
@@ -83,7 +83,7 @@ TEST(RunWatch, GlobalQuantitiesComeAtTheirPeriodAndAgreeWithTheOtherTopics) {
   for (const GlobalQuantities& message : messages) {
     while (states[state].header.stamp < message.header.stamp) ++state;
     ASSERT_EQ(states[state].header.stamp, message.header.stamp);
-    // Sums over the same particles in another order.
+    // The sums are over the same particles in another order.
     EXPECT_NEAR(message.values[1], states[state].energy_kinetic, 1e-12 * states[state].energy_kinetic);
     double impulse = 0.0;
     for (const ContactForce& body : forces[state].bodies) {
@@ -94,7 +94,7 @@ TEST(RunWatch, GlobalQuantitiesComeAtTheirPeriodAndAgreeWithTheOtherTopics) {
     EXPECT_NEAR(message.values[0], mean, 1e-9 * std::max(1.0, largest));
     before = impulse;
   }
-  EXPECT_GT(largest, 0.0);  // it did press
+  EXPECT_GT(largest, 0.0);  // it has pressed
 }
 
 TEST(RunWatch, TheFilteredWrenchIsTheFilterOfTheWrenches) {

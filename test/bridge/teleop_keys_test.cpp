@@ -1,4 +1,4 @@
-// Keys as velocities: which, for how long, and what stops.
+// Keys as velocity commands: which, for how long, and what stops them.
 #include "mpm_ros/command/teleop_keys.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST_F(Keys, CountForAWhileAndShorterOnceTheyRepeat) {
   keys_.press('w', 1.0);
   EXPECT_FALSE(still(1.0 + 0.99 * kHold));
   EXPECT_TRUE(still(1.0 + kHold));
-  // The keyboard begins to repeat after 0.5 s, each 30 ms.
+  // The keyboard repeats after 0.5 s, every 30 ms.
   keys_.press('w', 2.0);
   for (int i = 0; i < 10; ++i) keys_.press('w', 2.5 + 0.03 * i);
   EXPECT_FALSE(still(2.77 + 0.99 * TeleopKeys::kRepeated));

@@ -1,4 +1,4 @@
-// Where RViz is told to look from.
+// The view of RViz that shows given particles.
 #include "mpm_ros/message/view.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace mpm_ros {
 namespace {
 
-/// 5 x 3 x 2 particles 0.1 m apart, from (1, 2, 3) on; the last axis fastest, as bodies are filled.
+/// 5 x 3 x 2 particles 0.1 m apart, from (1, 2, 3) on, with the last axis fastest, as in filled bodies.
 sensor_msgs::PointCloud2 lattice(const std::vector<std::string>& fields, bool planar = false) {
   mpm::ParticleColumns cloud_columns;
   std::vector<std::vector<float>>& columns = cloud_columns.values;
@@ -35,19 +35,19 @@ sensor_msgs::PointCloud2 lattice(const std::vector<std::string>& fields, bool pl
   return cloud;
 }
 
-constexpr double kSingle = 1e-6;  // a few units in the last place of numbers near 3 in single precision
+constexpr double kSingle = 1e-6;  // a few roundings of numbers near 3 in single precision
 
 TEST(View, LooksAtTheMiddleOfTheParticles) {
   const View view = view_of(lattice({"vx", "p"}));
   EXPECT_NEAR((view.focus - mpm::Vec3(1.2, 2.1, 3.05)).norm(), 0.0, kSingle);
   EXPECT_NEAR(view.particle_size, 0.1, kSingle);
-  // From outside the ball about them.
+  // The eye is outside the sphere around the particles.
   EXPECT_GT(view.distance, 0.5 * std::hypot(0.4, 0.2, 0.1));
 }
 
 TEST(View, PlanarScenesFromTheFront) {
   const View view = view_of(lattice({"p"}, true));
-  EXPECT_NEAR(view.yaw, 1.5 * M_PI, 1e-15);  // the eye lies towards -y, so that x is to the right
+  EXPECT_NEAR(view.yaw, 1.5 * M_PI, 1e-15);  // the eye is at -y, so that x points to the right
   EXPECT_EQ(view.pitch, 0.0);
 }
 
@@ -58,8 +58,8 @@ TEST(View, LooksAtTheDomainWhenItIsKnown) {
   const View view = view_of(lattice({"p"}), {}, domain);
   EXPECT_EQ(view.focus, mpm::Vec3(2.0, 0.0, 2.0));
   EXPECT_GT(view.distance, 3.0);                  // the domain's half diagonal
-  EXPECT_NEAR(view.particle_size, 0.1, kSingle);  // still of the particles
-  // A planar scene has its particles in one plane, whatever its domain says of y.
+  EXPECT_NEAR(view.particle_size, 0.1, kSingle);  // still that of the particles
+  // A planar scene has its particles in one plane, whatever y its domain has.
   EXPECT_EQ(view_of(lattice({"p"}, true), {}, domain).focus, mpm::Vec3(2.0, 0.0, 2.0));
 }
 
@@ -69,7 +69,7 @@ TEST(View, ColoursByWhatIsThere) {
   EXPECT_EQ(view_of(lattice({"vx", "j"})).field, "vx");
   EXPECT_EQ(view_of(lattice({})).field, "");
   EXPECT_EQ(view_of(lattice({"vx", "speed"}), "vx").field, "vx");
-  EXPECT_EQ(view_of(lattice({"vx", "speed"}), "ep").field, "speed");  // wished for, but not recorded
+  EXPECT_EQ(view_of(lattice({"vx", "speed"}), "ep").field, "speed");  // "ep" is asked for, but not recorded
 }
 
 TEST(View, AnEmptyCloudHasSomeView) {
@@ -102,7 +102,7 @@ TEST(View, IsPutIntoTheShippedConfiguration) {
       ++grids;
       EXPECT_EQ(display["Cell Size"].as<double>(), 0.5);  // the round number below 0.15 x 4.5
       EXPECT_EQ(display["Plane"].as<std::string>(), "XY");
-      EXPECT_EQ(display["Offset"]["Z"].as<double>(), 2.5 - 0.01);  // half a particle below the lowest
+      EXPECT_EQ(display["Offset"]["Z"].as<double>(), 2.5 - 0.01);  // half a particle below the lowest one
     } else if (type == "rviz/MarkerArray") {
       ++arrays;
       EXPECT_EQ(display["Marker Topic"].as<std::string>().find("/other/"), 0U);

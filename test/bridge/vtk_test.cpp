@@ -1,4 +1,4 @@
-// Files for ParaView, read back by the rules of VTK's XML format: header, offsets, raw blocks behind their lengths.
+// Files for ParaView, read back by the rules of VTK's XML format: header, offsets, raw blocks after their lengths.
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
@@ -28,11 +28,11 @@ std::string content(const std::string& path) {
   return text.str();
 }
 
-/// What a .vtp file says.
+/// The content of a .vtp file.
 struct PolyData {
   double time = -1.0;
   std::size_t points = 0, verts = 0, polys = 0;
-  std::map<std::string, std::string> types;  ///< of arrays, "Float32" or "Float32 x 3"
+  std::map<std::string, std::string> types;  ///< type of each array, "Float32" or "Float32 x 3"
   std::map<std::string, std::string> bytes;
 
   template <typename Value>
@@ -70,7 +70,7 @@ PolyData read_vtp(const std::string& path) {
     const std::size_t offset = data + std::stoul((*entry)[4]);
     std::uint64_t size = 0;
     std::memcpy(&size, file.data() + offset, sizeof(size));
-    EXPECT_EQ(offset, end) << name;  // one behind the other
+    EXPECT_EQ(offset, end) << name;  // one after the other
     end = offset + sizeof(size) + size;
     EXPECT_LE(end, file.size()) << name;
     result.types[name] = (*entry)[1].str() + ((*entry)[3] == "1" ? "" : " x " + (*entry)[3].str());
@@ -158,7 +158,7 @@ TEST(Vtk, ARunHoldsWhatItsBagHolds) {
       EXPECT_EQ(ids[i], *id);
     }
 
-    // The plate where it was: turned about y, then moved.
+    // The plate at its pose: turned about y, then moved.
     const BodyState& plate = recorded.bodies_at.at(20'000'000 * cloud).bodies[0];
     const double angle = 2.0 * std::atan2(plate.pose.orientation.y, plate.pose.orientation.w);
     EXPECT_NEAR(angle, 0.5 * 0.02 * cloud, 1e-12);  // the rate times the time

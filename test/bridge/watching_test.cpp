@@ -1,4 +1,4 @@
-// What doc/watching.md and the RViz configurations say of topics and fields is what there is.
+// doc/watching.md and the RViz configurations agree with the topics and fields that exist.
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
@@ -17,7 +17,8 @@ namespace {
 
 using Row = std::pair<std::string, std::string>;
 
-/// The words in backticks of each row's first cell, with its second cell, of the table whose header begins so.
+/// For each row of the table whose header begins with `header`: the words in backticks of its first cell, and its
+/// second cell.
 std::vector<Row> table(const std::string& header) {
   std::ifstream file(source_file("doc/watching.md"));
   std::vector<Row> rows;

@@ -1,4 +1,4 @@
-// Commands of kind wrench: read, queued beside velocities, applied, recorded and read again.
+// Wrench commands: read, queued beside velocities, applied, recorded and read again.
 #include <gtest/gtest.h>
 #include <tf2/buffer_core.h>
 
@@ -105,7 +105,7 @@ TEST_F(WrenchCommands, StopWhatWasCommanded) {
   EXPECT_EQ(stop_commands(0, simulation_).size(), 1u);  // velocity alone
   EXPECT_EQ(stop_commands(1, simulation_).size(), 2u);
   const std::vector<AppliedCommand> ball = stop_commands(2, simulation_);
-  ASSERT_EQ(ball.size(), 1u);  // no velocity to tell
+  ASSERT_EQ(ball.size(), 1u);  // it has no velocity command
   EXPECT_EQ(ball[0].kind, CommandKind::wrench);
   simulation_.apply_wrench(2, {{1.0, 0.0, 0.0}, mpm::Vec3::Zero()});
   apply(ball[0], simulation_);

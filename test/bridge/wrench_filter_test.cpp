@@ -1,5 +1,5 @@
-// The filter of wrenches against what Butterworth's second order is: |H|^2 = 1 / (1 + (f/fc)^4), and under the bilinear
-// transform f stands for tan(pi f T), which the cutoff is in place by.
+// The filter of wrenches against Butterworth's second order, |H|^2 = 1 / (1 + (f/fc)^4). Under the bilinear transform
+// tan(pi f T) takes the place of f, which leaves the cutoff where it is.
 #include "mpm_ros/message/wrench_filter.hpp"
 
 #include <gtest/gtest.h>
@@ -12,11 +12,11 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kPeriod = 1e-3, kCutoff = 20.0;
 
-/// Of a sine of that frequency [Hz], once the start has died away: the filtered one is the real part of this times
-/// exp(i 2 pi f t). Found by the projection over whole periods.
+/// Response to a sine of that frequency [Hz] after the initial transient: the filtered signal is the real part of the
+/// response times exp(i 2 pi f t). It is computed by projection over whole periods.
 std::complex<double> response(double frequency) {
   WrenchFilter filter(kCutoff, kPeriod);
-  const int settle = 2000, samples = 1000;  // the start dies away by exp(-sqrt(2) pi fc t) = 1e-77
+  const int settle = 2000, samples = 1000;  // the transient decays to exp(-sqrt(2) pi fc t) = 1e-77
   std::complex<double> sum = 0.0;
   for (int i = 0; i < settle + samples; ++i) {
     mpm::Wrench wrench;
@@ -48,7 +48,7 @@ TEST(WrenchFilter, HasButterworthsGain) {
 }
 
 TEST(WrenchFilter, LagsByItsDelayAtLowFrequency) {
-  // Delay sqrt(2)/(2 pi fc) = 11.25 ms; at a fiftieth of the cutoff the phase is that to (f/fc)^2 = 4e-4 of it.
+  // The delay is sqrt(2)/(2 pi fc) = 11.25 ms; well below the cutoff the phase equals it to a relative (f/fc)^2.
   const double frequency = kCutoff / 20.0, delay = std::sqrt(2.0) / (2.0 * kPi * kCutoff);
   EXPECT_NEAR(std::arg(response(frequency)), -2.0 * kPi * frequency * delay, 2.5e-3 * 2.0 * kPi * frequency * delay);
 }

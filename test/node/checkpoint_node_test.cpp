@@ -1,5 +1,5 @@
-// Checkpoints of the node: saved, taken on by the same node and by another one, with commands that wait for their time;
-// wrong files are refused, and a failed run leaves its state.
+// Checkpoints of the node: saved, loaded by the same node and by another one, with commands that are not due yet; wrong
+// files are refused, and a failed run saves its state.
 #include <geometry_msgs/TwistStamped.h>
 #include <mpm_ros/Checkpoint.h>
 
@@ -65,7 +65,7 @@ TEST(CheckpointNode, ThroughACheckpointEqualsUninterrupted) {
     EXPECT_EQ(saved.path, file);
     EXPECT_NEAR(saved.time, 0.002 * kHalf, 1e-12);
     EXPECT_EQ(saved.state_hash, hash_text(mpm::read_checkpoint(file).state_hash));
-    // It goes elsewhere, and comes back: simulated time jumps, stamps do not.
+    // It moves elsewhere and loads the checkpoint: simulated time jumps back, stamps do not.
     last = simulator.step(10, {velocity("plate", 0.3)}).stamp;
     const Checkpoint::Response loaded = call(simulator, "load_checkpoint", file);
     ASSERT_TRUE(loaded.success) << loaded.message;
@@ -99,12 +99,12 @@ TEST(CheckpointNode, CommandsThatWaitAreSavedAndGoOn) {
       node.advertise<geometry_msgs::TwistStamped>(simulator.name("bodies/plate/cmd_vel_stamped"), 10);
   ASSERT_TRUE(eventually([&] { return velocities.getNumSubscribers() > 0; }));
   const Step::Response start = simulator.step(5);
-  // To take effect twenty periods later.
+  // A command that takes effect twenty periods later.
   geometry_msgs::TwistStamped later;
   later.header.stamp = start.stamp + ros::Duration(0.04);
   later.twist.linear.z = -0.1;
   velocities.publish(later);
-  ros::WallDuration(0.5).sleep();  // it is on its way by the wall's clock; simulated time stands still
+  ros::WallDuration(0.5).sleep();  // time for the message to arrive; simulated time stands still
   const Checkpoint::Response saved = call(simulator, "save_checkpoint", file);
   ASSERT_TRUE(saved.success) << saved.message;
   ASSERT_TRUE(simulator.step(50).success);

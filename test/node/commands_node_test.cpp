@@ -1,5 +1,5 @@
-// Commands over the topics. Hundreds of random ones: what cannot be used is refused and counted, what can is applied,
-// counted and recorded, and the node goes on. And the wrench on a free body, which lasts until the next.
+// Commands over the topics. Of hundreds of random commands the unusable ones are refused and counted, the others are
+// applied, counted and recorded, and the node continues. And the wrench on a free body, which lasts until the next.
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistStamped.h>
@@ -19,7 +19,7 @@ namespace {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr std::uint64_t kSeed = 20240607;
-constexpr int kEach = 50;  // of each of six kinds of bad command, and of good ones
+constexpr int kEach = 50;  // number of each of six kinds of bad command, and of good ones
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 template <typename Message>
@@ -62,7 +62,7 @@ TEST(Commands, RandomOnesAreRefusedOrAppliedAndCounted) {
     good.linear.x = uniform(-0.01, 0.01);
     rod.publish(good);
     twist.linear.x = std::pow(10.0, uniform(6.0, 300.0));
-    twists.publish(twist);  // refused when it is to take effect
+    twists.publish(twist);  // refused when it is due
   }
   const auto counts = [&](std::uint64_t refused, std::uint64_t applied) {
     simulator.step(1);
@@ -75,7 +75,7 @@ TEST(Commands, RandomOnesAreRefusedOrAppliedAndCounted) {
   EXPECT_EQ(states.heard().back().commands_late, 0U);
   const Step::Response response = simulator.step(1);
   ASSERT_TRUE(response.success);
-  EXPECT_EQ(response.bodies.bodies[0].pose.position.z, 0.065);  // the plate is where the scene put it
+  EXPECT_EQ(response.bodies.bodies[0].pose.position.z, 0.065);  // the plate is at its initial pose
   EXPECT_EQ(response.bodies.bodies[0].drive, BodyState::FUNCTIONS);
   EXPECT_EQ(response.bodies.bodies[1].drive, BodyState::VELOCITY);
 
@@ -103,7 +103,7 @@ TEST(Commands, AWrenchPushesAFreeBodyUntilTheNext) {
   geometry_msgs::Wrench wrench;
   wrench.force.x = 4.0;
   now.publish(wrench);
-  // 4 N on 2 kg from here, at 0.01 s, until 0.06 s.
+  // 4 N act on 2 kg from now, 0.01 s, to 0.06 s.
   EXPECT_NEAR(speed(1, 1), 0.02, 1e-12);
   geometry_msgs::WrenchStamped end;
   end.header.stamp = ros::Time(0, 60'000'000);

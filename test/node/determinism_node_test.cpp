@@ -1,5 +1,5 @@
-// The lockstep's contract (doc/loop.md): the same commands give the same bits, whatever the load, the threads and the
-// order in which messages arrive; and what happens when a controller dies.
+// The contract of lockstep (doc/loop.md): the same commands give the same bits, whatever the load, the number of
+// threads and the order in which messages arrive; and the behaviour when a controller dies.
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <mpm_ros/BodyStates.h>
@@ -17,7 +17,7 @@ namespace mpm_ros::test {
 namespace {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
-constexpr const char* kSender = "--sender";  // makes this program a node that says one thing: topic, vz, stamp [ns]
+constexpr const char* kSender = "--sender";  // makes this program a node that sends one command: topic, vz, stamp [ns]
 
 int send(int argc, char** argv, char** words) {
   ros::init(argc, argv, "sender");
@@ -33,7 +33,7 @@ int send(int argc, char** argv, char** words) {
   return 0;
 }
 
-/// Threads that compute without end, more than there are cores.
+/// More threads than there are cores, which compute all the time.
 class Load {
  public:
   explicit Load(bool on) {
@@ -54,14 +54,16 @@ class Load {
   std::vector<std::thread> threads_;
 };
 
-/// Messages received on command topics. A step that makes no sense is refused and changes nothing.
+/// Number of messages received on command topics, from the answer to a step request that is refused and changes
+/// nothing.
 std::uint64_t received(const SimulatorProcess& simulator) {
   Step::Request request;
   request.duration = -1.0;
   return simulator.step(request).received;
 }
 
-/// A run driven by requests and by two nodes that say something else for the same instant; returns the hash of its end.
+/// A run with commands in requests and by two nodes that send different ones for the same time; returns the hash of its
+/// end.
 std::string driven_run(const std::string& bag, int threads, bool load, bool b_first) {
   SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=" + std::to_string(threads), "record:=" + bag});
   const Load busy(load);
@@ -100,7 +102,7 @@ TEST(Determinism, LoadThreadsAndArrivalDoNotShow) {
   ASSERT_EQ(hash.size(), 16U);
   EXPECT_EQ(driven_run(folder.file("two.bag"), 2, true, true), hash);
 
-  // The loaded run again from what its bag holds, as fast as it goes.
+  // The run under load again from its bag, as fast as possible.
   SimulatorProcess replay({kPress, "pacing:=free", "threads:=1", "commands:=" + folder.file("two.bag"),
                            "record:=" + folder.file("replay.bag")});
   EXPECT_EQ(replay.wait(), 0) << replay.log();
@@ -246,11 +248,11 @@ TEST(Determinism, AKilledControllerStopsTheLockstepsTime) {
       << controller.log() << simulator.log();
   controller.signal(SIGKILL);
   ASSERT_EQ(controller.wait(), -2);
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // a step under way comes to its end
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the present step ends
   const double time = states.heard().back().time;
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   EXPECT_EQ(states.heard().back().time, time);
-  // Another goes on from there.
+  // Another controller continues from there.
   const Step::Response response = simulator.step(1);
   EXPECT_TRUE(response.success) << response.message;
   EXPECT_NEAR(response.time, time + 0.002, 1e-9);
@@ -260,7 +262,7 @@ TEST(Determinism, AKilledControllerStopsTheLockstepsTime) {
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) {
-  // ROS's own words may come first. A sender that went unnoticed here would start the tests again, without end.
+  // Arguments of ROS may come first. A sender that was not recognised here would start the tests again, endlessly.
   for (int i = 1; i + 3 < argc; ++i) {
     if (std::strcmp(argv[i], mpm_ros::test::kSender) == 0) return mpm_ros::test::send(argc, argv, argv + i + 1);
   }

@@ -1,6 +1,6 @@
-// Bodies of the node that follow tf frames or have limits, in lockstep: where they are by stamp, what is published,
-// what silence does, and that the bag replays. The scene's sync points are 2 ms apart; its sled may do 0.4 m/s and 20
-// m/s^2, which is 0.04 m/s a sync period.
+// Bodies of the node that follow tf frames or have limits, in lockstep: their poses by stamp, published transforms, the
+// effect of silence, and the replay of the bag. The scene's sync points are 2 ms apart; its sled is limited to 0.4 m/s
+// and 20 m/s^2, which is 0.04 m/s a sync period.
 #include <mpm_ros/BodyStates.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -14,9 +14,9 @@ namespace {
 
 const std::string kDrive = "scene:=" + data_file("drive.yaml");
 constexpr int kProbe = 0, kHand = 1, kSled = 2;
-constexpr double kRound = 1e-12;  // of places of 0.1 m, interpolated by tf
+constexpr double kRound = 1e-12;  // round-off of positions of 0.1 m, interpolated by tf
 
-/// A frame on a straight way along x from `x` on at 0.05 m/s, stamped from 1 ns to `end` [s].
+/// Transforms of a frame that moves along x from `x` on at 0.05 m/s, stamped from 1 ns to `end` [s].
 tf2_msgs::TFMessage way(const std::string& frame, double x, double z, double end) {
   tf2_msgs::TFMessage message;
   for (const double time : {1e-9, end}) {
@@ -37,7 +37,7 @@ class Drive : public testing::Test {
   ros::Publisher tf_ = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf", 10);
   Ear<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
 
-  /// Sends transforms and steps until the body follows them: topics and services race.
+  /// Sends transforms and steps until the body follows them, since topics may arrive later than service calls.
   void send(const SimulatorProcess& simulator, const tf2_msgs::TFMessage& message, int body) {
     ASSERT_TRUE(eventually([&] { return tf_.getNumSubscribers() > 0; })) << simulator.log();
     ASSERT_TRUE(eventually([&] {
@@ -60,20 +60,20 @@ TEST_F(Drive, ABodyIsWhereItsFrameIsByTheStampAndTheBagReplays) {
     ASSERT_TRUE(simulator.ready()) << simulator.log();
     const Step::Response first = simulator.step(1);
     ASSERT_TRUE(first.success);
-    EXPECT_EQ(place(first, kProbe).x, 0.1);  // it waits where the scene has it
+    EXPECT_EQ(place(first, kProbe).x, 0.1);  // it waits at its initial pose
     EXPECT_TRUE(diagnosed(diagnostics_, simulator, "'probe' waits for the tf frame 'arm/tool0'"));
     EXPECT_TRUE(diagnosed(diagnostics_, simulator, "'hand' waits for the tf frame 'hand'"));
 
-    // Stamped ahead of the simulation: each sync point is met.
+    // Stamps are ahead of the simulation, so there is a transform for each sync point.
     send(simulator, way("arm/tool0", 0.1, 0.06, 0.15), kProbe);
     for (int i = 0; i < 5; ++i) {
       const Step::Response response = simulator.step(3);
       ASSERT_TRUE(response.success);
       EXPECT_NEAR(place(response, kProbe).x, 0.1 + 0.05 * response.time, kRound);
       EXPECT_NEAR(place(response, kProbe).z, 0.06, kRound);
-      EXPECT_EQ(place(response, kHand).x, 0.16);  // its frame is not there
+      EXPECT_EQ(place(response, kHand).x, 0.16);  // its frame does not exist
     }
-    // The limited body beside it, by a pose that it cannot reach in time.
+    // The limited body is commanded to a pose that it cannot reach in time.
     mpm_ros::Command pose;
     pose.body = "sled";
     pose.kind = mpm_ros::Command::POSE;
@@ -116,7 +116,7 @@ TEST_F(Drive, AFrameIsNotPublishedAgain) {
   for (const tf2_msgs::TFMessage& message : ear.heard()) {
     for (const geometry_msgs::TransformStamped& transform : message.transforms) frames.insert(transform.child_frame_id);
   }
-  // The probe has a frame of its own beside the link's; the hand's is the link's.
+  // The probe has a frame of its own beside that of the link; the hand uses that of the link.
   EXPECT_EQ(frames, (std::set<std::string>{"probe", "sled"}));
 }
 
@@ -133,8 +133,8 @@ TEST_F(Drive, SilenceStopsALimitedBodyWithinItsLimits) {
   ASSERT_TRUE(simulator.ready()) << simulator.log();
   mpm_ros::Command command = velocity("sled", 0.0);
   command.twist.linear.x = 1.0;
-  // To 0.4 m/s in the ten periods before it is silent for 0.02 s, and to rest in the ten after: 0.04 m/s times 2 ms
-  // times 55 and 45.
+  // It accelerates to 0.4 m/s in ten periods, until the command has been silent for 0.02 s, and comes to rest in the
+  // next ten: 0.04 m/s times 2 ms times 55 and 45.
   Step::Response response = simulator.step(10, {command});
   EXPECT_NEAR(response.bodies.bodies[kSled].twist.linear.x, 0.4, kRound);
   EXPECT_NEAR(place(response, kSled).x, 0.02 + 0.04 * 0.002 * 55, kRound);
@@ -144,7 +144,7 @@ TEST_F(Drive, SilenceStopsALimitedBodyWithinItsLimits) {
   EXPECT_EQ(response.bodies.bodies[kSled].twist.linear.x, 0.0);
   EXPECT_NEAR(place(response, kSled).x, 0.02 + 0.04 * 0.002 * 100, kRound);
   EXPECT_TRUE(diagnosed(diagnostics_, simulator, "no command for 'sled'"));
-  // It takes commands again, from rest.
+  // It follows commands again, from rest.
   response = simulator.step(1, {command});
   EXPECT_NEAR(response.bodies.bodies[kSled].twist.linear.x, 0.04, kRound);
 }
@@ -161,7 +161,7 @@ TEST_F(Drive, SilenceOfAFrameHoldsItsLastPlaceOrEndsTheRun) {
     EXPECT_NEAR(place(response, kProbe).x, 0.1 + 0.05 * 0.05, kRound);
     if (setting == "error") {
       EXPECT_NE(response.message.find("no command for 'probe'"), std::string::npos) << response.message;
-      EXPECT_NEAR(response.time, 0.08, 1e-9);  // the last place is reached at 0.05 s
+      EXPECT_NEAR(response.time, 0.08, 1e-9);  // the last pose is reached at 0.05 s
       EXPECT_EQ(simulator.wait(), 3) << simulator.log();
     } else {
       EXPECT_EQ(response.bodies.bodies[kProbe].drive, setting == "stop" ? BodyState::VELOCITY : BodyState::POSE);
@@ -173,7 +173,7 @@ TEST_F(Drive, SilenceOfAFrameHoldsItsLastPlaceOrEndsTheRun) {
 TEST_F(Drive, AJumpIsTold) {
   SimulatorProcess simulator({kDrive, "pacing:=lockstep", "threads:=1"});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
-  // The link is 4 cells from where the scene has the body: it gets there in one period, and says so.
+  // The link is 4 cells from the body's initial pose: the body moves there in one period, and this is reported.
   send(simulator, way("hand", 0.12, 0.08, 0.15), kHand);
   EXPECT_TRUE(diagnosed(diagnostics_, simulator, "'hand' jumps")) << simulator.log();
 }

@@ -1,5 +1,5 @@
-// How the node ends, by the wall clock: the scene's end, signals, failed physics, silence, bad input. Whatever ends it,
-// the bag can be read.
+// Ends of the node, by the wall clock: the scene's end, signals, failed physics, silence, bad input. The bag is
+// readable in every case.
 #include <geometry_msgs/Twist.h>
 #include <mpm_ros/BodyStates.h>
 #include <mpm_ros/SolverState.h>
@@ -30,7 +30,7 @@ void expect_closed_bag_after(int signal) {
   EXPECT_EQ(simulator.wait(), 0) << simulator.log();
   EXPECT_EQ(messages_in(bag, "mpm_ros/RunInfo"), 1U);
   EXPECT_GE(messages_in(bag, "mpm_ros/BodyStates"), 5U);
-  EXPECT_EQ(hash_in(bag).size(), 16U);  // the last state is there
+  EXPECT_EQ(hash_in(bag).size(), 16U);  // the last state is recorded
 }
 
 TEST(Endings, InterruptClosesTheBag) { expect_closed_bag_after(SIGINT); }
@@ -66,11 +66,11 @@ TEST(Endings, FailedPhysicsIsExitCodeThreeAndLeavesABag) {
   ASSERT_EQ(lines.size(), 1U) << simulator.log();
   EXPECT_NE(lines[0].find("particle"), std::string::npos) << lines[0];
   EXPECT_NE(lines[0].find("step"), std::string::npos) << lines[0];
-  // The block's front at 0.09 m, 2 m/s: it leaves the domain at 0.2 m no later than after 0.06 s, so snapshots of
-  // 0, 0.02 and 0.04 s are there, and the state of the failure.
+  // The block's front starts at 0.09 m with 2 m/s and leaves the domain at 0.2 m after 0.06 s at the latest, so there
+  // are snapshots of 0, 0.02 and 0.04 s, and of the failure.
   EXPECT_GE(messages_in(bag, "sensor_msgs/PointCloud2"), 4U);
   EXPECT_EQ(hash_in(bag).size(), 16U);
-  // The bag alone tells that it failed, and why.
+  // The bag alone shows that the run failed, and why.
   const SolverState last = last_state_in(bag);
   EXPECT_TRUE(last.failed);
   EXPECT_NE(lines[0].find(last.failure), std::string::npos) << last.failure;
@@ -152,7 +152,7 @@ TEST(Endings, SilenceStopsTheBody) {
   request.commands.push_back(velocity("rod", -0.1));
   const Step::Response response = simulator.step(request);
   ASSERT_TRUE(response.success);
-  // It moved for 0.05 s and stood still for the rest.
+  // It moved for 0.05 s and then stood still.
   EXPECT_NEAR(response.bodies.bodies[1].pose.position.z, 0.1 - 0.1 * 0.05, 1e-12);
   EXPECT_EQ(response.bodies.bodies[1].twist.linear.z, 0.0);
   EXPECT_TRUE(diagnosed(diagnostics, simulator, "no command for 'rod'"));

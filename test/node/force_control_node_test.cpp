@@ -1,11 +1,11 @@
-// The example controller presses a probe into foam until the force settles: in lockstep within 2 %, in real time
-// through topics within 5 %. It says so itself by its exit code.
+// The example controller presses a probe into foam until the force settles: within 2 % in lockstep, and within 5 % in
+// real time through topics. Its exit code reports success.
 #include "simulator_process.hpp"
 
 namespace mpm_ros::test {
 namespace {
 
-/// Runs the controller for 4 s of simulated time; the hash of the end, and what the controller printed.
+/// Runs the controller for 4 s of simulated time. Returns the hash of the end; `said` is the controller's output.
 std::string controlled_run(const std::string& pacing, const std::string& tolerance, std::string& said) {
   const TemporaryFolder folder;
   const std::string bag = folder.file("run.bag");

@@ -1,5 +1,5 @@
-// Two million steps in lockstep while everything is recorded in parts: the memory stays what it was, and the clock is
-// the number of sync periods.
+// Two million steps in lockstep while everything is recorded in parts: memory does not grow, and the clock equals the
+// number of sync periods.
 #include <fmt/format.h>
 #include <mpm_ros/RunInfo.h>
 
@@ -12,7 +12,7 @@
 namespace mpm_ros::test {
 namespace {
 
-/// Of a process, resident [kB].
+/// Resident memory of a process [kB].
 long memory_of(pid_t pid) {
   std::ifstream status("/proc/" + std::to_string(pid) + "/status");
   for (std::string line; std::getline(status, line);) {
@@ -26,7 +26,7 @@ TEST(FullEndurance, TwoMillionStepsInLockstep) {
   constexpr std::uint64_t kSteps = 2'000'000, kStepsOfSync = 100, kSyncs = kSteps / kStepsOfSync;
   constexpr std::uint64_t kSync = 10'000'000;  // [ns]
   constexpr int kCalls = 200;
-  // One heap for all threads: else a thread that serves its first call, at whatever time, takes a megabyte for its own.
+  // One heap for all threads; otherwise a thread takes a megabyte of its own when it serves its first call.
   setenv("MALLOC_ARENA_MAX", "1", 1);
   const TemporaryFolder folder;
   const std::string bag = folder.file("run.bag");
@@ -44,7 +44,7 @@ TEST(FullEndurance, TwoMillionStepsInLockstep) {
     const long memory = memory_of(simulator.pid());
     if (call % (kCalls / 10) == 0)
       std::cout << fmt::format("{} kB after {} sync periods\n", memory, syncs) << std::flush;
-    if (call == kCalls / 10) warm = memory;  // several parts have been closed by then
+    if (call == kCalls / 10) warm = memory;  // several parts are closed by then
     if (call > kCalls / 10) largest = std::max(largest, memory);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

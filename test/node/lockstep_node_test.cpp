@@ -1,4 +1,4 @@
-// The node in lockstep, in simulated time: topics and types, commands and what they do, services, replay.
+// The node in lockstep, in simulated time: topics and types, commands and their effects, services, replay.
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
@@ -27,7 +27,7 @@ namespace {
 const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Publishes until the simulator's subscriber is there, then once.
+/// Waits for the simulator's subscriber and publishes once.
 template <typename Message>
 void say(const std::string& topic, const Message& message) {
   static std::map<std::string, ros::Publisher> publishers;
@@ -37,7 +37,7 @@ void say(const std::string& topic, const Message& message) {
   publisher.publish(message);
 }
 
-/// A topic message has arrived at some time after it was sent: step by step until the body moves as told.
+/// Steps until the body moves as commanded, because a message on a topic arrives some time after it was sent.
 bool steps_until(const SimulatorProcess& simulator, const std::function<bool(const Step::Response&)>& so) {
   return eventually([&] { return so(simulator.step(1)); });
 }
@@ -45,7 +45,7 @@ bool steps_until(const SimulatorProcess& simulator, const std::function<bool(con
 TEST(Lockstep, TopicsAndServicesHaveTheirTypes) {
   SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1"});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
-  // Subscribed topics are in the master's table of types, too.
+  // The master's table of types includes subscribed topics.
   std::map<std::string, std::string> types;
   XmlRpc::XmlRpcValue request, response, payload;
   request[0] = ros::this_node::getName();
@@ -96,18 +96,18 @@ TEST(Lockstep, CommandMovesTheBodyAndTheBodyFeelsTheMaterial) {
   ASSERT_TRUE(response.success) << response.message;
   EXPECT_NEAR(response.time, 0.1, 1e-9);
   EXPECT_EQ(response.stamp, ros::Time(0, 100'000'000));
-  // 0.065 m - 0.1 m/s x 0.1 s, summed over some thousand steps.
+  // 0.065 m - 0.1 m/s x 0.1 s, with round-off of some thousand steps.
   ASSERT_EQ(response.bodies.bodies.size(), 2U);
   EXPECT_EQ(response.bodies.bodies[0].name, "plate");
   EXPECT_NEAR(response.bodies.bodies[0].pose.position.z, 0.055, 1e-12);
   EXPECT_EQ(response.bodies.bodies[0].drive, BodyState::VELOCITY);
   EXPECT_EQ(response.bodies.bodies[1].drive, BodyState::FUNCTIONS);
-  // The plate's lower face went 5 mm into the strip, which pushes it up; the rod touches nothing.
+  // The plate has moved 5 mm into the strip, which pushes it up; the rod touches nothing.
   EXPECT_GT(response.contact_forces.bodies[0].wrench.force.z, 0.0);
   EXPECT_NEAR(response.contact_forces.bodies[0].interval, 0.1, 1e-9);
   EXPECT_EQ(response.contact_forces.bodies[1].wrench.force.z, 0.0);
 
-  // Everything was published before the answer came; it only has to travel.
+  // Everything was published before the answer; the messages only have to arrive.
   const Ear<SolverState> state(simulator.name("solver_state"));
   ASSERT_TRUE(state.hears(1));
   ASSERT_TRUE(commands.hears(1));
@@ -119,7 +119,7 @@ TEST(Lockstep, CommandMovesTheBodyAndTheBodyFeelsTheMaterial) {
   ASSERT_TRUE(
       eventually([&] { return !wrench.heard().empty() && wrench.heard().back().header.stamp == response.stamp; }));
   EXPECT_EQ(wrench.heard().back().header.frame_id, "plate");
-  // The plate is not turned: its axes are the world's.
+  // The plate is not rotated, so its axes are those of the world.
   EXPECT_EQ(wrench.heard().back().wrench.force.z, forces.heard().back().bodies[0].wrench.force.z);
   // The mean over the step is the sum of the parts, up to round-off.
   double impulse = 0.0;
@@ -134,18 +134,18 @@ TEST(Lockstep, CommandMovesTheBodyAndTheBodyFeelsTheMaterial) {
   EXPECT_EQ(simulator.wait(), 0) << simulator.log();
   rosbag::Bag bag(folder.file("run.bag"));
   rosbag::View recorded(bag, rosbag::TopicQuery(simulator.name("contact_forces")));
-  EXPECT_EQ(recorded.size(), forces.heard().size() + 1);  // and the one at the start, before anybody listened
+  EXPECT_EQ(recorded.size(), forces.heard().size() + 1);  // and the one at the start, before there was a subscriber
   rosbag::View applied(bag, rosbag::TopicQuery(simulator.name("commands")));
   EXPECT_EQ(applied.size(), 1U);
   EXPECT_EQ(recorded.getBeginTime(), ros::TIME_MIN);
 }
 
-/// Drives a whole run over topics and by steps; returns the hash of its end.
+/// Drives a whole run by commands on topics and in steps; returns the hash of its end.
 std::string driven_run(const std::string& bag, int threads) {
   SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=" + std::to_string(threads), "record:=" + bag});
   EXPECT_TRUE(simulator.ready()) << simulator.log();
   EXPECT_TRUE(simulator.step(10, {velocity("plate", -0.1), velocity("rod", -0.05)}).success);
-  // Stamped well ahead of the simulation, which waits: it takes effect at its stamp, whenever it arrives here.
+  // Its stamp is well ahead of the simulation, which waits: it takes effect at its stamp, whenever it arrives.
   geometry_msgs::TwistStamped slower;
   slower.header.frame_id = "world";
   slower.header.stamp = ros::Time(0, 120'000'000);
@@ -186,7 +186,7 @@ TEST(Lockstep, ThreadsAndReplayGiveTheSameHash) {
   EXPECT_EQ(replay.wait(), 0) << replay.log();
   EXPECT_EQ(hash_in(folder.file("replay.bag")), hash);
 
-  // The same without stepping: as fast as it goes, to the end, which ends the node.
+  // The same without stepping: as fast as possible to the end of the scene, which ends the node.
   SimulatorProcess free({kPress, "pacing:=free", "threads:=1", "commands:=" + folder.file("one.bag"),
                          "record:=" + folder.file("free.bag")});
   EXPECT_EQ(free.wait(), 0) << free.log();
@@ -221,11 +221,11 @@ TEST(Lockstep, BadCommandsAreRefusedAndChangeNothing) {
   EXPECT_TRUE(diagnosed(diagnostics, simulator, "the most is 255"));
 
   stamped.header.frame_id = "world";
-  stamped.header.stamp = ros::Time(1'700'000'000, 0);  // the wall's clock, in simulated time
+  stamped.header.stamp = ros::Time(1'700'000'000, 0);  // a stamp of the wall clock, in simulated time
   say(simulator.name("bodies/plate/cmd_vel_stamped"), stamped);
   EXPECT_TRUE(diagnosed(diagnostics, simulator, "the same clock"));
 
-  // Nobody subscribes there, so the node asks the master.
+  // The node has no subscriber there, so it asks the master.
   const ros::Publisher stranger =
       ros::NodeHandle().advertise<geometry_msgs::Twist>(simulator.name("bodies/plat/cmd_vel"), 1);
   EXPECT_TRUE(diagnosed(diagnostics, simulator, "there is no rigid body 'plat'"));
@@ -246,7 +246,7 @@ TEST(Lockstep, BadCommandsAreRefusedAndChangeNothing) {
 
   response = simulator.step(3);
   ASSERT_TRUE(response.success);
-  EXPECT_EQ(response.bodies.bodies[0].pose.position.z, 0.065);  // where the scene put it
+  EXPECT_EQ(response.bodies.bodies[0].pose.position.z, 0.065);  // its initial pose
   EXPECT_EQ(response.bodies.bodies[0].twist.linear.z, 0.0);
   EXPECT_EQ(response.bodies.bodies[0].drive, BodyState::FUNCTIONS);
   EXPECT_TRUE(commands.heard().empty());
@@ -270,13 +270,13 @@ TEST(Lockstep, FramesTurnCommands) {
   twist.header.frame_id = "sensor";
   twist.twist.linear.x = 0.01;
   Step::Response response;
-  // The transform and the command travel at their own pace: said again until both are there.
+  // The transform and the command arrive at different times: the command is repeated until both have arrived.
   ASSERT_TRUE(eventually([&] {
     say(simulator.name("bodies/rod/cmd_vel_stamped"), twist);
     response = simulator.step(1);
     return response.bodies.bodies[1].drive == BodyState::VELOCITY;
   }));
-  // Two products of numbers near 1: a few units in the last place.
+  // Two products of numbers near 1: an error of a few units in the last place.
   EXPECT_NEAR(response.bodies.bodies[1].twist.linear.z, 0.01, 1e-15);
   EXPECT_NEAR(response.bodies.bodies[1].twist.linear.x, 0.0, 1e-15);
 
@@ -305,7 +305,7 @@ TEST(Lockstep, CommandsInABodysOwnAxes) {
   turn.pose.position.x = 0.17;
   turn.pose.position.z = 0.1;
   turn.pose.orientation.w = std::sqrt(0.5);
-  turn.pose.orientation.y = -std::sqrt(0.5);  // x axis up
+  turn.pose.orientation.y = -std::sqrt(0.5);  // the x axis points up
   ASSERT_TRUE(simulator.step(10, {turn}).success);
   mpm_ros::Command forward = velocity("rod", 0.0);
   forward.header.frame_id = "rod";
@@ -338,12 +338,12 @@ TEST(Lockstep, PauseRefusesStepsAndResetBeginsAgain) {
   const Step::Response again = simulator.step(20, {velocity("plate", -0.2)});
   ASSERT_TRUE(again.success);
   EXPECT_EQ(again.time, first.time);
-  EXPECT_GT(again.stamp, first.stamp);  // stamps do not run backwards
+  EXPECT_GT(again.stamp, first.stamp);  // stamps never go back
   EXPECT_EQ(again.contact_forces.bodies[0].wrench, first.contact_forces.bodies[0].wrench);
 
   simulator.signal(SIGINT);
   EXPECT_EQ(simulator.wait(), 0) << simulator.log();
-  // A bag holds one run, and both runs went the same way.
+  // A bag holds one run, and both runs end in the same state.
   EXPECT_EQ(hash_in(folder.file("run.bag")), hash_in(folder.file("run_2.bag")));
 }
 

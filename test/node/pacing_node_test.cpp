@@ -1,5 +1,5 @@
-// Who moves simulated time, /clock, starting paused, and what a reset does to time. The parameter /use_sim_time is set
-// for each simulator by itself.
+// Pacing of simulated time, /clock, starting paused, and the effect of a reset on time. The parameter /use_sim_time is
+// set for each simulator.
 #include <mpm_ros/BodyStates.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
@@ -65,8 +65,8 @@ TEST(Pacing, RealTimeNeverRunsAheadAndKeepsItsFactor) {
   const auto from = std::chrono::steady_clock::now();
   ASSERT_TRUE(eventually([&] { return states.heard().back().time >= first + 1.0; })) << simulator.log();
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
-  // 1 s of simulated time at half the wall's pace takes 2 s: what was on its way when it was looked at first, and the
-  // 100 ms of delay that are caught up with, come off; more it takes on a machine that is busy.
+  // 1 s of simulated time at half the wall's pace takes 2 s. It may take less by the age of the first message and by
+  // the 100 ms of delay that are caught up with, and more on a busy machine.
   EXPECT_GE(wall, 1.85);
   EXPECT_LE(wall, 3.0);
 }
@@ -78,7 +78,7 @@ TEST(Pacing, OverrunsAreCountedAndShown) {
   Ear<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   Ear<SolverState> states(simulator.name("solver_state"));
   ASSERT_TRUE(states.hears(20));
-  // No machine is that fast: each period is late, and shows in the next state.
+  // No machine is that fast: each period is late, and the next state shows it.
   const SolverState last = states.heard().back();
   const auto periods = static_cast<std::uint64_t>(std::llround(last.time / 0.01));
   EXPECT_EQ(last.overruns, periods - 1);
@@ -96,7 +96,7 @@ TEST(Pacing, TheClockIsThrottledInSimulatedTime) {
   request.duration = 0.33;
   ASSERT_TRUE(simulator.step(request).success);
   ASSERT_TRUE(clock.hears(7));
-  // Zero, which is stamped one nanosecond, and every 50 ms up to 0.30 s.
+  // Time zero, which has the stamp of one nanosecond, and every 50 ms up to 0.30 s.
   std::vector<std::uint64_t> expected{1};
   for (std::uint64_t k = 1; k <= 6; ++k) expected.push_back(k * 50'000'000);
   std::vector<std::uint64_t> times;
@@ -113,7 +113,7 @@ TEST(Pacing, TheClockIsLeftToAnotherOwner) {
   rosgraph_msgs::Clock message;
   message.clock = ros::Time(100.0);
   owner.publish(message);
-  EXPECT_EQ(simulator.step(3).stamp, ros::Time(0, 30'000'000));  // stamps are the solver's own all the same
+  EXPECT_EQ(simulator.step(3).stamp, ros::Time(0, 30'000'000));  // stamps are still those of the solver
 }
 
 TEST(Pacing, WithoutSimulatedTimeThereIsNoClock) {
@@ -131,7 +131,7 @@ TEST(Pacing, StartingPausedHangsNobody) {
   use_sim_time(true);
   SimulatorProcess simulator({kPress, kLong, "threads:=1", "start_paused:=true"});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
-  // A node that comes later asks for the time and gets it.
+  // A node that starts later receives the time.
   ProgramProcess waiter("pacing_node_test", {kWaiter});
   EXPECT_EQ(waiter.wait(20.0), 0) << waiter.log();
   // Services answer.
@@ -142,7 +142,7 @@ TEST(Pacing, StartingPausedHangsNobody) {
   EXPECT_EQ(states.heard().back().time, 0.0);
   pause(simulator, false);
   EXPECT_TRUE(eventually([&] { return states.heard().back().time > 0.05; }));
-  // And again in the middle of a run.
+  // The same in the middle of a run.
   pause(simulator, true);
   ProgramProcess later("pacing_node_test", {kWaiter});
   EXPECT_EQ(later.wait(20.0), 0) << later.log();
@@ -177,7 +177,7 @@ std::vector<std::uint64_t> clock_over_reset(const std::string& reset_time, const
 
 TEST(Pacing, ResetGoesOnWithLaterStamps) {
   const TemporaryFolder folder;
-  // Sync points every 2 ms; zero of the second run is stamped as the one after the first run's last.
+  // Sync points are 2 ms apart; the start of the second run is stamped one period after the end of the first.
   std::vector<std::uint64_t> expected{1};
   for (std::uint64_t k = 1; k <= 11; ++k) expected.push_back(k * 2'000'000);
   EXPECT_EQ(clock_over_reset("continue", folder.file("run.bag")), expected);

@@ -1,4 +1,4 @@
-// The node's recordings: killed, on a full disk, split, named by themselves, and run again.
+// Recordings of the node: killed, on a full disk, split, with a name of their own, and run again.
 #include <mpm_ros/BodyStates.h>
 #include <std_srvs/Trigger.h>
 
@@ -16,7 +16,7 @@ namespace {
 const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr std::int64_t kSync = 2'000'000;  // [ns]
 
-/// Times of the body states in a recording, which must follow each other from the start without a gap.
+/// Times of the body states in a recording, which must have no gap from the start on.
 std::vector<std::int64_t> times_in(const std::string& bag) {
   struct Times : RunVisitor {
     void bodies(std::int64_t time, const BodyStates&) override { times.push_back(time); }
@@ -36,7 +36,7 @@ TEST(Recording, AKilledNodeLosesItsLastChunkAtMost) {
       {kPress, "pacing:=lockstep", "threads:=1", "set:=[time.end=100, time.sync=0.002]", "record:=" + bag});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
   ASSERT_TRUE(simulator.step(200).success);
-  // A chunk ends at the first sync point after a second: sync point 201 and all before it are then on the disk.
+  // A chunk ends at the first sync point after a second. Then sync point 201 and all before it are on the disk.
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   ASSERT_TRUE(simulator.step(1).success);
   ASSERT_TRUE(simulator.step(20).success);
@@ -62,7 +62,7 @@ TEST(Recording, ANodeKilledAtItsStartLeavesItsScene) {
   EXPECT_NE(RunBag(bag, "").info()->scene_text.find("plate"), std::string::npos);
 }
 
-/// A cloud at each of 501 sync points: some 3 MB.
+/// A cloud at each of 501 sync points: about 3 MB.
 const std::string kLarge = "set:=[time.end=1, time.sync=0.002, output.period=0.002]";
 
 TEST(Recording, AFullDiskEndsTheRunWithOneLine) {

@@ -1,4 +1,4 @@
-// Simulators and other programs in processes of their own, as a user would start them; for node tests.
+// Simulators and other programs in processes of their own, as a user starts them; for node tests.
 #pragma once
 
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -30,7 +30,8 @@
 
 namespace mpm_ros::test {
 
-/// Asks until the answer is yes or `seconds` of wall time have passed; simulated time may stand still.
+/// Calls `ask` until it returns true or `seconds` of wall time have passed; simulated time may stand still. Returns its
+/// last answer.
 inline bool eventually(const std::function<bool()>& ask, double seconds = 20.0) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   while (std::chrono::steady_clock::now() < deadline) {
@@ -48,15 +49,15 @@ inline mpm_ros::Command velocity(const std::string& body, double vz) {
   return command;
 }
 
-/// Set in the environment of what a test starts: a test program that plays another node must not run its tests there,
-/// and start itself again, and again.
+/// Environment variable of the processes that a test starts. A test program that acts as another node must not run its
+/// tests there, which would start it again and again.
 constexpr const char* kChild = "MPM_TEST_CHILD";
 
-/// A program of this package in a process of its own, below a namespace of its own, as a user would start it.
+/// A program of this package in a process and a namespace of its own, as a user starts it.
 class ProgramProcess {
  public:
-  /// `arguments`: as on the command line. Several may live one after the other; each has its namespace, or that given.
-  /// `largest_file` [byte]: what the disk has room for; 0: all there is.
+  /// `arguments`: as on the command line. Each program has a namespace of its own, or the given one.
+  /// `largest_file`: simulated space on the disk [byte]; 0: unlimited.
   explicit ProgramProcess(const std::string& program, const std::vector<std::string>& arguments,
                           const std::string& name_space = {}, rlim_t largest_file = 0) {
     static int count = 0;
@@ -72,7 +73,7 @@ class ProgramProcess {
     pid_ = fork();
     if (pid_ == 0) {
       if (largest_file > 0) {
-        ::signal(SIGXFSZ, SIG_IGN);  // writing beyond it then fails, as on a full disk
+        ::signal(SIGXFSZ, SIG_IGN);  // then writing beyond the limit fails, as on a full disk
         const rlimit limit{largest_file, largest_file};
         setrlimit(RLIMIT_FSIZE, &limit);
       }
@@ -95,7 +96,7 @@ class ProgramProcess {
   pid_t pid() const { return pid_; }
   void signal(int number) const { kill(pid_, number); }
 
-  /// Exit code; -1 when it did not end in time, -2 when a signal ended it.
+  /// Waits for the end and returns the exit code; -1 if it did not end in time, -2 if a signal ended it.
   int wait(double seconds = 60.0) {
     int status = 0;
     if (!eventually([&] { return waitpid(pid_, &status, WNOHANG) == pid_; }, seconds)) return -1;
@@ -103,7 +104,7 @@ class ProgramProcess {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -2;
   }
 
-  /// What it printed.
+  /// The output of the program.
   std::string log() const {
     std::ifstream file(log_);
     std::stringstream text;
@@ -128,7 +129,7 @@ class SimulatorProcess : public ProgramProcess {
     return eventually([&] { return ros::service::exists(name("step"), false); });
   }
 
-  /// Lines with FATAL.
+  /// Lines of the output with FATAL.
   std::vector<std::string> fatal_lines() const {
     std::vector<std::string> lines;
     std::istringstream text(log());
@@ -158,7 +159,7 @@ class SimulatorProcess : public ProgramProcess {
   }
 };
 
-/// Hears a topic on a thread of roscpp's and keeps every message.
+/// Subscribes to a topic on a thread of roscpp and keeps every message.
 template <typename Message>
 class Ear {
  public:
@@ -186,7 +187,7 @@ class Ear {
   ros::Subscriber subscriber_;
 };
 
-/// Waits for the status `commands` or `solver` of that simulator to say `text`.
+/// Waits until the status `commands` or `solver` of that simulator contains `text`.
 inline bool diagnosed(const Ear<diagnostic_msgs::DiagnosticArray>& ear, const SimulatorProcess& simulator,
                       const std::string& text) {
   const std::string node = simulator.name("simulator").substr(1) + ": ";

@@ -1,4 +1,4 @@
-// The keyboard teleoperation in a pseudo-terminal, as a user sits before it, by the wall clock.
+// The keyboard teleoperation in a pseudo-terminal, as a user runs it, by the wall clock.
 #include <mpm_ros/BodyStates.h>
 #include <poll.h>
 #include <pty.h>
@@ -39,7 +39,7 @@ class Teleop {
 
   void press(char key) const { EXPECT_EQ(write(terminal_, &key, 1), 1); }
   void signal(int number) const { kill(pid_, number); }
-  /// What it has shown so far.
+  /// The output so far.
   const std::string& shown() {
     pollfd output{terminal_, POLLIN, 0};
     std::array<char, 4096> buffer{};
@@ -53,7 +53,7 @@ class Teleop {
   bool shows(const std::string& text) {
     return eventually([&] { return shown().find(text) != std::string::npos; });
   }
-  /// Exit code; -1 when it did not end in time, -2 when a signal ended it.
+  /// Waits for the end and returns the exit code; -1 if it did not end in time, -2 if a signal ended it.
   int wait() {
     int status = 0;
     if (!eventually([&] {
@@ -95,7 +95,7 @@ class Keyboard : public testing::Test {
     return {body, "--namespace", any.substr(0, any.size() - 2), "--speed", "0.02"};
   }
   double speed() const { return bodies_.heard().back().bodies[kPlate].twist.linear.x; }
-  /// Holds a key, as a keyboard repeats it, until the plate moves.
+  /// Holds a key, repeated as by a keyboard, until the plate has the expected velocity.
   bool holds(const Teleop& teleop, char key, double expected) const {
     return eventually([&] {
       teleop.press(key);
@@ -111,7 +111,7 @@ TEST_F(Keyboard, AKeyMovesTheBodyForAsLongAsItIsHeld) {
   EXPECT_TRUE(teleop.is_raw());
   EXPECT_TRUE(holds(teleop, 'w', 0.02));
   EXPECT_TRUE(teleop.shows("velocity +0.02"));
-  EXPECT_TRUE(eventually([&] { return speed() == 0.0; })) << speed();  // let go
+  EXPECT_TRUE(eventually([&] { return speed() == 0.0; })) << speed();  // the key was released
   EXPECT_TRUE(holds(teleop, 's', -0.02));
   teleop.press(' ');
   EXPECT_TRUE(eventually([&] { return speed() == 0.0; }));

@@ -148,6 +148,7 @@ std::vector<Case> cases() {
   // Geometries.
   add(kRings, "rings", {});
   add(kRings, "rings_nodes", {"contact={method: nodes}", "method.shape=cpdi"});
+  add(kRings, "rings_massless_nodes", {"method.shape=qcpdi"});
   add(kLine, "line", {"method.transfer=apic"});
   add(kSolid, "solid", {});
   add(kSolid, "solid_single_cpdi", {"method.shape=cpdi", "method.precision=single"});

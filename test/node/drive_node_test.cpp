@@ -82,7 +82,7 @@ TEST_F(Drive, ABodyIsWhereItsFrameIsByTheStampAndTheBagReplays) {
     pose.pose.orientation.w = 1.0;
     const Step::Response asked = simulator.step(1, {pose});
     ASSERT_TRUE(asked.success);
-    EXPECT_NEAR(asked.bodies.bodies[kSled].twist.linear.x, 0.04, 1e-9);  // of 2.5 m/s
+    EXPECT_NEAR(asked.bodies.bodies[kSled].twist.linear.x, 0.04, 1e-9);  // 2.5 m/s is commanded
     EXPECT_EQ(asked.bodies.bodies[kSled].drive, BodyState::POSE);
     ASSERT_TRUE(simulator.step(1).success);
     EXPECT_TRUE(diagnosed(diagnostics_, simulator, "'sled' is behind its pose"));

@@ -166,7 +166,7 @@ std::vector<std::uint64_t> clock_over_reset(const std::string& reset_time, const
   EXPECT_TRUE(clock.hears(12));
   Ear<SolverState> states(simulator.name("solver_state"));
   EXPECT_TRUE(states.hears(1));
-  EXPECT_EQ(states.heard().back().commands_applied, 1U);  // of this run
+  EXPECT_EQ(states.heard().back().commands_applied, 1U);  // counted from the start of this run
   EXPECT_EQ(states.heard().back().steps, last_state_in(bag).steps);
   simulator.signal(SIGINT);
   EXPECT_EQ(simulator.wait(), 0) << simulator.log();

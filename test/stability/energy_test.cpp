@@ -17,7 +17,7 @@ using verification::Numbers;
 using verification::Outcome;
 using verification::Page;
 
-constexpr double kSpeed = 0.1 * kWaveSpeed;  // of each disk
+constexpr double kSpeed = 0.1 * kWaveSpeed;  // speed of each disk
 constexpr double kRadius = 4.0;              // [cells]
 constexpr double kDrift = 0.01;              // change of the energy that counts as broken
 

@@ -50,7 +50,7 @@ class LinearStep {
       k.block(i * n, (1 - i) * n, n, n) =
           mass_ * (lambda_ * own * other.transpose() + shear_ * other * own.transpose());
     }
-    // The same eigenvalues as M^-1 C M^-1 K, but symmetric: W K W^T with W = sqrt(m) S^T M^-1.
+    // W K W^T with W = sqrt(m) S^T M^-1 is symmetric and has the eigenvalues of M^-1 C M^-1 K.
     Matrix w = Matrix::Zero(2 * p, 2 * n);
     w.topLeftCorner(p, n) = std::sqrt(mass_) * s_.transpose() * lumped_.cwiseInverse().asDiagonal();
     w.bottomRightCorner(p, n) = w.topLeftCorner(p, n);
@@ -98,7 +98,7 @@ class LinearStep {
         high[k] = std::max(high[k], place[k]);
       }
     }
-    std::vector<std::array<std::vector<double>, 3>> rows;  // of S, dS/dx, dS/dz
+    std::vector<std::array<std::vector<double>, 3>> rows;  // rows of S, dS/dx and dS/dz
     for (double x = std::floor(low[0]) - 2.0; x <= high[0] + 3.0; ++x) {
       for (double z = std::floor(low[1]) - 2.0; z <= high[1] + 3.0; ++z) {
         std::array<std::vector<double>, 3> row;

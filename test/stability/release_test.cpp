@@ -55,7 +55,7 @@ Parting meet(const mpm::SimulationDefinition& d, double approach) {
   const double start = approach * kWaveSpeed;
   Parting parting;
   Numbers parts, gaps;
-  // Until a gap of twelve cells; a pair that sticks does not reach it.
+  // A pair that separates reaches a gap of twelve cells; one that sticks never does.
   while (simulation.time() < 400 * simulation.sync_period()) {
     simulation.advance();
     const std::vector<double> v = field(simulation, "vx"), x = field(simulation, "x");

@@ -124,7 +124,7 @@ TEST(Rotation, ChangesVolumeByTheTermsOfTheExponential) {
   page.figure().panel("A turn changes J by less than 1 %", "", "").map(map);
 }
 
-// The same for every shape function, since their gradients reproduce a linear velocity whatever the domain. Only for a
+// Volume grows alike with every shape function, since gradients reproduce a linear velocity on any domain. Only for a
 // few steps: domains at the block's edge deform differently, because their nodes see one side of the rotation only, and
 // where domains follow the deformation this spreads inwards by some cells per step.
 TEST(Rotation, IsTheSameForEveryShapeFunction) {

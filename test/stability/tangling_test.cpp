@@ -275,7 +275,8 @@ TEST(Tangling, IsSeenAndOnlySeenWhereItIs) {
   EXPECT_LT(sheared.parted, 1e-12);  // round-off of positions up to ten cells, sheared
   EXPECT_EQ(sheared.tangled, 0.0);
   EXPECT_EQ(deform(Eigen::Matrix2d{{-1.0, 0.0}, {0.0, 1.0}}).tangled, 1.0);
-  for (const Placed& one : ring.exact(1.5)) EXPECT_NEAR(one.f.determinant(), 1.0, 1e-6);  // of central differences
+  for (const Placed& one : ring.exact(1.5))
+    EXPECT_NEAR(one.f.determinant(), 1.0, 1e-6);  // error of central differences
 }
 
 Page& describe(Page& page) {

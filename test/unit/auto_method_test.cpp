@@ -295,7 +295,7 @@ TEST(AutoMethod, KeepsWhatTheSceneSays) {
   scene = parse_scene(block("method: {shape: cpdi, damping: {particle: 5}}\n"), "test.yaml");
   choose_method(shape, {table(rows), "", ""}, scene);
   EXPECT_EQ(label(scene), "cpdi/usavg/flip");
-  // The same from the text of a scene.
+  // The text of a scene gives the same.
   scene =
       parse_scene(block("method: {auto: {}, transfer: apic, particles_per_cell: 9, precision: single}\n"), "t.yaml");
   EXPECT_EQ(scene.definition.method.transfer.kind, TransferKind::apic);

@@ -40,7 +40,8 @@ TEST(MieGrueneisen, GivesTheHugoniotBack) {
 
 // exact-solutions 17: tungsten into steel at 1.70 km/s gives an interface velocity of 1.10500 km/s and 49.405 GPa.
 TEST(MieGrueneisen, HasTheShockOfTungstenIntoSteel) {
-  const double speeds[] = {1700.0 - 1105.0, 1105.0};  // of the material behind the shock, in tungsten and in steel
+  const double speeds[] = {1700.0 - 1105.0,
+                           1105.0};  // speed of the material behind the shock, in tungsten and in steel
   for (std::size_t k = 0; k < 2; ++k) {
     const Metal& metal = kMetals[k];
     const double shock = metal.constants.sound_speed + metal.constants.hugoniot_slope * speeds[k];

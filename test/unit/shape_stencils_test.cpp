@@ -98,7 +98,7 @@ TEST(QuadraticSpline, IsUgimpOfAWholeCell) {
 // the kink, by w/2 at the node and w/4 at its neighbours. Without a kink inside, both agree, including gradients.
 TEST(Dirac, IsTheLimitOfUgimpOfASmallBox) {
   for (const double w : {1e-1, 1e-2, 1e-3, 1e-4}) {
-    const double round_off = 1e-16 / w;  // of differences of squares and of numbers, divided by the box
+    const double round_off = 1e-16 / w;  // differences of squares and of numbers, divided by the box
     double value = 0.0, gradient = 0.0;
     for (const double x : offsets()) {
       const Dirac<double> point(x, {w, 1.0});

@@ -1,5 +1,5 @@
-// A body of elastic particles that flies free, and the steps of any method: for what a method must keep, whatever the
-// scene. Rings fly along their axis. Weak: one body, one law.
+// An elastic body in free flight, and the steps of any method, for tests of properties that hold in every scene. Rings
+// fly along their axis. It is limited to one body and one law.
 #pragma once
 
 #include <cmath>
@@ -38,7 +38,7 @@ struct StepMethod {
   }
 };
 
-/// visit(method) for every one there is in the geometry.
+/// Calls visit(method) for every method that the geometry has.
 template <class Geometry, class Visit>
 void each_method(Visit&& visit) {
   for (const ShapeKind shape : kAllShapes) {
@@ -49,7 +49,7 @@ void each_method(Visit&& visit) {
   }
 }
 
-/// A block, or what `keep` leaves of it, of two particles a cell along each axis.
+/// A block with two particles along each axis of a cell, or the part of it for which `keep` holds.
 template <class Geometry, class T = double>
 class StepScene {
  public:
@@ -58,12 +58,12 @@ class StepScene {
   using Vector = std::array<double, 3>;
 
   struct Body {
-    int cells = kDim == 3 ? 4 : 8;  ///< along an edge
+    int cells = kDim == 3 ? 4 : 8;  ///< cells along an edge
     double jitter = 0.2;            ///< [cells]
-    /// [m]; rings begin at their axis.
+    /// Centre of the block [m]; rings begin at their axis.
     Vector centre{Geometry::kHoop ? 0.5 * cells * kCell : 1.5, 1.5, 1.5};
     std::function<bool(const Vector&)> keep = [](const Vector&) { return true; };
-    bool walls = false;  ///< at the domain's lower corner
+    bool walls = false;  ///< whether walls stand at the lower corner of the domain
   };
 
   explicit StepScene(const StepMethod& method, const Body& body = {}, int threads = 1, Isa isa = best_isa())
@@ -82,7 +82,7 @@ class StepScene {
     }
     sort();
     grid.least_mass = 1e-30 * set().least_mass();
-    // Of the longitudinal wave, kCell / 5 a step.
+    // The longitudinal wave travels kCell / 5 in a step.
     dt = 0.2 * kCell / std::sqrt(kStiffness * 0.7 / (1.3 * 0.4) / kDensity);
     mechanics = make_mechanics(kernels_, fields, sets_, laws_, settings_);
   }
@@ -91,14 +91,14 @@ class StepScene {
   const mpm_kernel::KernelTable<T>& kernels() const { return kernels_; }
   StepContext context() { return {fields, dt}; }
 
-  /// v(x_p) [m/s]
+  /// Sets the velocity of each particle to v(x_p) [m/s].
   void set_velocity(const std::function<Vector(const Vector&)>& v) {
     for (int p = 0; p < set().size(); ++p) {
       const Vector at = v(place(p));
       for (int k = 0; k < kDim; ++k) set().v[k].set(p, at[k]);
     }
   }
-  /// B of APIC, of this gradient of the velocity [1/s].
+  /// Sets B of APIC for this velocity gradient [1/s].
   void set_affine(const double (&gradient)[3][3]) {
     for (int p = 0; p < set().size(); ++p) {
       const Vector centre = mean_place(p);
@@ -120,7 +120,8 @@ class StepScene {
     for (int k = 0; k < kDim; ++k) x[k] = set().x[k][p];
     return x;
   }
-  /// Of its values, the sum of S x_i: its place, but for a ring, whose values have the weight r.
+  /// Mean position of a particle's shape function, the sum of S x_i: its own position, except for rings, whose shape
+  /// function has the weight r.
   Vector mean_place(int p) {
     Vector x{};
     for (const NodeWeight& n : stencil(p)) {
@@ -128,7 +129,7 @@ class StepScene {
     }
     return x;
   }
-  /// The nodes that it gives to in the next step.
+  /// The nodes to which the particle spreads in the next step.
   std::vector<NodeWeight> stencil(int p) {
     ReferenceGrid nodes;
     nodes.rings = Geometry::kHoop;
@@ -164,7 +165,7 @@ class StepScene {
     for (int n = 0; n < steps; ++n) step();
   }
 
-  /// visit(block, node of it, its number along each axis).
+  /// Calls visit(block, node in the block, number of the node along each axis).
   template <class Visit>
   void each_node(Visit&& visit) {
     for (int b = 0; b < grid.blocks.size(); ++b) {

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kRobot = data_file("robot/tool.urdf");
-constexpr double kRound = 1e-12;  // of lengths of 1 m; the file has 17 digits of a quarter of a turn
+constexpr double kRound = 1e-12;  // for lengths of 1 m; the file has 17 digits of a quarter of a turn
 
 std::string message(const std::string& path, const std::string& link) {
   try {

@@ -13,7 +13,7 @@ namespace verification {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kLength = 1.0, kSpeed = 100.0;  // of vibrating_line.yaml [m], [m/s]
+constexpr double kLength = 1.0, kSpeed = 100.0;  // numbers of vibrating_line.yaml [m], [m/s]
 constexpr double kPeriod = 4.0 * kLength / kSpeed;
 
 struct Vibration {
@@ -129,7 +129,7 @@ TEST(LineBar, IsAStripBetweenSmoothWalls) {
 
 TEST(LineBar, APistonDrivesAWaveOfConstantStress) {
   Page page("contact", "piston", "A piston drives a wave into a rod");
-  const double young = 1e6, poisson = 0.3, density = 100.0, speed = 0.1, area = 4e-4;  // of the scene
+  const double young = 1e6, poisson = 0.3, density = 100.0, speed = 0.1, area = 4e-4;  // numbers of the scene
   const double modulus = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
   const double wave = std::sqrt(modulus / density), force = density * wave * speed * area;
   page.problem(

@@ -15,7 +15,7 @@ namespace verification {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kAmplitude = 0.001;  // of the scenes [m]
+constexpr double kAmplitude = 0.001;  // amplitude in the scenes [m]
 
 struct Error {
   int cells = 0;

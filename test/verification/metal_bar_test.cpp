@@ -12,7 +12,7 @@
 namespace verification {
 namespace {
 
-constexpr double kYoung = 70e9, kYield = 250e6, kHardening = 2e9, kPoisson = 0.33;  // of the scene [Pa]
+constexpr double kYoung = 70e9, kYield = 250e6, kHardening = 2e9, kPoisson = 0.33;  // numbers of the scene [Pa]
 constexpr double kGauge = 0.015;  // the bar is measured below this height, as in a laboratory away from the plate [m]
 
 double kirchhoff(double strain) {

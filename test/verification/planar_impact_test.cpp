@@ -12,7 +12,7 @@
 namespace verification {
 namespace {
 
-constexpr double kSpeed = 1700.0, kFace = 24.0;          // of the scene [m/s], [mm]
+constexpr double kSpeed = 1700.0, kFace = 24.0;          // numbers of the scene [m/s], [mm]
 constexpr double kInterface = 1105.0, kStress = 49.405;  // [m/s], [GPa]
 constexpr double kSteelShock = 5.6956;                   // in the steel at rest [km/s]
 constexpr double kTungstenShock = 4.7178;                // relative to the tungsten ahead of it [km/s]

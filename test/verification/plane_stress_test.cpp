@@ -181,7 +181,7 @@ Spin spin(int cells, const SteadyDisk& exact, double young) {
 
 TEST(PlaneStress, ASpinningDiskWidensAndCarriesItsStress) {
   Page page("waves", "spinning_plate", "A thin disk that spins");
-  const double rate = 2.0 * kPi, density = 1000.0, young = 1.857e6;  // of the scene
+  const double rate = 2.0 * kPi, density = 1000.0, young = 1.857e6;  // numbers of the scene
   const SteadyDisk exact{density, rate, kPoisson};
   page.problem(
           "The spinning disk of radius R = 1 m (neo-Hookean, E = 1.857 MPa, ν = 0.3, 1000 kg/m³, a turn a second) in "

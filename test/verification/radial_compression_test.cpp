@@ -24,7 +24,7 @@ using Overrides = std::vector<std::string>;
 
 constexpr int kThreads = 1;       // tests run side by side
 constexpr double kRadius = 0.05;  // [m]
-constexpr double kSpeed = 20.0;   // of the rim [m/s]
+constexpr double kSpeed = 20.0;   // speed of the rim [m/s]
 constexpr double kSpacing = 1.25e-3;
 constexpr double kNear = 0.016;       // part of the radius shown in figures 5 and 6 [m]
 constexpr double kBroken = 0.25;      // error of a J near the axis that counts as breakdown: noise as large as strain

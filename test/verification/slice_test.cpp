@@ -39,7 +39,7 @@ struct Agreement {
   std::vector<double> difference;  // in the order of kFields
   double force = 0.0;              // difference of the force on the tool, over its largest value
   Numbers time, history;           // [s], largest of all fields so far
-  Numbers x, z, mises;             // of the plane's particles at the end; [m], [Pa]
+  Numbers x, z, mises;             // at the particles in plane strain, at the end [m], [Pa]
 };
 
 const std::vector<std::string> kFields = {"x", "z", "vx", "vz", "sxx", "szz", "sxz", "syy", "j"};

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRate = 2.0 * kPi;                // [rad/s]
-const SteadyDisk kDisk{1000.0, kRate, 0.3 / 0.7};  // of the scene; n above
+const SteadyDisk kDisk{1000.0, kRate, 0.3 / 0.7};  // numbers of the scene; n above
 
 double angular_momentum(const mpm::Simulation& simulation) {  // over the mass of a particle
   const std::vector<double> x = field(simulation, "x"), z = field(simulation, "z");
@@ -28,7 +28,7 @@ double angular_momentum(const mpm::Simulation& simulation) {  // over the mass o
 
 struct Turn {
   Numbers time, momentum;    // [s], angular momentum over that of the start
-  double change = 0.0;       // of angular momentum in the turn [%]
+  double change = 0.0;       // change of angular momentum in the turn [%]
   double most_energy = 0.0;  // largest kinetic + elastic over that of the start
   double linear = 0.0;       // largest linear momentum over sum of m |v|
   RingStress stress;

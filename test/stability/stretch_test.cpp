@@ -1,5 +1,5 @@
-// Numerical fracture: how far a bar can be stretched before neighbouring particles lose each other on the grid, though
-// the material knows no failure. And how far it can be pressed together.
+// Numerical fracture: how far a bar can be stretched before neighbouring particles share no node any more, although its
+// material has no law of failure; and how far it can be compressed.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -15,13 +15,13 @@ using verification::Numbers;
 using verification::Outcome;
 using verification::Page;
 
-constexpr double kPressSpeed = 0.02;  // of the bar's end, over the wave speed
+constexpr double kPressSpeed = 0.02;  // speed of the bar's end over the wave speed
 constexpr double kSwing = 0.5;
-constexpr double kFast = 0.08;  // of a bar that is pulled fast, over the wave speed
+constexpr double kFast = 0.08;  // that of a bar that is pulled fast
 
-/// Stretch from which particles that touched at the start may share no node, wherever they are in their cells; without
-/// end where domains follow the stretch. A node lies in reach of both while their distance s h / n is at most the width
-/// of a support less one cell, the cell between two nodes that neither reaches.
+/// The stretch s above which particles that touched at the start may share no node; infinite where domains follow the
+/// stretch. Below it a node is in reach of both wherever they are in their cells: their distance s h / n is at most the
+/// width of a support less one cell.
 double parted(mpm::ShapeKind shape, int ppc) {
   const double n = ppc;
   switch (shape) {
@@ -149,7 +149,7 @@ TEST(Compression, DownToATwelfthOfTheLength) {
       if (method.definition.shape == mpm::ShapeKind::dirac) {
         page.report("stretch reached, " + label + run.end(), run.reached, "");
       } else {
-        // Half the length, well short of the 0.16 to which uGIMP served Nairn & Guilkey.
+        // Half of the length, far from the 0.16 that Nairn & Guilkey reached with uGIMP.
         page.below("stretch reached, " + label + run.end(), run.reached, 0.5, "");
       }
     }

@@ -1,5 +1,5 @@
-// The damping of a step: rates where and when they are read, feedback against the exact solution of its equation, and
-// what ends a run.
+// The damping of a step: rates as functions of place and time, feedback against the exact solution of its equation, and
+// errors that end a run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ using Of = FeedbackDefinition::Of;
 
 Function of(const std::string& expression) { return Function::parse(expression); }
 
-/// A plane with particles anywhere in [0, 1)^2.
+/// Particles at random positions in [0, 1)^2, in plane strain.
 struct Plane {
   explicit Plane(int count = 500)
       : fields(make_fields(GridLayout(2, Vec3::Constant(0.1), Vec3::Zero(), Vec3::Ones()))) {
@@ -27,7 +27,7 @@ struct Plane {
     set.x.resize(2);
     for (auto& x : set.x) x.resize(count);
     for (int p = 0; p < count; ++p) {
-      set.id[p] = 10 + count - p;  // not in their order
+      set.id[p] = 10 + count - p;  // ids are not in the order of particles
       for (auto& x : set.x) x[p] = place(random);
     }
     sets.push_back(std::move(set));
@@ -62,22 +62,22 @@ TEST(DampingControl, RatesAreReadAtTheMiddleOfTheStep) {
   EXPECT_EQ(control.rates(0).grid_of_particle, nullptr);
   EXPECT_NEAR(control.flip(), 1.0 - 0.2005, 1e-15);
 
-  // On the nodes: nothing of the grid's rate is left for the particles.
+  // Damping on the nodes leaves nothing of the grid's rate for the particles.
   damping.in_force = true;
   DampingControl on_nodes(damping, 1.0, plane.fields, plane.sets, 2);
   on_nodes.begin_step(plane.step(2.0, 0.01));
   EXPECT_EQ(on_nodes.rates(0).grid, 0.0);
   EXPECT_NEAR(on_nodes.rates(0).particle, 5.0 * 2.005, 1e-14);
 
-  // Without a part of PIC of its own, the transfer's fraction stands.
+  // Without a PIC fraction of the damping, that of the transfer holds.
   DampingControl plain(DampingDefinition(2.0), 0.9, plane.fields, plane.sets, 1);
   plain.begin_step(plane.step(0.0, 0.01));
   EXPECT_EQ(plain.flip(), 0.9);
   EXPECT_FALSE(plain.in_update() || plain.needs_energy());
 }
 
-// alpha(t + dt/2, x_p), the same bits for any number of threads. PIC of place is -(1 - beta)/dt of the grid and
-// +(1 - beta)/dt of the particle, with a FLIP fraction of 1: method reference 6.2.
+// Rates are alpha(t + dt/2, x_p), with the same bits for any number of threads. PIC as a function of place is a rate of
+// -(1 - beta)/dt on the grid and +(1 - beta)/dt on the particle, with a FLIP fraction of 1: method reference 6.2.
 TEST(DampingControl, RatesOfPlaceAreReadAtTheParticles) {
   Plane plane;
   DampingDefinition damping;
@@ -102,9 +102,9 @@ TEST(DampingControl, RatesOfPlaceAreReadAtTheParticles) {
   }
 }
 
-// A body that moves as a whole at v, damped by the feedback of its own energy with target 0:
+// A body in translation at v, damped by the feedback of its own energy with target 0:
 //   dv/dt = -alpha v,  d alpha/dt = 2 K / m (m v^2 / 2) = K v^2,
-// so that v^2 + alpha^2 / K stays, and v = v0 sech(sqrt(K) v0 t), alpha = sqrt(K) v0 tanh(sqrt(K) v0 t).
+// so that v^2 + alpha^2 / K is constant, and v = v0 sech(sqrt(K) v0 t), alpha = sqrt(K) v0 tanh(sqrt(K) v0 t).
 TEST(DampingControl, FeedbackFollowsItsExactSolution) {
   Plane plane;
   const double gain = 4.0, v0 = 1.5, end = 0.7, root = std::sqrt(gain) * v0;
@@ -123,7 +123,7 @@ TEST(DampingControl, FeedbackFollowsItsExactSolution) {
       const double rate = part == Of::grid ? rates.grid : rates.particle;
       EXPECT_EQ(part == Of::grid ? rates.particle : rates.grid, 0.0);
       const double energy = 0.5 * plane.mass() * v * v, taken = plane.mass() * rate * v * dt;
-      // The other energy is not read.
+      // The other energy is ignored.
       const Damped damped{Vec3(taken, 0.0, 0.0), part == Of::grid ? energy : -1e9, part == Of::grid ? -1e9 : energy};
       v -= rate * v * dt;
       control.end_step(context, damped);
@@ -144,8 +144,7 @@ TEST(DampingControl, FeedbackFollowsItsExactSolution) {
   }
 }
 
-// d alpha/dt = 2 K / m (E - E_target): with a given energy alpha is an integral; it stops at the limit, and falls
-// again.
+// d alpha/dt = 2 K / m (E - E_target): with a given energy alpha is an integral. It stops at the limit and falls again.
 TEST(DampingControl, FeedbackKeepsToItsTargetAndLimit) {
   Plane plane;
   DampingDefinition damping;
@@ -155,7 +154,7 @@ TEST(DampingControl, FeedbackKeepsToItsTargetAndLimit) {
   double largest = 0.0;
   for (int n = 0; n < 2000; ++n) {
     control.begin_step(plane.step(n * dt, dt));
-    EXPECT_EQ(control.rates(0).grid, 0.0);                               // it is in the force
+    EXPECT_EQ(control.rates(0).grid, 0.0);                               // it acts in the force
     control.end_step(plane.step(n * dt, dt), {Vec3::Zero(), 1.0, 0.0});  // d alpha/dt = 1 - t
     largest = std::max(largest, control.alpha());
     if (n == 99) {
@@ -163,7 +162,7 @@ TEST(DampingControl, FeedbackKeepsToItsTargetAndLimit) {
     }
   }
   EXPECT_EQ(largest, 0.2);
-  // From 0.2 at t = 1 it falls by (2 - 1)^2 / 2 until t = 2: below the target alpha drives.
+  // From 0.2 at t = 1 it falls by (2 - 1)^2 / 2 until t = 2: a negative alpha adds energy below the target.
   EXPECT_NEAR(control.alpha(), 0.2 - 0.5, 2e-3);
 }
 
@@ -177,22 +176,22 @@ TEST(DampingControl, ForeseesTheLargestRateOfAPeriod) {
   DampingDefinition damping;
   damping.grid = of("10*t");
   damping.particle = 1.0;
-  EXPECT_NEAR(largest(damping, 2.0, 0.5), 26.0, 1e-13);  // at the end
+  EXPECT_NEAR(largest(damping, 2.0, 0.5), 26.0, 1e-13);  // the largest is at the end
   damping.grid = of("10-10*t");
-  EXPECT_NEAR(largest(damping, 0.0, 1.0), 11.0, 1e-13);  // at the beginning
+  EXPECT_NEAR(largest(damping, 0.0, 1.0), 11.0, 1e-13);  // the largest is at the beginning
   damping.grid = of("x");
   damping.in_force = false;
   double farthest = 0.0;
   for (int p = 0; p < plane.sets[0].size(); ++p) farthest = std::max(farthest, plane.sets[0].x[0][p]);
   EXPECT_NEAR(largest(damping, 0.0, 1.0), farthest + 1.0, 1e-14);
-  // 2 K / m E a second, up to the limit.
+  // It grows by 2 K / m E a second, up to the limit.
   DampingDefinition feedback;
   feedback.feedback = FeedbackDefinition{3.0, 0.0, 5.0, Of::grid};
   EXPECT_NEAR(largest(feedback, 0.0, 0.1, 4.0 * plane.mass()), 2.4, 1e-13);
   EXPECT_NEAR(largest(feedback, 0.0, 1.0, 4.0 * plane.mass()), 5.0, 1e-13);
 }
 
-// f -= alpha p on every node, and the account holds its sum.
+// f -= alpha p at every node, and the account is the sum.
 TEST(DampingControl, TheForceIsAPartOfTheMomentum) {
   Plane plane;
   plane.grid.rebuild({plane.grid.layout.key({0, 0}), plane.grid.layout.key({0, 1})});
@@ -241,7 +240,7 @@ TEST(DampingControl, WhatCannotBeEndsTheRun) {
   DampingControl beyond(damping, 1.0, plane.fields, plane.sets, 1);
   EXPECT_EQ(refusal(beyond, context).find("method.damping at t = 1.005 s: pic is 2.01:"), 0u);
 
-  // At a particle: the one of the smallest id of those that it is bad at, for any number of threads.
+  // A bad rate at particles names the one with the smallest id, for any number of threads.
   damping = {};
   damping.particle = of("x < 0.5 ? sqrt(-1) : 1");
   std::uint32_t first = 1000000;

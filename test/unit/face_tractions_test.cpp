@@ -1,5 +1,5 @@
-// Tractions as forces on the grid: where they go, on whom, and what they add up to. Nodes get their mass by hand, so
-// that nothing but the stage is at work.
+// Tractions as forces on the grid: at which nodes they act, on which particles, and their sums. The mass of nodes is
+// set by hand, so that only the stage itself acts.
 #include "mpm/mechanics/face_tractions.hpp"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ struct Stand {
   void fill(NodalField& field, double value) const {
     std::fill_n(field.data(), grid.blocks.size() * field.components() * grid.layout.nodes_per_block(), value);
   }
-  /// F of every particle, by rows of the grid's axes.
+  /// Sets F of every particle, by rows, in the grid's axes.
   void deform(const std::vector<double>& f) {
     for (std::size_t c = 0; c < sets[0].domain.size(); ++c) sets[0].domain[c].assign(sets[0].size(), f[c]);
   }
@@ -73,7 +73,7 @@ struct Stand {
   FaceTractions stage(const std::vector<TractionTerm>& terms) {
     return {{geometry, shape, kThickness}, fields, sets, terms};
   }
-  /// Forces by node numbers; those that are not zero.
+  /// Forces that are not zero, by node numbers.
   std::map<std::array<int, 3>, Vec3> forces(FaceTractions& stage, double start = 0.0) {
     fill(grid.force, 0.0);
     StepContext context{fields, kDt, start};
@@ -125,7 +125,7 @@ TEST(FaceTractions, GoToTheNodesOfTheCorners) {
       const double weight = area * (hat(5.4 - i) * hat(3.85 - j) + hat(5.6 - i) * hat(4.3 - j));
       const auto found = forces.find({i, j, 0});
       const Vec3 force = found == forces.end() ? Vec3(Vec3::Zero()) : found->second;
-      EXPECT_NEAR(force.x(), 1000.0 * weight, 1e-13) << i << ' ' << j;  // of 10 N, to round-off
+      EXPECT_NEAR(force.x(), 1000.0 * weight, 1e-13) << i << ' ' << j;  // round-off of 10 N
       EXPECT_NEAR(force.z(), -200.0 * weight, 1e-13) << i << ' ' << j;
     }
   }
@@ -134,8 +134,9 @@ TEST(FaceTractions, GoToTheNodesOfTheCorners) {
   EXPECT_LT((Stand::impulse(stage) - total * kDt).norm(), 1e-14 * total.norm() * kDt);
 }
 
-// Faces of a box: with F = diag(1.5, 0.8) the edge x_max is 0.8 of the start's with CPDI and with the box that
-// stretches, and at the end of a half vector 1.5 times as long; uGIMP and those without a box have the start's.
+// Faces of a box: with F = diag(1.5, 0.8) the edge x_max has 0.8 of its initial length with CPDI and with the box that
+// stretches, at the end of a half vector that is 1.5 times as long. uGIMP and functions without a box have the initial
+// edge.
 TEST(FaceTractions, ActOnTheDomainOfTheShapeFunction) {
   for (const ShapeKind shape : {ShapeKind::dirac, ShapeKind::ugimp, ShapeKind::ugimp_stretch, ShapeKind::cpdi,
                                 ShapeKind::qcpdi, ShapeKind::bspline2, ShapeKind::bspline3}) {
@@ -149,8 +150,8 @@ TEST(FaceTractions, ActOnTheDomainOfTheShapeFunction) {
   }
 }
 
-// Per radian the edge x_max of a ring at r with half vectors a, b is 2 b (r + a) long times radius; the whole is 2 pi
-// times it. The box at r = 0.01 m is cut off at the axis: it runs from 0 to 0.035 m, where z_max has an area pi r^2.
+// The edge x_max of a ring at r with half vectors a, b has an area of 2 b (r + a) a radian, 2 pi times as much in all.
+// The box at r = 0.01 m is cut off at the axis: it extends from 0 to 0.035 m, and z_max has an area pi r^2.
 TEST(FaceTractions, AreOfWholeRings) {
   const double a = kHalf * kCell;
   for (const ShapeKind shape : {ShapeKind::ugimp, ShapeKind::cpdi}) {
@@ -167,8 +168,8 @@ TEST(FaceTractions, AreOfWholeRings) {
   EXPECT_NEAR(sum(inner.forces(stage)).z(), disk, 1e-13 * disk);
 }
 
-// The deformed domain of CPDI at r = 0.02 m reaches r = 0.02 - 0.025 1.2 - 0.025 0.4 = -0.02 m: it is halved as a
-// whole.
+// The deformed domain of CPDI at r = 0.02 m reaches r = 0.02 - 0.025 1.2 - 0.025 0.4 = -0.02 m: all its half vectors
+// are halved.
 TEST(FaceTractions, OfADomainAtTheAxisAreThoseOfTheSmallerOne) {
   Stand stand(GeometryKind::axisymmetric, ShapeKind::cpdi, {{0.02, 0.41, 0.0}});
   stand.deform({1.2, 0.4, -0.1, 0.9});
@@ -177,7 +178,7 @@ TEST(FaceTractions, OfADomainAtTheAxisAreThoseOfTheSmallerOne) {
   EXPECT_NEAR(sum(stand.forces(stage)).z(), force, 1e-13 * force);
 }
 
-// Pressure turns with a block that has turned: on all edges it sums to nothing, and on one it is against its normal.
+// Pressure follows a block that has turned: its sum over all edges is zero, and on one edge it acts against the normal.
 TEST(FaceTractions, MayFollowTheFace) {
   const double c = std::cos(0.5), s = std::sin(0.5);
   Stand stand(GeometryKind::plane_strain, ShapeKind::cpdi, {{0.52, 0.41, 0.0}, {0.9, 0.3, 0.0}});
@@ -218,12 +219,12 @@ TEST(FaceTractions, InASolidAndInALine) {
 
   Stand line(GeometryKind::line, ShapeKind::ugimp, {{0.52, 0.0, 0.0}});
   auto end = line.stage({line.term({0, false}, {Function(1000.0), Function(), Function()})});
-  const auto forces = line.forces(end);  // at x = 0.495 m, with the line's area
+  const auto forces = line.forces(end);  // at x = 0.495 m, with the area of the line
   EXPECT_NEAR(forces.at({4, 0, 0}).x(), 1000.0 * kThickness * 0.05, 1e-12);
   EXPECT_NEAR(forces.at({5, 0, 0}).x(), 1000.0 * kThickness * 0.95, 1e-12);
 }
 
-// In plane stress a domain that follows has the thickness that the particle has now: f[4] = 0.7.
+// In plane stress a domain that follows the deformation has the particle's present thickness: f[4] = 0.7.
 TEST(FaceTractions, OfASheetHaveItsThickness) {
   for (const ShapeKind shape : {ShapeKind::ugimp, ShapeKind::cpdi}) {
     Stand stand(GeometryKind::plane_stress, shape, {{0.52, 0.41, 0.0}});
@@ -235,7 +236,7 @@ TEST(FaceTractions, OfASheetHaveItsThickness) {
   }
 }
 
-// Read at the middle of the step, at the middle of the face then, and at the middle of the face at the start.
+// Functions are evaluated at mid-step, at the present and the initial middle of the face.
 TEST(FaceTractions, AreFunctionsOfTimeAndPlace) {
   Stand stand(GeometryKind::plane_strain, ShapeKind::ugimp, {{0.52, 0.41, 0.0}});
   stand.sets[0].start_x[0][0] = 0.3;
@@ -272,7 +273,7 @@ TEST(FaceTractions, StayWithTheirParticles) {
     if (stand.sets[0].id[p] == 5) stand.sets[0].x[0][p] = 1.82;
   }
   stand.sort();
-  ASSERT_EQ(stand.sets[0].id[2], 5u);  // it is the last now
+  ASSERT_EQ(stand.sets[0].id[2], 5u);  // the loaded particle is the last one now
   EXPECT_NEAR(centre(stand.forces(stage)), 1.845, 1e-14);
 }
 
@@ -299,14 +300,14 @@ TEST(FaceTractions, DoWork) {
   auto stage = stand.stage({stand.term({0, true}, {Function(1000.0), Function(), Function()})});
   const double force = sum(stand.forces(stage)).x();
   stand.fill(stand.grid.velocity, 3.0);
-  stand.fill(stand.grid.force, 400.0);  // the acceleration by now
+  stand.fill(stand.grid.force, 400.0);  // the field now holds the acceleration
   StepContext context{stand.fields, kDt, 0.0};
   stage.momentum_updated(context);
   const double expected = force * (3.0 * kDt - 0.5 * 400.0 * kDt * kDt);
   EXPECT_NEAR(stage.work(), expected, 1e-14 * expected);
 }
 
-// An L of 4 by 4 less 2 by 2 places: its outermost particles towards larger x are those of the short rows as well.
+// An L of 4 by 4 less 2 by 2 particles: the outermost ones along x include those of the short rows.
 TEST(FaceTractions, FindTheOutermostParticles) {
   Points points;
   for (int j = 0; j < 4; ++j) {

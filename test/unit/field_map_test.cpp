@@ -10,13 +10,13 @@ TEST(FieldMap, GivesEveryGroupAField) {
   const FieldMap map({0, 2, 0}, {false, false, false});
   EXPECT_EQ(map.count(), 3);  // no body has group 1, its field stays empty
   EXPECT_EQ(map.field(0), 0);
-  EXPECT_EQ(map.field(1, 1), 2);  // nothing divides it
+  EXPECT_EQ(map.field(1, 1), 2);  // the body is not divided
   EXPECT_EQ(map.field(2), 0);
   EXPECT_EQ(map.fields(1), (std::vector<int>{2}));
   EXPECT_TRUE(map.divisions().empty());
 }
 
-// What divides one body gives the others no second field.
+// Division of one body gives the others no second field.
 TEST(FieldMap, DividesOneBodyAlone) {
   const FieldMap map({0, 1, 2}, {false, true, false});
   EXPECT_EQ(map.count(), 4);

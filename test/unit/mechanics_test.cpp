@@ -1,4 +1,4 @@
-// The passes of the mechanics on the grid: what they must conserve, whatever the scene.
+// The passes of the mechanics on the grid: their conservation laws, which hold in every scene.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -10,7 +10,7 @@ namespace {
 
 using mpm::Vec3;
 
-// A block of particles on the lattice of the grid, shaken by `jitter` cells, with random velocities.
+// A block of particles on the lattice of the grid, randomly displaced by up to `jitter` cells, with random velocities.
 struct Scene {
   Scene(int dim, double jitter, const mpm::LawDefinition& law, int threads = 1, mpm::Isa isa = mpm::best_isa())
       : fields(mpm::make_fields(mpm::GridLayout(dim, Vec3::Constant(cell), Vec3::Zero(), Vec3::Constant(2.0)))) {
@@ -149,7 +149,8 @@ TEST_P(MechanicsTest, ForcesDoNotDependOnThreads) {
   EXPECT_EQ(force[0], force[1]);
 }
 
-// FLIP: the particles gain what the grid gains; with a PIC fraction the sum is the same (method reference 6.2).
+// With FLIP the particles gain the momentum that the grid gains; with a PIC fraction the sum is the same (method
+// reference 6.2).
 TEST_P(MechanicsTest, MotionKeepsMomentumForEveryFlipFraction) {
   for (const double flip : {1.0, 0.95, 0.0}) {
     Scene scene(GetParam(), 0.3, mpm::NeoHookeanDefinition{{1e6, 0.3}});

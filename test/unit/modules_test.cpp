@@ -1,4 +1,4 @@
-// The order in which the stages of a run act (step/order.hpp, step/modules.hpp), and what each is handed.
+// The order in which the stages of a run act (step/order.hpp, step/modules.hpp), and the fields that each receives.
 #include "mpm/step/modules.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@ namespace {
 
 using Said = std::vector<std::string>;
 
-/// Says its name when velocities are updated and when the increment is found.
+/// A stage that records its name at the hooks for updated momentum and for the increment.
 template <class Context>
 class Saying final : public StageWith<Context> {
  public:
@@ -28,15 +28,15 @@ class Saying final : public StageWith<Context> {
   Said& said_;
 };
 
-/// Two fields, told apart by the number of their first owner.
+/// Two fields with different numbers of their first owners, which identify them.
 Fields two_fields() {
   Fields fields = make_fields(GridLayout(2, Vec3::Ones(), Vec3::Zero(), Vec3::Constant(8.0)), 2);
   fields[1]->first_owner = 1;
   return fields;
 }
 
-// What always holds acts before contact and again after it, in each of two fields; the order in which stages were added
-// counts only among those of one rank.
+// Walls and other constraints act before contact and again after it, in each of two fields. The order in which stages
+// were added matters only among stages of one rank.
 TEST(Modules, ActByRank) {
   for (const bool contact : {false, true}) {
     Fields fields = two_fields();

@@ -1,5 +1,5 @@
-// Contact between materials at one node: normals, detection, areas, laws, interfaces, many materials. Everything here
-// is expected from the formulas, worked out by hand or written down once more beside.
+// Contact between materials at one node: normals, detection, areas, laws, interfaces, many materials. Expected values
+// come from the formulas, evaluated by hand or written down independently in the test.
 #include "mpm/contact/node_contact.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ NodePair frictional(int a, int b, const Vec3& normal, double coefficient, bool s
   return pair;
 }
 
-// Method reference 8.1: g points out of its material, n from a to b.
+// Method reference 8.1: the gradient g points out of its material, and n from a to b.
 TEST(PairNormal, IsTheOneThatTheMethodNames) {
   const NodeMaterial a = material(1, Vec3::Zero(), 3.0, {1, 0, 0});
   const NodeMaterial b = material(1, Vec3::Zero(), 1.0, {0, 0, -2});
@@ -48,7 +48,7 @@ TEST(PairNormal, IsTheOneThatTheMethodNames) {
   EXPECT_EQ(own.of_b, Vec3(0, 0, 1));
 }
 
-// Manual, Normals: rigid alone unless the other candidate is longer than the bias says.
+// Manual, Normals: the normal is that of the rigid side unless the other candidate is longer by more than the bias.
 TEST(PairNormal, LeansToTheRigidSide) {
   NodeMaterial a = material(1, Vec3::Zero(), 1.0, {4, 0, 0});
   NodeMaterial b = material(1, Vec3::Zero(), 1.0, {0, 0, -1});
@@ -64,7 +64,8 @@ TEST(PairNormal, LeansToTheRigidSide) {
   EXPECT_EQ(normal(NormalMethod::larger_gradient, 4.1), Vec3(0, 0, -1));
 }
 
-// Nairn & Guilkey (2015) section 3.3. Two mirrors show three images; along them alone round-off is no direction.
+// Nairn & Guilkey (2015) section 3.3. Two symmetry planes give three images. A gradient that is only round-off after
+// mirroring gives no normal.
 TEST(PairNormal, MirrorsTakeTheirComponentAndDoubleTheVolume) {
   const GridLayout space(3, Vec3::Constant(0.1), Vec3::Zero(), Vec3::Ones());
   NodeMaterial a = material(1, Vec3::Zero(), 1.5, {3, 2, 1});
@@ -82,8 +83,9 @@ TEST(PairNormal, MirrorsTakeTheirComponentAndDoubleTheVolume) {
   EXPECT_EQ(b.gradient, Vec3::Zero());
 }
 
-// Two half spaces of particles, two along a cell's edge, that touch at distance d from a node: method reference 8.2
-// gives the distance of mean places as 0.750 cells on the node and 0.857 in mid-cell, 8.4 the area as 1 - d/h.
+// Two half spaces of particles, two along a cell's edge, that touch at distance d from a node. Method reference 8.2
+// gives the distance of their mean positions as 0.750 cells with the surface at the node and 0.857 in mid-cell, and 8.4
+// the area as 1 - d/h.
 struct HalfSpaces {
   NodeMaterial a, b;
 };
@@ -114,12 +116,12 @@ TEST(PairDetection, ReadsTouchingFacesAsTheReferenceDoes) {
   rule.position = 0.0;
   for (const auto& [d, apart] : {std::pair{0.0, 0.750}, {0.5, 0.857}, {-0.5, 0.857}}) {
     const HalfSpaces sides = touching_at(d);
-    // The reference's figures have three digits.
+    // The numbers of the reference have three digits.
     EXPECT_NEAR(separation(rule, sides.a, sides.b, Vec3::UnitX(), 1.0), apart, 5e-4) << d;
   }
   rule.position = 0.8;
   EXPECT_LT(separation(rule, touching_at(0.0).a, touching_at(0.0).b, Vec3::UnitX(), 1.0), 0.0);
-  // Displacements are taken as they are.
+  // Displacements need no correction.
   rule.kind = Detection::displacements;
   NodeMaterial a, b;
   b.place = {0.01, 0, 0.3};
@@ -129,7 +131,8 @@ TEST(PairDetection, ReadsTouchingFacesAsTheReferenceDoes) {
 TEST(PairDetection, AreaOfAPlaneFallsLinearlyWithDistance) {
   for (const double d : {0.0, 0.25, 0.5, 0.75}) {
     const HalfSpaces sides = touching_at(d);
-    // Of the hat function: exact. uGIMP smears the volumes by its box, worst at d = 0.75 (measured: 0.037).
+    // The formula is exact for the hat function. uGIMP smooths the volumes over its box, most at d = 0.75 (measured:
+    // 0.037).
     EXPECT_NEAR(contact_area(sides.a.volume, sides.b.volume, 1.0), 1.0 - d, 0.04) << d;
     const double far = 0.5 * (1 - d) * (1 - d);
     EXPECT_NEAR(contact_area(1.0 - far, far, 1.0), 1.0 - d, 1e-15);
@@ -157,11 +160,11 @@ TEST(PairLaw, CoulombHoldsSlidesAndLetsGo) {
   law.coefficient = 0.5;
   law.static_coefficient = 0.76;  // not enough to start sliding
   EXPECT_EQ(coulomb_impulse(stick, normal, law, 0.0).on_a, stick);
-  law.static_coefficient = 0.74;  // starts, and slides by the other
+  law.static_coefficient = 0.74;  // starts, and slides with the sliding friction
   EXPECT_LT((coulomb_impulse(stick, normal, law, 0.0).on_a - Vec3(2, 0, -4)).norm(), 1e-15);
   law.stick = true;
   EXPECT_EQ(coulomb_impulse(stick, normal, law, 0.0).on_a, stick);
-  EXPECT_EQ(coulomb_impulse(-stick, normal, law, 0.0).on_a, Vec3::Zero());  // separating: stick lets go
+  EXPECT_EQ(coulomb_impulse(-stick, normal, law, 0.0).on_a, Vec3::Zero());  // separating: no impulse
 }
 
 TEST(PairLaw, AdhesionBearsTensionUpToItsStrengthAndShearBesideFriction) {
@@ -174,8 +177,8 @@ TEST(PairLaw, AdhesionBearsTensionUpToItsStrengthAndShearBesideFriction) {
   EXPECT_LT((coulomb_impulse({3, 0, -4}, normal, law, 0.5).on_a - Vec3(2.5, 0, -4)).norm(), 1e-15);
 }
 
-// Heat = mu |N| (2 T - mu |N|) / (2 m_red), method reference 8.3; and it is what the kinetic energy of the tangential
-// motion lost.
+// Heat = mu |N| (2 T - mu |N|) / (2 m_red), method reference 8.3, which equals the loss of kinetic energy of the
+// tangential motion.
 TEST(NodeContact, FrictionTakesTheKineticEnergyOfSliding) {
   const double mu = 0.5;
   std::vector<NodeMaterial> m = {material(2, {0, 0, 3}), material(6, {4, 0, -1})};
@@ -208,7 +211,7 @@ Vec3 momentum(const std::vector<NodeMaterial>& materials) {
   return sum;
 }
 
-// Three in a row pressed together: the perfectly inelastic impact of all three.
+// Three materials in a row that press on each other: the perfectly inelastic impact of all three.
 TEST(NodeContact, ThreeInARowShareTheirMomentum) {
   std::vector<NodeMaterial> m = {material(1, {3, 0, 0}), material(2, {0, 0, 0}), material(5, {-1, 0, 0})};
   std::vector<NodePair> pairs = {frictional(0, 1, Vec3::UnitX(), 0.0), frictional(0, 2, Vec3::UnitX(), 0.0),
@@ -218,7 +221,7 @@ TEST(NodeContact, ThreeInARowShareTheirMomentum) {
   for (const NodeMaterial& one : m) EXPECT_NEAR(one.velocity.x(), common, 1e-13);
 }
 
-// The one that moves away is let go, though another pushes it first.
+// A material that moves away is not pulled, even if another one pushes it first.
 TEST(NodeContact, ThirdThatMovesAwayIsNotPulled) {
   std::vector<NodeMaterial> m = {material(1, {1, 0, 0}), material(1, {0, 0, 0}), material(1, {2, 0, 0})};
   std::vector<NodePair> pairs = {frictional(0, 1, Vec3::UnitX(), 0.0), frictional(1, 2, Vec3::UnitX(), 0.0)};
@@ -229,8 +232,8 @@ TEST(NodeContact, ThirdThatMovesAwayIsNotPulled) {
   EXPECT_EQ(pairs[1].hold, PairHold::none);
 }
 
-// Any three and four materials: momentum holds to round-off, every pair's whole impulse lies in its cone, no pair
-// approaches, none that slides not at all is without its friction, and energy is not made.
+// Random sets of three and four materials: momentum is conserved to round-off, every pair's total impulse lies in its
+// friction cone, no pair approaches, a pair slides only at the friction limit, and no energy is created.
 TEST(NodeContact, ManyMaterialsKeepEveryLawAndMomentum) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -264,7 +267,7 @@ TEST(NodeContact, ManyMaterialsKeepEveryLawAndMomentum) {
       const double opening = relative.dot(pair.normals.of_a);
       EXPECT_LE(n, 0.0);
       EXPECT_LE(t.norm(), -mu * n + 1e-12);
-      // Sweeps end when they change nothing any more, or after kMostNodeSweeps of the slowest combinations.
+      // Sweeps end when they change nothing, or after kMostNodeSweeps for the slowest combinations.
       EXPECT_GT(opening, -1e-6) << "trial " << trial << " sweeps " << sweeps;
       EXPECT_LT(std::abs(n * opening), 1e-6);
     }
@@ -285,7 +288,7 @@ TEST(NodeContact, OwnNormalsActOnEachSideAlone) {
 TEST(NodeContact, HeldPairsMoveAsOneWithTheirMomentum) {
   std::vector<NodeMaterial> m = {material(1, {1, 0, 4}), material(3, {2, 0, 8})};
   std::vector<NodePair> pairs = {frictional(0, 1, Vec3::UnitZ(), 0.0)};
-  pairs[0].keep = PairHold::normal;  // though they part
+  pairs[0].keep = PairHold::normal;  // although they separate
   solve_contact(m, pairs, 1.0);
   EXPECT_LT((m[0].velocity - Vec3(1, 0, 7)).norm(), 1e-15);
   EXPECT_LT((m[1].velocity - Vec3(2, 0, 7)).norm(), 1e-15);
@@ -295,7 +298,7 @@ TEST(NodeContact, HeldPairsMoveAsOneWithTheirMomentum) {
   EXPECT_LT((m[1].velocity - Vec3(1.75, 0, 7)).norm(), 1e-15);
 }
 
-// One oscillator, moved as particles are: by the mean of the velocities before and after.
+// An oscillator that moves as particles do: by the mean of the velocities before and after.
 struct Oscillator {
   double opening, velocity;
 };
@@ -328,11 +331,12 @@ TEST(PairInterface, OscillatesWithItsPeriodAndLosesWhatItsNoteSays) {
   // The last of 20 zeros, at 39/4 periods; the method's phase error is (omega dt)^2 / 24 and a step is 1.6 % of a
   // period.
   EXPECT_NEAR(last * dt * omega / (2 * kPi), 9.75, 0.02);
-  // (omega dt)^3 pi / 4 a period, ten of them, to leading order; energy itself wavers by omega dt / 2 in a period.
+  // The loss is (omega dt)^3 pi / 4 in each of ten periods, to leading order; energy varies by omega dt / 2 in a
+  // period.
   EXPECT_NEAR(energy() / start, 1.0 - 10 * 1e-3 * kPi / 4, 0.05);
 }
 
-// At any stiffness nothing grows: the opening and dt times the velocity, in a norm that may rise a little once.
+// At any stiffness the opening and dt times the velocity do not grow, in a norm that may rise slightly once.
 TEST(PairInterface, IsStableAtAnyStiffness) {
   for (const double k : {1e-3, 1.0, 4.0, 100.0, 1e6, 1e12}) {  // K = (omega dt)^2
     const InterfaceLaw law{k, k, 0.0};
@@ -342,7 +346,7 @@ TEST(PairInterface, IsStableAtAnyStiffness) {
       s = step(law, s, 1.0, 1.0, 1.0);
       if (n >= 4000) most = std::max(most, std::abs(s.opening));
     }
-    // |lambda|^2 = (1 + K/2) / (1 + beta K): what is resolved goes on, what is not is gone long before 4000 steps.
+    // |lambda|^2 = (1 + K/2) / (1 + beta K): resolved oscillations go on; others decay long before 4000 steps.
     const double beta = 0.5 + k / (2 * k + 8);
     const double kept = std::pow((1 + 0.5 * k) / (1 + beta * k), 2000.0);
     EXPECT_LT(most, 1e-12 + 40.0 * kept) << k;  // 40: u = 1 / sqrt(K) of w = 1 at K = 1e-3
@@ -352,10 +356,10 @@ TEST(PairInterface, IsStableAtAnyStiffness) {
 TEST(PairInterface, PerfectDirectionsStick) {
   const Vec3 stick(3, 0, -4), normal = Vec3::UnitZ();
   const InterfaceState closed{Vec3(0, 0, -1e-6), 1.0, 1.0};
-  // Perfect while closed: presses, and lets go.
+  // Perfect while closed: the interface presses, and does not pull.
   EXPECT_EQ(interface_impulse({10.0, -1.0, 0.0}, closed, stick, normal, 0.1).on_a, Vec3(0, 0, -4));
   EXPECT_EQ(interface_impulse({10.0, -1.0, 0.0}, closed, -stick, normal, 0.1).on_a, Vec3::Zero());
-  // Perfect in all: sticks both ways.
+  // Perfect in all directions: the interface sticks in tension and in compression.
   const PairImpulse all = interface_impulse({-1.0, -1.0, -1.0}, closed, -stick, normal, 0.1);
   EXPECT_EQ(all.on_a, -stick);
   EXPECT_EQ(all.hold, PairHold::both);
@@ -363,7 +367,7 @@ TEST(PairInterface, PerfectDirectionsStick) {
 }
 
 TEST(PairInterface, StoresTheEnergyOfItsOpening) {
-  // Traction times area times dt of an opening of (0.3, 0, 0.2) m.
+  // The impulse is traction times area times dt, for an opening of (0.3, 0, 0.2) m.
   const InterfaceState state{Vec3(0.3, 0, 0.2), 2.0, 1.0};
   const double dt = 1e-3;
   const Vec3 impulse = 2.0 * dt * Vec3(50.0 * 0.3, 0, 100.0 * 0.2);

@@ -34,7 +34,7 @@ std::vector<std::uint64_t> all_blocks(const GridLayout& layout, int edge) {
   return keys;
 }
 
-// Weights sum to one, gradients to none; sum of x G is the volume, along each axis alone.
+// Weights sum to one and gradients to zero; the sum of x G along each axis is the volume.
 TEST(RigidParticles, SumsAreThoseOfTheParticles) {
   const Grid grid(GridLayout(3, {0.1, 0.1, 0.1}, Vec3::Zero(), {1.6, 1.6, 1.6}));
   const GridLayout& layout = grid.layout;
@@ -58,14 +58,14 @@ TEST(RigidParticles, SumsAreThoseOfTheParticles) {
       EXPECT_EQ(particles.displacement(static_cast<int>(b), n), Vec3::Zero());
     }
   }
-  EXPECT_NEAR(volume, 0.4 * 0.6 * 0.2, 1e-15);  // all of it, since no particle is three cells deep
+  EXPECT_NEAR(volume, 0.4 * 0.6 * 0.2, 1e-15);  // the whole volume, since no particle is three cells deep
   EXPECT_LT(gradient.norm(), 1e-14);
   EXPECT_LT((place / volume - body.pose().position).norm(), 1e-13);
   EXPECT_LT((moment - volume * Mat3::Identity()).norm(), 1e-13);
 }
 
-// At nodes near a flat face along the grid the gradient is exactly normal; on one turned by 30 degrees the staircase of
-// the lattice does not show, since it turns with the body: what is left is the boxes', which do not turn.
+// At nodes near a flat face along the grid the gradient is exactly normal. For a face that is turned by 30 degrees the
+// lattice turns with the body and has no staircase; the error comes from the particles' boxes, which do not turn.
 TEST(RigidParticles, NormalsOfAFace) {
   const Grid grid(GridLayout(2, {0.1, 0.1, 0.1}, Vec3::Zero(), {3.2, 0, 3.2}));
   const GridLayout& layout = grid.layout;
@@ -91,7 +91,7 @@ TEST(RigidParticles, NormalsOfAFace) {
     }
     EXPECT_GT(nodes, 5);
     if (degrees == 0.0) {
-      EXPECT_LT(worst, 1e-7);  // of an arc cosine near 1
+      EXPECT_LT(worst, 1e-7);  // round-off of an arc cosine near 1
     } else {
       EXPECT_LT(worst, 10.0 * std::acos(-1.0) / 180.0);  // measured: see doc/contact.md; the sources give no bound
     }
@@ -124,13 +124,13 @@ Row row_of(RigidParticles& particles, const GridLayout& layout, int row, int nod
   return found;
 }
 
-// A body that reaches across a mirror counts as far as it lies on this side: half of the whole at the nodes on the
-// mirror, the same beyond the reach of the other half. With an even and an odd number of particles across, of which the
-// middle ones are cut in two.
+// Of a body that reaches across a symmetry plane only the part on this side counts: half of the whole at the nodes on
+// the plane, and all of it beyond the reach of the other half. The body has an even or an odd number of particles
+// across; the middle ones of an odd number are cut in two.
 TEST(RigidParticles, AreCutOffAtMirrors) {
   constexpr int kRow = 8, kNodes = 6;
   for (const double width : {0.8, 0.9}) {
-    // The same body about x = 0, the lower edge, and about the node at 1.6 of a grid without mirrors.
+    // The same body about x = 0, the lower edge, and about the node at 1.6 of a grid without symmetry planes.
     Grid half(GridLayout(2, {0.1, 0.1, 0.1}, Vec3::Zero(), {1.6, 0, 1.6}));
     half.mirrors[0] = true;
     const Grid whole(GridLayout(2, {0.1, 0.1, 0.1}, {-1.6, 0.0, 0.0}, {1.6, 0, 1.6}));
@@ -149,9 +149,9 @@ TEST(RigidParticles, AreCutOffAtMirrors) {
 }
 
 // Nairn & Guilkey (2015) eq. (55) and section 3.3, inside a body of boxes that end on the grid lines: the gradient of
-// area is none but on the axis, where the sum is -h (hats end there) and is to be set to zero. Areas from S = integral
-// of r N over that of r, worked out by hand for two boxes a cell: 4/9 of h^2 on the axis, where planar functions have
-// 1/2.
+// area is zero except on the axis, where the sum is -h (hat functions end there) and must be set to zero. Areas come
+// from S = integral of r N over that of r, by hand for two boxes a cell: 4/9 of h^2 on the axis, where planar functions
+// have 1/2.
 TEST(RigidParticles, HaveTheFunctionsOfTheAxis) {
   constexpr double kCell = 0.1;
   Grid grid(GridLayout(2, Vec3::Constant(kCell), Vec3::Zero(), {1.6, 0, 1.6}));
@@ -166,7 +166,8 @@ TEST(RigidParticles, HaveTheFunctionsOfTheAxis) {
   for (const Vec3& gradient : row.gradient) EXPECT_NEAR(gradient.z(), 0.0, 1e-14);
 }
 
-// A block at rest on a body of particles: the force is its weight, and the audit closes. Whatever normals and transfer.
+// A block at rest on a body of particles: the force is its weight, and the audit closes, with all normals and
+// transfers.
 TEST(RigidParticleContact, BearsTheWeight) {
   for (const char* method : {"transfer: flip", "transfer: {xpic: 2}", "transfer: apic"}) {
     for (const char* normals : {"larger_gradient", "average"}) {
@@ -188,13 +189,14 @@ TEST(RigidParticleContact, BearsTheWeight) {
       EXPECT_NEAR(report.mean.force.z(), -weight, 0.01 * weight) << method << " " << normals;
       EXPECT_LT(std::abs(report.mean.force.x()), 1e-3 * weight);
       EXPECT_LT(run.state().audit.residual, 1e-10);
-      EXPECT_NEAR(report.area, 0.4, 0.06);  // up to a cell's part at each of its two edges
+      EXPECT_NEAR(report.area, 0.4, 0.06);  // up to a fraction of a cell at each of its two edges
     }
   }
 }
 
-// Coulomb's law on a table of particles, with gravity at 30 degrees to it (exact-solutions 14): with 0.3 the block
-// slides with g (sin - 0.3 cos), with 0.6 > tan 30 it stays and friction bears g sin. The reference expects 1 to 2 %.
+// Coulomb's law on a table of particles, with gravity at 30 degrees to it (exact-solutions 14): with a friction of 0.3
+// the block slides with g (sin - 0.3 cos), with 0.6 > tan 30 it sticks and friction carries g sin. The reference
+// expects 1 to 2 %.
 TEST(RigidParticleContact, SlidesAndSticks) {
   constexpr double kGravity = 10.0, kAngle = 30.0 * 3.14159265358979323846 / 180.0;
   for (const double friction : {0.3, 0.6}) {

@@ -1,4 +1,4 @@
-// The order of particles after a sort, the groups that kernels take at once, and the blocks that the grid gets.
+// The order of particles after a sort, the groups that kernels process together, and the blocks of the grid.
 #include "mpm/step/sorter.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,8 @@ struct Case {
   Grouping grouping;
 };
 
-/// Bodies of `counts` particles scattered over a domain of 40 cells, in no order. v[0] holds a particle's first place.
+/// Bodies of `counts` particles scattered over a domain of 40 cells without order. v[0] holds each particle's initial
+/// index.
 struct Bodies {
   Bodies(int dim, const std::vector<int>& counts, Precision precision = Precision::float64, int field_count = 1)
       : fields(make_fields(GridLayout(dim, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Constant(4.0)), field_count)) {
@@ -42,7 +43,7 @@ struct Bodies {
       sets.push_back(std::move(set));
     }
   }
-  /// Where a particle belongs: its block's key, and its node within.
+  /// The key of a particle's block, and the number of its nearest node in the block.
   std::pair<std::uint64_t, int> home(const ParticleSet& set, int p) const {
     std::array<int, 3> block{};
     int local = 0;
@@ -101,8 +102,8 @@ TEST_P(SorterTest, OwnersHoldTheirOwnParticles) {
   }
 }
 
-// Every particle is in one group; a group is never longer than the lanes, never crosses what it may not cross, and is
-// as long as it can be.
+// Every particle is in exactly one group. A group is never longer than the lanes, never extends over more than one
+// column or node, and is as long as possible.
 TEST_P(SorterTest, GroupsCoverTheParticlesWithinOneColumnOrNode) {
   const Grouping grouping = GetParam().grouping;
   const int span = grouping.by == Grouping::By::column ? 4 : 1;
@@ -130,7 +131,7 @@ TEST_P(SorterTest, GroupsCoverTheParticlesWithinOneColumnOrNode) {
   }
 }
 
-// Owners are numbered through all fields, and in each a particle is in the block that it would be in with one.
+// Owners are numbered through all fields, and in each field a particle is in the block that it would have in one field.
 TEST(Sorter, PartsTheFieldsAndTheSidesOfASet) {
   for (const int threads : {1, 3}) {
     Bodies bodies(2, {2000, 500, 60}, Precision::float64, 4);
@@ -182,7 +183,7 @@ TEST(Sorter, MovesEveryScalarInEitherPrecision) {
       }
     };
     same();
-    // Again, with room from the first time.
+    // Sorts again, with the memory of the first sort.
     for (auto& x : set.x) {
       for (double& place : x) place += 0.7 * kCell;
     }

@@ -8,11 +8,11 @@
 namespace verification {
 namespace {
 
-/// What presses on a block, and how contact with it is found.
+/// A tool on a block, and the method of its contact.
 struct Press {
   const char* name;
   bool deformable;
-  const char* normals;  ///< of a rigid die
+  const char* normals;  ///< method of the normals, for a rigid die
   const char* contact;
 };
 
@@ -36,8 +36,8 @@ std::string pressed(const Press& press, bool half) {
       press.contact);
 }
 
-// A node on the plane has half of its material, which minimum_volume would take for a corner if the mirror image did
-// not count (Nairn & Guilkey (2015) section 3.3).
+// A node on the plane holds half of its material, which minimum_volume would take for a corner without the mirror image
+// (Nairn & Guilkey (2015) section 3.3).
 TEST(Symmetry, TheHalfIsHalfOfTheWhole) {
   const Press presses[] = {
       {"at nodes", false, "surface", "{method: nodes, friction: 0.3}"},

@@ -2,11 +2,11 @@
 //
 // No exact solution is known for a cone in this sand. N_q = e^(pi tan phi) tan^2(45 + phi/2), times the vertical stress
 // beside the tip, is exact for a strip on weightless soil with associated flow (Prandtl; Reissner (1924)). A round
-// footing bears more than a strip, by a factor of 1 + tan phi after De Beer (1970), and one at a depth D more than one
-// on the surface, by 1 + 2 tan phi (1 - sin phi)^2 arctan(D / B) after Brinch Hansen (1970), of width B < D. Other
-// authors' factors come to a third more (Meyerhof (1963): 1 + K / 10 and 1 + sqrt(K) D / 10 B, K = tan^2(45 + phi/2)),
-// and flow without dilation, as here, bears less than what they are made for: asked is Brinch Hansen's product within a
-// third.
+// footing bears more than a strip, by a factor of 1 + tan phi after De Beer (1970). A footing of width B at a depth
+// D > B bears more than one on the surface, by 1 + 2 tan phi (1 - sin phi)^2 arctan(D / B) after Brinch Hansen (1970).
+// Factors of other authors give a third more (Meyerhof (1963): 1 + K / 10 and 1 + sqrt(K) D / 10 B, with
+// K = tan^2(45 + phi/2)), and soil without dilation, as here, bears less than all of these assume. Asked: Brinch
+// Hansen's product within a third.
 #include <fmt/core.h>
 
 #include <cmath>

@@ -178,7 +178,7 @@ TEST(EndLoadedCylinder, FigureEight) {
   page.near("particle forces: stretch along z", forces.last.axial, nominal.axial, 0.01, "");
 
   const History boxes = draw({"method.shape=ugimp"}), flip = draw({"method.transfer=flip"});
-  // The paper finds uGIMP unstable at 50 %, but does not say at which stretch it broke: this row asks nothing.
+  // The paper finds uGIMP unstable at 50 %, but does not give the stretch at which it broke: this row has no check.
   page.beside("traction, uGIMP: stretch at which sigma_zz scatters by 10 %, beside one that the paper did not reach",
               boxes.broken_at(), exact.axial, "");
   page.report("traction, CPDI with FLIP: stretch at which sigma_zz scatters by 10 %", flip.broken_at(), "");

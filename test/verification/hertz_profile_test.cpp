@@ -1,10 +1,10 @@
-// Hertz's contact in cells as high as they are wide: where contact seems to begin, its half width and its pressure, of
+// Hertz's contact with square cells: the depth at which contact appears to begin, its half width and its pressure, for
 // a cylinder in plane strain and a sphere about its axis, both pressed into a block between smooth walls.
 //
 // hertz_test.cpp and axisymmetric_hertz_test.cpp have thin cells, of which the tool passes six rows. Here it passes
-// less than two, so that what is found hangs on whether contact knows the gap between the surfaces. The exact solution
-// is that of layer_contact.hpp for the very block. The half width is that of the straight line through the squares of
-// the pressure over x^2: under p = p0 sqrt(1 - x^2/a^2) it cuts zero at a^2. Source: exact-solutions 12; Johnson,
+// less than two, so that the results depend on whether contact resolves the gap between the surfaces. The exact
+// solution is that of layer_contact.hpp for this block. The half width comes from the straight line through the squares
+// of the pressure over x^2: under p = p0 sqrt(1 - x^2/a^2) it is zero at a^2. Source: exact-solutions 12; Johnson,
 // Contact Mechanics (1985) 3.4, 4.2, 5.8.
 #include <algorithm>
 #include <filesystem>
@@ -17,13 +17,13 @@ namespace verification {
 namespace {
 
 constexpr int kThreads = 1;
-constexpr double kToolRadius = 0.5, kCell = 0.0125, kTop = 0.2;  // of the scenes [m]
-constexpr double kStep = 0.04, kMeasure = 0.0075;                // of motion and rest; at the end of each rest [s]
+constexpr double kToolRadius = 0.5, kCell = 0.0125, kTop = 0.2;  // numbers of the scenes [m]
+constexpr double kStep = 0.04, kMeasure = 0.0075;                // motion and rest; the mean at its end [s]
 constexpr int kSteps = 5;
 
 struct Pressed {
-  Numbers depth, force;  ///< at the end of each rest, of the whole tool [m], [N] or [N/m]
-  Numbers x, pressure;   ///< of the uppermost particles at the end [m], [Pa]
+  Numbers depth, force;  ///< at the end of each rest; force on the whole tool [m], [N] or [N/m]
+  Numbers x, pressure;   ///< at the uppermost particles, at the end [m], [Pa]
 };
 
 Pressed press(const ContactMethod& method, const std::string& scene, double whole) {
@@ -51,8 +51,8 @@ Pressed press(const ContactMethod& method, const std::string& scene, double whol
   return result;
 }
 
-/// Depth by which the exact curve must be moved to go through the forces of the last steps, least squares of their
-/// relative errors, within a cell and a half [m]. Negative: felt too early.
+/// Shift in depth of the exact curve that minimises the squares of the relative errors of the forces in the last steps,
+/// within a cell and a half [m]. Negative: contact is felt too early.
 double offset_of(const HertzCurve& curve, const Pressed& run) {
   double best = 0.0, least = kEndless;
   for (double offset = -1.5 * kCell; offset <= 1.5 * kCell; offset += 0.002 * kCell) {
@@ -81,7 +81,7 @@ void compare(Page& page, const ContactMethod& method, ToolShape shape) {
   const PressedTool exact = LayerContact(block, shape, radius).paraboloid(kToolRadius);
   const double highest = exact.pressure(0.0);
 
-  // Least squares of p^2 = c + m x^2 where the pressure is a third of the exact peak or more.
+  // Fits p^2 = c + m x^2 by least squares where the pressure is at least a third of the exact peak.
   Numbers squares, places;
   double error = 0.0;
   int inside = 0;
@@ -107,7 +107,7 @@ void compare(Page& page, const ContactMethod& method, ToolShape shape) {
     page.report("offset of the depth, fitted, " + method.name, offset, "cells");
     page.beside("half width of the contact, " + method.name, 1e3 * half_width, 1e3 * radius, "mm");
     page.report("pressure to 0.9 a, standard deviation over the peak, " + method.name, 100.0 * off, "%");
-    // It is felt too early, by up to a cell, and too wide: never the other way round.
+    // Contact is felt too early, by up to a cell, and too wide, never too late or too narrow.
     EXPECT_LT(offset, 0.1);
     EXPECT_GT(offset, -1.25);
     EXPECT_GT(half_width, 0.95 * radius);

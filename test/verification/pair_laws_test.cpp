@@ -1,5 +1,5 @@
-// What acts between two deformable bodies, and from when: Coulomb's law on a slope (exact-solutions 14), and the two
-// rules of detection that have exact answers, the least volume at a node and displacements since the start.
+// Contact between two deformable bodies: Coulomb's law on a slope (exact-solutions 14), and the two rules of detection
+// that have exact answers, the least volume at a node and displacements since the start.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 constexpr double kGravity = 10.0;  // [m/s^2]
 constexpr double kPi = 3.14159265358979323846;
 
-constexpr double kAngle = kPi / 6.0, kFrom = 0.1, kUntil = 0.6;  // of the slope, and of the time that is looked at [s]
+constexpr double kAngle = kPi / 6.0, kFrom = 0.1, kUntil = 0.6;  // angle of the slope; interval of the means [s]
 
 /// A block on a bed of the same material whose underside is fixed, with gravity at kAngle to the bed's normal.
 std::string on_a_slope(double cell, const std::string& normals, const std::string& law) {
@@ -30,8 +30,8 @@ std::string on_a_slope(double cell, const std::string& normals, const std::strin
 }
 
 struct Slide {
-  double acceleration = 0.0;            ///< of the block, by least squares [m/s^2]
-  mpm::Vec3 force = mpm::Vec3::Zero();  ///< on the block, mean [N]
+  double acceleration = 0.0;            ///< acceleration of the block, by least squares [m/s^2]
+  mpm::Vec3 force = mpm::Vec3::Zero();  ///< mean force on the block [N]
 };
 Slide slide(const std::string& text) {
   mpm::Simulation run = from_text(text);
@@ -42,9 +42,9 @@ Slide slide(const std::string& text) {
   return {run.metrics().at(0).second, (run.take_pairs().at(0).impulse - impulse) / (kUntil - kFrom)};
 }
 
-// With mu < tan 30 degrees the block slides with g (sin - mu cos), with more it stays and the surfaces bear g sin.
-// Asked are the 1 % that the reference expects at best, of g sin and of the weight. The normals are those of the side
-// with more volume, which the flat bed has at the block's edges; the others follow. 5 s.
+// With mu < tan 30 degrees the block slides with g (sin - mu cos). With a larger mu it sticks, and the surfaces carry
+// g sin. Asked: 1 % of g sin and of the weight, the best that the reference expects. Normals are those of the side with
+// more volume, which is the flat bed at the block's edges; the next test has other normals. 5 s.
 TEST(PairLaws, ABlockOnABedSlidesOrSticks) {
   constexpr double kWeight = 1000.0 * 0.4 * 0.2 * kGravity;  // [N]
   struct Case {
@@ -62,8 +62,9 @@ TEST(PairLaws, ABlockOnABedSlidesOrSticks) {
   }
 }
 
-// The mean of both sides' normals, the default, leans at the block's edges, where its gradient points outwards: the
-// front edge ploughs. Of first order in the cell: the two nodes of an edge are a part of cell / length of the surface.
+// The mean of both sides' normals, the default, leans at the block's edges, where the block's gradient points outwards:
+// the front edge ploughs. The error is of first order in the cell, since the nodes of an edge are a fraction cell /
+// length of the surface.
 TEST(PairLaws, MeanNormalsPloughAtTheEdges) {
   for (const double cell : {0.05, 0.025}) {
     const double exact = kGravity * (std::sin(kAngle) - 0.3 * std::cos(kAngle));
@@ -86,7 +87,7 @@ std::string closing(double gap, const std::string& contact) {
       kCell, kSync, 0.5 - 0.5 * gap, 1.0 - 0.5 * gap, kSpeed, 1.0 + 0.5 * gap, 1.5 + 0.5 * gap, -kSpeed, contact);
 }
 
-/// When two bodies first press on each other [s]; `latest` where they do not until then.
+/// Time at which two bodies first press on each other, or `latest` if they do not until then [s].
 double first_touch(mpm::Simulation& run, double latest) {
   while (seconds(run) < latest) {
     run.advance();
@@ -95,23 +96,23 @@ double first_touch(mpm::Simulation& run, double latest) {
   return latest;
 }
 
-// Manual, Vmin: a node where all materials together have less of a cell's volume, undeformed, is not in contact. Boxes
-// of uGIMP spread their volume as if it were weighed with the hat function point by point, so with a gap g about the
-// node the volume there is (1 - g / 2h)^2 of a cell's, and bodies meet at g = 2 h (1 - sqrt(Vmin)): a gap that the
-// other nodes, which one body alone reaches, know nothing of. Nothing deforms before.
+// Manual, Vmin: a node where all materials together have less than this fraction of a cell's undeformed volume is not
+// in contact. Boxes of uGIMP spread their volume like a continuum weighted with the hat function. With a gap g about
+// the node its volume is therefore (1 - g / 2h)^2 of a cell's, and bodies meet at g = 2 h (1 - sqrt(Vmin)). Only one
+// body reaches each of the other nodes, so they have no contact. Nothing deforms before.
 TEST(PairLaws, TheLeastVolumeSaysAtWhichGapTheyMeet) {
   constexpr double kGap = 3.0 * kCell;
   for (const double least : {0.0, 0.25, 0.5, 0.9}) {
     mpm::Simulation run = from_text(closing(kGap, fmt::format("minimum_volume: {}", least)));
     const double meets = (kGap - 2.0 * kCell * (1.0 - std::sqrt(least))) / (2.0 * kSpeed);
-    // Found at the first sync point after it, and a step may begin before that.
+    // It is found at the first sync point after the contact, and the step of the contact may begin earlier.
     EXPECT_NEAR(first_touch(run, 0.05) / meets, 1.0, 3.0 * kSync / meets) << least;
   }
 }
 
-// Manual, Dcheck with displacements: bodies that touch at the start, of which one leaves with v and is called back by
-// an acceleration a, touch again when it is back, at 2 v / a, though they approach from v / a on and share nodes all
-// the while (it is never more than half a cell away). Rigid motion, whose mean displacement at a node is exact.
+// Manual, Dcheck with displacements: of two bodies that touch at the start one leaves with v and returns under an
+// acceleration a. They touch again when it is back, at 2 v / a, although they approach from v / a on and share nodes
+// all the time (the gap never exceeds half a cell). The motion is rigid, so mean displacements at nodes are exact.
 TEST(PairLaws, DisplacementsSayWhenItIsBack) {
   constexpr double kLeaves = 0.5, kBack = 2.0 * kLeaves / 0.04;  // [m/s], [m/s^2]: back after 40 ms, 5 mm away
   const auto scene = [&](const char* detection) {

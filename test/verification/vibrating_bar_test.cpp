@@ -1,8 +1,8 @@
 // A bar, fixed at x = 0 and free at x = L, vibrates in its first axial mode (Poisson's ratio 0, so that plane strain is
 // the same as a bar). With c = sqrt(E / rho) and beta = pi / 2L:
 //   u = v0 / (beta c) sin(beta X) sin(beta c t), period T = 4 L / c.
-// Source: exact-solutions 1 (it solves rho u_tt = E u_xx). Exact for small strain only: the strain's amplitude is v0 /
-// c.
+// Source: exact-solutions 1 (it solves rho u_tt = E u_xx). It is exact for small strain only; the amplitude of strain
+// is v0 / c.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace verification {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kLength = 1.0, kSpeed = 100.0;  // of the scene [m], [m/s]
+constexpr double kLength = 1.0, kSpeed = 100.0;  // numbers of the scene [m], [m/s]
 constexpr double kPeriod = 4.0 * kLength / kSpeed;
 constexpr double kBeta = kPi / (2.0 * kLength);
 
@@ -23,12 +23,12 @@ struct Vibration {
   Numbers tip;        // displacement of the particle next to the free end [m]
   Numbers mode;       // amplitude of sin(beta X) in the displacement [m]
   Numbers energy;     // kinetic + elastic [J]
-  double tip_x = 0;   // where that particle started [m]
+  double tip_x = 0;   // initial position of that particle [m]
   double worst = 0;   // largest difference of a particle's displacement from the exact one over the run [m]
-  double travel = 0;  // largest way of a particle, in cells
+  double travel = 0;  // largest travel of a particle [cells]
 };
 
-/// Ten and a quarter periods with velocities v0 sin(beta X).
+/// Runs ten and a quarter periods with initial velocities v0 sin(beta X).
 Vibration vibrate(const std::string& update, double v0, const std::string& law = "linear_elastic") {
   mpm::Simulation simulation =
       start("vibrating_bar", {"method.update=" + update, "materials.bar.law=" + law,
@@ -73,7 +73,7 @@ double period(const Vibration& run) {
   return 0.0;
 }
 
-/// Amplitude of the mode in period `number` (from 0), by Fourier's sum over the period's samples.
+/// Amplitude of the mode in period `number` (from 0), by a Fourier sum over the period's samples.
 double amplitude(const Vibration& run, int number) {
   const auto samples = static_cast<std::size_t>(std::lround(kPeriod / (run.time[1] - run.time[0])));
   double sine = 0.0, cosine = 0.0;
@@ -84,7 +84,7 @@ double amplitude(const Vibration& run, int number) {
   return 2.0 / static_cast<double>(samples) * std::hypot(sine, cosine);
 }
 
-/// Largest difference of the energy from its start, over the start.
+/// Largest change of the energy, over its initial value.
 double drift(const Vibration& run) {
   double worst = 0.0;
   for (const double energy : run.energy) worst = std::max(worst, std::abs(energy / run.energy[0] - 1.0));
@@ -121,7 +121,7 @@ TEST(VibratingBar, KeepsItsPeriodAndAmplitude) {
   page.report("largest drift of the energy, USF", 100.0 * drift(usf), "% of the start");
   page.report("largest error of a displacement in ten periods, USAVG", 100.0 * usavg.worst / exact_amplitude,
               "% of the amplitude");
-  // A bar that does not move has no period; and one that swings grew no energy out of nothing.
+  // The bar moves, with the exact amplitude.
   EXPECT_NEAR(amplitude(usavg, 0), exact_amplitude, 0.01 * exact_amplitude);
 
   Numbers exact_tip;
@@ -148,9 +148,9 @@ double nominal_stress(double stretch) {
          kShear * std::pow(stretch, -5.0 / 3.0) * (2.0 / 3.0) * (stretch * stretch - 1.0);
 }
 
-/// The wave equation of large strain, rho u_tt = dP(1 + u_X) / dX, by second differences on a grid that lies in the
-/// material, sampled as `like`. Of 100, 200 and 400 elements periods differ by 2e-5 and displacements by 1e-4 of the
-/// amplitude.
+/// Solution of the wave equation of large strain, rho u_tt = dP(1 + u_X) / dX, by second differences on a grid fixed to
+/// the material, sampled at the times of `like`. With 100, 200 and 400 elements periods differ by 2e-5 and
+/// displacements by 1e-4 of the amplitude.
 Vibration large_strain(double v0, const Vibration& like) {
   constexpr int kElements = 100, kStepsASample = 8;
   constexpr double kDensity = 100.0, kElement = kLength / kElements;
@@ -218,11 +218,12 @@ TEST(VibratingBar, CrossesCells) {
     tip.line(label, scaled(run.time, 1e3), scaled(run.tip, 1.0 / exact_amplitude));
     energy.line(label, scaled(run.time, 1e3), scaled(run.energy, 1.0 / run.energy[0]));
     page.report("travel of the end, " + label, run.travel, "cells");
-    // As for small strain: what the grid's waves are slow by is 0.1 %.
+    // As for small strain: waves on the grid are slow by 0.1 %.
     page.near("period, " + label, 1e3 * period(run), 1e3 * period(exact), 0.005, "ms");
     const auto [out, in] = reach_of(run);
     const auto [exact_out, exact_in] = reach_of(exact);
-    // A tenth of what large strain changes (they differ by 1.9 and 3.7 % of the amplitude) for each.
+    // Tolerance for each: a tenth of the difference that large strain makes between them (1.9 and 3.7 % of the
+    // amplitude).
     page.near("largest way outwards in the first period, " + label, 1e3 * out, 1e3 * exact_out, 0.1 * ratio, "mm");
     page.near("largest way inwards, " + label, 1e3 * in, 1e3 * exact_in, 0.1 * ratio, "mm");
     page.near("amplitude in the tenth period, " + label, 1e3 * amplitude(run, 9), 1e3 * amplitude(exact, 9), 0.02,

@@ -67,9 +67,9 @@ TEST(Energy, OfCollidingDisks) {
           "speed. uGIMP, 4 particles a cell. Broken: the energy has changed by a hundredth at some time.")
       .exact("Energy is kept.", "conservation; the example is that of Sulsky, Chen and Schreyer (1994)")
       .meaning(
-          "USF and USL err by as much and in opposite ways, in proportion to the time step; USAVG, their mean, errs a "
-          "hundred times less. FLIP is the one transfer that keeps vibrations; the others lose from 5 % (FMPM(5)) to "
-          "70 % (PIC), and PIC and APIC the more the smaller the step.");
+          "The errors of USF and USL are equal and opposite, in proportion to the time step; that of USAVG, their "
+          "mean, is a hundred times smaller. FLIP is the only transfer that keeps vibrations. The others lose from 5 "
+          "% (FMPM(5)) to 70 % (PIC); PIC and APIC lose the more, the smaller the step.");
   const Numbers steps = {0.1, 0.2, 0.4, 0.6, 0.8, 0.95};
   Map map("time.cfl", steps);
   verification::Panel& panel = page.figure().panel("time.cfl 0.4", "time [cells of way]", "energy over the start");

@@ -57,10 +57,10 @@ TEST(FastTool, RunsOverWhatItSweepsInOneStep) {
           "A tool six cells thick meets a sheet of soft material one cell thick and pushes it along; 4 particles a "
           "cell, FLIP, USAVG. Steps are forced to a size in which the tool travels 0.1 to 8 cells. Broken: material is "
           "more than a cell deep inside the tool.")
-      .exact("A cell a step: what a tool sweeps beyond the next row of nodes, no step has looked at.",
+      .exact("The limit is a cell a step: no step sees material that a tool sweeps beyond the next row of nodes.",
              "the order of a step: contact nodes are found once, at its start")
       .meaning(
-          "Below a cell a step the tool takes all with it, and the solver's time step keeps every tool below "
+          "Below a cell a step the tool pushes all material along, and the solver's time step keeps every tool below "
           "`time.cfl` cells a step.");
   const Numbers rows = {0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0};
   Map map("cells that the tool travels in a step", rows);

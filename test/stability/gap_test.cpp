@@ -74,11 +74,10 @@ TEST(EarlyContact, GapIsThatOfTheSupport) {
           "geometry of the shape functions")
       .meaning(
           "This is contact at nodes. At points of the surface (the default) the first force comes when the surfaces "
-          "meet, "
-          "with every method and at every place, which the same test checks. The smoother the function, the earlier "
-          "the contact: up to a cell with uGIMP and CPDI, 1.75 cells with cubic "
-          "splines. The first force is tiny, as is the mass that reaches the node; what matters grows in over the gap. "
-          "A plate whose surface lies just below a row of nodes loses nearly a cell of it.");
+          "meet, with every method and at every place, which the same test checks. The smoother the function, the "
+          "earlier the contact: up to a cell with uGIMP and CPDI, 1.75 cells with cubic splines. The first force is "
+          "tiny, as is the mass that reaches the node; it grows while the gap closes. A plate whose surface lies "
+          "just below a row of nodes loses nearly a cell of it.");
   const Numbers depths = {0.0, 0.1, 0.25, 0.5, 0.75, 0.9};
   Map map("depth d of the nodes under the surface [cells]", depths);
   for (const int ppc : {2, 3}) {

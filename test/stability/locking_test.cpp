@@ -68,11 +68,10 @@ TEST(Locking, OfAnIsochoricMode) {
       .exact("ω = (π/L) √(2G/ρ), whatever the bulk modulus: the mode is free of divergence and of shear on the walls.",
              "ρ u_tt = G Δu with div u = 0")
       .meaning(
-          "Hat functions, averaged over whatever domain, give a divergence within a cell to a mode that has none: at ν "
-          "= "
-          "0.4999 a square of 8 × 8 cells swings five times too fast. Quadratic and cubic splines do not lock here. "
-          "`method.average_dilatation` takes locking from all: the frequency does not move with ν. All are a little "
-          "slow on eight cells.");
+          "Hat functions, averaged over whatever domain, give a divergence within a cell to a mode that has none: at "
+          "ν = 0.4999 a square of 8 × 8 cells swings five times too fast. Quadratic and cubic splines do not lock "
+          "here. `method.average_dilatation` removes locking from all: the frequency does not depend on ν. All are "
+          "slightly slow on eight cells.");
   const Numbers ratios = {0.3, 0.45, 0.49, 0.495, 0.499, 0.4995, 0.4999};
   Map map("Poisson's ratio", ratios);
   verification::Panel& panel =

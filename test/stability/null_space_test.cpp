@@ -73,15 +73,16 @@ Left ring(const mpm::SimulationDefinition& d, const std::vector<int>& steps) {
 TEST(NullSpace, IsKeptByFlipAlone) {
   Page page("ringing", "null_space", "Motion that the grid does not see");
   page.problem(
-          "A free block of 4 × 4 cells, 4 particles a cell, whose particles move to and fro in turn: the grid sees "
-          "hardly any of it. Steps of half a cell's time. Cells: a tenth or less is left.")
-      .exact("The one-step matrix, applied as often.",
+          "A free block of 4 × 4 cells, 4 particles a cell, whose neighbouring particles move in opposite "
+          "directions, which the grid hardly resolves. The Courant number is a half. Cells: a tenth or less is left.")
+      .exact("The one-step matrix, applied once for each step.",
              "PIC: Nairn, GIMP notes (2.17)-(2.22); XPIC: Hammerquist and Nairn (2017); FMPM: Nairn and Hammerquist "
              "(2021)")
       .meaning(
-          "What the grid does not see it cannot stop: with FLIP it stays, moves particles about and mixes with what "
-          "they carry. PIC takes it in the first step, and with it part of what is real. XPIC and FMPM take it in the "
-          "first step too, and keep more of the rest the higher their order.");
+          "The grid cannot stop motion that it does not resolve: with FLIP this noise stays, and it affects "
+          "positions and stresses of particles. PIC removes it in the first step, together with a part of the real "
+          "motion. XPIC and FMPM remove it in the first step, too, and keep more of the real motion the higher their "
+          "order.");
   const std::vector<int> steps = {1, 2, 5, 10, 20, 50, 100};
   Map map("steps", Numbers(steps.begin(), steps.end()));
   for (const auto shape : {mpm::ShapeKind::ugimp, mpm::ShapeKind::bspline2}) {

@@ -101,19 +101,17 @@ TEST(Patch, UniformStressOfDeformedParticles) {
   page.problem(
           "A lattice of particles, 4 a cell at the start, is deformed by F and carries F and a uniform pressure. One "
           "step from rest; F goes along a path in 90 samples. Stretch along the grid, shear along an axis at 30° to "
-          "it. "
-          "Broken: at this value or before it a particle deep inside was pushed as if the stress changed by a fifth of "
-          "itself across a cell.")
+          "it. Broken: at this value or below it a particle deep inside is accelerated as if the stress changed by a "
+          "fifth across a cell.")
       .exact("Nothing moves: there is no gradient of stress.", "equilibrium of uniform stress")
       .meaning(
-          "Why stretch breaks a method is seen here without its dynamics. Points with hat functions are pushed as soon "
-          "as "
-          "cells hold unequal numbers of them. uGIMP, whose boxes leave gaps, breaks at a stretch of 1.44: the 50 % of "
-          "tension at which it is said to fail. Boxes that stretch with the diagonal of F do well along the grid until "
-          "they are cut off, and break at a shear of 2, where the diagonal says nothing of the shape. CPDI's domains "
-          "tile space, whatever F is: nothing tangles in a deformation that is uniform, and the cut at one and a half "
-          "cells costs 0.4 % of the stress at a shear of 6. Cubic splines, without any domain, push 14 % at a stretch "
-          "of 4.");
+          "This shows without dynamics why stretch breaks a method. Points with hat functions are accelerated as "
+          "soon as cells hold unequal numbers of them. uGIMP, whose boxes leave gaps, breaks at a stretch of 1.44: "
+          "the 50 % of tension at which it is said to fail. Boxes that stretch with the diagonal of F do well along "
+          "the grid until they are cut off, and break at a shear of 2, where the diagonal does not describe the "
+          "shape. CPDI's domains tile space for any F: nothing tangles in a uniform deformation, and the cut at one "
+          "and a half cells causes 0.4 % of error at a shear of 6. Cubic splines, which have no domain, have an "
+          "error of 14 % at a stretch of 4.");
   for (const Family& family : kFamilies) {
     Map map(family.parameter, family.rows);
     const double sign = family.end > family.rest ? 1.0 : -1.0;

@@ -80,13 +80,14 @@ TEST(Release, OfTwoBarsThatMeet) {
   Page page("contact", "release", "Two bodies meet and part");
   page.problem(
           "Two bars of 8 × 2 cells, neo-Hookean, ν = 0, meet end to end and part, at 1 to 30 % of the wave speed. "
-          "They share one velocity field. Broken: they part with less than nine tenths of the speed they came with.")
-      .exact("They exchange velocities; the relative velocity is what it was.", "wave equation, equal bars")
+          "They share one velocity field. Broken: they separate with less than nine tenths of their initial speed.")
+      .exact("They exchange velocities; the magnitude of the relative velocity is unchanged.",
+             "wave equation, equal bars")
       .meaning(
-          "In one velocity field the bars feel each other at a gap of 0.8 cells (splines 1.2 and 1.8) and let go at "
-          "hardly more: less than a thousandth of the speed is pulled back, so that stickiness is no matter for "
-          "elastic "
-          "bodies that part as a whole. Points with hat functions stick: they lose a quarter of the speed to it.");
+          "In one velocity field the bars act on each other from a gap of 0.8 cells on (splines 1.2 and 1.8) and "
+          "release at hardly more. They lose less than a thousandth of the speed when they separate, so that "
+          "sticking does not matter for elastic bodies that separate as a whole. Points with hat functions do stick "
+          "and lose a quarter of the speed.");
   const Numbers rows = {0.01, 0.03, 0.1, 0.3};
   Map map("approach over wave speed", rows);
   std::vector<Method> list = shapes();
@@ -128,11 +129,11 @@ TEST(Release, FromAPlatePullsNothing) {
   Page page("contact", "release_plate", "A body parts from a rigid plate");
   constexpr double kApproach = 0.03;
   page.problem("A bar of 8 × 2 cells, ν = 0, meets a fixed rigid plate at 3 % of the wave speed and parts from it.")
-      .exact("It comes back with the speed it came with, and the plate only pushes.", "wave equation")
+      .exact("It rebounds with its initial speed, and the plate only pushes.", "wave equation")
       .meaning(
-          "A tool never sticks: each node is let go when it moves away. But contact takes what nodes bring towards the "
-          "tool at once, and not all of it comes back: the wider the shape function, the more is lost, a twentieth of "
-          "the speed with uGIMP and a third with cubic splines on a bar of eight cells.");
+          "A tool never sticks: each node is released when it moves away. But contact stops the approach of a node "
+          "at once, which loses energy: the wider the shape function, the more is lost, a twentieth of the speed "
+          "with uGIMP and a third with cubic splines on a bar of eight cells.");
   for (const Method& method : shapes()) {
     mpm::SimulationDefinition d = bars(method.definition, 2.0 * kApproach);
     d.bodies.pop_back();

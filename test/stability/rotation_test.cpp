@@ -79,19 +79,18 @@ double turn(double rate, double theta) { return std::abs(std::expm1(rate * 2.0 *
 TEST(Rotation, ChangesVolumeByTheTermsOfTheExponential) {
   Page page("rotation", "rotation", "Rotation changes the volume");
   page.problem(
-          "Particles on a lattice are given the velocity of a rigid rotation before every step, so that the "
-          "deformation "
-          "gradient sees nothing else. Its increment is exp(∇v Δt) cut off after k terms (`method.gradient_terms`). "
-          "Broken: J has changed by a hundredth in a turn.")
+          "Particles on a lattice are given the velocity of a rigid rotation before every step, so that nothing else "
+          "changes the deformation gradient. Its increment is exp(∇v Δt) cut off after k terms "
+          "(`method.gradient_terms`). Broken: J has changed by a hundredth in a turn.")
       .exact(
           "A step that turns by θ multiplies J by 1 + θ² (k = 1), 1 + θ⁴/4 (k = 2), 1 - θ⁴/12 + θ⁶/36 (k = 3), 1 - "
           "θ⁶/72 "
           "+ θ⁸/576 (k = 4); USAVG does two steps of half the angle.",
           "Nairn, GIMP notes (2.2); |1 + iθ + … + (iθ)ᵏ/k!|²")
       .meaning(
-          "One term swells whatever rotates: at 0.1° a step a turn adds 1.1 % of volume. Two terms, the default, bear "
-          "10° a step, with USAVG 21°. A wave crosses a cell in a step, and what turns stays slower than waves: more "
-          "terms buy nothing where steps turn by a degree.");
+          "With one term every rotating body swells: at 0.1° a step a full turn adds 1.1 % of volume. Two terms, the "
+          "default, allow 10° a step, with USAVG 21°. A step is at most the time in which a wave crosses a cell, and "
+          "bodies rotate more slowly than waves travel: where a step turns by a degree more terms have no benefit.");
   const Numbers degrees = {0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 30.0};
   Map map("rotation a step [°]", degrees);
   const double per_degree = kPi / 180.0;

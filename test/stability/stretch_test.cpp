@@ -57,19 +57,17 @@ TEST(Stretch, UntilTheBarParts) {
       .exact(
           "x = s(t) X, J = s. Theory, an upper bound: from the stretch at which particles that touched at the start "
           "may share no node the bar cannot hold (Dirac 2, uGIMP 3, splines 4 and 6; none for domains that stretch). "
-          "It "
-          "is far above what is reached, so it is shown beside it and asks nothing. Asked: uGIMP breaks near the 50 % "
-          "at "
-          "which it is said to, and CPDI carries 50 % as in Nairn & Guilkey's end-loaded cylinder, both pulled fast.",
+          "It is far above the stretch that is reached, so it is shown without a check. Asked: uGIMP breaks near 50 "
+          "%, as is said of it, and CPDI bears 50 % as in Nairn & Guilkey's end-loaded cylinder, both pulled fast.",
           "equilibrium of uniform stress; supports of the shape functions; Nairn & Guilkey (2015) section 4.2")
       .meaning(
-          "Folklore says that uGIMP fails near 50 % of tension and CPDI beyond 200 %. That is what is found when the "
-          "bar "
-          "is pulled fast, 62 % and 130 %. Pulled slowly all fail near 30 %, CPDI too, far below the stretch at which "
-          "supports part and although a uniform stress pushes none of CPDI's particles (next section): under tension, "
-          "small shifts of particles grow on the grid, and a slow pull gives them time. It is an instability, not a "
-          "gap. XPIC and FMPM, which damp least of what the grid sees, bear least; a hundredth of PIC or APIC helps "
-          "CPDI. Where material is to be stretched by more than a quarter, look whether its columns stay together.");
+          "uGIMP is said to fail near 50 % of tension and CPDI beyond 200 %. When the bar is pulled fast, uGIMP "
+          "fails at 62 % and CPDI at 130 %. Pulled slowly all fail near 30 %, including CPDI, far below the stretch "
+          "at which supports part and although a uniform stress accelerates none of CPDI's particles (next section). "
+          "Under tension small displacements of particles grow on the grid, and a slow pull gives them time: it is "
+          "an instability, not a gap. XPIC and FMPM, which damp resolved motion least, fail first; a hundredth of "
+          "PIC or APIC helps CPDI. Where material is stretched by more than a quarter, check that its columns of "
+          "particles stay together.");
   Map map("stretch", {1.1, 1.2, 1.3, 1.4, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0, 5.0});
   for (const double speed : {0.01, kFast}) {
     for (const Method& method : shapes()) {
@@ -122,17 +120,15 @@ TEST(Compression, DownToATwelfthOfTheLength) {
   Page page("strain", "compression", "Compression");
   constexpr double kEnd = 0.08;
   page.problem(
-          "The same bar is pressed together at a fiftieth of the wave speed by a load on its last third. Broken: "
-          "columns "
+          "The same bar is compressed at a fiftieth of the wave speed by a load on its last third. Broken: columns "
           "are twice as far apart as they should be, J is off by half, or the run ended with an error.")
       .exact("x = s(t) X, J = s.", "equilibrium of uniform stress")
       .meaning(
-          "Nairn & Guilkey (2015) 4.1 press a disk together along its radius and could use uGIMP to 84 % of volume, "
-          "where "
-          "it broke at 88 %, and CPDI to about 93 %. That is an axisymmetric problem with its axis; the numbers stand "
-          "here for the order of magnitude. Splines reach a twelfth of the length in order. Domains, whether they "
-          "follow or not, do with FLIP to a third, and CPDI with XPIC(2), FMPM(2) or APIC to a twelfth too; PIC does "
-          "not help, and high orders of XPIC and FMPM are worse than none.");
+          "Nairn & Guilkey (2015) 4.1 compress a disk along its radius; there uGIMP works to 84 % of volume and "
+          "breaks at 88 %, and CPDI works to about 93 %. That is an axisymmetric problem with its axis; the numbers "
+          "show the order of magnitude. Here splines hold to a twelfth of the length. With FLIP, domains hold to a "
+          "third, whether they follow the deformation or not; CPDI with XPIC(2), FMPM(2) or APIC also holds to a "
+          "twelfth. PIC does not help, and high orders of XPIC and FMPM are worse than FLIP.");
   Map map("stretch", {0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9});
   for (const int ppc : {2, 3}) {
     for (Method method : shapes()) {

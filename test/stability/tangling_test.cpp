@@ -282,30 +282,31 @@ TEST(Tangling, IsSeenAndOnlySeenWhereItIs) {
 Page& describe(Page& page) {
   return page
       .problem(
-          "The ring of the generalised vortex (neo-Hookean, ν = 0.3, inside material at rest) turns in its middle "
-          "by the angle given and back; 4 particles a cell where nothing else is said, USAVG, a Courant number of "
-          "0.5. Broken: the run ended with an error or is a fifth of the way astray; four neighbouring particles, "
-          "each with its own F, see the corner that they share at places more than a cell apart; the mean corners "
-          "of a particle are no longer a convex quadrilateral. A turn above one at which the run broke was not "
-          "tried.")
+          "The ring of the generalised vortex (neo-Hookean, ν = 0.3, inside material at rest) turns in its middle by "
+          "the angle given and back; 4 particles a cell where nothing else is said, USAVG, a Courant number of 0.5. "
+          "Broken: the run ended with an error or errs by a fifth of the distance travelled; four neighbouring "
+          "particles, each with its own F, compute their common corner at positions more than a cell apart; the mean "
+          "corners of a particle are no longer a convex quadrilateral. A turn above one at which the run broke was "
+          "not tried.")
       .exact(
-          "Every point turns about the axis, J = 1. Parallelograms made of the exact F at the exact places part "
-          "and tangle too, as they know no change of F: from the turns that are drawn as theory.",
+          "Every point turns about the axis, J = 1. Even parallelograms with the exact F at the exact positions part "
+          "and tangle, as they do not include the change of F across them; the turns from which they do are drawn as "
+          "theory.",
           "the motion of Kamojjala et al. (2015); corners of Sadeghirad, Brannon & Burghardt (2011)");
 }
 
 TEST(Tangling, OfDomainsInAVortex) {
   Page page("strain", "tangling", "Domains in shear that is not uniform");
   describe(page).meaning(
-      "CPDI keeps to its parallelograms. Up to 0.75 rad, a shear of 4.6, its corners part no more than those of "
-      "the exact motion, with FLIP and with APIC, and its domains tangle where those tangle. Tangling alone breaks "
-      "nothing: CPDI sums over the corners of one particle at a time and asks of them only J > 0; at 0.75 rad a "
-      "fifth of the domains are tangled, and the run comes back with an error of 16 %. Others lose F first. "
-      "uGIMP's and Dirac's corners part by more than a cell at 0.25 rad: positions are as good as CPDI's, while J "
-      "lies between 0.6 and 1.6 where 1 is exact. qCPDI turns as far as CPDI here, but its corners part by 1.7 "
-      "cells at 0.5 rad where CPDI's part by 0.26. XPIC(2) and FMPM(2) damp the noise in J and the motion with it, "
-      "and go astray sooner; APIC errs least up to 0.5 rad. On this coarse grid nothing turns by 1 rad. There is "
-      "no published turn to compare with that we know of.");
+      "CPDI is limited by its parallelograms. Up to 0.75 rad, a shear of 4.6, its corners part no more than those of "
+      "the exact motion, with FLIP and with APIC, and its domains tangle where those of the exact motion tangle. "
+      "Tangling alone does not break a run: CPDI sums over the corners of one particle at a time and requires only J "
+      "> 0 of them. At 0.75 rad a fifth of the domains are tangled, and the run turns back with an error of 16 %. "
+      "With other shape functions F fails first. uGIMP's and Dirac's corners part by more than a cell at 0.25 rad: "
+      "positions are as good as CPDI's, while J lies between 0.6 and 1.6 where 1 is exact. qCPDI turns as far as "
+      "CPDI here, but its corners part by 1.7 cells at 0.5 rad where CPDI's part by 0.26. XPIC(2) and FMPM(2) damp "
+      "the noise in J and the motion with it, and fail sooner; APIC errs least up to 0.5 rad. On this coarse grid no "
+      "method turns by 1 rad. We know of no published turn for comparison.");
   scan(page, Ring(12, 2), compared(), "12 cells a metre", false);
   // At the smallest turn the exact motion deforms domains little: shear up to 1.5, corners a seventh of a cell apart.
   // The grid is finer, because with 12 cells the error is that of the grid for any shape function.
@@ -332,13 +333,12 @@ TEST(FullTangling, OfDomainsInAVortex) {
   Page page("strain", "tangling", "Domains in shear that is not uniform, finer");
   describe(page).meaning(
       "With a third more cells CPDI turns by 1.08 rad, a shear of 6.6, and was tangled from 0.58 rad on, where the "
-      "exact motion tangles from 0.62 on. Points and boxes go astray at 0.33 and 0.36 rad. qCPDI, which turned by "
-      "0.75 rad on the coarser grid, breaks at 0.48: it smears less than CPDI, which may be what kept F sound "
-      "there; that is not shown. Splines break at 0.55 and 0.64 rad. With 9 particles a cell the corners of the "
-      "exact motion part by half as much and its domains tangle later, from 0.72 rad on; CPDI breaks between the "
-      "same rows, uGIMP a row later, qCPDI two, and at 0.25 rad uGIMP errs as CPDI does, 5.5 %: a denser lattice "
-      "does for uGIMP what CPDI does at 4 particles. APIC with CPDI errs least up to 0.5 rad and parts least of "
-      "all.");
+      "exact motion tangles from 0.62 on. Points and boxes fail at 0.33 and 0.36 rad. qCPDI, which turned by 0.75 "
+      "rad on the coarser grid, breaks at 0.48: it smooths less than CPDI, which may be the reason; that is not "
+      "shown. Splines break at 0.55 and 0.64 rad. With 9 particles a cell the corners of the exact motion part by "
+      "half as much and its domains tangle later, from 0.72 rad on; CPDI breaks between the same rows, uGIMP a row "
+      "later, qCPDI two, and at 0.25 rad uGIMP errs as CPDI does, 5.5 %: with a denser lattice uGIMP is as good as "
+      "CPDI with 4 particles. APIC with CPDI errs least up to 0.5 rad, and its corners part least.");
   scan(page, Ring(16, 2), compared(), "16 cells a metre", true);
   std::vector<Method> nine = compared();
   nine.erase(std::remove_if(nine.begin(), nine.end(),

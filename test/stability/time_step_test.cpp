@@ -130,13 +130,13 @@ TEST(TimeStep, OfShapesAndParticlesInACell) {
           "velocities "
           "grow a thousandfold in 300 steps. 1, 4 and 9 particles a cell, USAVG and FLIP.")
       .exact(
-          "dt = 2/ω with ω² the largest eigenvalue of M⁻¹CM⁻¹K, M the lumped and C the consistent mass of the grid, K "
-          "its stiffness. Between walls, which also stop what their nodes gather, the one-step matrix is applied as "
-          "often as the solver steps.",
+          "dt = 2/ω with ω² the largest eigenvalue of M⁻¹CM⁻¹K, M the lumped and C the consistent mass of the grid, "
+          "K its stiffness. Between walls, which also stop the momentum of their nodes, the one-step matrix is "
+          "applied once for each step.",
           "derived in test/stability/linear_step.hpp from the passes of a step")
       .meaning(
-          "Averaging over particles softens the fastest modes, so that FLIP bears 1.3 cells a step with any shape "
-          "function, and splines two. A node's row at the surface costs a tenth.");
+          "Averaging over particles softens the fastest modes, so that FLIP is stable up to 1.3 cells a step with "
+          "any shape function, and up to two with splines. A row of nodes at the surface costs a tenth.");
   Map free("Courant number c Δt / h", kRows), held("Courant number c Δt / h", kRows);
   for (Method method : shapes()) {
     for (const int ppc : {1, 2, 3}) {
@@ -154,13 +154,13 @@ TEST(TimeStep, OfUpdatesAndTransfers) {
   Page page("time_step", "time_step_transfers", "The largest stable time step: updates and transfers");
   page.problem("The block of the section before, 4 particles a cell, uGIMP.")
       .exact(
-          "The three updates do the same two changes, of stress and of velocity, in another order: their one-step "
-          "matrices are similar, and the limit is one. For transfers: the time step at which an eigenvalue of the "
+          "The three updates apply the same two changes, of stress and of velocity, in another order: their one-step "
+          "matrices are similar, and they have one limit. For transfers: the time step at which an eigenvalue of the "
           "one-step matrix leaves the circle that is stable by the criterion.",
           "derived in test/stability/linear_step.hpp from the passes of a step")
       .meaning(
-          "The update has no say in the time step. PIC and its kin do with less than FLIP: 1.4 for PIC, 1.2 for "
-          "FMPM(2), and the less the higher the order of FMPM.");
+          "The update does not affect the largest time step. PIC and its relatives have lower limits than FLIP: 1.4 "
+          "for PIC, 1.2 for FMPM(2), and less the higher the order of FMPM.");
   Map map("Courant number c Δt / h", kRows);
   for (const Method& method : updates()) compare(page, map, "FLIP, " + method.name, block(method.definition, 0.0));
   for (const auto update : {mpm::UpdateScheme::usf, mpm::UpdateScheme::usl, mpm::UpdateScheme::usavg}) {
@@ -182,11 +182,11 @@ TEST(TimeStep, OfABlockAboutToLeaveItsCells) {
       .exact("As in the first section, for each place.", "derived in test/stability/linear_step.hpp")
       .meaning(
           "Little mass at a node does not lower the limit of FLIP: a node's velocity is a mean of its particles' "
-          "velocities, however little it weighs, and its acceleration reaches particles by as small a weight. This "
-          "holds for strain from velocities gathered anew (modified USL); original USL, which takes the strain from "
-          "the updated nodes, is not offered. APIC carries velocities on to nodes beyond the block by their gradient "
-          "and bears less: with uGIMP and 9 particles a cell three quarters of a cell a step, below the Courant number "
-          "of 1 that the solver's own check asks for. Stay at `time.cfl` 0.7 or less with it.");
+          "velocities, however small its mass, and its acceleration reaches particles with an equally small weight. "
+          "This holds for strain from velocities gathered anew (modified USL); original USL, which takes the strain "
+          "from the updated nodes, is not offered. APIC extrapolates velocities to nodes beyond the block by their "
+          "gradient and has a lower limit: three quarters of a cell a step with uGIMP and 9 particles a cell, below "
+          "the Courant number of 1 that the solver's own check allows. Stay at `time.cfl` 0.7 or less with it.");
   std::vector<Method> list = shapes();
   for (const int ppc : {2, 3}) {
     for (Method method : transfers()) {

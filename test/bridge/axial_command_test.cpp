@@ -10,7 +10,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace axial_command_test {
 
 class AxialCommand : public testing::Test {
  protected:
@@ -117,5 +117,5 @@ TEST_F(AxialCommand, AToolIsDrawnWhole) {
   EXPECT_NEAR(farthest, 0.03, 1e-15);
 }
 
-}  // namespace
+}  // namespace axial_command_test
 }  // namespace mpm_ros

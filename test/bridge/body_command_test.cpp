@@ -9,7 +9,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace body_command_test {
 
 class TooFast : public testing::Test {
  protected:
@@ -95,5 +95,5 @@ TEST_F(TooFast, OverflowIsRefused) {
   expect_refused();
 }
 
-}  // namespace
+}  // namespace body_command_test
 }  // namespace mpm_ros

@@ -12,7 +12,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace command_fuzz_test {
 
 using test::Dice;
 using test::kOrigin;
@@ -319,5 +319,5 @@ TEST_F(CommandFuzz, WhatIsAppliedIsRecordedAndReplays) {
   EXPECT_GE(sync_points, static_cast<std::uint64_t>(kMessages / kMessagesBetweenSyncPoints));
 }
 
-}  // namespace
+}  // namespace command_fuzz_test
 }  // namespace mpm_ros

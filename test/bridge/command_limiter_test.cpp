@@ -11,7 +11,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace command_limiter_test {
 
 constexpr double kPeriod = 0.002;
 constexpr double kRound = 1e-12;  // round-off of lengths of 0.1 m, summed over some hundred periods
@@ -247,5 +247,5 @@ TEST(Limits, OfAccelerationAloneDoNotLetAWildVelocityPass) {
   EXPECT_TRUE(limiter.goals().empty());
 }
 
-}  // namespace
+}  // namespace command_limiter_test
 }  // namespace mpm_ros

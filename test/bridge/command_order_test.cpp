@@ -7,7 +7,7 @@
 #include "mpm_ros/command/command_queue.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace command_order_test {
 
 BodyCommand velocity(double vx, const std::string& sender, std::optional<std::int64_t> stamp) {
   BodyCommand command;
@@ -85,5 +85,5 @@ TEST(CommandOrder, ANewRunForgetsWhatWaitsOutside) {
   EXPECT_TRUE(queue.take(10).empty());
 }
 
-}  // namespace
+}  // namespace command_order_test
 }  // namespace mpm_ros

@@ -6,7 +6,7 @@
 #include "mpm_ros/command/command_watch.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace command_queue_test {
 
 BodyCommand velocity(int body, double vx, std::optional<std::int64_t> stamp = {}) {
   BodyCommand command;
@@ -233,5 +233,5 @@ TEST(CommandQueue, WhatIsLookedUpInAStepIsNotHeld) {
   EXPECT_EQ(speeds(queue.take(10)), Speeds{1.0});
 }
 
-}  // namespace
+}  // namespace command_queue_test
 }  // namespace mpm_ros

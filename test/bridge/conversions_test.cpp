@@ -14,7 +14,7 @@
 #include "mpm_ros/report/report_messages.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace conversions_test {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -350,5 +350,5 @@ TEST(ContactAverage, JoinsPairsAsItDoesBodies) {
   EXPECT_EQ(taken[0].interface_energy, 0.03125);
 }
 
-}  // namespace
+}  // namespace conversions_test
 }  // namespace mpm_ros

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace mpm_ros {
-namespace {
+namespace frame_follower_test {
 
 constexpr std::int64_t kSync = 10'000'000;  // [ns]
 
@@ -142,5 +142,5 @@ TEST_F(Follower, ARunThatBeginsAgainSaysAgainThatItWaits) {
   EXPECT_NE(diagnostic().find("'probe' waits for the tf frame 'tool0'"), std::string::npos) << diagnostic();
 }
 
-}  // namespace
+}  // namespace frame_follower_test
 }  // namespace mpm_ros

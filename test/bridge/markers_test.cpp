@@ -9,7 +9,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace markers_test {
 
 using visualization_msgs::Marker;
 
@@ -98,5 +98,5 @@ TEST(ShapeMarkers, PlanarBodiesAreSlices) {
   EXPECT_EQ(std::abs(array.markers[0].points[0].y), 0.005);
 }
 
-}  // namespace
+}  // namespace markers_test
 }  // namespace mpm_ros

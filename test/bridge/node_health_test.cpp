@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace mpm_ros {
-namespace {
+namespace node_health_test {
 
 using diagnostic_msgs::DiagnosticStatus;
 using Status = diagnostic_updater::DiagnosticStatusWrapper;
@@ -203,5 +203,5 @@ TEST(CommandHealth, WarnsWhileABodyIsBehindItsPose) {
   EXPECT_EQ(value_of(after, "behind [m] of sled"), "0");
 }
 
-}  // namespace
+}  // namespace node_health_test
 }  // namespace mpm_ros

@@ -12,7 +12,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace node_parts_test {
 
 /// The text of the error, or "" if the parameters are accepted.
 std::string error_of(const ParameterValues& values) {
@@ -199,5 +199,5 @@ TEST(Mailbox, AnErrorComesOutAndTheCallerIsLetGo) {
   EXPECT_TRUE(thrown);
 }
 
-}  // namespace
+}  // namespace node_parts_test
 }  // namespace mpm_ros

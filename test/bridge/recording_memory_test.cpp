@@ -10,7 +10,7 @@
 #include "mpm_ros/run/bag_recorder.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace recording_memory_test {
 
 constexpr std::int64_t kMegabyte = 1000000;
 constexpr std::int64_t kCloud = 80000;  // size of a message [byte]
@@ -59,5 +59,5 @@ TEST_P(RecordingMemory, DoesNotGrowWithARecordingThatIsCutOften) {
 
 INSTANTIATE_TEST_SUITE_P(Compressions, RecordingMemory, ::testing::Values("none", "lz4"));
 
-}  // namespace
+}  // namespace recording_memory_test
 }  // namespace mpm_ros

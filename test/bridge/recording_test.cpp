@@ -17,7 +17,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace recording_test {
 
 namespace fs = std::filesystem;
 
@@ -416,5 +416,5 @@ TEST(RunFolder, HoldsEverythingOfARun) {
   EXPECT_EQ(runs, 2);
 }
 
-}  // namespace
+}  // namespace recording_test
 }  // namespace mpm_ros

@@ -16,7 +16,7 @@
 #include "report_run.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace report_bad_input_test {
 
 using test::HalfSineRun;
 namespace fs = std::filesystem;
@@ -288,5 +288,5 @@ TEST_F(ReportBadInput, ABagThatWasCutOffBeforeItsFirstMessages) {
   EXPECT_TRUE(contains(error_of(path), "cut short")) << error_of(path);
 }
 
-}  // namespace
+}  // namespace report_bad_input_test
 }  // namespace mpm_ros

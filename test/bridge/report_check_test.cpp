@@ -10,7 +10,7 @@
 #include "report_run.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace report_check_test {
 
 using test::HalfSineRun;
 using Names = std::vector<std::string>;
@@ -390,5 +390,5 @@ TEST_F(ReportCheckTest, StampsMayCountFromAnyTime) {
   EXPECT_EQ(failures_of(run), Names());
 }
 
-}  // namespace
+}  // namespace report_check_test
 }  // namespace mpm_ros

@@ -11,7 +11,7 @@
 #include "report_run.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace report_memory_test {
 
 constexpr std::size_t kMegabyte = 1000000;
 
@@ -94,5 +94,5 @@ TEST(FullReportMemory, OfABagOf400MegabytesIsThatOfTheLargestCloud) {
   RecordProperty("grown_bytes", static_cast<int>(grown));
 }
 
-}  // namespace
+}  // namespace report_memory_test
 }  // namespace mpm_ros

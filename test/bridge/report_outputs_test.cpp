@@ -16,7 +16,7 @@
 #include "report_run.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace report_outputs_test {
 
 using nlohmann::json;
 using test::HalfSineRun;
@@ -306,5 +306,5 @@ TEST(ReportFieldRange, QuantilesOfManyValuesFromAnEvenSample) {
   EXPECT_EQ(range.box().max, mpm::Vec3(6.0, -1.0, 2.0));
 }
 
-}  // namespace
+}  // namespace report_outputs_test
 }  // namespace mpm_ros

@@ -14,7 +14,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace report_plots_test {
 
 const std::string kScript = source_file("scripts/plot_report.py");
 
@@ -70,5 +70,5 @@ TEST_F(ReportPlotsTest, RefusesAFolderWithoutTables) {
   EXPECT_EQ(plot(plots_), 2);
 }
 
-}  // namespace
+}  // namespace report_plots_test
 }  // namespace mpm_ros

@@ -19,7 +19,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace report_recorded_test {
 
 using nlohmann::json;
 
@@ -182,5 +182,5 @@ TEST_F(ReportRecorded, ThePythonOfTheDocumentationReadsABag) {
   EXPECT_EQ(snapshots, statistics.snapshots().size());
 }
 
-}  // namespace
+}  // namespace report_recorded_test
 }  // namespace mpm_ros

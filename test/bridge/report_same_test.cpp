@@ -10,7 +10,7 @@
 #include "report_run.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace report_same_test {
 
 using test::HalfSineRun;
 
@@ -129,5 +129,5 @@ TEST_F(ReportSame, ComparesTwoBagsOnly) {
   EXPECT_EQ(run_report(options, out, err, false), ReportResult::bad_input);
 }
 
-}  // namespace
+}  // namespace report_same_test
 }  // namespace mpm_ros

@@ -19,7 +19,7 @@
 #include "report_run.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace report_test {
 
 using test::HalfSineRun;
 using test::kPi;
@@ -228,5 +228,5 @@ TEST_F(ReportTest, FailedChecksAreTold) {
   EXPECT_TRUE(contains(out.str(), "solver_state: 0.001 s missing before 0.041 s")) << out.str();
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace mpm_ros

@@ -15,7 +15,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace run_bag_test {
 
 mpm::Scene press() { return mpm::load_scene(data_file("press.yaml")); }
 
@@ -199,5 +199,5 @@ TEST(RunBag, NamesOfBags) {
   EXPECT_EQ(named.compare(0, 12, "./mpm_press_"), 0) << named;
 }
 
-}  // namespace
+}  // namespace run_bag_test
 }  // namespace mpm_ros

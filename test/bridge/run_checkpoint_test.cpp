@@ -18,7 +18,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace run_checkpoint_test {
 
 namespace fs = std::filesystem;
 
@@ -239,5 +239,5 @@ TEST_F(RunCheckpoint, RunSceneDoesNotDropCommandsThatWait) {
   expect_bad_input("2 commands that wait for their time");
 }
 
-}  // namespace
+}  // namespace run_checkpoint_test
 }  // namespace mpm_ros

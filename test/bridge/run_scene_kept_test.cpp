@@ -14,7 +14,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace run_scene_kept_test {
 
 namespace fs = std::filesystem;
 
@@ -161,5 +161,5 @@ TEST_F(RunSceneKept, ARecordingOfTheRestRunsAgainFromItsCheckpoint) {
   EXPECT_NE(out_.str().find("equal to the recorded one"), std::string::npos) << out_.str();
 }
 
-}  // namespace
+}  // namespace run_scene_kept_test
 }  // namespace mpm_ros

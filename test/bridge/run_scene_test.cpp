@@ -17,7 +17,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace run_scene_test {
 
 namespace fs = std::filesystem;
 
@@ -219,5 +219,5 @@ TEST(ClockText, CountsHoursAndMinutes) {
   EXPECT_EQ(clock_text(10921.0), "3:02:01");
 }
 
-}  // namespace
+}  // namespace run_scene_test
 }  // namespace mpm_ros

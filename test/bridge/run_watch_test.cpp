@@ -10,7 +10,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace run_watch_test {
 
 constexpr double kCutoff = 15.0;  // [Hz]
 
@@ -132,5 +132,5 @@ TEST(RunWatch, ACutoffThatSyncPointsCannotHoldIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace run_watch_test
 }  // namespace mpm_ros

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace mpm_ros {
-namespace {
+namespace teleop_keys_test {
 
 constexpr double kSpeed = 0.2, kRate = 0.4, kHold = 0.7;
 
@@ -75,5 +75,5 @@ TEST_F(Keys, OthersMeanNothing) {
   EXPECT_EQ(keys_.press('q', 0.0), TeleopKeys::Action::quit);
 }
 
-}  // namespace
+}  // namespace teleop_keys_test
 }  // namespace mpm_ros

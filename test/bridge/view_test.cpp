@@ -12,7 +12,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace view_test {
 
 /// 5 x 3 x 2 particles 0.1 m apart, from (1, 2, 3) on, with the last axis fastest, as in filled bodies.
 sensor_msgs::PointCloud2 lattice(const std::vector<std::string>& fields, bool planar = false) {
@@ -120,5 +120,5 @@ TEST(View, RefusesWhatIsNoConfiguration) {
   EXPECT_THROW(with_view("Displays: [", View(), "/mpm/"), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace view_test
 }  // namespace mpm_ros

@@ -17,7 +17,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace vtk_test {
 
 namespace fs = std::filesystem;
 
@@ -177,5 +177,5 @@ TEST(Vtk, ARunHoldsWhatItsBagHolds) {
   }
 }
 
-}  // namespace
+}  // namespace vtk_test
 }  // namespace mpm_ros

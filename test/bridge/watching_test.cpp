@@ -13,7 +13,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros {
-namespace {
+namespace watching_test {
 
 using Row = std::pair<std::string, std::string>;
 
@@ -81,5 +81,5 @@ TEST(Watching, EveryRVizConfigurationNamesTopicsThatExist) {
   EXPECT_GE(configurations, 3);
 }
 
-}  // namespace
+}  // namespace watching_test
 }  // namespace mpm_ros

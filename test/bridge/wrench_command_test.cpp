@@ -8,7 +8,7 @@
 #include "mpm_ros/command/command_reader.hpp"
 #include "mpm_ros/message/bag_error.hpp"
 
-namespace {
+namespace wrench_command_test {
 
 using namespace mpm_ros;
 
@@ -113,4 +113,4 @@ TEST_F(WrenchCommands, StopWhatWasCommanded) {
   EXPECT_EQ(simulation_.bodies()[2].twist.linear.x(), 0.0);
 }
 
-}  // namespace
+}  // namespace wrench_command_test

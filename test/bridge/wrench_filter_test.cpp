@@ -7,7 +7,7 @@
 #include <complex>
 
 namespace mpm_ros {
-namespace {
+namespace wrench_filter_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kPeriod = 1e-3, kCutoff = 20.0;
@@ -61,5 +61,5 @@ TEST(WrenchFilter, ComesToAConstantForce) {
   EXPECT_NEAR((result.force - wrench.force).norm(), 0.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace wrench_filter_test
 }  // namespace mpm_ros

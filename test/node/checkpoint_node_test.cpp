@@ -9,7 +9,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros::test {
-namespace {
+namespace checkpoint_node_test {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr std::uint32_t kWhole = 60, kHalf = 25;  // sync periods of 2 ms
@@ -151,7 +151,7 @@ TEST(CheckpointNode, AFailedRunLeavesItsState) {
   EXPECT_NE(again.log().find("cannot go on"), std::string::npos) << again.log();
 }
 
-}  // namespace
+}  // namespace checkpoint_node_test
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "checkpoint_node_test"); }

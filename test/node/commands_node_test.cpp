@@ -15,7 +15,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros::test {
-namespace {
+namespace commands_node_test {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr std::uint64_t kSeed = 20240607;
@@ -124,7 +124,7 @@ TEST(Commands, AWrenchPushesAFreeBodyUntilTheNext) {
   EXPECT_EQ(rosbag::View(recorded, rosbag::TypeQuery("mpm_ros/Command")).size(), 2U);
 }
 
-}  // namespace
+}  // namespace commands_node_test
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "commands_node_test"); }

@@ -14,7 +14,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros::test {
-namespace {
+namespace determinism_node_test {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr const char* kSender = "--sender";  // makes this program a node that sends one command: topic, vz, stamp [ns]
@@ -258,7 +258,7 @@ TEST(Determinism, AKilledControllerStopsTheLockstepsTime) {
   EXPECT_NEAR(response.time, time + 0.002, 1e-9);
 }
 
-}  // namespace
+}  // namespace determinism_node_test
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) {

@@ -10,7 +10,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros::test {
-namespace {
+namespace drive_node_test {
 
 const std::string kDrive = "scene:=" + data_file("drive.yaml");
 constexpr int kProbe = 0, kHand = 1, kSled = 2;
@@ -178,7 +178,7 @@ TEST_F(Drive, AJumpIsTold) {
   EXPECT_TRUE(diagnosed(diagnostics_, simulator, "'hand' jumps")) << simulator.log();
 }
 
-}  // namespace
+}  // namespace drive_node_test
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "drive_node_test"); }

@@ -9,7 +9,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros::test {
-namespace {
+namespace endings_node_test {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
 
@@ -182,7 +182,7 @@ TEST(Endings, SilenceCanEndTheRun) {
   EXPECT_EQ(simulator.wait(), 3) << simulator.log();
 }
 
-}  // namespace
+}  // namespace endings_node_test
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "endings_node_test"); }

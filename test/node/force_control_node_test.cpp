@@ -3,7 +3,7 @@
 #include "simulator_process.hpp"
 
 namespace mpm_ros::test {
-namespace {
+namespace force_control_node_test {
 
 /// Runs the controller for 4 s of simulated time. Returns the hash of the end; `said` is the controller's output.
 std::string controlled_run(const std::string& pacing, const std::string& tolerance, std::string& said) {
@@ -43,7 +43,7 @@ TEST(ForceControl, AParameterThatMakesNoSenseIsNamed) {
   EXPECT_NE(controller.log().find("parameter ~target is -1"), std::string::npos) << controller.log();
 }
 
-}  // namespace
+}  // namespace force_control_node_test
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "force_control_node_test"); }

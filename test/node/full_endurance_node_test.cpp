@@ -10,7 +10,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros::test {
-namespace {
+namespace full_endurance_node_test {
 
 /// Resident memory of a process [kB].
 long memory_of(pid_t pid) {
@@ -68,7 +68,7 @@ TEST(FullEndurance, TwoMillionStepsInLockstep) {
   EXPECT_EQ(last.header.stamp.toNSec(), kSyncs * kSync);
 }
 
-}  // namespace
+}  // namespace full_endurance_node_test
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "full_endurance_node_test"); }

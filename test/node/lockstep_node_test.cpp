@@ -22,7 +22,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros::test {
-namespace {
+namespace lockstep_node_test {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -359,7 +359,7 @@ TEST(Lockstep, TheEndOfTheSceneEndsTheSteps) {
   EXPECT_EQ(state.heard()[0].state_hash.size(), 16U);
 }
 
-}  // namespace
+}  // namespace lockstep_node_test
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "lockstep_node_test"); }

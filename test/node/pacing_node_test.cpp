@@ -13,7 +13,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros::test {
-namespace {
+namespace pacing_node_test {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
 const std::string kLong = "set:=[time.end=1000]";  // sync points every 10 ms
@@ -203,7 +203,7 @@ TEST(Pacing, TheWallsClockCannotBeSetBack) {
   EXPECT_NE(simulator.fatal_lines()[0].find("~reset_time is zero"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace pacing_node_test
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) {

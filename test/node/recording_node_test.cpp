@@ -11,7 +11,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros::test {
-namespace {
+namespace recording_node_test {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr std::int64_t kSync = 2'000'000;  // [ns]
@@ -148,7 +148,7 @@ TEST(Recording, AutoNamesABagThatIsNotThere) {
   EXPECT_EQ(bags, 2);
 }
 
-}  // namespace
+}  // namespace recording_node_test
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "recording_node_test"); }

@@ -8,7 +8,7 @@
 #include "test_files.hpp"
 
 namespace mpm_ros::test {
-namespace {
+namespace teleop_node_test {
 
 const std::string kPress = "scene:=" + data_file("press.yaml");
 constexpr int kPlate = 0;
@@ -143,7 +143,7 @@ TEST_F(Keyboard, ABodyThatIsNotThereIsRefusedWithTheNearest) {
   EXPECT_TRUE(unnamed.shows("which body? There are plate, rod")) << unnamed.shown();
 }
 
-}  // namespace
+}  // namespace teleop_node_test
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) { return mpm_ros::test::run_node_tests(argc, argv, "teleop_node_test"); }

@@ -11,7 +11,7 @@
 #include "scenes.hpp"
 
 namespace stability {
-namespace {
+namespace crossing_test {
 
 using verification::Map;
 using verification::Numbers;
@@ -151,5 +151,5 @@ TEST(FullCrossing, EnergyOverAHundredPeriods) {
   }
 }
 
-}  // namespace
+}  // namespace crossing_test
 }  // namespace stability

@@ -10,7 +10,7 @@
 #include "scenes.hpp"
 
 namespace stability {
-namespace {
+namespace energy_test {
 
 using verification::Map;
 using verification::Numbers;
@@ -108,5 +108,5 @@ TEST(Energy, OfCollidingDisks) {
   page.figure().panel("Energy within 1 %", "", "").map(map);
 }
 
-}  // namespace
+}  // namespace energy_test
 }  // namespace stability

@@ -16,7 +16,7 @@
 #include "scenes.hpp"
 
 namespace stability {
-namespace {
+namespace fast_tool_test {
 
 using verification::Map;
 using verification::Numbers;
@@ -97,5 +97,5 @@ TEST(FastTool, RunsOverWhatItSweepsInOneStep) {
   page.figure().panel("Nothing deeper than a cell in the tool", "", "").map(map);
 }
 
-}  // namespace
+}  // namespace fast_tool_test
 }  // namespace stability

@@ -13,7 +13,7 @@
 #include "scenes.hpp"
 
 namespace stability {
-namespace {
+namespace gap_test {
 
 using verification::Map;
 using verification::Numbers;
@@ -107,5 +107,5 @@ TEST(EarlyContact, GapIsThatOfTheSupport) {
   page.figure().panel("Felt at less than half a cell (above: gap for d = 0)", "", "").map(map);
 }
 
-}  // namespace
+}  // namespace gap_test
 }  // namespace stability

@@ -11,7 +11,7 @@
 #include "scenes.hpp"
 
 namespace stability {
-namespace {
+namespace locking_test {
 
 using verification::Map;
 using verification::Numbers;
@@ -105,5 +105,5 @@ TEST(Locking, OfAnIsochoricMode) {
   page.figure().panel("The frequency does not rise", "", "").map(map);
 }
 
-}  // namespace
+}  // namespace locking_test
 }  // namespace stability

@@ -11,7 +11,7 @@
 #include "scenes.hpp"
 
 namespace stability {
-namespace {
+namespace null_space_test {
 
 using verification::Map;
 using verification::Numbers;
@@ -107,5 +107,5 @@ TEST(NullSpace, IsKeptByFlipAlone) {
   page.figure().panel("The unseen motion has gone", "", "").map(map);
 }
 
-}  // namespace
+}  // namespace null_space_test
 }  // namespace stability

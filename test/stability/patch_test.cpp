@@ -15,7 +15,7 @@
 #include "scenes.hpp"
 
 namespace stability {
-namespace {
+namespace patch_test {
 
 using verification::Map;
 using verification::Numbers;
@@ -148,5 +148,5 @@ TEST(Patch, UniformStressOfDeformedParticles) {
   }
 }
 
-}  // namespace
+}  // namespace patch_test
 }  // namespace stability

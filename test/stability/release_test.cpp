@@ -12,7 +12,7 @@
 #include "scenes.hpp"
 
 namespace stability {
-namespace {
+namespace release_test {
 
 using verification::Map;
 using verification::Numbers;
@@ -157,5 +157,5 @@ TEST(Release, FromAPlatePullsNothing) {
   }
 }
 
-}  // namespace
+}  // namespace release_test
 }  // namespace stability

@@ -14,7 +14,7 @@
 #include "scenes.hpp"
 
 namespace stability {
-namespace {
+namespace rotation_test {
 
 using verification::Map;
 using verification::Numbers;
@@ -135,5 +135,5 @@ TEST(Rotation, IsTheSameForEveryShapeFunction) {
   }
 }
 
-}  // namespace
+}  // namespace rotation_test
 }  // namespace stability

@@ -8,7 +8,7 @@
 #include "page.hpp"
 
 namespace stability {
-namespace {
+namespace stretch_test {
 
 using verification::Map;
 using verification::Numbers;
@@ -170,5 +170,5 @@ TEST(Compression, DownToATwelfthOfTheLength) {
   page.figure().panel("Transfers", "", "").map(others);
 }
 
-}  // namespace
+}  // namespace stretch_test
 }  // namespace stability

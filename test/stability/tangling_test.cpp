@@ -18,7 +18,7 @@
 #include "probe.hpp"
 
 namespace stability {
-namespace {
+namespace tangling_test {
 
 using mpm::study::Suite;
 using verification::Map;
@@ -71,7 +71,7 @@ class Ring {
     return fit;
   }
   std::vector<Placed> exact(double turn) const {
-    return stability::exact(mpm::study::vortex("vortex", turn), start_, kMostTurned);
+    return tangling_test::exact(mpm::study::vortex("vortex", turn), start_, kMostTurned);
   }
   Fit exact_fit(double turn) const { return fit(exact(turn)); }
   /// Reach of the domains of the exact motion along a grid axis [cells].
@@ -352,5 +352,5 @@ TEST(FullTangling, OfDomainsInAVortex) {
   scan(page, Ring(16, 3), nine, "16 cells a metre, 9 particles a cell", false);
 }
 
-}  // namespace
+}  // namespace tangling_test
 }  // namespace stability

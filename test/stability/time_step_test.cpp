@@ -13,7 +13,7 @@
 #include "scenes.hpp"
 
 namespace stability {
-namespace {
+namespace time_step_test {
 
 using verification::Map;
 using verification::Numbers;
@@ -214,5 +214,5 @@ TEST(TimeStep, OfABlockAboutToLeaveItsCells) {
   }
 }
 
-}  // namespace
+}  // namespace time_step_test
 }  // namespace stability

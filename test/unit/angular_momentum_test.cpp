@@ -7,7 +7,7 @@
 #include "step_scene.hpp"
 
 namespace mpm::test {
-namespace {
+namespace angular_momentum_test {
 
 using Disk = StepScene<PlaneStrain>;
 using Vector = Disk::Vector;
@@ -115,5 +115,5 @@ TEST(AngularMomentum, IsLostByPicAndLessByFlip) {
   }
 }
 
-}  // namespace
+}  // namespace angular_momentum_test
 }  // namespace mpm::test

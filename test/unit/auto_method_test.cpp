@@ -16,7 +16,7 @@
 #include "test_files.hpp"
 
 namespace mpm {
-namespace {
+namespace auto_method_test {
 
 const char* const kHead = "suite,method,error,cost\n";
 
@@ -419,5 +419,5 @@ TEST(AutoMethod, TheShippedTableServesEveryScene) {
   }
 }
 
-}  // namespace
+}  // namespace auto_method_test
 }  // namespace mpm

@@ -7,7 +7,7 @@
 #include "step_scene.hpp"
 
 namespace mpm::test {
-namespace {
+namespace axis_test {
 
 using Scene = StepScene<Axisymmetric>;
 
@@ -129,5 +129,5 @@ TEST(Axis, BooksTheHoopStress) {
   EXPECT_EQ(accounts[0].impulse.z(), 0.0);
 }
 
-}  // namespace
+}  // namespace axis_test
 }  // namespace mpm::test

@@ -6,7 +6,7 @@
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
-namespace {
+namespace axisymmetric_contact_test {
 
 constexpr double kStep = 0.5;  // [s]
 
@@ -159,5 +159,5 @@ TEST(AxisymmetricContact, ARingThatClosesIsAnError) {
   EXPECT_EQ(commanded.drive(), Drive::functions);
 }
 
-}  // namespace
+}  // namespace axisymmetric_contact_test
 }  // namespace mpm

@@ -5,7 +5,7 @@
 #include "axisymmetric_check.hpp"
 
 namespace mpm::test {
-namespace {
+namespace axisymmetric_identities_test {
 
 constexpr AxisRules kWhole = {AxisDomains::whole};
 
@@ -199,5 +199,5 @@ TEST(AxisymmetricIdentities, OnTheAxisAllIsFinite) {
   }
 }
 
-}  // namespace
+}  // namespace axisymmetric_identities_test
 }  // namespace mpm::test

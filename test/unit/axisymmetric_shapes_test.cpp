@@ -7,7 +7,7 @@
 #include "lanes.hpp"
 
 namespace mpm::test {
-namespace {
+namespace axisymmetric_shapes_test {
 
 constexpr AxisRules kWhole = {AxisDomains::whole};
 constexpr AxisRules kPlanar = {AxisDomains::fitted, AxisFunctions::planar};
@@ -234,5 +234,5 @@ TEST(Lanes, OfAxisymmetricShapesAreAsNumbersAlone) {
   check_point_lanes<AxisymmetricQcpdi<2>>();
 }
 
-}  // namespace
+}  // namespace axisymmetric_shapes_test
 }  // namespace mpm::test

@@ -15,7 +15,7 @@
 #include "mpm/simulation/checkpoint.hpp"
 
 namespace mpm::test {
-namespace {
+namespace checkpoint_file_test {
 
 namespace fs = std::filesystem;
 
@@ -169,5 +169,5 @@ TEST_F(BadCheckpoint, LeavesTheOneBefore) {
   EXPECT_FALSE(fs::exists(file_ + ".part"));
 }
 
-}  // namespace
+}  // namespace checkpoint_file_test
 }  // namespace mpm::test

@@ -12,7 +12,7 @@
 #include "checkpoint_run.hpp"
 
 namespace mpm::test {
-namespace {
+namespace checkpoint_test {
 
 constexpr int kPeriods = 12;
 constexpr int kOfOther = 5;  ///< sync periods of a simulation that runs before it loads a checkpoint
@@ -255,5 +255,5 @@ TEST(CheckpointFile, GeostaticStartNeedNotSettleAgain) {
   EXPECT_EQ(said(again), said(whole));
 }
 
-}  // namespace
+}  // namespace checkpoint_test
 }  // namespace mpm::test

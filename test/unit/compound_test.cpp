@@ -7,7 +7,7 @@
 #include <random>
 
 namespace mpm {
-namespace {
+namespace compound_test {
 
 constexpr double kRound = 1e-14;  // round-off of numbers of size 1, after a rotation
 
@@ -63,5 +63,5 @@ TEST(Compound, PartsThatCannotBeAreRefused) {
   EXPECT_THROW(make_compound({{make_plane(Vec3::UnitZ()), {}}}), RigidError);
 }
 
-}  // namespace
+}  // namespace compound_test
 }  // namespace mpm

@@ -10,7 +10,7 @@
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
-namespace {
+namespace contact_report_test {
 
 constexpr double kStep = 0.5;  // [s]
 
@@ -170,5 +170,5 @@ TEST(ContactReport, OnAFlatSmoothFaceTheTorqueIsArmTimesForce) {
   EXPECT_LE(report.friction.norm(), 1e-12 * report.pressing);
 }
 
-}  // namespace
+}  // namespace contact_report_test
 }  // namespace mpm

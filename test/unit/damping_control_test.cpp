@@ -8,7 +8,7 @@
 #include "mpm/mechanics/damping.hpp"
 
 namespace mpm {
-namespace {
+namespace damping_control_test {
 
 using Of = FeedbackDefinition::Of;
 
@@ -254,5 +254,5 @@ TEST(DampingControl, WhatCannotBeEndsTheRun) {
   EXPECT_EQ(text, refusal(three, context));
 }
 
-}  // namespace
+}  // namespace damping_control_test
 }  // namespace mpm

@@ -7,7 +7,7 @@
 
 #include "mpm/math/exponential.hpp"
 
-namespace {
+namespace drucker_prager_test {
 
 using mpm::ConeMatch;
 using mpm::DruckerPrager;
@@ -131,4 +131,4 @@ TEST(DruckerPrager, CutsTensionWhereAsked) {
   EXPECT_NEAR(uncut.mean(), 100.0 / std::tan(30.0 * kDegree), 1e-9);  // apex of Mohr-Coulomb: c cot(phi)
 }
 
-}  // namespace
+}  // namespace drucker_prager_test

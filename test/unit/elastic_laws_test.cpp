@@ -6,7 +6,7 @@
 #include "mpm/material/law.hpp"
 #include "mpm/math/exponential.hpp"
 
-namespace {
+namespace elastic_laws_test {
 
 using mpm::Matrix3;
 
@@ -81,4 +81,4 @@ TEST(LinearElastic, FollowsTheJaumannSolutionInSimpleShear) {
   EXPECT_NEAR(f.xy, gamma, 1e-12);
 }
 
-}  // namespace
+}  // namespace elastic_laws_test

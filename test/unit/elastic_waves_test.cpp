@@ -9,7 +9,7 @@
 #include "mpm/material/law.hpp"
 
 namespace mpm {
-namespace {
+namespace elastic_waves_test {
 
 TEST(ElasticWaves, AreThoseOfTheLaws) {
   const Matrix3<double> whole{1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -46,5 +46,5 @@ TEST(FaceMass, IsTheWeightOfHalfALine) {
   EXPECT_NEAR(face_mass(ShapeKind::bspline3, 50), 13.0 / 24.0 + 1.0 / 24.0, 1e-4);
 }
 
-}  // namespace
+}  // namespace elastic_waves_test
 }  // namespace mpm

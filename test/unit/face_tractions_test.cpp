@@ -11,7 +11,7 @@
 #include "mpm/step/sorter.hpp"
 
 namespace mpm {
-namespace {
+namespace face_tractions_test {
 
 constexpr double kCell = 0.1, kHalf = 0.25, kThickness = 0.3, kDt = 1e-3;
 constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
@@ -327,5 +327,5 @@ TEST(FaceTractions, FindTheOutermostParticles) {
   EXPECT_EQ(outermost_particles(set, stand.grid.layout, {1, false}), (List{0, 1, 2, 3}));
 }
 
-}  // namespace
+}  // namespace face_tractions_test
 }  // namespace mpm

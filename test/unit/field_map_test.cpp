@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace mpm {
-namespace {
+namespace field_map_test {
 
 TEST(FieldMap, GivesEveryGroupAField) {
   const FieldMap map({0, 2, 0}, {false, false, false});
@@ -39,5 +39,5 @@ TEST(FieldMap, LeavesAGroupsOtherBodiesWhole) {
   EXPECT_FALSE(map.divided(1));
 }
 
-}  // namespace
+}  // namespace field_map_test
 }  // namespace mpm

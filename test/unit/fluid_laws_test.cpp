@@ -5,7 +5,7 @@
 
 #include "material_paths.hpp"
 
-namespace {
+namespace fluid_laws_test {
 
 using namespace mpm;
 using namespace mpm::paths;
@@ -130,4 +130,4 @@ TEST(IdealGas, IsIsothermal) {
   }
 }
 
-}  // namespace
+}  // namespace fluid_laws_test

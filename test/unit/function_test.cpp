@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace mpm {
-namespace {
+namespace function_test {
 
 std::string refusal(const std::string& expression) {
   try {
@@ -94,5 +94,5 @@ TEST(Function, RefusesAValueThatIsNotFinite) {
   EXPECT_THROW(Function::parse("sqrt(-1)")(0.0), FunctionError);
 }
 
-}  // namespace
+}  // namespace function_test
 }  // namespace mpm

@@ -8,7 +8,7 @@
 #include "observed_block.hpp"
 
 namespace mpm {
-namespace {
+namespace global_quantity_test {
 
 using test::observed_block;
 
@@ -123,5 +123,5 @@ TEST(GlobalQuantities, AreAskedForInTheScene) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace global_quantity_test
 }  // namespace mpm

@@ -8,7 +8,7 @@
 #include "mpm/grid/nodal_fields.hpp"
 #include "mpm/math/lanes.hpp"
 
-namespace {
+namespace grid_test {
 
 using mpm::GridLayout;
 using mpm::Vec3;
@@ -145,4 +145,4 @@ TEST(BlockTable, HoldsTheNeighboursOfAnyOwners) {
   }
 }
 
-}  // namespace
+}  // namespace grid_test

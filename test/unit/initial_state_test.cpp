@@ -9,7 +9,7 @@
 #include "mpm/math/geometry.hpp"
 
 namespace mpm {
-namespace {
+namespace initial_state_test {
 
 constexpr double kDensity = 1200.0;
 
@@ -284,5 +284,5 @@ TEST(InitialState, PressureAtRest) {
   EXPECT_FALSE(pressure_at_rest(IdealGasDefinition{}));
 }
 
-}  // namespace
+}  // namespace initial_state_test
 }  // namespace mpm

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace mpm {
-namespace {
+namespace isa_test {
 
 constexpr Isa kAll[] = {Isa::plain, Isa::avx2, Isa::avx512};
 
@@ -52,5 +52,5 @@ TEST(Isa, IsTheOneAskedForOrAnErrorThatListsTheOthers) {
   }
 }
 
-}  // namespace
+}  // namespace isa_test
 }  // namespace mpm

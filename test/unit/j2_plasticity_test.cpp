@@ -5,7 +5,7 @@
 
 #include "material_paths.hpp"
 
-namespace {
+namespace j2_plasticity_test {
 
 using namespace mpm;
 using namespace mpm::paths;
@@ -127,4 +127,4 @@ TEST(J2Plasticity, StaysElasticInTheSameWayThroughLongFlow) {
   EXPECT_NEAR((metal.cauchy().xy - before) / (2.0 * e), kSteel.shear(), 5e-5 * kSteel.shear());
 }
 
-}  // namespace
+}  // namespace j2_plasticity_test

@@ -10,7 +10,7 @@
 #include "mpm/material/path_driver.hpp"
 #include "mpm/scene/material_driver.hpp"
 
-namespace {
+namespace johnson_cook_test {
 
 using namespace mpm;
 using namespace mpm::paths;
@@ -320,4 +320,4 @@ TEST(JohnsonCook, IsDrivenAlongAPath) {
   EXPECT_NEAR(column("temperature [K]"), 293.0 * std::exp(1.69 * (1.0 - column("j [1]"))), 1e-6);
 }
 
-}  // namespace
+}  // namespace johnson_cook_test

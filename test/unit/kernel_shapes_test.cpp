@@ -6,7 +6,7 @@
 #include "step_scene.hpp"
 
 namespace mpm::test {
-namespace {
+namespace kernel_shapes_test {
 
 struct Case {
   ShapeKind shape;
@@ -84,5 +84,5 @@ void check_axis_rules(const Case& of) {
 TEST_P(KernelShapesTest, OfOtherRulesAtTheAxisInDouble) { check_axis_rules<double>(GetParam()); }
 TEST_P(KernelShapesTest, OfOtherRulesAtTheAxisInSingle) { check_axis_rules<float>(GetParam()); }
 
-}  // namespace
+}  // namespace kernel_shapes_test
 }  // namespace mpm::test

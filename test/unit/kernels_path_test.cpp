@@ -6,7 +6,7 @@
 #include "mpm/step/schedule.hpp"
 
 namespace mpm::test {
-namespace {
+namespace kernels_path_test {
 
 /// The state of the particles, by id.
 struct State {
@@ -186,5 +186,5 @@ TEST_P(KernelsPathTest, HasTheSameBitsForAnyNumberOfThreads) {
   check_threads<PlaneStrain, float>(GetParam());
 }
 
-}  // namespace
+}  // namespace kernels_path_test
 }  // namespace mpm::test

@@ -3,7 +3,7 @@
 #include "kernel_check.hpp"
 
 namespace mpm::test {
-namespace {
+namespace kernels_test {
 
 template <class Geometry, class T>
 void check_all(Isa isa) {
@@ -26,5 +26,5 @@ TEST_P(KernelsTest, OfAPlaneInDouble) { check_all<PlaneStrain, double>(GetParam(
 TEST_P(KernelsTest, OfASolidInSingle) { check_all<Solid, float>(GetParam()); }
 TEST_P(KernelsTest, OfAPlaneInSingle) { check_all<PlaneStrain, float>(GetParam()); }
 
-}  // namespace
+}  // namespace kernels_test
 }  // namespace mpm::test

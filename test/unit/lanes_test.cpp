@@ -14,7 +14,7 @@
 #include "mpm/shape/ugimp.hpp"
 
 namespace mpm::test {
-namespace {
+namespace lanes_test {
 
 constexpr int kLanes = 4;
 constexpr int kSteps = 60;
@@ -208,5 +208,5 @@ TEST(Lanes, WholePowersAreProducts) {
   EXPECT_EQ(whole_power(-2.0, 31), -2147483648.0);
 }
 
-}  // namespace
+}  // namespace lanes_test
 }  // namespace mpm::test

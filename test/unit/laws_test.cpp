@@ -6,7 +6,7 @@
 #include "mpm/math/dimension.hpp"
 #include "mpm/math/exponential.hpp"
 
-namespace {
+namespace laws_test {
 
 using namespace mpm;
 using namespace mpm::paths;
@@ -193,4 +193,4 @@ TEST(EveryLaw, OfSoilAccountsForItsWorkAtSmallStrain) {
   }
 }
 
-}  // namespace
+}  // namespace laws_test

@@ -11,7 +11,7 @@
 
 #include "mpm/math/build_info.hpp"
 
-namespace {
+namespace layers_test {
 
 namespace fs = std::filesystem;
 
@@ -67,8 +67,6 @@ void expect_only_lower_layers(const std::string& library, const Layers& layers) 
   }
 }
 
-}  // namespace
-
 TEST(Layers, LibraryIncludesNoRosHeader) {
   const std::regex ros(
       R"re(^(ros|rosbag|roslib|rosgraph_msgs|tf2?|tf2_\w+|catkin|diagnostic_updater|\w+_msgs|\w+_srvs|mpm_ros)/.*)re");
@@ -81,3 +79,5 @@ TEST(Layers, FoldersIncludeOnlyLowerLayers) {
   expect_only_lower_layers("mpm", kLayers);
   expect_only_lower_layers("mpm_ros", kRosLayers);
 }
+
+}  // namespace layers_test

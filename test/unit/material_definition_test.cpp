@@ -10,7 +10,7 @@
 #include "mpm/material/definition.hpp"
 
 namespace mpm {
-namespace {
+namespace material_definition_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -240,5 +240,5 @@ TEST(MaterialDefinition, Names) {
   EXPECT_NE(refusal(nameless), "");
 }
 
-}  // namespace
+}  // namespace material_definition_test
 }  // namespace mpm

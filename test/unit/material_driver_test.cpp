@@ -15,7 +15,7 @@
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {
-namespace {
+namespace material_driver_test {
 
 const char* const kSand =
     "{law: mohr_coulomb, density: 1600, young: 10 MPa, poisson: 0.3, friction_angle: 30 deg, dilation_angle: 5 deg}";
@@ -206,5 +206,5 @@ TEST(MaterialDriver, KeepsTheRowsBeforeAFailure) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2 + 20);  // header, start, and the steps up to 2 kPa
 }
 
-}  // namespace
+}  // namespace material_driver_test
 }  // namespace mpm

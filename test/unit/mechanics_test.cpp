@@ -6,7 +6,7 @@
 #include "kernel_tables.hpp"
 #include "mpm/mechanics/continuum.hpp"
 
-namespace {
+namespace mechanics_test {
 
 using mpm::Vec3;
 
@@ -176,4 +176,4 @@ TEST_P(MechanicsTest, MotionKeepsMomentumForEveryFlipFraction) {
   }
 }
 
-}  // namespace
+}  // namespace mechanics_test

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace mpm {
-namespace {
+namespace memory_test {
 
 TEST(Memory, CountsWhatAParticleTakes) {
   MethodDefinition method;
@@ -23,5 +23,5 @@ TEST(Memory, CountsWhatAParticleTakes) {
   EXPECT_EQ(least_bytes_of_particle(method, GeometryKind::line), 8 * 1 + 4 * 5 + 4 + 33 + 16);
 }
 
-}  // namespace
+}  // namespace memory_test
 }  // namespace mpm

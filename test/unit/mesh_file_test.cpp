@@ -14,7 +14,7 @@
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm {
-namespace {
+namespace mesh_file_test {
 
 namespace fs = std::filesystem;
 
@@ -164,5 +164,5 @@ TEST_F(MeshFile, Packages) {
   EXPECT_NE(message("package://tools").find("write package://NAME/"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace mesh_file_test
 }  // namespace mpm

@@ -13,7 +13,7 @@
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm {
-namespace {
+namespace mesh_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -289,5 +289,5 @@ TEST(Mesh, DegenerateTriangles) {
   EXPECT_NE(refusal(line).find("has no area"), std::string::npos) << refusal(line);
 }
 
-}  // namespace
+}  // namespace mesh_test
 }  // namespace mpm

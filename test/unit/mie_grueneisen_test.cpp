@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace mpm {
-namespace {
+namespace mie_grueneisen_test {
 
 struct Metal {
   const char* name;
@@ -188,5 +188,5 @@ TEST(MieGrueneisen, GoesOnStraightBeyondItsFormula) {
   }
 }
 
-}  // namespace
+}  // namespace mie_grueneisen_test
 }  // namespace mpm

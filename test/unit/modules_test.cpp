@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace mpm {
-namespace {
+namespace modules_test {
 
 using Said = std::vector<std::string>;
 
@@ -79,5 +79,5 @@ TEST(Modules, AccountsOfOneNameBecomeOne) {
   EXPECT_EQ(accounts[0].exchanged, 2.0);
 }
 
-}  // namespace
+}  // namespace modules_test
 }  // namespace mpm

@@ -16,7 +16,7 @@
 #include "mpm/math/exponential.hpp"
 
 namespace mpm {
-namespace {
+namespace mohr_coulomb_test {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 using Region = MohrCoulomb::Region;
@@ -393,5 +393,5 @@ TEST(MohrCoulomb, HasRankinesPassiveLimitInPlaneStrain) {
   EXPECT_NEAR(passive_limit(cone), rankine, 1e-9 * rankine);
 }
 
-}  // namespace
+}  // namespace mohr_coulomb_test
 }  // namespace mpm

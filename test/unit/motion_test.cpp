@@ -7,7 +7,7 @@
 #include <random>
 
 namespace mpm {
-namespace {
+namespace motion_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -143,5 +143,5 @@ TEST(Motion, WorldAndBodyPointsAreInverse) {
   EXPECT_LT((pose.to_body(pose.to_world(point)) - point).norm(), 1e-15);
 }
 
-}  // namespace
+}  // namespace motion_test
 }  // namespace mpm

@@ -10,7 +10,7 @@
 #include "mpm/contact/pair_detection.hpp"
 
 namespace mpm {
-namespace {
+namespace node_contact_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -376,5 +376,5 @@ TEST(PairInterface, StoresTheEnergyOfItsOpening) {
   EXPECT_NEAR(interface_energy({100.0, -1.0, 50.0}, state, impulse, -Vec3::UnitZ(), dt), 0.5 * 2 * (50 * 0.09), 1e-14);
 }
 
-}  // namespace
+}  // namespace node_contact_test
 }  // namespace mpm

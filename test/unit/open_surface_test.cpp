@@ -11,7 +11,7 @@
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm {
-namespace {
+namespace open_surface_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-14;  // round-off of coordinates of size one
@@ -283,5 +283,5 @@ TEST(HeightField, NumbersThatMakeNoFieldAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace open_surface_test
 }  // namespace mpm

@@ -7,7 +7,7 @@
 #include "observed_block.hpp"
 
 namespace mpm {
-namespace {
+namespace particle_fields_test {
 
 using test::inside;
 using test::kBlockStep;
@@ -173,5 +173,5 @@ TEST(ParticleFields, AChoiceIsTheSameParticlesInTheSameOrder) {
   EXPECT_TRUE(part.values[0].empty());
 }
 
-}  // namespace
+}  // namespace particle_fields_test
 }  // namespace mpm

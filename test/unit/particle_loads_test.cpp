@@ -11,7 +11,7 @@
 #include "mpm/mechanics/continuum.hpp"
 
 namespace mpm {
-namespace {
+namespace particle_loads_test {
 
 constexpr double kCell = 0.1, kHalf = 0.25;  // of a box, in cells
 
@@ -116,5 +116,5 @@ TYPED_TEST(Spread, GoesToTheNodesThatItShould) {
   EXPECT_NEAR(accounts[1].impulse.x(), 2 * 3.0 * 1e-3, 1e-17);
 }
 
-}  // namespace
+}  // namespace particle_loads_test
 }  // namespace mpm

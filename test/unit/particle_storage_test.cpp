@@ -7,7 +7,7 @@
 #include "mpm/particles/particle_scalar.hpp"
 
 namespace mpm {
-namespace {
+namespace particle_storage_test {
 
 TEST(PaddedArray, IsAlignedAndZeroForARegisterBeyondItsEnd) {
   for (const std::size_t size : {1, 7, 8, 1000}) {
@@ -51,5 +51,5 @@ TEST(ParticleScalar, RoundsToThePrecisionThatItStores) {
   EXPECT_EQ(full.size(), 4U);
 }
 
-}  // namespace
+}  // namespace particle_storage_test
 }  // namespace mpm

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace mpm {
-namespace {
+namespace path_driver_test {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 const Elasticity kElasticity{10e6, 0.3};
@@ -317,5 +317,5 @@ TEST(PathDriver, RefusesPathsThatCannotBe) {
             "zz is strained by 0.4 in one step, more than 0.3; take more steps");
 }
 
-}  // namespace
+}  // namespace path_driver_test
 }  // namespace mpm

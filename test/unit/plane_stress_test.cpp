@@ -16,7 +16,7 @@
 #include "mpm/math/dimension.hpp"
 
 namespace mpm::test {
-namespace {
+namespace plane_stress_test {
 
 constexpr double kDensity = 1000.0;
 const Elasticity kElasticity{1e5, 0.3};
@@ -303,5 +303,5 @@ TEST(PlaneStress, OfALaneThatIsNoNumberLeavesTheOthersAlone) {
   EXPECT_EQ(lane(plate.f.yy, 0), alone.f.yy);
 }
 
-}  // namespace
+}  // namespace plane_stress_test
 }  // namespace mpm::test

@@ -12,7 +12,7 @@
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm {
-namespace {
+namespace revolved_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 1e-15;  // a few operations on lengths of order 1, 2e-16 each
@@ -279,5 +279,5 @@ TEST(Revolved, RefusesProfilesThatAreNoBody) {
   EXPECT_THROW(make_ring(1.0, 2.0, nan), RigidError);
 }
 
-}  // namespace
+}  // namespace revolved_test
 }  // namespace mpm

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace mpm {
-namespace {
+namespace rigid_body_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -177,5 +177,5 @@ TEST(RigidBody, ImpossibleDefinitionsAreRefused) {
   EXPECT_NE(made_with([](auto& d) { d.name.clear(); }), "");
 }
 
-}  // namespace
+}  // namespace rigid_body_test
 }  // namespace mpm

@@ -11,7 +11,7 @@
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
-namespace {
+namespace rigid_particles_test {
 
 RigidBody body_of(std::shared_ptr<const Surface> surface, const Vec3& position, double angle = 0.0) {
   RigidBodyDefinition definition;
@@ -227,5 +227,5 @@ TEST(RigidParticleContact, SlidesAndSticks) {
   }
 }
 
-}  // namespace
+}  // namespace rigid_particles_test
 }  // namespace mpm

@@ -8,7 +8,7 @@
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_axisymmetric_test {
 
 struct Parts {
   std::string grid = "{cell: 0.1, min: [0, 0], max: [2, 2]}";
@@ -186,5 +186,5 @@ TEST(SceneAxisymmetric, TheMethodSaysWhatIsUnusual) {
   EXPECT_NE(text.find("moved by the mean velocity in a domain"), std::string::npos) << text;
 }
 
-}  // namespace
+}  // namespace scene_axisymmetric_test
 }  // namespace mpm

@@ -9,7 +9,7 @@
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_bad_input_test {
 
 // One key per line, so that a replaced line is the line of the error.
 const std::vector<std::string> kLines = {
@@ -334,5 +334,5 @@ TEST(SceneBadInput, MutatedScenesNeverEscape) {
   EXPECT_GT(refused, 100);  // otherwise the mutations are too mild
 }
 
-}  // namespace
+}  // namespace scene_bad_input_test
 }  // namespace mpm

@@ -6,7 +6,7 @@
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_boundaries_test {
 
 const char* const kPlanar =
     "geometry: plane_strain\n"
@@ -101,5 +101,5 @@ TEST(SceneBoundaries, AreRefusedWhenWrong) {
                  "grid: {cell: 0.1, min: [0, 0], max: [1, 1], leave: {}}\n");
 }
 
-}  // namespace
+}  // namespace scene_boundaries_test
 }  // namespace mpm

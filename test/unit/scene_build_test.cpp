@@ -7,7 +7,7 @@
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_build_test {
 
 std::string solid(const std::string& shape, const std::string& rest = "") {
   return "grid: {cell: 0.1, min: [-1, -1, -1], max: [1, 1, 1]}\n"
@@ -149,5 +149,5 @@ TEST(SceneBuild, ExplainsWhatFollows) {
   EXPECT_NE(text.find(", double precision,"), std::string::npos) << text;
 }
 
-}  // namespace
+}  // namespace scene_build_test
 }  // namespace mpm

@@ -4,7 +4,7 @@
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_contact_test {
 
 /// Three bodies and, with_tool, a tool; the contact section is on line 8.
 std::string scene(const std::string& contact, const std::string& tool = "", bool with_tool = true) {
@@ -180,5 +180,5 @@ TEST(SceneContact, RefusesWhatItCannotMean) {
   expect_refused("{friction: \"0.1*t\"}", ".friction", "write functions of time in pairs");
 }
 
-}  // namespace
+}  // namespace scene_contact_test
 }  // namespace mpm

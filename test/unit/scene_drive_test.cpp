@@ -5,7 +5,7 @@
 #include "test_files.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_drive_test {
 
 const std::string kBall = "sphere: {radius: 0.1}";
 
@@ -60,5 +60,5 @@ TEST(SceneDrive, WhatCannotBeMeantIsRefused) {
   expect_refused("limits: {velocity: 1}", "limits.velocity", "write speed");
 }
 
-}  // namespace
+}  // namespace scene_drive_test
 }  // namespace mpm

@@ -3,7 +3,7 @@
 
 #include "mpm/scene/scene.hpp"
 
-namespace {
+namespace scene_free_test {
 
 mpm::Scene scene_with(const std::string& body, const std::string& geometry = "plane_strain") {
   const bool solid = geometry == "solid";
@@ -77,4 +77,4 @@ TEST(SceneFree, RefusesWhatCannotBe) {
   says(refusal("shape: {ring: {inner: 0.1, outer: 0.2, height: 0.1}}, free: {mass: 1}", "axisymmetric"), "ring");
 }
 
-}  // namespace
+}  // namespace scene_free_test

@@ -25,7 +25,7 @@
 #include "scene_mutator.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_fuzz_test {
 
 constexpr int kCases = 2000;
 constexpr int kHangSeconds = 120;     // a case takes milliseconds; a loaded machine or a sanitizer is not a hang
@@ -254,5 +254,5 @@ TEST(SceneFuzz, RefusesWhatNoMachineHolds) {
       << number;
 }
 
-}  // namespace
+}  // namespace scene_fuzz_test
 }  // namespace mpm

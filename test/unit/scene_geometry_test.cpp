@@ -6,7 +6,7 @@
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_geometry_test {
 
 std::string line_scene(const std::string& rest = "", const std::string& body = "", const std::string& law = "") {
   return "geometry: line\n"
@@ -211,5 +211,5 @@ TEST(SceneGeometry, TheSimulationRefusesTheSame) {
   EXPECT_EQ(refused(line), "area must be positive");
 }
 
-}  // namespace
+}  // namespace scene_geometry_test
 }  // namespace mpm

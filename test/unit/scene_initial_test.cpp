@@ -7,7 +7,7 @@
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_initial_test {
 
 // The body is on line 5.
 std::string scene(const std::string& rest, const std::string& gravity = "[0, -9.81]") {
@@ -129,5 +129,5 @@ TEST(SceneInitial, GeostaticIsRefusedWhereThereIsNoRest) {
   EXPECT_EQ(refusal(scene("initial: geostatic") + "boundaries: {all: slip}\n"), "no error");
 }
 
-}  // namespace
+}  // namespace scene_initial_test
 }  // namespace mpm

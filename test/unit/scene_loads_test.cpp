@@ -6,7 +6,7 @@
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_loads_test {
 
 const char* const kPlanar =
     "geometry: plane_strain\n"
@@ -168,5 +168,5 @@ TEST(SceneLoads, TractionsAreRefusedWhenWrong) {
   expect_refused("loads: [{pressure: {body: block, edge: x_max, value: 1, shear: [1, 2]}}]", of + ".shear: ");
 }
 
-}  // namespace
+}  // namespace scene_loads_test
 }  // namespace mpm

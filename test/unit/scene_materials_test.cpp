@@ -6,7 +6,7 @@
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_materials_test {
 
 Scene scene_of(const std::string& material) {
   return parse_scene(
@@ -174,5 +174,5 @@ TEST(SceneMaterials, ALawIsNamed) {
             ".law: 'rigid' is not built yet; a rigid body is not a material: write it under rigid_bodies");
 }
 
-}  // namespace
+}  // namespace scene_materials_test
 }  // namespace mpm

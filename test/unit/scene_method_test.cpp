@@ -9,7 +9,7 @@
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_method_test {
 
 using Of = FeedbackDefinition::Of;
 
@@ -262,5 +262,5 @@ TEST(SceneMethod, IsSaidAsScenesSpellIt) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace scene_method_test
 }  // namespace mpm

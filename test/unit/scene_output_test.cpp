@@ -6,7 +6,7 @@
 #include "mpm/scene/scene.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_output_test {
 
 Scene with_output(const std::string& time, const std::string& output) {
   return parse_scene(R"(geometry: plane_strain
@@ -46,5 +46,5 @@ TEST(SceneOutput, AFirstSnapshotBetweenSyncPointsIsRefused) {
   EXPECT_EQ(refusal("{end: 1}", "{first: -1}").find("scene.yaml:6: output.first: "), 0U);
 }
 
-}  // namespace
+}  // namespace scene_output_test
 }  // namespace mpm

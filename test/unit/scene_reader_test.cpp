@@ -12,7 +12,7 @@
 #include "test_files.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_reader_test {
 
 const char* const kSmall = R"yaml(grid: {cell: 0.1, min: [0, 0, 0], max: [1, 1, 1]}
 materials:
@@ -249,5 +249,5 @@ TEST(Nearest, CountsEdits) {
   EXPECT_EQ(nearest("zzz", {"grid", "method"}), "");
 }
 
-}  // namespace
+}  // namespace scene_reader_test
 }  // namespace mpm

@@ -8,7 +8,7 @@
 #include "scene_tool.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_surfaces_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -125,5 +125,5 @@ TEST(SceneSurfaces, WhatIsNoSuchShapeIsRefused) {
   refused("solid", field + ", y: [0, 1], heights: x, cells: 3}", "height_field.cells", "");
 }
 
-}  // namespace
+}  // namespace scene_surfaces_test
 }  // namespace mpm

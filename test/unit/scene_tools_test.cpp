@@ -4,7 +4,7 @@
 #include "scene_tool.hpp"
 
 namespace mpm {
-namespace {
+namespace scene_tools_test {
 
 const std::string kRevolved = "revolved: {profile: [[0, 0], [20 cm, 0], [0, 0.1]]}";
 const std::string kCone = "cone: {radius: 0.1, angle: 60 deg, shaft: 0.5}";
@@ -84,5 +84,5 @@ TEST(SceneTools, NumbersThatMakeNoBodyAreRefused) {
   refused("ring: {inner: 0, outer: 0.1, height: 1}", "shape.ring.inner", "");
 }
 
-}  // namespace
+}  // namespace scene_tools_test
 }  // namespace mpm

@@ -8,7 +8,7 @@
 #include "shape_check.hpp"
 
 namespace mpm::test {
-namespace {
+namespace shape_points_test {
 
 TEST(Cpdi, MatchesQuadratureRowByRow) {
   check_table<2, Cpdi<2>>("cpdi.csv", 31);
@@ -171,5 +171,5 @@ TEST(Lanes, OfPointSetsAreAsNumbersAlone) {
   check_lanes<2, Qcpdi<2>>();
 }
 
-}  // namespace
+}  // namespace shape_points_test
 }  // namespace mpm::test

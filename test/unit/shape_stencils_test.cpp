@@ -9,7 +9,7 @@
 #include "shape_check.hpp"
 
 namespace mpm::test {
-namespace {
+namespace shape_stencils_test {
 
 static_assert(Dirac<double>::kNodes == 3 && Ugimp<double>::kNodes == 3 && UgimpStretch<double>::kNodes == 3);
 static_assert(QuadraticSpline<double>::kNodes == 3 && CubicSpline<double>::kNodes == 5);
@@ -308,5 +308,5 @@ TEST(Lanes, OfStencilsAreAsNumbersAlone) {
   check_lanes<CubicSpline>();
 }
 
-}  // namespace
+}  // namespace shape_stencils_test
 }  // namespace mpm::test

@@ -6,7 +6,7 @@
 
 #include "mpm/rigid/surface.hpp"
 
-namespace {
+namespace solid_moments_test {
 
 using mpm::SolidMoments;
 using mpm::Vec2;
@@ -111,4 +111,4 @@ TEST(Polygon, KnowsItsDistance) {
   EXPECT_THROW(mpm::make_polygon({{0.0, 0.0}, {1.0, 1.0}, {1.0, 0.0}, {0.0, 1.0}}), mpm::RigidError);
 }
 
-}  // namespace
+}  // namespace solid_moments_test

@@ -11,7 +11,7 @@
 #include <random>
 
 namespace mpm {
-namespace {
+namespace sorter_test {
 
 constexpr double kCell = 0.1;
 
@@ -205,5 +205,5 @@ TEST(Sorter, NamesTheFirstParticleThatIsOutside) {
   }
 }
 
-}  // namespace
+}  // namespace sorter_test
 }  // namespace mpm

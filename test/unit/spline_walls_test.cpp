@@ -8,7 +8,7 @@
 #include "step_scene.hpp"
 
 namespace mpm::test {
-namespace {
+namespace spline_walls_test {
 
 constexpr ShapeKind kSplines[] = {ShapeKind::bspline2, ShapeKind::bspline3};
 
@@ -118,5 +118,5 @@ TEST(SplineWalls, ApicGoesOnBeyondThem) {
   }
 }
 
-}  // namespace
+}  // namespace spline_walls_test
 }  // namespace mpm::test

@@ -11,7 +11,7 @@
 #include "step_scene.hpp"
 
 namespace mpm::test {
-namespace {
+namespace step_identities_test {
 
 using Vector = std::array<double, 3>;
 
@@ -303,5 +303,5 @@ TEST(StepIdentities, ApicKeepsALinearFieldInAPlane) { check_affine<PlaneStrain>(
 TEST(StepIdentities, ApicKeepsALinearFieldInASolid) { check_affine<Solid>(); }
 TEST(StepIdentities, ApicKeepsAHomologousFieldAboutAnAxis) { check_affine<Axisymmetric>(); }
 
-}  // namespace
+}  // namespace step_identities_test
 }  // namespace mpm::test

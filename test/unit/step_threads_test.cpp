@@ -5,7 +5,7 @@
 #include "step_scene.hpp"
 
 namespace mpm::test {
-namespace {
+namespace step_threads_test {
 
 /// The complete result of a step: positions and the values of particles, by id.
 template <class Geometry, class T>
@@ -51,5 +51,5 @@ TEST(StepThreads, ChangeNoBitInASolid) { check_threads<Solid, double>(); }
 TEST(StepThreads, ChangeNoBitOfRings) { check_threads<Axisymmetric, double>(); }
 TEST(StepThreads, ChangeNoBitInSinglePrecision) { check_threads<PlaneStrain, float>(); }
 
-}  // namespace
+}  // namespace step_threads_test
 }  // namespace mpm::test

@@ -9,7 +9,7 @@
 #include "mpm/study/problems.hpp"
 
 namespace mpm::study {
-namespace {
+namespace study_suites_test {
 
 constexpr double kStep = 1e-4;  // of differences [m] and [s]
 
@@ -166,5 +166,5 @@ TEST(Suites, HaveNamesOfTheirOwnAndRefuseOthers) {
   }
 }
 
-}  // namespace
+}  // namespace study_suites_test
 }  // namespace mpm::study

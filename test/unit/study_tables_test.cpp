@@ -11,7 +11,7 @@
 #include "mpm/study/summary.hpp"
 
 namespace mpm::study {
-namespace {
+namespace study_tables_test {
 
 Row ran(const std::string& method, double work, double error) {
   Row row;
@@ -207,5 +207,5 @@ TEST(StudyRunner, ReportsWhatIsRefusedAndWhatFails) {
   EXPECT_TRUE(std::isnan(failed.error));
 }
 
-}  // namespace
+}  // namespace study_tables_test
 }  // namespace mpm::study

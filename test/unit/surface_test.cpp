@@ -11,7 +11,7 @@
 #include <string>
 
 namespace mpm {
-namespace {
+namespace surface_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -324,5 +324,5 @@ TEST(Surface, ImpossibleSizesAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace surface_test
 }  // namespace mpm

@@ -12,7 +12,7 @@
 #include "mpm/mechanics/kernel_views.hpp"
 
 namespace mpm::test {
-namespace {
+namespace survey_test {
 
 constexpr double kCell = 0.05;  ///< [m]
 
@@ -174,5 +174,5 @@ TEST(Survey, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_TRUE(std::isnan(fastest(3).rate));
 }
 
-}  // namespace
+}  // namespace survey_test
 }  // namespace mpm::test

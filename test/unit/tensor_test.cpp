@@ -9,7 +9,7 @@
 #include "mpm/math/exponential.hpp"
 #include "mpm/math/principal.hpp"
 
-namespace {
+namespace tensor_test {
 
 using mpm::Matrix3;
 using mpm::MatrixPlane;
@@ -153,4 +153,4 @@ TEST(Exponential, GrowsVolumeUnderRotationAsTheorySays) {
   EXPECT_NEAR(determinant(exponential(spin, 2)), 1.0 + std::pow(theta, 4) / 4.0, 1e-15);
 }
 
-}  // namespace
+}  // namespace tensor_test

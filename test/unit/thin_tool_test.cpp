@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace mpm {
-namespace {
+namespace thin_tool_test {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -95,5 +95,5 @@ TEST(ThinTool, OnTheAxisARodHasOneSide) {
   EXPECT_FALSE(is_thin(tube, GeometryKind::axisymmetric, 0.03));
 }
 
-}  // namespace
+}  // namespace thin_tool_test
 }  // namespace mpm

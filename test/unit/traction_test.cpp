@@ -10,7 +10,7 @@
 #include "shape_check.hpp"
 
 namespace mpm {
-namespace {
+namespace traction_test {
 
 using test::table_rows;
 
@@ -179,5 +179,5 @@ TEST(TractionNormals, CloseTheDomain) {
   }
 }
 
-}  // namespace
+}  // namespace traction_test
 }  // namespace mpm

@@ -11,7 +11,7 @@
 #include "mpm/kernel/weights.hpp"
 #include "test_files.hpp"
 
-namespace {
+namespace ugimp_test {
 
 using mpm::GridLayout;
 using mpm::Ugimp;
@@ -103,4 +103,4 @@ TEST(Weights, FindTheirNodesInTheTile) {
   }
 }
 
-}  // namespace
+}  // namespace ugimp_test

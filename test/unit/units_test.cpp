@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace mpm {
-namespace {
+namespace units_test {
 
 // Round-off of a few operations.
 constexpr double kRoundOff = 1e-14;
@@ -135,5 +135,5 @@ TEST(Units, ExponentsStaySmall) {
   EXPECT_THROW(parse_unit("((((m^9)^9)^9)^9)^9"), UnitError);
 }
 
-}  // namespace
+}  // namespace units_test
 }  // namespace mpm

@@ -10,7 +10,7 @@
 #include "test_files.hpp"
 
 namespace mpm {
-namespace {
+namespace urdf_test {
 
 namespace fs = std::filesystem;
 
@@ -79,5 +79,5 @@ TEST(Urdf, ALinkIsTheShapeOfATool) {
                  "a scene is read without ROS");
 }
 
-}  // namespace
+}  // namespace urdf_test
 }  // namespace mpm

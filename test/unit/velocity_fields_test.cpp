@@ -10,7 +10,7 @@
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
-namespace {
+namespace velocity_fields_test {
 
 constexpr double kCell = 0.1;
 
@@ -206,5 +206,5 @@ TEST(VelocityFields, RefusesWhatCannotBeNumbered) {
   EXPECT_THROW(make_fields(huge, 3), GridError);
 }
 
-}  // namespace
+}  // namespace velocity_fields_test
 }  // namespace mpm

@@ -5,7 +5,7 @@
 
 #include "material_paths.hpp"
 
-namespace {
+namespace viscoelastic_test {
 
 using namespace mpm;
 using namespace mpm::paths;
@@ -99,4 +99,4 @@ TEST(Viscoelastic, IsAsStiffAsTimeAllows) {
   EXPECT_LE(distance(slow.cauchy(), soft.cauchy()), 1e-11 * scale);
 }
 
-}  // namespace
+}  // namespace viscoelastic_test

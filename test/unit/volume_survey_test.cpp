@@ -9,7 +9,7 @@
 #include "step_scene.hpp"
 
 namespace mpm::test {
-namespace {
+namespace volume_survey_test {
 
 struct Sums {
   double volume = 0.0, start_volume = 0.0;
@@ -115,5 +115,5 @@ TEST(VolumeSurvey, IsThePlainSumOverParticles) {
   compare<Solid, float>(ShapeKind::ugimp);
 }
 
-}  // namespace
+}  // namespace volume_survey_test
 }  // namespace mpm::test

@@ -9,7 +9,7 @@
 
 #include "material_zoo.hpp"
 
-namespace {
+namespace wave_speed_test {
 
 using namespace mpm;
 using namespace mpm::paths;
@@ -150,4 +150,4 @@ TEST(WaveSpeed, BoundsTheTangentOfOpenedAuxeticSoil) {
   EXPECT_GE(closest, 1.0 - 1e-5);  // one-sided differences of 1e-6
 }
 
-}  // namespace
+}  // namespace wave_speed_test

@@ -20,7 +20,7 @@ MPM_DECLARE_OPS(mpm_avx2)
 MPM_DECLARE_OPS(mpm_avx512)
 
 namespace mpm::test {
-namespace {
+namespace wide_test {
 
 constexpr int kMostLanes = 16;
 
@@ -267,5 +267,5 @@ TEST_P(WideTest, PlacesAndDisplacesInDouble) {
   });
 }
 
-}  // namespace
+}  // namespace wide_test
 }  // namespace mpm::test

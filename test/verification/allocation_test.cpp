@@ -13,7 +13,7 @@
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/simulation.hpp"
 
-namespace {
+namespace allocation_test {
 
 std::atomic<long> allocations{0};
 std::atomic<long> bytes{0};  ///< bytes in use
@@ -29,7 +29,7 @@ void give_back(void* memory) {
   std::free(memory);
 }
 
-}  // namespace
+}  // namespace allocation_test
 
 // noinline, because gcc warns of mismatched new and delete when they are inlined.
 [[gnu::noinline]] void* operator new(std::size_t size) { return counted(std::malloc(size)); }
@@ -42,7 +42,7 @@ void give_back(void* memory) {
 [[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { give_back(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { give_back(memory); }
 
-namespace {
+namespace allocation_test {
 
 using mpm::Vec3;
 
@@ -269,4 +269,4 @@ TEST(Allocation, PlainScenesTakeTheBytesOfTheirNodes) {
   EXPECT_LT(found, by_hand + 4.0);  // the table of blocks takes 0.6, another field would take 8.5
 }
 
-}  // namespace
+}  // namespace allocation_test

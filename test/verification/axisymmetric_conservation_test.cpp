@@ -12,7 +12,7 @@
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
-namespace {
+namespace axisymmetric_conservation_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kCell = 0.1, kDensity = 1000.0, kYoung = 1e6;  ///< [m], [kg/m^3], [Pa]
@@ -270,5 +270,5 @@ TEST(AxisymmetricConservation, RadialVibrationKeepsEnergyAsThatOfAPlaneDoes) {
   }
 }
 
-}  // namespace
+}  // namespace axisymmetric_conservation_test
 }  // namespace mpm

@@ -17,7 +17,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace axisymmetric_hertz_test {
 
 constexpr int kThreads = 1;  // tests run side by side
 // Numbers of the scenes axisymmetric_hertz and hertz_sphere.
@@ -203,5 +203,5 @@ TEST(FullAxisymmetricHertz, ShippedScene) {
 TEST(AxisymmetricHertz, AgreesWithAQuarterInThreeDimensions) { beside_solid(0.5); }
 TEST(FullAxisymmetricHertz, AgreesWithAQuarterInThreeDimensions) { beside_solid(1.0); }
 
-}  // namespace
+}  // namespace axisymmetric_hertz_test
 }  // namespace verification

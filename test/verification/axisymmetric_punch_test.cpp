@@ -14,7 +14,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace axisymmetric_punch_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kThreads = 1;  // tests run side by side
@@ -120,5 +120,5 @@ TEST(AxisymmetricPunch, Force) {
       "edge is a stair on the grid, is 7 % low at 8.5 cells.");
 }
 
-}  // namespace
+}  // namespace axisymmetric_punch_test
 }  // namespace verification

@@ -6,7 +6,7 @@
 
 #include "mpm/simulation/simulation.hpp"
 
-namespace {
+namespace body_force_test {
 
 using mpm::Function;
 using mpm::Vec3;
@@ -203,4 +203,4 @@ TEST(BodyForce, NamesThePlaceWhereItIsNotFinite) {
   }
 }
 
-}  // namespace
+}  // namespace body_force_test

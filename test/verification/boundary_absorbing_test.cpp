@@ -6,7 +6,7 @@
 #include "boundary_run.hpp"
 
 namespace verification {
-namespace {
+namespace boundary_absorbing_test {
 
 constexpr double kDensity = 100.0, kYoung = 1e6, kPoisson = 0.25, kSpeed = 0.01;  // velocity of the pulse [m/s]
 
@@ -136,5 +136,5 @@ TEST(Absorbing, HoldsTheForcesOfTheStartOrGivesWay) {
   EXPECT_NEAR(free.state().audit.momentum.z() / 1600.0, -2e4 / (2000.0 * speed), 0.02 * 0.129);
 }
 
-}  // namespace
+}  // namespace boundary_absorbing_test
 }  // namespace verification

@@ -7,7 +7,7 @@
 #include "boundary_run.hpp"
 
 namespace verification {
-namespace {
+namespace boundary_conditions_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kSpeed = 100.0, kDensity = 100.0, kArea = 4e-4;  // bar [m/s], [kg/m^3], [m^2]
@@ -207,5 +207,5 @@ TEST(VelocityConditions, ThatContradictEachOtherAreRefused) {
       << refusal(wall);
 }
 
-}  // namespace
+}  // namespace boundary_conditions_test
 }  // namespace verification

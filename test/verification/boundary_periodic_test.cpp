@@ -6,7 +6,7 @@
 #include "mpm/grid/nodal_fields.hpp"
 
 namespace verification {
-namespace {
+namespace boundary_periodic_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -181,5 +181,5 @@ TEST(Periodic, RigidBodiesDoNotGoAround) {
   EXPECT_THROW(scene(text + near), mpm::RigidError);
 }
 
-}  // namespace
+}  // namespace boundary_periodic_test
 }  // namespace verification

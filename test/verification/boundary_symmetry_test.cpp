@@ -6,7 +6,7 @@
 #include "mpm/grid/nodal_fields.hpp"
 
 namespace verification {
-namespace {
+namespace boundary_symmetry_test {
 
 /// A tool on a block, and the method of its contact.
 struct Press {
@@ -115,5 +115,5 @@ TEST(Leaving, MoreThanTheLimitEndsTheRun) {
   EXPECT_THROW(run_until(none, 0.2), mpm::PhysicsError);
 }
 
-}  // namespace
+}  // namespace boundary_symmetry_test
 }  // namespace verification

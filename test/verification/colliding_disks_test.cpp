@@ -10,7 +10,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace colliding_disks_test {
 
 const double kTouch = (0.6 * std::sqrt(2.0) - 0.4) / (0.2 * std::sqrt(2.0));  // [s]
 
@@ -122,5 +122,5 @@ TEST(CollidingDisks, MomentumAndEnergy) {
       .particles("von Mises stress [Pa]", finest.x, finest.z, finest.mises);
 }
 
-}  // namespace
+}  // namespace colliding_disks_test
 }  // namespace verification

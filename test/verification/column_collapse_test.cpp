@@ -16,7 +16,7 @@
 #include "page.hpp"
 #include "scene_run.hpp"
 
-namespace {
+namespace column_collapse_test {
 
 using verification::Numbers;
 
@@ -146,4 +146,4 @@ TEST(FullColumnCollapse, RunsOutAsPublished) {
   verify(page, {0.5, 1.0, 2.0, 4.0, 8.0}, 20);
 }
 
-}  // namespace
+}  // namespace column_collapse_test

@@ -17,7 +17,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace cone_penetrometer_test {
 
 constexpr double kPi = 3.14159265358979323846;
 // Numbers of the scene.
@@ -109,5 +109,5 @@ void sound(const std::string& name, double cell, bool rough) {
 TEST(ConePenetrometer, BearsMoreThanAStrip) { sound("cone_penetrometer", 0.008, false); }
 TEST(FullConePenetrometer, BearsMoreThanAStrip) { sound("cone_penetrometer", 0.004, true); }
 
-}  // namespace
+}  // namespace cone_penetrometer_test
 }  // namespace verification

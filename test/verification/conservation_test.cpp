@@ -3,7 +3,7 @@
 
 #include "mpm/simulation/simulation.hpp"
 
-namespace {
+namespace conservation_test {
 
 using mpm::Vec3;
 
@@ -142,4 +142,4 @@ TEST(Failure, NamesTheParticleTheStepAndTheRemedy) {
   EXPECT_EQ(simulation.particles(), 512u);
 }
 
-}  // namespace
+}  // namespace conservation_test

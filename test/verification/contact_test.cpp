@@ -16,7 +16,7 @@
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
-namespace {
+namespace contact_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -288,5 +288,5 @@ TEST_P(Contact, PosesCarryAsVelocitiesDo) {
   expect_audit_closed(by_pose);
 }
 
-}  // namespace
+}  // namespace contact_test
 }  // namespace mpm

@@ -7,7 +7,7 @@
 #include "rigid_contact_cases.hpp"
 
 namespace verification {
-namespace {
+namespace container_contact_test {
 
 constexpr int kThreads = 1;
 constexpr double kCell = 0.01, kInner = 0.1, kWall = 0.04, kStep = 1e-4, kMost = 0.02;  // [cells a step]
@@ -195,5 +195,5 @@ TEST(FullRigidContact, ContainerInThreeDimensionsLeaksNothing) {
   }
 }
 
-}  // namespace
+}  // namespace container_contact_test
 }  // namespace verification

@@ -7,7 +7,7 @@
 #include "mpm/simulation/simulation.hpp"
 #include "scene_run.hpp"
 
-namespace {
+namespace damping_test {
 
 using mpm::DampingDefinition;
 using mpm::Function;
@@ -319,4 +319,4 @@ TEST(DampingOfABar, LimitsTheStep) {
   EXPECT_GT(simulation.state().step.dt_last, 0.9 * 0.5 / 1000.0);
 }
 
-}  // namespace
+}  // namespace damping_test

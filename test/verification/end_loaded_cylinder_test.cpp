@@ -17,7 +17,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace end_loaded_cylinder_test {
 
 constexpr int kThreads = 1;                                        // tests run side by side
 constexpr double kTension = 1e9, kEnd = 4e-3;                      // [Pa], [s]
@@ -223,5 +223,5 @@ TEST(EndLoadedCylinder, FigureEight) {
       "with 9 particles a cell APIC alone holds the stress to 0.4 %.");
 }
 
-}  // namespace
+}  // namespace end_loaded_cylinder_test
 }  // namespace verification

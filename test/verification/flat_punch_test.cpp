@@ -15,7 +15,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace flat_punch_test {
 
 // Numbers of the scenes.
 constexpr double kSide = 0.3;    // height of the block and distance from its middle to the walls [m]
@@ -174,5 +174,5 @@ void round_punch(const std::vector<int>& counts) {
 TEST(FlatPunch, Round) { round_punch({12}); }
 TEST(FullFlatPunch, Round) { round_punch({12, 24, 36}); }
 
-}  // namespace
+}  // namespace flat_punch_test
 }  // namespace verification

@@ -8,7 +8,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace fluid_test {
 
 constexpr double kGravity = 9.81;
 
@@ -189,5 +189,5 @@ TEST(Fluid, SoundStandsInABoxOfAir) {
       "FLIP and with a tenth of PIC. Strongly pressed gas is not to be trusted.");
 }
 
-}  // namespace
+}  // namespace fluid_test
 }  // namespace verification

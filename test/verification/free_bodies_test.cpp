@@ -6,7 +6,7 @@
 #include "free_run.hpp"
 #include "page.hpp"
 
-namespace {
+namespace free_bodies_test {
 
 using mpm::Vec3;
 using namespace verification;
@@ -38,8 +38,8 @@ TEST(FreeBodies, FreeFallIsThatOfTheScheme) {
   const mpm::BodyState body = simulation.bodies()[0];
   const double n = static_cast<double>(state.step.steps), dt = state.step.dt_last;
   ASSERT_NEAR(state.step.dt_min, state.step.dt_max, 1e-12);
-  EXPECT_NEAR(body.twist.linear.z(), 1.0 - kGravity * 0.5, 1e-12);
-  EXPECT_NEAR(body.pose.position.z(), 0.5 - kGravity * dt * dt * n * (n + 1.0) / 2.0, 1e-12);
+  EXPECT_NEAR(body.twist.linear.z(), 1.0 - kFreeGravity * 0.5, 1e-12);
+  EXPECT_NEAR(body.pose.position.z(), 0.5 - kFreeGravity * dt * dt * n * (n + 1.0) / 2.0, 1e-12);
   EXPECT_NEAR(body.pose.position.x(), 0.15, 1e-12);
   EXPECT_NEAR(body.pose.position.y(), 0.1, 1e-12);
   EXPECT_NEAR(body.mass, 500.0 * 4.0 / 3.0 * M_PI * 1e-3, 1e-12);
@@ -168,4 +168,4 @@ TEST(FreeBodies, CommandsReachWhatIsTold) {
   EXPECT_THROW(prescribed.apply_wrench(0, {}), mpm::RigidError);
 }
 
-}  // namespace
+}  // namespace free_bodies_test

@@ -5,7 +5,7 @@
 #include "free_run.hpp"
 #include "page.hpp"
 
-namespace {
+namespace free_contact_test {
 
 using namespace verification;
 
@@ -36,7 +36,7 @@ rigid_bodies:
   - {name: ball, shape: {sphere: {radius: 0.06}}, pose: {position: [0, 0.16]}, friction: 0.3, free: {density: 1000}}
 )");
   const double start = accounted(simulation.state().energy);
-  const double fall = simulation.free_bodies()[0].mass * kGravity * kHeight;
+  const double fall = simulation.free_bodies()[0].mass * kFreeGravity * kHeight;
   const auto look = [&] {
     const mpm::SolverState now = simulation.state();
     return Bounce{start - accounted(now.energy), now.energy.total(),
@@ -68,8 +68,8 @@ rigid_bodies:
   // The rest is round-off of sums.
   double flight = 0.0;
   for (std::size_t i = part + 1; i < seen.size(); ++i) {
-    flight +=
-        0.5 * ball.mass * kGravity * kGravity * 0.002 * 0.002 / static_cast<double>(seen[i].steps - seen[i - 1].steps);
+    flight += 0.5 * ball.mass * kFreeGravity * kFreeGravity * 0.002 * 0.002 /
+              static_cast<double>(seen[i].steps - seen[i - 1].steps);
   }
   EXPECT_NEAR(seen[part].ball - seen.back().ball, flight, 1e-10 * fall);
   const double together = seen[part].missing - seen[touch].missing;
@@ -85,7 +85,7 @@ rigid_bodies:
   page.near_absolute("not accounted for while they touch, over that of the fall", together / fall, 0.0, 0.02, "1");
   page.report("let go by FLIP while the block rings alone, over that of the fall", alone / fall, "1");
   page.report("lost where they meet, over that of the fall", state.energy.free_loss / fall, "1");
-  page.below("rebound height; most that the balance of energy leaves", top, left / (ball.mass * kGravity), "m");
+  page.below("rebound height; most that the balance of energy leaves", top, left / (ball.mass * kFreeGravity), "m");
   page.meaning(
       "What is lost in meeting is the blow itself: a surface node stops at once. The rest of what the disc does not "
       "get "
@@ -180,7 +180,7 @@ TEST(FreeBodies, LightBodiesLieStill) {
         if (seconds(simulation) > 0.15) highest = std::max(highest, body.pose.position.z() - 0.05);
       }
       const mpm::BodyState body = simulation.bodies()[0];
-      EXPECT_LT(fastest, 1.05 * std::sqrt(2.0 * kGravity * kFall)) << what;
+      EXPECT_LT(fastest, 1.05 * std::sqrt(2.0 * kFreeGravity * kFall)) << what;
       EXPECT_LT(highest, kFall) << what;
       EXPECT_NEAR(body.pose.position.z(), 0.05, 0.1 * kCell) << what;
       EXPECT_NEAR(body.pose.position.x(), 0.003, 0.1 * kCell) << what;
@@ -226,4 +226,4 @@ rigid_bodies:
   EXPECT_LT(std::abs(second.middle - first.middle), 0.01 * 0.15);
 }
 
-}  // namespace
+}  // namespace free_contact_test

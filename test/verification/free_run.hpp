@@ -12,7 +12,7 @@
 
 namespace verification {
 
-constexpr double kGravity = 9.81;  // [m/s^2]
+constexpr double kFreeGravity = 9.81;  // [m/s^2]
 
 /// A simulation of a scene given as text.
 inline mpm::Simulation run_of(const std::string& text, const std::vector<std::string>& overrides = {},

@@ -9,7 +9,7 @@
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 
-namespace {
+namespace geostatic_test {
 
 constexpr double kG = 9.81;
 
@@ -215,4 +215,4 @@ TEST(Geostatic, SameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-}  // namespace
+}  // namespace geostatic_test

@@ -14,7 +14,7 @@
 #include "test_files.hpp"
 
 namespace verification {
-namespace {
+namespace hertz_profile_test {
 
 constexpr int kThreads = 1;
 constexpr double kToolRadius = 0.5, kCell = 0.0125, kTop = 0.2;  // numbers of the scenes [m]
@@ -152,5 +152,5 @@ TEST(RigidContact, HertzSphereInSquareCells) {
   for (const ContactMethod& method : contact_methods()) compare(page, method, ToolShape::circular);
 }
 
-}  // namespace
+}  // namespace hertz_profile_test
 }  // namespace verification

@@ -21,7 +21,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace hertz_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kThreads = 1;  // tests run side by side
@@ -159,5 +159,5 @@ TEST(FullHertz, Sphere) {
       "contact radius, to 5 % at 8 cells: 5.4 % is reached at 8.2 cells and 2.9 % at 9.3.");
 }
 
-}  // namespace
+}  // namespace hertz_test
 }  // namespace verification

@@ -17,7 +17,7 @@
 #include "page.hpp"
 #include "scene_run.hpp"
 
-namespace {
+namespace infinite_slope_test {
 
 using verification::Numbers;
 
@@ -131,4 +131,4 @@ TEST(InfiniteSlope, StaysOrSlidesAsItsFrictionSays) {
       "37.8°.");
 }
 
-}  // namespace
+}  // namespace infinite_slope_test

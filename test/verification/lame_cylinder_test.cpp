@@ -16,7 +16,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace lame_cylinder_test {
 
 constexpr int kThreads = 1;                                      // tests run side by side
 constexpr double kInner = 0.1, kOuter = 0.2;                     // radii [m]
@@ -205,5 +205,5 @@ TEST(LameCylinder, Pressure) {
       "quarter in the plane has fifty times the error of u at 10 cells, for its rims are stairs.");
 }
 
-}  // namespace
+}  // namespace lame_cylinder_test
 }  // namespace verification

@@ -9,7 +9,7 @@
 
 #include "mpm/simulation/simulation.hpp"
 
-namespace {
+namespace landing_test {
 
 using mpm::Vec3;
 
@@ -70,4 +70,4 @@ TEST_P(Landing, CreatesNoEnergy) {
   EXPECT_LT(most - start.total(), 0.01 * (start.total() - floor_energy));
 }
 
-}  // namespace
+}  // namespace landing_test

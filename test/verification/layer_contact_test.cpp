@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace verification {
-namespace {
+namespace layer_contact_test {
 
 constexpr double kPi = 3.14159265358979323846;
 // The sum over wave numbers ends at 150 / radius; its remainder is estimated by a mean, with an error of about 1e-5.
@@ -105,5 +105,5 @@ TEST(LayerContact, RoundBlock) {
   EXPECT_NEAR(all, oedometer, kEndOfSum * oedometer);
 }
 
-}  // namespace
+}  // namespace layer_contact_test
 }  // namespace verification

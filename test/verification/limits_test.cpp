@@ -8,7 +8,7 @@
 
 #include "mpm/simulation/simulation.hpp"
 
-namespace {
+namespace limits_test {
 
 using mpm::Vec3;
 
@@ -220,4 +220,4 @@ TEST(Limits, RefusesDefinitionsThatCannotBe) {
   refused([&](auto& d) { set_velocity(d, {nan, 0.0, 0.0}); });
 }
 
-}  // namespace
+}  // namespace limits_test

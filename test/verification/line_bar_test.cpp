@@ -10,7 +10,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace line_bar_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kLength = 1.0, kSpeed = 100.0;  // numbers of vibrating_line.yaml [m], [m/s]
@@ -165,5 +165,5 @@ TEST(LineBar, APistonDrivesAWaveOfConstantStress) {
   page.below("momentum left over by the audit", simulation.state().audit.residual, 1e-10, "of what was exchanged");
 }
 
-}  // namespace
+}  // namespace line_bar_test
 }  // namespace verification

@@ -12,7 +12,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace manufactured_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kAmplitude = 0.001;  // amplitude in the scenes [m]
@@ -136,5 +136,5 @@ TEST(FullManufactured, OrderOfAccuracyInSpace) {
   solid("The manufactured solution in three dimensions, on a finer grid too", {8, 16, 32});
 }
 
-}  // namespace
+}  // namespace manufactured_test
 }  // namespace verification

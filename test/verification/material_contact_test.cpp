@@ -14,7 +14,7 @@
 #include "pair_scene.hpp"
 
 namespace verification {
-namespace {
+namespace material_contact_test {
 
 /// Two blocks, one on top of the other, that are thrown at an angle; with `contact` or in one velocity field.
 std::string stacked(const std::string& geometry, const std::string& method, const std::string& contact) {
@@ -230,5 +230,5 @@ TEST(MaterialContact, NothingPullsOnRelease) {
   }
 }
 
-}  // namespace
+}  // namespace material_contact_test
 }  // namespace verification

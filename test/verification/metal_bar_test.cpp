@@ -10,7 +10,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace metal_bar_test {
 
 constexpr double kYoung = 70e9, kYield = 250e6, kHardening = 2e9, kPoisson = 0.33;  // numbers of the scene [Pa]
 constexpr double kGauge = 0.015;  // the bar is measured below this height, as in a laboratory away from the plate [m]
@@ -96,5 +96,5 @@ TEST(Metal, BarYieldsAndHardens) {
       "the gap is off by as much. So read a tool's force from the tool, and stress a cell away from it.");
 }
 
-}  // namespace
+}  // namespace metal_bar_test
 }  // namespace verification

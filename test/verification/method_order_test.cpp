@@ -15,7 +15,7 @@
 #include "page.hpp"
 
 namespace verification {
-namespace {
+namespace method_order_test {
 
 using mpm::ShapeKind;
 using mpm::Transfer;
@@ -129,5 +129,5 @@ TEST(MethodOrder, SecondOrderFmpmIsNoWorseThanFlip) {
   }
 }
 
-}  // namespace
+}  // namespace method_order_test
 }  // namespace verification

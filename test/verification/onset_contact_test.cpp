@@ -5,7 +5,7 @@
 #include "rigid_contact_cases.hpp"
 
 namespace verification {
-namespace {
+namespace onset_contact_test {
 
 constexpr int kThreads = 1;
 constexpr double kCell = 0.025, kSide = 0.1, kYoung = 1e6;
@@ -128,5 +128,5 @@ TEST(RigidContact, ForceEndsWithContactAndNeverPulls) {
   page.meaning("A surface that goes is not followed by force.");
 }
 
-}  // namespace
+}  // namespace onset_contact_test
 }  // namespace verification

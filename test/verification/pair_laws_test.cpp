@@ -8,7 +8,7 @@
 #include "pair_scene.hpp"
 
 namespace verification {
-namespace {
+namespace pair_laws_test {
 
 constexpr double kGravity = 10.0;  // [m/s^2]
 constexpr double kPi = 3.14159265358979323846;
@@ -131,5 +131,5 @@ TEST(PairLaws, DisplacementsSayWhenItIsBack) {
   EXPECT_NEAR(first_touch(approaching, 0.1), kLeaves / kBack, 3.0 * kSync);
 }
 
-}  // namespace
+}  // namespace pair_laws_test
 }  // namespace verification

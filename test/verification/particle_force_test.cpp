@@ -7,7 +7,7 @@
 #include "mpm/simulation/simulation.hpp"
 #include "scene_run.hpp"
 
-namespace {
+namespace particle_force_test {
 
 using mpm::Function;
 using mpm::LoadSpread;
@@ -179,4 +179,4 @@ TEST_P(ParticleForce, NamesWhatIsNotThere) {
   }
 }
 
-}  // namespace
+}  // namespace particle_force_test

@@ -12,7 +12,7 @@
 #include "page.hpp"
 #include "scene_run.hpp"
 
-namespace {
+namespace passive_wall_test {
 
 using verification::Numbers;
 
@@ -130,4 +130,4 @@ TEST(PassiveWall, ForceIsRankines) {
       "and the force grows with its depth.");
 }
 
-}  // namespace
+}  // namespace passive_wall_test

@@ -10,7 +10,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace planar_impact_test {
 
 constexpr double kSpeed = 1700.0, kFace = 24.0;          // numbers of the scene [m/s], [mm]
 constexpr double kInterface = 1105.0, kStress = 49.405;  // [m/s], [GPa]
@@ -162,5 +162,5 @@ TEST(PlanarImpact, OfTungstenIntoSteel) {
       .line("without, APIC", liquid.x, liquid.p);
 }
 
-}  // namespace
+}  // namespace planar_impact_test
 }  // namespace verification

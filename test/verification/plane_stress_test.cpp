@@ -10,7 +10,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace plane_stress_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kYoung = 1e6, kPoisson = 0.3;  // of both plates
@@ -226,5 +226,5 @@ TEST(PlaneStress, ASpinningDiskWidensAndCarriesItsStress) {
   }
 }
 
-}  // namespace
+}  // namespace plane_stress_test
 }  // namespace verification

@@ -11,7 +11,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace point_contact_test {
 
 constexpr int kThreads = 1;  // tests run side by side
 
@@ -174,5 +174,5 @@ TEST(PointContact, FrictionTakesTheKineticEnergy) {
   page.meaning("Friction heat is known for each body; centre of pressure and area are those of the surface.");
 }
 
-}  // namespace
+}  // namespace point_contact_test
 }  // namespace verification

@@ -18,7 +18,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace radial_compression_test {
 
 using Overrides = std::vector<std::string>;
 
@@ -322,5 +322,5 @@ TEST(RadialCompression, StressAndBreakdown) {
   page.beside("uGIMP, APIC: breakdown", ugimp.breakdown, 88.0, "%");
 }
 
-}  // namespace
+}  // namespace radial_compression_test
 }  // namespace verification

@@ -20,7 +20,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace rod_penetration_test {
 
 constexpr double kSpeed = 1700.0;         // [m/s]
 constexpr double kHydrodynamic = 1019.3;  // hydrodynamic speed of the nose [m/s]
@@ -147,5 +147,5 @@ TEST(FullRodPenetration, AtThePapersCells) {
   page.below("the same", limit, kFastest, "m/s");
 }
 
-}  // namespace
+}  // namespace rod_penetration_test
 }  // namespace verification

@@ -5,7 +5,7 @@
 #include "rigid_contact_cases.hpp"
 
 namespace verification {
-namespace {
+namespace rolling_contact_test {
 
 constexpr int kThreads = 1;
 
@@ -224,5 +224,5 @@ TEST(RigidContact, BeltRoundADrum) {
   }
 }
 
-}  // namespace
+}  // namespace rolling_contact_test
 }  // namespace verification

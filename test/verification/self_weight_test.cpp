@@ -11,7 +11,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace self_weight_test {
 
 constexpr double kHeight = 1.0, kBaseStress = 1000.0 * 10.0 * 1.0;  // rho0 g H [Pa]
 
@@ -128,5 +128,5 @@ TEST(SelfWeight, StressAndSinking) {
   }
 }
 
-}  // namespace
+}  // namespace self_weight_test
 }  // namespace verification

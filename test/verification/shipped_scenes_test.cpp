@@ -5,7 +5,7 @@
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 
-namespace {
+namespace shipped_scenes_test {
 
 mpm::SolverState run(const std::string& name, const std::vector<std::string>& overrides, int threads,
                      std::uint64_t* hash = nullptr) {
@@ -80,4 +80,4 @@ TEST(FullShippedScenes, StiffnessHardlyChangesTheForceOnTheBlade) {
   }
 }
 
-}  // namespace
+}  // namespace shipped_scenes_test

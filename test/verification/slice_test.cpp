@@ -11,7 +11,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace slice_test {
 
 /// Particles of the slice that correspond to those of the plane by their initial position: one of each pair along y.
 struct Pairs {
@@ -126,5 +126,5 @@ TEST(Slice, AgreesWithPlaneStrain) {
   }
 }
 
-}  // namespace
+}  // namespace slice_test
 }  // namespace verification

@@ -10,7 +10,7 @@
 #include "rigid_contact_cases.hpp"
 
 namespace verification {
-namespace {
+namespace sliding_contact_test {
 
 constexpr int kThreads = 1;
 constexpr double kCell = 0.025, kLength = 0.2, kHeight = 0.1, kYoung = 1e6, kSteepness = kPi / 6.0;
@@ -210,5 +210,5 @@ TEST(RigidContact, ForceOfSteadySlidingIsEven) {
       "elastic block swings by itself, and the force on the plane with it; damping takes that away.");
 }
 
-}  // namespace
+}  // namespace sliding_contact_test
 }  // namespace verification

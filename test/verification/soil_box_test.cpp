@@ -16,7 +16,7 @@
 #include "page.hpp"
 #include "scene_run.hpp"
 
-namespace {
+namespace soil_box_test {
 
 using verification::Numbers;
 
@@ -122,4 +122,4 @@ TEST(SoilBox, OedometerAndTriaxialTestAreExact) {
       "no trace, and the force on a plate is the stress under it times its area.");
 }
 
-}  // namespace
+}  // namespace soil_box_test

@@ -12,7 +12,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace spinning_disk_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRate = 2.0 * kPi;                // [rad/s]
@@ -136,5 +136,5 @@ TEST(SpinningDisk, AngularMomentumOfATurn) {
       .points("σθ, USAVG, 40 cells", fine.stress.radius(), fine.stress.hoop());
 }
 
-}  // namespace
+}  // namespace spinning_disk_test
 }  // namespace verification

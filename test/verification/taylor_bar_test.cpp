@@ -11,7 +11,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace taylor_bar_test {
 
 constexpr double kLength = 21.5, kRadius = 7.05;  // middles of the published ranges [mm]
 
@@ -106,5 +106,5 @@ TEST(FullMetal, TaylorBarFine) {
   page.meaning("The length comes nearer to the published one, the mushroom does not: see the coarser run.");
 }
 
-}  // namespace
+}  // namespace taylor_bar_test
 }  // namespace verification

@@ -13,7 +13,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace thick_cylinder_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kInner = 0.1, kOuter = 0.2, kBand = 0.02;           // radii, thickness of the loaded part [m]
@@ -123,5 +123,5 @@ TEST(Metal, ThickCylinderReachesItsLimitLoad) {
       "raises such loads on coarse grids, stays within what is shown.");
 }
 
-}  // namespace
+}  // namespace thick_cylinder_test
 }  // namespace verification

@@ -13,7 +13,7 @@
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
-namespace {
+namespace thin_tool_test {
 
 constexpr double kCell = 0.1;
 constexpr ContactMethod kContacts[] = {ContactMethod::points, ContactMethod::nodes};
@@ -301,5 +301,5 @@ TEST(ThinTool, ABladeCutsWithoutLosingMomentumOrParticles) {
   }
 }
 
-}  // namespace
+}  // namespace thin_tool_test
 }  // namespace mpm

@@ -11,7 +11,7 @@
 #include "mpm/simulation/simulation.hpp"
 #include "scene_run.hpp"
 
-namespace {
+namespace traction_test {
 
 using mpm::Function;
 using mpm::GeometryKind;
@@ -237,4 +237,4 @@ TEST(Traction, IsRefusedWhereItCannotBe) {
   EXPECT_THROW(verification::run_until(simulation, 0.3), mpm::PhysicsError);
 }
 
-}  // namespace
+}  // namespace traction_test

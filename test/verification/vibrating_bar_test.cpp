@@ -11,7 +11,7 @@
 #include "scene_run.hpp"
 
 namespace verification {
-namespace {
+namespace vibrating_bar_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kLength = 1.0, kSpeed = 100.0;  // numbers of the scene [m], [m/s]
@@ -232,5 +232,5 @@ TEST(VibratingBar, CrossesCells) {
   }
 }
 
-}  // namespace
+}  // namespace vibrating_bar_test
 }  // namespace verification

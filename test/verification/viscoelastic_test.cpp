@@ -9,7 +9,7 @@
 #include "page.hpp"
 
 namespace verification {
-namespace {
+namespace viscoelastic_test {
 
 constexpr int kShear = 4;                                                   // xz among the components
 constexpr double kYoung = 1e5, kPoisson = 0.2, kBranch = 3e4, kTime = 0.2;  // [Pa], [Pa], [s]
@@ -82,5 +82,5 @@ TEST(Viscoelastic, OneElementRelaxesAndCreeps) {
   page.meaning("Held strain relaxes exactly whatever the step; the step matters only while the strain changes.");
 }
 
-}  // namespace
+}  // namespace viscoelastic_test
 }  // namespace verification

@@ -76,9 +76,10 @@ TEST(AxisymmetricHertz, Sphere) {
           "high, 0.225 m in radius, in a smooth wall) on a smooth base, in five steps with rests. Cells 12.5 mm wide "
           "and 3.125 mm high.")
       .exact(
-          "Force and depth of the block itself for each contact radius: a pressure J0(kr) presses the face down by "
-          "2 K(kH) / (E* k) of itself, with k at the zeros of J1(kL); the half space has F = 4 E* a^3 / (3 R), delta = "
-          "a^2 / R. The sphere is taken as a paraboloid; at the edge of the contact that is 1 % of the profile.",
+          "Force and depth of the block itself for each contact radius: a pressure J0(kr) deflects the face by 2 "
+          "K(kH) / (E* k) times itself, with k at the zeros of J1(kL); the half space has F = 4 E* a^3 / (3 R), "
+          "delta = a^2 / R. The sphere is taken as a paraboloid; at the edge of the contact that is 1 % of the "
+          "profile.",
           "Hertz; Lebedev and Ufliand (1958); Johnson, Contact Mechanics (1985) 3.4, 4.2, 5.8")
       .scene("axisymmetric_hertz");
   const HertzCurve curve(kRound, ToolShape::circular, kToolRadius, 0.02, 0.13);
@@ -129,13 +130,11 @@ TEST(AxisymmetricHertz, Sphere) {
       .exact("exact, of the measured force", r, pressure)
       .points("particles 2.5 to 3.5 rows below the sphere", run.r, run.pressure);
   page.meaning(
-      "Force against depth holds to 3 % at 8 cells, and to 4 % without the offset, which is a twentieth of a row. With "
-      "half "
-      "as many cells to the radius the force is within 7 %, with twice as many within 2 %. The block makes the sphere "
-      "1.8 "
-      "times as stiff as a half space would: a base two contact radii away is no detail. "
-      "Particles between nodes that the sphere holds keep the stress that they were taken in with, here 2.6 times the "
-      "pressure: read the pressure a few rows below.");
+      "Force against depth holds to 3 % at 8 cells, and to 4 % without the offset, which is a twentieth of a row. "
+      "With half as many cells to the radius the force is within 7 %, with twice as many within 2 %. The contact is "
+      "1.8 times as stiff as on a half space: a base two contact radii away matters. Particles between nodes in "
+      "contact with the sphere keep the stress that they had when contact began, here 2.6 times the pressure: read "
+      "the pressure a few rows below.");
 }
 
 /// Compares the axisymmetric run with the one in three dimensions; `refine` as in press().
@@ -178,9 +177,8 @@ void beside_solid(double refine) {
       .points("about the axis", depth, ring.force)
       .points("a quarter in three dimensions", depth, solid.force);
   page.meaning(
-      "What turns about an axis needs no third coordinate: the forces agree within 5 %, for a small part of the "
-      "particles "
-      "and of the time. Seconds are those of a machine that may have had other work; particle-steps are not.");
+      "Axisymmetric problems need no third coordinate: the forces agree within 5 %, for a small part of the "
+      "particles and of the time. Seconds depend on other work of the machine; particle-steps do not.");
 }
 
 TEST(FullAxisymmetricHertz, ShippedScene) {

@@ -69,9 +69,8 @@ TEST(AxisymmetricPunch, Force) {
           "in "
           "radius, in a smooth wall) on a smooth base, slowly, and held. The edge lies midway between two nodes.")
       .exact(
-          "F / delta of the block itself: a pressure J0(kr) presses the face down by 2 K(kH) / (E* k) of itself, K(u) "
-          "= "
-          "2 sinh^2 u / (2 u + sinh 2u), with k at the zeros of J1(kL); the half space has F = 2 E* a delta.",
+          "F / delta of the block itself: a pressure J0(kr) deflects the face by 2 K(kH) / (E* k) times itself, K(u) "
+          "= 2 sinh^2 u / (2 u + sinh 2u), with k at the zeros of J1(kL); the half space has F = 2 E* a delta.",
           "Boussinesq; Lebedev and Ufliand (1958); Johnson, Contact Mechanics (1985) 3.8")
       .scene("axisymmetric_punch");
   Numbers cells, errors;
@@ -114,10 +113,9 @@ TEST(AxisymmetricPunch, Force) {
       .order(1.0)
       .points("force", cells, errors);
   page.meaning(
-      "Asked for is the force of the layer; it is 5 % low at 8.5 cells a radius and 3 % at 16.5, as if the edge of the "
-      "punch were a third of a cell further in: nodes stand for it, as in plane strain. The three-dimensional punch, "
-      "whose "
-      "edge is a stair on the grid, is 7 % low at 8.5 cells.");
+      "The force is 5 % low at 8.5 cells a radius and 3 % at 16.5, as if the edge of the punch were a third of a "
+      "cell further in, because nodes represent it, as in plane strain. The three-dimensional punch, whose edge is a "
+      "staircase on the grid, is 7 % low at 8.5 cells.");
 }
 
 }  // namespace axisymmetric_punch_test

@@ -72,17 +72,14 @@ TEST(CollidingDisks, MomentumAndEnergy) {
           "an eighth of the wave speed. Deformable bodies share one velocity field: there is no contact law between "
           "them.")
       .exact(
-          "Total momentum is 0 and energy is kept. The disks touch at 1.5858 s, by their geometry. The rebound has no "
-          "closed "
-          "form: it is slower than the approach, since part of the energy stays in vibration.",
+          "Total momentum is 0 and energy is constant. The disks touch at 1.5858 s, by their geometry. The rebound "
+          "has no closed form: it is slower than the approach, since part of the energy stays in vibration.",
           "conservation laws; the example is that of Sulsky, Chen and Schreyer (1994)")
       .meaning(
-          "USAVG keeps the energy to a small fraction that falls with the time step; USF errs a hundred times as much. "
-          "In a "
-          "single velocity field the disks feel each other when they share a node, so they rebound before "
-          "they touch, by a gap that shrinks with the cell. No published number for the rebound speed could be found "
-          "to "
-          "put beside ours; refinement shows how far it is from converged.")
+          "USAVG conserves the energy to a small fraction that falls with the time step; the error of USF is a "
+          "hundred times larger. In a single velocity field the disks act on each other when they share a node, so "
+          "they rebound before they touch, at a gap that shrinks with the cell. No published rebound speed could be "
+          "found for comparison; refinement shows how far it is from converged.")
       .scene("colliding_disks");
   const Collision usavg = collide({}), usf = collide({"method.update=usf"});
   const Collision fine = collide({"grid.cell=0.025"}), finest = collide({"grid.cell=0.0125"});

@@ -106,9 +106,9 @@ Leak carry(const ContactMethod& method, Motion motion) {
 TEST(RigidContact, ContainerLeaksNothing) {
   Page page("contact", "rigid_container", "A container that is shaken");
   page.problem(
-          "Rubber (E = 50 kPa) fills 6/10 of a closed container of 10 x 10 cells with walls of 4 cells, friction 0.2, "
-          "under gravity. The container swings along a circle, or turns to and fro, five times a second and ever "
-          "wider, until its inner corner goes at 0.02 cells a step, in 10,000 steps.")
+          "Rubber (E = 50 kPa) fills 6/10 of a closed container of 10 x 10 cells with walls of 4 cells, friction "
+          "0.2, under gravity. The container swings along a circle, or turns to and fro, five times a second with "
+          "growing amplitude, until its inner corner moves at 0.02 cells a step, in 10,000 steps.")
       .exact("no particle leaves", "mass");
   for (const ContactMethod& method : contact_methods()) {
     for (const Motion motion : {Motion::translation, Motion::rotation}) {

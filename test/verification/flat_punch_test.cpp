@@ -95,9 +95,9 @@ TEST(FlatPunch, Strip) {
           "high, 0.6 m wide between smooth walls) on a smooth base, slowly, and held. 8.5 cells to half its width: the "
           "edge lies midway between two nodes.")
       .exact(
-          "F / delta of the block itself: E* = E / (1 - nu^2); a pressure of wave number k presses the face down by "
-          "2 K(kH) / (E* k) of itself, K(u) = 2 sinh^2 u / (2 u + sinh 2u); walls are planes of symmetry and leave the "
-          "wave numbers pi m / L.",
+          "F / delta of the block itself: E* = E / (1 - nu^2); a pressure of wave number k deflects the face by 2 "
+          "K(kH) / (E* k) times itself, K(u) = 2 sinh^2 u / (2 u + sinh 2u); walls are planes of symmetry and leave "
+          "the wave numbers pi m / L.",
           "Johnson, Contact Mechanics (1985) 3.8, 5.8; Lebedev and Ufliand (1958)")
       .scene("flat_punch_strip");
   std::vector<Punched> runs;
@@ -122,10 +122,9 @@ TEST(FlatPunch, Strip) {
       .order(1.0)
       .points("force", cells, errors);
   page.meaning(
-      "The punch is a little too soft, as if its edge were a part of a cell further in: nodes stand for it. When the "
-      "edge "
-      "lies on a row of nodes exactly, that row is lost, since the tool's side is as near to it as its face; then the "
-      "force is 5 % low at 8 cells.");
+      "The punch is slightly too soft, as if its edge were a part of a cell further in, because nodes represent it. "
+      "When the edge lies exactly on a row of nodes, that row is lost, since the tool's side is as near to it as its "
+      "face; then the force is 5 % low at 8 cells.");
 }
 
 /// Runs round punches with `counts` cells along the side of the block and draws the last run.
@@ -165,10 +164,10 @@ void round_punch(const std::vector<int>& counts) {
         .points("force", cells, errors);
   }
   page.meaning(
-      "Asked for is 5 % at 8 cells a radius; the long test reaches 7 % at 8.5 and 3.9 % at 12.5. The edge of the punch "
-      "acts up to half a cell further in than it is, and near walls that tell, force grows as the power 1.36 of the "
-      "radius. At 4.5 cells the error is smaller by luck: the nodes within 4.5 cells cover 8 % more area than the "
-      "circle.");
+      "Asked: 5 % at 8 cells a radius; the long test reaches 7 % at 8.5 and 3.9 % at 12.5. The edge of the punch "
+      "acts up to half a cell further in than it is, and with walls this near the force grows as the power 1.36 of "
+      "the radius. At 4.5 cells the error is smaller by chance: the nodes within 4.5 cells cover 8 % more area than "
+      "the circle.");
 }
 
 TEST(FlatPunch, Round) { round_punch({12}); }

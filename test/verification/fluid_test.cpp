@@ -77,8 +77,9 @@ TEST(Fluid, DamBreakRunsAsFastAsTheExperiment) {
   Page page("fluid", "dam_break", "A column of water collapses");
   page.scene("test/verification/scenes/dam_break.yaml");
   page.problem(
-      "A column of water 57.15 mm wide and 114.3 mm high stands against a wall and is let go on a dry, smooth floor. "
-      "Sound at 15 m/s (ten times the fastest front), 20 cells across the column, 3,200 particles, USAVG, FLIP 0.99.");
+      "A column of water 57.15 mm wide and 114.3 mm high stands against a wall and is released on a dry, smooth "
+      "floor. Sound at 15 m/s (ten times the fastest front), 20 cells across the column, 3,200 particles, USAVG, "
+      "FLIP 0.99.");
   page.exact("none; the front's place measured in an experiment.",
              "Martin and Moyce (1952), Phil. Trans. R. Soc. A 244, table 2");
   mpm::Simulation simulation = start("dam_break");
@@ -118,8 +119,8 @@ TEST(Fluid, DamBreakRunsAsFastAsTheExperiment) {
       .published("Martin and Moyce (1952)", kPublishedT, kPublishedZ);
   figure.panel("At T = 3.4", "x [m]", "z [m]").particles("speed [m/s]", x, z, speed);
   page.meaning(
-      "Inviscid codes run ahead of this experiment from the start, since its gate took time to open; the speed "
-      "afterwards is what compares.");
+      "Inviscid codes run ahead of this experiment from the start, since its gate took time to open; compare the "
+      "speed afterwards.");
 }
 
 // Sound between two walls: v = v0 sin(pi x / L) cos(pi c t / L), c^2 = g p / rho; T follows p adiabatically:
@@ -183,10 +184,10 @@ TEST(Fluid, SoundStandsInABoxOfAir) {
       .exact("exact", exact_time, exact_velocity)
       .points("run", time, velocity);
   page.meaning(
-      "Sound in gas is right. `ambient_pressure` is what makes it so: with the whole pressure of 1 bar on the "
-      "particles the same wave grows without end after three periods (the pressure acts on every unevenness of the "
-      "particles' places), and a piston that pressed such a box by more than 2 % of its length made the gas boil, with "
-      "FLIP and with a tenth of PIC. Strongly pressed gas is not to be trusted.");
+      "Sound in gas is right, thanks to `ambient_pressure`: with the whole pressure of 1 bar on the particles the "
+      "same wave grows without limit after three periods (the pressure acts on every irregularity of the particles' "
+      "positions), and a piston that compressed such a box by more than 2 % of its length made the gas boil, with "
+      "FLIP and with a tenth of PIC. Do not trust strongly compressed gas.");
 }
 
 }  // namespace fluid_test

@@ -80,18 +80,17 @@ rigid_bodies:
   Page page("contact", "free_ball", "A ball that falls on an elastic block");
   page.problem(
           "A rigid disc of 60 mm radius, as heavy as rubber, falls 0.1 m onto a block of it (E = 1 MPa) and bounces.")
-      .exact("The energy of disc and block, with what contact and friction took, stays.", "balance of energy");
+      .exact("The energy of disc and block, plus the energy dissipated by contact and friction, is constant.",
+             "balance of energy");
   page.near("energy accounted for, over that of the fall", 1.0 - seen.back().missing / fall, 1.0, 0.05, "1");
   page.near_absolute("not accounted for while they touch, over that of the fall", together / fall, 0.0, 0.02, "1");
   page.report("let go by FLIP while the block rings alone, over that of the fall", alone / fall, "1");
   page.report("lost where they meet, over that of the fall", state.energy.free_loss / fall, "1");
   page.below("rebound height; most that the balance of energy leaves", top, left / (ball.mass * kFreeGravity), "m");
   page.meaning(
-      "What is lost in meeting is the blow itself: a surface node stops at once. The rest of what the disc does not "
-      "get "
-      "back is in the block, which rings; FLIP lets a part of that go, which nothing accounts for. The limits of what "
-      "is "
-      "not accounted for, 5 % in all and 2 % while they touch, are bounds on what was seen, not derived.");
+      "The loss at impact is that of the surface nodes, which stop at once. The rest of the energy that the disc "
+      "does not regain is in the block's vibration, of which FLIP loses a part without an account. The limits on "
+      "energy without an account, 5 % in all and 2 % while they touch, bound measured values; they are not derived.");
 }
 
 // In a closed tank the displaced water lifts the level. The block is nine cells deep in the water. The water's surface

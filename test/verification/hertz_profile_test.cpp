@@ -137,7 +137,7 @@ TEST(RigidContact, HertzCylinderInSquareCells) {
   page.problem(
           "The cylinder and block of hertz_cylinder, 20 mm deep, in cells of 12.5 mm: ten cells a half width, and less "
           "than two rows of nodes passed.")
-      .exact("The block's own half width and pressure at the force that is measured (layer_contact.hpp)",
+      .exact("The half width and pressure of this block at the measured force (layer_contact.hpp)",
              "Johnson, Contact Mechanics (1985) 4.2")
       .scene("hertz_cylinder");
   for (const ContactMethod& method : contact_methods()) compare(page, method, ToolShape::strip);
@@ -146,7 +146,7 @@ TEST(RigidContact, HertzCylinderInSquareCells) {
 TEST(RigidContact, HertzSphereInSquareCells) {
   Page page("contact", "rigid_hertz_sphere", "Half width and pressure under a sphere");
   page.problem("The sphere and round block of axisymmetric_hertz, 20 mm deep, in cells of 12.5 mm.")
-      .exact("The block's own radius of contact and pressure at the force that is measured (layer_contact.hpp)",
+      .exact("The radius of contact and pressure of this block at the measured force (layer_contact.hpp)",
              "Johnson, Contact Mechanics (1985) 3.4; Lebedev and Ufliand (1958)")
       .scene("axisymmetric_hertz");
   for (const ContactMethod& method : contact_methods()) compare(page, method, ToolShape::circular);

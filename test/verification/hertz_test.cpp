@@ -132,12 +132,11 @@ TEST(Hertz, Cylinder) {
       .scene("hertz_cylinder");
   compare(page, ToolShape::strip, "N/m");
   page.meaning(
-      "Force against depth follows the exact curve to a tenth of a row. The pressure reaches too far out while the "
-      "tool has "
-      "passed few rows, because a node just inside the tool holds material that has not yet come up to its surface: "
-      "against its own contact radius the force is 7 % low at 8 cells, when five rows are passed, and within 5 % from "
-      "nine cells and six rows on. With cells as high as wide, of which a tool of 1 m radius passes "
-      "less than one, contact was found 1.3 to 1.4 times too wide.");
+      "Force against depth follows the exact curve to a tenth of a row. The pressure extends too far while the tool "
+      "has passed few rows, because a node just inside the tool acts on material that has not yet reached its "
+      "surface: for its own contact radius the force is 7 % low at 8 cells, when five rows are passed, and within 5 "
+      "% from nine cells and six rows on. With cells as high as wide, of which a tool of 1 m radius passes less than "
+      "one, contact was found 1.3 to 1.4 times too wide.");
 }
 
 TEST(FullHertz, Sphere) {
@@ -155,8 +154,8 @@ TEST(FullHertz, Sphere) {
       .scene("hertz_sphere");
   compare(page, ToolShape::circular, "N");
   page.meaning(
-      "Force against depth holds to 2 % with an offset below a tenth of a row. Asked for besides is the cube of the "
-      "contact radius, to 5 % at 8 cells: 5.4 % is reached at 8.2 cells and 2.9 % at 9.3.");
+      "Force against depth holds to 2 % with an offset below a tenth of a row. The cube of the contact radius is "
+      "also asked, to 5 % at 8 cells: 5.4 % is reached at 8.2 cells and 2.9 % at 9.3.");
 }
 
 }  // namespace hertz_test

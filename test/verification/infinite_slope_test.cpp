@@ -69,12 +69,10 @@ TEST(InfiniteSlope, StaysOrSlidesAsItsFrictionSays) {
   verification::Page page("soil", "infinite_slope",
                           "A layer of sand on a slope stays, or slides with the friction of its law");
   page.problem(
-          "A layer of dry sand (φ = 30°, no dilation, 1600 kg/m³) lies 0.4 m deep on a slope that holds its foot fast, "
-          "in "
-          "plane strain: 8 cells of 50 mm, 24 m long, E = 1 MPa, so slow to carry waves that the ends cannot be felt "
-          "in "
-          "the middle within the 0.4 s of the run. Its weight acts at once. The speed is that of the upper half of the "
-          "middle 2 m, the acceleration the slope of the straight line through it from 0.2 s to 0.4 s.")
+          "A layer of dry sand (φ = 30°, no dilation, 1600 kg/m³) lies 0.4 m deep on a slope that holds its foot "
+          "fast, in plane strain: 8 cells of 50 mm, 24 m long, E = 1 MPa, in which waves from the ends do not reach "
+          "the middle within the 0.4 s of the run. Its weight acts suddenly. The speed is that of the upper half of "
+          "the middle 2 m, the acceleration the slope of the straight line through it from 0.2 s to 0.4 s.")
       .exact(
           "a = g (sin θ - μ cos θ), or rest where tan θ ≤ μ. Sand that shears without dilating has equal normal "
           "stresses "
@@ -124,10 +122,9 @@ TEST(InfiniteSlope, StaysOrSlidesAsItsFrictionSays) {
     draw(label, sliding.degrees, sliding.friction, run);
   }
   page.meaning(
-      "The friction angle of a law is not the angle of its slope. Sand that shears without dilating slides where "
-      "tan θ > μ: 26.6° for φ = 30° by Mohr-Coulomb, 25.7° by Drucker-Prager with the plane-strain match (that match "
-      "is "
-      "meant for associated flow). For layers that shall hold up to 30°, choose φ so that μ = tan 30°: 35.3° and "
+      "The friction angle of a law is not the angle of its slope. Sand that shears without dilating slides where tan "
+      "θ > μ: 26.6° for φ = 30° by Mohr-Coulomb, 25.7° by Drucker-Prager with the plane-strain match (that match is "
+      "meant for associated flow). For layers that should hold up to 30°, choose φ so that μ = tan 30°: 35.3° and "
       "37.8°.");
 }
 

@@ -56,8 +56,8 @@ TEST(Interface, OpensByStressOverStiffness) {
           "lies on a node of the grid or in the middle of a cell.")
       .exact("The bars part by s/D; the modulus of the whole is E* with 1/E* = 1/E + 1/(DL).", "statics")
       .meaning(
-          "The jump is found from displacements at the node itself, each side's mean carried there by its own "
-          "gradient. Without that the strain between the two means, 0.75 cells apart, would be taken for a jump.");
+          "The jump is computed from displacements at the node itself: each side's mean is extrapolated by its own "
+          "gradient. Otherwise the strain between the two means, 0.75 cells apart, would count as a jump.");
   const double cell = 0.05;
   for (const double part : {0.1, 1.0, 10.0}) {
     const double stiffness = part * kModulus / 1.0;  // over L

@@ -129,9 +129,9 @@ Numbers over(Numbers values, double unit) {
 TEST(LameCylinder, Pressure) {
   Page page("axisymmetric", "lame_cylinder", "Thick cylinder under a pressure inside (Lamé)");
   page.problem(
-          "A cylinder, 0.1 m inside and 0.2 m outside in radius (linear elastic, E = 1 MPa, nu = 0.3), its ends held, "
-          "under a pressure of 1 Pa on its bore, brought up slowly; 10, 20 and 40 cells across the wall, 4 particles "
-          "a cell. Beside it a quarter of its section in plane strain, whose rims are stairs.")
+          "A cylinder, 0.1 m inside and 0.2 m outside in radius (linear elastic, E = 1 MPa, nu = 0.3), its ends "
+          "held, under a slowly applied pressure of 1 Pa on its bore; 10, 20 and 40 cells across the wall, 4 "
+          "particles a cell. For comparison a quarter of its section in plane strain, whose rims are staircases.")
       .exact(
           "sigma_r = A - B/r^2, sigma_theta = A + B/r^2, u = (1 + nu)/E ((1 - 2 nu) A r + B/r), A = p a^2/(b^2 - a^2), "
           "B = A b^2.",
@@ -199,10 +199,9 @@ TEST(LameCylinder, Pressure) {
   }
   panel.points("sigma_theta / p, CPDI", cells, hoops[1]);
   page.meaning(
-      "Displacements about the axis are second order and stresses first: a particle has the strain of its cell, which "
-      "here is off by the slope of the stress over a quarter of a cell. uGIMP and CPDI are the same at small strain. "
-      "The "
-      "quarter in the plane has fifty times the error of u at 10 cells, for its rims are stairs.");
+      "Displacements about the axis are second order and stresses first: a particle has the strain of its cell, "
+      "whose error is the change of stress over a quarter of a cell. uGIMP and CPDI are the same at small strain. "
+      "The quarter in plane strain has fifty times the error of u at 10 cells, because its rims are staircases.");
 }
 
 }  // namespace lame_cylinder_test

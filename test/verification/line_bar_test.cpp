@@ -66,7 +66,7 @@ TEST(LineBar, KeepsItsPeriodAndAmplitude) {
           "elastic, E = 1 MPa, density 100 kg/m³, Poisson's ratio 0.")
       .exact("u(X, t) = v0/(βc) sin(βX) sin(βct) with β = π/2L and c = √(E/ρ) = 100 m/s: the period is 4L/c = 40 ms.",
              "the wave equation ρ u_tt = E u_xx")
-      .meaning("What the strip of the section above shows in two dimensions, for a fraction of its particles.")
+      .meaning("The line gives the result of the strip in the section above with a fraction of its particles.")
       .scene("vibrating_line");
   const double exact = 1e-4 * kSpeed / (0.5 * kPi / kLength * kSpeed);
   const Vibration usavg = vibrate({}), usf = vibrate({"method.update=usf"});

@@ -113,7 +113,7 @@ TEST(MaterialContact, BarsExchangeTheirVelocities) {
           "The bars press with ρcΔv/2 for the time 2L/c that the waves take to the free ends and back, and part "
           "having exchanged their velocities, at rest inside.",
           "waves in bars")
-      .meaning("Contact begins and ends by the distance of mean places, a fraction of a cell early or late.");
+      .meaning("Contact begins and ends by the distance of mean positions, a fraction of a cell early or late.");
   const double length = 0.5, speed = 1.0, gap = 0.02;
   for (const double cell : {0.02, 0.01}) {
     mpm::Simulation run =
@@ -171,11 +171,11 @@ std::string disks(const std::string& contact, double cell = 0.05, const std::str
 TEST(MaterialContact, DisksTouchWhenTheyTouch) {
   Page page("pairs", "disk_contact", "Two elastic disks with contact between them");
   page.problem("The disks of the section above, each in a velocity field of its own, smooth against each other.")
-      .exact("They touch at 1.5858 s, by their geometry; momentum and energy are kept.",
+      .exact("They touch at 1.5858 s, by their geometry; momentum and energy are conserved.",
              "conservation laws; the example is that of Sulsky, Chen and Schreyer (1994)")
       .meaning(
-          "With a distance between the bodies contact begins within a part of a cell of the touch, where one field "
-          "begins a cell early.");
+          "With detection by distance contact begins within a fraction of a cell of the exact touch; in one velocity "
+          "field it begins a cell early.");
   const double touch = (0.6 * std::sqrt(2.0) - 0.4) / (0.2 * std::sqrt(2.0));
   for (const double cell : {0.05, 0.025}) {
     mpm::Simulation run = from_text(disks("contact: {pairs: [{between: [a, b], friction: 0}]}\n", cell));

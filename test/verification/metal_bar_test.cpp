@@ -90,10 +90,9 @@ TEST(Metal, BarYieldsAndHardens) {
       .line("plate's force / area (Cauchy)", percent, pressed);
   page.meaning(
       "Yield and hardening in a run with contact, dynamics and grid are those of the law. In the cell next to the "
-      "plate "
-      "strain and stress are larger (by half at the end): the plate has moved 0.28 of that cell, and the grid's idea "
-      "of "
-      "the gap is off by as much. So read a tool's force from the tool, and stress a cell away from it.");
+      "plate strain and stress are larger (by half at the end): the plate has moved by 0.28 of that cell, and the "
+      "position of contact on the grid is wrong by as much. So read a tool's force from the tool, and stress a cell "
+      "away from it.");
 }
 
 }  // namespace metal_bar_test

@@ -92,8 +92,9 @@ TEST(MethodOrder, DomainsThatFollowTheDeformationKeepItAtLargeStrain) {
           "cells on the finer grids. USAVG, FLIP, 2 particles a cell along the bar, a time step of 2.56 s (h/m)².")
       .exact(kExact, "the kind of problem that Wallstedt and Guilkey use")
       .meaning(
-          "uGIMP's boxes keep their size, so they overlap where material is compressed and gap where it is stretched: "
-          "its error stops falling. Boxes and parallelograms that follow the deformation go on.");
+          "uGIMP's boxes keep their size, so they overlap where material is compressed and leave gaps where it is "
+          "stretched: its error stops falling. With boxes and parallelograms that follow the deformation it "
+          "continues to fall.");
   Panel& panel = page.figure().panel("A = 0.05", "cell [m]", "largest RMS error over A").log_x().log_y().order(2.0);
   const std::vector<int> cells = {8, 16, 32, 64};
   const Errors fixed = measure("bar_crossing", ShapeKind::ugimp, {}, cells);
@@ -117,7 +118,7 @@ TEST(MethodOrder, SecondOrderFmpmIsNoWorseThanFlip) {
   Page page("waves", "method_order_fmpm", "FMPM(2) against FLIP");
   page.problem("The bar of the section before, with boxes that follow the deformation: FLIP, and FMPM of order 2.")
       .exact(kExact, "the kind of problem that Wallstedt and Guilkey use")
-      .meaning("FMPM(2) filters what the grid does not see, and loses no accuracy by it.");
+      .meaning("FMPM(2) filters motion that the grid does not resolve, without a loss of accuracy.");
   Panel& panel = page.figure().panel("A = 0.05", "cell [m]", "largest RMS error over A").log_x().log_y().order(2.0);
   const Errors flip = measure("bar_crossing", ShapeKind::ugimp_stretch, {}, {8, 16, 32, 64});
   const Errors fmpm = measure("bar_crossing", ShapeKind::ugimp_stretch, {TransferKind::fmpm, 1.0, 2}, {8, 16, 32, 64});

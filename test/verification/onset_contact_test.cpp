@@ -78,11 +78,9 @@ TEST(RigidContact, BlockIsFeltWhereItMeetsThePlane) {
 TEST(RigidContact, ForceEndsWithContactAndNeverPulls) {
   Page page("contact", "rigid_release", "Force when a tool goes away");
   page.problem(
-          "A block of 0.1 m between a plate and a plane is pressed together by 2 %, held, and let go by the plane at "
-          "10 "
+          "A block of 0.1 m between a plate and a plane is compressed by 2 %, held, and released by the plane at 10 "
           "m/s, faster than it springs back. Force on the plane step by step, at 0 and 30 degrees to the grid.")
-      .exact("0 from the step after the plane has parted from the block on, and never a pull",
-             "contact without adhesion");
+      .exact("0 from the step on after the plane has left the block, and never a pull", "contact without adhesion");
   for (const ContactMethod& method : contact_methods()) {
     for (const double degrees : {0.0, 30.0}) {
       const Slope slope{degrees * kPi / 180.0};

@@ -109,10 +109,9 @@ void show(Page& page, const std::string& what, const Impact& impact) {
 TEST(PlanarImpact, OfTungstenIntoSteel) {
   Page page("metal", "planar_impact", "Planar impact of tungsten into steel");
   page.problem(
-          "A bar of tungsten hits a bar of steel at 1.70 km/s, in one dimension: cells of 0.1 mm, two particles each, "
-          "to "
-          "2 µs. Johnson-Cook and Mie-Grueneisen with the constants of Nairn & Guilkey (2015), Table I; and the same "
-          "with next to no strength (A = 1 kPa), transferred by APIC.")
+          "A bar of tungsten hits a bar of steel at 1.70 km/s, in one dimension: cells of 0.1 mm, two particles "
+          "each, to 2 µs. Johnson-Cook and Mie-Grueneisen with the constants of Nairn & Guilkey (2015), Table I; and "
+          "the same almost without strength (A = 1 kPa), with APIC.")
       .exact(
           "σ = ρ0 U u and U = C0 + S u in both bars: 49.405 GPa at an interface velocity of 1.10500 km/s; shocks of "
           "5.6956 km/s in the steel and 4.7178 km/s in the tungsten, relative to what is ahead of them. Without "
@@ -120,12 +119,10 @@ TEST(PlanarImpact, OfTungstenIntoSteel) {
           "Rankine and Hugoniot's jump conditions with the constants of Table I")
       .meaning(
           "There is no artificial viscosity. FLIP keeps a shock's energy as ringing of the particles, which strength "
-          "damps by plastic work and nothing damps in a liquid; APIC and its like take it out, but as energy that is "
-          "lost. "
-          "Either way it does not become the heat that a shock makes, and pressure stays near the isentrope, which is "
-          "47.0 "
-          "GPa in the steel and 48.9 GPa in the tungsten at the volumes of the Hugoniot: stresses are 2 to 3 % low. "
-          "Speeds are right to 1 % with strength, 3 % without.")
+          "damps by plastic work and nothing damps in a liquid; APIC and its relatives remove it, but as lost "
+          "energy. In both cases it does not become the heat of the shock, and pressure stays near the isentrope, "
+          "which is 47.0 GPa in the steel and 48.9 GPa in the tungsten at the volumes of the Hugoniot: stresses are "
+          "2 to 3 % low. Speeds are right to 1 % with strength, 3 % without.")
       .scene("planar_impact");
   const Impact metal = hit({});
   const std::vector<std::string> no_strength = {"materials.tungsten.A=1 kPa", "materials.tungsten.B=0",

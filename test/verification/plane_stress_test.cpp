@@ -116,7 +116,7 @@ TEST(PlaneStress, APressedPlateIsInUniaxialStress) {
           "Uniaxial stress: with the stretch λ along the load, the stretch across is the root of σ(across) = 0, in "
           "the plane and through the thickness.",
           "Nairn & Guilkey (2015) eq. (64), solved in the test")
-      .meaning("Thickness and width grow alike, though one is found from the law and the other by the grid.")
+      .meaning("Thickness and width grow alike, although one comes from the law and the other from the grid.")
       .scene("pressed_plate");
   mpm::Simulation simulation = start("pressed_plate");
   const std::vector<double> start_x = field(simulation, "x"), start_z = field(simulation, "z");
@@ -191,11 +191,10 @@ TEST(PlaneStress, ASpinningDiskWidensAndCarriesItsStress) {
           "ν)r²]/E; the mean change of volume is (1 - 2ν)ρω²R²/2E; for small strain.",
           "equilibrium and compatibility of a rotating disk")
       .meaning(
-          "In plane strain the volume would grow by a third more. Particles move out further than their strain says, "
-          "in "
-          "plane strain as here: forces that have no torque about the places of the step's start, and the position "
-          "update v dt + a dt²/2, let what turns gain (ωdt)²/2 of its angular momentum a step, πωdt a turn, and of its "
-          "width as much.")
+          "In plane strain the volume would grow by a third more. Particles move out further than by their strain, "
+          "here as in plane strain: forces have no torque about the positions at the step's start, and with the "
+          "position update v dt + a dt²/2 a rotating body gains (ωdt)²/2 of its angular momentum in a step, πωdt in "
+          "a turn, and as much of its width.")
       .scene("spinning_disk");
   const double stress = 4e-3 * exact.scale(), volume = 4e3 * (1.0 - 2.0 * kPoisson) * exact.scale() / young;
   for (const int cells : {20, 40}) {

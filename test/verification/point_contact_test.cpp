@@ -38,8 +38,8 @@ Curve press(const std::string& method, const std::string& shape) {
 TEST(PointContact, ForceBetweenNodesIsExact) {
   Page page("contact", "pressed_column", "A column under a plate that sinks through two cells");
   page.problem(
-          "A column of ten cells (E = 1 MPa, nu = 0) between smooth walls; a plate presses it down by two cells, past "
-          "rows of nodes and all places between them.")
+          "A column of ten cells (E = 1 MPa, nu = 0) between smooth walls; a plate presses it down by two cells, "
+          "past rows of nodes and all positions between them.")
       .exact("F = E A ln(1 / (1 - d / H)): the law's stress in uniform strain.", "uniaxial strain")
       .scene("pressed_column");
   Panel& panel = page.figure().panel("Force over the exact one", "depth [cells]", "ratio");
@@ -64,9 +64,9 @@ TEST(PointContact, ForceBetweenNodesIsExact) {
     page.report(shape + ": error at the end, at nodes", 100.0 * (nodes.ratio.back() - 1.0), "%");
   }
   page.meaning(
-      "At points the force does not know where the grid's nodes are. Contact by nodes holds the row of nodes inside "
-      "the plate: the partly filled cell at the surface is too soft, and a column loses a third of its force by the "
-      "time that the plate has sunk by a cell.");
+      "With contact at points the force does not depend on the grid's nodes. Contact at nodes acts on the row of "
+      "nodes inside the plate: the partly filled cell at the surface is too soft, and a column has lost a third of "
+      "its force when the plate has sunk by a cell.");
 }
 
 TEST(PointContact, AdhesionHoldsUpToItsStrength) {
@@ -92,12 +92,13 @@ TEST(PointContact, AdhesionHoldsUpToItsStrength) {
   }
   Page page("contact", "adhesion", "A block torn off a plate");
   page.problem(
-          "A block hangs from a fixed wall and sticks to a plate that is drawn away from it; the contact bears 2 kPa.")
-      .exact("It parts when the tension in the contact comes to its strength.", "statics")
+          "A block hangs from a fixed wall and sticks to a plate that moves away from it; the contact has a strength "
+          "of 2 kPa.")
+      .exact("They separate when the tension in the contact reaches its strength.", "statics")
       .scene("block_on_plate");
   // Between samples, 5 ms apart, the plate moves by 0.02 mm, which raises the tension by 4 % of the strength.
   page.near("tension when the surfaces part", most, kStrength * kWidth, 0.04, "N/m");
-  page.meaning("The strength is a stress: the part of the surface that a point stands for bears it.");
+  page.meaning("The strength is a stress: it acts on the part of the surface that a point represents.");
   EXPECT_TRUE(parted);
 }
 
@@ -105,9 +106,9 @@ TEST(PointContact, FrictionAtRestIsThatOfTheLaw) {
   constexpr double kGravity = 10.0, kRate = 10.0;  // gravity [m/s^2]; growth of the pull [m/s^3]
   Page page("contact", "static_friction", "A block that is pulled harder and harder");
   page.problem(
-          "A block on a plate is pulled along it by an acceleration of 10 t m/s^2; friction 0.6 at rest, 0.3 "
-          "sliding, and 0.4 either way.")
-      .exact("It starts when the pull comes to mu_s g, and then gains 10 t - mu g.", "Coulomb's law")
+          "A block on a plate is pulled along it by an acceleration of 10 t m/s^2; friction 0.6 at rest and 0.3 "
+          "sliding, and 0.4 for both.")
+      .exact("It starts when the pull reaches mu_s g, and then accelerates with 10 t - mu g.", "Coulomb's law")
       .scene("block_on_plate");
   // The block is long and flat, since the pull acts above the surface and redistributes the pressure by 6 h mu / (2 L).
   constexpr double kHeight = 0.05, kLength = 1.6;
@@ -145,9 +146,8 @@ TEST(PointContact, FrictionAtRestIsThatOfTheLaw) {
               "m/s");
   }
   page.meaning(
-      "Where friction falls when sliding begins, the surface gives way from where it is pressed least, as a real one "
-      "does: "
-      "the pull shifts the pressure by some per cent, and that is how much earlier it starts.");
+      "If friction falls when sliding begins, the surface gives way first where the pressure is least, as a real one "
+      "does: the pull redistributes the pressure by some per cent, and the block starts earlier by as much.");
 }
 
 TEST(PointContact, FrictionTakesTheKineticEnergy) {
@@ -165,13 +165,13 @@ TEST(PointContact, FrictionTakesTheKineticEnergy) {
   const mpm::ContactReport report = simulation.take_contact(0);
   Page page("contact", "friction_stops", "A block that slides to a stop");
   page.problem("A block slides at 1 m/s on a plate with friction 0.4, until it stops.")
-      .exact("Distance v^2 / (2 mu g), friction takes m v^2 / 2, and the force on the plate is mu m g.",
+      .exact("The distance is v^2 / (2 mu g), friction dissipates m v^2 / 2, and the force on the plate is mu m g.",
              "Coulomb's law")
       .scene("block_on_plate");
   page.near("distance", place() - from, kSpeed * kSpeed / (2.0 * 0.4 * 10.0), 0.02, "m");
   page.near("energy that friction took", report.friction_energy, 0.5 * kMass * kSpeed * kSpeed, 0.02, "J/m");
   page.near("area of contact", report.area, 0.4, 0.02, "m^2/m");
-  page.meaning("Friction heat is known for each body; centre of pressure and area are those of the surface.");
+  page.meaning("Friction heat is reported for each body; centre of pressure and area are those of the surface.");
 }
 
 }  // namespace point_contact_test

@@ -181,9 +181,8 @@ void ask(Page& page, const std::string& label, const Disk& disk) {
 
 const char* const kProblem =
     "A disk of radius 50 mm and height 10 mm between smooth plates (neo-Hookean, E = 2300 MPa, nu = 0.33), cells of "
-    "2.5 mm with 4 particles, is closed in on by a ring at 1/100 of the speed of sound, to 40 % of its radius. FLIP "
-    "runs "
-    "with cfl 0.2: at 0.5 it breaks up beyond a compression of 60 %, whatever its functions.";
+    "2.5 mm with 4 particles, is compressed by a ring that closes at 1/100 of the speed of sound, to 40 % of its "
+    "radius. FLIP runs with cfl 0.2: at 0.5 it breaks up beyond a compression of 60 % with any shape function.";
 
 TEST(RadialCompression, DomainsAtTheAxis) {
   Page page("axisymmetric", "radial_compression", "Radial compression: domains fitted to the axis (figure 5)");
@@ -191,16 +190,14 @@ TEST(RadialCompression, DomainsAtTheAxis) {
       .exact("F = diag(l, 1, l): J = l^2 = 16 % and radii l R, everywhere", "Nairn & Guilkey (2015) (63)")
       .scene("radial_compression")
       .meaning(
-          "The paper finds J constant with uGIMP and CPDI whose domains are cut or shrunk at the axis, poor with whole "
-          "uGIMP boxes, a little off beside the axis with whole CPDI domains, and classic MPM unstable. So it is here, "
-          "but for uGIMP: "
-          "with FLIP and the paper's way to move particles one crosses the axis first. The reason is in the right "
-          "panel: "
-          "averages with the weight r are those of the centre of mass, and move what lies beside the axis too fast "
-          "(method reference 3.5). Moved by the grid's velocity at its place (`motion: point`, the default) a particle "
-          "stays where it should, and J is exact; with APIC, which adds no noise, to 2e-4. uGIMP's boxes do not shrink "
-          "with the material: "
-          "J is within 1 % at the axis, 4 % off at a third of the radius and 11 % at the rim.");
+          "The paper finds J constant with uGIMP and CPDI whose domains are cut or shrunk at the axis, poor with "
+          "whole uGIMP boxes, slightly wrong beside the axis with whole CPDI domains, and classic MPM unstable. The "
+          "results here are the same, except for uGIMP: with FLIP and the paper's way to move particles one crosses "
+          "the axis first. The right panel shows the reason: averages with the weight r are those of the centre of "
+          "mass, and move particles beside the axis too fast (method reference 3.5). Moved by the grid's velocity at "
+          "its position (`motion: point`, the default) a particle stays where it should, and J is exact; with APIC, "
+          "which adds no noise, to 2e-4. uGIMP's boxes do not shrink with the material: J is within 1 % at the axis, "
+          "4 % off at a third of the radius and 11 % at the rim.");
   Drawing drawing = draw_on(page);
   const Overrides mean = {"motion=mean"}, whole = {"motion=mean", "domains=whole"};
   const Outcome cpdi = show(drawing, method("CPDI, FLIP, mean", "cpdi", "flip", mean));
@@ -232,8 +229,9 @@ TEST(RadialCompression, PlanarFunctions) {
       .scene("radial_compression")
       .meaning(
           "As in the paper: planar functions are off at the first particles when the nodes beyond the axis are left "
-          "free, and acceptable when those mirror their twins; functions with the weight r do not see those nodes. The "
-          "paper's curve for nodes held at zero lies between the two; here it hardly differs from free nodes in J.");
+          "free, and acceptable when those mirror the nodes inside; functions with the weight r do not use those "
+          "nodes. The paper's curve for nodes held at zero lies between the two; here it hardly differs from free "
+          "nodes in J.");
   Drawing drawing = draw_on(page);
   const auto planar = [](const std::string& ghosts) {
     return method("planar, " + ghosts, "ugimp", "apic", {"motion=mean", "functions=planar", "ghosts=" + ghosts});
@@ -287,12 +285,10 @@ TEST(RadialCompression, StressAndBreakdown) {
              "Nairn & Guilkey (2015) (66), (67)")
       .scene("radial_compression")
       .meaning(
-          "Breakdown is where J is off by a quarter within 16 mm of the axis, or a particle is lost. The paper reports "
-          "88 % "
-          "for uGIMP and about 93 % for CPDI. Moved as there, uGIMP loses a particle through the axis at 79 % here; "
-          "nothing else breaks before 97 %, "
-          "where three cells and a half are left, though FLIP's noise grows: uGIMP with it is off by 5 % of sigma_rr "
-          "already at 84 %.");
+          "Breakdown is where J is off by a quarter within 16 mm of the axis, or a particle is lost. The paper "
+          "reports 88 % for uGIMP and about 93 % for CPDI. Moved as there, uGIMP loses a particle through the axis "
+          "at 79 % here; nothing else breaks before 97 %, where three cells and a half are left, though FLIP's noise "
+          "grows: with uGIMP and FLIP the error is 5 % of sigma_rr already at 84 %.");
   Panel& panel = page.figure().panel("Mean stress", "J [%]", "stress [MPa]");
   Numbers j, rr, zz;
   for (double v = 100.0; v > 2.95; v -= 1.0) {

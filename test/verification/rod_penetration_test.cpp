@@ -81,10 +81,9 @@ void describe(Page& page) {
           "Nairn & Guilkey (2015) 4.3, table I; Alekseevskii (1966), Tate (1967)")
       .scene("rod_penetration")
       .meaning(
-          "The nose comes faster with finer cells, and less so each time. Rod and target cannot slide on each other, "
-          "so "
-          "what is eroded has to shear the metal beside it; that and cells of an eighth of the rod's radius hold the "
-          "nose back.");
+          "The nose is faster with finer cells, by less each time. Rod and target cannot slide on each other, so "
+          "eroded metal has to shear the metal beside it; this, and cells of an eighth of the rod's radius, slow the "
+          "nose.");
 }
 
 void tell(Page& page, const std::string& label, const Penetration& run) {

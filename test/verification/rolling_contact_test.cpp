@@ -52,8 +52,8 @@ TEST(RigidContact, DiskRollsWithoutSlip) {
   const double steepness = 10.0 * kPi / 180.0, exact = 2.0 / 3.0 * kGravity * std::sin(steepness), radius = 0.1;
   page.problem(
           "A disk of 0.1 m radius (E = 1 MPa, particles in rings, 14 cells a radius with points and 8 with nodes) is "
-          "let go on an incline of 10 degrees, friction 0.8; "
-          "the incline lies at 0 and 30 degrees to the grid. Acceleration from 0.1 to 0.6 s.")
+          "released on an incline of 10 degrees, friction 0.8; the incline lies at 0 and 30 degrees to the grid. "
+          "Acceleration from 0.1 to 0.6 s.")
       .exact("2/3 g sin 10°", "rigid disk: I = m R² / 2");
   for (const ContactMethod& method : contact_methods()) {
     for (const double degrees : {0.0, 30.0}) {
@@ -208,8 +208,9 @@ TEST(RigidContact, BeltRoundADrum) {
   // Friction acts at the drum, tension at the middle of the thickness: (R + t/2) dT = mu R T dphi.
   const double exact = std::exp(friction * kPi * belt.radius / (belt.radius + 0.5 * belt.thickness));
   page.problem(
-          "A strip 0.02 m thick (2 cells, E = 1 MPa) lies over half a drum of 0.2 m radius, friction 0.3. Its ends are "
-          "pulled by 40 N, then one of them ever more, slowly, until the other has slipped by a tenth of a cell.")
+          "A strip 0.02 m thick (2 cells, E = 1 MPa) lies over half a drum of 0.2 m radius, friction 0.3. Both ends "
+          "are pulled by 40 N, then one of them by a slowly growing force, until the other has slipped by a tenth of "
+          "a cell.")
       .exact(
           fmt::format("T2/T1 = exp(0.3 pi) = {:.3f} of a thin belt; of this one, whose tension has the longer lever, "
                       "exp(0.3 pi R / (R + t/2)) = {:.3f}",

@@ -69,11 +69,10 @@ TEST(SelfWeight, StressAndSinking) {
           "u = -(ρ₀g/M)(HZ - Z²/2) with M = K + 4G/3.",
           "equilibrium in uniaxial strain, where neither the weight above a section nor its area changes")
       .meaning(
-          "Strain is constant over a cell for the particles of this method that do not reach over its edge, so stress "
-          "goes "
-          "down in steps: a quarter of a cell's weight above and below the line, which the mean of a cell removes. A "
-          "particle's own size does not follow its deformation: the more a column is squeezed, the more neighbours "
-          "overlap, and stress errs.")
+          "Strain is constant over a cell for particles whose boxes do not extend over its edge, so stress is a "
+          "staircase: a quarter of a cell's weight above and below the line, which the mean over a cell removes. A "
+          "particle's box does not follow its deformation: the more a column is compressed, the more neighbours "
+          "overlap, and the larger is the error of stress.")
       .scene("self_weight");
   const double young = 1e6, poisson = 0.3;
   const double modulus = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));

@@ -90,15 +90,13 @@ TEST(Slice, AgreesWithPlaneStrain) {
           "walls.")
       .exact(
           "Both are one problem, and weights along y add up to one over a cell: every particle of the slice has the "
-          "state of "
-          "that of the plane at its place.",
+          "state of the particle in plane strain at the same position.",
           "the method's own sums; a difference is round-off")
       .meaning(
-          "Planar and three-dimensional kernels, laws, walls, contact and reports agree. (They did not until walls "
-          "acted before "
-          "contact as well as after it: friction saw the velocity that the wall was about to take away.) The time step "
-          "is given: "
-          "soil's wave speed jumps where it yields, and there round-off could choose another number of steps.")
+          "Planar and three-dimensional kernels, laws, walls, contact and reports agree. (This requires that walls "
+          "act before contact as well as after it; otherwise friction would act on velocity that the wall removes "
+          "afterwards.) The time step is given, since the wave speed of soil jumps where it yields, and round-off "
+          "could then change the number of steps.")
       .scene("pressed_block");
   Panel& panel = page.figure().panel("Largest difference so far", "time [s]", "over the field's largest value").log_y();
   const std::vector<std::pair<std::string, std::string>> laws = {

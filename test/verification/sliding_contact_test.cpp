@@ -91,7 +91,7 @@ TEST(RigidContact, BlockSlidesDownAtAnyAngleToTheGrid) {
     say("acceleration, " + name, found.acceleration, exact, "m/s2");
     say("friction over pressing force, " + name, found.friction, friction, "");
   });
-  page.meaning("With the normal of the surface itself friction does not depend on how the grid lies.");
+  page.meaning("With the normal of the surface itself friction does not depend on the orientation of the grid.");
 }
 
 TEST(RigidContact, BlockBeginsToSlideWhenItShould) {
@@ -132,7 +132,7 @@ TEST(RigidContact, BlockBeginsToSlideWhenItShould) {
     say("acceleration at which it begins, " + name, threshold, exact, "m/s2");
     say("way before it moves at 1 cm/s, " + name, crept / kCell, 0.0, "cells");
   });
-  page.meaning("What is held is held to the limit of friction, and not beyond.");
+  page.meaning("The block sticks up to the limit of friction, and not beyond.");
 }
 
 /// Relative deviations of a force from its mean: of means over windows of one cell's travel, and of single samples.
@@ -206,8 +206,8 @@ TEST(RigidContact, ForceOfSteadySlidingIsEven) {
     });
   }
   page.meaning(
-      "Without friction the force keeps to the weight within half a percent over each cell's travel. With friction an "
-      "elastic block swings by itself, and the force on the plane with it; damping takes that away.");
+      "Without friction the force equals the weight within half a percent over each cell's travel. With friction an "
+      "elastic block vibrates without an external cause, and so does the force on the plane; damping removes this.");
 }
 
 }  // namespace sliding_contact_test

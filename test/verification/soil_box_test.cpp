@@ -117,9 +117,8 @@ TEST(SoilBox, OedometerAndTriaxialTestAreExact) {
   second.exact("limit", {0.0, axial.back()}, {kPassive, kPassive});
   second.line("axial over lateral stress", axial, ratio).line("p over p of the first part", axial, pressure);
   page.meaning(
-      "A law gives in the solver what it gives on its own: uniform deformation stays uniform, walls and plates without "
-      "friction leave "
-      "no trace, and the force on a plate is the stress under it times its area.");
+      "A law gives the same results in the solver as alone: uniform deformation stays uniform, walls and plates "
+      "without friction do not disturb it, and the force on a plate is the stress under it times its area.");
 }
 
 }  // namespace soil_box_test

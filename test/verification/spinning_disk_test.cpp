@@ -67,17 +67,16 @@ TEST(SpinningDisk, AngularMomentumOfATurn) {
           "speed. It starts unstrained, so that it also swings along its radius. 20 and 40 cells across; transfer "
           "FLIP.")
       .exact(
-          "The angular momentum stays. Of the stress, the mean over a turn: σr = (3 + n)s(R² - r²), σθ = s[(3 + n)R² - "
-          "(1 + "
-          "3n)r²], with n = ν/(1 - ν) and s = ρω²/8, for small strain; the mean of σr + σθ over the disk is ρω²R²/2.",
+          "The angular momentum is constant. The mean stress over a turn is σr = (3 + n)s(R² - r²), σθ = s[(3 + n)R² "
+          "- (1 + 3n)r²], with n = ν/(1 - ν) and s = ρω²/8, for small strain; the mean of σr + σθ over the disk is "
+          "ρω²R²/2.",
           "conservation; equilibrium and compatibility of a rotating disk")
       .meaning(
-          "FLIP does not keep angular momentum: particles move with the velocity of the grid, not with their own. The "
-          "change "
-          "is of the order of a percent a turn, of either sign, larger in a stiffer disk, and does not fall with the "
-          "cell or the step alone. A part of PIC takes its share every step. USAVG keeps the energy; USF feeds the "
-          "disk's "
-          "vibrations. One term of the exponential instead of two lets rotation swell the disk, which shows as energy.")
+          "FLIP does not conserve angular momentum: particles move with the velocity of the grid, not with their "
+          "own. The change is of the order of a percent a turn, of either sign, larger in a stiffer disk, and does "
+          "not fall with the cell or the step alone. A part of PIC removes some in every step. USAVG conserves the "
+          "energy; USF adds energy to the disk's vibrations. With one term of the exponential instead of two the "
+          "rotating disk swells, which shows as energy.")
       .scene("spinning_disk");
   const Turn usavg = spin({}), usf = spin({"method.update=usf"});
   const Turn fine = spin({"grid.cell=0.05"}), fine_usf = spin({"grid.cell=0.05", "method.update=usf"});

@@ -93,11 +93,10 @@ TEST(Metal, TaylorBar) {
   Page page("metal", "taylor_bar", "Taylor's test: a copper rod hits a wall");
   check(page, 0.8, "four", 0.05);
   page.meaning(
-      "The length is near that of finite elements and comes nearer on a finer grid. The mushroom is a fifth too small "
-      "and hardly grows with the grid: at the foot the boxes of particles keep their first size while the metal there "
-      "is "
-      "drawn out to twice its width, and the flow at constant volume locks. Shape functions whose domains follow the "
-      "deformation are what this needs.");
+      "The length is near that of finite elements and comes nearer on a finer grid. The mushroom is a fifth too "
+      "small and hardly grows with the grid: at the foot the boxes of particles keep their initial size while the "
+      "metal there is stretched to twice its width, and the flow at constant volume locks. This needs shape "
+      "functions whose domains follow the deformation.");
 }
 
 TEST(FullMetal, TaylorBarFine) {

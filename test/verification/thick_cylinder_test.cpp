@@ -58,9 +58,8 @@ TEST(Metal, ThickCylinderReachesItsLimitLoad) {
       "nu = 0.3, yield stress 250 MPa), is pushed outwards by a radial body force in its innermost 20 mm that grows by "
       "250 MPa (times the loaded thickness) in 2 ms. A quarter of it, cells of 5 mm, uGIMP, USAVG.");
   page.exact(
-      "the load that fully plastic metal resists is that of a pressure inside, 2/sqrt(3) yield ln(b/a) = 200.1 MPa; "
-      "the "
-      "load's place does not matter for it.",
+      "the limit load of fully plastic metal is that of an inner pressure, 2/sqrt(3) yield ln(b/a) = 200.1 MPa; it "
+      "does not depend on where the load acts.",
       "Hill (1950), The Mathematical Theory of Plasticity, ch. 5; for the body force by equilibrium, derived in the "
       "test");
   const mpm::SimulationDefinition definition = quarter(0.005);
@@ -119,8 +118,8 @@ TEST(Metal, ThickCylinderReachesItsLimitLoad) {
   for (double& e : percent) e *= 100.0;
   page.figure().panel("Plastic strain at the end", "x [m]", "z [m]").particles("plastic strain [%]", x, z, percent);
   page.meaning(
-      "Metal that flows everywhere carries its limit load and no more: locking of the linear shape functions, which "
-      "raises such loads on coarse grids, stays within what is shown.");
+      "Metal that yields everywhere carries its limit load and no more: locking of the linear shape functions, which "
+      "raises such loads on coarse grids, stays within the tolerance.");
 }
 
 }  // namespace thick_cylinder_test

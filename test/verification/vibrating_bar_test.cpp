@@ -105,10 +105,9 @@ TEST(VibratingBar, KeepsItsPeriodAndAmplitude) {
       .exact("u(X, t) = v0/(βc) sin(βX) sin(βct) with β = π/2L and c = √(E/ρ) = 100 m/s: the period is 4L/c = 40 ms.",
              "the wave equation ρ u_tt = E u_xx")
       .meaning(
-          "Period and amplitude stay. The grid's waves are a little slow, by the square of cell over wave length. USF "
-          "updates "
-          "stress with velocities half a step off: its energy swings with the motion, without a trend; USAVG's hardly "
-          "moves.")
+          "Period and amplitude are constant. Waves on the grid are slightly slow, by the square of cell over wave "
+          "length. USF updates stress with velocities half a step away: its energy varies with the motion, without a "
+          "trend; that of USAVG hardly varies.")
       .scene("vibrating_bar");
   const double v0 = 1e-4 * kSpeed, exact_amplitude = v0 / (kBeta * kSpeed);
   const Vibration usavg = vibrate("usavg", v0), usf = vibrate("usf", v0);
@@ -200,13 +199,11 @@ TEST(VibratingBar, CrossesCells) {
           "side and particles pass from cell to cell. Method USAVG; neo-Hookean, which has an energy to keep.")
       .exact(
           "A strain of v0/c changes stiffness and length by as much: the bar reaches farther outwards than inwards, "
-          "for "
-          "longer. By second differences on 100 elements that lie in the material, converged to 1e-4.",
+          "for longer. Computed by second differences on 100 elements fixed to the material, converged to 1e-4.",
           "the wave equation ρ u_tt = dP/dX with the law's nominal stress P")
       .meaning(
-          "No jump when particles pass from cell to cell, which is what boxes around the particles are for. The wider "
-          "the swing, "
-          "the more energy goes: a percent in ten periods at a strain of 0.1.")
+          "There is no jump when particles pass from cell to cell, which is the purpose of boxes around the "
+          "particles. The larger the amplitude, the more energy is lost: a percent in ten periods at a strain of 0.1.")
       .scene("vibrating_bar");
   Panel& tip = page.figure().panel("Particle next to the free end", "time [ms]", "displacement over the amplitude");
   Panel& energy = page.figure().panel("Energy", "time [ms]", "kinetic + elastic, over the start");

@@ -79,7 +79,9 @@ TEST(Viscoelastic, OneElementRelaxesAndCreeps) {
       .panel("Creep under 10 Pa", "time [s]", "shear [1e-6]")
       .exact("exact", creep_time, exact_shear)
       .points("run", creep_time, shear);
-  page.meaning("Held strain relaxes exactly whatever the step; the step matters only while the strain changes.");
+  page.meaning(
+      "Stress at constant strain relaxes exactly with any step; the step matters only while the strain "
+      "changes.");
 }
 
 }  // namespace viscoelastic_test

@@ -1,5 +1,5 @@
-// Contact of tools of revolution on an axisymmetric grid, at nodes set by hand: the normal on the axis, what is left of
-// a wrench around the axis, and a ring that closes.
+// Contact of tools of revolution on an axisymmetric grid, at nodes set by hand: the normal on the axis, the wrench of a
+// whole revolution, and a ring that closes.
 #include <gtest/gtest.h>
 
 #include "mpm/contact/rigid_contact.hpp"
@@ -10,7 +10,7 @@ namespace axisymmetric_contact_test {
 
 constexpr double kStep = 0.5;  // [s]
 
-/// A tool and one block of a grid of 1 m cells, x = r and z from 0.
+/// A tool and one block of a grid with cells of 1 m; x is r, and r and z begin at 0.
 class ToolAmongNodes {
  public:
   explicit ToolAmongNodes(const RigidBodyDefinition& tool)
@@ -21,7 +21,7 @@ class ToolAmongNodes {
     }
   }
 
-  /// Material of `mass` [kg], of its whole ring, at node (r, z) with velocity (v_r, v_z).
+  /// Puts material of `mass` [kg], that of the whole ring, at node (r, z) with velocity (v_r, v_z).
   void set(double r, double z, double mass, double v_r, double v_z) {
     const int n = node(r, z), block = this->block();
     grid_.mass.at(block, 0, n) = mass;
@@ -74,18 +74,18 @@ RigidBodyDefinition ring(double inner, double opened) {
 }
 
 TEST(AxisymmetricContact, OnTheAxisTheNormalIsAlongIt) {
-  // A cone of 90 degrees, whose side pushes alike down and outwards beside the axis.
+  // The side of a cone of 90 degrees pushes equally downwards and outwards beside the axis.
   ToolAmongNodes cone(tool(make_cone(2.0, 2.0), {0.0, 0.0, 0.5}));
   cone.set(0.0, 1.0, 1.0, 0.0, 4.0);
   cone.set(1.0, 2.0, 1.0, 0.0, 4.0);
   cone.step();
   EXPECT_EQ(cone.velocity(0.0, 1.0), Vec2(0.0, 0.0));
-  // The part of (0, 4) along (1, -1) / sqrt 2 is taken away.
+  // The component of (0, 4) along (1, -1) / sqrt 2 is removed.
   EXPECT_LT((cone.velocity(1.0, 2.0) - Vec2(2.0, 2.0)).norm(), 4e-15);
 }
 
 TEST(AxisymmetricContact, ANodeOnTheAxisThatIsPushedSidewaysAloneIsFree) {
-  // In the middle of a cylinder longer than wide its side is nearest.
+  // In the middle of a cylinder that is longer than wide its side is nearest.
   ToolAmongNodes cylinder(tool(make_cylinder(1.0, 20.0), {0.0, 0.0, 2.0}));
   cylinder.set(0.0, 2.0, 1.0, -1.0, -3.0);
   cylinder.step();
@@ -110,16 +110,16 @@ TEST(AxisymmetricContact, ReportsWhatIsLeftAroundTheAxis) {
   EXPECT_NEAR(report.per_radian.x(), -12.0 / kTurn, 1e-14);
   EXPECT_NEAR(report.per_radian.z(), 12.0 / kTurn, 1e-14);
   EXPECT_EQ(report.per_radian.y(), 0.0);
-  // Pressed at z = 2, on the axis.
+  // The centre of pressure is at z = 2, on the axis.
   EXPECT_NEAR((report.centre_of_pressure() - Vec3(0.0, 0.0, 2.0)).norm(), 0.0, 1e-15);
-  // The account keeps the radial momentum that the material was given.
+  // The account includes the radial momentum given to the material.
   std::vector<ImpulseAccount> accounts;
   cone.contact().accounts(accounts);
   EXPECT_NEAR((accounts.at(0).impulse - Vec3(6.0, 0.0, -6.0)).norm(), 0.0, 1e-14);
 }
 
 TEST(AxisymmetricContact, ARingCarriesWhatItHoldsAlongEvenly) {
-  // Its inner face is at 1.5 + 0.5 = 2 m and closes by 3 m/s.
+  // The inner face is at 1.5 + 0.5 = 2 m and closes at 3 m/s.
   ToolAmongNodes jaws(ring(1.5, 0.5));
   jaws.body().command_velocity({{-3.0, 0.0, 0.0}, Vec3::Zero()});
   EXPECT_EQ(jaws.body().velocity_at({2.0, 0.0, 1.0}), Vec3(-3.0, 0.0, 0.0));

@@ -1,5 +1,5 @@
-// What a rigid body's contact reports: sums at nodes set by hand, and a whole run against symmetry and the moment's
-// identity.
+// The report of a rigid body's contact: sums at nodes set by hand, and a whole run against symmetry and the identity of
+// moments.
 #include "mpm/contact/contact_report.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace contact_report_test {
 
 constexpr double kStep = 0.5;  // [s]
 
-/// A plate whose upper face lies at z = 0, its origin 0.1 m below, on a grid of 1 m cells with one block in use.
+/// A plate with its upper face at z = 0 and its origin 0.1 m below, on a grid with cells of 1 m and one block in use.
 class PlateBelowNodes {
  public:
   explicit PlateBelowNodes(double friction) : body_(definition(friction)), contact_(body_, fields_, 1) {
@@ -24,7 +24,7 @@ class PlateBelowNodes {
     }
   }
 
-  /// Material of `mass` [kg] at node (x, y, 0) with `velocity`.
+  /// Puts material of `mass` [kg] at node (x, y, 0) with `velocity`.
   void set(int x, int y, double mass, const Vec3& velocity) {
     const int block = grid_.blocks.find(grid_.layout.key({0, 0, 0}));
     for (int n = 0; n < 64; ++n) {
@@ -70,7 +70,7 @@ TEST(ContactReport, CentreOfPressureIsTheMeanPlaceWeightedByTheNormalImpulse) {
   plate.step();
   const ContactReport report = plate.take();
   EXPECT_EQ(report.nodes, 2);
-  // (6 (1, 2) + 2 (3, 0)) / 8; all of these numbers are exact in binary, but for the origin's 0.1.
+  // (6 (1, 2) + 2 (3, 0)) / 8; all these numbers are exact in binary except the origin's 0.1.
   EXPECT_NEAR((report.centre_of_pressure() - Vec3(1.5, 1.5, 0.0)).norm(), 0.0, 1e-15);
   EXPECT_EQ(report.pressing, 8.0 / kStep);
   EXPECT_EQ(report.mean.force, Vec3(0.0, 0.0, -8.0 / kStep));
@@ -86,7 +86,7 @@ TEST(ContactReport, FrictionIsThePartAlongTheSurface) {
   EXPECT_EQ(report.friction, Vec3(2.0, 1.0, 0.0) / kStep);
   EXPECT_EQ(report.mean.force, Vec3(2.0, 1.0, -16.0) / kStep);
   EXPECT_EQ(report.pressing, 16.0 / kStep);
-  // Friction has no weight: both press alike.
+  // Friction does not count: both nodes press equally.
   EXPECT_NEAR((report.centre_of_pressure() - Vec3(2.0, 1.0, 0.0)).norm(), 0.0, 1e-15);
 }
 
@@ -96,7 +96,7 @@ TEST(ContactReport, CentreOfPressureTravelsWithTheBody) {
   plate.set(1, 1, 1.0, {0.0, 0.0, -1.0});
   plate.step();
   plate.body().end_step(kStep);
-  // It pressed at (1, 1), 1 m ahead of the body's origin, which has gone on by 4 m.
+  // The pressure acted at (1, 1), 1 m ahead of the body's origin, which has moved on by 4 m.
   EXPECT_NEAR((plate.take().centre_of_pressure() - Vec3(5.0, 1.0, 0.0)).norm(), 0.0, 1e-15);
 }
 
@@ -112,7 +112,7 @@ TEST(ContactReport, NothingPressedHasNoCentre) {
   EXPECT_EQ(report.pressing, 0.0);
 }
 
-// A block of 0.4 x 0.2 m and 0.2 m high on a smooth plate, the plate's origin far from the block's middle.
+// A block of 0.4 x 0.2 m and 0.2 m high on a smooth plate, whose origin is far from the block's middle.
 SimulationDefinition block_on_plate() {
   SimulationDefinition d;
   d.grid = {Vec3::Constant(0.1), Vec3::Zero(), Vec3(2.0, 1.6, 1.0)};
@@ -141,16 +141,16 @@ SimulationDefinition block_on_plate() {
 
 TEST(ContactReport, AFlatBlockPressesAtItsMiddle) {
   SimulationDefinition definition = block_on_plate();
-  definition.contact.method = ContactMethod::nodes;  // at points sweeps go from one end to the other, and end early
+  definition.contact.method = ContactMethod::nodes;  // sweeps over points have an order, which is not symmetric
   Simulation simulation(std::move(definition), {1});
   for (int i = 0; i < 20; ++i) simulation.advance();
   const ContactReport report = simulation.take_contact(0);
   ASSERT_GT(report.pressing, 0.0);
-  // Symmetry about the block's middle. Mirrored halves add the same numbers in another order, so they differ by
-  // round-off, 1e-16 of the size, which a few hundred steps of a stable run do not multiply by more than a thousand.
+  // The problem is symmetric about the block's middle. Mirrored halves add the same numbers in another order, so they
+  // differ by round-off, 1e-16 of their size, which a few hundred stable steps multiply by less than a thousand.
   EXPECT_NEAR(report.centre_of_pressure().x(), 1.2, 1e-13);
   EXPECT_NEAR(report.centre_of_pressure().y(), 0.5, 1e-13);
-  // Nodes on the face, and in the row below it once the block's edge has sagged past it.
+  // Nodes lie on the face, and in the row below it once the block's edge has sagged past that.
   EXPECT_LE(report.centre_of_pressure().z(), 0.2 + 1e-13);
   EXPECT_GT(report.centre_of_pressure().z(), 0.1);
 }
@@ -161,8 +161,8 @@ TEST(ContactReport, OnAFlatSmoothFaceTheTorqueIsArmTimesForce) {
   for (int i = 0; i < 20; ++i) simulation.advance();
   const ContactReport report = simulation.take_contact(0);
   ASSERT_GT(report.pressing, 0.0);
-  // Every node gives a force along z at its arm: the moments about the centre of pressure cancel, and nothing turns
-  // about z. Round-off of the sums over some thousand terms: 1e-12 of force times the arm.
+  // Every node contributes a force along z at its arm: the moments about the centre of pressure cancel, and there is no
+  // moment about z. Round-off of sums over some thousand terms: 1e-12 of force times arm.
   const Vec3 left = report.mean.torque - report.arm.cross(report.mean.force);
   EXPECT_LT(left.norm(), 1e-12 * report.arm.norm() * report.mean.force.norm());
   EXPECT_GT(report.mean.torque.norm(), 0.1 * report.arm.norm() * report.mean.force.norm());

@@ -1,5 +1,5 @@
-// Every pass of a step against the reference (kernel_reference.hpp), which begins each pass with the numbers that the
-// kernels begin it with.
+// Every pass of a step against the reference (kernel_reference.hpp), which starts each pass from the same numbers as
+// the kernels.
 #pragma once
 
 #include "kernel_compare.hpp"
@@ -9,7 +9,7 @@ namespace mpm::test {
 /// FLIP, or a mixture with PIC.
 inline Transfer flip(double fraction) { return {TransferKind::flip, fraction, 2}; }
 
-/// A scene, and the passes of its step beside the reference's.
+/// A scene, and the passes of its step compared with those of the reference.
 template <class Geometry, class T>
 class Kernels : KernelComparison<Geometry, T> {
   using Base = KernelComparison<Geometry, T>;
@@ -29,7 +29,7 @@ class Kernels : KernelComparison<Geometry, T> {
   using Base::views;
 
  public:
-  /// `axis`: of rings.
+  /// `axis`: rules of the shape function at the axis, for rings.
   Kernels(ShapeKind shape, const paths::Specimen& specimen, Places places, Isa isa, const Transfer& transfer,
           bool average_dilatation = false, const AxisRules& axis = {})
       : Base(std::string(shape_name(shape)) + ", " + specimen.material.name + ", " + name_of(places) + ", " +
@@ -37,10 +37,11 @@ class Kernels : KernelComparison<Geometry, T> {
              shape, specimen, places, isa, settings(transfer, average_dilatation), axis),
         context_{scene_.fields, scene_.dt} {}
 
-  /// A step of either schedule, pass by pass; a force of the stress as it is beside that of the strain's pass.
+  /// Checks a step of either schedule, pass by pass, and the force of the present stress beside that of the strain
+  /// pass.
   void check(bool regather) {
     for (ParticleSet& set : scene_.sets) {
-      if (!regather) set.next_x.clear();  // particles are placed at once
+      if (!regather) set.next_x.clear();  // particles move at once
     }
     scatter_momentum();
     strain_and_force(regather ? 0.5 * scene_.dt : scene_.dt);
@@ -77,8 +78,8 @@ class Kernels : KernelComparison<Geometry, T> {
     scene_.reference.force(
         average());  // of the kernels' stress: a stress that is off by its tolerance is another matter
     compare_nodes("force", scene_.grid.force, [](const ReferenceNode& n, int c) { return n.force[c]; });
-    // Nothing pushes from outside but, radially, the hoop stress: GIMP notes (1.26), the sum of G over the nodes of a
-    // particle is zero.
+    // The total is zero, since the sum of G over the nodes of a particle is zero (GIMP notes (1.26)), except for the
+    // radial force of the hoop stress.
     expect_total("force", scene_.grid.force, [](const auto& p, int c) { return c == 0 ? p.hoop_force : 0.0; });
   }
 
@@ -93,7 +94,7 @@ class Kernels : KernelComparison<Geometry, T> {
     double gravity[3] = {};
     for (int k = 0; k < kDim; ++k) gravity[k] = scene_.settings.gravity[scene_.grid.layout.axis(k)];
     scene_.reference.nodal_update(scene_.dt, gravity, scene_.grid.least_mass);
-    // Nodes are double in either precision.
+    // Nodes are double with both precisions of particles.
     compare_nodes(
         "acceleration", scene_.grid.force, [](const ReferenceNode& n, int c) { return n.force[c]; }, 1e-12);
     compare_nodes(
@@ -112,7 +113,7 @@ class Kernels : KernelComparison<Geometry, T> {
       scene_.mechanics->add_increment(context_);
     }
     scene_.reference.add_increments(transfer.order, transfer.kind == TransferKind::xpic, scene_.grid.least_mass);
-    // As momentum: what little mass a node has is rounded as its momentum is, by numbers of the size of a particle's.
+    // Compared as momentum: the round-off of a node's small mass, like that of its momentum, is relative to particles.
     NodalField momentum = zero_field();
     scene_.each_node([&](int b, int n, const ReferenceNode& node) {
       for (int c = 0; c < kDim; ++c) momentum.at(b, c, n) = node.mass * scene_.grid.velocity.at(b, c, n);
@@ -201,7 +202,7 @@ class Kernels : KernelComparison<Geometry, T> {
     expect_total("load", field, [](const auto& p, int c) { return p.mass * p.load[c]; });
   }
 
-  /// A field of random velocities to the particles and back.
+  /// Checks the projection of random velocities to the particles and back.
   void project() {
     std::uniform_real_distribution<double> u(-1.0, 1.0);
     scene_.each_reference([](auto& p) { Reference<Geometry>::note_domain(p); });
@@ -217,7 +218,7 @@ class Kernels : KernelComparison<Geometry, T> {
     compare_nodes("projection", to, [](const ReferenceNode& n, int c) { return n.to[c]; });
   }
 
-  /// Domains as they are now leave the tile of their block or do not; then particles are shifted, and some do.
+  /// Checks which domains leave the tile of their block: at first, and after particles were shifted so that some do.
   void check_outgrown() {
     ASSERT_NE(scene_.kernels.outgrown, nullptr);
     EXPECT_EQ(compare_outgrown(), 0) << name_;
@@ -254,7 +255,7 @@ class Kernels : KernelComparison<Geometry, T> {
     std::fill(field.block(0), field.block(scene_.grid.blocks.size()), 0.0);
     return field;
   }
-  // What the first pass of a step does.
+  // Does the work of the first pass of a step.
   void note_domains() {
     if (follows_deformation(scene_.shape)) scene_.mechanics->scatter_momentum(context_);
   }

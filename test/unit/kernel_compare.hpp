@@ -1,5 +1,5 @@
-// Fields of the grid and of particles, as the kernels have left them, against the reference (kernel_reference.hpp), and
-// by how much they may differ.
+// Comparison of the fields of grid and particles after a kernel with the reference (kernel_reference.hpp), and the
+// allowed differences.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace mpm::test {
 
-/// How far a field is from the reference's.
+/// Difference between a field and that of the reference.
 struct Difference {
   double largest = 0.0, error = 0.0;
   void add(double found, double expected) {
@@ -23,13 +23,13 @@ struct Difference {
   }
 };
 
-/// Of the largest value of a field. Double: what the project promises, a thousand times what one pass needs.
-/// Single: a place in a tile is a number up to 8, rounded to 2 epsilon, and weights change by 1 / (2 half) = 2.5 times
-/// as much; a node sums the particles of some 20 cells, each sum rounded; together a few tens of epsilon.
+/// Tolerance over the largest value of a field. Double: that of the project, a thousand times the round-off of a pass.
+/// Single: a coordinate in a tile is a number up to 8, rounded to 2 epsilon, and weights change by 1 / (2 half) = 2.5
+/// times as much; a node sums the particles of some 20 cells, each sum rounded; together a few tens of epsilon.
 template <class T>
 constexpr double kTolerance = sizeof(T) == 8 ? 1e-12 : 64 * std::numeric_limits<float>::epsilon();
 
-/// A scene, and what its grid and particles have beside the reference's.
+/// A scene, and the comparison of its grid and particles with the reference.
 template <class Geometry, class T>
 class KernelComparison {
  protected:
@@ -41,8 +41,8 @@ class KernelComparison {
                    const ContinuumSettings& settings, const AxisRules& axis)
       : name_(std::move(name)), scene_(shape, specimen, places, isa, settings, axis) {}
 
-  // Boxes and domains of half their size at the start: weights change twice as fast. Those of rings have a part over r
-  // beside the plane's, of the same size a tenth of a cell from the axis: twice the rounding.
+  // With boxes and domains of half their initial size weights change twice as fast. Those of rings have a term over r
+  // in addition, of the same size a tenth of a cell from the axis: twice the rounding.
   double tolerance() const {
     return (follows_deformation(scene_.shape) ? 2.0 : 1.0) * (Geometry::kHoop ? 2.0 : 1.0) * kTolerance<T>;
   }
@@ -66,7 +66,7 @@ class KernelComparison {
   }
 
   void compare_drag(const ReferenceDrag& found, const ReferenceDrag& expected) {
-    // A sum over all particles of what each rounds: of the sum of sizes, by the inequality of Cauchy and Schwarz.
+    // The round-off of all particles is relative to the sum of magnitudes, by the inequality of Cauchy and Schwarz.
     double mass = 0.0;
     scene_.reference.each([&](const auto&, const auto& p) { mass += p.mass; });
     const double energy = expected.grid_kinetic + expected.particle_kinetic;
@@ -77,7 +77,7 @@ class KernelComparison {
     EXPECT_NEAR(found.particle_kinetic, expected.particle_kinetic, tolerance() * energy) << name_;
   }
 
-  // How many blocks have a domain that leaves their tile; those that nearly do may be counted or not.
+  // Number of blocks with a domain that leaves their tile. Domains within rounding of that may count or not.
   int compare_outgrown() {
     const double near = 8 * mpm_kernel::kTileEdge * std::numeric_limits<T>::epsilon();
     int outgrown = 0;
@@ -126,7 +126,7 @@ class KernelComparison {
     EXPECT_LE(difference.error, allowed * difference.largest) << name_ << ": " << what;
   }
 
-  // The sum over nodes against that over particles, as exact as the parts of one: each particle's weights sum to one.
+  // Compares the sum over nodes with that over particles; they are equal, since each particle's weights sum to one.
   template <class Value>
   void expect_total(const char* what, const NodalField& field, Value&& of_particle) {
     for (int c = 0; c < field.components(); ++c) {
@@ -144,8 +144,8 @@ class KernelComparison {
   }
 
   void compare_state() {
-    // The dashpot's work is the sum of three differences of what isochoric tensors of size 1 have in excess: in single
-    // precision it is lost among the roundings of these, one or two epsilon each, times the stiffness.
+    // The dashpot's work is the sum of three small differences of isochoric tensors of size 1: in single precision it
+    // is below their round-off, one or two epsilon each, times the stiffness.
     const double work = sizeof(T) == 4 ? 6 * std::numeric_limits<T>::epsilon() * scene_.stiffness : 0.0;
     for (std::size_t s = 0; s < scene_.sets.size(); ++s) {
       const ParticleSet& set = scene_.sets[s];
@@ -171,7 +171,7 @@ class KernelComparison {
             << of << ", history " << h;
       }
     }
-    scene_.read_particles();  // the next pass begins with the kernels' numbers
+    scene_.read_particles();  // the next pass starts from the kernels' numbers
   }
 
   void compare_motion(std::vector<PaddedArray<double>> ParticleSet::*places) { compare_motion(places, affine()); }
@@ -194,8 +194,8 @@ class KernelComparison {
       }
     }
     EXPECT_GT(displacement.largest, 0.0);
-    // A weighted sum over nodes rounds by the largest of them: with APIC and hat functions at a point a light node can
-    // be far faster than any particle.
+    // A weighted sum over nodes has the round-off of the largest of them: with APIC and hat functions at a point a
+    // light node can be far faster than any particle.
     double fastest = 0.0;
     if (this->affine()) {
       for (const ReferenceNode& n : scene_.reference.nodes()) {
@@ -207,18 +207,17 @@ class KernelComparison {
     displacement.largest = std::max(displacement.largest, fastest * scene_.dt);
     EXPECT_LE(v.error, tolerance() * v.largest) << name_ << ": particle velocity";
     EXPECT_LE(turn.error, tolerance() * turn.largest) << name_ << ": affine field";
-    // Positions, up to 3 m, are rounded.
+    // Round-off of positions up to 3 m.
     const double rounding = 3.0 * std::numeric_limits<double>::epsilon();
     EXPECT_LE(displacement.error, tolerance() * displacement.largest + rounding) << name_ << ": displacement";
   }
 
-  // A block is loose when a particle is beyond it, less the kernels' slack; what lies within rounding of the limit may
-  // be on either side.
+  // A block is loose when a particle lies beyond its limit. Particles within rounding of the limit may count or not.
   void check_reach(std::vector<PaddedArray<double>> ParticleSet::*places) {
     const double near = 8 * mpm_kernel::kTileEdge * std::numeric_limits<T>::epsilon();
     for (int owner = 0; owner < scene_.grid.blocks.owners(); ++owner) {
       const auto& block = scene_.grid.blocks.block(scene_.grid.blocks.owner_block(owner));
-      double beyond = -1.0;  // how far the farthest one is beyond the limit [cells]
+      double beyond = -1.0;  // distance of the farthest particle beyond the limit [cells]
       for (const ParticleSet& set : scene_.sets) {
         for (std::uint32_t p = set.begin[owner]; p < set.begin[owner + 1]; ++p) {
           for (int k = 0; k < kDim; ++k) {

@@ -1,7 +1,7 @@
-// The passes of a step once more, the shortest way: a loop over the particles, over all nodes of each, in double
-// precision, on a dense grid. No blocks, no tiles, no registers; of the kernels it shares the shape functions and the
-// laws alone, both with tests of their own. Weak: slow, and a small box of nodes.
-// Source: GIMP notes (2.2), (2.8), (2.14), (1.26); method reference 6.1, 6.2, 6.6, 7.
+// An independent implementation of the passes of a step, in the shortest form: a loop over particles and all nodes of
+// each, in double precision, on a dense grid, without blocks, tiles or registers. It shares only the shape functions
+// and the laws with the kernels; both have their own tests. It is slow and limited to a small box of nodes. Source:
+// GIMP notes (2.2), (2.8), (2.14), (1.26); method reference 6.1, 6.2, 6.6, 7.
 #pragma once
 
 #include <Eigen/LU>
@@ -25,16 +25,16 @@ struct ReferenceParticle {
   using Matrix = typename Geometry::template Matrix<double>;
   using Symmetric = typename Geometry::template Symmetric<double>;
   double x[3] = {}, next_x[3] = {}, v[3] = {}, load[3] = {};
-  double damping[2] = {};    ///< rates on the grid's and on its own velocity [1/s]
+  double damping[2] = {};    ///< rates of damping on the grid's and on its own velocity [1/s]
   double affine[3][3] = {};  ///< APIC: B [m^2/s]
-  double domain[3][3] = {};  ///< F as the step began
+  double domain[3][3] = {};  ///< F at the start of the step
   Matrix f = Matrix::identity();
   Symmetric tau = Symmetric::isotropic(0.0);
   double history[4] = {};
-  double hoop_force = 0.0;  ///< of rings, radial, that force() gave the nodes altogether for the hoop stress [N]
+  double hoop_force = 0.0;  ///< for rings, the radial force of the hoop stress on all nodes, from force() [N]
   std::uint32_t id = 0;
 
-  /// F <- exp(du) F, and the law.
+  /// Sets F <- exp(du) F and evaluates the law.
   void deform(const Law& law, const Matrix& du, double dt, int terms) {
     std::visit(
         [&](const auto& kind) {
@@ -50,19 +50,19 @@ struct ReferenceParticle {
 
 template <class Geometry>
 struct ReferenceSet {
-  std::array<double, 3> half{};  ///< [cells]
-  const Law* law = nullptr;      ///< outlives this
+  std::array<double, 3> half{};  ///< half edges of a particle's box [cells]
+  const Law* law = nullptr;      ///< must outlive the set
   std::vector<ReferenceParticle<Geometry>> particles;
 };
 
 struct ReferenceNode {
   double mass = 0.0;
   double momentum[3] = {}, velocity[3] = {}, force[3] = {}, load[3] = {};
-  double from[3] = {}, to[3] = {};  ///< what is projected [m/s], and the momentum that becomes of it
-  double mean = 0.0;                ///< of a trace
+  double from[3] = {}, to[3] = {};  ///< the projected velocity [m/s], and its momentum on the way back
+  double mean = 0.0;                ///< mean of a trace
 };
 
-/// What damping took away in a motion (mpm_kernel::Moved).
+/// Momentum and energy removed by damping in a motion (mpm_kernel::Moved).
 struct ReferenceDrag {
   double drag[3] = {};  ///< [N s]
   double grid_kinetic = 0.0, particle_kinetic = 0.0;
@@ -85,7 +85,7 @@ class Reference {
                            : kEdge) {}
 
   std::vector<Set> sets;
-  bool by_point = false;  ///< rings are moved by the grid's radial velocity at their places: AxisMotion::point
+  bool by_point = false;  ///< rings move with the grid's radial velocity at their positions: AxisMotion::point
 
   ReferenceNode& node(const std::array<int, 3>& at) {
     int index = 0;
@@ -94,7 +94,7 @@ class Reference {
   }
   std::vector<ReferenceNode>& nodes() { return nodes_; }
 
-  /// The step's domains are those of now; with the affine field of APIC.
+  /// Fixes the domains of the step and spreads mass and momentum, with the affine field of APIC if `affine`.
   void scatter_momentum(bool affine = false) {
     for (ReferenceNode& n : nodes_) n = {};
     each([&](const Set&, Particle& p) { note_domain(p); });
@@ -103,7 +103,7 @@ class Reference {
     });
     gather_momentum(affine);
   }
-  /// Momentum alone, as after the motion.
+  /// Spreads momentum alone, as after the motion.
   void gather_momentum(bool affine = false) {
     clear(&ReferenceNode::momentum);
     each([&](const Set& set, const Particle& p) {
@@ -126,7 +126,7 @@ class Reference {
       });
     });
   }
-  /// to = sum of m S (S from).
+  /// Sets to = sum of m S (S from).
   void project() {
     clear(&ReferenceNode::to);
     each([&](const Set& set, const Particle& p) {
@@ -153,7 +153,8 @@ class Reference {
       }
     }
   }
-  /// XPIC (from the start's velocity) or FMPM of this order: what nodal velocities gain, method reference 6.6.
+  /// Adds the increments of XPIC (from the initial velocity) or FMPM of this order to nodal velocities, method
+  /// reference 6.6.
   void add_increments(int order, bool from_start, double least_mass) {
     for (ReferenceNode& n : nodes_) {
       for (int c = 0; c < kDim; ++c) {
@@ -171,7 +172,7 @@ class Reference {
       }
     }
   }
-  /// With dilatation averaged over the grid (kernel/mean.hpp), or each particle's own.
+  /// Strains the particles, with dilatation averaged over the grid (kernel/mean.hpp) if `average`.
   void strain(double dt, int terms, bool average = false) {
     const auto gradient = [&](const Set& set, const Particle& p) {
       Diagonal l;
@@ -217,8 +218,8 @@ class Reference {
       });
     });
   }
-  /// Velocities, and the new positions beside the old ones. kIncrement: method reference 6.2, beta = `flip`; the
-  /// others: 6.6. Damped by each particle's rates, 6.1.
+  /// Updates velocities and computes new positions beside the old ones. kIncrement: method reference 6.2, beta =
+  /// `flip`; the others: 6.6. Damping with each particle's rates: 6.1.
   ReferenceDrag move(mpm_kernel::Motion motion, double dt, double flip) {
     ReferenceDrag taken;
     each([&](const Set& set, Particle& p) {
@@ -261,8 +262,8 @@ class Reference {
     }
   }
 
-  /// visit(node, S, grad S [1/m], x_i - x_p [m]) for all nodes that a particle reaches. About an axis, where S does not
-  /// reproduce linear fields, the last from the mean place of S in place of x_p.
+  /// Calls visit(node, S, grad S [1/m], x_i - x_p [m]) for all nodes that a particle reaches. About an axis, where S
+  /// does not reproduce linear fields, the last argument is relative to the mean position of S in place of x_p.
   template <class Visit>
   void each_node(const Set& set, const Particle& p, Visit&& visit) {
     double centre[3] = {p.x[0], p.x[1], p.x[2]};
@@ -278,7 +279,7 @@ class Reference {
       visit(n, w.s, w.g, arm);
     });
   }
-  /// visit(node, weight) of them.
+  /// Calls visit(node, weight) for these nodes.
   template <class Visit>
   void each_weight(const Set& set, const Particle& p, Visit&& visit) {
     const ReferenceStencil<kDim> stencil(shape_, grid_, place_of(set, p));
@@ -299,7 +300,7 @@ class Reference {
   const ReferenceGrid& grid() const { return grid_; }
 
  private:
-  /// A gradient or a stress in the grid's axes; the hoop component is one more in axisymmetry, and zero elsewhere.
+  /// A gradient or a stress in the grid's axes. The hoop component is additional, and zero except in axisymmetry.
   struct Diagonal {
     static constexpr int kCount = kDim + (Geometry::kHoop ? 1 : 0);
     double of_plane[kDim][kDim] = {}, hoop = 0.0;
@@ -314,11 +315,11 @@ class Reference {
       if (Geometry::kHoop) hoop += change;
     }
   };
-  // How far a velocity and an acceleration of the grid move a particle: their part in move().
+  // Displacement of a particle by a velocity and an acceleration of the grid in move().
   static double to_mean(mpm_kernel::Motion motion, double v, double a, double dt) {
     return v * dt - (motion == mpm_kernel::kIncrement ? 0.5 * a * dt * dt : 0.0);
   }
-  // Along the radius, by the hat functions at its place (a product's along the radius alone).
+  // Displacement along the radius, by the hat functions at the position (for products, those along the radius alone).
   double to_point(const Set& set, const Particle& p, mpm_kernel::Motion motion, double dt) {
     double v = 0.0, a = 0.0;
     each_weight(set, p, [&](ReferenceNode& n, const NodeWeight& w) {
@@ -327,7 +328,7 @@ class Reference {
     });
     return to_mean(motion, v, a, dt);
   }
-  // The mean of of(set, particle) at the nodes, by mass.
+  // Mean of of(set, particle) at the nodes, weighted by mass.
   template <class Of>
   void find_mean(Of&& of) {
     for (ReferenceNode& n : nodes_) n.mean = 0.0;

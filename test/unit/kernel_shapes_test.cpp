@@ -1,7 +1,7 @@
 // The kernels of every shape function against the reference (kernel_check.hpp): on every instruction set of this
 // machine, in all kinds of geometry and both precisions, for every arrangement of particles, every transfer, and the
-// passes that only some scenes ask for. Laws and shape functions do not know each other: two laws are enough, one of
-// them with a history; all of them are in kernels_test.cpp.
+// passes that only some scenes need. Laws and shape functions are independent of each other, so two laws are enough,
+// one of them with a history; kernels_test.cpp has all of them.
 #include "kernel_check.hpp"
 #include "step_scene.hpp"
 
@@ -60,8 +60,9 @@ TEST_P(KernelShapesTest, OfALineInSingle) { check_shape<Line, float>(GetParam())
 TEST_P(KernelShapesTest, OfRingsInDouble) { check_shape<Axisymmetric, double>(GetParam()); }
 TEST_P(KernelShapesTest, OfRingsInSingle) { check_shape<Axisymmetric, float>(GetParam()); }
 
-// What is there for comparison: the functions of a plane, in which nothing else changes; domains that reach across the
-// axis, whose nodes can have a mass near or below zero, so that values alone can be compared; the mean motion.
+// The rules of the axis that exist for comparison: planar functions, with which nothing else changes; domains that
+// reach across the axis, whose nodes can have a mass near or below zero, so that only values can be compared; the mean
+// motion.
 template <class T>
 void check_axis_rules(const Case& of) {
   if (!has_shape(of.shape, GeometryKind::axisymmetric)) GTEST_SKIP() << "there is no such shape function about an axis";

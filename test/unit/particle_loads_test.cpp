@@ -1,5 +1,5 @@
-// Where a load on a particle goes: over the nodes as its domain is spread, or by the hat function at its centre.
-// Expected values are the averages of hat functions over boxes, by their antiderivative (GIMP notes (1.21), (1.22)).
+// The nodes that a load on a particle acts on: those of its domain, or those of the hat function at its centre.
+// Expected values are averages of hat functions over boxes, from their antiderivative (GIMP notes (1.21), (1.22)).
 #include "mpm/mechanics/particle_loads.hpp"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ class Spread : public testing::Test {};
 using Precisions = testing::Types<double, float>;
 TYPED_TEST_SUITE(Spread, Precisions);
 
-// 3 N along x by the domains of two particles, and 2 m/s^2 along z of all of them at their centres, at once.
+// 3 N along x on the domains of two particles, together with 2 m/s^2 along z at the centres of all particles.
 TYPED_TEST(Spread, GoesToTheNodesThatItShould) {
   using T = TypeParam;
   Plane<T> plane;
@@ -101,7 +101,7 @@ TYPED_TEST(Spread, GoesToTheNodesThatItShould) {
         if (id != 6) x += 3.0 * at(LoadSpread::domain);
         z += 2.0 * plane.sets[0].mass * at(LoadSpread::center);
       }
-      // Weights of order 1 and forces of order 3 N in the precision of the particles.
+      // Round-off of weights of order 1 and forces of order 3 N in the precision of the particles.
       const double digit = sizeof(T) == 4 ? 1e-5 : 1e-13;
       EXPECT_NEAR(grid.force.at(b, 0, n), x, digit) << "block " << b << ", node " << n;
       EXPECT_NEAR(grid.force.at(b, 1, n), z, digit) << "block " << b << ", node " << n;

@@ -1,5 +1,5 @@
-// The suites of the work-precision study: their motions solve the equation of motion with the body force that their
-// definitions carry, and begin as their particles do; their measures see no error in the exact motion.
+// The suites of the work-precision study: their motions solve the equation of motion with the body force of their
+// definitions and have the initial state of the particles, and their measures find no error in the exact motion.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 namespace mpm::study {
 namespace study_suites_test {
 
-constexpr double kStep = 1e-4;  // of differences [m] and [s]
+constexpr double kStep = 1e-4;  // step of differences [m] and [s]
 
-/// First derivative of any field by differences of fourth order.
+/// First derivative of a field by differences of fourth order.
 template <class Value, class Field>
 Value slope(const Field& field, double step = kStep) {
   return (8.0 * (Value(field(step)) - Value(field(-step))) - (Value(field(2.0 * step)) - Value(field(-2.0 * step)))) /
@@ -32,7 +32,7 @@ Mat3 deformation(const Suite& suite, double time, const Vec3& X) {
 /// elasticity for a bar of linear material.
 Mat3 piola(const MaterialDefinition& material, const Mat3& f) {
   if (const auto* linear = std::get_if<LinearElasticDefinition>(&material.law)) {
-    return linear->elasticity.young * (f - Mat3::Identity());  // Poisson's ratio 0, along the axis alone
+    return linear->elasticity.young * (f - Mat3::Identity());  // Poisson's ratio is 0: stress along the axis alone
   }
   const Elasticity e = std::get<NeoHookeanDefinition>(material.law).elasticity;
   const double j = f.determinant();
@@ -56,9 +56,9 @@ INSTANTIATE_TEST_SUITE_P(Suites, Motions,
                                            "cube_large", "vortex", "rotation"),
                          [](const auto& info) { return std::string(info.param); });
 
-// rho0 u'' = Div P + rho0 b. 1e-4 of the largest term: truncation of the differences at the vortex's scale, kStep over
-// 0.05 m to the fourth power, with room. 3e-5 Pa/m: round-off of a place of 1 m in differences of differences,
-// 1e-16 m / kStep^2 times 1000 Pa and the sum of the weights.
+// rho0 u'' = Div P + rho0 b. The tolerance of 1e-4 of the largest term covers the truncation of the differences at the
+// scale of the vortex, kStep over 0.05 m to the fourth power; that of 3e-5 Pa/m covers the round-off of a position of
+// 1 m in differences of differences, 1e-16 m / kStep^2 times 1000 Pa and the sum of the weights.
 TEST_P(Motions, SolveTheEquationOfMotion) {
   const Suite& suite = find_suite(GetParam());
   const SimulationDefinition definition = suite.definition({}, {16});
@@ -67,7 +67,8 @@ TEST_P(Motions, SolveTheEquationOfMotion) {
   int checked = 0;
   for (std::size_t p = 0; p < places.size(); p += 1 + places.size() / 23) {
     const Vec3& X = places[p];
-    if (suite.name == "vortex" && std::abs(std::abs(X.norm() - 1.0) - 0.25) < 4.0 * kStep) continue;  // a kink of b
+    if (suite.name == "vortex" && std::abs(std::abs(X.norm() - 1.0) - 0.25) < 4.0 * kStep)
+      continue;  // b has a kink there
     for (const double time : {0.13, 0.41, 0.77}) {
       const auto velocity = [&](double t) {
         return slope<Vec3>([&](double d) { return suite.motion(t + d, X); }, 1e-3);
@@ -93,7 +94,7 @@ TEST_P(Motions, SolveTheEquationOfMotion) {
   EXPECT_GT(checked, 20);
 }
 
-// Particles start where the motion does, with its velocity: differences of fourth order leave 1e-9 of 1 m/s.
+// Particles start with the position and velocity of the motion: differences of fourth order leave 1e-9 of 1 m/s.
 TEST_P(Motions, BeginAsTheParticlesDo) {
   const Suite& suite = find_suite(GetParam());
   const SimulationDefinition definition = suite.definition({}, {8});
@@ -107,7 +108,7 @@ TEST_P(Motions, BeginAsTheParticlesDo) {
   }
 }
 
-// Walls of the grid hold the normal component alone: so does the motion on them.
+// Walls of the grid fix the normal component only, and so does the motion on them.
 TEST(Suites, MotionKeepsToTheWalls) {
   for (const char* name : {"bar_crossing", "square_large", "cube_large"}) {
     const Suite& suite = find_suite(name);
@@ -125,7 +126,7 @@ TEST(Suites, MotionKeepsToTheWalls) {
   }
 }
 
-// A square that does not move at all has no error; one that should have moved errs by what it should have moved.
+// A square at rest has no error if the exact motion is rest; otherwise its error is the exact displacement.
 TEST(Suites, DisplacementErrorOfTheExactMotionIsZero) {
   SimulationDefinition definition = find_suite("square_small").definition({}, {8});
   definition.body_forces.clear();
@@ -141,7 +142,7 @@ TEST(Suites, DisplacementErrorOfTheExactMotionIsZero) {
     simulation.advance();
   }
   EXPECT_EQ(still->error(), 0.0);
-  // At 0.5 m/s, over 2 m, last looked at after two periods of 0.1 s; round-off of places of 1 m.
+  // 0.5 m/s, over 2 m, at the last sample after two periods of 0.1 s; round-off of positions of 1 m.
   EXPECT_NEAR(moved->error(), 0.5 * 0.2 / 2.0, 1e-15);
 }
 
@@ -149,11 +150,11 @@ TEST(Suites, EnergyDriftOfABodyAtRestInItsFlightIsRoundOff) {
   SimulationDefinition definition = find_suite("colliding_disks").definition({}, {8});
   const auto drift = energy_drift();
   Simulation simulation(definition, SimulationOptions{1});
-  for (int i = 0; i < 5; ++i) {  // far from each other
+  for (int i = 0; i < 5; ++i) {  // particles far from each other
     drift->look(simulation);
     simulation.advance();
   }
-  EXPECT_LT(drift->error(), 1e-12);  // a uniform velocity stays: round-off of 15 steps
+  EXPECT_LT(drift->error(), 1e-12);  // a uniform velocity is constant: round-off of 15 steps
 }
 
 TEST(Suites, HaveNamesOfTheirOwnAndRefuseOthers) {

@@ -1,5 +1,5 @@
-// The tables of the work-precision study: runs are written and read back to the same bits, fronts and costs are read
-// off them as they say, methods have the work that can be counted by hand, and no refusal or failure is lost.
+// The tables of the work-precision study: runs are written and read back to the same bits, fronts and costs follow from
+// them by their definitions, methods have the work that is counted by hand, and no refusal or failure is lost.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -88,8 +88,8 @@ TEST(StudySummary, CostIsStraightInLogLog) {
   // error = 1 / cost^2: at an error of 0.0004 the cost is 50, round-off of a power.
   const std::vector<FrontPoint> points = {{10.0, 0.01}, {100.0, 0.0001}};
   EXPECT_NEAR(*cost_at(points, 0.0004), 50.0, 1e-12);
-  EXPECT_EQ(*cost_at(points, 0.5), 10.0);      // the cheapest run is good enough
-  EXPECT_EQ(*cost_at(points, 0.0001), 100.0);  // reached, just
+  EXPECT_EQ(*cost_at(points, 0.5), 10.0);      // the cheapest run is accurate enough
+  EXPECT_EQ(*cost_at(points, 0.0001), 100.0);  // just reached
   EXPECT_FALSE(cost_at(points, 0.00009));
   EXPECT_FALSE(cost_at({}, 1.0));
 }
@@ -118,7 +118,7 @@ TEST(StudySummary, NamesTheCheapestAndTheNext) {
 
 TEST(StudyMethods, CountedWorkIsThatOfTheSteps) {
   const Transfer flip, xpic3 = {TransferKind::xpic, 1.0, 3};
-  // By hand from the steps of method reference 5.4, and 6.6 for a gather and a scatter an order.
+  // By hand from the steps of method reference 5.4, and from 6.6 for a gather and a scatter per order.
   EXPECT_EQ(passes(UpdateScheme::usf, flip), 4);
   EXPECT_EQ(passes(UpdateScheme::usl, flip), 5);
   EXPECT_EQ(passes(UpdateScheme::usavg, flip), 6);
@@ -151,7 +151,7 @@ TEST(StudyMethods, HaveNamesOfTheirOwn) {
   EXPECT_THROW(find_method("ugimp"), StudyError);
 }
 
-// A letter that is wrong is one change; of 'ugimp' more letters are missing than are there, so that nothing is near.
+// A wrong letter is one change. More letters of 'ugimp' are missing than present, so no name is near.
 TEST(StudyMethods, NameTheNearestFirst) {
   const auto refusal = [](const std::string& label) {
     try {
@@ -175,7 +175,7 @@ TEST(StudyRunner, MeasuresARunAndItsCost) {
   EXPECT_EQ(row.geometry, "line");
   EXPECT_EQ(row.particles_per_cell, 2);
   EXPECT_GT(row.error, 0.0);
-  EXPECT_LT(row.error, 1.0);  // of a bar that does not move at all it would be 1/sqrt(2)
+  EXPECT_LT(row.error, 1.0);  // it would be 1/sqrt(2) for a bar that does not move
   EXPECT_EQ(row.work, 16.0 * static_cast<double>(row.steps) * 3.0 * 6.0);
   EXPECT_GT(row.relative_cost, 0.0);
   EXPECT_DOUBLE_EQ(row.cost, row.relative_cost * 16.0 * static_cast<double>(row.steps));

@@ -1,4 +1,4 @@
-// What limits the time step, as the kernels find it (kernel/survey.hpp): against a loop over the particles, for every
+// The limit of the time step that the kernels find (kernel/survey.hpp), against a loop over the particles, for every
 // law, geometry, precision and instruction set.
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ std::vector<Isa> instruction_sets() {
   return found;
 }
 
-/// Particles of a material that have gone through paths of different length, and move.
+/// Moving particles of a material after strain paths of different lengths.
 template <class Geometry>
 ParticleSet worked_particles(const paths::Specimen& specimen, Precision precision, int count) {
   ParticleSet set;
@@ -57,7 +57,7 @@ ParticleSet worked_particles(const paths::Specimen& specimen, Precision precisio
   return set;
 }
 
-/// [1/s], of one particle, in double precision.
+/// The rate of one particle in double precision [1/s].
 template <class Geometry>
 double rate(const ParticleSet& set, const Law& law, int p) {
   const auto f = Geometry::load_matrix(set.f, p);
@@ -72,7 +72,7 @@ double rate(const ParticleSet& set, const Law& law, int p) {
       law);
 }
 
-/// `below`, `above`: what the kernels may differ by, of the rate.
+/// `below`, `above`: relative differences of the kernels' rate that are allowed.
 template <class Geometry, class T>
 void survey_every_law(Precision precision, double below, double above) {
   for (const paths::Specimen& specimen : paths::zoo()) {
@@ -81,7 +81,7 @@ void survey_every_law(Precision precision, double below, double above) {
     const mpm_kernel::SetView<T> view = view_of<T>(set, law, static_cast<const mpm_kernel::LawKernels<T>*>(nullptr));
     for (const Isa isa : instruction_sets()) {
       const auto survey = ugimp_kernels<T>(Geometry::kDim, isa).laws[law.index()].survey;
-      // Single particles, part registers, and all.
+      // Single particles, parts of registers, and all particles.
       for (const auto& [first, last] : {std::pair{0, 1}, std::pair{7, 8}, std::pair{3, 36}, std::pair{0, 61}}) {
         int expected = first;
         for (int p = first; p < last; ++p) {
@@ -100,13 +100,14 @@ void survey_every_law(Precision precision, double below, double above) {
   }
 }
 
-// A hundred operations, whose round-off the cancellation in J and in the deviator makes larger.
+// The tolerance is that of a hundred operations, whose round-off is amplified by cancellation in J and the deviator.
 TEST(Survey, OfDoublesIsALoop) {
   survey_every_law<Solid, double>(Precision::float64, 1e-12, 1e-12);
   survey_every_law<PlaneStrain, double>(Precision::float64, 1e-12, 1e-12);
 }
 
-// The same, and above it what bounds of principal values allow for round-off, 5e-4 of the deviator (principal.hpp).
+// In single precision the rate may also be larger by the allowance for round-off in the bounds of principal values,
+// 5e-4 of the deviator (principal.hpp).
 TEST(Survey, OfSinglesIsALoopOverWhatTheyHold) {
   survey_every_law<Solid, float>(Precision::float32, 1e-5, 1e-3);
   survey_every_law<PlaneStrain, float>(Precision::float32, 1e-5, 1e-3);
@@ -130,8 +131,8 @@ TEST(Survey, NamesTheFirstOfEqualRates) {
 
 TEST(Survey, TellsWhatIsNotANumberOfEveryStress) {
   for (const paths::Specimen& specimen : paths::zoo()) {
-    if (std::holds_alternative<NewtonianFluidDefinition>(specimen.material.law)) continue;  // knows its J alone
-    if (std::holds_alternative<NeoHookeanDefinition>(specimen.material.law)) continue;      // its F alone
+    if (std::holds_alternative<NewtonianFluidDefinition>(specimen.material.law)) continue;  // its state is J alone
+    if (std::holds_alternative<NeoHookeanDefinition>(specimen.material.law)) continue;      // its state is F alone
     const Law law = make_law(specimen.material);
     for (const Isa isa : instruction_sets()) {
       ParticleSet set = worked_particles<Solid>(specimen, Precision::float64, 30);
@@ -144,7 +145,7 @@ TEST(Survey, TellsWhatIsNotANumberOfEveryStress) {
   }
 }
 
-// More particles than a thread surveys in one go; the fastest one, and one as fast, in different parts.
+// There are more particles than a thread surveys at once; the fastest particle and an equal one are in different parts.
 TEST(Survey, DoesNotDependOnTheNumberOfThreads) {
   const paths::Specimen specimen = paths::zoo()[3];
   const std::vector<Law> laws = {make_law(specimen.material)};

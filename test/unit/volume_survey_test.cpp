@@ -1,5 +1,5 @@
-// Volumes, volume gradients, places and displacement gradients at nodes against plain sums over particles, with weights
-// of the reference functions (kernel_stencil.hpp).
+// Volumes, volume gradients, positions and displacement gradients at nodes against plain sums over particles, with
+// weights of the reference functions (kernel_stencil.hpp).
 #include <gtest/gtest.h>
 
 #include <map>
@@ -62,7 +62,7 @@ void compare(ShapeKind shape) {
     }
   }
 
-  // Domains that follow the deformation are noted when a step begins.
+  // Domains that follow the deformation are fixed when a step begins.
   StepContext context = scene.context();
   scene.mechanics->scatter_momentum(context);
   std::vector<ParticleSet> sets{set};
@@ -75,7 +75,8 @@ void compare(ShapeKind shape) {
   double largest = 0.0, mass = 0.0;
   for (const auto& [at, sums] : expected) largest = std::max(largest, sums.volume);
   mass = largest * Scene::kDensity * (Geometry::kHoop ? kTurn : 1.0);
-  // Sums of some ten terms in the particles' precision, about the largest; gradients have the size of volume over cell.
+  // Round-off of sums of some ten terms in the particles' precision, relative to the largest. Gradients are of the size
+  // of volume over cell.
   const double precision = sizeof(T) == 8 ? 1e-13 : 1e-5;
   int compared = 0;
   scene.each_node([&](int b, int n, const std::array<int, 3>& at) {

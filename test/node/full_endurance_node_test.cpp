@@ -18,7 +18,7 @@ long memory_of(pid_t pid) {
   for (std::string line; std::getline(status, line);) {
     if (line.compare(0, 6, "VmRSS:") == 0) return std::stol(line.substr(6));
   }
-  ADD_FAILURE() << "no memory is told for process " << pid;
+  ADD_FAILURE() << "no memory is reported for process " << pid;
   return 0;
 }
 

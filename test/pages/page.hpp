@@ -79,7 +79,7 @@ class Page {
   Page& problem(const std::string& text) { return set("problem", text); }
   /// The exact solution in words and formulas, and its source.
   Page& exact(const std::string& text, const std::string& source) { return set("source", source).set("exact", text); }
-  /// What the result tells a user.
+  /// The meaning of the result for a user.
   Page& meaning(const std::string& text) { return set("meaning", text); }
   /// The scene that a user can run: the name of a file in test/verification/scenes or of a shipped scene.
   Page& scene(const std::string& file) { return set("scene", file); }

@@ -363,13 +363,15 @@ TEST(AutoMethod, IsWhatASceneWithoutAMethodGets) {
     EXPECT_EQ(label(other), label(scene));
     EXPECT_EQ(said(other), said(scene));
   }
-  const std::string told = explain(scene, build(scene));
-  EXPECT_EQ(told, explain(parse_scene(block(), "test.yaml"), build(scene)));  // equal in every run
-  EXPECT_NE(told.find("method: plane strain, 1 m thick, bspline2, usavg, fmpm 2,"), std::string::npos) << told;
-  EXPECT_NE(told.find("\n  method: bspline2, usavg, fmpm 2: reaches 1 % at 1.00 times the least cost in bar_small, "
-                      "1.00 in square_small\n"),
-            std::string::npos)
-      << told;
+  const std::string explained = explain(scene, build(scene));
+  EXPECT_EQ(explained, explain(parse_scene(block(), "test.yaml"), build(scene)));  // equal in every run
+  EXPECT_NE(explained.find("method: plane strain, 1 m thick, bspline2, usavg, fmpm 2,"), std::string::npos)
+      << explained;
+  EXPECT_NE(
+      explained.find("\n  method: bspline2, usavg, fmpm 2: reaches 1 % at 1.00 times the least cost in bar_small, "
+                     "1.00 in square_small\n"),
+      std::string::npos)
+      << explained;
   EXPECT_EQ(scene.text.find("auto"), std::string::npos) << scene.text;
   EXPECT_EQ(label(parse_scene(scene.text, "record.yaml")), "bspline2/usavg/fmpm2");
 }

@@ -199,7 +199,7 @@ TEST(JohnsonCook, IsHeatedByItsPlasticWork) {
   }
 }
 
-// The strength ends at 900 K: shear heats up to that temperature and no further, for then there is no work.
+// The strength ends at 900 K: shear heats the material up to that temperature only, since then there is no work.
 TEST(JohnsonCook, MeltsAndCarriesNoShear) {
   const JohnsonCookDefinition d = hot_steel();
   MaterialPoint point = point_of(d);

@@ -75,8 +75,7 @@ class Kernels : KernelComparison<Geometry, T> {
     EXPECT_FALSE(scene_.mechanics->failed());
     scene_.reference.strain(dt, scene_.settings.gradient_terms, average());
     compare_state();
-    scene_.reference.force(
-        average());  // of the kernels' stress: a stress that is off by its tolerance is another matter
+    scene_.reference.force(average());  // of the kernels' stress, whose own tolerance must not count here
     compare_nodes("force", scene_.grid.force, [](const ReferenceNode& n, int c) { return n.force[c]; });
     // The total is zero, since the sum of G over the nodes of a particle is zero (GIMP notes (1.26)), except for the
     // radial force of the hoop stress.
@@ -159,8 +158,8 @@ class Kernels : KernelComparison<Geometry, T> {
     check_reach(&ParticleSet::x);
   }
 
-  /// Every motion with and without damping, of rates that are constant or of place, with and without the new momentum:
-  /// the passes that a schedule may ask for, from the table. Of a scene with APIC, which has what all motions need.
+  /// Checks every motion without damping and with rates that are constant or functions of place, with and without the
+  /// new momentum: all passes of the table that a schedule may need. The scene must have APIC, whose fields serve all.
   void check_moves() {
     scatter_momentum();
     strain_and_force(0.5 * scene_.dt);

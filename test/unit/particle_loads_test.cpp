@@ -13,7 +13,7 @@
 namespace mpm {
 namespace particle_loads_test {
 
-constexpr double kCell = 0.1, kHalf = 0.25;  // of a box, in cells
+constexpr double kCell = 0.1, kHalf = 0.25;  // [m]; half edge of a box [cells]
 
 // Integral from -infinity of the hat function about 0.
 double below(double u) {

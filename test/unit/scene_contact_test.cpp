@@ -100,7 +100,7 @@ TEST(SceneContact, InterfacesNormalsAndDetection) {
   EXPECT_EQ(law(read_scene, "c", "tool")->friction(0.0), 0.7);
   EXPECT_EQ(read("{normals: own, law: stick}").definition.contact.normals.method, NormalMethod::own);
   const DetectionRule usual = read("{friction: 0}").definition.contact.detection;
-  EXPECT_EQ(usual.kind, Detection::positions);  // as the sources advise, 0.8 cells
+  EXPECT_EQ(usual.kind, Detection::positions);  // 0.8 cells, as the sources advise
   EXPECT_EQ(usual.position, 0.8);
 }
 
@@ -121,7 +121,7 @@ TEST(SceneContact, OneNormalStiffnessIsOfBothSides) {
   expect_refused(start + "coulomb, friction: 0, normal: 1}]}", ".pairs.0.normal", "write law: interface");
 }
 
-// What nothing in the scene would read is refused, so that no one takes it for said.
+// Keys that nothing in the scene would read are refused, since a user would believe that they act.
 TEST(SceneContact, RefusesWhatNothingReads) {
   for (const char* key : {"friction: 0.3", "static_friction: 0.3", "adhesion: 1"}) {
     const std::string name = std::string(key).substr(0, std::string(key).find(':'));

@@ -28,7 +28,7 @@ namespace mpm {
 namespace scene_fuzz_test {
 
 constexpr int kCases = 2000;
-constexpr int kHangSeconds = 120;     // a case takes milliseconds; a loaded machine or a sanitizer is not a hang
+constexpr int kHangSeconds = 120;     // a case takes milliseconds; the rest is for a loaded machine or a sanitizer
 constexpr double kMostToBuild = 2e5;  // particles: larger scenes are valid, but not cheap
 constexpr double kMostToRun = 5000;
 constexpr double kCoarse = 600;  // particles of a scene before it is mutated

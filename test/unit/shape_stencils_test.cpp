@@ -140,7 +140,7 @@ TEST(UgimpStretch, IsUgimpOfItsBox) {
       const UgimpStretch<double> box(x, half, axis);
       const Ugimp<double> fixed(x, {half, per_cell});
       for (int n = 0; n < 3; ++n) {
-        EXPECT_NEAR(box.s[n], fixed.s[n], 1e-15);  // the same sums; constants that may differ by an epsilon
+        EXPECT_NEAR(box.s[n], fixed.s[n], 1e-15);  // sums are the same; constants may differ by an epsilon
         EXPECT_NEAR(box.g[n], fixed.g[n], 1e-14);
       }
     }
@@ -248,7 +248,7 @@ TEST(CubicSpline, FoldedIsTheHeadersPolynomialNextToAWall) {
   }
 }
 
-// A particle slightly past the wall sees the straight continuation of the field.
+// A particle slightly past the wall gets the linear continuation of the field.
 TEST(CubicSpline, BeyondAWallContinuesALinearField) {
   for (const double x : {-0.4, -0.1, -1e-9}) {
     const auto low = folded<CubicSpline>(x, 4), high = folded<CubicSpline>(4.0 - x, 4);

@@ -48,7 +48,7 @@ TEST(Units, QuantitiesBecomeSi) {
   expect_si("293.15 K", kTemperature, 293.15);
   expect_si("1e-3 Pa s", kViscosity, 1e-3);
   expect_si("2 kg/(m*s)", kViscosity, 2.0);
-  expect_si("1 cP", kViscosity, 1e-3);  // of water
+  expect_si("1 cP", kViscosity, 1e-3);  // viscosity of water
   expect_si("2 P", kViscosity, 0.2);
   expect_si("3 uJ", kEnergy, 3e-6);
   expect_si("5 nW", {2, 1, -3}, 5e-9);

@@ -218,7 +218,7 @@ double mass_of(const std::string& shape) {
       "bodies: [{name: b, material: m, shape: {" +
       shape + "}, initial: {velocity: [0, 1]}}]\n";
   Simulation simulation(build(parse_scene(text, "mass.yaml")), {1});
-  return simulation.state().audit.momentum.z();  // of 1 m/s
+  return simulation.state().audit.momentum.z();  // for 1 m/s
 }
 
 // The masses 2 pi rho A <r> of rings that tile the section sum to the mass of the whole body.

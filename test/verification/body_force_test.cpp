@@ -92,7 +92,7 @@ TEST_P(BodyForceOf, UniformIsGravity) {
   }
   EXPECT_LT((impulse(a.state(), "gravity") - impulse(b.state(), "body_force")).norm(),
             1e-12 * impulse(a.state(), "gravity").norm());
-  EXPECT_LT(b.state().audit.residual, 1e-10);  // of the momentum exchanged, as README.md promises of every run
+  EXPECT_LT(b.state().audit.residual, 1e-10);  // over the momentum exchanged, as README.md promises for every run
 }
 
 // b = -w^2 (x - X) is the same for all particles of a block that moves as a whole, which therefore oscillates as u =

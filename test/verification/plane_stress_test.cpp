@@ -13,7 +13,7 @@ namespace verification {
 namespace plane_stress_test {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kYoung = 1e6, kPoisson = 0.3;  // of both plates
+constexpr double kYoung = 1e6, kPoisson = 0.3;  // both plates; [Pa]
 
 double mean_of(const std::vector<double>& values, const std::vector<std::size_t>& chosen) {
   double sum = 0.0;

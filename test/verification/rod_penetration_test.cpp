@@ -86,7 +86,7 @@ void describe(Page& page) {
           "nose.");
 }
 
-void tell(Page& page, const std::string& label, const Penetration& run) {
+void report(Page& page, const std::string& label, const Penetration& run) {
   page.below(label + ": speed of the nose, 10 to 50 us", run.nose_speed, kHydrodynamic, "m/s");
   page.near_absolute(label + ": speed of the tail, 10 to 50 us", run.tail_speed, kTail, kTailRange, "m/s");
   page.report(label + ": nose at 60 us below the face that was struck", run.nose.back(), "mm");
@@ -106,7 +106,7 @@ TEST(RodPenetration, AtTwiceThePapersCells) {
   Page page("axisymmetric", "rod_penetration_coarse", "Rod penetration with cells of 0.5 mm");
   describe(page);
   const Penetration run = penetrate(0.5, {}, [](const mpm::Simulation&, double) {});
-  tell(page, "0.5 mm", run);
+  report(page, "0.5 mm", run);
   draw_course(page, {{"0.5 mm", run}});
   // Only the limit of fine cells (the full test) has the asked speed of the nose: here it is shown without a check.
   page.beside("0.5 mm: speed of the nose, 800 to 1000 asked of fine cells", run.nose_speed, kSlowest, "m/s");
@@ -134,7 +134,7 @@ TEST(FullRodPenetration, AtThePapersCells) {
     runs.emplace_back(fmt::format("{} mm", cell), penetrate(cell, {}, [](const mpm::Simulation&, double) {}));
   }
   runs.emplace_back("0.25 mm", penetrate(0.25, {10.0, 30.0, 60.0}, draw));
-  for (const auto& [label, run] : runs) tell(page, label, run);
+  for (const auto& [label, run] : runs) report(page, label, run);
   draw_course(page, runs);
   // With the paper's cells the nose is slightly below the asked range, but the extrapolated limit of fine cells is not.
   const double change = runs[2].second.nose_speed - runs[1].second.nose_speed;

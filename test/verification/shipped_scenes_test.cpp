@@ -20,7 +20,7 @@ mpm::SolverState run(const std::string& name, const std::vector<std::string>& ov
       worst = std::max(worst, simulation.state().audit.residual);
     }
   }
-  EXPECT_LT(worst, 1e-10) << name;  // of the momentum exchanged, as README.md promises of every run
+  EXPECT_LT(worst, 1e-10) << name;  // over the momentum exchanged, as README.md promises for every run
   if (hash != nullptr) *hash = simulation.state_hash();
   return simulation.state();
 }

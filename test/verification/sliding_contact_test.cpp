@@ -46,7 +46,7 @@ void each_case(Case&& run) {
   for (const ContactMethod& method : contact_methods()) {
     for (const double degrees : {0.0, 10.0, 30.0, 45.0}) {
       for (const Lattice lattice : {Lattice::turned, Lattice::cut}) {
-        if (degrees == 0.0 && lattice == Lattice::cut) continue;  // the same
+        if (degrees == 0.0 && lattice == Lattice::cut) continue;  // same as rows along the plane
         run(method, Slope{degrees * kPi / 180.0}, lattice, name_of(method, degrees, lattice));
       }
     }

@@ -1,11 +1,11 @@
-// Where files that tests read lie.
+// Paths of the files that tests read.
 #pragma once
 
 #include <string>
 
 #include "mpm/math/build_info.hpp"
 
-/// A file of the package by its path below the package's folder, without a slash before it.
+/// Path of a file of the package, from its path relative to the package, without a leading slash.
 inline std::string source_file(const std::string& path) { return mpm::source_folder() + "/" + path; }
-/// A file in test/data by its name.
+/// Path of the file of this name in test/data.
 inline std::string data_file(const std::string& name) { return source_file("test/data/" + name); }

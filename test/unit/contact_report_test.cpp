@@ -8,6 +8,7 @@
 
 #include "mpm/contact/rigid_contact.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "particle_block.hpp"
 
 namespace mpm {
 namespace contact_report_test {
@@ -123,13 +124,7 @@ SimulationDefinition block_on_plate() {
   block.name = "block";
   block.material = "rubber";
   block.particle_volume = 0.05 * 0.05 * 0.05;
-  for (int i = 0; i < 8; ++i) {
-    for (int j = 0; j < 4; ++j) {
-      for (int k = 0; k < 4; ++k) {
-        block.positions.emplace_back(1.0 + 0.05 * (i + 0.5), 0.4 + 0.05 * (j + 0.5), 0.2 + 0.05 * (k + 0.5));
-      }
-    }
-  }
+  block.positions = particle_block(GeometryKind::solid, {1.0, 0.4, 0.2}, {8, 4, 4}, 0.05);
   d.bodies = {block};
   RigidBodyDefinition plate;
   plate.name = "plate";

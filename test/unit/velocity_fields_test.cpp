@@ -8,6 +8,7 @@
 #include "mpm/rigid/surface.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "particle_block.hpp"
 
 namespace mpm {
 namespace velocity_fields_test {
@@ -25,15 +26,10 @@ DeformableBody body(GeometryKind geometry, const std::string& name, const Vec3& 
   const int dim = geometry == GeometryKind::line ? 1 : geometry == GeometryKind::solid ? 3 : 2;
   body.particle_volume = std::pow(step, dim);
   const int n = 2 * cells;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < (dim == 3 ? n : 1); ++j) {
-      for (int k = 0; k < (dim > 1 ? n : 1); ++k) {
-        const Vec3 x = corner + step * Vec3(i + 0.5, j + 0.5, k + 0.5);
-        body.positions.emplace_back(x.x(), dim == 3 ? x.y() : 0.0, dim > 1 ? x.z() : 0.0);
-        const Vec3 from_axis = geometry == GeometryKind::axisymmetric ? x : x - corner;
-        body.velocities.emplace_back(0.8 * from_axis.x(), 0.2, 0.3 * x.x() - 1.0);
-      }
-    }
+  body.positions = particle_block(geometry, corner, {n, n, n}, step);
+  for (const Vec3& x : body.positions) {
+    const double from_axis = geometry == GeometryKind::axisymmetric ? x.x() : x.x() - corner.x();
+    body.velocities.emplace_back(0.8 * from_axis, 0.2, 0.3 * x.x() - 1.0);
   }
   return body;
 }

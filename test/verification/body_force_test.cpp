@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mpm/simulation/simulation.hpp"
+#include "particle_block.hpp"
 
 namespace body_force_test {
 
@@ -25,14 +26,7 @@ mpm::DeformableBody block(const std::string& name, mpm::GeometryKind geometry, i
   body.name = name;
   body.material = "m";
   body.particle_volume = std::pow(kCell / 2, solid ? 3 : 2);
-  for (int i = 0; i < 2 * cells; ++i) {
-    for (int j = 0; j < (solid ? 2 * cells : 1); ++j) {
-      for (int k = 0; k < 2 * cells; ++k) {
-        body.positions.emplace_back(x + (i + 0.5) * kCell / 2, solid ? 0.5 + (j + 0.5) * kCell / 2 : 0.0,
-                                    0.5 + (k + 0.5) * kCell / 2);
-      }
-    }
-  }
+  body.positions = particle_block(geometry, {x, 0.5, 0.5}, {2 * cells, 2 * cells, 2 * cells}, kCell / 2);
   return body;
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "mpm/simulation/simulation.hpp"
+#include "particle_block.hpp"
 
 namespace conservation_test {
 
@@ -20,14 +21,7 @@ mpm::SimulationDefinition block(mpm::GeometryKind geometry, int cells, const mpm
   body.material = "m";
   const bool solid = geometry == mpm::GeometryKind::solid;
   body.particle_volume = solid ? h * h * h / 8.0 : h * h / 4.0;
-  for (int i = 0; i < 2 * cells; ++i) {
-    for (int j = 0; j < (solid ? 2 * cells : 1); ++j) {
-      for (int k = 0; k < 2 * cells; ++k) {
-        body.positions.emplace_back(0.5 + (i + 0.5) * h / 2, solid ? 0.5 + (j + 0.5) * h / 2 : 0.0,
-                                    0.5 + (k + 0.5) * h / 2);
-      }
-    }
-  }
+  body.positions = particle_block(geometry, Vec3::Constant(0.5), {2 * cells, 2 * cells, 2 * cells}, h / 2);
   d.bodies = {body};
   return d;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mpm/simulation/simulation.hpp"
+#include "particle_block.hpp"
 #include "scene_run.hpp"
 
 namespace damping_test {
@@ -30,14 +31,7 @@ mpm::SimulationDefinition block(mpm::GeometryKind geometry, mpm::UpdateScheme up
   body.material = "m";
   const bool solid = geometry == mpm::GeometryKind::solid;
   body.particle_volume = std::pow(kCell / 2, solid ? 3 : 2);
-  for (int i = 0; i < 8; ++i) {
-    for (int j = 0; j < (solid ? 8 : 1); ++j) {
-      for (int k = 0; k < 8; ++k) {
-        body.positions.emplace_back(1.0 + (i + 0.5) * kCell / 2, solid ? 1.0 + (j + 0.5) * kCell / 2 : 0.0,
-                                    1.0 + (k + 0.5) * kCell / 2);
-      }
-    }
-  }
+  body.positions = particle_block(geometry, mpm::Vec3::Ones(), {8, 8, 8}, kCell / 2);
   d.bodies = {body};
   return d;
 }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "mpm/simulation/simulation.hpp"
+#include "particle_block.hpp"
 
 namespace landing_test {
 
@@ -36,9 +37,7 @@ TEST_P(Landing, CreatesNoEnergy) {
   body.name = "block";
   body.material = "rubber";
   body.particle_volume = h * h / 4.0;
-  for (int i = 0; i < 10; ++i) {
-    for (int k = 0; k < 10; ++k) body.positions.emplace_back(0.1 + (i + 0.5) * h / 2, 0.0, 0.2 + (k + 0.5) * h / 2);
-  }
+  body.positions = particle_block(d.geometry, {0.1, 0.0, 0.2}, {10, 1, 10}, h / 2);
   body.velocities.assign(body.positions.size(), Vec3(0.0, 0.0, -2.0));
   d.bodies = {body};
   const mpm::FrictionLaw friction{0.5, false};

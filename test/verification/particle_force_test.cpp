@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mpm/simulation/simulation.hpp"
+#include "particle_block.hpp"
 #include "scene_run.hpp"
 
 namespace particle_force_test {
@@ -32,14 +33,7 @@ class ParticleForce : public testing::TestWithParam<std::tuple<mpm::GeometryKind
     body.material = "m";
     const bool solid = d.geometry == mpm::GeometryKind::solid;
     body.particle_volume = std::pow(kCell / 2, solid ? 3 : 2);
-    for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < (solid ? 6 : 1); ++j) {
-        for (int k = 0; k < 6; ++k) {
-          body.positions.emplace_back(1.0 + (i + 0.5) * kCell / 2, solid ? 1.0 + (j + 0.5) * kCell / 2 : 0.0,
-                                      1.0 + (k + 0.5) * kCell / 2);
-        }
-      }
-    }
+    body.positions = particle_block(d.geometry, mpm::Vec3::Ones(), {6, 6, 6}, kCell / 2);
     d.bodies = {body};
     return d;
   }

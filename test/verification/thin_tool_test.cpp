@@ -11,6 +11,7 @@
 #include "mpm/rigid/surface.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "particle_block.hpp"
 
 namespace mpm {
 namespace thin_tool_test {
@@ -39,14 +40,7 @@ DeformableBody block(GeometryKind geometry, const std::string& name, const Vec3&
   const double step = 0.5 * kCell;
   const bool solid = geometry == GeometryKind::solid;
   body.particle_volume = solid ? step * step * step : step * step;
-  for (int i = 0; i < 2 * size[0]; ++i) {
-    for (int j = 0; j < (solid ? 2 * size[1] : 1); ++j) {
-      for (int k = 0; k < 2 * size[2]; ++k) {
-        body.positions.emplace_back(corner + step * Vec3(i + 0.5, j + 0.5, k + 0.5));
-        if (!solid) body.positions.back().y() = 0.0;
-      }
-    }
-  }
+  body.positions = particle_block(geometry, corner, {2 * size[0], 2 * size[1], 2 * size[2]}, step);
   return body;
 }
 

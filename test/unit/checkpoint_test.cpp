@@ -168,10 +168,11 @@ std::vector<std::uint64_t> said(Simulation& simulation) {
   };
   const SolverState state = simulation.state();
   for (const double value :
-       {state.energy.kinetic, state.energy.elastic, state.energy.plastic, state.energy.potential,
-        state.energy.contact_work, state.energy.load_work, state.energy.pair_friction, state.energy.interface,
-        state.energy.friction, state.audit.exchanged, state.audit.residual, state.step.dt_min, state.step.dt_max,
-        state.step.dt_last, state.min_j, static_cast<double>(state.step.steps), static_cast<double>(state.returned)}) {
+       {state.energy.of("kinetic"), state.energy.of("elastic"), state.energy.of("plastic"),
+        state.energy.of("potential"), state.energy.of("contact_work"), state.energy.of("load_work"),
+        state.energy.of("pair_friction"), state.energy.of("interface"), state.energy.of("friction"),
+        state.audit.exchanged, state.audit.residual, state.step.dt_min, state.step.dt_max, state.step.dt_last,
+        state.min_j, static_cast<double>(state.step.steps), state.number("returned")}) {
     number(value);
   }
   bits.push_back(std::hash<std::string>()(state.step.limited_by));

@@ -46,11 +46,11 @@ TEST(GlobalQuantities, EnergiesAndCountersAreTheSolvers) {
   run.advance();
   const std::vector<double> values = global.read();
   const SolverState state = run.state();
-  const double round_off = 1e-12 * state.energy.kinetic;
-  EXPECT_NEAR(values[0], state.energy.kinetic, round_off);
-  EXPECT_NEAR(values[1], state.energy.elastic, round_off);
-  EXPECT_NEAR(values[2], state.energy.plastic, round_off);
-  EXPECT_NEAR(values[3], state.energy.kinetic + state.energy.elastic, round_off);
+  const double round_off = 1e-12 * state.energy.of("kinetic");
+  EXPECT_NEAR(values[0], state.energy.of("kinetic"), round_off);
+  EXPECT_NEAR(values[1], state.energy.of("elastic"), round_off);
+  EXPECT_NEAR(values[2], state.energy.of("plastic"), round_off);
+  EXPECT_NEAR(values[3], state.energy.of("kinetic") + state.energy.of("elastic"), round_off);
   EXPECT_NEAR(values[4], values[3], round_off);  // there is no external work
   EXPECT_EQ(values[5], 0.0);
   EXPECT_EQ(values[6], 1.0);

@@ -79,5 +79,22 @@ TEST(Modules, AccountsOfOneNameBecomeOne) {
   EXPECT_EQ(accounts[0].exchanged, 2.0);
 }
 
+// Energies of one name become one; totals go by kind, not by name.
+TEST(Modules, EnergiesAreSummedByKind) {
+  using Kind = NamedEnergy::Kind;
+  EnergyReport report;
+  report.add("kinetic", Kind::stored, 1.0);
+  report.add("surface", Kind::stored, 2.0);
+  report.add("lost", Kind::dissipated, 4.0);
+  report.add("done", Kind::work, 8.0);
+  report.add("ball", Kind::of_bodies, 16.0);
+  report.add("surface", Kind::stored, 32.0);
+  EXPECT_EQ(report.of("surface"), 34.0);
+  EXPECT_EQ(report.of("none"), 0.0);
+  EXPECT_EQ(report.list().size(), 5u);
+  EXPECT_EQ(report.total(), 35.0);
+  EXPECT_EQ(report.whole(), 51.0);
+}
+
 }  // namespace modules_test
 }  // namespace mpm

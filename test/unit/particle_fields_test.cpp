@@ -117,10 +117,10 @@ TEST(ParticleFields, EnergiesAddUpToThoseOfTheSolver) {
   Simulation run(observed_block(J2PlasticityDefinition{kElasticity, 20.0}, diagonal(1000.0, -500.0, -500.0)));
   run.advance();
   const EnergyReport energy = run.state().energy;
-  EXPECT_NEAR(sum_of(run, "kinetic_energy"), energy.kinetic, 1e-12 * energy.kinetic);
-  EXPECT_NEAR(sum_of(run, "strain_energy"), energy.elastic, 1e-12 * energy.elastic);
-  EXPECT_NEAR(sum_of(run, "plastic_energy"), energy.plastic, 1e-12 * energy.plastic);
-  EXPECT_GT(energy.plastic, 0.0);
+  EXPECT_NEAR(sum_of(run, "kinetic_energy"), energy.of("kinetic"), 1e-12 * energy.of("kinetic"));
+  EXPECT_NEAR(sum_of(run, "strain_energy"), energy.of("elastic"), 1e-12 * energy.of("elastic"));
+  EXPECT_NEAR(sum_of(run, "plastic_energy"), energy.of("plastic"), 1e-12 * energy.of("plastic"));
+  EXPECT_GT(energy.of("plastic"), 0.0);
   EXPECT_EQ(sum_of(run, "heat_energy"), 0.0);
   EXPECT_NEAR(sum_of(run, "mass"), test::kBlockDensity * std::pow(test::kSide, 3), 1e-9);
   EXPECT_NEAR(inside(run, "volume"), inside(run, "mass") / inside(run, "density"), 1e-18);

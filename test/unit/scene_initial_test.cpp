@@ -64,7 +64,7 @@ TEST(SceneInitial, StressAndTemperatureAreFunctionsOfPlace) {
 TEST(SceneInitial, EnergyOfTheStressCounts) {
   const Simulation run(build(parse_scene(scene("initial: {stress: {xx: -1e3, yy: -1e3, zz: -1e3}}"), "t")), {1});
   const double bulk = 1e6 / (3.0 * 0.4), volume = 1.0 * 0.5 * 1.0;
-  EXPECT_NEAR(run.state().energy.elastic, volume * 1e6 / (2.0 * bulk), 1e-9);
+  EXPECT_NEAR(run.state().energy.of("elastic"), volume * 1e6 / (2.0 * bulk), 1e-9);
 }
 
 TEST(SceneInitial, CutOutLeavesRoomForTools) {

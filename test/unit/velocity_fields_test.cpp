@@ -92,8 +92,8 @@ void expect_same(const SimulationDefinition& in_one, const SimulationDefinition&
         << name << ", " << a.audit.impulses[i].name;
   }
   EXPECT_LT(b.audit.residual, 1e-10) << name;
-  EXPECT_NEAR(a.energy.load_work, b.energy.load_work, 1e-12 * a.energy.kinetic) << name;
-  EXPECT_NEAR(a.energy.contact_work, b.energy.contact_work, 1e-12 * a.energy.kinetic) << name;
+  EXPECT_NEAR(a.energy.of("load_work"), b.energy.of("load_work"), 1e-12 * a.energy.of("kinetic")) << name;
+  EXPECT_NEAR(a.energy.of("contact_work"), b.energy.of("contact_work"), 1e-12 * a.energy.of("kinetic")) << name;
 }
 
 template <class Visit>

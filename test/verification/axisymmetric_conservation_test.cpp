@@ -247,7 +247,7 @@ double change_of_energy(GeometryKind geometry, const MethodDefinition& method) {
   Simulation simulation(d, {1});
   const auto energy = [&] {
     const auto& e = simulation.state().energy;
-    return e.kinetic + e.elastic;
+    return e.of("kinetic") + e.of("elastic");
   };
   const double start = energy();
   double change = 0.0;

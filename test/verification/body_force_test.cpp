@@ -109,7 +109,7 @@ TEST_P(BodyForceOf, SpringToTheStartIsSecondOrder) {
     EXPECT_LT(state.audit.residual, 1e-10);
     // All work becomes kinetic energy, to round-off of the energy that it started with.
     const double kinetic = 0.5 * mass(d.bodies[0]) * v0 * v0;
-    EXPECT_NEAR(state.energy.load_work, state.energy.kinetic - kinetic, 1e-10 * kinetic);
+    EXPECT_NEAR(state.energy.of("load_work"), state.energy.of("kinetic") - kinetic, 1e-10 * kinetic);
     return std::abs(x[0] - start - v0 / w * std::sin(w * 0.3));
   };
   const double coarse = error(5e-3), fine = error(2.5e-3);

@@ -73,10 +73,10 @@ double reflected(const Case& c) {
   run_until(run, std::ceil((0.34 + 0.006 * c.width + 0.06) / wave_speed(c) / 1e-4) * 1e-4);
   const mpm::SolverState after = run.state();
   EXPECT_LT(after.audit.residual, 1e-10) << c.name();
-  const double energy = before.energy.kinetic + before.energy.elastic;
+  const double energy = before.energy.of("kinetic") + before.energy.of("elastic");
   // With FLIP all of its energy has gone into the dashpots; other transfers dissipate a part themselves.
   if (std::string(c.transfer) == "flip") {
-    EXPECT_NEAR(after.energy.load_work, -energy, 0.01 * energy) << c.name();
+    EXPECT_NEAR(after.energy.of("load_work"), -energy, 0.01 * energy) << c.name();
   }
   // The dashpots have taken its momentum, too.
   EXPECT_NEAR((impulse(run, "absorbing/x_max") + before.audit.momentum).norm(), 0.0,

@@ -63,12 +63,12 @@ TEST(Periodic, WhatFliesAroundComesBack) {
   const char* const method = "{shape: bspline2, update: usavg, transfer: apic}";
   mpm::Simulation run = scene(shear(method, 16.0));
   const std::vector<double> start = field(run, "x");
-  const double energy = run.state().energy.kinetic;
+  const double energy = run.state().energy.of("kinetic");
   run_until(run, 0.15);  // 2.4 m
   const std::vector<double> x = field(run, "x"), vx = field(run, "vx");
   const double momentum = run.state().audit.momentum.x();
   EXPECT_NEAR(momentum, 16.0 * 320.0, 1e-11 * 16.0 * 320.0);
-  EXPECT_NEAR(run.state().energy.kinetic, energy, 1e-6 * energy);
+  EXPECT_NEAR(run.state().energy.of("kinetic"), energy, 1e-6 * energy);
   for (std::size_t p = 0; p < x.size(); ++p) {
     ASSERT_NEAR(std::remainder(x[p] - start[p], 0.8), 0.0, 1e-4) << p;
     ASSERT_GE(x[p], -0.5 * 0.05 - 0.06) << p;  // half a cell, and its travel until it is sorted

@@ -43,15 +43,15 @@ Collision collide(const std::vector<std::string>& overrides) {
     simulation.advance();
     const mpm::SolverState state = simulation.state();
     run.time.push_back(seconds(simulation));
-    run.kinetic.push_back(state.energy.kinetic / start_energy);
-    run.elastic.push_back(state.energy.elastic / start_energy);
+    run.kinetic.push_back(state.energy.of("kinetic") / start_energy);
+    run.elastic.push_back(state.energy.of("elastic") / start_energy);
     run.total.push_back(state.energy.total() / start_energy);
     run.left_vx.push_back(velocity("vx") / before);
     run.drift = std::max(run.drift, std::abs(run.total.back() - 1.0));
     if (run.touch == 0.0 && run.left_vx.back() < 0.999) run.touch = seconds(simulation);
     largest_momentum = std::max(largest_momentum, state.audit.momentum.norm());
-    if (state.energy.elastic > most_elastic) {
-      most_elastic = state.energy.elastic;
+    if (state.energy.of("elastic") > most_elastic) {
+      most_elastic = state.energy.of("elastic");
       run.x = field(simulation, "x");
       run.z = field(simulation, "z");
       run.mises = field(simulation, "mises");

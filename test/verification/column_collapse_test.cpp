@@ -39,14 +39,14 @@ Collapse collapse(double aspect, int cells) {
   mpm::Simulation simulation = verification::start(
       "column_collapse", {fmt::format("bodies.column.shape.box.max=[{}, {}]", kWidth, aspect * kWidth),
                           fmt::format("grid.cell={}", cell), fmt::format("time.end={}", end)});
-  const double potential = simulation.state().energy.potential;
+  const double potential = simulation.state().energy.of("potential");
   verification::run_until(simulation, end);
   const Numbers x = verification::field(simulation, "x"), z = verification::field(simulation, "z");
   const mpm::EnergyReport energy = simulation.state().energy;
 
   Collapse result;
   result.aspect = aspect;
-  result.kinetic = energy.kinetic / (potential - energy.potential);
+  result.kinetic = energy.of("kinetic") / (potential - energy.of("potential"));
   // The surface is the height of a strip's sand at its initial density. For the front the strips are cells; for heights
   // and slopes they are a quarter of d0, as particles of drawn-out sand are distributed unevenly among cells.
   const auto depths = [&](double width) {

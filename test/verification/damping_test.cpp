@@ -82,9 +82,9 @@ TEST_P(Damping, SlowsRigidTranslation) {
     const double kept = std::pow(1.0 - k * state.step.dt_last, static_cast<double>(state.step.steps));
     EXPECT_EQ(state.step.dt_min, state.step.dt_max);  // one dt for the power
     // Round-off of one digit in each of some hundred steps.
-    EXPECT_NEAR(state.energy.kinetic / start.energy.kinetic, kept * kept, 1e-11);
+    EXPECT_NEAR(state.energy.of("kinetic") / start.energy.of("kinetic"), kept * kept, 1e-11);
     // (1 - k dt)^2 differs from exp(-2 k dt) by (k dt)^2, which adds up to k^2 t dt = 9 * 0.2 * 0.005 at most.
-    EXPECT_NEAR(state.energy.kinetic / start.energy.kinetic, std::exp(-2.0 * k * 0.2), 0.01);
+    EXPECT_NEAR(state.energy.of("kinetic") / start.energy.of("kinetic"), std::exp(-2.0 * k * 0.2), 0.01);
     EXPECT_NEAR((impulse(state, "damping") - start.audit.momentum * (kept - 1.0)).norm(), 0.0,
                 1e-11 * start.audit.momentum.norm());
     EXPECT_LT(state.audit.residual, 1e-10);

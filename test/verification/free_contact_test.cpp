@@ -40,8 +40,8 @@ rigid_bodies:
   const auto look = [&] {
     const mpm::SolverState now = simulation.state();
     return Bounce{start - accounted(now.energy), now.energy.total(),
-                  now.energy.free_kinetic + now.energy.free_potential, simulation.free_bodies()[0].contact.linear,
-                  now.step.steps};
+                  now.energy.of("free_kinetic") + now.energy.of("free_potential"),
+                  simulation.free_bodies()[0].contact.linear, now.step.steps};
   };
   std::vector<Bounce> seen = {look()};
   double top = 0.0, most = 0.0;
@@ -62,7 +62,7 @@ rigid_bodies:
   EXPECT_LT(state.audit.residual, 1e-10);
   EXPECT_LT(imbalance(ball), 1e-10);
   EXPECT_LT(most, 0.01 * fall);  // gain at any time: also a bound on a measured value
-  EXPECT_GT(state.energy.free_loss, 0.0);
+  EXPECT_GT(state.energy.of("free_loss"), 0.0);
   EXPECT_LT(part, seen.size() - 50);  // the ball has left the block
   // In free flight a step loses m g^2 dt^2 / 2, since the position follows from the velocity at the end of the step.
   // The rest is round-off of sums.
@@ -75,8 +75,8 @@ rigid_bodies:
   const double together = seen[part].missing - seen[touch].missing;
   const double alone = seen.back().missing - seen[part].missing - flight;
   // The energy left for the rise is that of the fall, less the losses and the block's energy when they separate.
-  const double left =
-      fall - state.energy.free_loss - state.energy.friction - (seen[part].block - seen[touch].block) + 0.01 * fall;
+  const double left = fall - state.energy.of("free_loss") - state.energy.of("friction") -
+                      (seen[part].block - seen[touch].block) + 0.01 * fall;
   Page page("contact", "free_ball", "A ball that falls on an elastic block");
   page.problem(
           "A rigid disc of 60 mm radius, as heavy as rubber, falls 0.1 m onto a block of it (E = 1 MPa) and bounces.")
@@ -85,7 +85,7 @@ rigid_bodies:
   page.near("energy accounted for, over that of the fall", 1.0 - seen.back().missing / fall, 1.0, 0.05, "1");
   page.near_absolute("not accounted for while they touch, over that of the fall", together / fall, 0.0, 0.02, "1");
   page.report("let go by FLIP while the block rings alone, over that of the fall", alone / fall, "1");
-  page.report("lost where they meet, over that of the fall", state.energy.free_loss / fall, "1");
+  page.report("lost where they meet, over that of the fall", state.energy.of("free_loss") / fall, "1");
   page.below("rebound height; most that the balance of energy leaves", top, left / (ball.mass * kFreeGravity), "m");
   page.meaning(
       "The loss at impact is that of the surface nodes, which stop at once. The rest of the energy that the disc "

@@ -37,7 +37,7 @@ inline double imbalance(const mpm::FreeBodyReport& body) {
 /// Energy of bodies and material, plus the energy dissipated by contact, friction and plastic flow, less the work done
 /// on them [J].
 inline double accounted(const mpm::EnergyReport& e) {
-  return e.whole() + e.plastic + e.friction + e.free_loss - e.free_work - e.load_work;
+  return e.whole() + e.of("plastic") + e.of("friction") + e.of("free_loss") - e.of("free_work") - e.of("load_work");
 }
 
 }  // namespace verification

@@ -83,7 +83,7 @@ TEST(Geostatic, LevelBedRestsExactly) {
       }
     }
     EXPECT_LT(run.state().audit.residual, 1e-10);
-    EXPECT_EQ(run.state().energy.plastic, 0.0);
+    EXPECT_EQ(run.state().energy.of("plastic"), 0.0);
   }
 }
 
@@ -159,8 +159,8 @@ TEST(Geostatic, AFreeBlockSettlesToTheResidualAskedFor) {
         simulation(scene, {std::string("bodies.block.initial={geostatic: {residual: ") + residual + "}}"});
     ASSERT_EQ(run.notes().size(), 1u) << residual;
     EXPECT_EQ(run.time(), 0);
-    EXPECT_EQ(run.state().energy.kinetic, 0.0);
-    EXPECT_GT(run.state().energy.elastic, 0.0);
+    EXPECT_EQ(run.state().energy.of("kinetic"), 0.0);
+    EXPECT_GT(run.state().energy.of("elastic"), 0.0);
     // The unbalanced part of gravity causes the same oscillation as all of it, scaled; ten times that for several
     // modes.
     EXPECT_LT(largest_speed(run, 0.3), 10.0 * std::stod(residual) * before) << residual;

@@ -78,7 +78,7 @@ TEST(Interface, OpensByStressOverStiffness) {
                 0.01, "Pa");
       EXPECT_LT(run.state().audit.residual, 1e-10);
       // The energy of the interface is D jump^2 / 2.
-      EXPECT_NEAR(run.state().energy.interface, 0.5 * kPull * kPull / stiffness,
+      EXPECT_NEAR(run.state().energy.of("interface"), 0.5 * kPull * kPull / stiffness,
                   0.02 * 0.5 * kPull * kPull / stiffness);
     }
   }
@@ -160,8 +160,8 @@ TEST(Interface, IsStableAtAnyStiffness) {
     while (seconds(run) < 1.0 - 1e-9) {
       run.advance();
       const mpm::EnergyReport energy = run.state().energy;
-      most = std::max(most, energy.total() - energy.load_work);
-      work = std::max(work, energy.load_work);
+      most = std::max(most, energy.total() - energy.of("load_work"));
+      work = std::max(work, energy.of("load_work"));
       const std::vector<double> x = field(run, "x");
       largest = std::max(largest, x.back() - start.back());
     }

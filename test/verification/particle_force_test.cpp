@@ -130,7 +130,8 @@ TEST_P(ParticleForce, OnAllIsABodyForce) {
             1e-12 * impulse(a.state(), "body_force").norm());
   if (std::get<2>(GetParam()) == LoadSpread::domain) {
     // It moves as a whole: all of the work is kinetic energy.
-    EXPECT_NEAR(c.state().energy.load_work, c.state().energy.kinetic, 1e-10 * c.state().energy.kinetic);
+    EXPECT_NEAR(c.state().energy.of("load_work"), c.state().energy.of("kinetic"),
+                1e-10 * c.state().energy.of("kinetic"));
   }
 }
 

@@ -91,7 +91,7 @@ Impact hit(const std::vector<std::string>& overrides) {
     if (past > 1.0 && past < 7.1) impact.steel.add(p);
   }
   const mpm::EnergyReport after = simulation.state().energy;
-  impact.energy = (after.total() + after.plastic) / (before.total() + before.plastic) - 1.0;
+  impact.energy = (after.total() + after.of("plastic")) / (before.total() + before.of("plastic")) - 1.0;
   impact.audit = simulation.state().audit.residual;
   return impact;
 }

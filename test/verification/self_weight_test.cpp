@@ -40,7 +40,7 @@ Rest settle(const std::vector<std::string>& overrides) {
     rest.stress.push_back(stress[p]);
     rest.displacement.push_back(z[p] - initial[p]);
   }
-  rest.kinetic = simulation.state().energy.kinetic / simulation.state().energy.elastic;
+  rest.kinetic = simulation.state().energy.of("kinetic") / simulation.state().energy.of("elastic");
   return rest;
 }
 

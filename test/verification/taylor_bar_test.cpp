@@ -52,8 +52,8 @@ Rod hit(double cell) {
   }
   rod.length = rod.height.back();
   const mpm::EnergyReport end = simulation.state().energy;
-  rod.drift = (end.total() + end.plastic) / energy - 1.0;
-  rod.kinetic = end.kinetic / energy;
+  rod.drift = (end.total() + end.of("plastic")) / energy - 1.0;
+  rod.kinetic = end.of("kinetic") / energy;
   return rod;
 }
 

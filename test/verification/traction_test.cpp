@@ -181,12 +181,12 @@ TEST(Traction, WorksAndRepeats) {
     std::vector<std::uint64_t> hashes;
     for (const int threads : {1, 3}) {
       mpm::Simulation simulation(d, {threads});
-      const double before = simulation.state().energy.kinetic;
+      const double before = simulation.state().energy.of("kinetic");
       verification::run_until(simulation, 0.3);
       const mpm::SolverState state = simulation.state();
-      const double gained = state.energy.kinetic + state.energy.elastic - before;
+      const double gained = state.energy.of("kinetic") + state.energy.of("elastic") - before;
       if (shape != ShapeKind::dirac) {
-        EXPECT_NEAR(state.energy.load_work, gained, 0.005 * gained) << mpm::shape_name(shape);
+        EXPECT_NEAR(state.energy.of("load_work"), gained, 0.005 * gained) << mpm::shape_name(shape);
       }
       EXPECT_LT(state.audit.residual, 1e-10) << mpm::shape_name(shape);
       hashes.push_back(simulation.state_hash());

@@ -60,9 +60,8 @@ class Absorbing final : public FieldStage {
   void increment_found(FieldContext& context) override;
   void grid_advanced(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  void energies(EnergyReport& report) const override { report.add("load_work", NamedEnergy::Kind::work, work_); }
   void keep(StateArchive& archive) override;
-  /// Work on the material since the start [J]; negative.
-  double work() const { return work_; }
 
  private:
   struct Node {
@@ -100,7 +99,7 @@ class Absorbing final : public FieldStage {
   std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
   ImpulseAccount account_;
   Vec3 given_ = Vec3::Zero();  ///< in this step [N s]
-  double work_ = 0.0;
+  double work_ = 0.0;          ///< on the material since the start; negative [J]
 };
 
 }  // namespace mpm

@@ -28,6 +28,7 @@ class Axis final : public FieldStage {
   void increment_found(FieldContext& context) override;
   void grid_advanced(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  std::optional<OutsideReason> why_outside(const GridLayout& layout, const ParticleSet& set, int particle) const override;
   void keep(StateArchive& archive) override {
     account_.keep(archive);
     archive.keep("given", given_);

@@ -22,9 +22,9 @@
 namespace mpm {
 
 /// Conditions that contradict each other or a wall, or have no value. what() names both.
-class ConditionError : public Error {
+class ConditionError : public ModuleError {
  public:
-  using Error::Error;
+  using ModuleError::ModuleError;
 };
 
 /// What a scene says of one condition.
@@ -65,10 +65,12 @@ class VelocityConditions final : public FieldStage {
   void increment_found(FieldContext& context) override;
   void grid_advanced(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
+  void energies(EnergyReport& report) const override { report.add("load_work", NamedEnergy::Kind::work, work_); }
+  /// @throws ConditionError
+  void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
+  std::string limit_text(const StepLimit& limit) const override;
   void keep(StateArchive& archive) override;
 
-  /// Work on the material since the start [J]: impulse times the mean of the velocities before and after the step.
-  double work() const { return work_; }
   /// The largest prescribed speed at the held nodes at a time [s], the regions standing as they do now [m/s].
   /// @throws ConditionError
   double largest_speed(double time) const;
@@ -115,7 +117,7 @@ class VelocityConditions final : public FieldStage {
   bool moving_ = false;           ///< any region does
   bool ended_ = false;            ///< momentum of this step has been updated
   std::uint64_t generation_ = 0;  ///< of the block table that held_ was made from
-  double work_ = 0.0;
+  double work_ = 0.0;             ///< on the material since the start: impulse times the mean velocity of the step [J]
 };
 
 }  // namespace mpm

@@ -11,23 +11,31 @@
 
 #include "mpm/grid/grid_layout.hpp"
 #include "mpm/particles/particle_set.hpp"
-#include "mpm/step/stage.hpp"
+#include "mpm/step/module.hpp"
 
 namespace mpm {
 
-class Leaving final {
+class Leaving final : public Module {
  public:
   /// `limit`: how many particles may leave; each counts once, however often it comes back to the edge.
-  explicit Leaving(std::uint64_t limit) : limit_(limit) { account_.name = "returned"; }
+  /// `sets` and `layout` outlive this.
+  Leaving(std::uint64_t limit, std::vector<ParticleSet>& sets, const GridLayout& layout)
+      : limit_(limit), sets_(sets), layout_(layout) {
+    account_.name = "returned";
+  }
+
+  std::string name() const override { return "leaving"; }
+  void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  /// "returned": how many particles have left.
+  void numbers(std::vector<NamedNumber>& list) const override {
+    list.push_back({"returned", "1", static_cast<double>(count_)});
+  }
 
   /// Puts back every particle that is beyond the place where its set may be. False when there is one that cannot be,
   /// since it is not finite or the limit has been passed; then the particles that come after it are as they were.
-  bool put_back(std::vector<ParticleSet>& sets, const GridLayout& layout);
-  std::uint64_t limit() const { return limit_; }
-  std::uint64_t count() const { return count_; }  ///< of the particles that have left
-  const ImpulseAccount& account() const { return account_; }
-  /// For checkpoints.
-  void keep(StateArchive& archive) {
+  bool put_back() override;
+  std::optional<OutsideReason> why_outside(const GridLayout&, const ParticleSet&, int particle) const override;
+  void keep(StateArchive& archive) override {
     archive.keep("count", count_);
     archive.list("left", left_);
     account_.keep(archive);
@@ -35,6 +43,8 @@ class Leaving final {
 
  private:
   std::uint64_t limit_;
+  std::vector<ParticleSet>& sets_;
+  const GridLayout& layout_;
   std::uint64_t count_ = 0;
   std::vector<std::uint8_t> left_;  ///< by id
   ImpulseAccount account_;

@@ -16,6 +16,7 @@
 #include "mpm/grid/grid_layout.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/module.hpp"
 
 namespace mpm {
 
@@ -28,5 +29,20 @@ void put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int th
 
 /// Of a body that reaches a periodic face, which one: "x_max"; else empty.
 std::string periodic_face_reached(const RigidBody& body, const GridLayout& layout);
+
+/// Puts particles around before every sort.
+class PeriodicAxes final : public Module {
+ public:
+  /// `sets` and `layout` outlive this.
+  PeriodicAxes(std::vector<ParticleSet>& sets, const GridLayout& layout, int threads)
+      : sets_(sets), layout_(layout), threads_(threads) {}
+  std::string name() const override { return "periodic"; }
+  void before_sort() override { put_around(sets_, layout_, threads_); }
+
+ private:
+  std::vector<ParticleSet>& sets_;
+  const GridLayout& layout_;
+  int threads_;
+};
 
 }  // namespace mpm

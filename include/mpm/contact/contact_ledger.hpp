@@ -34,6 +34,12 @@ class ContactLedger {
   /// For checkpoints.
   void keep(StateArchive& archive);
 
+  const RigidBody& body() const { return body_; }
+  /// Work of the body on the material, and what sliding on it took.
+  void energies(EnergyReport& report) const {
+    report.add("contact_work", NamedEnergy::Kind::work, work_);
+    report.add("friction", NamedEnergy::Kind::dissipated, friction_energy_);
+  }
   const ImpulseAccount& account() const { return account_; }   ///< given to the material
   double work() const { return work_; }                        ///< of the body on the material since the start [J]
   double friction_energy() const { return friction_energy_; }  ///< that sliding took since the start [J]

@@ -17,9 +17,9 @@
 #include <string>
 #include <vector>
 
+#include "mpm/contact/contact_reporter.hpp"
 #include "mpm/contact/node_contact.hpp"
 #include "mpm/contact/pair_detection.hpp"
-#include "mpm/contact/pair_report.hpp"
 #include "mpm/contact/shared_blocks.hpp"
 #include "mpm/contact/tool_sides.hpp"
 #include "mpm/math/geometry_kind.hpp"
@@ -45,7 +45,7 @@ struct MaterialContactSettings {
   const ToolSides* sides = nullptr;  ///< of thin tools, which may lie between two bodies at a node; null without
 };
 
-class MaterialContact final : public Stage {
+class MaterialContact final : public Stage, public ContactReporter {
  public:
   /// `fields` and `survey` outlive the stage.
   MaterialContact(MaterialContactSettings settings, Fields& fields, VolumeSurvey& survey);
@@ -63,12 +63,8 @@ class MaterialContact final : public Stage {
   void accounts(std::vector<ImpulseAccount>& list) const override;
   void keep(StateArchive& archive) override;
 
-  /// Of each pair since the last call; `now` [s].
-  std::vector<PairReport> take(double now);
-  /// Taken by sliding since the start, all pairs [J].
-  double friction_energy() const;
-  /// Stored in imperfect interfaces when the last step began [J].
-  double interface_energy() const;
+  void energies(EnergyReport& report) const override;
+  void take_pairs(double now, std::vector<PairReport>& reports) override;
 
  private:
   /// A field at a node.

@@ -35,7 +35,7 @@
 #include <vector>
 
 #include "mpm/contact/conjugate_sweeps.hpp"
-#include "mpm/contact/contact_ledger.hpp"
+#include "mpm/contact/contact_reporter.hpp"
 #include "mpm/grid/fields.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/particles/particle_set.hpp"
@@ -55,7 +55,7 @@ struct PointContactSettings {
   Vec3 gravity = Vec3::Zero();  ///< on bodies that are free [m/s^2]
 };
 
-class PointContact final : public Stage {
+class PointContact final : public Stage, public ContactReporter {
  public:
   /// Bodies, sets and fields outlive the stage. `laws`: of each body against each set, the sets of a body together.
   PointContact(std::vector<const RigidBody*> bodies, const std::vector<ParticleSet>& sets, Fields& fields,
@@ -71,10 +71,9 @@ class PointContact final : public Stage {
   void increment_found(StepContext& context) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
+  void energies(EnergyReport& report) const override;
+  ContactLedger* ledger_of(const RigidBody& body) override;
   void keep(StateArchive& archive) override;
-
-  /// Of a body, by its place in the list.
-  ContactLedger& ledger(int body) { return ledgers_[body]; }
 
  private:
   struct Point {

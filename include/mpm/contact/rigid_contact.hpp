@@ -18,7 +18,7 @@
 
 #include <vector>
 
-#include "mpm/contact/contact_ledger.hpp"
+#include "mpm/contact/contact_reporter.hpp"
 #include "mpm/contact/tool_sides.hpp"
 #include "mpm/grid/fields.hpp"
 #include "mpm/math/geometry_kind.hpp"
@@ -28,7 +28,7 @@
 
 namespace mpm {
 
-class RigidContact final : public Stage {
+class RigidContact final : public Stage, public ContactReporter {
  public:
   /// `body`, `fields` and `sides`, of a scene with thin tools, outlive the stage. Solid stands for every geometry that
   /// is not axisymmetric.
@@ -45,6 +45,8 @@ class RigidContact final : public Stage {
   void increment_found(StepContext& context) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(ledger_.account()); }
+  void energies(EnergyReport& report) const override { ledger_.energies(report); }
+  ContactLedger* ledger_of(const RigidBody& body) override { return &body == &body_ ? &ledger_ : nullptr; }
   void keep(StateArchive& archive) override;
 
   ContactLedger& ledger() { return ledger_; }

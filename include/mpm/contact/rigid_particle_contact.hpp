@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "mpm/contact/contact_ledger.hpp"
+#include "mpm/contact/contact_reporter.hpp"
 #include "mpm/contact/node_contact.hpp"
 #include "mpm/contact/pair_detection.hpp"
 #include "mpm/contact/rigid_particles.hpp"
@@ -29,7 +29,7 @@ struct RigidParticleSettings {
   double across = 1.0;  ///< thickness or area beside the grid's axes [m, m^2]
 };
 
-class RigidParticleContact final : public Stage {
+class RigidParticleContact final : public Stage, public ContactReporter {
  public:
   /// `body`, `fields` and `survey` outlive the stage. @throws RigidError as RigidParticles.
   RigidParticleContact(const RigidBody& body, RigidParticleSettings settings, Fields& fields, VolumeSurvey& survey);
@@ -45,6 +45,8 @@ class RigidParticleContact final : public Stage {
   void increment_found(StepContext& context) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(ledger_.account()); }
+  void energies(EnergyReport& report) const override { ledger_.energies(report); }
+  ContactLedger* ledger_of(const RigidBody& body) override { return &body == &body_ ? &ledger_ : nullptr; }
   void keep(StateArchive& archive) override;
 
   ContactLedger& ledger() { return ledger_; }

@@ -26,11 +26,13 @@
 
 namespace mpm {
 
-class ToolSides {
+class ToolSides final : public Module {
  public:
   /// Both outlive this. `map` says which bodies are divided, and the fields of their sides.
-  ToolSides(const GridLayout& layout, const FieldMap& map, int threads)
-      : layout_(layout), map_(map), threads_(threads) {}
+  ToolSides(const GridLayout& layout, const FieldMap& map, std::vector<ParticleSet>& sets, int threads)
+      : layout_(layout), map_(map), sets_(sets), threads_(threads) {}
+
+  std::string name() const override { return "tool_sides"; }
 
   /// `body` outlives this; what is returned lives as long.
   const ThinTool& add(const RigidBody& body, GeometryKind geometry) { return tools_.emplace_back(body, geometry); }
@@ -40,21 +42,22 @@ class ToolSides {
   const FieldMap& map() const { return map_; }
 
   /// Before a sort: the side of every particle of the bodies that are divided.
-  void label(std::vector<ParticleSet>& sets);
+  void before_sort() override;
   /// Tool and material near it have moved against each other by so much [m].
   void add_travel(double travel) { travelled_ += travel; }
   /// Sides may have changed: sort.
-  bool due() const;
+  bool needs_sort() const override;
   /// Whether a tool lies between the mass centres of what two fields have at a node. Needs Grid::place.
   bool apart(const Grid& first, NodeRef of_first, const Grid& second, NodeRef of_second) const;
   /// Whether a ball around a world point is so near to a tool that particles in it may be on side 1 or in its contact.
   bool near(const Vec3& point, double radius) const;
   /// For checkpoints.
-  void keep(StateArchive& archive);
+  void keep(StateArchive& archive) override;
 
  private:
   const GridLayout& layout_;
   const FieldMap& map_;
+  std::vector<ParticleSet>& sets_;
   int threads_;
   std::deque<ThinTool> tools_;
   bool labelled_ = false;

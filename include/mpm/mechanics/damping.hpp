@@ -26,9 +26,9 @@
 namespace mpm {
 
 /// Damping that has no value somewhere, or one that cannot be. what() names the key, the time and the remedy.
-class DampingError : public Error {
+class DampingError : public ModuleError {
  public:
-  using Error::Error;
+  using ModuleError::ModuleError;
 };
 
 /// What the update of one set's particles is told [1/s]: two numbers, or two arrays in place of them with the whole
@@ -70,6 +70,14 @@ class DampingControl final : public Stage {
   void momentum_gathered(StepContext& context) override { begin_step(context); }
   void forces_gathered(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  /// "alpha", of the feedback.
+  void numbers(std::vector<NamedNumber>& list) const override { list.push_back({"alpha", "1/s", alpha_}); }
+  /// @throws DampingError
+  void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
+  std::string limit_text(const StepLimit&) const override { return "method.damping"; }
+  void hashed(std::vector<double>& numbers) const override {
+    if (needs_energy()) numbers.push_back(alpha_);
+  }
   void keep(StateArchive& archive) override {
     archive.keep("alpha", alpha_);
     account_.keep(archive);

@@ -63,6 +63,7 @@ class FaceTractions : public Stage {
   void forces_gathered(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  void energies(EnergyReport& report) const override { report.add("load_work", NamedEnergy::Kind::work, work_); }
   void keep(StateArchive& archive) override {
     archive.keep("work", work_);
     account_.keep(archive);

@@ -51,19 +51,9 @@ struct ParticleLoadTerm {
 };
 
 /// A load that has no value somewhere. what() names the load, the place and the time.
-class LoadError : public Error {
+class LoadError : public ModuleError {
  public:
-  using Error::Error;
-};
-
-/// All loads of a scene on particles, as one stage that is the last of them: its work is taken with the velocity that
-/// conditions have left, over the displacement of FLIP (GIMP notes (2.16)); where particles move otherwise (PIC, XPIC,
-/// FMPM, APIC) the work is right to first order in dt. Audit: "body_force" and "particle_force", those that there are:
-/// the sums over particles of m b dt and of F dt; the grid has no part in them.
-class ParticleLoads : public Stage {
- public:
-  /// Work on the material since the start [J]: nodal load times the displacement of its node in the step.
-  virtual double work() const = 0;
+  using ModuleError::ModuleError;
 };
 
 /// Kernels that scatter a load, by its spread: those of the scene's shape function, and those of dirac, whose hat
@@ -74,11 +64,15 @@ struct LoadKernels {
   mpm_kernel::KernelTable<T> center;
 };
 
+/// All loads of a scene on particles, as one stage. Its work is nodal load times the displacement of its node in a
+/// step, with the velocity that conditions have left, over the displacement of FLIP (GIMP notes (2.16)); where
+/// particles move otherwise (PIC, XPIC, FMPM, APIC) it is right to first order in dt. Audit: "body_force" and
+/// "particle_force", those that there are: the sums over particles of m b dt and of F dt; the grid has no part in them.
 /// `fields`, `sets` and `laws`, one each, outlive the result; sets that a term with X, Y or Z acts on have their
 /// start_x. T: double or float, the sets' precision.
 template <class T>
-std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<T>& kernels, Fields& fields,
-                                                   std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
-                                                   const std::vector<ParticleLoadTerm>& terms, int threads);
+std::unique_ptr<Stage> make_particle_loads(const LoadKernels<T>& kernels, Fields& fields,
+                                           std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                                           const std::vector<ParticleLoadTerm>& terms, int threads);
 
 }  // namespace mpm

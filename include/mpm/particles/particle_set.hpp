@@ -16,6 +16,12 @@
 
 namespace mpm {
 
+/// A number of each particle that a physics beside the mechanics brings.
+struct NamedScalar {
+  std::string name, unit;  ///< as a particle field
+  PaddedArray<double> values;
+};
+
 struct ParticleSet {
   std::string name;                                      ///< of the body
   double mass = 0.0;                                     ///< of each particle, where all have the same [kg]
@@ -39,7 +45,8 @@ struct ParticleSet {
   std::vector<ParticleScalar> affine;        ///< APIC: B, moment of the velocity, [component][axis] [m^2/s]
   std::vector<ParticleScalar> domain;        ///< F at the start of the step, where the shape function follows it
   std::vector<PaddedArray<double>> next_x;   ///< position at the end of the step, when strain is updated after motion
-  PaddedArray<std::uint8_t> side;  ///< of a divided body: the side of a thin tool, 0 or 1
+  std::vector<NamedScalar> brought;          ///< by physics beside the mechanics
+  PaddedArray<std::uint8_t> side;            ///< of a divided body: the side of a thin tool, 0 or 1
 
   /// First particle of each owner block (the owners of all fields, field by field), and one past the last particle.
   std::vector<std::uint32_t> begin;
@@ -62,6 +69,12 @@ struct ParticleSet {
     for (int p = 1; p < size() && !masses.empty(); ++p) least = std::min(least, mass_of(p));
     return least;
   }
+  /// Gives the particles a number of this name, 0 to begin with. Sorting carries it, checkpoints hold it, and it is a
+  /// particle field. Returns its place in `brought`.
+  std::size_t bring(const std::string& number_name, const std::string& unit) {
+    brought.push_back({number_name, unit, PaddedArray<double>(id.size(), 0.0)});
+    return brought.size() - 1;
+  }
   /// Calls visit(PaddedArray<double>&) or visit(PaddedArray<float>&) for every stored scalar but domain and next_x.
   template <class Visit>
   void each_scalar(Visit&& visit) {
@@ -70,6 +83,7 @@ struct ParticleSet {
       for (ParticleScalar& scalar : *fields) scalar.visit(visit);
     }
     for (auto& scalar : start_x) visit(scalar);
+    for (NamedScalar& scalar : brought) visit(scalar.values);
   }
 };
 

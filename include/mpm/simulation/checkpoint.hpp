@@ -48,7 +48,7 @@ struct CheckpointAbout {
 };
 
 inline constexpr const char* kCheckpointFormat = "mpm_ros checkpoint";
-inline constexpr std::uint32_t kCheckpointVersion = 1;
+inline constexpr std::uint32_t kCheckpointVersion = 2;
 
 /// Keeps what belongs to the run but not to the Simulation.
 using KeepMore = std::function<void(StateArchive&)>;

@@ -47,13 +47,15 @@ class GlobalQuantities {
  private:
   /// One quantity: which it is, and of what.
   struct Term {
-    int quantity;               ///< in the table
+    int quantity;               ///< in the table; negative: a number of a module, by its name
     std::vector<int> fields;    ///< columns of the particle fields that it looks at
     std::size_t first, last;    ///< ids of the particles
     std::vector<int> contacts;  ///< rigid bodies
     double impulse;             ///< of them at the last call [N s]
   };
-  double value_of(Term& term, double interval) const;
+  double value_of(Term& term, const std::string& name, double interval) const;
+  /// Of modules.
+  double number(const std::string& name) const;
   double mean(const Term& term) const;
   double sum(const Term& term) const;
   /// On the bodies, along an axis; from the material, since the start [N s].

@@ -1,6 +1,7 @@
 // What a Simulation says of itself at a sync point: plain values, SI, no reference into the solver.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "mpm/contact/pair_report.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/module.hpp"
 
 namespace mpm {
 
@@ -18,28 +20,6 @@ struct BodyState {
   Twist twist;
   Drive drive = Drive::functions;
   double mass = 0.0;  ///< [kg] of a body that is free; 0: it only moves as it is told
-};
-
-/// Energies [J].
-struct EnergyReport {
-  double kinetic = 0.0;
-  double elastic = 0.0;        ///< stored in the material
-  double plastic = 0.0;        ///< dissipated by plastic flow since the start
-  double potential = 0.0;      ///< -sum m g.x
-  double contact_work = 0.0;   ///< done by rigid bodies on the material since the start
-  double load_work = 0.0;      ///< done by loads, velocity conditions and absorbing faces since the start
-  double pair_friction = 0.0;  ///< taken by sliding between deformable bodies since the start
-  double interface = 0.0;      ///< stored in imperfect interfaces, as the last step began
-  double friction = 0.0;       ///< taken by sliding on rigid bodies since the start
-  // Of free rigid bodies; contact_work is then what they lost to the material.
-  double free_kinetic = 0.0;
-  double free_potential = 0.0;
-  double free_work = 0.0;  ///< done on them by applied wrenches and by what drives their told velocities
-  double free_loss = 0.0;  ///< lost where they and the material met, sliding left out
-  /// Of the material.
-  double total() const { return kinetic + elastic + potential + interface; }
-  /// With free bodies.
-  double whole() const { return total() + free_kinetic + free_potential; }
 };
 
 /// One external impulse on the material since the start [N s].
@@ -71,12 +51,24 @@ struct StepReport {
 struct SolverState {
   std::int64_t time = 0;  ///< [ns]
   StepReport step;
+  /// kinetic, elastic (stored in the material), plastic (dissipated by flow since the start), potential (-sum m g.x);
+  /// and what modules add: contact_work (of rigid bodies on the material), load_work (of loads, velocity conditions and
+  /// absorbing faces), friction (taken by sliding on rigid bodies), pair_friction (between deformable bodies),
+  /// interface (stored in imperfect interfaces, as the last step began); of free rigid bodies free_kinetic,
+  /// free_potential, free_work (of applied wrenches, and of what drives their prescribed velocities) and free_loss
+  /// (where they and the material met, sliding left out), contact_work being what they lost to the material.
   EnergyReport energy;
   AuditReport audit;
   std::uint64_t particles = 0;
-  std::uint64_t returned = 0;  ///< particles that have left the grid and were put back (grid.leave)
-  double min_j = 1.0;          ///< smallest det F of any particle now
-  double wall_seconds = 0.0;   ///< spent in stepping
+  std::vector<NamedNumber> numbers;  ///< of modules: "returned", particles that have left and were put back; "alpha", …
+  double min_j = 1.0;                ///< smallest det F of any particle now
+  double wall_seconds = 0.0;         ///< spent in stepping
+
+  /// One of `numbers`, or 0 where the run has none of that name.
+  double number(const std::string& name) const {
+    const auto found = std::find_if(numbers.begin(), numbers.end(), [&](const auto& n) { return n.name == name; });
+    return found == numbers.end() ? 0.0 : found->value;
+  }
 };
 
 }  // namespace mpm

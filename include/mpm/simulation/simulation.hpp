@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,10 +34,15 @@ class PhysicsError : public Error {
   using Error::Error;
 };
 
+struct RunParts;
+/// Adds the modules of a physics to a run (simulation/run_parts.hpp).
+using AddModules = std::function<void(RunParts&)>;
+
 struct SimulationOptions {
   int threads = 0;              ///< 0: as many as the machine has and 4,000 particles each make worth while
   std::optional<Isa> isa = {};  ///< instruction set of the kernels; the widest one available without it
   bool settle = true;           ///< geostatic bodies come to rest first; not needed by one that takes on a checkpoint
+  std::vector<AddModules> modules = {};  ///< beside the shipped ones, after them
 };
 
 class Simulation {
@@ -89,7 +95,8 @@ class Simulation {
   std::vector<std::pair<std::string, double>> metrics() const;
 
   std::uint64_t particles() const;
-  /// Names that particle_field() knows, with their units: {"vx", "m/s"}, …
+  /// Names that particle_field() knows in every run, with their units: {"vx", "m/s"}, … Those that modules bring to a
+  /// run join them in it (ParticleSet::brought).
   static std::vector<std::pair<std::string, std::string>> particle_fields();
   /// One value a particle, in order of id (0 … particles()-1): the same order in every call.
   /// @throws DefinitionError for an unknown name, listing those that exist.

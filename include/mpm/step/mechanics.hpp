@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "mpm/math/state_archive.hpp"
+#include "mpm/step/module.hpp"
 #include "mpm/step/sorter.hpp"
 #include "mpm/step/step_context.hpp"
 
@@ -16,9 +16,9 @@ struct FastestParticle {
   int index = 0;       ///< in its set
 };
 
-class Mechanics {
+class Mechanics : public Module {
  public:
-  virtual ~Mechanics() = default;
+  std::string name() const override { return "mechanics"; }
 
   /// Mass and momentum to the grid; velocity = momentum / mass.
   virtual void scatter_momentum(StepContext&) = 0;
@@ -47,11 +47,8 @@ class Mechanics {
   virtual std::optional<ParticleRef> failed() const = 0;
   /// Of the particles of a set, in their present state; of equal rates the first one. `cell`: the smallest edge [m].
   virtual FastestParticle fastest(int set, double cell) const = 0;
-  /// Particles have left the reach of their blocks, or the place where they may be, or so many have left their groups
-  /// that it pays to sort.
-  virtual bool needs_sort() const = 0;
-  /// As Stage::keep().
-  virtual void keep(StateArchive&) = 0;
+  /// Also when so many particles have left their groups that it pays.
+  bool needs_sort() const override = 0;
 };
 
 }  // namespace mpm

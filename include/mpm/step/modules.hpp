@@ -43,6 +43,11 @@ class Modules {
   const std::vector<Module*>& list() const { return list_; }
   /// Of all modules; those of one name become one. What it exchanged is then their sum.
   void accounts(std::vector<ImpulseAccount>& list) const;
+  /// Of all modules.
+  void energies(EnergyReport& report) const;
+  std::vector<NamedNumber> numbers() const;
+  /// The module that has a name first, or null.
+  const Module* find(const std::string& name) const;
   /// As Module::keep(), of each module in a group of its own.
   void keep(StateArchive& archive);
 

@@ -1,5 +1,7 @@
 #include "mpm/boundary/axis.hpp"
 
+#include <cmath>
+
 namespace mpm {
 
 void Axis::momentum_gathered(FieldContext& context) {
@@ -64,6 +66,13 @@ void Axis::increment_found(FieldContext& context) {
 void Axis::grid_advanced(FieldContext&) {
   account_.add(given_ * Vec3::UnitX());
   given_ = 0.0;
+}
+
+std::optional<OutsideReason> Axis::why_outside(const GridLayout& layout, const ParticleSet& set, int particle) const {
+  const double r = set.x[0][particle];
+  if (!(std::abs(r) < layout.cell(0))) return std::nullopt;
+  return OutsideReason{"a particle has come to the axis",
+               "use method.axis.motion: point, shape cpdi or transfer apic, or lower time.cfl if the run blew up"};
 }
 
 void HoopForce::forces_gathered(FieldContext& context) {

@@ -152,6 +152,20 @@ double VelocityConditions::largest_speed(double time) const {
   return largest;
 }
 
+void VelocityConditions::limit_step(const PeriodAhead& period, StepLimit& limit) const {
+  StepLimit own;
+  own.by = this;
+  for (const double part : {0.0, 0.5, 1.0}) {
+    own.speed = std::max(own.speed, largest_speed(period.start + part * period.length));
+  }
+  own.dt = period.reach() / own.speed;
+  if (own.speed > 0.0) limit.tighten(own);
+}
+
+std::string VelocityConditions::limit_text(const StepLimit& limit) const {
+  return fmt::format("speed of 'boundaries.conditions' ({:.4g} m/s)", limit.speed);
+}
+
 void VelocityConditions::momentum_gathered(FieldContext& context) {
   for (Condition& condition : conditions_) {
     try {

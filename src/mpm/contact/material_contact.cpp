@@ -234,10 +234,9 @@ void MaterialContact::accounts(std::vector<ImpulseAccount>& list) const {
   if (settings_.normals.method == NormalMethod::own) list.push_back(account_);
 }
 
-std::vector<PairReport> MaterialContact::take(double now) {
+void MaterialContact::take_pairs(double now, std::vector<PairReport>& reports) {
   const bool about_axis = axisymmetric(settings_.geometry);
   const auto whole = [about_axis](const Vec3& sum) { return about_axis ? Vec3(0.0, 0.0, sum.z()) : sum; };
-  std::vector<PairReport> reports;
   const double interval = now - last_report_;
   for (std::size_t i = 0; i < settings_.pairs.size(); ++i) {
     PairReport report;
@@ -258,19 +257,13 @@ std::vector<PairReport> MaterialContact::take(double now) {
     interval_[i] = {};
   }
   last_report_ = now;
-  return reports;
 }
 
-double MaterialContact::friction_energy() const {
-  double sum = 0.0;
-  for (const Sums& one : total_) sum += one.friction_energy;
-  return sum;
-}
-
-double MaterialContact::interface_energy() const {
-  double sum = 0.0;
-  for (const Sums& one : last_) sum += one.interface_energy;
-  return sum;
+void MaterialContact::energies(EnergyReport& report) const {
+  for (std::size_t i = 0; i < total_.size(); ++i) {
+    report.add("pair_friction", NamedEnergy::Kind::dissipated, total_[i].friction_energy);
+    report.add("interface", NamedEnergy::Kind::stored, last_[i].interface_energy);  // as the last step began
+  }
 }
 
 void MaterialContact::keep(StateArchive& archive) {

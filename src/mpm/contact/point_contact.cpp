@@ -373,6 +373,16 @@ void PointContact::accounts(std::vector<ImpulseAccount>& list) const {
   for (const ContactLedger& ledger : ledgers_) list.push_back(ledger.account());
 }
 
+void PointContact::energies(EnergyReport& report) const {
+  for (const ContactLedger& ledger : ledgers_) ledger.energies(report);
+}
+
+ContactLedger* PointContact::ledger_of(const RigidBody& body) {
+  const auto own = [&](const ContactLedger& ledger) { return &ledger.body() == &body; };
+  const auto found = std::find_if(ledgers_.begin(), ledgers_.end(), own);
+  return found == ledgers_.end() ? nullptr : &*found;
+}
+
 void PointContact::keep(StateArchive& archive) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const StateArchive::Group group(archive, "body_" + std::to_string(b));

@@ -33,12 +33,12 @@ double largest_cell(const GridLayout& layout) {
 
 }  // namespace
 
-void ToolSides::label(std::vector<ParticleSet>& sets) {
+void ToolSides::before_sort() {
   travelled_ = 0.0;
   for (ThinTool& tool : tools_) tool.aim();
   double largest = 0.0;
   for (int k = 0; k < layout_.dim(); ++k) largest = std::max(largest, layout_.cell(k));
-  for (ParticleSet& set : sets) {
+  for (ParticleSet& set : sets_) {
     if (set.side.empty()) continue;
     double half = std::numeric_limits<double>::infinity();
     for (int k = 0; k < layout_.dim(); ++k) half = std::min(half, set.half[k] * layout_.cell(k));
@@ -61,7 +61,7 @@ void ToolSides::label(std::vector<ParticleSet>& sets) {
   labelled_ = true;
 }
 
-bool ToolSides::due() const { return travelled_ > kTravel * layout_.smallest_cell(); }
+bool ToolSides::needs_sort() const { return travelled_ > kTravel * layout_.smallest_cell(); }
 
 bool ToolSides::apart(const Grid& first, NodeRef of_first, const Grid& second, NodeRef of_second) const {
   const Vec3 node = layout_.node_position(first.blocks.block(of_first.block), of_first.node);

@@ -1,5 +1,7 @@
 #include "mpm/mechanics/continuum.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -156,6 +158,11 @@ class Continuum final : public Mechanics {
       if (!(one.rate <= found.rate) && !std::isnan(found.rate)) found = {one.rate, one.particle};
     }
     return found;
+  }
+  std::string limit_text(const StepLimit& limit) const override {
+    return fmt::format("wave speed of '{}' ({:.4g} m/s with its motion and viscosity{}) at ({:.4g}, {:.4g}, {:.4g}) m",
+                       sets_[limit.part].name, limit.speed, limit.foreseen ? ", and growing" : "", limit.place.x(),
+                       limit.place.y(), limit.place.z());
   }
   bool needs_sort() const override { return needs_sort_; }
   void keep(StateArchive& archive) override {

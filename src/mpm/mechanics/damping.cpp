@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/particles/sum_particles.hpp"
+
 namespace mpm {
 namespace {
 
@@ -179,6 +181,15 @@ double DampingControl::growth(double energy, double t) const {
   } catch (const FunctionError& error) {
     throw DampingError(fmt::format("method.damping.feedback.target: {}", error.what()));
   }
+}
+
+void DampingControl::limit_step(const PeriodAhead& period, StepLimit& limit) const {
+  const double energy = needs_energy() ? kinetic_energy(sets_, threads_) : 0.0;
+  const double rate = largest_rate(period.start, period.length, energy, fields_.front()->layout);
+  StepLimit own;
+  own.by = this;
+  own.dt = period.cfl / rate;
+  if (rate > 0.0) limit.tighten(own);
 }
 
 double DampingControl::largest_rate(double start, double period, double energy, const GridLayout& layout) const {

@@ -18,13 +18,13 @@ constexpr std::array<const char*, kKinds> kKindTexts = {"body force", "particle 
 
 /// T is the precision of the particles.
 template <class T>
-class ParticleLoadsOf final : public ParticleLoads {
+class ParticleLoads final : public Stage {
   /// Particles whose sum is made in one go, so that it does not depend on the number of threads.
   static constexpr int kGroup = 1024;
 
  public:
-  ParticleLoadsOf(const LoadKernels<T>& kernels, Fields& fields, std::vector<ParticleSet>& sets,
-                  const std::vector<Law>& laws, const std::vector<ParticleLoadTerm>& terms, int threads)
+  ParticleLoads(const LoadKernels<T>& kernels, Fields& fields, std::vector<ParticleSet>& sets,
+                const std::vector<Law>& laws, const std::vector<ParticleLoadTerm>& terms, int threads)
       : kernels_{kernels.domain, kernels.center},
         dim_(static_cast<int>(sets.front().x.size())),
         fields_(fields),
@@ -75,7 +75,7 @@ class ParticleLoadsOf final : public ParticleLoads {
       if (there_[kind]) list.push_back(accounts_[kind]);
     }
   }
-  double work() const override { return work_; }
+  void energies(EnergyReport& report) const override { report.add("load_work", NamedEnergy::Kind::work, work_); }
   void keep(StateArchive& archive) override {
     archive.keep("work", work_);
     for (int kind = 0; kind < kKinds; ++kind) {
@@ -215,17 +215,15 @@ class ParticleLoadsOf final : public ParticleLoads {
 }  // namespace
 
 template <class T>
-std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<T>& kernels, Fields& fields,
-                                                   std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
-                                                   const std::vector<ParticleLoadTerm>& terms, int threads) {
-  return std::make_unique<ParticleLoadsOf<T>>(kernels, fields, sets, laws, terms, threads);
+std::unique_ptr<Stage> make_particle_loads(const LoadKernels<T>& kernels, Fields& fields,
+                                           std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+                                           const std::vector<ParticleLoadTerm>& terms, int threads) {
+  return std::make_unique<ParticleLoads<T>>(kernels, fields, sets, laws, terms, threads);
 }
 
-template std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<double>&, Fields&,
-                                                            std::vector<ParticleSet>&, const std::vector<Law>&,
-                                                            const std::vector<ParticleLoadTerm>&, int);
-template std::unique_ptr<ParticleLoads> make_particle_loads(const LoadKernels<float>&, Fields&,
-                                                            std::vector<ParticleSet>&, const std::vector<Law>&,
-                                                            const std::vector<ParticleLoadTerm>&, int);
+template std::unique_ptr<Stage> make_particle_loads(const LoadKernels<double>&, Fields&, std::vector<ParticleSet>&,
+                                                    const std::vector<Law>&, const std::vector<ParticleLoadTerm>&, int);
+template std::unique_ptr<Stage> make_particle_loads(const LoadKernels<float>&, Fields&, std::vector<ParticleSet>&,
+                                                    const std::vector<Law>&, const std::vector<ParticleLoadTerm>&, int);
 
 }  // namespace mpm

@@ -114,29 +114,12 @@ Vec3 Simulation::State::momentum() const {
   });
 }
 
-double Simulation::State::kinetic_energy() const {
-  return sum_particles(sets, threads, 0.0, [](const ParticleSet& set, int p) {
-    double squared = 0.0;
-    for (const auto& component : set.v) squared += component[p] * component[p];
-    return 0.5 * set.mass_of(p) * squared;
-  });
-}
-
-EnergyReport Simulation::State::given_energy() const {
-  EnergyReport energy;
-  for (const ContactLedger* contact : contacts) {
-    energy.contact_work += contact->work();
-    energy.friction += contact->friction_energy();
-  }
-  if (pairs != nullptr) {
-    energy.pair_friction = pairs->friction_energy();
-    energy.interface = pairs->interface_energy();
-  }
-  if (loads != nullptr) energy.load_work += loads->work();
-  if (tractions != nullptr) energy.load_work += tractions->work();
-  for (const VelocityConditions* all : conditions) energy.load_work += all->work();
-  for (const Absorbing* face : absorbing) energy.load_work += face->work();
-  return energy;
+Vec3 Simulation::State::impulse(const std::string& account) const {
+  std::vector<ImpulseAccount> accounts;
+  modules.accounts(accounts);
+  const auto own = [&](const ImpulseAccount& one) { return one.name == account; };
+  const auto found = std::find_if(accounts.begin(), accounts.end(), own);
+  return found == accounts.end() ? Vec3(Vec3::Zero()) : found->impulse;
 }
 
 SolverState Simulation::state() const {
@@ -157,26 +140,19 @@ SolverState Simulation::state() const {
         },
         s.laws[i]);
   }
-  report.energy = s.given_energy();
-  report.energy.kinetic = totals.kinetic;
-  report.energy.potential = totals.potential;
-  report.energy.elastic = totals.elastic;
-  report.energy.plastic = totals.plastic;
+  report.energy.add("kinetic", NamedEnergy::Kind::stored, totals.kinetic);
+  report.energy.add("elastic", NamedEnergy::Kind::stored, totals.elastic);
+  report.energy.add("plastic", NamedEnergy::Kind::dissipated, totals.plastic);
+  report.energy.add("potential", NamedEnergy::Kind::stored, totals.potential);
+  s.modules.energies(report.energy);
   report.min_j = totals.min_j;
-  for (const FreeBodyReport& free : free_bodies()) {
-    report.energy.free_kinetic += free.kinetic;
-    report.energy.free_potential += free.potential;
-    report.energy.free_work += free.wrench_work + free.drive_work;
-    report.energy.free_loss += free.contact_loss;
-  }
-  if (s.leaving) report.returned = s.leaving->count();
+  report.numbers = s.modules.numbers();
 
   AuditReport& audit = report.audit;
   audit.momentum = s.momentum();
   audit.initial_momentum = s.initial_momentum;
   std::vector<ImpulseAccount> accounts{s.gravity};
   s.modules.accounts(accounts);
-  if (s.leaving) accounts.push_back(s.leaving->account());
   Vec3 given = Vec3::Zero();
   for (const ImpulseAccount& account : accounts) {
     audit.impulses.push_back({account.name, account.impulse});
@@ -204,15 +180,11 @@ std::uint64_t Simulation::state_hash() const {
     for (const auto* fields : {&set.v, &set.f, &set.tau, &set.history, &set.affine}) {
       for (const ParticleScalar& scalar : *fields) scalar.visit(add);
     }
+    for (const NamedScalar& scalar : set.brought) add(scalar.values);
   }
-  if (s.damping != nullptr && s.damping->needs_energy()) hash.add(s.damping->alpha());
-  for (const RigidBody& body : s.bodies) {
-    for (int k = 0; k < 3; ++k) hash.add(body.pose().position[k]);
-    for (int k = 0; k < 4; ++k) hash.add(body.pose().orientation.coeffs()[k]);
-    if (body.free_motion() == nullptr) continue;
-    for (int k = 0; k < 3; ++k) hash.add(body.twist().linear[k]);
-    for (int k = 0; k < 3; ++k) hash.add(body.twist().angular[k]);
-  }
+  std::vector<double> numbers;
+  for (const Module* module : s.modules.list()) module->hashed(numbers);
+  for (const double number : numbers) hash.add(number);
   return hash.value();
 }
 

@@ -1,4 +1,4 @@
-// From a definition to a run: checks it, makes the particles, and puts the list of stages together.
+// From a definition to a run: checks it, makes the particles, and puts the list of modules together.
 #include <fmt/core.h>
 #include <omp.h>
 
@@ -7,18 +7,18 @@
 
 #include "axial_motion.hpp"
 #include "initial.hpp"
-#include "load_terms.hpp"
-#include "mpm/boundary/axis.hpp"
 #include "mpm/boundary/periodic.hpp"
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
-#include "mpm/mechanics/mass_places.hpp"
+#include "mpm/mechanics/nodal_volumes.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
+#include "shipped_modules.hpp"
 #include "state.hpp"
 #include "velocity_fields.hpp"
+#include "with_precision.hpp"
 
 namespace mpm {
 
@@ -232,26 +232,29 @@ std::string step_warning(const SimulationDefinition& definition) {
                      affine ? "apic" : fmt::format("fmpm {}", transfer.order), most);
 }
 
-// The kernels, and what runs on them: T is the precision of the particles.
-template <class T>
-void Simulation::State::add_mechanics() {
+VolumeSurvey& RunParts::volumes() {
+  if (services.volumes) return *services.volumes;
+  std::vector<double> densities;
+  for (const DeformableBody& body : definition.bodies) densities.push_back(find_material(definition, body).density);
+  services.volumes = with_precision(definition.method.precision, [&](auto zero) {
+    const auto kernels = kernel_table<decltype(zero)>(definition.method.shape, definition.geometry, isa);
+    return make_volume_survey(kernels, fields, sets, laws, densities, definition.geometry, threads);
+  });
+  return *services.volumes;
+}
+
+void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
   const MethodDefinition& method = definition.method;
-  const auto kernels = kernel_table<T>(method.shape, definition.geometry, isa);
   for (ParticleSet& set : sets) prepare(set, method.shape, method.transfer);
-  if (const std::vector<ParticleLoadTerm> terms = make_load_terms(definition, sets); !terms.empty()) {
-    const LoadKernels<T> load_kernels{kernels, kernel_table<T>(ShapeKind::dirac, definition.geometry, isa)};
-    auto all = make_particle_loads(load_kernels, fields, sets, laws, terms, threads);
-    loads = &modules.add(std::move(all));
+  bodies.reserve(definition.rigid_bodies.size());
+  for (const RigidBodyDefinition& body : definition.rigid_bodies) bodies.emplace_back(body);
+  RunParts parts{definition, field_map, fields, sets, laws, bodies, threads, isa, modules, services, warnings, notes};
+  for (const ShippedModules& shipped : shipped_modules()) shipped.add(parts);
+  for (const AddModules& add : of_caller) add(parts);
+  for (Module* module : modules.list()) {
+    if (auto* reporter = dynamic_cast<ContactReporter*>(module)) reporters.push_back(reporter);
   }
-  if (std::vector<TractionTerm> terms = make_traction_terms(definition, sets, layout()); !terms.empty()) {
-    const TractionSettings settings{definition.geometry, method.shape, definition.across()};
-    tractions = &modules.add(std::make_unique<FaceTractions>(settings, fields, sets, std::move(terms)));
-  }
-  if (sides != nullptr) {
-    modules.add(std::make_unique<SideGlue>(*sides, fields));
-    const auto near = [this](const Vec3& middle, double radius) { return sides->near(middle, radius); };
-    modules.add(make_mass_places(kernels, fields, sets, laws, near, threads));
-  }
+
   ContinuumSettings settings;
   settings.transfer = method.transfer;
   settings.average_dilatation = method.average_dilatation;
@@ -259,9 +262,12 @@ void Simulation::State::add_mechanics() {
   settings.gradient_terms = method.gradient_terms;
   settings.gravity = definition.gravity;
   settings.threads = threads;
-  settings.damping = damping;
-  mechanics = make_mechanics(kernels, fields, sets, laws, settings);
-  sorter = std::make_unique<Sorter>(threads, kernel_grouping(kernels));
+  settings.damping = parts.damping;
+  with_precision(method.precision, [&](auto zero) {
+    const auto kernels = kernel_table<decltype(zero)>(method.shape, definition.geometry, isa);
+    mechanics = make_mechanics(kernels, fields, sets, laws, settings);
+    sorter = std::make_unique<Sorter>(threads, kernel_grouping(kernels));
+  });
 }
 
 Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : state_(std::make_unique<State>()) {
@@ -277,12 +283,10 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.threads = options.threads > 0 ? options.threads
                                   : std::clamp(static_cast<int>(count / kParticlesPerThread), 1, omp_get_max_threads());
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
-  const int dim = dimensions(definition.geometry);
   project(s.definition);
   s.field_map = field_map(definition);
   s.fields = make_fields(definition, s.field_map.count());
   const GridLayout& layout = s.layout();
-  if (!s.field_map.divisions().empty()) s.sides = std::make_unique<ToolSides>(layout, s.field_map, s.threads);
 
   const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
                                      [](const DeformableBody& body) { return body.geostatic.has_value(); });
@@ -307,41 +311,13 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (geostatic && options.settle) s.settle();
   for (DeformableBody& body : s.definition.bodies) forget_particles(body);
 
-  if (axisymmetric(definition.geometry)) {
-    s.add_in_fields([] { return std::make_unique<HoopForce>(); });
-    if (definition.grid.min.x() == 0.0) {
-      s.add_in_fields([&] { return std::make_unique<Axis>(definition.method.axis.ghosts); });
-    }
-    const AxisRules& axis = definition.method.axis;
-    const bool to_zero = definition.method.shape == ShapeKind::qcpdi || axis.domains == AxisDomains::whole;
-    if (axis.functions == AxisFunctions::weighted && to_zero) {
-      s.add_in_fields([&] { return std::make_unique<MasslessNodes>(definition.gravity); });
-    }
-  }
-  if (definition.method.damping.any()) {
-    s.damping = &s.modules.add(std::make_unique<DampingControl>(
-        definition.method.damping, definition.method.transfer.flip, s.fields, s.sets, s.threads));
-  }
-  s.add_absorbing();
-  for (int grid_face = 0; grid_face < 2 * dim; ++grid_face) {
-    const int face = 2 * layout.axis(grid_face / 2) + grid_face % 2;
-    if (!is_wall(definition.walls[face].kind)) continue;
-    s.add_in_fields([&] { return std::make_unique<Wall>(grid_face, definition.walls[face], kWallNames[face]); });
-  }
-  s.add_conditions();
-  s.add_pairs();
-  s.add_rigid_bodies();
   if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);
-  if (definition.method.precision == Precision::float32) {
-    s.add_mechanics<float>();
-  } else {
-    s.add_mechanics<double>();
-  }
+  s.add_modules(options.modules);
+
   double lightest = s.sets.front().least_mass();
   for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.least_mass());
   for (auto& grid : s.fields) grid->least_mass = 1e-30 * lightest;
   s.gravity.name = "gravity";
-  if (definition.grid.leave_limit > 0) s.leaving.emplace(definition.grid.leave_limit);
   s.sort(0.0);
   StepContext start{s.fields, 0.0};
   s.modules.act(Hook::run_begun, start);
@@ -349,7 +325,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.initial_momentum = s.momentum();
   s.rates.resize(definition.metrics.size());
   for (const MetricDefinition& metric : definition.metrics) {
-    if (find_body(metric.body) < 0 && needs_start({metric.field})) keep_start();  // a rigid body has its own names
+    if (find_body(metric.body) >= 0) continue;  // a rigid body has its own names
+    if (needs_start({metric.field})) keep_start();
+    s.check_field(metric.field);
   }
   sample_metrics();
 }

@@ -220,7 +220,7 @@ void Simulation::State::settle() {
         residual = {0.0, 0.0};
         for (const auto& grid : r.fields) add_unbalanced(*grid, r.total_mass * g, g, 0.5 * lightest, residual);
       }
-      const double now = r.kinetic_energy();
+      const double now = kinetic_energy(r.sets, r.threads);
       at_rest = now < before;
       if (at_rest) stop(r.sets);
       before = at_rest ? 0.0 : now;

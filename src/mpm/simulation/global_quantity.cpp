@@ -10,20 +10,26 @@
 
 #include "mpm/math/nearest.hpp"
 #include "mpm/shape/ring.hpp"
+#include "shipped_modules.hpp"
 #include "state.hpp"
 
 namespace mpm {
 namespace {
 
-enum class Source { mean, sum, contact, energy, interface, work, potential, alpha, steps, wall, cpu };
+enum class Source { mean, sum, contact, number, steps, wall, cpu };
 
 struct Quantity {
   std::string name;
   std::string unit;
   Source source;
-  std::vector<std::string> fields = {};  ///< of particles
-  int axis = 0;                          ///< of a contact force; -1: outwards, of a radian
+  std::vector<std::string> fields = {};    ///< of particles
+  int axis = 0;                            ///< of a contact force; -1: outwards, of a radian
+  std::vector<std::string> energies = {};  ///< of the run, that are added to a sum (EnergyReport)
+  std::vector<std::string> less = {};      ///< that are taken from it
 };
+
+// What loads, velocity conditions, absorbing faces and rigid bodies did since the start.
+const std::vector<std::string> kExternalWork = {"load_work", "contact_work"};
 
 const std::vector<Quantity>& table() {
   static const std::vector<Quantity> kTable = [] {
@@ -63,15 +69,17 @@ const std::vector<Quantity>& table() {
         {"heat energy", "J", Source::sum, {"heat_energy"}},
         {"thermal energy", "J", Source::sum, {"thermal_energy"}},
         {"energy", "J", Source::sum, {"kinetic_energy", "strain_energy"}},
-        {"interface energy", "J", Source::interface},
-        {"external work", "J", Source::work},
-        {"potential energy", "J", Source::potential, {"kinetic_energy", "strain_energy"}},
-        {"alpha", "1/s", Source::alpha},
+        {"interface energy", "J", Source::sum, {}, 0, {"interface"}},
+        {"external work", "J", Source::sum, {}, 0, kExternalWork},
+        {"potential energy", "J", Source::sum, {"kinetic_energy", "strain_energy"}, 0, {"interface"}, kExternalWork},
         {"step number", "1", Source::steps},
         {"elapsed time", "s", Source::wall},
         {"cpu time", "s", Source::cpu},
     };
     list.insert(list.end(), std::begin(others), std::end(others));
+    for (const ShippedModules& shipped : shipped_modules()) {
+      for (const auto& [name, unit] : shipped.numbers) list.push_back({name, unit, Source::number});
+    }
     return list;
   }();
   return kTable;
@@ -90,14 +98,14 @@ int find(const std::string& name) {
   return found == all.end() ? -1 : static_cast<int>(found - all.begin());
 }
 
-bool of_bodies(Source source) { return source == Source::mean || source == Source::sum || source == Source::contact; }
+/// Whether there is one of each body.
+bool of_bodies(const Quantity& quantity) {
+  return quantity.source == Source::contact || (!quantity.fields.empty() && quantity.energies.empty());
+}
 
 bool has_temperature(const Law& law) {
   return std::visit([](const auto& l) { return l.kTemperature >= 0; }, law);
 }
-
-/// What loads, velocity conditions, absorbing faces and rigid bodies did since the start [J].
-double external_work(const EnergyReport& energy) { return energy.load_work + energy.contact_work; }
 
 }  // namespace
 
@@ -110,7 +118,7 @@ std::vector<std::pair<std::string, std::string>> global_quantity_names() {
 std::string problem_of(const GlobalQuantity& quantity) {
   const int known = find(quantity.name);
   if (known >= 0) {
-    if (quantity.body.empty() || of_bodies(table()[known].source)) return {};
+    if (quantity.body.empty() || of_bodies(table()[known])) return {};
     return fmt::format("'{}' is of the whole run, not of a body; leave 'body' out", quantity.name);
   }
   if (lower(quantity.name) == "concentration") {
@@ -126,11 +134,30 @@ bool of_rigid_body(const GlobalQuantity& quantity) {
   return known >= 0 && table()[known].source == Source::contact;
 }
 
+namespace {
+
+/// Of a number that some module of the run brings; empty if none does.
+std::string unit_of_number(const std::vector<NamedNumber>& numbers, const std::string& name) {
+  const auto own = [&](const NamedNumber& number) { return number.name == name; };
+  const auto found = std::find_if(numbers.begin(), numbers.end(), own);
+  return found == numbers.end() ? "" : found->unit;
+}
+
+}  // namespace
+
 GlobalQuantities::GlobalQuantities(Simulation& simulation, const std::vector<GlobalQuantity>& chosen)
     : simulation_(simulation) {
   for (const GlobalQuantity& wanted : chosen) {
-    if (const std::string problem = problem_of(wanted); !problem.empty()) throw DefinitionError(problem);
     Term term{find(wanted.name), {}, 0, static_cast<std::size_t>(simulation.particles()), {}, 0.0};
+    const std::string unit =
+        wanted.body.empty() ? unit_of_number(simulation.state_->modules.numbers(), wanted.name) : "";
+    if (term.quantity < 0 && !unit.empty()) {  // of a module that is not shipped
+      names_.push_back(wanted.name);
+      units_.push_back(unit);
+      terms_.push_back(std::move(term));
+      continue;
+    }
+    if (const std::string problem = problem_of(wanted); !problem.empty()) throw DefinitionError(problem);
     const Quantity& quantity = table()[term.quantity];
     if (quantity.source == Source::contact) {
       for (int body = 0; body < static_cast<int>(simulation.state_->bodies.size()); ++body) {
@@ -160,7 +187,21 @@ double GlobalQuantities::sum(const Term& term) const {
   for (const int field : term.fields) {
     for (std::size_t id = term.first; id < term.last; ++id) total += columns_[field][id];
   }
-  return total;
+  const Quantity& quantity = table()[term.quantity];
+  if (quantity.energies.empty()) return total;
+  EnergyReport energy;
+  simulation_.state_->modules.energies(energy);
+  double less = 0.0;
+  for (const std::string& name : quantity.energies) total += energy.of(name);
+  for (const std::string& name : quantity.less) less += energy.of(name);
+  return total - less;
+}
+
+double GlobalQuantities::number(const std::string& name) const {
+  double sum = 0.0;
+  for (const NamedNumber& number : simulation_.state_->modules.numbers())
+    sum += number.name == name ? number.value : 0.0;
+  return sum;
 }
 
 double GlobalQuantities::mean(const Term& term) const {
@@ -180,11 +221,14 @@ double GlobalQuantities::mean(const Term& term) const {
 
 double GlobalQuantities::contact_impulse(const Term& term, int axis) const {
   double total = 0.0;
-  for (const int body : term.contacts) total -= simulation_.state_->contacts[body]->account().impulse[axis];
+  for (const int body : term.contacts) {
+    total -= simulation_.state_->impulse("contact/" + simulation_.state_->bodies[body].name())[axis];
+  }
   return total;
 }
 
-double GlobalQuantities::value_of(Term& term, double interval) const {
+double GlobalQuantities::value_of(Term& term, const std::string& name, double interval) const {
+  if (term.quantity < 0) return number(name);
   const Quantity& quantity = table()[term.quantity];
   const Simulation::State& state = *simulation_.state_;
   switch (quantity.source) {
@@ -202,28 +246,23 @@ double GlobalQuantities::value_of(Term& term, double interval) const {
       const double force = (term.impulse - before) / interval;
       return quantity.axis < 0 ? force / kTurn : force;
     }
-    case Source::alpha:
-      return state.damping == nullptr ? 0.0 : state.damping->alpha();
+    case Source::number:
+      return number(quantity.name);
     case Source::steps:
       return static_cast<double>(state.steps.steps);
     case Source::wall:
       return state.wall.count();
     case Source::cpu:
       return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-    default:
-      break;
   }
-  const EnergyReport energy = state.given_energy();
-  if (quantity.source == Source::interface) return energy.interface;
-  if (quantity.source == Source::work) return external_work(energy);
-  return sum(term) + energy.interface - external_work(energy);
+  return 0.0;
 }
 
 const std::vector<double>& GlobalQuantities::read() {
   if (!fields_.empty()) simulation_.read_fields(fields_, columns_);
   const double now = static_cast<double>(simulation_.time()) * 1e-9;
   const double interval = last_ < 0.0 ? 0.0 : now - last_;
-  for (std::size_t k = 0; k < terms_.size(); ++k) values_[k] = value_of(terms_[k], interval);
+  for (std::size_t k = 0; k < terms_.size(); ++k) values_[k] = value_of(terms_[k], names_[k], interval);
   last_ = now;
   return values_;
 }

@@ -45,6 +45,7 @@ void Simulation::State::keep_particles(StateArchive& archive) {
     keep_scalars(archive, "affine", set.affine);
     archive.rows("start_x", set.start_x);  // whoever resumes may ask for other outputs
     keep_arrays(archive, "start_x", set.start_x);
+    for (NamedScalar& scalar : set.brought) archive.list("brought/" + scalar.name, scalar.values);
     archive.list("side", set.side);
     archive.list("begin", set.begin);
     archive.list("group", set.group);
@@ -69,19 +70,14 @@ void Simulation::State::keep_grid(StateArchive& archive) {
 
 void Simulation::State::keep_limit(StateArchive& archive, const char* name, StepLimit& kept) {
   const StateArchive::Group group(archive, name);
-  // Whose name it is: a set's, then a body's, then that of the conditions.
-  std::vector<const std::string*> names;
-  for (const ParticleSet& set : sets) names.push_back(&set.name);
-  for (const RigidBody& body : bodies) names.push_back(&body.name());
-  names.push_back(&kConditionsName);
-  auto of = static_cast<std::uint64_t>(std::find(names.begin(), names.end(), kept.name) - names.begin());
+  std::string by = kept.by == nullptr ? "" : kept.by->name();
   archive.keep("dt", kept.dt);
-  archive.keep("cause", kept.cause);
-  archive.keep("of", of);
+  archive.keep("by", by);
+  archive.keep("part", kept.part);
   archive.keep("speed", kept.speed);
   archive.keep("place", kept.place);
   archive.keep("foreseen", kept.foreseen);
-  if (archive.reading()) kept.name = of < names.size() ? names[of] : nullptr;
+  if (archive.reading()) kept.by = by == mechanics->name() ? mechanics.get() : modules.find(by);
 }
 
 void Simulation::State::keep(StateArchive& archive) {
@@ -96,14 +92,6 @@ void Simulation::State::keep(StateArchive& archive) {
   keep_particles(archive);
   keep_grid(archive);
   archive.set_generation(fields.front()->blocks.generation());  // of all: they are rebuilt together
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const StateArchive::Group group(archive, "rigid_body_" + std::to_string(b));
-    bodies[b].keep(archive);
-  }
-  if (sides != nullptr) {
-    const StateArchive::Group group(archive, "sides");
-    sides->keep(archive);
-  }
   {
     const StateArchive::Group group(archive, "mechanics");
     mechanics->keep(archive);
@@ -115,10 +103,6 @@ void Simulation::State::keep(StateArchive& archive) {
   {
     const StateArchive::Group group(archive, "gravity");
     gravity.keep(archive);
-  }
-  if (leaving) {
-    const StateArchive::Group group(archive, "leaving");
-    leaving->keep(archive);
   }
   keep_limit(archive, "material_limit", material_limit);
   keep_limit(archive, "previous_limit", previous_limit);

@@ -55,7 +55,7 @@ double Simulation::body_value(int body, const std::string& name) const {
   const auto& names = body_values();
   const auto place = std::find(names.begin(), names.end(), name) - names.begin();
   const RigidBody& rigid = rigid_body(body);
-  const Vec3 impulse = -state_->contacts.at(body)->account().impulse;
+  const Vec3 impulse = -state_->impulse("contact/" + rigid.name());
   const std::array<const Vec3*, 4> vectors = {&rigid.pose().position, &rigid.twist().linear, &rigid.twist().angular,
                                               &impulse};
   if (place == static_cast<std::ptrdiff_t>(names.size())) {

@@ -112,13 +112,25 @@ const Field kFields[] = {
     {"body", "1", kNeedsNothing, [](const View& a) { return static_cast<double>(a.set.index); }},
 };
 
-const Field& find_field(const std::string& name) {
-  std::string known;
-  for (const Field& field : kFields) {
-    if (name == field.name) return field;
-    known += known.empty() ? field.name : std::string(", ") + field.name;
+/// Null for a name that is none of them.
+const Field* find_field(const std::string& name) {
+  const auto* const found =
+      std::find_if(std::begin(kFields), std::end(kFields), [&](const Field& f) { return name == f.name; });
+  return found == std::end(kFields) ? nullptr : found;
+}
+
+/// A field that is read: one of every run, or numbers that a module brought.
+struct Chosen {
+  const Field* field = nullptr;
+  std::string brought;
+};
+
+/// Of a set, or null.
+const double* brought_values(const ParticleSet& set, const std::string& name) {
+  for (const NamedScalar& scalar : set.brought) {
+    if (scalar.name == name) return scalar.values.data();
   }
-  throw DefinitionError(fmt::format("no particle field is called '{}'; there are {}", name, known));
+  return nullptr;
 }
 
 // Where each particle is written: its number among the chosen ones in order of id, by id; -1: not chosen.
@@ -145,13 +157,19 @@ std::vector<std::int64_t> rows_of(const std::vector<SetView>& sets, std::size_t 
 
 /// `row(id)`: where a particle goes in each column, or a negative number.
 template <class T, class Row>
-void fill(const std::vector<SetView>& sets, const std::vector<const Field*>& fields, int threads, const Row& row,
+void fill(const std::vector<SetView>& sets, const std::vector<Chosen>& fields, int threads, const Row& row,
           std::vector<std::vector<T>>& columns) {
   unsigned needs = kNeedsNothing;
-  for (const Field* field : fields) needs |= field->needs;
+  for (const Chosen& chosen : fields) needs |= chosen.field == nullptr ? kNeedsNothing : chosen.field->needs;
   std::vector<T*> out;
   for (std::vector<T>& column : columns) out.push_back(column.data());
+  std::vector<const double*> brought(fields.size());
   for (const SetView& view : sets) {
+    for (std::size_t k = 0; k < fields.size(); ++k) brought[k] = brought_values(view.set, fields[k].brought);
+    const auto value = [&](std::size_t k, const View& particle) {
+      if (fields[k].field != nullptr) return fields[k].field->value(particle);
+      return brought[k] == nullptr ? 0.0 : brought[k][particle.p];
+    };
 #pragma omp parallel num_threads(threads)
     {
       View particle{view};
@@ -160,7 +178,7 @@ void fill(const std::vector<SetView>& sets, const std::vector<const Field*>& fie
         const std::int64_t at = row(view.set.id[p]);
         if (at < 0) continue;
         particle.look(p, needs);
-        for (std::size_t k = 0; k < fields.size(); ++k) out[k][at] = static_cast<T>(fields[k]->value(particle));
+        for (std::size_t k = 0; k < fields.size(); ++k) out[k][at] = static_cast<T>(value(k, particle));
       }
     }
   }
@@ -179,11 +197,27 @@ std::vector<SetView> Simulation::State::views() const {
 
 namespace {
 
-std::vector<const Field*> find_fields(const std::vector<std::string>& names, const std::vector<SetView>& sets) {
-  std::vector<const Field*> fields;
+[[noreturn]] void refuse(const std::string& name, const std::vector<SetView>& sets) {
+  std::string known;
+  const auto add = [&](const std::string& one) { known += known.empty() ? one : ", " + one; };
+  for (const Field& field : kFields) add(field.name);
+  for (const SetView& view : sets) {
+    for (const NamedScalar& scalar : view.set.brought) add(scalar.name);
+  }
+  throw DefinitionError(fmt::format("no particle field is called '{}'; there are {}", name, known));
+}
+
+std::vector<Chosen> find_fields(const std::vector<std::string>& names, const std::vector<SetView>& sets) {
+  std::vector<Chosen> fields;
   for (const std::string& name : names) {
-    fields.push_back(&find_field(name));
-    if (!fields.back()->of_start) continue;
+    const Field* field = find_field(name);
+    fields.push_back({field, name});
+    if (field == nullptr) {
+      const auto has = [&](const SetView& view) { return brought_values(view.set, name) != nullptr; };
+      if (std::none_of(sets.begin(), sets.end(), has)) refuse(name, sets);
+      continue;
+    }
+    if (!field->of_start) continue;
     for (const SetView& view : sets) {
       if (!view.set.start_x.empty()) continue;
       throw DefinitionError(fmt::format(
@@ -205,8 +239,13 @@ std::vector<std::pair<std::string, std::string>> Simulation::particle_fields() {
   return list;
 }
 
+void Simulation::State::check_field(const std::string& name) const { find_fields({name}, views()); }
+
 bool Simulation::needs_start(const std::vector<std::string>& fields) {
-  return std::any_of(fields.begin(), fields.end(), [](const std::string& name) { return find_field(name).of_start; });
+  return std::any_of(fields.begin(), fields.end(), [](const std::string& name) {
+    const Field* field = find_field(name);
+    return field != nullptr && field->of_start;
+  });
 }
 
 void Simulation::keep_start() {
@@ -233,7 +272,7 @@ void Simulation::particle_field(const std::string& name, std::vector<double>& va
 
 void Simulation::read_fields(const std::vector<std::string>& names, std::vector<std::vector<double>>& columns) const {
   const std::vector<SetView> sets = state_->views();
-  const std::vector<const Field*> fields = find_fields(names, sets);
+  const std::vector<Chosen> fields = find_fields(names, sets);
   columns.resize(fields.size());
   for (std::vector<double>& column : columns) column.resize(particles());
   fill(sets, fields, state_->threads, by_id, columns);
@@ -242,7 +281,7 @@ void Simulation::read_fields(const std::vector<std::string>& names, std::vector<
 void Simulation::read_particles(const std::vector<std::string>& names, const ParticleChoice& choice,
                                 ParticleColumns& columns) const {
   const std::vector<SetView> sets = state_->views();
-  const std::vector<const Field*> fields = find_fields(names, sets);
+  const std::vector<Chosen> fields = find_fields(names, sets);
   const bool whole = choice.stride == 1 && !choice.region;
   std::vector<std::int64_t> rows;
   if (!whole) rows = rows_of(sets, particles(), choice);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/boundary/periodic.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -39,26 +38,20 @@ void Simulation::State::fail(const std::string& what, ParticleRef particle, doub
 }
 
 void Simulation::State::sort(double now) {
-  if (layout().any_periodic()) put_around(sets, layout(), threads);
-  if (sides != nullptr) sides->label(sets);
+  const std::vector<Module*>& list = modules.list();
+  for (Module* module : list) module->before_sort();
   auto outside = sorter->sort(sets, fields);
-  if (outside && leaving && leaving->put_back(sets, layout())) outside = sorter->sort(sets, fields);
-  if (outside) {
-    if (leaving && leaving->count() > leaving->limit()) {
-      fail(fmt::format("more than {} particles have left the grid (grid.leave.limit)", leaving->limit()), *outside, now,
-           "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', raise the limit, or lower time.cfl "
-           "if the run blew up");
-    }
-    const double r = sets[outside->set].x[0][outside->index];
-    if (axisymmetric(definition.geometry) && definition.grid.min.x() == 0.0 && r < layout().cell(0) &&
-        r > -layout().cell(0)) {
-      fail("a particle has come to the axis", *outside, now,
-           "use method.axis.motion: point, shape cpdi or transfer apic, or lower time.cfl if the run blew up");
-    }
-    fail(
-        "a particle is outside the domain or not finite", *outside, now,
-        "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', or lower time.cfl if the run blew up");
+  if (!outside) return;
+  if (std::any_of(list.begin(), list.end(), [](Module* module) { return module->put_back(); })) {
+    outside = sorter->sort(sets, fields);
+    if (!outside) return;
   }
+  for (const Module* module : list) {
+    const auto fault = module->why_outside(layout(), sets[outside->set], outside->index);
+    if (fault) fail(fault->what, *outside, now, fault->remedy);
+  }
+  fail("a particle is outside the domain or not finite", *outside, now,
+       "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', or lower time.cfl if the run blew up");
 }
 
 void Simulation::State::step(double start, double dt) {
@@ -76,7 +69,9 @@ void Simulation::State::step(double start, double dt) {
     fail("the volume ratio J is not positive", *particle, start + dt,
          "lower time.cfl, use a finer grid.cell or slower tools, or stiffen what is crushed");
   }
-  if (mechanics->needs_sort() || (sides != nullptr && sides->due())) sort(start + dt);
+  const auto asks = [](const Module* module) { return module->needs_sort(); };
+  const std::vector<Module*>& list = modules.list();
+  if (mechanics->needs_sort() || std::any_of(list.begin(), list.end(), asks)) sort(start + dt);
 }
 
 void Simulation::State::run_period() {
@@ -93,10 +88,7 @@ void Simulation::State::run_period() {
   const double start = static_cast<double>(time) * kNanosecond, dt = period / number;
   for (int k = 0; k < number; ++k) step(start + k * dt, dt);
   time += definition.time.sync;
-  for (RigidBody& body : bodies) {
-    body.at_sync(time);
-    check_periodic(body);
-  }
+  for (Module* module : modules.list()) module->at_sync(time);
 
   // What accelerated or stiffened within the period was not known at its start: a wave may not have outrun a cell.
   previous_limit = material_limit;
@@ -116,11 +108,7 @@ void Simulation::advance() {
   s.failed = true;  // until the period is done
   try {
     s.run_period();
-  } catch (const LoadError& error) {
-    throw PhysicsError(error.what());
-  } catch (const DampingError& error) {
-    throw PhysicsError(error.what());
-  } catch (const ConditionError& error) {
+  } catch (const ModuleError& error) {
     throw PhysicsError(error.what());
   } catch (const RigidError& error) {
     throw PhysicsError(fmt::format("{} (in the sync period from t = {:.6g} s)", error.what(), s.time * kNanosecond));
@@ -181,12 +169,20 @@ std::vector<BodyState> Simulation::bodies() const {
 const RigidBody& Simulation::rigid_body(int body) const { return state_->bodies.at(body); }
 
 ContactReport Simulation::take_contact(int body) {
-  return state_->contacts.at(body)->take(static_cast<double>(state_->time) * kNanosecond);
+  const RigidBody& of = state_->bodies.at(body);
+  for (ContactReporter* reporter : state_->reporters) {
+    ContactLedger* ledger = reporter->ledger_of(of);
+    if (ledger != nullptr) return ledger->take(static_cast<double>(state_->time) * kNanosecond);
+  }
+  throw DefinitionError(fmt::format("rigid body '{}' has no contact with the material", of.name()));
 }
 
 std::vector<PairReport> Simulation::take_pairs() {
-  if (state_->pairs == nullptr) return {};
-  return state_->pairs->take(static_cast<double>(state_->time) * kNanosecond);
+  std::vector<PairReport> reports;
+  for (ContactReporter* reporter : state_->reporters) {
+    reporter->take_pairs(static_cast<double>(state_->time) * kNanosecond, reports);
+  }
+  return reports;
 }
 
 std::uint64_t Simulation::particles() const {

@@ -4,36 +4,15 @@
 #include <chrono>
 #include <limits>
 
-#include "mpm/boundary/absorbing.hpp"
-#include "mpm/boundary/leaving.hpp"
-#include "mpm/contact/material_contact.hpp"
-#include "mpm/contact/point_contact.hpp"
-#include "mpm/contact/rigid_contact.hpp"
-#include "mpm/contact/tool_sides.hpp"
+#include "mpm/contact/contact_reporter.hpp"
 #include "mpm/mechanics/continuum.hpp"
-#include "mpm/mechanics/damping.hpp"
-#include "mpm/mechanics/face_tractions.hpp"
-#include "mpm/mechanics/particle_loads.hpp"
+#include "mpm/particles/sum_particles.hpp"
 #include "mpm/simulation/projected.hpp"
+#include "mpm/simulation/run_parts.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/step/schedule.hpp"
 
 namespace mpm {
-
-/// What limits the step when velocity conditions do.
-inline const std::string kConditionsName = "boundaries.conditions";
-
-/// The largest time step that something allows, and what and where that is. Put into words only when asked for.
-struct StepLimit {
-  enum class Cause { nothing, material, tool, damping, scene, period };
-  double dt = std::numeric_limits<double>::infinity();  ///< [s]
-  Cause cause = Cause::nothing;
-  const std::string* name = nullptr;  ///< of the body, deformable or rigid
-  double speed = 0.0;                 ///< [m/s]
-  Vec3 place = Vec3::Zero();          ///< of the particle [m]
-  bool foreseen = false;              ///< shortened for what stiffens
-  std::string text() const;
-};
 
 /// The straight line with the least squares through points that come one by one.
 class LineFit {
@@ -62,19 +41,11 @@ struct Simulation::State {
   FieldMap field_map;
   Fields fields;
   std::unique_ptr<Sorter> sorter;
-  std::unique_ptr<ToolSides> sides;  ///< of thin tools, in a scene that has any
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;
   Modules modules;
-  std::vector<ContactLedger*> contacts;         ///< of each body, owned by modules
-  std::unique_ptr<VolumeSurvey> survey;         ///< of contact between deformable bodies, when the scene has any
-  MaterialContact* pairs = nullptr;             ///< the same, owned by modules
-  ParticleLoads* loads = nullptr;               ///< owned by modules, when the scene has any
-  FaceTractions* tractions = nullptr;           ///< the same
-  DampingControl* damping = nullptr;            ///< the same
-  std::vector<VelocityConditions*> conditions;  ///< of each field, the same
-  std::vector<Absorbing*> absorbing;            ///< of each absorbing face and field, owned by modules
-  std::optional<Leaving> leaving;               ///< of a scene that lets particles leave
+  std::vector<ContactReporter*> reporters;  ///< among the modules
+  Services services;
 
   std::int64_t time = 0;  ///< [ns]
   StepReport steps;
@@ -90,40 +61,19 @@ struct Simulation::State {
 
   /// Of every field.
   const GridLayout& layout() const { return fields.front()->layout; }
-  template <class T>
-  void add_mechanics();
-  /// A stage of each field.
-  template <class Make>
-  void add_in_fields(Make&& make) {
-    for (int f = 0; f < field_map.count(); ++f) modules.add_in_field(make(), f);
-  }
-  /// Says of a thin body what becomes of its two sides.
-  void add_sides(const RigidBody& body);
-  /// Contact between deformable bodies, when the scene has any (contact_terms.cpp).
-  void add_pairs();
-  /// Contact with a rigid body that is made of particles.
-  ContactLedger& add_rigid_particles(const RigidBody& body, const std::vector<ContactLaw>& laws_of_sets);
-  /// Bodies, and the stages of contact with them.
-  void add_rigid_bodies();
-  /// What either asks of the mechanics.
-  VolumeSurvey& volumes();
-  /// Absorbing faces.
-  void add_absorbing();
-  /// @throws RigidError for a body at a periodic face
-  void check_periodic(const RigidBody& body) const;
-  /// Velocity conditions. @throws ConditionError
-  void add_conditions();
+  /// The shipped modules that the definition asks for, those of the caller, and the mechanics.
+  void add_modules(const std::vector<AddModules>& of_caller);
   /// Of each set, for particle fields (particle_view.hpp).
   std::vector<SetView> views() const;
+  /// @throws DefinitionError for a particle field that the run does not have
+  void check_field(const std::string& name) const;
+  /// What the account of that name says that the material was given since the start; zero without one [N s].
+  Vec3 impulse(const std::string& account) const;
   /// Of all particles [N s].
   Vec3 momentum() const;
-  /// Of all particles [J].
-  double kinetic_energy() const;
-  /// Work and losses of contact, loads and conditions since the start; nothing that is summed over particles.
-  EnergyReport given_energy() const;
   /// What the material allows now.
   StepLimit survey_material() const;
-  /// What material, tools, damping and scene allow in the sync period that begins now. @throws DampingError
+  /// What material and modules allow in the sync period that begins now. @throws DampingError
   StepLimit step_limit() const;
   /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError
   void run_period();
@@ -144,24 +94,6 @@ struct Simulation::State {
 
 /// @throws DefinitionError when there is none of that name
 const MaterialDefinition& find_material(const SimulationDefinition& definition, const DeformableBody& body);
-
-/// Sums over all particles of `term(set, index)`, grouped so that the result does not depend on the number of threads.
-template <class Value, class Term>
-Value sum_particles(const std::vector<ParticleSet>& sets, int threads, Value zero, Term&& term) {
-  constexpr int kGroup = 4096;
-  Value total = zero;
-  for (const ParticleSet& set : sets) {
-    const int groups = (set.size() + kGroup - 1) / kGroup;
-    std::vector<Value> partial(groups, zero);
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int g = 0; g < groups; ++g) {
-      const int end = std::min(set.size(), (g + 1) * kGroup);
-      for (int p = g * kGroup; p < end; ++p) partial[g] += term(set, p);
-    }
-    for (const Value& value : partial) total += value;
-  }
-  return total;
-}
 
 /// Deformation gradient and stress of one particle as full tensors (what a geometry does not store filled in), for what
 /// is not a kernel.

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "state.hpp"
+#include "mpm/contact/thin_tool.hpp"
+#include "mpm/math/dimension.hpp"
+#include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
 namespace {
-
-constexpr double kToldApart = 0.9;  ///< of a thin tool's faces: less is worth a warning
 
 GridLayout layout_of(const SimulationDefinition& definition) {
   GridLayout layout(dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max);
@@ -52,29 +52,6 @@ Fields make_fields(const SimulationDefinition& definition, int count) {
     }
   }
   return fields;
-}
-
-void Simulation::State::add_sides(const RigidBody& body) {
-  const double cell = layout().smallest_cell();
-  const bool thin = is_thin(body.definition(), definition.geometry, cell);
-  const std::string start = fmt::format("rigid body '{}' is {:.2g} cells thick where it is thinnest: ", body.name(),
-                                        body.surface().thickness() / cell);
-  if (has_sides(body.definition(), definition.geometry, cell)) {
-    notes.push_back(start + "the material on its two sides has a velocity field each");
-    const ThinTool& tool = sides->add(body, definition.geometry);
-    if (tool.told_apart() < kToldApart) {
-      warnings.push_back(
-          fmt::format("rigid body '{}': {:.0f} % of its faces have no other side opposite to them; make "
-                      "it of several bodies, or write sides: one",
-                      body.name(), 100.0 * (1.0 - tool.told_apart())));
-    }
-    return;
-  }
-  if (thin) {
-    warnings.push_back(start +
-                       "material on its two sides shares nodes and feels each other when it is thinner than 3; write "
-                       "sides: two, use a finer grid.cell or a thicker body");
-  }
 }
 
 }  // namespace mpm

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <set>
 
 namespace mpm {
@@ -82,6 +83,27 @@ void Modules::accounts(std::vector<ImpulseAccount>& list) const {
       same->exchanged += account.exchanged;
     }
   }
+}
+
+void Modules::energies(EnergyReport& report) const {
+  for (const Module* module : list_) module->energies(report);
+}
+
+std::vector<NamedNumber> Modules::numbers() const {
+  std::vector<NamedNumber> list;
+  for (const Module* module : list_) module->numbers(list);
+  return list;
+}
+
+const Module* Modules::find(const std::string& name) const {
+  const auto own = [&](const Module* module) { return module->name() == name; };
+  const auto found = std::find_if(list_.begin(), list_.end(), own);
+  return found == list_.end() ? nullptr : *found;
+}
+
+std::string StepLimit::text() const {
+  if (by != nullptr) return by->limit_text(*this);
+  return std::isfinite(dt) ? "sync period" : "nothing";
 }
 
 void Modules::keep(StateArchive& archive) {

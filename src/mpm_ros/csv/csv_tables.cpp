@@ -136,9 +136,9 @@ void SolverStateCsv::add(const mpm::SolverState& state, double real_time_factor)
   const mpm::StepReport& step = state.step;
   const mpm::EnergyReport& energy = state.energy;
   *writer_ << static_cast<double>(state.time) / 1e9 << step.steps << step.dt_last << step.dt_min << step.dt_max
-           << state.particles << state.returned << energy.kinetic << energy.elastic << energy.plastic
-           << energy.potential << energy.friction << energy.pair_friction << energy.interface << energy.contact_work
-           << energy.load_work << state.audit.momentum;
+           << state.particles << state.number("returned") << energy.of("kinetic") << energy.of("elastic")
+           << energy.of("plastic") << energy.of("potential") << energy.of("friction") << energy.of("pair_friction")
+           << energy.of("interface") << energy.of("contact_work") << energy.of("load_work") << state.audit.momentum;
   const std::vector<mpm::NamedImpulse>& impulses = state.audit.impulses;
   for (const std::string& name : impulses_) {
     const auto named = [&name](const mpm::NamedImpulse& impulse) { return impulse.name == name; };

@@ -173,11 +173,8 @@ void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
     fail("audit", time, fmt::format("residual {:.3g} of the momentum exchanged, limit {:.0e}", error, audit_limit_));
   }
 
-  const mpm::EnergyReport& energy = state.energy;
-  for (const double value : {energy.kinetic, energy.elastic, energy.plastic, energy.potential, energy.contact_work,
-                             energy.load_work, energy.friction, energy.pair_friction, energy.interface,
-                             energy.free_kinetic, energy.free_potential, energy.free_loss, energy.free_work}) {
-    if (!std::isfinite(value)) fail("energy", time, "an energy is not finite");
+  for (const mpm::NamedEnergy& energy : state.energy.list()) {
+    if (!std::isfinite(energy.value)) fail("energy", time, "an energy is not finite");
   }
   min_j_ = std::min(min_j_, state.min_j);
   if (message.failed) fail("run", time, "the run failed: " + message.failure);

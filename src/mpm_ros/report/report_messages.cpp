@@ -29,13 +29,20 @@ mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message) 
   mpm::SolverState state;
   state.time = time;
   state.step = {message.steps, message.dt_min, message.dt_max, message.dt, message.dt_limited_by};
-  state.energy = {message.energy_kinetic,       message.energy_elastic,   message.energy_plastic,
-                  message.energy_potential,     message.contact_work,     message.load_work,
-                  message.energy_pair_friction, message.energy_interface, message.energy_friction};
-  state.energy.free_kinetic = message.energy_free_kinetic;
-  state.energy.free_potential = message.energy_free_potential;
-  state.energy.free_work = message.free_work;
-  state.energy.free_loss = message.energy_free_loss;
+  using Kind = mpm::NamedEnergy::Kind;
+  state.energy.add("kinetic", Kind::stored, message.energy_kinetic);
+  state.energy.add("elastic", Kind::stored, message.energy_elastic);
+  state.energy.add("plastic", Kind::dissipated, message.energy_plastic);
+  state.energy.add("potential", Kind::stored, message.energy_potential);
+  state.energy.add("contact_work", Kind::work, message.contact_work);
+  state.energy.add("load_work", Kind::work, message.load_work);
+  state.energy.add("pair_friction", Kind::dissipated, message.energy_pair_friction);
+  state.energy.add("interface", Kind::stored, message.energy_interface);
+  state.energy.add("friction", Kind::dissipated, message.energy_friction);
+  state.energy.add("free_kinetic", Kind::of_bodies, message.energy_free_kinetic);
+  state.energy.add("free_potential", Kind::of_bodies, message.energy_free_potential);
+  state.energy.add("free_work", Kind::work, message.free_work);
+  state.energy.add("free_loss", Kind::dissipated, message.energy_free_loss);
   state.audit.momentum = from_message(message.momentum);
   state.audit.initial_momentum = from_message(message.initial_momentum);
   for (const Impulse& impulse : message.impulses) {
@@ -45,7 +52,7 @@ mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message) 
   state.audit.carried = message.momentum_carried;
   state.audit.residual = message.momentum_error;
   state.particles = message.particles;
-  state.returned = message.particles_returned;
+  state.numbers.push_back({"returned", "1", static_cast<double>(message.particles_returned)});
   state.min_j = message.min_j;
   return state;
 }

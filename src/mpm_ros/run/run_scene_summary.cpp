@@ -18,11 +18,11 @@ std::uint64_t peak_memory_bytes() {
 }
 
 nlohmann::ordered_json energy_json(const mpm::EnergyReport& energy) {
-  return {{"kinetic", energy.kinetic},           {"elastic", energy.elastic},
-          {"plastic", energy.plastic},           {"potential", energy.potential},
-          {"contact_work", energy.contact_work}, {"load_work", energy.load_work},
-          {"friction", energy.friction},         {"pair_friction", energy.pair_friction},
-          {"interface", energy.interface},       {"total", energy.total()}};
+  return {{"kinetic", energy.of("kinetic")},           {"elastic", energy.of("elastic")},
+          {"plastic", energy.of("plastic")},           {"potential", energy.of("potential")},
+          {"contact_work", energy.of("contact_work")}, {"load_work", energy.of("load_work")},
+          {"friction", energy.of("friction")},         {"pair_friction", energy.of("pair_friction")},
+          {"interface", energy.of("interface")},       {"total", energy.total()}};
 }
 
 nlohmann::ordered_json array(const mpm::Vec3& v) { return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; }  // no -0
@@ -64,7 +64,7 @@ nlohmann::ordered_json RunSummary::json() const {
                     {"precision", mpm::precision_name(definition.method.precision)},
                     {"isa", isa}};
   root["particles"] = state.particles;
-  root["returned"] = state.returned;
+  root["returned"] = static_cast<std::uint64_t>(state.number("returned"));
   root["steps"] = state.step.steps;
   root["time"] = seconds();
   root["dt"] = {{"min", state.step.dt_min}, {"max", state.step.dt_max}, {"limited_by", state.step.limited_by}};
@@ -105,8 +105,8 @@ std::string RunSummary::text() const {
   text += fmt::format(
       "  energy {:.6g} J at the start, {:.6g} J at the end (kinetic {:.4g}, elastic {:.4g}, potential "
       "{:.4g}); lost to plastic or viscous flow {:.4g} J, work of tools {:.4g} J\n",
-      start_energy.total(), state.energy.total(), state.energy.kinetic, state.energy.elastic, state.energy.potential,
-      state.energy.plastic, state.energy.contact_work);
+      start_energy.total(), state.energy.total(), state.energy.of("kinetic"), state.energy.of("elastic"),
+      state.energy.of("potential"), state.energy.of("plastic"), state.energy.of("contact_work"));
   text +=
       fmt::format("  momentum error {:.2g} of the momentum exchanged, smallest J {:.4g} at the end, state hash {}\n",
                   state.audit.residual, state.min_j, hash_text(state_hash));
@@ -118,7 +118,9 @@ std::string RunSummary::text() const {
     text += fmt::format("  contact of {}: impulse on the second {} N s; friction took {:.4g} J\n", pair.name,
                         triple(pair.impulse), pair.friction_energy);
   }
-  if (state.returned > 0) text += fmt::format("  particles that left the grid and were put back: {}\n", state.returned);
+  if (const double returned = state.number("returned"); returned > 0.0) {
+    text += fmt::format("  particles that left the grid and were put back: {:.0f}\n", returned);
+  }
   for (const auto& [name, value] : metrics) text += fmt::format("  {} = {:.9g}\n", name, value);
   return text;
 }

@@ -1,14 +1,18 @@
-#include "contact_terms.hpp"
-
+// Contact of a definition as modules: between deformable bodies, whose names become velocity fields, and with rigid
+// bodies. Before anything is sorted: sets begin to remember where their particles start where displacements are asked
+// for.
 #include <fmt/core.h>
 
 #include <algorithm>
 
+#include "mpm/contact/material_contact.hpp"
+#include "mpm/contact/point_contact.hpp"
+#include "mpm/contact/rigid_contact.hpp"
 #include "mpm/contact/rigid_particle_contact.hpp"
-#include "mpm/kernel/select.hpp"
-#include "mpm/mechanics/nodal_volumes.hpp"
+#include "mpm/contact/tool_sides.hpp"
+#include "mpm/simulation/simulation.hpp"
 #include "rigid_contacts.hpp"
-#include "state.hpp"
+#include "shipped_modules.hpp"
 
 namespace mpm {
 namespace {
@@ -32,15 +36,18 @@ void remember_starts(std::vector<ParticleSet>& sets) {
   }
 }
 
-}  // namespace
-
-MaterialContactSettings make_contact_settings(const SimulationDefinition& definition, std::vector<ParticleSet>& sets,
-                                              const FieldMap& map, const GridLayout& layout, int threads) {
+/// @throws DefinitionError for a pair that names no body, or bodies of one field; for two laws between the same fields
+MaterialContactSettings pair_settings(RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  std::vector<ParticleSet>& sets = parts.sets;
+  const FieldMap& map = parts.map;
+  const GridLayout& layout = parts.layout();
   MaterialContactSettings settings;
   settings.normals = definition.contact.normals;
   settings.detection = definition.contact.detection;
   settings.geometry = definition.geometry;
-  settings.threads = threads;
+  settings.threads = parts.threads;
+  settings.sides = parts.sides;
   settings.cell_volume = definition.across();
   for (int k = 0; k < layout.dim(); ++k) settings.cell_volume *= layout.cell(k);
   bool displacements = settings.detection.kind == Detection::displacements;
@@ -67,15 +74,6 @@ MaterialContactSettings make_contact_settings(const SimulationDefinition& defini
   if (displacements) remember_starts(sets);
   return settings;
 }
-
-void Simulation::State::add_pairs() {
-  MaterialContactSettings settings = make_contact_settings(definition, sets, field_map, layout(), threads);
-  if (settings.pairs.empty()) return;
-  settings.sides = sides.get();
-  pairs = &modules.add(std::make_unique<MaterialContact>(std::move(settings), fields, volumes()));
-}
-
-namespace {
 
 /// @throws DefinitionError for a body that cannot be free
 void check_free(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
@@ -106,78 +104,63 @@ void check_laws_at_nodes(const SimulationDefinition& definition, const RigidBody
       body.name));
 }
 
-}  // namespace
-
-void Simulation::State::add_rigid_bodies() {
-  bodies.reserve(definition.rigid_bodies.size());
-  for (const RigidBodyDefinition& body : definition.rigid_bodies) {
-    bodies.emplace_back(body);
-    check_periodic(bodies.back());
-    check_free(definition, body);
-  }
-  const std::vector<ContactLaw> laws_of_pairs = rigid_contact_laws(definition, sets);
-  const auto laws_of = [&](std::size_t body) { return laws_of_pairs.begin() + static_cast<int>(body * sets.size()); };
-  contacts.resize(bodies.size());
-  std::vector<const RigidBody*> met_at_points;
-  std::vector<ContactLaw> laws_at_points;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const RigidBodyDefinition& body = bodies[b].definition();
-    add_sides(bodies[b]);
-    if (body.particles) {
-      contacts[b] = &add_rigid_particles(bodies[b], {laws_of(b), laws_of(b + 1)});
-    } else if (definition.contact.method == ContactMethod::nodes) {
-      check_laws_at_nodes(definition, body);
-      auto contact = std::make_unique<RigidContact>(bodies[b], fields, threads, definition.geometry, sides.get());
-      contacts[b] = &modules.add(std::move(contact)).ledger();
-    } else {
-      met_at_points.push_back(&bodies[b]);
-      laws_at_points.insert(laws_at_points.end(), laws_of(b), laws_of(b + 1));
-    }
-  }
-  if (met_at_points.empty()) return;
-  PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(), threads, {}, {}};
-  settings.gravity = definition.gravity;
-  for (const RigidBody* body : met_at_points) {
-    RigidBody& own = bodies[body - bodies.data()];
-    settings.free.push_back(own.free_motion() != nullptr ? &own : nullptr);
-  }
-  auto contact = std::make_unique<PointContact>(met_at_points, sets, fields, std::move(laws_at_points), settings);
-  for (std::size_t i = 0; i < met_at_points.size(); ++i) {
-    contacts[met_at_points[i] - bodies.data()] = &contact->ledger(static_cast<int>(i));
-  }
-  modules.add(std::move(contact));
-}
-
-ContactLedger& Simulation::State::add_rigid_particles(const RigidBody& body,
-                                                      const std::vector<ContactLaw>& laws_of_sets) {
-  if (definition.contact.detection.kind == Detection::displacements) remember_starts(sets);
+RigidParticleSettings particle_settings(RunParts& parts, const std::vector<ContactLaw>& laws_of_sets) {
+  const SimulationDefinition& definition = parts.definition;
+  if (definition.contact.detection.kind == Detection::displacements) remember_starts(parts.sets);
   RigidParticleSettings settings;
   settings.normals = definition.contact.normals;
   settings.detection = definition.contact.detection;
   settings.geometry = definition.geometry;
   settings.per_cell = definition.method.particles_per_direction;
   settings.across = definition.across();
-  settings.laws.resize(fields.size());
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    for (const int field : field_map.fields(static_cast<int>(s))) settings.laws[field] = laws_of_sets[s];
+  settings.laws.resize(parts.fields.size());
+  for (std::size_t s = 0; s < parts.sets.size(); ++s) {
+    for (const int field : parts.map.fields(static_cast<int>(s))) settings.laws[field] = laws_of_sets[s];
   }
-  auto stage = std::make_unique<RigidParticleContact>(body, std::move(settings), fields, volumes());
-  return modules.add(std::move(stage)).ledger();
+  return settings;
 }
 
-VolumeSurvey& Simulation::State::volumes() {
-  if (survey) return *survey;
-  std::vector<double> densities;
-  for (const DeformableBody& body : definition.bodies) densities.push_back(find_material(definition, body).density);
-  const auto make = [&](const auto& kernels) {
-    survey = make_volume_survey(kernels, fields, sets, laws, densities, definition.geometry, threads);
-  };
-  if (definition.method.precision == Precision::float32) {
-    make(kernel_table<float>(definition.method.shape, definition.geometry, isa));
-  } else {
-    make(kernel_table<double>(definition.method.shape, definition.geometry, isa));
+/// Contact at points, with all of these bodies at once. `laws`: of each against each set.
+void add_point_contact(RunParts& parts, const std::vector<RigidBody*>& bodies, std::vector<ContactLaw> laws) {
+  const SimulationDefinition& definition = parts.definition;
+  PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(), parts.threads,
+                                {},                  definition.gravity};
+  for (RigidBody* body : bodies) settings.free.push_back(body->free_motion() != nullptr ? body : nullptr);
+  parts.modules.add(std::make_unique<PointContact>(std::vector<const RigidBody*>(bodies.begin(), bodies.end()),
+                                                   parts.sets, parts.fields, std::move(laws), settings));
+}
+
+}  // namespace
+
+void add_pairs(RunParts& parts) {
+  MaterialContactSettings settings = pair_settings(parts);
+  if (settings.pairs.empty()) return;
+  parts.modules.add(std::make_unique<MaterialContact>(std::move(settings), parts.fields, parts.volumes()));
+}
+
+void add_rigid_contact(RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  const std::vector<ContactLaw> laws = rigid_contact_laws(definition, parts.sets);
+  std::vector<RigidBody*> met_at_points;
+  std::vector<ContactLaw> laws_at_points;
+  for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
+    RigidBody& body = parts.bodies[b];
+    check_free(definition, body.definition());
+    const auto first = laws.begin() + static_cast<std::ptrdiff_t>(b * parts.sets.size());
+    const std::vector<ContactLaw> own(first, first + static_cast<std::ptrdiff_t>(parts.sets.size()));
+    if (body.definition().particles) {
+      parts.modules.add(std::make_unique<RigidParticleContact>(body, particle_settings(parts, own), parts.fields,
+                                                               parts.volumes()));
+    } else if (definition.contact.method == ContactMethod::nodes) {
+      check_laws_at_nodes(definition, body.definition());
+      parts.modules.add(
+          std::make_unique<RigidContact>(body, parts.fields, parts.threads, definition.geometry, parts.sides));
+    } else {
+      met_at_points.push_back(&body);
+      laws_at_points.insert(laws_at_points.end(), own.begin(), own.end());
+    }
   }
-  return *survey;
+  if (!met_at_points.empty()) add_point_contact(parts, met_at_points, std::move(laws_at_points));
 }
 
 }  // namespace mpm

@@ -1,8 +1,16 @@
-#include "load_terms.hpp"
-
+// The loads of a definition as modules: body forces, forces on particles, tractions. Names of bodies become sets, and
+// particles are chosen while they lie in the order of the definition. Sets that functions with X, Y or Z act on begin
+// to remember where their particles start.
 #include <fmt/core.h>
 
 #include <algorithm>
+
+#include "mpm/kernel/select.hpp"
+#include "mpm/mechanics/face_tractions.hpp"
+#include "mpm/mechanics/particle_loads.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "shipped_modules.hpp"
+#include "with_precision.hpp"
 
 namespace mpm {
 namespace {
@@ -81,7 +89,9 @@ TractionTerm make_term(const TractionDefinition& load, const SimulationDefinitio
 
 }  // namespace
 
-std::vector<ParticleLoadTerm> make_load_terms(const SimulationDefinition& definition, std::vector<ParticleSet>& sets) {
+void add_particle_loads(RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  std::vector<ParticleSet>& sets = parts.sets;
   std::vector<ParticleLoadTerm> terms;
   for (const BodyForceDefinition& load : definition.body_forces) {
     ParticleLoadTerm term;
@@ -96,15 +106,24 @@ std::vector<ParticleLoadTerm> make_load_terms(const SimulationDefinition& defini
       if (!term.set || *term.set == static_cast<int>(s)) remember_start(term.value, sets[s]);
     }
   }
-  return terms;
+  if (terms.empty()) return;
+  with_precision(definition.method.precision, [&](auto zero) {
+    using T = decltype(zero);
+    const LoadKernels<T> kernels{kernel_table<T>(definition.method.shape, definition.geometry, parts.isa),
+                                 kernel_table<T>(ShapeKind::dirac, definition.geometry, parts.isa)};
+    parts.modules.add(make_particle_loads(kernels, parts.fields, sets, parts.laws, terms, parts.threads));
+  });
 }
 
-std::vector<TractionTerm> make_traction_terms(const SimulationDefinition& definition, std::vector<ParticleSet>& sets,
-                                              const GridLayout& layout) {
+void add_tractions(RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
   std::vector<TractionTerm> terms;
-  for (const TractionDefinition& load : definition.tractions)
-    terms.push_back(make_term(load, definition, sets, layout));
-  return terms;
+  for (const TractionDefinition& load : definition.tractions) {
+    terms.push_back(make_term(load, definition, parts.sets, parts.layout()));
+  }
+  if (terms.empty()) return;
+  const TractionSettings settings{definition.geometry, definition.method.shape, definition.across()};
+  parts.modules.add(std::make_unique<FaceTractions>(settings, parts.fields, parts.sets, std::move(terms)));
 }
 
 }  // namespace mpm

@@ -1,0 +1,55 @@
+// Energies of a run by name: a list to which the material and each module add their own.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mpm {
+
+struct NamedEnergy {
+  /// stored: in the material now. of_bodies: that free rigid bodies have now. dissipated: lost to heat since the start.
+  /// work: done on the material, or on free rigid bodies, since the start.
+  enum class Kind { stored, of_bodies, dissipated, work };
+  std::string name;
+  Kind kind = Kind::stored;
+  double value = 0.0;  ///< [J]
+};
+
+class EnergyReport {
+ public:
+  using Kind = NamedEnergy::Kind;
+
+  /// What is added under one name is summed.
+  void add(const std::string& name, Kind kind, double value) {
+    const auto same = std::find_if(list_.begin(), list_.end(), [&](const NamedEnergy& e) { return e.name == name; });
+    if (same == list_.end()) {
+      list_.push_back({name, kind, value});
+    } else {
+      same->value += value;
+    }
+  }
+  /// [J]; 0 where the run has nothing of that name.
+  double of(const std::string& name) const {
+    const auto found = std::find_if(list_.begin(), list_.end(), [&](const NamedEnergy& e) { return e.name == name; });
+    return found == list_.end() ? 0.0 : found->value;
+  }
+  /// In the order in which they were added.
+  const std::vector<NamedEnergy>& list() const { return list_; }
+
+  double sum(Kind kind) const {
+    double sum = 0.0;
+    for (const NamedEnergy& energy : list_) sum += energy.kind == kind ? energy.value : 0.0;
+    return sum;
+  }
+  /// Of the material.
+  double total() const { return sum(Kind::stored); }
+  /// With free rigid bodies.
+  double whole() const { return total() + sum(Kind::of_bodies); }
+
+ private:
+  std::vector<NamedEnergy> list_;
+};
+
+}  // namespace mpm

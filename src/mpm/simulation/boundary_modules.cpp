@@ -1,0 +1,81 @@
+// What happens at the faces of the domain and at the axis, and prescribed velocities: the modules of boundary/.
+#include "mpm/boundary/absorbing.hpp"
+#include "mpm/boundary/axis.hpp"
+#include "mpm/boundary/condition.hpp"
+#include "mpm/boundary/leaving.hpp"
+#include "mpm/boundary/periodic.hpp"
+#include "mpm/boundary/wall.hpp"
+#include "shipped_modules.hpp"
+#include "state.hpp"
+
+namespace mpm {
+namespace {
+
+/// The domain's faces along the grid's axes: visit(2 * grid axis, + 1 for the upper one; its place in kWallNames).
+template <class Visit>
+void each_face(const GridLayout& layout, Visit&& visit) {
+  for (int face = 0; face < 2 * layout.dim(); ++face) visit(face, 2 * layout.axis(face / 2) + face % 2);
+}
+
+}  // namespace
+
+void add_periodic(RunParts& parts) {
+  if (!parts.layout().any_periodic()) return;
+  parts.modules.add(std::make_unique<PeriodicAxes>(parts.sets, parts.layout(), parts.threads));
+}
+
+void add_leaving(RunParts& parts) {
+  const std::uint64_t limit = parts.definition.grid.leave_limit;
+  if (limit > 0) parts.modules.add(std::make_unique<Leaving>(limit, parts.sets, parts.layout()));
+}
+
+void add_axis(RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  if (!axisymmetric(definition.geometry)) return;
+  parts.add_in_fields([] { return std::make_unique<HoopForce>(); });
+  const AxisRules& axis = definition.method.axis;
+  if (definition.grid.min.x() == 0.0) {
+    parts.add_in_fields([&] { return std::make_unique<Axis>(axis.ghosts); });
+  }
+  const bool to_zero = definition.method.shape == ShapeKind::qcpdi || axis.domains == AxisDomains::whole;
+  if (axis.functions == AxisFunctions::weighted && to_zero) {
+    parts.add_in_fields([&] { return std::make_unique<MasslessNodes>(definition.gravity); });
+  }
+}
+
+void add_absorbing(RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  each_face(parts.layout(), [&](int face, int name) {
+    const WallDefinition& wall = definition.walls[name];
+    if (wall.kind != WallKind::absorbing) return;
+    std::vector<ElasticWaves> waves;
+    for (const DeformableBody& body : definition.bodies) {
+      waves.push_back(elastic_waves(find_material(definition, body), definition.geometry));
+    }
+    const double phi = face_mass(definition.method.shape, definition.method.particles_per_direction);
+    parts.add_in_fields(
+        [&] { return std::make_unique<Absorbing>(face, kWallNames[name], parts.sets, waves, phi, wall.hold); });
+  });
+}
+
+void add_walls(RunParts& parts) {
+  each_face(parts.layout(), [&](int face, int name) {
+    const WallDefinition& wall = parts.definition.walls[name];
+    if (!is_wall(wall.kind)) return;
+    parts.add_in_fields([&] { return std::make_unique<Wall>(face, wall, kWallNames[name]); });
+  });
+}
+
+void add_conditions(RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  if (definition.conditions.empty()) return;
+  std::vector<HeldFace> slip;
+  each_face(parts.layout(), [&](int face, int name) {
+    const WallKind kind = definition.walls[name].kind;
+    if (kind == WallKind::slip || kind == WallKind::symmetry) slip.push_back({face, kWallNames[name]});
+  });
+  parts.add_in_fields(
+      [&] { return std::make_unique<VelocityConditions>(definition.conditions, slip, parts.layout()); });
+}
+
+}  // namespace mpm

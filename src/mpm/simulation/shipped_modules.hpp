@@ -1,0 +1,36 @@
+// The physics that every build has, each by the function that adds its modules. Private to this folder.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mpm/simulation/run_parts.hpp"
+
+namespace mpm {
+
+struct ShippedModules {
+  void (*add)(RunParts&);
+  /// Of the numbers that its modules bring, those that a scene may choose as global quantities: name and unit.
+  std::vector<std::pair<std::string, std::string>> numbers = {};
+};
+
+/// In the order in which they are added; when they act is said by their ranks (step/order.hpp).
+const std::vector<ShippedModules>& shipped_modules();
+
+void add_periodic(RunParts& parts);
+void add_leaving(RunParts& parts);
+void add_axis(RunParts& parts);
+void add_damping(RunParts& parts);
+void add_rigid_motion(RunParts& parts);
+void add_tool_sides(RunParts& parts);
+void add_absorbing(RunParts& parts);
+void add_walls(RunParts& parts);
+void add_conditions(RunParts& parts);
+void add_pairs(RunParts& parts);
+void add_rigid_contact(RunParts& parts);
+void add_particle_loads(RunParts& parts);
+void add_tractions(RunParts& parts);
+void add_step_limit(RunParts& parts);
+
+}  // namespace mpm

@@ -74,7 +74,7 @@ class Subject {
       std::fill_n(field->data(), static_cast<std::size_t>(blocks) * field->components() * nodes, 0.0);
     }
     grid_ = mpm::view_of(grid);
-    set_ = mpm::view_of<T>(block_.sets.front(), block_.law, kernels_.laws);
+    set_ = mpm::view_of<T>(block_.sets.front(), block_.law, kernels_);
     scatter_momentum();
     nodal_velocity();
   }
@@ -86,7 +86,7 @@ class Subject {
   }
   void move(bool regather) {
     each([&](const auto& b) {
-      kernels_.move[mpm_kernel::kIncrement][0](grid_, b, &set_, 1, {kHardlyAny, 1.0, regather});
+      kernels_.move[mpm_kernel::kIncrement](grid_, b, &set_, 1, {kHardlyAny, 1.0, regather});
     });
   }
   void nodal_velocity() { kernels_.nodal_velocity(grid_, 0, block_.grid.blocks.size()); }

@@ -176,31 +176,6 @@ class Kernels : KernelComparison<Geometry, T> {
     }
   }
 
-  void scatter_load() {
-    std::vector<std::vector<PaddedArray<double>>> loads;
-    std::vector<mpm_kernel::SetView<T>> sets = views();
-    std::uniform_real_distribution<double> u(-1.0, 1.0);
-    scene_.each_reference([](auto& p) { Reference<Geometry>::note_domain(p); });
-    note_domains();
-    for (std::size_t s = 0; s < scene_.sets.size(); ++s) {
-      loads.emplace_back(kDim, PaddedArray<double>(scene_.sets[s].size()));
-      if (s == 1) continue;  // the second body has no load
-      for (int k = 0; k < kDim; ++k) {
-        for (int p = 0; p < scene_.sets[s].size(); ++p) {
-          loads[s][k][p] = scene_.reference.sets[s].particles[p].load[k] = u(scene_.random);
-        }
-        sets[s].load[k] = loads[s][k].data();
-      }
-    }
-    NodalField field = zero_field();
-    each_block(sets, [&](const GridView& grid, const mpm_kernel::BlockView& block, const auto* of, int count) {
-      scene_.kernels.scatter_load(grid, block, of, count, field.data());
-    });
-    scene_.reference.scatter_load();
-    compare_nodes("load", field, [](const ReferenceNode& n, int c) { return n.load[c]; });
-    expect_total("load", field, [](const auto& p, int c) { return p.mass * p.load[c]; });
-  }
-
   /// Checks the projection of random velocities to the particles and back.
   void project() {
     std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -265,7 +240,8 @@ class Kernels : KernelComparison<Geometry, T> {
              (regather ? ", regather" : "");
     std::vector<mpm_kernel::SetView<T>> sets = views();
     const double rate = 0.1 / scene_.dt, flip = 0.9;
-    mpm_kernel::MoveSettings settings{scene_.dt, flip, regather, scene_.reference.by_point};
+    mpm_kernel::MoveSettings settings{scene_.dt, flip, regather};
+    settings.by_point = scene_.reference.by_point;
     std::vector<PaddedArray<double>> rates;
     rates.reserve(2 * sets.size());
     for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -280,14 +256,14 @@ class Kernels : KernelComparison<Geometry, T> {
         if (damping == Damping::of_place) sets[s].damping[of] = rates.back().data();
       }
     }
+    settings.damped = damping != Damping::none;
     if (damping == Damping::constant) settings.grid_damping = rate, settings.particle_damping = 2 * rate;
     scene_.read_nodes();
     NodalField& momentum = scene_.grid.momentum;
     if (regather) std::fill(momentum.block(0), momentum.block(scene_.grid.blocks.size()), 0.0);
     ReferenceDrag found;
     each_block(sets, [&](const GridView& grid, const mpm_kernel::BlockView& block, const auto* of, int count) {
-      const mpm_kernel::Moved moved =
-          scene_.kernels.move[motion][damping != Damping::none](grid, block, of, count, settings);
+      const mpm_kernel::Moved moved = scene_.kernels.move[motion](grid, block, of, count, settings);
       for (int c = 0; c < 3; ++c) found.drag[c] += moved.drag[c];
       found.grid_kinetic += moved.grid_kinetic;
       found.particle_kinetic += moved.particle_kinetic;

@@ -52,7 +52,7 @@ class KernelComparison {
   std::vector<mpm_kernel::SetView<T>> views() {
     std::vector<mpm_kernel::SetView<T>> views;
     for (std::size_t s = 0; s < scene_.sets.size(); ++s) {
-      views.push_back(view_of<T>(scene_.sets[s], scene_.laws[s], scene_.kernels.laws));
+      views.push_back(view_of<T>(scene_.sets[s], scene_.laws[s], scene_.kernels));
     }
     return views;
   }

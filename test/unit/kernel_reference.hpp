@@ -18,7 +18,7 @@
 
 namespace mpm::test {
 
-/// A particle by value; position, velocity and load along grid axes.
+/// A particle by value; position and velocity along grid axes. `load`: what a test gives it.
 template <class Geometry>
 struct ReferenceParticle {
   double mass = 0.0;  ///< [kg]
@@ -57,7 +57,8 @@ struct ReferenceSet {
 
 struct ReferenceNode {
   double mass = 0.0;
-  double momentum[3] = {}, velocity[3] = {}, force[3] = {}, load[3] = {};
+  double momentum[3] = {}, velocity[3] = {}, force[3] = {};
+  double load[3] = {};              ///< the sum over particles of their load, weighted
   double from[3] = {}, to[3] = {};  ///< the projected velocity [m/s], and its momentum on the way back
   double mean = 0.0;                ///< mean of a trace
 };
@@ -115,14 +116,6 @@ class Reference {
           for (int k = 0; k < kDim; ++k) v += gradient[c][k] * arm[k];
           n.momentum[c] += p.mass * s * v;
         }
-      });
-    });
-  }
-  void scatter_load() {
-    clear(&ReferenceNode::load);
-    each([&](const Set& set, const Particle& p) {
-      each_node(set, p, [&](ReferenceNode& n, double s, const double*, const double*) {
-        for (int c = 0; c < kDim; ++c) n.load[c] += p.mass * s * p.load[c];
       });
     });
   }

@@ -3,6 +3,7 @@
 // passes that only some scenes need. Laws and shape functions are independent of each other, so two laws are enough,
 // one of them with a history; kernels_test.cpp has all of them.
 #include "kernel_check.hpp"
+#include "kernel_transfers.hpp"
 #include "step_scene.hpp"
 
 namespace mpm::test {
@@ -43,7 +44,7 @@ void check_shape(const Case& of) {
   }
   for (const Places places : {Places::bodies, Places::loose, Places::walled}) {
     Kernels<Geometry, T>(of.shape, zoo[2], places, of.isa, kAllTransfers[4]).check_moves();
-    Kernels<Geometry, T>(of.shape, zoo[2], places, of.isa, flip(1.0)).scatter_load();
+    KernelTransfers<Geometry, T>(of.shape, zoo[2], places, of.isa).check();
     Kernels<Geometry, T>(of.shape, zoo[2], places, of.isa, flip(1.0)).project();
   }
   if ((of.shape == ShapeKind::cpdi || of.shape == ShapeKind::qcpdi) && Geometry::kDim > 1) {
@@ -77,7 +78,8 @@ void check_axis_rules(const Case& of) {
       Rings(of.shape, rubber, places, of.isa, transfer, false, mean).check(true);
     }
     for (const AxisRules& axis : {planar, whole}) {
-      Rings(of.shape, rubber, places, of.isa, flip(1.0), false, axis).scatter_load();
+      KernelTransfers<Axisymmetric, T>(of.shape, rubber, places, of.isa, axis)
+          .check(axis.domains == AxisDomains::fitted);
       Rings(of.shape, rubber, places, of.isa, flip(1.0), false, axis).project();
     }
   }

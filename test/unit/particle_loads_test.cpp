@@ -9,6 +9,7 @@
 
 #include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/continuum.hpp"
+#include "mpm/mechanics/scalar_transfers.hpp"
 
 namespace mpm {
 namespace particle_loads_test {
@@ -46,25 +47,28 @@ struct Plane {
       set.id[p] = 5 + static_cast<std::uint32_t>(p);
       for (int k = 0; k < 2; ++k) set.x[k][p] = places[p][k];
     }
-    laws.push_back(make_law({"m", 1000.0, NeoHookeanDefinition{{1e5, 0.3}}}));
     set.v = zeros(2, set.precision, n);
     set.f = zeros(5, set.precision, n);
     set.tau = zeros(4, set.precision, n);
-    set.history = zeros(history_size(laws[0]), set.precision, n);
     sets.push_back(std::move(set));
-    const auto outside = Sorter(1, kernel_grouping(kernels.domain)).sort(sets, fields);
+    const auto outside =
+        Sorter(1, kernel_grouping(kernel_table<T>(ShapeKind::ugimp, GeometryKind::plane_strain, Isa::plain)))
+            .sort(sets, fields);
     EXPECT_FALSE(outside);
     std::fill_n(grid.force.data(), grid.blocks.size() * 2 * grid.layout.nodes_per_block(), 0.0);
   }
   static std::vector<ParticleScalar> zeros(int components, Precision precision, std::size_t count) {
     return std::vector<ParticleScalar>(components, ParticleScalar(precision, count));
   }
-  LoadKernels<T> kernels = {kernel_table<T>(ShapeKind::ugimp, GeometryKind::plane_strain, Isa::plain),
-                            kernel_table<T>(ShapeKind::dirac, GeometryKind::plane_strain, Isa::plain)};
+  LoadTransfers transfers() {
+    const auto of = [&](ShapeKind shape) {
+      return make_scalar_transfer(kernel_table<T>(shape, GeometryKind::plane_strain, Isa::plain), fields, sets, 2);
+    };
+    return {of(ShapeKind::ugimp), of(ShapeKind::dirac)};
+  }
   Fields fields;
   Grid& grid = *fields.front();
   std::vector<ParticleSet> sets;
-  std::vector<Law> laws;
 };
 
 template <class T>
@@ -86,7 +90,7 @@ TYPED_TEST(Spread, GoesToTheNodesThatItShould) {
   pull.chosen = {1, 0, 1};
   push.value[2] = Function(2.0);
   push.spread = LoadSpread::center;
-  const auto loads = make_particle_loads(plane.kernels, plane.fields, plane.sets, plane.laws, {pull, push}, 2);
+  const auto loads = make_particle_loads(plane.transfers(), plane.fields, plane.sets, {pull, push}, 2);
   StepContext context{plane.fields, 1e-3, 0.0};
   loads->forces_gathered(context);
   const Grid& grid = plane.grid;

@@ -78,7 +78,7 @@ void survey_every_law(Precision precision, double below, double above) {
   for (const paths::Specimen& specimen : paths::zoo()) {
     const Law law = make_law(specimen.material);
     ParticleSet set = worked_particles<Geometry>(specimen, precision, 61);
-    const mpm_kernel::SetView<T> view = view_of<T>(set, law, static_cast<const mpm_kernel::LawKernels<T>*>(nullptr));
+    const mpm_kernel::SetView<T> view = view_of<T>(set, law, ugimp_kernels<T>(Geometry::kDim, Isa::plain));
     for (const Isa isa : instruction_sets()) {
       const auto survey = ugimp_kernels<T>(Geometry::kDim, isa).laws[law.index()].survey;
       // Single particles, parts of registers, and all particles.
@@ -124,8 +124,10 @@ TEST(Survey, NamesTheFirstOfEqualRates) {
   }
   for (const Isa isa : instruction_sets()) {
     const auto survey = ugimp_kernels<double>(3, isa).laws[law.index()].survey;
-    EXPECT_EQ(survey(view_of<double>(set, law, nullptr), 0, 50, kCell).particle, 13) << isa_name(isa);
-    EXPECT_EQ(survey(view_of<double>(set, law, nullptr), 14, 50, kCell).particle, 22) << isa_name(isa);
+    EXPECT_EQ(survey(view_of<double>(set, law, ugimp_kernels<double>(3, isa)), 0, 50, kCell).particle, 13)
+        << isa_name(isa);
+    EXPECT_EQ(survey(view_of<double>(set, law, ugimp_kernels<double>(3, isa)), 14, 50, kCell).particle, 22)
+        << isa_name(isa);
   }
 }
 
@@ -137,8 +139,8 @@ TEST(Survey, TellsWhatIsNotANumberOfEveryStress) {
     for (const Isa isa : instruction_sets()) {
       ParticleSet set = worked_particles<Solid>(specimen, Precision::float64, 30);
       for (const int p : {25, 18}) set.tau[0].set(p, std::numeric_limits<double>::quiet_NaN());
-      const mpm_kernel::Fastest found =
-          ugimp_kernels<double>(3, isa).laws[law.index()].survey(view_of<double>(set, law, nullptr), 0, 30, kCell);
+      const mpm_kernel::Fastest found = ugimp_kernels<double>(3, isa).laws[law.index()].survey(
+          view_of<double>(set, law, ugimp_kernels<double>(3, isa)), 0, 30, kCell);
       EXPECT_TRUE(std::isnan(found.rate)) << specimen.material.name << ' ' << isa_name(isa);
       EXPECT_EQ(found.particle, 18) << specimen.material.name << ' ' << isa_name(isa);
     }

@@ -86,8 +86,8 @@ TEST(Weights, FindTheirNodesInTheTile) {
     set.x[k] = place[k];
     block.corner[k] = GridLayout::nearest(layout.in_cells(k, place[k][0])) / 4 * 4 - mpm_kernel::kTileMargin;
   }
-  mpm::Weights<double, 3, Ugimp> w;
-  w.fill<mpm::Beside::gradient>(mpm::WeightFrame<double, 3, Ugimp>(grid, block, set), 0, 2);
+  mpm::Weights<double, 3, 3, false> w;
+  mpm::WeightMaker<double, 3, Ugimp>::fill<mpm::Beside::gradient>(grid, block, set, 0, 2, &w);
   for (int p = 0; p < 2; ++p) {
     const int nearest[3] = {w.node[p] / 64, w.node[p] / 8 % 8, w.node[p] % 8};
     for (int k = 0; k < 3; ++k) {

@@ -14,7 +14,7 @@
 
 namespace mpm {
 
-template <class T, int Dim, mpm_kernel::Motion Kind, bool Damped, bool Rings = false>
+template <class T, int Dim, mpm_kernel::Motion Kind, bool Rings>
 class Advance {
   using W = Wide<T>;
 
@@ -28,9 +28,10 @@ class Advance {
 
   /// Component c of particles [p, p + lanes), of which the grid says velocity and acceleration. Moves them; returns
   /// their displacement [m]. `beside`: of rings, a displacement that comes to the velocity's.
-  W particles(int c, int p, int lanes, W grid_velocity, W acceleration, W beside = W(0.0)) {
+  template <bool Damped>
+  W particles(int c, int p, int lanes, W grid_velocity, W acceleration, W beside) {
     W velocity = W::load_first(set_.v[c] + p, lanes);
-    W displacement = advance(c, p, lanes, grid_velocity, acceleration, velocity);
+    W displacement = advance<Damped>(c, p, lanes, grid_velocity, acceleration, velocity);
     if constexpr (Rings) displacement += beside;
     velocity.store_first(set_.v[c] + p, lanes);
     W::B::displace(set_.next_x[c] + p, set_.x[c] + p, displacement.v, lanes);
@@ -43,16 +44,16 @@ class Advance {
     return dt_ * (Kind == mpm_kernel::kIncrement ? velocity - half_dt_ * acceleration : velocity);
   }
 
+  /// What damping took, if it acted.
   void add_to(mpm_kernel::Moved& moved) const {
-    if constexpr (Damped) {
-      const double mass = Rings ? 1.0 : set_.mass;  // rings have been weighed one by one
-      for (int c = 0; c < Dim; ++c) moved.drag[c] += total(drag_[c]) * mass;
-      moved.grid_kinetic += 0.5 * total(grid_square_) * mass;
-      moved.particle_kinetic += 0.5 * total(own_square_) * mass;
-    }
+    const double mass = Rings ? 1.0 : set_.mass;  // rings have been weighed one by one
+    for (int c = 0; c < Dim; ++c) moved.drag[c] += total(drag_[c]) * mass;
+    moved.grid_kinetic += 0.5 * total(grid_square_) * mass;
+    moved.particle_kinetic += 0.5 * total(own_square_) * mass;
   }
 
  private:
+  template <bool Damped>
   W advance(int c, int p, int lanes, W grid_velocity, W acceleration, W& velocity) {
     const W old = velocity;
     W drag(0.0);

@@ -3,8 +3,8 @@
 
 #include <cstring>
 
+#include "mpm/kernel/interleave.hpp"
 #include "mpm/kernel/kernels.hpp"
-#include "mpm/kernel/wide.hpp"
 
 namespace mpm {
 
@@ -23,27 +23,43 @@ bool absent(const mpm_kernel::SetView<T>& set, const mpm_kernel::BlockView& bloc
   return set.group_begin[block.owner] == set.group_begin[block.owner + 1];
 }
 
-/// visit(first particle, first group, end of groups) for the set's particles of one block, at most `most` at a time.
-template <int Most = mpm_kernel::kChunk, class T, class Visit>
-void each_chunk(const mpm_kernel::SetView<T>& set, int owner, Visit&& visit) {
+/// Particles of a set that are worked on together: some groups of one block, or (of points of domains, which groups
+/// mean nothing to) some particles.
+struct ParticleChunk {
+  int first, count;
+  int group, group_end;
+  int groups() const { return group_end - group; }
+};
+
+/// visit(chunk) for the set's particles of one block, whole groups and at most kChunk particles at a time.
+template <class T, class Visit>
+void each_chunk_of_groups(const mpm_kernel::SetView<T>& set, int owner, Visit&& visit) {
   const int end = static_cast<int>(set.group_begin[owner + 1]);
   for (int g = static_cast<int>(set.group_begin[owner]); g < end;) {
     const int first = static_cast<int>(set.group[g]);
     int g_end = g + 1;
-    while (g_end < end && static_cast<int>(set.group[g_end + 1]) - first <= Most) ++g_end;
-    visit(first, g, g_end);
+    while (g_end < end && static_cast<int>(set.group[g_end + 1]) - first <= mpm_kernel::kChunk) ++g_end;
+    visit(ParticleChunk{first, static_cast<int>(set.group[g_end]) - first, g, g_end});
     g = g_end;
   }
 }
 
 /// visit(place in the chunk, lanes) for each of its groups.
 template <class T, class Visit>
-void each_group(const mpm_kernel::SetView<T>& set, int first, int g, int g_end, Visit&& visit) {
-  for (; g < g_end; ++g) {
+void each_group(const mpm_kernel::SetView<T>& set, const ParticleChunk& chunk, Visit&& visit) {
+  for (int g = chunk.group; g < chunk.group_end; ++g) {
     const int p = static_cast<int>(set.group[g]);
-    visit(p - first, static_cast<int>(set.group[g + 1]) - p);
+    visit(p - chunk.first, static_cast<int>(set.group[g + 1]) - p);
   }
 }
+
+/// Four numbers of every particle of a chunk, those of a particle together: what is scattered by the values of the
+/// shape function.
+template <class T>
+struct ChunkValues {
+  alignas(64) T v[4 * mpm_kernel::kBuffer];
+  void set(int q, Wide<T> v0, Wide<T> v1, Wide<T> v2, Wide<T> v3) { interleave(v + 4 * q, v0, v1, v2, v3); }
+};
 
 /// Copies one component of the deformation of a block's particles to where the step's domains are kept: strain goes on
 /// within the step, and what was scattered with one domain has to be gathered with the same.

@@ -69,21 +69,20 @@ class NodeReader {
 };
 
 /// Weights of one register of particles. What is not used of them is not loaded, once optimised.
-template <class T, int Dim, template <class> class Shape>
+template <class T, int Dim, int kNodes, bool Rings>
 struct LaneWeights {
   using W = Wide<T>;
-  static constexpr int kNodes = Shape<W>::kNodes;
   W s[Dim][kNodes], g[Dim][kNodes];
-  W t[Shape<W>::kAxisymmetric ? kNodes : 1];  ///< of an axisymmetric shape function
-  W here = W(1.0);  ///< of a line, which has no axis across its only row: 0 where a lane is of another part
-  LaneWeights(const Weights<T, Dim, Shape>& w, int q) {
+  W t[Rings ? kNodes : 1];  ///< of an axisymmetric shape function
+  W here = W(1.0);          ///< of a line, which has no axis across its only row: 0 where a lane is of another part
+  LaneWeights(const Weights<T, Dim, kNodes, Rings>& w, int q) {
     for (int k = 0; k < Dim; ++k) {
       for (int n = 0; n < kNodes; ++n) {
         s[k][n] = W::load(w.s[k][n] + q);
         g[k][n] = W::load(w.g[k][n] + q);
       }
     }
-    if constexpr (Shape<W>::kAxisymmetric) {
+    if constexpr (Rings) {
       for (int n = 0; n < kNodes; ++n) t[n] = W::load(w.t[n] + q);
     }
   }
@@ -92,7 +91,7 @@ struct LaneWeights {
     for (int n = 0; n < kNodes; ++n) {
       s[0][n] = select(which, s[0][n], W(0.0));
       g[0][n] = select(which, g[0][n], W(0.0));
-      if constexpr (Shape<W>::kAxisymmetric) t[n] = select(which, t[n], W(0.0));
+      if constexpr (Rings) t[n] = select(which, t[n], W(0.0));
     }
     if constexpr (Dim == 1) here = select(which, here, W(0.0));
   }
@@ -104,18 +103,17 @@ struct LaneWeights {
   }
 };
 
-template <class T, int Dim, template <class> class Shape>
+template <class T, int Dim, int kNodes, bool Rings>
 class Gather {
   using W = Wide<T>;
-  using Lanes = LaneWeights<T, Dim, Shape>;
-  static constexpr int kNodes = Shape<W>::kNodes;
+  using Lanes = LaneWeights<T, Dim, kNodes, Rings>;
   using Values = RowValues<T, kNodes>;
 
  public:
   /// visit(reader, number of the middle row, weights) for the lanes [q, q + count) of a chunk, by parts that share a
   /// column or a node; the weights are zero where a lane is of another part. Returns how many parts there were.
   template <class Visit>
-  static int each_part(const Weights<T, Dim, Shape>& w, int q, int count, Visit&& visit) {
+  static int each_part(const Weights<T, Dim, kNodes, Rings>& w, int q, int count, Visit&& visit) {
     using Reader = std::conditional_t<kByColumn<T>, ColumnReader<T, kNodes>, NodeReader<T, kNodes>>;
     const W place = W::load(w.place + q), last = W::load(w.last + q);
     const unsigned lanes = WideMask<T>::first(count).bits();
@@ -134,9 +132,9 @@ class Gather {
     return parts;
   }
 
-  /// l[c][k] += d v_c / d x_k [1/s], GIMP notes (2.2).
-  template <class Tile, class Reader>
-  static void gradient(const Tile& tile, const Reader& reader, int row, const Lanes& w, W (&l)[Dim][Dim]) {
+  /// l[c][k] += the gradient of component c of the tile along axis k, GIMP notes (2.2).
+  template <int Fields, class Tile, class Reader>
+  static void gradient(const Tile& tile, const Reader& reader, int row, const Lanes& w, W (&l)[Fields][Dim]) {
     each_row(row, [&](int r, int i, int j) {
       W across[Dim];  // what each component of the gradient takes of the row
       if constexpr (Dim == 3) {
@@ -147,7 +145,7 @@ class Gather {
         across[0] = w.g[0][i];
         across[1] = w.s[0][i];
       }
-      for (int c = 0; c < Dim; ++c) {
+      for (int c = 0; c < Fields; ++c) {
         const Values at = reader.read(tile.rows[c][r]);
         const W plain = sum_of_s(w, at), along = sum_of_g(w, at);
         for (int k = 0; k < Dim - 1; ++k) l[c][k] += across[k] * plain;

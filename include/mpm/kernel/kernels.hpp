@@ -8,8 +8,9 @@
 //
 // USAVG lets `move` scatter the new momentum as well, and strains once more, each time by half a step; USL strains only
 // then, and begins with `force`. XPIC and FMPM `project` velocities to and fro before particles adopt them; APIC
-// scatters and gathers an affine field. Loads on particles add `scatter_load`. Between periods a law's `survey` finds
-// what limits the time step (survey.hpp).
+// scatters and gathers an affine field. Between periods a law's `survey` finds what limits the time step (survey.hpp).
+// Whatever else moves between particles and nodes (loads, volumes, a temperature) goes by `gather`, `gradient`,
+// `spread` and `spread_gradient`, which know neither mass nor law of a body.
 //
 // Particles lie sorted by block (4 nodes along each axis), and inside a block by nearest node, the last axis fastest. A
 // block works on a tile, its surroundings of 8 nodes along each axis in cache (tile.hpp): copied in, computed on,
@@ -20,11 +21,11 @@
 //
 // This file is the border: plain data and tables of functions. Behind it every file is compiled once an instruction
 // set, with the namespace mpm under another name, so that nothing inline is shared; tables are chosen at run time.
-// Shape functions and laws do not know each other: a table of passes belongs to a number of axes and a shape function,
-// a table of laws to a geometry, and chunks of velocity gradients and stresses pass between the two.
-// A shape function that is a product of three or five values along each axis (uGIMP, splines) is a class as in
-// shape/ugimp.hpp, and passes.hpp does the rest; one that is a sum over points of a deformed domain (CPDI) is a class
-// as in shape/cpdi.hpp, and point_passes.hpp does.
+// Passes are written once, in passes.hpp, over an interpolator, which knows a shape function as weights on nodes. There
+// are two: product_interpolator.hpp, for products of three or five values along each axis (uGIMP, splines; a class as
+// in shape/ugimp.hpp makes the values), and point_interpolator.hpp, for sums over points of a deformed domain (CPDI; a
+// class as in shape/cpdi.hpp). Shape functions and laws do not know each other: between the passes and a geometry's
+// laws go chunks of velocity gradients and stresses.
 #pragma once
 
 #include <cstdint>
@@ -60,6 +61,8 @@ struct BlockView {
 
 template <class T>
 struct LawKernels;
+template <class T>
+struct ShapeKernels;
 
 /// The particles of one body.
 template <class T>
@@ -77,13 +80,20 @@ struct SetView {
   T* f[9];                               ///< deformation gradient
   T* tau[6];                             ///< Kirchhoff stress over initial density [J/kg]
   T* history[kMostHistory];
-  T* domain[9];           ///< F in the grid's axes (of a stretching box: its diagonal) as the step began
-  T* affine[9];           ///< APIC: B, sum of S v_c (x_i - x_p)_k, [component][axis] [m^2/s]
-  const double* load[3];  ///< acceleration by a load; null without one [m/s^2]
-  const double*
-      damping[2];   ///< of place: rates on the grid's and on the particle's velocity [1/s]; null where constant
-  const void* law;  ///< the law
+  T* domain[9];  ///< F in the grid's axes (of a stretching box: its diagonal) as the step began
+  T* affine[9];  ///< APIC: B, sum of S v_c (x_i - x_p)_k, [component][axis] [m^2/s]
+  /// Of place: rates on the grid's and on the particle's velocity [1/s]; null where constant.
+  const double* damping[2];
+  const void* law;  ///< the law; null where no pass asks for it
   const LawKernels<T>* law_kernels;
+  const ShapeKernels<T>* shape;  ///< null for points of domains
+};
+
+/// Numbers of a set's particles beside what SetView has, for the passes that take any: arrays in the order of the
+/// particles. The set takes no part where the first one is null.
+struct ParticleArrays {
+  const double* from[3];
+  double* to[3];
 };
 
 struct StrainSettings {
@@ -97,6 +107,7 @@ struct MoveSettings {
   double dt;                      ///< [s]
   double flip;                    ///< FLIP fraction
   bool regather;                  ///< the new momentum goes to the grid
+  bool damped = false;            ///< damping acts in the particles' update, or its energy is asked for
   bool by_point = false;          ///< about an axis: AxisMotion::point
   double grid_damping = 0.0;      ///< rate on the grid's velocity at the particle, where it is constant [1/s]
   double particle_damping = 0.0;  ///< rate on the particle's own velocity [1/s]
@@ -116,7 +127,7 @@ struct Moved {
 /// About an axis: where v_r / r stands after the gradients of a plane, and the column of the hoop stress after theirs.
 constexpr int kHoopGradient = 4, kHoopColumn = 2;
 
-/// Velocity gradients of a chunk [1/s]: d v_c / d x_k of dim axes is l[c * dim + k].
+/// Velocity gradients of a chunk [1/s]: d v_c / d x_k of dim axes is l[c * dim + k]. Of a scalar: its gradient, c = 0.
 template <class T>
 struct ChunkGradients {
   alignas(64) T l[9][kBuffer];
@@ -151,6 +162,20 @@ struct LawKernels {
   Fastest (*survey)(const SetView<T>&, int first, int last, double cell);
 };
 
+/// What stands beside the values of a shape function: nothing; its gradient [1/m]; the values' first moments about the
+/// particle S (x_i - x_p) [m], which give B of APIC; these over their second moment D [1/m], by which B D^-1 (x_i -
+/// x_p) goes to the grid.
+enum class Beside { nothing, gradient, moment, affine };
+
+/// A shape function that is a product along the axes, in one number of axes and precision (weights.hpp).
+template <class T>
+struct ShapeKernels {
+  /// By Beside: the weights of particles [first, first + count), at most kChunk, of the block; `weights` is of the type
+  /// in weights.hpp for this number of axes and of nodes along an axis.
+  void (*fill[4])(const GridView&, const BlockView&, const SetView<T>&, int first, int count, void* weights);
+  bool stretches;  ///< a particle's box follows F_kk of the step's start: SetView::domain
+};
+
 /// How particles take over the grid's motion.
 enum Motion {
   kIncrement,  ///< FLIP, PIC: velocity gains the acceleration
@@ -159,40 +184,60 @@ enum Motion {
   kMotions
 };
 
-template <class T>
-using MovePass = Moved (*)(const GridView&, const BlockView&, const SetView<T>*, int sets, const MoveSettings&);
-
 /// One number of axes, shape function, precision and instruction set, and the laws of one geometry. Functions of a
 /// block work on all sets of particles.
 template <class T>
 struct KernelTable {
   using Scatter = void (*)(const GridView&, const BlockView&, const SetView<T>*, int sets);
 
-  int lanes;                    ///< particles of a register: the largest group
-  bool by_column;               ///< a group's particles share a column of nodes; else their nearest node
-  const LawKernels<T>* laws;    ///< by index in the list of laws (material/law.hpp)
+  int lanes;                  ///< particles of a register: the largest group
+  bool by_column;             ///< a group's particles share a column of nodes; else their nearest node
+  const LawKernels<T>* laws;  ///< by index in the list of laws (material/law.hpp)
+  const ShapeKernels<T>* shape;
   Scatter scatter_momentum[2];  ///< m v and m; with the affine field of APIC
   Failure (*strain)(const GridView&, const BlockView&, const SetView<T>*, int sets, const StrainSettings&);
   /// The internal force of the stress as it is; with `pressure` on the nodes in place of the particles' own (mean.hpp).
   void (*force)(const GridView&, const BlockView&, const SetView<T>*, int sets, const double* pressure);
   /// `to` += m S times the particles' dilatation tr(grad v) [kg/s], or mean stress in the grid's axes [J].
   void (*spread_mean[2])(const GridView&, const BlockView&, const SetView<T>*, int sets, double* to);
-  MovePass<T> move[kMotions][2];  ///< without damping in the particles' update, and with it
-  void (*scatter_load)(const GridView&, const BlockView&, const SetView<T>*, int sets, double* field);
+  Moved (*move[kMotions])(const GridView&, const BlockView&, const SetView<T>*, int sets, const MoveSettings&);
   /// `to` += m S (S `from`): what the particles make of a field of velocities, as momentum.
   void (*project)(const GridView&, const BlockView&, const SetView<T>*, int sets, const double* from, double* to);
   /// Whether a domain leaves the tile as particles now are; null where `move` knows.
   bool (*outgrown)(const GridView&, const BlockView&, const SetView<T>*, int sets);
+
+  // Any numbers, ParticleArrays one a set; nodal fields of one component or of as many as there are axes.
+  /// to[c] = sum of S component c of `field`.
+  void (*gather)(const GridView&, const BlockView&, const SetView<T>*, const ParticleArrays*, int sets, int components,
+                 const double* field);
+  /// to[k] = sum of G_k `field`, of one component; about an axis to[2], unless null, is the sum of T `field`.
+  void (*gradient)(const GridView&, const BlockView&, const SetView<T>*, const ParticleArrays*, int sets,
+                   const double* field);
+  /// Component c of `field` += S from[c], times m if `by_mass`.
+  void (*spread)(const GridView&, const BlockView&, const SetView<T>*, const ParticleArrays*, int sets, int components,
+                 bool by_mass, double* field);
+  /// `field` += G_k from[k], summed over the axes, about an axis and T from[2] unless that is null: one component. With
+  /// as many components as axes component k += G_k from[0].
+  void (*spread_gradient)(const GridView&, const BlockView&, const SetView<T>*, const ParticleArrays*, int sets,
+                          int components, bool by_mass, double* field);
+
   /// v = p / m on the nodes of blocks [first, last).
   void (*nodal_velocity)(const GridView&, int first, int last);
   /// a = f / m + gravity, v = p / m + a dt on the nodes of blocks [first, last).
   void (*nodal_update)(const GridView&, int first, int last, double dt, const double* gravity);
 };
 
-/// The tables of a shape function by number of axes, less one; without laws. One that there is not is empty.
+/// Passes by number of axes, less one; without laws and, of products along the axes, without the shape function. A
+/// table that there is not is empty.
 struct PassFamily {
   KernelTable<double> in_double[3];
   KernelTable<float> in_single[3];
+};
+
+/// A shape function by number of axes, less one.
+struct ShapeFamily {
+  ShapeKernels<double> in_double[3];
+  ShapeKernels<float> in_single[3];
 };
 
 /// The laws of a geometry, by their index in the list of laws.

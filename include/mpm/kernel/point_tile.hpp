@@ -59,7 +59,7 @@ struct PointTile {
   alignas(64) T nodes[4 * (Shape::kRows * kTileEdge + 1)];
 
   template <int Components>
-  void load(const double* field, const BlockView& block) {
+  [[gnu::noinline]] void load(const double* field, const BlockView& block) {
     Shape::each_row(block, [&](int row, const int* blocks, int node) {
       const double* part[3];
       for (int b = 0; b < 3; ++b)
@@ -86,9 +86,22 @@ struct PointTile {
   }
 };
 
+/// As many tiles as it takes for `Fields` components, at most Dim of them in each.
+template <class T, int Dim, int Fields>
+struct PointTiles {
+  static constexpr int kTiles = (Fields + Dim - 1) / Dim;
+  PointTile<T, Dim> tile[kTiles];
+
+  /// Copies the `components` of a nodal field into the components `first`, …, of which the first of a tile is one.
+  template <int Components>
+  void load(const double* field, const BlockView& block, int first) {
+    tile[first / Dim].template load<Components>(field, block);
+  }
+};
+
 /// Adds `value` to the nodes around the point, by their hat functions.
 template <class T, int Dim>
-void spread(const CellPoint<T, Dim>& point, typename PointVectors<T>::Four value, T* nodes) {
+void spread_point(const CellPoint<T, Dim>& point, typename PointVectors<T>::Four value, T* nodes) {
   using V = PointVectors<T>;
   const auto high = point.along[Dim - 1] * value;
   const auto both = V::pair(value - high, high);

@@ -72,11 +72,10 @@ struct NodeRow {
   }
 };
 
-template <class T, int Dim, template <class> class Shape>
+template <class T, int Dim, int kNodes, bool Rings>
 class Scatter {
   using W = Wide<T>;
-  using AllWeights = Weights<T, Dim, Shape>;
-  static constexpr int kNodes = Shape<W>::kNodes;
+  using AllWeights = Weights<T, Dim, kNodes, Rings>;
   using Row = NodeRow<T, kNodes>;
   static constexpr int kFirst = Dim == 1 ? 1 : kNodes;   ///< rows along the first axis, if that is not the last one
   static constexpr int kSecond = Dim == 3 ? kNodes : 1;  ///< and along the second
@@ -84,47 +83,27 @@ class Scatter {
   static constexpr int kBatch = kNodes == 3 && 3 * kSecond * Row::kRegisters <= 20 ? kSecond : 1;
 
  public:
-  /// Up to four scalars of every particle of a chunk, by S.
-  struct Values {
-    alignas(64) T across[kSecond * kFirst][kBuffer];  ///< S of the axes but the last, [second][first]
-    alignas(64) T value[4 * kBuffer];                 ///< by particle
-
-    void set_weights(const AllWeights& w, int count) {
-      for (int q = 0; q < count; q += W::kLanes) {
-        if constexpr (Dim == 1) {
-          W(1.0).store(across[0] + q);
-          continue;
-        }
-        W first[kNodes], second[kNodes];
-        load(w.s[0], q, first);
-        if constexpr (Dim == 3) load(w.s[1], q, second);
-        for (int j = 0; j < kSecond; ++j) {
-          for (int i = 0; i < kFirst; ++i)
-            (Dim == 3 ? first[i] * second[j] : first[i]).store(across[kFirst * j + i] + q);
-        }
-      }
-    }
-    void set(int q, W v0, W v1, W v2, W v3) { interleave(value + 4 * q, v0, v1, v2, v3); }
-  };
-
-  static void scatter(const AllWeights& w, const Values& from, int count, T* tile) {
+  /// Four numbers of every particle of a chunk, by S.
+  static void values(const AllWeights& w, const ChunkValues<T>& from, int count, T* tile) {
+    alignas(64) T across[kSecond * kFirst][kBuffer];  // S of the axes but the last, [second][first]
+    find_across(w, count, across);
     each_run(w, count, tile, [&](int p, int end, int j0, Row(&sum)[kBatch][kFirst]) {
       for (; p < end; ++p) {
-        const Row row = Row::outer(w.s[Dim - 1], p, from.value + 4 * p);
+        const Row row = Row::outer(w.s[Dim - 1], p, from.v + 4 * p);
 #pragma GCC unroll 3
         for (int j = 0; j < kBatch; ++j) {
 #pragma GCC unroll 5
-          for (int i = 0; i < kFirst; ++i) sum[j][i].add(row, from.across[kFirst * (j0 + j) + i][p]);
+          for (int i = 0; i < kFirst; ++i) sum[j][i].add(row, across[kFirst * (j0 + j) + i][p]);
         }
       }
     });
   }
 
-  // Rows (i, j): S_x (S_y G_z tau_z + G_y S_z tau_y) + G_x S_y S_z tau_x. Since S sums to 1 and G to 0, what all three
-  // nodes of an axis get together is cheaper than what the middle one gets: the middle sum is the total, less the outer
-  // two in the end. `Hoop`, of rings: and T S_z tau_y, T the hoop function.
-  template <bool Hoop = Shape<W>::kAxisymmetric>
-  static void scatter(const AllWeights& weights, const mpm_kernel::ChunkStresses<T>& from, int count, T* tile) {
+  // Columns by G. Rows (i, j): S_x (S_y G_z tau_z + G_y S_z tau_y) + G_x S_y S_z tau_x. Since S sums to 1 and G to 0,
+  // what all three nodes of an axis get together is cheaper than what the middle one gets: the middle sum is the total,
+  // less the outer two in the end. `Hoop`, of rings: and T S_z tau_y, T the hoop function.
+  template <bool Hoop>
+  static void columns(const AllWeights& weights, const mpm_kernel::ChunkStresses<T>& from, int count, T* tile) {
     each_run(weights, count, tile, [&](int p, int end, int j0, Row(&sum)[kBatch][kFirst]) {
       for (; p < end; ++p) {
         const Row along = Row::outer(weights.g[Dim - 1], p, from.column[Dim - 1] + 4 * p);
@@ -165,6 +144,20 @@ class Scatter {
  private:
   static void load(const T (&from)[kNodes][kBuffer], int q, W (&to)[kNodes]) {
     for (int n = 0; n < kNodes; ++n) to[n] = W::load(from[n] + q);
+  }
+  static void find_across(const AllWeights& w, int count, T (&across)[kSecond * kFirst][kBuffer]) {
+    for (int q = 0; q < count; q += W::kLanes) {
+      if constexpr (Dim == 1) {
+        W(1.0).store(across[0] + q);
+        continue;
+      }
+      W first[kNodes], second[kNodes];
+      load(w.s[0], q, first);
+      if constexpr (Dim == 3) load(w.s[1], q, second);
+      for (int j = 0; j < kSecond; ++j) {
+        for (int i = 0; i < kFirst; ++i) (Dim == 3 ? first[i] * second[j] : first[i]).store(across[kFirst * j + i] + q);
+      }
+    }
   }
   static void add_along_first(const AllWeights& weights, int p, const Row& by_s, const Row& by_g, Row (&sum)[kFirst]) {
     if constexpr (kNodes == 3) {

@@ -3,6 +3,8 @@
 // the block table. While no particle has left the block, stencils of three touch only six nodes along an axis: rows
 // outside these are left out.
 //
+// Copying is a function of its own, called once a block: passes share it, and a compiler takes it once.
+//
 // Two layouts. What is gathered lies a component at a time, a row of 8 nodes along the last axis together; what is
 // scattered lies a node at a time, its components together, padded to four.
 #pragma once
@@ -103,7 +105,7 @@ struct GatherTile {
 
   /// Copies the `components` of a nodal field into the tile's components `first`, ….
   template <int Components>
-  void load(const double* field, const BlockView& block, int first) {
+  [[gnu::noinline]] void load(const double* field, const BlockView& block, int first) {
     Shape::each_row(block, [&](int row, const int* blocks, int node) {
       const double* part[3];
       for (int b = 0; b < 3; ++b)
@@ -143,7 +145,7 @@ struct ScatterTile {
 
   T* data() { return reinterpret_cast<T*>(nodes); }
 
-  void clear(const BlockView& block) {
+  [[gnu::noinline]] void clear(const BlockView& block) {
     Shape::each_row(block, [&](int row, const int*, int) {
       for (int z = 0; z < kTileEdge; ++z) nodes[row * kTileEdge + z] = Node{};
     });
@@ -152,7 +154,7 @@ struct ScatterTile {
 
   /// Adds the tile's components `first`, … to the `Components` of a nodal field.
   template <int Components>
-  void add_to(double* field, const BlockView& block, int first) const {
+  [[gnu::noinline]] void add_to(double* field, const BlockView& block, int first) const {
     Shape::each_row(block, [&](int row, const int* blocks, int node) {
       const Node* from = nodes + row * kTileEdge;
       Field by_component[kWidth];

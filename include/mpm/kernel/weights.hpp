@@ -5,9 +5,10 @@
 //
 // A shape function is a class with kNodes, 3 or 5, values s[kNodes], which sum to 1, and g[kNodes], which sum to 0
 // (gathers and scatters count on it), made from the offset from the nearest node and an Axis, its constants for a body
-// (shape/ugimp.hpp). With kStretches its box is the particle's own; with kFoldsAtWalls it keeps to the nodes inside
-// walls; with kAxisymmetric it has a radial() for the first axis, which has a hoop function besides
-// (shape/axisymmetric.hpp).
+// (shape/ugimp.hpp). What is done with weights depends on the number of values alone, so passes reach a shape function
+// through mpm_kernel::ShapeKernels, a call a chunk, and are shared by all of one number. With kStretches its box is the
+// particle's own; with kFoldsAtWalls it keeps to the nodes inside walls; with kAxisymmetric it has a radial() for the
+// first axis, which has a hoop function besides (shape/axisymmetric.hpp).
 #pragma once
 
 #include <type_traits>
@@ -18,6 +19,7 @@
 
 namespace mpm {
 
+using mpm_kernel::Beside;
 using mpm_kernel::GridView;
 using mpm_kernel::kBuffer;
 using mpm_kernel::kChunk;
@@ -26,11 +28,6 @@ using mpm_kernel::SetView;
 /// Lanes that share a row of nodes along the last axis are gathered together; else those that share their nearest node.
 template <class T>
 constexpr bool kByColumn = Wide<T>::kLanes >= kTileEdge;
-
-/// What stands in for the gradient beside the values: nothing; the gradient [1/m]; the values' first moments about the
-/// particle S (x_i - x_p) [m], which give B of APIC; these over their second moment D [1/m], by which B D^-1 (x_i -
-/// x_p) goes to the grid.
-enum class Beside { nothing, gradient, moment, affine };
 
 /// What the weights of a body's particles depend on beside their places.
 template <class T, int Dim, template <class> class Shape>
@@ -68,8 +65,9 @@ class WeightFrame {
   }
   /// Half way between two nodes the upper one, as the sorter has it; and none that the tile does not hold.
   W nearest(W cells) const { return max(min(round(cells + W(kTie)), highest_), lowest_); }
-  /// Of particles [p, p + count) along axis k, around their nearest nodes.
-  Shape<W> shape(int k, int p, int count, W cells, W nearest, const Axis& axis) const {
+  /// Of particles [p, p + count) along axis k, around their nearest nodes. Inline always: a call would take its
+  /// registers through memory.
+  [[gnu::always_inline]] Shape<W> shape(int k, int p, int count, W cells, W nearest, const Axis& axis) const {
     if constexpr (Shape<W>::kStretches) {
       return Shape<W>(cells - nearest, Shape<W>::half(W::load_first(stretch_[k] + p, count), axis), axis);
     } else {
@@ -105,22 +103,33 @@ struct HoopWeights {
 template <class T, int Nodes>
 struct HoopWeights<T, Nodes, false> {};
 
+/// Of a chunk of particles, for a shape function of `Nodes` values along an axis; what follows the chunk in the buffers
+/// has no meaning.
+template <class T, int Dim, int Nodes, bool Rings>
+struct Weights : HoopWeights<T, Nodes, Rings> {
+  alignas(64) T s[Dim][Nodes][kBuffer];  ///< shape function along each axis
+  alignas(64) T g[Dim][Nodes][kBuffer];  ///< its gradient [1/m], or what stands beside the values
+  alignas(64) T cells[Dim][kBuffer];     ///< place in the tile
+  alignas(64) T last[kBuffer];           ///< nearest node along the last axis
+  alignas(64) T place[kBuffer];   ///< what lanes must share to be gathered together: number of a column or a node
+  alignas(64) int node[kBuffer];  ///< number in the tile of the nearest node
+};
+
+/// Makes the weights of one shape function.
 template <class T, int Dim, template <class> class Shape>
-struct Weights : HoopWeights<T, Shape<Wide<T>>::kNodes, Shape<Wide<T>>::kAxisymmetric> {
+class WeightMaker {
   using W = Wide<T>;
   static constexpr int kLast = Dim - 1;
   static constexpr int kNodes = Shape<W>::kNodes;
 
-  alignas(64) T s[Dim][kNodes][kBuffer];  ///< shape function along each axis
-  alignas(64) T g[Dim][kNodes][kBuffer];  ///< its gradient [1/m], or what stands beside the values
-  alignas(64) T cells[Dim][kBuffer];      ///< place in the tile
-  alignas(64) T last[kBuffer];            ///< nearest node along the last axis
-  alignas(64) T place[kBuffer];   ///< what lanes must share to be gathered together: number of a column or a node
-  alignas(64) int node[kBuffer];  ///< number in the tile of the nearest node
+ public:
+  using Made = Weights<T, Dim, kNodes, Shape<W>::kAxisymmetric>;
 
-  /// Of particles [first, first + count); what follows them in the buffer has no meaning.
   template <Beside What>
-  void fill(const WeightFrame<T, Dim, Shape>& frame, int first, int count) {
+  static void fill(const GridView& grid, const BlockView& block, const SetView<T>& set, int first, int count,
+                   void* weights) {
+    const WeightFrame<T, Dim, Shape> frame(grid, block, set);
+    Made& to = *static_cast<Made*>(weights);
     for (int k = 0; k < Dim; ++k) {
       const typename Shape<W>::Axis axis = frame.axis(k);
       for (int q = 0; q < count; q += W::kLanes) {
@@ -129,46 +138,51 @@ struct Weights : HoopWeights<T, Shape<Wide<T>>::kNodes, Shape<Wide<T>>::kAxisymm
         if constexpr (Shape<W>::kAxisymmetric) {
           if (k == 0) {
             auto radial = frame.radial(first + q, count - q, x, nearest);
-            keep_hoop<What>(radial, x - nearest, q);
-            keep<What>(radial, x - nearest, frame.cell(k), k, q);
+            keep_hoop<What>(radial, x - nearest, q, to);
+            keep<What>(radial, x - nearest, frame.cell(k), k, q, to);
           } else {
             Shape<W> shape = frame.shape(k, first + q, count - q, x, nearest, axis);
-            keep<What>(shape, x - nearest, frame.cell(k), k, q);
+            keep<What>(shape, x - nearest, frame.cell(k), k, q, to);
           }
         } else {
           Shape<W> shape = frame.shape(k, first + q, count - q, x, nearest, axis);
-          keep<What>(shape, x - nearest, frame.cell(k), k, q);
+          keep<What>(shape, x - nearest, frame.cell(k), k, q, to);
         }
-        x.store(cells[k] + q);
-        const W number = k == 0 ? nearest : W::load(place + q) * W(kTileEdge) + nearest;
-        if (k < kLast || !kByColumn<T>) number.store(place + q);
-        if (Dim == 1 && kByColumn<T>) W(0.0).store(place + q);  // a line is one column
+        x.store(to.cells[k] + q);
+        const W number = k == 0 ? nearest : W::load(to.place + q) * W(kTileEdge) + nearest;
+        if (k < kLast || !kByColumn<T>) number.store(to.place + q);
+        if (Dim == 1 && kByColumn<T>) W(0.0).store(to.place + q);  // a line is one column
         if (k == kLast) {
-          nearest.store(last + q);
+          nearest.store(to.last + q);
           typedef int Numbers __attribute__((vector_size(4 * W::kLanes)));
           const Numbers numbers = __builtin_convertvector(number.v, Numbers);
-          __builtin_memcpy(node + q, &numbers, sizeof(numbers));
+          __builtin_memcpy(to.node + q, &numbers, sizeof(numbers));
         }
       }
     }
   }
 
+  static constexpr mpm_kernel::ShapeKernels<T> kernels() {
+    return {{&fill<Beside::nothing>, &fill<Beside::gradient>, &fill<Beside::moment>, &fill<Beside::affine>},
+            Shape<W>::kStretches};
+  }
+
  private:
   static constexpr double kLeastMoment = 1e-10;  ///< [cells^2]
   template <Beside What, class Along>
-  [[gnu::always_inline]] void keep(Along& shape, W offset, double cell, int k, int q) {
+  [[gnu::always_inline]] static void keep(Along& shape, W offset, double cell, int k, int q, Made& to) {
     if constexpr (What == Beside::moment || What == Beside::affine) {
       put_moments(shape, offset, cell, What == Beside::affine);
     }
     for (int n = 0; n < kNodes; ++n) {
-      shape.s[n].store(s[k][n] + q);
-      if constexpr (What != Beside::nothing) shape.g[n].store(g[k][n] + q);
+      shape.s[n].store(to.s[k][n] + q);
+      if constexpr (What != Beside::nothing) shape.g[n].store(to.g[k][n] + q);
     }
   }
   template <Beside What, class Along>
-  void keep_hoop(const Along& radial, W offset, int q) {
+  static void keep_hoop(const Along& radial, W offset, int q, Made& to) {
     const W hat[3] = {max(-offset, W(0.0)), W(1.0) - abs(offset), max(offset, W(0.0))};
-    for (int n = 0; n < kNodes; ++n) (What == Beside::gradient ? radial.t[n] : hat[n]).store(this->t[n] + q);
+    for (int n = 0; n < kNodes; ++n) (What == Beside::gradient ? radial.t[n] : hat[n]).store(to.t[n] + q);
   }
 
   // A product of values that each reproduce a linear field has a diagonal second moment, sum of S (x_i - x_p)^2. With
@@ -194,5 +208,20 @@ struct Weights : HoopWeights<T, Shape<Wide<T>>::kNodes, Shape<Wide<T>>::kAxisymm
     for (int n = 0; n < kNodes; ++n) shape.g[n] /= second;
   }
 };
+
+/// Of an axisymmetric shape function, in the place of two axes.
+template <template <class> class Shape>
+constexpr mpm_kernel::ShapeFamily axisymmetric_shape_of() {
+  return {{{}, WeightMaker<double, 2, Shape>::kernels(), {}}, {{}, WeightMaker<float, 2, Shape>::kernels(), {}}};
+}
+
+/// Of a shape function, for each number of axes and either precision.
+template <template <class> class Shape>
+constexpr mpm_kernel::ShapeFamily shape_of() {
+  return {{WeightMaker<double, 1, Shape>::kernels(), WeightMaker<double, 2, Shape>::kernels(),
+           WeightMaker<double, 3, Shape>::kernels()},
+          {WeightMaker<float, 1, Shape>::kernels(), WeightMaker<float, 2, Shape>::kernels(),
+           WeightMaker<float, 3, Shape>::kernels()}};
+}
 
 }  // namespace mpm

@@ -4,6 +4,7 @@
 // out one by one, two threads took as long as one in a plane.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "mpm/grid/nodal_fields.hpp"
@@ -17,10 +18,13 @@ static_assert(mpm_kernel::kTileEdge == kBlockEdge + 2 * mpm_kernel::kTileMargin)
 
 mpm_kernel::GridView view_of(Grid& grid);
 
-/// `law` outlives the view. T is the precision of the set; `laws`: of the kernels at work; `first_owner`: of the field
+/// For passes that ask for no law. T is the precision of the set; `kernels`: those at work; `first_owner`: of the field
 /// at work (Grid::first_owner).
 template <class T>
-mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kernel::LawKernels<T>* laws,
+mpm_kernel::SetView<T> view_of(ParticleSet& set, const mpm_kernel::KernelTable<T>& kernels, int first_owner = 0);
+/// `law` outlives the view.
+template <class T>
+mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kernel::KernelTable<T>& kernels,
                                int first_owner = 0);
 
 inline mpm_kernel::BlockView view_of(const Grid& grid, int owner) {
@@ -31,6 +35,12 @@ inline mpm_kernel::BlockView view_of(const Grid& grid, int owner) {
   }
   return block;
 }
+
+/// Blocks around one and itself.
+constexpr int neighbours_of(int dim) { return dim == 3 ? 27 : dim == 2 ? 9 : 3; }
+
+/// `owners`: of each, whether its particles may give to a block that is marked (one mark a block).
+void find_givers(const Grid& grid, const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& owners);
 
 /// pass(block) for every block that holds particles, in their order: for what writes to no node.
 template <class Pass>

@@ -23,10 +23,9 @@
 #include <vector>
 
 #include "mpm/grid/fields.hpp"
-#include "mpm/kernel/kernels.hpp"
-#include "mpm/material/law.hpp"
 #include "mpm/math/function.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/step/scalar_transfer.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
@@ -56,23 +55,19 @@ class LoadError : public ModuleError {
   using ModuleError::ModuleError;
 };
 
-/// Kernels that scatter a load, by its spread: those of the scene's shape function, and those of dirac, whose hat
-/// functions are at the centre.
-template <class T>
-struct LoadKernels {
-  mpm_kernel::KernelTable<T> domain;
-  mpm_kernel::KernelTable<T> center;
+/// What brings a load to the nodes, by its spread: in the scene's shape function, and in dirac, whose hat functions are
+/// at the centre.
+struct LoadTransfers {
+  std::unique_ptr<ScalarTransfer> domain, center;
 };
 
 /// All loads of a scene on particles, as one stage. Its work is nodal load times the displacement of its node in a
 /// step, with the velocity that conditions have left, over the displacement of FLIP (GIMP notes (2.16)); where
 /// particles move otherwise (PIC, XPIC, FMPM, APIC) it is right to first order in dt. Audit: "body_force" and
 /// "particle_force", those that there are: the sums over particles of m b dt and of F dt; the grid has no part in them.
-/// `fields`, `sets` and `laws`, one each, outlive the result; sets that a term with X, Y or Z acts on have their
-/// start_x. T: double or float, the sets' precision.
-template <class T>
-std::unique_ptr<Stage> make_particle_loads(const LoadKernels<T>& kernels, Fields& fields,
-                                           std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+/// `transfers`: of these fields and sets, which outlive the result; sets that a term with X, Y or Z acts on have their
+/// start_x.
+std::unique_ptr<Stage> make_particle_loads(LoadTransfers transfers, Fields& fields, std::vector<ParticleSet>& sets,
                                            const std::vector<ParticleLoadTerm>& terms, int threads);
 
 }  // namespace mpm

@@ -13,6 +13,7 @@
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/simulation/definition.hpp"
 #include "mpm/step/modules.hpp"
+#include "mpm/step/scalar_transfer.hpp"
 #include "mpm/step/volume_survey.hpp"
 
 namespace mpm {
@@ -45,6 +46,8 @@ struct RunParts {
 
   const GridLayout& layout() const { return fields.front()->layout; }
   VolumeSurvey& volumes();
+  /// Moves a module's own numbers between particles and nodes, by this shape function in the run's precision.
+  std::unique_ptr<ScalarTransfer> make_transfer(ShapeKind shape);
   /// A stage of each field: make() returns a new one.
   template <class Make>
   void add_in_fields(Make&& make) {

@@ -12,15 +12,15 @@ namespace mpm {
 /// Of one velocity field; valid on the blocks that were asked for. About an axis volumes are areas of sections.
 struct NodalVolumes {
   NodalVolumes(int dim, int nodes)
-      : volume(dim, nodes),
-        start_volume(dim, nodes),
+      : volume(1, nodes),
+        start_volume(1, nodes),
         gradient(dim, nodes),
         position(dim, nodes),
         displacement(dim, nodes),
         slope(static_cast<std::size_t>(dim), NodalField(dim, nodes)) {}
 
-  NodalField volume;        ///< component 0: sum of V_p S, as deformed [m^3]
-  NodalField start_volume;  ///< component 0: the same, undeformed [m^3]
+  NodalField volume;        ///< sum of V_p S, as deformed [m^3]
+  NodalField start_volume;  ///< the same, undeformed [m^3]
   NodalField gradient;      ///< sum of V_p G: out of the material [m^2]
   NodalField position;      ///< sum of m x S [kg m]
   NodalField displacement;  ///< sum of m (x - X) S [kg m]

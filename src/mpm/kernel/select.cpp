@@ -1,20 +1,23 @@
 #include "mpm/kernel/select.hpp"
 
-// One function a family of tables, in the namespace of its instruction set; defined in wide/*.cpp.
+// One function a family, in the namespace of its instruction set; defined in wide/*.cpp.
 #define MPM_DECLARE_KERNELS(space)                                   \
   namespace space {                                                  \
-  const mpm_kernel::PassFamily& dirac_passes();                      \
-  const mpm_kernel::PassFamily& ugimp_passes();                      \
-  const mpm_kernel::PassFamily& ugimp_stretch_passes();              \
+  const mpm_kernel::PassFamily& stencil3_passes();                   \
+  const mpm_kernel::PassFamily& stencil5_passes();                   \
   const mpm_kernel::PassFamily& cpdi_passes();                       \
   const mpm_kernel::PassFamily& qcpdi_passes();                      \
-  const mpm_kernel::PassFamily& bspline2_passes();                   \
-  const mpm_kernel::PassFamily& bspline3_passes();                   \
-  const mpm_kernel::PassFamily& axisymmetric_dirac_passes();         \
-  const mpm_kernel::PassFamily& axisymmetric_ugimp_passes();         \
-  const mpm_kernel::PassFamily& axisymmetric_ugimp_stretch_passes(); \
+  const mpm_kernel::PassFamily& axisymmetric_stencil3_passes();      \
   const mpm_kernel::PassFamily& axisymmetric_cpdi_passes();          \
   const mpm_kernel::PassFamily& axisymmetric_qcpdi_passes();         \
+  const mpm_kernel::ShapeFamily& dirac_shape();                      \
+  const mpm_kernel::ShapeFamily& ugimp_shape();                      \
+  const mpm_kernel::ShapeFamily& ugimp_stretch_shape();              \
+  const mpm_kernel::ShapeFamily& bspline2_shape();                   \
+  const mpm_kernel::ShapeFamily& bspline3_shape();                   \
+  const mpm_kernel::ShapeFamily& axisymmetric_dirac_shape();         \
+  const mpm_kernel::ShapeFamily& axisymmetric_ugimp_shape();         \
+  const mpm_kernel::ShapeFamily& axisymmetric_ugimp_stretch_shape(); \
   const mpm_kernel::LawFamily& line_laws();                          \
   const mpm_kernel::LawFamily& plane_stress_laws();                  \
   const mpm_kernel::LawFamily& plane_strain_laws();                  \
@@ -35,40 +38,57 @@ namespace {
 #define MPM_KERNELS(name) \
   { mpm_plain::name, nullptr, nullptr }
 #endif
-// By shape function or geometry, then by instruction set.
-constexpr const mpm_kernel::PassFamily& (*kPasses[][3])() = {
-    MPM_KERNELS(dirac_passes),   MPM_KERNELS(ugimp_passes), MPM_KERNELS(ugimp_stretch_passes),
-    MPM_KERNELS(cpdi_passes),    MPM_KERNELS(qcpdi_passes), MPM_KERNELS(bspline2_passes),
-    MPM_KERNELS(bspline3_passes)};
-constexpr const mpm_kernel::PassFamily& (*kAxisymmetricPasses[][3])() = {
-    MPM_KERNELS(axisymmetric_dirac_passes), MPM_KERNELS(axisymmetric_ugimp_passes),
-    MPM_KERNELS(axisymmetric_ugimp_stretch_passes), MPM_KERNELS(axisymmetric_cpdi_passes),
-    MPM_KERNELS(axisymmetric_qcpdi_passes)};
+/// Of a shape function, by instruction set: its passes and, of a product along the axes, what makes its weights.
+struct ShapeTables {
+  const mpm_kernel::PassFamily& (*passes[3])();
+  const mpm_kernel::ShapeFamily& (*shape[3])();
+};
+constexpr ShapeTables kShapes[] = {{MPM_KERNELS(stencil3_passes), MPM_KERNELS(dirac_shape)},
+                                   {MPM_KERNELS(stencil3_passes), MPM_KERNELS(ugimp_shape)},
+                                   {MPM_KERNELS(stencil3_passes), MPM_KERNELS(ugimp_stretch_shape)},
+                                   {MPM_KERNELS(cpdi_passes), {}},
+                                   {MPM_KERNELS(qcpdi_passes), {}},
+                                   {MPM_KERNELS(stencil3_passes), MPM_KERNELS(bspline2_shape)},
+                                   {MPM_KERNELS(stencil5_passes), MPM_KERNELS(bspline3_shape)}};
+constexpr ShapeTables kAxisymmetricShapes[] = {
+    {MPM_KERNELS(axisymmetric_stencil3_passes), MPM_KERNELS(axisymmetric_dirac_shape)},
+    {MPM_KERNELS(axisymmetric_stencil3_passes), MPM_KERNELS(axisymmetric_ugimp_shape)},
+    {MPM_KERNELS(axisymmetric_stencil3_passes), MPM_KERNELS(axisymmetric_ugimp_stretch_shape)},
+    {MPM_KERNELS(axisymmetric_cpdi_passes), {}},
+    {MPM_KERNELS(axisymmetric_qcpdi_passes), {}}};
 constexpr const mpm_kernel::LawFamily& (*kLaws[][3])() = {MPM_KERNELS(line_laws), MPM_KERNELS(plane_strain_laws),
                                                           MPM_KERNELS(plane_stress_laws),
                                                           MPM_KERNELS(axisymmetric_laws), MPM_KERNELS(solid_laws)};
 
-const mpm_kernel::PassFamily& passes(ShapeKind shape, GeometryKind geometry, Isa isa) {
-  const auto& family = (axisymmetric(geometry) ? kAxisymmetricPasses : kPasses)[static_cast<int>(shape)];
-  return family[static_cast<int>(isa)]();
+const mpm_kernel::KernelTable<double>& of(const mpm_kernel::PassFamily& family, int axes, double) {
+  return family.in_double[axes - 1];
 }
+const mpm_kernel::KernelTable<float>& of(const mpm_kernel::PassFamily& family, int axes, float) {
+  return family.in_single[axes - 1];
+}
+const mpm_kernel::ShapeKernels<double>& of(const mpm_kernel::ShapeFamily& family, int axes, double) {
+  return family.in_double[axes - 1];
+}
+const mpm_kernel::ShapeKernels<float>& of(const mpm_kernel::ShapeFamily& family, int axes, float) {
+  return family.in_single[axes - 1];
+}
+const mpm_kernel::LawKernels<double>* of(const mpm_kernel::LawFamily& family, double) { return family.in_double; }
+const mpm_kernel::LawKernels<float>* of(const mpm_kernel::LawFamily& family, float) { return family.in_single; }
 
 }  // namespace
 
-template <>
-mpm_kernel::KernelTable<double> kernel_table<double>(ShapeKind shape, GeometryKind geometry, Isa isa) {
+template <class T>
+mpm_kernel::KernelTable<T> kernel_table(ShapeKind shape, GeometryKind geometry, Isa isa) {
   if (!has_shape(shape, geometry)) return {};
-  auto table = passes(shape, geometry, isa).in_double[dimensions(geometry) - 1];
-  table.laws = kLaws[static_cast<int>(geometry)][static_cast<int>(isa)]().in_double;
+  const int set = static_cast<int>(isa), axes = dimensions(geometry);
+  const ShapeTables& tables = (axisymmetric(geometry) ? kAxisymmetricShapes : kShapes)[static_cast<int>(shape)];
+  mpm_kernel::KernelTable<T> table = of(tables.passes[set](), axes, T());
+  if (tables.shape[set] != nullptr) table.shape = &of(tables.shape[set](), axes, T());
+  table.laws = of(kLaws[static_cast<int>(geometry)][set](), T());
   return table;
 }
 
-template <>
-mpm_kernel::KernelTable<float> kernel_table<float>(ShapeKind shape, GeometryKind geometry, Isa isa) {
-  if (!has_shape(shape, geometry)) return {};
-  auto table = passes(shape, geometry, isa).in_single[dimensions(geometry) - 1];
-  table.laws = kLaws[static_cast<int>(geometry)][static_cast<int>(isa)]().in_single;
-  return table;
-}
+template mpm_kernel::KernelTable<double> kernel_table<double>(ShapeKind, GeometryKind, Isa);
+template mpm_kernel::KernelTable<float> kernel_table<float>(ShapeKind, GeometryKind, Isa);
 
 }  // namespace mpm

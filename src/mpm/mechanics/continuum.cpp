@@ -146,7 +146,7 @@ class Continuum final : public Mechanics {
 
   std::optional<ParticleRef> failed() const override { return failed_; }
   FastestParticle fastest(int set, double cell) const override {
-    const mpm_kernel::SetView<T> view = view_of<T>(sets_[set], laws_[set], kernels_.laws);
+    const mpm_kernel::SetView<T> view = view_of<T>(sets_[set], laws_[set], kernels_);
     const int count = sets_[set].size(), groups = (count + kSurveyed - 1) / kSurveyed;
     std::vector<mpm_kernel::Fastest> of_group(groups);
 #pragma omp parallel for schedule(static) num_threads(settings_.threads)
@@ -194,7 +194,7 @@ class Continuum final : public Mechanics {
     for (std::size_t s = 0; s < sets_.size(); ++s) {
       const std::uint32_t* groups = sets_[s].group_begin.data() + grid.first_owner;
       if (groups[0] == groups[grid.blocks.owners()]) continue;
-      field.views.push_back(view_of<T>(sets_[s], laws_[s], kernels_.laws, grid.first_owner));
+      field.views.push_back(view_of<T>(sets_[s], laws_[s], kernels_, grid.first_owner));
       field.set.push_back(static_cast<int>(s));
     }
   }
@@ -239,18 +239,18 @@ class Continuum final : public Mechanics {
   void move(StepContext& context, bool regather) {
     mpm_kernel::MoveSettings settings{context.dt, settings_.transfer.flip, regather};
     settings.by_point = settings_.axis_motion == AxisMotion::point;
-    const bool damped = look_at_damping(settings);
-    const mpm_kernel::MovePass<T> pass = kernels_.move[motion_][damped];
+    settings.damped = look_at_damping(settings);
     std::atomic<bool> gone{false};
     std::atomic<int> groups{0}, parts{0};
     for (Field& field : fields_) {
-      if (damped) field.damped.assign(field.grid.blocks.owners(), {});
+      if (settings.damped) field.damped.assign(field.grid.blocks.owners(), {});
       field.loose.resize(field.grid.blocks.owners());
       each_block(field.grid, regather, [&](const mpm_kernel::BlockView& block) {
-        const mpm_kernel::Moved moved = pass(field.view, block, field.sets(), field.count(), settings);
+        const mpm_kernel::Moved moved =
+            kernels_.move[motion_](field.view, block, field.sets(), field.count(), settings);
         field.loose[block.owner] = moved.loose;
         if (moved.gone) gone.store(true, std::memory_order_relaxed);
-        if (damped) field.damped[block.owner] = moved;
+        if (settings.damped) field.damped[block.owner] = moved;
         groups.fetch_add(moved.groups, std::memory_order_relaxed);
         parts.fetch_add(moved.parts, std::memory_order_relaxed);
       });
@@ -261,7 +261,7 @@ class Continuum final : public Mechanics {
       parts_when_sorted_ = parts;
     }
     needs_sort_ = gone || parts - parts_when_sorted_ > kMixed * groups;
-    if (damped) close_damping(context);
+    if (settings.damped) close_damping(context);
   }
 
   // Tells the kernels the rates of this step; whether there are any in the update of the particles.

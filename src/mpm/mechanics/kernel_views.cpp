@@ -1,5 +1,6 @@
 #include "mpm/mechanics/kernel_views.hpp"
 
+#include <algorithm>
 #include <type_traits>
 
 namespace mpm {
@@ -21,8 +22,7 @@ mpm_kernel::GridView view_of(Grid& grid) {
 }
 
 template <class T>
-mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kernel::LawKernels<T>* laws,
-                               int first_owner) {
+mpm_kernel::SetView<T> view_of(ParticleSet& set, const mpm_kernel::KernelTable<T>& kernels, int first_owner) {
   mpm_kernel::SetView<T> view{};
   view.group = set.group.data();
   view.group_begin = set.group_begin.data() + first_owner;
@@ -43,17 +43,37 @@ mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kerne
   for (std::size_t c = 0; c < set.history.size(); ++c) view.history[c] = set.history[c].template data<T>();
   for (std::size_t c = 0; c < set.affine.size(); ++c) view.affine[c] = set.affine[c].template data<T>();
   for (std::size_t c = 0; c < set.domain.size(); ++c) view.domain[c] = set.domain[c].template data<T>();
+  view.shape = kernels.shape;
+  return view;
+}
+
+template <class T>
+mpm_kernel::SetView<T> view_of(ParticleSet& set, const Law& law, const mpm_kernel::KernelTable<T>& kernels,
+                               int first_owner) {
+  mpm_kernel::SetView<T> view = view_of(set, kernels, first_owner);
   std::visit(
       [&](const auto& kind) {
         static_assert(std::decay_t<decltype(kind)>::kHistory <= mpm_kernel::kMostHistory);
         view.law = &kind;
       },
       law);
-  view.law_kernels = laws + law.index();
+  view.law_kernels = kernels.laws + law.index();
   return view;
 }
 
-template mpm_kernel::SetView<double> view_of(ParticleSet&, const Law&, const mpm_kernel::LawKernels<double>*, int);
-template mpm_kernel::SetView<float> view_of(ParticleSet&, const Law&, const mpm_kernel::LawKernels<float>*, int);
+void find_givers(const Grid& grid, const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& owners) {
+  const BlockTable& blocks = grid.blocks;
+  const int span = neighbours_of(grid.layout.dim());
+  owners.resize(blocks.owners());
+  for (int o = 0; o < blocks.owners(); ++o) {
+    const int* near = blocks.neighbours(o);
+    owners[o] = std::any_of(near, near + span, [&](int b) { return marked[b] != 0; });
+  }
+}
+
+template mpm_kernel::SetView<double> view_of(ParticleSet&, const mpm_kernel::KernelTable<double>&, int);
+template mpm_kernel::SetView<float> view_of(ParticleSet&, const mpm_kernel::KernelTable<float>&, int);
+template mpm_kernel::SetView<double> view_of(ParticleSet&, const Law&, const mpm_kernel::KernelTable<double>&, int);
+template mpm_kernel::SetView<float> view_of(ParticleSet&, const Law&, const mpm_kernel::KernelTable<float>&, int);
 
 }  // namespace mpm

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "mpm/mechanics/first_fault.hpp"
-#include "mpm/mechanics/kernel_views.hpp"
 
 namespace mpm {
 namespace {
@@ -16,21 +15,19 @@ constexpr int kSpreads = 2, kKinds = 2;
 constexpr std::array<const char*, kKinds> kKindNames = {"body_force", "particle_force"};
 constexpr std::array<const char*, kKinds> kKindTexts = {"body force", "particle force"};
 
-/// T is the precision of the particles.
-template <class T>
 class ParticleLoads final : public Stage {
   /// Particles whose sum is made in one go, so that it does not depend on the number of threads.
   static constexpr int kGroup = 1024;
 
  public:
-  ParticleLoads(const LoadKernels<T>& kernels, Fields& fields, std::vector<ParticleSet>& sets,
-                const std::vector<Law>& laws, const std::vector<ParticleLoadTerm>& terms, int threads)
-      : kernels_{kernels.domain, kernels.center},
+  ParticleLoads(LoadTransfers transfers, Fields& fields, std::vector<ParticleSet>& sets,
+                const std::vector<ParticleLoadTerm>& terms, int threads)
+      : transfers_{std::move(transfers.domain), std::move(transfers.center)},
         dim_(static_cast<int>(sets.front().x.size())),
         fields_(fields),
         sets_(sets),
-        laws_(laws),
         threads_(threads),
+        given_(sets.size()),
         nodal_(fields.size(), NodalField(dim_, nodes_of_block(dim_))),
         fault_(threads) {
     for (const ParticleLoadTerm& term : terms) terms_.emplace_back(term, threads);
@@ -53,7 +50,7 @@ class ParticleLoads final : public Stage {
 
   void forces_gathered(StepContext& context) override {
     evaluate(context);
-    for (std::size_t f = 0; f < fields_.size(); ++f) add_to(*fields_[f], nodal_[f]);
+    for (std::size_t f = 0; f < fields_.size(); ++f) add_to(static_cast<int>(f));
   }
 
   void momentum_updated(StepContext& context) override {
@@ -165,46 +162,49 @@ class ParticleLoads final : public Stage {
   }
 
   // The load on the nodes of a field, and it to their force.
-  void add_to(Grid& grid, NodalField& nodal) {
-    nodal.resize(grid.blocks.size());
+  void add_to(int field) {
+    NodalField& nodal = nodal_[field];
+    bool first = true;
+    for (int spread = 0; spread < kSpreads; ++spread) {
+      if (!look_at(spread)) continue;
+      transfers_[spread]->spread(field, given_, ScalarTransfer::Weight::mass, first ? nodal : beside_);
+      if (!first) add(beside_, nodal, *fields_[field]);
+      first = false;
+    }
+    add(nodal, fields_[field]->force, *fields_[field]);
+  }
+
+  // Whether any particle has a load of this spread, which it is then told.
+  bool look_at(int spread) {
+    bool any = false;
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      const auto& values = values_[s][spread];
+      given_[s] = {};
+      for (std::size_t k = 0; k < values.size(); ++k) given_[s][k] = values[k].data();
+      any = any || !values.empty();
+    }
+    return any;
+  }
+
+  void add(const NodalField& from, NodalField& to, const Grid& grid) const {
     const int count = dim_ * grid.layout.nodes_per_block();
 #pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int b = 0; b < grid.blocks.size(); ++b) std::fill_n(nodal.block(b), count, 0.0);
-    for (int spread = 0; spread < kSpreads; ++spread) scatter(grid, spread, nodal);
-#pragma omp parallel for schedule(static) num_threads(threads_)
     for (int b = 0; b < grid.blocks.size(); ++b) {
-      double* force = grid.force.block(b);
-      const double* load = nodal.block(b);
-      for (int n = 0; n < count; ++n) force[n] += load[n];
+      for (int n = 0; n < count; ++n) to.block(b)[n] += from.block(b)[n];
     }
   }
 
-  void scatter(Grid& grid, int spread, NodalField& nodal) {
-    const auto used = [spread](const auto& values) { return !values[spread].empty(); };
-    if (std::none_of(values_.begin(), values_.end(), used)) return;
-    const mpm_kernel::GridView view = view_of(grid);
-    views_.clear();
-    for (std::size_t s = 0; s < sets_.size(); ++s) {
-      views_.push_back(view_of<T>(sets_[s], laws_[s], kernels_[spread].laws, grid.first_owner));
-      const auto& values = values_[s][spread];
-      for (std::size_t k = 0; k < values.size(); ++k) views_.back().load[k] = values[k].data();
-    }
-    each_owner(grid, threads_, [&](const mpm_kernel::BlockView& block) {
-      kernels_[spread].scatter_load(view, block, views_.data(), static_cast<int>(views_.size()), nodal.data());
-    });
-  }
-
-  std::array<mpm_kernel::KernelTable<T>, kSpreads> kernels_;  ///< by spread
+  std::array<std::unique_ptr<ScalarTransfer>, kSpreads> transfers_;  ///< by spread
   int dim_;
   Fields& fields_;
   std::vector<ParticleSet>& sets_;
-  const std::vector<Law>& laws_;
   int threads_;
   std::vector<Term> terms_;
   /// Acceleration of each set's particles by spread and axis [m/s^2].
   std::vector<std::array<std::vector<PaddedArray<double>>, kSpreads>> values_;
-  std::vector<mpm_kernel::SetView<T>> views_;
-  std::vector<NodalField> nodal_;  ///< of each field, load of each node in this step [N]
+  ScalarTransfer::Given given_;
+  std::vector<NodalField> nodal_;                               ///< of each field, load of each node in this step [N]
+  NodalField beside_ = NodalField(dim_, nodes_of_block(dim_));  ///< of the second spread, where there are two [N]
   std::vector<ByKind> sums_;
   FirstFault fault_;
   std::array<bool, kKinds> there_{};
@@ -214,16 +214,9 @@ class ParticleLoads final : public Stage {
 
 }  // namespace
 
-template <class T>
-std::unique_ptr<Stage> make_particle_loads(const LoadKernels<T>& kernels, Fields& fields,
-                                           std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
+std::unique_ptr<Stage> make_particle_loads(LoadTransfers transfers, Fields& fields, std::vector<ParticleSet>& sets,
                                            const std::vector<ParticleLoadTerm>& terms, int threads) {
-  return std::make_unique<ParticleLoads<T>>(kernels, fields, sets, laws, terms, threads);
+  return std::make_unique<ParticleLoads>(std::move(transfers), fields, sets, terms, threads);
 }
-
-template std::unique_ptr<Stage> make_particle_loads(const LoadKernels<double>&, Fields&, std::vector<ParticleSet>&,
-                                                    const std::vector<Law>&, const std::vector<ParticleLoadTerm>&, int);
-template std::unique_ptr<Stage> make_particle_loads(const LoadKernels<float>&, Fields&, std::vector<ParticleSet>&,
-                                                    const std::vector<Law>&, const std::vector<ParticleLoadTerm>&, int);
 
 }  // namespace mpm

@@ -12,6 +12,7 @@
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/mechanics/nodal_volumes.hpp"
+#include "mpm/mechanics/scalar_transfers.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
@@ -232,14 +233,18 @@ std::string step_warning(const SimulationDefinition& definition) {
                      affine ? "apic" : fmt::format("fmpm {}", transfer.order), most);
 }
 
+std::unique_ptr<ScalarTransfer> RunParts::make_transfer(ShapeKind shape) {
+  return with_precision(definition.method.precision, [&](auto zero) {
+    return make_scalar_transfer(kernel_table<decltype(zero)>(shape, definition.geometry, isa), fields, sets, threads);
+  });
+}
+
 VolumeSurvey& RunParts::volumes() {
   if (services.volumes) return *services.volumes;
   std::vector<double> densities;
   for (const DeformableBody& body : definition.bodies) densities.push_back(find_material(definition, body).density);
-  services.volumes = with_precision(definition.method.precision, [&](auto zero) {
-    const auto kernels = kernel_table<decltype(zero)>(definition.method.shape, definition.geometry, isa);
-    return make_volume_survey(kernels, fields, sets, laws, densities, definition.geometry, threads);
-  });
+  services.volumes = make_volume_survey(make_transfer(definition.method.shape), fields, sets, std::move(densities),
+                                        definition.geometry, threads);
   return *services.volumes;
 }
 

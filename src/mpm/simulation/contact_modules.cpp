@@ -1,6 +1,6 @@
 // Contact of a definition as modules: between deformable bodies, whose names become velocity fields, and with rigid
-// bodies. Before anything is sorted: sets begin to remember where their particles start where displacements are asked
-// for.
+// bodies. Before anything is sorted: sets begin to remember where their particles start where displacements, or areas
+// at the start about an axis, are asked for.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -29,7 +29,13 @@ bool is_rigid(const std::string& name, const SimulationDefinition& definition) {
   return std::any_of(bodies.begin(), bodies.end(), [&](const RigidBodyDefinition& body) { return body.name == name; });
 }
 
-/// For displacements: before anything is sorted.
+/// What is asked of the material's places at the start.
+bool needs_starts(const SimulationDefinition& definition) {
+  const DetectionRule& rule = definition.contact.detection;
+  return rule.kind == Detection::displacements || (axisymmetric(definition.geometry) && rule.minimum_volume > 0.0);
+}
+
+/// Before anything is sorted.
 void remember_starts(std::vector<ParticleSet>& sets) {
   for (ParticleSet& set : sets) {
     if (set.start_x.empty()) set.start_x = set.x;
@@ -50,7 +56,7 @@ MaterialContactSettings pair_settings(RunParts& parts) {
   settings.sides = parts.sides;
   settings.cell_volume = definition.across();
   for (int k = 0; k < layout.dim(); ++k) settings.cell_volume *= layout.cell(k);
-  bool displacements = settings.detection.kind == Detection::displacements;
+  bool starts = needs_starts(definition);
   for (const PairDefinition& pair : definition.contact.pairs) {
     if (is_rigid(pair.second, definition)) continue;  // simulation/rigid_contacts.cpp
     const int first = body_of(pair.first, pair, sets), second = body_of(pair.second, pair, sets);
@@ -58,7 +64,7 @@ MaterialContactSettings pair_settings(RunParts& parts) {
       throw DefinitionError(fmt::format("contact of '{}' and '{}': both are in velocity field {}; give each its own",
                                         pair.first, pair.second, definition.bodies[first].field));
     }
-    displacements = displacements || pair.law.kind == ContactLaw::Kind::interface;
+    starts = starts || pair.law.kind == ContactLaw::Kind::interface;
     MaterialPair made{pair.first + "/" + pair.second, map.fields(first), map.fields(second), pair.law};
     const auto same = std::find_if(settings.pairs.begin(), settings.pairs.end(), [&](const MaterialPair& other) {
       return (other.first == made.first && other.second == made.second) ||
@@ -71,7 +77,7 @@ MaterialContactSettings pair_settings(RunParts& parts) {
           "contact of '{}': a second law between the velocity fields of '{}'; leave one out", made.name, same->name));
     }
   }
-  if (displacements) remember_starts(sets);
+  if (starts) remember_starts(sets);
   return settings;
 }
 
@@ -106,7 +112,7 @@ void check_laws_at_nodes(const SimulationDefinition& definition, const RigidBody
 
 RigidParticleSettings particle_settings(RunParts& parts, const std::vector<ContactLaw>& laws_of_sets) {
   const SimulationDefinition& definition = parts.definition;
-  if (definition.contact.detection.kind == Detection::displacements) remember_starts(parts.sets);
+  if (needs_starts(definition)) remember_starts(parts.sets);
   RigidParticleSettings settings;
   settings.normals = definition.contact.normals;
   settings.detection = definition.contact.detection;
@@ -123,8 +129,8 @@ RigidParticleSettings particle_settings(RunParts& parts, const std::vector<Conta
 /// Contact at points, with all of these bodies at once. `laws`: of each against each set.
 void add_point_contact(RunParts& parts, const std::vector<RigidBody*>& bodies, std::vector<ContactLaw> laws) {
   const SimulationDefinition& definition = parts.definition;
-  PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(), parts.threads,
-                                {},                  definition.gravity};
+  PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(), parts.threads, {},
+                                definition.gravity};
   for (RigidBody* body : bodies) settings.free.push_back(body->free_motion() != nullptr ? body : nullptr);
   parts.modules.add(std::make_unique<PointContact>(std::vector<const RigidBody*>(bodies.begin(), bodies.end()),
                                                    parts.sets, parts.fields, std::move(laws), settings));
@@ -149,8 +155,8 @@ void add_rigid_contact(RunParts& parts) {
     const auto first = laws.begin() + static_cast<std::ptrdiff_t>(b * parts.sets.size());
     const std::vector<ContactLaw> own(first, first + static_cast<std::ptrdiff_t>(parts.sets.size()));
     if (body.definition().particles) {
-      parts.modules.add(std::make_unique<RigidParticleContact>(body, particle_settings(parts, own), parts.fields,
-                                                               parts.volumes()));
+      parts.modules.add(
+          std::make_unique<RigidParticleContact>(body, particle_settings(parts, own), parts.fields, parts.volumes()));
     } else if (definition.contact.method == ContactMethod::nodes) {
       check_laws_at_nodes(definition, body.definition());
       parts.modules.add(

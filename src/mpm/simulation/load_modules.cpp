@@ -5,12 +5,10 @@
 
 #include <algorithm>
 
-#include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/face_tractions.hpp"
 #include "mpm/mechanics/particle_loads.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "shipped_modules.hpp"
-#include "with_precision.hpp"
 
 namespace mpm {
 namespace {
@@ -107,12 +105,8 @@ void add_particle_loads(RunParts& parts) {
     }
   }
   if (terms.empty()) return;
-  with_precision(definition.method.precision, [&](auto zero) {
-    using T = decltype(zero);
-    const LoadKernels<T> kernels{kernel_table<T>(definition.method.shape, definition.geometry, parts.isa),
-                                 kernel_table<T>(ShapeKind::dirac, definition.geometry, parts.isa)};
-    parts.modules.add(make_particle_loads(kernels, parts.fields, sets, parts.laws, terms, parts.threads));
-  });
+  LoadTransfers transfers{parts.make_transfer(definition.method.shape), parts.make_transfer(ShapeKind::dirac)};
+  parts.modules.add(make_particle_loads(std::move(transfers), parts.fields, sets, terms, parts.threads));
 }
 
 void add_tractions(RunParts& parts) {

@@ -2,10 +2,8 @@
 #include <fmt/core.h>
 
 #include "mpm/contact/tool_sides.hpp"
-#include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/mass_places.hpp"
 #include "shipped_modules.hpp"
-#include "with_precision.hpp"
 
 namespace mpm {
 namespace {
@@ -47,10 +45,7 @@ void add_tool_sides(RunParts& parts) {
   parts.sides = sides;
   parts.modules.add(std::make_unique<SideGlue>(*sides, parts.fields));
   const auto near = [sides](const Vec3& middle, double radius) { return sides->near(middle, radius); };
-  with_precision(definition.method.precision, [&](auto zero) {
-    const auto kernels = kernel_table<decltype(zero)>(definition.method.shape, definition.geometry, parts.isa);
-    parts.modules.add(make_mass_places(kernels, parts.fields, parts.sets, parts.laws, near, parts.threads));
-  });
+  parts.modules.add(make_mass_places(parts.make_transfer(definition.method.shape), parts.fields, parts.sets, near));
 }
 
 }  // namespace mpm

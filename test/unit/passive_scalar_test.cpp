@@ -82,7 +82,8 @@ Simulation bar(double diffusivity, double speed) {
   d.grid = {Vec3::Constant(kCell), Vec3::Zero(), Vec3::Constant(3.0)};
   d.time.sync = 10'000'000;
   d.materials.push_back({"rubber", 1000.0, NeoHookeanDefinition{{1e3, 0.3}}});
-  DeformableBody body{"bar", "rubber"};
+  DeformableBody body;
+  body.name = "bar", body.material = "rubber";
   body.particle_volume = 0.5 * kCell;
   for (int p = 0; p < 40; ++p) body.positions.emplace_back(1.0 + (0.25 + 0.5 * p) * kCell, 0.0, 0.0);
   body.velocities.assign(40, Vec3(speed, 0.0, 0.0));
@@ -92,7 +93,6 @@ Simulation bar(double diffusivity, double speed) {
   return Simulation(d, options);
 }
 
-/// Of cos(pi x / L) in the dye.
 double amplitude(const Simulation& simulation) {
   std::vector<double> dye;
   simulation.particle_field("dye", dye);

@@ -38,7 +38,7 @@ class ToolAmongNodes {
     contact_.grid_advanced(context);
     time_ += kStep;
   }
-  ContactReport take() { return contact_.ledger().take(time_); }
+  ContactReport take() { return contact_.ledger().read(time_); }
   RigidBody& body() { return body_; }
   RigidContact& contact() { return contact_; }
 
@@ -135,7 +135,7 @@ TEST(AxisymmetricContact, ARingCarriesWhatItHoldsAlongEvenly) {
   EXPECT_EQ(report.mean.force, Vec3::Zero());
   EXPECT_DOUBLE_EQ(report.per_radian.x(), 2.0 * 3.0 / kStep / kTurn);
   EXPECT_EQ(report.centre_of_pressure(), Vec3(0.0, 0.0, 1.0));
-  EXPECT_DOUBLE_EQ(jaws.contact().ledger().work(), 2.0 * 3.0 * 3.0);  // impulse times velocity
+  EXPECT_DOUBLE_EQ(jaws.contact().ledger().sums().work, 2.0 * 3.0 * 3.0);  // impulse times velocity
 }
 
 TEST(AxisymmetricContact, ARingOpenedBeyondTwiceItsRadiusHoldsNothingOnTheAxis) {

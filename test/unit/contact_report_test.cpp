@@ -42,7 +42,7 @@ class PlateBelowNodes {
     contact_.grid_advanced(context);
     time_ += kStep;
   }
-  ContactReport take() { return contact_.ledger().take(time_); }
+  ContactReport take() { return contact_.ledger().read(time_); }
   RigidBody& body() { return body_; }
 
  private:

@@ -1,10 +1,13 @@
 // Books what contact gave to the material on behalf of one rigid body, and reports it as what the material did to the
-// body: wrench, peak, friction and pressing parts, centre of pressure, work, and the energy that friction took.
+// body: wrench, peak, friction and pressing parts, centre of pressure, work, and the energy that friction took. Sums
+// run since the start; a reader remembers those of its last call and reports the difference, and the peak since.
 //
 // What is reported is what was applied: the wrench is the sum of the impulses over the time they took, torque about the
 // body's origin as it moves. In an axisymmetric scene reports leave out what cancels around the axis; the account keeps
 // it, as radial momentum.
 #pragma once
+
+#include <vector>
 
 #include "mpm/contact/contact_report.hpp"
 #include "mpm/rigid/rigid_body.hpp"
@@ -21,49 +24,61 @@ struct ContactImpulse {
   Vec3 mean_slip = Vec3::Zero();  ///< of the material against it, mean of before and after the impulse [m/s]
 };
 
+/// What contact has done since the start.
+struct ContactSums {
+  Vec3 impulse = Vec3::Zero();          ///< on the body [N s]
+  Vec3 angular_impulse = Vec3::Zero();  ///< about the body's origin as it moves [N m s]
+  Vec3 friction = Vec3::Zero();         ///< the part of impulse along the surface [N s]
+  double pressed = 0.0;                 ///< normal impulses [N s]
+  Vec3 pressed_arm = Vec3::Zero();      ///< arms times those magnitudes [N s m]
+  double area_time = 0.0;               ///< area in contact, over time [m^2 s]
+  double friction_energy = 0.0;         ///< that sliding took [J]
+  double work = 0.0;                    ///< of the body on the material [J]
+};
+
 class ContactLedger {
  public:
-  /// `body` outlives the ledger.
+  /// `body` outlives the ledger. It has one reader, 0.
   ContactLedger(const RigidBody& body, bool axisymmetric);
 
   void give(const ContactImpulse& given);
   /// The step's impulse is known. `places`: nodes or points in contact; `area` [m^2].
   void end_step(double dt, int places, double area);
-  /// What the material did to the body since the last call; `now` [s].
-  ContactReport take(double now);
+
+  /// Another reader, whose reports begin `now` [s]. The same readers must be there before a checkpoint is read.
+  int add_reader(double now);
+  /// What the material did to the body since this reader's last call; `now` [s]. Other readers notice nothing.
+  ContactReport read(double now, int reader = 0);
   /// For checkpoints.
   void keep(StateArchive& archive);
 
   const RigidBody& body() const { return body_; }
   /// Work of the body on the material, and what sliding on it took.
   void energies(EnergyReport& report) const {
-    report.add("contact_work", NamedEnergy::Kind::work, work_);
-    report.add("friction", NamedEnergy::Kind::dissipated, friction_energy_);
+    report.add("contact_work", NamedEnergy::Kind::work, sums_.work);
+    report.add("friction", NamedEnergy::Kind::dissipated, sums_.friction_energy);
   }
-  const ImpulseAccount& account() const { return account_; }   ///< given to the material
-  double work() const { return work_; }                        ///< of the body on the material since the start [J]
-  double friction_energy() const { return friction_energy_; }  ///< that sliding took since the start [J]
+  const ImpulseAccount& account() const { return account_; }  ///< given to the material
+  const ContactSums& sums() const { return sums_; }
 
  private:
+  /// What a reader has seen.
+  struct Reader {
+    double time = 0.0;  ///< of its last call [s]
+    ContactSums last;
+    Wrench peak;  ///< since then
+  };
   /// What is left of a sum over the whole body.
   Vec3 whole(const Vec3& sum) const { return axisymmetric_ ? Vec3(0.0, 0.0, sum.z()) : sum; }
 
   const RigidBody& body_;
   bool axisymmetric_;
   ImpulseAccount account_;
+  ContactSums sums_;
+  std::vector<Reader> readers_;
   Vec3 given_ = Vec3::Zero();          ///< in this step [N s]
   Vec3 given_angular_ = Vec3::Zero();  ///< about the body's origin [N m s]
-  double work_ = 0.0, friction_energy_ = 0.0;
-
-  Vec3 impulse_ = Vec3::Zero();          ///< on the body since the last report [N s]
-  Vec3 angular_impulse_ = Vec3::Zero();  ///< [N m s]
-  Vec3 friction_ = Vec3::Zero();         ///< the part of impulse_ along the surface [N s]
-  double pressed_ = 0.0;                 ///< normal impulses since the last report [N s]
-  Vec3 pressed_arm_ = Vec3::Zero();      ///< arms times those magnitudes [N s m]
-  Wrench peak_;
   int places_ = 0;
-  double area_time_ = 0.0;  ///< area in contact, over time, since the last report [m^2 s]
-  double last_report_ = 0.0;
 };
 
 }  // namespace mpm

@@ -13,8 +13,9 @@ class ContactReporter {
   virtual ~ContactReporter() = default;
   /// What it books of a rigid body; null if it does not act on that one.
   virtual ContactLedger* ledger_of(const RigidBody&) { return nullptr; }
-  /// Adds a report of each pair that it acts between, since the last call; `now` [s].
-  virtual void take_pairs(double /*now*/, std::vector<PairReport>&) {}
+  /// Adds a report of each pair that it acts between, since this reader's last call; `now` [s]. Other readers notice
+  /// nothing.
+  virtual void read_pairs(double /*now*/, std::vector<PairReport>&, int /*reader*/ = 0) {}
 };
 
 }  // namespace mpm

@@ -53,7 +53,7 @@ class MaterialContact final : public Stage, public ContactReporter {
   std::string name() const override { return "pairs"; }
   Ranks ranks(Hook) const override { return {Rank::pair}; }
 
-  /// @throws FunctionError when a law's function is not finite.
+  /// @throws FunctionError as ContactLaw::in_step().
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
@@ -64,7 +64,9 @@ class MaterialContact final : public Stage, public ContactReporter {
   void keep(StateArchive& archive) override;
 
   void energies(EnergyReport& report) const override;
-  void take_pairs(double now, std::vector<PairReport>& reports) override;
+  /// Another reader, whose reports begin `now` [s]. The same readers must be there before a checkpoint is read.
+  int add_reader(double now);
+  void read_pairs(double now, std::vector<PairReport>& reports, int reader = 0) override;
 
  private:
   /// A field at a node.
@@ -103,13 +105,19 @@ class MaterialContact final : public Stage, public ContactReporter {
     std::vector<NodePair> pairs;
     std::vector<Vec3> velocities, accelerations;  ///< of the materials before
   };
-  /// What a pair's nodes gave in a step or an interval.
+  /// What a pair's nodes gave in a step, or since the start.
   struct Sums {
     Vec3 impulse = Vec3::Zero(), friction = Vec3::Zero(), moment = Vec3::Zero();
     double pressed = 0.0, area = 0.0, friction_energy = 0.0, interface_energy = 0.0;
     int nodes = 0;
     Sums& operator+=(const Sums& other);
   };
+  /// What a reader has seen: sums since the start, of each pair.
+  struct Reader {
+    double time = 0.0;  ///< of its last call [s]
+    std::vector<Sums> seen;
+  };
+  static void keep_sums(StateArchive& archive, std::vector<Sums>& sums);
   enum class Pass { strain, update, filter };
 
   /// Which rule is between two fields, and whether the first is its second body; -1: none.
@@ -150,15 +158,15 @@ class MaterialContact final : public Stage, public ContactReporter {
   SurveyWants wants_;
   std::vector<Rule> rules_;  ///< of every two fields
   std::vector<NodalVolumes> volumes_;
-  std::vector<FrictionLaw> friction_;  ///< of each pair, at this step's start
+  std::vector<FrictionLaw> friction_;  ///< of each pair, in this step
   SharedBlocks shared_;
   std::vector<BlockNodes> blocks_;  ///< of each shared block
   std::vector<Held> held_;          ///< what was held, in ascending order of node and fields
   bool started_ = false;
-  std::vector<Sums> last_, interval_, total_;  ///< of each pair
+  std::vector<Sums> last_, total_;  ///< of each pair, in the last step and since the start
+  std::vector<Reader> readers_;
   ImpulseAccount account_;
   Vec3 left_over_ = Vec3::Zero();  ///< of this step's impulses, by own normals [N s]
-  double last_report_ = 0.0;
 };
 
 }  // namespace mpm

@@ -37,7 +37,7 @@ class RigidParticleContact final : public Stage, public ContactReporter {
   std::string name() const override { return ledger_.account().name; }
   Ranks ranks(Hook) const override { return {Rank::rigid_body}; }
 
-  /// @throws FunctionError when a law's function is not finite.
+  /// @throws FunctionError as ContactLaw::in_step().
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
   void momentum_updated(StepContext& context) override;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "mpm/math/function.hpp"
 
@@ -43,13 +44,27 @@ struct ContactLaw {
   Function adhesion;                        ///< [Pa]
   InterfaceLaw interface;
 
-  /// @throws FunctionError when a function is not finite at `time` [s].
+  /// As functions say at `time` [s]. @throws FunctionError when one is not finite.
   FrictionLaw at(double time) const {
     FrictionLaw law;
     law.coefficient = friction(time);
     law.stick = kind == Kind::stick || kind == Kind::one_field;
     if (static_friction) law.static_coefficient = (*static_friction)(time);
     law.adhesion = adhesion(time);
+    return law;
+  }
+  /// In the step of `dt` [s] that begins at `start` [s]: functions are read at its middle, wherever surfaces meet.
+  /// `between()` names the surfaces, for errors. @throws FunctionError as at(), and when friction or
+  /// adhesion is negative (sliding would be driven), or friction at rest is less than that of sliding.
+  template <class Between>
+  FrictionLaw in_step(double start, double dt, Between&& between) const {
+    const FrictionLaw law = at(start + 0.5 * dt);
+    const bool at_rest = !static_friction || law.static_coefficient >= law.coefficient;
+    if (!(law.coefficient >= 0.0 && at_rest && law.adhesion >= 0.0)) {
+      throw FunctionError(
+          "contact of " + between() +
+          ": friction or adhesion is negative, or friction at rest less than that of sliding; change the law");
+    }
     return law;
   }
 };

@@ -1,7 +1,7 @@
 // The motion of a rigid body that has a mass: Newton's and Euler's equations with impulses.
 //
 // A step: predict() adds gravity and the applied wrench to the velocity; contact pushes it, together with the nodes
-// that it touches (contact/point_contact.hpp); finish() books what each gave; turn() turns the body. Velocities are
+// that it touches (contact/point_contact.hpp); finish() books what each gave; advance() moves the body. Velocities are
 // those of the centre of mass. Each of the six degrees of freedom is free or told; what is told has no answer to an
 // impulse, and what holds it there is booked as the drive's.
 //
@@ -19,7 +19,7 @@
 #include <string>
 
 #include "mpm/math/state_archive.hpp"
-#include "mpm/rigid/motion.hpp"
+#include "mpm/rigid/body_motion.hpp"
 
 namespace mpm {
 
@@ -67,7 +67,7 @@ struct FreeBodyReport {
   double contact_loss = 0.0;  ///< lost where the body and the material met, sliding left out [J]
 };
 
-class FreeMotion {
+class FreeMotion final : public BodyMotion {
  public:
   /// `name`: of the body, for errors. @throws RigidError when mass or inertia are impossible.
   FreeMotion(const FreeDefinition& definition, const std::string& name);
@@ -75,7 +75,7 @@ class FreeMotion {
   const FreeDefinition& definition() const { return definition_; }
   bool is_free(int axis) const { return definition_.axes[axis]; }
   /// `told` where something is told, `own` where the body is free.
-  Twist merged(const Twist& own, const Twist& told) const;
+  Twist merged(const Twist& own, const Twist& told) const override;
   /// From now on, about the body's origin.
   void apply_wrench(const Wrench& wrench) { wrench_ = wrench; }
   const Wrench& wrench() const { return wrench_; }
@@ -85,6 +85,7 @@ class FreeMotion {
   /// The step's velocity without contact. `twist`: of the origin; what is told is that of this step.
   void predict(const Pose& pose, const Twist& twist, const Vec3& gravity, double dt);
   /// Velocity now, and half the sum of those of the step's start and now, at a world point [m/s].
+  using BodyMotion::velocity_at;
   Vec3 velocity_at(const Vec3& point) const { return velocity_ + rate_.cross(point - centre_); }
   Vec3 mean_velocity_at(const Vec3& point) const {
     return 0.5 * (velocity_ + start_velocity_ + (rate_ + start_rate_).cross(point - centre_));
@@ -105,8 +106,13 @@ class FreeMotion {
   const Vec3& centre() const { return centre_; }
   /// Of the body's origin.
   Twist twist(const Pose& pose) const;
-  /// Moves the pose by the step, and the velocity with it. @return the twist of the origin there.
-  Twist turn(Pose& pose, double dt);
+  /// Moves the pose by the velocity that finish() left, and the velocity with it.
+  Twist advance(Pose& pose, const Twist& twist, double dt) override;
+  double unprescribed_acceleration(double gravity) const override {
+    return gravity + wrench_.force.norm() / definition_.mass;
+  }
+  std::string refused_velocity() const override;
+  std::string refused_pose() const override;
 
   /// `gravity` [m/s^2]
   FreeBodyReport report(const std::string& name, const Vec3& gravity) const;

@@ -8,9 +8,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "mpm/math/function.hpp"
 #include "mpm/math/state_archive.hpp"
+#include "mpm/rigid/body_motion.hpp"
 #include "mpm/rigid/contact_law.hpp"
 #include "mpm/rigid/free_motion.hpp"
 #include "mpm/rigid/motion.hpp"
@@ -61,21 +63,18 @@ class RigidBody {
   const Pose& pose() const { return pose_; }
   const Twist& twist() const { return twist_; }
   Drive drive() const { return drive_; }
-  /// Velocity of the body at a world point [m/s]. A ring that opens or closes carries what touches it along evenly: its
-  /// inner and outer faces move by the twist, a point beside one of them in proportion to their radii.
-  Vec3 velocity_at(const Vec3& point) const {
-    Vec3 velocity = mpm::velocity_at(pose_, twist_, point);
-    if (definition_.inner_radius > 0.0) {
-      const double inner = definition_.inner_radius + pose_.position.x();
-      const double outer = definition_.outer_radius + pose_.position.x();
-      velocity.x() *= point.x() / (point.x() < 0.5 * (inner + outer) ? inner : outer);
-    }
-    return velocity;
+  /// Where the surface is now [m]; a body that is endless along an axis stays endless.
+  Box world_bounds() const { return mpm::world_bounds(pose_, surface().bounds()); }
+  /// How it moves, as prescribed or freely.
+  const BodyMotion& motion() const {
+    return std::visit([](const BodyMotion& motion) -> const BodyMotion& { return motion; }, motion_);
   }
+  /// Velocity of the surface at a world point [m/s].
+  Vec3 velocity_at(const Vec3& point) const { return motion().velocity_at(pose_, twist_, point); }
 
   /// Null unless some of its velocities are free.
-  FreeMotion* free_motion() { return free_ ? &*free_ : nullptr; }
-  const FreeMotion* free_motion() const { return free_ ? &*free_ : nullptr; }
+  FreeMotion* free_motion() { return std::get_if<FreeMotion>(&motion_); }
+  const FreeMotion* free_motion() const { return std::get_if<FreeMotion>(&motion_); }
   /// Where it is free: what contact and forces have made of it.
   void set_twist(const Twist& twist) { twist_ = twist; }
 
@@ -104,13 +103,16 @@ class RigidBody {
   void keep(StateArchive& archive);
 
  private:
+  /// @throws RigidError for a pose that the body cannot have.
+  void check(const Pose& pose, const char* what) const;
+
   RigidBodyDefinition definition_;
   Pose pose_;
   Twist twist_;
   Drive drive_ = Drive::functions;
   Pose target_;
   std::int64_t arrival_ = 0;
-  std::optional<FreeMotion> free_;
+  std::variant<PrescribedMotion, RingMotion, FreeMotion> motion_;
 };
 
 }  // namespace mpm

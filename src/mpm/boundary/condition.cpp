@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/boundary/region_bounds.hpp"
 
 namespace mpm {
 namespace {
@@ -103,7 +102,7 @@ void VelocityConditions::find_nodes(const Grid& grid) {
   found_.clear();
   for (std::size_t c = 0; c < conditions_.size(); ++c) {
     const RigidBody& region = conditions_[c].region;
-    const Box bounds = world_bounds(region).grown(band);
+    const Box bounds = region.world_bounds().grown(band);
     for (int b = 0; b < grid.blocks.size(); ++b) {
       const auto& block = grid.blocks.block(b);
       const Box nodes{layout.node_position(block, 0), layout.node_position(block, layout.nodes_per_block() - 1)};

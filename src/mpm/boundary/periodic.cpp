@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "mpm/boundary/region_bounds.hpp"
 
 namespace mpm {
 
@@ -31,7 +30,7 @@ void put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int th
 
 std::string periodic_face_reached(const RigidBody& body, const GridLayout& layout) {
   constexpr double kCells = 1.5;
-  const Box bounds = world_bounds(body);
+  const Box bounds = body.world_bounds();
   for (int k = 0; k < layout.dim(); ++k) {
     const int axis = layout.axis(k);
     if (!layout.periodic(k) || (std::isinf(bounds.min[axis]) && std::isinf(bounds.max[axis]))) continue;

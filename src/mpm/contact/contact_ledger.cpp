@@ -1,12 +1,28 @@
 #include "mpm/contact/contact_ledger.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
+namespace {
 
-ContactLedger::ContactLedger(const RigidBody& body, bool axisymmetric) : body_(body), axisymmetric_(axisymmetric) {
+void keep_sums(StateArchive& archive, ContactSums& sums) {
+  archive.keep("impulse", sums.impulse);
+  archive.keep("angular_impulse", sums.angular_impulse);
+  archive.keep("friction", sums.friction);
+  archive.keep("pressed", sums.pressed);
+  archive.keep("pressed_arm", sums.pressed_arm);
+  archive.keep("area_time", sums.area_time);
+  archive.keep("friction_energy", sums.friction_energy);
+  archive.keep("work", sums.work);
+}
+
+}  // namespace
+
+ContactLedger::ContactLedger(const RigidBody& body, bool axisymmetric)
+    : body_(body), axisymmetric_(axisymmetric), readers_(1) {
   account_.name = "contact/" + body.name();
 }
 
@@ -15,49 +31,59 @@ void ContactLedger::give(const ContactImpulse& given) {
   const Vec3 along = given.impulse - normal * given.normal;
   given_ += given.impulse;
   given_angular_ += given.arm.cross(given.impulse);
-  friction_ -= along;
-  pressed_ += std::max(normal, 0.0);  // what adheres may pull
-  pressed_arm_ += std::max(normal, 0.0) * given.arm;
-  work_ += given.impulse.dot(given.velocity);
-  friction_energy_ -= along.dot(given.mean_slip);
+  sums_.friction -= along;
+  sums_.pressed += std::max(normal, 0.0);  // what adheres may pull
+  sums_.pressed_arm += std::max(normal, 0.0) * given.arm;
+  sums_.work += given.impulse.dot(given.velocity);
+  sums_.friction_energy -= along.dot(given.mean_slip);
 }
 
 void ContactLedger::end_step(double dt, int places, double area) {
   account_.add(given_);
-  impulse_ -= given_;
-  angular_impulse_ -= given_angular_;
+  sums_.impulse -= given_;
+  sums_.angular_impulse -= given_angular_;
   Wrench wrench{whole(-given_ / dt), Vec3::Zero()};
   if (!axisymmetric_) wrench.torque = -given_angular_ / dt;
-  if (wrench.force.squaredNorm() > peak_.force.squaredNorm()) peak_ = wrench;
+  for (Reader& reader : readers_) {
+    if (wrench.force.squaredNorm() > reader.peak.force.squaredNorm()) reader.peak = wrench;
+  }
   given_ = given_angular_ = Vec3::Zero();
   places_ = places;
-  area_time_ += area * dt;
+  sums_.area_time += area * dt;
 }
 
-ContactReport ContactLedger::take(double now) {
+int ContactLedger::add_reader(double now) {
+  readers_.push_back({now, sums_, {}});
+  return static_cast<int>(readers_.size()) - 1;
+}
+
+ContactReport ContactLedger::read(double now, int reader) {
+  Reader& own = readers_[reader];
+  const ContactSums before = std::exchange(own.last, sums_);
   ContactReport report;
   report.body = body_.name();
-  report.interval = now - last_report_;
+  report.interval = now - std::exchange(own.time, now);
   if (report.interval > 0.0) {
-    report.mean = {whole(impulse_ / report.interval), angular_impulse_ / report.interval};
-    report.friction = whole(friction_ / report.interval);
-    report.pressing = pressed_ / report.interval;
-    report.area = area_time_ / report.interval;
+    const Vec3 mean = (sums_.impulse - before.impulse) / report.interval;
+    report.mean.force = whole(mean);
+    report.friction = whole((sums_.friction - before.friction) / report.interval);
+    report.pressing = (sums_.pressed - before.pressed) / report.interval;
+    report.area = (sums_.area_time - before.area_time) / report.interval;
+    if (axisymmetric_) {
+      report.per_radian = mean / kTurn;
+    } else {
+      report.mean.torque = (sums_.angular_impulse - before.angular_impulse) / report.interval;
+    }
   }
   report.origin = whole(body_.pose().position);
-  if (pressed_ > 0.0) report.arm = whole(pressed_arm_ / pressed_);
-  if (axisymmetric_) {
-    report.mean.torque.setZero();
-    if (report.interval > 0.0) report.per_radian = impulse_ / (report.interval * kTurn);
+  if (const double pressed = sums_.pressed - before.pressed; pressed > 0.0) {
+    report.arm = whole((sums_.pressed_arm - before.pressed_arm) / pressed);
   }
-  report.peak = peak_;
+  report.peak = own.peak;
+  own.peak = {};
   report.nodes = places_;
-  report.friction_energy = friction_energy_;
+  report.friction_energy = sums_.friction_energy;
   report.impulse = whole(-account_.impulse);
-  impulse_ = angular_impulse_ = friction_ = pressed_arm_ = Vec3::Zero();
-  pressed_ = area_time_ = 0.0;
-  peak_ = {};
-  last_report_ = now;
   return report;
 }
 
@@ -65,18 +91,18 @@ void ContactLedger::keep(StateArchive& archive) {
   account_.keep(archive);
   archive.keep("given", given_);
   archive.keep("given_angular", given_angular_);
-  archive.keep("work", work_);
-  archive.keep("friction_energy", friction_energy_);
-  archive.keep("impulse_since", impulse_);
-  archive.keep("angular_impulse_since", angular_impulse_);
-  archive.keep("friction_since", friction_);
-  archive.keep("pressed_since", pressed_);
-  archive.keep("pressed_arm_since", pressed_arm_);
-  archive.keep("peak_force", peak_.force);
-  archive.keep("peak_torque", peak_.torque);
   archive.keep("places", places_);
-  archive.keep("area_time", area_time_);
-  archive.keep("last_report", last_report_);
+  {
+    const StateArchive::Group group(archive, "sums");
+    keep_sums(archive, sums_);
+  }
+  for (std::size_t r = 0; r < readers_.size(); ++r) {
+    const StateArchive::Group group(archive, "reader_" + std::to_string(r));
+    archive.keep("time", readers_[r].time);
+    keep_sums(archive, readers_[r].last);
+    archive.keep("peak_force", readers_[r].peak.force);
+    archive.keep("peak_torque", readers_[r].peak.torque);
+  }
 }
 
 }  // namespace mpm

@@ -30,8 +30,8 @@ MaterialContact::MaterialContact(MaterialContactSettings settings, Fields& field
       volumes_(fields.size(), NodalVolumes(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())),
       friction_(settings_.pairs.size()),
       last_(settings_.pairs.size()),
-      interval_(settings_.pairs.size()),
-      total_(settings_.pairs.size()) {
+      total_(settings_.pairs.size()),
+      readers_{{0.0, total_}} {
   account_.name = "contact_normals";
   const std::size_t count = fields.size();
   for (std::size_t i = 0; i < settings_.pairs.size(); ++i) {
@@ -222,10 +222,7 @@ void MaterialContact::book(const BlockNodes& block, bool updated, double dt) {
 }
 
 void MaterialContact::grid_advanced(StepContext&) {
-  for (std::size_t i = 0; i < last_.size(); ++i) {
-    interval_[i] += last_[i];
-    total_[i] += last_[i];
-  }
+  for (std::size_t i = 0; i < last_.size(); ++i) total_[i] += last_[i];
   if (settings_.normals.method == NormalMethod::own) account_.add(left_over_);
   left_over_.setZero();
 }
@@ -234,29 +231,36 @@ void MaterialContact::accounts(std::vector<ImpulseAccount>& list) const {
   if (settings_.normals.method == NormalMethod::own) list.push_back(account_);
 }
 
-void MaterialContact::take_pairs(double now, std::vector<PairReport>& reports) {
+int MaterialContact::add_reader(double now) {
+  readers_.push_back({now, total_});
+  return static_cast<int>(readers_.size()) - 1;
+}
+
+void MaterialContact::read_pairs(double now, std::vector<PairReport>& reports, int reader) {
   const bool about_axis = axisymmetric(settings_.geometry);
   const auto whole = [about_axis](const Vec3& sum) { return about_axis ? Vec3(0.0, 0.0, sum.z()) : sum; };
-  const double interval = now - last_report_;
+  Reader& own = readers_[reader];
+  const double interval = now - own.time;
   for (std::size_t i = 0; i < settings_.pairs.size(); ++i) {
+    const Sums &seen = own.seen[i], &total = total_[i];
+    const double pressed = total.pressed - seen.pressed;
     PairReport report;
     report.name = settings_.pairs[i].name;
     report.interval = interval;
     if (interval > 0.0) {
-      report.force = whole(interval_[i].impulse / interval);
-      report.friction = whole(interval_[i].friction / interval);
-      report.pressing = interval_[i].pressed / interval;
+      report.force = whole((total.impulse - seen.impulse) / interval);
+      report.friction = whole((total.friction - seen.friction) / interval);
+      report.pressing = pressed / interval;
     }
-    if (interval_[i].pressed > 0.0) report.centre = whole(interval_[i].moment / interval_[i].pressed);
+    if (pressed > 0.0) report.centre = whole((total.moment - seen.moment) / pressed);
     report.area = last_[i].area;
     report.nodes = last_[i].nodes;
-    report.impulse = whole(total_[i].impulse);
-    report.friction_energy = total_[i].friction_energy;
+    report.impulse = whole(total.impulse);
+    report.friction_energy = total.friction_energy;
     report.interface_energy = last_[i].interface_energy;
     reports.push_back(report);
-    interval_[i] = {};
   }
-  last_report_ = now;
+  own = {now, total_};
 }
 
 void MaterialContact::energies(EnergyReport& report) const {
@@ -266,28 +270,35 @@ void MaterialContact::energies(EnergyReport& report) const {
   }
 }
 
+void MaterialContact::keep_sums(StateArchive& archive, std::vector<Sums>& sums) {
+  archive.column("impulse", sums, &Sums::impulse);
+  archive.column("friction", sums, &Sums::friction);
+  archive.column("moment", sums, &Sums::moment);
+  archive.column("pressed", sums, &Sums::pressed);
+  archive.column("area", sums, &Sums::area);
+  archive.column("friction_energy", sums, &Sums::friction_energy);
+  archive.column("interface_energy", sums, &Sums::interface_energy);
+  archive.column("nodes", sums, &Sums::nodes);
+}
+
 void MaterialContact::keep(StateArchive& archive) {
   archive.keep("started", started_);
   archive.rows("held", held_);
   archive.column("held/node", held_, &Held::node);
   archive.column("held/fields", held_, &Held::fields);
   archive.column("held/hold", held_, &Held::hold);
-  const std::pair<const char*, std::vector<Sums>*> all[] = {
-      {"last", &last_}, {"interval", &interval_}, {"total", &total_}};
+  const std::pair<const char*, std::vector<Sums>*> all[] = {{"last", &last_}, {"total", &total_}};
   for (const auto& [name, sums] : all) {
     const StateArchive::Group group(archive, name);
-    archive.column("impulse", *sums, &Sums::impulse);
-    archive.column("friction", *sums, &Sums::friction);
-    archive.column("moment", *sums, &Sums::moment);
-    archive.column("pressed", *sums, &Sums::pressed);
-    archive.column("area", *sums, &Sums::area);
-    archive.column("friction_energy", *sums, &Sums::friction_energy);
-    archive.column("interface_energy", *sums, &Sums::interface_energy);
-    archive.column("nodes", *sums, &Sums::nodes);
+    keep_sums(archive, *sums);
+  }
+  for (std::size_t r = 0; r < readers_.size(); ++r) {
+    const StateArchive::Group group(archive, "reader_" + std::to_string(r));
+    archive.keep("time", readers_[r].time);
+    keep_sums(archive, readers_[r].seen);
   }
   account_.keep(archive);
   archive.keep("left_over", left_over_);
-  archive.keep("last_report", last_report_);
 }
 
 }  // namespace mpm

@@ -18,7 +18,10 @@ Vec3 mean(const NodalField& sums, const GridLayout& layout, NodeRef ref, double 
 }  // namespace
 
 void MaterialContact::momentum_gathered(StepContext& context) {
-  for (std::size_t i = 0; i < friction_.size(); ++i) friction_[i] = settings_.pairs[i].law.at(context.start);
+  for (std::size_t i = 0; i < friction_.size(); ++i) {
+    const MaterialPair& pair = settings_.pairs[i];
+    friction_[i] = pair.law.in_step(context.start, context.dt, [&] { return "'" + pair.name + "'"; });
+  }
   shared_.update(fields_, [this](int a, int b) { return rule(a, b).pair >= 0; });
   for (int f = 0; f < static_cast<int>(fields_.size()); ++f) {
     if (shared_.any(f)) survey_.survey(f, shared_.marks(f), wants_, volumes_[f]);

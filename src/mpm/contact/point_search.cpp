@@ -1,16 +1,19 @@
-// Where the material's surface is near a body: the search of PointContact, a block of particles at a time.
+#include "mpm/contact/point_search.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "mpm/contact/particle_reach.hpp"
-#include "mpm/contact/point_contact.hpp"
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
 namespace {
 
 constexpr double kBeyondBlock = 1.5;  ///< nodes that a particle may be beyond its block, and a half
+constexpr double kMostStretch = 3.0;  ///< times its box: farther a particle does not reach from its centre
 constexpr double kWatched = 0.1;      ///< cells: a point this near is held if it comes nearer in this step
+constexpr std::uint32_t kGroups = 8;  ///< groups of particles that are looked at together first
+constexpr int kWorthALook = 4;        ///< particles, from which on a ball around them is asked about first
 
 // 1 where the nearest place of the body is a sharp edge or corner, 0 over a face, between them on what is rounded: how
 // much the normal turns along the surface, by a step to either side, over how much it turns about an edge. An edge
@@ -32,89 +35,131 @@ double edge_part(const RigidBody& body, GeometryKind geometry, const Vec3& centr
 
 }  // namespace
 
-void PointContact::find_blocks(const GridLayout& layout, double band) {
+void PointSearch::find_jobs(double band) {
+  const GridLayout& layout = fields_.front()->layout;
   // A block's particles have not left it by more than a node.
   Vec3 half = Vec3::Zero();
   for (int k = 0; k < layout.dim(); ++k) {
     half[layout.axis(k)] = (0.5 * (kBlockEdge - 1) + kBeyondBlock) * layout.cell(k);
   }
   const double reach = half.norm() + band;
-  near_.clear();
-  for (std::size_t f = 0; f < fields_.size(); ++f) {
-    const BlockTable& blocks = fields_[f]->blocks;
-    for (int owner = 0; owner < blocks.owners(); ++owner) {
-      const std::array<int, 3>& block = blocks.block(blocks.owner_block(owner));
-      const Vec3 middle =
-          0.5 * (layout.node_position(block, 0) + layout.node_position(block, layout.nodes_per_block() - 1));
-      const bool near = std::any_of(bodies_.begin(), bodies_.end(), [&](const RigidBody* body) {
+  jobs_.clear();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const RigidBody& body = *bodies_[b];
+    const Box bounds = body.world_bounds().grown(band);
+    for (std::size_t f = 0; f < fields_.size(); ++f) {
+      const BlockTable& blocks = fields_[f]->blocks;
+      for (int owner = 0; owner < blocks.owners(); ++owner) {
+        const std::array<int, 3>& block = blocks.block(blocks.owner_block(owner));
+        const Vec3 middle =
+            0.5 * (layout.node_position(block, 0) + layout.node_position(block, layout.nodes_per_block() - 1));
         SurfacePoint point;
-        return body->surface().within(body->pose().to_body(middle), reach, point);
-      });
-      if (near) near_.push_back({static_cast<int>(f), owner});
-    }
-  }
-}
-
-template <class Geometry>
-void PointContact::find_points_in(const StepContext& context) {
-  const GridLayout& layout = context.layout();
-  const double watched = kWatched * layout.smallest_cell();
-  // From a particle's centre, which may be stretched to three times its box; in a step neither material nor tool moves
-  // by more than a cell.
-  double band = 0.0;
-  for (const ParticleSet& set : sets_) {
-    for (int k = 0; k < layout.dim(); ++k) band = std::max(band, 3.0 * set.half[k] * layout.cell(k));
-  }
-  band += layout.smallest_cell();
-  find_blocks(layout, band);
-  while (of_block_.size() < near_.size()) of_block_.emplace_back();
-  const int count = static_cast<int>(near_.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(settings_.threads)
-  for (int i = 0; i < count; ++i) {
-    of_block_[i].clear();
-    const int owner = fields_[near_[i].field]->first_owner + near_[i].owner;
-    for (std::size_t s = 0; s < sets_.size(); ++s) {
-      const ParticleSet& set = sets_[s];
-      const int end = static_cast<int>(set.group[set.group_begin[owner + 1]]);
-      for (int p = static_cast<int>(set.group[set.group_begin[owner]]); p < end; ++p) {
-        Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
-        for (int k = 0; k < layout.dim(); ++k) {
-          centre[layout.axis(k)] = set.x[k][p];
-          velocity[layout.axis(k)] = set.v[k][p];
+        if (!bounds.intersects({middle - half, middle + half}) ||
+            !body.surface().within(body.pose().to_body(middle), reach, point)) {
+          continue;
         }
-        for (std::size_t b = 0; b < bodies_.size(); ++b) {
-          const RigidBody& body = *bodies_[b];
-          SurfacePoint surface;
-          if (!body.surface().within(body.pose().to_body(centre), band, surface)) continue;
-          Point point;
-          point.normal = body.pose().orientation * surface.normal;
-          double reach = particle_reach<Geometry>(set, layout, p, point.normal);
-          const double closing = (body.velocity_at(centre) - velocity).dot(point.normal) * context.dt;
-          const double seen_from = watched + std::max(closing, 0.0);
-          if (surface.distance - reach > seen_from) continue;
-          const double half_width = reach;
-          reach *= 1.0 - edge_part(body, settings_.geometry, centre, surface, 0.5 * reach);
-          point.gap = surface.distance - reach;
-          if (point.gap > seen_from) continue;
-          point.place = centre - reach * point.normal;
-          point.velocity = body.velocity_at(point.place);
-          point.body = static_cast<int>(b);
-          point.field = near_[i].field;
-          point.law = static_cast<int>(b * sets_.size() + s);
-          point.particle = set.id[p];
-          double volume = stretch_of_section<Geometry>(set, p) * settings_.across;
-          for (int k = 0; k < layout.dim(); ++k) volume *= 2.0 * set.half[k] * layout.cell(k);
-          if (axisymmetric(settings_.geometry)) volume *= kTurn * centre.x();
-          point.area = volume / (2.0 * half_width);
-          of_block_[i].push_back(point);
-        }
+        jobs_.push_back({static_cast<int>(f), owner, static_cast<int>(b)});
       }
     }
   }
 }
 
-void PointContact::find_points(const StepContext& context) {
-  with_geometry(settings_.geometry, [&](auto kind) { find_points_in<decltype(kind)>(context); });
+bool PointSearch::near(const RigidBody& body, const ParticleSet& set, int begin, int end, double band) const {
+  const GridLayout& layout = fields_.front()->layout;
+  Vec3 middle = Vec3::Zero();
+  double squared = 0.0;
+  for (int k = 0; k < layout.dim(); ++k) {
+    const double* x = set.x[k].data();
+    double low = x[begin], high = x[begin];
+    for (int p = begin + 1; p < end; ++p) {
+      low = std::min(low, x[p]);
+      high = std::max(high, x[p]);
+    }
+    middle[layout.axis(k)] = 0.5 * (low + high);
+    squared += 0.25 * (high - low) * (high - low);
+  }
+  SurfacePoint point;
+  // A little more than the ball, so that round-off leaves nothing out.
+  return body.surface().within(body.pose().to_body(middle), 1.000001 * std::sqrt(squared) + band, point);
+}
+
+template <class Geometry>
+void PointSearch::search(const Job& job, double dt, double farthest, std::vector<ContactPoint>& found) const {
+  const GridLayout& layout = fields_.front()->layout;
+  const double band =
+      farthest + layout.smallest_cell();  // in a step neither material nor tool moves by more than a cell
+  const double watched = kWatched * layout.smallest_cell();
+  const RigidBody& body = *bodies_[job.body];
+  const auto look_at = [&](std::size_t s, int p) {
+    const ParticleSet& set = sets_[s];
+    Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
+    for (int k = 0; k < layout.dim(); ++k) centre[layout.axis(k)] = set.x[k][p];
+    SurfacePoint surface;
+    if (!body.surface().within(body.pose().to_body(centre), band, surface)) return;
+    for (int k = 0; k < layout.dim(); ++k) velocity[layout.axis(k)] = set.v[k][p];
+    ContactPoint point;
+    point.normal = body.pose().orientation * surface.normal;
+    const double closing = (body.velocity_at(centre) - velocity).dot(point.normal) * dt;
+    const double seen_from = watched + std::max(closing, 0.0);
+    if (surface.distance - farthest > seen_from) return;
+    const double half_width = particle_reach<Geometry>(set, layout, p, point.normal);
+    if (surface.distance - half_width > seen_from) return;
+    const double reach = half_width * (1.0 - edge_part(body, geometry_, centre, surface, 0.5 * half_width));
+    point.gap = surface.distance - reach;
+    if (point.gap > seen_from) return;
+    point.place = centre - reach * point.normal;
+    point.velocity = body.velocity_at(point.place);
+    point.body = job.body;
+    point.field = job.field;
+    point.law = static_cast<int>(job.body * sets_.size() + s);
+    point.particle = set.id[p];
+    double volume = stretch_of_section<Geometry>(set, p) * across_;
+    for (int k = 0; k < layout.dim(); ++k) volume *= 2.0 * set.half[k] * layout.cell(k);
+    if (axisymmetric(geometry_)) volume *= kTurn * centre.x();
+    point.area = volume / (2.0 * half_width);
+    found.push_back(point);
+  };
+  const int owner = fields_[job.field]->first_owner + job.owner;
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    const ParticleSet& set = sets_[s];
+    const auto clear = [&](std::uint32_t first, std::uint32_t last) {  // of groups
+      const int begin = static_cast<int>(set.group[first]), end = static_cast<int>(set.group[last]);
+      return end - begin >= kWorthALook && !near(body, set, begin, end, band);
+    };
+    const std::uint32_t last = set.group_begin[owner + 1];
+    for (std::uint32_t first = set.group_begin[owner]; first < last; first += kGroups) {
+      const std::uint32_t next = std::min(first + kGroups, last);
+      if (clear(first, next)) continue;
+      for (std::uint32_t g = first; g < next; ++g) {
+        if (clear(g, g + 1)) continue;
+        for (std::uint32_t p = set.group[g]; p < set.group[g + 1]; ++p) look_at(s, static_cast<int>(p));
+      }
+    }
+  }
+}
+
+template <class Geometry>
+void PointSearch::find_in(double dt) {
+  const GridLayout& layout = fields_.front()->layout;
+  double farthest = 0.0;
+  for (const ParticleSet& set : sets_) {
+    for (int k = 0; k < layout.dim(); ++k) farthest = std::max(farthest, kMostStretch * set.half[k] * layout.cell(k));
+  }
+  find_jobs(farthest + layout.smallest_cell());
+  while (of_job_.size() < jobs_.size()) of_job_.emplace_back();
+  const int count = static_cast<int>(jobs_.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
+  for (int i = 0; i < count; ++i) {
+    of_job_[i].clear();
+    search<Geometry>(jobs_[i], dt, farthest, of_job_[i]);
+  }
+  points_.clear();
+  for (int i = 0; i < count; ++i) points_.insert(points_.end(), of_job_[i].begin(), of_job_[i].end());
+}
+
+const std::vector<ContactPoint>& PointSearch::find(double dt) {
+  with_geometry(geometry_, [&](auto kind) { find_in<decltype(kind)>(dt); });
+  return points_;
 }
 
 }  // namespace mpm

@@ -11,23 +11,6 @@ namespace {
 constexpr double kOnSurface = 1e-6;
 constexpr double kThrough = 3.0;  ///< cells behind a thin tool that material before it may reach
 
-// Box around the body in the world; a body that is endless along an axis stays endless.
-Box world_bounds(const RigidBody& body) {
-  const Box local = body.surface().bounds();
-  const Mat3 rotation = body.pose().orientation.toRotationMatrix();
-  Box world{body.pose().position, body.pose().position};
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const double r = rotation(i, k);
-      if (r == 0.0) continue;
-      const double a = r * local.min[k], b = r * local.max[k];
-      world.min[i] += std::min(a, b);
-      world.max[i] += std::max(a, b);
-    }
-  }
-  return world;
-}
-
 }  // namespace
 
 RigidContact::RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry,
@@ -61,7 +44,7 @@ void RigidContact::momentum_gathered(StepContext& context) {
   const double reach = on_surface + body_.reach() * layout.smallest_cell();
   // Nodes that a field reaches through a thin tool are no farther from their mass centres, along each axis.
   const double through = thin_ == nullptr ? 0.0 : kThrough * layout.smallest_cell();
-  const Box bounds = world_bounds(body_).grown(std::max(reach, through));
+  const Box bounds = body_.world_bounds().grown(std::max(reach, through));
 
   near_.clear();
   for (std::size_t f = 0; f < fields_.size(); ++f) {

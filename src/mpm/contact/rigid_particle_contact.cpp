@@ -27,31 +27,21 @@ RigidParticleContact::RigidParticleContact(const RigidBody& body, RigidParticleS
 }
 
 void RigidParticleContact::momentum_gathered(StepContext& context) {
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    friction_[f] = settings_.laws[f].in_step(context.start, context.dt, [&] { return "'" + body_.name() + "'"; });
+  }
   nodes_.clear();
   find_blocks();
   if (keys_.empty()) return;
   particles_.gather(keys_);
-  for (int f = 0; f < static_cast<int>(fields_.size()); ++f) {
-    friction_[f] = settings_.laws[f].at(context.start);
-    add_nodes(f, context.dt);
-  }
+  for (int f = 0; f < static_cast<int>(fields_.size()); ++f) add_nodes(f, context.dt);
 }
 
 void RigidParticleContact::find_blocks() {
   const GridLayout& layout = fields_.front()->layout;
-  const Box local = body_.surface().bounds();
-  Box bounds;
-  for (int corner = 0; corner < 8; ++corner) {
-    Vec3 point;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double c = ((corner >> axis) & 1) != 0 ? local.max[axis] : local.min[axis];
-      point[axis] = std::isfinite(c) ? c : 0.0;  // beside the grid's axes
-    }
-    bounds.add(body_.pose().to_world(point));
-  }
   double cell = 0.0;
   for (int k = 0; k < layout.dim(); ++k) cell = std::max(cell, layout.cell(k));
-  bounds = bounds.grown(2.0 * cell);
+  const Box bounds = body_.world_bounds().grown(2.0 * cell);
   keys_.clear();
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     const BlockTable& blocks = fields_[f]->blocks;

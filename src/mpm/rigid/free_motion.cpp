@@ -154,7 +154,17 @@ void FreeMotion::finish(const BodyMomentum& impulse, double loss) {
 
 Twist FreeMotion::twist(const Pose& pose) const { return {velocity_ + rate_.cross(pose.position - centre_), rate_}; }
 
-Twist FreeMotion::turn(Pose& pose, double dt) {
+std::string FreeMotion::refused_velocity() const {
+  if (!definition_.all_free()) return {};
+  return "it is free in all it can do, so there is no velocity to command; apply a wrench, or leave an axis out of "
+         "free.axes";
+}
+
+std::string FreeMotion::refused_pose() const {
+  return "pose command for a body that is free; command its velocity where it is prescribed, or apply a wrench";
+}
+
+Twist FreeMotion::advance(Pose& pose, const Twist& /*twist*/, double dt) {
   drive_ += step_drive_;
   const Vec3 mean = 0.5 * (start_velocity_ + velocity_), mean_rate = 0.5 * (start_rate_ + rate_);
   wrench_work_ += step_wrench_.linear.dot(mean) + step_wrench_.angular.dot(mean_rate);

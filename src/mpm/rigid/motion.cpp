@@ -1,6 +1,7 @@
 // Exponential and logarithm of rotations by unit quaternions (angle and axis), stable from zero to half a turn.
 #include "mpm/rigid/motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mpm {
@@ -40,6 +41,20 @@ Twist twist_between(const Pose& from, const Pose& to, double dt) {
   twist.linear = (to.position - from.position) / dt;
   twist.angular = rotation_log(to.orientation * from.orientation.conjugate()) / dt;
   return twist;
+}
+
+Box world_bounds(const Pose& pose, const Box& local) {
+  const Mat3 rotation = pose.orientation.toRotationMatrix();
+  Box world{pose.position, pose.position};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (rotation(i, k) == 0.0) continue;  // times an infinite edge it would be no number
+      const double a = rotation(i, k) * local.min[k], b = rotation(i, k) * local.max[k];
+      world.min[i] += std::min(a, b);
+      world.max[i] += std::max(a, b);
+    }
+  }
+  return world;
 }
 
 }  // namespace mpm

@@ -29,16 +29,6 @@ Pose checked(const Pose& pose, const std::string& body, const std::string& what)
   return {pose.position, pose.orientation.normalized()};
 }
 
-/// @throws RigidError when the body is a ring that is closed at the pose.
-void check_open(const RigidBodyDefinition& body, const Pose& pose, const char* what) {
-  if (body.inner_radius == 0.0 || body.inner_radius + pose.position.x() > 0.0) return;
-  std::ostringstream text;
-  text << "rigid body '" << body.name << "': " << what << ": the ring has closed: its inner radius, "
-       << body.inner_radius << " m, has changed by " << pose.position.x() << " m; keep position.x above "
-       << -body.inner_radius << " m";
-  throw RigidError(text.str());
-}
-
 }  // namespace
 
 RigidBody::RigidBody(RigidBodyDefinition definition) : definition_(std::move(definition)) {
@@ -57,12 +47,19 @@ RigidBody::RigidBody(RigidBodyDefinition definition) : definition_(std::move(def
     throw RigidError(text.str());
   }
   definition_.pose = checked(definition_.pose, definition_.name, "initial pose");
-  check_open(definition_, definition_.pose, "initial pose");
+  if (definition_.inner_radius > 0.0) motion_ = RingMotion(definition_.inner_radius, definition_.outer_radius);
+  check(definition_.pose, "initial pose");
   pose_ = definition_.pose;
   if (!definition_.free) return;
-  free_.emplace(*definition_.free, definition_.name);
-  twist_ = free_->merged(definition_.free->velocity, twist_at(0.0));
-  free_->start(pose_, twist_);
+  FreeMotion& free = motion_.emplace<FreeMotion>(*definition_.free, definition_.name);
+  twist_ = definition_.free->velocity;
+  twist_ = twist_at(0.0);
+  free.start(pose_, twist_);
+}
+
+void RigidBody::check(const Pose& pose, const char* what) const {
+  const std::string reason = motion().refused(pose);
+  if (!reason.empty()) throw RigidError("rigid body '" + name() + "': " + what + ": " + reason);
 }
 
 void RigidBody::command_velocity(const Twist& twist) {
@@ -70,11 +67,10 @@ void RigidBody::command_velocity(const Twist& twist) {
     throw RigidError("rigid body '" + name() + "': velocity command is not finite: linear " + text_of(twist.linear) +
                      ", angular " + text_of(twist.angular));
   }
-  if (free_ && free_->definition().all_free()) {
-    throw RigidError("rigid body '" + name() + "': it is free in all it can do, so there is no velocity to command; " +
-                     "apply a wrench, or leave an axis out of free.axes");
+  if (const std::string reason = motion().refused_velocity(); !reason.empty()) {
+    throw RigidError("rigid body '" + name() + "': " + reason);
   }
-  twist_ = free_ ? free_->merged(twist_, twist) : twist;
+  twist_ = motion().merged(twist_, twist);
   drive_ = Drive::velocity;
 }
 
@@ -83,22 +79,21 @@ void RigidBody::apply_wrench(const Wrench& wrench) {
   if (!wrench.force.allFinite() || !wrench.torque.allFinite()) {
     throw RigidError(start + "is not finite: force " + text_of(wrench.force) + ", torque " + text_of(wrench.torque));
   }
-  if (!free_) throw RigidError(start + "for a body that only moves as it is told; give it a mass by `free`");
-  free_->apply_wrench(wrench);
+  FreeMotion* free = free_motion();
+  if (free == nullptr) throw RigidError(start + "for a body that only moves as prescribed; give it a mass by `free`");
+  free->apply_wrench(wrench);
 }
 
 void RigidBody::command_pose(const Pose& target, std::int64_t now, std::int64_t arrival) {
-  if (free_) {
-    throw RigidError("rigid body '" + name() +
-                     "': pose command for a body that is free; command its velocity where it " +
-                     "is told, or apply a wrench");
+  if (const std::string reason = motion().refused_pose(); !reason.empty()) {
+    throw RigidError("rigid body '" + name() + "': " + reason);
   }
   const Pose goal = checked(target, name(), "pose command");
   if (arrival <= now) {
     throw RigidError("rigid body '" + name() + "': pose command arrives at " + std::to_string(arrival) +
                      " ns, not after the present " + std::to_string(now) + " ns");
   }
-  check_open(definition_, goal, "pose command");
+  check(goal, "pose command");
   target_ = goal;
   arrival_ = arrival;
   twist_ = twist_between(pose_, target_, 1e-9 * static_cast<double>(arrival - now));
@@ -112,7 +107,7 @@ Twist RigidBody::twist_at(double time) const {
     twist.linear[i] = definition_.velocity[i](time);
     twist.angular[i] = definition_.rotation_rate[i](time);
   }
-  return free_ ? free_->merged(twist_, twist) : twist;
+  return motion().merged(twist_, twist);
 }
 
 void RigidBody::begin_step(double time, double dt) {
@@ -126,12 +121,8 @@ void RigidBody::begin_step(double time, double dt) {
 }
 
 void RigidBody::end_step(double dt) {
-  if (free_) {
-    twist_ = free_->turn(pose_, dt);
-    return;
-  }
-  pose_ = integrate(pose_, twist_, dt);
-  check_open(definition_, pose_, "motion");
+  twist_ = std::visit([&](BodyMotion& motion) { return motion.advance(pose_, twist_, dt); }, motion_);
+  check(pose_, "motion");
 }
 
 void RigidBody::at_sync(std::int64_t now) {
@@ -147,9 +138,9 @@ void RigidBody::keep(StateArchive& archive) {
   archive.keep("target_position", target_.position);
   archive.keep("target_orientation", target_.orientation);
   archive.keep("arrival", arrival_);
-  if (free_) {
+  if (FreeMotion* free = free_motion()) {
     const StateArchive::Group group(archive, "free");
-    free_->keep(archive);
+    free->keep(archive);
   }
 }
 

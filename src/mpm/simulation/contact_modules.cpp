@@ -129,11 +129,9 @@ RigidParticleSettings particle_settings(RunParts& parts, const std::vector<Conta
 /// Contact at points, with all of these bodies at once. `laws`: of each against each set.
 void add_point_contact(RunParts& parts, const std::vector<RigidBody*>& bodies, std::vector<ContactLaw> laws) {
   const SimulationDefinition& definition = parts.definition;
-  PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(), parts.threads, {},
+  PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(), parts.threads,
                                 definition.gravity};
-  for (RigidBody* body : bodies) settings.free.push_back(body->free_motion() != nullptr ? body : nullptr);
-  parts.modules.add(std::make_unique<PointContact>(std::vector<const RigidBody*>(bodies.begin(), bodies.end()),
-                                                   parts.sets, parts.fields, std::move(laws), settings));
+  parts.modules.add(std::make_unique<PointContact>(bodies, parts.sets, parts.fields, std::move(laws), settings));
 }
 
 }  // namespace

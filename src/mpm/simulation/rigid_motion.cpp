@@ -90,9 +90,8 @@ void RigidMotion::check_periodic(const RigidBody& body) const {
 }
 
 // Of the body's origin plus what its rotation adds at its farthest corner. A body without end ends with the domain,
-// `domain` long, and does not count along an axis that the grid does not have. Of a ring the middle of the section is
-// fastest, as the last that goes in proportion to the inner face (RigidBody::velocity_at).
-// Of a body that is free, with what gravity and the applied wrench add in `ahead` [s].
+// `domain` long, and does not count along an axis that the grid does not have. With what the motion that nobody
+// prescribes may gain in `ahead` [s].
 double RigidMotion::largest_speed(const RigidBody& body, double start, double ahead) const {
   Vec3 domain = definition_.grid.max - definition_.grid.min;
   for (const int axis : axes_beside(definition_.geometry)) domain[axis] = 0.0;
@@ -102,13 +101,9 @@ double RigidMotion::largest_speed(const RigidBody& body, double start, double ah
     if (!std::isfinite(corner[k])) corner[k] = domain[k] > 0.0 ? domain.norm() : 0.0;
   }
   const Twist twist = body.twist_at(start + ahead);
-  const double inner = body.definition().inner_radius, opened = body.pose().position.x();
-  const double spread = inner > 0.0 ? 0.5 * (inner + bounds.max.x() + 2.0 * opened) / (inner + opened) : 1.0;
-  double gained = 0.0;
-  if (const FreeMotion* free = body.free_motion()) {
-    gained = ahead * (definition_.gravity.norm() + free->wrench().force.norm() / free->definition().mass);
-  }
-  return spread * twist.linear.norm() + twist.angular.norm() * corner.norm() + gained;
+  const BodyMotion& motion = body.motion();
+  return motion.spread(body.pose()) * twist.linear.norm() + twist.angular.norm() * corner.norm() +
+         ahead * motion.unprescribed_acceleration(definition_.gravity.norm());
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ ContactReport Simulation::take_contact(int body) {
   const RigidBody& of = state_->bodies.at(body);
   for (ContactReporter* reporter : state_->reporters) {
     ContactLedger* ledger = reporter->ledger_of(of);
-    if (ledger != nullptr) return ledger->take(static_cast<double>(state_->time) * kNanosecond);
+    if (ledger != nullptr) return ledger->read(static_cast<double>(state_->time) * kNanosecond);
   }
   throw DefinitionError(fmt::format("rigid body '{}' has no contact with the material", of.name()));
 }
@@ -180,7 +180,7 @@ ContactReport Simulation::take_contact(int body) {
 std::vector<PairReport> Simulation::take_pairs() {
   std::vector<PairReport> reports;
   for (ContactReporter* reporter : state_->reporters) {
-    reporter->take_pairs(static_cast<double>(state_->time) * kNanosecond, reports);
+    reporter->read_pairs(static_cast<double>(state_->time) * kNanosecond, reports);
   }
   return reports;
 }

@@ -1,0 +1,70 @@
+// The free ones among the bodies that contact acts on: their velocities while contact is solved for, and what it gave
+// to each.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "mpm/rigid/rigid_body.hpp"
+
+namespace mpm {
+
+class FreeBodies {
+ public:
+  /// `bodies` outlive this.
+  FreeBodies(const std::vector<RigidBody*>& bodies, const Vec3& gravity)
+      : bodies_(bodies), gravity_(gravity), taken_(bodies.size()) {}
+
+  bool any() const {
+    return std::any_of(bodies_.begin(), bodies_.end(),
+                       [](const RigidBody* body) { return body->free_motion() != nullptr; });
+  }
+  /// Null for a body that is prescribed.
+  FreeMotion* motion(int body) const { return bodies_[body]->free_motion(); }
+  /// The velocities of the step without contact.
+  void predict(double dt) {
+    each([&](RigidBody& body, FreeMotion& motion, Taken&) { motion.predict(body.pose(), body.twist(), gravity_, dt); });
+  }
+  /// Velocities are then increments, until end_increment() adds them to what they were.
+  void begin_increment() {
+    each([](RigidBody&, FreeMotion& motion, Taken&) { motion.begin_increment(); });
+  }
+  void end_increment() {
+    each([](RigidBody&, FreeMotion& motion, Taken&) { motion.end_increment(); });
+  }
+  /// Books an impulse on the material [N s]. `mean_slip`: of the material against the body [m/s].
+  void take(int body, const Vec3& impulse, const Vec3& place, const Vec3& normal, const Vec3& mean_slip) {
+    const FreeMotion* free = motion(body);
+    if (free == nullptr) return;
+    Taken& taken = taken_[body];
+    taken.impulse.linear -= impulse;
+    taken.impulse.angular -= (place - free->centre()).cross(impulse);
+    taken.loss -= impulse.dot(normal) * mean_slip.dot(normal);
+  }
+  /// All is booked: bodies have the velocity that contact left them.
+  void finish() {
+    each([](RigidBody& body, FreeMotion& motion, Taken& taken) {
+      motion.finish(taken.impulse, taken.loss);
+      body.set_twist(motion.twist(body.pose()));
+      taken = {};
+    });
+  }
+
+ private:
+  struct Taken {
+    BodyMomentum impulse;
+    double loss = 0.0;  ///< [J]
+  };
+  template <class Visit>
+  void each(Visit&& visit) {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      if (FreeMotion* motion = bodies_[b]->free_motion()) visit(*bodies_[b], *motion, taken_[b]);
+    }
+  }
+
+  const std::vector<RigidBody*>& bodies_;
+  Vec3 gravity_;  ///< [m/s^2]
+  std::vector<Taken> taken_;
+};
+
+}  // namespace mpm

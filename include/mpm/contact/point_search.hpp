@@ -1,0 +1,57 @@
+// Finds where the material's surface is near rigid bodies: on each particle near a body, the point of its domain that
+// is nearest to it (particle_reach.hpp).
+//
+// Blocks of particles, then groups of neighbours within them, are passed over where a ball around them stays clear of
+// the body, so that a body's surface is asked about few particles besides those that it is near to.
+//
+// A sharp edge divides what it meets: a particle beside one is there with its centre, not with its reach.
+// Weak: a particle has one point a body: in an inner corner the one at the nearer face.
+#pragma once
+
+#include <vector>
+
+#include "mpm/contact/contact_point.hpp"
+#include "mpm/grid/fields.hpp"
+#include "mpm/math/geometry_kind.hpp"
+#include "mpm/particles/particle_set.hpp"
+#include "mpm/rigid/rigid_body.hpp"
+
+namespace mpm {
+
+class PointSearch {
+ public:
+  /// All outlive this. `across`: thickness [m] of a plane, area [m^2] of a line.
+  PointSearch(const std::vector<const RigidBody*>& bodies, const std::vector<ParticleSet>& sets, const Fields& fields,
+              GeometryKind geometry, double across, int threads)
+      : bodies_(bodies), sets_(sets), fields_(fields), geometry_(geometry), across_(across), threads_(threads) {}
+
+  /// Points that are near a body, or come near to it within `dt` [s]. The law of a body against a set is the one at
+  /// (place of the body) * (number of sets) + (place of the set). The order does not depend on the number of threads.
+  const std::vector<ContactPoint>& find(double dt);
+
+ private:
+  /// The particles of one block, which may be near one body.
+  struct Job {
+    int field, owner, body;  ///< the owner among those of its field
+  };
+  void find_jobs(double band);
+  template <class Geometry>
+  void find_in(double dt);
+  /// `farthest`: what a particle reaches from its centre, at most [m].
+  template <class Geometry>
+  void search(const Job& job, double dt, double farthest, std::vector<ContactPoint>& found) const;
+  /// Whether the surface may be at most `band` from one of the particles [begin, end) of a set.
+  bool near(const RigidBody& body, const ParticleSet& set, int begin, int end, double band) const;
+
+  const std::vector<const RigidBody*>& bodies_;
+  const std::vector<ParticleSet>& sets_;
+  const Fields& fields_;
+  GeometryKind geometry_;
+  double across_;
+  int threads_;
+  std::vector<Job> jobs_;
+  std::vector<std::vector<ContactPoint>> of_job_;
+  std::vector<ContactPoint> points_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,114 @@
+// Which nodes the points of contact have, and in which order the points are solved.
+#include <algorithm>
+
+#include "mpm/contact/point_solver.hpp"
+#include "mpm/step/point_weights.hpp"
+
+namespace mpm {
+
+void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
+  const GridLayout& layout = fields_.front()->layout;
+  const int along = shape_ == ShapeKind::bspline3 ? 5 : 2, count = static_cast<int>(found.size());
+  stride_ = 1;
+  for (int k = 0; k < layout.dim(); ++k) stride_ *= along;
+  found_parts_.resize(found.size() * stride_);
+  found_count_.resize(found.size());
+  found_block_.resize(found.size());
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (int i = 0; i < count; ++i) {
+    const Grid& grid = *fields_[found[i].field];
+    const PointWeights weights(grid, shape_, found[i].place);
+    Part* parts = &found_parts_[static_cast<std::size_t>(i) * stride_];
+    for (int n = 0; n < weights.count; ++n) {
+      parts[n] = {weights.node[n].block * layout.nodes_per_block() + weights.node[n].node, weights.weight[n]};
+    }
+    // That of the nearest node, as of a particle: blocks of one colour then share no node, with splines either.
+    std::array<int, 3> block{};
+    for (int k = 0; k < layout.dim() && weights.count > 0; ++k) {
+      const int node = GridLayout::nearest(layout.in_cells(k, found[i].place[layout.axis(k)]));
+      block[k] = (node + kBlockEdge) / kBlockEdge - 1;
+    }
+    found_block_[i] = weights.count > 0 ? grid.blocks.find(layout.key(block)) : -1;
+    found_count_[i] = found_block_[i] < 0 ? 0 : weights.count;
+  }
+}
+
+void PointSolver::cluster(const std::vector<ContactPoint>& found) {
+  cluster_of_.resize(fields_.size());
+  for (std::size_t f = 0; f < fields_.size(); ++f) cluster_of_[f].resize(fields_[f]->blocks.size(), -1);
+  unsorted_.clear();
+  of_point_.assign(found.size(), -1);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found_count_[i] == 0) continue;
+    int& place = cluster_of_[found[i].field][found_block_[i]];
+    if (place < 0) {
+      place = static_cast<int>(unsorted_.size());
+      const std::array<int, 3>& block = fields_[found[i].field]->blocks.block(found_block_[i]);
+      const int colour = (block[0] & 1) | (block[1] & 1) << 1 | (block[2] & 1) << 2;
+      unsorted_.push_back({found[i].field, found_block_[i], colour, 0, 0});
+    }
+    of_point_[i] = place;
+    ++unsorted_[place].end;  // counts, so far
+  }
+  clusters_.clear();
+  int points = 0;
+  for (int colour = 0; colour < 8; ++colour) {
+    colour_begin_[colour] = static_cast<int>(clusters_.size());
+    for (Cluster& one : unsorted_) {
+      if (one.colour != colour) continue;
+      cluster_of_[one.field][one.block] = -1;
+      one.first = points;
+      points += one.end;
+      one.end = one.first;
+      clusters_.push_back({one.field, one.block, colour, one.first, points});
+    }
+  }
+  colour_begin_[8] = static_cast<int>(clusters_.size());
+  order_.resize(points);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (of_point_[i] >= 0) order_[unsorted_[of_point_[i]].end++] = static_cast<int>(i);
+  }
+}
+
+void PointSolver::add(const ContactPoint& contact, int found) {
+  Point point;
+  point.normal = contact.normal;
+  point.velocity = contact.velocity;
+  point.place = contact.place;
+  point.found = found;
+  point.first = static_cast<int>(parts_.size());
+  const Grid& grid = *fields_[contact.field];
+  const int per_block = grid.layout.nodes_per_block();
+  const Part* parts = &found_parts_[static_cast<std::size_t>(found) * stride_];
+  for (int n = 0; n < found_count_[found]; ++n) {
+    int& slot = slot_[contact.field][parts[n].node];
+    if (slot < 0) {
+      slot = static_cast<int>(nodes_.size());
+      const NodeRef ref{parts[n].node / per_block, parts[n].node % per_block};
+      nodes_.push_back({{}, 1.0 / grid.mass.at(ref.block, 0, ref.node)});
+      origins_.push_back({contact.field, ref, {}});
+    }
+    parts_.push_back({slot, parts[n].weight});
+    point.compliance += parts[n].weight * (parts[n].weight * nodes_[slot].inverse_mass);
+  }
+  point.end = static_cast<int>(parts_.size());
+  points_.push_back(point);
+}
+
+void PointSolver::connect(const std::vector<ContactPoint>& found) {
+  find_weights(found);
+  cluster(found);
+  const int per_block = fields_.front()->layout.nodes_per_block();
+  slot_.resize(fields_.size());
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    slot_[f].resize(static_cast<std::size_t>(fields_[f]->blocks.size()) * per_block, -1);
+  }
+  points_.clear();
+  parts_.clear();
+  nodes_.clear();
+  origins_.clear();
+  for (const int i : order_) add(found[i], i);
+  for (const NodeOrigin& origin : origins_) slot_[origin.field][origin.ref.block * per_block + origin.ref.node] = -1;
+}
+
+}  // namespace mpm

@@ -1,0 +1,189 @@
+#include "mpm/contact/point_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm {
+namespace {
+
+constexpr int kSweeps = 10;
+constexpr double kTolerance = 1e-3;      ///< change of velocity in a sweep over the largest one, at which sweeps end
+constexpr int kSweepsFree = 400;         ///< with a body that is free
+constexpr double kToleranceFree = 1e-5;  ///< the same as kTolerance
+constexpr int kPointsPerThread = 500;    ///< fewer do not pay for the waiting at the end of every colour
+
+}  // namespace
+
+void PointSolver::load(Member from) {
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    NodeOrigin& origin = origins_[n];
+    const Grid& grid = *fields_[origin.field];
+    const Vec3 v = nodal_vector(grid.*from, grid.layout, origin.ref);
+    nodes_[n].velocity = origin.loaded = {v.x(), v.y(), v.z()};
+  }
+}
+
+void PointSolver::store(Member to, double factor) {
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const NodeOrigin& origin = origins_[n];
+    Grid& grid = *fields_[origin.field];
+    Vec3 change;
+    for (int k = 0; k < 3; ++k) change[k] = factor * (nodes_[n].velocity[k] - origin.loaded[k]);
+    add_nodal_vector(grid.*to, grid.layout, origin.ref, change);
+  }
+}
+
+Vec3 PointSolver::velocity_at(const Point& point) const {
+  Vec3 v = Vec3::Zero();
+  for (int i = point.first; i < point.end; ++i) {
+    const Node& node = nodes_[parts_[i].node];
+    for (int k = 0; k < 3; ++k) v[k] += parts_[i].weight * node.velocity[k];
+  }
+  return v;
+}
+
+template <bool Free>
+void PointSolver::push(const Point& point, const Vec3& impulse) {
+  if constexpr (Free) {
+    if (point.motion != nullptr) point.motion->push(-impulse, point.place);
+  }
+  for (int i = point.first; i < point.end; ++i) {
+    Node& node = nodes_[parts_[i].node];
+    const double lifted = parts_[i].weight * node.inverse_mass;
+    for (int k = 0; k < 3; ++k) node.velocity[k] += lifted * impulse[k];
+  }
+}
+
+void PointSolver::push_all() {
+  for (const Point& point : points_) push<true>(point, point.impulse);
+}
+
+void PointSolver::find_compliance_with_bodies() {
+  for (Point& point : points_) {
+    point.with_body[0] = point.with_body[1] = point.compliance;
+    if (point.motion == nullptr) continue;
+    const Mat3 lift = point.motion->compliance_at(point.place);
+    const double across = point.normal.dot(lift * point.normal);
+    point.with_body[0] += across;
+    point.with_body[1] += lift.trace() - across;  // the sum of the two principal values
+  }
+}
+
+template <PointSolver::Pass Kind, bool Free>
+double PointSolver::relax(Point& point) {
+  constexpr bool kDecides = Kind == Pass::step;
+  const bool bound = !kDecides && point.hold != Hold::free;
+  if (Kind != Pass::step && Kind != Pass::strain && !bound) return 0.0;
+  Vec3 slip = velocity_at(point);
+  double compliance = point.compliance, compliance_along = point.compliance;
+  if constexpr (Free) {
+    compliance = point.with_body[0];
+    compliance_along = point.with_body[1];
+  }
+  if (Free && point.motion != nullptr) {
+    slip -= point.motion->velocity_at(point.place);
+  } else if (Kind != Pass::increment) {
+    slip -= point.velocity;
+  }
+  const double approach = slip.dot(point.normal), pressed = point.impulse.dot(point.normal);
+  double normal = pressed + ((bound ? 0.0 : point.allowed) - approach) / compliance;
+  Vec3 along = point.impulse - pressed * point.normal;
+  const Vec3 sticking = along - (slip - approach * point.normal) / compliance_along;
+  if (bound) {
+    if (point.hold == Hold::stick) along = sticking;
+  } else {
+    normal = std::max(normal, -point.adhesion);
+    along = sticking;
+    const double length = along.norm(), most = point.friction * std::max(normal, 0.0) + point.adhesion;
+    Hold hold = normal > -point.adhesion ? Hold::stick : Hold::free;
+    if (hold == Hold::free) {
+      along.setZero();
+    } else if (!point.sticks && length > most) {
+      along *= most / length;
+      hold = Hold::slide;
+    }
+    if (kDecides) point.hold = hold;
+  }
+  const Vec3 impulse = normal * point.normal + along, change = impulse - point.impulse;
+  if (change.isZero(0.0)) return 0.0;
+  point.impulse = impulse;
+  push<Free>(point, change);
+  return change.norm() * compliance;
+}
+
+template <PointSolver::Pass Kind, bool Free>
+void PointSolver::relax(const Cluster& cluster, bool back, Progress& progress) {
+  const auto visit = [&](Point& point) {
+    progress.largest = std::max(progress.largest, relax<Kind, Free>(point));
+    progress.scale = std::max(progress.scale, point.impulse.norm() * (Free ? point.with_body[0] : point.compliance));
+  };
+  if (back) {
+    for (int i = cluster.end; i-- > cluster.first;) visit(points_[i]);
+  } else {
+    for (int i = cluster.first; i < cluster.end; ++i) visit(points_[i]);
+  }
+}
+
+template <PointSolver::Pass Kind>
+void PointSolver::sweep_prescribed() {
+  const int count = static_cast<int>(points_.size());
+  const int threads = std::clamp(count / kPointsPerThread, 1, threads_);
+  const int colours = static_cast<int>(colour_begin_.size()) - 1;
+  Progress all[2];  // of this sweep, and of the next
+#pragma omp parallel num_threads(threads)
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    const bool back = sweep % 2 != 0;
+    Progress own;
+    for (int c = 0; c < colours; ++c) {
+      const int colour = back ? colours - 1 - c : c;
+      const int first = colour_begin_[colour], end = colour_begin_[colour + 1];
+      if (first == end) continue;
+#pragma omp for schedule(static)
+      for (int i = first; i < end; ++i) relax<Kind, false>(clusters_[back ? first + end - 1 - i : i], back, own);
+    }
+#pragma omp critical
+    {
+      all[sweep % 2].largest = std::max(all[sweep % 2].largest, own.largest);
+      all[sweep % 2].scale = std::max(all[sweep % 2].scale, own.scale);
+    }
+#pragma omp barrier
+    const bool done = all[sweep % 2].largest <= kTolerance * all[sweep % 2].scale;
+#pragma omp single nowait
+    all[(sweep + 1) % 2] = {};
+#pragma omp barrier
+    if (done) break;
+  }
+}
+
+template <PointSolver::Pass Kind>
+void PointSolver::sweep_free() {
+  ConjugateSweeps<Point> conjugate(sweeps_);
+  const int count = static_cast<int>(clusters_.size());
+  for (int sweep = 0; sweep < kSweepsFree; ++sweep) {
+    conjugate.begin(points_);
+    const bool back = sweep % 2 != 0;
+    Progress progress;
+    for (int i = 0; i < count; ++i) relax<Kind, true>(clusters_[back ? count - 1 - i : i], back, progress);
+    if (progress.largest <= kToleranceFree * progress.scale || sweep + 1 == kSweepsFree) break;
+    conjugate.go_on(points_, [&](Point& point, const Vec3& change) {
+      point.impulse += change;
+      push<true>(point, change);
+    });
+  }
+}
+
+void PointSolver::solve(Pass pass, bool free) {
+  if (points_.empty()) return;
+  switch (pass) {
+    case Pass::step:
+      return free ? sweep_free<Pass::step>() : sweep_prescribed<Pass::step>();
+    case Pass::strain:
+      return sweep_prescribed<Pass::strain>();
+    case Pass::held:
+      return sweep_prescribed<Pass::held>();
+    case Pass::increment:
+      return free ? sweep_free<Pass::increment>() : sweep_prescribed<Pass::increment>();
+  }
+}
+
+}  // namespace mpm

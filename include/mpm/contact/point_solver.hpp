@@ -101,6 +101,8 @@ class PointSolver {
     double scale = 0.0;    ///< the largest velocity that an impulse gives its point [m/s]
   };
 
+  /// That are worth while for so many points.
+  int threads_for(int points) const;
   void find_weights(const std::vector<ContactPoint>& found);
   /// Which points belong together, in the order in which they are solved.
   void cluster(const std::vector<ContactPoint>& found);

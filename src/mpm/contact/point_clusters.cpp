@@ -14,7 +14,7 @@ void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
   found_parts_.resize(found.size() * stride_);
   found_count_.resize(found.size());
   found_block_.resize(found.size());
-#pragma omp parallel for schedule(static) num_threads(threads_)
+#pragma omp parallel for schedule(static) num_threads(threads_for(count))
   for (int i = 0; i < count; ++i) {
     const Grid& grid = *fields_[found[i].field];
     const PointWeights weights(grid, shape_, found[i].place);

@@ -14,6 +14,8 @@ constexpr int kPointsPerThread = 500;    ///< fewer do not pay for the waiting a
 
 }  // namespace
 
+int PointSolver::threads_for(int points) const { return std::clamp(points / kPointsPerThread, 1, threads_); }
+
 void PointSolver::load(Member from) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     NodeOrigin& origin = origins_[n];
@@ -126,8 +128,7 @@ void PointSolver::relax(const Cluster& cluster, bool back, Progress& progress) {
 
 template <PointSolver::Pass Kind>
 void PointSolver::sweep_prescribed() {
-  const int count = static_cast<int>(points_.size());
-  const int threads = std::clamp(count / kPointsPerThread, 1, threads_);
+  const int threads = threads_for(static_cast<int>(points_.size()));
   const int colours = static_cast<int>(colour_begin_.size()) - 1;
   Progress all[2];  // of this sweep, and of the next
 #pragma omp parallel num_threads(threads)

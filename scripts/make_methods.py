@@ -34,7 +34,7 @@ CLAIMS = "## What the charts say"
 LAST = "## Where methods stop working"  # made from the pages of the stability tests, which are not kept
 
 # The column `methods` of suites.csv says which methods are run on a suite: all, or those of main_methods() in
-# src/mpm/study/method_choice.cpp. The functions test a method's row for it.
+# src/mpm/choice/method_choice.cpp. The functions test a method's row for it.
 RUN_THERE = {
     "all": lambda row: True,
     "main": lambda row: row["shape"] == "ugimp" or (row["update"], row["transfer"]) == ("usavg", "flip"),

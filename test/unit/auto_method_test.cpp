@@ -1,4 +1,4 @@
-// method: auto. Expected choices are worked out by hand from made-up tables by the rule of study/preference.hpp, and
+// method: auto. Expected choices are worked out by hand from made-up tables by the rule of choice/preference.hpp, and
 // the expected motion by the formulas of scene/expected_motion.hpp.
 #include "mpm/scene/auto_method.hpp"
 
@@ -10,9 +10,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "mpm/choice/method_choice.hpp"
 #include "mpm/scene/expected_motion.hpp"
 #include "mpm/scene/explain.hpp"
-#include "mpm/study/method_choice.hpp"
 #include "test_files.hpp"
 
 namespace mpm {
@@ -20,9 +20,9 @@ namespace auto_method_test {
 
 const char* const kHead = "suite,method,error,cost\n";
 
-study::MethodCosts table(const std::string& rows) {
+choice::MethodCosts table(const std::string& rows) {
   std::istringstream in(kHead + rows);
-  return study::read_method_costs(in);
+  return choice::read_method_costs(in);
 }
 
 /// A scene of one elastic block at rest in the plane, standing on the lower face of the grid.
@@ -48,7 +48,7 @@ Scene chosen(const std::string& scene, const std::string& rows, AutoMethod asked
 
 std::string label(const Scene& scene) {
   const MethodDefinition& method = scene.definition.method;
-  return study::choose(method.shape, method.update, method.transfer).label;
+  return choice::choose(method.shape, method.update, method.transfer).label;
 }
 
 std::string said(const Scene& scene, const std::string& key = "method") {
@@ -58,14 +58,14 @@ std::string said(const Scene& scene, const std::string& key = "method") {
   return "";
 }
 
-study::Preference preferred(const std::string& rows, const std::vector<std::string>& suites,
-                            const std::vector<std::string>& candidates, const study::Budget& budget) {
-  const auto found = study::prefer(table(rows), suites, candidates, budget);
+choice::Preference preferred(const std::string& rows, const std::vector<std::string>& suites,
+                             const std::vector<std::string>& candidates, const choice::Budget& budget) {
+  const auto found = choice::prefer(table(rows), suites, candidates, budget);
   EXPECT_TRUE(found);
-  return found.value_or(study::Preference{});
+  return found.value_or(choice::Preference{});
 }
 
-const study::Budget kOnePercent{0.01, {}};
+const choice::Budget kOnePercent{0.01, {}};
 
 // Costs at 1 % error, at the measured runs: ugimp 100 and 400, cpdi 200 and 200; over the least of each suite 1 and 2,
 // 2 and 1. The spline: 120 and 240, that is 1.2 and 1.2, which is the least in the worst suite.
@@ -76,8 +76,8 @@ const char* const kTwoSuites =
 const std::vector<std::string> kThree = {"ugimp/usavg/flip", "cpdi/usavg/flip", "bspline2/usavg/flip"};
 
 TEST(Preference, TheWorstSuiteDecides) {
-  const study::Preference found = preferred(kTwoSuites, {"square_large", "rotation"}, kThree, kOnePercent);
-  EXPECT_EQ(found.suites.at(0).by, study::Judged::cost);
+  const choice::Preference found = preferred(kTwoSuites, {"square_large", "rotation"}, kThree, kOnePercent);
+  EXPECT_EQ(found.suites.at(0).by, choice::Judged::cost);
   EXPECT_EQ(found.suites.at(0).least, 100.0);
   EXPECT_EQ(found.chosen.method, "bspline2/usavg/flip");
   EXPECT_DOUBLE_EQ(found.chosen.by_suite.at(0), 1.2);
@@ -90,7 +90,7 @@ TEST(Preference, TheWorstSuiteDecides) {
 
 // The cost of 1 % between runs of 4 % at 10 and 0.25 % at 1000 is 100, on a straight line in log-log.
 TEST(Preference, ReadsBetweenRuns) {
-  const study::Preference found = preferred(
+  const choice::Preference found = preferred(
       "rotation,ugimp/usavg/flip,0.04,10\nrotation,ugimp/usavg/flip,0.0025,1000\nrotation,cpdi/usavg/flip,0.01,50\n",
       {"rotation"}, kThree, kOnePercent);
   EXPECT_EQ(found.chosen.method, "cpdi/usavg/flip");
@@ -114,13 +114,13 @@ TEST(Preference, LessThanTenPercentIsATie) {
 // On one suite no method reaches 1 %: errors of 5 % and 4 % count as 1.25 and 1. On the other, costs 100 and 200 count
 // as 1 and 2.
 TEST(Preference, ASuiteThatNobodySolvesIsJudgedByItsErrors) {
-  const study::Preference found = preferred(
+  const choice::Preference found = preferred(
       "plate_compression,ugimp/usavg/flip,0.05,100\nplate_compression,cpdi/usavg/flip,0.04,900\n"
       "rotation,ugimp/usavg/flip,0.01,100\nrotation,cpdi/usavg/flip,0.01,200\n",
       {"plate_compression", "rotation"}, kThree, kOnePercent);
-  EXPECT_EQ(found.suites.at(0).by, study::Judged::smallest_error);
+  EXPECT_EQ(found.suites.at(0).by, choice::Judged::smallest_error);
   EXPECT_EQ(found.suites.at(0).least, 0.04);
-  EXPECT_EQ(found.suites.at(1).by, study::Judged::cost);
+  EXPECT_EQ(found.suites.at(1).by, choice::Judged::cost);
   EXPECT_EQ(found.chosen.method, "ugimp/usavg/flip");
   EXPECT_DOUBLE_EQ(found.chosen.worst, 1.25);
   EXPECT_DOUBLE_EQ(found.others.at(0).worst, 2.0);
@@ -129,11 +129,11 @@ TEST(Preference, ASuiteThatNobodySolvesIsJudgedByItsErrors) {
 // Each method reaches 1 % on one suite only. Smallest errors 5 % and 0.2 % against 0.5 % and 6 %; relative to 1 %: 5
 // and 1 against 1 and 6.
 TEST(Preference, WhereNoneReachesTheErrorErrorsCount) {
-  const study::Preference found = preferred(
+  const choice::Preference found = preferred(
       "square_large,ugimp/usavg/flip,0.05,100\nsquare_large,cpdi/usavg/flip,0.005,900\n"
       "rotation,ugimp/usavg/flip,0.002,100\nrotation,cpdi/usavg/flip,0.06,900\n",
       {"square_large", "rotation"}, kThree, kOnePercent);
-  EXPECT_EQ(found.suites.at(0).by, study::Judged::smallest_error);
+  EXPECT_EQ(found.suites.at(0).by, choice::Judged::smallest_error);
   EXPECT_EQ(found.suites.at(0).least, 0.01);
   EXPECT_EQ(found.chosen.method, "ugimp/usavg/flip");
   EXPECT_DOUBLE_EQ(found.chosen.by_suite.at(0), 5.0);
@@ -150,23 +150,23 @@ TEST(Preference, ACostBuysTheLeastError) {
   EXPECT_EQ(preferred(rows, {"rotation"}, kThree, {{}, 2.0}).chosen.method, "cpdi/usavg/flip");
   EXPECT_EQ(preferred(rows, {"rotation"}, kThree, {{}, 2.0}).others.at(0).worst, 2.0);
   EXPECT_EQ(preferred(rows, {"rotation"}, kThree, {{}, 1.0 / 3.0}).chosen.method, "ugimp/usavg/flip");
-  EXPECT_FALSE(study::prefer(table(rows), {"rotation"}, kThree, {{}, 0.1}));
+  EXPECT_FALSE(choice::prefer(table(rows), {"rotation"}, kThree, {{}, 0.1}));
   // Halfway between 10 and 1000 in log-log, errors 1 and 0.01.
-  EXPECT_NEAR(*study::error_at({{10.0, 1.0}, {1000.0, 0.01}}, 100.0), 0.1, 1e-15);
-  EXPECT_FALSE(study::error_at({{10.0, 1.0}}, 9.0));
+  EXPECT_NEAR(*choice::error_at({{10.0, 1.0}, {1000.0, 0.01}}, 100.0), 0.1, 1e-15);
+  EXPECT_FALSE(choice::error_at({{10.0, 1.0}}, 9.0));
 }
 
 // A suite without runs does not count; a candidate without a run on a suite that counts is excluded.
 TEST(Preference, OnlyWhatWasRunCounts) {
-  const study::Preference found =
+  const choice::Preference found =
       preferred(std::string(kTwoSuites) + "rotation,bspline3/usavg/flip,0.01,1\n",
                 {"vortex", "square_large", "rotation"}, {"ugimp/usavg/flip", "bspline3/usavg/flip"}, kOnePercent);
   ASSERT_EQ(found.suites.size(), 2U);
   EXPECT_EQ(found.suites.at(0).name, "square_large");
   EXPECT_EQ(found.suites.at(1).name, "rotation");
   EXPECT_EQ(found.chosen.method, "ugimp/usavg/flip");
-  EXPECT_FALSE(study::prefer(table(kTwoSuites), {"vortex"}, kThree, kOnePercent));
-  EXPECT_FALSE(study::prefer(table(kTwoSuites), {"rotation"}, {"ugimp/usf/flip"}, kOnePercent));
+  EXPECT_FALSE(choice::prefer(table(kTwoSuites), {"vortex"}, kThree, kOnePercent));
+  EXPECT_FALSE(choice::prefer(table(kTwoSuites), {"rotation"}, {"ugimp/usf/flip"}, kOnePercent));
 }
 
 // c = 1 m/s from 1000 Pa over 1000 kg/m^3 without lateral strain.

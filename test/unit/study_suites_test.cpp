@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "mpm/choice/method_costs.hpp"
 #include "mpm/study/measures.hpp"
 #include "mpm/study/problems.hpp"
 
@@ -155,6 +156,13 @@ TEST(Suites, EnergyDriftOfABodyAtRestInItsFlightIsRoundOff) {
     simulation.advance();
   }
   EXPECT_LT(drift->error(), 1e-12);  // a uniform velocity is constant: round-off of 15 steps
+}
+
+// A choice of method reads figures of these problems by name, and knows them no other way.
+TEST(Suites, AreThoseThatAChoiceOfMethodKnows) {
+  std::vector<std::string> names;
+  for (const Suite& suite : suites()) names.push_back(suite.name);
+  EXPECT_EQ(names, choice::suite_names());
 }
 
 TEST(Suites, HaveNamesOfTheirOwnAndRefuseOthers) {

@@ -6,12 +6,25 @@
 #include <set>
 #include <sstream>
 
+#include "mpm/choice/front.hpp"
+#include "mpm/choice/method_choice.hpp"
+#include "mpm/study/counted_work.hpp"
 #include "mpm/study/problems.hpp"
 #include "mpm/study/runner.hpp"
 #include "mpm/study/summary.hpp"
 
 namespace mpm::study {
 namespace study_tables_test {
+
+using choice::charted_methods;
+using choice::ChoiceError;
+using choice::cost_at;
+using choice::find_method;
+using choice::front;
+using choice::FrontPoint;
+using choice::main_methods;
+using choice::MethodChoice;
+using choice::transfer_label;
 
 Row ran(const std::string& method, double work, double error) {
   Row row;
@@ -148,7 +161,7 @@ TEST(StudyMethods, HaveNamesOfTheirOwn) {
             (std::set<std::string>{"flip", "flip0.99", "pic", "xpic2", "xpic3", "fmpm2", "fmpm3", "fmpm5", "apic"}));
   for (const MethodChoice& choice : main_methods()) EXPECT_TRUE(labels.count(choice.label));
   EXPECT_EQ(find_method("ugimp/usavg/flip/single").method.precision, Precision::float32);
-  EXPECT_THROW(find_method("ugimp"), StudyError);
+  EXPECT_THROW(find_method("ugimp"), ChoiceError);
 }
 
 // A wrong letter is one change. More letters of 'ugimp' are missing than present, so no name is near.
@@ -156,7 +169,7 @@ TEST(StudyMethods, NameTheNearestFirst) {
   const auto refusal = [](const std::string& label) {
     try {
       find_method(label);
-    } catch (const StudyError& error) {
+    } catch (const ChoiceError& error) {
       return std::string(error.what());
     }
     return std::string("none");

@@ -33,7 +33,7 @@ struct Errors {
 
 /// Errors on grids that are refined by two.
 Errors measure(const std::string& suite, ShapeKind shape, const Transfer& transfer, const std::vector<int>& cells) {
-  const mpm::study::MethodChoice choice = mpm::study::choose(shape, UpdateScheme::usavg, transfer);
+  const mpm::choice::MethodChoice choice = mpm::choice::choose(shape, UpdateScheme::usavg, transfer);
   Errors found = {choice.label, cells, {}};
   for (const int count : cells) {
     mpm::study::Discretisation discretisation = {count, 0.9, 2, 0.04 * 64.0 / (count * count)};

@@ -8,7 +8,7 @@
 // bar_crossing, - a turn of 10 degrees: rotation, vortex, - contact: plate_compression, sliding_block, - bodies that
 // move or meet: colliding_disks,
 //
-// and the rule of study/preference.hpp chooses among the methods measured in them. 2 % is the geometric mean of the
+// and the rule of choice/preference.hpp chooses among the methods measured in them. 2 % is the geometric mean of the
 // strains of the two problems, 0.3 % and 16 %; a box that does not turn is wrong by 1 - cos 10 deg = 1.5 % at 10
 // degrees. A cube counts only where a method reaches the required error on it: its grids are coarse, and the square's
 // motion is the same along each axis.
@@ -22,21 +22,21 @@
 #include <optional>
 #include <string>
 
+#include "mpm/choice/preference.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/study/preference.hpp"
 
 namespace mpm {
 
 /// The part of `method` in a scene that concerns the choice.
 struct AutoMethod {
   std::optional<double> strain, turn;  ///< largest expected [-], [rad]; without a value it is estimated from the scene
-  study::Budget budget{0.01, {}};
+  choice::Budget budget{0.01, {}};
   bool keep_shape = false, keep_update = false, keep_transfer = false;  ///< named in the scene
 };
 
 /// A table of measurements, or the reason why there is none.
 struct MethodCostsFile {
-  study::MethodCosts costs;
+  choice::MethodCosts costs;
   std::string path;
   std::string fault;  ///< empty when the table was read
 };

@@ -13,7 +13,7 @@
 #include <memory>
 #include <string>
 
-#include "mpm/study/method_choice.hpp"
+#include "mpm/choice/method_choice.hpp"
 #include "mpm/study/row.hpp"
 
 namespace mpm::study {
@@ -33,11 +33,11 @@ class Runner {
   explicit Runner(CostSettings settings = {});
   ~Runner();
   /// Never throws for what a method does: a refusal or a failure is the row's status and message.
-  Row run(const Suite& suite, const MethodChoice& choice, const Discretisation& discretisation);
+  Row run(const Suite& suite, const choice::MethodChoice& choice, const Discretisation& discretisation);
 
  private:
   class Twin;
-  Cost cost(const Suite& suite, const MethodChoice& choice, const Discretisation& discretisation);
+  Cost cost(const Suite& suite, const choice::MethodChoice& choice, const Discretisation& discretisation);
 
   CostSettings settings_;
   std::string place_;                ///< suite and grid that reference_ and costs_ belong to

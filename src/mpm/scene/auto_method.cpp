@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <set>
 
+#include "mpm/choice/method_choice.hpp"
 #include "mpm/scene/expected_motion.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
-#include "mpm/study/method_choice.hpp"
 
 namespace mpm {
 namespace {
 
-using study::Judged;
-using study::Preference;
-using study::Standing;
+using choice::Judged;
+using choice::Preference;
+using choice::Standing;
 
 constexpr double kLargeStrain = 0.02;  // as in auto_method.hpp
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
@@ -25,7 +25,7 @@ const char* const kDefault = "ugimp/usavg/flip";
 
 /// Whether some method reached the required error. Where all grids are too coarse, the method with the least error may
 /// not be the one that reaches the required error on finer grids.
-bool solved(const study::MethodCosts& costs, const std::string& suite, const study::Budget& budget) {
+bool solved(const choice::MethodCosts& costs, const std::string& suite, const choice::Budget& budget) {
   const auto methods = costs.find(suite);
   if (methods == costs.end()) return false;
   return budget.cost || std::any_of(methods->second.begin(), methods->second.end(),
@@ -33,7 +33,7 @@ bool solved(const study::MethodCosts& costs, const std::string& suite, const stu
 }
 
 std::vector<std::string> suites_like(const ExpectedMotion& expected, GeometryKind geometry,
-                                     const study::MethodCosts& costs, const study::Budget& budget) {
+                                     const choice::MethodCosts& costs, const choice::Budget& budget) {
   std::vector<std::string> suites;
   const bool large = expected.strain > kLargeStrain;
   const bool cube = geometry == GeometryKind::solid && solved(costs, large ? "cube_large" : "cube_small", budget);
@@ -74,11 +74,11 @@ bool eligible(const MethodDefinition& measured, const AutoMethod& asked, const s
   const bool filters = measured.transfer.kind == TransferKind::xpic || measured.transfer.kind == TransferKind::fmpm;
   if (filters && axisymmetric(definition.geometry) && !asked.keep_transfer) return false;
   if (asked.keep_update && measured.update != said.update) return false;
-  if (asked.keep_transfer && study::transfer_label(measured.transfer) != transfer) return false;
+  if (asked.keep_transfer && choice::transfer_label(measured.transfer) != transfer) return false;
   return !method_fault(filled(said, measured, asked), definition.geometry);
 }
 
-std::vector<std::string> candidates_for(const AutoMethod& asked, bool flows, const study::MethodCosts& costs,
+std::vector<std::string> candidates_for(const AutoMethod& asked, bool flows, const choice::MethodCosts& costs,
                                         const SimulationDefinition& definition) {
   std::set<std::string> labels;
   for (const auto& [suite, methods] : costs) {
@@ -86,9 +86,9 @@ std::vector<std::string> candidates_for(const AutoMethod& asked, bool flows, con
   }
   std::vector<std::string> found;
   // A transfer that the study has not run, such as a fraction of FLIP, is judged as FLIP.
-  for (const std::string& transfer : {study::transfer_label(definition.method.transfer), std::string("flip")}) {
+  for (const std::string& transfer : {choice::transfer_label(definition.method.transfer), std::string("flip")}) {
     for (const std::string& label : labels) {
-      if (eligible(study::find_method(label).method, asked, transfer, flows, definition)) found.push_back(label);
+      if (eligible(choice::find_method(label).method, asked, transfer, flows, definition)) found.push_back(label);
     }
     if (!found.empty()) break;
   }
@@ -96,7 +96,7 @@ std::vector<std::string> candidates_for(const AutoMethod& asked, bool flows, con
 }
 
 std::string name_of(const std::string& label) {
-  const MethodDefinition method = study::find_method(label).method;
+  const MethodDefinition method = choice::find_method(label).method;
   return fmt::format("{}, {}, {}", shape_name(method.shape), update_name(method.update),
                      transfer_text(method.transfer));
 }
@@ -108,7 +108,7 @@ std::string percent(double part) { return fmt::format("{:.3g} %", 100.0 * part);
 std::string numbers(const Preference& preference, Judged by, const std::string& unit) {
   std::string text;
   for (std::size_t s = 0; s < preference.suites.size(); ++s) {
-    const study::JudgedSuite& suite = preference.suites[s];
+    const choice::JudgedSuite& suite = preference.suites[s];
     if (suite.by != by) continue;
     text += fmt::format("{}{:.2f}{} in {}", text.empty() ? "" : ", ", preference.chosen.by_suite[s],
                         text.empty() ? " times " + unit : "", suite.name);
@@ -116,7 +116,7 @@ std::string numbers(const Preference& preference, Judged by, const std::string& 
   return text;
 }
 
-std::string reasons(const Preference& preference, const study::Budget& budget) {
+std::string reasons(const Preference& preference, const choice::Budget& budget) {
   std::vector<std::string> parts;
   const auto add = [&](Judged by, const std::string& start, const std::string& unit) {
     if (const std::string list = numbers(preference, by, unit); !list.empty()) parts.push_back(start + list);
@@ -170,15 +170,15 @@ void choose_method(const AutoMethod& asked, const MethodCostsFile& file, Scene& 
                                fmt::format("{:.3g} deg: {}", expected.turn / kDegree, expected.turn_why));
   }
   const auto preference =
-      study::prefer(file.costs, suites_like(expected, definition.geometry, file.costs, asked.budget),
-                    candidates_for(asked, expected.flows, file.costs, definition), asked.budget);
+      choice::prefer(file.costs, suites_like(expected, definition.geometry, file.costs, asked.budget),
+                     candidates_for(asked, expected.flows, file.costs, definition), asked.budget);
   if (!preference) {
     return say(fmt::format("the default; no measured method {}",
                            asked.budget.error
                                ? "has what the scene keeps; name shape, update and transfer, or keep less"
                                : "has what the scene keeps and is as cheap; raise method.auto.cost"));
   }
-  method = filled(method, study::find_method(preference->chosen.method).method, asked);
+  method = filled(method, choice::find_method(preference->chosen.method).method, asked);
   say(reasons(*preference, asked.budget));
 }
 

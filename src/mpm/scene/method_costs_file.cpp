@@ -16,8 +16,8 @@ MethodCostsFile load_method_costs(const std::string& path) {
     return file;
   }
   try {
-    file.costs = study::read_method_costs(stream);
-  } catch (const study::StudyError& error) {
+    file.costs = choice::read_method_costs(stream);
+  } catch (const choice::ChoiceError& error) {
     file.fault = path + ": " + error.what();
   }
   return file;

@@ -7,6 +7,8 @@
 #include <ctime>
 #include <optional>
 
+#include "mpm/study/counted_work.hpp"
+
 namespace mpm::study {
 namespace {
 
@@ -19,9 +21,12 @@ double median(std::vector<double> values) {
   return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-MethodChoice reference_method() { return choose(ShapeKind::ugimp, UpdateScheme::usf, {TransferKind::flip, 1.0, 2}); }
+choice::MethodChoice reference_method() {
+  return choice::choose(ShapeKind::ugimp, UpdateScheme::usf, {TransferKind::flip, 1.0, 2});
+}
 
-SimulationDefinition define(const Suite& suite, const MethodChoice& choice, const Discretisation& discretisation) {
+SimulationDefinition define(const Suite& suite, const choice::MethodChoice& choice,
+                            const Discretisation& discretisation) {
   SimulationDefinition definition = suite.definition(choice.method, discretisation);
   definition.method.particles_per_direction = discretisation.particles_per_direction;
   return definition;
@@ -68,7 +73,7 @@ class Runner::Twin {
 Runner::Runner(CostSettings settings) : settings_(settings) {}
 Runner::~Runner() = default;
 
-Cost Runner::cost(const Suite& suite, const MethodChoice& choice, const Discretisation& discretisation) {
+Cost Runner::cost(const Suite& suite, const choice::MethodChoice& choice, const Discretisation& discretisation) {
   // The Courant number is of no consequence for the cost of a step.
   const std::string place =
       fmt::format("{} {} {}", suite.name, discretisation.cells, discretisation.particles_per_direction);
@@ -104,14 +109,14 @@ Cost Runner::cost(const Suite& suite, const MethodChoice& choice, const Discreti
   return cost;
 }
 
-Row Runner::run(const Suite& suite, const MethodChoice& choice, const Discretisation& discretisation) {
+Row Runner::run(const Suite& suite, const choice::MethodChoice& choice, const Discretisation& discretisation) {
   const int dim = static_cast<int>(axes_of(suite.geometry).size());
   Row row;
   row.suite = suite.name;
   row.method = choice.label;
   row.shape = shape_name(choice.method.shape);
   row.update = kUpdateNames[static_cast<int>(choice.method.update)];
-  row.transfer = transfer_label(choice.method.transfer);
+  row.transfer = choice::transfer_label(choice.method.transfer);
   row.precision = precision_name(choice.method.precision);
   row.geometry = geometry_name(suite.geometry);
   row.cells = discretisation.cells;

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <tuple>
+
+#include "mpm/choice/front.hpp"
 
 namespace mpm::study {
 namespace {
@@ -23,14 +26,14 @@ constexpr Measure kMeasures[] = {{"work", &Row::work}, {"cost", &Row::cost}};
 std::string cell_of(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 Cheapest cheapest(const std::string& suite, double target, const Measure& measure,
-                  const std::map<std::string, std::vector<FrontPoint>>& points) {
+                  const std::map<std::string, std::vector<choice::FrontPoint>>& points) {
   std::vector<std::pair<double, std::string>> found;
   Cheapest line;
   line.suite = suite;
   line.target = target;
   line.by = measure.name;
   for (const auto& [method, of_method] : points) {
-    const auto cost = cost_at(front(of_method), target);
+    const auto cost = choice::cost_at(choice::front(of_method), target);
     if (!cost) continue;
     found.emplace_back(*cost, method);
     if (method == kReferenceMethod) line.reference = *cost;
@@ -44,33 +47,6 @@ Cheapest cheapest(const std::string& suite, double target, const Measure& measur
 
 }  // namespace
 
-std::vector<FrontPoint> front(std::vector<FrontPoint> points) {
-  points.erase(std::remove_if(points.begin(), points.end(),
-                              [](const FrontPoint& point) {
-                                return !(point.cost > 0.0 && point.error > 0.0 && std::isfinite(point.cost) &&
-                                         std::isfinite(point.error));
-                              }),
-               points.end());
-  std::sort(points.begin(), points.end(), [](const FrontPoint& a, const FrontPoint& b) {
-    return a.cost != b.cost ? a.cost < b.cost : a.error < b.error;
-  });
-  std::vector<FrontPoint> result;
-  for (const FrontPoint& point : points) {
-    if (result.empty() || point.error < result.back().error) result.push_back(point);
-  }
-  return result;
-}
-
-std::optional<double> cost_at(const std::vector<FrontPoint>& front, double error) {
-  if (front.empty() || front.back().error > error) return std::nullopt;
-  if (front.front().error <= error) return front.front().cost;
-  const auto after =
-      std::find_if(front.begin(), front.end(), [&](const FrontPoint& point) { return point.error <= error; });
-  const FrontPoint &a = *(after - 1), &b = *after;
-  const double part = std::log(error / a.error) / std::log(b.error / a.error);
-  return a.cost * std::pow(b.cost / a.cost, part);
-}
-
 std::vector<Cheapest> summarise(const std::vector<Row>& rows) {
   std::vector<std::string> order;
   for (const Row& row : rows) {
@@ -79,7 +55,7 @@ std::vector<Cheapest> summarise(const std::vector<Row>& rows) {
   std::vector<Cheapest> lines;
   for (const std::string& suite : order) {
     for (const Measure& measure : kMeasures) {
-      std::map<std::string, std::vector<FrontPoint>> points;
+      std::map<std::string, std::vector<choice::FrontPoint>> points;
       for (const Row& row : rows) {
         if (row.suite == suite && row.status == "ok") points[row.method].push_back({row.*measure.column, row.error});
       }

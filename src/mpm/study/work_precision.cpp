@@ -54,8 +54,8 @@ void run_study(const StudyOptions& options, const std::function<void(const std::
   if (chosen.empty()) {
     for (const Suite& suite : suites()) chosen.push_back(&suite);
   }
-  std::vector<MethodChoice> asked;
-  for (const std::string& label : options.methods) asked.push_back(find_method(label));
+  std::vector<choice::MethodChoice> asked;
+  for (const std::string& label : options.methods) asked.push_back(choice::find_method(label));
   std::error_code error;
   fs::create_directories(options.folder, error);
   const fs::path folder(options.folder);
@@ -67,12 +67,12 @@ void run_study(const StudyOptions& options, const std::function<void(const std::
   std::vector<Row> rows;
   write_header(file);
   for (const Suite* suite : chosen) {
-    const std::vector<MethodChoice> methods = !asked.empty()                ? asked
-                                              : main_alone(*suite, options) ? main_methods()
-                                                                            : charted_methods();
+    const std::vector<choice::MethodChoice> methods = !asked.empty()                ? asked
+                                                      : main_alone(*suite, options) ? choice::main_methods()
+                                                                                    : choice::charted_methods();
     // Grid by grid, so that one reference serves all methods on it.
     for (const Discretisation& discretisation : options.full ? suite->full : suite->quick) {
-      for (const MethodChoice& method : methods) {
+      for (const choice::MethodChoice& method : methods) {
         rows.push_back(runner.run(*suite, method, discretisation));
         write_row(file, rows.back());
         progress(told(rows.back()));

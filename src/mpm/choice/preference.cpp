@@ -1,13 +1,13 @@
-#include "mpm/study/preference.hpp"
+#include "mpm/choice/preference.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "mpm/study/method_choice.hpp"
+#include "mpm/choice/method_choice.hpp"
 
-namespace mpm::study {
+namespace mpm::choice {
 namespace {
 
 constexpr double kTie = 1.1;              // see the header
@@ -76,16 +76,6 @@ void rank(std::vector<Standing>& list) {
 
 }  // namespace
 
-std::optional<double> error_at(const std::vector<FrontPoint>& front, double cost) {
-  if (front.empty() || cost < front.front().cost) return std::nullopt;
-  if (cost >= front.back().cost) return front.back().error;
-  const auto after =
-      std::find_if(front.begin(), front.end(), [&](const FrontPoint& point) { return point.cost > cost; });
-  const FrontPoint &a = *(after - 1), &b = *after;
-  const double part = std::log(cost / a.cost) / std::log(b.cost / a.cost);
-  return a.error * std::pow(b.error / a.error, part);
-}
-
 std::optional<Preference> prefer(const MethodCosts& costs, const std::vector<std::string>& suites,
                                  const std::vector<std::string>& candidates, const Budget& budget) {
   std::vector<std::string> left = candidates, counted;
@@ -131,4 +121,4 @@ std::optional<Preference> prefer(const MethodCosts& costs, const std::vector<std
   return preference;
 }
 
-}  // namespace mpm::study
+}  // namespace mpm::choice

@@ -20,9 +20,9 @@
 #include <string>
 #include <vector>
 
-#include "mpm/study/method_costs.hpp"
+#include "mpm/choice/method_costs.hpp"
 
-namespace mpm::study {
+namespace mpm::choice {
 
 /// What is to be kept: exactly one of the two.
 struct Budget {
@@ -62,7 +62,4 @@ struct Preference {
 std::optional<Preference> prefer(const MethodCosts& costs, const std::vector<std::string>& suites,
                                  const std::vector<std::string>& candidates, const Budget& budget);
 
-/// Error that a front has reached for `cost`, read between its runs as cost_at() does; nothing below its first.
-std::optional<double> error_at(const std::vector<FrontPoint>& front, double cost);
-
-}  // namespace mpm::study
+}  // namespace mpm::choice

@@ -1,4 +1,4 @@
-#include "mpm/study/method_choice.hpp"
+#include "mpm/choice/method_choice.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,9 +6,8 @@
 #include <algorithm>
 
 #include "mpm/math/nearest.hpp"
-#include "mpm/study/suite.hpp"
 
-namespace mpm::study {
+namespace mpm::choice {
 namespace {
 
 constexpr Transfer kFlip = {TransferKind::flip, 1.0, 2};
@@ -21,8 +20,6 @@ const std::vector<Transfer>& other_transfers() {
                                              {TransferKind::fmpm, 1.0, 5},  {TransferKind::apic, 1.0, 2}};
   return list;
 }
-
-constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
 
 }  // namespace
 
@@ -85,36 +82,8 @@ MethodChoice find_method(const std::string& label) {
     labels.push_back(choice.label);
   }
   const std::string near = nearest(label, labels);
-  throw StudyError(fmt::format("no method is called '{}'; {}there are {}", label,
-                               near.empty() ? "" : "did you mean '" + near + "'? ", fmt::join(labels, ", ")));
+  throw ChoiceError(fmt::format("no method is called '{}'; {}there are {}", label,
+                                near.empty() ? "" : "did you mean '" + near + "'? ", fmt::join(labels, ", ")));
 }
 
-int passes(UpdateScheme update, const Transfer& transfer) {
-  const int plain = update == UpdateScheme::usf ? 4 : update == UpdateScheme::usl ? 5 : 6;
-  const bool filtered = transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm;
-  return plain + (filtered ? 2 * (transfer.order - 1) : 0);
-}
-
-int visits(ShapeKind shape, int dim) {
-  switch (shape) {
-    case ShapeKind::dirac:
-      return power(2, dim);
-    case ShapeKind::ugimp:
-    case ShapeKind::ugimp_stretch:
-    case ShapeKind::bspline2:
-      return power(3, dim);
-    case ShapeKind::bspline3:
-      return power(4, dim);
-    case ShapeKind::cpdi:
-      return power(4, dim);
-    case ShapeKind::qcpdi:
-      return power(6, dim);
-  }
-  return 0;
-}
-
-double counted_work(const MethodDefinition& method, int dim) {
-  return static_cast<double>(visits(method.shape, dim) * passes(method.update, method.transfer));
-}
-
-}  // namespace mpm::study
+}  // namespace mpm::choice

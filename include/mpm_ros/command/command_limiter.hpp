@@ -39,8 +39,8 @@ class CommandLimiter {
   std::vector<AppliedCommand> next(const mpm::Simulation& simulation);
   /// The body is on its way no longer.
   void drop(int body);
-  /// For a run that begins again.
-  void clear();
+  /// Goes on with what `other` is on the way to.
+  void take_over(const CommandLimiter& other);
 
   void keep(mpm::StateArchive& archive);
   /// Of bodies under way.

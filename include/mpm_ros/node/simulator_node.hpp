@@ -10,25 +10,19 @@
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
-#include <ros/steady_timer.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
-#include <chrono>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "mpm/scene/scene.hpp"
-#include "mpm_ros/command/command_bridge.hpp"
-#include "mpm_ros/command/command_limiter.hpp"
-#include "mpm_ros/command/command_log.hpp"
-#include "mpm_ros/command/command_queue.hpp"
-#include "mpm_ros/command/command_watch.hpp"
 #include "mpm_ros/message/node_health.hpp"
+#include "mpm_ros/node/body_commands.hpp"
 #include "mpm_ros/node/mailbox.hpp"
+#include "mpm_ros/node/node_diagnostics.hpp"
 #include "mpm_ros/node/node_parameters.hpp"
 #include "mpm_ros/node/pacer.hpp"
 #include "mpm_ros/node/publishers.hpp"
@@ -52,21 +46,14 @@ class SimulatorNode {
  private:
   enum class Phase { running, paused, waiting, ended, failed };
 
-  RunOptions run_options() const;
   Stamps first_stamps() const;
   /// `resume`: a checkpoint, or empty. @throws mpm::Error, BagError; then the run that is there goes on.
   void start_run(const Stamps& stamps, const std::string& resume = {});
   /// Its first messages, and the pace from now on.
   void begin_run();
   /// One sync period; extra commands are applied after those that are due. False when it failed, or when an extra
-  /// command was refused: then time has not moved, and refusal_ says why.
-  bool sync_period(const std::vector<AppliedCommand>& extra);
-  void apply_due(const std::vector<AppliedCommand>& extra);
-  /// Why it was refused, or empty.
-  std::string apply(const AppliedCommand& command);
-  /// Moves the bodies that have limits on towards what they were told.
-  void apply_limited();
-  void act_on_silence();
+  /// command was refused: then time has not moved, and `refusal` says why.
+  bool sync_period(const std::vector<AppliedCommand>& extra, std::string& refusal);
   void fail(const std::string& reason, int exit_code);
   void end_run();
   void say_closed() const;
@@ -87,9 +74,6 @@ class SimulatorNode {
   bool wait_received(const Step::Request& request, Step::Response& response) const;
   /// Sync periods that a step request asks for; 0 with a problem when it makes no sense.
   std::int64_t periods_of(const Step::Request& request, std::string& problem) const;
-  std::vector<AppliedCommand> commands_of(const Step::Request& request, std::int64_t periods,
-                                          std::string& problem) const;
-  void housekeeping();
 
   // Checkpoints (checkpoint_services.cpp).
   bool on_save_checkpoint(Checkpoint::Request& request, Checkpoint::Response& response);
@@ -98,43 +82,29 @@ class SimulatorNode {
   void load_checkpoint(const std::string& path, Checkpoint::Response& response);
   /// Of a run that goes on from that simulated time [ns].
   Stamps stamps_from(std::int64_t time) const;
-  /// What a checkpoint holds that is the node's.
-  static void keep(mpm::StateArchive& archive, CommandQueue& queue, CommandWatch& watch, CommandLimiter& limiter);
   void leave_failed_state();
 
   ros::NodeHandle node_;
   const NodeParameters parameters_;
   const std::function<bool()> stop_requested_;
   const mpm::Scene scene_;
-  CommandLog log_;
-  std::vector<std::string> bodies_;
-
   NodeHealth health_;
   Mailbox mailbox_;
-  ros::CallbackQueue topic_callbacks_;
-  ros::CallbackQueue service_callbacks_;
   SimClock clock_;
+  BodyCommands commands_;
+  ros::CallbackQueue service_callbacks_;
   std::unique_ptr<Publishers> publishers_;
   std::unique_ptr<Run> run_;
-  std::unique_ptr<CommandQueue> queue_;
-  std::unique_ptr<CommandBridge> bridge_;
-  std::unique_ptr<CommandLimiter> limiter_;
   std::unique_ptr<Pacer> pacer_;
-  CommandWatch watch_;
-  std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
+  std::unique_ptr<NodeDiagnostics> diagnostics_;
   std::vector<ros::ServiceServer> services_;
-  ros::SteadyTimer timer_;
-  std::unique_ptr<ros::AsyncSpinner> topic_spinner_;
   std::unique_ptr<ros::AsyncSpinner> service_spinner_;
 
   int runs_ = 0;
   bool paused_ = false;
   std::string failure_;
   bool record_lost_ = false;  // and said so
-  std::string refusal_;       // of a command of the step that is served
   int exit_code_ = 0;
-  std::mutex housekeeping_;
-  std::chrono::steady_clock::time_point checked_at_;
 };
 
 }  // namespace mpm_ros

@@ -174,9 +174,9 @@ void CommandLimiter::drop(int body) {
   report_[body].behind = report_[body].behind_angle = 0.0;
 }
 
-void CommandLimiter::clear() {
-  goals_.clear();
-  report_.clear();
+void CommandLimiter::take_over(const CommandLimiter& other) {
+  goals_ = other.goals_;
+  report_ = other.report_;
 }
 
 void CommandLimiter::keep(mpm::StateArchive& archive) {

@@ -33,20 +33,13 @@ bool SimulatorNode::on_load_checkpoint(Checkpoint::Request& request, Checkpoint:
   return true;
 }
 
-void SimulatorNode::keep(mpm::StateArchive& archive, CommandQueue& queue, CommandWatch& watch,
-                         CommandLimiter& limiter) {
-  queue.keep(archive);
-  watch.keep(archive);
-  limiter.keep(archive);
-}
-
 void SimulatorNode::save_checkpoint(const std::string& path, Checkpoint::Response& response) {
   response.success = 0;
   try {
     if (path.empty()) throw mpm::CheckpointError("path is empty; name a file, such as run.h5");
     if (!failure_.empty()) throw mpm::CheckpointError("the run has failed and cannot go on: " + failure_);
     const mpm::CheckpointAbout about =
-        run_->save(path, [this](mpm::StateArchive& archive) { keep(archive, *queue_, watch_, *limiter_); });
+        run_->save(path, [this](mpm::StateArchive& archive) { commands_.keep(archive); });
     response.state_hash = hash_text(about.state_hash);
   } catch (const std::exception& error) {
     response.message = error.what();
@@ -103,7 +96,7 @@ void SimulatorNode::leave_failed_state() {
   const std::string path = from_root((folder / (name + "_failed.h5")).string());
   try {
     run_->save(
-        path, [this](mpm::StateArchive& archive) { keep(archive, *queue_, watch_, *limiter_); }, failure_);
+        path, [this](mpm::StateArchive& archive) { commands_.keep(archive); }, failure_);
     ROS_INFO_STREAM("the state of the failure is in " << path);
   } catch (const mpm::Error& error) {
     ROS_ERROR_STREAM(error.what());

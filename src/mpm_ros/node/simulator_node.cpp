@@ -4,14 +4,11 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <thread>
 #include <utility>
 
-#include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/topics.hpp"
-#include "mpm_ros/run/output_names.hpp"
+#include "mpm_ros/node/node_run.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
 
 namespace mpm_ros {
@@ -34,53 +31,18 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
       stop_requested_(std::move(stop_requested)),
       scene_(mpm::load_scene(parameters.scene, parameters.set)),
       clock_(node_, parameters.publish_clock, parameters.clock_rate),
-      watch_(std::llround(parameters.command_timeout * 1e9)),
+      commands_(node_, scene_, parameters_, health_),
       paused_(parameters.start_paused) {
-  if (!parameters_.commands.empty()) log_ = read_commands(parameters_.commands);
-  if (const std::string problem = problem_of(run_options().output.particles); !problem.empty()) {
-    throw ParameterError(fmt::format("parameter ~particle_fields, ~particle_stride or ~particle_region: {}", problem));
-  }
-  const std::string bag = run_options().bag;
-  std::error_code ignored;
-  for (const std::string& part : parts_of(parameters_.commands)) {
-    if (std::filesystem::equivalent(bag, part, ignored))
-      throw ParameterError(fmt::format("parameter ~record: {} is the bag of ~commands; choose another name", bag));
-  }
-  if (!parameters_.resume.empty() && std::filesystem::exists(bag, ignored))
-    throw ParameterError(fmt::format("parameter ~record: {} holds the run so far; choose another name", bag));
-  for (const mpm::RigidBodyDefinition& body : scene_.definition.rigid_bodies) bodies_.push_back(body.name);
-  std::vector<std::string> frames;
-  std::vector<mpm::MotionLimits> limits;
-  for (const mpm::CommandDefinition& commanded : scene_.commands) {
-    frames.push_back(commanded.frame);
-    // What was recorded is within them already.
-    if (log_.empty()) limits.push_back(commanded.limits);
-  }
-  limiter_ = std::make_unique<CommandLimiter>(std::move(limits), health_);
-
-  if (parameters_.reset_time == ResetTime::zero && !ros::Time::isSimTime()) {
-    throw ParameterError(
-        "parameter ~reset_time is zero, but /use_sim_time is not set: the wall's clock cannot be set back");
-  }
-
+  check(parameters_, run_options(scene_, parameters_, 1, node_.getNamespace()));
   ros::NodeHandle services(node_);
   services.setCallbackQueue(&service_callbacks_);
-  ros::NodeHandle commands(node_);
-  commands.setCallbackQueue(&topic_callbacks_);
-
-  publishers_ =
-      std::make_unique<Publishers>(services, bodies_, parameters_.wrench_cutoff > 0.0, !scene_.output.global.empty());
-  queue_ = std::make_unique<CommandQueue>(scene_.definition.time.sync);
+  publishers_ = std::make_unique<Publishers>(services, commands_.bodies(), parameters_.wrench_cutoff > 0.0,
+                                             !scene_.output.global.empty());
   start_run(parameters_.resume.empty() ? first_stamps() : stamps_from(mpm::read_checkpoint(parameters_.resume).time),
             parameters_.resume);
   for (const std::string& warning : run_->simulation().warnings()) ROS_WARN_STREAM(warning);
   for (const std::string& note : run_->simulation().notes()) ROS_INFO_STREAM(note);
   pacer_ = std::make_unique<Pacer>(run_->simulation().sync_period(), parameters_.real_time_factor);
-  // A run that replays recorded commands listens to nobody else.
-  if (log_.empty()) {
-    bridge_ = std::make_unique<CommandBridge>(commands, bodies_, frames, parameters_.world_frame, *queue_, health_);
-    bridge_->reader().set_stamps(run_->stamps());
-  }
 
   services_.push_back(services.advertiseService(topics::kPause, &SimulatorNode::on_pause, this));
   services_.push_back(services.advertiseService(topics::kReset, &SimulatorNode::on_reset, this));
@@ -88,52 +50,17 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   services_.push_back(services.advertiseService(topics::kSaveCheckpoint, &SimulatorNode::on_save_checkpoint, this));
   services_.push_back(services.advertiseService(topics::kLoadCheckpoint, &SimulatorNode::on_load_checkpoint, this));
 
-  diagnostics_ = std::make_unique<diagnostic_updater::Updater>(services);
-  diagnostics_->setHardwareID("none");
-  diagnostics_->add("commands", [this](diagnostic_updater::DiagnosticStatusWrapper& s) { health_.fill_commands(s); });
-  diagnostics_->add("solver", [this](diagnostic_updater::DiagnosticStatusWrapper& s) { health_.fill_solver(s); });
-  timer_ = services.createSteadyTimer(ros::WallDuration(0.1), [this](const ros::SteadyTimerEvent&) { housekeeping(); });
-
-  topic_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &topic_callbacks_);
+  diagnostics_ = std::make_unique<NodeDiagnostics>(services, health_, [this] { commands_.find_strangers(); });
   service_spinner_ = std::make_unique<ros::AsyncSpinner>(kServiceThreads, &service_callbacks_);
-  topic_spinner_->start();
+  commands_.listen();
   service_spinner_->start();
 }
 
 SimulatorNode::~SimulatorNode() {
   mailbox_.close();
-  timer_.stop();
-  if (topic_spinner_) topic_spinner_->stop();
+  if (diagnostics_) diagnostics_->stop();
+  commands_.stop_listening();
   if (service_spinner_) service_spinner_->stop();
-}
-
-RunOptions SimulatorNode::run_options() const {
-  RunOptions options;
-  options.threads = parameters_.threads;
-  options.isa = parameters_.isa;
-  options.output = output_options(scene_);
-  if (parameters_.particle_rate) options.output.particle_period = 1.0 / *parameters_.particle_rate;
-  if (parameters_.particle_first) options.output.particle_first = *parameters_.particle_first;
-  if (parameters_.particle_fields) options.output.particles.fields = *parameters_.particle_fields;
-  if (parameters_.particle_stride) options.output.particles.choice.stride = *parameters_.particle_stride;
-  if (parameters_.particle_region) options.output.particles.choice.region = *parameters_.particle_region;
-  if (parameters_.wrench_rate > 0.0) options.output.wrench_period = 1.0 / parameters_.wrench_rate;
-  options.output.wrench_cutoff = parameters_.wrench_cutoff;
-  options.output.world_frame = parameters_.world_frame;
-  for (const mpm::CommandDefinition& commanded : scene_.commands) options.output.others.push_back(commanded.frame);
-  options.output.force_scale = parameters_.force_scale;
-  options.output.state_hash = parameters_.state_hash;
-  if (!parameters_.record.empty())
-    options.bag = bag_path(parameters_.record, scene_.definition.name, runs_ + 1, parameters_.record_folder);
-  options.bag_options.topics_below = node_.getNamespace();
-  options.bag_options.compression = parameters_.record_compression;
-  constexpr double kMegabyte = 1e6;
-  options.bag_options.split_size =
-      static_cast<std::uint64_t>(std::min(parameters_.record_split_size * kMegabyte, 1e15));
-  options.bag_options.split_duration = std::llround(std::min(parameters_.record_split_duration, 1e9) * 1e9);
-  options.bag_options.required = parameters_.record_required;
-  options.parameters = parameters_.text;
-  return options;
 }
 
 Stamps SimulatorNode::first_stamps() const {
@@ -143,14 +70,11 @@ Stamps SimulatorNode::first_stamps() const {
 }
 
 void SimulatorNode::start_run(const Stamps& stamps, const std::string& resume) {
-  RunOptions options = run_options();
-  CommandQueue queue(queue_->sync_period());
-  CommandWatch watch(std::llround(parameters_.command_timeout * 1e9));
-  auto limiter = std::make_unique<CommandLimiter>(*limiter_);
-  limiter->clear();
+  RunOptions options = run_options(scene_, parameters_, runs_ + 1, node_.getNamespace());
+  CommandMemory memory = commands_.fresh_memory();
   if (!resume.empty()) {
     resume_from(resume, options);
-    options.more = [&](mpm::StateArchive& archive) { keep(archive, queue, watch, *limiter); };
+    options.more = [&](mpm::StateArchive& archive) { memory.keep(archive); };
   }
   auto run = std::make_unique<Run>(scene_, options, stamps, publishers_.get());
   if (run_) end_run();
@@ -160,13 +84,7 @@ void SimulatorNode::start_run(const Stamps& stamps, const std::string& resume) {
   if (const BagRecorder* recorder = run_->recorder()) {
     ROS_INFO_STREAM("recording to " << recorder->path() << (recorder->replaced() ? ", which is replaced" : ""));
   }
-  // First: what is being read by the old stamps then comes before it, and goes.
-  if (bridge_) bridge_->reader().set_stamps(run_->stamps());
-  queue_->take_over(queue);
-  log_.skip_to(run_->simulation().time());
-  watch_ = watch;
-  limiter_ = std::move(limiter);
-  if (bridge_) bridge_->follower().clear();
+  commands_.begin(*run_, memory);
   health_.restart();
   failure_.clear();
   clock_.restart();
@@ -193,6 +111,7 @@ void SimulatorNode::begin_run() {
 
 int SimulatorNode::spin() {
   begin_run();
+  std::string ignored;  // nothing is asked for that could be refused
   while (!stop_requested_()) {
     const Phase now = phase();
     if (now == Phase::failed || (now == Phase::ended && !parameters_.keep_alive)) break;
@@ -201,7 +120,7 @@ int SimulatorNode::spin() {
       continue;
     }
     mailbox_.run_until(Pacer::Clock::now());
-    if (phase() != Phase::running || !sync_period({}) || parameters_.pacing != Pacing::real_time) continue;
+    if (phase() != Phase::running || !sync_period({}, ignored) || parameters_.pacing != Pacing::real_time) continue;
     const Pacer::Clock::time_point due = pacer_->next(Pacer::Clock::now());
     while (Pacer::Clock::now() < due && phase() == Phase::running && !stop_requested_()) {
       mailbox_.run_until(std::min(due, Pacer::Clock::now() + kGlance));
@@ -213,10 +132,12 @@ int SimulatorNode::spin() {
   return exit_code_;
 }
 
-bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra) {
+bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra, std::string& refusal) {
   try {
-    apply_due(extra);
-    if (!failure_.empty() || !refusal_.empty()) return false;
+    const BodyCommands::Outcome outcome = commands_.apply_due(*run_, extra);
+    refusal = outcome.refusal;
+    if (!outcome.silence.empty()) fail(outcome.silence, 3);
+    if (!failure_.empty() || !refusal.empty()) return false;
     count_commands();
     run_->advance();
     tell_clock(run_->ended());
@@ -268,7 +189,7 @@ void SimulatorNode::end_run() {
 }
 
 void SimulatorNode::count_commands() {
-  const LateCommands late = queue_->late();
+  const LateCommands late = commands_.late();
   run_->count_commands(late.unstamped + late.past, health_.refused());
   run_->count_overruns(pacer_->overruns());
 }
@@ -314,21 +235,8 @@ void SimulatorNode::report() {
   solver.returned = state.particles_returned;
   health_.set_solver(solver);
 
-  const LateCommands late = queue_->late();
-  health_.set_commands({late.unstamped, late.past, queue_->waiting()});
-}
-
-void SimulatorNode::housekeeping() {
-  // Once a second, and at once when there is news. Runs on the steady clock: simulated time may stand still.
-  const std::unique_lock<std::mutex> lock(housekeeping_, std::try_to_lock);
-  if (!lock) return;
-  const auto now = std::chrono::steady_clock::now();
-  const bool due = now - checked_at_ >= std::chrono::seconds(1);
-  if (due) {
-    checked_at_ = now;
-    if (bridge_) bridge_->find_strangers();
-  }
-  if (health_.take_news() || due) diagnostics_->force_update();
+  const LateCommands late = commands_.late();
+  health_.set_commands({late.unstamped, late.past, commands_.waiting()});
 }
 
 }  // namespace mpm_ros

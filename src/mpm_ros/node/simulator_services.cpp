@@ -70,7 +70,7 @@ void SimulatorNode::reset(std_srvs::Trigger::Response& response) {
     response.message = error.what();
     return;
   }
-  if (bridge_ && parameters_.reset_time == ResetTime::zero) bridge_->forget_frames();
+  if (parameters_.reset_time == ResetTime::zero) commands_.forget_frames();
   begin_run();
   response.success = failure_.empty() ? 1 : 0;
   response.message = failure_.empty() ? fmt::format("run {}: simulated time is zero again, at stamp {}.{:09d}", runs_,
@@ -81,14 +81,14 @@ void SimulatorNode::reset(std_srvs::Trigger::Response& response) {
 bool SimulatorNode::wait_received(const Step::Request& request, Step::Response& response) const {
   if (request.after_received == 0) return true;
   response.success = 0;
-  if (!bridge_) {
+  if (commands_.replays()) {
     response.message = "recorded commands are being replayed (~commands); others are not received";
     return false;
   }
   for (auto waited = std::chrono::milliseconds(0); waited < kPatience && !stop_requested_(); waited += kPoll) {
-    if (bridge_->reader().wait_received(request.after_received, kPoll)) return true;
+    if (commands_.wait_received(request.after_received, kPoll)) return true;
   }
-  response.received = bridge_->reader().received();
+  response.received = commands_.received();
   response.message =
       fmt::format("waited {} s for {} messages on command topics; {} have come",
                   std::chrono::duration<double>(kPatience).count(), request.after_received, response.received);
@@ -106,40 +106,13 @@ std::int64_t SimulatorNode::periods_of(const Step::Request& request, std::string
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(periods - 1e-6)));
 }
 
-std::vector<AppliedCommand> SimulatorNode::commands_of(const Step::Request& request, std::int64_t periods,
-                                                       std::string& problem) const {
-  std::vector<AppliedCommand> commands;
-  if (!request.commands.empty() && !bridge_) {
-    problem = "recorded commands are being replayed (~commands); others are not taken";
-    return commands;
-  }
-  const std::int64_t now = run_->simulation().time();
-  const std::int64_t sync = run_->simulation().sync_period();
-  for (const mpm_ros::Command& message : request.commands) {
-    DueCommand due;
-    due.command = bridge_->reader().read(message, problem);
-    if (!problem.empty()) return commands;
-    if (due.command.kind == CommandKind::pose) {
-      const std::int64_t arrival = due.command.stamp.value_or(now + periods * sync);
-      if (arrival <= now) {
-        problem = fmt::format("the command for '{}': its arrival is not after the present, {:.9f} s", message.body,
-                              static_cast<double>(now) * 1e-9);
-        return commands;
-      }
-      due.arrival = (arrival + sync - 1) / sync * sync;
-    }
-    commands.push_back(in_world(due, run_->simulation().bodies(), now));
-  }
-  return commands;
-}
-
 void SimulatorNode::step(const Step::Request& request, Step::Response& response) {
   response.success = 0;
   response.message.clear();
   response.stamp = run_->outputs().stamp();
   response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
   response.bodies = run_->outputs().body_states();
-  if (bridge_) response.received = bridge_->reader().received();
+  response.received = commands_.received();
 
   std::string problem;
   const Phase now = phase();
@@ -155,7 +128,7 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
   std::int64_t periods = 0;
   std::vector<AppliedCommand> commands;
   if (problem.empty()) periods = periods_of(request, problem);
-  if (problem.empty()) commands = commands_of(request, periods, problem);
+  if (problem.empty()) commands = commands_.read(request.commands, periods, *run_, problem);
   if (!problem.empty()) {
     response.message = problem;
     if (!request.commands.empty()) health_.refuse("a step request: " + problem);
@@ -163,17 +136,17 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
   }
 
   // What comes on topics from here on waits for the next step: where it took effect would depend on when it came.
-  queue_->hold();
-  refusal_.clear();
+  commands_.hold();
+  std::string refusal;
   ContactAverage contacts;
   run_->resume_clock();
   const std::int64_t end = run_->simulation().time() + periods * run_->simulation().sync_period();
   for (std::int64_t period = 0; period < periods && !run_->ended() && !stop_requested_(); ++period) {
-    if (!sync_period(period == 0 ? commands : std::vector<AppliedCommand>())) break;
+    if (!sync_period(period == 0 ? commands : std::vector<AppliedCommand>(), refusal)) break;
     contacts.add(run_->outputs().contacts());
   }
-  queue_->release();
-  response.message = failure_.empty() ? std::exchange(refusal_, {}) : failure_;
+  commands_.release();
+  response.message = failure_.empty() ? refusal : failure_;
   if (response.message.empty() && !run_->ended() && run_->simulation().time() < end) response.message = kEnding;
   response.success = response.message.empty() ? 1 : 0;
   if (response.message.empty() && run_->ended()) response.message = "the run has ended";

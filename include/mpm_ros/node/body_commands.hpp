@@ -1,0 +1,106 @@
+// Commands to the rigid bodies of the node's run, from where they come to the run: topics and tf frames, requests of
+// the service `step`, or a recording that is replayed in place of all three. They wait in a queue for their sync point;
+// there they are checked, kept within the body's limits and applied, and a body that hears no more is noticed.
+//
+//   topics ─► CommandBridge ─► CommandQueue ─┐
+//   step request ────────────────────────────┼─► CommandLimiter ─► Run::apply
+//   recording ─► CommandLog ─────────────────┘        CommandWatch: silence
+//
+// Topics are heard by a thread of its own; all else is for the thread that the run belongs to, but for what says so.
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mpm/scene/scene.hpp"
+#include "mpm_ros/command/command_bridge.hpp"
+#include "mpm_ros/command/command_limiter.hpp"
+#include "mpm_ros/command/command_log.hpp"
+#include "mpm_ros/command/command_queue.hpp"
+#include "mpm_ros/command/command_watch.hpp"
+#include "mpm_ros/message/node_health.hpp"
+#include "mpm_ros/node/node_parameters.hpp"
+#include "mpm_ros/run/run.hpp"
+
+namespace mpm_ros {
+
+/// What the commands to a run remember from sync point to sync point; checkpoints hold it.
+struct CommandMemory {
+  CommandQueue queue;
+  CommandWatch watch;
+  CommandLimiter limiter;
+  void keep(mpm::StateArchive& archive);
+};
+
+class BodyCommands {
+ public:
+  /// Subscribes, unless a recording is replayed; nothing is heard before listen(). The references must outlive it.
+  /// @throws BagError when the recording cannot be read
+  BodyCommands(ros::NodeHandle node, const mpm::Scene& scene, const NodeParameters& parameters, NodeHealth& health);
+
+  void listen();
+  void stop_listening();
+
+  /// For a run that is about to begin.
+  CommandMemory fresh_memory() const;
+  /// The run begins, or goes on from a checkpoint, with this memory. What came for the run before it is forgotten.
+  void begin(const Run& run, const CommandMemory& memory);
+  /// For checkpoints.
+  void keep(mpm::StateArchive& archive) { memory_.keep(archive); }
+
+  /// At a sync point. `refusal`: why one of `extra` was refused; those after it were not applied. `silence`: why the
+  /// run ends, with on_timeout error.
+  struct Outcome {
+    std::string refusal, silence;
+  };
+  /// Applies what is due, then `extra`, then what moves limited bodies. @throws ParameterError when a recorded command
+  /// does not fit the scene
+  Outcome apply_due(Run& run, const std::vector<AppliedCommand>& extra);
+
+  /// The commands of a request for a step of so many sync periods. `problem`: why they cannot be taken.
+  std::vector<AppliedCommand> read(const std::vector<Command>& requested, std::int64_t periods, const Run& run,
+                                   std::string& problem) const;
+  /// From hold() on, what comes on topics waits for release().
+  void hold() { memory_.queue.hold(); }
+  void release() { memory_.queue.release(); }
+  const std::vector<std::string>& bodies() const { return bodies_; }
+  /// A recording is replayed, and nothing else taken.
+  bool replays() const { return bridge_ == nullptr; }
+  /// Messages on topics so far, refused ones too. Any thread.
+  std::uint64_t received() const { return replays() ? 0 : bridge_->reader().received(); }
+  /// Waits until so many have come, for `patience` at most. Any thread but that which hears topics; not of a replay.
+  bool wait_received(std::uint64_t count, std::chrono::milliseconds patience) const;
+
+  /// Those that came late so far.
+  LateCommands late() const { return memory_.queue.late(); }
+  std::size_t waiting() const { return memory_.queue.waiting(); }
+  /// The clock was set back: moving tf frames are forgotten.
+  void forget_frames();
+  /// Refuses topics of bodies that the scene does not have. Any thread.
+  void find_strangers();
+
+ private:
+  std::string apply(Run& run, const AppliedCommand& command);
+  void apply_limited(Run& run);
+  std::string act_on_silence(Run& run);
+
+  const NodeParameters& parameters_;
+  NodeHealth& health_;
+  const std::int64_t sync_period_;  // [ns]
+  std::vector<std::string> bodies_;
+  CommandLog log_;
+  std::vector<mpm::MotionLimits> limits_;
+  CommandMemory memory_;
+  ros::CallbackQueue callbacks_;
+  std::unique_ptr<CommandBridge> bridge_;  // none of a replay
+  std::unique_ptr<ros::AsyncSpinner> spinner_;
+};
+
+}  // namespace mpm_ros

@@ -1,0 +1,20 @@
+// How the node's parameters say that a run of its scene is made.
+#pragma once
+
+#include <string>
+
+#include "mpm/scene/scene.hpp"
+#include "mpm_ros/node/node_parameters.hpp"
+#include "mpm_ros/run/run.hpp"
+
+namespace mpm_ros {
+
+/// `number`: of the run, from 1; it names the bag. `topics_below`: namespace of the topics in it.
+RunOptions run_options(const mpm::Scene& scene, const NodeParameters& parameters, int number,
+                       const std::string& topics_below);
+
+/// What only both together show: no recording over what is read, particle fields that there are, a clock that can be
+/// set back. @throws ParameterError
+void check(const NodeParameters& parameters, const RunOptions& options);
+
+}  // namespace mpm_ros

@@ -1,0 +1,208 @@
+#include "mpm_ros/node/body_commands.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace mpm_ros {
+
+namespace {
+
+const char* drive_text(mpm::Drive drive) {
+  switch (drive) {
+    case mpm::Drive::velocity:
+      return "commanded velocities";
+    case mpm::Drive::pose:
+      return "commanded poses";
+    default:
+      return "the scene's functions of time";
+  }
+}
+
+/// In diagnostics: motions and wrenches of a body come from controllers of their own.
+std::string follower_name(const std::string& body, bool wrench) { return wrench ? body + " (wrench)" : body; }
+
+std::vector<std::string> names_of(const mpm::Scene& scene) {
+  std::vector<std::string> names;
+  for (const mpm::RigidBodyDefinition& body : scene.definition.rigid_bodies) names.push_back(body.name);
+  return names;
+}
+
+std::vector<mpm::MotionLimits> limits_of(const mpm::Scene& scene) {
+  std::vector<mpm::MotionLimits> limits;
+  for (const mpm::CommandDefinition& commanded : scene.commands) limits.push_back(commanded.limits);
+  return limits;
+}
+
+}  // namespace
+
+void CommandMemory::keep(mpm::StateArchive& archive) {
+  queue.keep(archive);
+  watch.keep(archive);
+  limiter.keep(archive);
+}
+
+BodyCommands::BodyCommands(ros::NodeHandle node, const mpm::Scene& scene, const NodeParameters& parameters,
+                           NodeHealth& health)
+    : parameters_(parameters),
+      health_(health),
+      sync_period_(scene.definition.time.sync),
+      bodies_(names_of(scene)),
+      log_(parameters.commands.empty() ? CommandLog() : read_commands(parameters.commands)),
+      // What was recorded is within the limits already.
+      limits_(log_.empty() ? limits_of(scene) : std::vector<mpm::MotionLimits>()),
+      memory_(fresh_memory()) {
+  if (!log_.empty()) return;
+  std::vector<std::string> frames;
+  for (const mpm::CommandDefinition& commanded : scene.commands) frames.push_back(commanded.frame);
+  node.setCallbackQueue(&callbacks_);
+  bridge_ = std::make_unique<CommandBridge>(node, bodies_, frames, parameters.world_frame, memory_.queue, health_);
+}
+
+void BodyCommands::listen() {
+  spinner_ = std::make_unique<ros::AsyncSpinner>(1, &callbacks_);
+  spinner_->start();
+}
+
+void BodyCommands::stop_listening() {
+  if (spinner_) spinner_->stop();
+}
+
+CommandMemory BodyCommands::fresh_memory() const {
+  return {CommandQueue(sync_period_), CommandWatch(std::llround(parameters_.command_timeout * 1e9)),
+          CommandLimiter(limits_, health_)};
+}
+
+void BodyCommands::begin(const Run& run, const CommandMemory& memory) {
+  // First: what is being read by the old stamps then comes before it, and goes.
+  if (bridge_) bridge_->reader().set_stamps(run.stamps());
+  memory_.queue.take_over(memory.queue);
+  memory_.watch = memory.watch;
+  memory_.limiter.take_over(memory.limiter);
+  log_.skip_to(run.simulation().time());
+  if (bridge_) bridge_->follower().clear();
+}
+
+BodyCommands::Outcome BodyCommands::apply_due(Run& run, const std::vector<AppliedCommand>& extra) {
+  if (replays()) {
+    try {
+      for (const AppliedCommand& command : log_.take(run.simulation())) apply(run, command);
+    } catch (const BagError& error) {
+      throw ParameterError(fmt::format("parameter ~commands, {}: {}", parameters_.commands, error.what()));
+    }
+    return {};
+  }
+  const std::int64_t now = run.simulation().time();
+  bridge_->follower().look(run.stamps().at(now + sync_period_));
+  for (const DueCommand& due : memory_.queue.take(now)) apply(run, in_world(due, run.simulation().bodies(), now));
+  for (const AppliedCommand& command : extra) {
+    if (const std::string refusal = apply(run, command); !refusal.empty()) return {refusal, {}};
+  }
+  if (const std::string silence = act_on_silence(run); !silence.empty()) return {{}, silence};
+  apply_limited(run);
+  return {};
+}
+
+void BodyCommands::apply_limited(Run& run) {
+  for (const AppliedCommand& command : memory_.limiter.next(run.simulation())) {
+    try {
+      run.apply(command);
+    } catch (const mpm::RigidError& error) {
+      memory_.limiter.drop(command.body);
+      health_.refuse(fmt::format("a command for '{}': {}", bodies_[command.body], error.what()));
+    }
+  }
+}
+
+/// Why it was refused, or empty.
+std::string BodyCommands::apply(Run& run, const AppliedCommand& command) {
+  const mpm::RigidBody& body = run.simulation().rigid_body(command.body);
+  const mpm::Drive before = body.drive();
+  mpm::Drive after = static_cast<mpm::Drive>(command.kind);
+  try {
+    if (!memory_.limiter.take(command, run.simulation())) {
+      const std::string jump = jump_of(command, run.simulation());
+      run.apply(command);
+      after = body.drive();
+      if (!jump.empty()) health_.jump(jump);
+    }
+  } catch (const mpm::RigidError& error) {
+    const std::string reason = fmt::format("a command for '{}': {}", body.name(), error.what());
+    health_.refuse(reason);
+    return reason;
+  }
+  memory_.watch.heard(command);
+  health_.follow(follower_name(body.name(), command.kind == CommandKind::wrench),
+                 static_cast<double>(command.effect) * 1e-9);
+  if (after != before) {
+    health_.change(fmt::format("{} follows {} from {:.6f} s on, no longer {}", body.name(), drive_text(after),
+                               static_cast<double>(command.effect) * 1e-9, drive_text(before)));
+  }
+  return {};
+}
+
+/// Why the run ends, or empty.
+std::string BodyCommands::act_on_silence(Run& run) {
+  const std::int64_t now = run.simulation().time();
+  for (const Silence& silent : memory_.watch.silent(now)) {
+    const std::string follower = follower_name(bodies_[silent.body], silent.wrench);
+    const std::string silence =
+        fmt::format("no {} for '{}' in the {:g} s (simulated) before {:.6f} s", silent.wrench ? "wrench" : "command",
+                    bodies_[silent.body], parameters_.command_timeout, static_cast<double>(now) * 1e-9);
+    if (parameters_.on_timeout == OnTimeout::error) {
+      return silence + "; ~on_timeout is error";
+    }
+    if (parameters_.on_timeout == OnTimeout::stop) {
+      for (const AppliedCommand& stop : stop_commands(silent.body, run.simulation())) {
+        if ((stop.kind == CommandKind::wrench) != silent.wrench) continue;
+        if (!memory_.limiter.take(stop, run.simulation())) run.apply(stop);
+      }
+      health_.time_out(follower, silence + (silent.wrench ? ": nothing pushes it any more" : ": it stands still"));
+    } else {
+      health_.time_out(follower, silence + ": it goes on as it was told last");
+    }
+  }
+  return {};
+}
+
+std::vector<AppliedCommand> BodyCommands::read(const std::vector<Command>& requested, std::int64_t periods,
+                                               const Run& run, std::string& problem) const {
+  std::vector<AppliedCommand> commands;
+  if (!requested.empty() && replays()) {
+    problem = "recorded commands are being replayed (~commands); others are not taken";
+    return commands;
+  }
+  const std::int64_t now = run.simulation().time();
+  const std::int64_t sync = run.simulation().sync_period();
+  for (const mpm_ros::Command& message : requested) {
+    DueCommand due;
+    due.command = bridge_->reader().read(message, problem);
+    if (!problem.empty()) return commands;
+    if (due.command.kind == CommandKind::pose) {
+      const std::int64_t arrival = due.command.stamp.value_or(now + periods * sync);
+      if (arrival <= now) {
+        problem = fmt::format("the command for '{}': its arrival is not after the present, {:.9f} s", message.body,
+                              static_cast<double>(now) * 1e-9);
+        return commands;
+      }
+      due.arrival = (arrival + sync - 1) / sync * sync;
+    }
+    commands.push_back(in_world(due, run.simulation().bodies(), now));
+  }
+  return commands;
+}
+
+bool BodyCommands::wait_received(std::uint64_t count, std::chrono::milliseconds patience) const {
+  return bridge_->reader().wait_received(count, patience);
+}
+
+void BodyCommands::forget_frames() {
+  if (bridge_) bridge_->forget_frames();
+}
+
+void BodyCommands::find_strangers() {
+  if (bridge_) bridge_->find_strangers();
+}
+
+}  // namespace mpm_ros

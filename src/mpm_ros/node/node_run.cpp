@@ -1,0 +1,62 @@
+#include "mpm_ros/node/node_run.hpp"
+
+#include <fmt/format.h>
+#include <ros/time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "mpm_ros/message/bag_parts.hpp"
+#include "mpm_ros/run/output_names.hpp"
+
+namespace mpm_ros {
+
+RunOptions run_options(const mpm::Scene& scene, const NodeParameters& parameters, int number,
+                       const std::string& topics_below) {
+  RunOptions options;
+  options.threads = parameters.threads;
+  options.isa = parameters.isa;
+  options.output = output_options(scene);
+  if (parameters.particle_rate) options.output.particle_period = 1.0 / *parameters.particle_rate;
+  if (parameters.particle_first) options.output.particle_first = *parameters.particle_first;
+  if (parameters.particle_fields) options.output.particles.fields = *parameters.particle_fields;
+  if (parameters.particle_stride) options.output.particles.choice.stride = *parameters.particle_stride;
+  if (parameters.particle_region) options.output.particles.choice.region = *parameters.particle_region;
+  if (parameters.wrench_rate > 0.0) options.output.wrench_period = 1.0 / parameters.wrench_rate;
+  options.output.wrench_cutoff = parameters.wrench_cutoff;
+  options.output.world_frame = parameters.world_frame;
+  for (const mpm::CommandDefinition& commanded : scene.commands) options.output.others.push_back(commanded.frame);
+  options.output.force_scale = parameters.force_scale;
+  options.output.state_hash = parameters.state_hash;
+  if (!parameters.record.empty())
+    options.bag = bag_path(parameters.record, scene.definition.name, number, parameters.record_folder);
+  options.bag_options.topics_below = topics_below;
+  options.bag_options.compression = parameters.record_compression;
+  constexpr double kMegabyte = 1e6;
+  options.bag_options.split_size = static_cast<std::uint64_t>(std::min(parameters.record_split_size * kMegabyte, 1e15));
+  options.bag_options.split_duration = std::llround(std::min(parameters.record_split_duration, 1e9) * 1e9);
+  options.bag_options.required = parameters.record_required;
+  options.parameters = parameters.text;
+  return options;
+}
+
+void check(const NodeParameters& parameters, const RunOptions& options) {
+  if (const std::string problem = problem_of(options.output.particles); !problem.empty()) {
+    throw ParameterError(fmt::format("parameter ~particle_fields, ~particle_stride or ~particle_region: {}", problem));
+  }
+  std::error_code ignored;
+  for (const std::string& part : parts_of(parameters.commands)) {
+    if (std::filesystem::equivalent(options.bag, part, ignored))
+      throw ParameterError(
+          fmt::format("parameter ~record: {} is the bag of ~commands; choose another name", options.bag));
+  }
+  if (!parameters.resume.empty() && std::filesystem::exists(options.bag, ignored))
+    throw ParameterError(fmt::format("parameter ~record: {} holds the run so far; choose another name", options.bag));
+  if (parameters.reset_time == ResetTime::zero && !ros::Time::isSimTime()) {
+    throw ParameterError(
+        "parameter ~reset_time is zero, but /use_sim_time is not set: the wall's clock cannot be set back");
+  }
+}
+
+}  // namespace mpm_ros

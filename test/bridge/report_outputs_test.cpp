@@ -142,6 +142,29 @@ TEST_F(ReportOutputs, TellOfAreaFrictionAndPairs) {
   }
 }
 
+// Numbers that no list describes come from modules of the solver, by names of their own.
+TEST_F(ReportOutputs, TellOfNumbersByNamesOfTheirOwn) {
+  HalfSineRun run;
+  run.on_state = [](int i, SolverState& message) {
+    message.values.resize(1);
+    message.values[0].name = "heat";
+    message.values[0].unit = "J";
+    message.values[0].value = {0.5 * i};
+    return true;
+  };
+  ReportOptions options;
+  options.bags = {bag_of(run)};
+  options.json = "-";
+  options.csv = in_folder("tables");
+  EXPECT_EQ(json::parse(text_of(options)).at("energy").at("end").at("heat"), 50.5);
+  std::ifstream table(in_folder("tables/solver_state.csv"));
+  std::string header;
+  std::getline(table, header);
+  EXPECT_TRUE(contains(header, ",heat [J],")) << header;
+  options.json.clear();
+  EXPECT_TRUE(contains(text_of(options), "  heat "));
+}
+
 TEST_F(ReportOutputs, SayNothingOfPairsWhereThereAreNone) {
   ReportOptions options;
   options.bags = {bag_of({})};

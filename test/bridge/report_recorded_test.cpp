@@ -170,8 +170,8 @@ TEST_F(ReportRecorded, ThePythonOfTheDocumentationReadsABag) {
   RunStatistics statistics;
   run.read({&statistics});
   for (const BodyStatistics& body : statistics.body_statistics()) {
-    const std::string line = fmt::format("{} peak {:.4g} N at {:.4g} s", body.name, body.force.norm,
-                                         static_cast<double>(body.force.time) / 1e9);
+    const std::string line = fmt::format("{} peak {:.4g} N at {:.4g} s", body.name, body.of("force").peak.norm,
+                                         static_cast<double>(body.of("force").peak.time) / 1e9);
     EXPECT_NE(printed.find(line), std::string::npos) << line << "\nis not in\n" << printed;
   }
   std::size_t snapshots = 0;

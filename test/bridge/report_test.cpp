@@ -79,18 +79,18 @@ TEST_F(ReportTest, PeakIsTheMeanOverTheMiddleInterval) {
   const double h = HalfSineRun::kStep;
   const double width = HalfSineRun::kDuration;
   const double expected = HalfSineRun::kAmplitude * 2.0 * width / (kPi * h) * std::sin(kPi * h / (2.0 * width));
-  EXPECT_NEAR(tool.force.norm, expected, 1e-10 * expected);  // difference of impulses, divided by 1e-3 s
-  EXPECT_EQ(tool.force.time, 51000000);                      // the end of the 51st of 101 intervals
-  EXPECT_NEAR(tool.step_force.norm, 2.0 * expected, 1e-10 * expected);
-  EXPECT_NEAR(tool.torque.norm, 0.1 * expected, 1e-10 * expected);
+  EXPECT_NEAR(tool.of("force").peak.norm, expected, 1e-10 * expected);  // difference of impulses, divided by 1e-3 s
+  EXPECT_EQ(tool.of("force").peak.time, 51000000);                      // the end of the 51st of 101 intervals
+  EXPECT_NEAR(tool.of("peak force").peak.norm, 2.0 * expected, 1e-10 * expected);
+  EXPECT_NEAR(tool.of("torque").peak.norm, 0.1 * expected, 1e-10 * expected);
   EXPECT_EQ(statistics.peak_time(), 51000000);
 }
 
 TEST_F(ReportTest, ImpulseAndMeanOfAHalfSine) {
   const BodyStatistics tool = statistics_of({}).body_statistics().at(0);
   const double impulse = 2.0 * HalfSineRun::kAmplitude * HalfSineRun::kDuration / kPi;  // the integral of a half sine
-  EXPECT_NEAR(tool.impulse.x(), impulse, kRoundOff * impulse);
-  EXPECT_NEAR(tool.force_integral.x(), impulse, kRoundOff * impulse);
+  EXPECT_NEAR(tool.of("impulse").end.x(), impulse, kRoundOff * impulse);
+  EXPECT_NEAR(tool.of("force").integral.x(), impulse, kRoundOff * impulse);
   EXPECT_NEAR(tool.duration, HalfSineRun::kDuration, kRoundOff);
   EXPECT_EQ(tool.contact, std::make_pair(std::int64_t{1000000}, std::int64_t{101000000}));
 }

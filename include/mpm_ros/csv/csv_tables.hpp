@@ -3,6 +3,10 @@
 // snapshots) and particles_NNNN.csv. doc/analysis.md lists the columns. Each table's columns are set by its first row.
 #pragma once
 
+#include <mpm_ros/ContactForce.h>
+#include <mpm_ros/ContactPair.h>
+#include <mpm_ros/SolverState.h>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,15 +17,14 @@
 
 namespace mpm_ros {
 
-/// contact_forces.csv: wrench, peak, impulse, interval, nodes, pressing force, friction, centre of pressure, area and
-/// energy of friction of each body; in axisymmetric scenes the force per radian too.
+/// contact_forces.csv: contact_quantities() of each body.
 class ContactForcesCsv {
  public:
   ContactForcesCsv(const std::string& folder, bool axisymmetric)
       : path_(folder + "/contact_forces.csv"), axisymmetric_(axisymmetric) {}
   /// `time` [s] is the end of the interval; the bodies and their order are those of the first row.
   /// @throws CsvError
-  void add(double time, const std::vector<mpm::ContactReport>& bodies);
+  void add(double time, const std::vector<ContactForce>& bodies);
   void close();
 
  private:
@@ -30,12 +33,12 @@ class ContactForcesCsv {
   std::optional<CsvWriter> writer_;
 };
 
-/// contact_pairs.csv: what each two deformable bodies did to each other; no file of a scene without such contact.
+/// contact_pairs.csv: pair_quantities() of each two deformable bodies; no file of a scene without such contact.
 class ContactPairsCsv {
  public:
   explicit ContactPairsCsv(const std::string& folder) : path_(folder + "/contact_pairs.csv") {}
   /// `time` [s] is the end of the interval; the pairs and their order are those of the first row. @throws CsvError
-  void add(double time, const std::vector<mpm::PairReport>& pairs);
+  void add(double time, const std::vector<ContactPair>& pairs);
   void close();
 
  private:
@@ -56,13 +59,12 @@ class BodiesCsv {
   std::optional<CsvWriter> writer_;
 };
 
-/// solver_state.csv: steps, energies and the momentum audit.
+/// solver_state.csv: state_quantities() and the impulses of the momentum audit.
 class SolverStateCsv {
  public:
   explicit SolverStateCsv(const std::string& folder) : path_(folder + "/solver_state.csv") {}
-  /// `real_time_factor`: simulated over wall time. Impulses are put under the names of the first row.
-  /// @throws CsvError
-  void add(const mpm::SolverState& state, double real_time_factor);
+  /// `time` [s]. Impulses are put under the names of the first row. @throws CsvError
+  void add(double time, const SolverState& state);
   void close();
 
  private:

@@ -21,8 +21,7 @@ class ContactAverage {
  public:
   /// One report a body and a pair, always in the same order; interval after interval.
   void add(const Contacts& contacts);
-  /// Means, and a body's area: over time. Arm of a body, centre of a pair: mean by normal impulse. Peak: of the step
-  /// with the largest force. Impulse, energies, nodes, origin, and a pair's area: of the last report. Starts anew.
+  /// Each number over all intervals, as its line in quantities.cpp says. Starts anew.
   Contacts take();
   /// For checkpoints.
   void keep(mpm::StateArchive& archive);

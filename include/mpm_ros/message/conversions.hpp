@@ -45,10 +45,7 @@ mpm::Pose checked_pose(const geometry_msgs::Pose& message);
 
 mpm_ros::BodyState to_message(const mpm::BodyState& state);
 mpm_ros::ContactForce to_message(const mpm::ContactReport& report);
-/// The inverse; the body's origin is known to round-off, and not at all where nothing presses.
-mpm::ContactReport from_message(const mpm_ros::ContactForce& message);
 mpm_ros::ContactPair to_message(const mpm::PairReport& report);
-mpm::PairReport from_message(const mpm_ros::ContactPair& message);
 /// All but the header, real_time_factor, state_hash, and what only the run knows: commands and failure.
 mpm_ros::SolverState to_message(const mpm::SolverState& state);
 

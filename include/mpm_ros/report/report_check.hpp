@@ -64,10 +64,10 @@ class RunChecks : public RunVisitor {
   void gap(const std::string& text);
   void fail(const std::string& name, std::int64_t time, const std::string& what);
   /// The force over the interval that ends now, and the impulse since the start.
-  void add_up(KnownImpulse& known, const std::string& name, std::int64_t time, double interval, const mpm::Vec3& force,
-              const mpm::Vec3& impulse);
+  template <class Contact>
+  void add_up(KnownImpulse& known, std::int64_t time, const Contact& contact, const mpm::Vec3& force);
   /// Whether time and steps since the last state belong together.
-  void check_steps(std::int64_t time, const mpm::StepReport& step);
+  void check_steps(std::int64_t time, const SolverState& state);
   void check_against_material(const std::string& body, std::int64_t time, const mpm::Vec3& impulse);
 
   std::int64_t sync_period_;  ///< [ns]
@@ -80,7 +80,8 @@ class RunChecks : public RunVisitor {
   std::map<std::string, KnownImpulse> impulses_;       ///< on rigid bodies
   std::map<std::string, KnownImpulse> pair_impulses_;  ///< between deformable bodies
   std::set<std::string> posed_;                        ///< bodies with a pose
-  std::optional<mpm::SolverState> state_;              ///< the last one
+  std::optional<SolverState> state_;                   ///< the last one
+  std::int64_t state_time_ = 0;                        ///< of it [ns]
   bool from_start_ = false;                            ///< the first state is at time zero
   std::uint64_t commands_ = 0;                         ///< recorded
   std::uint64_t earlier_commands_ = 0;                 ///< before the time of the last command

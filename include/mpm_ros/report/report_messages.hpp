@@ -3,8 +3,6 @@
 
 #include <mpm_ros/BodyStates.h>
 #include <mpm_ros/Command.h>
-#include <mpm_ros/ContactForces.h>
-#include <mpm_ros/SolverState.h>
 
 #include <cstdint>
 #include <string>
@@ -15,11 +13,7 @@
 
 namespace mpm_ros {
 
-std::vector<mpm::ContactReport> contact_reports_of(const ContactForces& message);
-std::vector<mpm::PairReport> pair_reports_of(const ContactForces& message);
 std::vector<mpm::BodyState> body_states_of(const BodyStates& message);
-/// `time` [ns] since the start. The wall time is not in the message and stays zero.
-mpm::SolverState solver_state_of(std::int64_t time, const SolverState& message);
 /// "velocity", "pose" or "wrench".
 std::string command_kind_name(std::uint8_t kind);
 /// `time` [ns] since the start.

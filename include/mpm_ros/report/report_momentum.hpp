@@ -55,7 +55,8 @@ class MomentumCheck : public RunVisitor {
   std::string axes_;                       ///< along which velocities are recorded: "xz"
   std::optional<std::int64_t> contact_time_;
   std::optional<Account> cloud_;  ///< the last one, until it is compared
-  std::optional<mpm::SolverState> state_;
+  std::optional<SolverState> state_;
+  std::int64_t state_time_ = 0;  ///< of it [ns]
   mpm::Vec3 on_bodies_ = mpm::Vec3::Zero();
   std::optional<Account> first_;
   std::uint64_t checked_ = 0;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "mpm_ros/message/quantity.hpp"
 #include "mpm_ros/report/report_bag.hpp"
 #include "mpm_ros/report/report_messages.hpp"
 
@@ -23,39 +24,36 @@ struct Extreme {
   void offer(const mpm::Vec3& candidate, std::int64_t when);
 };
 
-/// Contact and motion of one rigid body over the run; world axes.
-struct BodyStatistics {
+/// One number of a contact over the run. What is no vector counts as one along x.
+struct NumberStatistics {
+  std::string name, unit;
+  bool vector = false;
+  bool axisymmetric = false;               ///< told of axisymmetric scenes alone
+  std::vector<Figure> figures;             ///< that are told of it
+  Extreme peak;                            ///< largest of an interval
+  mpm::Vec3 integral = mpm::Vec3::Zero();  ///< over time
+  mpm::Vec3 end = mpm::Vec3::Zero();       ///< of the last interval
+};
+
+/// Contact of a rigid body with the material, or between two deformable bodies; world axes.
+struct ContactStatistics {
   std::string name;
-  Extreme force;                                                 ///< largest mean over an interval [N]
-  Extreme step_force;                                            ///< largest of a single step [N]
-  Extreme torque;                                                ///< largest mean over an interval [N m]
-  Extreme per_radian;                                            ///< axisymmetric: largest mean [N/rad]
-  mpm::Vec3 per_radian_integral = mpm::Vec3::Zero();             ///< [N s/rad]
-  mpm::Vec3 force_integral = mpm::Vec3::Zero();                  ///< sum of mean times interval [N s]
-  mpm::Vec3 torque_integral = mpm::Vec3::Zero();                 ///< [N m s]
-  mpm::Vec3 impulse = mpm::Vec3::Zero();                         ///< as the run counted it since its start [N s]
+  std::vector<NumberStatistics> numbers;                         ///< in the order of their list (quantities.hpp)
   double duration = 0.0;                                         ///< sum of the intervals [s]
-  double largest_area = 0.0;                                     ///< in contact, mean over an interval [m^2]
-  double friction_energy = 0.0;                                  ///< taken since the run's start [J]
   std::optional<std::pair<std::int64_t, std::int64_t>> contact;  ///< end of first, last interval with a force [ns]
 
+  /// @throws std::out_of_range when there is none of that name
+  const NumberStatistics& of(const std::string& number) const;
+  /// Over the run; zero without messages.
+  mpm::Vec3 mean(const NumberStatistics& number) const;
+};
+
+/// Contact and motion of one rigid body over the run; world axes.
+struct BodyStatistics : ContactStatistics {
   mpm::Box range;                  ///< of the body's origin [m]
   std::optional<mpm::Pose> first;  ///< pose in the first message
   mpm::Pose last;                  ///< pose in the last message
   double largest_turn = 0.0;       ///< largest angle from the first pose [rad]
-};
-
-/// Contact between two deformable bodies over the run: forces on the second; world axes.
-struct PairStatistics {
-  std::string name;
-  Extreme force;                                                 ///< largest mean over an interval [N]
-  mpm::Vec3 force_integral = mpm::Vec3::Zero();                  ///< sum of mean times interval [N s]
-  mpm::Vec3 impulse = mpm::Vec3::Zero();                         ///< as the run counted it since its start [N s]
-  double duration = 0.0;                                         ///< sum of the intervals [s]
-  double largest_area = 0.0;                                     ///< of the nodes that press, at a message [m^2]
-  double friction_energy = 0.0;                                  ///< taken since the run's start [J]
-  double interface_energy = 0.0;                                 ///< stored at the end [J]
-  std::optional<std::pair<std::int64_t, std::int64_t>> contact;  ///< end of first, last interval with a force [ns]
 };
 
 /// A global quantity over the run.
@@ -84,7 +82,7 @@ class RunStatistics : public RunVisitor {
   void particles(std::int64_t time, const sensor_msgs::PointCloud2& message) override;
 
   const std::vector<BodyStatistics>& body_statistics() const { return bodies_; }
-  const std::vector<PairStatistics>& pair_statistics() const { return pairs_; }
+  const std::vector<ContactStatistics>& pair_statistics() const { return pairs_; }
   const std::vector<GlobalStatistics>& global_statistics() const { return global_; }
   /// By body and kind.
   const std::map<std::pair<std::string, std::string>, CommandStatistics>& commands() const { return commands_; }
@@ -100,7 +98,7 @@ class RunStatistics : public RunVisitor {
 
  private:
   std::vector<BodyStatistics> bodies_;    ///< in the order of the messages
-  std::vector<PairStatistics> pairs_;     ///< the same
+  std::vector<ContactStatistics> pairs_;  ///< the same
   std::vector<GlobalStatistics> global_;  ///< the same
   std::map<std::pair<std::string, std::string>, CommandStatistics> commands_;
   std::optional<SolverState> first_state_;

@@ -27,6 +27,16 @@ std::string number(double value);
 /// Three numbers.
 std::string triple(const mpm::Vec3& vector);
 
+/// A figure of a contact over the run, as text; what it has not is empty.
+struct FigureText {
+  std::string heading;  ///< "peak |F| [N]"
+  std::string size;
+  std::string vector;  ///< x  y  z; of a force a radian r  z
+  std::string time;    ///< [s]
+};
+/// As the lists of quantities.hpp say; last the time of contact.
+std::vector<FigureText> figure_texts(const ContactStatistics& contact, bool axisymmetric);
+
 /// All tables of one run: run, contact forces, motion, energies, audit, commands, gaps.
 std::string tables(const RecordedRun& run);
 

@@ -15,7 +15,7 @@
 namespace mpm_ros {
 
 /// One value of a message.
-struct NamedValue {
+struct ComparedValue {
   std::string field;    ///< "blade force x"
   std::string kind;     ///< what it is measured with: "blade force" of each component
   double number = 0.0;  ///< of a number
@@ -23,10 +23,10 @@ struct NamedValue {
 };
 
 /// All values but header, stamps, and what the wall clock makes, in a fixed order.
-std::vector<NamedValue> values_of(const ContactForces& message);
-std::vector<NamedValue> values_of(const BodyStates& message);
-std::vector<NamedValue> values_of(const SolverState& message);
-std::vector<NamedValue> values_of(const Command& message);
-std::vector<NamedValue> values_of(const GlobalQuantities& message);
+std::vector<ComparedValue> values_of(const ContactForces& message);
+std::vector<ComparedValue> values_of(const BodyStates& message);
+std::vector<ComparedValue> values_of(const SolverState& message);
+std::vector<ComparedValue> values_of(const Command& message);
+std::vector<ComparedValue> values_of(const GlobalQuantities& message);
 
 }  // namespace mpm_ros

@@ -13,8 +13,8 @@
 namespace mpm_ros {
 
 struct RunSummary {
-  /// Reads the simulation where it stands. `contacts`: the last reports.
-  RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::EnergyReport& start_energy,
+  /// Reads the simulation where it stands. `start`: where the run began. `contacts`: the last reports.
+  RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::SolverState& start,
              const Contacts& contacts);
 
   /// Keys and units as doc/analysis.md lists them; the order of the keys is kept.
@@ -27,7 +27,7 @@ struct RunSummary {
   std::string isa;
   int threads = 0;
   mpm::SolverState state;
-  mpm::EnergyReport start_energy;
+  mpm::SolverState start;  ///< at time zero
   std::uint64_t state_hash = 0;
   std::uint64_t peak_memory = 0;  ///< [byte] of the whole process
   Contacts contacts;              ///< impulses and energies since the start

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/quantities.hpp"
+
 namespace mpm_ros {
 namespace {
 
@@ -9,6 +12,63 @@ const std::string kNone;  // an empty cell
 
 void close_if_open(std::optional<CsvWriter>& writer) {
   if (writer) writer->close();
+}
+
+/// Those of the list that have a column. A ring's force has its components along r and z alone.
+template <class Report, class Message>
+void add_columns(std::vector<std::string>& columns, const std::string& prefix, const Message& message,
+                 const std::vector<Quantity<Report, Message>>& quantities, bool axisymmetric) {
+  for (const Quantity<Report, Message>& one : quantities) {
+    if (one.column.empty() || (one.axisymmetric && !axisymmetric)) continue;
+    if (one.axisymmetric) {
+      for (const char* axis : {"r", "z"}) {
+        columns.push_back(fmt::format("{}{}{} [{}]", prefix, one.column, axis, one.unit));
+      }
+    } else if (std::holds_alternative<mpm::Vec3>(one.of_message(message))) {
+      add_vector_columns(columns, prefix + one.column, one.unit);
+    } else {
+      columns.push_back(fmt::format("{}{} [{}]", prefix, one.column, one.unit));
+    }
+  }
+  for (const NamedValue& value : others(message, quantities)) {
+    if (value.value.size() == 3) {
+      add_vector_columns(columns, prefix + value.name + " ", value.unit);
+    } else {
+      columns.push_back(fmt::format("{}{} [{}]", prefix, value.name, value.unit));
+    }
+  }
+}
+
+template <class Report, class Message>
+void write_numbers(CsvWriter& writer, const Message& message, const std::vector<Quantity<Report, Message>>& quantities,
+                   bool axisymmetric) {
+  for (const Quantity<Report, Message>& one : quantities) {
+    if (one.column.empty() || (one.axisymmetric && !axisymmetric)) continue;
+    const Value value = one.of_message(message);
+    if (one.axisymmetric) {
+      writer << std::get<mpm::Vec3>(value).x() << std::get<mpm::Vec3>(value).z();
+    } else {
+      std::visit([&writer](const auto& number) { writer << number; }, value);
+    }
+  }
+  for (const NamedValue& value : others(message, quantities)) {
+    for (const double number : value.value) writer << number;
+  }
+}
+
+/// One row with all of `messages`, after the header if it is the first.
+template <class Report, class Message>
+void add_row(std::optional<CsvWriter>& writer, const std::string& path, double time,
+             const std::vector<Message>& messages, const std::vector<Quantity<Report, Message>>& quantities,
+             bool axisymmetric) {
+  if (!writer) {
+    std::vector<std::string> columns = {"time [s]"};
+    for (const Message& one : messages) add_columns(columns, one.name + " ", one, quantities, axisymmetric);
+    writer.emplace(path, columns);
+  }
+  *writer << time;
+  for (const Message& one : messages) write_numbers(*writer, one, quantities, axisymmetric);
+  writer->end_row();
 }
 
 }  // namespace
@@ -24,67 +84,14 @@ std::string drive_name(mpm::Drive drive) {
   }
 }
 
-void ContactForcesCsv::add(double time, const std::vector<mpm::ContactReport>& bodies) {
-  if (!writer_) {
-    std::vector<std::string> columns = {"time [s]"};
-    for (const mpm::ContactReport& body : bodies) {
-      const std::string& name = body.body;
-      add_vector_columns(columns, name + " f", "N");
-      add_vector_columns(columns, name + " t", "N m");
-      add_vector_columns(columns, name + " peak f", "N");
-      add_vector_columns(columns, name + " peak t", "N m");
-      add_vector_columns(columns, name + " impulse ", "N s");
-      columns.push_back(name + " interval [s]");
-      columns.push_back(name + " nodes [1]");
-      columns.push_back(name + " pressing [N]");
-      add_vector_columns(columns, name + " friction ", "N");
-      add_vector_columns(columns, name + " cop ", "m");
-      columns.push_back(name + " contact area [m^2]");
-      columns.push_back(name + " friction energy [J]");
-      if (!axisymmetric_) continue;
-      columns.push_back(name + " per radian r [N/rad]");
-      columns.push_back(name + " per radian z [N/rad]");
-    }
-    writer_.emplace(path_, columns);
-  }
-  *writer_ << time;
-  for (const mpm::ContactReport& body : bodies) {
-    *writer_ << body.mean.force << body.mean.torque << body.peak.force << body.peak.torque << body.impulse
-             << body.interval << static_cast<std::uint64_t>(std::max(body.nodes, 0)) << body.pressing << body.friction
-             << body.centre_of_pressure() << body.area << body.friction_energy;
-    if (axisymmetric_) *writer_ << body.per_radian.x() << body.per_radian.z();
-  }
-  writer_->end_row();
+void ContactForcesCsv::add(double time, const std::vector<ContactForce>& bodies) {
+  add_row(writer_, path_, time, bodies, contact_quantities(), axisymmetric_);
 }
 
 void ContactForcesCsv::close() { close_if_open(writer_); }
 
-void ContactPairsCsv::add(double time, const std::vector<mpm::PairReport>& pairs) {
-  if (pairs.empty()) return;
-  if (!writer_) {
-    std::vector<std::string> columns = {"time [s]"};
-    for (const mpm::PairReport& pair : pairs) {
-      const std::string& name = pair.name;
-      add_vector_columns(columns, name + " f", "N");
-      add_vector_columns(columns, name + " friction ", "N");
-      add_vector_columns(columns, name + " impulse ", "N s");
-      columns.push_back(name + " interval [s]");
-      columns.push_back(name + " nodes [1]");
-      columns.push_back(name + " pressing [N]");
-      add_vector_columns(columns, name + " cop ", "m");
-      columns.push_back(name + " contact area [m^2]");
-      columns.push_back(name + " friction energy [J]");
-      columns.push_back(name + " interface energy [J]");
-    }
-    writer_.emplace(path_, columns);
-  }
-  *writer_ << time;
-  for (const mpm::PairReport& pair : pairs) {
-    *writer_ << pair.force << pair.friction << pair.impulse << pair.interval
-             << static_cast<std::uint64_t>(std::max(pair.nodes, 0)) << pair.pressing << pair.centre << pair.area
-             << pair.friction_energy << pair.interface_energy;
-  }
-  writer_->end_row();
+void ContactPairsCsv::add(double time, const std::vector<ContactPair>& pairs) {
+  if (!pairs.empty()) add_row(writer_, path_, time, pairs, pair_quantities(), false);
 }
 
 void ContactPairsCsv::close() { close_if_open(writer_); }
@@ -114,38 +121,23 @@ void BodiesCsv::add(double time, const std::vector<mpm::BodyState>& bodies) {
 
 void BodiesCsv::close() { close_if_open(writer_); }
 
-void SolverStateCsv::add(const mpm::SolverState& state, double real_time_factor) {
+void SolverStateCsv::add(double time, const SolverState& state) {
   if (!writer_) {
-    std::vector<std::string> columns = {"time [s]",   "steps [1]",     "dt [s]",      "dt min [s]",
-                                        "dt max [s]", "particles [1]", "returned [1]"};
-    for (const char* kind : {"kinetic", "elastic", "plastic", "potential", "friction", "pair friction", "interface"}) {
-      columns.push_back(std::string("energy ") + kind + " [J]");
-    }
-    columns.emplace_back("contact work [J]");
-    columns.emplace_back("load work [J]");
-    add_vector_columns(columns, "momentum ", "N s");
-    for (const mpm::NamedImpulse& impulse : state.audit.impulses) {
+    std::vector<std::string> columns = {"time [s]"};
+    add_columns(columns, "", state, state_quantities(), false);
+    for (const Impulse& impulse : state.impulses) {
       impulses_.push_back(impulse.name);
       add_vector_columns(columns, "impulse " + impulse.name + " ", "N s");
     }
-    for (const char* last : {"momentum exchanged [N s]", "momentum error [1]", "min j [1]", "real-time factor [1]"}) {
-      columns.emplace_back(last);
-    }
     writer_.emplace(path_, columns);
   }
-  const mpm::StepReport& step = state.step;
-  const mpm::EnergyReport& energy = state.energy;
-  *writer_ << static_cast<double>(state.time) / 1e9 << step.steps << step.dt_last << step.dt_min << step.dt_max
-           << state.particles << state.number("returned") << energy.of("kinetic") << energy.of("elastic")
-           << energy.of("plastic") << energy.of("potential") << energy.of("friction") << energy.of("pair_friction")
-           << energy.of("interface") << energy.of("contact_work") << energy.of("load_work") << state.audit.momentum;
-  const std::vector<mpm::NamedImpulse>& impulses = state.audit.impulses;
+  *writer_ << time;
+  write_numbers(*writer_, state, state_quantities(), false);
   for (const std::string& name : impulses_) {
-    const auto named = [&name](const mpm::NamedImpulse& impulse) { return impulse.name == name; };
-    const auto found = std::find_if(impulses.begin(), impulses.end(), named);
-    *writer_ << (found == impulses.end() ? mpm::Vec3(mpm::Vec3::Zero()) : found->impulse);
+    const auto named = [&name](const Impulse& impulse) { return impulse.name == name; };
+    const auto found = std::find_if(state.impulses.begin(), state.impulses.end(), named);
+    *writer_ << (found == state.impulses.end() ? mpm::Vec3(mpm::Vec3::Zero()) : from_message(found->impulse));
   }
-  *writer_ << state.audit.exchanged << state.audit.residual << state.min_j << real_time_factor;
   writer_->end_row();
 }
 

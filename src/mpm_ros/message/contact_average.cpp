@@ -1,59 +1,66 @@
 #include "mpm_ros/message/contact_average.hpp"
 
+#include <type_traits>
 #include <utility>
+
+#include "mpm_ros/message/quantities.hpp"
 
 namespace mpm_ros {
 namespace {
 
-/// The mean by weight of two points; not a number belongs to no weight, and must not spread.
-mpm::Vec3 weighted(const mpm::Vec3& a, double weight_a, const mpm::Vec3& b, double weight_b) {
+/// Force of the step that `Over::step` speaks of [N]; of pairs none is told.
+double largest_step(const mpm::ContactReport& report) { return report.peak.force.norm(); }
+double largest_step(const mpm::PairReport&) { return 0.0; }
+
+/// The mean by weight of two values; one that is not a number has no weight, and must not spread.
+Value mean(const Value& a, double weight_a, const Value& b, double weight_b) {
   if (!(weight_b > 0.0)) return a;
   if (!(weight_a > 0.0)) return b;
-  return (weight_a * a + weight_b * b) / (weight_a + weight_b);
+  return std::visit(
+      [&](const auto& first) -> Value {
+        using Number = std::decay_t<decltype(first)>;
+        return Number((weight_a * first + weight_b * std::get<Number>(b)) / (weight_a + weight_b));
+      },
+      a);
 }
 
-/// Means of two intervals as one of both; neither has covered any time: that of the first.
-class Mean {
- public:
-  Mean(double before, double added) : before_(before), added_(added) {}
-  template <typename Value>
-  void operator()(Value& sum, const Value& next) const {
-    if (before_ + added_ > 0.0) sum = (before_ * sum + added_ * next) / (before_ + added_);
+/// `sum` becomes the report over its interval and that of `next`.
+template <class Report, class Message>
+void join(Report& sum, const Report& next, const std::vector<Quantity<Report, Message>>& quantities) {
+  const Report before = sum;
+  for (const Quantity<Report, Message>& one : quantities) {
+    if (!one.set_report) continue;
+    const Value a = one.of_report(before), b = one.of_report(next);
+    switch (one.over) {
+      case Over::mean:
+        one.set_report(sum, mean(a, before.interval, b, next.interval));
+        break;
+      case Over::place:
+        one.set_report(sum, mean(a, before.interval * before.pressing, b, next.interval * next.pressing));
+        break;
+      case Over::step:
+        if (largest_step(next) > largest_step(before)) one.set_report(sum, b);
+        break;
+      case Over::sum:
+        one.set_report(sum, std::get<double>(a) + std::get<double>(b));
+        break;
+      case Over::start:
+      case Over::now:
+        one.set_report(sum, b);
+        break;
+    }
   }
-
- private:
-  double before_, added_;  // [s]
-};
-
-void join(mpm::ContactReport& sum, const mpm::ContactReport& next) {
-  sum.arm = weighted(sum.arm, sum.interval * sum.pressing, next.arm, next.interval * next.pressing);
-  const Mean mean(sum.interval, next.interval);
-  mean(sum.mean.force, next.mean.force);
-  mean(sum.mean.torque, next.mean.torque);
-  mean(sum.friction, next.friction);
-  mean(sum.per_radian, next.per_radian);
-  mean(sum.pressing, next.pressing);
-  mean(sum.area, next.area);
-  if (next.peak.force.norm() > sum.peak.force.norm()) sum.peak = next.peak;
-  sum.interval += next.interval;
-  sum.origin = next.origin;
-  sum.nodes = next.nodes;
-  sum.impulse = next.impulse;
-  sum.friction_energy = next.friction_energy;
 }
 
-void join(mpm::PairReport& sum, const mpm::PairReport& next) {
-  sum.centre = weighted(sum.centre, sum.interval * sum.pressing, next.centre, next.interval * next.pressing);
-  const Mean mean(sum.interval, next.interval);
-  mean(sum.force, next.force);
-  mean(sum.friction, next.friction);
-  mean(sum.pressing, next.pressing);
-  sum.interval += next.interval;
-  sum.area = next.area;
-  sum.nodes = next.nodes;
-  sum.impulse = next.impulse;
-  sum.friction_energy = next.friction_energy;
-  sum.interface_energy = next.interface_energy;
+template <class Report, class Message>
+void keep_numbers(mpm::StateArchive& archive, Report& report,
+                  const std::vector<Quantity<Report, Message>>& quantities) {
+  for (const Quantity<Report, Message>& one : quantities) {
+    if (!one.set_report) continue;
+    Value value = one.of_report(report);
+    std::visit([&](auto& number) { archive.keep(one.name, number); }, value);
+    one.set_report(report, value);
+  }
 }
 
 }  // namespace
@@ -63,8 +70,13 @@ void ContactAverage::add(const Contacts& contacts) {
     sum_ = contacts;
     return;
   }
-  for (std::size_t body = 0; body < contacts.bodies.size(); ++body) join(sum_.bodies[body], contacts.bodies[body]);
-  for (std::size_t pair = 0; pair < contacts.pairs.size(); ++pair) join(sum_.pairs[pair], contacts.pairs[pair]);
+  for (std::size_t body = 0; body < contacts.bodies.size(); ++body) {
+    join(sum_.bodies[body], contacts.bodies[body], contact_quantities());
+    sum_.bodies[body].origin = contacts.bodies[body].origin;
+  }
+  for (std::size_t pair = 0; pair < contacts.pairs.size(); ++pair) {
+    join(sum_.pairs[pair], contacts.pairs[pair], pair_quantities());
+  }
 }
 
 Contacts ContactAverage::take() {
@@ -76,38 +88,15 @@ void Contacts::keep(mpm::StateArchive& archive) {
   archive.rows("bodies", bodies);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const mpm::StateArchive::Group group(archive, "body_" + std::to_string(b));
-    mpm::ContactReport& one = bodies[b];
-    archive.keep("name", one.body);
-    archive.keep("force", one.mean.force);
-    archive.keep("torque", one.mean.torque);
-    archive.keep("peak_force", one.peak.force);
-    archive.keep("peak_torque", one.peak.torque);
-    archive.keep("interval", one.interval);
-    archive.keep("nodes", one.nodes);
-    archive.keep("impulse", one.impulse);
-    archive.keep("area", one.area);
-    archive.keep("friction_energy", one.friction_energy);
-    archive.keep("pressing", one.pressing);
-    archive.keep("friction", one.friction);
-    archive.keep("per_radian", one.per_radian);
-    archive.keep("origin", one.origin);
-    archive.keep("arm", one.arm);
+    archive.keep("name", bodies[b].body);
+    archive.keep("origin", bodies[b].origin);
+    keep_numbers(archive, bodies[b], contact_quantities());
   }
   archive.rows("pairs", pairs);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const mpm::StateArchive::Group group(archive, "pair_" + std::to_string(p));
-    mpm::PairReport& one = pairs[p];
-    archive.keep("name", one.name);
-    archive.keep("force", one.force);
-    archive.keep("friction", one.friction);
-    archive.keep("pressing", one.pressing);
-    archive.keep("area", one.area);
-    archive.keep("interval", one.interval);
-    archive.keep("nodes", one.nodes);
-    archive.keep("impulse", one.impulse);
-    archive.keep("friction_energy", one.friction_energy);
-    archive.keep("interface_energy", one.interface_energy);
-    archive.keep("centre", one.centre);
+    archive.keep("name", pairs[p].name);
+    keep_numbers(archive, pairs[p], pair_quantities());
   }
 }
 

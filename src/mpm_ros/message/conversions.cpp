@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "mpm_ros/message/quantities.hpp"
+
 namespace mpm_ros {
 
 static_assert(static_cast<int>(mpm::Drive::functions) == mpm_ros::BodyState::FUNCTIONS);
@@ -116,106 +118,44 @@ mpm_ros::BodyState to_message(const mpm::BodyState& state) {
 mpm_ros::ContactForce to_message(const mpm::ContactReport& report) {
   mpm_ros::ContactForce message;
   message.name = report.body;
-  message.wrench = to_message(report.mean);
-  message.peak = to_message(report.peak);
-  message.impulse = to_vector(report.impulse);
-  message.interval = report.interval;
-  message.nodes = static_cast<std::uint32_t>(report.nodes);
-  message.contact_area = report.area;
-  message.friction_energy = report.friction_energy;
-  message.pressing = report.pressing;
-  message.friction = to_vector(report.friction);
-  message.per_radian = to_vector(report.per_radian);
-  message.centre_of_pressure = to_point(report.centre_of_pressure());
-  message.arm = to_vector(report.arm);
+  fill(message, report, contact_quantities());
   return message;
-}
-
-mpm::ContactReport from_message(const mpm_ros::ContactForce& message) {
-  mpm::ContactReport report;
-  report.body = message.name;
-  report.mean = from_message(message.wrench);
-  report.peak = from_message(message.peak);
-  report.impulse = from_message(message.impulse);
-  report.interval = message.interval;
-  report.nodes = static_cast<int>(message.nodes);
-  report.area = message.contact_area;
-  report.friction_energy = message.friction_energy;
-  report.pressing = message.pressing;
-  report.friction = from_message(message.friction);
-  report.per_radian = from_message(message.per_radian);
-  report.arm = from_message(message.arm);
-  report.origin = from_message(message.centre_of_pressure) - report.arm;
-  return report;
 }
 
 mpm_ros::ContactPair to_message(const mpm::PairReport& report) {
   mpm_ros::ContactPair message;
   message.name = report.name;
-  message.force = to_vector(report.force);
-  message.friction = to_vector(report.friction);
-  message.impulse = to_vector(report.impulse);
-  message.interval = report.interval;
-  message.pressing = report.pressing;
-  message.nodes = static_cast<std::uint32_t>(report.nodes);
-  message.contact_area = report.area;
-  message.friction_energy = report.friction_energy;
-  message.interface_energy = report.interface_energy;
-  message.centre_of_pressure = to_point(report.centre);
+  fill(message, report, pair_quantities());
   return message;
 }
 
-mpm::PairReport from_message(const mpm_ros::ContactPair& message) {
-  mpm::PairReport report;
-  report.name = message.name;
-  report.force = from_message(message.force);
-  report.friction = from_message(message.friction);
-  report.impulse = from_message(message.impulse);
-  report.interval = message.interval;
-  report.pressing = message.pressing;
-  report.nodes = static_cast<int>(message.nodes);
-  report.area = message.contact_area;
-  report.friction_energy = message.friction_energy;
-  report.interface_energy = message.interface_energy;
-  report.centre = from_message(message.centre_of_pressure);
-  return report;
+namespace {
+
+/// A number of a module that no line of the list is about, by the key of its figure or by its column.
+void add_other(mpm_ros::SolverState& message, const std::string& name, const std::string& unit, double value) {
+  for (const StateQuantity& one : state_quantities()) {
+    if (one.column == name || (!one.figures.empty() && one.figures.front().key == name)) return;
+  }
+  NamedValue& other = message.values.emplace_back();
+  other.name = name;
+  other.unit = unit;
+  other.value = {value};
 }
+
+}  // namespace
 
 mpm_ros::SolverState to_message(const mpm::SolverState& state) {
   mpm_ros::SolverState message;
-  message.time = static_cast<double>(state.time) * 1e-9;
-  message.steps = state.step.steps;
-  message.dt = state.step.dt_last;
-  message.dt_min = state.step.dt_min;
-  message.dt_max = state.step.dt_max;
+  fill(message, state, state_quantities());
+  for (const mpm::NamedEnergy& energy : state.energy.list()) add_other(message, energy.name, "J", energy.value);
+  for (const mpm::NamedNumber& number : state.numbers) add_other(message, number.name, number.unit, number.value);
   message.dt_limited_by = state.step.limited_by;
-  message.particles = state.particles;
-  message.particles_returned = static_cast<std::uint64_t>(state.number("returned"));
-  message.energy_kinetic = state.energy.of("kinetic");
-  message.energy_elastic = state.energy.of("elastic");
-  message.energy_plastic = state.energy.of("plastic");
-  message.energy_potential = state.energy.of("potential");
-  message.contact_work = state.energy.of("contact_work");
-  message.load_work = state.energy.of("load_work");
-  message.energy_friction = state.energy.of("friction");
-  message.energy_free_kinetic = state.energy.of("free_kinetic");
-  message.energy_free_potential = state.energy.of("free_potential");
-  message.energy_free_loss = state.energy.of("free_loss");
-  message.free_work = state.energy.of("free_work");
-  message.energy_pair_friction = state.energy.of("pair_friction");
-  message.energy_interface = state.energy.of("interface");
-  message.momentum = to_vector(state.audit.momentum);
-  message.initial_momentum = to_vector(state.audit.initial_momentum);
   for (const mpm::NamedImpulse& impulse : state.audit.impulses) {
     mpm_ros::Impulse entry;
     entry.name = impulse.name;
     entry.impulse = to_vector(impulse.impulse);
     message.impulses.push_back(entry);
   }
-  message.momentum_exchanged = state.audit.exchanged;
-  message.momentum_carried = state.audit.carried;
-  message.momentum_error = state.audit.residual;
-  message.min_j = state.min_j;
   return message;
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/quantities.hpp"
 #include "mpm_ros/report/report_cloud.hpp"
 
 namespace mpm_ros {
@@ -81,19 +83,23 @@ void RunChecks::space(const std::string& topic, std::int64_t time) {
 }
 
 void RunChecks::contact_forces(std::int64_t time, const ContactForces& message) {
-  for (const mpm::ContactReport& report : contact_reports_of(message)) {
-    add_up(impulses_[report.body], report.body, time, report.interval, report.mean.force, report.impulse);
-    if (!finite(report.mean.torque)) fail("impulse", time, "the torque on " + report.body + " is not finite");
-    if (state_ && state_->time == time) check_against_material(report.body, time, report.impulse);
+  for (const ContactForce& body : message.bodies) {
+    add_up(impulses_[body.name], time, body, from_message(body.wrench.force));
+    if (!finite(from_message(body.wrench.torque))) {
+      fail("impulse", time, "the torque on " + body.name + " is not finite");
+    }
+    if (state_ && state_time_ == time) check_against_material(body.name, time, from_message(body.impulse));
   }
-  for (const mpm::PairReport& report : pair_reports_of(message)) {
-    add_up(pair_impulses_[report.name], report.name, time, report.interval, report.force, report.impulse);
+  for (const ContactPair& pair : message.pairs) {
+    add_up(pair_impulses_[pair.name], time, pair, from_message(pair.force));
   }
 }
 
-void RunChecks::add_up(KnownImpulse& known, const std::string& name, std::int64_t time, double interval,
-                       const mpm::Vec3& force, const mpm::Vec3& impulse) {
-  const std::int64_t begin = time - std::llround(interval * 1e9);
+template <class Contact>
+void RunChecks::add_up(KnownImpulse& known, std::int64_t time, const Contact& contact, const mpm::Vec3& force) {
+  const std::string& name = contact.name;
+  const mpm::Vec3 impulse = from_message(contact.impulse);
+  const std::int64_t begin = time - std::llround(contact.interval * 1e9);
   bool whole = true;  // the interval begins where the last one ended
   if (known.time && std::llabs(begin - *known.time) > kStampRounding) {
     whole = false;
@@ -102,7 +108,7 @@ void RunChecks::add_up(KnownImpulse& known, const std::string& name, std::int64_
   }
   if (!known.time && std::llabs(begin) > kStampRounding)
     whole = false;  // recorded from later on: no known impulse before
-  const mpm::Vec3 gained = force * interval;
+  const mpm::Vec3 gained = force * contact.interval;
   known.exchanged += gained.norm();
   if (whole) {
     const double error = relative((known.impulse + gained - impulse).norm(), known.exchanged);
@@ -118,17 +124,17 @@ void RunChecks::add_up(KnownImpulse& known, const std::string& name, std::int64_
 }
 
 void RunChecks::check_against_material(const std::string& body, std::int64_t time, const mpm::Vec3& impulse) {
-  const std::vector<mpm::NamedImpulse>& impulses = state_->audit.impulses;
-  const auto named = [&body](const mpm::NamedImpulse& other) { return other.name == "contact/" + body; };
+  const std::vector<Impulse>& impulses = state_->impulses;
+  const auto named = [&body](const Impulse& other) { return other.name == "contact/" + body; };
   const auto on_material = std::find_if(impulses.begin(), impulses.end(), named);
   if (on_material == impulses.end()) {
     fail("complete", time, "the audit has no impulse contact/" + body);
     return;
   }
   // About an axis the audit has the radial sum, which is no force on the body.
-  mpm::Vec3 difference = impulse + on_material->impulse;
+  mpm::Vec3 difference = impulse + from_message(on_material->impulse);
   if (axisymmetric_) difference.x() = 0.0;
-  const double error = relative(difference.norm(), state_->audit.exchanged);
+  const double error = relative(difference.norm(), state_->momentum_exchanged);
   worst_reaction_ = std::max(worst_reaction_, error);
   if (!(error <= kImpulseLimit)) {
     fail("reaction", time,
@@ -154,29 +160,29 @@ void RunChecks::bodies(std::int64_t time, const BodyStates& message) {
 
 void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
   space("solver_state", time);
-  const mpm::SolverState state = solver_state_of(time, message);
-
   const std::int64_t off = std::llabs(std::llround(message.time * 1e9) - time);
   worst_stamp_ = std::max(worst_stamp_, seconds(off));
   if (off > kStampRounding) {
     fail("stamps", time, fmt::format("the solver's time is {} s, {:.3g} s off the stamp", message.time, seconds(off)));
   }
-  check_steps(time, state.step);
+  check_steps(time, message);
 
-  const mpm::AuditReport& audit = state.audit;
-  mpm::Vec3 residual = audit.momentum - audit.initial_momentum;
-  for (const mpm::NamedImpulse& impulse : audit.impulses) residual -= impulse.impulse;
-  const double scale = std::max({audit.exchanged, audit.carried, audit.initial_momentum.norm()});
-  const double error = std::max(relative(residual.norm(), scale), audit.residual);
+  const mpm::Vec3 initial = from_message(message.initial_momentum);
+  mpm::Vec3 residual = from_message(message.momentum) - initial;
+  for (const Impulse& impulse : message.impulses) residual -= from_message(impulse.impulse);
+  const double scale = std::max({message.momentum_exchanged, message.momentum_carried, initial.norm()});
+  const double error = std::max(relative(residual.norm(), scale), message.momentum_error);
   worst_audit_ = std::max(worst_audit_, error);
   if (!(error <= audit_limit_)) {
     fail("audit", time, fmt::format("residual {:.3g} of the momentum exchanged, limit {:.0e}", error, audit_limit_));
   }
 
-  for (const mpm::NamedEnergy& energy : state.energy.list()) {
-    if (!std::isfinite(energy.value)) fail("energy", time, "an energy is not finite");
+  for (const StateQuantity& one : state_quantities()) {
+    if (one.unit == "J" && !std::isfinite(std::get<double>(one.of_message(message)))) {
+      fail("energy", time, one.name + " is not finite");
+    }
   }
-  min_j_ = std::min(min_j_, state.min_j);
+  min_j_ = std::min(min_j_, message.min_j);
   if (message.failed) fail("run", time, "the run failed: " + message.failure);
   if (!state_) {
     from_start_ = time == 0;
@@ -187,37 +193,37 @@ void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
   applied_ = message.commands_applied;
   late_ = message.commands_late;
   refused_ = message.commands_refused - std::min<std::uint64_t>(message.commands_refused, refused_before_);
-  if (!(state.min_j > 0.0)) fail("volume", time, fmt::format("the smallest det F is {}", state.min_j));
+  if (!(message.min_j > 0.0)) fail("volume", time, fmt::format("the smallest det F is {}", message.min_j));
 
   std::vector<std::string> names;
-  for (const mpm::NamedImpulse& impulse : audit.impulses) names.push_back(impulse.name);
+  for (const Impulse& impulse : message.impulses) names.push_back(impulse.name);
   if (!state_) impulse_names_ = names;
   if (names != impulse_names_) fail("complete", time, "the audit's impulses are not those of the first message");
 
-  state_ = state;
+  state_ = message;
+  state_time_ = time;
   for (const auto& [body, known] : impulses_) {
     if (known.time == time) check_against_material(body, time, known.impulse);
   }
 }
 
-void RunChecks::check_steps(std::int64_t time, const mpm::StepReport& step) {
+void RunChecks::check_steps(std::int64_t time, const SolverState& state) {
   if (!state_) return;
-  const mpm::StepReport& before = state_->step;
-  if (step.steps < before.steps) {
-    fail("steps", time, fmt::format("steps went back from {} to {}", before.steps, step.steps));
+  if (state.steps < state_->steps) {
+    fail("steps", time, fmt::format("steps went back from {} to {}", state_->steps, state.steps));
     return;
   }
-  const double elapsed = seconds(time - state_->time), steps = static_cast<double>(step.steps - before.steps);
+  const double elapsed = seconds(time - state_time_), steps = static_cast<double>(state.steps - state_->steps);
   if (steps == 0.0 || elapsed <= 0.0) {
     // Only the message that closes a run repeats a time; a run that failed may have stepped on from it.
     if (elapsed > 0.0) fail("steps", time, fmt::format("{} s passed in no step", elapsed));
     return;
   }
   const double mean = elapsed / steps;
-  if (mean < step.dt_min * (1.0 - kStepRounding) || mean > step.dt_max * (1.0 + kStepRounding)) {
+  if (mean < state.dt_min * (1.0 - kStepRounding) || mean > state.dt_max * (1.0 + kStepRounding)) {
     fail("steps", time,
          fmt::format("{} steps in {} s are {:.6g} s each, not within {:.6g} s to {:.6g} s", steps, elapsed, mean,
-                     step.dt_min, step.dt_max));
+                     state.dt_min, state.dt_max));
   }
 }
 
@@ -225,7 +231,7 @@ void RunChecks::command(std::int64_t time, const Command& /*message*/) {
   if (time > last_command_) earlier_commands_ = commands_;
   last_command_ = time;
   ++commands_;
-  if (state_ && state_->time == time) commands_until_ = commands_;
+  if (state_ && state_time_ == time) commands_until_ = commands_;
 }
 
 void RunChecks::global_quantities(std::int64_t time, const GlobalQuantities& message) {

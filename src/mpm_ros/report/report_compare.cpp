@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/quantities.hpp"
 #include "mpm_ros/report/report_tables.hpp"
 
 namespace mpm_ros {
@@ -33,41 +34,25 @@ Figures run_figures(const RecordedRun& run) {
 }
 
 Figures energy_figures(const RecordedRun& run) {
-  const SolverState& first = *run.statistics.first_state();
-  const SolverState& last = run.statistics.last_state();
-  const auto change = [](double from, double to) { return number(from) + " to " + number(to); };
-  return {{"kinetic", change(first.energy_kinetic, last.energy_kinetic)},
-          {"elastic", change(first.energy_elastic, last.energy_elastic)},
-          {"potential", change(first.energy_potential, last.energy_potential)},
-          {"lost to plastic or viscous flow", change(first.energy_plastic, last.energy_plastic)},
-          {"work of the bodies", change(first.contact_work, last.contact_work)},
-          {"work of loads", change(first.load_work, last.load_work)},
-          {"lost to friction on the bodies", change(first.energy_friction, last.energy_friction)},
-          {"lost to friction of deformable bodies", change(first.energy_pair_friction, last.energy_pair_friction)},
-          {"in interfaces", change(first.energy_interface, last.energy_interface)}};
+  const auto first = energies_of(*run.statistics.first_state()), last = energies_of(run.statistics.last_state());
+  Figures figures;
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    figures.emplace_back(last[i].heading, number(first[i].value) + " to " + number(last[i].value));
+  }
+  return figures;
 }
 
 Figures contact_figures(const RecordedRun& run) {
   Figures figures;
-  for (const BodyStatistics& body : run.statistics.body_statistics()) {
-    const double duration = body.duration > 0.0 ? body.duration : 1.0;
-    figures.emplace_back(body.name + " peak |F| [N]", number(body.force.norm));
-    figures.emplace_back(body.name + " at [s]", number(seconds(body.force.time)));
-    figures.emplace_back(body.name + " peak |F| of a step [N]", number(body.step_force.norm));
-    figures.emplace_back(body.name + " peak |T| [N m]", number(body.torque.norm));
-    figures.emplace_back(body.name + " mean F x  y  z [N]", triple(body.force_integral / duration));
-    figures.emplace_back(body.name + " impulse x  y  z [N s]", triple(body.impulse));
-    figures.emplace_back(body.name + " largest area [m^2]", number(body.largest_area));
-    figures.emplace_back(body.name + " friction took [J]", number(body.friction_energy));
-    figures.emplace_back(
-        body.name + " contact [s]",
-        body.contact ? number(seconds(body.contact->first)) + " to " + number(seconds(body.contact->second)) : "none");
-  }
-  for (const PairStatistics& pair : run.statistics.pair_statistics()) {
-    figures.emplace_back(pair.name + " peak |F| [N]", number(pair.force.norm));
-    figures.emplace_back(pair.name + " impulse x  y  z [N s]", triple(pair.impulse));
-    figures.emplace_back(pair.name + " friction took [J]", number(pair.friction_energy));
-  }
+  const auto add = [&](const ContactStatistics& contact) {
+    for (const FigureText& figure : figure_texts(contact, run.scene.axisymmetric)) {
+      const std::string value = figure.size.empty() ? figure.vector : figure.size;
+      figures.emplace_back(contact.name + " " + figure.heading,
+                           value + (figure.time.empty() ? "" : " at " + figure.time + " s"));
+    }
+  };
+  for (const BodyStatistics& body : run.statistics.body_statistics()) add(body);
+  for (const ContactStatistics& pair : run.statistics.pair_statistics()) add(pair);
   return figures;
 }
 

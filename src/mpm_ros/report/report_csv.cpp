@@ -30,8 +30,8 @@ CsvExport::CsvExport(const std::string& folder, bool axisymmetric)
       commands_(folder) {}
 
 void CsvExport::contact_forces(std::int64_t time, const ContactForces& message) {
-  contact_forces_.add(seconds(time), contact_reports_of(message));
-  contact_pairs_.add(seconds(time), pair_reports_of(message));
+  contact_forces_.add(seconds(time), message.bodies);
+  contact_pairs_.add(seconds(time), message.pairs);
 }
 
 void CsvExport::bodies(std::int64_t time, const BodyStates& message) {
@@ -39,7 +39,7 @@ void CsvExport::bodies(std::int64_t time, const BodyStates& message) {
 }
 
 void CsvExport::solver_state(std::int64_t time, const SolverState& message) {
-  solver_state_.add(solver_state_of(time, message), message.real_time_factor);
+  solver_state_.add(seconds(time), message);
 }
 
 void CsvExport::global_quantities(std::int64_t time, const GlobalQuantities& message) {

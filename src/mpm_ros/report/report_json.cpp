@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/quantities.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -21,17 +22,25 @@ Json span(const std::optional<std::pair<std::int64_t, std::int64_t>>& contact) {
   return {seconds(contact->first), seconds(contact->second)};
 }
 
+/// The figures of a contact, each under the key that its line in quantities.cpp gives it.
+Json contact_json(const ContactStatistics& known) {
+  Json json = Json::object();
+  for (const NumberStatistics& number : known.numbers) {
+    const auto plain = [&number](const mpm::Vec3& value) { return number.vector ? array(value) : Json(value.x()); };
+    for (const Figure& figure : number.figures) {
+      if (figure.key.empty()) continue;
+      if (figure.of == Figure::Of::peak) json[figure.key] = extreme(number.peak);
+      if (figure.of == Figure::Of::largest) json[figure.key] = number.peak.norm;
+      if (figure.of == Figure::Of::mean) json[figure.key] = plain(known.mean(number));
+      if (figure.of == Figure::Of::end) json[figure.key] = plain(number.end);
+    }
+  }
+  json["contact"] = span(known.contact);
+  return json;
+}
+
 Json body_json(const BodyStatistics& body) {
-  const double duration = body.duration > 0.0 ? body.duration : 1.0;  // without messages the integrals are zero
-  Json json = {{"peak_force", extreme(body.force)},
-               {"peak_force_of_a_step", extreme(body.step_force)},
-               {"peak_torque", extreme(body.torque)},
-               {"mean_force", array(body.force_integral / duration)},
-               {"mean_torque", array(body.torque_integral / duration)},
-               {"impulse", array(body.impulse)},
-               {"largest_contact_area", body.largest_area},
-               {"friction_energy", body.friction_energy},
-               {"contact", span(body.contact)}};
+  Json json = contact_json(body);
   if (body.first) {
     json["position"] = {{"start", array(body.first->position)},
                         {"end", array(body.last.position)},
@@ -42,23 +51,10 @@ Json body_json(const BodyStatistics& body) {
   return json;
 }
 
-Json pair_json(const PairStatistics& pair) {
-  const double duration = pair.duration > 0.0 ? pair.duration : 1.0;  // without messages the integral is zero
-  return {{"peak_force", extreme(pair.force)},
-          {"mean_force", array(pair.force_integral / duration)},
-          {"impulse", array(pair.impulse)},
-          {"largest_contact_area", pair.largest_area},
-          {"friction_energy", pair.friction_energy},
-          {"interface_energy", pair.interface_energy},
-          {"contact", span(pair.contact)}};
-}
-
 Json energy_json(const SolverState& state) {
-  return {{"kinetic", state.energy_kinetic},     {"elastic", state.energy_elastic},
-          {"potential", state.energy_potential}, {"plastic", state.energy_plastic},
-          {"contact_work", state.contact_work},  {"load_work", state.load_work},
-          {"friction", state.energy_friction},   {"pair_friction", state.energy_pair_friction},
-          {"interface", state.energy_interface}};
+  Json json;
+  for (const EnergyFigure& energy : energies_of(state)) json[energy.key] = energy.value;
+  return json;
 }
 
 Json audit_json(const RunStatistics& statistics) {
@@ -108,7 +104,9 @@ Json report_json(const RecordedRun& run) {
   json["bodies"] = Json::object();
   for (const BodyStatistics& body : statistics.body_statistics()) json["bodies"][body.name] = body_json(body);
   json["contact_pairs"] = Json::object();
-  for (const PairStatistics& pair : statistics.pair_statistics()) json["contact_pairs"][pair.name] = pair_json(pair);
+  for (const ContactStatistics& pair : statistics.pair_statistics()) {
+    json["contact_pairs"][pair.name] = contact_json(pair);
+  };
   json["global_quantities"] = Json::object();
   for (const GlobalStatistics& one : statistics.global_statistics()) {
     json["global_quantities"][one.name] = {

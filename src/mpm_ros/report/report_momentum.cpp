@@ -6,6 +6,7 @@
 
 #include "mpm/math/error.hpp"
 #include "mpm/shape/ring.hpp"
+#include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/report/report_cloud.hpp"
 
 namespace mpm_ros {
@@ -38,16 +39,17 @@ MomentumCheck::MomentumCheck(const std::optional<RunInfo>& info) {
 
 void MomentumCheck::contact_forces(std::int64_t time, const ContactForces& message) {
   contact_time_ = time;
-  for (const mpm::ContactReport& report : contact_reports_of(message)) {
+  for (const ContactForce& body : message.bodies) {
     // In an axisymmetric scene what is exchanged outwards cancels in the force, but not in the sum of m v_r.
-    const mpm::Vec3 outwards(mpm::kTurn * report.per_radian.x(), 0.0, 0.0);
-    on_bodies_ += (report.mean.force + outwards) * report.interval;
+    const mpm::Vec3 outwards(mpm::kTurn * body.per_radian.x, 0.0, 0.0);
+    on_bodies_ += (from_message(body.wrench.force) + outwards) * body.interval;
   }
   compare();
 }
 
 void MomentumCheck::solver_state(std::int64_t time, const SolverState& message) {
-  state_ = solver_state_of(time, message);
+  state_ = message;
+  state_time_ = time;
   compare();
 }
 
@@ -94,12 +96,14 @@ void MomentumCheck::particles(std::int64_t time, const sensor_msgs::PointCloud2&
 }
 
 void MomentumCheck::compare() {
-  if (!cloud_ || !state_ || state_->time != cloud_->time || contact_time_ != cloud_->time) return;
+  if (!cloud_ || !state_ || state_time_ != cloud_->time || contact_time_ != cloud_->time) return;
   Account now = *cloud_;
   cloud_.reset();
   now.on_bodies = on_bodies_;
-  for (const mpm::NamedImpulse& impulse : state_->audit.impulses) {
-    if (impulse.name != "gravity" && impulse.name.rfind("contact/", 0) != 0) now.others += impulse.impulse;
+  for (const Impulse& impulse : state_->impulses) {
+    if (impulse.name != "gravity" && impulse.name.rfind("contact/", 0) != 0) {
+      now.others += from_message(impulse.impulse);
+    }
   }
   if (!first_) {
     first_ = now;
@@ -112,8 +116,8 @@ void MomentumCheck::compare() {
     const int axis = name - 'x';
     const double residual = std::abs(found[axis] - expected[axis]);
     const double allowed =
-        kHalfUnit * (now.sums.size[axis] + first_->sums.size[axis]) + audit_limit_ * state_->audit.exchanged;
-    const double scale = state_->audit.exchanged > 0.0 ? state_->audit.exchanged : 1.0;
+        kHalfUnit * (now.sums.size[axis] + first_->sums.size[axis]) + audit_limit_ * state_->momentum_exchanged;
+    const double scale = state_->momentum_exchanged > 0.0 ? state_->momentum_exchanged : 1.0;
     if (residual / scale > worst_) {
       worst_ = residual / scale;
       rounding_ = allowed / scale;

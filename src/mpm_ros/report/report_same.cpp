@@ -61,7 +61,7 @@ class Comparison {
     worst.time = time;
     worst.field = field;
   }
-  void compare(std::int64_t time, const std::vector<NamedValue>& a, const std::vector<NamedValue>& b) {
+  void compare(std::int64_t time, const std::vector<ComparedValue>& a, const std::vector<ComparedValue>& b) {
     if (a.size() != b.size()) {
       differ(time, fmt::format("{} and {} values: not the same bodies, or not the same sources", a.size(), b.size()));
       return;

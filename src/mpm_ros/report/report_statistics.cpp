@@ -1,6 +1,9 @@
 #include "mpm_ros/report/report_statistics.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include "mpm_ros/message/quantities.hpp"
 
 namespace mpm_ros {
 
@@ -24,16 +27,32 @@ Entry& entry_of(std::vector<Entry>& entries, const std::string& name) {
   return entries.back();
 }
 
-/// What statistics of a body and of a pair have in common: force, impulse, area, friction and time of contact.
-template <typename Statistics, typename Report>
-void take_contact(Statistics& known, const mpm::Vec3& force, const Report& report, std::int64_t time) {
-  known.force.offer(force, time);
-  known.force_integral += force * report.interval;
-  known.impulse = report.impulse;
-  known.duration += report.interval;
-  known.largest_area = std::max(known.largest_area, report.area);
-  known.friction_energy = report.friction_energy;
-  if (force.squaredNorm() > 0.0) {
+mpm::Vec3 as_vector(const Value& value) {
+  const mpm::Vec3* vector = std::get_if<mpm::Vec3>(&value);
+  return vector != nullptr ? *vector : mpm::Vec3(std::get<double>(value), 0.0, 0.0);
+}
+
+template <class Report, class Message>
+void take_contact(ContactStatistics& known, const Message& message, std::int64_t time,
+                  const std::vector<Quantity<Report, Message>>& quantities) {
+  if (known.numbers.empty()) {
+    for (const Quantity<Report, Message>& one : quantities) {
+      NumberStatistics& number = known.numbers.emplace_back();
+      number.name = one.name;
+      number.unit = one.unit;
+      number.vector = std::holds_alternative<mpm::Vec3>(one.of_message(message));
+      number.axisymmetric = one.axisymmetric;
+      number.figures = one.figures;
+    }
+  }
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    NumberStatistics& number = known.numbers[i];
+    number.end = as_vector(quantities[i].of_message(message));
+    number.peak.offer(number.end, time);
+    number.integral += number.end * message.interval;
+  }
+  known.duration += message.interval;
+  if (known.numbers.front().end.squaredNorm() > 0.0) {  // the force
     if (!known.contact) known.contact.emplace(time, time);
     known.contact->second = time;
   }
@@ -41,20 +60,23 @@ void take_contact(Statistics& known, const mpm::Vec3& force, const Report& repor
 
 }  // namespace
 
-void RunStatistics::contact_forces(std::int64_t time, const ContactForces& message) {
-  for (const mpm::ContactReport& report : contact_reports_of(message)) {
-    BodyStatistics& known = entry_of(bodies_, report.body);
-    take_contact(known, report.mean.force, report, time);
-    known.step_force.offer(report.peak.force, time);
-    known.torque.offer(report.mean.torque, time);
-    known.per_radian.offer(report.per_radian, time);
-    known.per_radian_integral += report.per_radian * report.interval;
-    known.torque_integral += report.mean.torque * report.interval;
+const NumberStatistics& ContactStatistics::of(const std::string& number) const {
+  for (const NumberStatistics& one : numbers) {
+    if (one.name == number) return one;
   }
-  for (const mpm::PairReport& report : pair_reports_of(message)) {
-    PairStatistics& known = entry_of(pairs_, report.name);
-    take_contact(known, report.force, report, time);
-    known.interface_energy = report.interface_energy;
+  throw std::out_of_range(name + " has no " + number);
+}
+
+mpm::Vec3 ContactStatistics::mean(const NumberStatistics& number) const {
+  return number.integral / (duration > 0.0 ? duration : 1.0);  // without messages the integral is zero
+}
+
+void RunStatistics::contact_forces(std::int64_t time, const ContactForces& message) {
+  for (const ContactForce& body : message.bodies) {
+    take_contact(entry_of(bodies_, body.name), body, time, contact_quantities());
+  }
+  for (const ContactPair& pair : message.pairs) {
+    take_contact(entry_of(pairs_, pair.name), pair, time, pair_quantities());
   }
 }
 
@@ -98,10 +120,13 @@ void RunStatistics::particles(std::int64_t time, const sensor_msgs::PointCloud2&
 }
 
 std::optional<std::int64_t> RunStatistics::peak_time() const {
-  const auto weaker = [](const BodyStatistics& a, const BodyStatistics& b) { return a.force.norm < b.force.norm; };
+  const auto force = [](const BodyStatistics& body) {
+    return body.numbers.empty() ? Extreme() : body.of("force").peak;
+  };
+  const auto weaker = [&](const BodyStatistics& a, const BodyStatistics& b) { return force(a).norm < force(b).norm; };
   const auto strongest = std::max_element(bodies_.begin(), bodies_.end(), weaker);
-  if (strongest == bodies_.end() || strongest->force.norm == 0.0) return std::nullopt;
-  return strongest->force.time;
+  if (strongest == bodies_.end() || force(*strongest).norm == 0.0) return std::nullopt;
+  return force(*strongest).time;
 }
 
 }  // namespace mpm_ros

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/quantities.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -40,55 +41,47 @@ std::string run_table(const RecordedRun& run) {
   return text;
 }
 
-/// In axisymmetric scenes: what the whole body does not feel, for it cancels around the axis, is here.
-std::string per_radian_table(const RunStatistics& statistics) {
-  TextTable table({"body", "peak a radian r  z [N/rad]", "at [s]", "mean r  z [N/rad]"});
-  const auto pair = [](const mpm::Vec3& force) { return number(force.x()) + "  " + number(force.z()); };
-  for (const BodyStatistics& body : statistics.body_statistics()) {
-    const double duration = body.duration > 0.0 ? body.duration : 1.0;  // without messages the integrals are zero
-    table.add({body.name, pair(body.per_radian.vector), number(seconds(body.per_radian.time)),
-               pair(body.per_radian_integral / duration)});
-  }
-  return "\n" + table.text();
-}
-
 std::string contact_times(const std::optional<std::pair<std::int64_t, std::int64_t>>& contact) {
   return contact ? number(seconds(contact->first)) + " to " + number(seconds(contact->second)) : "none";
 }
 
-/// An area of zero is none, or not known: of contact that is found at nodes.
-std::string area_text(double area) { return area > 0.0 ? number(area) : "-"; }
-
-std::string contact_table(const RunStatistics& statistics, bool axisymmetric) {
-  if (statistics.body_statistics().empty()) return "Contact: the scene has no rigid body\n";
-  TextTable peaks({"body", "peak |F| [N]", "at [s]", "F x  y  z [N]", "of a step [N]", "peak |T| [N m]", "at [s]",
-                   "largest area [m^2]"});
-  TextTable means({"body", "mean F x  y  z [N]", "mean T x  y  z [N m]", "impulse x  y  z [N s]", "friction took [J]",
-                   "contact [s]"});
-  for (const BodyStatistics& body : statistics.body_statistics()) {
-    peaks.add({body.name, number(body.force.norm), number(seconds(body.force.time)), triple(body.force.vector),
-               number(body.step_force.norm), number(body.torque.norm), number(seconds(body.torque.time)),
-               area_text(body.largest_area)});
-    const double duration = body.duration > 0.0 ? body.duration : 1.0;  // without messages the integrals are zero
-    means.add({body.name, triple(body.force_integral / duration), triple(body.torque_integral / duration),
-               triple(body.impulse), number(body.friction_energy), contact_times(body.contact)});
+FigureText figure_text(const ContactStatistics& contact, const NumberStatistics& known, const Figure& figure) {
+  FigureText text;
+  text.heading = fmt::format("{} [{}]", figure.heading, known.unit);
+  mpm::Vec3 value = figure.of == Figure::Of::mean ? contact.mean(known) : known.end;
+  if (figure.of == Figure::Of::peak || figure.of == Figure::Of::largest) {
+    value = known.peak.vector;
+    text.size = number(known.peak.norm);
+    text.time = number(seconds(known.peak.time));
+  } else if (!known.vector) {
+    text.size = number(value.x());
   }
+  if (known.vector) text.vector = known.axisymmetric ? number(value.x()) + "  " + number(value.z()) : triple(value);
+  return text;
+}
+
+template <class Statistics>
+std::string contact_table(const std::string& of, const std::vector<Statistics>& contacts, bool axisymmetric) {
+  TextTable table({of, "", "size", "x  y  z", "at [s]"});
+  for (const ContactStatistics& contact : contacts) {
+    for (const FigureText& figure : figure_texts(contact, axisymmetric)) {
+      table.add({contact.name, figure.heading, figure.size, figure.vector, figure.time});
+    }
+  }
+  return table.text();
+}
+
+std::string body_contacts(const RunStatistics& statistics, bool axisymmetric) {
+  if (statistics.body_statistics().empty()) return "Contact: the scene has no rigid body\n";
   return "Contact: force and torque of the material on each body, world axes, torque about the body's origin\n" +
-         peaks.text() + "\n" + means.text() + (axisymmetric ? per_radian_table(statistics) : "");
+         contact_table("body", statistics.body_statistics(), axisymmetric);
 }
 
 /// Of scenes with contact between deformable bodies; else nothing.
-std::string pair_table(const RunStatistics& statistics) {
+std::string pair_contacts(const RunStatistics& statistics) {
   if (statistics.pair_statistics().empty()) return {};
-  TextTable table({"pair", "peak |F| [N]", "at [s]", "mean F x  y  z [N]", "impulse x  y  z [N s]",
-                   "largest area [m^2]", "friction took [J]", "contact [s]"});
-  for (const PairStatistics& pair : statistics.pair_statistics()) {
-    const double duration = pair.duration > 0.0 ? pair.duration : 1.0;  // without messages the integral is zero
-    table.add({pair.name, number(pair.force.norm), number(seconds(pair.force.time)),
-               triple(pair.force_integral / duration), triple(pair.impulse), area_text(pair.largest_area),
-               number(pair.friction_energy), contact_times(pair.contact)});
-  }
-  return "Contact of deformable bodies: force on the second of each pair, world axes\n" + table.text() + "\n";
+  return "Contact of deformable bodies: force on the second of each pair, world axes\n" +
+         contact_table("pair", statistics.pair_statistics(), false) + "\n";
 }
 
 std::string motion_table(const RunStatistics& statistics) {
@@ -105,28 +98,14 @@ std::string motion_table(const RunStatistics& statistics) {
   return "Motion: range of each body's origin\n" + table.text();
 }
 
+/// Those that are zero from start to end are left out.
 std::string energy_table(const RunStatistics& statistics) {
-  const SolverState& first = *statistics.first_state();
-  const SolverState& last = statistics.last_state();
+  const auto first = energies_of(*statistics.first_state()), last = energies_of(statistics.last_state());
   TextTable table({"energy [J]", "start", "end", "change"});
-  const auto row = [&](const char* name, auto value) {
-    table.add({name, number(value(first)), number(value(last)), number(value(last) - value(first))});
-  };
-  row("kinetic", [](const SolverState& s) { return s.energy_kinetic; });
-  row("elastic", [](const SolverState& s) { return s.energy_elastic; });
-  row("potential", [](const SolverState& s) { return s.energy_potential; });
-  const auto row_if_any = [&](const char* name, auto value) {
-    if (value(last) != 0.0) row(name, value);
-  };
-  row_if_any("in interfaces", [](const SolverState& s) { return s.energy_interface; });
-  row("sum", [](const SolverState& s) {
-    return s.energy_kinetic + s.energy_elastic + s.energy_potential + s.energy_interface;
-  });
-  row("lost to plastic or viscous flow", [](const SolverState& s) { return s.energy_plastic; });
-  row_if_any("lost to friction on the bodies", [](const SolverState& s) { return s.energy_friction; });
-  row_if_any("lost to friction of deformable bodies", [](const SolverState& s) { return s.energy_pair_friction; });
-  row("work of the bodies", [](const SolverState& s) { return s.contact_work; });
-  row_if_any("work of loads", [](const SolverState& s) { return s.load_work; });
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    const double start = first[i].value, end = last[i].value;
+    if (start != 0.0 || end != 0.0) table.add({last[i].heading, number(start), number(end), number(end - start)});
+  }
   return "Energies of the material\n" + table.text();
 }
 
@@ -183,6 +162,16 @@ std::string triple(const mpm::Vec3& vector) {
   return number(vector.x()) + "  " + number(vector.y()) + "  " + number(vector.z());
 }
 
+std::vector<FigureText> figure_texts(const ContactStatistics& contact, bool axisymmetric) {
+  std::vector<FigureText> texts;
+  for (const NumberStatistics& known : contact.numbers) {
+    if (known.axisymmetric && !axisymmetric) continue;
+    for (const Figure& figure : known.figures) texts.push_back(figure_text(contact, known, figure));
+  }
+  texts.push_back({"contact [s]", contact_times(contact.contact), "", ""});
+  return texts;
+}
+
 std::string TextTable::text() const {
   std::vector<std::size_t> widths(rows_.front().size(), 0);
   for (const std::vector<std::string>& row : rows_) {
@@ -200,8 +189,8 @@ std::string TextTable::text() const {
 std::string tables(const RecordedRun& run) {
   const RunStatistics& statistics = run.statistics;
   const std::array<std::string, 7> parts = {run_table(run),
-                                            contact_table(statistics, run.scene.axisymmetric),
-                                            pair_table(statistics) + motion_table(statistics),
+                                            body_contacts(statistics, run.scene.axisymmetric),
+                                            pair_contacts(statistics) + motion_table(statistics),
                                             energy_table(statistics),
                                             audit_table(statistics),
                                             global_table(statistics) + command_table(statistics),

@@ -2,6 +2,9 @@
 
 #include <strings.h>
 
+#include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/quantities.hpp"
+
 namespace mpm_ros {
 namespace {
 
@@ -16,6 +19,22 @@ class List {
     values_.push_back({field + " y", field, value.y, {}});
     values_.push_back({field + " z", field, value.z, {}});
   }
+  template <class Report, class Message>
+  void numbers(const std::string& prefix, const Message& message,
+               const std::vector<Quantity<Report, Message>>& quantities) {
+    for (const Quantity<Report, Message>& one : quantities) {
+      if (!one.compared) continue;
+      const Value value = one.of_message(message);
+      if (const mpm::Vec3* components = std::get_if<mpm::Vec3>(&value)) {
+        vector(prefix + one.name, to_vector(*components));
+      } else {
+        number(prefix + one.name, std::get<double>(value));
+      }
+    }
+    for (const NamedValue& value : others(message, quantities)) {
+      for (const double component : value.value) number(prefix + value.name, component);
+    }
+  }
   void wrench(const std::string& field, const geometry_msgs::Wrench& value) {
     vector(field + " force", value.force);
     vector(field + " torque", value.torque);
@@ -29,10 +48,10 @@ class List {
     vector(field + " velocity", value.linear);
     vector(field + " rotation rate", value.angular);
   }
-  std::vector<NamedValue> take() { return std::move(values_); }
+  std::vector<ComparedValue> take() { return std::move(values_); }
 
  private:
-  std::vector<NamedValue> values_;
+  std::vector<ComparedValue> values_;
 };
 
 /// What the machine took, which is no part of the run. Names are as the scene writes them.
@@ -42,42 +61,20 @@ bool of_machine(const std::string& quantity) {
 
 }  // namespace
 
-std::vector<NamedValue> values_of(const ContactForces& message) {
+std::vector<ComparedValue> values_of(const ContactForces& message) {
   List list;
   for (const ContactForce& body : message.bodies) {
-    const std::string& name = body.name;
-    list.word("name", name);
-    list.wrench(name, body.wrench);
-    list.wrench(name + " peak", body.peak);
-    list.vector(name + " impulse", body.impulse);
-    list.number(name + " interval", body.interval);
-    list.number(name + " nodes", body.nodes);
-    list.number(name + " contact area", body.contact_area);
-    list.number(name + " friction energy", body.friction_energy);
-    list.number(name + " pressing", body.pressing);
-    list.vector(name + " friction", body.friction);
-    list.vector(name + " per radian", body.per_radian);
-    list.vector(name + " centre of pressure", body.centre_of_pressure);
-    list.vector(name + " arm", body.arm);
+    list.word("name", body.name);
+    list.numbers(body.name + " ", body, contact_quantities());
   }
   for (const ContactPair& pair : message.pairs) {
-    const std::string& name = pair.name;
-    list.word("name", name);
-    list.vector(name + " force", pair.force);
-    list.vector(name + " friction", pair.friction);
-    list.vector(name + " impulse", pair.impulse);
-    list.number(name + " interval", pair.interval);
-    list.number(name + " pressing", pair.pressing);
-    list.number(name + " nodes", pair.nodes);
-    list.number(name + " contact area", pair.contact_area);
-    list.number(name + " friction energy", pair.friction_energy);
-    list.number(name + " interface energy", pair.interface_energy);
-    list.vector(name + " centre of pressure", pair.centre_of_pressure);
+    list.word("name", pair.name);
+    list.numbers(pair.name + " ", pair, pair_quantities());
   }
   return list.take();
 }
 
-std::vector<NamedValue> values_of(const BodyStates& message) {
+std::vector<ComparedValue> values_of(const BodyStates& message) {
   List list;
   for (const BodyState& body : message.bodies) {
     list.word("name", body.name);
@@ -89,46 +86,21 @@ std::vector<NamedValue> values_of(const BodyStates& message) {
   return list.take();
 }
 
-std::vector<NamedValue> values_of(const SolverState& message) {
+std::vector<ComparedValue> values_of(const SolverState& message) {
   List list;
-  list.number("time", message.time);
-  list.number("steps", static_cast<double>(message.steps));
-  list.number("dt", message.dt);
-  list.number("dt_min", message.dt_min);
-  list.number("dt_max", message.dt_max);
+  list.numbers("", message, state_quantities());
   list.word("dt_limited_by", message.dt_limited_by);
-  list.number("particles", static_cast<double>(message.particles));
-  list.number("particles_returned", static_cast<double>(message.particles_returned));
-  list.number("energy_kinetic", message.energy_kinetic);
-  list.number("energy_elastic", message.energy_elastic);
-  list.number("energy_plastic", message.energy_plastic);
-  list.number("energy_potential", message.energy_potential);
-  list.number("contact_work", message.contact_work);
-  list.number("load_work", message.load_work);
-  list.number("energy_friction", message.energy_friction);
-  list.number("energy_free_kinetic", message.energy_free_kinetic);
-  list.number("energy_free_potential", message.energy_free_potential);
-  list.number("energy_free_loss", message.energy_free_loss);
-  list.number("free_work", message.free_work);
-  list.number("energy_pair_friction", message.energy_pair_friction);
-  list.number("energy_interface", message.energy_interface);
-  list.vector("momentum", message.momentum);
-  list.vector("initial_momentum", message.initial_momentum);
   for (const Impulse& impulse : message.impulses) {
     list.word("impulse", impulse.name);
     list.vector("impulse " + impulse.name, impulse.impulse);
   }
-  list.number("momentum_exchanged", message.momentum_exchanged);
-  list.number("momentum_carried", message.momentum_carried);
-  list.number("min_j", message.min_j);
-  list.number("commands_applied", static_cast<double>(message.commands_applied));
   list.number("failed", message.failed);
   list.word("failure", message.failure);
   list.word("state_hash", message.state_hash);
   return list.take();
 }
 
-std::vector<NamedValue> values_of(const Command& message) {
+std::vector<ComparedValue> values_of(const Command& message) {
   List list;
   list.word("body", message.body);
   list.number("kind", message.kind);
@@ -140,7 +112,7 @@ std::vector<NamedValue> values_of(const Command& message) {
   return list.take();
 }
 
-std::vector<NamedValue> values_of(const GlobalQuantities& message) {
+std::vector<ComparedValue> values_of(const GlobalQuantities& message) {
   List list;
   for (std::size_t i = 0; i < message.names.size() && i < message.values.size(); ++i) {
     if (!of_machine(message.names[i])) list.number(message.names[i], message.values[i]);

@@ -177,7 +177,7 @@ class OfflineRun {
       err << fmt::format("warning: '{}' stands still: only the node follows a tf frame (drive: tf)\n",
                          scene_.definition.rigid_bodies[body].name);
     }
-    const mpm::EnergyReport start_energy = simulation.state().energy;
+    const mpm::SolverState start = simulation.state();
     ProgressBar progress(err, bar);
     const double end = static_cast<double>(run_->end());
     const auto where = [&] {
@@ -235,7 +235,7 @@ class OfflineRun {
     if (!room) recorded([&] { run_->finish(); });
     if (csv_ && !csv_->left_out()) recorded([&] { csv_->close(); });
     if (vtk_ && !vtk_->left_out()) recorded([&] { vtk_->close(); });
-    const RunSummary summary(scene_, simulation, start_energy, run_->outputs().contacts());
+    const RunSummary summary(scene_, simulation, start, run_->outputs().contacts());
     out << summary.text();
     if (!write(summary, err)) room = false;
     if (!run_->bag().empty()) out << "  bag " << run_->bag() << "\n";

@@ -7,6 +7,7 @@
 
 #include "mpm/simulation/method_text.hpp"
 #include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/quantities.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -17,31 +18,47 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;  // Linux counts kibibytes
 }
 
-nlohmann::ordered_json energy_json(const mpm::EnergyReport& energy) {
-  return {{"kinetic", energy.of("kinetic")},           {"elastic", energy.of("elastic")},
-          {"plastic", energy.of("plastic")},           {"potential", energy.of("potential")},
-          {"contact_work", energy.of("contact_work")}, {"load_work", energy.of("load_work")},
-          {"friction", energy.of("friction")},         {"pair_friction", energy.of("pair_friction")},
-          {"interface", energy.of("interface")},       {"total", energy.total()}};
+nlohmann::ordered_json array(const mpm::Vec3& v) { return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; }  // no -0
+
+nlohmann::ordered_json json_of(const Value& value) {
+  const mpm::Vec3* vector = std::get_if<mpm::Vec3>(&value);
+  return vector != nullptr ? array(*vector) : nlohmann::ordered_json(std::get<double>(value));
 }
 
-nlohmann::ordered_json array(const mpm::Vec3& v) { return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; }  // no -0
+/// What the lists of quantities.hpp count since the start, under their keys.
+template <class Report, class Message>
+nlohmann::ordered_json ends_of(const Report& report, const std::vector<Quantity<Report, Message>>& quantities) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const Quantity<Report, Message>& one : quantities) {
+    for (const Figure& figure : one.figures) {
+      if (figure.of == Figure::Of::end || figure.of == Figure::Of::ends)
+        json[figure.key] = json_of(one.of_report(report));
+    }
+  }
+  return json;
+}
 
 /// "x y z", six digits, no -0.
 std::string triple(const mpm::Vec3& v) {
   return fmt::format("{:.6g} {:.6g} {:.6g}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 
+nlohmann::ordered_json energy_json(const mpm::SolverState& state) {
+  nlohmann::ordered_json json;
+  for (const EnergyFigure& energy : energies_of(to_message(state))) json[energy.key] = energy.value;
+  return json;
+}
+
 }  // namespace
 
-RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation,
-                       const mpm::EnergyReport& start_energy, const Contacts& contacts)
+RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::SolverState& start,
+                       const Contacts& contacts)
     : scene(scene.definition.name),
       definition(simulation.definition()),
       isa(simulation.isa()),
       threads(simulation.threads()),
       state(simulation.state()),
-      start_energy(start_energy),
+      start(start),
       state_hash(simulation.state_hash()),
       peak_memory(peak_memory_bytes()),
       contacts(contacts),
@@ -74,19 +91,19 @@ nlohmann::ordered_json RunSummary::json() const {
   root["peak_memory_bytes"] = peak_memory;
   root["threads"] = threads;
   root["state_hash"] = hash_text(state_hash);
-  root["energy"] = {{"start", energy_json(start_energy)}, {"end", energy_json(state.energy)}};
+  root["energy"] = {{"start", energy_json(start)}, {"end", energy_json(state)}};
   root["momentum_error"] = state.audit.residual;
-  root["contact_impulse"] = nlohmann::ordered_json::object();
-  root["friction_energy"] = nlohmann::ordered_json::object();
+  // Of a body by quantity and body, of a pair the other way round.
+  root["contact_impulse"] = root["friction_energy"] = nlohmann::ordered_json::object();
   for (const mpm::ContactReport& contact : contacts.bodies) {
-    root["contact_impulse"][contact.body] = array(contact.impulse);
-    root["friction_energy"][contact.body] = contact.friction_energy;
+    const nlohmann::ordered_json ends = ends_of(contact, contact_quantities());
+    for (const auto& [key, value] : ends.items()) {
+      root[key == "impulse" ? "contact_impulse" : key][contact.body] = value;
+    }
   }
   root["contact_pairs"] = nlohmann::ordered_json::object();
   for (const mpm::PairReport& pair : contacts.pairs) {
-    root["contact_pairs"][pair.name] = {{"impulse", array(pair.impulse)},
-                                        {"friction_energy", pair.friction_energy},
-                                        {"interface_energy", pair.interface_energy}};
+    root["contact_pairs"][pair.name] = ends_of(pair, pair_quantities());
   }
   root["metrics"] = nlohmann::ordered_json::object();
   for (const auto& [name, value] : metrics) root["metrics"][name] = value;
@@ -105,7 +122,7 @@ std::string RunSummary::text() const {
   text += fmt::format(
       "  energy {:.6g} J at the start, {:.6g} J at the end (kinetic {:.4g}, elastic {:.4g}, potential "
       "{:.4g}); lost to plastic or viscous flow {:.4g} J, work of tools {:.4g} J\n",
-      start_energy.total(), state.energy.total(), state.energy.of("kinetic"), state.energy.of("elastic"),
+      start.energy.total(), state.energy.total(), state.energy.of("kinetic"), state.energy.of("elastic"),
       state.energy.of("potential"), state.energy.of("plastic"), state.energy.of("contact_work"));
   text +=
       fmt::format("  momentum error {:.2g} of the momentum exchanged, smallest J {:.4g} at the end, state hash {}\n",

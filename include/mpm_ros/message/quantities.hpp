@@ -1,0 +1,37 @@
+// The lists of what a run reports of a contact, of a pair of bodies and of its state. A line is a number; their order
+// is that of the CSV columns.
+#pragma once
+
+#include <mpm_ros/ContactForce.h>
+#include <mpm_ros/ContactPair.h>
+#include <mpm_ros/SolverState.h>
+
+#include <string>
+#include <vector>
+
+#include "mpm/simulation/report.hpp"
+#include "mpm_ros/message/quantity.hpp"
+
+namespace mpm_ros {
+
+using ContactQuantity = Quantity<mpm::ContactReport, ContactForce>;
+using PairQuantity = Quantity<mpm::PairReport, ContactPair>;
+using StateQuantity = Quantity<mpm::SolverState, SolverState>;
+
+/// Of a rigid body's contact with the material; the first is the mean force.
+const std::vector<ContactQuantity>& contact_quantities();
+/// Of the contact between two deformable bodies; the first is the mean force on the second.
+const std::vector<PairQuantity>& pair_quantities();
+/// Of the solver; impulses have names of their own and stand beside these.
+const std::vector<StateQuantity>& state_quantities();
+
+/// An energy of the state [J], or work done.
+struct EnergyFigure {
+  std::string key;      ///< in JSON
+  std::string heading;  ///< in tables
+  double value = 0.0;
+};
+/// Those of the list, then those that modules bring by names of their own.
+std::vector<EnergyFigure> energies_of(const SolverState& state);
+
+}  // namespace mpm_ros

@@ -4,13 +4,14 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build="$root/build"
 export PATH="/usr/bin:$PATH" # ROS belongs to the system's Python
 
-# configure FOLDER [cmake options]: runs cmake, quiet unless it fails. A configured folder keeps its generator.
+# configure FOLDER [cmake options]: runs cmake, quiet unless it fails. A configured folder keeps its generator, and whether
+# the files of a folder of sources are compiled as one.
 configure() {
-  local folder=$1 generator=()
+  local folder=$1 first=()
   shift
   mkdir -p "$folder"
-  [ -f "$folder/CMakeCache.txt" ] || generator=(-G Ninja)
-  if ! cmake -S "$root" -B "$folder" "${generator[@]}" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
+  [ -f "$folder/CMakeCache.txt" ] || first=(-G Ninja -DMPM_UNITY=ON)
+  if ! cmake -S "$root" -B "$folder" "${first[@]}" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
     "$@" >"$folder/configure.log" 2>&1; then
     cat "$folder/configure.log" >&2
     return 1

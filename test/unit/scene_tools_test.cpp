@@ -40,6 +40,10 @@ TEST(SceneTools, SidesOfAThinTool) {
   EXPECT_EQ(tool("solid", kRing, "sides: one").sides, Sides::one);
   EXPECT_EQ(tool("line", "box: {size: 0.1}", "sides: two").sides, Sides::two);
   expect_refused(scene("solid", kRing, "sides: 2"), "sides", "two");
+  EXPECT_EQ(tool("solid", kRing, "divides: [block]").divides, std::vector<std::string>{"block"});
+  expect_refused(scene("solid", kRing, "divides: block"), "divides", "write a list");
+  expect_refused(scene("solid", kRing, "divides: [blok]"), "divides[0]", "no deformable body is called 'blok'");
+  expect_refused(scene("solid", kRing, "sides: one, divides: [block]"), "divides", "divides nothing");
 }
 
 TEST(SceneTools, AToolThatIsNotAxisymmetricIsRefused) {

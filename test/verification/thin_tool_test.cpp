@@ -183,6 +183,26 @@ TEST(ThinTool, ADrawnAwayPlateOfOneFieldDrawsTheMaterialAlong) {
   EXPECT_GT(largest(run, "vz", "above"), 1e-3);
 }
 
+// Only the bodies that a tool names have a second field: a body that it does not name acts through it, as with one
+// field. The third body lies far away.
+TEST(ThinTool, DividesTheBodiesThatItNames) {
+  const auto speed_above = [](const std::vector<std::string>& divides) {
+    SimulationDefinition d = sandwich(GeometryKind::plane_strain, Sides::automatic);
+    d.contact.method = ContactMethod::nodes;
+    d.bodies.push_back(block(GeometryKind::plane_strain, "far", {0.5, 1.8, 0.5}, {2, 2, 2}));
+    d.bodies[2].field = 1;
+    d.rigid_bodies[0].divides = divides;
+    move(d.bodies[0], {0.0, 0.0, 1.0});
+    Simulation run(d, {1});
+    for (int n = 0; n < 3; ++n) run.advance();
+    EXPECT_GT(largest(run, "szz", "below"), 100.0);
+    EXPECT_LT(run.state().audit.residual, 1e-10);
+    return largest(run, "vz", "above");
+  };
+  EXPECT_EQ(speed_above({"below", "above"}), 0.0);
+  EXPECT_GT(speed_above({"far"}), 1e-3);
+}
+
 TEST(ThinTool, ItIsSaidWhatWasChosen) {
   const auto said = [](const std::vector<std::string>& list, const std::string& text) {
     return std::any_of(list.begin(), list.end(),

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "mpm/math/function.hpp"
 #include "mpm/math/state_archive.hpp"
@@ -36,6 +37,8 @@ struct RigidBodyDefinition {
   /// body made of particles would reach; material is met that much early.
   double reach = 0.0;
   Sides sides = Sides::automatic;
+  /// Names of the deformable bodies whose material has two sides at this body, if it has sides at all; empty: all.
+  std::vector<std::string> divides;
   /// A body with a mass, of which some velocities or all are free; the others are told. Without: all are told.
   std::optional<FreeDefinition> free;
   /// Filled with particles, and met by volumes and volume gradients at nodes (contact/rigid_particle_contact.hpp) in

@@ -1,6 +1,7 @@
 // rigid_bodies and contact: tools, their surfaces, poses, motions and friction.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -195,6 +196,18 @@ void read_normals(const Value& value, RigidBodyDefinition& body) {
   }
 }
 
+void read_divides(const Value& value, const Scene& scene, RigidBodyDefinition& body) {
+  if (body.sides == Sides::one) value.fail("with sides: one the body divides nothing; leave out one of the two keys");
+  if (!value.is_list()) value.fail("write a list of deformable bodies, such as [soil]");
+  for (const Value& element : value.elements()) {
+    const std::string name = element.text();
+    const bool known = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                   [&](const BodyDefinition& other) { return other.name == name; });
+    if (!known) element.fail(fmt::format("no deformable body is called '{}'; name one of 'bodies'", name));
+    body.divides.push_back(name);
+  }
+}
+
 }  // namespace
 
 void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinition& body) {
@@ -213,10 +226,11 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
   const FrictionLaw friction = read_contact(root, scene, section.has_value());
   if (!section) return;
   for (const Value& value : section->elements()) {
-    const Map map(
-        value, {"name", "shape", "pose", "motion", "drive", "limits", "free", "friction", "reach", "sides", "normals"},
-        {{"mass", "write free: {mass: ...}, or density, for a body that forces move"},
-         {"frame", "use commands on topics, which tf2 transforms"}});
+    const Map map(value,
+                  {"name", "shape", "pose", "motion", "drive", "limits", "free", "friction", "reach", "sides",
+                   "divides", "normals"},
+                  {{"mass", "write free: {mass: ...}, or density, for a body that forces move"},
+                   {"frame", "use commands on topics, which tf2 transforms"}});
     RigidBodyDefinition body;
     body.name = map.at("name").name();
     for (const RigidBodyDefinition& other : scene.definition.rigid_bodies) {
@@ -234,6 +248,7 @@ void read_rigid_bodies(const Map& root, Scene& scene) {
     body.friction = own_friction ? read_friction(*own_friction) : friction;
     read_free(map, scene.definition, body);
     if (const auto sides = map.find("sides")) body.sides = static_cast<Sides>(sides->choice({"auto", "one", "two"}));
+    if (const auto divides = map.find("divides")) read_divides(*divides, scene, body);
     if (const auto reach = map.find("reach")) {
       if (scene.definition.contact.method == ContactMethod::points)
         reach->fail("it is of contact at nodes; leave it out, or write contact: {method: nodes}");

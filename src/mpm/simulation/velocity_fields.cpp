@@ -21,21 +21,26 @@ GridLayout layout_of(const SimulationDefinition& definition) {
 
 }  // namespace
 
-// A tool may come to any body, so where one is thin it divides all of them.
+// A tool may come to any body, so a thin one divides all of them unless it names those that it divides.
 FieldMap field_map(const SimulationDefinition& definition) {
   const double cell = layout_of(definition).smallest_cell();
-  const auto& tools = definition.rigid_bodies;
-  const bool divided = std::any_of(tools.begin(), tools.end(), [&](const RigidBodyDefinition& body) {
-    return has_sides(body, definition.geometry, cell);
-  });
+  const auto divided_by = [&](const RigidBodyDefinition& tool, const std::string& body) {
+    const auto& named = tool.divides;
+    const bool meant = named.empty() || std::find(named.begin(), named.end(), body) != named.end();
+    return meant && has_sides(tool, definition.geometry, cell);
+  };
   std::vector<int> groups;
+  std::vector<bool> divided;
   for (const DeformableBody& body : definition.bodies) {
     if (body.field < 0) {
       throw DefinitionError(fmt::format("body '{}': its velocity field is {}", body.name, body.field));
     }
     groups.push_back(body.field);
+    const auto& tools = definition.rigid_bodies;
+    divided.push_back(std::any_of(tools.begin(), tools.end(),
+                                  [&](const RigidBodyDefinition& tool) { return divided_by(tool, body.name); }));
   }
-  return {groups, std::vector<bool>(groups.size(), divided)};
+  return {groups, divided};
 }
 
 Fields make_fields(const SimulationDefinition& definition, int count) {

@@ -171,14 +171,14 @@ struct Pressed {
     options.output = output_options(scene);
     options.output.wrench_period = 0.016;  // averages of eight periods
     options.resume = resume;
-    options.more = [this](mpm::StateArchive& archive) { keep(archive); };
+    options.more = [this](mpm::StateArchive& archive) { serialise(archive); };
     run = std::make_unique<mpm_ros::Run>(scene, options, Stamps(), nullptr);
     run->begin();
   }
-  void keep(mpm::StateArchive& archive) {
-    queue.keep(archive);
-    watch.keep(archive);
-    limiter.keep(archive);
+  void serialise(mpm::StateArchive& archive) {
+    queue.serialise(archive);
+    watch.serialise(archive);
+    limiter.serialise(archive);
   }
   void go(int periods) {
     for (int n = 0; n < periods && !run->ended(); ++n) {
@@ -217,7 +217,7 @@ TEST_F(RunCheckpoint, CommandsThatWaitAndAveragesUnderWayGoOn) {
     Pressed first;
     fill(first.queue);
     first.go(at);
-    first.run->save(folder_.file("press.h5"), [&](mpm::StateArchive& archive) { first.keep(archive); });
+    first.run->save(folder_.file("press.h5"), [&](mpm::StateArchive& archive) { first.serialise(archive); });
     Pressed second(folder_.file("press.h5"));
     EXPECT_EQ(second.queue.waiting(), first.queue.waiting());
     second.go(1000000);
@@ -232,7 +232,7 @@ TEST_F(RunCheckpoint, RunSceneDoesNotDropCommandsThatWait) {
   Pressed first;
   fill(first.queue);
   first.go(1);
-  first.run->save(folder_.file("press.h5"), [&](mpm::StateArchive& archive) { first.keep(archive); });
+  first.run->save(folder_.file("press.h5"), [&](mpm::StateArchive& archive) { first.serialise(archive); });
   options_.scene.clear();
   options_.end.clear();
   options_.resume = folder_.file("press.h5");

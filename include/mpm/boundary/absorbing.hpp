@@ -61,7 +61,7 @@ class Absorbing final : public FieldStage {
   void grid_advanced(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void energies(EnergyReport& report) const override { report.add("load_work", NamedEnergy::Kind::work, work_); }
-  void keep(StateArchive& archive) override;
+  void serialise(StateArchive& archive) override;
 
  private:
   struct Node {

@@ -28,10 +28,11 @@ class Axis final : public FieldStage {
   void increment_found(FieldContext& context) override;
   void grid_advanced(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
-  std::optional<OutsideReason> why_outside(const GridLayout& layout, const ParticleSet& set, int particle) const override;
-  void keep(StateArchive& archive) override {
-    account_.keep(archive);
-    archive.keep("given", given_);
+  std::optional<OutsideReason> why_outside(const GridLayout& layout, const ParticleSet& set,
+                                           int particle) const override;
+  void serialise(StateArchive& archive) override {
+    account_.serialise(archive);
+    archive.value("given", given_);
   }
 
  private:
@@ -61,7 +62,7 @@ class HoopForce final : public FieldStage {
 
   void forces_gathered(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
-  void keep(StateArchive& archive) override { account_.keep(archive); }
+  void serialise(StateArchive& archive) override { account_.serialise(archive); }
 
  private:
   ImpulseAccount account_;
@@ -80,7 +81,7 @@ class MasslessNodes final : public FieldStage {
 
   void forces_gathered(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
-  void keep(StateArchive& archive) override { account_.keep(archive); }
+  void serialise(StateArchive& archive) override { account_.serialise(archive); }
 
  private:
   Vec3 gravity_;  ///< [m/s^2]

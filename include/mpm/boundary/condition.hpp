@@ -69,7 +69,7 @@ class VelocityConditions final : public FieldStage {
   /// @throws ConditionError
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
   std::string limit_text(const StepLimit& limit) const override;
-  void keep(StateArchive& archive) override;
+  void serialise(StateArchive& archive) override;
 
   /// The largest prescribed speed at the held nodes at a time [s], the regions standing as they do now [m/s].
   /// @throws ConditionError

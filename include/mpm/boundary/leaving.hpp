@@ -35,10 +35,10 @@ class Leaving final : public Module {
   /// since it is not finite or the limit has been passed; then the particles that come after it are as they were.
   bool put_back() override;
   std::optional<OutsideReason> why_outside(const GridLayout&, const ParticleSet&, int particle) const override;
-  void keep(StateArchive& archive) override {
-    archive.keep("count", count_);
+  void serialise(StateArchive& archive) override {
+    archive.value("count", count_);
     archive.list("left", left_);
-    account_.keep(archive);
+    account_.serialise(archive);
   }
 
  private:

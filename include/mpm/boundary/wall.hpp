@@ -50,10 +50,10 @@ class Wall final : public FieldStage {
   void increment_found(FieldContext& context) override;
   void grid_advanced(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
-  void keep(StateArchive& archive) override {
-    account_.keep(archive);
-    archive.keep("given", given_);
-    held_.keep(archive);
+  void serialise(StateArchive& archive) override {
+    account_.serialise(archive);
+    archive.value("given", given_);
+    held_.serialise(archive);
   }
 
  private:

@@ -50,7 +50,7 @@ class ContactLedger {
   /// What the material did to the body since this reader's last call; `now` [s]. Other readers notice nothing.
   ContactReport read(double now, int reader = 0);
   /// For checkpoints.
-  void keep(StateArchive& archive);
+  void serialise(StateArchive& archive);
 
   const RigidBody& body() const { return body_; }
   /// Work of the body on the material, and what sliding on it took.

@@ -61,7 +61,7 @@ class MaterialContact final : public Stage, public ContactReporter {
   void increment_found(StepContext& context) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
-  void keep(StateArchive& archive) override;
+  void serialise(StateArchive& archive) override;
 
   void energies(EnergyReport& report) const override;
   /// Another reader, whose reports begin `now` [s]. The same readers must be there before a checkpoint is read.
@@ -117,7 +117,7 @@ class MaterialContact final : public Stage, public ContactReporter {
     double time = 0.0;  ///< of its last call [s]
     std::vector<Sums> seen;
   };
-  static void keep_sums(StateArchive& archive, std::vector<Sums>& sums);
+  static void serialise_sums(StateArchive& archive, std::vector<Sums>& sums);
   enum class Pass { strain, update, filter };
 
   /// Which rule is between two fields, and whether the first is its second body; -1: none.

@@ -61,7 +61,7 @@ class PointContact final : public Stage, public ContactReporter {
   void accounts(std::vector<ImpulseAccount>& list) const override;
   void energies(EnergyReport& report) const override;
   ContactLedger* ledger_of(const RigidBody& body) override;
-  void keep(StateArchive& archive) override;
+  void serialise(StateArchive& archive) override;
 
  private:
   using Pass = PointSolver::Pass;

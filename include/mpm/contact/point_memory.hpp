@@ -37,7 +37,7 @@ class PointMemory {
                                         [](const Entry& one, std::uint64_t wanted) { return one.id < wanted; });
     return entry != entries_.end() && entry->id == id ? &*entry : nullptr;
   }
-  void keep(StateArchive& archive) {
+  void serialise(StateArchive& archive) {
     archive.rows("points", entries_);
     archive.column("points/id", entries_, &Entry::id);
     archive.column("points/force", entries_, &Entry::force);

@@ -47,7 +47,7 @@ class RigidParticleContact final : public Stage, public ContactReporter {
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(ledger_.account()); }
   void energies(EnergyReport& report) const override { ledger_.energies(report); }
   ContactLedger* ledger_of(const RigidBody& body) override { return &body == &body_ ? &ledger_ : nullptr; }
-  void keep(StateArchive& archive) override;
+  void serialise(StateArchive& archive) override;
 
   ContactLedger& ledger() { return ledger_; }
   const ContactLedger& ledger() const { return ledger_; }

@@ -36,7 +36,7 @@ class ThinTool {
   /// Turns the mid plane of a round tool towards the body's present motion.
   void aim();
   /// For checkpoints: where a round tool was aimed.
-  void keep(StateArchive& archive) { archive.keep("across", across_); }
+  void serialise(StateArchive& archive) { archive.value("across", across_); }
   /// 0 or 1. `point`: world [m]
   int side(const Vec3& point) const;
   /// Whether the surface is at most `band` [m] away from a world point; then what it says there, in the body's frame.

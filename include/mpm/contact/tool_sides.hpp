@@ -52,7 +52,7 @@ class ToolSides final : public Module {
   /// Whether a ball around a world point is so near to a tool that particles in it may be on side 1 or in its contact.
   bool near(const Vec3& point, double radius) const;
   /// For checkpoints.
-  void keep(StateArchive& archive) override;
+  void serialise(StateArchive& archive) override;
 
  private:
   const GridLayout& layout_;

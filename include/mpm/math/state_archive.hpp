@@ -1,9 +1,9 @@
 // Serialises the state of a run by name: numbers and arrays of numbers, in groups. A class with state has one function,
-// keep(StateArchive&), that serves both to write and to read, so that the two cannot disagree. Values that are computed
-// anew in every step are not stored.
+// serialise(StateArchive&), that serves both to write and to read, so that the two cannot disagree. Values that are
+// computed anew in every step are not stored.
 //
-//   void Thing::keep(StateArchive& archive) {
-//     archive.keep("work", work_);
+//   void Thing::serialise(StateArchive& archive) {
+//     archive.value("work", work_);
 //     archive.rows("held", held_);
 //     archive.column("held/node", held_, &Held::node);
 //   }
@@ -53,10 +53,10 @@ class StateArchive {
 
   /// Serialises a number, bool, enumeration, vector or quaternion.
   template <class T>
-  void keep(const std::string& name, T& value) {
+  void value(const std::string& name, T& value) {
     column_of(name, 1, [&value](std::size_t) -> T& { return value; });
   }
-  void keep(const std::string& name, std::string& text) {
+  void value(const std::string& name, std::string& text) {
     if (reading()) text.resize(stored(prefix_ + name));
     values(prefix_ + name, Number::uint8, text.data(), text.size());
   }
@@ -79,7 +79,7 @@ class StateArchive {
   template <class List>
   void rows(const std::string& name, List& list) {
     std::uint64_t size = list.size();
-    keep(name + "/rows", size);
+    value(name + "/rows", size);
     if (reading()) list.resize(size);
   }
   /// Serialises one member of every entry of a list; `member` is a pointer to it or a function that returns a reference
@@ -90,12 +90,12 @@ class StateArchive {
   }
   /// Serialises the generation (BlockTable::generation()) at which something was found, as the number of sorts since
   /// then.
-  void keep_generation(const std::string& name, std::uint64_t& generation) {
+  void generation(const std::string& name, std::uint64_t& generation) {
     std::uint64_t since = generation_ - generation;
-    keep(name, since);
+    value(name, since);
     if (reading()) generation = generation_ - since;
   }
-  /// Sets the present generation; call it before keep_generation().
+  /// Sets the present generation; call it before generation().
   void set_generation(std::uint64_t generation) { generation_ = generation; }
 
  protected:

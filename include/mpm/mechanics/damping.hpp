@@ -78,9 +78,9 @@ class DampingControl final : public Stage {
   void hashed(std::vector<double>& numbers) const override {
     if (needs_energy()) numbers.push_back(alpha_);
   }
-  void keep(StateArchive& archive) override {
-    archive.keep("alpha", alpha_);
-    account_.keep(archive);
+  void serialise(StateArchive& archive) override {
+    archive.value("alpha", alpha_);
+    account_.serialise(archive);
   }
 
   /// Of the feedback, now [1/s].

@@ -64,9 +64,9 @@ class FaceTractions : public Stage {
   void momentum_updated(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void energies(EnergyReport& report) const override { report.add("load_work", NamedEnergy::Kind::work, work_); }
-  void keep(StateArchive& archive) override {
-    archive.keep("work", work_);
-    account_.keep(archive);
+  void serialise(StateArchive& archive) override {
+    archive.value("work", work_);
+    account_.serialise(archive);
   }
   /// Work on the material since the start [J]: nodal load times the displacement of its node in the step.
   double work() const { return work_; }

@@ -117,7 +117,7 @@ class FreeMotion final : public BodyMotion {
   /// `gravity` [m/s^2]
   FreeBodyReport report(const std::string& name, const Vec3& gravity) const;
 
-  void keep(StateArchive& archive);
+  void serialise(StateArchive& archive);
 
  private:
   Mat3 inertia_at(const Quat& orientation) const;

@@ -103,7 +103,7 @@ class RigidBody {
   /// just made; it rests from the next step on, unless a command says otherwise.
   void at_sync(std::int64_t now);
   /// For checkpoints: where it is, and what it follows.
-  void keep(StateArchive& archive);
+  void serialise(StateArchive& archive);
 
  private:
   /// @throws RigidError for a pose that the body cannot have.

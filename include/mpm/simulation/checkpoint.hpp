@@ -51,17 +51,17 @@ inline constexpr const char* kCheckpointFormat = "mpm_ros checkpoint";
 inline constexpr std::uint32_t kCheckpointVersion = 2;
 
 /// Keeps what belongs to the run but not to the Simulation.
-using KeepMore = std::function<void(StateArchive&)>;
+using SerialiseMore = std::function<void(StateArchive&)>;
 
 /// Returns what the file then says of itself. @throws CheckpointError; then a file of that name is as it was.
 CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation, const CheckpointLabel& label,
-                                const KeepMore& more = {});
+                                const SerialiseMore& more = {});
 /// @throws CheckpointError for a file that is none, or of another version
 CheckpointAbout read_checkpoint(const std::string& path);
 /// `scene_text`: that `simulation` was built from. @throws CheckpointError for a file that is none, is damaged, of
 /// another version, scene, instruction set or precision, or of a run that failed. If it is damaged, the simulation
 /// cannot go on; else it is as it was.
 CheckpointAbout load_checkpoint(const std::string& path, Simulation& simulation, const std::string& scene_text,
-                                const KeepMore& more = {});
+                                const SerialiseMore& more = {});
 
 }  // namespace mpm

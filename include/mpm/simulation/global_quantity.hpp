@@ -42,7 +42,7 @@ class GlobalQuantities {
   /// Where the simulation stands. A contact force is the mean since the last call, and 0 in the first one.
   const std::vector<double>& read();
   /// For checkpoints: since when forces are averaged. Of other quantities than these nothing is taken on.
-  void keep(StateArchive& archive);
+  void serialise(StateArchive& archive);
 
  private:
   /// One quantity: which it is, and of what.

@@ -118,14 +118,14 @@ class Simulation {
   /// on other grids have the same hash; of two that are in the same place by other ways the hash may part later.
   /// memory_hash() tells those apart.
   std::uint64_t state_hash() const;
-  /// Of all that keep() keeps, reports and their sums since the last call too, but for the wall time.
+  /// Of all that serialise() keeps, reports and their sums since the last call too, but for the wall time.
   std::uint64_t memory_hash();
 
   /// Writes to, or reads from, a checkpoint (simulation/checkpoint.hpp) all that the run's future and its reports
   /// depend on beyond the definition. At a sync point. Reading wants a Simulation of the same definition, instruction
   /// set and precision; it goes on as the one that was written, to the bit, on any number of threads. After an error it
   /// cannot go on. @throws the archive's error
-  void keep(StateArchive& archive);
+  void serialise(StateArchive& archive);
 
  private:
   /// Of those metrics that are rates, at a sync point.

@@ -63,7 +63,7 @@ class HeldNodes {
   void clear() { held_.clear(); }
   /// In ascending order of id.
   void add(std::uint64_t id, Hold hold) { held_.push_back({id, hold}); }
-  void keep(StateArchive& archive) {
+  void serialise(StateArchive& archive) {
     archive.rows("held", held_);
     archive.column("held/node", held_, &Entry::id);
     archive.column("held/hold", held_, &Entry::hold);

@@ -27,9 +27,9 @@ struct ImpulseAccount {
     impulse += step_impulse;
     exchanged += step_impulse.norm();
   }
-  void keep(StateArchive& archive) {
-    archive.keep("impulse", impulse);
-    archive.keep("exchanged", exchanged);
+  void serialise(StateArchive& archive) {
+    archive.value("impulse", impulse);
+    archive.value("exchanged", exchanged);
   }
 };
 
@@ -93,7 +93,7 @@ class Module {
 
   /// Writes or reads what it remembers from step to step and what it reports, for checkpoints: all but what a step
   /// finds anew. Between two steps only.
-  virtual void keep(StateArchive&) {}
+  virtual void serialise(StateArchive&) {}
   /// Numbers that decide the future and belong to the state hash.
   virtual void hashed(std::vector<double>&) const {}
 };

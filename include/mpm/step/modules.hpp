@@ -48,8 +48,8 @@ class Modules {
   std::vector<NamedNumber> numbers() const;
   /// The module that has a name first, or null.
   const Module* find(const std::string& name) const;
-  /// As Module::keep(), of each module in a group of its own.
-  void keep(StateArchive& archive);
+  /// As Module::serialise(), of each module in a group of its own.
+  void serialise(StateArchive& archive);
 
  private:
   struct Entry {

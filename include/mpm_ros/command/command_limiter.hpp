@@ -42,7 +42,7 @@ class CommandLimiter {
   /// Goes on with what `other` is on the way to.
   void take_over(const CommandLimiter& other);
 
-  void keep(mpm::StateArchive& archive);
+  void serialise(mpm::StateArchive& archive);
   /// Of bodies under way.
   std::vector<AppliedCommand> goals() const;
 

@@ -63,7 +63,7 @@ class CommandQueue {
 
   std::int64_t sync_period() const { return sync_period_; }
   /// For checkpoints: all but the counts. Of what was given in ROS time the simulated time counts.
-  void keep(mpm::StateArchive& archive);
+  void serialise(mpm::StateArchive& archive);
   /// Waits for what `other` waits for, and keeps its own counts.
   void take_over(const CommandQueue& other);
 

@@ -28,7 +28,7 @@ class CommandWatch {
   std::vector<Silence> silent(std::int64_t now);
   void clear() { heard_.clear(); }
   /// For checkpoints.
-  void keep(mpm::StateArchive& archive);
+  void serialise(mpm::StateArchive& archive);
 
  private:
   std::int64_t timeout_;

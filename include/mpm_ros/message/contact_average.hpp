@@ -14,7 +14,7 @@ struct Contacts {
   std::vector<mpm::ContactReport> bodies;
   std::vector<mpm::PairReport> pairs;
   /// For checkpoints.
-  void keep(mpm::StateArchive& archive);
+  void serialise(mpm::StateArchive& archive);
 };
 
 class ContactAverage {
@@ -24,7 +24,7 @@ class ContactAverage {
   /// Each number over all intervals, as its line in quantities.cpp says. Starts anew.
   Contacts take();
   /// For checkpoints.
-  void keep(mpm::StateArchive& archive);
+  void serialise(mpm::StateArchive& archive);
 
  private:
   bool empty_ = true;

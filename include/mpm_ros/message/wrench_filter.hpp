@@ -23,11 +23,11 @@ class WrenchFilter {
   mpm::Wrench filter(const mpm::Wrench& sample) {
     return {filter(sample.force, force_), filter(sample.torque, torque_)};
   }
-  void keep(mpm::StateArchive& archive) {
-    archive.keep("force_first", force_.first);
-    archive.keep("force_second", force_.second);
-    archive.keep("torque_first", torque_.first);
-    archive.keep("torque_second", torque_.second);
+  void serialise(mpm::StateArchive& archive) {
+    archive.value("force_first", force_.first);
+    archive.value("force_second", force_.second);
+    archive.value("torque_first", torque_.first);
+    archive.value("torque_second", torque_.second);
   }
 
  private:

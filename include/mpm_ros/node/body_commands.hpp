@@ -36,7 +36,7 @@ struct CommandMemory {
   CommandQueue queue;
   CommandWatch watch;
   CommandLimiter limiter;
-  void keep(mpm::StateArchive& archive);
+  void serialise(mpm::StateArchive& archive);
 };
 
 class BodyCommands {
@@ -53,7 +53,7 @@ class BodyCommands {
   /// The run begins, or goes on from a checkpoint, with this memory. What came for the run before it is forgotten.
   void begin(const Run& run, const CommandMemory& memory);
   /// For checkpoints.
-  void keep(mpm::StateArchive& archive) { memory_.keep(archive); }
+  void serialise(mpm::StateArchive& archive) { memory_.serialise(archive); }
 
   /// At a sync point. `refusal`: why one of `extra` was refused; those after it were not applied. `silence`: why the
   /// run ends, with on_timeout error.

@@ -23,9 +23,9 @@ struct RunOptions {
   OutputOptions output;
   std::string bag;  ///< path to write; empty: none
   BagOptions bag_options;
-  std::string parameters;  ///< for RunInfo, YAML
-  std::string resume;      ///< checkpoint that it goes on from; empty: none
-  mpm::KeepMore more;      ///< what the caller keeps beside, in that checkpoint
+  std::string parameters;   ///< for RunInfo, YAML
+  std::string resume;       ///< checkpoint that it goes on from; empty: none
+  mpm::SerialiseMore more;  ///< what the caller keeps beside, in that checkpoint
 };
 
 class Run {
@@ -40,7 +40,8 @@ class Run {
   void begin();
   /// Saves a checkpoint of the present sync point. `more`: what the caller keeps beside. With a `failure`: of the state
   /// that it left, which can be looked at but not resumed. @throws mpm::CheckpointError
-  mpm::CheckpointAbout save(const std::string& path, const mpm::KeepMore& more = {}, const std::string& failure = {});
+  mpm::CheckpointAbout save(const std::string& path, const mpm::SerialiseMore& more = {},
+                            const std::string& failure = {});
   /// Applies a command at the present sync point, and writes it. @throws mpm::RigidError; then nothing is changed.
   void apply(const AppliedCommand& command);
   /// Runs to the next sync point and writes what is due. @throws mpm::PhysicsError; call fail() then. @throws BagError
@@ -75,7 +76,7 @@ class Run {
  private:
   void close(const std::string& failure);
   /// What a checkpoint holds beside the simulation.
-  void keep(mpm::StateArchive& archive, const mpm::KeepMore& more);
+  void serialise(mpm::StateArchive& archive, const mpm::SerialiseMore& more);
 
   const mpm::Scene& scene_;
   const std::string parameters_;

@@ -59,7 +59,7 @@ class RunOutputs {
   /// The same for a run that goes on from a checkpoint: averages that are under way go on.
   void begin_again(const RunInfo& info);
   /// For checkpoints: averages since the last messages, and counts of commands.
-  void keep(mpm::StateArchive& archive);
+  void serialise(mpm::StateArchive& archive);
   /// A command that was applied just now.
   void command(const AppliedCommand& command);
   /// After each advance. `last`: the run ends here, so everything is written, with the state hash.

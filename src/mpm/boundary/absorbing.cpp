@@ -211,7 +211,7 @@ void Absorbing::grid_advanced(FieldContext&) {
 }
 
 // Speeds are those of the particles that lay at the face when they were sorted: found anew, they would be others.
-void Absorbing::keep(StateArchive& archive) {
+void Absorbing::serialise(StateArchive& archive) {
   archive.rows("nodes", nodes_);
   archive.column("nodes/block", nodes_, [](Node& node) -> int& { return node.ref.block; });
   archive.column("nodes/node", nodes_, [](Node& node) -> int& { return node.ref.node; });
@@ -231,11 +231,11 @@ void Absorbing::keep(StateArchive& archive) {
     held_.clear();
     held_.insert(held.begin(), held.end());
   }
-  archive.keep("started", started_);
-  archive.keep_generation("sorts_since", generation_);
-  account_.keep(archive);
-  archive.keep("given", given_);
-  archive.keep("work", work_);
+  archive.value("started", started_);
+  archive.generation("sorts_since", generation_);
+  account_.serialise(archive);
+  archive.value("given", given_);
+  archive.value("work", work_);
 }
 
 }  // namespace mpm

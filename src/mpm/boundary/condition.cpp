@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace mpm {
 namespace {
 
@@ -242,12 +241,12 @@ void VelocityConditions::accounts(std::vector<ImpulseAccount>& list) const {
 }
 
 // The nodes last found and their velocities give the next period's largest speed.
-void VelocityConditions::keep(StateArchive& archive) {
+void VelocityConditions::serialise(StateArchive& archive) {
   for (std::size_t c = 0; c < conditions_.size(); ++c) {
     const StateArchive::Group group(archive, "condition_" + std::to_string(c));
-    conditions_[c].region.keep(archive);
-    conditions_[c].account.keep(archive);
-    archive.keep("given", conditions_[c].given);
+    conditions_[c].region.serialise(archive);
+    conditions_[c].account.serialise(archive);
+    archive.value("given", conditions_[c].given);
   }
   archive.rows("held", held_);
   archive.column("held/block", held_, [](Held& held) -> int& { return held.ref.block; });
@@ -261,9 +260,9 @@ void VelocityConditions::keep(StateArchive& archive) {
   archive.rows("parts", parts_);
   archive.column("parts/condition", parts_, &Part::condition);
   archive.column("parts/sign", parts_, &Part::sign);
-  archive.keep("ended", ended_);
-  archive.keep_generation("sorts_since", generation_);
-  archive.keep("work", work_);
+  archive.value("ended", ended_);
+  archive.generation("sorts_since", generation_);
+  archive.value("work", work_);
 }
 
 }  // namespace mpm

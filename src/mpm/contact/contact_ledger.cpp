@@ -8,15 +8,15 @@
 namespace mpm {
 namespace {
 
-void keep_sums(StateArchive& archive, ContactSums& sums) {
-  archive.keep("impulse", sums.impulse);
-  archive.keep("angular_impulse", sums.angular_impulse);
-  archive.keep("friction", sums.friction);
-  archive.keep("pressed", sums.pressed);
-  archive.keep("pressed_arm", sums.pressed_arm);
-  archive.keep("area_time", sums.area_time);
-  archive.keep("friction_energy", sums.friction_energy);
-  archive.keep("work", sums.work);
+void serialise_sums(StateArchive& archive, ContactSums& sums) {
+  archive.value("impulse", sums.impulse);
+  archive.value("angular_impulse", sums.angular_impulse);
+  archive.value("friction", sums.friction);
+  archive.value("pressed", sums.pressed);
+  archive.value("pressed_arm", sums.pressed_arm);
+  archive.value("area_time", sums.area_time);
+  archive.value("friction_energy", sums.friction_energy);
+  archive.value("work", sums.work);
 }
 
 }  // namespace
@@ -87,21 +87,21 @@ ContactReport ContactLedger::read(double now, int reader) {
   return report;
 }
 
-void ContactLedger::keep(StateArchive& archive) {
-  account_.keep(archive);
-  archive.keep("given", given_);
-  archive.keep("given_angular", given_angular_);
-  archive.keep("places", places_);
+void ContactLedger::serialise(StateArchive& archive) {
+  account_.serialise(archive);
+  archive.value("given", given_);
+  archive.value("given_angular", given_angular_);
+  archive.value("places", places_);
   {
     const StateArchive::Group group(archive, "sums");
-    keep_sums(archive, sums_);
+    serialise_sums(archive, sums_);
   }
   for (std::size_t r = 0; r < readers_.size(); ++r) {
     const StateArchive::Group group(archive, "reader_" + std::to_string(r));
-    archive.keep("time", readers_[r].time);
-    keep_sums(archive, readers_[r].last);
-    archive.keep("peak_force", readers_[r].peak.force);
-    archive.keep("peak_torque", readers_[r].peak.torque);
+    archive.value("time", readers_[r].time);
+    serialise_sums(archive, readers_[r].last);
+    archive.value("peak_force", readers_[r].peak.force);
+    archive.value("peak_torque", readers_[r].peak.torque);
   }
 }
 

@@ -270,7 +270,7 @@ void MaterialContact::energies(EnergyReport& report) const {
   }
 }
 
-void MaterialContact::keep_sums(StateArchive& archive, std::vector<Sums>& sums) {
+void MaterialContact::serialise_sums(StateArchive& archive, std::vector<Sums>& sums) {
   archive.column("impulse", sums, &Sums::impulse);
   archive.column("friction", sums, &Sums::friction);
   archive.column("moment", sums, &Sums::moment);
@@ -281,8 +281,8 @@ void MaterialContact::keep_sums(StateArchive& archive, std::vector<Sums>& sums) 
   archive.column("nodes", sums, &Sums::nodes);
 }
 
-void MaterialContact::keep(StateArchive& archive) {
-  archive.keep("started", started_);
+void MaterialContact::serialise(StateArchive& archive) {
+  archive.value("started", started_);
   archive.rows("held", held_);
   archive.column("held/node", held_, &Held::node);
   archive.column("held/fields", held_, &Held::fields);
@@ -290,15 +290,15 @@ void MaterialContact::keep(StateArchive& archive) {
   const std::pair<const char*, std::vector<Sums>*> all[] = {{"last", &last_}, {"total", &total_}};
   for (const auto& [name, sums] : all) {
     const StateArchive::Group group(archive, name);
-    keep_sums(archive, *sums);
+    serialise_sums(archive, *sums);
   }
   for (std::size_t r = 0; r < readers_.size(); ++r) {
     const StateArchive::Group group(archive, "reader_" + std::to_string(r));
-    archive.keep("time", readers_[r].time);
-    keep_sums(archive, readers_[r].seen);
+    archive.value("time", readers_[r].time);
+    serialise_sums(archive, readers_[r].seen);
   }
-  account_.keep(archive);
-  archive.keep("left_over", left_over_);
+  account_.serialise(archive);
+  archive.value("left_over", left_over_);
 }
 
 }  // namespace mpm

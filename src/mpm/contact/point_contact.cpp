@@ -178,12 +178,12 @@ ContactLedger* PointContact::ledger_of(const RigidBody& body) {
   return found == ledgers_.end() ? nullptr : &*found;
 }
 
-void PointContact::keep(StateArchive& archive) {
+void PointContact::serialise(StateArchive& archive) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const StateArchive::Group group(archive, "body_" + std::to_string(b));
-    ledgers_[b].keep(archive);
+    ledgers_[b].serialise(archive);
   }
-  memory_.keep(archive);
+  memory_.serialise(archive);
 }
 
 }  // namespace mpm

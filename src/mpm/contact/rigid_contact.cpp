@@ -136,12 +136,12 @@ void RigidContact::give(const Node& node, double mass, const Vec3& slip, const V
 
 void RigidContact::grid_advanced(StepContext& context) { ledger_.end_step(context.dt, touching_, 0.0); }
 
-void RigidContact::keep(StateArchive& archive) {
+void RigidContact::serialise(StateArchive& archive) {
   for (std::size_t f = 0; f < held_.size(); ++f) {
     const StateArchive::Group group(archive, "field_" + std::to_string(f));
-    held_[f].keep(archive);
+    held_[f].serialise(archive);
   }
-  ledger_.keep(archive);
+  ledger_.serialise(archive);
 }
 
 }  // namespace mpm

@@ -210,13 +210,13 @@ void RigidParticleContact::grid_advanced(StepContext& context) {
   ledger_.end_step(context.dt, static_cast<int>(held_.size()), area);
 }
 
-void RigidParticleContact::keep(StateArchive& archive) {
-  archive.keep("started", started_);
+void RigidParticleContact::serialise(StateArchive& archive) {
+  archive.value("started", started_);
   archive.rows("held", held_);
   archive.column("held/field", held_, &Held::field);
   archive.column("held/node", held_, &Held::node);
   archive.column("held/hold", held_, &Held::hold);
-  ledger_.keep(archive);
+  ledger_.serialise(archive);
 }
 
 }  // namespace mpm

@@ -173,12 +173,12 @@ void SideGlue::part(NodalField Grid::*field) {
   }
 }
 
-void ToolSides::keep(StateArchive& archive) {
-  archive.keep("labelled", labelled_);
-  archive.keep("travelled", travelled_);
+void ToolSides::serialise(StateArchive& archive) {
+  archive.value("labelled", labelled_);
+  archive.value("travelled", travelled_);
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     const StateArchive::Group group(archive, "tool_" + std::to_string(t));
-    tools_[t].keep(archive);
+    tools_[t].serialise(archive);
   }
 }
 

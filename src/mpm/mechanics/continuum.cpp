@@ -165,9 +165,9 @@ class Continuum final : public Mechanics {
                        limit.place.y(), limit.place.z());
   }
   bool needs_sort() const override { return needs_sort_; }
-  void keep(StateArchive& archive) override {
-    archive.keep_generation("sorts_since", generation_);
-    archive.keep("parts_when_sorted", parts_when_sorted_);
+  void serialise(StateArchive& archive) override {
+    archive.generation("sorts_since", generation_);
+    archive.value("parts_when_sorted", parts_when_sorted_);
   }
 
  private:

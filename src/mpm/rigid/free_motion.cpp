@@ -203,32 +203,32 @@ FreeBodyReport FreeMotion::report(const std::string& name, const Vec3& gravity) 
   return report;
 }
 
-void FreeMotion::keep(StateArchive& archive) {
-  archive.keep("wrench_force", wrench_.force);
-  archive.keep("wrench_torque", wrench_.torque);
-  const auto keep_momentum = [&archive](const std::string& name, BodyMomentum& momentum) {
-    archive.keep(name + "_linear", momentum.linear);
-    archive.keep(name + "_angular", momentum.angular);
+void FreeMotion::serialise(StateArchive& archive) {
+  archive.value("wrench_force", wrench_.force);
+  archive.value("wrench_torque", wrench_.torque);
+  const auto serialise_momentum = [&archive](const std::string& name, BodyMomentum& momentum) {
+    archive.value(name + "_linear", momentum.linear);
+    archive.value(name + "_angular", momentum.angular);
   };
-  keep_momentum("initial", initial_);
-  keep_momentum("contact", contact_);
-  keep_momentum("gravity", gravity_);
-  keep_momentum("applied", applied_);
-  keep_momentum("drive", drive_);
-  archive.keep("wrench_work", wrench_work_);
-  archive.keep("drive_work", drive_work_);
-  archive.keep("loss", loss_);
+  serialise_momentum("initial", initial_);
+  serialise_momentum("contact", contact_);
+  serialise_momentum("gravity", gravity_);
+  serialise_momentum("applied", applied_);
+  serialise_momentum("drive", drive_);
+  archive.value("wrench_work", wrench_work_);
+  archive.value("drive_work", drive_work_);
+  archive.value("loss", loss_);
   // Of the last step: what is reported at a sync point is as it left them.
-  archive.keep("centre", centre_);
-  archive.keep("velocity", velocity_);
-  archive.keep("rate", rate_);
-  archive.keep("start_velocity", start_velocity_);
-  archive.keep("start_rate", start_rate_);
-  archive.keep("kept_velocity", kept_velocity_);
-  archive.keep("kept_rate", kept_rate_);
-  archive.keep("inverse_mass", inverse_mass_);
-  archive.keep("inertia", inertia_);
-  archive.keep("lifted", lifted_);
+  archive.value("centre", centre_);
+  archive.value("velocity", velocity_);
+  archive.value("rate", rate_);
+  archive.value("start_velocity", start_velocity_);
+  archive.value("start_rate", start_rate_);
+  archive.value("kept_velocity", kept_velocity_);
+  archive.value("kept_rate", kept_rate_);
+  archive.value("inverse_mass", inverse_mass_);
+  archive.value("inertia", inertia_);
+  archive.value("lifted", lifted_);
 }
 
 }  // namespace mpm

@@ -129,18 +129,18 @@ void RigidBody::at_sync(std::int64_t now) {
   if (drive_ == Drive::pose && now >= arrival_) pose_ = target_;
 }
 
-void RigidBody::keep(StateArchive& archive) {
-  archive.keep("position", pose_.position);
-  archive.keep("orientation", pose_.orientation);
-  archive.keep("linear", twist_.linear);
-  archive.keep("angular", twist_.angular);
-  archive.keep("drive", drive_);
-  archive.keep("target_position", target_.position);
-  archive.keep("target_orientation", target_.orientation);
-  archive.keep("arrival", arrival_);
+void RigidBody::serialise(StateArchive& archive) {
+  archive.value("position", pose_.position);
+  archive.value("orientation", pose_.orientation);
+  archive.value("linear", twist_.linear);
+  archive.value("angular", twist_.angular);
+  archive.value("drive", drive_);
+  archive.value("target_position", target_.position);
+  archive.value("target_orientation", target_.orientation);
+  archive.value("arrival", arrival_);
   if (FreeMotion* free = free_motion()) {
     const StateArchive::Group group(archive, "free");
-    free->keep(archive);
+    free->serialise(archive);
   }
 }
 

@@ -16,30 +16,30 @@
 namespace mpm {
 namespace {
 
-void keep(StateArchive& archive, CheckpointAbout& about) {
+void serialise(StateArchive& archive, CheckpointAbout& about) {
   const StateArchive::Group group(archive, "about");
-  archive.keep("format", about.format);
-  archive.keep("version", about.version);
+  archive.value("format", about.format);
+  archive.value("version", about.version);
   if (about.format != kCheckpointFormat || about.version != kCheckpointVersion) return;  // the rest may be otherwise
-  archive.keep("program", about.program);
-  archive.keep("scene", about.scene);
-  archive.keep("scene_path", about.label.scene_path);
-  archive.keep("scene_text", about.label.scene_text);
-  archive.keep("failure", about.label.failure);
-  archive.keep("geometry", about.geometry);
-  archive.keep("method", about.method);
-  archive.keep("precision", about.precision);
-  archive.keep("isa", about.isa);
-  archive.keep("particles", about.particles);
-  archive.keep("time", about.time);
-  archive.keep("state_hash", about.state_hash);
-  archive.keep("checksum", about.checksum);
+  archive.value("program", about.program);
+  archive.value("scene", about.scene);
+  archive.value("scene_path", about.label.scene_path);
+  archive.value("scene_text", about.label.scene_text);
+  archive.value("failure", about.label.failure);
+  archive.value("geometry", about.geometry);
+  archive.value("method", about.method);
+  archive.value("precision", about.precision);
+  archive.value("isa", about.isa);
+  archive.value("particles", about.particles);
+  archive.value("time", about.time);
+  archive.value("state_hash", about.state_hash);
+  archive.value("checksum", about.checksum);
 }
 
-void keep_run(StateArchive& archive, Simulation& simulation, const KeepMore& more) {
+void serialise_run(StateArchive& archive, Simulation& simulation, const SerialiseMore& more) {
   {
     const StateArchive::Group group(archive, "simulation");
-    simulation.keep(archive);
+    simulation.serialise(archive);
   }
   if (!more) return;
   const StateArchive::Group group(archive, "run");
@@ -105,7 +105,7 @@ void check(const std::string& path, const CheckpointAbout& there, const Checkpoi
 
 CheckpointAbout read_about(StateArchive& archive, const std::string& path) {
   CheckpointAbout about;
-  keep(archive, about);
+  serialise(archive, about);
   if (about.format != kCheckpointFormat) {
     throw CheckpointError(fmt::format("checkpoint {}: it is HDF5, but no checkpoint of mpm_ros", path));
   }
@@ -120,7 +120,7 @@ CheckpointAbout read_about(StateArchive& archive, const std::string& path) {
 }  // namespace
 
 CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation, const CheckpointLabel& label,
-                                const KeepMore& more) {
+                                const SerialiseMore& more) {
   CheckpointAbout about = about_of(simulation);
   about.label = label;
   about.state_hash = simulation.state_hash();
@@ -128,8 +128,8 @@ CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation,
   const std::string part = path + ".part";
   try {
     Hdf5Writer file(part);
-    keep(file, about);
-    keep_run(file, simulation, more);
+    serialise(file, about);
+    serialise_run(file, simulation, more);
     file.close();
   } catch (...) {
     std::remove(part.c_str());
@@ -150,11 +150,11 @@ CheckpointAbout read_checkpoint(const std::string& path) {
 }
 
 CheckpointAbout load_checkpoint(const std::string& path, Simulation& simulation, const std::string& scene_text,
-                                const KeepMore& more) {
+                                const SerialiseMore& more) {
   Hdf5Reader file(path);
   const CheckpointAbout about = read_about(file, path);
   check(path, about, about_of(simulation), scene_text);
-  keep_run(file, simulation, more);
+  serialise_run(file, simulation, more);
   if (simulation.memory_hash() != about.checksum || simulation.state_hash() != about.state_hash) {
     throw CheckpointError(
         fmt::format("checkpoint {}: what it holds is not what was saved: the file is damaged; take "

@@ -267,12 +267,12 @@ const std::vector<double>& GlobalQuantities::read() {
   return values_;
 }
 
-void GlobalQuantities::keep(StateArchive& archive) {
+void GlobalQuantities::serialise(StateArchive& archive) {
   std::uint64_t count = terms_.size();
-  archive.keep("terms", count);
+  archive.value("terms", count);
   if (count != terms_.size()) return;
   archive.column("impulse", terms_, &Term::impulse);
-  archive.keep("last", last_);
+  archive.value("last", last_);
 }
 
 }  // namespace mpm

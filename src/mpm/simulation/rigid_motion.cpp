@@ -53,10 +53,10 @@ class RigidMotion final : public Module {
       check_periodic(body);
     }
   }
-  void keep(StateArchive& archive) override {
+  void serialise(StateArchive& archive) override {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const StateArchive::Group group(archive, "body_" + std::to_string(b));
-      bodies_[b].keep(archive);
+      bodies_[b].serialise(archive);
     }
   }
   void hashed(std::vector<double>& numbers) const override {

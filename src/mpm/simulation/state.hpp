@@ -21,7 +21,7 @@ class LineFit {
   /// Not a number before the second point.
   double slope() const;
   /// For checkpoints: of every metric.
-  static void keep(StateArchive& archive, std::vector<LineFit>& fits);
+  static void serialise(StateArchive& archive, std::vector<LineFit>& fits);
 
  private:
   int count_ = 0;
@@ -81,11 +81,11 @@ struct Simulation::State {
   void step(double start, double dt);
   /// @throws PhysicsError for a particle that is not where it may be
   void sort(double now);
-  /// All that the run remembers (keep_state.cpp).
-  void keep(StateArchive& archive);
-  void keep_particles(StateArchive& archive);
-  void keep_grid(StateArchive& archive);
-  void keep_limit(StateArchive& archive, const char* name, StepLimit& kept);
+  /// All that the run remembers (serialise_state.cpp).
+  void serialise(StateArchive& archive);
+  void serialise_particles(StateArchive& archive);
+  void serialise_grid(StateArchive& archive);
+  void serialise_limit(StateArchive& archive, const char* name, StepLimit& kept);
   /// Lets the bodies that start geostatic, already under their weight's stress, come to rest. Before anything is
   /// sorted.
   void settle();

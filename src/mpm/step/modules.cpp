@@ -106,14 +106,14 @@ std::string StepLimit::text() const {
   return std::isfinite(dt) ? "sync period" : "nothing";
 }
 
-void Modules::keep(StateArchive& archive) {
+void Modules::serialise(StateArchive& archive) {
   std::set<std::string> taken;
   for (Module* module : list_) {
     const std::string name = group_name(module->name());
     std::string unique = name;
     for (int copy = 2; !taken.insert(unique).second; ++copy) unique = name + "_" + std::to_string(copy);
     const StateArchive::Group group(archive, unique);
-    module->keep(archive);
+    module->serialise(archive);
   }
 }
 

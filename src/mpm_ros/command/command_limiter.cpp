@@ -179,7 +179,7 @@ void CommandLimiter::take_over(const CommandLimiter& other) {
   report_ = other.report_;
 }
 
-void CommandLimiter::keep(mpm::StateArchive& archive) {
+void CommandLimiter::serialise(mpm::StateArchive& archive) {
   const mpm::StateArchive::Group group(archive, "limiter");
   std::vector<std::pair<int, Goal>> goals(goals_.begin(), goals_.end());
   archive.rows("goals", goals);

@@ -150,7 +150,7 @@ std::size_t CommandQueue::waiting() const {
   return waiting_.size() + outside_.size();
 }
 
-void CommandQueue::keep(mpm::StateArchive& archive) {
+void CommandQueue::serialise(mpm::StateArchive& archive) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const mpm::StateArchive::Group group(archive, "queue");
   archive.rows("waiting", waiting_);
@@ -165,7 +165,7 @@ void CommandQueue::keep(mpm::StateArchive& archive) {
   archive.column("waiting/frame_body", waiting_, &BodyCommand::frame_body);
   archive.column("waiting/sec", waiting_, [](BodyCommand& one) -> std::uint32_t& { return one.requested.sec; });
   archive.column("waiting/nsec", waiting_, [](BodyCommand& one) -> std::uint32_t& { return one.requested.nsec; });
-  for (std::size_t i = 0; i < waiting_.size(); ++i) archive.keep(fmt::format("sender{}", i), waiting_[i].sender);
+  for (std::size_t i = 0; i < waiting_.size(); ++i) archive.value(fmt::format("sender{}", i), waiting_[i].sender);
   std::vector<std::int64_t> stamps;
   std::vector<std::uint8_t> has_stamp;
   for (const BodyCommand& one : waiting_) {
@@ -187,8 +187,8 @@ void CommandQueue::keep(mpm::StateArchive& archive) {
   archive.column("poses/period", streams, [](auto& one) -> std::int64_t& { return one.second.period; });
   archive.column("poses/arrival", streams, [](auto& one) -> std::int64_t& { return one.second.arrival; });
   if (archive.reading()) streams_ = std::map<int, PoseStream>(streams.begin(), streams.end());
-  archive.keep("passed", passed_);
-  archive.keep("arrivals", arrivals_);
+  archive.value("passed", passed_);
+  archive.value("arrivals", arrivals_);
 }
 
 void CommandQueue::take_over(const CommandQueue& other) {

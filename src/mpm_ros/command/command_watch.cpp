@@ -22,7 +22,7 @@ std::vector<Silence> CommandWatch::silent(std::int64_t now) {
   return silences;
 }
 
-void CommandWatch::keep(mpm::StateArchive& archive) {
+void CommandWatch::serialise(mpm::StateArchive& archive) {
   const mpm::StateArchive::Group group(archive, "watch");
   struct Row {
     int body = 0;

@@ -53,12 +53,12 @@ void join(Report& sum, const Report& next, const std::vector<Quantity<Report, Me
 }
 
 template <class Report, class Message>
-void keep_numbers(mpm::StateArchive& archive, Report& report,
-                  const std::vector<Quantity<Report, Message>>& quantities) {
+void serialise_numbers(mpm::StateArchive& archive, Report& report,
+                       const std::vector<Quantity<Report, Message>>& quantities) {
   for (const Quantity<Report, Message>& one : quantities) {
     if (!one.set_report) continue;
     Value value = one.of_report(report);
-    std::visit([&](auto& number) { archive.keep(one.name, number); }, value);
+    std::visit([&](auto& number) { archive.value(one.name, number); }, value);
     one.set_report(report, value);
   }
 }
@@ -84,25 +84,25 @@ Contacts ContactAverage::take() {
   return std::exchange(sum_, {});
 }
 
-void Contacts::keep(mpm::StateArchive& archive) {
+void Contacts::serialise(mpm::StateArchive& archive) {
   archive.rows("bodies", bodies);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const mpm::StateArchive::Group group(archive, "body_" + std::to_string(b));
-    archive.keep("name", bodies[b].body);
-    archive.keep("origin", bodies[b].origin);
-    keep_numbers(archive, bodies[b], contact_quantities());
+    archive.value("name", bodies[b].body);
+    archive.value("origin", bodies[b].origin);
+    serialise_numbers(archive, bodies[b], contact_quantities());
   }
   archive.rows("pairs", pairs);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const mpm::StateArchive::Group group(archive, "pair_" + std::to_string(p));
-    archive.keep("name", pairs[p].name);
-    keep_numbers(archive, pairs[p], pair_quantities());
+    archive.value("name", pairs[p].name);
+    serialise_numbers(archive, pairs[p], pair_quantities());
   }
 }
 
-void ContactAverage::keep(mpm::StateArchive& archive) {
-  archive.keep("empty", empty_);
-  sum_.keep(archive);
+void ContactAverage::serialise(mpm::StateArchive& archive) {
+  archive.value("empty", empty_);
+  sum_.serialise(archive);
 }
 
 }  // namespace mpm_ros

@@ -37,10 +37,10 @@ std::vector<mpm::MotionLimits> limits_of(const mpm::Scene& scene) {
 
 }  // namespace
 
-void CommandMemory::keep(mpm::StateArchive& archive) {
-  queue.keep(archive);
-  watch.keep(archive);
-  limiter.keep(archive);
+void CommandMemory::serialise(mpm::StateArchive& archive) {
+  queue.serialise(archive);
+  watch.serialise(archive);
+  limiter.serialise(archive);
 }
 
 BodyCommands::BodyCommands(ros::NodeHandle node, const mpm::Scene& scene, const NodeParameters& parameters,

@@ -39,7 +39,7 @@ void SimulatorNode::save_checkpoint(const std::string& path, Checkpoint::Respons
     if (path.empty()) throw mpm::CheckpointError("path is empty; name a file, such as run.h5");
     if (!failure_.empty()) throw mpm::CheckpointError("the run has failed and cannot go on: " + failure_);
     const mpm::CheckpointAbout about =
-        run_->save(path, [this](mpm::StateArchive& archive) { commands_.keep(archive); });
+        run_->save(path, [this](mpm::StateArchive& archive) { commands_.serialise(archive); });
     response.state_hash = hash_text(about.state_hash);
   } catch (const std::exception& error) {
     response.message = error.what();
@@ -96,7 +96,7 @@ void SimulatorNode::leave_failed_state() {
   const std::string path = from_root((folder / (name + "_failed.h5")).string());
   try {
     run_->save(
-        path, [this](mpm::StateArchive& archive) { commands_.keep(archive); }, failure_);
+        path, [this](mpm::StateArchive& archive) { commands_.serialise(archive); }, failure_);
     ROS_INFO_STREAM("the state of the failure is in " << path);
   } catch (const mpm::Error& error) {
     ROS_ERROR_STREAM(error.what());

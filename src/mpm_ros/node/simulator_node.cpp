@@ -74,7 +74,7 @@ void SimulatorNode::start_run(const Stamps& stamps, const std::string& resume) {
   CommandMemory memory = commands_.fresh_memory();
   if (!resume.empty()) {
     resume_from(resume, options);
-    options.more = [&](mpm::StateArchive& archive) { memory.keep(archive); };
+    options.more = [&](mpm::StateArchive& archive) { memory.serialise(archive); };
   }
   auto run = std::make_unique<Run>(scene_, options, stamps, publishers_.get());
   if (run_) end_run();

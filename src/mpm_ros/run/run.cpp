@@ -16,7 +16,7 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
       end_(std::llround(scene.definition.time.end * 1e9)),
       outputs_(simulation_, stamps_, options.output) {
   if (!options.resume.empty()) {
-    const mpm::KeepMore both = [&](mpm::StateArchive& archive) { keep(archive, options.more); };
+    const mpm::SerialiseMore both = [&](mpm::StateArchive& archive) { serialise(archive, options.more); };
     from_ = mpm::load_checkpoint(options.resume, simulation_, scene.text, both).time;
     resumed_ = true;
   }
@@ -38,21 +38,21 @@ void Run::begin() {
 }
 
 // What the node keeps beside is there when the node has saved; run_scene has no commands that could wait.
-void Run::keep(mpm::StateArchive& archive, const mpm::KeepMore& more) {
+void Run::serialise(mpm::StateArchive& archive, const mpm::SerialiseMore& more) {
   {
     const mpm::StateArchive::Group group(archive, "outputs");
-    outputs_.keep(archive);
+    outputs_.serialise(archive);
   }
   bool commanded = static_cast<bool>(more);
-  archive.keep("commanded", commanded);
+  archive.value("commanded", commanded);
   if (!commanded) return;
   if (more) {
     more(archive);
     return;
   }
   std::uint64_t waiting = 0, goals = 0;
-  archive.keep("queue/waiting/rows", waiting);
-  archive.keep("limiter/goals/rows", goals);
+  archive.value("queue/waiting/rows", waiting);
+  archive.value("limiter/goals/rows", goals);
   if (waiting + goals > 0) {
     throw mpm::CheckpointError(
         fmt::format("the checkpoint has {} commands that wait for their time or are under way within limits, which the "
@@ -61,10 +61,10 @@ void Run::keep(mpm::StateArchive& archive, const mpm::KeepMore& more) {
   }
 }
 
-mpm::CheckpointAbout Run::save(const std::string& path, const mpm::KeepMore& more, const std::string& failure) {
+mpm::CheckpointAbout Run::save(const std::string& path, const mpm::SerialiseMore& more, const std::string& failure) {
   return mpm::save_checkpoint(path, simulation_,
                               {std::filesystem::absolute(scene_.path).string(), scene_.text, failure},
-                              [&](mpm::StateArchive& archive) { keep(archive, more); });
+                              [&](mpm::StateArchive& archive) { serialise(archive, more); });
 }
 
 void Run::apply(const AppliedCommand& command) {

@@ -125,36 +125,36 @@ void RunOutputs::begin_again(const RunInfo& info) {
   if (!global_.empty() && !global_kept_) global_.read();  // contact forces are means from here
 }
 
-void RunOutputs::keep(mpm::StateArchive& archive) {
+void RunOutputs::serialise(mpm::StateArchive& archive) {
   {
     const mpm::StateArchive::Group group(archive, "contacts");
-    contacts_.keep(archive);
+    contacts_.serialise(archive);
   }
   {
     const mpm::StateArchive::Group group(archive, "average");
-    average_.keep(archive);
+    average_.serialise(archive);
   }
   std::uint64_t filters = filters_.size();
-  archive.keep("filters", filters);
+  archive.value("filters", filters);
   // Another cutoff than when it was saved is another filter, which begins.
   double cutoff = options_.wrench_cutoff;
-  archive.keep("wrench_cutoff", cutoff);
+  archive.value("wrench_cutoff", cutoff);
   for (std::size_t body = 0; filters == filters_.size() && cutoff == options_.wrench_cutoff && body < filters; ++body) {
     const mpm::StateArchive::Group group(archive, fmt::format("filter{}", body));
-    filters_[body].keep(archive);
+    filters_[body].serialise(archive);
   }
   {
     const mpm::StateArchive::Group group(archive, "global");
     const std::string own = fmt::format("{}", fmt::join(global_.names(), "\n"));
     std::string names = own;
-    archive.keep("names", names);
+    archive.value("names", names);
     // A scene's may be others in a run that watches otherwise: those begin.
     global_kept_ = names == own;
-    if (global_kept_) global_.keep(archive);
+    if (global_kept_) global_.serialise(archive);
   }
-  archive.keep("applied", applied_);
-  archive.keep("late", late_);
-  archive.keep("refused", refused_);
+  archive.value("applied", applied_);
+  archive.value("late", late_);
+  archive.value("refused", refused_);
 }
 
 void RunOutputs::command(const AppliedCommand& command) {

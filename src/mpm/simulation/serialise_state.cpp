@@ -11,19 +11,19 @@
 namespace mpm {
 namespace {
 
-void keep_scalars(StateArchive& archive, const char* name, std::vector<ParticleScalar>& scalars) {
+void serialise_scalars(StateArchive& archive, const char* name, std::vector<ParticleScalar>& scalars) {
   for (std::size_t c = 0; c < scalars.size(); ++c) {
     scalars[c].visit([&](auto& values) { archive.list(name + std::to_string(c), values); });
   }
 }
 
-void keep_arrays(StateArchive& archive, const char* name, std::vector<PaddedArray<double>>& arrays) {
+void serialise_arrays(StateArchive& archive, const char* name, std::vector<PaddedArray<double>>& arrays) {
   for (std::size_t c = 0; c < arrays.size(); ++c) archive.list(name + std::to_string(c), arrays[c]);
 }
 
 }  // namespace
 
-void LineFit::keep(StateArchive& archive, std::vector<LineFit>& fits) {
+void LineFit::serialise(StateArchive& archive, std::vector<LineFit>& fits) {
   archive.column("count", fits, &LineFit::count_);
   archive.column("mean_t", fits, &LineFit::mean_t_);
   archive.column("mean_y", fits, &LineFit::mean_y_);
@@ -31,20 +31,20 @@ void LineFit::keep(StateArchive& archive, std::vector<LineFit>& fits) {
   archive.column("ty", fits, &LineFit::ty_);
 }
 
-void Simulation::State::keep_particles(StateArchive& archive) {
+void Simulation::State::serialise_particles(StateArchive& archive) {
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const StateArchive::Group group(archive, "particles_" + std::to_string(s));
     ParticleSet& set = sets[s];
     archive.list("id", set.id);
-    keep_arrays(archive, "x", set.x);
-    keep_scalars(archive, "v", set.v);
-    keep_scalars(archive, "f", set.f);
-    keep_scalars(archive, "tau", set.tau);
-    keep_scalars(archive, "history", set.history);
-    keep_scalars(archive, "mass", set.masses);
-    keep_scalars(archive, "affine", set.affine);
+    serialise_arrays(archive, "x", set.x);
+    serialise_scalars(archive, "v", set.v);
+    serialise_scalars(archive, "f", set.f);
+    serialise_scalars(archive, "tau", set.tau);
+    serialise_scalars(archive, "history", set.history);
+    serialise_scalars(archive, "mass", set.masses);
+    serialise_scalars(archive, "affine", set.affine);
     archive.rows("start_x", set.start_x);  // whoever resumes may ask for other outputs
-    keep_arrays(archive, "start_x", set.start_x);
+    serialise_arrays(archive, "start_x", set.start_x);
     for (NamedScalar& scalar : set.brought) archive.list("brought/" + scalar.name, scalar.values);
     archive.list("side", set.side);
     archive.list("begin", set.begin);
@@ -53,7 +53,7 @@ void Simulation::State::keep_particles(StateArchive& archive) {
   }
 }
 
-void Simulation::State::keep_grid(StateArchive& archive) {
+void Simulation::State::serialise_grid(StateArchive& archive) {
   for (std::size_t f = 0; f < fields.size(); ++f) {
     const StateArchive::Group group(archive, "field_" + std::to_string(f));
     Grid& grid = *fields[f];
@@ -62,68 +62,68 @@ void Simulation::State::keep_grid(StateArchive& archive) {
       owners.push_back(grid.blocks.key(grid.blocks.owner_block(owner)));
     }
     archive.list("owners", owners);
-    archive.keep("first_owner", grid.first_owner);
+    archive.value("first_owner", grid.first_owner);
     if (archive.reading()) grid.rebuild(owners, threads);
     archive.list("loose", grid.loose);
   }
 }
 
-void Simulation::State::keep_limit(StateArchive& archive, const char* name, StepLimit& kept) {
+void Simulation::State::serialise_limit(StateArchive& archive, const char* name, StepLimit& kept) {
   const StateArchive::Group group(archive, name);
   std::string by = kept.by == nullptr ? "" : kept.by->name();
-  archive.keep("dt", kept.dt);
-  archive.keep("by", by);
-  archive.keep("part", kept.part);
-  archive.keep("speed", kept.speed);
-  archive.keep("place", kept.place);
-  archive.keep("foreseen", kept.foreseen);
+  archive.value("dt", kept.dt);
+  archive.value("by", by);
+  archive.value("part", kept.part);
+  archive.value("speed", kept.speed);
+  archive.value("place", kept.place);
+  archive.value("foreseen", kept.foreseen);
   if (archive.reading()) kept.by = by == mechanics->name() ? mechanics.get() : modules.find(by);
 }
 
-void Simulation::State::keep(StateArchive& archive) {
+void Simulation::State::serialise(StateArchive& archive) {
   if (archive.reading()) failed = true;  // until all has been read
-  archive.keep("time", time);
-  archive.keep("steps", steps.steps);
-  archive.keep("dt_min", steps.dt_min);
-  archive.keep("dt_max", steps.dt_max);
-  archive.keep("dt_last", steps.dt_last);
-  archive.keep("initial_momentum", initial_momentum);
-  archive.keep("total_mass", total_mass);
-  keep_particles(archive);
-  keep_grid(archive);
+  archive.value("time", time);
+  archive.value("steps", steps.steps);
+  archive.value("dt_min", steps.dt_min);
+  archive.value("dt_max", steps.dt_max);
+  archive.value("dt_last", steps.dt_last);
+  archive.value("initial_momentum", initial_momentum);
+  archive.value("total_mass", total_mass);
+  serialise_particles(archive);
+  serialise_grid(archive);
   archive.set_generation(fields.front()->blocks.generation());  // of all: they are rebuilt together
   {
     const StateArchive::Group group(archive, "mechanics");
-    mechanics->keep(archive);
+    mechanics->serialise(archive);
   }
   {
     const StateArchive::Group group(archive, "modules");
-    modules.keep(archive);
+    modules.serialise(archive);
   }
   {
     const StateArchive::Group group(archive, "gravity");
-    gravity.keep(archive);
+    gravity.serialise(archive);
   }
-  keep_limit(archive, "material_limit", material_limit);
-  keep_limit(archive, "previous_limit", previous_limit);
-  keep_limit(archive, "limit", limit);
+  serialise_limit(archive, "material_limit", material_limit);
+  serialise_limit(archive, "previous_limit", previous_limit);
+  serialise_limit(archive, "limit", limit);
   {
     const StateArchive::Group group(archive, "rates");
-    LineFit::keep(archive, rates);
+    LineFit::serialise(archive, rates);
   }
   if (archive.reading()) failed = false;
 }
 
-void Simulation::keep(StateArchive& archive) {
-  state_->keep(archive);
+void Simulation::serialise(StateArchive& archive) {
+  state_->serialise(archive);
   double seconds = state_->wall.count();
-  archive.keep("wall", seconds);
+  archive.value("wall", seconds);
   state_->wall = std::chrono::duration<double>(seconds);
 }
 
 std::uint64_t Simulation::memory_hash() {
   StateHash hash;
-  state_->keep(hash);
+  state_->serialise(hash);
   return hash.value();
 }
 

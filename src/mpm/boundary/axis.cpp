@@ -71,8 +71,9 @@ void Axis::grid_advanced(FieldContext&) {
 std::optional<OutsideReason> Axis::why_outside(const GridLayout& layout, const ParticleSet& set, int particle) const {
   const double r = set.x[0][particle];
   if (!(std::abs(r) < layout.cell(0))) return std::nullopt;
-  return OutsideReason{"a particle has come to the axis",
-               "use method.axis.motion: point, shape cpdi or transfer apic, or lower time.cfl if the run blew up"};
+  return OutsideReason{
+      "a particle has come to the axis",
+      "use method.axis.motion: point, shape cpdi or transfer apic, or lower time.cfl if the run blew up"};
 }
 
 void HoopForce::forces_gathered(FieldContext& context) {

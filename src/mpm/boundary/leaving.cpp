@@ -44,9 +44,10 @@ bool Leaving::put_back() {
 
 std::optional<OutsideReason> Leaving::why_outside(const GridLayout&, const ParticleSet&, int) const {
   if (count_ <= limit_) return std::nullopt;
-  return OutsideReason{fmt::format("more than {} particles have left the grid (grid.leave.limit)", limit_),
-               "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', raise the limit, or lower "
-               "time.cfl if the run blew up"};
+  return OutsideReason{
+      fmt::format("more than {} particles have left the grid (grid.leave.limit)", limit_),
+      "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', raise the limit, or lower "
+      "time.cfl if the run blew up"};
 }
 
 }  // namespace mpm

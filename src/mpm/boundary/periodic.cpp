@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-
 namespace mpm {
 
 void put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int threads) {

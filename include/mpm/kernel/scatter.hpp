@@ -9,6 +9,7 @@
 // power of two: 9 of 16 lanes of a force do work.
 #pragma once
 
+#include "mpm/kernel/chunks.hpp"
 #include "mpm/kernel/interleave.hpp"
 #include "mpm/kernel/weights.hpp"
 

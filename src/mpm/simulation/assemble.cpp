@@ -16,6 +16,7 @@
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
+#include "mpm/simulation/rigid_rules.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
 #include "velocity_fields.hpp"
@@ -170,10 +171,6 @@ void project(SimulationDefinition& definition) {
   }
   for (RigidBodyDefinition& body : definition.rigid_bodies) {
     body.pose = projected(body.pose, geometry, body);
-    if (axisymmetric(geometry) && body.inner_radius == 0.0 && !body.velocity[0].is_zero()) {
-      throw DefinitionError(
-          fmt::format("rigid body '{}': it moves along r, off the axis; only a ring has a radial velocity", body.name));
-    }
     for (int axis = 0; axis < 3; ++axis) {
       if (!turns_about(geometry, axis)) body.rotation_rate[axis] = Function();
     }
@@ -289,6 +286,10 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
                                   : std::clamp(static_cast<int>(count / kParticlesPerThread), 1, omp_get_max_threads());
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
   project(s.definition);
+  for (const RigidBodyDefinition& body : definition.rigid_bodies) {
+    const std::string fault = rigid_fault(definition, body);
+    if (!fault.empty()) throw DefinitionError(fmt::format("rigid body '{}': {}", body.name, fault));
+  }
   s.field_map = field_map(definition);
   s.fields = make_fields(definition, s.field_map.count());
   const GridLayout& layout = s.layout();

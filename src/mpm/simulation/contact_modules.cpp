@@ -81,35 +81,6 @@ MaterialContactSettings pair_settings(RunParts& parts) {
   return settings;
 }
 
-/// @throws DefinitionError for a body that cannot be free
-void check_free(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
-  if (!body.free) return;
-  const std::string start = fmt::format("rigid body '{}': free: ", body.name);
-  if (definition.contact.method == ContactMethod::nodes || body.particles) {
-    throw DefinitionError(start +
-                          "a free body is met at points of the material's surface; write contact: {method: "
-                          "points}, and leave out normals: particles");
-  }
-  if (body.inner_radius > 0.0) throw DefinitionError(start + "a ring that opens is not rigid; write another shape");
-  if (body.free->axes == std::array<bool, 6>{}) throw DefinitionError(start + "no velocity is free; leave it out");
-  if (!body.free->all_free() && body.free->centre != Vec3::Zero()) {
-    throw DefinitionError(start +
-                          "the centre of mass is off the body's origin, and a part of its motion is told; put "
-                          "the origin at the centre of mass, or free all axes");
-  }
-}
-
-/// Contact at nodes knows one constant friction a tool. @throws DefinitionError
-void check_laws_at_nodes(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
-  const bool named = std::any_of(definition.contact.pairs.begin(), definition.contact.pairs.end(),
-                                 [&](const PairDefinition& pair) { return pair.second == body.name; });
-  if (!named && body.friction.static_coefficient < 0.0 && body.friction.adhesion == 0.0) return;
-  throw DefinitionError(fmt::format(
-      "rigid body '{}': contact at nodes has no laws of pairs, friction at rest or adhesion; write contact: "
-      "{{method: points}}",
-      body.name));
-}
-
 RigidParticleSettings particle_settings(RunParts& parts, const std::vector<ContactLaw>& laws_of_sets) {
   const SimulationDefinition& definition = parts.definition;
   if (needs_starts(definition)) remember_starts(parts.sets);
@@ -149,14 +120,12 @@ void add_rigid_contact(RunParts& parts) {
   std::vector<ContactLaw> laws_at_points;
   for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
     RigidBody& body = parts.bodies[b];
-    check_free(definition, body.definition());
     const auto first = laws.begin() + static_cast<std::ptrdiff_t>(b * parts.sets.size());
     const std::vector<ContactLaw> own(first, first + static_cast<std::ptrdiff_t>(parts.sets.size()));
     if (body.definition().particles) {
       parts.modules.add(
           std::make_unique<RigidParticleContact>(body, particle_settings(parts, own), parts.fields, parts.volumes()));
     } else if (definition.contact.method == ContactMethod::nodes) {
-      check_laws_at_nodes(definition, body.definition());
       parts.modules.add(
           std::make_unique<RigidContact>(body, parts.fields, parts.threads, definition.geometry, parts.sides));
     } else {

@@ -1,0 +1,89 @@
+// What does not go together with a rigid body: each rule alone, in a definition that is else taken.
+#include "mpm/simulation/rigid_rules.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "mpm/simulation/simulation.hpp"
+#include "particle_block.hpp"
+
+namespace mpm {
+namespace rigid_rules_test {
+
+/// A free ball above a block, in contact at points.
+SimulationDefinition ball_over_block(GeometryKind geometry) {
+  SimulationDefinition d;
+  d.geometry = geometry;
+  d.time.sync = 1'000'000;
+  d.grid = {Vec3::Constant(0.1), Vec3::Zero(), Vec3::Constant(2.0)};
+  d.materials = {{"rubber", 1000.0, NeoHookeanDefinition{{1e5, 0.3}}}};
+  DeformableBody block;
+  block.name = "block";
+  block.material = "rubber";
+  block.particle_volume = 0.05 * 0.05;
+  block.positions = particle_block(geometry, Vec3::Constant(0.4), {4, 4, 4}, 0.05);
+  d.bodies = {block};
+  RigidBodyDefinition ball;
+  ball.name = "ball";
+  ball.surface = make_sphere(0.1);
+  ball.pose.position = {geometry == GeometryKind::axisymmetric ? 0.0 : 0.5, 0.0, 1.2};
+  ball.free = FreeDefinition{};
+  ball.free->mass = 1.0;
+  ball.free->inertia = 0.1 * Mat3::Identity();
+  d.rigid_bodies = {ball};
+  return d;
+}
+
+void expect_refused(const std::string& text, const std::function<void(SimulationDefinition&)>& change,
+                    GeometryKind geometry = GeometryKind::plane_strain) {
+  SimulationDefinition definition = ball_over_block(geometry);
+  EXPECT_EQ(rigid_fault(definition, definition.rigid_bodies[0]), "");
+  change(definition);
+  const std::string fault = rigid_fault(definition, definition.rigid_bodies[0]);
+  EXPECT_EQ(fault.substr(0, text.size()), text);
+  try {
+    Simulation(std::move(definition), {1});
+    FAIL() << "taken: " << text;
+  } catch (const DefinitionError& error) {
+    EXPECT_EQ(error.what(), "rigid body 'ball': " + fault);
+  }
+}
+
+TEST(RigidRules, WhatAFreeBodyCanBe) {
+  EXPECT_NO_THROW(Simulation(ball_over_block(GeometryKind::plane_strain), {1}));
+  const std::string at_points = "free: a free body is met at points of the material's surface";
+  expect_refused(at_points, [](auto& d) { d.contact.method = ContactMethod::nodes; });
+  expect_refused(at_points, [](auto& d) { d.rigid_bodies[0].particles = true; });
+  expect_refused("free: no velocity is free", [](auto& d) { d.rigid_bodies[0].free->axes = {}; });
+  expect_refused("free: the centre of mass is off the body's origin", [](auto& d) {
+    d.rigid_bodies[0].free->axes[0] = false;
+    d.rigid_bodies[0].free->centre = {0.01, 0.0, 0.0};
+  });
+}
+
+TEST(RigidRules, WhatABodyAboutAnAxisCanDo) {
+  const GeometryKind ring = GeometryKind::axisymmetric;
+  expect_refused(
+      "free: a ring that opens is not rigid", [](auto& d) { d.rigid_bodies[0].inner_radius = 0.1; }, ring);
+  expect_refused(
+      "it moves along r, off the axis", [](auto& d) { d.rigid_bodies[0].velocity[0] = 1.0; }, ring);
+}
+
+TEST(RigidRules, ContactAtNodesHasOneFriction) {
+  const auto at_nodes = [](const std::function<void(SimulationDefinition&)>& change) {
+    return [change](SimulationDefinition& d) {
+      d.rigid_bodies[0].free.reset();
+      d.contact.method = ContactMethod::nodes;
+      EXPECT_EQ(rigid_fault(d, d.rigid_bodies[0]), "");
+      change(d);
+    };
+  };
+  const std::string no_laws = "contact at nodes has no laws of pairs, friction at rest or adhesion";
+  expect_refused(no_laws, at_nodes([](auto& d) { d.rigid_bodies[0].friction.static_coefficient = 0.2; }));
+  expect_refused(no_laws, at_nodes([](auto& d) { d.rigid_bodies[0].friction.adhesion = 1.0; }));
+  expect_refused(no_laws, at_nodes([](auto& d) { d.contact.pairs = {{"block", "ball", ContactLaw()}}; }));
+}
+
+}  // namespace rigid_rules_test
+}  // namespace mpm

@@ -63,6 +63,8 @@ class PointContact final : public Stage, public ContactReporter {
   ContactLedger* ledger_of(const RigidBody& body) override;
   void serialise(StateArchive& archive) override;
 
+  const PointSolver& solver() const { return solver_; }
+
  private:
   using Pass = PointSolver::Pass;
   /// What the stage knows of a point of the solver, at the same place in the list.

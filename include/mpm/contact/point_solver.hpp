@@ -75,6 +75,8 @@ class PointSolver {
   void find_compliance_with_bodies();
   /// `free`: some body is free, and its velocity is one more unknown.
   void solve(Pass pass, bool free);
+  /// Threads that took part in the last solution; 0 before the first one that had a point.
+  int solving_threads() const { return solving_threads_; }
 
  private:
   /// A node's part in a point.
@@ -122,6 +124,7 @@ class PointSolver {
   Fields& fields_;
   ShapeKind shape_;
   int threads_;
+  int solving_threads_ = 0;
   std::vector<Point> points_;
   std::vector<Part> parts_;
   std::vector<Node> nodes_;

@@ -1,5 +1,7 @@
 #include "mpm/contact/point_solver.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -150,7 +152,10 @@ void PointSolver::sweep_prescribed() {
 #pragma omp barrier
     const bool done = all[sweep % 2].largest <= kTolerance * all[sweep % 2].scale;
 #pragma omp single nowait
-    all[(sweep + 1) % 2] = {};
+    {
+      all[(sweep + 1) % 2] = {};
+      solving_threads_ = omp_get_num_threads();
+    }
 #pragma omp barrier
     if (done) break;
   }
@@ -158,6 +163,7 @@ void PointSolver::sweep_prescribed() {
 
 template <PointSolver::Pass Kind>
 void PointSolver::sweep_free() {
+  solving_threads_ = 1;
   ConjugateSweeps<Point> conjugate(sweeps_);
   const int count = static_cast<int>(clusters_.size());
   for (int sweep = 0; sweep < kSweepsFree; ++sweep) {

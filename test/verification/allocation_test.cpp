@@ -32,15 +32,17 @@ void give_back(void* memory) {
 }  // namespace allocation_test
 
 // noinline, because gcc warns of mismatched new and delete when they are inlined.
-[[gnu::noinline]] void* operator new(std::size_t size) { return counted(std::malloc(size)); }
+[[gnu::noinline]] void* operator new(std::size_t size) { return allocation_test::counted(std::malloc(size)); }
 [[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto multiple = static_cast<std::size_t>(alignment);
-  return counted(std::aligned_alloc(multiple, (size + multiple - 1) / multiple * multiple));
+  return allocation_test::counted(std::aligned_alloc(multiple, (size + multiple - 1) / multiple * multiple));
 }
-[[gnu::noinline]] void operator delete(void* memory) noexcept { give_back(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { give_back(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { give_back(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { give_back(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { allocation_test::give_back(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { allocation_test::give_back(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  allocation_test::give_back(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { allocation_test::give_back(memory); }
 
 namespace allocation_test {
 

@@ -264,7 +264,8 @@ TEST(Determinism, AKilledControllerStopsTheLockstepsTime) {
 int main(int argc, char** argv) {
   // Arguments of ROS may come first. A sender that was not recognised here would start the tests again, endlessly.
   for (int i = 1; i + 3 < argc; ++i) {
-    if (std::strcmp(argv[i], mpm_ros::test::kSender) == 0) return mpm_ros::test::send(argc, argv, argv + i + 1);
+    if (std::strcmp(argv[i], mpm_ros::test::determinism_node_test::kSender) == 0)
+      return mpm_ros::test::determinism_node_test::send(argc, argv, argv + i + 1);
   }
   return mpm_ros::test::run_node_tests(argc, argv, "determinism_node_test");
 }

@@ -207,6 +207,7 @@ TEST(Pacing, TheWallsClockCannotBeSetBack) {
 }  // namespace mpm_ros::test
 
 int main(int argc, char** argv) {
-  if (argc > 1 && std::strcmp(argv[1], mpm_ros::test::kWaiter) == 0) return mpm_ros::test::wait_for_time(argc, argv);
+  if (argc > 1 && std::strcmp(argv[1], mpm_ros::test::pacing_node_test::kWaiter) == 0)
+    return mpm_ros::test::pacing_node_test::wait_for_time(argc, argv);
   return mpm_ros::test::run_node_tests(argc, argv, "pacing_node_test");
 }

@@ -18,7 +18,7 @@ struct NodeMaterial {
   Vec3 gradient = Vec3::Zero();      ///< sum of V_p G: out of the material [m^2]; about an axis of areas [m]
   Vec3 place = Vec3::Zero();         ///< sum of m x S over m; or of displacements, as the detection asks for [m]
   Vec3 displacement = Vec3::Zero();  ///< since the start, of the material at the node itself; where asked for [m]
-  bool rigid = false;                ///< moves as it is told, whatever pushes
+  bool rigid = false;                ///< its motion is prescribed, whatever pushes
 
   Vec3 momentum() const { return mass * velocity; }
 };

@@ -2,8 +2,8 @@
 //
 // A step: predict() adds gravity and the applied wrench to the velocity; contact pushes it, together with the nodes
 // that it touches (contact/point_contact.hpp); finish() books what each gave; advance() moves the body. Velocities are
-// those of the centre of mass. Each of the six degrees of freedom is free or told; what is told has no answer to an
-// impulse, and what holds it there is booked as the drive's.
+// those of the centre of mass. Each of the six degrees of freedom is free or prescribed; what is prescribed has no
+// answer to an impulse, and what holds it there is booked as the drive's.
 //
 // Semi-implicit: the velocity of the step's end moves the body, as in the material, so the energy of free fall is off
 // by half a step's fall and stays so. Where all rotations are free the angular momentum is what goes from step to step:
@@ -11,7 +11,7 @@
 // at its middle (implicit midpoint, found by repetition): the energy of a body that spins without torque swings by the
 // square of a step's angle and does not drift.
 //
-// Weak: with rotations of which some are told the gyroscopic torque is that of the step's start, of first order.
+// Weak: with rotations of which some are prescribed the gyroscopic torque is that of the step's start, of first order.
 // Source: Newton-Euler equations; midpoint rule on SO(3) with spatial angular momentum: Simo & Wong (1991), section 3.
 #pragma once
 
@@ -59,7 +59,7 @@ struct FreeBodyReport {
   BodyMomentum contact;  ///< from the material
   BodyMomentum gravity;
   BodyMomentum wrench;        ///< applied by apply_wrench()
-  BodyMomentum drive;         ///< that keeps what is told at its velocity
+  BodyMomentum drive;         ///< that keeps what is prescribed at its velocity
   double kinetic = 0.0;       ///< [J]
   double potential = 0.0;     ///< -m g.x [J]
   double wrench_work = 0.0;   ///< done by the wrench since the start [J]
@@ -74,15 +74,15 @@ class FreeMotion final : public BodyMotion {
 
   const FreeDefinition& definition() const { return definition_; }
   bool is_free(int axis) const { return definition_.axes[axis]; }
-  /// `told` where something is told, `own` where the body is free.
-  Twist merged(const Twist& own, const Twist& told) const override;
+  /// `prescribed` where a velocity is prescribed, `own` where the body is free.
+  Twist merged(const Twist& own, const Twist& prescribed) const override;
   /// From now on, about the body's origin.
   void apply_wrench(const Wrench& wrench) { wrench_ = wrench; }
   const Wrench& wrench() const { return wrench_; }
 
   /// The run begins here with this twist of the origin.
   void start(const Pose& pose, const Twist& twist);
-  /// The step's velocity without contact. `twist`: of the origin; what is told is that of this step.
+  /// The step's velocity without contact. `twist`: of the origin; what is prescribed is that of this step.
   void predict(const Pose& pose, const Twist& twist, const Vec3& gravity, double dt);
   /// Velocity now, and half the sum of those of the step's start and now, at a world point [m/s].
   using BodyMotion::velocity_at;
@@ -124,8 +124,8 @@ class FreeMotion final : public BodyMotion {
   /// Rotation rate by angular momentum, of the free rotations alone [1/(kg m^2)].
   Mat3 lift_of(const Mat3& inertia) const;
   BodyMomentum momentum() const { return {definition_.mass * velocity_, inertia_ * rate_}; }
-  /// Of a vector of translations or rotations (`first` 0 or 3): what is told.
-  Vec3 told_part(const Vec3& vector, int first) const;
+  /// Of a vector of translations or rotations (`first` 0 or 3): what is prescribed.
+  Vec3 prescribed_part(const Vec3& vector, int first) const;
 
   FreeDefinition definition_;
   bool turns_freely_ = false;  ///< angular momentum is what is carried on

@@ -1,6 +1,6 @@
-// A rigid body: a surface that moves as it is told, or, where it is free, as forces make it (rigid/free_motion.hpp).
-// What it is told lives here too (functions of time, a twist, a pose to be at by a time), so that pose and twist come
-// from one place.
+// A rigid body: a surface whose motion is prescribed, or, where it is free, follows from forces
+// (rigid/free_motion.hpp). What prescribes it lives here too (functions of time, a twist, a pose to be at by a time),
+// so that pose and twist come from one place.
 #pragma once
 
 #include <array>
@@ -39,7 +39,8 @@ struct RigidBodyDefinition {
   Sides sides = Sides::automatic;
   /// Names of the deformable bodies whose material has two sides at this body, if it has sides at all; empty: all.
   std::vector<std::string> divides;
-  /// A body with a mass, of which some velocities or all are free; the others are told. Without: all are told.
+  /// A body with a mass, of which some velocities or all are free; the others are prescribed. Without: all are
+  /// prescribed.
   std::optional<FreeDefinition> free;
   /// Filled with particles, and met by volumes and volume gradients at nodes (contact/rigid_particle_contact.hpp) in
   /// place of the surface.

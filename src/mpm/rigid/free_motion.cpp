@@ -55,8 +55,8 @@ FreeMotion::FreeMotion(const FreeDefinition& definition, const std::string& name
   for (int k = 0; k < 3; ++k) inverse_mass_[k] = is_free(k) ? 1.0 / definition_.mass : 0.0;
 }
 
-Twist FreeMotion::merged(const Twist& own, const Twist& told) const {
-  Twist twist = told;
+Twist FreeMotion::merged(const Twist& own, const Twist& prescribed) const {
+  Twist twist = prescribed;
   for (int k = 0; k < 3; ++k) {
     if (is_free(k)) twist.linear[k] = own.linear[k];
     if (is_free(3 + k)) twist.angular[k] = own.angular[k];
@@ -64,7 +64,7 @@ Twist FreeMotion::merged(const Twist& own, const Twist& told) const {
   return twist;
 }
 
-Vec3 FreeMotion::told_part(const Vec3& vector, int first) const {
+Vec3 FreeMotion::prescribed_part(const Vec3& vector, int first) const {
   Vec3 part = vector;
   for (int k = 0; k < 3; ++k) {
     if (is_free(first + k)) part[k] = 0.0;
@@ -78,7 +78,7 @@ Mat3 FreeMotion::inertia_at(const Quat& orientation) const {
 }
 
 Mat3 FreeMotion::lift_of(const Mat3& inertia) const {
-  // What is told is taken out: one on the diagonal, and zero in the inverse.
+  // What is prescribed is taken out: one on the diagonal, and zero in the inverse.
   Mat3 reduced = inertia;
   for (int k = 0; k < 3; ++k) {
     if (is_free(3 + k)) continue;
@@ -114,14 +114,14 @@ void FreeMotion::predict(const Pose& pose, const Twist& twist, const Vec3& gravi
   step_wrench_ = {wrench_.force * dt, (wrench_.torque - arm.cross(wrench_.force)) * dt};
   applied_ += step_wrench_;
 
-  const Vec3 told_change = told_part(twist.linear - velocity_, 0);
-  const Vec3 told_turn = told_part(twist.angular - rate_, 3);
+  const Vec3 prescribed_change = prescribed_part(twist.linear - velocity_, 0);
+  const Vec3 prescribed_turn = prescribed_part(twist.angular - rate_, 3);
   Vec3 turning = step_wrench_.angular;
   if (!turns_freely_) turning -= dt * rate_.cross(inertia_ * rate_);
-  velocity_ += told_change + inverse_mass_.cwiseProduct(weight + step_wrench_.linear);
-  rate_ += told_turn + lifted_ * (turning - inertia_ * told_turn);
-  step_drive_.linear = told_part(mass * told_change - weight - step_wrench_.linear, 0);
-  step_drive_.angular = told_part(inertia_ * (rate_ - start_rate_) - turning, 3);
+  velocity_ += prescribed_change + inverse_mass_.cwiseProduct(weight + step_wrench_.linear);
+  rate_ += prescribed_turn + lifted_ * (turning - inertia_ * prescribed_turn);
+  step_drive_.linear = prescribed_part(mass * prescribed_change - weight - step_wrench_.linear, 0);
+  step_drive_.angular = prescribed_part(inertia_ * (rate_ - start_rate_) - turning, 3);
   kept_velocity_ = velocity_;
   kept_rate_ = rate_;
 }
@@ -147,8 +147,8 @@ void FreeMotion::end_increment() {
 
 void FreeMotion::finish(const BodyMomentum& impulse, double loss) {
   contact_ += impulse;
-  step_drive_.linear -= told_part(impulse.linear, 0);
-  step_drive_.angular += told_part(inertia_ * (rate_ - kept_rate_) - impulse.angular, 3);
+  step_drive_.linear -= prescribed_part(impulse.linear, 0);
+  step_drive_.angular += prescribed_part(inertia_ * (rate_ - kept_rate_) - impulse.angular, 3);
   loss_ += loss;
 }
 

@@ -19,8 +19,8 @@ std::string free_fault(const SimulationDefinition& definition, const RigidBodyDe
   if (body.inner_radius > 0.0) return "free: a ring that opens is not rigid; write another shape";
   if (body.free->axes == std::array<bool, 6>{}) return "free: no velocity is free; leave it out";
   if (!body.free->all_free() && body.free->centre != Vec3::Zero()) {
-    return "free: the centre of mass is off the body's origin, and a part of its motion is told; put the origin at the "
-           "centre of mass, or free all axes";
+    return "free: the centre of mass is off the body's origin, and a part of its motion is prescribed; put the origin "
+           "at the centre of mass, or free all axes";
   }
   return {};
 }

@@ -42,7 +42,7 @@ TEST(SceneTools, SidesOfAThinTool) {
   expect_refused(scene("solid", kRing, "sides: 2"), "sides", "two");
   EXPECT_EQ(tool("solid", kRing, "divides: [block]").divides, std::vector<std::string>{"block"});
   expect_refused(scene("solid", kRing, "divides: block"), "divides", "write a list");
-  expect_refused(scene("solid", kRing, "divides: [blok]"), "divides[0]", "no deformable body is called 'blok'");
+  expect_refused(scene("solid", kRing, "divides: [blok]"), "divides.0", "no deformable body is called 'blok'");
   expect_refused(scene("solid", kRing, "sides: one, divides: [block]"), "divides", "divides nothing");
 }
 

@@ -96,7 +96,8 @@ void overwrite(const std::string& path, const char* name, hid_t type, const void
 TEST_F(BadCheckpoint, IsOfAnotherVersion) {
   const std::uint32_t version = kCheckpointVersion + 1;
   overwrite(file_, "about/version", H5T_NATIVE_UINT32, &version);
-  expect_refused("its layout is version 2, this program reads version 1");
+  expect_refused("its layout is version " + std::to_string(version) + ", this program reads version " +
+                 std::to_string(kCheckpointVersion));
 }
 
 TEST_F(BadCheckpoint, IsOfAnotherScene) {

@@ -5,14 +5,24 @@
 
 #include "benchmarks.hpp"
 #include "block.hpp"
+#include "mpm/kernel/isa.hpp"
+#include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/continuum.hpp"
 
 namespace bench {
 namespace {
 
+mpm::Grouping widest_grouping(mpm::GeometryKind geometry, mpm::Precision precision) {
+  const mpm::Isa isa = mpm::best_isa();
+  if (precision == mpm::Precision::float32) {
+    return mpm::kernel_grouping(mpm::kernel_table<float>(mpm::ShapeKind::ugimp, geometry, isa));
+  }
+  return mpm::kernel_grouping(mpm::kernel_table<double>(mpm::ShapeKind::ugimp, geometry, isa));
+}
+
 void sort(benchmark::State& state, const char* scene, mpm::Precision precision, int threads) {
   Block block(scene, {}, precision);
-  mpm::Sorter sorter(threads, mpm::kernel_grouping(block.dim(), precision, mpm::best_isa()));
+  mpm::Sorter sorter(threads, widest_grouping(block.definition.geometry, precision));
   sorter.sort(block.sets, block.fields);
   double shift = 0.25 * block.grid.layout.cell(0);
   for (auto _ : state) {

@@ -1,10 +1,10 @@
 // Nonlinear conjugate gradients around the sweeps of contact: a sweep's change of the impulses stands for the gradient,
-// and each goes on along the direction of those before it, until they grow (then it starts again). A last sweep has to
-// follow, which brings the impulses back to what friction and pressing allow.
+// and each sweep is continued along the direction of those before it, until the changes grow (then the direction is
+// forgotten). A last sweep has to follow, which brings the impulses back to what friction and pressing allow.
 //
 // Plain sweeps need as many rounds as a body is lighter than the nodes that it touches; these need about the root of
 // it. Source: Silcowitz-Hansen, Niebe & Erleben (2010), A nonsmooth nonlinear conjugate gradient method for interactive
-// contact force problems, algorithm 1; changes are weighted here by what the point gives way by.
+// contact force problems, algorithm 1; changes are weighted here by the compliance of their points.
 #pragma once
 
 #include <vector>
@@ -19,20 +19,22 @@ struct SweepMemory {
   std::vector<Vec3> direction;  ///< [N s]
 };
 
-/// `Point` has an `impulse` [N s], and `with_body`: velocity along the normal by an impulse [1/kg] comes first.
+/// `Point` has an `impulse` [N s] and an array `with_body`, whose first number is the compliance along the normal
+/// [1/kg].
 template <class Point>
 class ConjugateSweeps {
  public:
   explicit ConjugateSweeps(SweepMemory& memory) : memory_(memory) {}
 
-  /// A sweep begins.
+  /// Call before each sweep.
   void begin(const std::vector<Point>& points) {
     if (last_ < 0.0) memory_.direction.assign(points.size(), Vec3::Zero());
     memory_.before.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) memory_.before[i] = points[i].impulse;
   }
 
-  /// It has ended: `add(point, impulse)` for every point, along the directions before it.
+  /// Call after each sweep: `add(point, impulse)` is called for every point, with an impulse along the earlier
+  /// directions.
   template <class Add>
   void go_on(std::vector<Point>& points, Add&& add) {
     double now = 0.0;
@@ -53,7 +55,7 @@ class ConjugateSweeps {
 
  private:
   SweepMemory& memory_;
-  double last_ = -1.0;  ///< weighted square of the sweep's change before; negative: none yet
+  double last_ = -1.0;  ///< weighted square of the last sweep's change; negative before the first
 };
 
 }  // namespace mpm

@@ -1,6 +1,7 @@
-// Books what contact gave to the material on behalf of one rigid body, and reports it as what the material did to the
-// body: wrench, peak, friction and pressing parts, centre of pressure, work, and the energy that friction took. Sums
-// run since the start; a reader remembers those of its last call and reports the difference, and the peak since.
+// Books the impulses that one rigid body gave to the material by contact, and reports the opposite, the action of the
+// material on the body: wrench, peak, friction and pressing parts, centre of pressure, work, and the energy that
+// friction took. Sums run since the start; a reader remembers those of its last call and reports the difference, and
+// the peak since.
 //
 // What is reported is what was applied: the wrench is the sum of the impulses over the time they took, torque about the
 // body's origin as it moves. In an axisymmetric scene reports leave out what cancels around the axis; the account keeps
@@ -32,43 +33,45 @@ struct ContactSums {
   double pressed = 0.0;                 ///< normal impulses [N s]
   Vec3 pressed_arm = Vec3::Zero();      ///< arms times those magnitudes [N s m]
   double area_time = 0.0;               ///< area in contact, over time [m^2 s]
-  double friction_energy = 0.0;         ///< that sliding took [J]
-  double work = 0.0;                    ///< of the body on the material [J]
+  double friction_energy = 0.0;         ///< taken by sliding [J]
+  double work = 0.0;                    ///< done by the body on the material [J]
 };
 
 class ContactLedger {
  public:
-  /// `body` outlives the ledger. It has one reader, 0.
+  /// `body` must outlive the ledger. The ledger has one reader at first, number 0.
   ContactLedger(const RigidBody& body, bool axisymmetric);
 
   void give(const ContactImpulse& given);
-  /// The step's impulse is known. `places`: nodes or points in contact; `area` [m^2].
+  /// Call when all impulses of a step have been given. `places`: nodes or points in contact; `area` [m^2].
   void end_step(double dt, int places, double area);
 
-  /// Another reader, whose reports begin `now` [s]. The same readers must be there before a checkpoint is read.
+  /// Adds a reader, whose reports begin at the time `now` [s], and returns its number. A run that reads a checkpoint
+  /// must have added the same readers before.
   int add_reader(double now);
-  /// What the material did to the body since this reader's last call; `now` [s]. Other readers notice nothing.
+  /// Returns the action of the material on the body since this reader's last call; `now` [s]. Reports of other readers
+  /// do not change.
   ContactReport read(double now, int reader = 0);
-  /// For checkpoints.
+  /// Writes or reads the sums and the readers, for checkpoints.
   void serialise(StateArchive& archive);
 
   const RigidBody& body() const { return body_; }
-  /// Work of the body on the material, and what sliding on it took.
+  /// Adds the work of the body on the material, and the energy that sliding on it took.
   void energies(EnergyReport& report) const {
     report.add("contact_work", NamedEnergy::Kind::work, sums_.work);
     report.add("friction", NamedEnergy::Kind::dissipated, sums_.friction_energy);
   }
-  const ImpulseAccount& account() const { return account_; }  ///< given to the material
+  const ImpulseAccount& account() const { return account_; }  ///< impulses given to the material
   const ContactSums& sums() const { return sums_; }
 
  private:
-  /// What a reader has seen.
+  /// The state of the sums at a reader's last call.
   struct Reader {
     double time = 0.0;  ///< of its last call [s]
     ContactSums last;
     Wrench peak;  ///< since then
   };
-  /// What is left of a sum over the whole body.
+  /// A sum over the whole body: in an axisymmetric scene all but the component along the axis cancels.
   Vec3 whole(const Vec3& sum) const { return axisymmetric_ ? Vec3(0.0, 0.0, sum.z()) : sum; }
 
   const RigidBody& body_;

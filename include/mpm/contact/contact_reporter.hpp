@@ -1,4 +1,5 @@
-// What modules of contact report beyond what every module does: of a rigid body, and of pairs of deformable bodies.
+// Reports that modules of contact give in addition to those of every module: on contact with a rigid body, and on pairs
+// of deformable bodies.
 #pragma once
 
 #include <vector>
@@ -11,10 +12,10 @@ namespace mpm {
 class ContactReporter {
  public:
   virtual ~ContactReporter() = default;
-  /// What it books of a rigid body; null if it does not act on that one.
+  /// Returns the module's ledger of a rigid body; null if the module does not act on that body.
   virtual ContactLedger* ledger_of(const RigidBody&) { return nullptr; }
-  /// Adds a report of each pair that it acts between, since this reader's last call; `now` [s]. Other readers notice
-  /// nothing.
+  /// Adds a report on each pair that the module acts between, since this reader's last call; `now` [s]. Reports of
+  /// other readers do not change.
   virtual void read_pairs(double /*now*/, std::vector<PairReport>&, int /*reader*/ = 0) {}
 };
 

@@ -1,5 +1,5 @@
-// The free ones among the bodies that contact acts on: their velocities while contact is solved for, and what it gave
-// to each.
+// The free bodies among those that contact acts on: their velocities while contact is solved, and the impulse that
+// contact gave to each.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace mpm {
 
 class FreeBodies {
  public:
-  /// `bodies` outlive this.
+  /// `bodies` must outlive this object.
   FreeBodies(const std::vector<RigidBody*>& bodies, const Vec3& gravity)
       : bodies_(bodies), gravity_(gravity), taken_(bodies.size()) {}
 
@@ -19,20 +19,21 @@ class FreeBodies {
     return std::any_of(bodies_.begin(), bodies_.end(),
                        [](const RigidBody* body) { return body->free_motion() != nullptr; });
   }
-  /// Null for a body that is prescribed.
+  /// Null for a body whose motion is prescribed.
   FreeMotion* motion(int body) const { return bodies_[body]->free_motion(); }
-  /// The velocities of the step without contact.
+  /// Gives the bodies the velocities that the step would have without contact.
   void predict(double dt) {
     each([&](RigidBody& body, FreeMotion& motion, Taken&) { motion.predict(body.pose(), body.twist(), gravity_, dt); });
   }
-  /// Velocities are then increments, until end_increment() adds them to what they were.
+  /// From here on velocities are increments, until end_increment() adds them to the previous velocities.
   void begin_increment() {
     each([](RigidBody&, FreeMotion& motion, Taken&) { motion.begin_increment(); });
   }
   void end_increment() {
     each([](RigidBody&, FreeMotion& motion, Taken&) { motion.end_increment(); });
   }
-  /// Books an impulse on the material [N s]. `mean_slip`: of the material against the body [m/s].
+  /// Books an impulse on the material [N s]. `mean_slip`: mean velocity of the material
+  /// relative to the body [m/s].
   void take(int body, const Vec3& impulse, const Vec3& place, const Vec3& normal, const Vec3& mean_slip) {
     const FreeMotion* free = motion(body);
     if (free == nullptr) return;
@@ -41,7 +42,7 @@ class FreeBodies {
     taken.impulse.angular -= (place - free->centre()).cross(impulse);
     taken.loss -= impulse.dot(normal) * mean_slip.dot(normal);
   }
-  /// All is booked: bodies have the velocity that contact left them.
+  /// Call when all impulses are booked: gives the bodies the velocity that contact left them.
   void finish() {
     each([](RigidBody& body, FreeMotion& motion, Taken& taken) {
       motion.finish(taken.impulse, taken.loss);

@@ -1,14 +1,14 @@
 // Contact between deformable bodies: bodies of different velocity fields that share a node act on each other there by
 // the law of their pair, in the frame of their centre of mass.
 //
-// What a node knows (mass, volume, volume gradient, mean place of each material) is gathered at the step's start, on
-// the blocks that fields share and nowhere else. Laws act on v^{n+1}; strain is taken with what was held, as
-// step/coulomb.hpp explains; XPIC's increments lose what is held. Impulses come in opposite pairs, so nothing is given
-// from outside; NormalMethod::own alone has an account, of what its two normals leave over. Bodies that share one
-// velocity ("one_field") are merged before anything else: velocity and acceleration, since FLIP takes the acceleration
-// over, which a single field would have; everything after is that single field to round-off.
-// Weak: a surface is smeared over two cells; contact begins up to a tenth of a cell early or late (pair_detection.hpp),
-// by approach alone a cell early. A node where three bodies meet has a normal for each pair.
+// The data of a node (mass, volume, volume gradient, mean place of each material) are gathered at the step's start, on
+// the blocks that fields share and nowhere else. Laws act on v^{n+1}; while strain is updated a pair that was held
+// stays held, as step/coulomb.hpp explains; XPIC's increments lose their held components. Impulses come in opposite
+// pairs, so nothing is given from outside; only NormalMethod::own has an account, of the sum of its two unequal
+// impulses. Bodies that share one velocity ("one_field") are merged before anything else: velocity and acceleration,
+// since FLIP takes the acceleration over, which a single field would have; everything after is that single field to
+// round-off. Weak: a surface is smeared over two cells; contact begins up to a tenth of a cell early or late
+// (pair_detection.hpp), by approach alone a cell early. A node where three bodies meet has a normal for each pair.
 // Source: Nairn, GIMP notes 3.2; method reference 8; manual, MultiMaterialMode.
 #pragma once
 
@@ -28,7 +28,7 @@
 
 namespace mpm {
 
-/// Two bodies and what is between them.
+/// Two bodies and the law between them.
 struct MaterialPair {
   std::string name;                ///< "first/second"
   std::vector<int> first, second;  ///< velocity fields of each (more than one where a thin tool parts a body)
@@ -40,14 +40,16 @@ struct MaterialContactSettings {
   DetectionRule detection;
   std::vector<MaterialPair> pairs;
   GeometryKind geometry = GeometryKind::solid;
-  double cell_volume = 0.0;  ///< that minimum volumes are a part of [m^3]; about an axis the area of a cell's section
+  double cell_volume =
+      0.0;  ///< to which minimum volumes are relative [m^3]; about an axis the area of a cell's section
   int threads = 1;
-  const ToolSides* sides = nullptr;  ///< of thin tools, which may lie between two bodies at a node; null without
+  const ToolSides* sides =
+      nullptr;  ///< sides of thin tools, which may lie between two bodies at a node; null without such tools
 };
 
 class MaterialContact final : public Stage, public ContactReporter {
  public:
-  /// `fields` and `survey` outlive the stage.
+  /// `fields` and `survey` must outlive the stage.
   MaterialContact(MaterialContactSettings settings, Fields& fields, VolumeSurvey& survey);
 
   std::string name() const override { return "pairs"; }
@@ -64,30 +66,31 @@ class MaterialContact final : public Stage, public ContactReporter {
   void serialise(StateArchive& archive) override;
 
   void energies(EnergyReport& report) const override;
-  /// Another reader, whose reports begin `now` [s]. The same readers must be there before a checkpoint is read.
+  /// Adds a reader, whose reports begin at the time `now` [s], and returns its number. A run that reads a checkpoint
+  /// must have added the same readers before.
   int add_reader(double now);
   void read_pairs(double now, std::vector<PairReport>& reports, int reader = 0) override;
 
  private:
-  /// A field at a node.
+  /// One velocity field at a node.
   struct Member {
     int field;
     NodeRef ref;
     double mass;
-    int group;  ///< among the node's materials: fields of one velocity are one
+    int group;  ///< index among the node's materials; fields that share one velocity are one material
   };
   struct PairOfNode {
     NodePair state;
-    int rule;     ///< among settings_.pairs
-    bool turned;  ///< a is of the second body
-    int fields;   ///< names the pair at its node, between steps
+    int rule;     ///< index in settings_.pairs
+    bool turned;  ///< a belongs to the second body
+    int fields;   ///< identifies the pair at its node from step to step
   };
   struct Node {
     Vec3 position;
     std::uint64_t id;  ///< HeldNodes::id
     int first_member, members, first_pair, pairs, groups;
   };
-  /// The nodes of a shared block, and what is at them.
+  /// The nodes of a shared block, with their members, materials and pairs.
   struct BlockNodes {
     std::vector<Node> nodes;
     std::vector<Member> members;
@@ -105,14 +108,14 @@ class MaterialContact final : public Stage, public ContactReporter {
     std::vector<NodePair> pairs;
     std::vector<Vec3> velocities, accelerations;  ///< of the materials before
   };
-  /// What a pair's nodes gave in a step, or since the start.
+  /// Sums over a pair's nodes, of a step or since the start.
   struct Sums {
     Vec3 impulse = Vec3::Zero(), friction = Vec3::Zero(), moment = Vec3::Zero();
     double pressed = 0.0, area = 0.0, friction_energy = 0.0, interface_energy = 0.0;
     int nodes = 0;
     Sums& operator+=(const Sums& other);
   };
-  /// What a reader has seen: sums since the start, of each pair.
+  /// The sums of each pair at a reader's last call.
   struct Reader {
     double time = 0.0;  ///< of its last call [s]
     std::vector<Sums> seen;
@@ -120,30 +123,30 @@ class MaterialContact final : public Stage, public ContactReporter {
   static void serialise_sums(StateArchive& archive, std::vector<Sums>& sums);
   enum class Pass { strain, update, filter };
 
-  /// Which rule is between two fields, and whether the first is its second body; -1: none.
+  /// The pair whose law holds between two fields (-1: none), and whether the first field belongs to its second body.
   struct Rule {
     int pair = -1;
     bool turned = false;
   };
-  /// Whether a thin tool lies between what two fields have at a node.
+  /// Whether a thin tool lies between the materials of two fields at a node.
   bool parted(const Member& a, const Member& b) const;
   Rule rule(int a, int b) const { return rules_[a * static_cast<int>(fields_.size()) + b]; }
 
   // Finding the nodes (material_nodes.cpp).
   void find_nodes(const SharedBlock& block, double dt, BlockNodes& found) const;
-  /// Fields that share one velocity become one group. Returns the number of groups.
+  /// Makes one group of the fields that share one velocity. Returns the number of groups.
   int group(Member* members, int count) const;
   NodeMaterial material_at(const Member& member, const Vec3& position) const;
   void add_pairs(Node& node, const std::array<bool, 3>& mirrored, double dt, BlockNodes& found) const;
-  /// Length that a section's contact at this place stands for: 1 but about an axis.
+  /// Length around the axis that contact on a section at this place represents; 1 in scenes that are not axisymmetric.
   double around(const Vec3& position) const;
   PairHold held(std::uint64_t node, int fields) const;
 
-  /// The node's materials with the velocities of `velocity(grid)`, and its pairs as the pass needs them.
+  /// Copies the node's materials, with the velocities of `velocity(grid)`, and its pairs as the pass needs them.
   template <class FieldOf>
   void load(Pass pass, const BlockNodes& block, const Node& node, double dt, FieldOf&& velocity,
             Scratch& scratch) const;
-  /// The node's velocities in `velocity(grid)` become what the pass makes of them.
+  /// Applies the pass to the node's velocities in `velocity(grid)`.
   template <class FieldOf>
   void hold(Pass pass, BlockNodes& block, const Node& node, double dt, FieldOf&& velocity, Scratch& scratch);
   template <class FieldOf>

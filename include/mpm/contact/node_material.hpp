@@ -1,4 +1,4 @@
-// One material at one node of the grid that it shares with others: what contact between materials is computed from.
+// The data of one material at a node that it shares with others, from which contact between materials is computed.
 //
 // Source: method reference 8.1 to 8.4; manual, MultiMaterialMode.
 #pragma once
@@ -14,23 +14,23 @@ struct NodeMaterial {
   double mass = 0.0;                 ///< m_i [kg]
   Vec3 velocity = Vec3::Zero();      ///< [m/s]
   double volume = 0.0;               ///< sum of V_p S, as deformed [m^3]; about an axis areas of sections [m^2]
-  double start_volume = 0.0;         ///< the same, undeformed, with its mirror images; where asked for
+  double start_volume = 0.0;         ///< the same, undeformed, with its mirror images; only if asked for
   Vec3 gradient = Vec3::Zero();      ///< sum of V_p G: out of the material [m^2]; about an axis of areas [m]
   Vec3 place = Vec3::Zero();         ///< sum of m x S over m; or of displacements, as the detection asks for [m]
-  Vec3 displacement = Vec3::Zero();  ///< since the start, of the material at the node itself; where asked for [m]
+  Vec3 displacement = Vec3::Zero();  ///< of the material at the node itself since the start; only if asked for [m]
   bool rigid = false;                ///< its motion is prescribed, whatever pushes
 
   Vec3 momentum() const { return mass * velocity; }
 };
 
-/// Of two at the node, one of which may be rigid: m_a m_b / (m_a + m_b) [kg].
+/// Reduced mass of two materials at the node, one of which may be rigid: m_a m_b / (m_a + m_b) [kg].
 inline double reduced_mass(const NodeMaterial& a, const NodeMaterial& b) {
   if (a.rigid) return b.mass;
   if (b.rigid) return a.mass;
   return a.mass * b.mass / (a.mass + b.mass);
 }
 
-/// Both as one material: masses, volumes and gradients add, velocities and places are means by mass.
+/// Two materials as one: masses, volumes and gradients are summed, velocities and places averaged by mass.
 inline NodeMaterial lumped(const NodeMaterial& a, const NodeMaterial& b) {
   NodeMaterial sum;
   sum.mass = a.mass + b.mass;

@@ -1,5 +1,5 @@
-// Whether two materials at a node touch: by the volume there, and by how far they are apart. Approach is asked for by
-// the law itself, always (contact/pair_law.hpp).
+// Whether two materials at a node touch: by the volume there, and by how far they are apart. The law
+// itself always requires approach as well (contact/pair_law.hpp).
 //
 // Weak: the distance between two surfaces is read from the mean places of the material on either side. With particles
 // in their lattice, two in a cell's edge, touching faces read 0.75 to 0.86 cells, depending on where they lie between
@@ -26,7 +26,7 @@ inline constexpr std::array<const char*, 3> kDetectionNames = {"approach", "disp
 struct DetectionRule {
   Detection kind = Detection::positions;
   double position = 0.8;  ///< distance of the mean places at which surfaces touch [cells across, along the normal]
-  double minimum_volume = 0.0;  ///< of all materials at the node, over a cell's; less is no contact
+  double minimum_volume = 0.0;  ///< of all materials at the node, over a cell's; with less there is no contact
 };
 
 /// Width of a cell along a direction [m]: the diameter along it of the ellipsoid in the cell, which is the edge along
@@ -40,8 +40,8 @@ inline double across_cell(const GridLayout& layout, const Vec3& direction) {
   return sum > 0.0 ? 1.0 / std::sqrt(sum) : layout.smallest_cell();
 }
 
-/// Between the surfaces, along the normal from a to b; negative where they touch or overlap [m]. NodeMaterial::place is
-/// a position or a displacement, as the rule asks for.
+/// Distance between the surfaces along the normal from a to b; negative where they touch or overlap [m].
+/// NodeMaterial::place is a position or a displacement, as the rule asks for.
 inline double separation(const DetectionRule& rule, const NodeMaterial& a, const NodeMaterial& b, const Vec3& normal,
                          double across) {
   const double apart = (b.place - a.place).dot(normal);
@@ -49,7 +49,7 @@ inline double separation(const DetectionRule& rule, const NodeMaterial& a, const
 }
 
 /// Area of the surface between two materials that falls to the node [m^2]: sqrt(2 min(Va, Vb) (Va + Vb)) / width of the
-/// cell. Of a plane at distance d from the node it is exactly 1 - d/h of a cell's face. Method reference 8.4.
+/// cell. For a plane at distance d from the node it is exactly 1 - d/h of a cell's face. Method reference 8.4.
 inline double contact_area(double volume_a, double volume_b, double across) {
   return std::sqrt(2.0 * std::min(volume_a, volume_b) * (volume_a + volume_b)) / across;
 }

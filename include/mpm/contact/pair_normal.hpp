@@ -11,12 +11,12 @@
 
 namespace mpm {
 
-/// In the manual's order, Normals 0 to 3.
+/// Where the normal comes from, in the order of the manual's Normals 0 to 3.
 enum class NormalMethod {
   larger_gradient,  ///< of the material whose gradient is longer
-  larger_volume,    ///< of the material with more volume at the node; knows no rigid bias
+  larger_volume,    ///< of the material with more volume at the node; without rigid bias
   average,          ///< of both, weighted by volume
-  own               ///< each material by its own: momentum is not conserved where the two are not opposite
+  own               ///< each material uses its own: momentum is not conserved where the two are not opposite
 };
 inline constexpr std::array<const char*, 4> kNormalNames = {"larger_gradient", "larger_volume", "average", "own"};
 
@@ -31,7 +31,7 @@ struct NormalRule {
 struct PairNormals {
   Vec3 of_a, of_b;
 };
-/// At most one of the two is rigid.
+/// The normals of a pair. At most one of the two materials is rigid.
 PairNormals pair_normals(const NormalRule& rule, const NodeMaterial& a, const NodeMaterial& b);
 
 }  // namespace mpm

@@ -1,4 +1,4 @@
-// What two deformable bodies did to each other: plain values, SI.
+// A report of the action of two deformable bodies on each other: plain values, SI.
 #pragma once
 
 #include <limits>
@@ -8,7 +8,8 @@
 
 namespace mpm {
 
-/// Since the last report, averaged over the interval. Axisymmetric scenes: for the whole body, along z alone.
+/// Forces are averaged over the interval since the last report. In axisymmetric scenes they are those of the whole
+/// body, so only their z component is not zero.
 struct PairReport {
   std::string name;               ///< "first/second"
   Vec3 force = Vec3::Zero();      ///< on the second body, from the first; the opposite acts on the first [N]

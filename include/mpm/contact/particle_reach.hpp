@@ -1,7 +1,8 @@
 // How far a particle reaches from its centre towards a surface: the ellipsoid inscribed in its box, deformed with it.
-// Along the box's axes that is the box; turned with the material it turns; and a lattice of particles reaches its own
-// flat side exactly, however it lies. What flows (a law with history) remembers a shape that means nothing any more:
-// its particles reach as a ball of their present volume does, and not farther than at the start, when they have parted.
+// Along the box's axes it is as long as the box, and it turns with the material; a lattice of particles reaches its own
+// flat side exactly in any orientation. For material that flows (a law with history) the deformed box has no meaning:
+// its particles reach as far as a ball of their present volume does, and never farther than at the start, even where
+// they have parted.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 
 namespace mpm {
 
-/// By how much the particle's section along the grid's axes, its volume in a solid, has changed.
+/// Factor by which the particle's section along the grid's axes (in a solid its volume) has changed since the start.
 template <class Geometry>
 double stretch_of_section(const ParticleSet& set, int p) {
   const auto f = Geometry::load_matrix(set.f, p);
@@ -21,7 +22,7 @@ double stretch_of_section(const ParticleSet& set, int p) {
   if constexpr (Geometry::kDim != 2) return determinant(f);
 }
 
-/// [m]; `normal`: unit vector along the grid's axes, world components.
+/// Reach along `normal` [m], a unit vector along the grid's axes in world components.
 template <class Geometry>
 double particle_reach(const ParticleSet& set, const GridLayout& layout, int p, const Vec3& normal) {
   constexpr int kDim = Geometry::kDim;

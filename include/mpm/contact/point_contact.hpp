@@ -1,23 +1,24 @@
 // Contact of the material with rigid bodies at points of the material's surface: on each particle near a body, the
 // point nearest to it (contact/point_search.hpp). There the velocity that the grid has at that very place, by hat
-// functions, may close the gap in a step and no more, and slides as friction allows. The impulses that keep to this are
-// spread to nodes by the same functions, which are also those that internal forces of a filled cell end with: so a
-// uniform stress is in equilibrium wherever the surface lies between the nodes, and nothing acts before surfaces meet.
+// functions, may at most close the gap in a step, and slides as friction allows. The impulses that ensure this are
+// spread to nodes by the same functions, by which internal forces end at the surface of a filled cell: so a uniform
+// stress is in equilibrium wherever the surface lies between the nodes, and nothing acts before surfaces meet.
 //
 // All bodies are solved together: impulses >= 0 along the exact normals, within the cone of friction
 // (contact/point_solver.hpp), beginning with the forces of the step before (contact/point_memory.hpp).
 //
-// Friction falls from that at rest to that of sliding over a thousandth of a cell of slip (slip weakening): which of
-// two neighbouring points bears how much is not determined, and what gave way at once would tear along the surface.
+// Friction falls from that at rest to that of sliding over a thousandth of a cell of slip (slip weakening). The shares
+// of two neighbouring points in a load are not determined; without weakening sliding would spread at once from the
+// first point that gives way.
 //
 // While strain is updated, points that were held stay held and open ones may not close more than their gap
-// (step/coulomb.hpp says why). A body that is free keeps there the velocity that the solution gave it: it is the one
-// that moves it. Increments of XPIC and FMPM are solved with it too, since what they give is momentum.
+// (step/coulomb.hpp says why). A free body keeps the velocity that the solution gave it, because that velocity
+// moves it. Increments of XPIC and FMPM are solved together with free bodies too, since they exchange momentum.
 //
-// What comes under a surface from beside it, or starts there, keeps the overlap that it came with.
+// A point that comes under a surface from beside it, or starts there, keeps its initial overlap.
 //
 // Weak: an edge that cuts is blunt by up to a cell, since particles above and below it share nodes. A particle drawn
-// into a body is pushed out slowly (kPushOut). A block that slides with friction swings more than with contact at
+// into a body is pushed out slowly (kPushOut). A block that slides with friction vibrates more than with contact at
 // nodes.
 // Source: contact as impulses at points with complementarity is usual for rigid bodies (Moreau, Jean: non-smooth
 // contact dynamics); the law at a point is GIMP notes (3.12)-(3.20), method reference 8.3, without its node.
@@ -40,12 +41,12 @@ struct PointContactSettings {
   ShapeKind shape = ShapeKind::ugimp;
   double across = 1.0;  ///< thickness [m] of a plane, area [m^2] of a line
   int threads = 1;
-  Vec3 gravity = Vec3::Zero();  ///< on bodies that are free [m/s^2]
+  Vec3 gravity = Vec3::Zero();  ///< acts on free bodies [m/s^2]
 };
 
 class PointContact final : public Stage, public ContactReporter {
  public:
-  /// Bodies, sets and fields outlive the stage. `laws`: of each body against each set, the sets of a body together.
+  /// Bodies, sets and fields must outlive the stage. `laws`: one for each body and set, those of one body together.
   PointContact(std::vector<RigidBody*> bodies, const std::vector<ParticleSet>& sets, Fields& fields,
                std::vector<ContactLaw> laws, const PointContactSettings& settings);
 
@@ -67,17 +68,17 @@ class PointContact final : public Stage, public ContactReporter {
 
  private:
   using Pass = PointSolver::Pass;
-  /// What the stage knows of a point of the solver, at the same place in the list.
+  /// Data that the stage keeps for each point of the solver, in the same order.
   struct Contact {
     const ContactPoint* found;
     Vec3 start = Vec3::Zero();     ///< impulse that the step's solution begins with [N s]
     Vec3 approach = Vec3::Zero();  ///< relative velocity before the impulses [m/s]
-    double gap = 0.0;              ///< less the overlap that it came with [m]
-    double slid = 0.0;             ///< since it was at rest [m]
-    double overlap = 0.0;          ///< that it came with, <= 0 [m]
+    double gap = 0.0;              ///< counted from the initial overlap [m]
+    double slid = 0.0;             ///< slip since the point was at rest [m]
+    double overlap = 0.0;          ///< initial overlap, <= 0 [m]
   };
 
-  /// What is remembered of the point, and what its law is in this step.
+  /// Sets the point's law for this step and returns its data from memory.
   Contact recall(const ContactPoint& found, PointSolver::Point& point, double dt) const;
   void clear_impulses();
   /// Books the impulse of a point whose body moves with `velocity` there.

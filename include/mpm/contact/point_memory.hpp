@@ -1,4 +1,4 @@
-// What contact at points remembers from step to step: of each particle and body that had a point.
+// The data that contact at points keeps from step to step, one entry for each particle and body that had a point.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@ namespace mpm {
 class PointMemory {
  public:
   struct Entry {
-    std::uint64_t id;           ///< of particle and body
+    std::uint64_t id;           ///< computed from particle and body
     Vec3 force = Vec3::Zero();  ///< on the material [N]
-    double slid = 0.0;          ///< since it was at rest [m]
-    double overlap = 0.0;       ///< that it came with, <= 0; the gap is counted from there [m]
+    double slid = 0.0;          ///< slip since the point was at rest [m]
+    double overlap = 0.0;       ///< initial overlap, <= 0, from which the gap is counted [m]
     Hold hold = Hold::free;
   };
 
@@ -26,7 +26,7 @@ class PointMemory {
   }
   void clear() { entries_.clear(); }
   void add(const Entry& entry) { entries_.push_back(entry); }
-  /// All have been added.
+  /// Call when all entries have been added: sorts them by id.
   void close() {
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.id < b.id; });
   }

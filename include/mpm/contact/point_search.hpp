@@ -1,11 +1,11 @@
 // Finds where the material's surface is near rigid bodies: on each particle near a body, the point of its domain that
 // is nearest to it (particle_reach.hpp).
 //
-// Blocks of particles, then groups of neighbours within them, are passed over where a ball around them stays clear of
-// the body, so that a body's surface is asked about few particles besides those that it is near to.
+// Blocks of particles, then groups of neighbours within them, are skipped where a ball around them stays clear of the
+// body, so that few particles besides those near a body are tested against its surface.
 //
-// A sharp edge divides what it meets: a particle beside one is there with its centre, not with its reach.
-// Weak: a particle has one point a body: in an inner corner the one at the nearer face.
+// A sharp edge separates the material on its two sides: for a particle beside an edge its centre counts, not its reach.
+// Weak: a particle has one point for each body; in an inner corner it is the one at the nearer face.
 #pragma once
 
 #include <vector>
@@ -20,7 +20,7 @@ namespace mpm {
 
 class PointSearch {
  public:
-  /// All outlive this. `across`: thickness [m] of a plane, area [m^2] of a line.
+  /// Bodies, sets and fields must outlive this object. `across`: thickness [m] of a plane, area [m^2] of a line.
   PointSearch(const std::vector<const RigidBody*>& bodies, const std::vector<ParticleSet>& sets, const Fields& fields,
               GeometryKind geometry, double across, int threads)
       : bodies_(bodies), sets_(sets), fields_(fields), geometry_(geometry), across_(across), threads_(threads) {}
@@ -37,7 +37,7 @@ class PointSearch {
   void find_jobs(double band);
   template <class Geometry>
   void find_in(double dt);
-  /// `farthest`: what a particle reaches from its centre, at most [m].
+  /// `farthest`: the largest reach of a particle from its centre [m].
   template <class Geometry>
   void search(const Job& job, double dt, double farthest, std::vector<ContactPoint>& found) const;
   /// Whether the surface may be at most `band` from one of the particles [begin, end) of a set.

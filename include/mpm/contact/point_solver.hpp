@@ -5,13 +5,13 @@
 // The points of one block of the grid follow each other, and blocks are taken by colour, so that blocks of one colour
 // share no node: many points are solved on several threads, with the same bits for any number of them.
 //
-// A body that is free is solved with them: its velocity is an unknown as those of the nodes are, so a point gives way
-// by the nodes' part and by the body's, n.(1/M + (r x n) I^-1 (r x n)) along the normal, and an impulse pushes both.
-// Sweeps are then the steps of a nonlinear conjugate gradient method (contact/conjugate_sweeps.hpp), since what is
-// light couples all that touch it, and run on one thread.
+// The velocity of a free body is an unknown like those of the nodes: the compliance of a point is the sum of the nodes'
+// part and the body's, n.(1/M + (r x n) I^-1 (r x n)) along the normal, and an impulse changes both. Sweeps are then
+// the steps of a nonlinear conjugate gradient method (contact/conjugate_sweeps.hpp), since a light body couples all
+// points that touch it, and they run on one thread.
 //
-// Sweeps end when one changes velocities by kTolerance of the largest, or after kSweeps: what is left is less
-// approach than needed, made good in the next steps; momentum is exact. Ten sweeps are enough: forces on a tool differ
+// Sweeps end when one changes velocities by at most kTolerance of the largest, or after kSweeps. The remaining error is
+// a small approach, which the next steps correct; momentum is exact. Ten sweeps are enough: forces on a tool differ
 // from those of forty by 0.3 %, and both by 2 % from those of six hundred (speed_tool_3d).
 #pragma once
 
@@ -33,53 +33,54 @@ namespace mpm {
 class PointSolver {
  public:
   struct Point {
-    Vec3 normal;                   ///< out of the body
-    Vec3 velocity;                 ///< of the body there, if it is prescribed [m/s]
-    Vec3 impulse = Vec3::Zero();   ///< on the material [N s]
-    double allowed = 0.0;          ///< velocity along the normal that it has at least [m/s]
-    double compliance = 0.0;       ///< velocity at the point by an impulse there [1/kg]
-    double with_body[2] = {};      ///< the same with that of a free body: along the normal, at most along the surface
-    double friction = 0.0;         ///< coefficient that holds now
-    double adhesion = 0.0;         ///< impulse that may pull [N s]
+    Vec3 normal;                  ///< out of the body
+    Vec3 velocity;                ///< of the body there, if its motion is prescribed [m/s]
+    Vec3 impulse = Vec3::Zero();  ///< on the material [N s]
+    double allowed = 0.0;         ///< least velocity along the normal [m/s]
+    double compliance = 0.0;      ///< velocity at the point by an impulse there [1/kg]
+    double with_body[2] =
+        {};  ///< compliance with that of a free body: along the normal, and the largest along the surface
+    double friction = 0.0;         ///< coefficient in this step
+    double adhesion = 0.0;         ///< largest pulling impulse [N s]
     bool sticks = false;           ///< no sliding while pressed
     Hold hold = Hold::free;        ///< in the step before, then in this one
-    int found = 0;                 ///< its place among the points that were found
+    int found = 0;                 ///< index among the points that were found
     int first = 0, end = 0;        ///< its parts in parts_
-    FreeMotion* motion = nullptr;  ///< of its body, if that is free
+    FreeMotion* motion = nullptr;  ///< motion of a free body; null for others
     Vec3 place;                    ///< world [m]
   };
   enum class Pass {
-    step,      ///< impulses >= 0, friction: decides who is held
-    strain,    ///< who is held keeps to the surface, others as in step
-    held,      ///< who is held keeps to the surface
-    increment  ///< the same of a velocity that is added to one that does
+    step,      ///< impulses >= 0, friction: decides which points are held
+    strain,    ///< held points follow the surface, others as in step
+    held,      ///< held points follow the surface
+    increment  ///< the same for a velocity increment
   };
   using Member = NodalField Grid::*;
 
-  /// `fields` outlives this.
+  /// `fields` must outlive this object.
   PointSolver(Fields& fields, ShapeKind shape, int threads) : fields_(fields), shape_(shape), threads_(threads) {}
 
-  /// Takes the points found, in its own order and without those that have no node with mass around them.
+  /// Takes over the points found, in the order of solution and without those that have no node with mass around them.
   void connect(const std::vector<ContactPoint>& found);
   std::vector<Point>& points() { return points_; }
   const std::vector<Point>& points() const { return points_; }
 
-  /// Takes the nodes' velocities from that member of their fields.
+  /// Reads the nodes' velocities from this member of their fields.
   void load(Member from);
-  /// Adds what has changed since load().
+  /// Adds the change of the nodes' velocities since load(), times `factor`.
   void store(Member to, double factor = 1.0);
   Vec3 velocity_at(const Point& point) const;
-  /// Gives the points' impulses to nodes, and to bodies that are free.
+  /// Applies the points' impulses to nodes and to free bodies.
   void push_all();
-  /// Points of bodies that are free know what these give way by (after FreeMotion::predict).
+  /// Adds the compliance of free bodies to that of their points. Call after FreeMotion::predict().
   void find_compliance_with_bodies();
-  /// `free`: some body is free, and its velocity is one more unknown.
+  /// `free`: whether some body is free, so that its velocity is an unknown too.
   void solve(Pass pass, bool free);
   /// Threads that took part in the last solution; 0 before the first one that had a point.
   int solving_threads() const { return solving_threads_; }
 
  private:
-  /// A node's part in a point.
+  /// The weight of a node at a point.
   struct Part {
     int node;  ///< in nodes_
     double weight;
@@ -97,21 +98,21 @@ class PointSolver {
   struct Cluster {
     int field, block, colour, first, end;
   };
-  /// What a sweep has done.
+  /// Largest changes of a sweep.
   struct Progress {
     double largest = 0.0;  ///< change of a velocity [m/s]
     double scale = 0.0;    ///< the largest velocity that an impulse gives its point [m/s]
   };
 
-  /// That are worth while for so many points.
+  /// Number of threads that pays for this number of points.
   int threads_for(int points) const;
   void find_weights(const std::vector<ContactPoint>& found);
-  /// Which points belong together, in the order in which they are solved.
+  /// Puts the points of one block together, in the order in which they are solved.
   void cluster(const std::vector<ContactPoint>& found);
   void add(const ContactPoint& point, int found);
   template <bool Free>
   void push(const Point& point, const Vec3& impulse);
-  /// One point, once; the velocity that it changed by [m/s].
+  /// Updates the impulse of one point. Returns the change of velocity [m/s].
   template <Pass Kind, bool Free>
   double relax(Point& point);
   template <Pass Kind, bool Free>
@@ -134,13 +135,13 @@ class PointSolver {
   SweepMemory sweeps_;
 
   // Kept so that a step allocates nothing.
-  std::vector<Part> found_parts_;  ///< of each point found, stride_ each; nodes by their place in the field
+  std::vector<Part> found_parts_;  ///< stride_ parts for each point found; nodes by their index in the field
   std::vector<int> found_count_, found_block_;
   int stride_ = 0;
   std::vector<Cluster> unsorted_;
-  std::vector<int> of_point_, order_;         ///< cluster of each point found; points found in order of solution
-  std::vector<std::vector<int>> slot_;        ///< of each node of each field: its place in nodes_, or -1
-  std::vector<std::vector<int>> cluster_of_;  ///< of each block of each field: its place in unsorted_, or -1
+  std::vector<int> of_point_, order_;   ///< cluster of each point found; indices of points in the order of solution
+  std::vector<std::vector<int>> slot_;  ///< for each node of each field its index in nodes_, or -1
+  std::vector<std::vector<int>> cluster_of_;  ///< for each block of each field its index in unsorted_, or -1
 };
 
 }  // namespace mpm

@@ -12,8 +12,8 @@
 // is that of the surface at the mass centre, the face that the material lies at.
 //
 // Weak: a surface between two rows of nodes is met up to a cell early; material on both sides of a tool thinner than
-// three cells shares nodes if it has one field. Source: Nairn, GIMP notes
-// (3.12)-(3.20); method reference 5.3, 8.3; the normal is the exact one instead of a mass gradient.
+// three cells shares nodes if it has one field. Source: Nairn, GIMP notes (3.12)-(3.20); method reference 5.3, 8.3; the
+// normal is the exact one instead of a mass gradient.
 #pragma once
 
 #include <vector>
@@ -30,8 +30,8 @@ namespace mpm {
 
 class RigidContact final : public Stage, public ContactReporter {
  public:
-  /// `body`, `fields` and `sides`, of a scene with thin tools, outlive the stage. Solid stands for every geometry that
-  /// is not axisymmetric.
+  /// `body`, `fields` and `sides` must outlive the stage; `sides` is null in a scene without thin tools. `geometry`
+  /// only tells axisymmetric scenes from others.
   RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry = GeometryKind::solid,
                const ToolSides* sides = nullptr);
 
@@ -63,13 +63,13 @@ class RigidContact final : public Stage, public ContactReporter {
   struct NearBlock {
     int field, block;
   };
-  /// Whether the node, of a field and at a world place, is to be held if it approaches, and where the surface is that
-  /// holds it. `reach`: as far outside the body [m].
+  /// Whether a node of a field, at a world place, is in contact if it approaches; then `point` is the surface there.
+  /// `reach`: largest distance outside the body [m].
   bool touches(int field, NodeRef node, const Vec3& place, double reach, SurfacePoint& point) const;
   /// visit(node, grid of its field)
   template <class Visit>
   void each_node(Visit&& visit);
-  /// Books what one node was given; `slip`: its relative velocity before [m/s].
+  /// Books the impulse on one node; `slip`: its relative velocity before [m/s].
   void give(const Node& node, double mass, const Vec3& slip, const Vec3& change);
 
   const RigidBody& body_;
@@ -77,7 +77,7 @@ class RigidContact final : public Stage, public ContactReporter {
   int threads_;
   bool axisymmetric_;
   const ToolSides* sides_;
-  const ThinTool* thin_;                  ///< the body, if its sides have a field each
+  const ThinTool* thin_;                  ///< the body as a thin tool, if its sides have a field each; else null
   std::vector<NearBlock> near_;           ///< blocks whose nodes may lie in the body
   std::vector<std::vector<Node>> nodes_;  ///< of each block in near_
   std::vector<HeldNodes> held_;           ///< of each field

@@ -31,7 +31,7 @@ struct RigidParticleSettings {
 
 class RigidParticleContact final : public Stage, public ContactReporter {
  public:
-  /// `body`, `fields` and `survey` outlive the stage. @throws RigidError as RigidParticles.
+  /// `body`, `fields` and `survey` must outlive the stage. @throws RigidError as RigidParticles.
   RigidParticleContact(const RigidBody& body, RigidParticleSettings settings, Fields& fields, VolumeSurvey& survey);
 
   std::string name() const override { return ledger_.account().name; }
@@ -70,7 +70,7 @@ class RigidParticleContact final : public Stage, public ContactReporter {
   void find_blocks();
   void add_nodes(int field, double dt);
   PairHold held(int field, std::uint64_t node) const;
-  /// The law's impulse on a node's material that has `velocity`, which becomes what it then has.
+  /// Applies the law's impulse to the `velocity` of a node's material.
   void act(Node& node, Vec3& velocity, double dt);
   void give(const Node& node, const Vec3& before, const Vec3& after);
 

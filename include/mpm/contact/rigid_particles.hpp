@@ -1,10 +1,10 @@
-// A rigid body as particles that fill its surface and move with its pose: what volume, volume gradient and place they
-// have at nodes of the grid, as the sources' rigid materials do. They carry no momentum.
+// A rigid body as particles that fill its surface and move with its pose: their volume, volume gradient and mean place
+// at nodes of the grid, as for rigid materials in the sources. They carry no momentum.
 //
 // The lattice lies in the body's own frame, so a body that turns keeps its particles; their boxes stay along the grid's
 // axes, and are cut off at mirrors (Grid::mirrored) as the material ends there. Their functions are uGIMP's; about the
 // axis of revolution those with the weight r, as the material's are. Particles deeper than three cells below the
-// surface are left out: no node that material reaches would see them. Weak: the surface is a staircase of particles,
+// surface are left out, since they reach no node that material reaches. Weak: the surface is a staircase of particles,
 // and a tool thinner than one holds none. Source: manual, rigid materials with SetDirection 8; method
 // reference 8.1, 2.1; Nairn & Guilkey (2015) eq. (55) and section 3.3.
 #pragma once
@@ -23,15 +23,15 @@ namespace mpm {
 
 class RigidParticles {
  public:
-  /// `per_cell`: particles along a cell's edge; `across`: thickness or area beside the grid's axes, 1 of a solid.
-  /// `body` and `grid`, of which the layout and the mirrors are used, outlive this. @throws RigidError for a body
-  /// without end, or one that holds no particle.
+  /// `per_cell`: particles along a cell's edge; `across`: thickness or area beside the grid's axes, 1 in a solid.
+  /// `body` and `grid`, of which the layout and the mirrors are used, must outlive this object. @throws RigidError for
+  /// a body without end, or one that holds no particle.
   RigidParticles(const RigidBody& body, const Grid& grid, GeometryKind geometry, int per_cell, double across);
 
   /// Sums at the nodes of the blocks with these keys (ascending), as the body lies now.
   void gather(const std::vector<std::uint64_t>& keys);
 
-  /// Of a node of the block at a place in `keys`: sum of V S [m^3], or of areas of sections about an axis.
+  /// Sum of V S at a node [m^3]; about an axis V is the area of a section. `block`: index in `keys`.
   double volume(int block, int node) const { return volume_.at(block, 0, node); }
   /// Sum of V G, out of the body [m^2].
   Vec3 gradient(int block, int node) const;
@@ -45,11 +45,11 @@ class RigidParticles {
   /// A box along one grid axis, cut off at mirrors.
   struct Along {
     int first;             ///< node that the functions begin at
-    double part;           ///< of the box that is left
-    double middle;         ///< of what is left [cells]
+    double part;           ///< remaining part of the box
+    double middle;         ///< of the remaining part [cells]
     RadialBox<double> of;  ///< values, and gradients [1/m], at three nodes
   };
-  /// Nothing where none of the box is left.
+  /// Empty if the box lies beyond a mirror.
   std::optional<Along> along(int k, double cells) const;
   void add(const Vec3& particle, const Vec3& moved, const std::vector<std::uint64_t>& keys);
 

@@ -47,7 +47,7 @@ class SharedBlocks {
 
   /// In ascending order of key.
   const std::vector<SharedBlock>& list() const { return list_; }
-  /// Of a field: one mark a block, set where it is shared.
+  /// One mark for each block of a field, set where the block is shared.
   const std::vector<std::uint8_t>& marks(int field) const { return marks_[field]; }
   bool any(int field) const { return any_[field] != 0; }
 

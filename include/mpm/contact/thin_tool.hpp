@@ -6,9 +6,9 @@
 //          turned by more than 30 degrees
 //   shell  tubes, cups, scoops: where the nearest face looks away from the middle, and where it looks towards it
 //
-// A shell is what is told apart better that way: faces that lie opposite to each other have to be on two sides. Weak:
-// sheets bent both ways (an S) have faces that are not, which told_apart() says; a round tool that turns back sharply
-// has one side in places; material that streams past a round tool at rest finds its sides above and below.
+// A tool is a shell if that rule puts more pairs of opposite faces on two sides than a plane does. Weak: sheets bent
+// both ways (an S) have opposite faces on one side, as told_apart() reports; a round tool that turns back sharply has
+// one side in places; for material that streams past a round tool at rest the sides are above and below.
 #pragma once
 
 #include "mpm/math/geometry_kind.hpp"
@@ -27,19 +27,20 @@ inline bool has_sides(const RigidBodyDefinition& body, GeometryKind geometry, do
 
 class ThinTool {
  public:
-  /// `body` outlives this.
+  /// `body` must outlive this object.
   ThinTool(const RigidBody& body, GeometryKind geometry);
 
   const RigidBody& body() const { return *body_; }
-  /// Of the faces that lie opposite to each other, the part that is on two sides: 1 when all is well.
+  /// The fraction of opposite faces that lie on two sides; 1 for a tool that the sides describe well.
   double told_apart() const { return told_apart_; }
   /// Turns the mid plane of a round tool towards the body's present motion.
   void aim();
-  /// For checkpoints: where a round tool was aimed.
+  /// Writes or reads the direction of a round tool, for checkpoints.
   void serialise(StateArchive& archive) { archive.value("across", across_); }
-  /// 0 or 1. `point`: world [m]
+  /// The side of a world point [m], 0 or 1.
   int side(const Vec3& point) const;
-  /// Whether the surface is at most `band` [m] away from a world point; then what it says there, in the body's frame.
+  /// Whether the surface is at most `band` [m] away from a world point; then `found` is the surface there, in the
+  /// body's frame.
   bool within(const Vec3& point, double band, SurfacePoint& found) const;
   /// Whether the straight line from one world point to the other meets the tool.
   bool between(const Vec3& from, const Vec3& to) const;
@@ -55,7 +56,7 @@ class ThinTool {
   Vec3 middle_ = Vec3::Zero();   ///< in the body's frame [m]
   Vec3 across_ = Vec3::UnitZ();  ///< out of side 0, in the body's frame
   double told_apart_ = 1.0;
-  Mat3 possible_ = Mat3::Zero();  ///< onto the directions that a round tool is as thin along
+  Mat3 possible_ = Mat3::Zero();  ///< projection onto the directions along which a round tool is thin
 };
 
 }  // namespace mpm

@@ -1,17 +1,18 @@
-// A velocity field a side: of every body that thin tools divide, the material on side 1 of one near it has a field of
-// its own (grid/field_map.hpp). Where the two fields share a node and the tool is not between them, beyond its tip and
-// beside it, they are one continuum: the node has one momentum, one force and one velocity for both, as if there were
-// one field, to round-off (SideGlue). Where the tool is between them they know nothing of each other; contact with the
+// One velocity field for each side of a thin tool: the material of a divided body that lies on side 1 of a tool has a
+// field of its own (grid/field_map.hpp). Where the two fields share a node and the tool is not between them, beyond its
+// tip and beside it, they are one continuum: the node has one momentum, one force and one velocity for both, as if
+// there were one field, to round-off (SideGlue). Where the tool is between them they do not interact; contact with the
 // tool acts on each (contact/rigid_contact.hpp). The tool is between them if the line from one mass centre to the other
 // meets it.
 //
 // Particles change sides only by the sort, which is asked for when tool and material near it have moved a part of a
-// cell against each other. Nothing jumps with a change of sides: what a particle carries is its own, and where it
-// changes the two fields move as one. A centre that is hardly out of the tool, or in it, keeps its side: it is pressed,
-// not past.
+// cell against each other. A change of sides changes nothing else: the particle keeps its state, and the two fields
+// move as one where it happens. A particle whose centre is in the tool or hardly outside keeps its side, since it is
+// pressed against the tool and has not passed it.
 //
-// Weak: with several thin tools a particle goes by the nearest one; two that are nearer to each other than three cells
-// share the field between them. Volume changes averaged over the grid are averaged a side.
+// Weak: with several thin tools the nearest one decides on which side a particle lies, whether or not it names the body
+// (RigidBodyDefinition::divides says which bodies are divided at all); between two tools nearer to each other than
+// three cells there is one field. Averages of volume changes over the grid are taken on each side.
 #pragma once
 
 #include <array>
@@ -28,30 +29,31 @@ namespace mpm {
 
 class ToolSides final : public Module {
  public:
-  /// Both outlive this. `map` says which bodies are divided, and the fields of their sides.
+  /// `layout`, `map` and `sets` must outlive this object. `map` says which bodies are divided, and the fields of their
+  /// sides.
   ToolSides(const GridLayout& layout, const FieldMap& map, std::vector<ParticleSet>& sets, int threads)
       : layout_(layout), map_(map), sets_(sets), threads_(threads) {}
 
   std::string name() const override { return "tool_sides"; }
 
-  /// `body` outlives this; what is returned lives as long.
+  /// Adds a thin tool. `body` must outlive this object, which owns the result.
   const ThinTool& add(const RigidBody& body, GeometryKind geometry) { return tools_.emplace_back(body, geometry); }
   const std::deque<ThinTool>& tools() const { return tools_; }
   /// The thin tool that a body is, or null.
   const ThinTool* find(const RigidBody& body) const;
   const FieldMap& map() const { return map_; }
 
-  /// Before a sort: the side of every particle of the bodies that are divided.
+  /// Finds the side of every particle of the divided bodies, before a sort.
   void before_sort() override;
-  /// Tool and material near it have moved against each other by so much [m].
+  /// Adds the distance that a tool and material near it have moved against each other [m].
   void add_travel(double travel) { travelled_ += travel; }
-  /// Sides may have changed: sort.
+  /// Whether sides may have changed.
   bool needs_sort() const override;
-  /// Whether a tool lies between the mass centres of what two fields have at a node. Needs Grid::place.
+  /// Whether a tool lies between the mass centres of two fields at a node. Needs Grid::place.
   bool apart(const Grid& first, NodeRef of_first, const Grid& second, NodeRef of_second) const;
   /// Whether a ball around a world point is so near to a tool that particles in it may be on side 1 or in its contact.
   bool near(const Vec3& point, double radius) const;
-  /// For checkpoints.
+  /// Writes or reads its state, for checkpoints.
   void serialise(StateArchive& archive) override;
 
  private:
@@ -68,7 +70,7 @@ class ToolSides final : public Module {
 /// and again after them for the forces they added and the velocities they changed on one side alone. Needs Grid::place.
 class SideGlue final : public Stage {
  public:
-  /// Both outlive the stage.
+  /// Both must outlive the stage.
   SideGlue(ToolSides& sides, Fields& fields) : sides_(sides), fields_(fields) {}
 
   std::string name() const override { return "sides"; }
@@ -82,7 +84,7 @@ class SideGlue final : public Stage {
   void increment_found(StepContext&) override { share(&Grid::increment); }
 
  private:
-  /// A node that is one in both fields.
+  /// A node at which the two fields are one continuum.
   struct Node {
     std::array<int, 2> field;
     NodeRef ref[2];
@@ -90,9 +92,9 @@ class SideGlue final : public Stage {
   };
   void find_nodes(const std::array<int, 2>& sides);
   void watch(const Grid& grid, double dt);
-  /// Both get the mean by mass.
+  /// Gives both fields their mean by mass.
   void share(NodalField Grid::*field);
-  /// Each gets its part of the sum.
+  /// Gives each field its part, by mass, of the sum.
   void part(NodalField Grid::*field);
 
   ToolSides& sides_;

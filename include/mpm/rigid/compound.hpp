@@ -13,14 +13,14 @@
 
 namespace mpm {
 
-/// A surface and where it stands in the body's frame.
+/// A surface and its pose in the body's frame.
 struct PlacedSurface {
   std::shared_ptr<const Surface> surface;  ///< bounded along every axis
   Pose pose;                               ///< of the surface's frame in the body's [m]
 };
 
-/// Of several parts that are equally near the first counts. Its thickness is that of the thinnest part.
-/// @throws RigidError when there is no part, or one is without end.
+/// Makes one surface of several parts. Of parts that are equally near the first counts. The thickness is that of the
+/// thinnest part. @throws RigidError when there is no part, or one is without end.
 std::unique_ptr<Surface> make_compound(std::vector<PlacedSurface> parts);
 
 }  // namespace mpm

@@ -1,5 +1,5 @@
-// How two surfaces that meet act on each other, as a scene says it: Coulomb's law, sticking, adhesion, or an imperfect
-// interface; and what it comes to at one time.
+// How two surfaces that meet act on each other, as the scene defines it: Coulomb's law, sticking, adhesion, or an
+// imperfect interface; and the values of that law at one time.
 //
 // Source: Nairn, GIMP notes (3.12)-(3.20) and method reference 8.3 for friction, 8.4 for the interface; manual,
 // Friction.
@@ -12,18 +12,19 @@
 
 namespace mpm {
 
-/// A contact law at one time. Surfaces let go when they part, unless they adhere.
+/// A contact law at one time. Surfaces separate freely unless they adhere.
 struct FrictionLaw {
   double coefficient = 0.0;  ///< of sliding, >= 0
   bool stick = false;        ///< no sliding while pressed together
-  /// What starts sliding from rest, >= coefficient; negative: the same as coefficient.
+  /// Coefficient at rest, >= coefficient; negative: the same as coefficient.
   double static_coefficient = -1.0;
-  double adhesion = 0.0;  ///< tension that the surfaces bear before they part, and shear beside friction [Pa]
+  double adhesion = 0.0;  ///< largest tension between the surfaces, and shear in addition to friction [Pa]
 
   double at_rest() const { return static_coefficient < 0.0 ? coefficient : static_coefficient; }
 };
 
-/// Stiffness of an imperfect interface: traction by displacement discontinuity [Pa/m]. Negative: perfect that way.
+/// Stiffness of an imperfect interface: traction over displacement discontinuity [Pa/m]. Negative: perfect in that
+/// direction.
 struct InterfaceLaw {
   double opened = 0.0;      ///< along the normal, surfaces apart (Dnt)
   double closed = -1.0;     ///< along the normal, surfaces pressed together (Dnc)
@@ -40,11 +41,11 @@ struct ContactLaw {
   };
   Kind kind = Kind::coulomb;
   Function friction;                        ///< of sliding
-  std::optional<Function> static_friction;  ///< that starts sliding; without it the same
+  std::optional<Function> static_friction;  ///< at rest; without it the same as `friction`
   Function adhesion;                        ///< [Pa]
   InterfaceLaw interface;
 
-  /// As functions say at `time` [s]. @throws FunctionError when one is not finite.
+  /// The law's values at `time` [s]. @throws FunctionError when one is not finite.
   FrictionLaw at(double time) const {
     FrictionLaw law;
     law.coefficient = friction(time);
@@ -53,7 +54,8 @@ struct ContactLaw {
     law.adhesion = adhesion(time);
     return law;
   }
-  /// In the step of `dt` [s] that begins at `start` [s]: functions are read at its middle, wherever surfaces meet.
+  /// The law's values in the step of `dt` [s] that begins at `start` [s]: functions are read at the middle of the step,
+  /// in every kind of contact.
   /// `between()` names the surfaces, for errors. @throws FunctionError as at(), and when friction or
   /// adhesion is negative (sliding would be driven), or friction at rest is less than that of sliding.
   template <class Between>

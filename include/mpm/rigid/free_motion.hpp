@@ -2,16 +2,16 @@
 //
 // A step: predict() adds gravity and the applied wrench to the velocity; contact pushes it, together with the nodes
 // that it touches (contact/point_contact.hpp); finish() books what each gave; advance() moves the body. Velocities are
-// those of the centre of mass. Each of the six degrees of freedom is free or prescribed; what is prescribed has no
-// answer to an impulse, and what holds it there is booked as the drive's.
+// those of the centre of mass. Each of the six degrees of freedom is free or prescribed; a prescribed one
+// does not change by an impulse, and the impulse that it takes to prescribe it is booked as the drive's.
 //
-// Semi-implicit: the velocity of the step's end moves the body, as in the material, so the energy of free fall is off
-// by half a step's fall and stays so. Where all rotations are free the angular momentum is what goes from step to step:
-// it is kept to round-off whatever the inertia, and the rotation rate follows from it. The turn is taken with the rate
-// at its middle (implicit midpoint, found by repetition): the energy of a body that spins without torque swings by the
-// square of a step's angle and does not drift.
+// Semi-implicit: the velocity of the step's end moves the body, as in the material, so the energy of free fall has
+// a constant error, that of half a step's fall. Where all rotations are free, the angular momentum is carried from step
+// to step: it is conserved to round-off with any inertia, and the rotation rate follows from it. The rotation of a step
+// is computed with the rate at its middle (implicit midpoint, found by iteration): the energy of a body that spins
+// without torque varies by the square of a step's angle and does not drift.
 //
-// Weak: with rotations of which some are prescribed the gyroscopic torque is that of the step's start, of first order.
+// Weak: if only some rotations are prescribed, the gyroscopic torque is that of the step's start, of first order.
 // Source: Newton-Euler equations; midpoint rule on SO(3) with spatial angular momentum: Simo & Wong (1991), section 3.
 #pragma once
 
@@ -23,17 +23,17 @@
 
 namespace mpm {
 
-/// What a scene says of a body that moves freely.
+/// The definition of a free body.
 struct FreeDefinition {
-  double mass = 0.0;            ///< [kg]; of a planar scene's whole thickness
+  double mass = 0.0;            ///< [kg]; in a planar scene of the whole thickness
   Vec3 centre = Vec3::Zero();   ///< of mass, body axes [m]
   Mat3 inertia = Mat3::Zero();  ///< about the centre of mass, body axes [kg m^2]
   /// Which velocities are free, world axes: x, y, z, then the rotation rates about them.
   std::array<bool, 6> axes = {true, true, true, true, true, true};
-  /// Which of them the scene's geometry has.
+  /// Which of these degrees of freedom the scene's geometry has.
   std::array<bool, 6> present = {true, true, true, true, true, true};
   Twist velocity;  ///< at the start, of the body's origin
-  Wrench wrench;   ///< on it until another one is applied
+  Wrench wrench;   ///< acts until another one is applied
 
   bool all_free() const { return axes == present; }
 };
@@ -59,7 +59,7 @@ struct FreeBodyReport {
   BodyMomentum contact;  ///< from the material
   BodyMomentum gravity;
   BodyMomentum wrench;        ///< applied by apply_wrench()
-  BodyMomentum drive;         ///< that keeps what is prescribed at its velocity
+  BodyMomentum drive;         ///< needed to keep prescribed velocities
   double kinetic = 0.0;       ///< [J]
   double potential = 0.0;     ///< -m g.x [J]
   double wrench_work = 0.0;   ///< done by the wrench since the start [J]
@@ -76,37 +76,37 @@ class FreeMotion final : public BodyMotion {
   bool is_free(int axis) const { return definition_.axes[axis]; }
   /// `prescribed` where a velocity is prescribed, `own` where the body is free.
   Twist merged(const Twist& own, const Twist& prescribed) const override;
-  /// From now on, about the body's origin.
+  /// The wrench acts from now on; torque about the body's origin.
   void apply_wrench(const Wrench& wrench) { wrench_ = wrench; }
   const Wrench& wrench() const { return wrench_; }
 
-  /// The run begins here with this twist of the origin.
+  /// Begins the run with this twist of the origin.
   void start(const Pose& pose, const Twist& twist);
-  /// The step's velocity without contact. `twist`: of the origin; what is prescribed is that of this step.
+  /// Computes the step's velocity without contact. `twist`: of the origin, with the prescribed parts of this step.
   void predict(const Pose& pose, const Twist& twist, const Vec3& gravity, double dt);
-  /// Velocity now, and half the sum of those of the step's start and now, at a world point [m/s].
+  /// Present velocity, and the mean of that and the velocity at the step's start, at a world point [m/s].
   using BodyMotion::velocity_at;
   Vec3 velocity_at(const Vec3& point) const { return velocity_ + rate_.cross(point - centre_); }
   Vec3 mean_velocity_at(const Vec3& point) const {
     return 0.5 * (velocity_ + start_velocity_ + (rate_ + start_rate_).cross(point - centre_));
   }
-  /// An impulse [N s] on the body at a world point.
+  /// Applies an impulse [N s] to the body at a world point.
   void push(const Vec3& impulse, const Vec3& point) {
     velocity_ += inverse_mass_.cwiseProduct(impulse);
     rate_ += lifted_ * (point - centre_).cross(impulse);
   }
-  /// Velocity of a point along each axis by an impulse there along each [1/kg].
+  /// Change of velocity of a world point by a unit impulse there, along each pair of axes [1/kg].
   Mat3 compliance_at(const Vec3& point) const;
-  /// From zero: velocities are then increments, until end_increment() adds them to what they were.
+  /// Sets velocities to zero; they are increments until end_increment() adds them to the previous velocities.
   void begin_increment();
   void end_increment();
-  /// Contact has given `impulse`, about the centre of mass, with a loss of energy [J]: books it. Again in the same step
-  /// for what an increment gave.
+  /// Books the `impulse` of contact, about the centre of mass, and the loss of energy [J]. Called once more in a step
+  /// for an increment.
   void finish(const BodyMomentum& impulse, double loss);
   const Vec3& centre() const { return centre_; }
-  /// Of the body's origin.
+  /// The twist of the body's origin.
   Twist twist(const Pose& pose) const;
-  /// Moves the pose by the velocity that finish() left, and the velocity with it.
+  /// Moves the pose by the velocity after finish(). @return the twist of the origin at the new pose.
   Twist advance(Pose& pose, const Twist& twist, double dt) override;
   double unprescribed_acceleration(double gravity) const override {
     return gravity + wrench_.force.norm() / definition_.mass;
@@ -124,11 +124,11 @@ class FreeMotion final : public BodyMotion {
   /// Rotation rate by angular momentum, of the free rotations alone [1/(kg m^2)].
   Mat3 lift_of(const Mat3& inertia) const;
   BodyMomentum momentum() const { return {definition_.mass * velocity_, inertia_ * rate_}; }
-  /// Of a vector of translations or rotations (`first` 0 or 3): what is prescribed.
+  /// The prescribed components of a vector of translations (`first` 0) or rotations (3); others are 0.
   Vec3 prescribed_part(const Vec3& vector, int first) const;
 
   FreeDefinition definition_;
-  bool turns_freely_ = false;  ///< angular momentum is what is carried on
+  bool turns_freely_ = false;  ///< angular momentum is carried from step to step
   Wrench wrench_;
 
   // Of the step.

@@ -1,4 +1,4 @@
-// What makes a heap of triangles a solid: joined vertices, paired edges, outward orientation.
+// Checks and repairs by which a set of triangles becomes a solid: joined vertices, paired edges, outward orientation.
 #pragma once
 
 #include "mpm/rigid/surface.hpp"
@@ -12,7 +12,7 @@ TriangleMesh join_equal_vertices(const TriangleMesh& mesh);
 
 /// The mesh without triangles that repeat a vertex, turned outwards. Every directed edge must occur once and its
 /// opposite once. Several closed parts are allowed: apart from each other, or as a cavity (turned inwards) in another.
-/// Parts that pass through each other without a sample point of the one inside the other are not noticed.
+/// Parts that pass through each other are not noticed if no sample point of one lies inside the other.
 /// @throws RigidError when empty, not finite, degenerate, open, not consistently oriented, or with overlapping parts
 TriangleMesh solid_mesh(const TriangleMesh& mesh);
 

@@ -33,7 +33,7 @@ Pose integrate(const Pose& pose, const Twist& twist, double dt);
 /// The constant twist that takes `from` to `to` in `dt` > 0 [s], turning the short way round.
 Twist twist_between(const Pose& from, const Pose& to, double dt);
 
-/// Around a box of the body's frame, in the world [m]. An axis along which it has no end keeps none.
+/// Bounds in the world of a box in the body's frame [m]; infinite along axes into which the box extends without end.
 Box world_bounds(const Pose& pose, const Box& local);
 
 /// Velocity of the body's material at a world point [m/s].

@@ -5,7 +5,7 @@
 
 namespace mpm {
 
-/// Of norms; infinite: no limit.
+/// Limits on the norms of velocities and accelerations; infinite: no limit.
 struct MotionLimits {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
 

@@ -1,6 +1,6 @@
 // A rigid body: a surface whose motion is prescribed, or, where it is free, follows from forces
-// (rigid/free_motion.hpp). What prescribes it lives here too (functions of time, a twist, a pose to be at by a time),
-// so that pose and twist come from one place.
+// (rigid/free_motion.hpp). What prescribes it is kept here too (functions of time, a twist, a pose to be reached at a
+// time), so that pose and twist come from one place.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ namespace mpm {
 /// the body is thinner than three cells somewhere.
 enum class Sides { automatic, one, two };
 
-/// What a scene says of a rigid body.
+/// The definition of a rigid body.
 struct RigidBodyDefinition {
   std::string name;
   std::shared_ptr<const Surface> surface;
@@ -33,22 +33,21 @@ struct RigidBodyDefinition {
   std::array<Function, 3> velocity;       ///< of the origin, world axes, functions of t [m/s]
   std::array<Function, 3> rotation_rate;  ///< world axes, functions of t [rad/s]
   FrictionLaw friction;
-  /// How far outside the surface nodes are held too, in [0, 1] cells. 1: the nodes that the shape functions of a rigid
-  /// body made of particles would reach; material is met that much early.
+  /// Distance outside the surface within which nodes are in contact too, in [0, 1] cells; contact begins earlier by as
+  /// much. 1: the nodes that the shape functions of a rigid body made of particles would reach.
   double reach = 0.0;
   Sides sides = Sides::automatic;
   /// Names of the deformable bodies whose material has two sides at this body, if it has sides at all; empty: all.
   std::vector<std::string> divides;
-  /// A body with a mass, of which some velocities or all are free; the others are prescribed. Without: all are
-  /// prescribed.
+  /// The mass of a free body, and which of its velocities are free. Without it all velocities are prescribed.
   std::optional<FreeDefinition> free;
-  /// Filled with particles, and met by volumes and volume gradients at nodes (contact/rigid_particle_contact.hpp) in
-  /// place of the surface.
+  /// Whether the body is filled with particles; contact is then found from volumes and volume gradients at nodes
+  /// (contact/rigid_particle_contact.hpp) instead of the surface.
   bool particles = false;
-  /// Of a ring in an axisymmetric scene, as its surface was made; 0: of any other body. A ring opens and closes along
-  /// x: pose.position.x is the change of its radii [m].
+  /// Radius [m] of a ring in an axisymmetric scene, as its surface was made; 0 for any other body. A ring opens and
+  /// closes along x: pose.position.x is the change of its radii [m].
   double inner_radius = 0.0;
-  double outer_radius = 0.0;  ///< of such a ring [m]
+  double outer_radius = 0.0;  ///< of a ring [m]
 };
 
 /// What a body follows at the moment.
@@ -69,7 +68,7 @@ class RigidBody {
   Drive drive() const { return drive_; }
   /// Where the surface is now [m]; a body that is endless along an axis stays endless.
   Box world_bounds() const { return mpm::world_bounds(pose_, surface().bounds()); }
-  /// How it moves, as prescribed or freely.
+  /// The motion of the body: prescribed, as a ring, or free.
   const BodyMotion& motion() const {
     return std::visit([](const BodyMotion& motion) -> const BodyMotion& { return motion; }, motion_);
   }
@@ -79,20 +78,20 @@ class RigidBody {
   /// Null unless some of its velocities are free.
   FreeMotion* free_motion() { return std::get_if<FreeMotion>(&motion_); }
   const FreeMotion* free_motion() const { return std::get_if<FreeMotion>(&motion_); }
-  /// Where it is free: what contact and forces have made of it.
+  /// Sets the twist of a free body after contact and forces.
   void set_twist(const Twist& twist) { twist_ = twist; }
 
-  /// Constant twist from now on; where the body is free it keeps its own. @throws RigidError when not finite, or when
-  /// all of it is free.
+  /// Prescribes a constant twist from now on; free velocities are not changed. @throws RigidError when not finite, or
+  /// when all velocities are free.
   void command_velocity(const Twist& twist);
-  /// A force on a free body from now on. @throws RigidError when not finite, or the body has no mass.
+  /// Applies a wrench to a free body from now on. @throws RigidError when not finite, or the body has no mass.
   void apply_wrench(const Wrench& wrench);
-  /// Constant twist from `now` that arrives at `target` at `arrival` > now [ns], then rest.
+  /// Prescribes a constant twist from `now` that reaches `target` at `arrival` > now [ns], and rest after that.
   /// @throws RigidError when not finite, the quaternion's length is not 1 within 1e-3, arrival is not after now, a
   /// ring would be closed there, or the body is free.
   void command_pose(const Pose& target, std::int64_t now, std::int64_t arrival);
 
-  /// The twist that the step which begins at `time` [s] would have, as far as it is known now: free parts as they are.
+  /// The twist of a step that begins at `time` [s], as far as it is known now; free velocities are the present ones.
   /// @throws FunctionError when a function is not finite there.
   Twist twist_at(double time) const;
   /// Sets the twist for the step that begins at `time` [s] and lasts `dt` [s]: functions are read at its middle.
@@ -103,7 +102,7 @@ class RigidBody {
   /// At a sync point: a body that has reached its target pose is put exactly there. Its twist stays that of the step
   /// just made; it rests from the next step on, unless a command says otherwise.
   void at_sync(std::int64_t now);
-  /// For checkpoints: where it is, and what it follows.
+  /// Writes or reads its pose, its twist and what it follows, for checkpoints.
   void serialise(StateArchive& archive);
 
  private:

@@ -1,5 +1,5 @@
-// What a solid of uniform density has in it: volume, centre and second moments, for the mass and inertia of a body that
-// moves freely. Exact for boxes, spheres, cylinders, capsules and meshes of triangles.
+// Volume, centre and second moments of a solid of uniform density, for the mass and inertia of a free body. Exact for
+// boxes, spheres, cylinders, capsules and meshes of triangles.
 #pragma once
 
 #include "mpm/math/geometry.hpp"
@@ -15,7 +15,7 @@ struct SolidMoments {
   Mat3 inertia() const { return second.trace() * Mat3::Identity() - second; }
 };
 
-/// Moments that are even in each axis: a volume about the origin and the integrals of x^2, y^2 and z^2.
+/// Moments of a body that is symmetric about the origin along each axis: its volume and the integrals of x^2, y^2, z^2.
 inline SolidMoments centred_moments(double volume, const Vec3& squares) {
   return {volume, Vec3::Zero(), squares.asDiagonal()};
 }

@@ -1,10 +1,9 @@
 // The surface of a rigid body as a signed distance in the body's own frame.
 //
-// One virtual call a grid node near the body, none a particle. Distances are exact (a mesh: to the nearest triangle
-// through a bounding-volume hierarchy), normals are their gradients. Beyond an edge or a corner they turn with the
-// point, as a fan from the one face's to the other's. Where there is no gradient one is chosen: of several nearest
-// faces (inside an edge, outside a notch) the first; on an edge or corner itself, a face's (a mesh: the mean of its
-// faces').
+// Distances are exact (for a mesh that to the nearest triangle, found by a bounding-volume hierarchy), normals are
+// their gradients. Beyond an edge or a corner normals turn with the point, from one face's to the other's. Where the
+// gradient is not defined, the normal is that of the first of several nearest faces (inside an edge, outside a notch),
+// or on an edge or corner itself that of a face (for a mesh the mean of its faces').
 #pragma once
 
 #include <array>
@@ -25,7 +24,7 @@ class RigidError : public Error {
   using Error::Error;
 };
 
-/// What a surface says of one point.
+/// The surface as seen from one point.
 struct SurfacePoint {
   double distance = 0.0;        ///< signed distance [m], negative inside
   Vec3 normal = Vec3::UnitZ();  ///< outward unit normal at the nearest point of the surface
@@ -45,7 +44,7 @@ class Surface {
   /// Triangles for display (markers), body frame; three vertices each, counter-clockwise seen from outside. A body
   /// without end along an axis is drawn as long as it is wide.
   virtual std::vector<std::array<Vec3, 3>> triangles() const = 0;
-  /// Of what the surface encloses; along an axis without end it is `across` [m] long, centred. Nothing when that is not
+  /// Moments of the enclosed solid; along an axis without end it is `across` [m] long, centred. Empty when they are not
   /// known.
   virtual std::optional<SolidMoments> moments(double /*across*/) const { return {}; }
 };
@@ -60,36 +59,37 @@ struct TriangleMesh {
 /// joins the first.
 using Profile = std::vector<Vec2>;
 
-/// Edge lengths [m], all positive (infinite along axes that the scene does not have: y in a plane, y and z in a line),
-/// centred on the origin.
+/// A box by its edge lengths [m], all positive (infinite along axes that the scene does not have: y in a plane, y and z
+/// in a line), centred on the origin.
 /// @throws RigidError
 std::unique_ptr<Surface> make_box(const Vec3& size);
-/// @throws RigidError
+/// A sphere at the origin; `radius` [m]. @throws RigidError
 std::unique_ptr<Surface> make_sphere(double radius);
-/// Axis along body x, y or z (`axis` 0, 1, 2; y in planar scenes), centred; height may be infinite. @throws RigidError
+/// A cylinder, centred, with its axis along body x, y or z (`axis` 0, 1, 2; y in planar scenes); the height may be
+/// infinite. @throws RigidError
 std::unique_ptr<Surface> make_cylinder(double radius, double height, int axis = 2);
 /// The body that the profile makes when turned about the body's z axis; points in either sense. An edge on the axis is
-/// no surface; ON the axis normals have no part across it. Its thickness is the length that rays inwards from 5 % of
-/// the surface stay below, counted where they meet a face that encloses less than 45 degrees with their own: a blunter
-/// tip or edge ends a body and does not make it thin, a needle's does.
+/// not part of the surface; on the axis normals have no component across it. The thickness is the 5 % quantile, over
+/// the surface, of the length of rays inwards; a ray counts if the face that it meets encloses less than 45 degrees
+/// with its own, since a blunt tip or edge ends a body without making it thin.
 /// @throws RigidError, with the point: fewer than 3, not finite, r < 0, repeated, alone on the axis, or the profile
 /// cuts or touches itself.
 std::unique_ptr<Surface> make_revolved(const Profile& profile);
 /// A closed polygon in planar scenes: points (x, z), without end along y; in either sense. Drawn `drawn` [m] long.
 /// @throws RigidError, with the point: fewer than 3, not finite, repeated, or the polygon cuts or touches itself.
 std::unique_ptr<Surface> make_polygon(const Profile& profile, double drawn = 1.0);
-/// A cone with its tip at the origin, pointing down, under a shaft of the same radius (perhaps of length 0).
+/// A cone with its tip at the origin, pointing down, under a shaft of the same radius (its length may be 0).
 /// @throws RigidError
 std::unique_ptr<Surface> make_cone(double radius, double height, double shaft = 0.0);
-/// A tube about the z axis, centred; 0 < inner < outer radius. `in_half_plane`: a section that moves in r, as one that
-/// opens does. Distance and normal are then those of the section at (x, z), for x < 0 as well; y does not count.
+/// A tube about the z axis, centred; 0 < inner < outer radius. `in_half_plane`: the section moves in r, as that of a
+/// ring that opens. Distance and normal are then those of the section at (x, z), for x < 0 as well; y does not count.
 /// @throws RigidError
 std::unique_ptr<Surface> make_ring(double inner, double outer, double height, bool in_half_plane = false);
 /// Everything on the side of a plane through the origin that `normal` points away from; the normal's length does not
 /// count. Drawn as a slab of side `drawn` [m]. @throws RigidError when the normal is zero or not finite, or `drawn` not
 /// positive.
 std::unique_ptr<Surface> make_plane(const Vec3& normal, double drawn = 1.0);
-/// What is within `radius` of a straight piece of the axis, `length` long and centred: a cylinder with round ends,
+/// All points within `radius` of a straight piece of the axis, `length` long and centred: a cylinder with round ends,
 /// 2 radius + length in all. `in_plane`: without end along y, as planar scenes have it; the axis is then x or z.
 /// @throws RigidError
 std::unique_ptr<Surface> make_capsule(double radius, double length, int axis = 2, bool in_plane = false);
@@ -101,13 +101,14 @@ struct HeightGrid {
   int rows = 1;                 ///< points along y; 1 in planar scenes, where y does not count
   std::vector<double> heights;  ///< [m], row by row from low.y on, each from low.x on
 };
-/// All that lies below the heights, down without end; upright sides where the rectangle ends. Between the points are
-/// straight pieces (planar), or two triangles a cell, cut from its corner at low x and y to that at high x and y.
-/// Distances are exact to these. On an edge or corner, and where several faces are equally near, a face's normal. Its
-/// thickness is the rectangle's shorter side. @throws RigidError
+/// The region below the heights, without end downwards, with upright sides at the ends of the rectangle. Between the
+/// points the surface consists of straight pieces (planar), or of two triangles for each cell, cut from its corner at
+/// low x and y to that at high x and y. Distances to it are exact. On an edge or corner, and where several faces are
+/// equally near, the normal is that of one of the faces. The thickness is the rectangle's shorter side. @throws
+/// RigidError
 std::unique_ptr<Surface> make_height_field(const HeightGrid& grid);
-/// @throws RigidError when the mesh is empty, degenerate, not closed or not consistently oriented; a mesh turned
-/// inside out as a whole is turned right.
+/// A solid from a mesh; one that is inside out as a whole is turned. @throws RigidError when the mesh is empty,
+/// degenerate, not closed or not consistently oriented.
 std::unique_ptr<Surface> make_mesh(const TriangleMesh& mesh);
 
 /// Reads any format that assimp reads, joining equal vertices; `scale` multiplies coordinates, which are taken in the

@@ -1,7 +1,7 @@
 // The collision geometry of a robot's link as a rigid body, out of a URDF file.
 //
-// Box, sphere, cylinder and mesh, each at its origin; several of one link become one body (compound.hpp). What joints,
-// masses and visuals say does not count. A xacro file must be expanded first.
+// Box, sphere, cylinder and mesh, each at its origin; several of one link become one body (compound.hpp). Joints,
+// masses and visuals are ignored. A xacro file must be expanded first.
 // Source: the URDF specification, http://wiki.ros.org/urdf/XML/link; the file is read by urdfdom.
 #pragma once
 
@@ -12,10 +12,10 @@
 
 namespace mpm {
 
-/// In the link's own frame [m]. `path` may be package://…, file://… or a path; a mesh's may be relative to the file's
-/// folder too.
-/// @throws RigidError with the path: not there, no URDF, no such link, a link without collision geometry, sizes or a
-/// mesh that make no body.
+/// Loads a link's geometry, in the link's own frame [m]. `path` may be package://…, file://… or a path; a mesh's may be
+/// relative to the file's folder too.
+/// @throws RigidError with the path when the file is missing or not a URDF, the link does not exist or has no collision
+/// geometry, or its sizes or mesh are not those of a solid.
 std::unique_ptr<Surface> load_urdf_link(const std::string& path, const std::string& link);
 
 }  // namespace mpm

@@ -1,14 +1,16 @@
-// A run at a sync point as an HDF5 file: a run that takes it on goes on to the bit like one that was never stopped.
+// A run at a sync point as an HDF5 file: a run that is resumed from it continues to the bit like one that was never
+// stopped.
 //
 //   save_checkpoint("run.h5", simulation, {scene.path, scene.text, {}});
 //   …
 //   Simulation again(build(scene), {threads, isa, false});
 //   load_checkpoint("run.h5", again, scene.text);
 //
-// A file is written beside its name and renamed when it is whole: under the name there is always a whole one, or the
-// one before. It holds the scene's text, so it alone is enough to go on. Not compressed: numbers of a run that moves
-// hardly shrink, and packing them takes many times as long as writing (doc/checkpoints.md).
-// Weak: it fits the version that wrote it; another layout of the state is another version, which is refused.
+// A file is written under another name and renamed when it is complete, so the named file is always complete: the new
+// one or the previous one. It contains the scene's text, so it is enough to resume the run. It is not compressed,
+// because the numbers of a moving run hardly shrink, and compressing takes many times as long as writing
+// (doc/checkpoints.md). Weak: it fits only the version of the layout that wrote it; files of other versions are
+// refused.
 #pragma once
 
 #include <cstdint>
@@ -20,20 +22,21 @@
 
 namespace mpm {
 
-/// A checkpoint that cannot be written, read, or taken on by this run. what() names the file and the remedy.
+/// A checkpoint that cannot be written or read, or from which this run cannot be resumed. what() names the file and the
+/// remedy.
 class CheckpointError : public Error {
  public:
   using Error::Error;
 };
 
-/// What whoever saves a run says of it.
+/// Data that the caller adds to a checkpoint.
 struct CheckpointLabel {
   std::string scene_path;
   std::string scene_text;
-  std::string failure;  ///< why the run cannot go on; empty: it can
+  std::string failure;  ///< why the run has failed; empty if it has not
 };
 
-/// What a checkpoint says of itself.
+/// Description of a checkpoint, stored in it.
 struct CheckpointAbout {
   std::string format;         ///< kCheckpointFormat
   std::uint32_t version = 0;  ///< of the layout
@@ -50,17 +53,17 @@ struct CheckpointAbout {
 inline constexpr const char* kCheckpointFormat = "mpm_ros checkpoint";
 inline constexpr std::uint32_t kCheckpointVersion = 2;
 
-/// Keeps what belongs to the run but not to the Simulation.
+/// Serialises the state of a run that is outside the Simulation.
 using SerialiseMore = std::function<void(StateArchive&)>;
 
-/// Returns what the file then says of itself. @throws CheckpointError; then a file of that name is as it was.
+/// Returns the description that was stored. @throws CheckpointError; an existing file of that name is not changed then.
 CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation, const CheckpointLabel& label,
                                 const SerialiseMore& more = {});
-/// @throws CheckpointError for a file that is none, or of another version
+/// @throws CheckpointError for a file that is not a checkpoint, or of another version
 CheckpointAbout read_checkpoint(const std::string& path);
-/// `scene_text`: that `simulation` was built from. @throws CheckpointError for a file that is none, is damaged, of
-/// another version, scene, instruction set or precision, or of a run that failed. If it is damaged, the simulation
-/// cannot go on; else it is as it was.
+/// `scene_text`: the scene from which `simulation` was built. @throws CheckpointError for a file that is not a
+/// checkpoint, is damaged, belongs to another version, scene, instruction set or precision, or to a run that failed. If
+/// the file is damaged the simulation cannot go on; otherwise it is not changed.
 CheckpointAbout load_checkpoint(const std::string& path, Simulation& simulation, const std::string& scene_text,
                                 const SerialiseMore& more = {});
 

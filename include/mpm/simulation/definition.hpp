@@ -1,7 +1,7 @@
 // Everything a Simulation is made from, in SI, with its defaults. A Scene fills this in; tests may do so by hand.
 // Planar scenes lie in the x-z plane: y components are ignored, `thickness` is along y. A line lies along x: y and z
 // components are ignored, `area` is across it. An axisymmetric scene has r = x and z; x components are radial, y ones
-// are ignored, and what is summed over particles is that of the whole body, all the way round.
+// are ignored, and sums over particles are those of the whole body around the axis.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct GridDefinition {
   Vec3 cell = Vec3::Zero();  ///< cell size along each axis [m]
   Vec3 min = Vec3::Zero();   ///< corners of the domain that material may not leave [m]; a node lies on min
   Vec3 max = Vec3::Zero();
-  std::uint64_t leave_limit = 0;  ///< particles that may leave and are put back; one more ends the run
+  std::uint64_t leave_limit = 0;  ///< number of particles that may leave and are put back; one more ends the run
 };
 
 struct TimeDefinition {
@@ -51,7 +51,7 @@ struct MethodDefinition {
   AxisRules axis;                            ///< axisymmetric scenes alone
   int gradient_terms = 2;                    ///< terms of exp(grad v dt)
   int particles_per_direction = 2;           ///< particles along a cell's edge
-  Precision precision = Precision::float64;  ///< of what particles carry but their positions
+  Precision precision = Precision::float64;  ///< of particle data other than positions
 };
 
 /// Order of the faces in arrays: x_min, x_max, y_min, y_max, z_min, z_max.
@@ -59,7 +59,7 @@ extern const std::array<const char*, 6> kWallNames;
 
 /// Soil at rest at the start: under its own weight, settled before the run (simulation/geostatic.cpp).
 struct GeostaticDefinition {
-  std::optional<double> k0;  ///< horizontal over vertical stress; the material's own without one
+  std::optional<double> k0;  ///< horizontal over vertical stress; without it that of the material
   double residual = 1e-3;    ///< unbalanced force over weight at which it counts as settled
 };
 
@@ -69,12 +69,13 @@ struct DeformableBody {
   int field = 0;                             ///< velocity field; bodies in one field move as one where they meet
   std::vector<Vec3> positions;               ///< particle centres [m]
   std::vector<Vec3> velocities;              ///< one each, or empty for rest [m/s]
-  std::vector<Symmetric3<double>> stresses;  ///< Cauchy stress to start under, one each, or empty [Pa]
-  /// Plane strain: yy of these is what plane strain makes it. Always so of a line's yy and zz; plane stress has none.
+  std::vector<Symmetric3<double>> stresses;  ///< Cauchy stress at the start, one each, or empty [Pa]
+  /// Whether in plane strain the yy of these stresses follows from the others. In a line yy and zz always do; in plane
+  /// stress they are zero.
   bool yy_follows = false;
-  std::vector<double> temperatures;  ///< to start at, one each, or empty for the material's own [K]
+  std::vector<double> temperatures;  ///< at the start, one each, or empty for that of the material [K]
   std::optional<GeostaticDefinition> geostatic;
-  double particle_volume = 0.0;  ///< of one particle at the start [m^3]; of rings the area of their section [m^2]
+  double particle_volume = 0.0;  ///< of one particle at the start [m^3]; for rings the area of their section [m^2]
 };
 
 /// An acceleration of the material as a function of time, place and place at the start (mechanics/particle_loads.hpp).
@@ -89,7 +90,7 @@ struct ParticleForceDefinition {
   std::string body;                      ///< deformable body that it acts on
   std::vector<std::uint32_t> particles;  ///< which of its positions; all when empty
   std::array<Function, 3> force;         ///< [N]
-  bool shared = true;                    ///< the force is on all of them together, by their mass; else on each
+  bool shared = true;  ///< whether the force is shared by all of them in proportion to mass, or acts on each
   LoadSpread spread = LoadSpread::domain;
 };
 
@@ -99,9 +100,9 @@ struct TractionDefinition {
   std::string body;                      ///< deformable body that it acts on
   int face = 0;                          ///< of the particles' domains, in the order of kWallNames
   std::vector<std::uint32_t> particles;  ///< which of its positions; the outermost of each row when empty
-  bool follows = false;                  ///< it keeps to the face's normal and edges as they turn
-  /// By world axis; or, where it follows, pressure (compression is positive), then shear along the edges that span the
-  /// face, in the order of axes. [Pa]
+  bool follows = false;                  ///< whether its axes turn with the face's normal and edges
+  /// Components along world axes [Pa]; if it follows the face, pressure (compression is positive), then shear along the
+  /// edges that span the face, in the order of axes.
   std::array<Function, 3> value;
 };
 
@@ -117,8 +118,8 @@ struct PairDefinition {
 };
 struct ContactDefinition {
   ContactMethod method = ContactMethod::points;
-  NormalRule normals;       ///< between deformable bodies (contact/material_contact.hpp); and of rigid particles
-  DetectionRule detection;  ///< the same
+  NormalRule normals;       ///< between deformable bodies (contact/material_contact.hpp) and for rigid particles
+  DetectionRule detection;  ///< for the same contact
   /// Deformable bodies of different fields without a law pass through each other; a rigid body has a law with all.
   std::vector<PairDefinition> pairs;
 };
@@ -127,14 +128,14 @@ enum class Statistic { mean, std_dev, min, max };
 struct TimeWindow {
   double from = 0.0, to = 0.0;  ///< [s]
 };
-/// A number of the summary: a statistic of a particle field over one body (or all, when `body` is empty).
+/// A number of the summary: a statistic of a particle field over one body (over all when `body` is empty).
 struct MetricDefinition {
   std::string name;
   Statistic statistic = Statistic::mean;
   std::string field;
   std::string body;
-  /// The statistic's rate of change in this window, by the straight line with the least squares through its values at
-  /// sync points [1/s]; without one the statistic at the end.
+  /// With a window, the number is the statistic's rate of change in it [1/s]: the slope of the least-squares line
+  /// through its values at sync points. Without one it is the statistic at the end.
   std::optional<TimeWindow> rate;
 };
 
@@ -158,7 +159,7 @@ struct SimulationDefinition {
   std::vector<TractionDefinition> tractions;
   std::vector<MetricDefinition> metrics;
 
-  /// What a particle has beyond the grid's axes: thickness [m] of a plane, area [m^2] of a line, 1 of a solid.
+  /// Size of a particle across the grid's axes: thickness [m] in a plane, area [m^2] in a line, 1 in a solid.
   double across() const { return planar(geometry) ? thickness : (geometry == GeometryKind::line ? area : 1.0); }
 };
 

@@ -1,4 +1,5 @@
-// What a geometry cannot have, and what can be used instead: said once, for scenes and for definitions made by hand.
+// Which materials, starts, faces and forces a geometry cannot have, and what can be used instead: one place for scenes
+// and for definitions made by hand.
 #pragma once
 
 #include <optional>
@@ -12,7 +13,7 @@ namespace mpm {
 /// @throws MaterialError for constants that no law can have
 std::string refused_material(GeometryKind geometry, const MaterialDefinition& material);
 
-/// The same of a geostatic start.
+/// Why a geometry cannot have a geostatic start, and what can be used instead; empty when it can.
 std::string refused_geostatic(GeometryKind geometry);
 
 struct AxisFault {

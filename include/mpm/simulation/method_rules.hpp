@@ -1,5 +1,5 @@
-// Which parts of a method go together: the one place that knows. A scene asks when its section is read, a Simulation
-// when it is put together, so that a definition made by hand is held to the same.
+// The rules on which parts of a method go together, in one place. They are checked when a scene's section is read and
+// when a Simulation is put together, so they hold for definitions made by hand too.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace mpm {
 
-/// Why a method cannot be, and what can be used instead.
+/// Why a method is impossible, and what can be used instead.
 struct MethodFault {
   std::string key;   ///< of the scene's section `method` that has to change: "transfer", "damping.placement"
-  std::string text;  ///< what; what to write instead
+  std::string text;  ///< the fault, and what to write instead
 };
 
-/// The first rule that a method breaks; nothing when it can be.
+/// The first rule that a method breaks; empty when it breaks none.
 std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry);
 
 }  // namespace mpm

@@ -1,4 +1,4 @@
-// Which particles are read, and what is read of them.
+// Which particles are read, and the fields that are read for them.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@ namespace mpm {
 
 struct ParticleChoice {
   int stride = 1;             ///< every `stride`-th by id, >= 1
-  std::optional<Box> region;  ///< only those whose centres lie in it, faces included [m]; in a plane y is not looked at
+  std::optional<Box> region;  ///< only particles with centres in it, faces included [m]; in a plane y is ignored
 };
 
-/// Of the chosen particles, in order of id.
+/// Fields of the chosen particles, in order of id.
 struct ParticleColumns {
   std::vector<std::uint32_t> ids;
   std::vector<std::vector<float>> values;  ///< of each field, one a particle; SI

@@ -1,4 +1,4 @@
-// What a Simulation says of itself at a sync point: plain values, SI, no reference into the solver.
+// Reports of a Simulation at a sync point: plain values, SI, without references into the solver.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct BodyState {
   Pose pose;
   Twist twist;
   Drive drive = Drive::functions;
-  double mass = 0.0;  ///< [kg] of a body that is free; 0: it only moves as it is told
+  double mass = 0.0;  ///< [kg] of a free body; 0: all of its motion is prescribed
 };
 
 /// One external impulse on the material since the start [N s].
@@ -54,13 +54,13 @@ struct SolverState {
   /// kinetic, elastic (stored in the material), plastic (dissipated by flow since the start), potential (-sum m g.x);
   /// and what modules add: contact_work (of rigid bodies on the material), load_work (of loads, velocity conditions and
   /// absorbing faces), friction (taken by sliding on rigid bodies), pair_friction (between deformable bodies),
-  /// interface (stored in imperfect interfaces, as the last step began); of free rigid bodies free_kinetic,
+  /// interface (stored in imperfect interfaces at the start of the last step); of free rigid bodies free_kinetic,
   /// free_potential, free_work (of applied wrenches, and of what drives their prescribed velocities) and free_loss
   /// (where they and the material met, sliding left out), contact_work being what they lost to the material.
   EnergyReport energy;
   AuditReport audit;
   std::uint64_t particles = 0;
-  std::vector<NamedNumber> numbers;  ///< of modules: "returned", particles that have left and were put back; "alpha", …
+  std::vector<NamedNumber> numbers;  ///< of modules: "returned" (particles that were put back), "alpha", …
   double min_j = 1.0;                ///< smallest det F of any particle now
   double wall_seconds = 0.0;         ///< spent in stepping
 

@@ -1,7 +1,7 @@
-// What goes together with a rigid body: its motion, its kind of contact, its laws and the geometry. This is the one
-// place that knows. A Simulation asks when it is put together, so that a definition made by hand is held to the same.
-// What depends on where a body is, or on its shape, is checked where that is known (periodic faces in
-// simulation/rigid_motion.cpp, the filling with particles in contact/rigid_particles.cpp).
+// The rules on which motion, kind of contact, laws and geometry go together for a rigid body, in one place. They are
+// checked when a Simulation is put together, so they hold for definitions made by hand too. Rules on a body's position
+// or shape are checked where these are known (periodic faces in simulation/rigid_motion.cpp, the filling with particles
+// in contact/rigid_particles.cpp).
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace mpm {
 
-/// The first rule that `body`, one of the definition's, breaks, and what to write instead; empty when it breaks none.
-/// Velocities that the geometry lacks are expected to be taken out already.
+/// The first rule that `body`, a rigid body of the definition, breaks, and what to write instead; empty when it breaks
+/// none. Velocities that the geometry does not have must have been removed before.
 std::string rigid_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body);
 
 }  // namespace mpm

@@ -1,6 +1,6 @@
-// What the modules of a run are made from, while it is put together: a physics adds its modules by one function, which
-// looks at the definition and adds none where the scene does not name it. Those that are shipped stand in one list
-// (src/mpm/simulation/shipped_modules.cpp); a caller can hand in more (SimulationOptions).
+// The parts of a run from which its modules are made. A physics adds its modules by one function, which looks at the
+// definition and adds none if the scene does not name it. The shipped functions are in one list
+// (src/mpm/simulation/shipped_modules.cpp); a caller can add more (SimulationOptions).
 #pragma once
 
 #include <memory>
@@ -21,34 +21,35 @@ namespace mpm {
 class DampingControl;
 class ToolSides;
 
-/// What the kernels do for modules, each made when the first asks for it.
+/// Objects that modules share, each made when the first module asks for it.
 struct Services {
   std::unique_ptr<VolumeSurvey> volumes;
 };
 
-/// All but the lists of text outlive the modules.
+/// All parts but the lists of text outlive the modules.
 struct RunParts {
   const SimulationDefinition& definition;
   const FieldMap& map;
   Fields& fields;                  ///< without blocks yet
-  std::vector<ParticleSet>& sets;  ///< of each body of the definition; not sorted yet
-  const std::vector<Law>& laws;    ///< of each set
-  std::vector<RigidBody>& bodies;  ///< of each rigid body of the definition
+  std::vector<ParticleSet>& sets;  ///< one for each body of the definition; not sorted yet
+  const std::vector<Law>& laws;    ///< one for each set
+  std::vector<RigidBody>& bodies;  ///< one for each rigid body of the definition
   int threads;
   Isa isa;
-  Modules& modules;  ///< to be added to
+  Modules& modules;  ///< modules are added here
   Services& services;
   std::vector<std::string>&warnings, &notes;  ///< one line each
 
-  // What one physics has for those that come later in the list; null where the scene does not name it.
+  // Modules that later ones in the list need; null if the scene does not have them.
   const ToolSides* sides = nullptr;
   DampingControl* damping = nullptr;
 
   const GridLayout& layout() const { return fields.front()->layout; }
   VolumeSurvey& volumes();
-  /// Moves a module's own numbers between particles and nodes, by this shape function in the run's precision.
+  /// Makes an object that transfers a module's numbers between particles and nodes, by this shape function and in the
+  /// run's precision.
   std::unique_ptr<ScalarTransfer> make_transfer(ShapeKind shape);
-  /// A stage of each field: make() returns a new one.
+  /// Adds one stage for each field: make() returns a new one.
   template <class Make>
   void add_in_fields(Make&& make) {
     for (int f = 0; f < map.count(); ++f) modules.add_in_field(make(), f);

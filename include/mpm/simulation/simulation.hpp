@@ -1,5 +1,5 @@
 // The assembled run. Time advances from one sync point (integer nanoseconds) to the next by a whole number of equal
-// steps; commands given at a sync point act from there on; everything that is read is read at a sync point.
+// steps; commands given at a sync point act from there on; all reports are those of a sync point.
 //
 //   auto simulation = mpm::Simulation(definition, mpm::SimulationOptions{2});
 //   while (simulation.time() < end) { simulation.advance(); auto report = simulation.take_contact(0); … }
@@ -39,16 +39,16 @@ struct RunParts;
 using AddModules = std::function<void(RunParts&)>;
 
 struct SimulationOptions {
-  int threads = 0;              ///< 0: as many as the machine has and 4,000 particles each make worth while
-  std::optional<Isa> isa = {};  ///< instruction set of the kernels; the widest one available without it
-  bool settle = true;           ///< geostatic bodies come to rest first; not needed by one that takes on a checkpoint
-  std::vector<AddModules> modules = {};  ///< beside the shipped ones, after them
+  int threads = 0;                       ///< 0: as many as the machine has, with at least 4,000 particles each
+  std::optional<Isa> isa = {};           ///< instruction set of the kernels; without it the widest one available
+  bool settle = true;                    ///< settle geostatic bodies first; not needed before a checkpoint is loaded
+  std::vector<AddModules> modules = {};  ///< added after the shipped ones
 };
 
 class Simulation {
  public:
   /// @throws DefinitionError, GridError, IsaError, MaterialError, RigidError
-  /// Takes the definition over: what it holds of each particle is freed as soon as it has been read.
+  /// Takes over the definition, whose particle data are freed as soon as they have been read.
   explicit Simulation(SimulationDefinition definition, SimulationOptions options = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;
@@ -58,7 +58,7 @@ class Simulation {
   int threads() const;
   std::string isa() const;                    ///< instruction set of the kernels
   std::vector<std::string> warnings() const;  ///< one line each, found when the run was put together
-  std::vector<std::string> notes() const;     ///< the same, of what was done then and went well
+  std::vector<std::string> notes() const;     ///< one line each, on choices made when the run was put together
 
   std::int64_t time() const;         ///< simulated time since the start [ns]
   std::int64_t sync_period() const;  ///< [ns]
@@ -68,69 +68,71 @@ class Simulation {
 
   /// Index of a rigid body, or -1.
   int find_body(const std::string& name) const;
-  /// From now on, until the next command. @throws RigidError when not finite or, in an axisymmetric scene, when it
-  /// would take the body off the axis, tilt or spin it; then nothing is changed. The same of poses.
+  /// Prescribes a velocity from now on, until the next command. @throws RigidError when not finite or, in an
+  /// axisymmetric scene, when it would take the body off the axis, tilt or spin it; then nothing is changed.
   void command_velocity(int body, const Twist& twist);
-  /// To be at `target` by `arrival` [ns] > time(). @throws RigidError
+  /// Prescribes that the body reaches `target` at `arrival` [ns] > time(). @throws RigidError as command_velocity()
   void command_pose(int body, const Pose& target, std::int64_t arrival);
 
-  /// A force on a free body, from now on until the next. What is along no axis of the geometry does nothing.
+  /// Applies a wrench to a free body, from now on until the next one. Components that the geometry does not have are
+  /// ignored.
   /// @throws RigidError when not finite, or the body is not free
   void apply_wrench(int body, const Wrench& wrench);
 
   std::vector<BodyState> bodies() const;
-  /// Of the bodies that are free, in their order: what gave them their momentum, and their energies.
+  /// Balances of momentum and energies of the free bodies, in their order.
   std::vector<FreeBodyReport> free_bodies() const;
   const RigidBody& rigid_body(int body) const;
-  /// A number of a rigid body, by one of body_values(): "x" of its origin [m], "vz" [m/s], "wy" [rad/s], "impulse_x"
-  /// that contact gave it since the start [N s]. @throws DefinitionError for an unknown name
+  /// A number of a rigid body, by one of the names in body_values(): "x" of its origin [m], "vz" [m/s], "wy" [rad/s],
+  /// "impulse_x" of contact on it since the start [N s]. @throws DefinitionError for an unknown name
   double body_value(int body, const std::string& name) const;
   static const std::vector<std::string>& body_values();
-  /// What the material did to the body since the last call.
+  /// The action of the material on the body since the last call.
   ContactReport take_contact(int body);
-  /// What each pair of deformable bodies that has a law of contact did to each other since the last call.
+  /// The action on each other of each pair of deformable bodies with a law of contact, since the last call.
   std::vector<PairReport> take_pairs();
   SolverState state() const;
   /// The scene's own numbers, in order.
   std::vector<std::pair<std::string, double>> metrics() const;
 
   std::uint64_t particles() const;
-  /// Names that particle_field() knows in every run, with their units: {"vx", "m/s"}, … Those that modules bring to a
-  /// run join them in it (ParticleSet::brought).
+  /// Names that particle_field() knows in every run, with their units: {"vx", "m/s"}, … In a run it also knows those
+  /// that its modules add (ParticleSet::brought).
   static std::vector<std::pair<std::string, std::string>> particle_fields();
-  /// One value a particle, in order of id (0 … particles()-1): the same order in every call.
+  /// One value for each particle, in order of id (0 … particles()-1): the same order in every call.
   /// @throws DefinitionError for an unknown name, listing those that exist.
   void particle_field(const std::string& name, std::vector<float>& values) const;
   void particle_field(const std::string& name, std::vector<double>& values) const;
   /// Several fields of the chosen particles in one pass; keeps the memory of `columns`. @throws DefinitionError
   void read_particles(const std::vector<std::string>& fields, const ParticleChoice& choice,
                       ParticleColumns& columns) const;
-  /// Whether one of the fields looks at where a particle was at the start ("ux", "x0", …).
+  /// Whether one of the fields needs the particles' positions at the start ("ux", "x0", …).
   static bool needs_start(const std::vector<std::string>& fields);
-  /// Lets the particles remember where they are now, for those fields. At time zero, unless they do already: a run
-  /// pays for it in memory (24 bytes a particle) and in sorting. @throws DefinitionError later on
+  /// Stores the particles' present positions for those fields, unless they are stored already. This costs memory (24
+  /// bytes for each particle) and time in sorting. @throws DefinitionError after time zero
   void keep_start();
   /// First id and one-past-last id of a deformable body.
   std::pair<std::uint64_t, std::uint64_t> body_ids(const std::string& body) const;
 
-  /// FNV-1a over time, particle state (by id) and rigid bodies: equal bits, equal hash. What else decides the future is
-  /// left out (the order of particles, what contact remembers, the next step's limit), so that runs which do the same
-  /// on other grids have the same hash; of two that are in the same place by other ways the hash may part later.
-  /// memory_hash() tells those apart.
+  /// FNV-1a over time, particle state (by id) and rigid bodies: equal bits, equal hash. Other state on
+  /// which the future depends is left out (the order of particles, the memory of contact, the next step's limit), so
+  /// that runs which do the same on other grids have the same hash. Two runs with equal hashes may therefore differ
+  /// later; memory_hash() distinguishes them.
   std::uint64_t state_hash() const;
-  /// Of all that serialise() keeps, reports and their sums since the last call too, but for the wall time.
+  /// Hash over all that serialise() writes, including reports and their sums since the last call, without the wall
+  /// time.
   std::uint64_t memory_hash();
 
   /// Writes to, or reads from, a checkpoint (simulation/checkpoint.hpp) all that the run's future and its reports
-  /// depend on beyond the definition. At a sync point. Reading wants a Simulation of the same definition, instruction
-  /// set and precision; it goes on as the one that was written, to the bit, on any number of threads. After an error it
-  /// cannot go on. @throws the archive's error
+  /// depend on beyond the definition. To be called at a sync point. Reading requires a Simulation of the same
+  /// definition, instruction set and precision; it then continues like the one that was written, to the bit, on any
+  /// number of threads. After an error it cannot go on. @throws the archive's error
   void serialise(StateArchive& archive);
 
  private:
-  /// Of those metrics that are rates, at a sync point.
+  /// Adds a value, at a sync point, to the metrics that are rates.
   void sample_metrics();
-  /// Of all particles, in order of id. @throws DefinitionError
+  /// Reads fields of all particles, in order of id. @throws DefinitionError
   void read_fields(const std::vector<std::string>& fields, std::vector<std::vector<double>>& columns) const;
   friend class GlobalQuantities;
   friend class SimulationProbe;  // of tests: single steps, of any size

@@ -1,14 +1,14 @@
-// Contact of one node with a surface of infinite mass: stick, slide or let go.
+// Contact of one node with a surface of infinite mass: it sticks, slides or is free.
 //
 // Whether a node is in contact is decided where force and momentum meet, on v^{n+1}: pressed nodes approach. Strain has
-// to be taken from the same state. A raw velocity does not know it: in a rebound the particles already move away while
-// the node is still pressed, and to release it there would keep the stress from relaxing while the surface goes on
-// pushing, which creates energy (a block landed with half as much again as it fell with). So a node that was held stays
-// held when strain is updated next, and one that was free is held if it approaches.
+// to be taken from the same state. A raw velocity does not tell it: in a rebound the particles already move away while
+// the node is still pressed, and releasing it there would keep the stress from relaxing while the surface goes on
+// pushing, which creates energy (a block rebounded with half as much again as the energy of its fall). So a node that
+// was held stays held when strain is updated next, and one that was free is held if it approaches.
 //
 // Weak: a node is in contact or not, so a surface between two rows of nodes is felt up to a cell early.
 // Source: Nairn, GIMP notes (3.12)-(3.20) with the cone limit and the sense of the tangent of method reference 8.3
-// (erratum 24), divided here by the nodal mass; the holding is ours.
+// (erratum 24), divided here by the nodal mass; that a held node stays held for the strain is our addition.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 
 namespace mpm {
 
-/// How a surface holds a node.
+/// State of contact of a node.
 enum class Hold : std::uint8_t { free, slide, stick };
 
 struct ContactChange {
@@ -29,8 +29,8 @@ struct ContactChange {
   Hold hold;
 };
 
-/// Decides by approach and friction. `relative`: velocity of the material minus that of the surface [m/s];
-/// `normal`: out of the surface, towards the material.
+/// The change of velocity by contact, from approach and friction. `relative`: velocity of the material minus that of
+/// the surface [m/s]; `normal`: out of the surface, towards the material.
 inline ContactChange contact_change(const Vec3& relative, const Vec3& normal, const FrictionLaw& law) {
   const double approach = relative.dot(normal);
   if (!(approach < 0.0)) return {Vec3::Zero(), Hold::free};
@@ -42,26 +42,26 @@ inline ContactChange contact_change(const Vec3& relative, const Vec3& normal, co
   return {-approach * normal - tangential * (limit / sliding), Hold::slide};
 }
 
-/// For the strain: a held node keeps to the surface, a free one is held if it approaches.
+/// The change of velocity for the strain: a held node follows the surface, a free one is held if it approaches.
 inline Vec3 strain_change(const Vec3& relative, const Vec3& normal, const FrictionLaw& law, Hold hold) {
   if (hold == Hold::stick) return -relative;
   if (hold == Hold::slide) return -relative.dot(normal) * normal;
   return contact_change(relative, normal, law).velocity;
 }
 
-/// What a held node takes away of a velocity, relative to the surface or added to one that is, later in the step, when
-/// who holds is no question any more.
+/// The change of velocity of a held node later in the step, when contact has been decided: removes the held components
+/// of `velocity`, which is relative to the surface or an increment.
 inline Vec3 held_part(const Vec3& velocity, const Vec3& normal, Hold hold) {
   if (hold == Hold::free) return Vec3::Zero();
   return hold == Hold::stick ? Vec3(-velocity) : Vec3(-velocity.dot(normal) * normal);
 }
 
-/// Which nodes were held in the step before, by the key of their block: survives sorting and tools on the move.
+/// The nodes that were held in the previous step, by the key of their block, so that sorting does not invalidate them.
 class HeldNodes {
  public:
   static std::uint64_t id(std::uint64_t block_key, int node) { return block_key * 64 + node; }
   void clear() { held_.clear(); }
-  /// In ascending order of id.
+  /// Nodes have to be added in ascending order of id.
   void add(std::uint64_t id, Hold hold) { held_.push_back({id, hold}); }
   void serialise(StateArchive& archive) {
     archive.rows("held", held_);

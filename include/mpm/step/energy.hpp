@@ -9,8 +9,8 @@
 namespace mpm {
 
 struct NamedEnergy {
-  /// stored: in the material now. of_bodies: that free rigid bodies have now. dissipated: lost to heat since the start.
-  /// work: done on the material, or on free rigid bodies, since the start.
+  /// stored: in the material now. of_bodies: of free rigid bodies now. dissipated: since the start. work: done on the
+  /// material, or on free rigid bodies, since the start.
   enum class Kind { stored, of_bodies, dissipated, work };
   std::string name;
   Kind kind = Kind::stored;
@@ -21,7 +21,7 @@ class EnergyReport {
  public:
   using Kind = NamedEnergy::Kind;
 
-  /// What is added under one name is summed.
+  /// Adds an energy [J]; values of one name are summed.
   void add(const std::string& name, Kind kind, double value) {
     const auto same = std::find_if(list_.begin(), list_.end(), [&](const NamedEnergy& e) { return e.name == name; });
     if (same == list_.end()) {
@@ -30,7 +30,7 @@ class EnergyReport {
       same->value += value;
     }
   }
-  /// [J]; 0 where the run has nothing of that name.
+  /// The energy of this name [J]; 0 if there is none.
   double of(const std::string& name) const {
     const auto found = std::find_if(list_.begin(), list_.end(), [&](const NamedEnergy& e) { return e.name == name; });
     return found == list_.end() ? 0.0 : found->value;
@@ -43,9 +43,9 @@ class EnergyReport {
     for (const NamedEnergy& energy : list_) sum += energy.kind == kind ? energy.value : 0.0;
     return sum;
   }
-  /// Of the material.
+  /// Energy stored in the material [J].
   double total() const { return sum(Kind::stored); }
-  /// With free rigid bodies.
+  /// Energy stored in the material, and of free rigid bodies [J].
   double whole() const { return total() + sum(Kind::of_bodies); }
 
  private:

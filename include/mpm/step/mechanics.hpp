@@ -1,5 +1,5 @@
-// The passes of the mechanics, as a schedule sees them: one virtual call a pass, none a particle. A pass is over all
-// velocity fields.
+// The passes of the mechanics, which a schedule calls in its order. There is one virtual call for each pass, over all
+// velocity fields, and none for a particle.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace mpm {
 
-/// A particle that limits the time step.
+/// The particle of a set that limits the time step.
 struct FastestParticle {
-  double rate = -1.0;  ///< of its waves, motion and viscosity, across a cell [1/s]; not a number if that of any is not
+  double rate = -1.0;  ///< by which waves, motion and viscosity cross a cell [1/s]; NaN if that of any particle is
   int index = 0;       ///< in its set
 };
 
@@ -20,34 +20,35 @@ class Mechanics : public Module {
  public:
   std::string name() const override { return "mechanics"; }
 
-  /// Mass and momentum to the grid; velocity = momentum / mass.
+  /// Spreads mass and momentum to the grid; velocity = momentum / mass.
   virtual void scatter_momentum(StepContext&) = 0;
-  /// Strain and stress advance by `dt` with the grid's velocity; then the internal force goes to the grid.
+  /// Advances strain and stress by `dt` with the grid's velocity, then spreads the internal force.
   virtual void strain_and_force(StepContext&, double dt) = 0;
-  /// The internal force of the stress as it is goes to the grid.
+  /// Spreads the internal force of the present stress.
   virtual void internal_force(StepContext&) = 0;
   /// velocity = v^{n+1}, force = acceleration, from momentum, force and gravity.
   virtual void update_momentum(StepContext&) = 0;
-  /// XPIC and FMPM: how many increments the velocity that particles adopt takes, after momentum was updated.
+  /// XPIC and FMPM: number of increments that make up the velocity which particles adopt, after momentum was updated.
   virtual int increments() const = 0;
-  /// Grid.increment becomes the velocity that they are made of; conditions may act on it before.
+  /// Sets Grid::increment to the velocity from which increments are computed; conditions may act on it before.
   virtual void begin_increments(StepContext&) = 0;
-  /// Grid.increment becomes the next one; conditions may act on it before it is added to the grid's velocity.
+  /// Sets Grid::increment to the next increment; conditions may act on it before it is added to the grid's velocity.
   virtual void find_increment(StepContext&) = 0;
   virtual void add_increment(StepContext&) = 0;
-  /// Velocity and position of the particles.
+  /// Updates velocity and position of the particles.
   virtual void move_particles(StepContext&) = 0;
-  /// Velocity of the particles; their new momentum to the grid with this step's weights; velocity = momentum / mass.
+  /// Updates the velocity of the particles and spreads their new momentum with this step's weights; velocity = momentum
+  /// / mass.
   virtual void move_and_regather(StepContext&) = 0;
-  /// Strain and stress advance by `dt`; then positions take their new value. Goes with move_and_regather().
+  /// Advances strain and stress by `dt`, then updates positions. To be called after move_and_regather().
   virtual void strain_and_place(StepContext&, double dt) = 0;
 
   /// A particle whose J is not positive (or not finite), found in the step, if there is one; the same one for any
   /// number of threads.
   virtual std::optional<ParticleRef> failed() const = 0;
-  /// Of the particles of a set, in their present state; of equal rates the first one. `cell`: the smallest edge [m].
+  /// The fastest particle of a set in its present state; of equal rates the first one. `cell`: the smallest edge [m].
   virtual FastestParticle fastest(int set, double cell) const = 0;
-  /// Also when so many particles have left their groups that it pays.
+  /// True also when so many particles have left their groups that a sort pays.
   bool needs_sort() const override = 0;
 };
 

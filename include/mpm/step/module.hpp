@@ -1,5 +1,6 @@
-// A physics beside the mechanics of the material, as a run sees it: it owns what it adds. What a scene does not name is
-// not in the run's list (step/modules.hpp). Where it acts on the grid it is a Stage (step/stage.hpp).
+// A module is a physics beside the mechanics of the material. It owns what it adds to a run: impulses, energies,
+// numbers, step limits and state. The run's list (step/modules.hpp) holds only the modules that the scene names. A
+// module that acts on the grid is a Stage (step/stage.hpp).
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@
 
 namespace mpm {
 
-/// Momentum that something outside gave to the material [N s], since the start.
+/// Momentum given to the material from outside since the start [N s], under one name.
 struct ImpulseAccount {
   std::string name;
   Vec3 impulse = Vec3::Zero();
@@ -33,7 +34,7 @@ struct ImpulseAccount {
   }
 };
 
-/// A number of the whole run that a module brings, for reports and as a global quantity.
+/// A number of the whole run that a module adds, for reports and as a global quantity.
 struct NamedNumber {
   std::string name, unit;
   double value = 0.0;
@@ -44,7 +45,7 @@ struct OutsideReason {
   std::string what, remedy;
 };
 
-/// What a module cannot do in a step. what() names what and when, and the remedy. Ends a run as a PhysicsError.
+/// A failure of a module in a step. what() names the cause, the time and the remedy. It ends a run as a PhysicsError.
 class ModuleError : public Error {
  public:
   using Error::Error;
@@ -54,47 +55,48 @@ class Module {
  public:
   virtual ~Module() = default;
 
-  /// What this is, as in "wall/z_min". Names its part of a checkpoint.
+  /// The module's name, such as "wall/z_min". It also names the module's part of a checkpoint.
   virtual std::string name() const = 0;
 
-  // What it reports. Computed when asked for, between two steps.
+  // Reports, which are computed when asked for, between two steps.
 
-  /// What it gave to the material, under its names.
+  /// Adds the module's impulse accounts to the list.
   virtual void accounts(std::vector<ImpulseAccount>&) const {}
-  /// Energies that it stores, takes or works [J].
+  /// Adds the energies that the module stores, dissipates or gives as work [J].
   virtual void energies(EnergyReport&) const {}
-  /// Other numbers of its own.
+  /// Adds other numbers of the module.
   virtual void numbers(std::vector<NamedNumber>&) const {}
 
-  // What it asks of the time step.
+  // Limits of the time step.
 
-  /// Tightens the limit of the steps of a period. @throws Error when something has no value in it
+  /// Tightens the limit of the steps of a period. @throws Error when a function of time is not finite in it
   virtual void limit_step(const PeriodAhead&, StepLimit&) const {}
-  /// A limit of its own in words.
+  /// The text of a limit that this module has set.
   virtual std::string limit_text(const StepLimit&) const { return name(); }
 
-  // What it does beside the grid.
+  // Actions beside the grid.
 
-  /// A sync period has ended; `time` [ns]. @throws Error when something stands where it may not
+  /// Called at the end of a sync period; `time` [ns]. @throws Error when a body is at a forbidden place
   virtual void at_sync(std::int64_t /*time*/) {}
 
-  /// Particles are about to be sorted: the last time to move them, or to choose their velocity fields.
+  /// Called before particles are sorted: the last chance to move them or to choose their velocity fields.
   virtual void before_sort() {}
-  /// Asks for a sort after this step.
+  /// Whether particles have to be sorted after this step.
   virtual bool needs_sort() const { return false; }
-  /// Some particle is outside the grid: whether this has put it back, so that the sort can be tried again.
+  /// Called when a particle is outside the grid. Returns whether the module has put all such particles back, so that
+  /// the sort can be tried again.
   virtual bool put_back() { return false; }
-  /// Why a particle is outside and stays there, if this knows it.
+  /// The reason why a particle is outside the grid, if this module knows it.
   virtual std::optional<OutsideReason> why_outside(const GridLayout&, const ParticleSet&, int /*particle*/) const {
     return std::nullopt;
   }
 
-  // What it remembers.
+  // State.
 
-  /// Writes or reads what it remembers from step to step and what it reports, for checkpoints: all but what a step
-  /// finds anew. Between two steps only.
+  /// Writes or reads the module's state and reports, for checkpoints: all but what every step computes anew. To be
+  /// called between two steps only.
   virtual void serialise(StateArchive&) {}
-  /// Numbers that decide the future and belong to the state hash.
+  /// Adds the numbers that belong to the state hash because the run's future depends on them.
   virtual void hashed(std::vector<double>&) const {}
 };
 

@@ -13,7 +13,7 @@ namespace mpm {
 
 class Modules {
  public:
-  /// A module that acts across fields, or not on the grid at all.
+  /// Adds a module that acts across fields, or not on the grid at all.
   template <class M>
   M& add(std::unique_ptr<M> module) {
     static_assert(!std::is_base_of_v<FieldStage, M>, "say in which field: add_in_field()");
@@ -24,7 +24,7 @@ class Modules {
     add_entry(std::move(entry));
     return added;
   }
-  /// A stage of velocity field `field`.
+  /// Adds a stage of the velocity field with this number.
   template <class M>
   M& add_in_field(std::unique_ptr<M> stage, int field) {
     M& added = *stage;
@@ -36,19 +36,19 @@ class Modules {
     return added;
   }
 
-  /// The stages act, in the order of their ranks.
+  /// Calls the stages at a hook, in the order of their ranks.
   void act(Hook hook, StepContext& context) const;
 
   /// In the order in which they were added.
   const std::vector<Module*>& list() const { return list_; }
-  /// Of all modules; those of one name become one. What it exchanged is then their sum.
+  /// Adds the accounts of all modules. Accounts of one name are summed, and so is the momentum that they exchanged.
   void accounts(std::vector<ImpulseAccount>& list) const;
-  /// Of all modules.
+  /// Adds the energies of all modules.
   void energies(EnergyReport& report) const;
   std::vector<NamedNumber> numbers() const;
-  /// The module that has a name first, or null.
+  /// The first module of this name, or null.
   const Module* find(const std::string& name) const;
-  /// As Module::serialise(), of each module in a group of its own.
+  /// Serialises each module in a group of its own.
   void serialise(StateArchive& archive);
 
  private:

@@ -1,8 +1,9 @@
 // The order of the stages of a step, in one table. At every hook stages act in ascending order of the ranks that they
 // have there; those of one rank in the order in which they were added to the run.
 //
-// What holds its nodes whatever happens (the axis, walls that do not let go, prescribed velocities) acts before
-// contact, so that friction sees no velocity through it, and once more after contact, which may have pushed its nodes.
+// Stages that always hold their nodes (the axis, walls other than frictional ones, prescribed velocities) act before
+// contact, so that friction does not act on velocity through them, and once more after contact, which may have moved
+// their nodes.
 // In a run without contact the second time is left out. Source: method reference 5.4, steps 7 to 9.
 #pragma once
 
@@ -10,7 +11,8 @@
 
 namespace mpm {
 
-/// Where a stage may act, in the order of a run and of its steps; what holds there is told at the functions of Stage.
+/// Where a stage may act, in the order of a run and of its steps. The functions of Stage describe the state at each
+/// hook.
 enum class Hook {
   run_begun,
   momentum_gathered,
@@ -24,38 +26,38 @@ enum class Hook {
 inline constexpr int kHooks = 8;
 
 enum class Rank {
-  mass_centre,  ///< where the mass of nodes comes from, which those that tell the sides of a thin tool apart ask
-  side,         ///< both sides of a body become one where no tool is between them, before anyone looks at a velocity
-  hoop_stress,  ///< books the sum of the internal forces, so no one has added a force yet
-  damping,      ///< a force from the gathered momentum, which no one changes
-  axis,         ///< holds before contact
-  absorbing,    ///< needs the force on its nodes, which a wall or a condition there would hide
-  wall,         ///< holds before contact
-  condition,    ///< a prescribed velocity stands above walls: what it says of a node is the last word
-  pair,         ///< contact of deformable bodies; tools, which give way to nothing, come after it
-  rigid_body,   ///< contact with rigid bodies
-  frictional_wall,  ///< contact with the domain's faces, which are as rigid and do not move
-  axis_again,       ///< holds again what contact has pushed
-  wall_again,       ///< the same, in the order of the first time
+  mass_centre,      ///< finds the mass centres of nodes, which `side` needs
+  side,             ///< joins both sides of a body where no tool is between them, before velocities are used
+  hoop_stress,      ///< books the sum of the internal forces, so it acts before forces are added
+  damping,          ///< a force from the gathered momentum, which no stage changes
+  axis,             ///< holds its nodes before contact
+  absorbing,        ///< needs the force on its nodes, which a wall or a condition there would hide
+  wall,             ///< holds its nodes before contact
+  condition,        ///< overrides walls, so it acts after them
+  pair,             ///< contact of deformable bodies; before rigid bodies, whose velocity is the last word
+  rigid_body,       ///< contact with rigid bodies
+  frictional_wall,  ///< contact with the domain's faces, which are rigid too and do not move
+  axis_again,       ///< holds nodes again that contact has moved
+  wall_again,       ///< the same, in the same order as before contact
   condition_again,  ///< the same
-  load,             ///< its work is taken with the velocity that all conditions have left
+  load,             ///< computes its work with the velocity that all conditions have left
   traction,         ///< the same
-  massless_node,    ///< books the force on nodes that take no part, so all forces have been added
-  side_again        ///< what acted on one side alone is shared
+  massless_node,    ///< books the force on nodes without mass, so it acts after all forces have been added
+  side_again        ///< shares between both sides what acted on one of them
 };
 
-/// Whether a stage of this rank gives the nodes what depends on how they move, so that others have to hold them again.
+/// Whether a stage of this rank is contact, after which others have to hold their nodes again.
 constexpr bool is_contact(Rank rank) { return rank >= Rank::pair && rank <= Rank::frictional_wall; }
-/// Whether the rank is there to hold again what contact has pushed.
+/// Whether a stage acts at this rank only because contact may have moved its nodes.
 constexpr bool mends_contact(Rank rank) { return rank >= Rank::axis_again && rank <= Rank::condition_again; }
 
-/// When a stage acts at a hook: once, or a second time too.
+/// The ranks of a stage at a hook: one, or two if it acts twice.
 struct Ranks {
   Rank first;
   std::optional<Rank> again = {};
 };
 
-/// Of what always holds its nodes.
+/// The ranks of a stage that always holds its nodes: two at hooks where velocities are held, one at others.
 constexpr Ranks holding(Hook hook, Rank first, Rank again) {
   const bool holds = hook == Hook::before_strain || hook == Hook::momentum_updated || hook == Hook::velocity_found ||
                      hook == Hook::increment_found;

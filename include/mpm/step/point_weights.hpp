@@ -1,11 +1,11 @@
-// The grid's velocity at a point of the material's surface: nodes around it and their weights. Hat functions, which are
-// what the averages of uGIMP and CPDI are averages of; with cubic splines, splines. Internal forces of material that is
-// filled up to the point end with the same weights: a traction spread by them is in equilibrium with a uniform stress.
-// With quadratic splines hats came out better than splines (a pressed column's force is up to 23 % off with them, 33 %
-// with splines): particles half a cell apart are too few to know the end of a spline's support.
+// The grid's velocity at a point of the material's surface: nodes around it and their weights. These are hat
+// functions, of which uGIMP and CPDI take averages; with cubic splines they are splines. Internal forces of material
+// that is filled up to the point end with the same weights: a traction spread by them is in equilibrium with a uniform
+// stress. With quadratic splines hats came out better than splines (a pressed column's force is up to 23 % off with
+// them, 33 % with splines): particles half a cell apart are too few to know the end of a spline's support.
 //
-// Nodes that carry no mass are left out and the others take their part: with dirac, and where a particle is stretched
-// beyond the nodes that it reaches.
+// Nodes that carry no mass are left out, and the other weights grow in proportion: with dirac, and where a particle is
+// stretched beyond the nodes that it reaches.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Transfers between the particles of a velocity field and its nodes, for a physics beside the mechanics: with them a
-// field such as temperature, colour or volume needs no kernels of its own. By the run's shape function S_ip of node i
-// and particle p, its gradient G_ip [1/m] and, about an axis, the hoop function T_ip [1/m]:
+// field such as temperature, colour or volume needs no kernels of its own. With the run's shape function S_ip of node i
+// and particle p, its gradient G_ip [1/m] and, about an axis, the hoop function T_ip [1/m], the transfers are:
 //
 //   gather                number of a particle  =  sum over i of S_ip number_i
 //   gradient              vector of a particle  =  sum over i of G_ip number_i
@@ -8,12 +8,12 @@
 //   spread_gradient       number of a node      =  sum over p of G_ip . vector_p
 //   spread_gradient_sum   vector of a node      =  sum over p of G_ip number_p
 //
-// Functions are those of the particles' present places. A domain that follows the deformation is that of the last
-// gathering of momentum, as in the rest of a step; so a stage calls these once momentum has been gathered, and before
+// Functions are those of the particles' present positions. Domains that follow the deformation are those of the last
+// gathering of momentum, as in the rest of a step; so a stage calls these after momentum has been gathered and before
 // particles move. About an axis values have the weight r where the run's functions do (shape/axis_rules.hpp).
 //
-// Particles' numbers are double in either precision of the run; they are rounded to it on their way, as velocities are.
-// Sums over particles are grouped as those of the mechanics: the same bits for any number of threads.
+// Particles' numbers are double in either precision of the run; they are rounded to that precision in the transfer, as
+// velocities are. Sums over particles are grouped like those of the mechanics: the same bits for any number of threads.
 // Source: method reference 2, 3, 8.1.
 #pragma once
 
@@ -32,25 +32,25 @@ class ScalarTransfer {
   /// direction, and may be null where it is not wanted.
   using Given = std::vector<std::array<const double*, 3>>;
   using Taken = std::vector<std::array<double*, 3>>;
-  /// One mark a block of the velocity field.
+  /// One mark for each block of the velocity field; not 0: marked.
   using Marks = std::vector<std::uint8_t>;
   enum class Weight { one, mass };
 
   virtual ~ScalarTransfer() = default;
 
-  /// `field`: number of the velocity field, for all of these. `from`: one component or as many as the grid has axes; as
-  /// many arrays of `to` are written, of the particles of this velocity field alone.
+  /// Gathers `from` at the particles of velocity field `field`. `from` has one component, or as many as the grid has
+  /// axes; as many arrays of `to` are written, for the particles of this velocity field only.
   virtual void gather(int field, const NodalField& from, const Taken& to) = 0;
 
-  /// Of `from`'s only component: `to` gets d/dx_k, and in the hoop direction the sum of T_ip number_i.
+  /// Gradient of `from`, which has one component: `to` gets d/dx_k, and in the hoop direction the sum of T_ip number_i.
   virtual void gradient(int field, const NodalField& from, const Taken& to) = 0;
 
-  /// Sets `to`, of one component or as many as the grid has axes, on all blocks of the velocity field; with `only`, on
-  /// marked ones, and what it has elsewhere has no meaning.
+  /// Sets `to`, of one component or as many as the grid has axes, on all blocks of the velocity field; with `only` on
+  /// the marked ones, and its values elsewhere have no meaning.
   virtual void spread(int field, const Given& of, Weight weight, NodalField& to, const Marks* only = nullptr) = 0;
 
-  /// Sets `to`, of one component. With a hoop component T_ip times that is added: the weak form of a divergence about
-  /// an axis has G_ip . vector_p alone where the vector has no hoop component.
+  /// Sets `to`, of one component. If the vectors have a hoop component, T_ip times that is added; without one the sum
+  /// is the weak form of a divergence about an axis.
   virtual void spread_gradient(int field, const Given& of, Weight weight, NodalField& to,
                                const Marks* only = nullptr) = 0;
 

@@ -18,7 +18,7 @@
 
 namespace mpm {
 
-/// A particle, by its set and its place in it.
+/// A particle, by its set and its index in that set.
 struct ParticleRef {
   int set = 0;
   int index = 0;
@@ -28,7 +28,7 @@ struct ParticleRef {
 /// nearest nodes are one column along the last grid axis, or one node.
 struct Grouping {
   enum class By { column, node };
-  int lanes = 1;  ///< at most so many particles a group
+  int lanes = 1;  ///< largest number of particles in a group
   By by = By::node;
 };
 
@@ -36,13 +36,13 @@ class Sorter {
  public:
   explicit Sorter(int threads, Grouping grouping = {});
 
-  /// Sorts, and rebuilds the blocks of every field. Owners are numbered through all fields. Returns a particle that is
-  /// not where its set allows, or not finite, if there is one (the first by set and place); then nothing has been
-  /// changed.
+  /// Sorts, and rebuilds the blocks of every field. Owners are numbered through all fields. Returns the first
+  /// particle (by set and index) that is outside the range of its set or not finite, if there is one; then nothing has
+  /// been changed.
   std::optional<ParticleRef> sort(std::vector<ParticleSet>& sets, Fields& fields);
 
  private:
-  /// What is kept of a set between sorts, a value each particle.
+  /// Memory that is kept for a set between sorts, one value for each particle.
   struct Scratch {
     /// Key of the block, counted on from field to field, then its rank among owners; times nodes a block, plus node.
     PaddedArray<std::uint64_t> code;
@@ -53,14 +53,14 @@ class Sorter {
     PaddedArray<std::uint32_t> ids;
     PaddedArray<std::uint8_t> sides;
   };
-  /// What a thread keeps.
+  /// Memory of a thread.
   struct Part {
-    std::vector<std::uint64_t> blocks;  ///< that it has met
+    std::vector<std::uint64_t> blocks;  ///< that it has found
     std::vector<std::uint32_t> next;    ///< place of the next particle of each owner
     std::vector<std::uint32_t> order;
   };
 
-  /// Writes the codes; the first particle that is not where it may be, or the size of the set.
+  /// Writes the codes. Returns the first particle outside the range of its set, or the size of the set.
   template <int Dim>
   int find_blocks(const ParticleSet& set, const GridLayout& layout, Scratch& scratch);
   void collect_owners();

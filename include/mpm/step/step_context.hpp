@@ -1,28 +1,28 @@
-// What a stage sees of the step it works in: all velocity fields, or the grid of the one that it works in.
+// The data that a stage is handed in a step: all velocity fields, or the grid of the field in which it works.
 #pragma once
 
 #include "mpm/grid/fields.hpp"
 
 namespace mpm {
 
-/// For what acts across velocity fields.
+/// For a stage that acts across velocity fields.
 struct StepContext {
   Fields& fields;
   double dt;           ///< [s]
-  double start = 0.0;  ///< when the step begins [s]
+  double start = 0.0;  ///< time at which the step begins [s]
 
-  /// Of every field.
+  /// The layout that all fields share.
   const GridLayout& layout() const { return fields.front()->layout; }
 };
 
-/// For what acts in one velocity field and knows of no other.
+/// For a stage that acts in one velocity field.
 struct FieldContext {
-  Grid& grid;          ///< of the field
+  Grid& grid;          ///< grid of the field
   double dt;           ///< [s]
-  double start = 0.0;  ///< when the step begins [s]
+  double start = 0.0;  ///< time at which the step begins [s]
 };
 
-/// A node by its block and its place in it.
+/// A node, by its block and its index in that block.
 struct NodeRef {
   int block;
   int node;

@@ -1,4 +1,5 @@
-// The largest time step that something allows, and who and where that is. Put into words only when asked for.
+// The largest time step that a module or the material allows, with its cause and place. The text is made only when
+// asked for.
 #pragma once
 
 #include <limits>
@@ -12,28 +13,28 @@ class Module;
 
 struct StepLimit {
   double dt = std::numeric_limits<double>::infinity();  ///< [s]
-  const Module* by = nullptr;                           ///< null: nothing, but the sync period that a step is a part of
-  int part = 0;                                         ///< which of its parts, as `by` counts them
+  const Module* by = nullptr;                           ///< null: limited by the sync period alone
+  int part = 0;                                         ///< part of `by` that sets the limit, as `by` numbers them
   double speed = 0.0;                                   ///< [m/s]
   Vec3 place = Vec3::Zero();                            ///< [m]
-  bool foreseen = false;                                ///< shortened for what stiffens
+  bool foreseen = false;                                ///< shortened because material is stiffening
 
   /// "speed of 'blade' (2 m/s)", "time.step", …
   std::string text() const;
 
-  /// Becomes the other one where that allows less. What is not a number must not pass unnoticed, so not "other < this".
+  /// Takes over the other limit if that is smaller, or NaN (hence not "other < this").
   void tighten(const StepLimit& other) {
     if (!(other.dt >= dt)) *this = other;
   }
 };
 
-/// The sync period that begins.
+/// The sync period that is about to begin.
 struct PeriodAhead {
   double start, length;  ///< [s]
-  double cfl;            ///< part of a cell that anything may cross in a step
+  double cfl;            ///< largest part of a cell that may be crossed in a step
   double cell;           ///< smallest edge of a cell [m]
 
-  /// The farthest that anything may move in a step [m].
+  /// The largest distance that may be crossed in a step [m].
   double reach() const { return cfl * cell; }
 };
 

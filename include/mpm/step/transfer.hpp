@@ -1,9 +1,9 @@
-// What of the grid's motion a particle takes over, and their names in a scene.
+// How a particle takes over the grid's motion, and the names of these transfers in a scene.
 //
 // flip: velocity gains the grid's acceleration; a fraction below 1 mixes in PIC, which takes the grid's velocity
 // itself. xpic, fmpm: PIC whose smoothing is undone to order m, from the velocity at the start or at the end of the
-// step: what the grid cannot see is filtered out, the rest is kept. apic: PIC, with the first moment of the
-// velocity kept on the particle. Source: method reference 6.2, 6.6; Hammerquist & Nairn (2017), Nairn & Hammerquist
+// step: motion that the grid does not resolve is filtered out, the rest is kept. apic: PIC, with the first moment of
+// the velocity kept on the particle. Source: method reference 6.2, 6.6; Hammerquist & Nairn (2017), Nairn & Hammerquist
 // (2021), Jiang et al. (2015).
 #pragma once
 
@@ -18,8 +18,8 @@ inline constexpr std::array<const char*, 4> kTransferNames = {"flip", "xpic", "f
 
 struct Transfer {
   TransferKind kind = TransferKind::flip;
-  double flip = 1.0;  ///< fraction of FLIP, 0 is PIC; per step; flip only
-  int order = 2;      ///< m of XPIC(m), k of FMPM(k), from 1, which is PIC; these only
+  double flip = 1.0;  ///< fraction of FLIP in a step, 0 is PIC; for flip only
+  int order = 2;      ///< m of XPIC(m), k of FMPM(k), from 1, which is PIC; for these only
 };
 
 }  // namespace mpm

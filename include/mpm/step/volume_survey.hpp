@@ -1,5 +1,5 @@
-// What contact between materials asks of the mechanics: volume, volume gradient and place of the material at the nodes
-// of some blocks of a velocity field.
+// Data that contact between materials needs from the mechanics: volume, volume gradient and mean place of the material
+// at the nodes of some blocks of a velocity field.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace mpm {
 
-/// Of one velocity field; valid on the blocks that were asked for. About an axis volumes are areas of sections.
+/// The data of one velocity field, valid on the blocks that were asked for. About an axis volumes are areas of
+/// sections.
 struct NodalVolumes {
   NodalVolumes(int dim, int nodes)
       : volume(1, nodes),
@@ -28,7 +29,7 @@ struct NodalVolumes {
   std::vector<NodalField> slope;
 };
 
-/// What is wanted beside volume and gradient.
+/// Which data are computed besides volume and gradient.
 struct SurveyWants {
   bool start_volume = false, position = false, displacement = false, slope = false;
 };
@@ -36,7 +37,8 @@ struct SurveyWants {
 class VolumeSurvey {
  public:
   virtual ~VolumeSurvey() = default;
-  /// Of velocity field `field`, on its blocks that are marked (one mark a block), as particles lie now.
+  /// Computes the data of velocity field `field` at the present positions of particles, on the marked blocks (one mark
+  /// for each block).
   virtual void survey(int field, const std::vector<std::uint8_t>& marked, const SurveyWants& wants,
                       NodalVolumes& result) = 0;
 };

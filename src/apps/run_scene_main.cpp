@@ -1,5 +1,5 @@
 // rosrun mpm_ros run_scene SCENE: runs a scene without a ROS master, as fast as possible. Wiring only; see
-// mpm_ros/run_scene.hpp.
+// mpm_ros/run/run_scene.hpp.
 //
 // Exit codes: 0 done (or stopped on request), 1 the machine failed (a full disk), 2 bad input, 3 the physics failed, or
 // a recording that was run again ended in another state.

@@ -1,4 +1,4 @@
-// rosrun mpm_ros simulator _scene:=NAME: the node. Wiring only; see mpm_ros/simulator_node.hpp.
+// rosrun mpm_ros simulator _scene:=NAME: the node. Wiring only; see mpm_ros/node/simulator_node.hpp.
 //
 // Exit codes: 0 done (or stopped on request), 1 a bag that cannot be written or another failure of the machine, 2 bad
 // input, 3 the physics failed.

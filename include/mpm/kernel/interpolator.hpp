@@ -1,7 +1,7 @@
-// What passes know of a shape function: an interpolator, weights on nodes. passes.hpp and transfer_passes.hpp are
+// An interpolator is a shape function as passes use it, as weights on nodes. passes.hpp and transfer_passes.hpp are
 // written over it.
 //
-// An interpolator (product_interpolator.hpp, point_interpolator.hpp) is of one set in one block, and has
+// An interpolator (product_interpolator.hpp, point_interpolator.hpp) belongs to one set in one block, and has
 //
 //   Source<n>         a tile to gather n components from
 //   Sink              a tile to scatter up to four components into
@@ -23,8 +23,8 @@
 
 namespace mpm {
 
-/// visit(interpolator, set, its number) for the sets that have particles in the block. What a pass is told of a body is
-/// copied first: numbers that nothing points to stay in registers.
+/// visit(interpolator, set, its number) for the sets that have particles in the block. The view of a
+/// set is copied first, since numbers to which nothing points stay in registers.
 template <class Interpolator, class T, class Visit>
 void each_set(const mpm_kernel::GridView& grid, const mpm_kernel::BlockView& block, const mpm_kernel::SetView<T>* sets,
               int count, Visit&& visit) {

@@ -17,7 +17,7 @@
 
 namespace mpm {
 
-/// What the kernels are told once.
+/// Settings of the kernels that hold for the whole run.
 struct ContinuumSettings {
   Transfer transfer;
   bool average_dilatation = false;            ///< volume changes and pressures averaged over the grid (kernel/mean.hpp)

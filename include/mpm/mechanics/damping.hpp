@@ -31,7 +31,7 @@ class DampingError : public ModuleError {
   using ModuleError::ModuleError;
 };
 
-/// What the update of one set's particles is told [1/s]: two numbers, or two arrays in place of them with the whole
+/// Damping rates for the update of one set's particles [1/s]: two numbers, or instead of them two arrays with the whole
 /// rates of each particle, in the order of this step.
 struct DampingRates {
   double grid = 0.0, particle = 0.0;
@@ -39,7 +39,7 @@ struct DampingRates {
   const double* particle_of_particle = nullptr;
 };
 
-/// What the update of all particles found.
+/// Sums over the update of all particles.
 struct Damped {
   Vec3 momentum = Vec3::Zero();  ///< taken: sum of m (alpha_g v0 + alpha_p v) dt, world axes [N s]
   double grid_energy = 0.0;  ///< sum of m |v0|^2 / 2, of the grid's velocity: the step's start, or what is adopted [J]

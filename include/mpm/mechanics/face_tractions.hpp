@@ -1,6 +1,6 @@
 // Tractions on faces of particles' domains: a force over the current area of an edge (a face in a solid, an end in a
 // line), in a fixed direction, or following the face: pressure against its outward normal, and shear along it. To the
-// grid: f_i += T sum_a A_a N_i(x_a) over the corners of the face (shape/traction.hpp), at the joint where forces are
+// grid: f_i += T sum_a A_a N_i(x_a) over the corners of the face (shape/traction.hpp), at the hook where forces are
 // gathered.
 //
 // The domain is the one that the scene's shape function has in this step: uGIMP's box, the box of ugimp_stretch, the

@@ -53,7 +53,7 @@ struct AppliedCommand {
 /// tool means and which would take steps without end.
 void apply(const AppliedCommand& command, mpm::Simulation& simulation);
 
-/// What makes a body stand still that was commanded: velocity zero where it is told, no wrench where it is free.
+/// The commands that stop a body: zero for its prescribed velocities, and no wrench if it is free.
 std::vector<AppliedCommand> stop_commands(int body, const mpm::Simulation& simulation);
 /// The check of apply() for a motion that no tool means. @throws mpm::RigidError
 void check_travel(const AppliedCommand& command, const mpm::Simulation& simulation);

@@ -4,7 +4,7 @@
 // applied: a bag replays without the limiter. A velocity is approached by a ramp at the acceleration limit. A pose is
 // approached in a straight line, turning about one axis, no faster than allowed and than it has to be to arrive in
 // time, and so that the body can come to rest there: it does not overshoot, and arrives late if it must. A body whose
-// speed does not allow that (it was told to turn back) goes beyond, and returns.
+// speed does not allow that (it was commanded to turn back) goes beyond, and returns.
 //
 // Weak: a stream of poses is followed behind by the distance that braking takes, v^2 / (2 a); position and orientation
 // of a late pose do not arrive together. Twists are constant between sync points, so accelerations are mean values over

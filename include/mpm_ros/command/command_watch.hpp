@@ -1,5 +1,5 @@
-// Notices bodies that were commanded and hear nothing more, in simulated time. Motions and wrenches come from
-// controllers of their own: a body that is told both hears of each.
+// Finds bodies that were commanded and receive no more commands, in simulated time. Motions and wrenches may come from
+// different controllers, so they are watched separately.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,9 @@ class CommandWatch {
   /// `timeout` [ns]; 0: never.
   explicit CommandWatch(std::int64_t timeout) : timeout_(timeout) {}
 
-  /// A command was applied: the body has heard until its effect, or until its arrival.
+  /// Call when a command was applied: the body counts as commanded until the command's effect, or its arrival.
   void heard(const AppliedCommand& command);
-  /// By body, motions first: whose last command is the timeout or more ago. Each silence is told once.
+  /// Bodies whose last command is the timeout or more ago, by body and motions first. Each silence is returned once.
   std::vector<Silence> silent(std::int64_t now);
   void clear() { heard_.clear(); }
   /// For checkpoints.

@@ -68,7 +68,7 @@ class NodeHealth {
   void time_out(const std::string& body, const std::string& what);
   /// A body waits for what it follows, and warns until `what` is empty. One log line.
   void wait(const std::string& body, const std::string& what);
-  /// A body was told to move like no tool. Counted; logged as refusals are.
+  /// A body was commanded to jump, as no tool moves. Counted, and logged like refusals.
   void jump(const std::string& what);
   /// A body with limits moves. Warns while it is behind; one log line when its first command was limited.
   void limit(const std::string& body, const LimitHealth& limits);

@@ -28,7 +28,7 @@ enum class Pacing {
 
 /// What happens to a commanded body that has not heard a command for command_timeout.
 enum class OnTimeout {
-  hold,  ///< it goes on as it was told last
+  hold,  ///< it goes on by its last command
   stop,  ///< it stands still
   error  ///< the run ends
 };

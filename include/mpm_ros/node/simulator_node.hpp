@@ -38,9 +38,10 @@ class SimulatorNode {
   SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters, std::function<bool()> stop_requested);
   ~SimulatorNode();
 
-  /// Runs until the scene ends (and, with keep_alive, on until told to stop), a stop is requested or the physics fails.
-  /// Returns the exit code: 0 done, 1 the bag cannot be written, 2 bad input that showed only now (a function of time
-  /// that is not finite, recorded commands of another scene), 3 the physics failed (or silence, with on_timeout error).
+  /// Runs until the scene ends (and, with keep_alive, on until it is stopped), a stop is requested or the physics
+  /// fails. Returns the exit code: 0 done, 1 the bag cannot be written, 2 bad input that showed only now (a function of
+  /// time that is not finite, recorded commands of another scene), 3 the physics failed (or silence, with on_timeout
+  /// error).
   int spin();
 
  private:

@@ -26,7 +26,7 @@ struct ReportOptions {
   std::function<bool()> stop_requested;  ///< asked between messages; empty: never
 };
 
-/// The program's exit codes; one that was told to stop ends by the signal that told it.
+/// The program's exit codes. If it is stopped by a signal it ends by that signal.
 enum class ReportResult { done = 0, bad_input = 2, check_failed = 3, stopped };
 
 /// Reads the bags and writes what is asked for; tables and checks to `out`. A progress bar to `err` when `bar`.

@@ -14,10 +14,10 @@
 
 namespace mpm_ros {
 
-/// To the bit when there is no `tolerance`: then the first difference is told, with its topic, time and field. Else
-/// numbers may differ by `tolerance` times the largest size that the quantity has in either run (a vector's components
-/// count together), and the worst of each topic is told; words are not compared.
-/// True when they are the same. @throws BagError
+/// Compares two recordings. Without a `tolerance` they have to be equal to the bit, and the first difference is
+/// reported with its topic, time and field. With one, numbers may differ by `tolerance` times the largest magnitude of
+/// the quantity in either run (a vector's components count together), the worst difference of each topic is reported,
+/// and words are not compared. Returns whether the recordings are the same. @throws BagError
 bool same_runs(RunBag& a, RunBag& b, std::optional<double> tolerance, std::ostream& out);
 
 }  // namespace mpm_ros

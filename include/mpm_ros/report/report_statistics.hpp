@@ -24,12 +24,12 @@ struct Extreme {
   void offer(const mpm::Vec3& candidate, std::int64_t when);
 };
 
-/// One number of a contact over the run. What is no vector counts as one along x.
+/// One number of a contact over the run. A scalar is stored as a vector along x.
 struct NumberStatistics {
   std::string name, unit;
   bool vector = false;
-  bool axisymmetric = false;               ///< told of axisymmetric scenes alone
-  std::vector<Figure> figures;             ///< that are told of it
+  bool axisymmetric = false;               ///< reported for axisymmetric scenes only
+  std::vector<Figure> figures;             ///< figures that are reported for it
   Extreme peak;                            ///< largest of an interval
   mpm::Vec3 integral = mpm::Vec3::Zero();  ///< over time
   mpm::Vec3 end = mpm::Vec3::Zero();       ///< of the last interval

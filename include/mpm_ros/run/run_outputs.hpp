@@ -66,7 +66,7 @@ class RunOutputs {
   /// `real_time_factor`: simulated over wall time so far.
   void sync(bool last, double real_time_factor);
   /// For a run that ends between: writes the last state with its hash, unless sync() did. `failure`: why the run cannot
-  /// go on, one line; then the state of the failure is written whole, and marked. Empty: it was told to end.
+  /// go on, one line; then the state of the failure is written whole, and marked. Empty: the run was stopped.
   void finish(double real_time_factor, const std::string& failure = {});
   /// For the solver states from now on.
   void count_commands(std::uint64_t late, std::uint64_t refused);

@@ -23,7 +23,7 @@ struct RunSceneOptions {
   std::string summary;     ///< JSON file, or empty for none
   std::string out;         ///< folder in which the run gets one of its own, with all of these; empty for none
   std::string resume;      ///< checkpoint to go on from; the scene may then be empty
-  std::string checkpoint;  ///< file to save the run to at its end, or when it is told to stop; empty: none
+  std::string checkpoint;  ///< file to save the run to at its end, or when it is stopped; empty: none
   std::string checkpoint_every;  ///< a simulated time with or without unit, after which it is saved each time
 };
 

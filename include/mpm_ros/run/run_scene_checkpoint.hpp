@@ -23,9 +23,9 @@ class RunSceneCheckpoints {
   /// @throws mpm::SceneError for options that make no sense, or a file that cannot be written
   RunSceneCheckpoints(const RunSceneOptions& options, std::int64_t sync_period);
 
-  /// After each sync period. What cannot be written is told on `err`, and the run goes on.
+  /// Call after each sync period. If a file cannot be written, `err` gets a line and the run goes on.
   void at_sync(Run& run, std::ostream& err);
-  /// The run has ended, or was told to stop. @throws mpm::CheckpointError
+  /// Call when the run has ended or was stopped. @throws mpm::CheckpointError
   void at_end(Run& run, std::ostream& out);
   /// The run has failed. The file of the last good state stays; that of the failure has _failed in its name.
   void at_failure(Run& run, const std::string& reason, std::ostream& err);

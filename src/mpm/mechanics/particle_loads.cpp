@@ -174,7 +174,7 @@ class ParticleLoads final : public Stage {
     add(nodal, fields_[field]->force, *fields_[field]);
   }
 
-  // Whether any particle has a load of this spread, which it is then told.
+  // Whether any particle has a load of this spread; then `given_` points to these loads.
   bool look_at(int spread) {
     bool any = false;
     for (std::size_t s = 0; s < sets_.size(); ++s) {

@@ -1,7 +1,7 @@
 // Heights over a rectangle in x and y: triangles, and all that lies below them.
 //
 // Cells are looked at from the point's own outwards, ring by ring, until none of those left can be nearer. Whether a
-// point is inside is told by the height above or below it, not by normals.
+// point is inside follows from the height above or below it, not from normals.
 //
 // Weak: a point far from the surface, in measures of a cell, has many rings to look at. Contact asks near the surface.
 #include <fmt/core.h>

@@ -1,7 +1,7 @@
 // Heights along x in a planar scene: a polyline, and all that lies below it.
 //
 // Pieces are looked at from the point's own column outwards, until none of those left can be nearer. Whether a point is
-// inside is told by the height above or below it, not by normals.
+// inside follows from the height above or below it, not from normals.
 #include "height_profile.hpp"
 
 #include <algorithm>

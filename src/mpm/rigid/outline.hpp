@@ -1,8 +1,8 @@
 // A closed polygon as a signed distance in its plane: the outline of a body of revolution or of a planar one.
 //
-// Which side a point lies on is told by the normal at the nearest point, at a corner by the sum of its edges' normals
-// (Baerentzen & Aanaes 2005). Of a body of revolution an edge on the axis is no surface, and a corner on the axis has
-// its mirror image's edge beside its own.
+// The side of a point follows from the normal at the nearest point, at a corner from the sum of its edges' normals
+// (Baerentzen & Aanaes 2005). In a body of revolution an edge on the axis is not part of the surface, and a corner on
+// the axis has its mirror image's edge beside its own.
 //
 // Weak: every edge is looked at, so an outline of hundreds of points is slow; curves are as smooth as their points.
 #pragma once

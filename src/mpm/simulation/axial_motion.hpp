@@ -1,5 +1,5 @@
 // What a tool may do in an axisymmetric scene: move along its axis, which is the scene's; a ring may also open and
-// close, along x. Anything else would end the symmetry, so it is refused. Private to this room.
+// close, along x. Anything else would end the symmetry, so it is refused. Private to this folder.
 #pragma once
 
 #include "mpm/rigid/rigid_body.hpp"

@@ -1,5 +1,5 @@
-// State in an HDF5 file: a dataset an array, a group a group of names, with checksums (fletcher32). Private to this
-// room. Source: HDF5 reference manual, C interface.
+// State in an HDF5 file: one dataset for each array, one group for each group of names, with checksums (fletcher32).
+// Private to this folder. Source: HDF5 reference manual, C interface.
 #pragma once
 
 #include <hdf5.h>

@@ -1,4 +1,4 @@
-// The inside of a Simulation: what the rooms below it are put together from. Private to this room.
+// The inside of a Simulation: the objects of lower layers that make up a run. Private to this folder.
 #pragma once
 
 #include <chrono>

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMostForeseen = 0.5;  ///< the limit is not expected to fall below this part of itself in one period
 
-constexpr double kWorthTelling = 0.99;  ///< a trend below this is told with the limit
+constexpr double kWorthTelling = 0.99;  ///< a trend below this is reported with the limit
 
 class SceneStep final : public Module {
  public:

@@ -1,5 +1,5 @@
 // Which velocity fields a scene has: one for each group of bodies that its bodies name, and a second one for a group
-// that thin tools divide (grid/field_map.hpp). Private to this room.
+// that thin tools divide (grid/field_map.hpp). Private to this folder.
 #pragma once
 
 #include "mpm/grid/field_map.hpp"

@@ -38,13 +38,13 @@ mpm::Vec3 velocity_along(const mpm::Vec3& way, const mpm::Vec3& present, double 
 
 bool same(const mpm::Vec3& a, const mpm::Vec3& b) { return (a - b).stableNorm() <= kSame * b.stableNorm(); }
 
-/// What can be told of a twist: forces decide about the rest.
+/// The prescribed part of a twist; forces decide about the rest.
 mpm::Twist told_part(const mpm::RigidBody& body, const mpm::Twist& twist) {
   const mpm::FreeMotion* free = body.free_motion();
   return free == nullptr ? twist : free->merged({}, twist);
 }
 
-/// As the body moved until now, where it is told. At the start of a run it has not moved yet.
+/// The prescribed part of the body's present motion. At the start of a run it has not moved yet.
 mpm::Twist present_twist(const mpm::RigidBody& body, std::int64_t now) {
   return told_part(
       body, body.drive() == mpm::Drive::functions ? body.twist_at(static_cast<double>(now) * 1e-9) : body.twist());

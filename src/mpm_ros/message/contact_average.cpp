@@ -8,7 +8,7 @@
 namespace mpm_ros {
 namespace {
 
-/// Force of the step that `Over::step` speaks of [N]; of pairs none is told.
+/// Magnitude of the force that `Over::step` compares [N]; pairs do not report one.
 double largest_step(const mpm::ContactReport& report) { return report.peak.force.norm(); }
 double largest_step(const mpm::PairReport&) { return 0.0; }
 

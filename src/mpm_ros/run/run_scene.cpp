@@ -64,7 +64,7 @@ mpm::Scene load(const RunSceneOptions& options, const std::optional<Rerun>& reru
   return scene;
 }
 
-/// Opened before the run: a path that cannot be written is told before hours of work.
+/// Opens the file before the run, so that a path that cannot be written is reported before hours of work.
 std::ofstream open_summary(const std::string& path) {
   std::ofstream file;
   if (path.empty()) return file;

@@ -22,7 +22,7 @@ TEST(ThinTool, APlateHasTheSidesOfItsPlaneHoweverItLies) {
   const Quat turn(Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, 3.0).normalized()));
   const RigidBody plate = body_of(make_box({1.0, 0.8, 0.05}), {{0.3, -0.2, 0.5}, turn});
   const ThinTool tool(plate, GeometryKind::solid);
-  EXPECT_EQ(tool.told_apart(), 1.0);
+  EXPECT_EQ(tool.distinguished(), 1.0);
   // The second point lies far beyond the edge of the tool.
   for (const Vec3& along : {Vec3(0.1, -0.2, 0.0), Vec3(2.0, 1.0, 0.0)}) {
     const int above = tool.side(plate.pose().to_world(along + Vec3(0.0, 0.0, 0.02)));
@@ -47,7 +47,7 @@ TEST(ThinTool, ATubeHasAnInsideAndAnOutside) {
   const RigidBody tube = body_of(make_ring(0.3, 0.31, 0.5));
   for (const GeometryKind geometry : {GeometryKind::solid, GeometryKind::axisymmetric}) {
     const ThinTool tool(tube, geometry);
-    EXPECT_GT(tool.told_apart(), 0.99);
+    EXPECT_GT(tool.distinguished(), 0.99);
     const int inside = tool.side({0.25, 0.0, 0.1});
     EXPECT_EQ(inside, tool.side({0.05, 0.0, 0.2}));
     EXPECT_NE(inside, tool.side({0.35, 0.0, 0.1}));
@@ -63,7 +63,7 @@ TEST(ThinTool, AWasherIsAPlate) {
   const RigidBody washer = body_of(make_ring(0.3, 0.6, 0.02));
   for (const GeometryKind geometry : {GeometryKind::solid, GeometryKind::axisymmetric}) {
     const ThinTool tool(washer, geometry);
-    EXPECT_EQ(tool.told_apart(), 1.0);
+    EXPECT_EQ(tool.distinguished(), 1.0);
     EXPECT_NE(tool.side({0.4, 0.0, 0.05}), tool.side({0.4, 0.0, -0.05}));
     EXPECT_EQ(tool.side({0.4, 0.0, 0.05}), tool.side({0.1, 0.0, 0.05}));
   }

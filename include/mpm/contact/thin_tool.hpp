@@ -7,8 +7,8 @@
 //   shell  tubes, cups, scoops: where the nearest face looks away from the middle, and where it looks towards it
 //
 // A tool is a shell if that rule puts more pairs of opposite faces on two sides than a plane does. Weak: sheets bent
-// both ways (an S) have opposite faces on one side, as told_apart() reports; a round tool that turns back sharply has
-// one side in places; for material that streams past a round tool at rest the sides are above and below.
+// both ways (an S) have opposite faces on one side, as distinguished() reports; a round tool that turns back sharply
+// has one side in places; for material that streams past a round tool at rest the sides are above and below.
 #pragma once
 
 #include "mpm/math/geometry_kind.hpp"
@@ -32,7 +32,7 @@ class ThinTool {
 
   const RigidBody& body() const { return *body_; }
   /// The fraction of opposite faces that lie on two sides; 1 for a tool that the sides describe well.
-  double told_apart() const { return told_apart_; }
+  double distinguished() const { return distinguished_; }
   /// Turns the mid plane of a round tool towards the body's present motion.
   void aim();
   /// Writes or reads the direction of a round tool, for checkpoints.
@@ -55,7 +55,7 @@ class ThinTool {
   Kind kind_ = Kind::plate;
   Vec3 middle_ = Vec3::Zero();   ///< in the body's frame [m]
   Vec3 across_ = Vec3::UnitZ();  ///< out of side 0, in the body's frame
-  double told_apart_ = 1.0;
+  double distinguished_ = 1.0;
   Mat3 possible_ = Mat3::Zero();  ///< projection onto the directions along which a round tool is thin
 };
 

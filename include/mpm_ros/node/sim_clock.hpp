@@ -19,14 +19,14 @@ class SimClock {
   SimClock(ros::NodeHandle node, bool publish, double rate);
 
   /// Simulated time `time` [ns]; published when it is due, or `always`.
-  void tell(std::int64_t time, const Stamps& stamps, bool always);
+  void publish(std::int64_t time, const Stamps& stamps, bool always);
   /// A run begins: the next time is due whatever it is.
-  void restart() { told_ = -1; }
+  void restart() { published_ = -1; }
 
  private:
   ros::Publisher publisher_;
-  const double period_;     // [ns]
-  std::int64_t told_ = -1;  // [ns] last time published
+  const double period_;          // [ns]
+  std::int64_t published_ = -1;  // [ns] last time published
 };
 
 }  // namespace mpm_ros

@@ -59,7 +59,7 @@ class SimulatorNode {
   void end_run();
   void say_closed() const;
   void count_commands();
-  void tell_clock(bool always) { clock_.tell(run_->simulation().time(), run_->stamps(), always); }
+  void publish_clock(bool always) { clock_.publish(run_->simulation().time(), run_->stamps(), always); }
   void report();
   Phase phase() const;
 

@@ -46,10 +46,10 @@ ThinTool::ThinTool(const RigidBody& body, GeometryKind geometry) : body_(&body) 
   }
   middle_ = middle_of(body.surface());
   find_directions(geometry);
-  told_apart_ = count_apart();
+  distinguished_ = count_apart();
   const Kind flat = std::exchange(kind_, Kind::shell);
-  if (const double as_shell = count_apart(); as_shell > told_apart_) {
-    told_apart_ = as_shell;
+  if (const double as_shell = count_apart(); as_shell > distinguished_) {
+    distinguished_ = as_shell;
   } else {
     kind_ = flat;
   }

@@ -8,7 +8,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kToldApart = 0.9;  ///< of a thin tool's faces: less is worth a warning
+constexpr double kDistinguished = 0.9;  ///< of a thin tool's faces: less is worth a warning
 
 /// Says what becomes of the two sides of a body, and adds it to `sides` if they have a field each.
 void look_at(const RigidBody& body, RunParts& parts, ToolSides* sides) {
@@ -19,11 +19,11 @@ void look_at(const RigidBody& body, RunParts& parts, ToolSides* sides) {
   if (has_sides(body.definition(), geometry, cell)) {
     parts.notes.push_back(start + "the material on its two sides has a velocity field each");
     const ThinTool& tool = sides->add(body, geometry);
-    if (tool.told_apart() >= kToldApart) return;
+    if (tool.distinguished() >= kDistinguished) return;
     parts.warnings.push_back(
         fmt::format("rigid body '{}': {:.0f} % of its faces have no other side opposite to them; make it of several "
                     "bodies, or write sides: one",
-                    body.name(), 100.0 * (1.0 - tool.told_apart())));
+                    body.name(), 100.0 * (1.0 - tool.distinguished())));
   } else if (is_thin(body.definition(), geometry, cell)) {
     parts.warnings.push_back(
         start +

@@ -38,7 +38,7 @@ void write_texts(std::ostream& out, const std::vector<const Suite*>& chosen, con
   out << std::flush;
 }
 
-std::string told(const Row& row) {
+std::string described(const Row& row) {
   const std::string start = fmt::format("{}, {} cells, {} a cell, Courant {:g}, {}: ", row.suite, row.cells,
                                         row.particles_per_cell, row.cfl, row.method);
   if (row.status != "ok") return start + row.status + ", " + row.message;
@@ -75,7 +75,7 @@ void run_study(const StudyOptions& options, const std::function<void(const std::
       for (const choice::MethodChoice& method : methods) {
         rows.push_back(runner.run(*suite, method, discretisation));
         write_row(file, rows.back());
-        progress(told(rows.back()));
+        progress(described(rows.back()));
       }
     }
   }

@@ -39,14 +39,14 @@ mpm::Vec3 velocity_along(const mpm::Vec3& way, const mpm::Vec3& present, double 
 bool same(const mpm::Vec3& a, const mpm::Vec3& b) { return (a - b).stableNorm() <= kSame * b.stableNorm(); }
 
 /// The prescribed part of a twist; forces decide about the rest.
-mpm::Twist told_part(const mpm::RigidBody& body, const mpm::Twist& twist) {
+mpm::Twist prescribed_part(const mpm::RigidBody& body, const mpm::Twist& twist) {
   const mpm::FreeMotion* free = body.free_motion();
   return free == nullptr ? twist : free->merged({}, twist);
 }
 
 /// The prescribed part of the body's present motion. At the start of a run it has not moved yet.
 mpm::Twist present_twist(const mpm::RigidBody& body, std::int64_t now) {
-  return told_part(
+  return prescribed_part(
       body, body.drive() == mpm::Drive::functions ? body.twist_at(static_cast<double>(now) * 1e-9) : body.twist());
 }
 
@@ -66,7 +66,7 @@ double braking_speed(double distance, double acceleration, double period) {
 namespace {
 
 /// What the body would refuse once it is applied is refused now. @throws mpm::RigidError
-void check_told(const AppliedCommand& command, const mpm::Simulation& simulation) {
+void check_prescribed(const AppliedCommand& command, const mpm::Simulation& simulation) {
   mpm::RigidBody body = simulation.rigid_body(command.body);
   if (command.kind == CommandKind::velocity) {
     body.command_velocity(command.twist);
@@ -88,7 +88,7 @@ bool CommandLimiter::take(const AppliedCommand& command, const mpm::Simulation& 
   const mpm::RigidBodyDefinition& definition = simulation.rigid_body(command.body).definition();
   if (command.kind == CommandKind::velocity) {
     goal.command.twist =
-        told_part(simulation.rigid_body(command.body), mpm::projected(command.twist, geometry, definition));
+        prescribed_part(simulation.rigid_body(command.body), mpm::projected(command.twist, geometry, definition));
     AppliedCommand fastest = goal.command;
     fastest.twist.linear = shortened(fastest.twist.linear, limits_[body].speed);
     fastest.twist.angular = shortened(fastest.twist.angular, limits_[body].rotation_rate);
@@ -99,7 +99,7 @@ bool CommandLimiter::take(const AppliedCommand& command, const mpm::Simulation& 
     if (std::isinf(limits_[body].speed) && std::isinf(limits_[body].acceleration))
       check_travel(goal.command, simulation);
   }
-  check_told(goal.command, simulation);
+  check_prescribed(goal.command, simulation);
   goals_[command.body] = goal;
   return true;
 }
@@ -144,7 +144,7 @@ AppliedCommand CommandLimiter::towards_pose(Goal& goal, const mpm::RigidBody& bo
   const double period = static_cast<double>(sync) * 1e-9;
   const double time = static_cast<double>(std::max(goal.command.arrival - now, sync)) * 1e-9;
   const mpm::Twist present = present_twist(body, now);
-  const mpm::Twist way = told_part(body, mpm::twist_between(body.pose(), goal.command.pose, 1.0));
+  const mpm::Twist way = prescribed_part(body, mpm::twist_between(body.pose(), goal.command.pose, 1.0));
   const mpm::Twist twist{
       velocity_along(way.linear, present.linear, limits.speed, limits.acceleration, time, period),
       velocity_along(way.angular, present.angular, limits.rotation_rate, limits.rotation_acceleration, time, period)};

@@ -160,7 +160,7 @@ std::string BodyCommands::act_on_silence(Run& run) {
       }
       health_.time_out(follower, silence + (silent.wrench ? ": nothing pushes it any more" : ": it stands still"));
     } else {
-      health_.time_out(follower, silence + ": it goes on as it was told last");
+      health_.time_out(follower, silence + ": it continues with its last command");
     }
   }
   return {};

@@ -18,10 +18,10 @@ SimClock::SimClock(ros::NodeHandle node, bool publish, double rate) : period_(ra
   publisher_ = node.advertise<rosgraph_msgs::Clock>(topics::kClock, kQueue, true);
 }
 
-void SimClock::tell(std::int64_t time, const Stamps& stamps, bool always) {
+void SimClock::publish(std::int64_t time, const Stamps& stamps, bool always) {
   if (!publisher_) return;
-  if (!always && told_ >= 0 && static_cast<double>(time - told_) < period_) return;
-  told_ = time;
+  if (!always && published_ >= 0 && static_cast<double>(time - published_) < period_) return;
+  published_ = time;
   rosgraph_msgs::Clock message;
   message.clock = stamps.at(time);
   publisher_.publish(message);

@@ -98,7 +98,7 @@ SimulatorNode::Phase SimulatorNode::phase() const {
 }
 
 void SimulatorNode::begin_run() {
-  tell_clock(true);
+  publish_clock(true);
   count_commands();  // those of an earlier run stay in the count
   try {
     run_->begin();
@@ -140,7 +140,7 @@ bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra, std::s
     if (!failure_.empty() || !refusal.empty()) return false;
     count_commands();
     run_->advance();
-    tell_clock(run_->ended());
+    publish_clock(run_->ended());
     if (run_->ended()) end_run();
     report();
     return true;

@@ -1,0 +1,76 @@
+// The suite of forces on tools: a slow tool in soil or clay whose force is known, exactly or between bounds.
+//
+// A problem writes the text of a scene (doc/scene.md), so that a row is what a user gets: keys that it leaves out have
+// their defaults, and any other key can be set beside it. Cells count across the tool's depth or width, where their
+// size decides about the force. Weak: a limit load belongs to the geometry of the start, and the force is the mean over
+// a stretch of the way, on which soil heaves; each problem says where.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mpm/math/geometry.hpp"
+#include "mpm/study/limit_loads.hpp"
+
+namespace mpm::study::tool_force {
+
+/// What the scene of a problem is written with.
+struct Setup {
+  double cells = 8.0;                  ///< across the depth or width; blades take halves, too
+  std::string law = "drucker_prager";  ///< or mohr_coulomb
+};
+
+/// What is known of the force.
+enum class Known {
+  exact,
+  bounds,   ///< it lies between two values
+  estimate  ///< no bounds are close: an estimate below, the load of associated flow above
+};
+
+struct Problem {
+  std::string name;         ///< "blade_flat"
+  std::string title;        ///< of a chart
+  std::string text;         ///< what is computed, in a sentence or two
+  std::string answer_text;  ///< what is known and its source
+  Known known = Known::exact;
+  Bounds answer;                ///< mean force along `push`, of the whole scene [N]
+  double whole = 1.0;           ///< tools that a scene stands for: 2 where a half is modelled
+  Vec3 push = Vec3::UnitX();    ///< direction in which the tool is driven
+  Vec3 free = Vec3::Zero();     ///< direction in which a smooth tool bears nothing; zero where there is none
+  double length = 0.0;          ///< depth or width that cells count across [m]
+  double from = 0.0, to = 0.0;  ///< travel over `length` on which the force is averaged
+  bool moves_on = false;        ///< the tool passes cells: its force is followed over the travel of one, for the ripple
+  double speed = 0.0;           ///< of the tool [m/s]
+  double ramp = 0.0;            ///< time in which it reaches it [s]
+  double wave_speed = 0.0;      ///< of the material, elastic [m/s]
+  Box pressed;                  ///< where pressure is looked at, from the tool's origin [m]
+  /// Text of its scene. @throws StudyError for a setup that it cannot have
+  std::function<std::string(const Problem&, const Setup&)> scene;
+
+  /// Travel at which a run ends, over `length`.
+  double last(double cells) const;
+  /// Time at which the tool has travelled that far [s].
+  double time_of(double travel) const;
+};
+
+/// All of them, in the order of the document.
+const std::vector<Problem>& problems();
+/// @throws StudyError that lists the names there are
+const Problem& find_problem(const std::string& name);
+
+/// Text of a material: name, density and constants of `law`, matched to Mohr-Coulomb in plane strain; angles in
+/// degrees, stress in Pa. @throws StudyError for another law
+std::string soil_material(const std::string& law, double density, double young, double poisson, double friction,
+                          double dilation, double cohesion);
+/// Text of `time`: an end that the tool reaches, and sync points of which some lie in the travel of a tenth of a cell.
+std::string time_section(const Problem& problem, const Setup& setup);
+/// Expression of the tool's speed, for `motion`.
+std::string speed_expression(const Problem& problem);
+/// Of a pressure wave in elastic material [m/s].
+double elastic_wave(double density, double young, double poisson);
+
+std::vector<Problem> blades();
+std::vector<Problem> footings();
+
+}  // namespace mpm::study::tool_force

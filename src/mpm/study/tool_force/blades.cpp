@@ -1,0 +1,122 @@
+// A blade cuts level sand, in a plane: its front is upright and its edge lies at a depth d; behind it the bed is cut
+// down to the edge. What is exact for an associated soil is Rankine's passive pressure on the front, 1/2 rho g K_p d^2:
+// the wedge above the plane that rises from the edge at 45 - phi/2 moves as a block, and the stresses of that wedge go
+// on below it. Under a smooth blade nothing is lifted but what little the sand below the edge presses on the bottom.
+//
+// flat: the bottom is level and 0.8 d long. chisel: the bottom rises from the edge backwards at 15 degrees, so that it
+// need not touch. Cells count over d.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "mpm/math/constants.hpp"
+#include "mpm/study/tool_force/problem.hpp"
+
+namespace mpm::study::tool_force {
+namespace blade_problems {
+
+constexpr double kDepth = 0.2, kDensity = 1600.0, kGravity = 9.81, kYoung = 2e6, kPoisson = 0.3, kAngle = 30.0;
+constexpr double kThickness = 0.8 * kDepth, kTop = 1.5 * kDepth, kRise = 0.267949192431123;  // tan(15 degrees)
+
+struct Kind {
+  bool chisel = false, rough = false;
+  double dilation = kAngle;  ///< [deg]
+};
+
+/// The blade's origin is its edge.
+std::string blade_scene(const Problem& problem, const Setup& setup, const Kind& kind) {
+  const double d = kDepth, h = kDepth / setup.cells;
+  // Faces of the domain lie on nodes: whole cells from the surface and from the front.
+  const double low = -h * std::ceil(2.0 * setup.cells), left = -h * std::ceil(1.5 * setup.cells);
+  const double right = h * std::ceil(4.0 * setup.cells), high = h * std::ceil(1.5 * setup.cells);
+  const double back = -d + (kind.chisel ? kRise * kThickness : 0.0);
+  return fmt::format(
+      "geometry: plane_strain\n"
+      "gravity: [0, -{}]\n"
+      "grid: {{cell: {:.17g}, min: [{:.17g}, {:.17g}], max: [{:.17g}, {:.17g}]}}\n"
+      "{}\n"
+      "materials:\n  - {}\n"
+      "bodies:\n"
+      "  - {{name: bed, material: soil, shape: {{box: {{min: [0, {:.17g}], max: [{:.17g}, 0]}}}}, initial: "
+      "geostatic}}\n"
+      "  - {{name: cut, material: soil, shape: {{box: {{min: [{:.17g}, {:.17g}], max: [0, -{}]}}}}, "
+      "initial: geostatic}}\n"
+      "rigid_bodies:\n"
+      "  - name: tool\n"
+      "    shape: {{polygon: {{points: [[0, 0], [0, {}], [-{}, {}], [-{}, {:.17g}]]}}}}\n"
+      "    pose: {{position: [0, -{}]}}\n"
+      "    friction: {:.17g}\n"
+      "    motion: {{velocity: [\"{}\", 0]}}\n"
+      "boundaries: {{x_min: slip, x_max: slip, z_min: fixed}}\n",
+      kGravity, h, left, low, right, high, time_section(problem, setup),
+      soil_material(setup.law, kDensity, kYoung, kPoisson, kAngle, kind.dilation, 0.0), low, right, left, low, d,
+      kTop + d, kThickness, kTop + d, kThickness, back + d, d, kind.rough ? std::tan(kAngle * kPi / 180.0) : 0.0,
+      speed_expression(problem));
+}
+
+Problem blade(const std::string& name, const std::string& title, const std::string& text, const Kind& kind) {
+  Problem problem;
+  problem.name = name;
+  problem.title = title;
+  problem.text = text +
+                 " Sand (friction 30 degrees, 1600 kg/m³, E = 2 MPa = 640 ρgd) at rest, depth 0.2 m, 0.05 m/s = 0.04 "
+                 "√(gd). Cells: over the depth.";
+  problem.push = Vec3::UnitX();
+  problem.length = kDepth;
+  problem.from = 0.06;
+  problem.to = 0.14;
+  problem.moves_on = true;
+  problem.speed = 0.05;
+  problem.ramp = 0.02;
+  problem.wave_speed = elastic_wave(kDensity, kYoung, kPoisson);
+  problem.scene = [kind](const Problem& own, const Setup& setup) { return blade_scene(own, setup, kind); };
+  problem.pressed = {{0.0, 0.0, 0.0}, {0.5 * kDepth, 0.0, 0.5 * kDepth}};
+  return problem;
+}
+
+}  // namespace blade_problems
+
+std::vector<Problem> blades() {
+  using namespace blade_problems;
+  const double unit = 0.5 * kDensity * kGravity * kDepth * kDepth, phi = kAngle * kPi / 180.0;
+  const double rankine = unit * passive_coefficient(phi);
+  const char* exact = "½ ρ g K_p d² a metre, K_p = 3: Rankine (1857); associated flow";
+  std::vector<Problem> list;
+
+  Problem flat =
+      blade("blade_flat", "Smooth blade, level bottom", "Smooth blade with a level bottom, associated flow.", {});
+  flat.answer_text = exact;
+  flat.answer = {rankine, rankine};
+  flat.free = Vec3::UnitZ();
+  list.push_back(flat);
+
+  Problem chisel = blade("blade_chisel", "Smooth blade, chisel edge",
+                         "Smooth blade with a bottom that rises behind the edge, associated flow.", {true});
+  chisel.answer_text = exact;
+  chisel.answer = {rankine, rankine};
+  chisel.free = Vec3::UnitZ();
+  list.push_back(chisel);
+
+  Problem still = blade("blade_flat_0", "Smooth blade in sand without dilation",
+                        "Smooth blade with a level bottom, sand without dilation.", {false, false, 0.0});
+  still.known = Known::estimate;
+  still.answer_text =
+      "above, K_p = 3 of associated flow (Radenkovic (1961)); below, an estimate: K_p = 2.62 of Davis's (1968) reduced "
+      "friction";
+  still.answer = {unit * passive_coefficient(davis_friction(phi, 0.0)), rankine};
+  still.free = Vec3::UnitZ();
+  list.push_back(still);
+
+  Problem rough = blade("blade_rough", "Blade as rough as the sand",
+                        "Blade with a level bottom, as rough as the sand, associated flow.", {false, true});
+  rough.known = Known::bounds;
+  rough.answer_text =
+      "along the push: K_p between 5.03 (Lancellotta (2002)) and 6.00 (log spiral, Terzaghi (1943)); tables of Kérisel "
+      "and Absi: 6.5 cos 30° = 5.6";
+  const Bounds coefficient = rough_wall_coefficient(phi);
+  rough.answer = {unit * coefficient.lower, unit * coefficient.upper};
+  list.push_back(rough);
+  return list;
+}
+
+}  // namespace mpm::study::tool_force

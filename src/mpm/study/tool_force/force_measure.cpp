@@ -1,0 +1,157 @@
+#include "mpm/study/tool_force/force_measure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace mpm::study::tool_force {
+namespace {
+
+constexpr int kLooks = 5;            ///< at pressure, spread over the stretch of the mean
+constexpr double kBlownUp = 0.2;     ///< speed of a particle over that of an elastic wave
+constexpr std::size_t kFewest = 3;   ///< particles of a cell whose scatter counts
+constexpr double kNothing = 0.01;    ///< of the mean pressure: a particle that carries none
+constexpr std::size_t kCurve = 200;  ///< points of a curve
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+PressureScatter pressure_scatter(const std::vector<double>& x, const std::vector<double>& z,
+                                 const std::vector<double>& pressure, double cell) {
+  std::map<std::pair<long, long>, std::vector<double>> cells;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const auto place = std::pair{std::lround(std::floor(x[i] / cell)), std::lround(std::floor(z[i] / cell))};
+    cells[place].push_back(pressure[i]);
+  }
+  PressureScatter result;
+  if (x.empty()) return result;
+  double deviation = 0.0, total = 0.0;
+  for (const auto& entry : cells) {
+    const std::vector<double>& values = entry.second;
+    if (values.size() < kFewest) continue;
+    const double middle = mean(values);
+    double squares = 0.0;
+    for (const double value : values) squares += (value - middle) * (value - middle);
+    deviation += std::sqrt(squares / static_cast<double>(values.size()));
+    total += middle;
+  }
+  if (total > 0.0) result.scatter = deviation / total;
+  const double limit = kNothing * mean(pressure);
+  const auto none = std::count_if(pressure.begin(), pressure.end(), [limit](double p) { return p < limit; });
+  result.unloaded = static_cast<double>(none) / static_cast<double>(pressure.size());
+  return result;
+}
+
+double ripple(const std::vector<double>& travel, const std::vector<double>& force, double from, double stretch) {
+  constexpr int kParts = 10;
+  std::vector<double> sums(kParts, 0.0), counts(kParts, 0.0);
+  for (std::size_t i = 0; i < travel.size(); ++i) {
+    const double part = (travel[i] - from) / stretch * kParts;
+    if (part < 0.0 || part >= kParts) continue;
+    sums[static_cast<int>(part)] += force[i];
+    counts[static_cast<int>(part)] += 1.0;
+  }
+  if (std::find(counts.begin(), counts.end(), 0.0) != counts.end()) return kUnknown;
+  double middle = 0.0, slope = 0.0, squares = 0.0;
+  for (int k = 0; k < kParts; ++k) middle += sums[k] / counts[k] / kParts;
+  for (int k = 0; k < kParts; ++k) {
+    const double place = k - 0.5 * (kParts - 1);
+    slope += place * sums[k] / counts[k];
+    squares += place * place;
+  }
+  slope /= squares;
+  double least = 0.0, most = 0.0;
+  for (int k = 0; k < kParts; ++k) {
+    const double rest = sums[k] / counts[k] - middle - slope * (k - 0.5 * (kParts - 1));
+    least = std::min(least, rest);
+    most = std::max(most, rest);
+  }
+  return 0.5 * (most - least) / std::abs(middle);
+}
+
+ForceMeasure::ForceMeasure(const Problem& problem, double cells)
+    : problem_(problem), cells_(cells), next_scatter_(problem.from) {}
+
+void ForceMeasure::look(Simulation& simulation) {
+  const double place = simulation.rigid_body(0).pose().position.dot(problem_.push);
+  const Vec3 force = simulation.take_contact(0).mean.force;
+  if (!begun_) {
+    start_ = place;
+    begun_ = true;
+    return;
+  }
+  travel_.push_back((place - start_) / problem_.length);
+  force_.push_back(-problem_.whole * force.dot(problem_.push));
+  lift_.push_back(problem_.whole * force.dot(problem_.free));
+  simulation.particle_field("speed", speed_);
+  const double fastest = *std::max_element(speed_.begin(), speed_.end());
+  if (!(fastest < kBlownUp * problem_.wave_speed)) {
+    throw PhysicsError(fmt::format("blown up: a particle moves at {:.3g} m/s where the tool moves at {:g} m/s", fastest,
+                                   problem_.speed));
+  }
+  if (travel_.back() >= next_scatter_ && next_scatter_ <= problem_.to) look_at_particles(simulation);
+}
+
+void ForceMeasure::look_at_particles(const Simulation& simulation) {
+  next_scatter_ += (problem_.to - problem_.from) / (kLooks - 1);
+  simulation.particle_field("x", x_);
+  simulation.particle_field("z", z_);
+  simulation.particle_field("p", p_);
+  chosen_x_.clear();
+  chosen_z_.clear();
+  chosen_p_.clear();
+  const Vec3 origin = simulation.rigid_body(0).pose().position;
+  const Vec3 low = origin + problem_.pressed.min, high = origin + problem_.pressed.max;
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    if (x_[i] < low.x() || x_[i] > high.x() || z_[i] < low.z() || z_[i] > high.z()) continue;
+    chosen_x_.push_back(x_[i]);
+    chosen_z_.push_back(z_[i]);
+    chosen_p_.push_back(p_[i]);
+  }
+  scatters_.push_back(pressure_scatter(chosen_x_, chosen_z_, chosen_p_, simulation.definition().grid.cell.x()));
+}
+
+void ForceMeasure::report(ForceRow& row) const {
+  double force = 0.0, lift = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < travel_.size(); ++i) {
+    if (travel_[i] < problem_.from || travel_[i] > problem_.to) continue;
+    force += force_[i];
+    lift += lift_[i];
+    count += 1.0;
+  }
+  const Bounds& answer = problem_.answer;
+  if (count > 0.0) {
+    row.force = force / count;
+    row.over_exact = row.force / answer.upper;
+    row.error = row.force > answer.upper   ? row.force / answer.upper - 1.0
+                : row.force < answer.lower ? 1.0 - row.force / answer.lower
+                                           : 0.0;
+    if (problem_.free.norm() > 0.0) row.lift = lift / force;
+  }
+  if (problem_.moves_on) row.ripple = ripple(travel_, force_, problem_.from, 1.0 / cells_);
+  if (!scatters_.empty()) {
+    row.scatter = row.unloaded = 0.0;
+    for (const PressureScatter& one : scatters_) {
+      row.scatter += one.scatter / static_cast<double>(scatters_.size());
+      row.unloaded += one.unloaded / static_cast<double>(scatters_.size());
+    }
+  }
+  const std::size_t stride = 1 + travel_.size() / kCurve;
+  for (std::size_t first = 0; first + stride <= travel_.size(); first += stride) {
+    double way = 0.0, sum = 0.0;
+    for (std::size_t i = first; i < first + stride; ++i) {
+      way += travel_[i];
+      sum += force_[i];
+    }
+    row.curve.emplace_back(way / static_cast<double>(stride), sum / static_cast<double>(stride) / answer.upper);
+  }
+}
+
+}  // namespace mpm::study::tool_force

@@ -1,0 +1,64 @@
+#include "mpm/study/tool_force/problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/study/suite.hpp"
+
+namespace mpm::study::tool_force {
+
+double Problem::last(double cells) const { return moves_on ? std::max(to, from + 1.0 / cells) : to; }
+
+double Problem::time_of(double travel) const { return travel * length / speed + 0.5 * ramp; }
+
+const std::vector<Problem>& problems() {
+  static const std::vector<Problem> list = [] {
+    std::vector<Problem> all = blades();
+    for (Problem& problem : footings()) all.push_back(std::move(problem));
+    return all;
+  }();
+  return list;
+}
+
+const Problem& find_problem(const std::string& name) {
+  std::string names;
+  for (const Problem& problem : problems()) {
+    if (problem.name == name) return problem;
+    names += (names.empty() ? "" : ", ") + problem.name;
+  }
+  throw StudyError(fmt::format("no problem of tool_force is called '{}'; there are {}", name, names));
+}
+
+std::string soil_material(const std::string& law, double density, double young, double poisson, double friction,
+                          double dilation, double cohesion) {
+  std::string text = fmt::format(
+      "{{name: soil, law: {}, density: {:g}, young: {:g}, poisson: {:g}, friction_angle: {:g} deg, "
+      "dilation_angle: {:g} deg, cohesion: {:g}",
+      law, density, young, poisson, friction, dilation, cohesion);
+  if (law == "drucker_prager") {
+    text += ", match: plane_strain";
+  } else if (law != "mohr_coulomb") {
+    throw StudyError("law '" + law + "' is not one of tool_force; there are drucker_prager, mohr_coulomb");
+  }
+  return text + "}";
+}
+
+std::string time_section(const Problem& problem, const Setup& setup) {
+  // A power of ten, so that the end is a whole number of sync periods to round-off.
+  const double tenth_of_cell = 0.1 * problem.length / setup.cells / problem.speed;
+  const double sync = std::pow(10.0, std::floor(std::log10(tenth_of_cell) - 0.3));
+  const double end = sync * std::ceil(problem.time_of(problem.last(setup.cells)) / sync + 1.0);
+  return fmt::format("time: {{end: {:.12g}, sync: {:g}}}", end, sync);
+}
+
+std::string speed_expression(const Problem& problem) {
+  return fmt::format("{:g} * min(1, t / {:g})", problem.speed, problem.ramp);
+}
+
+double elastic_wave(double density, double young, double poisson) {
+  return std::sqrt(young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson)) / density);
+}
+
+}  // namespace mpm::study::tool_force

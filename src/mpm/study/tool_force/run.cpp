@@ -1,0 +1,155 @@
+#include "mpm/study/tool_force/run.hpp"
+
+#include <fmt/format.h>
+
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
+#include "mpm/choice/method_choice.hpp"
+#include "mpm/scene/scene.hpp"
+#include "mpm/study/suite.hpp"
+#include "mpm/study/tool_force/force_measure.hpp"
+
+namespace mpm::study::tool_force {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<double> kQuickCells = {4.0, 6.0, 8.0};
+const std::vector<double> kFullCells = {4.0, 6.0, 8.0, 12.0, 16.0, 24.0};
+const std::string kLaw = "law=";
+
+/// Of this process, which runs nothing beside [s].
+double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+std::string joined(const Overrides& overrides) {
+  std::string text;
+  for (const std::string& one : overrides) text += (text.empty() ? "" : ", ") + one;
+  return text;
+}
+
+Scene scene_of(const Problem& problem, double cells, const Overrides& variant, const Overrides& set) {
+  Setup setup;
+  setup.cells = cells;
+  Overrides keys;
+  for (const Overrides* list : {&set, &variant}) {
+    for (const std::string& one : *list) {
+      if (one.rfind(kLaw, 0) == 0) {
+        setup.law = one.substr(kLaw.size());
+      } else {
+        keys.push_back(one);
+      }
+    }
+  }
+  return parse_scene(problem.scene(problem, setup), problem.name, keys);
+}
+
+void describe(const SimulationDefinition& definition, ForceRow& row) {
+  row.contact = definition.contact.method == ContactMethod::points ? "points" : "nodes";
+  row.shape = shape_name(definition.method.shape);
+  row.update = kUpdateNames[static_cast<int>(definition.method.update)];
+  row.transfer = choice::transfer_label(definition.method.transfer);
+  row.law = law_name(definition.materials.front().law);
+  row.average_dilatation = definition.method.average_dilatation;
+}
+
+}  // namespace
+
+std::vector<Overrides> variants_of(const std::vector<std::string>& vary) {
+  std::vector<Overrides> all = {{}};
+  for (const std::string& axis : vary) {
+    const std::size_t equal = axis.find('=');
+    if (equal == std::string::npos || equal == 0) {
+      throw StudyError("'" + axis + "' names no values; write key=value|value, such as contact.method=points|nodes");
+    }
+    std::vector<Overrides> next;
+    for (const Overrides& before : all) {
+      std::size_t from = equal + 1;
+      while (from <= axis.size()) {
+        const std::size_t to = std::min(axis.find('|', from), axis.size());
+        next.push_back(before);
+        next.back().push_back(axis.substr(0, equal + 1) + axis.substr(from, to - from));
+        from = to + 1;
+      }
+    }
+    all = std::move(next);
+  }
+  return all;
+}
+
+ForceRow run_row(const Problem& problem, double cells, const Overrides& variant, const Overrides& set) {
+  ForceRow row;
+  row.problem = problem.name;
+  row.cells = cells;
+  row.variant = joined(variant);
+  row.answer = problem.answer;
+  row.known = problem.known;
+  ForceMeasure measure(problem, cells);
+  double spent = 0.0, simulated = 0.0;
+  try {
+    SimulationDefinition definition = build(scene_of(problem, cells, variant, set));
+    describe(definition, row);
+    Simulation simulation(std::move(definition), SimulationOptions{1});
+    row.particles = simulation.particles();
+    measure.look(simulation);
+    const std::int64_t end = std::llround(1e9 * simulation.definition().time.end);
+    while (!measure.done() && simulation.time() < end) {
+      const double before = processor_time();
+      simulation.advance();
+      spent += processor_time() - before;
+      simulated = 1e-9 * static_cast<double>(simulation.time());
+      row.steps = simulation.state().step.steps;
+      measure.look(simulation);
+    }
+    row.status = "ok";
+  } catch (const PhysicsError& error) {
+    row.status = "failed";
+    row.message = error.what();
+  } catch (const Error& error) {
+    row.status = row.steps > 0 ? "failed" : "refused";
+    row.message = error.what();
+  }
+  measure.report(row);
+  row.cpu_seconds = spent;
+  if (spent > 0.0) row.real_time_factor = simulated / spent;
+  return row;
+}
+
+void run_tool_force(const ForceOptions& options, const std::function<void(const std::string&)>& progress) {
+  std::vector<const Problem*> chosen;
+  for (const std::string& name : options.problems) chosen.push_back(&find_problem(name));
+  if (chosen.empty()) {
+    for (const Problem& problem : problems()) chosen.push_back(&problem);
+  }
+  const std::vector<double>& cells = !options.cells.empty() ? options.cells : options.full ? kFullCells : kQuickCells;
+  const std::vector<Overrides> variants = variants_of(options.vary);
+  std::error_code error;
+  fs::create_directories(options.folder, error);
+  const fs::path folder(options.folder);
+  const auto create = [](const fs::path& path) {
+    std::ofstream file(path);
+    if (!file) throw StudyError(path.string() + ": cannot be written; check the folder and its permissions");
+    return file;
+  };
+  if (!options.only_write) progress(table_header());
+  std::vector<ForceRow> rows;
+  for (const Problem* problem : chosen) {
+    for (const double count : cells) {
+      for (std::size_t v = 0; v < variants.size(); ++v) {
+        if (options.only_write) {
+          const fs::path path = folder / fmt::format("{}_{:g}_{}.yaml", problem->name, count, v);
+          create(path) << scene_of(*problem, count, variants[v], options.set).text << '\n';
+          progress(path.string());
+          continue;
+        }
+        rows.push_back(run_row(*problem, count, variants[v], options.set));
+        progress(table_line(rows.back()));
+        std::ofstream file = create(folder / "tool_force.json");  // after each run, so that none is lost
+        write_json(file, rows);
+      }
+    }
+  }
+}
+
+}  // namespace mpm::study::tool_force

@@ -85,5 +85,43 @@ TEST(RigidRules, ContactAtNodesHasOneFriction) {
   expect_refused(no_laws, at_nodes([](auto& d) { d.contact.pairs = {{"block", "ball", ContactLaw()}}; }));
 }
 
+// A law belongs to a velocity field there. The second body is drawn into the first one's field by its definition.
+TEST(RigidRules, BodiesOfOneFieldHaveOneLawWithRigidParticles) {
+  SimulationDefinition d = ball_over_block(GeometryKind::plane_strain);
+  d.rigid_bodies[0].free.reset();
+  d.rigid_bodies[0].friction.coefficient = 0.2;
+  DeformableBody second = d.bodies[0];
+  second.name = "stone";
+  for (Vec3& place : second.positions) place.x() += 0.4;
+  d.bodies.push_back(second);
+  ContactLaw law;
+  law.friction = 0.3;
+  d.contact.pairs = {{"stone", "ball", law}};
+  EXPECT_EQ(rigid_fault(d, d.rigid_bodies[0]), "") << "contact at points has a law for each body";
+  d.rigid_bodies[0].particles = true;
+  const std::string fault = rigid_fault(d, d.rigid_bodies[0]);
+  EXPECT_EQ(fault.find("normals: particles: 'block' and 'stone' have different laws with it"), 0u) << fault;
+  try {
+    Simulation(d, {1});
+    FAIL() << "taken";
+  } catch (const DefinitionError& error) {
+    EXPECT_EQ(error.what(), "rigid body 'ball': " + fault);
+  }
+  const auto fault_with = [&](const std::function<void(ContactLaw&)>& change) {
+    SimulationDefinition other = d;
+    other.contact.pairs[0].law.friction = 0.2;
+    change(other.contact.pairs[0].law);
+    return rigid_fault(other, other.rigid_bodies[0]);
+  };
+  EXPECT_EQ(fault_with([](ContactLaw&) {}), "") << "the same law by two names";
+  EXPECT_EQ(fault_with([](ContactLaw& one) { one.static_friction = 0.4; }), fault);
+  EXPECT_EQ(fault_with([](ContactLaw& one) { one.adhesion = 1.0; }), fault);
+  EXPECT_EQ(fault_with([](ContactLaw& one) { one.kind = ContactLaw::Kind::stick; }), fault);
+  EXPECT_EQ(fault_with([](ContactLaw& one) { one.friction = Function::parse("0.2 + 0*t"); }), fault);
+  d.bodies[1].field = 1;
+  EXPECT_EQ(rigid_fault(d, d.rigid_bodies[0]), "") << "fields of their own";
+  EXPECT_NO_THROW(Simulation(d, {1}));
+}
+
 }  // namespace rigid_rules_test
 }  // namespace mpm

@@ -16,17 +16,20 @@ ContactLaw always(const FrictionLaw& friction) {
 
 }  // namespace
 
+ContactLaw rigid_contact_law(const SimulationDefinition& definition, const RigidBodyDefinition& body,
+                             const std::string& deformable) {
+  const auto& pairs = definition.contact.pairs;
+  const auto pair = std::find_if(pairs.begin(), pairs.end(), [&](const PairDefinition& p) {
+    return p.first == deformable && p.second == body.name;
+  });
+  return pair != pairs.end() ? pair->law : always(body.friction);
+}
+
 std::vector<ContactLaw> rigid_contact_laws(const SimulationDefinition& definition,
                                            const std::vector<ParticleSet>& sets) {
   std::vector<ContactLaw> laws;
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {
-    for (const ParticleSet& set : sets) {
-      const auto& pairs = definition.contact.pairs;
-      const auto pair = std::find_if(pairs.begin(), pairs.end(), [&](const PairDefinition& p) {
-        return p.first == set.name && p.second == body.name;
-      });
-      laws.push_back(pair != pairs.end() ? pair->law : always(body.friction));
-    }
+    for (const ParticleSet& set : sets) laws.push_back(rigid_contact_law(definition, body, set.name));
   }
   return laws;
 }

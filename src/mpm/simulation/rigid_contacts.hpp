@@ -1,6 +1,7 @@
 // The laws of contact of every rigid body against every deformable one. Private to this folder.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mpm/particles/particle_set.hpp"
@@ -8,7 +9,12 @@
 
 namespace mpm {
 
-/// A body's own friction where the scene names no law for the pair; the sets of a body together.
+/// The law of a rigid body against a deformable one: that of the pair, or where the scene names none the body's own
+/// friction.
+ContactLaw rigid_contact_law(const SimulationDefinition& definition, const RigidBodyDefinition& body,
+                             const std::string& deformable);
+
+/// Of every rigid body against every set; the sets of a body together.
 std::vector<ContactLaw> rigid_contact_laws(const SimulationDefinition& definition,
                                            const std::vector<ParticleSet>& sets);
 

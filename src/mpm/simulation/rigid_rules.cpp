@@ -1,6 +1,10 @@
 #include "mpm/simulation/rigid_rules.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+
+#include "rigid_contacts.hpp"
 
 namespace mpm {
 namespace {
@@ -35,10 +39,39 @@ std::string law_fault(const SimulationDefinition& definition, const RigidBodyDef
   return "contact at nodes has no laws of pairs, friction at rest or adhesion; write contact: {method: points}";
 }
 
+bool same_function(const Function& a, const Function& b) {
+  if (a.is_constant() || b.is_constant()) return a.is_constant() == b.is_constant() && a(0.0) == b(0.0);
+  return a.text() == b.text();
+}
+
+bool same_law(const ContactLaw& a, const ContactLaw& b) {
+  if (a.kind != b.kind || a.static_friction.has_value() != b.static_friction.has_value()) return false;
+  if (a.static_friction && !same_function(*a.static_friction, *b.static_friction)) return false;
+  return same_function(a.friction, b.friction) && same_function(a.adhesion, b.adhesion);
+}
+
+// Contact with rigid particles has one law for each velocity field.
+std::string field_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
+  if (!body.particles) return {};
+  const auto& bodies = definition.bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t k = i + 1; k < bodies.size(); ++k) {
+      if (bodies[i].field != bodies[k].field) continue;
+      const ContactLaw law = rigid_contact_law(definition, body, bodies[i].name);
+      if (same_law(law, rigid_contact_law(definition, body, bodies[k].name))) continue;
+      return fmt::format(
+          "normals: particles: '{0}' and '{1}' have different laws with it, but share one velocity field and therefore "
+          "one law; give both the same law with it, or '{0}' and '{1}' a law with each other in contact.pairs",
+          bodies[i].name, bodies[k].name);
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string rigid_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
-  for (const auto rule : {radial_fault, free_fault, law_fault}) {
+  for (const auto rule : {radial_fault, free_fault, law_fault, field_fault}) {
     if (std::string fault = rule(definition, body); !fault.empty()) return fault;
   }
   return {};

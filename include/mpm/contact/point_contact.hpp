@@ -15,6 +15,14 @@
 // (step/coulomb.hpp says why). A free body keeps the velocity that the solution gave it, because that velocity
 // moves it. Increments of XPIC and FMPM are solved together with free bodies too, since they exchange momentum.
 //
+// Friction takes the impulse along the surface times the mean slip before and after it. The slip before is that at the
+// end of the step before. Between two steps particles and nodes exchange velocities; the work of the impulse on this
+// change, J.dv / 2, belongs to the transfer and is not friction. So a point that sticks in both steps takes no energy.
+// A new point begins with the slip of the gathered velocities.
+//
+// In scenes with laws between deformable bodies, the tools' forces of the step before are added to the nodes' forces,
+// and the solution corrects them. Pairs act before tools, and in this way know how hard tools press.
+//
 // A point that comes under a surface from beside it, or starts there, keeps its initial overlap.
 //
 // Weak: an edge that cuts is blunt by up to a cell, since particles above and below it share nodes. A particle drawn
@@ -42,6 +50,7 @@ struct PointContactSettings {
   double across = 1.0;  ///< thickness [m] of a plane, area [m^2] of a line
   int threads = 1;
   Vec3 gravity = Vec3::Zero();  ///< acts on free bodies [m/s^2]
+  bool with_pairs = false;      ///< whether deformable bodies have laws with each other
 };
 
 class PointContact final : public Stage, public ContactReporter {
@@ -55,6 +64,7 @@ class PointContact final : public Stage, public ContactReporter {
 
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;
+  void forces_gathered(StepContext& context) override;
   void momentum_updated(StepContext& context) override;
   void velocity_found(StepContext& context) override;
   void increment_found(StepContext& context) override;
@@ -71,16 +81,18 @@ class PointContact final : public Stage, public ContactReporter {
   /// Data that the stage keeps for each point of the solver, in the same order.
   struct Contact {
     const ContactPoint* found;
-    Vec3 start = Vec3::Zero();     ///< impulse that the step's solution begins with [N s]
-    Vec3 approach = Vec3::Zero();  ///< relative velocity before the impulses [m/s]
-    double gap = 0.0;              ///< counted from the initial overlap [m]
-    double slid = 0.0;             ///< slip since the point was at rest [m]
-    double overlap = 0.0;          ///< initial overlap, <= 0 [m]
+    Vec3 start = Vec3::Zero();   ///< impulse that the step's solution begins with [N s]
+    Vec3 before = Vec3::Zero();  ///< relative velocity before the impulses [m/s]
+    double gap = 0.0;            ///< counted from the initial overlap [m]
+    double slid = 0.0;           ///< slip since the point was at rest [m]
+    double overlap = 0.0;        ///< initial overlap, <= 0 [m]
   };
 
   /// Sets the point's law for this step and returns its data from memory.
   Contact recall(const ContactPoint& found, PointSolver::Point& point, double dt) const;
   void clear_impulses();
+  /// Sets the impulses that the step's solution begins with.
+  void begin_impulses();
   /// Books the impulse of a point whose body moves with `velocity` there.
   void give(std::size_t point, const Vec3& velocity, const Vec3& mean_slip);
 
@@ -90,7 +102,8 @@ class PointContact final : public Stage, public ContactReporter {
   std::vector<ContactLaw> laws_;
   std::vector<FrictionLaw> laws_now_;
   std::vector<ContactLedger> ledgers_;
-  double cell_;  ///< the smallest edge [m]
+  double cell_;      ///< the smallest edge [m]
+  bool with_pairs_;  ///< as in the settings
   PointSearch search_;
   PointSolver solver_;
   PointMemory memory_;

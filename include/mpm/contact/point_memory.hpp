@@ -16,6 +16,7 @@ class PointMemory {
   struct Entry {
     std::uint64_t id;           ///< computed from particle and body
     Vec3 force = Vec3::Zero();  ///< on the material [N]
+    Vec3 slip = Vec3::Zero();   ///< velocity of the material along the surface at the end of the step [m/s]
     double slid = 0.0;          ///< slip since the point was at rest [m]
     double overlap = 0.0;       ///< initial overlap, <= 0, from which the gap is counted [m]
     Hold hold = Hold::free;
@@ -41,6 +42,7 @@ class PointMemory {
     archive.rows("points", entries_);
     archive.column("points/id", entries_, &Entry::id);
     archive.column("points/force", entries_, &Entry::force);
+    archive.column("points/slip", entries_, &Entry::slip);
     archive.column("points/slid", entries_, &Entry::slid);
     archive.column("points/overlap", entries_, &Entry::overlap);
     archive.column("points/hold", entries_, &Entry::hold);

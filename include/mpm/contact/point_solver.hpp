@@ -72,6 +72,10 @@ class PointSolver {
   Vec3 velocity_at(const Point& point) const;
   /// Applies the points' impulses to nodes and to free bodies.
   void push_all();
+  /// Applies them to free bodies alone.
+  void push_bodies();
+  /// Adds the points' impulses, times `factor`, to this member of their fields: a momentum or a force.
+  void add_impulses(Member to, double factor);
   /// Adds the compliance of free bodies to that of their points. Call after FreeMotion::predict().
   void find_compliance_with_bodies();
   /// `free`: whether some body is free, so that its velocity is an unknown too.

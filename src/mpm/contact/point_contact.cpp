@@ -11,6 +11,8 @@ constexpr double kAtRest = 1e-6;     ///< cells: what slides by less in a step i
 constexpr double kPushOut = 2e-4;    ///< cells a step at most that a point inside a body is moved out
 constexpr double kPushOutPart = 0.1;  ///< of its depth
 
+Vec3 along_surface(const Vec3& velocity, const Vec3& normal) { return velocity - velocity.dot(normal) * normal; }
+
 }  // namespace
 
 PointContact::PointContact(std::vector<RigidBody*> bodies, const std::vector<ParticleSet>& sets, Fields& fields,
@@ -21,6 +23,7 @@ PointContact::PointContact(std::vector<RigidBody*> bodies, const std::vector<Par
       laws_(std::move(laws)),
       laws_now_(laws_.size()),
       cell_(fields.front()->layout.smallest_cell()),
+      with_pairs_(settings.with_pairs),
       search_(surfaces_, sets, fields, settings.geometry, settings.across, settings.threads),
       solver_(fields, settings.shape, settings.threads),
       free_(bodies_, settings.gravity) {
@@ -37,12 +40,9 @@ void PointContact::momentum_gathered(StepContext& context) {
   solver_.connect(found);
   contacts_.clear();
   if (solver_.points().empty()) return;
-  // What friction takes is counted with the slip of the step's start and end: in between forces push held points that
-  // do not slide.
   solver_.load(&Grid::velocity);
   for (PointSolver::Point& point : solver_.points()) {
     contacts_.push_back(recall(found[point.found], point, context.dt));
-    contacts_.back().approach = solver_.velocity_at(point) - point.velocity;
   }
 }
 
@@ -54,6 +54,8 @@ PointContact::Contact PointContact::recall(const ContactPoint& found, PointSolve
   // What comes under a surface from beside it, or starts there, keeps the overlap that it came with.
   contact.overlap = std::min(std::max(memory != nullptr ? memory->overlap : found.gap, found.gap), 0.0);
   contact.gap = found.gap - contact.overlap;
+  contact.before = solver_.velocity_at(point) - point.velocity;
+  if (memory != nullptr) contact.before += along_surface(memory->slip - contact.before, point.normal);
   const bool held = memory != nullptr && memory->hold != Hold::free;
   if (held) {
     point.hold = memory->hold;
@@ -83,6 +85,17 @@ void PointContact::before_strain(StepContext&) {
   solver_.store(&Grid::velocity);
 }
 
+void PointContact::begin_impulses() {
+  std::vector<PointSolver::Point>& points = solver_.points();
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].impulse = contacts_[i].start;
+}
+
+void PointContact::forces_gathered(StepContext& context) {
+  if (!with_pairs_) return;
+  begin_impulses();
+  solver_.add_impulses(&Grid::force, 1.0 / context.dt);
+}
+
 void PointContact::momentum_updated(StepContext& context) {
   memory_.clear();
   const bool free = free_.any();
@@ -93,8 +106,12 @@ void PointContact::momentum_updated(StepContext& context) {
   std::vector<PointSolver::Point>& points = solver_.points();
   if (!contacts_.empty()) {
     solver_.load(&Grid::velocity);
-    for (std::size_t i = 0; i < points.size(); ++i) points[i].impulse = contacts_[i].start;
-    solver_.push_all();
+    begin_impulses();
+    if (with_pairs_) {
+      solver_.push_bodies();  // the nodes have them already
+    } else {
+      solver_.push_all();
+    }
     solver_.solve(Pass::step, free);
     solver_.store(&Grid::velocity);
     solver_.store(&Grid::force, 1.0 / context.dt);
@@ -106,12 +123,13 @@ void PointContact::momentum_updated(StepContext& context) {
     const Vec3 mean = point.motion != nullptr ? point.motion->mean_velocity_at(point.place) : point.velocity;
     if (point.motion != nullptr) point.velocity = point.motion->velocity_at(point.place);
     const Vec3 slip = solver_.velocity_at(point) - point.velocity;
-    give(i, mean, 0.5 * (contact.approach + slip));
+    give(i, mean, 0.5 * (contact.before + slip));
+    const Vec3 along = along_surface(slip, point.normal);
     // What has come to rest has friction at rest again.
-    const double slid = (slip - slip.dot(point.normal) * point.normal).norm() * context.dt;
+    const double slid = along.norm() * context.dt;
     contact.slid = slid < kAtRest * cell_ ? 0.0 : contact.slid + slid;
-    memory_.add(
-        {PointMemory::id_of(*contact.found), point.impulse / context.dt, contact.slid, contact.overlap, point.hold});
+    memory_.add({PointMemory::id_of(*contact.found), point.impulse / context.dt, along, contact.slid, contact.overlap,
+                 point.hold});
   }
   memory_.close();
   if (free) free_.finish();

@@ -46,6 +46,16 @@ Vec3 PointSolver::velocity_at(const Point& point) const {
   return v;
 }
 
+void PointSolver::add_impulses(Member to, double factor) {
+  for (const Point& point : points_) {
+    for (int i = point.first; i < point.end; ++i) {
+      const NodeOrigin& origin = origins_[parts_[i].node];
+      Grid& grid = *fields_[origin.field];
+      add_nodal_vector(grid.*to, grid.layout, origin.ref, (factor * parts_[i].weight) * point.impulse);
+    }
+  }
+}
+
 template <bool Free>
 void PointSolver::push(const Point& point, const Vec3& impulse) {
   if constexpr (Free) {
@@ -60,6 +70,12 @@ void PointSolver::push(const Point& point, const Vec3& impulse) {
 
 void PointSolver::push_all() {
   for (const Point& point : points_) push<true>(point, point.impulse);
+}
+
+void PointSolver::push_bodies() {
+  for (const Point& point : points_) {
+    if (point.motion != nullptr) point.motion->push(-point.impulse, point.place);
+  }
 }
 
 void PointSolver::find_compliance_with_bodies() {

@@ -29,6 +29,13 @@ bool is_rigid(const std::string& name, const SimulationDefinition& definition) {
   return std::any_of(bodies.begin(), bodies.end(), [&](const RigidBodyDefinition& body) { return body.name == name; });
 }
 
+/// Whether two deformable bodies have a law with each other.
+bool has_pairs(const SimulationDefinition& definition) {
+  const auto& pairs = definition.contact.pairs;
+  return std::any_of(pairs.begin(), pairs.end(),
+                     [&](const PairDefinition& pair) { return !is_rigid(pair.second, definition); });
+}
+
 /// What is asked of the material's places at the start.
 bool needs_starts(const SimulationDefinition& definition) {
   const DetectionRule& rule = definition.contact.detection;
@@ -100,8 +107,8 @@ RigidParticleSettings particle_settings(RunParts& parts, const std::vector<Conta
 /// Contact at points, with all of these bodies at once. `laws`: of each against each set.
 void add_point_contact(RunParts& parts, const std::vector<RigidBody*>& bodies, std::vector<ContactLaw> laws) {
   const SimulationDefinition& definition = parts.definition;
-  PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(), parts.threads,
-                                definition.gravity};
+  PointContactSettings settings{definition.geometry, definition.method.shape, definition.across(),
+                                parts.threads,       definition.gravity,      has_pairs(definition)};
   parts.modules.add(std::make_unique<PointContact>(bodies, parts.sets, parts.fields, std::move(laws), settings));
 }
 

@@ -55,11 +55,11 @@ TEST(ToolForce, VariantsAreAllCombinations) {
 // Two cells: 1, 2, 3 has the deviation sqrt(2/3), 4, 4, 4 has none; means 2 and 4. A cell of two particles does not
 // count, but one of its particles carries nothing.
 TEST(ToolForce, ScatterIsThatInsideCells) {
-  const PressureScatter scatter =
-      pressure_scatter({0.1, 0.2, 0.3, 1.1, 1.2, 1.3, -0.5, -0.6}, std::vector<double>(8, 0.5),
-                       {1.0, 2.0, 3.0, 4.0, 4.0, 4.0, 0.0, 9.0}, 1.0);
-  EXPECT_NEAR(scatter.scatter, std::sqrt(2.0 / 3.0) / 6.0, 1e-12);
-  EXPECT_NEAR(scatter.unloaded, 1.0 / 8.0, 1e-12);
+  PressureScatter scatter;
+  scatter.add({0.1, 0.2, 0.3, 1.1, 1.2, 1.3, -0.5, -0.6}, std::vector<double>(8, 0.5),
+              {1.0, 2.0, 3.0, 4.0, 4.0, 4.0, 0.0, 9.0}, 1.0);
+  EXPECT_NEAR(scatter.scatter(), std::sqrt(2.0 / 3.0) / 6.0, 1e-12);
+  EXPECT_NEAR(scatter.unloaded(), 1.0 / 8.0, 1e-12);
 }
 
 // A force that grows by a straight line has no ripple. A cosine on it of a tenth of the mean 6.5 has one of 0.1, less

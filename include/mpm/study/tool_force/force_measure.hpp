@@ -11,14 +11,22 @@
 
 namespace mpm::study::tool_force {
 
-/// Standard deviation of pressure among the particles of a cell over their mean, averaged over the cells by their mean
-/// pressure; and the part of the particles with less than 1 % of the mean of all. Cells with fewer than three particles
-/// do not count. Pressure is positive in compression.
-struct PressureScatter {
-  double scatter = kUnknown, unloaded = kUnknown;
+/// How pressure, positive in compression, differs between particles of one cell, over all looks.
+class PressureScatter {
+ public:
+  /// Particles at (x, z) [m] of a grid of cells of size `cell` [m].
+  void add(const std::vector<double>& x, const std::vector<double>& z, const std::vector<double>& pressure,
+           double cell);
+  /// Standard deviation inside a cell over the mean pressure, both averaged over the cells with at least three
+  /// particles; NaN without pressure.
+  double scatter() const { return means_ > 0.0 ? deviations_ / means_ : kUnknown; }
+  /// Part of the particles with less than 1 % of the mean pressure of all.
+  double unloaded() const { return particles_ > 0.0 ? unloaded_ / particles_ : kUnknown; }
+
+ private:
+  double deviations_ = 0.0, means_ = 0.0;  ///< sums over cells [Pa]
+  double unloaded_ = 0.0, particles_ = 0.0;
 };
-PressureScatter pressure_scatter(const std::vector<double>& x, const std::vector<double>& z,
-                                 const std::vector<double>& pressure, double cell);
 
 /// Half the range of `force` over its mean where `travel` lies from `from` on for `stretch`, after the line of least
 /// squares has been taken out; samples are averaged over a tenth of the stretch first. NaN where the way is shorter.
@@ -43,7 +51,7 @@ class ForceMeasure {
   bool begun_ = false;
   std::vector<double> travel_, force_, lift_;  ///< over length; [N]
   double next_scatter_;                        ///< travel at which pressure is looked at again
-  std::vector<PressureScatter> scatters_;
+  PressureScatter scatter_;
   std::vector<double> x_, z_, p_, speed_;
   std::vector<double> chosen_x_, chosen_z_, chosen_p_;
 };

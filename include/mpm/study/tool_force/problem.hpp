@@ -17,8 +17,8 @@ namespace mpm::study::tool_force {
 
 /// What the scene of a problem is written with.
 struct Setup {
-  double cells = 8.0;                  ///< across the depth or width; blades take halves, too
-  std::string law = "drucker_prager";  ///< or mohr_coulomb
+  double cells = 8.0;    ///< across the depth or width; blades take halves, too
+  std::string law = {};  ///< drucker_prager or mohr_coulomb; the problem's own when empty
 };
 
 /// What is known of the force.
@@ -34,7 +34,8 @@ struct Problem {
   std::string text;         ///< what is computed, in a sentence or two
   std::string answer_text;  ///< what is known and its source
   Known known = Known::exact;
-  Bounds answer;                ///< mean force along `push`, of the whole scene [N]
+  Bounds answer;                ///< mean force along `push`, of the whole tool [N]
+  bool grows = false;           ///< in proportion to the travel; `answer` is that at travel = `length`
   double whole = 1.0;           ///< tools that a scene stands for: 2 where a half is modelled
   Vec3 push = Vec3::UnitX();    ///< direction in which the tool is driven
   Vec3 free = Vec3::Zero();     ///< direction in which a smooth tool bears nothing; zero where there is none
@@ -44,10 +45,13 @@ struct Problem {
   double speed = 0.0;           ///< of the tool [m/s]
   double ramp = 0.0;            ///< time in which it reaches it [s]
   double wave_speed = 0.0;      ///< of the material, elastic [m/s]
-  Box pressed;                  ///< where pressure is looked at, from the tool's origin [m]
+  std::string law = "drucker_prager";  ///< of the soil, unless another is asked for
+  bool quick = false;                  ///< the short suite runs it
+  Box pressed;                         ///< where pressure is looked at, from the tool's origin [m]
   /// Text of its scene. @throws StudyError for a setup that it cannot have
   std::function<std::string(const Problem&, const Setup&)> scene;
 
+  const std::string& law_of(const Setup& setup) const { return setup.law.empty() ? law : setup.law; }
   /// Travel at which a run ends, over `length`.
   double last(double cells) const;
   /// Time at which the tool has travelled that far [s].
@@ -63,7 +67,8 @@ const Problem& find_problem(const std::string& name);
 /// degrees, stress in Pa. @throws StudyError for another law
 std::string soil_material(const std::string& law, double density, double young, double poisson, double friction,
                           double dilation, double cohesion);
-/// Text of `time`: an end that the tool reaches, and sync points of which some lie in the travel of a tenth of a cell.
+/// Text of `time`: an end that the tool reaches, and a sync period for at least twenty looks on the way of a cell and
+/// on the stretch of the mean.
 std::string time_section(const Problem& problem, const Setup& setup);
 /// Expression of the tool's speed, for `motion`.
 std::string speed_expression(const Problem& problem);
@@ -72,5 +77,7 @@ double elastic_wave(double density, double young, double poisson);
 
 std::vector<Problem> blades();
 std::vector<Problem> footings();
+std::vector<Problem> walls();
+std::vector<Problem> clay_tools();
 
 }  // namespace mpm::study::tool_force

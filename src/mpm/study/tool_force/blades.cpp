@@ -49,9 +49,9 @@ std::string blade_scene(const Problem& problem, const Setup& setup, const Kind& 
       "    motion: {{velocity: [\"{}\", 0]}}\n"
       "boundaries: {{x_min: slip, x_max: slip, z_min: fixed}}\n",
       kGravity, h, left, low, right, high, time_section(problem, setup),
-      soil_material(setup.law, kDensity, kYoung, kPoisson, kAngle, kind.dilation, 0.0), low, right, left, low, d,
-      kTop + d, kThickness, kTop + d, kThickness, back + d, d, kind.rough ? std::tan(kAngle * kPi / 180.0) : 0.0,
-      speed_expression(problem));
+      soil_material(problem.law_of(setup), kDensity, kYoung, kPoisson, kAngle, kind.dilation, 0.0), low, right, left,
+      low, d, kTop + d, kThickness, kTop + d, kThickness, back + d, d,
+      kind.rough ? std::tan(kAngle * kPi / 180.0) : 0.0, speed_expression(problem));
 }
 
 Problem blade(const std::string& name, const std::string& title, const std::string& text, const Kind& kind) {
@@ -66,6 +66,7 @@ Problem blade(const std::string& name, const std::string& title, const std::stri
   problem.from = 0.06;
   problem.to = 0.14;
   problem.moves_on = true;
+  problem.quick = true;
   problem.speed = 0.05;
   problem.ramp = 0.02;
   problem.wave_speed = elastic_wave(kDensity, kYoung, kPoisson);

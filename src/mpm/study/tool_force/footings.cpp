@@ -1,7 +1,8 @@
-// A rigid strip is pressed slowly into weightless material, in a plane; half of it is modelled, x = 0 is a plane of
-// symmetry. With associated flow the limit load is exact, smooth or rough: (2 + pi) c of clay, N_c c of soil with
-// friction, N_q q where a pressure q acts on the surface beside the strip (Prandtl (1921), Reissner (1924)). Cells
-// count over the width B; the strip's corner lies on a node.
+// A rigid footing is pressed slowly into level ground: a strip, of which half is modelled beside a plane of symmetry,
+// or a disc about the axis. With associated flow the limit load is exact: of clay (2 + pi) c under a strip and 5.69 c
+// (smooth) or 6.05 c (rough) under a disc; N_c c and N_q q of weightless soil with friction, where a pressure q acts on
+// the surface beside the strip; N_gamma of sand with weight. Cells count over the width B; the footing's edge lies on a
+// node. Weak: a footing that has sunk by s bears more, by about N_q rho g s where sand has weight.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,125 +13,193 @@
 namespace mpm::study::tool_force {
 namespace footing_problems {
 
-constexpr double kWidth = 0.2, kDensity = 1600.0, kPoisson = 0.3, kAngle = 30.0;
+constexpr double kWidth = 0.2, kDensity = 1600.0, kGravity = 9.81, kPoisson = 0.3;
 
 struct Ground {
-  double young, friction, dilation, cohesion;  ///< [Pa], [deg], [deg], [Pa]
-  double surcharge;                            ///< on the surface beside the strip [Pa]
-  double across, down;                         ///< extent of the half, over B
+  double young = 0.0;                     ///< [Pa]
+  double friction = 0.0, dilation = 0.0;  ///< [deg]
+  double cohesion = 0.0;                  ///< [Pa]
+  double surcharge = 0.0;                 ///< on the surface beside the footing [Pa]
+  bool heavy = false;                     ///< it has weight
+  double across = 3.0, down = 2.0;        ///< extent of the half, over B
 };
-constexpr Ground kClay = {10e6, 0.0, 0.0, 10e3, 0.0, 3.0, 2.0};
-constexpr Ground kCohesion = {20e6, kAngle, kAngle, 2e3, 0.0, 6.0, 2.5};
-constexpr Ground kSurcharge = {20e6, kAngle, kAngle, 0.0, 2e3, 6.0, 2.5};
-constexpr Ground kSurchargeStill = {20e6, kAngle, 0.0, 0.0, 2e3, 6.0, 2.5};
 
-std::string strip_scene(const Problem& problem, const Setup& setup, const Ground& ground, bool rough) {
-  const double h = kWidth / setup.cells;
-  const double right = h * std::ceil(ground.across * setup.cells), low = -h * std::ceil(ground.down * setup.cells);
-  const double q = ground.surcharge;
-  const std::string initial =
-      q > 0.0 ? fmt::format(", initial: {{stress: {{xx: -{0:g}, yy: -{0:g}, zz: -{0:g}}}}}", q) : "";
-  const std::string loads =
-      q > 0.0 ? fmt::format(
-                    "loads:\n  - {{pressure: {{body: bed, edge: z_max, value: {:g}, region: {{box: {{min: [{:.17g}, "
-                    "{:.17g}], max: [{:.17g}, 0]}}}}}}}}\n",
-                    q, 0.5 * kWidth, -0.5 * h, right)
-              : "";
+struct Footing {
+  Ground ground;
+  bool rough = true, round = false;
+};
+
+std::string bed_section(const Ground& ground, double low, double right) {
+  const std::string start =
+      ground.surcharge > 0.0
+          ? fmt::format(", initial: {{stress: {{xx: -{0:g}, yy: -{0:g}, zz: -{0:g}}}}}", ground.surcharge)
+      : ground.heavy ? ", initial: geostatic"
+                     : "";
   return fmt::format(
-      "geometry: plane_strain\n"
-      "grid: {{cell: {:.17g}, min: [0, {:.17g}], max: [{:.17g}, {:.17g}]}}\n"
-      "{}\n"
-      "materials:\n  - {}\n"
-      "bodies:\n"
-      "  - {{name: bed, material: soil, shape: {{box: {{min: [0, {:.17g}], max: [{:.17g}, 0]}}}}{}}}\n"
-      "rigid_bodies:\n"
-      "  - name: tool\n"
-      "    shape: {{box: {{size: [{}, {}]}}}}\n"
-      "    pose: {{position: [0, {}]}}\n"
-      "    friction: {}\n"
-      "    motion: {{velocity: [0, \"-{}\"]}}\n"
-      "{}"
-      "boundaries: {{x_min: symmetry, x_max: slip, z_min: fixed}}\n",
-      h, low, right, h * std::ceil(setup.cells), time_section(problem, setup),
-      soil_material(setup.law, kDensity, ground.young, kPoisson, ground.friction, ground.dilation, ground.cohesion),
-      low, right, initial, kWidth, kWidth, 0.5 * kWidth, rough ? "stick" : "0", speed_expression(problem), loads);
+      "bodies:\n  - {{name: bed, material: soil, shape: {{box: {{min: [0, {:.17g}], max: [{:.17g}, 0]}}}}{}}}\n", low,
+      right, start);
 }
 
-Problem strip(const std::string& name, const std::string& title, const std::string& text, const Ground& ground,
-              bool rough = true) {
+std::string surcharge_section(const Ground& ground, double cell, double right) {
+  if (ground.surcharge == 0.0) return "";
+  return fmt::format(
+      "loads:\n"
+      "  - {{pressure: {{body: bed, edge: z_max, value: {:g}, region: {{box: {{min: [{:.17g}, {:.17g}], max: [{:.17g}, "
+      "0]}}}}}}}}\n",
+      ground.surcharge, 0.5 * kWidth, -0.5 * cell, right);
+}
+
+std::string footing_scene(const Problem& problem, const Setup& setup, const Footing& footing) {
+  const Ground& ground = footing.ground;
+  const double h = kWidth / setup.cells;
+  const double right = h * std::ceil(ground.across * setup.cells), low = -h * std::ceil(ground.down * setup.cells);
+  const std::string shape = footing.round ? fmt::format("cylinder: {{radius: {}, height: {}}}", 0.5 * kWidth, kWidth)
+                                          : fmt::format("box: {{size: [{}, {}]}}", kWidth, kWidth);
+  return fmt::format(
+             "geometry: {}\n{}"
+             "grid: {{cell: {:.17g}, min: [0, {:.17g}], max: [{:.17g}, {:.17g}]}}\n"
+             "{}\n"
+             "materials:\n  - {}\n",
+             footing.round ? "axisymmetric" : "plane_strain",
+             ground.heavy ? fmt::format("gravity: [0, -{}]\n", kGravity) : "", h, low, right,
+             h * std::ceil(setup.cells), time_section(problem, setup),
+             soil_material(problem.law_of(setup), kDensity, ground.young, kPoisson, ground.friction, ground.dilation,
+                           ground.cohesion)) +
+         bed_section(ground, low, right) +
+         fmt::format(
+             "rigid_bodies:\n"
+             "  - name: tool\n"
+             "    shape: {{{}}}\n"
+             "    pose: {{position: [0, {}]}}\n"
+             "    friction: {}\n"
+             "    motion: {{velocity: [0, \"-{}\"]}}\n",
+             shape, 0.5 * kWidth, footing.rough ? "stick" : "0", speed_expression(problem)) +
+         surcharge_section(ground, h, right) +
+         fmt::format("boundaries: {{{}x_max: slip, z_min: fixed}}\n", footing.round ? "" : "x_min: symmetry, ");
+}
+
+Problem make(const std::string& name, const std::string& title, const std::string& text, const std::string& answer_text,
+             Bounds answer, const Footing& footing) {
   Problem problem;
   problem.name = name;
   problem.title = title;
-  problem.text = text;
-  problem.whole = 2.0;
+  problem.text = text + " Width 0.2 m, Poisson's ratio 0.3. Cells: over the width.";
+  problem.answer_text = answer_text;
+  problem.answer = answer;
+  problem.whole = footing.round ? 1.0 : 2.0;
   problem.push = -Vec3::UnitZ();
   problem.length = kWidth;
   problem.from = 0.03;
   problem.to = 0.05;
   problem.speed = 0.05;
   problem.ramp = 0.02;
-  problem.wave_speed = elastic_wave(kDensity, ground.young, kPoisson);
-  problem.scene = [ground, rough](const Problem& own, const Setup& setup) {
-    return strip_scene(own, setup, ground, rough);
-  };
+  problem.wave_speed = elastic_wave(kDensity, footing.ground.young, kPoisson);
+  problem.scene = [footing](const Problem& own, const Setup& setup) { return footing_scene(own, setup, footing); };
   problem.pressed = {{0.0, 0.0, -0.75 * kWidth}, {0.25 * kWidth, 0.0, -0.5 * kWidth}};  // the origin is B/2 above
   return problem;
+}
+
+void add_clay(std::vector<Problem>& list) {
+  Ground clay;
+  clay.young = 10e6;
+  clay.cohesion = 10e3;
+  const double area = 0.25 * kPi * kWidth * kWidth;
+  for (const bool rough : {true, false}) {
+    const std::string word = rough ? "Rough" : "Smooth", ending = rough ? "" : "_smooth";
+    const double prandtl = bearing_cohesion_factor(0.0) * clay.cohesion * kWidth;
+    list.push_back(make("strip_clay" + ending, word + " strip on clay", word + " strip on weightless clay, E = 1000 c.",
+                        "(2 + π) c: Prandtl (1921)", {prandtl, prandtl}, {clay, rough}));
+  }
+  for (const bool rough : {true, false}) {
+    const std::string word = rough ? "Rough" : "Smooth", ending = rough ? "" : "_smooth";
+    const double load = circular_footing_factor(rough) * clay.cohesion * area;
+    list.push_back(make("disc_clay" + ending, word + " disc on clay",
+                        word + " disc on weightless clay of Tresca's law, E = 1000 c, axisymmetric.",
+                        rough ? "6.05 c: Eason and Shield (1960)" : "5.69 c: Shield (1955)", {load, load},
+                        {clay, rough, true}));
+    list.back().law = "mohr_coulomb";
+  }
+}
+
+/// N_c and N_q of one angle of friction [deg], whose mechanism reaches `across` and `down`, over B.
+void add_weightless(std::vector<Problem>& list, double degrees, double surcharge, double across, double down) {
+  const double phi = degrees * kPi / 180.0, nc = bearing_cohesion_factor(phi), nq = bearing_surcharge_factor(phi);
+  Ground soil;
+  soil.young = 1e4 * surcharge;
+  soil.friction = soil.dilation = degrees;
+  soil.across = across;
+  soil.down = down;
+  Ground cohesive = soil, loaded = soil;
+  cohesive.cohesion = surcharge;
+  loaded.surcharge = surcharge;
+  const std::string ending = degrees == 30.0 ? "" : fmt::format("_{:g}", degrees);
+  list.push_back(make("strip_nc" + ending, fmt::format("Strip on soil of {:g}° with cohesion: N_c", degrees),
+                      fmt::format("Rough strip on weightless soil with friction {:g}° and cohesion c, associated flow, "
+                                  "E = 10,000 c.",
+                                  degrees),
+                      fmt::format("N_c c with N_c = {:.2f}: Prandtl (1921)", nc),
+                      {nc * surcharge * kWidth, nc * surcharge * kWidth}, {cohesive}));
+  list.push_back(
+      make("strip_nq" + ending, fmt::format("Strip on sand of {:g}° with a surcharge: N_q", degrees),
+           fmt::format("Rough strip on weightless sand with friction {:g}°, associated flow, a pressure q on "
+                       "the surface beside it, E = 10,000 q.",
+                       degrees),
+           fmt::format("N_q q with N_q = {:.2f}: Reissner (1924)", nq),
+           {nq * surcharge * kWidth, nq * surcharge * kWidth}, {loaded}));
+  if (degrees != 30.0) return;
+  loaded.dilation = 0.0;
+  const double davis = bearing_surcharge_factor(davis_friction(phi, 0.0));
+  list.push_back(
+      make("strip_nq_0", "Strip on sand without dilation, with a surcharge",
+           "Rough strip on weightless sand with friction 30°, no dilation, a pressure q on the surface beside "
+           "it, E = 10,000 q.",
+           fmt::format("above, N_q = {:.2f} of associated flow; below, an estimate: {:.2f} of Davis's (1968) "
+                       "reduced friction",
+                       nq, davis),
+           {davis * surcharge * kWidth, nq * surcharge * kWidth}, {loaded}));
+  list.back().known = Known::estimate;
+}
+
+void add_heavy(std::vector<Problem>& list) {
+  Ground sand;
+  sand.young = 20e6;
+  sand.friction = sand.dilation = 30.0;
+  sand.heavy = true;
+  sand.across = 4.0;
+  const double phi = kPi / 6.0, from = 0.01, to = 0.02;
+  for (const bool rough : {true, false}) {
+    const double unit = 0.5 * kDensity * kGravity * kWidth * kWidth, n = bearing_weight_factor(phi, rough);
+    const double sunk = bearing_surcharge_factor(phi) * (from + to);  // N_q rho g s B over the unit, in the mean
+    list.push_back(
+        make(rough ? "strip_ngamma" : "strip_ngamma_smooth",
+             rough ? "Rough strip on sand: N_γ" : "Smooth strip on sand: N_γ",
+             "Strip on sand at rest with friction 30°, associated flow, E = 6400 ρgB.",
+             fmt::format("from N_γ = {:.2f} (Martin (2005)) to that and the surcharge of the depth to which it "
+                         "has sunk, N_q ρgs",
+                         n),
+             {unit * n, unit * (n + sunk)}, {sand, rough}));
+    Problem& problem = list.back();
+    problem.known = Known::bounds;
+    problem.from = from;
+    problem.to = to;
+    problem.speed = 0.02;
+  }
 }
 
 }  // namespace footing_problems
 
 std::vector<Problem> footings() {
   using namespace footing_problems;
-  const double phi = kAngle * kPi / 180.0;
-  const char* size = " Width 0.2 m, 0.05 m/s. Cells: over the width.";
   std::vector<Problem> list;
-
-  Problem clay = strip("strip_clay", "Rough strip on clay",
-                       std::string("Rough strip on weightless clay, E = 1000 c, Poisson's ratio 0.3.") + size, kClay);
-  clay.answer_text = "(2 + π) c: Prandtl (1921)";
-  clay.answer.lower = clay.answer.upper = bearing_cohesion_factor(0.0) * kClay.cohesion * kWidth;
-  list.push_back(clay);
-
-  Problem smooth =
-      strip("strip_clay_smooth", "Smooth strip on clay",
-            std::string("Smooth strip on weightless clay, E = 1000 c, Poisson's ratio 0.3.") + size, kClay, false);
-  smooth.answer_text = clay.answer_text;
-  smooth.answer = clay.answer;
-  list.push_back(smooth);
-
-  Problem cohesion = strip(
-      "strip_nc", "Strip on soil with cohesion and friction: N_c",
-      std::string(
-          "Rough strip on weightless soil with friction 30 degrees and cohesion, associated flow, E = 10,000 c.") +
-          size,
-      kCohesion);
-  cohesion.answer_text = "N_c c with N_c = 30.14: Prandtl (1921)";
-  cohesion.answer.lower = cohesion.answer.upper = bearing_cohesion_factor(phi) * kCohesion.cohesion * kWidth;
-  list.push_back(cohesion);
-
-  Problem surcharge = strip(
-      "strip_nq", "Strip on sand with a surcharge: N_q",
-      std::string(
-          "Rough strip on weightless sand, friction 30 degrees, associated flow, with a pressure q on the surface "
-          "beside it, E = 10,000 q.") +
-          size,
-      kSurcharge);
-  surcharge.answer_text = "N_q q with N_q = 18.40: Reissner (1924)";
-  surcharge.answer.lower = surcharge.answer.upper = bearing_surcharge_factor(phi) * kSurcharge.surcharge * kWidth;
-  list.push_back(surcharge);
-
-  Problem still =
-      strip("strip_nq_0", "Strip on sand without dilation, with a surcharge",
-            std::string("Rough strip on weightless sand, friction 30 degrees, no dilation, with a pressure q on the "
-                        "surface beside it, E = 10,000 q.") +
-                size,
-            kSurchargeStill);
-  still.answer = surcharge.answer;
-  still.known = Known::estimate;
-  still.answer_text =
-      "above, N_q = 18.40 of associated flow; below, an estimate: N_q = 12.6 of Davis's (1968) reduced friction";
-  still.answer.lower = bearing_surcharge_factor(davis_friction(phi, 0.0)) * kSurcharge.surcharge * kWidth;
-  list.push_back(still);
+  add_clay(list);
+  add_weightless(list, 30.0, 2e3, 6.0, 2.5);
+  add_heavy(list);
+  add_weightless(list, 20.0, 2e3, 4.5, 2.0);
+  add_weightless(list, 40.0, 2e3, 10.0, 3.5);
+  for (Problem& problem : list) {
+    problem.quick = problem.name == "strip_clay" || problem.name == "strip_nc" || problem.name == "strip_nq" ||
+                    problem.name == "strip_nq_0";
+  }
   return list;
 }
 

@@ -23,30 +23,27 @@ double mean(const std::vector<double>& values) {
 
 }  // namespace
 
-PressureScatter pressure_scatter(const std::vector<double>& x, const std::vector<double>& z,
-                                 const std::vector<double>& pressure, double cell) {
+void PressureScatter::add(const std::vector<double>& x, const std::vector<double>& z,
+                          const std::vector<double>& pressure, double cell) {
   std::map<std::pair<long, long>, std::vector<double>> cells;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const auto place = std::pair{std::lround(std::floor(x[i] / cell)), std::lround(std::floor(z[i] / cell))};
     cells[place].push_back(pressure[i]);
   }
-  PressureScatter result;
-  if (x.empty()) return result;
-  double deviation = 0.0, total = 0.0;
+  if (x.empty()) return;
   for (const auto& entry : cells) {
     const std::vector<double>& values = entry.second;
     if (values.size() < kFewest) continue;
     const double middle = mean(values);
     double squares = 0.0;
     for (const double value : values) squares += (value - middle) * (value - middle);
-    deviation += std::sqrt(squares / static_cast<double>(values.size()));
-    total += middle;
+    deviations_ += std::sqrt(squares / static_cast<double>(values.size()));
+    means_ += middle;
   }
-  if (total > 0.0) result.scatter = deviation / total;
   const double limit = kNothing * mean(pressure);
-  const auto none = std::count_if(pressure.begin(), pressure.end(), [limit](double p) { return p < limit; });
-  result.unloaded = static_cast<double>(none) / static_cast<double>(pressure.size());
-  return result;
+  unloaded_ +=
+      static_cast<double>(std::count_if(pressure.begin(), pressure.end(), [limit](double p) { return p < limit; }));
+  particles_ += static_cast<double>(pressure.size());
 }
 
 double ripple(const std::vector<double>& travel, const std::vector<double>& force, double from, double stretch) {
@@ -87,9 +84,10 @@ void ForceMeasure::look(Simulation& simulation) {
     begun_ = true;
     return;
   }
-  travel_.push_back((place - start_) / problem_.length);
-  force_.push_back(-problem_.whole * force.dot(problem_.push));
-  lift_.push_back(problem_.whole * force.dot(problem_.free));
+  travel_.push_back(std::abs(place - start_) / problem_.length);
+  const double scale = problem_.whole / (problem_.grows ? travel_.back() : 1.0);
+  force_.push_back(-scale * force.dot(problem_.push));
+  lift_.push_back(scale * force.dot(problem_.free));
   simulation.particle_field("speed", speed_);
   const double fastest = *std::max_element(speed_.begin(), speed_.end());
   if (!(fastest < kBlownUp * problem_.wave_speed)) {
@@ -115,7 +113,7 @@ void ForceMeasure::look_at_particles(const Simulation& simulation) {
     chosen_z_.push_back(z_[i]);
     chosen_p_.push_back(p_[i]);
   }
-  scatters_.push_back(pressure_scatter(chosen_x_, chosen_z_, chosen_p_, simulation.definition().grid.cell.x()));
+  scatter_.add(chosen_x_, chosen_z_, chosen_p_, simulation.definition().grid.cell.x());
 }
 
 void ForceMeasure::report(ForceRow& row) const {
@@ -136,13 +134,8 @@ void ForceMeasure::report(ForceRow& row) const {
     if (problem_.free.norm() > 0.0) row.lift = lift / force;
   }
   if (problem_.moves_on) row.ripple = ripple(travel_, force_, problem_.from, 1.0 / cells_);
-  if (!scatters_.empty()) {
-    row.scatter = row.unloaded = 0.0;
-    for (const PressureScatter& one : scatters_) {
-      row.scatter += one.scatter / static_cast<double>(scatters_.size());
-      row.unloaded += one.unloaded / static_cast<double>(scatters_.size());
-    }
-  }
+  row.scatter = scatter_.scatter();
+  row.unloaded = scatter_.unloaded();
   const std::size_t stride = 1 + travel_.size() / kCurve;
   for (std::size_t first = 0; first + stride <= travel_.size(); first += stride) {
     double way = 0.0, sum = 0.0;

@@ -15,8 +15,10 @@ double Problem::time_of(double travel) const { return travel * length / speed + 
 
 const std::vector<Problem>& problems() {
   static const std::vector<Problem> list = [] {
-    std::vector<Problem> all = blades();
-    for (Problem& problem : footings()) all.push_back(std::move(problem));
+    std::vector<Problem> all;
+    for (const auto& group : {blades, footings, walls, clay_tools}) {
+      for (Problem& problem : group()) all.push_back(std::move(problem));
+    }
     return all;
   }();
   return list;
@@ -46,9 +48,10 @@ std::string soil_material(const std::string& law, double density, double young, 
 }
 
 std::string time_section(const Problem& problem, const Setup& setup) {
-  // A power of ten, so that the end is a whole number of sync periods to round-off.
-  const double tenth_of_cell = 0.1 * problem.length / setup.cells / problem.speed;
-  const double sync = std::pow(10.0, std::floor(std::log10(tenth_of_cell) - 0.3));
+  // A tenth of a cell, and a twentieth of the stretch of the mean, or less; a power of ten, so that the end is a whole
+  // number of sync periods to round-off.
+  const double most = std::min(0.05 / setup.cells, 0.05 * (problem.to - problem.from)) * problem.length / problem.speed;
+  const double sync = std::pow(10.0, std::floor(std::log10(most)));
   const double end = sync * std::ceil(problem.time_of(problem.last(setup.cells)) / sync + 1.0);
   return fmt::format("time: {{end: {:.12g}, sync: {:g}}}", end, sync);
 }

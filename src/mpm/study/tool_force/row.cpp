@@ -50,16 +50,16 @@ Json of_row(const ForceRow& row) {
 }  // namespace
 
 std::string table_header() {
-  return fmt::format("{:<18}{:>6} {:>9}{:>8}{:>8}{:>9}{:>9}{:>9}{:>9}{:>8}  {}", "problem", "cells", "F/exact", "lift",
-                     "ripple", "scatter", "unloaded", "cpu [s]", "rtf", "steps", "variant");
+  return fmt::format("{:<20}{:>6}{:>9}{:>8}{:>8}{:>8}{:>9}{:>9}{:>9}{:>8}{:>8}  {}", "problem", "cells", "F/exact",
+                     "error", "lift", "ripple", "scatter", "unloaded", "cpu [s]", "rtf", "steps", "variant");
 }
 
 std::string table_line(const ForceRow& row) {
   std::string line =
-      fmt::format("{:<18}{:>6g} {:>9}{:>8}{:>8}{:>9}{:>9}{:>9}{:>9}{:>8}  {}", row.problem, row.cells,
-                  cell(row.over_exact, "{:.3f}"), cell(row.lift, "{:.3f}"), cell(row.ripple, "{:.3f}"),
-                  cell(row.scatter, "{:.3f}"), cell(row.unloaded, "{:.3f}"), cell(row.cpu_seconds, "{:.3g}"),
-                  cell(row.real_time_factor, "{:.3g}"), row.steps, row.variant);
+      fmt::format("{:<20}{:>6g}{:>9}{:>8}{:>8}{:>8}{:>9}{:>9}{:>9}{:>8}{:>8}  {}", row.problem, row.cells,
+                  cell(row.over_exact, "{:.3f}"), cell(row.error, "{:.3f}"), cell(row.lift, "{:.3f}"),
+                  cell(row.ripple, "{:.3f}"), cell(row.scatter, "{:.3f}"), cell(row.unloaded, "{:.3f}"),
+                  cell(row.cpu_seconds, "{:.3g}"), cell(row.real_time_factor, "{:.3g}"), row.steps, row.variant);
   if (row.status != "ok") line += fmt::format("  {}: {}", row.status, row.message);
   return line;
 }

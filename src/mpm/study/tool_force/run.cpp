@@ -120,7 +120,9 @@ void run_tool_force(const ForceOptions& options, const std::function<void(const 
   std::vector<const Problem*> chosen;
   for (const std::string& name : options.problems) chosen.push_back(&find_problem(name));
   if (chosen.empty()) {
-    for (const Problem& problem : problems()) chosen.push_back(&problem);
+    for (const Problem& problem : problems()) {
+      if (problem.quick || options.full) chosen.push_back(&problem);
+    }
   }
   const std::vector<double>& cells = !options.cells.empty() ? options.cells : options.full ? kFullCells : kQuickCells;
   const std::vector<Overrides> variants = variants_of(options.vary);

@@ -70,6 +70,22 @@ TEST(RigidRules, WhatABodyAboutAnAxisCanDo) {
       "it moves along r, off the axis", [](auto& d) { d.rigid_bodies[0].velocity[0] = 1.0; }, ring);
 }
 
+TEST(RigidRules, WhatIsThickDividesNothing) {
+  const auto dividing = [](double radius, Sides sides) {
+    return [radius, sides](SimulationDefinition& d) {
+      d.rigid_bodies[0].surface = make_sphere(radius);
+      d.rigid_bodies[0].divides = {"block"};
+      d.rigid_bodies[0].sides = sides;
+    };
+  };
+  expect_refused("divides: it is too thick", dividing(0.2, Sides::automatic));
+  SimulationDefinition thin = ball_over_block(GeometryKind::plane_strain), asked = thin;
+  dividing(0.1, Sides::automatic)(thin);
+  dividing(0.2, Sides::two)(asked);
+  EXPECT_EQ(rigid_fault(thin, thin.rigid_bodies[0]), "");
+  EXPECT_EQ(rigid_fault(asked, asked.rigid_bodies[0]), "");
+}
+
 TEST(RigidRules, ContactAtNodesHasOneFriction) {
   const auto at_nodes = [](const std::function<void(SimulationDefinition&)>& change) {
     return [change](SimulationDefinition& d) {

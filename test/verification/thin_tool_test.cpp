@@ -203,6 +203,28 @@ TEST(ThinTool, DividesTheBodiesThatItNames) {
   EXPECT_GT(speed_above({"far"}), 1e-3);
 }
 
+// A body that the tool does not divide meets it, from either side, as a tool of one side.
+TEST(ThinTool, IsMetFromBothSidesByWhatItDoesNotDivide) {
+  const auto impulse = [](const char* moved, double speed, Sides sides) {
+    SimulationDefinition d = sandwich(GeometryKind::plane_strain, sides);
+    d.contact.method = ContactMethod::nodes;
+    d.bodies.push_back(block(GeometryKind::plane_strain, "far", {0.5, 1.8, 0.5}, {2, 2, 2}));
+    d.bodies[2].field = 1;
+    if (sides != Sides::one) d.rigid_bodies[0].divides = {"far"};
+    move(d.bodies[moved == std::string("below") ? 0 : 1], {0.0, 0.0, speed});
+    Simulation run(d, {1});
+    run.take_contact(0);
+    for (int n = 0; n < 30; ++n) run.advance();
+    return run.take_contact(0).impulse.z();
+  };
+  for (const double speed : {1.0, -1.0}) {
+    const char* moved = speed > 0.0 ? "below" : "above";
+    const double one = impulse(moved, speed, Sides::one);
+    EXPECT_GT(one * speed, 0.0) << moved;
+    EXPECT_NEAR(impulse(moved, speed, Sides::automatic), one, 1e-9 * std::abs(one)) << moved;
+  }
+}
+
 TEST(ThinTool, ItIsSaidWhatWasChosen) {
   const auto said = [](const std::vector<std::string>& list, const std::string& text) {
     return std::any_of(list.begin(), list.end(),

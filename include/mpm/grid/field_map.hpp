@@ -23,6 +23,8 @@ class FieldMap {
   std::vector<int> fields(int body) const;
   /// Which side's material a field holds; 0 where nothing is divided.
   int side(int field) const { return side_[field]; }
+  /// Whether a field holds the material of one side alone.
+  bool one_sided(int field) const;
   /// The fields of side 0 and side 1 of every group that is divided.
   const std::vector<std::array<int, 2>>& divisions() const { return divisions_; }
 

@@ -25,6 +25,11 @@ FieldMap::FieldMap(const std::vector<int>& groups, const std::vector<bool>& divi
   }
 }
 
+bool FieldMap::one_sided(int field) const {
+  return std::any_of(divisions_.begin(), divisions_.end(),
+                     [&](const std::array<int, 2>& pair) { return pair[0] == field || pair[1] == field; });
+}
+
 std::vector<int> FieldMap::fields(int body) const {
   if (!divided(body)) return {fields_[body][0]};
   return {fields_[body][0], fields_[body][1]};

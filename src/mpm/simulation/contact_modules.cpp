@@ -24,6 +24,10 @@ int body_of(const std::string& name, const PairDefinition& pair, const std::vect
   throw DefinitionError(fmt::format("contact of '{}' and '{}': no body is called '{}'", pair.first, pair.second, name));
 }
 
+bool share_a_field(const std::vector<int>& a, const std::vector<int>& b) {
+  return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
+}
+
 bool is_rigid(const std::string& name, const SimulationDefinition& definition) {
   const auto& bodies = definition.rigid_bodies;
   return std::any_of(bodies.begin(), bodies.end(), [&](const RigidBodyDefinition& body) { return body.name == name; });
@@ -74,12 +78,13 @@ MaterialContactSettings pair_settings(RunParts& parts) {
     starts = starts || pair.law.kind == ContactLaw::Kind::interface;
     MaterialPair made{pair.first + "/" + pair.second, map.fields(first), map.fields(second), pair.law};
     const auto same = std::find_if(settings.pairs.begin(), settings.pairs.end(), [&](const MaterialPair& other) {
-      return (other.first == made.first && other.second == made.second) ||
-             (other.first == made.second && other.second == made.first);
+      return (share_a_field(other.first, made.first) && share_a_field(other.second, made.second)) ||
+             (share_a_field(other.first, made.second) && share_a_field(other.second, made.first));
     });
-    if (same == settings.pairs.end()) {
+    const auto joins = [](const ContactLaw& law) { return law.kind == ContactLaw::Kind::one_field; };
+    if (same == settings.pairs.end() || (joins(same->law) && joins(made.law))) {
       settings.pairs.push_back(std::move(made));
-    } else if (same->law.kind != ContactLaw::Kind::one_field || pair.law.kind != ContactLaw::Kind::one_field) {
+    } else {
       throw DefinitionError(fmt::format(
           "contact of '{}': a second law between the velocity fields of '{}'; leave one out", made.name, same->name));
     }

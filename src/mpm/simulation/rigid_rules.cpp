@@ -4,10 +4,19 @@
 
 #include <algorithm>
 
+#include "mpm/contact/thin_tool.hpp"
+#include "mpm/math/geometry_kind.hpp"
 #include "rigid_contacts.hpp"
 
 namespace mpm {
 namespace {
+
+std::string divides_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
+  double cell = definition.grid.cell.x();
+  for (const int axis : axes_of(definition.geometry)) cell = std::min(cell, definition.grid.cell[axis]);
+  if (body.divides.empty() || has_sides(body, definition.geometry, cell)) return {};
+  return "divides: it is too thick to divide anything (three cells or more); leave it out, or write sides: two";
+}
 
 std::string radial_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
   if (!axisymmetric(definition.geometry) || body.inner_radius > 0.0 || body.velocity[0].is_zero()) return {};
@@ -71,7 +80,7 @@ std::string field_fault(const SimulationDefinition& definition, const RigidBodyD
 }  // namespace
 
 std::string rigid_fault(const SimulationDefinition& definition, const RigidBodyDefinition& body) {
-  for (const auto rule : {radial_fault, free_fault, law_fault, field_fault}) {
+  for (const auto rule : {divides_fault, radial_fault, free_fault, law_fault, field_fault}) {
     if (std::string fault = rule(definition, body); !fault.empty()) return fault;
   }
   return {};

@@ -14,9 +14,8 @@ namespace mpm::study::tool_force {
 /// How pressure, positive in compression, differs between particles of one cell, over all looks.
 class PressureScatter {
  public:
-  /// Particles at (x, z) [m] of a grid of cells of size `cell` [m].
-  void add(const std::vector<double>& x, const std::vector<double>& z, const std::vector<double>& pressure,
-           double cell);
+  /// Particles at `places` [m] of a grid of cells of size `cell` [m].
+  void add(const std::vector<Vec3>& places, const std::vector<double>& pressure, double cell);
   /// Standard deviation inside a cell over the mean pressure, both averaged over the cells with at least three
   /// particles; NaN without pressure.
   double scatter() const { return means_ > 0.0 ? deviations_ / means_ : kUnknown; }
@@ -52,8 +51,8 @@ class ForceMeasure {
   std::vector<double> travel_, force_, lift_;  ///< over length; [N]
   double next_scatter_;                        ///< travel at which pressure is looked at again
   PressureScatter scatter_;
-  std::vector<double> x_, z_, p_, speed_;
-  std::vector<double> chosen_x_, chosen_z_, chosen_p_;
+  std::vector<Vec3> places_;
+  std::vector<double> values_;
 };
 
 }  // namespace mpm::study::tool_force

@@ -18,7 +18,7 @@ namespace mpm::study::tool_force {
 /// What the scene of a problem is written with.
 struct Setup {
   double cells = 8.0;    ///< across the depth or width; blades take halves, too
-  std::string law = {};  ///< drucker_prager or mohr_coulomb; the problem's own when empty
+  std::string law = {};  ///< "mohr_coulomb", "drucker_prager/plane_strain" with its match; the problem's own when empty
 };
 
 /// What is known of the force.
@@ -45,9 +45,10 @@ struct Problem {
   double speed = 0.0;           ///< of the tool [m/s]
   double ramp = 0.0;            ///< time in which it reaches it [s]
   double wave_speed = 0.0;      ///< of the material, elastic [m/s]
-  std::string law = "drucker_prager";  ///< of the soil, unless another is asked for
-  bool quick = false;                  ///< the short suite runs it
-  Box pressed;                         ///< where pressure is looked at, from the tool's origin [m]
+  std::string law = "drucker_prager/plane_strain";  ///< of the soil, unless another is asked for
+  bool quick = false;                               ///< the short suite runs it
+  double finest = 24.0;                             ///< most cells of the long suite, where a run takes minutes
+  Box pressed;                                      ///< where pressure is looked at, from the tool's origin [m]
   /// Text of its scene. @throws StudyError for a setup that it cannot have
   std::function<std::string(const Problem&, const Setup&)> scene;
 
@@ -63,8 +64,8 @@ const std::vector<Problem>& problems();
 /// @throws StudyError that lists the names there are
 const Problem& find_problem(const std::string& name);
 
-/// Text of a material: name, density and constants of `law`, matched to Mohr-Coulomb in plane strain; angles in
-/// degrees, stress in Pa. @throws StudyError for another law
+/// Text of a material: density and constants of `law`, which is a law's name and, after a stroke, its `match`; angles
+/// in degrees, stress in Pa.
 std::string soil_material(const std::string& law, double density, double young, double poisson, double friction,
                           double dilation, double cohesion);
 /// Text of `time`: an end that the tool reaches, and a sync period for at least twenty looks on the way of a cell and

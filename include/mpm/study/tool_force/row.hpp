@@ -30,6 +30,7 @@ struct ForceRow {
       kUnknown;  ///< half the range of the force over one cell's travel, a straight line taken out, over its mean
   double scatter = kUnknown;      ///< standard deviation of pressure inside a cell, over its mean, in Problem::pressed
   double unloaded = kUnknown;     ///< part of the particles there with less than 1 % of the mean pressure
+  double imbalance = kUnknown;    ///< energy stored and dissipated beyond the work done, over the tool's work
   double cpu_seconds = kUnknown;  ///< of the steps, on one thread [s]
   double real_time_factor = kUnknown;  ///< simulated time over that processor time
   std::string status;                  ///< "ok"; "failed", the run blew up or ended in an error; "refused" at load

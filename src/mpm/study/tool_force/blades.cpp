@@ -18,40 +18,62 @@ namespace blade_problems {
 constexpr double kDepth = 0.2, kDensity = 1600.0, kGravity = 9.81, kYoung = 2e6, kPoisson = 0.3, kAngle = 30.0;
 constexpr double kThickness = 0.8 * kDepth, kTop = 1.5 * kDepth, kRise = 0.267949192431123;  // tan(15 degrees)
 
+constexpr double kHalfWidth = kDepth;  ///< of the blade in space, of which a half is modelled
+
 struct Kind {
   bool chisel = false, rough = false;
   double dilation = kAngle;  ///< [deg]
+  bool solid = false;        ///< in space: a level bottom, and ends
 };
 
-/// The blade's origin is its edge.
-std::string blade_scene(const Problem& problem, const Setup& setup, const Kind& kind) {
-  const double d = kDepth, h = kDepth / setup.cells;
-  // Faces of the domain lie on nodes: whole cells from the surface and from the front.
-  const double low = -h * std::ceil(2.0 * setup.cells), left = -h * std::ceil(1.5 * setup.cells);
-  const double right = h * std::ceil(4.0 * setup.cells), high = h * std::ceil(1.5 * setup.cells);
-  const double back = -d + (kind.chisel ? kRise * kThickness : 0.0);
+/// Text of a vector: of a plane without y.
+std::string at(bool solid, double x, double y, double z) {
+  return solid ? fmt::format("[{:.17g}, {:.17g}, {:.17g}]", x, y, z) : fmt::format("[{:.17g}, {:.17g}]", x, z);
+}
+
+std::string tool_section(const Problem& problem, const Kind& kind) {
+  const double thick = kThickness, height = kTop + kDepth, back = kind.chisel ? kRise * kThickness : 0.0;
+  const std::string shape =
+      kind.solid
+          ? fmt::format("box: {{size: [{}, {}, {}]}}", thick, 2.0 * kHalfWidth, height)
+          : fmt::format("polygon: {{points: [[0, 0], [0, {0}], [-{1}, {0}], [-{1}, {2:.17g}]]}}", height, thick, back);
+  // The origin is the edge; of a box its middle.
+  const std::string place =
+      kind.solid ? at(true, -0.5 * thick, 0.0, 0.5 * height - kDepth) : at(false, 0.0, 0.0, -kDepth);
   return fmt::format(
-      "geometry: plane_strain\n"
-      "gravity: [0, -{}]\n"
-      "grid: {{cell: {:.17g}, min: [{:.17g}, {:.17g}], max: [{:.17g}, {:.17g}]}}\n"
-      "{}\n"
-      "materials:\n  - {}\n"
-      "bodies:\n"
-      "  - {{name: bed, material: soil, shape: {{box: {{min: [0, {:.17g}], max: [{:.17g}, 0]}}}}, initial: "
-      "geostatic}}\n"
-      "  - {{name: cut, material: soil, shape: {{box: {{min: [{:.17g}, {:.17g}], max: [0, -{}]}}}}, "
-      "initial: geostatic}}\n"
       "rigid_bodies:\n"
       "  - name: tool\n"
-      "    shape: {{polygon: {{points: [[0, 0], [0, {}], [-{}, {}], [-{}, {:.17g}]]}}}}\n"
-      "    pose: {{position: [0, -{}]}}\n"
+      "    shape: {{{}}}\n"
+      "    pose: {{position: {}}}\n"
       "    friction: {:.17g}\n"
-      "    motion: {{velocity: [\"{}\", 0]}}\n"
-      "boundaries: {{x_min: slip, x_max: slip, z_min: fixed}}\n",
-      kGravity, h, left, low, right, high, time_section(problem, setup),
-      soil_material(problem.law_of(setup), kDensity, kYoung, kPoisson, kAngle, kind.dilation, 0.0), low, right, left,
-      low, d, kTop + d, kThickness, kTop + d, kThickness, back + d, d,
-      kind.rough ? std::tan(kAngle * kPi / 180.0) : 0.0, speed_expression(problem));
+      "    motion: {{velocity: [\"{}\"{}, 0]}}\n",
+      shape, place, kind.rough ? std::tan(kAngle * kPi / 180.0) : 0.0, speed_expression(problem),
+      kind.solid ? ", 0" : "");
+}
+
+std::string blade_scene(const Problem& problem, const Setup& setup, const Kind& kind) {
+  const double h = kDepth / setup.cells;
+  // Faces of the domain lie on nodes: whole cells from the surface and from the front.
+  const auto cells = [&](double lengths) { return h * std::ceil(lengths * setup.cells); };
+  const double low = -cells(2.0), left = -cells(1.5), right = cells(4.0), high = cells(1.5), side = cells(3.0);
+  const bool solid = kind.solid;
+  return fmt::format(
+             "geometry: {}\n"
+             "gravity: {}\n"
+             "grid: {{cell: {:.17g}, min: {}, max: {}}}\n"
+             "{}\n"
+             "materials:\n  - {}\n"
+             "bodies:\n"
+             "  - {{name: bed, material: soil, shape: {{box: {{min: {}, max: {}}}}}, initial: geostatic}}\n"
+             "  - {{name: cut, material: soil, shape: {{box: {{min: {}, max: {}}}}}, initial: geostatic}}\n",
+             solid ? "solid" : "plane_strain", at(solid, 0.0, 0.0, -kGravity), h, at(solid, left, 0.0, low),
+             at(solid, right, side, high), time_section(problem, setup),
+             soil_material(problem.law_of(setup), kDensity, kYoung, kPoisson, kAngle, kind.dilation, 0.0),
+             at(solid, 0.0, 0.0, low), at(solid, right, side, 0.0), at(solid, left, 0.0, low),
+             at(solid, 0.0, side, -kDepth)) +
+         tool_section(problem, kind) +
+         fmt::format("boundaries: {{x_min: slip, x_max: slip, {}z_min: fixed}}\n",
+                     solid ? "y_min: symmetry, y_max: slip, " : "");
 }
 
 Problem blade(const std::string& name, const std::string& title, const std::string& text, const Kind& kind) {
@@ -117,6 +139,28 @@ std::vector<Problem> blades() {
   const Bounds coefficient = rough_wall_coefficient(phi);
   rough.answer = {unit * coefficient.lower, unit * coefficient.upper};
   list.push_back(rough);
+
+  Kind in_space;
+  in_space.solid = true;
+  Problem ends =
+      blade("blade_3d", "Smooth blade with ends, in space",
+            "Smooth blade of twice its depth in width, with a level bottom, associated flow, in space.", in_space);
+  // Ovesen's factor of an anchor at the surface, of breadth over height 2.
+  const double difference = passive_coefficient(phi) - active_coefficient(phi);
+  const double factor = 1.0 + std::cbrt(difference * difference) * 1.6 / (1.0 + 5.0 * 2.0 * kHalfWidth / kDepth);
+  ends.known = Known::estimate;
+  ends.answer_text = fmt::format(
+      "below, the force of a plane, K_p = 3; above, an estimate: {:.2f} times that, for the wedges at the ends (Ovesen "
+      "(1964), Anchor slabs, Danish Geotechnical Institute, Bulletin 16)",
+      factor);
+  ends.answer = {rankine * 2.0 * kHalfWidth, rankine * 2.0 * kHalfWidth * factor};
+  ends.whole = 2.0;
+  ends.free = Vec3::UnitZ();
+  ends.quick = false;
+  ends.finest = 8.0;
+  ends.pressed = {{0.5 * kThickness, 0.0, -0.5 * (kTop + kDepth)},
+                  {0.5 * kThickness + 0.5 * kDepth, 0.5 * kHalfWidth, -0.5 * (kTop + kDepth) + 0.5 * kDepth}};
+  list.push_back(ends);
   return list;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -23,14 +24,14 @@ double mean(const std::vector<double>& values) {
 
 }  // namespace
 
-void PressureScatter::add(const std::vector<double>& x, const std::vector<double>& z,
-                          const std::vector<double>& pressure, double cell) {
-  std::map<std::pair<long, long>, std::vector<double>> cells;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const auto place = std::pair{std::lround(std::floor(x[i] / cell)), std::lround(std::floor(z[i] / cell))};
-    cells[place].push_back(pressure[i]);
+void PressureScatter::add(const std::vector<Vec3>& places, const std::vector<double>& pressure, double cell) {
+  std::map<std::array<long, 3>, std::vector<double>> cells;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    std::array<long, 3> index;
+    for (int axis = 0; axis < 3; ++axis) index[axis] = std::lround(std::floor(places[i][axis] / cell));
+    cells[index].push_back(pressure[i]);
   }
-  if (x.empty()) return;
+  if (places.empty()) return;
   for (const auto& entry : cells) {
     const std::vector<double>& values = entry.second;
     if (values.size() < kFewest) continue;
@@ -88,8 +89,8 @@ void ForceMeasure::look(Simulation& simulation) {
   const double scale = problem_.whole / (problem_.grows ? travel_.back() : 1.0);
   force_.push_back(-scale * force.dot(problem_.push));
   lift_.push_back(scale * force.dot(problem_.free));
-  simulation.particle_field("speed", speed_);
-  const double fastest = *std::max_element(speed_.begin(), speed_.end());
+  simulation.particle_field("speed", values_);
+  const double fastest = *std::max_element(values_.begin(), values_.end());
   if (!(fastest < kBlownUp * problem_.wave_speed)) {
     throw PhysicsError(fmt::format("blown up: a particle moves at {:.3g} m/s where the tool moves at {:g} m/s", fastest,
                                    problem_.speed));
@@ -99,21 +100,24 @@ void ForceMeasure::look(Simulation& simulation) {
 
 void ForceMeasure::look_at_particles(const Simulation& simulation) {
   next_scatter_ += (problem_.to - problem_.from) / (kLooks - 1);
-  simulation.particle_field("x", x_);
-  simulation.particle_field("z", z_);
-  simulation.particle_field("p", p_);
-  chosen_x_.clear();
-  chosen_z_.clear();
-  chosen_p_.clear();
-  const Vec3 origin = simulation.rigid_body(0).pose().position;
-  const Vec3 low = origin + problem_.pressed.min, high = origin + problem_.pressed.max;
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    if (x_[i] < low.x() || x_[i] > high.x() || z_[i] < low.z() || z_[i] > high.z()) continue;
-    chosen_x_.push_back(x_[i]);
-    chosen_z_.push_back(z_[i]);
-    chosen_p_.push_back(p_[i]);
+  places_.assign(simulation.particles(), Vec3::Zero());
+  for (const int axis : axes_of(simulation.definition().geometry)) {
+    simulation.particle_field(std::string(1, "xyz"[axis]), values_);
+    for (std::size_t i = 0; i < values_.size(); ++i) places_[i][axis] = values_[i];
   }
-  scatter_.add(chosen_x_, chosen_z_, chosen_p_, simulation.definition().grid.cell.x());
+  simulation.particle_field("p", values_);
+  const Vec3 origin = simulation.rigid_body(0).pose().position;
+  std::size_t chosen = 0;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Vec3 from_tool = places_[i] - origin;
+    if ((from_tool.array() < problem_.pressed.min.array()).any()) continue;
+    if ((from_tool.array() > problem_.pressed.max.array()).any()) continue;
+    places_[chosen] = places_[i];
+    values_[chosen++] = values_[i];
+  }
+  places_.resize(chosen);
+  values_.resize(chosen);
+  scatter_.add(places_, values_, simulation.definition().grid.cell.x());
 }
 
 void ForceMeasure::report(ForceRow& row) const {

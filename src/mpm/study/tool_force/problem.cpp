@@ -35,16 +35,12 @@ const Problem& find_problem(const std::string& name) {
 
 std::string soil_material(const std::string& law, double density, double young, double poisson, double friction,
                           double dilation, double cohesion) {
-  std::string text = fmt::format(
-      "{{name: soil, law: {}, density: {:g}, young: {:g}, poisson: {:g}, friction_angle: {:g} deg, "
-      "dilation_angle: {:g} deg, cohesion: {:g}",
-      law, density, young, poisson, friction, dilation, cohesion);
-  if (law == "drucker_prager") {
-    text += ", match: plane_strain";
-  } else if (law != "mohr_coulomb") {
-    throw StudyError("law '" + law + "' is not one of tool_force; there are drucker_prager, mohr_coulomb");
-  }
-  return text + "}";
+  const std::size_t stroke = law.find('/');
+  const std::string match = stroke == std::string::npos ? "" : ", match: " + law.substr(stroke + 1);
+  return fmt::format(
+      "{{name: soil, law: {}{}, density: {:g}, young: {:g}, poisson: {:g}, friction_angle: {:g} deg, "
+      "dilation_angle: {:g} deg, cohesion: {:g}}}",
+      law.substr(0, stroke), match, density, young, poisson, friction, dilation, cohesion);
 }
 
 std::string time_section(const Problem& problem, const Setup& setup) {

@@ -41,6 +41,7 @@ Json of_row(const ForceRow& row) {
   json["ripple"] = number(row.ripple);
   json["scatter"] = number(row.scatter);
   json["unloaded"] = number(row.unloaded);
+  json["imbalance"] = number(row.imbalance);
   json["cpu_seconds"] = number(row.cpu_seconds);
   json["real_time_factor"] = number(row.real_time_factor);
   json["curve"] = row.curve;
@@ -50,16 +51,16 @@ Json of_row(const ForceRow& row) {
 }  // namespace
 
 std::string table_header() {
-  return fmt::format("{:<20}{:>6}{:>9}{:>8}{:>8}{:>8}{:>9}{:>9}{:>9}{:>8}{:>8}  {}", "problem", "cells", "F/exact",
-                     "error", "lift", "ripple", "scatter", "unloaded", "cpu [s]", "rtf", "steps", "variant");
+  return fmt::format("{:<20}{:>6}{:>9}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}{:>9}{:>8}{:>8}  {}", "problem", "cells", "F/exact",
+                     "error", "lift", "ripple", "scatter", "unloaded", "energy", "cpu [s]", "rtf", "steps", "variant");
 }
 
 std::string table_line(const ForceRow& row) {
-  std::string line =
-      fmt::format("{:<20}{:>6g}{:>9}{:>8}{:>8}{:>8}{:>9}{:>9}{:>9}{:>8}{:>8}  {}", row.problem, row.cells,
-                  cell(row.over_exact, "{:.3f}"), cell(row.error, "{:.3f}"), cell(row.lift, "{:.3f}"),
-                  cell(row.ripple, "{:.3f}"), cell(row.scatter, "{:.3f}"), cell(row.unloaded, "{:.3f}"),
-                  cell(row.cpu_seconds, "{:.3g}"), cell(row.real_time_factor, "{:.3g}"), row.steps, row.variant);
+  std::string line = fmt::format(
+      "{:<20}{:>6g}{:>9}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}{:>9}{:>8}{:>8}  {}", row.problem, row.cells,
+      cell(row.over_exact, "{:.3f}"), cell(row.error, "{:.3f}"), cell(row.lift, "{:.3f}"), cell(row.ripple, "{:.3f}"),
+      cell(row.scatter, "{:.3f}"), cell(row.unloaded, "{:.3f}"), cell(row.imbalance, "{:.3f}"),
+      cell(row.cpu_seconds, "{:.3g}"), cell(row.real_time_factor, "{:.3g}"), row.steps, row.variant);
   if (row.status != "ok") line += fmt::format("  {}: {}", row.status, row.message);
   return line;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -43,6 +44,13 @@ Scene scene_of(const Problem& problem, double cells, const Overrides& variant, c
     }
   }
   return parse_scene(problem.scene(problem, setup), problem.name, keys);
+}
+
+/// Energy that came from nowhere: what is stored and dissipated beyond the work done since, over the work of tools.
+double imbalance(const EnergyReport& before, const EnergyReport& after) {
+  using Kind = EnergyReport::Kind;
+  const auto gained = [&](Kind kind) { return after.sum(kind) - before.sum(kind); };
+  return (gained(Kind::stored) + gained(Kind::dissipated) - gained(Kind::work)) / std::abs(after.of("contact_work"));
 }
 
 void describe(const SimulationDefinition& definition, ForceRow& row) {
@@ -92,6 +100,7 @@ ForceRow run_row(const Problem& problem, double cells, const Overrides& variant,
     describe(definition, row);
     Simulation simulation(std::move(definition), SimulationOptions{1});
     row.particles = simulation.particles();
+    const EnergyReport before_run = simulation.state().energy;
     measure.look(simulation);
     const std::int64_t end = std::llround(1e9 * simulation.definition().time.end);
     while (!measure.done() && simulation.time() < end) {
@@ -102,6 +111,7 @@ ForceRow run_row(const Problem& problem, double cells, const Overrides& variant,
       row.steps = simulation.state().step.steps;
       measure.look(simulation);
     }
+    row.imbalance = imbalance(before_run, simulation.state().energy);
     row.status = "ok";
   } catch (const PhysicsError& error) {
     row.status = "failed";
@@ -138,6 +148,7 @@ void run_tool_force(const ForceOptions& options, const std::function<void(const 
   std::vector<ForceRow> rows;
   for (const Problem* problem : chosen) {
     for (const double count : cells) {
+      if (options.cells.empty() && count > problem->finest) continue;
       for (std::size_t v = 0; v < variants.size(); ++v) {
         if (options.only_write) {
           const fs::path path = folder / fmt::format("{}_{:g}_{}.yaml", problem->name, count, v);

@@ -79,6 +79,8 @@ TEST(SceneMethod, EveryTransfer) {
   EXPECT_FALSE(method_of("transfer: apic").average_dilatation);
   EXPECT_TRUE(method_of("average_dilatation: true").average_dilatation);
   EXPECT_FALSE(method_of("average_dilatation: false").average_dilatation);
+  EXPECT_FALSE(method_of("transfer: apic").average_pressure);
+  EXPECT_TRUE(method_of("average_pressure: true").average_pressure);
 }
 
 TEST(SceneMethod, BadTransfersSayWhatToWrite) {
@@ -113,6 +115,11 @@ TEST(SceneMethod, CombinationsThatCannotWork) {
   EXPECT_EQ(method_fault(method, GeometryKind::plane_stress)->key, "average_dilatation");
   EXPECT_FALSE(method_fault(method, GeometryKind::plane_strain));
   EXPECT_FALSE(method_fault(method, GeometryKind::solid));
+  method = {};
+  method.average_pressure = true;
+  EXPECT_EQ(method_fault(method, GeometryKind::line)->key, "average_pressure");
+  EXPECT_EQ(method_fault(method, GeometryKind::plane_stress)->key, "average_pressure");
+  EXPECT_FALSE(method_fault(method, GeometryKind::axisymmetric));
   method = {};
   method.shape = ShapeKind::qcpdi;
   EXPECT_EQ(method_fault(method, GeometryKind::line)->key, "shape");

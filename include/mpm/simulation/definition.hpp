@@ -47,6 +47,7 @@ struct MethodDefinition {
   UpdateScheme update = UpdateScheme::usavg;
   Transfer transfer;
   bool average_dilatation = false;  ///< volume changes averaged over the grid, against locking
+  bool average_pressure = false;    ///< soil that flows has one pressure in a cell (mechanics/pressure_average.hpp)
   DampingDefinition damping;
   AxisRules axis;                            ///< axisymmetric scenes alone
   int gradient_terms = 2;                    ///< terms of exp(grad v dt)

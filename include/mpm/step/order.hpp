@@ -26,6 +26,7 @@ enum class Hook {
 inline constexpr int kHooks = 8;
 
 enum class Rank {
+  particle_stress,  ///< changes the particles' stress, which nothing has read in the step yet
   mass_centre,      ///< finds the mass centres of nodes, which `side` needs
   side,             ///< joins both sides of a body where no tool is between them, before velocities are used
   hoop_stress,      ///< books the sum of the internal forces, so it acts before forces are added

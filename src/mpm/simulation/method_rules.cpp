@@ -61,6 +61,11 @@ Fault dilatation_fault(const MethodDefinition& method, GeometryKind geometry) {
   return {};
 }
 
+Fault pressure_fault(const MethodDefinition& method, GeometryKind geometry) {
+  if (!method.average_pressure || (geometry != GeometryKind::line && geometry != GeometryKind::plane_stress)) return {};
+  return MethodFault{"average_pressure", "in a line and in plane stress nothing locks; leave it out"};
+}
+
 Fault rate_fault(const char* key, const Function& rate) {
   const std::string path = std::string("damping.") + key;
   if (rate.uses_start()) return MethodFault{path, "damping is a function of t, x, y, z; X, Y, Z are not kept for it"};
@@ -136,6 +141,7 @@ std::optional<MethodFault> method_fault(const MethodDefinition& method, Geometry
   if (const Fault fault = shape_fault(method, geometry)) return fault;
   if (const Fault fault = transfer_fault(method)) return fault;
   if (const Fault fault = dilatation_fault(method, geometry)) return fault;
+  if (const Fault fault = pressure_fault(method, geometry)) return fault;
   if (method.gradient_terms < 1 || method.gradient_terms > kMostTerms) {
     return MethodFault{"gradient_terms", fmt::format("{} is not possible; write 1 to {} terms, as 2, the default",
                                                      method.gradient_terms, kMostTerms)};

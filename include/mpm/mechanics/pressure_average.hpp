@@ -1,0 +1,65 @@
+// One pressure for the particles of a cell that flow: against locking and ringing of soil.
+//
+// The flow rule of soil ties the change of volume to the shear at every particle. A cell with four or eight particles
+// then forbids more motions than its nodes have: a slip band that is not parallel to the grid cannot form freely, and
+// what is pushed or pressed meets too much force. At the beginning of each step the particles of a cell whose plastic
+// strain has grown in the step before, and which are under pressure, get the mean of their pressures, weighted by mass.
+// So the cell feels one volumetric stress, as an element with one pressure does; deviators stay those of the law, and
+// so does everything that is elastic. The mean stress of a cell, and thus momentum, does not change. The next return to
+// the yield surface sees the mean pressure. What the particles lose of their elastic energy is booked.
+//
+// A cell is what is nearest to a node, so that it lies in one block. A particle that has left its block since the last
+// sort counts in the nearest cell of that block.
+//
+// Weak: half of the locking remains, since a band is still smeared over cells. Cells do not move with the material.
+// Where few particles are left in a cell, there is less to average.
+// Source: an element with one pressure, J. C. Nagtegaal, D. M. Parks, J. R. Rice (1974), On numerically accurate finite
+// element solutions in the fully plastic range, Comput. Methods Appl. Mech. Eng. 4, 153-177, who show why elements
+// lock; that it is done to particles, and only where they flow, is this project's, and doc/verification.md has what it
+// changes.
+#pragma once
+
+#include <vector>
+
+#include "mpm/math/geometry_kind.hpp"
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+/// A set of particles whose law is in rate form, with a pressure that is elastic in the change of volume.
+struct AveragedSet {
+  ParticleSet* set;
+  double bulk;     ///< modulus [Pa]
+  double density;  ///< before deformation [kg/m^3]
+};
+
+class PressureAverage final : public Stage {
+ public:
+  /// The sets outlive the stage, and are not sorted yet: each gets a number more for its particles.
+  PressureAverage(std::vector<AveragedSet> sets, GeometryKind geometry, int threads);
+
+  std::string name() const override { return "pressure_average"; }
+  Ranks ranks(Hook) const override { return {Rank::particle_stress}; }
+
+  void momentum_gathered(StepContext& context) override;
+  /// "pressure averaging", dissipated.
+  void energies(EnergyReport& report) const override;
+  void serialise(StateArchive& archive) override { archive.value("taken", taken_); }
+
+ private:
+  template <class Geometry, class T>
+  void average(const AveragedSet& one, std::size_t place, const StepContext& context);
+  /// The particles [begin, end), which belong to one block; returns the energy that they lose [J].
+  template <class Geometry, class T>
+  static double average_block(const AveragedSet& one, double* before, std::uint32_t begin, std::uint32_t end,
+                              const GridLayout& layout, const std::array<int, 3>& block);
+
+  std::vector<AveragedSet> sets_;
+  std::vector<std::size_t> places_;  ///< of each set, the number that it was given
+  GeometryKind geometry_;
+  int threads_;
+  std::vector<double> of_owner_;  ///< energy that the particles of a block lose in this step [J]
+  double taken_ = 0.0;            ///< [J]
+};
+
+}  // namespace mpm

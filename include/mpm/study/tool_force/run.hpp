@@ -12,8 +12,8 @@
 
 namespace mpm::study::tool_force {
 
-/// Changes to a scene, as `run_scene --set` takes them: "contact.method=nodes". "law=mohr_coulomb" is the law of the
-/// soil, which changes the keys of its material.
+/// Changes to a scene, as `run_scene --set` takes them: "contact.method=nodes". Two more change the problem:
+/// "law=mohr_coulomb" the law of the soil, and "speed=0.5" the tool's speed by a factor.
 using Overrides = std::vector<std::string>;
 
 struct ForceOptions {

@@ -70,9 +70,10 @@ Problem tool(const std::string& name, const std::string& title) {
 
 Problem pile(bool rough) {
   Problem problem = tool(rough ? "pile" : "pile_smooth", rough ? "Rough pile in clay" : "Smooth pile in clay");
-  problem.text = std::string(rough ? "Rough" : "Smooth") +
-                 " cylinder pressed sideways through weightless clay, E = 1000 c, diameter 0.2 m, 0.1 m/s. Cells: over "
-                 "the diameter.";
+  problem.text =
+      std::string(rough ? "Rough" : "Smooth") +
+      " cylinder pressed sideways through weightless clay, E = 1000 c, diameter 0.2 m, 0.05 m/s. Cells: over "
+      "the diameter.";
   const double exact = lateral_pile_factor(rough ? 1.0 : 0.0) * kCohesion * kLength;
   problem.answer = {exact, exact};
   problem.answer_text = "11.94 c D a metre: Randolph and Houlsby (1984)";
@@ -86,7 +87,7 @@ Problem pile(bool rough) {
   problem.from = 0.08;
   problem.to = 0.14;
   problem.moves_on = true;
-  problem.speed = 0.1;
+  problem.speed = 0.05;
   problem.ramp = 0.02;
   problem.pressed = {{0.5 * kLength, 0.0, 0.0}, {kLength, 0.0, 0.5 * kLength}};
   problem.scene = [rough](const Problem& own, const Setup& setup) { return pile_scene(own, setup, rough); };

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "mpm/choice/method_choice.hpp"
 #include "mpm/scene/scene.hpp"
@@ -19,7 +21,6 @@ namespace fs = std::filesystem;
 
 const std::vector<double> kQuickCells = {4.0, 6.0, 8.0};
 const std::vector<double> kFullCells = {4.0, 6.0, 8.0, 12.0, 16.0, 24.0};
-const std::string kLaw = "law=";
 
 /// Of this process, which runs nothing beside [s].
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -30,20 +31,38 @@ std::string joined(const Overrides& overrides) {
   return text;
 }
 
-Scene scene_of(const Problem& problem, double cells, const Overrides& variant, const Overrides& set) {
+/// A problem as a variant asks for it.
+struct Run {
+  Problem problem;
   Setup setup;
-  setup.cells = cells;
-  Overrides keys;
+  Overrides keys;  ///< of the scene
+
+  Scene scene() const { return parse_scene(problem.scene(problem, setup), problem.name, keys); }
+};
+
+/// The value of "name=value", if it is that.
+std::optional<std::string> value_of(const std::string& text, const std::string& name) {
+  if (text.rfind(name + "=", 0) != 0) return {};
+  return text.substr(name.size() + 1);
+}
+
+Run resolve(const Problem& problem, double cells, const Overrides& variant, const Overrides& set) {
+  Run run{problem, {cells, {}}, {}};
   for (const Overrides* list : {&set, &variant}) {
     for (const std::string& one : *list) {
-      if (one.rfind(kLaw, 0) == 0) {
-        setup.law = one.substr(kLaw.size());
+      if (const auto law = value_of(one, "law")) {
+        run.setup.law = *law;
+      } else if (const auto speed = value_of(one, "speed")) {
+        const double factor = std::atof(speed->c_str());
+        if (!(factor > 0.0))
+          throw StudyError("'" + one + "' is no factor of the tool's speed; write one such as speed=0.5");
+        run.problem.speed *= factor;
       } else {
-        keys.push_back(one);
+        run.keys.push_back(one);
       }
     }
   }
-  return parse_scene(problem.scene(problem, setup), problem.name, keys);
+  return run;
 }
 
 /// Energy that came from nowhere: what is stored and dissipated beyond the work done since, over the work of tools.
@@ -93,23 +112,26 @@ ForceRow run_row(const Problem& problem, double cells, const Overrides& variant,
   row.variant = joined(variant);
   row.answer = problem.answer;
   row.known = problem.known;
-  ForceMeasure measure(problem, cells);
   double spent = 0.0, simulated = 0.0;
+  std::optional<Run> run;
+  std::optional<ForceMeasure> measure;
   try {
-    SimulationDefinition definition = build(scene_of(problem, cells, variant, set));
+    run = resolve(problem, cells, variant, set);
+    measure.emplace(run->problem, cells);
+    SimulationDefinition definition = build(run->scene());
     describe(definition, row);
     Simulation simulation(std::move(definition), SimulationOptions{1});
     row.particles = simulation.particles();
     const EnergyReport before_run = simulation.state().energy;
-    measure.look(simulation);
+    measure->look(simulation);
     const std::int64_t end = std::llround(1e9 * simulation.definition().time.end);
-    while (!measure.done() && simulation.time() < end) {
+    while (!measure->done() && simulation.time() < end) {
       const double before = processor_time();
       simulation.advance();
       spent += processor_time() - before;
       simulated = 1e-9 * static_cast<double>(simulation.time());
       row.steps = simulation.state().step.steps;
-      measure.look(simulation);
+      measure->look(simulation);
     }
     row.imbalance = imbalance(before_run, simulation.state().energy);
     row.status = "ok";
@@ -120,7 +142,7 @@ ForceRow run_row(const Problem& problem, double cells, const Overrides& variant,
     row.status = row.steps > 0 ? "failed" : "refused";
     row.message = error.what();
   }
-  measure.report(row);
+  if (measure) measure->report(row);
   row.cpu_seconds = spent;
   if (spent > 0.0) row.real_time_factor = simulated / spent;
   return row;
@@ -152,7 +174,7 @@ void run_tool_force(const ForceOptions& options, const std::function<void(const 
       for (std::size_t v = 0; v < variants.size(); ++v) {
         if (options.only_write) {
           const fs::path path = folder / fmt::format("{}_{:g}_{}.yaml", problem->name, count, v);
-          create(path) << scene_of(*problem, count, variants[v], options.set).text << '\n';
+          create(path) << resolve(*problem, count, variants[v], options.set).scene().text << '\n';
           progress(path.string());
           continue;
         }

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """make_methods.py RUNS DOC [PAGES]: writes DOC/methods.md, DOC/methods/*.png and copies of the tables from RUNS, the
-folder that work_precision filled, and from PAGES, the folder where the stability tests left their pages.
+folder that work_precision filled, and from PAGES, the folder where the stability tests left their pages. Without PAGES the
+last chapter, which is made from them, stays as it is. RUNS may be DOC/methods.
 
     make_methods.py --check DOC     fails unless the page, without its last chapter, agrees with the tables beside it
 
@@ -11,7 +12,7 @@ The text is benchmark/work_precision/methods.md. Expressions in {{ }} there are 
 
     {{ percent(error("square_large", "ugimp/usavg/flip", 32)) }}   a number of a row
     {{ check(error(...) < 0.5 * error(...)) }}                     prints nothing; the page is not made unless it holds
-    {{ charts() }} {{ summary() }} {{ refused() }} {{ stability() }}
+    {{ charts() }} {{ summary() }} {{ refused() }} {{ tool_force() }} {{ stability() }}
 
 A missing row, or a check that does not hold, ends this script with an error that names the line of the text, so that no
 claim outlives its figures. In the chapter "What the charts say" every point needs a check."""
@@ -25,7 +26,9 @@ import sys
 import textwrap
 
 sys.dont_write_bytecode = True  # nothing is left among the sources
+import plot_tool_force  # noqa: E402
 import plot_work_precision as plots  # noqa: E402
+import tool_force_pages  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TEMPLATE = ROOT / "benchmark" / "work_precision" / "methods.md"
@@ -52,7 +55,7 @@ class Study:
         self.rows, self.texts = plots.read_rows(runs), plots.read_texts(runs)
         with open(runs / "summary.csv", newline="", encoding="utf-8") as file:
             self.lines = list(csv.DictReader(file))
-        self.doc, self.pages = doc, pages
+        self.runs, self.doc, self.pages = runs, doc, pages
         self.drawn = [suite for suite in dict.fromkeys(row["suite"] for row in self.rows)
                       if plots.good([row for row in self.rows if row["suite"] == suite])]
 
@@ -187,6 +190,10 @@ class Study:
                   for (suite, method), cells in counts.items()]
         return "\n".join(lines)
 
+    def tool_force(self):
+        """Tables and pictures of the forces on tools."""
+        return tool_force_pages.chapter(self.runs)
+
     def stability(self):
         """The chapters that stability_pages.py makes from the pages of the stability tests, if there are any."""
         if self.pages is None or not any(self.pages.glob("*.json")):
@@ -201,7 +208,8 @@ class Study:
         return {"error": self.error, "relative_cost": self.relative_cost, "status": self.status, "order": self.order,
                 "best": self.best, "worst": self.worst, "charts": self.charts, "summary": self.summary,
                 "refused": self.refused, "failures": self.failures, "main_suites": self.main_suites,
-                "stability": self.stability, "runs": lambda: len(self.rows),
+                "stability": self.stability, "tool_force": self.tool_force,
+                "tool_force_cells": lambda: f"{tool_force_pages.AT:g}", "runs": lambda: len(self.rows),
                 "percent": lambda value: digits(100 * value) + " %", "times": digits,
                 "plain": lambda value: f"{value:g}", "check": check, "min": min, "max": max, "abs": abs}
 
@@ -268,12 +276,18 @@ def make(runs, doc, pages):
     study = Study(runs, doc, pages)
     study.check_complete()
     filled = wrap_points(fill(text, study.names()))
-    (doc / "methods").mkdir(parents=True, exist_ok=True)
-    for old in (doc / "methods").glob("*.png"):
+    page, pictures = doc / "methods.md", doc / "methods"
+    if pages is None and page.exists():
+        filled = filled.split(LAST)[0] + LAST + page.read_text(encoding="utf-8").split(LAST, 1)[1]
+    pictures.mkdir(parents=True, exist_ok=True)
+    for old in pictures.glob("*.png"):
         old.unlink()
-    plots.draw_all(runs, doc / "methods")
+    plots.draw_all(runs, pictures)
+    plot_tool_force.draw_all(runs, pictures)
+    tool_force_pages.keep(runs, pictures)
     for table in TABLES:
-        shutil.copyfile(runs / table, doc / "methods" / table)
+        if runs.resolve() != pictures.resolve():
+            shutil.copyfile(runs / table, pictures / table)
     (doc / "methods.md").write_text(filled.rstrip() + "\n", encoding="utf-8")
     print(f"{len(study.drawn)} charts, {len(study.rows)} runs: {doc / 'methods.md'}")
 
@@ -299,7 +313,7 @@ def main():
             make(pathlib.Path(words[0]), pathlib.Path(words[1]), pathlib.Path(words[2]) if words[2:] else None)
         else:
             raise SystemExit("usage: make_methods.py RUNS DOC [PAGES] | --check DOC")
-    except (ClaimError, plots.TableError, OSError) as error:
+    except (ClaimError, plots.TableError, plot_tool_force.TableError, OSError) as error:
         print(f"make_methods.py: {error}", file=sys.stderr)
         return 2
     return 0

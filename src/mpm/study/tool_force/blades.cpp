@@ -130,8 +130,9 @@ std::vector<Problem> blades() {
   still.free = Vec3::UnitZ();
   list.push_back(still);
 
-  Problem rough = blade("blade_rough", "Blade as rough as the sand",
-                        "Blade with a level bottom, as rough as the sand, associated flow.", {false, true});
+  Problem rough =
+      blade("blade_rough", "Blade as rough as the sand",
+            "Blade with a bottom that rises behind the edge, as rough as the sand, associated flow.", {true, true});
   rough.known = Known::bounds;
   rough.answer_text =
       "along the push: K_p between 5.03 (Lancellotta (2002)) and 6.00 (log spiral, Terzaghi (1943)); tables of Kérisel "

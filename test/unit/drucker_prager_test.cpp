@@ -1,4 +1,5 @@
-// Drucker-Prager on a single element, driven by strain, against Mohr-Coulomb limits and the flow rule.
+// Drucker-Prager on a single element, driven by strain, against Mohr-Coulomb limits and the flow rule. Strength in every
+// state is in soil_strength_test.cpp.
 #include "mpm/material/drucker_prager.hpp"
 
 #include <gtest/gtest.h>
@@ -82,7 +83,7 @@ TEST(DruckerPrager, IsElasticInTheOedometerUntilYield) {
 
 // exact-solutions 24: plastic volume strain over plastic shear is eta_bar; at yield the stress lies on the cone.
 TEST(DruckerPrager, DilatesByTheFlowRuleAndStaysOnTheCone) {
-  DruckerPragerDefinition d{{1e6, 0.3}, 35.0 * kDegree, 10.0 * kDegree, 50.0};
+  DruckerPragerDefinition d{{1e6, 0.3}, 35.0 * kDegree, 10.0 * kDegree, 50.0, -1.0, ConeMatch::compression};
   Element element(d);
   for (int i = 0; i < 100; ++i) element.strain(-1e-5, -1e-5, -1e-5);
   const double bulk = d.elasticity.bulk();

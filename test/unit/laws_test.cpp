@@ -184,6 +184,7 @@ TEST(EveryLaw, OfSoilAccountsForItsWorkAtSmallStrain) {
               strain,
               -strain,
               1.0},
+             {{"by Lode angle", 1600.0, DruckerPragerDefinition{soil, 0.6, dilation, 2.0}}, strain, -strain, 1.0},
              {{"pyramid", 1600.0, MohrCoulombDefinition{soil, 0.6, dilation, 2.0, -1.0}}, strain, -strain, 1.0},
              {{"cut off", 1600.0, MohrCoulombDefinition{soil, 0.6, dilation, 10.0, 2.0}}, strain, strain, 1.0}}) {
       double lost = 0.0;

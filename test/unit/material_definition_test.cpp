@@ -109,8 +109,11 @@ TEST(MaterialDefinition, SoilAngles) {
   for (const double bad : {-1.0 * kDegree, kNan}) EXPECT_NE(soil_with(&Law::dilation_angle, bad), "") << bad;
 }
 
-TEST(MaterialDefinition, CohesionAndTensionCutoff) {
+TEST(MaterialDefinition, DilationLimitCohesionAndTensionCutoff) {
   using Law = DruckerPragerDefinition;
+  EXPECT_EQ(soil_with(&Law::dilation_limit, kInfinity), "");  // none
+  EXPECT_EQ(soil_with(&Law::dilation_limit, 0.0), "material 'soil': dilation limit is 0; it must be positive");
+  for (const double bad : {-1.0, kNan}) EXPECT_NE(soil_with(&Law::dilation_limit, bad), "") << bad;
   EXPECT_EQ(soil_with(&Law::cohesion, 0.0), "");
   for (const double bad : {-1.0, kNan, kInfinity}) EXPECT_NE(soil_with(&Law::cohesion, bad), "") << bad;
   // Apex by hand: 1000 Pa / tan(30 degrees) = 1000 sqrt(3) Pa.

@@ -163,7 +163,7 @@ TEST(SceneBadInput, SoilConstantsOutOfRange) {
   starts("dilation_angle: -1 deg", "bad.yaml:19: materials.soft.dilation_angle: ");
   starts("cohesion: -1", "bad.yaml:19: materials.soft.cohesion: ");
   starts("tension_cutoff: -1", "bad.yaml:19: materials.soft.tension_cutoff: '-1' is less than 0;");
-  starts("match: inner", "bad.yaml:19: materials.soft.match: 'inner' is not known; write one of compression");
+  starts("match: inner", "bad.yaml:19: materials.soft.match: 'inner' is not known; write one of mohr_coulomb");
   // Without a unit an angle is in radians, and 30 is beyond a right angle.
   const std::string found =
       refusal(with_line(17, "    poisson: 0.3\n    friction_angle: 30"), {"materials.soft.law=drucker_prager"});

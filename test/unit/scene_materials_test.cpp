@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "mpm/scene/scene.hpp"
+#include "mpm/simulation/geometry_rules.hpp"
 
 namespace mpm {
 namespace scene_materials_test {
@@ -59,6 +61,70 @@ TEST(SceneMaterials, Metal) {
             ": the key 'yield_stress' is missing; add it");
   EXPECT_EQ(refusal(start + ", hardening_moduli: 1 GPa"),
             ".hardening_moduli: unknown key 'hardening_moduli'; did you mean 'hardening_modulus'?");
+}
+
+TEST(SceneMaterials, Soil) {
+  const std::string start = "density: 1600, law: drucker_prager, young: 1 MPa, poisson: 0.3, friction_angle: 45 deg";
+  const Scene scene = scene_of(start + ", dilation_angle: 10 deg");
+  const auto sand = std::get<DruckerPragerDefinition>(scene.definition.materials.at(0).law);
+  EXPECT_EQ(sand.match, ConeMatch::mohr_coulomb);
+  EXPECT_EQ(sand.dilation_limit, 0.1);
+  for (const char* key : {"match", "dilation_limit"}) {
+    const auto recorded = [&](const auto& choice) { return choice.first == std::string("materials.m.") + key; };
+    EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), recorded), 1) << key;
+  }
+  const ConeMatch matches[] = {ConeMatch::mohr_coulomb, ConeMatch::plane_strain, ConeMatch::compression,
+                               ConeMatch::extension};
+  const char* const names[] = {"mohr_coulomb", "plane_strain", "compression", "extension"};
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(law_of<DruckerPragerDefinition>(start + ", match: " + names[k]).match, matches[k]);
+  }
+  EXPECT_EQ(law_of<DruckerPragerDefinition>(start + ", dilation_limit: 0.05").dilation_limit, 0.05);
+  EXPECT_TRUE(std::isinf(law_of<DruckerPragerDefinition>(start + ", dilation_limit: none").dilation_limit));
+  EXPECT_EQ(refusal(start + ", dilation_limit: 0").rfind(".dilation_limit: '0' is not greater than 0;", 0), 0u);
+  EXPECT_EQ(refusal(start + ", dilation_angle: 46 deg"),
+            ".dilation_angle: dilation angle is 46 degrees; it must lie from 0 to the friction angle, 45");
+  const std::string pyramid = "density: 1600, law: mohr_coulomb, young: 1 MPa, poisson: 0.3, friction_angle: 45 deg";
+  EXPECT_TRUE(std::isinf(law_of<MohrCoulombDefinition>(pyramid + ", dilation_limit: none").dilation_limit));
+  EXPECT_EQ(refusal(pyramid + ", match: compression").rfind(".match: unknown key 'match'", 0), 0u);
+}
+
+// exact-solutions 31: matched in compression, sand that does not dilate has no limit state in a plane above 42.2
+// degrees, and acts as one of 43.9 for 30. Associated sand has none above sin = 0.6, 36.9 degrees: its eta, 2 sqrt(3)
+// sin / (3 - sin), must lie below sqrt(3)/2, where flow dilates by 90 degrees.
+TEST(SceneMaterials, SoilWithoutALimitInAPlaneIsRefused) {
+  const auto sand = [](double friction, double dilation, ConeMatch match) {
+    constexpr double kDegree = 3.14159265358979323846 / 180.0;
+    return MaterialDefinition{
+        "sand", 1600.0, DruckerPragerDefinition{{1e6, 0.3}, friction * kDegree, dilation * kDegree, 0.0, -1.0, match}};
+  };
+  const auto plane = GeometryKind::plane_strain;
+  EXPECT_EQ(refused_material(plane, sand(42.1, 0.0, ConeMatch::compression)), "");
+  EXPECT_EQ(refused_material(plane, sand(45.0, 0.0, ConeMatch::compression)),
+            "material 'sand' (drucker_prager) in plane strain: with this match and 45 degrees of friction it has no "
+            "limit: whatever presses on it, it does not flow; leave match out, or write mohr_coulomb or plane_strain");
+  EXPECT_EQ(refused_material(plane, sand(36.8, 36.8, ConeMatch::compression)), "");
+  EXPECT_NE(refused_material(plane, sand(37.0, 37.0, ConeMatch::compression)), "");
+  for (const auto geometry : {GeometryKind::solid, GeometryKind::axisymmetric}) {
+    EXPECT_EQ(refused_material(geometry, sand(45.0, 0.0, ConeMatch::compression)), "");
+  }
+  for (const ConeMatch match : {ConeMatch::mohr_coulomb, ConeMatch::plane_strain, ConeMatch::extension}) {
+    EXPECT_EQ(refused_material(plane, sand(60.0, 0.0, match)), "");
+  }
+  EXPECT_EQ(material_warning(plane, sand(30.0, 0.0, ConeMatch::compression)),
+            "material 'sand': with this match it acts in plane strain as one of 43.9 degrees of friction, not 30; for "
+            "30, leave match out, or write mohr_coulomb or plane_strain");
+  EXPECT_EQ(material_warning(GeometryKind::solid, sand(45.0, 0.0, ConeMatch::compression))
+                .rfind("material 'sand': with this match and 45 degrees of friction it has no limit where it moves in "
+                       "a plane, as before a wide blade",
+                       0),
+            0u);
+  EXPECT_EQ(material_warning(GeometryKind::solid, sand(30.0, 0.0, ConeMatch::compression)), "");
+  for (const auto geometry : {plane, GeometryKind::solid, GeometryKind::axisymmetric}) {
+    EXPECT_EQ(material_warning(geometry, sand(45.0, 0.0, ConeMatch::mohr_coulomb)), "");
+    EXPECT_EQ(material_warning(geometry, sand(45.0, 0.0, ConeMatch::plane_strain)), "");
+    EXPECT_EQ(material_warning(geometry, {"clay", 1600.0, MohrCoulombDefinition{{1e6, 0.3}, 0.8}}), "");
+  }
 }
 
 TEST(SceneMaterials, Fluid) {

@@ -126,6 +126,30 @@ TEST(PrincipalBounds, HoldAndAreTight) {
   expect_bounds<float>(4.0 * std::numeric_limits<float>::epsilon(), 2e-3);
 }
 
+// The closed form, to the error of its polynomial, where two values are nearly equal too.
+TEST(PrincipalExtremes, AreExactToTheirPolynomial) {
+  std::mt19937 engine(8);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int n = 0; n < 20000; ++n) {
+    Matrix3<double> l = {u(engine), u(engine), u(engine), u(engine), u(engine), u(engine), u(engine), u(engine), 1.0};
+    if (n % 2 == 0) l.xy = l.xx = l.xz = l.yx = l.yy = l.yz = 1e-9 * u(engine);  // two values nearly equal
+    mpm::Symmetric3<double> s = mpm::left_cauchy_green(l);
+    if (n % 4 >= 2) s = mpm::scale_shift(s, -1.0, 0.0);
+    const mpm::Principal<double> exact = mpm::principal(s);
+    const auto [largest, smallest] = mpm::principal_extremes(s);
+    const double deviator = std::sqrt(mpm::squared_norm(mpm::scale_shift(s, 1.0, -mpm::trace(s) / 3.0)));
+    ASSERT_NEAR(largest, exact.largest(), 2e-10 * deviator) << n;
+    ASSERT_NEAR(smallest, exact.smallest(), 2e-10 * deviator) << n;
+  }
+  for (int k = 0; k <= 1000; ++k) {
+    const double x = 0.001 * k;
+    ASSERT_NEAR(mpm::cosine_of_third_by_half(x), std::cos(2.0 / 3.0 * std::acos(x)), 1e-10) << x;
+  }
+  const auto [largest, smallest] = mpm::principal_extremes(mpm::Symmetric3<double>::isotropic(3.0));
+  EXPECT_EQ(largest, 3.0);
+  EXPECT_EQ(smallest, 3.0);
+}
+
 TEST(PrincipalBounds, OfEqualValuesAreExact) {
   const auto [largest, smallest] = mpm::principal_bounds(mpm::Symmetric3<double>::isotropic(3.0));
   EXPECT_EQ(largest, 3.0);

@@ -125,7 +125,7 @@ void verify(verification::Page& page, const std::vector<double>& aspects, int ce
   page.meaning(
       "Run-out is within the spread of published fits to two cells; high columns run out farther than sands in "
       "channels did. It grows as the grid is refined, most of all for low columns, whose front is only a few cells "
-      "high, and a PIC fraction shortens it: compare scenes at one resolution. No heap is steeper than 25.7°, the "
+      "high, and a PIC fraction shortens it: compare scenes at one resolution. No heap is steeper than 26.6°, the "
       "slope on which this sand shears (the layer on a slope).");
 }
 

@@ -32,8 +32,13 @@ struct NeoHookeanDefinition {
   Elasticity elasticity;
 };
 
-/// The Mohr-Coulomb state through which the cone passes.
-enum class ConeMatch { compression, extension, plane_strain };
+/// Where Drucker-Prager has Mohr-Coulomb's strength and dilation: in every state, since the slope follows the Lode
+/// angle, or in the state through which a round cone passes.
+enum class ConeMatch { mohr_coulomb, plane_strain, compression, extension };
+
+/// Dense sand shears at constant volume once it has gained about a tenth (critical state): between the densest and the
+/// loosest packing of most sands there is a fifth.
+constexpr double kDilationLimit = 0.1;
 
 /// Drucker-Prager soil; angles in radians.
 struct DruckerPragerDefinition {
@@ -42,16 +47,18 @@ struct DruckerPragerDefinition {
   double dilation_angle = 0.0;   ///< [rad], in [0, friction_angle]
   double cohesion = 0.0;         ///< [Pa], >= 0
   double tension_cutoff = -1.0;  ///< largest mean tension [Pa]; negative: the cone's apex
-  ConeMatch match = ConeMatch::compression;
+  ConeMatch match = ConeMatch::mohr_coulomb;
+  double dilation_limit = kDilationLimit;  ///< volume gained over initial volume at which dilation ends, > 0
 };
 
 /// Mohr-Coulomb soil; angles in radians.
 struct MohrCoulombDefinition {
   Elasticity elasticity;
-  double friction_angle = 0.0;   ///< [rad], in [0, pi/2)
-  double dilation_angle = 0.0;   ///< [rad], in [0, friction_angle]
-  double cohesion = 0.0;         ///< [Pa], >= 0
-  double tension_cutoff = -1.0;  ///< largest principal tension [Pa]; negative: the apex
+  double friction_angle = 0.0;             ///< [rad], in [0, pi/2)
+  double dilation_angle = 0.0;             ///< [rad], in [0, friction_angle]
+  double cohesion = 0.0;                   ///< [Pa], >= 0
+  double tension_cutoff = -1.0;            ///< largest principal tension [Pa]; negative: the apex
+  double dilation_limit = kDilationLimit;  ///< as above
 };
 
 /// Metal with isotropic hardening: flow stress yield + H a + (saturation - yield) (1 - exp(-rate a)) at plastic strain

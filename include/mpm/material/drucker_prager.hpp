@@ -1,8 +1,23 @@
-// Drucker-Prager soil: f = sqrt(J2) + eta p - xi c, potential with eta_bar from the dilation angle, tension positive, p
-// = tr(sigma)/3. Elastic predictor in rate form (as linear_elastic.hpp), return to the cone, its apex, or the tension
-// cut-off. Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp). Weak: plastic work is computed
-// with the stress at the end of a step; no hardening, no critical state, so dilation never ends; hypoelastic, meant for
-// small elastic strain. Source: method reference 10.6 (flow rule and the three matches to Mohr-Coulomb verified there).
+// Drucker-Prager soil: f = sqrt(J2) + eta p - xi c, flow s / (2 sqrt(J2)) + eta_bar / 3, tension positive, p =
+// tr(sigma)/3. Elastic predictor in rate form (as linear_elastic.hpp), return to the cone, its apex, or the tension
+// cut-off. Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp).
+//
+// A round cone has Mohr-Coulomb's strength at one Lode angle only (ConeMatch). The match in triaxial compression acts
+// in plane strain as 44 degrees for 30, without dilation. With ConeMatch::mohr_coulomb, the default, eta and eta_bar
+// follow the Lode angle so that strength is Mohr-Coulomb's in every state. Flow remains radial in the deviatoric plane,
+// so the return keeps the Lode angle and is in closed form, without principal directions:
+//
+//   eta = sin(phi) / k(phi), xi = cos(phi) / k(phi), eta_bar = sin(psi) / k(psi),
+//   k(a) = ((s1 - s3) + (s1 + s3) sin(a)) / (2 sqrt(J2)), s1 and s3 the largest and smallest principal deviators.
+//
+// In triaxial compression and extension these are the cones matched there; in plane strain (no plastic strain along y)
+// s1 + s3 = 2/3 eta_bar sqrt(J2), and the dilation of the plane is psi.
+//
+// Dilation ends when the soil has gained a given volume (critical state); its strength remains. Weak: plastic work is
+// computed with the stress at the end of a step; no hardening and no softening; hypoelastic, meant for small elastic
+// strain; with a slope that follows the Lode angle, flow is not normal to the surface even if phi = psi, except in the
+// states named above. Source: method reference 10.6; exact-solutions 31 for plane strain with any dilation; the surface
+// is Mohr-Coulomb's in invariants, G. C. Nayak, O. C. Zienkiewicz (1972), J. Struct. Div. ASCE 98, 949-954.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +26,7 @@
 
 #include "mpm/material/linear_elastic.hpp"
 #include "mpm/material/opening.hpp"
+#include "mpm/math/principal.hpp"
 
 namespace mpm {
 
@@ -34,7 +50,7 @@ class DruckerPrager : public LawTraits {
     const T j2 = T(0.5) * squared_norm(deviator);
     const T yield_root_j2 = T(strength_) - T(eta_) * mean;
     const auto shears = (yield_root_j2 < T(0)) | (j2 > yield_root_j2 * yield_root_j2);
-    if (any(shears | (mean > T(cutoff_)))) flow(shears, j2, yield_root_j2, to_tau, mean, deviator, history);
+    if (any(shears | (mean > T(cutoff_)))) flow(shears, sqrt(j2), yield_root_j2, step.j, mean, deviator, history);
     tau = scale_shift(deviator, to_tau, mean * to_tau);
   }
 
@@ -45,37 +61,44 @@ class DruckerPrager : public LawTraits {
 
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
-    const T to_cauchy = T(density_) / j, third = T(1.0 / 3.0) * trace(tau);
-    const T mean = third * to_cauchy;
-    const T root_j2 = sqrt(T(0.5) * squared_norm(scale_shift(tau, T(1), -third))) * to_cauchy;
-    const auto flows = root_j2 >= T(kNearYield) * (T(strength_) - T(eta_) * mean);
-    // Opened soil carries no pressure and does not dilate.
-    const T flow = select(mean > T(-kStressFree * bulk_), T(flow_stiffness(0.0)), T(flow_stiffness(eta_bar_)));
-    return soil_wave_speed(tau, j, bulk_, shear_, density_, select(flows, flow, T(0)));
+    return soil_wave_speed(tau, j, bulk_, shear_, density_, flow_);
   }
   double density() const { return density_; }
+  /// The slope; with ConeMatch::mohr_coulomb the smallest one, that of the cone inside the surface.
   double eta() const { return eta_; }
+  /// The dilation; with ConeMatch::mohr_coulomb the smallest one.
   double eta_bar() const { return eta_bar_; }
-  /// xi c: shear strength at zero mean stress [Pa]
+  /// xi c: shear strength at zero mean stress, of the cone of eta() [Pa]
   double strength() const { return strength_; }
 
  private:
-  /// Largest contribution of plastic flow to rho c^2 [Pa] (opening.hpp): |p - q| = K (eta - eta_bar), h = G + K eta
-  /// eta_bar.
-  double flow_stiffness(double eta_bar) const {
-    const double half = 0.5 * bulk_ * (eta_ - eta_bar);
-    return half * half / (shear_ + bulk_ * eta_ * eta_bar);
+  /// ((s1 - s3) + (s1 + s3) sine) / 2 of the principal deviators {s1, s3}.
+  template <class T>
+  static T shear_measure(const std::pair<T, T>& s, double sine) {
+    return T(0.5 * (1.0 + sine)) * s.first - T(0.5 * (1.0 - sine)) * s.second;
   }
+  double largest_flow_stiffness(bool dilates) const;
 
   /// Returns `mean` and `deviator` to the cone or its apex in the lanes where `shears` holds, and to the cut-off in
-  /// all.
+  /// all. With ConeMatch::mohr_coulomb, `yield_root_j2` is of the cone inside the surface, and so is `shears`.
   template <class T, class Mask, class Symmetric>
-  void flow(const Mask& shears, T j2, T yield_root_j2, T to_tau, T& mean, Symmetric& deviator, T* history) const {
-    const T root_j2 = sqrt(j2);
-    // Opened soil has room to dilate into, so dilation builds up no pressure.
-    const T eta_bar = select(history[kOpening] > T(0), T(0), T(eta_bar_));
+  void flow(Mask shears, T root_j2, T yield_root_j2, T j, T& mean, Symmetric& deviator, T* history) const {
+    constexpr float kAlmostNothing = std::numeric_limits<float>::min();  // avoids 0 / 0 where the deviator is zero
+    T eta = T(eta_), eta_bar = T(eta_bar_);
+    if (follows_lode_) {
+      // Shear strength over that of the cone inside the surface, and the same of the dilation.
+      const auto extremes = principal_extremes(deviator);
+      const T size = root_j2 + T(kAlmostNothing);
+      const T stronger = size / (T(1.0 / most_shear_) * shear_measure(extremes, sin_friction_) + T(kAlmostNothing));
+      eta *= stronger;
+      yield_root_j2 *= stronger;
+      shears = shears & (root_j2 > yield_root_j2);
+      eta_bar *= size / (T(1.0 / most_dilation_shear_) * shear_measure(extremes, sin_dilation_) + T(kAlmostNothing));
+    }
+    // Opened soil has room to dilate into, so dilation builds up no pressure; loose soil has done with it.
+    eta_bar = select(history[kOpening] > T(0), T(0), eta_bar * dilation_end_.left(j));
     // Increment of the equivalent plastic shear strain, sqrt(2 de:de).
-    T multiplier = select(shears, (root_j2 - yield_root_j2) / (T(shear_) + T(bulk_ * eta_) * eta_bar), T(0));
+    T multiplier = select(shears, (root_j2 - yield_root_j2) / (T(shear_) + T(bulk_) * eta * eta_bar), T(0));
     const T beyond = root_j2 - T(shear_) * multiplier;
     const T left = max(beyond, T(0));
     // Without friction there is no apex; values below zero are round-off.
@@ -86,17 +109,26 @@ class DruckerPrager : public LawTraits {
     mean = select(apex, T(apex_), mean - T(bulk_) * dilation);
     opened += T(1.0 / bulk_) * max(mean - T(cutoff_), T(0));
     mean = min(mean, T(cutoff_));
-    constexpr float kAlmostNothing = std::numeric_limits<float>::min();  // avoids 0 / 0 where the deviator is zero
     deviator = scale_shift(deviator, select(shears, left / max(root_j2, T(kAlmostNothing)), T(1)), T(0));
     history[kOpening] += opened;
     history[kPlasticStrain] += multiplier;
-    history[kPlasticWork] += (left * multiplier + mean * (dilation + opened)) * to_tau;
+    history[kPlasticWork] += (left * multiplier + mean * (dilation + opened)) * (j * T(1.0 / density_));
   }
 
   double density_, bulk_, shear_;
+  bool follows_lode_;  ///< ConeMatch::mohr_coulomb
+  double sin_friction_, sin_dilation_;
+  double most_shear_, most_dilation_shear_;  ///< largest k(phi) and k(psi) of all Lode angles
   double eta_, eta_bar_, strength_;
   double apex_;    ///< mean stress at the cone's apex [Pa]
   double cutoff_;  ///< largest mean stress [Pa]
+  DilationEnd dilation_end_;
+  double flow_;  ///< largest contribution of plastic flow to rho c^2 [Pa]
 };
+
+/// sin of the friction angle with which the soil flows in plane strain: that of `friction_angle`, or for a cone that
+/// passes through another state a different one; 1 or more where no stress in the plane makes it flow. Derived as the
+/// match in plane strain (drucker_prager.cpp).
+double friction_in_plane_strain(const DruckerPragerDefinition& d);
 
 }  // namespace mpm

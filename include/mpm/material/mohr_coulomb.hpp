@@ -3,12 +3,13 @@
 // flow from the same f with the dilation angle, and normal to the cut-off. Elastic predictor in rate form (as
 // linear_elastic.hpp); its principal axes are kept and its principal values are returned to the surface in closed form:
 // to the main plane, the edges of triaxial compression and extension, the apex, and the planes, edges and corners of
-// the cut-off. Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp). In a wide register, lanes
+// the cut-off. Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp). Dilation ends when the soil
+// has gained a given volume (critical state); its strength remains. In a wide register, lanes
 // that are certainly elastic are computed together and the others one by one. Weak: plastic work is computed with the
-// stress at the end of a step; no hardening, no critical state, so dilation never ends; hypoelastic, meant for small
-// elastic strain; an opening is stored as a volume without direction, and only where no pressure remains: a crack in
-// soil under pressure along the crack heals as it closes. Source: method reference 10.7; de Souza Neto, Peric & Owen
-// (2008) section 8.2; Clausen, Damkilde & Andersen (2006).
+// stress at the end of a step; no hardening and no softening; hypoelastic, meant for small elastic strain; an opening
+// is stored as a volume without direction, and only where no pressure remains: a crack in soil under pressure along the
+// crack heals as it closes. Source: method reference 10.7; de Souza Neto, Peric & Owen (2008) section 8.2; Clausen,
+// Damkilde & Andersen (2006).
 #pragma once
 
 #include <algorithm>
@@ -91,18 +92,7 @@ class MohrCoulomb : public LawTraits {
 
   template <class T, class Matrix, class Symmetric>
   T wave_speed(const Matrix&, const Symmetric& tau, T j) const {
-    const Symmetric cauchy = scale_shift(tau, T(density_) / j, T(0));
-    const auto [largest, smallest] = principal_bounds(cauchy);
-    const auto flows = largest - smallest >= T(kNearYield) * (T(strength_) - (largest + smallest) * T(sin_friction_));
-    const auto open = trace(cauchy) > T(-3.0 * kStressFree * bulk_);
-    T flow = select(flows, select(open, T(open_flow_), T(closed_flow_)), T(0));
-    // With use_room() volume is free: shear has 4/3 G and (|p - q|/2)^2 / h is at most 3/4 G, more than elastic if K <
-    // 3/4 G.
-    if (!cutoff_is_apex_ && 0.75 * shear_ > bulk_) {
-      const auto has_room = open & (largest >= T(kNearYield * cutoff_));
-      flow = select(has_room, max(flow, T(0.75 * shear_ - bulk_)), flow);
-    }
-    return soil_wave_speed(tau, j, bulk_, shear_, density_, flow);
+    return soil_wave_speed(tau, j, bulk_, shear_, density_, flow_);
   }
   double density() const { return density_; }
   double sin_dilation() const { return sin_dilation_; }
@@ -143,10 +133,10 @@ class MohrCoulomb : public LawTraits {
     sort(0, 1);
     T s[3], plastic[3];
     for (int k = 0; k < 3; ++k) plastic[k] = s[k] = axes.value[order[k]];
-    // Opened soil has room to dilate into, so dilation builds up no pressure.
+    // Opened soil has room to dilate into, so dilation builds up no pressure; loose soil has done with it.
     T& opening = history[kOpening];
     const bool has_room = opening > T(0);
-    const Region region = return_to_surface(s, has_room ? T(0) : T(sin_dilation_));
+    const Region region = return_to_surface(s, has_room ? T(0) : T(sin_dilation_) * dilation_end_.left(j));
     if (region == Region::elastic) return;
     if (region >= Region::apex && has_room) use_room(s);
     // Plastic strain is the elastic strain lost: C^-1 applied to the stress removed by the return.
@@ -170,22 +160,7 @@ class MohrCoulomb : public LawTraits {
 
   double lame() const { return bulk_ - 2.0 / 3.0 * shear_; }
 
-  /// Largest contribution to rho c^2 of flow at `sin_dilation` = q [Pa]: (|p - q|/2)^2 / h of the main plane
-  /// (opening.hpp), and of both planes of an edge, as their sum and their difference.
-  double flow_stiffness(double q) const {
-    const double a = lame(), g = shear_, sine = sin_friction_;
-    const double volumetric = 4.0 * a * sine * q;
-    const double own = volumetric + 4.0 * g * (1.0 + sine * q);
-    const auto square = [](double x) { return x * x; };
-    double most = std::max(square(2.0 * a), square(2.0 * (a + g))) / own;
-    for (const double sign : {1.0, -1.0}) {  // s2 = s3, s1 = s2
-      const double sum = own + volumetric + 2.0 * g * (1.0 + sign * sine) * (1.0 + sign * q);
-      const double difference = 2.0 * g * (1.0 - sign * sine) * (1.0 - sign * q);
-      most = std::max(most, square(4.0 * (a + g)) / (2.0 * sum));
-      most = std::max(most, square(4.0 * a + 2.0 * g) / (2.0 * sum) + square(2.0 * g) / (2.0 * difference));
-    }
-    return 0.25 * square(sine - q) * most;
-  }
+  double largest_flow_stiffness(double sin_dilation) const;
 
   /// Returns r to the main plane, f(s1, s3) = 0, or to the edge where two planes meet; beyond the apex the order of r
   /// may come out wrong. C m = 2 lame q (1, 1, 1) + 2 G m, with m = (1 + q, 0, -1 + q) and q the sine of the dilation
@@ -268,7 +243,8 @@ class MohrCoulomb : public LawTraits {
   double strength_;  ///< 2 c cos(phi) [Pa]
   double cutoff_;    ///< largest principal stress [Pa]
   bool cutoff_is_apex_;
-  double open_flow_, closed_flow_;  ///< flow_stiffness() of opened soil and of other soil
+  DilationEnd dilation_end_;
+  double flow_;  ///< largest contribution of plastic flow to rho c^2 [Pa]
 };
 
 }  // namespace mpm

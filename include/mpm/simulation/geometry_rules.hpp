@@ -13,6 +13,9 @@ namespace mpm {
 /// @throws MaterialError for constants that no law can have
 std::string refused_material(GeometryKind geometry, const MaterialDefinition& material);
 
+/// What a user of this material in such a scene should know; empty when there is nothing.
+std::string material_warning(GeometryKind geometry, const MaterialDefinition& material);
+
 /// Why a geometry cannot have a geostatic start, and what can be used instead; empty when it can.
 std::string refused_geostatic(GeometryKind geometry);
 

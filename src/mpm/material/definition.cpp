@@ -37,6 +37,8 @@ void check_soil(const MaterialDefinition& material, const SoilDefinition& law, c
                       dilation / kDegree, friction / kDegree));
   require(law.cohesion >= 0.0 && std::isfinite(law.cohesion), material,
           fmt::format("cohesion is {:g} Pa; it must be finite and not negative", law.cohesion));
+  require(law.dilation_limit > 0.0, material,
+          fmt::format("dilation limit is {:g}; it must be positive", law.dilation_limit));
   require(friction > 0.0 || law.cohesion > 0.0, material,
           "cohesion is 0 Pa and so is the friction angle: soil without any strength; give one of them, or use "
           "newtonian_fluid for a liquid");

@@ -147,36 +147,48 @@ bool PathDriver::solve(const Step& step, Components& increment) const {
     return r;
   };
   const auto reached = [&step](const Eigen::VectorXd& r) { return r.cwiseAbs().maxCoeff() <= step.tolerance; };
-  Eigen::VectorXd r = residual(increment);
-  for (int iteration = 0; iteration < kIterations && !reached(r); ++iteration) {
-    Eigen::MatrixXd tangent(size, size);
-    for (Eigen::Index j = 0; j < size; ++j) {
-      // The difference is taken in the direction of the correction: at a corner of a law the other side may have no
-      // stiffness.
-      const double strain = std::copysign(kTangentStrain, -r[j]);
-      Components moved = increment;
-      moved[step.unknowns[j]] += strain;
-      tangent.col(j) = (residual(moved) - r) / strain;
-    }
-    if (!tangent.allFinite()) return false;
-    // Least squares, because a law may have no stiffness left in a direction.
-    const Eigen::VectorXd correction = tangent.completeOrthogonalDecomposition().solve(-r);
-    bool better = false;
-    double part = std::min(1.0, 0.5 * kLargestStep / std::max(correction.cwiseAbs().maxCoeff(), 1e-300));
-    for (int halving = 0; halving < kHalvings && !better; ++halving, part *= 0.5) {
-      Components moved = increment;
-      for (Eigen::Index i = 0; i < size; ++i) moved[step.unknowns[i]] += part * correction[i];
-      if (largest(moved) > kLargestStep) continue;
-      const Eigen::VectorXd trial = residual(moved);
-      better = trial.allFinite() && trial.norm() < r.norm();
-      if (better) {
-        increment = moved;
-        r = trial;
+  /// Newton's method with line search from `d`; false where it leads no nearer to the goal.
+  const auto newton = [&](Components& d, bool central) {
+    Eigen::VectorXd r = residual(d);
+    for (int iteration = 0; iteration < kIterations && !reached(r); ++iteration) {
+      Eigen::MatrixXd tangent(size, size);
+      for (Eigen::Index j = 0; j < size; ++j) {
+        const double strain = std::copysign(kTangentStrain, -r[j]);
+        Components moved = d;
+        moved[step.unknowns[j]] += strain;
+        tangent.col(j) = (residual(moved) - r) / strain;
+        if (!central) continue;
+        moved[step.unknowns[j]] -= 2.0 * strain;
+        tangent.col(j) = 0.5 * (tangent.col(j) + (r - residual(moved)) / strain);
       }
+      if (!tangent.allFinite()) return false;
+      // Least squares, because a law may have no stiffness left in a direction.
+      const Eigen::VectorXd correction = tangent.completeOrthogonalDecomposition().solve(-r);
+      bool better = false;
+      double part = std::min(1.0, 0.5 * kLargestStep / std::max(correction.cwiseAbs().maxCoeff(), 1e-300));
+      for (int halving = 0; halving < kHalvings && !better; ++halving, part *= 0.5) {
+        Components moved = d;
+        for (Eigen::Index i = 0; i < size; ++i) moved[step.unknowns[i]] += part * correction[i];
+        if (largest(moved) > kLargestStep) continue;
+        const Eigen::VectorXd trial = residual(moved);
+        better = trial.allFinite() && trial.norm() < r.norm();
+        if (better) {
+          d = moved;
+          r = trial;
+        }
+      }
+      if (!better) return false;
     }
-    if (!better) return false;
-  }
-  return reached(r);
+    return reached(r);
+  };
+  // Differences are taken in the direction of the correction, since at a corner of a law the other side may have no
+  // stiffness. Where that fails, they are taken to both sides: where equal stresses make the corner, the mean is right.
+  const Components start = increment;
+  if (newton(increment, false)) return true;
+  Components other = start;
+  if (!newton(other, true)) return false;
+  increment = other;
+  return true;
 }
 
 void PathDriver::give_up(const Step& step, const Components& increment) const {

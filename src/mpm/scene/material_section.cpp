@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "mpm/scene/sections.hpp"
 
@@ -32,29 +33,37 @@ LawDefinition read_neo_hookean(const Map& map, Scene&) { return NeoHookeanDefini
 
 /// Reads the constants that the laws of soil have in common.
 template <class SoilDefinition>
-SoilDefinition read_soil(const Map& map) {
+SoilDefinition read_soil(const Map& map, Scene& scene) {
   SoilDefinition law;
   law.elasticity = read_elasticity(map);
   law.friction_angle = map.at("friction_angle").number(kAngle);
   if (const auto dilation = map.find("dilation_angle")) law.dilation_angle = dilation->number(kAngle);
   if (const auto cohesion = map.find("cohesion")) law.cohesion = cohesion->number(kPressure);
+  if (const auto limit = map.find("dilation_limit")) {
+    law.dilation_limit = limit->text() == "none" ? std::numeric_limits<double>::infinity() : limit->positive(kPlain);
+  } else if (law.dilation_angle > 0.0) {
+    scene.choices.emplace_back(
+        map.value().path() + ".dilation_limit",
+        fmt::format("{:g}: dilation ends when the volume has grown by that part", kDilationLimit));
+  }
   if (const auto cutoff = map.find("tension_cutoff")) law.tension_cutoff = cutoff->non_negative(kPressure);
   return law;
 }
 
 LawDefinition read_drucker_prager(const Map& map, Scene& scene) {
-  auto law = read_soil<DruckerPragerDefinition>(map);
+  auto law = read_soil<DruckerPragerDefinition>(map, scene);
   if (const auto match = map.find("match")) {
-    static constexpr std::array kMatches = {ConeMatch::compression, ConeMatch::extension, ConeMatch::plane_strain};
-    law.match = kMatches.at(match->choice({"compression", "extension", "plane_strain"}));
+    static constexpr std::array kMatches = {ConeMatch::mohr_coulomb, ConeMatch::plane_strain, ConeMatch::compression,
+                                            ConeMatch::extension};
+    law.match = kMatches.at(match->choice({"mohr_coulomb", "plane_strain", "compression", "extension"}));
   } else {
     scene.choices.emplace_back(map.value().path() + ".match",
-                               "compression: the cone passes through Mohr-Coulomb's triaxial compression");
+                               "mohr_coulomb: friction_angle is that of every state of stress");
   }
   return law;
 }
 
-LawDefinition read_mohr_coulomb(const Map& map, Scene&) { return read_soil<MohrCoulombDefinition>(map); }
+LawDefinition read_mohr_coulomb(const Map& map, Scene& scene) { return read_soil<MohrCoulombDefinition>(map, scene); }
 
 LawDefinition read_j2_plasticity(const Map& map, Scene&) {
   J2PlasticityDefinition law;
@@ -172,10 +181,11 @@ const std::vector<LawSection>& law_sections() {
       {"linear_elastic", {"young", "poisson"}, read_linear_elastic},
       {"neo_hookean", {"young", "poisson"}, read_neo_hookean},
       {"drucker_prager",
-       {"young", "poisson", "friction_angle", "dilation_angle", "cohesion", "tension_cutoff", "match"},
+       {"young", "poisson", "friction_angle", "dilation_angle", "dilation_limit", "cohesion", "tension_cutoff",
+        "match"},
        read_drucker_prager},
       {"mohr_coulomb",
-       {"young", "poisson", "friction_angle", "dilation_angle", "cohesion", "tension_cutoff"},
+       {"young", "poisson", "friction_angle", "dilation_angle", "dilation_limit", "cohesion", "tension_cutoff"},
        read_mohr_coulomb},
       {"j2_plasticity",
        {"young", "poisson", "yield_stress", "hardening_modulus", "saturation_stress", "saturation_rate"},

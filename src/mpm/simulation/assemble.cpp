@@ -318,6 +318,11 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   for (DeformableBody& body : s.definition.bodies) forget_particles(body);
 
   if (const std::string warning = step_warning(definition); !warning.empty()) s.warnings.push_back(warning);
+  for (const MaterialDefinition& material : definition.materials) {
+    if (const std::string warning = material_warning(definition.geometry, material); !warning.empty()) {
+      s.warnings.push_back(warning);
+    }
+  }
   s.add_modules(options.modules);
 
   double lightest = s.sets.front().least_mass();

@@ -2,11 +2,35 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "mpm/material/law.hpp"
+#include "mpm/math/constants.hpp"
 
 namespace mpm {
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+constexpr double kNotable = 1.0 * kDegree;  ///< a difference of friction angles
+
+const char* const kOtherMatch = "leave match out, or write mohr_coulomb or plane_strain";
+
+/// sin of the friction angle with which a material flows in plane strain; none for what is not a Drucker-Prager soil.
+std::optional<double> friction_in_plane(const MaterialDefinition& material) {
+  const auto* soil = std::get_if<DruckerPragerDefinition>(&material.law);
+  if (soil == nullptr) return std::nullopt;
+  return friction_in_plane_strain(*soil);
+}
+
+}  // namespace
 
 std::string refused_material(GeometryKind geometry, const MaterialDefinition& material) {
+  if (geometry == GeometryKind::plane_strain && friction_in_plane(material).value_or(0.0) >= 1.0) {
+    return fmt::format(
+        "material '{}' (drucker_prager) in plane strain: with this match and {:g} degrees of friction it has no limit: "
+        "whatever presses on it, it does not flow; {}",
+        material.name, std::get<DruckerPragerDefinition>(material.law).friction_angle / kDegree, kOtherMatch);
+  }
   if (geometry != GeometryKind::plane_stress) return {};
   const bool flows = std::visit([](const auto& law) { return law.kForgetsShape; }, make_law(material));
   if (!flows) return {};
@@ -14,6 +38,25 @@ std::string refused_material(GeometryKind geometry, const MaterialDefinition& ma
       "material '{}' ({}) in plane stress: a sheet of fluid with free faces carries no pressure; use plane_strain or "
       "solid",
       material.name, law_name(material.law));
+}
+
+std::string material_warning(GeometryKind geometry, const MaterialDefinition& material) {
+  const std::optional<double> sine = friction_in_plane(material);
+  if (!sine) return {};
+  const double asked = std::get<DruckerPragerDefinition>(material.law).friction_angle;
+  if (geometry == GeometryKind::solid && *sine >= 1.0) {
+    return fmt::format(
+        "material '{}': with this match and {:g} degrees of friction it has no limit where it moves in a plane, as "
+        "before a wide blade: it does not flow there; {}",
+        material.name, asked / kDegree, kOtherMatch);
+  }
+  if (geometry != GeometryKind::plane_strain || *sine >= 1.0 || std::abs(std::asin(*sine) - asked) < kNotable) {
+    return {};
+  }
+  return fmt::format(
+      "material '{}': with this match it acts in plane strain as one of {:.1f} degrees of friction, not "
+      "{:g}; for {:g}, {}",
+      material.name, std::asin(*sine) / kDegree, asked / kDegree, asked / kDegree, kOtherMatch);
 }
 
 std::string refused_geostatic(GeometryKind geometry) {

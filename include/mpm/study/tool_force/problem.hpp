@@ -64,8 +64,8 @@ const std::vector<Problem>& problems();
 /// @throws StudyError that lists the names there are
 const Problem& find_problem(const std::string& name);
 
-/// Text of a material: density and constants of `law`, which is a law's name and, after a stroke, its `match`; angles
-/// in degrees, stress in Pa.
+/// Text of a material: density and constants of `law`, which is a law's name and, after a stroke, its `match`; it
+/// dilates without end, as exact limit loads assume. Angles in degrees, stress in Pa.
 std::string soil_material(const std::string& law, double density, double young, double poisson, double friction,
                           double dilation, double cohesion);
 /// Text of `time`: an end that the tool reaches, and a sync period for at least twenty looks on the way of a cell and

@@ -39,7 +39,7 @@ std::string soil_material(const std::string& law, double density, double young, 
   const std::string match = stroke == std::string::npos ? "" : ", match: " + law.substr(stroke + 1);
   return fmt::format(
       "{{name: soil, law: {}{}, density: {:g}, young: {:g}, poisson: {:g}, friction_angle: {:g} deg, "
-      "dilation_angle: {:g} deg, cohesion: {:g}}}",
+      "dilation_angle: {:g} deg, dilation_limit: none, cohesion: {:g}}}",
       law.substr(0, stroke), match, density, young, poisson, friction, dilation, cohesion);
 }
 

@@ -96,7 +96,8 @@ void verify(verification::Page& page, const std::vector<double>& aspects, int ce
     page.report(label + ": final height", result.height, "d0");
     // Published factors differ by 1.8 (1.2 to 2.2 a); a front is resolved to two cells.
     const double most = aspect < 3.0 ? 2.2 * aspect : 3.9 * std::pow(aspect, 0.7);
-    EXPECT_GE(result.run_out, std::min(low, 1.2 * aspect) - 2.0 / cells) << label;
+    constexpr double kRoundOff = 1e-9;  // fronts are whole numbers of cells, and may lie on the bound
+    EXPECT_GE(result.run_out, std::min(low, 1.2 * aspect) - 2.0 / cells - kRoundOff) << label;
     EXPECT_LE(result.run_out, most + 2.0 / cells) << label;
     EXPECT_GT(result.run_out, before) << label;
     EXPECT_LT(result.kinetic, 1e-3) << label;  // at rest
@@ -125,8 +126,8 @@ void verify(verification::Page& page, const std::vector<double>& aspects, int ce
   page.meaning(
       "Run-out is within the spread of published fits to two cells; high columns run out farther than sands in "
       "channels did. It grows as the grid is refined, most of all for low columns, whose front is only a few cells "
-      "high, and a PIC fraction shortens it: compare scenes at one resolution. No heap is steeper than 26.6°, the "
-      "slope on which this sand shears (the layer on a slope).");
+      "high, and a PIC fraction shortens it: compare scenes at one resolution. Heaps are no steeper than about the "
+      "slope on which this sand shears, 26.6° (the layer on a slope).");
 }
 
 TEST(ColumnCollapse, RunsOutAsPublished) {

@@ -100,9 +100,11 @@ void sound(const std::string& name, double cell, bool rough) {
   page.figure().panel("Speed at 0.245 m", "r [m]", "z [m]").particles("speed [m/s]", smooth.r, smooth.z, smooth.speed);
   page.meaning(
       "The resistance grows with depth and comes to a multiple of the vertical stress that hardly changes from ten "
-      "radii on: 61 on cells of 4 mm and 62 on cells of 8 mm, two to the cone's radius, where the force also varies "
-      "as the tip passes each row. That is a tenth below the formulas for a footing at that depth, which are made "
-      "for sand that dilates. Real cones in loose sand meet more, for deeper sand is stiffer. With friction the "
+      "radii on: 47 on cells of 8 mm, two to the cone's radius, where the force also varies as the tip passes each "
+      "row. "
+      "That is three tenths below the formulas for a footing at that depth, which are made for sand that dilates, and "
+      "near De Beer's for one at the surface. Real cones in loose sand meet more, for deeper sand is stiffer. With "
+      "friction the "
       "force is that on cone and rod together.");
 }
 

@@ -65,8 +65,6 @@ inline std::vector<Specimen> zoo() {
        0.01,
        0.0,
        1.0},
-      {{"lode_drucker_prager", 1600.0, DruckerPragerDefinition{soil, 0.6, 0.2, 2000.0}}, 1e-3, -0.02, 1.0},
-      {{"dilated_lode_drucker_prager", 1600.0, DruckerPragerDefinition{soil, 0.6, 0.2, 2000.0, 500.0}}, 0.01, 0.0, 1.0},
       {{"mohr_coulomb", 1600.0, MohrCoulombDefinition{soil, 0.6, 0.2, 2000.0, -1.0}}, 1e-3, -0.02, 1.0},
       {{"dilated_mohr_coulomb", 1600.0, MohrCoulombDefinition{soil, 0.6, 0.2, 2000.0, 500.0}}, 0.01, 0.0, 1.0},
       {{"j2_plasticity", 2700.0, J2PlasticityDefinition{metal, 200e6, 500e6, 300e6, 20.0}}, 0.01, 0.0, 1.0},
@@ -78,6 +76,8 @@ inline std::vector<Specimen> zoo() {
       {{"viscoelastic", 100.0, StandardLinearSolidDefinition{soft, 50e3, 0.5}}, 0.1, 0.0, 0.1},
       {{"johnson_cook", 7850.0, armor_steel()}, 0.02, -0.1, 1e-6},
       {{"soft_johnson_cook", 7850.0, hot_steel()}, 0.03, 0.0, 1e-3},
+      {{"lode_drucker_prager", 1600.0, DruckerPragerDefinition{soil, 0.6, 0.2, 2000.0}}, 1e-3, -0.02, 1.0},
+      {{"dilated_lode_drucker_prager", 1600.0, DruckerPragerDefinition{soil, 0.6, 0.2, 2000.0, 500.0}}, 0.01, 0.0, 1.0},
   };
 }
 

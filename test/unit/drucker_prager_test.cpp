@@ -1,5 +1,5 @@
-// Drucker-Prager on a single element, driven by strain, against Mohr-Coulomb limits and the flow rule. Strength in every
-// state is in soil_strength_test.cpp.
+// Drucker-Prager on a single element, driven by strain, against Mohr-Coulomb limits and the flow rule. Strength in
+// every state is in soil_strength_test.cpp.
 #include "mpm/material/drucker_prager.hpp"
 
 #include <gtest/gtest.h>

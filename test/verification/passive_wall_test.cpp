@@ -85,7 +85,8 @@ TEST(PassiveWall, ForceIsRankines) {
   page.report("displacement of the wall, to", kTo, "H");
 
   // A slip band through cells that are few: 8 on the depth, of sand so stiff that the limit is reached at once. One
-  // pressure in a cell takes most of the excess. Two runs of a second each.
+  // pressure in a cell takes half of the excess of 19 %. Asked: 10 %, which the run without fails. Two runs of a
+  // second.
   const std::vector<std::string> coarse = {"boundaries.z_min={friction: 0.577}", "grid.cell=0.125",
                                            "materials.sand.young=40 MPa"};
   std::vector<std::string> averaged = coarse;

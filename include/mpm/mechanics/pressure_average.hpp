@@ -5,7 +5,7 @@
 // what is pushed or pressed meets too much force. At the beginning of each step the particles of a cell whose plastic
 // strain has grown in the step before, and which are under pressure, get the mean of their pressures, weighted by mass.
 // So the cell feels one volumetric stress, as an element with one pressure does; deviators stay those of the law, and
-// so does everything that is elastic. The mean stress of a cell, and thus momentum, does not change. The next return to
+// so does everything that is elastic. The mean stress of a cell does not change. The next return to
 // the yield surface sees the mean pressure. What the particles lose of their elastic energy is booked.
 //
 // A cell is what is nearest to a node, so that it lies in one block. A particle that has left its block since the last

@@ -18,6 +18,9 @@
 
 namespace mpm::study {
 
+/// Processor time of this process, which computes nothing else while it measures [s].
+double processor_time();
+
 struct CostSettings {
   int turns = 5;        ///< of reference and method, after one to warm up
   double slice = 3e-3;  ///< processor time of each's part of a turn, at least [s]

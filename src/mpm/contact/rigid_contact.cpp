@@ -26,8 +26,9 @@ RigidContact::RigidContact(const RigidBody& body, Fields& fields, int threads, G
 
 bool RigidContact::touches(int field, NodeRef node, const Vec3& place, double reach, SurfacePoint& point) const {
   const Surface& surface = body_.surface();
-  if (thin_ == nullptr || !sides_->map().one_sided(field))
+  if (thin_ == nullptr || !sides_->map().one_sided(field)) {
     return surface.within(body_.pose().to_body(place), reach, point);
+  }
   const Grid& grid = *fields_[field];
   const Vec3 centre = nodal_vector(grid.place, grid.layout, node) / grid.mass.at(node.block, 0, node.node);
   const double farthest = std::max(reach, (centre - place).norm());  // that the tool can be between them

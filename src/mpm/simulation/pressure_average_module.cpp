@@ -1,4 +1,6 @@
 // Mean pressures of cells as a module, for the bodies whose law has a pressure in rate form: soil.
+#include <algorithm>
+
 #include "mpm/mechanics/pressure_average.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "shipped_modules.hpp"

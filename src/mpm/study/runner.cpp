@@ -10,10 +10,10 @@
 #include "mpm/study/counted_work.hpp"
 
 namespace mpm::study {
-namespace {
 
-/// Of this process, which runs nothing beside [s].
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+namespace {
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());

@@ -4,13 +4,13 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 
 #include "mpm/choice/method_choice.hpp"
 #include "mpm/scene/scene.hpp"
+#include "mpm/study/runner.hpp"
 #include "mpm/study/suite.hpp"
 #include "mpm/study/tool_force/force_measure.hpp"
 
@@ -21,9 +21,6 @@ namespace fs = std::filesystem;
 
 const std::vector<double> kQuickCells = {4.0, 6.0, 8.0};
 const std::vector<double> kFullCells = {4.0, 6.0, 8.0, 12.0, 16.0, 24.0};
-
-/// Of this process, which runs nothing beside [s].
-double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::string joined(const Overrides& overrides) {
   std::string text;

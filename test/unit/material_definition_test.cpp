@@ -131,6 +131,40 @@ TEST(MaterialDefinition, DilationLimitCohesionAndTensionCutoff) {
   EXPECT_EQ(refusal(clay), "");
 }
 
+TEST(MaterialDefinition, Softening) {
+  const auto with = [](const SoilSoftening& fall) {
+    MaterialDefinition material = soil();
+    std::get<DruckerPragerDefinition>(material.law).softening = fall;
+    return refusal(material);
+  };
+  const double friction = 30.0 * kDegree;
+  EXPECT_EQ(with({0.01, 0.05, 20.0 * kDegree, 0.0}), "");
+  EXPECT_EQ(with({0.01, 0.05, friction, 1000.0}), "");  // dilation alone
+  EXPECT_EQ(with({0.01, 0.0, 20.0 * kDegree, 0.0}),
+            "material 'soil': shear band is 0 m; strength that falls over a slip needs the width of a shear band as "
+            "the grid resolves it: write the edge of a cell");
+  EXPECT_EQ(with({0.01, 0.05, 31.0 * kDegree, 0.0}),
+            "material 'soil': residual friction angle is 31 degrees; it must lie from 0 to the friction angle, 30");
+  EXPECT_EQ(with({0.01, 0.05, friction, 1001.0}),
+            "material 'soil': residual cohesion is 1001 Pa; it must lie from 0 to the cohesion, 1000 Pa");
+  EXPECT_NE(with({0.01, 0.05, 0.0, 0.0}).find("ends without any strength"), std::string::npos);
+  // (1000 cos 30 - 0) / G = 866 Pa / 384.6 kPa of 1 m.
+  EXPECT_EQ(with({0.002, 1.0, 20.0 * kDegree, 0.0}),
+            "material 'soil': softening slip is 0.002 m; over a band of 1 m cohesion then falls faster than the soil "
+            "can unload: write more than 0.00225 m, or use smaller cells");
+  for (const double bad : {-1.0, kNan, kInfinity}) {
+    EXPECT_NE(with({bad, 0.05, 20.0 * kDegree, 0.0}), "") << bad;
+    EXPECT_NE(with({0.01, bad, 20.0 * kDegree, 0.0}), "") << bad;
+    EXPECT_NE(with({0.01, 0.05, bad, 0.0}), "") << bad;
+    EXPECT_NE(with({0.01, 0.05, 20.0 * kDegree, bad}), "") << bad;
+  }
+  MaterialDefinition sand = soil();
+  auto& law = std::get<DruckerPragerDefinition>(sand.law);
+  law.dilation_angle = 0.0;
+  law.softening = {0.01, 0.05, friction, 1000.0};
+  EXPECT_NE(refusal(sand).find("nothing falls over it"), std::string::npos);
+}
+
 TEST(MaterialDefinition, Metal) {
   const auto metal = [](double yield, double hardening, double saturation, double rate) {
     return refusal({"m", 7800.0, J2PlasticityDefinition{{200e9, 0.3}, yield, hardening, saturation, rate}});

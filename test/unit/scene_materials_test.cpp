@@ -89,6 +89,38 @@ TEST(SceneMaterials, Soil) {
   EXPECT_EQ(refusal(pyramid + ", match: compression").rfind(".match: unknown key 'match'", 0), 0u);
 }
 
+// The scene's cell is 0.1 m.
+TEST(SceneMaterials, SoilThatSoftens) {
+  for (const std::string law : {"drucker_prager", "mohr_coulomb"}) {
+    const std::string start =
+        "density: 1600, law: " + law + ", young: 10 MPa, poisson: 0.3, friction_angle: 40 deg, dilation_angle: 10 deg";
+    const Scene scene = scene_of(start + ", cohesion: 2 kPa, softening_slip: 10 mm, residual_friction_angle: 30 deg");
+    const LawDefinition& definition = scene.definition.materials.at(0).law;
+    const bool cone = std::holds_alternative<DruckerPragerDefinition>(definition);
+    const SoilSoftening fall = cone ? std::get<DruckerPragerDefinition>(definition).softening
+                                    : std::get<MohrCoulombDefinition>(definition).softening;
+    EXPECT_EQ(fall.slip, 0.01);
+    EXPECT_EQ(fall.band, 0.1);
+    EXPECT_NEAR(fall.friction_angle, std::acos(-1.0) / 6.0, 1e-15);
+    EXPECT_EQ(fall.cohesion, 2000.0);
+    EXPECT_TRUE(std::isinf(cone ? std::get<DruckerPragerDefinition>(definition).dilation_limit
+                                : std::get<MohrCoulombDefinition>(definition).dilation_limit));
+    const auto recorded = [&](const auto& choice) {
+      return choice.first == "materials.m.softening_slip" &&
+             choice.second == "0.01 m is a plastic shear strain of 0.1 in a band of one cell, 0.1 m wide";
+    };
+    EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), recorded), 1);
+    for (const char* key : {"residual_friction_angle: 30 deg", "residual_cohesion: 0", "shear_band: 0.1"}) {
+      EXPECT_NE(refusal(start + ", " + key).find("write softening_slip"), std::string::npos) << key;
+    }
+    EXPECT_EQ(refusal(start + ", softening_slip: 10 mm, shear_band: 5 cm"),
+              ".shear_band: 0.05 m is narrower than a cell, 0.1 m, in which the grid resolves a band; leave it out");
+    EXPECT_EQ(refusal(start + ", softening_slip: 10 mm, residual_friction_angle: 41 deg"),
+              ".residual_friction_angle: residual friction angle is 41 degrees; it must lie from 0 to the friction "
+              "angle, 40");
+  }
+}
+
 // exact-solutions 31: matched in compression, sand that does not dilate has no limit state in a plane above 42.2
 // degrees, and acts as one of 43.9 for 30. Associated sand has none above sin = 0.6, 36.9 degrees: its eta, 2 sqrt(3)
 // sin / (3 - sin), must lie below sqrt(3)/2, where flow dilates by 90 degrees.

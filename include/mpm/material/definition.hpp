@@ -40,6 +40,16 @@ enum class ConeMatch { mohr_coulomb, plane_strain, compression, extension };
 /// loosest packing of most sands there is a fifth.
 constexpr double kDilationLimit = 0.1;
 
+/// How soil loses strength along a shear band, to its critical state (softening.hpp); angles in radians.
+struct SoilSoftening {
+  double slip = 0.0;            ///< displacement along the band over which strength falls [m], > 0; 0: it does not fall
+  double band = 0.0;            ///< width of a band as the grid resolves it, the edge of a cell [m], > 0
+  double friction_angle = 0.0;  ///< residual [rad], in [0, peak]
+  double cohesion = 0.0;        ///< residual [Pa], in [0, peak]
+  bool falls() const { return slip > 0.0; }
+  double strain() const { return slip / band; }  ///< plastic shear strain over which strength falls
+};
+
 /// Drucker-Prager soil; angles in radians.
 struct DruckerPragerDefinition {
   Elasticity elasticity;
@@ -49,6 +59,7 @@ struct DruckerPragerDefinition {
   double tension_cutoff = -1.0;  ///< largest mean tension [Pa]; negative: the cone's apex
   ConeMatch match = ConeMatch::mohr_coulomb;
   double dilation_limit = kDilationLimit;  ///< volume gained over initial volume at which dilation ends, > 0
+  SoilSoftening softening = {};
 };
 
 /// Mohr-Coulomb soil; angles in radians.
@@ -59,6 +70,7 @@ struct MohrCoulombDefinition {
   double cohesion = 0.0;                   ///< [Pa], >= 0
   double tension_cutoff = -1.0;            ///< largest principal tension [Pa]; negative: the apex
   double dilation_limit = kDilationLimit;  ///< as above
+  SoilSoftening softening = {};
 };
 
 /// Metal with isotropic hardening: flow stress yield + H a + (saturation - yield) (1 - exp(-rate a)) at plastic strain

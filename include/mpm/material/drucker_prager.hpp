@@ -13,11 +13,12 @@
 // In triaxial compression and extension these are the cones matched there; in plane strain (no plastic strain along y)
 // s1 + s3 = 2/3 eta_bar sqrt(J2), and the dilation of the plane is psi.
 //
-// Dilation ends when the soil has gained a given volume (critical state); its strength remains. Weak: plastic work is
-// computed with the stress at the end of a step; no hardening and no softening; hypoelastic, meant for small elastic
-// strain; with a slope that follows the Lode angle, flow is not normal to the surface even if phi = psi, except in the
-// states named above. Source: method reference 10.6; exact-solutions 31 for plane strain with any dilation; the surface
-// is Mohr-Coulomb's in invariants, G. C. Nayak, O. C. Zienkiewicz (1972), J. Struct. Div. ASCE 98, 949-954.
+// Dilation ends when the soil has gained a given volume, and its strength remains; or both fall together to those of
+// the critical state (softening.hpp; of a round cone, eta and xi c fall in a straight line). Weak: plastic work is
+// computed with the stress at the end of a step; no hardening; hypoelastic, meant for small elastic strain; with a
+// slope that follows the Lode angle, flow is not normal to the surface even if phi = psi, except in the states named
+// above. Source: method reference 10.6; exact-solutions 31 for plane strain with any dilation; the surface is
+// Mohr-Coulomb's in invariants, G. C. Nayak, O. C. Zienkiewicz (1972), J. Struct. Div. ASCE 98, 949-954.
 #pragma once
 
 #include <algorithm>
@@ -26,6 +27,7 @@
 
 #include "mpm/material/linear_elastic.hpp"
 #include "mpm/material/opening.hpp"
+#include "mpm/material/softening.hpp"
 #include "mpm/math/principal.hpp"
 
 namespace mpm {
@@ -48,9 +50,10 @@ class DruckerPrager : public LawTraits {
     Symmetric deviator = scale_shift(trial, T(1), -trial_mean);
     T mean = close_opening(trial_mean, bulk_, history[kOpening]);
     const T j2 = T(0.5) * squared_norm(deviator);
-    const T yield_root_j2 = T(strength_) - T(eta_) * mean;
+    const Surface<T> now = surface(history[kPlasticStrain]);
+    const T yield_root_j2 = now.strength - now.eta * mean;
     const auto shears = (yield_root_j2 < T(0)) | (j2 > yield_root_j2 * yield_root_j2);
-    if (any(shears | (mean > T(cutoff_)))) flow(shears, sqrt(j2), yield_root_j2, step.j, mean, deviator, history);
+    if (any(shears | (mean > now.cutoff))) flow(now, shears, sqrt(j2), yield_root_j2, step.j, mean, deviator, history);
     tau = scale_shift(deviator, to_tau, mean * to_tau);
   }
 
@@ -72,57 +75,90 @@ class DruckerPrager : public LawTraits {
   double strength() const { return strength_; }
 
  private:
+  /// The cone as it is after some plastic strain; with ConeMatch::mohr_coulomb the one inside the surface.
+  template <class T>
+  struct Surface {
+    T eta, strength;
+    T apex, cutoff;     ///< mean stress [Pa]
+    T sine, per_shear;  ///< with ConeMatch::mohr_coulomb: sin(phi), and 1 / k(phi), the smallest of all Lode angles
+    T dilates;          ///< part of eta_bar that is left
+  };
+  template <class T>
+  Surface<T> surface(const T& strain) const {
+    Surface<T> now{T(eta_), T(strength_), T(apex_), T(cutoff_), T(sin_friction_), T(1.0 / most_shear_), T(1)};
+    if (fall_.falls()) {
+      now.dilates = fall_.left(strain);
+      now.eta = eta_fall_.at(now.dilates);
+      now.strength = strength_fall_.at(now.dilates);
+      if (follows_lode_) {
+        now.sine = now.eta;
+        now.per_shear = T(1) / sqrt(T(1) + T(1.0 / 3.0) * now.sine * now.sine);
+        now.eta = now.sine * now.per_shear;
+        now.strength = now.strength * now.per_shear;
+      }
+      now.apex = now.strength / max(now.eta, T(kAlmostNothing));
+      now.cutoff = min(now.apex, T(tension_));
+    }
+    return now;
+  }
+
   /// ((s1 - s3) + (s1 + s3) sine) / 2 of the principal deviators {s1, s3}.
   template <class T>
-  static T shear_measure(const std::pair<T, T>& s, double sine) {
-    return T(0.5 * (1.0 + sine)) * s.first - T(0.5 * (1.0 - sine)) * s.second;
+  static T shear_measure(const std::pair<T, T>& s, T sine) {
+    return T(0.5) * (T(1) + sine) * s.first - T(0.5) * (T(1) - sine) * s.second;
   }
   double largest_flow_stiffness(bool dilates) const;
 
   /// Returns `mean` and `deviator` to the cone or its apex in the lanes where `shears` holds, and to the cut-off in
   /// all. With ConeMatch::mohr_coulomb, `yield_root_j2` is of the cone inside the surface, and so is `shears`.
   template <class T, class Mask, class Symmetric>
-  void flow(Mask shears, T root_j2, T yield_root_j2, T j, T& mean, Symmetric& deviator, T* history) const {
-    constexpr float kAlmostNothing = std::numeric_limits<float>::min();  // avoids 0 / 0 where the deviator is zero
-    T eta = T(eta_), eta_bar = T(eta_bar_);
+  void flow(const Surface<T>& now, Mask shears, T root_j2, T yield_root_j2, T j, T& mean, Symmetric& deviator,
+            T* history) const {
+    T eta = now.eta, eta_bar = T(eta_bar_);
     if (follows_lode_) {
       // Shear strength over that of the cone inside the surface, and the same of the dilation.
       const auto extremes = principal_extremes(deviator);
       const T size = root_j2 + T(kAlmostNothing);
-      const T stronger = size / (T(1.0 / most_shear_) * shear_measure(extremes, sin_friction_) + T(kAlmostNothing));
+      const T stronger = size / (now.per_shear * shear_measure(extremes, now.sine) + T(kAlmostNothing));
       eta *= stronger;
       yield_root_j2 *= stronger;
       shears = shears & (root_j2 > yield_root_j2);
-      eta_bar *= size / (T(1.0 / most_dilation_shear_) * shear_measure(extremes, sin_dilation_) + T(kAlmostNothing));
+      eta_bar *= size / (T(1.0 / most_dilation_shear_) * shear_measure(extremes, T(sin_dilation_)) + T(kAlmostNothing));
     }
     // Opened soil has room to dilate into, so dilation builds up no pressure; loose soil has done with it.
-    eta_bar = select(history[kOpening] > T(0), T(0), eta_bar * dilation_end_.left(j));
+    eta_bar = select(history[kOpening] > T(0), T(0), eta_bar * now.dilates * dilation_end_.left(j));
     // Increment of the equivalent plastic shear strain, sqrt(2 de:de).
     T multiplier = select(shears, (root_j2 - yield_root_j2) / (T(shear_) + T(bulk_) * eta * eta_bar), T(0));
     const T beyond = root_j2 - T(shear_) * multiplier;
     const T left = max(beyond, T(0));
     // Without friction there is no apex; values below zero are round-off.
-    const auto apex = (beyond < T(0)) & (T(eta_) > T(0));
+    const auto apex = (beyond < T(0)) & (now.eta > T(0));
     multiplier = select(apex, T(1.0 / shear_) * root_j2, multiplier);
     const T dilation = select(apex, T(0), eta_bar * multiplier);
-    T opened = select(apex, T(1.0 / bulk_) * (mean - T(apex_)), T(0));
-    mean = select(apex, T(apex_), mean - T(bulk_) * dilation);
-    opened += T(1.0 / bulk_) * max(mean - T(cutoff_), T(0));
-    mean = min(mean, T(cutoff_));
+    T opened = select(apex, T(1.0 / bulk_) * (mean - now.apex), T(0));
+    mean = select(apex, now.apex, mean - T(bulk_) * dilation);
+    opened += T(1.0 / bulk_) * max(mean - now.cutoff, T(0));
+    mean = min(mean, now.cutoff);
     deviator = scale_shift(deviator, select(shears, left / max(root_j2, T(kAlmostNothing)), T(1)), T(0));
     history[kOpening] += opened;
     history[kPlasticStrain] += multiplier;
     history[kPlasticWork] += (left * multiplier + mean * (dilation + opened)) * (j * T(1.0 / density_));
   }
 
+  static constexpr float kAlmostNothing = std::numeric_limits<float>::min();  // avoids 0 / 0
+
   double density_, bulk_, shear_;
   bool follows_lode_;  ///< ConeMatch::mohr_coulomb
   double sin_friction_, sin_dilation_;
   double most_shear_, most_dilation_shear_;  ///< largest k(phi) and k(psi) of all Lode angles
   double eta_, eta_bar_, strength_;
-  double apex_;    ///< mean stress at the cone's apex [Pa]
-  double cutoff_;  ///< largest mean stress [Pa]
+  double apex_;     ///< mean stress at the cone's apex [Pa]
+  double tension_;  ///< cut-off from the scene [Pa]; infinite: none
+  double cutoff_;   ///< largest mean stress [Pa]
   DilationEnd dilation_end_;
+  StrengthFall fall_;
+  /// eta and xi c [Pa]; with ConeMatch::mohr_coulomb sin(phi) and c cos(phi).
+  Fall eta_fall_, strength_fall_;
   double flow_;  ///< largest contribution of plastic flow to rho c^2 [Pa]
 };
 

@@ -4,12 +4,12 @@
 // linear_elastic.hpp); its principal axes are kept and its principal values are returned to the surface in closed form:
 // to the main plane, the edges of triaxial compression and extension, the apex, and the planes, edges and corners of
 // the cut-off. Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp). Dilation ends when the soil
-// has gained a given volume (critical state); its strength remains. In a wide register, lanes
-// that are certainly elastic are computed together and the others one by one. Weak: plastic work is computed with the
-// stress at the end of a step; no hardening and no softening; hypoelastic, meant for small elastic strain; an opening
-// is stored as a volume without direction, and only where no pressure remains: a crack in soil under pressure along the
-// crack heals as it closes. Source: method reference 10.7; de Souza Neto, Peric & Owen (2008) section 8.2; Clausen,
-// Damkilde & Andersen (2006).
+// has gained a given volume, and its strength remains; or both fall together to those of the critical state
+// (softening.hpp). In a wide register, lanes that are certainly elastic are computed together and the others one by
+// one. Weak: plastic work is computed with the stress at the end of a step; no hardening; hypoelastic, meant for small
+// elastic strain; an opening is stored as a volume without direction, and only where no pressure remains: a crack in
+// soil under pressure along the crack heals as it closes. Source: method reference 10.7; de Souza Neto, Peric & Owen
+// (2008) section 8.2; Clausen, Damkilde & Andersen (2006).
 #pragma once
 
 #include <algorithm>
@@ -19,6 +19,7 @@
 
 #include "mpm/material/linear_elastic.hpp"
 #include "mpm/material/opening.hpp"
+#include "mpm/material/softening.hpp"
 #include "mpm/math/principal.hpp"
 
 namespace mpm {
@@ -43,7 +44,8 @@ class MohrCoulomb : public LawTraits {
     const T trial_mean = T(1.0 / 3.0) * trace(trial);
     const T mean = close_opening(trial_mean, bulk_, history[kOpening]);
     Symmetric cauchy = scale_shift(trial, T(1), mean - trial_mean);
-    const auto suspects = may_flow(mean, T(0.5) * squared_norm(scale_shift(cauchy, T(1), -mean)));
+    const T j2 = T(0.5) * squared_norm(scale_shift(cauchy, T(1), -mean));
+    const auto suspects = fall_.falls() ? may_flow(mean, j2, fall_.left(history[kPlasticStrain])) : may_flow(mean, j2);
     if (any(suspects)) flow_by_lanes(select(suspects, T(1), T(0)), step.j, cauchy, history);
     tau = scale_shift(cauchy, to_tau, T(0));
   }
@@ -53,13 +55,13 @@ class MohrCoulomb : public LawTraits {
   /// False for NaN.
   template <class T>
   auto may_flow(T mean, T j2) const {
-    // Squares, over J2, of the largest values at given J2: of s1 - s3 + (s1 + s3 - 2 mean) sin(phi), and of s1 - mean.
-    const T shear_factor = T(kCaution * (4.0 + 4.0 / 3.0 * sin_friction_ * sin_friction_));
-    const T tension_factor = T(kCaution * 4.0 / 3.0);
-    const T shear_limit = T(strength_) - T(2.0 * sin_friction_) * mean;
-    const T below = T(cutoff_) - mean;
-    return (shear_limit < T(0)) | (shear_factor * j2 > shear_limit * shear_limit) | (below < T(0)) |
-           (tension_factor * j2 > below * below);
+    return may_flow(mean, j2, T(sin_friction_), T(strength_), T(cutoff_));
+  }
+  /// The same where `left` of the way from residual to peak strength is left.
+  template <class T>
+  auto may_flow(T mean, T j2, T left) const {
+    const T sine = sine_fall_.at(left), strength = strength_fall_.at(left);
+    return may_flow(mean, j2, sine, strength, min(T(cutoff_), apex_of(sine, strength)));
   }
 
   /// Returns `s`, trial principal stresses in descending order [Pa], to the surface, with flow at `sin_dilation`.
@@ -102,6 +104,35 @@ class MohrCoulomb : public LawTraits {
  private:
   static constexpr double kCaution = 1.0 + 1e-6;  ///< factor against round-off
 
+  template <class T>
+  static auto may_flow(T mean, T j2, T sine, T strength, T cutoff) {
+    // Squares, over J2, of the largest values at given J2: of s1 - s3 + (s1 + s3 - 2 mean) sin(phi), and of s1 - mean.
+    const T shear_factor = T(kCaution) * (T(4) + T(4.0 / 3.0) * sine * sine);
+    const T tension_factor = T(kCaution * 4.0 / 3.0);
+    const T shear_limit = strength - T(2) * sine * mean;
+    const T below = cutoff - mean;
+    return (shear_limit < T(0)) | (shear_factor * j2 > shear_limit * shear_limit) | (below < T(0)) |
+           (tension_factor * j2 > below * below);
+  }
+
+  /// Stress at the apex [Pa]; without friction there is none, and without strength it is 0.
+  template <class T>
+  static T apex_of(T sine, T strength) {
+    return strength / max(T(2) * sine, T(std::numeric_limits<float>::min()));
+  }
+
+  /// The law where `left` of the way from residual to peak strength is left.
+  MohrCoulomb weaker(double left) const {
+    MohrCoulomb law = *this;
+    law.sin_friction_ = sine_fall_.at(left);
+    law.strength_ = strength_fall_.at(left);
+    law.sin_dilation_ = left * sin_dilation_;
+    const double apex = apex_of(law.sin_friction_, law.strength_);
+    law.cutoff_is_apex_ = cutoff_is_apex_ || apex <= cutoff_;
+    law.cutoff_ = law.cutoff_is_apex_ ? apex : cutoff_;
+    return law;
+  }
+
   /// Calls flow() for each lane where `suspects` is not zero, since principal directions are found tensor by tensor.
   template <class T, class Symmetric>
   void flow_by_lanes(const T& suspects, const T& j, Symmetric& cauchy, T* history) const {
@@ -110,7 +141,11 @@ class MohrCoulomb : public LawTraits {
       auto stress = lane(cauchy, i);
       ScalarOf<T> scalars[kHistory];
       for (int k = 0; k < kHistory; ++k) scalars[k] = lane(history[k], i);
-      flow(lane(j, i), stress, scalars);
+      if (fall_.falls()) {
+        weaker(fall_.left(static_cast<double>(scalars[kPlasticStrain]))).flow(lane(j, i), stress, scalars);
+      } else {
+        flow(lane(j, i), stress, scalars);
+      }
       set_lane(cauchy, i, stress);
       for (int k = 0; k < kHistory; ++k) set_lane(history[k], i, scalars[k]);
     }
@@ -244,7 +279,9 @@ class MohrCoulomb : public LawTraits {
   double cutoff_;    ///< largest principal stress [Pa]
   bool cutoff_is_apex_;
   DilationEnd dilation_end_;
-  double flow_;  ///< largest contribution of plastic flow to rho c^2 [Pa]
+  StrengthFall fall_;
+  Fall sine_fall_, strength_fall_;  ///< sin(phi) and 2 c cos(phi) [Pa]
+  double flow_;                     ///< largest contribution of plastic flow to rho c^2 [Pa]
 };
 
 }  // namespace mpm

@@ -25,6 +25,41 @@ void check(const MaterialDefinition& material, const Elasticity& elasticity) {
           fmt::format("Poisson's ratio is {:g}; it must lie between -1 and 0.5, both excluded", poisson));
 }
 
+/// Checks how the strength of a soil falls. Strength that falls faster with strain than the soil unloads would be lost
+/// at once whatever the slip: c cos(phi) / G is the elastic shear strain that the loss of cohesion sets free. (What the
+/// loss of friction sets free depends on the pressure, which a material does not know.)
+template <class SoilDefinition>
+void check_softening(const MaterialDefinition& material, const SoilDefinition& law) {
+  const SoilSoftening& fall = law.softening;
+  require(fall.slip >= 0.0 && std::isfinite(fall.slip), material,
+          fmt::format("softening slip is {:g} m; it must be positive and finite", fall.slip));
+  if (!fall.falls()) return;
+  require(fall.band > 0.0 && std::isfinite(fall.band), material,
+          fmt::format("shear band is {:g} m; strength that falls over a slip needs the width of a shear band as the "
+                      "grid resolves it: write the edge of a cell",
+                      fall.band));
+  require(fall.friction_angle >= 0.0 && fall.friction_angle <= law.friction_angle, material,
+          fmt::format("residual friction angle is {:g} degrees; it must lie from 0 to the friction angle, {:g}",
+                      fall.friction_angle / kDegree, law.friction_angle / kDegree));
+  require(fall.cohesion >= 0.0 && fall.cohesion <= law.cohesion, material,
+          fmt::format("residual cohesion is {:g} Pa; it must lie from 0 to the cohesion, {:g} Pa", fall.cohesion,
+                      law.cohesion));
+  require(fall.friction_angle > 0.0 || fall.cohesion > 0.0, material,
+          "residual cohesion is 0 Pa and so is the residual friction angle: soil that ends without any strength; give "
+          "one of them");
+  require(fall.friction_angle < law.friction_angle || fall.cohesion < law.cohesion || law.dilation_angle > 0.0,
+          material,
+          fmt::format("softening slip is {:g} m, but nothing falls over it; add residual_friction_angle, "
+                      "residual_cohesion or a dilation_angle, or leave it out",
+                      fall.slip));
+  const double lost = law.cohesion * std::cos(law.friction_angle) - fall.cohesion * std::cos(fall.friction_angle);
+  const double released = lost / law.elasticity.shear();
+  require(fall.strain() > released, material,
+          fmt::format("softening slip is {:g} m; over a band of {:g} m cohesion then falls faster than the soil can "
+                      "unload: write more than {:.3g} m, or use smaller cells",
+                      fall.slip, fall.band, released * fall.band));
+}
+
 /// Checks the angles and strengths of a law of soil; `apex` is its name in the text.
 template <class SoilDefinition>
 void check_soil(const MaterialDefinition& material, const SoilDefinition& law, const char* apex) {
@@ -53,6 +88,7 @@ void check_soil(const MaterialDefinition& material, const SoilDefinition& law, c
                         "{:g} Pa",
                         law.tension_cutoff, apex, largest));
   }
+  check_softening(material, law);
 }
 
 void require_positive(double value, const MaterialDefinition& material, const char* constant, const char* unit) {

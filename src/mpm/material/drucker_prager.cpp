@@ -60,15 +60,25 @@ DruckerPrager::DruckerPrager(const DruckerPragerDefinition& d, double density)
       sin_dilation_(std::sin(d.dilation_angle)),
       most_shear_(most_shear(sin_friction_)),
       most_dilation_shear_(most_shear(sin_dilation_)),
-      dilation_end_(d.dilation_limit) {
+      dilation_end_(d.dilation_limit),
+      fall_(d.softening) {
   const Cone matched = cone(d);
   eta_ = matched.eta;
   eta_bar_ = matched.eta_bar;
   strength_ = matched.xi * d.cohesion;
   apex_ = eta_ > 0.0 ? strength_ / eta_ : std::numeric_limits<double>::infinity();
-  cutoff_ = d.tension_cutoff < 0.0 ? apex_ : std::min(d.tension_cutoff, apex_);
+  tension_ = d.tension_cutoff < 0.0 ? std::numeric_limits<double>::infinity() : d.tension_cutoff;
+  cutoff_ = std::min(tension_, apex_);
   // Soil that has opened, or dilated to its limit, flows without dilation.
   flow_ = std::max(largest_flow_stiffness(false), largest_flow_stiffness(true));
+  if (!fall_.falls()) return;
+  const DruckerPragerDefinition residual = weakened(d, 0.0);
+  const Cone last = cone(residual);
+  eta_fall_ = follows_lode_ ? Fall{sin_friction_, std::sin(residual.friction_angle)} : Fall{matched.eta, last.eta};
+  strength_fall_ = follows_lode_ ? Fall{d.cohesion * std::cos(d.friction_angle),
+                                        residual.cohesion * std::cos(residual.friction_angle)}
+                                 : Fall{strength_, last.xi * residual.cohesion};
+  for (const double left : kPartsOfAFall) flow_ = std::max(flow_, DruckerPrager(weakened(d, left), density).flow_);
 }
 
 /// Largest flow_stiffness() of all stresses. In principal axes the flow is m = s / (2 sqrt(J2)) + eta_bar / 3, and the
@@ -86,7 +96,7 @@ double DruckerPrager::largest_flow_stiffness(bool dilates) const {
     double eta_bar = eta_bar_, h = 0.0;
     PrincipalValues normal;
     if (follows_lode_) {
-      const std::pair extremes{s_over[0], s_over[2]};
+      const std::pair<double, double> extremes{s_over[0], s_over[2]};
       eta_bar = sin_dilation_ / shear_measure(extremes, sin_dilation_);
       normal = {lame * s + shear_ * (1.0 + s), lame * s, lame * s - shear_ * (1.0 - s)};
       h = shear_ * shear_measure(extremes, s) + (dilates ? bulk_ * eta_bar * s : 0.0);

@@ -11,7 +11,8 @@ MohrCoulomb::MohrCoulomb(const MohrCoulombDefinition& d, double density)
       sin_friction_(std::sin(d.friction_angle)),
       sin_dilation_(std::sin(d.dilation_angle)),
       strength_(2.0 * d.cohesion * std::cos(d.friction_angle)),
-      dilation_end_(d.dilation_limit) {
+      dilation_end_(d.dilation_limit),
+      fall_(d.softening) {
   const double apex =
       sin_friction_ > 0.0 ? d.cohesion / std::tan(d.friction_angle) : std::numeric_limits<double>::infinity();
   cutoff_is_apex_ = d.tension_cutoff < 0.0 || d.tension_cutoff >= apex;
@@ -21,6 +22,15 @@ MohrCoulomb::MohrCoulomb(const MohrCoulombDefinition& d, double density)
   // With use_room() volume is free: shear has 4/3 G and (|p - q|/2)^2 / h is at most 3/4 G, more than elastic if K <
   // 3/4 G.
   if (!cutoff_is_apex_) flow_ = std::max(flow_, 0.75 * shear_ - bulk_);
+  if (!fall_.falls()) return;
+  const double residual = d.softening.friction_angle;
+  sine_fall_ = {sin_friction_, std::sin(residual)};
+  strength_fall_ = {strength_, 2.0 * d.softening.cohesion * std::cos(residual)};
+  for (const double left : kPartsOfAFall) {
+    const MohrCoulombDefinition soil = weakened(d, left);
+    const MohrCoulomb law(soil, density);
+    flow_ = std::max({flow_, law.largest_flow_stiffness(0.0), law.largest_flow_stiffness(law.sin_dilation_)});
+  }
 }
 
 /// Largest flow_stiffness() of the main plane, and of both planes of an edge, as their sum and their difference; q:

@@ -31,6 +31,43 @@ LawDefinition read_linear_elastic(const Map& map, Scene&) { return LinearElastic
 
 LawDefinition read_neo_hookean(const Map& map, Scene&) { return NeoHookeanDefinition{read_elasticity(map)}; }
 
+/// Reads how a soil loses its strength along a shear band.
+template <class SoilDefinition>
+void read_softening(const Map& map, Scene& scene, SoilDefinition& law) {
+  const auto slip = map.find("softening_slip");
+  for (const char* key : {"residual_friction_angle", "residual_cohesion", "shear_band"}) {
+    if (slip || !map.find(key)) continue;
+    map.at(key).fail(
+        "strength that falls needs the slip along a shear band over which it does, since a grid resolves a band in a "
+        "cell, and with a strain the force would depend on the cell: write softening_slip");
+  }
+  if (!slip) return;
+  SoilSoftening& fall = law.softening;
+  fall.slip = slip->positive(kLength);
+  fall.friction_angle = law.friction_angle;
+  fall.cohesion = law.cohesion;
+  if (const auto friction = map.find("residual_friction_angle")) fall.friction_angle = friction->number(kAngle);
+  if (const auto cohesion = map.find("residual_cohesion")) fall.cohesion = cohesion->number(kPressure);
+  double cell = 0.0;  // the longest edge; 0 outside a scene
+  if (scene.definition.grid.cell.x() > 0.0) {
+    for (const int axis : axes_of(scene)) cell = std::max(cell, scene.definition.grid.cell[axis]);
+  }
+  const auto band = map.find("shear_band");
+  if (band) {
+    fall.band = band->positive(kLength);
+    if (fall.band < cell * (1.0 - 1e-9)) {
+      band->fail(fmt::format("{:g} m is narrower than a cell, {:g} m, in which the grid resolves a band; leave it out",
+                             fall.band, cell));
+    }
+  } else {
+    if (!(cell > 0.0)) slip->fail("without a grid the width of a shear band is not known; add shear_band");
+    fall.band = cell;
+  }
+  scene.choices.emplace_back(map.value().path() + ".softening_slip",
+                             fmt::format("{:g} m is a plastic shear strain of {:.3g} in a band {}{:g} m wide",
+                                         fall.slip, fall.strain(), band ? "" : "of one cell, ", fall.band));
+}
+
 /// Reads the constants that the laws of soil have in common.
 template <class SoilDefinition>
 SoilDefinition read_soil(const Map& map, Scene& scene) {
@@ -39,8 +76,11 @@ SoilDefinition read_soil(const Map& map, Scene& scene) {
   law.friction_angle = map.at("friction_angle").number(kAngle);
   if (const auto dilation = map.find("dilation_angle")) law.dilation_angle = dilation->number(kAngle);
   if (const auto cohesion = map.find("cohesion")) law.cohesion = cohesion->number(kPressure);
+  read_softening(map, scene, law);
   if (const auto limit = map.find("dilation_limit")) {
     law.dilation_limit = limit->text() == "none" ? std::numeric_limits<double>::infinity() : limit->positive(kPlain);
+  } else if (law.softening.falls()) {
+    law.dilation_limit = std::numeric_limits<double>::infinity();  // it ends with the fall
   } else if (law.dilation_angle > 0.0) {
     scene.choices.emplace_back(
         map.value().path() + ".dilation_limit",
@@ -182,10 +222,11 @@ const std::vector<LawSection>& law_sections() {
       {"neo_hookean", {"young", "poisson"}, read_neo_hookean},
       {"drucker_prager",
        {"young", "poisson", "friction_angle", "dilation_angle", "dilation_limit", "cohesion", "tension_cutoff",
-        "match"},
+        "softening_slip", "residual_friction_angle", "residual_cohesion", "shear_band", "match"},
        read_drucker_prager},
       {"mohr_coulomb",
-       {"young", "poisson", "friction_angle", "dilation_angle", "dilation_limit", "cohesion", "tension_cutoff"},
+       {"young", "poisson", "friction_angle", "dilation_angle", "dilation_limit", "cohesion", "tension_cutoff",
+        "softening_slip", "residual_friction_angle", "residual_cohesion", "shear_band"},
        read_mohr_coulomb},
       {"j2_plasticity",
        {"young", "poisson", "yield_stress", "hardening_modulus", "saturation_stress", "saturation_rate"},

@@ -159,6 +159,34 @@ TEST(SceneMaterials, SoilWithoutALimitInAPlaneIsRefused) {
   }
 }
 
+TEST(SceneMaterials, FlowingGrain) {
+  const std::string start = "density: 1500, law: mu_i, young: 1 MPa, poisson: 0.3, mu_s: 0.38, grain_diameter: 2 mm";
+  const Scene scene = scene_of(start + ", mu_2: 0.64");
+  const auto beads = std::get<MuIDefinition>(scene.definition.materials.at(0).law);
+  EXPECT_EQ(beads.static_friction, 0.38);
+  EXPECT_EQ(beads.limiting_friction, 0.64);
+  EXPECT_EQ(beads.reference_inertial, 0.279);
+  EXPECT_EQ(beads.grain_diameter, 0.002);
+  EXPECT_NEAR(beads.grain_density, 2500.0, 1e-9);
+  for (const char* key : {"I_0", "grain_density"}) {
+    const auto recorded = [&](const auto& choice) { return choice.first == std::string("materials.m.") + key; };
+    EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), recorded), 1) << key;
+  }
+  const auto sand = law_of<MuIDefinition>(start + ", mu_2: 0.64, I_0: 0.3, grain_density: 2650");
+  EXPECT_EQ(sand.reference_inertial, 0.3);
+  EXPECT_EQ(sand.grain_density, 2650.0);
+  EXPECT_EQ(refusal(start + ", mu_2: 0.37"),
+            ".mu_2: mu_2 is 0.37; it must lie from mu_s, 0.38, to below 1, where no stress in a plane makes the grain "
+            "flow");
+  EXPECT_EQ(refusal(start + ", mu_2: 1").rfind(".mu_2: mu_2 is 1;", 0), 0u);
+  EXPECT_EQ(refusal(start + ", mu_2: 0.64, I_0: 0"), ".I_0: I_0 is 0; it must be positive and finite");
+  EXPECT_EQ(refusal(start + ", mu_2: 0.64, grain_density: 1000"),
+            ".grain_density: grain density is 1000 kg/m^3; it must not be below that of the heap, 1500");
+  EXPECT_EQ(refusal("density: 1500, law: mu_i, young: 1 MPa, poisson: 0.3, mu_s: 0, mu_2: 0.5, grain_diameter: 1 mm"),
+            ".mu_s: mu_s is 0; it must be positive and finite");
+  EXPECT_EQ(refusal(start), ": the key 'mu_2' is missing; add it");
+}
+
 TEST(SceneMaterials, Fluid) {
   const std::string start = "density: 1000, law: newtonian_fluid";
   const Scene scene = scene_of(start + ", sound_speed: 20 m/s, viscosity: 1e-3 Pa s");

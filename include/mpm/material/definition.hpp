@@ -73,6 +73,17 @@ struct MohrCoulombDefinition {
   SoilSoftening softening = {};
 };
 
+/// Dry grain that flows at the rate-dependent friction mu(I) = mu_s + (mu_2 - mu_s) / (I_0 / I + 1), I = rate d /
+/// sqrt(p / rho_s).
+struct MuIDefinition {
+  Elasticity elasticity;
+  double static_friction = 0.0;     ///< mu_s, > 0
+  double limiting_friction = 0.0;   ///< mu_2, from mu_s to below 1
+  double reference_inertial = 0.0;  ///< I_0, > 0
+  double grain_diameter = 0.0;      ///< d [m], > 0
+  double grain_density = 0.0;       ///< rho_s, of the grains themselves [kg/m^3], > 0
+};
+
 /// Metal with isotropic hardening: flow stress yield + H a + (saturation - yield) (1 - exp(-rate a)) at plastic strain
 /// a.
 struct J2PlasticityDefinition {
@@ -133,9 +144,10 @@ struct StandardLinearSolidDefinition {
   double relaxation_time = 0.0;  ///< of the branch [s], > 0
 };
 
-using LawDefinition = std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition,
-                                   MohrCoulombDefinition, J2PlasticityDefinition, NewtonianFluidDefinition,
-                                   IdealGasDefinition, StandardLinearSolidDefinition, JohnsonCookDefinition>;
+using LawDefinition =
+    std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition, MohrCoulombDefinition,
+                 J2PlasticityDefinition, NewtonianFluidDefinition, IdealGasDefinition, StandardLinearSolidDefinition,
+                 JohnsonCookDefinition, MuIDefinition>;
 
 struct MaterialDefinition {
   std::string name;

@@ -23,6 +23,7 @@
 #include "mpm/material/johnson_cook.hpp"
 #include "mpm/material/linear_elastic.hpp"
 #include "mpm/material/mohr_coulomb.hpp"
+#include "mpm/material/mu_i.hpp"
 #include "mpm/material/neo_hookean.hpp"
 #include "mpm/material/newtonian_fluid.hpp"
 #include "mpm/material/standard_linear_solid.hpp"
@@ -30,7 +31,7 @@
 namespace mpm {
 
 using Law = std::variant<LinearElastic, NeoHookean, DruckerPrager, MohrCoulomb, J2Plasticity, NewtonianFluid, IdealGas,
-                         StandardLinearSolid, JohnsonCook>;
+                         StandardLinearSolid, JohnsonCook, MuI>;
 
 /// Makes the law of a material. @throws MaterialError as check() does
 Law make_law(const MaterialDefinition& material);

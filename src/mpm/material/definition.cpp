@@ -122,6 +122,20 @@ struct Checker {
   void operator()(const NeoHookeanDefinition& law) const { check(material, law.elasticity); }
   void operator()(const DruckerPragerDefinition& law) const { check_soil(material, law, "the cone's apex"); }
   void operator()(const MohrCoulombDefinition& law) const { check_soil(material, law, "the apex"); }
+  void operator()(const MuIDefinition& law) const {
+    check(material, law.elasticity);
+    require_positive(law.static_friction, material, "mu_s", "");
+    require(law.limiting_friction >= law.static_friction && law.limiting_friction < 1.0, material,
+            fmt::format("mu_2 is {:g}; it must lie from mu_s, {:g}, to below 1, where no stress in a plane makes the "
+                        "grain flow",
+                        law.limiting_friction, law.static_friction));
+    require_positive(law.reference_inertial, material, "I_0", "");
+    require_positive(law.grain_diameter, material, "grain diameter", " m");
+    require_positive(law.grain_density, material, "grain density", " kg/m^3");
+    require(law.grain_density >= material.density, material,
+            fmt::format("grain density is {:g} kg/m^3; it must not be below that of the heap, {:g}", law.grain_density,
+                        material.density));
+  }
   void operator()(const J2PlasticityDefinition& law) const {
     check(material, law.elasticity);
     require_positive(law.yield_stress, material, "yield stress", " Pa");
@@ -170,6 +184,7 @@ struct Checker {
 };
 
 struct Name {
+  std::string operator()(const MuIDefinition&) const { return "mu_i"; }
   std::string operator()(const LinearElasticDefinition&) const { return "linear_elastic"; }
   std::string operator()(const NeoHookeanDefinition&) const { return "neo_hookean"; }
   std::string operator()(const DruckerPragerDefinition&) const { return "drucker_prager"; }

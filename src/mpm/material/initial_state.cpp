@@ -29,6 +29,7 @@ struct StressSourceOf {
   StressSource operator()(const LinearElastic&) const { return StressSource::stress; }
   StressSource operator()(const DruckerPrager&) const { return StressSource::stress; }
   StressSource operator()(const MohrCoulomb&) const { return StressSource::stress; }
+  StressSource operator()(const MuI&) const { return StressSource::stress; }
   StressSource operator()(const J2Plasticity&) const { return StressSource::volume_and_stress; }
   StressSource operator()(const JohnsonCook&) const { return StressSource::volume_and_stress; }
   StressSource operator()(const NewtonianFluid&) const { return StressSource::volume; }
@@ -276,6 +277,7 @@ InitialState InitialStates::stretch_for(const Symmetric3<double>& cauchy, bool y
 std::optional<double> pressure_at_rest(const LawDefinition& law) {
   if (const auto* soil = std::get_if<DruckerPragerDefinition>(&law)) return 1.0 - std::sin(soil->friction_angle);
   if (const auto* soil = std::get_if<MohrCoulombDefinition>(&law)) return 1.0 - std::sin(soil->friction_angle);
+  if (const auto* grain = std::get_if<MuIDefinition>(&law)) return 1.0 - grain->static_friction;
   if (std::holds_alternative<IdealGasDefinition>(law)) return std::nullopt;
   const std::optional<double> poisson = std::visit(PoissonRatio(), law);
   return poisson ? *poisson / (1.0 - *poisson) : 1.0;

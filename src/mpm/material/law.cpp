@@ -14,6 +14,7 @@ struct Maker {
   Law operator()(const IdealGasDefinition& d) const { return IdealGas(d, density); }
   Law operator()(const StandardLinearSolidDefinition& d) const { return StandardLinearSolid(d, density); }
   Law operator()(const JohnsonCookDefinition& d) const { return JohnsonCook(d, density); }
+  Law operator()(const MuIDefinition& d) const { return MuI(d, density); }
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ constexpr int kSamples = 5;  // points along an axis at which a body's largest s
 bool flows(const MaterialDefinition& material) {
   return std::holds_alternative<DruckerPragerDefinition>(material.law) ||
          std::holds_alternative<MohrCoulombDefinition>(material.law) ||
+         std::holds_alternative<MuIDefinition>(material.law) ||
          std::holds_alternative<J2PlasticityDefinition>(material.law) ||
          std::holds_alternative<JohnsonCookDefinition>(material.law) ||
          std::holds_alternative<NewtonianFluidDefinition>(material.law) ||

@@ -10,6 +10,9 @@
 namespace mpm {
 namespace {
 
+constexpr double kGlassInertial = 0.279;  // I_0 of glass beads, Jop, Forterre & Pouliquen (2006)
+constexpr double kGrainFraction = 0.6;    // of the volume of a heap, of the same
+
 const std::vector<Later>& later_laws() {
   static const std::vector<Later> laws = {{"rigid", "a rigid body is not a material: write it under rigid_bodies"}};
   return laws;
@@ -104,6 +107,29 @@ LawDefinition read_drucker_prager(const Map& map, Scene& scene) {
 }
 
 LawDefinition read_mohr_coulomb(const Map& map, Scene& scene) { return read_soil<MohrCoulombDefinition>(map, scene); }
+
+LawDefinition read_mu_i(const Map& map, Scene& scene) {
+  MuIDefinition law;
+  law.elasticity = read_elasticity(map);
+  law.static_friction = map.at("mu_s").number(kPlain);
+  law.limiting_friction = map.at("mu_2").number(kPlain);
+  law.grain_diameter = map.at("grain_diameter").number(kLength);
+  if (const auto reference = map.find("I_0")) {
+    law.reference_inertial = reference->number(kPlain);
+  } else {
+    law.reference_inertial = kGlassInertial;
+    scene.choices.emplace_back(map.value().path() + ".I_0", fmt::format("{:g}: glass beads", kGlassInertial));
+  }
+  if (const auto grain = map.find("grain_density")) {
+    law.grain_density = grain->number(kDensity);
+  } else {
+    law.grain_density = map.at("density").positive(kDensity) / kGrainFraction;
+    scene.choices.emplace_back(
+        map.value().path() + ".grain_density",
+        fmt::format("{:g} kg/m^3: grains take {:g} of the volume", law.grain_density, kGrainFraction));
+  }
+  return law;
+}
 
 LawDefinition read_j2_plasticity(const Map& map, Scene&) {
   J2PlasticityDefinition law;
@@ -228,6 +254,7 @@ const std::vector<LawSection>& law_sections() {
        {"young", "poisson", "friction_angle", "dilation_angle", "dilation_limit", "cohesion", "tension_cutoff",
         "softening_slip", "residual_friction_angle", "residual_cohesion", "shear_band"},
        read_mohr_coulomb},
+      {"mu_i", {"young", "poisson", "mu_s", "mu_2", "I_0", "grain_diameter", "grain_density"}, read_mu_i},
       {"j2_plasticity",
        {"young", "poisson", "yield_stress", "hardening_modulus", "saturation_stress", "saturation_rate"},
        read_j2_plasticity},
@@ -248,7 +275,7 @@ const LawSection& find_section(const Value& law) {
 }
 
 /// Reports a refused constant at the key that it was read from. The text of the check begins with the name of the
-/// constant, which is the key with spaces, except for three.
+/// constant, which is the key, or the key with spaces, except for three.
 [[noreturn]] void fail(const Map& map, const std::string& text) {
   const std::size_t colon = text.find(": ");
   const std::string what = colon == std::string::npos ? text : text.substr(colon + 2);
@@ -259,7 +286,9 @@ const LawSection& find_section(const Value& law) {
     if (key == "young") constant = "Young's modulus";
     if (key == "poisson") constant = "Poisson's ratio";
     if (key == "tension_cutoff") constant = "tension cut-off";
-    if (what.rfind(constant + " is ", 0) == 0) map.at(key).fail(what);
+    for (const std::string& name : {constant, key}) {
+      if (what.rfind(name + " is ", 0) == 0) map.at(key).fail(what);
+    }
   }
   map.fail(what);
 }

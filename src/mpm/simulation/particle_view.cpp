@@ -47,6 +47,7 @@ struct PartsOf {
   }
   void operator()(const DruckerPragerDefinition& law) const { rate(law.elasticity); }
   void operator()(const MohrCoulombDefinition& law) const { rate(law.elasticity); }
+  void operator()(const MuIDefinition& law) const { rate(law.elasticity); }
   void operator()(const J2PlasticityDefinition& law) const { isochoric(law.elasticity.shear()); }
   void operator()(const JohnsonCookDefinition& law) const {
     isochoric(law.shear_modulus);

@@ -8,12 +8,13 @@
 namespace mpm {
 namespace {
 
-static_assert(DruckerPrager::kPlasticStrain == 0 && MohrCoulomb::kPlasticStrain == 0);
+static_assert(DruckerPrager::kPlasticStrain == 0 && MohrCoulomb::kPlasticStrain == 0 && MuI::kPlasticStrain == 0);
 
 /// The bulk modulus [Pa] of a law of soil; 0 of any other.
 double soil_bulk(const LawDefinition& law) {
   if (const auto* soil = std::get_if<DruckerPragerDefinition>(&law)) return soil->elasticity.bulk();
   if (const auto* soil = std::get_if<MohrCoulombDefinition>(&law)) return soil->elasticity.bulk();
+  if (const auto* grain = std::get_if<MuIDefinition>(&law)) return grain->elasticity.bulk();
   return 0.0;
 }
 
@@ -32,7 +33,8 @@ void add_pressure_average(RunParts& parts) {
   }
   if (sets.empty()) {
     throw DefinitionError(
-        "method.average_pressure: no body is of drucker_prager or mohr_coulomb, whose pressures it averages; leave it "
+        "method.average_pressure: no body is of drucker_prager, mohr_coulomb or mu_i, whose pressures it averages; "
+        "leave it "
         "out");
   }
   parts.modules.add(std::make_unique<PressureAverage>(std::move(sets), definition.geometry, parts.threads));

@@ -19,6 +19,9 @@ MaterialDefinition before_flow(MaterialDefinition material) {
   if (const auto* soil = std::get_if<MohrCoulombDefinition>(&material.law)) {
     return {material.name, material.density, LinearElasticDefinition{soil->elasticity}};
   }
+  if (const auto* grain = std::get_if<MuIDefinition>(&material.law)) {
+    return {material.name, material.density, LinearElasticDefinition{grain->elasticity}};
+  }
   return material;
 }
 

@@ -90,6 +90,33 @@ TEST(MaterialDriver, PrintsATriaxialTest) {
   EXPECT_GT(last(rows, "wave_speed [m/s]"), 0.0);
 }
 
+// Without a grid the width of a shear band has to be said. Then the strength ends at that of 20 degrees, Kp = 2.0396.
+TEST(MaterialDriver, SoftensSoilInABandThatIsGiven) {
+  MaterialDriverOptions options;
+  const std::string sand =
+      "{law: mohr_coulomb, density: 1600, young: 10 MPa, poisson: 0.3, friction_angle: 30 deg, softening_slip: 1 mm, "
+      "residual_friction_angle: 20 deg";
+  options.material = sand + "}";
+  options.path = "triaxial";
+  options.strain = "-20%";
+  EXPECT_NE(error_of(options).find("add shear_band"), std::string::npos);
+  options.material = sand + ", shear_band: 2 cm}";
+  EXPECT_NEAR(last(table(options), "szz [Pa]"), -203960.6, 1.0);
+}
+
+// Critical state at 100 kPa on the sides, M = 1: p = 150 kPa, q = 150 kPa, so 250 kPa along the axis; 0.2 %: its
+// approach.
+TEST(MaterialDriver, DrivesClayToItsCriticalState) {
+  MaterialDriverOptions options;
+  options.material =
+      "{law: cam_clay, density: 1700, lambda: 0.2, kappa: 0.04, M: 1, void_ratio: 1, poisson: 0.3, "
+      "preconsolidation_pressure: 100 kPa}";
+  options.path = "triaxial";
+  options.strain = "-250%";
+  options.steps = 500;
+  EXPECT_NEAR(last(table(options), "szz [Pa]"), -250e3, 0.002 * 250e3);
+}
+
 TEST(MaterialDriver, TakesAMaterialFromAScene) {
   MaterialDriverOptions options;
   options.scene = "blade_in_soil";

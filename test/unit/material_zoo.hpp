@@ -92,6 +92,8 @@ inline std::vector<Specimen> zoo() {
       {{"lode_drucker_prager", 1600.0, DruckerPragerDefinition{soil, 0.6, 0.2, 2000.0}}, 1e-3, -0.02, 1.0},
       {{"mu_i", 1500.0, MuIDefinition{soil, 0.38, 0.64, 0.279, 1e-3, 2500.0}}, 1e-3, -0.02, 1e-4},
       {{"dilated_mu_i", 1500.0, MuIDefinition{soil, 0.38, 0.64, 0.279, 1e-3, 2500.0}}, 0.01, 0.0, 1e-4},
+      {{"cam_clay", 1700.0, CamClayDefinition{0.2, 0.05, 1.0, 1.0, 1e6, 0.0, 20e3, 0.0, 1e3}}, 0.01, -0.1, 1.0},
+      {{"dilated_cam_clay", 1700.0, CamClayDefinition{0.2, 0.05, 1.0, 1.0, 0.0, 0.3, 20e3, 0.0, 1e3}}, 0.02, 0.0, 1.0},
       {{"dilated_lode_drucker_prager", 1600.0, DruckerPragerDefinition{soil, 0.6, 0.2, 2000.0, 500.0}}, 0.01, 0.0, 1.0},
   };
 }

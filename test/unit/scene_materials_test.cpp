@@ -187,6 +187,40 @@ TEST(SceneMaterials, FlowingGrain) {
   EXPECT_EQ(refusal(start), ": the key 'mu_2' is missing; add it");
 }
 
+TEST(SceneMaterials, Clay) {
+  const std::string start = "density: 1700, law: cam_clay, lambda: 0.2, kappa: 0.05, M: 1, void_ratio: 1.2";
+  const Scene scene = scene_of(start + ", poisson: 0.3, preconsolidation_pressure: 50 kPa");
+  const auto clay = std::get<CamClayDefinition>(scene.definition.materials.at(0).law);
+  EXPECT_EQ(clay.lambda, 0.2);
+  EXPECT_EQ(clay.kappa, 0.05);
+  EXPECT_EQ(clay.slope, 1.0);
+  EXPECT_EQ(clay.void_ratio, 1.2);
+  EXPECT_EQ(clay.poisson, 0.3);
+  EXPECT_EQ(clay.shear_modulus, 0.0);
+  EXPECT_EQ(clay.consolidation, 50e3);
+  EXPECT_EQ(clay.least_pressure, 500.0);
+  const auto recorded = [&](const auto& choice) { return choice.first == "materials.m.least_pressure"; };
+  EXPECT_EQ(std::count_if(scene.choices.begin(), scene.choices.end(), recorded), 1);
+  const auto other =
+      law_of<CamClayDefinition>(start + ", shear_modulus: 2 MPa, overconsolidation_ratio: 2, least_pressure: 200");
+  EXPECT_EQ(other.shear_modulus, 2e6);
+  EXPECT_EQ(other.overconsolidation, 2.0);
+  EXPECT_EQ(other.consolidation, 0.0);
+  EXPECT_EQ(other.least_pressure, 200.0);
+  const std::string one = ": write exactly one of preconsolidation_pressure and overconsolidation_ratio";
+  EXPECT_EQ(refusal(start + ", poisson: 0.3"), one);
+  EXPECT_EQ(refusal(start + ", preconsolidation_pressure: 50 kPa"), ": write exactly one of shear_modulus and poisson");
+  EXPECT_NE(refusal(start + ", poisson: 0.3, overconsolidation_ratio: 2").find("needs least_pressure"),
+            std::string::npos);
+  EXPECT_EQ(refusal(start + ", poisson: 0.3, overconsolidation_ratio: 0.5, least_pressure: 200"),
+            ".overconsolidation_ratio: overconsolidation ratio is 0.5; it must be finite and at least 1");
+  EXPECT_EQ(refusal("density: 1700, law: cam_clay, lambda: 0.05, kappa: 0.05, M: 1, void_ratio: 1.2, poisson: 0.3, "
+                    "preconsolidation_pressure: 50 kPa"),
+            ".lambda: lambda is 0.05; it must be finite and above kappa, 0.05");
+  EXPECT_EQ(refusal(start + ", poisson: 0.5, preconsolidation_pressure: 50 kPa"),
+            ".poisson: Poisson's ratio is 0.5; it must lie between -1 and 0.5, both excluded");
+}
+
 TEST(SceneMaterials, Fluid) {
   const std::string start = "density: 1000, law: newtonian_fluid";
   const Scene scene = scene_of(start + ", sound_speed: 20 m/s, viscosity: 1e-3 Pa s");

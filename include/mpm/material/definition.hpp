@@ -84,6 +84,21 @@ struct MuIDefinition {
   double grain_density = 0.0;       ///< rho_s, of the grains themselves [kg/m^3], > 0
 };
 
+/// Modified Cam clay: soft soil between the lines v = N - lambda ln p and v = v_k - kappa ln p, flowing in the end at q
+/// = M p. Of shear_modulus and poisson one is used, and of consolidation and overconsolidation.
+struct CamClayDefinition {
+  double lambda = 0.0;             ///< slope of first compression over ln p, > kappa
+  double kappa = 0.0;              ///< slope of swelling over ln p, > 0
+  double slope = 0.0;              ///< M, > 0
+  double void_ratio = 0.0;         ///< at the start, over the volume of the grains, > 0
+  double shear_modulus = 0.0;      ///< G [Pa], > 0; 0: from Poisson's ratio
+  double poisson = 0.0;            ///< in (-1, 0.5)
+  double consolidation = 0.0;      ///< p_c, the largest pressure that the clay has carried [Pa], > 0; 0: from the ratio
+  double overconsolidation = 0.0;  ///< size of the surface over that through the initial stress, >= 1; 0: unused
+  double least_pressure = 0.0;     ///< p_r of K = v (p + p_r) / kappa [Pa], > 0
+  double shear_over_bulk() const { return 1.5 * (1.0 - 2.0 * poisson) / (1.0 + poisson); }
+};
+
 /// Metal with isotropic hardening: flow stress yield + H a + (saturation - yield) (1 - exp(-rate a)) at plastic strain
 /// a.
 struct J2PlasticityDefinition {
@@ -147,7 +162,7 @@ struct StandardLinearSolidDefinition {
 using LawDefinition =
     std::variant<LinearElasticDefinition, NeoHookeanDefinition, DruckerPragerDefinition, MohrCoulombDefinition,
                  J2PlasticityDefinition, NewtonianFluidDefinition, IdealGasDefinition, StandardLinearSolidDefinition,
-                 JohnsonCookDefinition, MuIDefinition>;
+                 JohnsonCookDefinition, MuIDefinition, CamClayDefinition>;
 
 struct MaterialDefinition {
   std::string name;

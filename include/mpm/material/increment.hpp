@@ -23,6 +23,7 @@ struct LawTraits {
   static constexpr int kPlasticStrain = -1;  ///< index of the equivalent plastic strain [-], or -1
   static constexpr int kPlasticWork = -1;    ///< index of the dissipated work [J/kg], or -1
   static constexpr int kTemperature = -1;    ///< index of temperature minus reference temperature [K], or -1
+  static constexpr int kHardening = -1;      ///< index of what initial_hardening() gives, or -1
   /// Whether only J of the deformation gradient matters, so that it is stored as a pure change of volume. A fluid
   /// shears without end, and det F of its whole deformation would be a small difference of large numbers.
   static constexpr bool kForgetsShape = false;
@@ -34,6 +35,8 @@ struct LawTraits {
   /// The part of the dissipated work that elastic_energy() includes, as heat; the stored energy is elastic_energy()
   /// minus this part.
   double heat_fraction() const { return 0.0; }
+  /// The history scalar kHardening of a particle that starts under this Cauchy stress [Pa].
+  double initial_hardening(const Symmetric3<double>&) const { return 0.0; }
   /// Temperature to which the temperature in history is relative [K].
   double reference_temperature() const { return 0.0; }
 };

@@ -1,7 +1,7 @@
 // The initial state of a particle that is to start under a stress or at a temperature. The same Cauchy stress means the
 // same in every law; laws differ in the variables from which they compute it:
 //
-//   the stress itself    linear_elastic, drucker_prager, mohr_coulomb, mu_i: F = I
+//   the stress itself    linear_elastic, drucker_prager, mohr_coulomb, mu_i, cam_clay: F = I
 //   J and the stress     j2_plasticity, johnson_cook: pressure by a change of volume along the axes that can strain,
 //                        the deviator is carried
 //   J alone              newtonian_fluid, ideal_gas: pressure; a deviator cannot be carried
@@ -35,6 +35,7 @@ struct InitialState {
   Matrix3<double> f = Matrix3<double>::identity();
   Symmetric3<double> tau{};         ///< Kirchhoff stress over initial density [J/kg]
   double temperature_excess = 0.0;  ///< temperature minus the law's reference temperature [K]
+  double hardening = 0.0;           ///< the law's history scalar kHardening
   double j() const { return determinant(f); }
 };
 
@@ -56,6 +57,8 @@ class InitialStates {
   bool carries(const Symmetric3<double>& cauchy) const;
   /// Index in history of temperature minus reference temperature, or -1.
   int temperature_index() const;
+  /// Index in history of the initial hardening, or -1.
+  int hardening_index() const;
   /// Whether the geometry is plane strain and yy follows from the other components.
   bool yy_is_bound() const;
 
@@ -73,7 +76,8 @@ class InitialStates {
   double least_ = 0.0;  ///< stress at the round-off of the stiffness [Pa]
 };
 
-/// Ratio of horizontal to vertical stress at rest: 1 - sin(phi) for soils (Jaky 1944; mu_s for mu_i), nu / (1 - nu) for
+/// Ratio of horizontal to vertical stress at rest: 1 - sin(phi) for soils (Jaky 1944; mu_s for mu_i;
+/// times OCR^sin(phi) for cam_clay, Mayne & Kulhawy 1982), nu / (1 - nu) for
 /// elastic solids, 1 for fluids and for johnson_cook, which has no Poisson's ratio. No value for a gas, whose pressure
 /// at rest does not come from its weight.
 std::optional<double> pressure_at_rest(const LawDefinition& law);

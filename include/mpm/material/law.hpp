@@ -16,6 +16,7 @@
 
 #include <variant>
 
+#include "mpm/material/cam_clay.hpp"
 #include "mpm/material/definition.hpp"
 #include "mpm/material/drucker_prager.hpp"
 #include "mpm/material/ideal_gas.hpp"
@@ -31,7 +32,7 @@
 namespace mpm {
 
 using Law = std::variant<LinearElastic, NeoHookean, DruckerPrager, MohrCoulomb, J2Plasticity, NewtonianFluid, IdealGas,
-                         StandardLinearSolid, JohnsonCook, MuI>;
+                         StandardLinearSolid, JohnsonCook, MuI, CamClay>;
 
 /// Makes the law of a material. @throws MaterialError as check() does
 Law make_law(const MaterialDefinition& material);

@@ -136,6 +136,21 @@ struct Checker {
             fmt::format("grain density is {:g} kg/m^3; it must not be below that of the heap, {:g}", law.grain_density,
                         material.density));
   }
+  void operator()(const CamClayDefinition& law) const {
+    require_positive(law.kappa, material, "kappa", "");
+    require(law.lambda > law.kappa && std::isfinite(law.lambda), material,
+            fmt::format("lambda is {:g}; it must be finite and above kappa, {:g}", law.lambda, law.kappa));
+    require(law.slope > 0.0 && law.slope < 3.0, material,
+            fmt::format("M is {:g}; it must lie above 0 and below 3, where no stress makes the clay flow", law.slope));
+    require_positive(law.void_ratio, material, "void ratio", "");
+    require(law.poisson > -1.0 && law.poisson < 0.5, material,
+            fmt::format("Poisson's ratio is {:g}; it must lie between -1 and 0.5, both excluded", law.poisson));
+    require_not_negative(law.shear_modulus, material, "shear modulus", " Pa");
+    require_positive(law.least_pressure, material, "least pressure", " Pa");
+    require_not_negative(law.consolidation, material, "preconsolidation pressure", " Pa");
+    require(law.consolidation > 0.0 || (law.overconsolidation >= 1.0 && std::isfinite(law.overconsolidation)), material,
+            fmt::format("overconsolidation ratio is {:g}; it must be finite and at least 1", law.overconsolidation));
+  }
   void operator()(const J2PlasticityDefinition& law) const {
     check(material, law.elasticity);
     require_positive(law.yield_stress, material, "yield stress", " Pa");
@@ -184,6 +199,7 @@ struct Checker {
 };
 
 struct Name {
+  std::string operator()(const CamClayDefinition&) const { return "cam_clay"; }
   std::string operator()(const MuIDefinition&) const { return "mu_i"; }
   std::string operator()(const LinearElasticDefinition&) const { return "linear_elastic"; }
   std::string operator()(const NeoHookeanDefinition&) const { return "neo_hookean"; }

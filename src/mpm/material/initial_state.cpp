@@ -30,6 +30,7 @@ struct StressSourceOf {
   StressSource operator()(const DruckerPrager&) const { return StressSource::stress; }
   StressSource operator()(const MohrCoulomb&) const { return StressSource::stress; }
   StressSource operator()(const MuI&) const { return StressSource::stress; }
+  StressSource operator()(const CamClay&) const { return StressSource::stress; }
   StressSource operator()(const J2Plasticity&) const { return StressSource::volume_and_stress; }
   StressSource operator()(const JohnsonCook&) const { return StressSource::volume_and_stress; }
   StressSource operator()(const NewtonianFluid&) const { return StressSource::volume; }
@@ -46,6 +47,10 @@ struct PoissonRatio {
   std::optional<double> operator()(const NewtonianFluidDefinition&) const { return std::nullopt; }
   std::optional<double> operator()(const IdealGasDefinition&) const { return std::nullopt; }
   std::optional<double> operator()(const JohnsonCookDefinition&) const { return std::nullopt; }
+  std::optional<double> operator()(const CamClayDefinition& d) const {
+    if (d.shear_modulus == 0.0) return d.poisson;
+    return std::nullopt;
+  }
 };
 
 double largest(const Symmetric3<double>& s) {
@@ -102,6 +107,10 @@ void InitialStates::refuse(const std::string& why) const {
   throw InitialStateError(fmt::format("material '{}' ({}) {}", material_.name, law_name(material_.law), why));
 }
 
+int InitialStates::hardening_index() const {
+  return std::visit([](const auto& law) { return law.kHardening; }, law_);
+}
+
 int InitialStates::temperature_index() const {
   return std::visit([](const auto& law) { return law.kTemperature; }, law_);
 }
@@ -117,6 +126,7 @@ Symmetric3<double> InitialStates::relaxed(const InitialState& state) const {
         if constexpr (std::decay_t<decltype(law)>::kTemperature >= 0) {
           scalars[law.kTemperature] = state.temperature_excess;
         }
+        if constexpr (std::decay_t<decltype(law)>::kHardening >= 0) scalars[law.kHardening] = state.hardening;
         const Matrix3<double> none{}, same = Matrix3<double>::identity();
         const double j = state.j();
         Symmetric3<double> tau = state.tau;
@@ -163,6 +173,7 @@ InitialState InitialStates::find(const InitialRequest& request) const {
   switch (source) {
     case StressSource::stress:
       state.tau = scale_shift(cauchy, 1.0 / material_.density, 0.0);
+      state.hardening = std::visit([&](const auto& law) { return law.initial_hardening(cauchy); }, law_);
       break;
     case StressSource::volume_and_stress:
     case StressSource::volume:
@@ -278,6 +289,10 @@ std::optional<double> pressure_at_rest(const LawDefinition& law) {
   if (const auto* soil = std::get_if<DruckerPragerDefinition>(&law)) return 1.0 - std::sin(soil->friction_angle);
   if (const auto* soil = std::get_if<MohrCoulombDefinition>(&law)) return 1.0 - std::sin(soil->friction_angle);
   if (const auto* grain = std::get_if<MuIDefinition>(&law)) return 1.0 - grain->static_friction;
+  if (const auto* clay = std::get_if<CamClayDefinition>(&law)) {
+    const double sine = 3.0 * clay->slope / (6.0 + clay->slope);
+    return (1.0 - sine) * std::pow(std::max(clay->overconsolidation, 1.0), sine);
+  }
   if (std::holds_alternative<IdealGasDefinition>(law)) return std::nullopt;
   const std::optional<double> poisson = std::visit(PoissonRatio(), law);
   return poisson ? *poisson / (1.0 - *poisson) : 1.0;

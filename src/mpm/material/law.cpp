@@ -15,6 +15,7 @@ struct Maker {
   Law operator()(const StandardLinearSolidDefinition& d) const { return StandardLinearSolid(d, density); }
   Law operator()(const JohnsonCookDefinition& d) const { return JohnsonCook(d, density); }
   Law operator()(const MuIDefinition& d) const { return MuI(d, density); }
+  Law operator()(const CamClayDefinition& d) const { return CamClay(d, density); }
 };
 
 }  // namespace

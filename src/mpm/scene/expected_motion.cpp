@@ -20,6 +20,7 @@ bool flows(const MaterialDefinition& material) {
   return std::holds_alternative<DruckerPragerDefinition>(material.law) ||
          std::holds_alternative<MohrCoulombDefinition>(material.law) ||
          std::holds_alternative<MuIDefinition>(material.law) ||
+         std::holds_alternative<CamClayDefinition>(material.law) ||
          std::holds_alternative<J2PlasticityDefinition>(material.law) ||
          std::holds_alternative<JohnsonCookDefinition>(material.law) ||
          std::holds_alternative<NewtonianFluidDefinition>(material.law) ||

@@ -11,6 +11,7 @@ namespace mpm {
 namespace {
 
 constexpr double kGlassInertial = 0.279;  // I_0 of glass beads, Jop, Forterre & Pouliquen (2006)
+constexpr double kLeastPart = 0.01;       // of clay's preconsolidation pressure
 constexpr double kGrainFraction = 0.6;    // of the volume of a heap, of the same
 
 const std::vector<Later>& later_laws() {
@@ -127,6 +128,43 @@ LawDefinition read_mu_i(const Map& map, Scene& scene) {
     scene.choices.emplace_back(
         map.value().path() + ".grain_density",
         fmt::format("{:g} kg/m^3: grains take {:g} of the volume", law.grain_density, kGrainFraction));
+  }
+  return law;
+}
+
+LawDefinition read_cam_clay(const Map& map, Scene& scene) {
+  CamClayDefinition law;
+  law.lambda = map.at("lambda").number(kPlain);
+  law.kappa = map.at("kappa").number(kPlain);
+  law.slope = map.at("M").number(kPlain);
+  law.void_ratio = map.at("void_ratio").number(kPlain);
+  const auto shear = map.find("shear_modulus"), poisson = map.find("poisson");
+  if (shear.has_value() == poisson.has_value()) map.fail("write exactly one of shear_modulus and poisson");
+  if (shear) {
+    law.shear_modulus = shear->positive(kPressure);
+  } else {
+    law.poisson = poisson->number(kPlain);
+  }
+  const auto consolidation = map.find("preconsolidation_pressure"), ratio = map.find("overconsolidation_ratio");
+  if (consolidation.has_value() == ratio.has_value()) {
+    map.fail("write exactly one of preconsolidation_pressure and overconsolidation_ratio");
+  }
+  if (consolidation) {
+    law.consolidation = consolidation->positive(kPressure);
+  } else {
+    law.overconsolidation = ratio->number(kPlain);
+  }
+  if (const auto least = map.find("least_pressure")) {
+    law.least_pressure = least->number(kPressure);
+  } else if (consolidation) {
+    law.least_pressure = kLeastPart * law.consolidation;
+    scene.choices.emplace_back(
+        map.value().path() + ".least_pressure",
+        fmt::format("{:g} Pa: {:g} of the preconsolidation pressure", law.least_pressure, kLeastPart));
+  } else {
+    map.fail(
+        "overconsolidation_ratio needs least_pressure, the pressure below which the clay stiffens no more: a "
+        "hundredth of the pressures that matter");
   }
   return law;
 }
@@ -255,6 +293,10 @@ const std::vector<LawSection>& law_sections() {
         "softening_slip", "residual_friction_angle", "residual_cohesion", "shear_band"},
        read_mohr_coulomb},
       {"mu_i", {"young", "poisson", "mu_s", "mu_2", "I_0", "grain_diameter", "grain_density"}, read_mu_i},
+      {"cam_clay",
+       {"lambda", "kappa", "M", "void_ratio", "shear_modulus", "poisson", "preconsolidation_pressure",
+        "overconsolidation_ratio", "least_pressure"},
+       read_cam_clay},
       {"j2_plasticity",
        {"young", "poisson", "yield_stress", "hardening_modulus", "saturation_stress", "saturation_rate"},
        read_j2_plasticity},

@@ -1,4 +1,6 @@
 // What happens at the faces of the domain and at the axis, and prescribed velocities: the modules of boundary/.
+#include <fmt/core.h>
+
 #include "mpm/boundary/absorbing.hpp"
 #include "mpm/boundary/axis.hpp"
 #include "mpm/boundary/condition.hpp"
@@ -50,7 +52,14 @@ void add_absorbing(RunParts& parts) {
     if (wall.kind != WallKind::absorbing) return;
     std::vector<ElasticWaves> waves;
     for (const DeformableBody& body : definition.bodies) {
-      waves.push_back(elastic_waves(find_material(definition, body), definition.geometry));
+      const MaterialDefinition& material = find_material(definition, body);
+      if (std::holds_alternative<CamClayDefinition>(material.law)) {
+        throw DefinitionError(fmt::format(
+            "boundaries.{}: an absorbing face has the waves of the undeformed material, but those of '{}' (cam_clay) "
+            "follow its pressure; use fixed or slip farther away, or another law for the ground",
+            kWallNames[name], material.name));
+      }
+      waves.push_back(elastic_waves(material, definition.geometry));
     }
     const double phi = face_mass(definition.method.shape, definition.method.particles_per_direction);
     parts.add_in_fields(

@@ -79,6 +79,7 @@ void start_particles(ParticleSet& set, const DeformableBody& body, const Materia
                                           place.x(), place.y(), place.z(), error.what()));
       }
       if (const int index = states.temperature_index(); index >= 0) set.history[index].set(p, state.temperature_excess);
+      if (const int index = states.hardening_index(); index >= 0) set.history[index].set(p, state.hardening);
       store(state, geometry, set, p);
     }
     const double j = state.j();

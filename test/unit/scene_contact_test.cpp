@@ -149,6 +149,13 @@ TEST(SceneContact, RefusesWhatNothingReads) {
   EXPECT_NO_THROW(read("{rigid_bias: 5}", ", normals: particles"));
 }
 
+TEST(SceneContact, EdgesAreSharpUnlessTheSceneSaysOtherwise) {
+  EXPECT_TRUE(read("{friction: 0}").definition.contact.sharp_edges);
+  EXPECT_TRUE(read("{edges: sharp}").definition.contact.sharp_edges);
+  EXPECT_FALSE(read("{edges: blunt}").definition.contact.sharp_edges);
+  expect_refused("{method: nodes, edges: sharp}", ".edges", "it is for contact at points");
+}
+
 TEST(SceneContact, RigidBodiesMayBeParticles) {
   EXPECT_TRUE(read("{method: nodes}", ", normals: particles").definition.rigid_bodies[0].particles);
   EXPECT_FALSE(read("{friction: 0}", ", normals: surface").definition.rigid_bodies[0].particles);

@@ -79,8 +79,9 @@ TEST(SceneMethod, EveryTransfer) {
   EXPECT_FALSE(method_of("transfer: apic").average_dilatation);
   EXPECT_TRUE(method_of("average_dilatation: true").average_dilatation);
   EXPECT_FALSE(method_of("average_dilatation: false").average_dilatation);
-  EXPECT_FALSE(method_of("transfer: apic").average_pressure);
-  EXPECT_TRUE(method_of("average_pressure: true").average_pressure);
+  EXPECT_FALSE(method_of("transfer: apic").average_stress.has_value());
+  EXPECT_EQ(method_of("average_stress: true").average_stress, true);
+  EXPECT_EQ(method_of("average_stress: false").average_stress, false);
 }
 
 TEST(SceneMethod, BadTransfersSayWhatToWrite) {
@@ -116,10 +117,19 @@ TEST(SceneMethod, CombinationsThatCannotWork) {
   EXPECT_FALSE(method_fault(method, GeometryKind::plane_strain));
   EXPECT_FALSE(method_fault(method, GeometryKind::solid));
   method = {};
-  method.average_pressure = true;
-  EXPECT_EQ(method_fault(method, GeometryKind::line)->key, "average_pressure");
-  EXPECT_EQ(method_fault(method, GeometryKind::plane_stress)->key, "average_pressure");
+  method.average_stress = true;
+  EXPECT_EQ(method_fault(method, GeometryKind::line)->key, "average_stress");
+  EXPECT_EQ(method_fault(method, GeometryKind::plane_stress)->key, "average_stress");
   EXPECT_FALSE(method_fault(method, GeometryKind::axisymmetric));
+  // By itself where soil can lock, and nothing else is done against it.
+  method = {};
+  EXPECT_TRUE(averages_stress(method, GeometryKind::solid));
+  EXPECT_FALSE(averages_stress(method, GeometryKind::line));
+  EXPECT_FALSE(averages_stress(method, GeometryKind::plane_stress));
+  method.average_dilatation = true;
+  EXPECT_FALSE(averages_stress(method, GeometryKind::solid));
+  method.average_stress = true;
+  EXPECT_TRUE(averages_stress(method, GeometryKind::solid));
   method = {};
   method.shape = ShapeKind::qcpdi;
   EXPECT_EQ(method_fault(method, GeometryKind::line)->key, "shape");

@@ -1,6 +1,7 @@
 // Limit loads against published tables, and against what their derivations say of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mpm/math/constants.hpp"
@@ -81,6 +82,44 @@ TEST(LimitLoads, SiloPressureSolvesJanssensEquation) {
 TEST(LimitLoads, SlopeSlidesBeyondItsFriction) {
   EXPECT_EQ(slope_acceleration(radians(29.0), radians(30.0)), 0.0);
   EXPECT_NEAR(9.81 * slope_acceleration(radians(35.0), radians(30.0)), 0.98727, 5e-6);  // by hand
+}
+
+// Found by itself: the least force over planes from the foot of a wall that has swept a little soil, which lies as an
+// even heap on the wedge of Rankine.
+TEST(LimitLoads, SweptSoilOfASmoothBladeIsThatOfTheWeakestWedge) {
+  for (const double degrees : {20.0, 30.0, 40.0}) {
+    const double friction = radians(degrees);
+    const double heap_end = std::tan(0.25 * kPi + 0.5 * friction);  // over the depth
+    const auto least_force = [&](double travel) {
+      double least = 1e9;
+      for (int i = 1; i < 60000; ++i) {
+        const double angle = (0.5 * kPi - friction) * i / 60000.0, height = travel / heap_end;
+        // The plane z = x tan(angle) leaves the heap at its top, at its end or beyond it.
+        double weight = 0.0;
+        if ((1.0 + height) / std::tan(angle) < heap_end) {
+          weight = 0.5 * (1.0 + height) * (1.0 + height) / std::tan(angle);
+        } else if (1.0 / std::tan(angle) > heap_end) {
+          weight = 0.5 / std::tan(angle) + travel;
+        } else {
+          weight = (1.0 + height) * heap_end - 0.5 * heap_end * heap_end * std::tan(angle);
+        }
+        least = std::min(least, weight * std::tan(angle + friction));
+      }
+      return least;
+    };
+    const double growth = (least_force(1e-3) / least_force(0.0) - 1.0) / 1e-3;
+    EXPECT_NEAR(growth, swept_soil_growth(friction, false), 0.01 * growth) << degrees;
+  }
+}
+
+// The arm of a heap lies between that of an even one and that of all its weight at the far end; before a rough wall
+// the block reaches further and the heap is lower.
+TEST(LimitLoads, SweptSoilOfARoughBladeIsLess) {
+  for (const double degrees : {20.0, 30.0, 40.0}) {
+    const double smooth = swept_soil_growth(radians(degrees), false), rough = swept_soil_growth(radians(degrees), true);
+    EXPECT_GT(rough, 0.5 * smooth) << degrees;
+    EXPECT_LT(rough, smooth) << degrees;
+  }
 }
 
 TEST(LimitLoads, WeightFactorOfAnotherAngleIsRefused) {

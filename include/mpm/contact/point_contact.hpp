@@ -25,11 +25,13 @@
 //
 // A point that comes under a surface from beside it, or starts there, keeps its initial overlap.
 //
-// Weak: an edge that cuts is blunt by up to a cell, since particles above and below it share nodes. A particle drawn
-// into a body is pushed out slowly (kPushOut). A block that slides with friction vibrates more than with contact at
-// nodes.
-// Source: contact as impulses at points with complementarity is usual for rigid bodies (Moreau, Jean: non-smooth
-// contact dynamics); the law at a point is GIMP notes (3.12)-(3.20), method reference 8.3, without its node.
+// Where a face ends, points see the part of their nodes that lies before it (contact/edge_cover.hpp); the energy that
+// goes where material is cut at an edge is booked beside friction.
+//
+// Weak: A particle drawn into a body is pushed out slowly (kPushOut). A block that slides with friction vibrates more
+// than with contact at nodes. Source: contact as impulses at points with complementarity is usual for rigid bodies
+// (Moreau, Jean: non-smooth contact dynamics); the law at a point is GIMP notes (3.12)-(3.20), method reference 8.3,
+// without its node.
 #pragma once
 
 #include <string>
@@ -51,6 +53,7 @@ struct PointContactSettings {
   int threads = 1;
   Vec3 gravity = Vec3::Zero();  ///< acts on free bodies [m/s^2]
   bool with_pairs = false;      ///< whether deformable bodies have laws with each other
+  bool sharp_edges = true;      ///< whether points see that faces end (contact/edge_cover.hpp)
 };
 
 class PointContact final : public Stage, public ContactReporter {
@@ -83,6 +86,7 @@ class PointContact final : public Stage, public ContactReporter {
     const ContactPoint* found;
     Vec3 start = Vec3::Zero();   ///< impulse that the step's solution begins with [N s]
     Vec3 before = Vec3::Zero();  ///< relative velocity before the impulses [m/s]
+    Vec3 cut = Vec3::Zero();     ///< PointSolver::cut_at before the impulses [m/s]
     double gap = 0.0;            ///< counted from the initial overlap [m]
     double slid = 0.0;           ///< slip since the point was at rest [m]
     double overlap = 0.0;        ///< initial overlap, <= 0 [m]
@@ -102,8 +106,9 @@ class PointContact final : public Stage, public ContactReporter {
   std::vector<ContactLaw> laws_;
   std::vector<FrictionLaw> laws_now_;
   std::vector<ContactLedger> ledgers_;
-  double cell_;      ///< the smallest edge [m]
-  bool with_pairs_;  ///< as in the settings
+  double cell_;       ///< the smallest edge [m]
+  double cut_ = 0.0;  ///< energy taken at edges since the start [J]
+  bool with_pairs_;   ///< as in the settings
   PointSearch search_;
   PointSolver solver_;
   PointMemory memory_;

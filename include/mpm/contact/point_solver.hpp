@@ -1,6 +1,6 @@
 // Solves for the impulses at points of the material's surface, all together: projected Gauss-Seidel, sweeps over the
 // points to and fro. At a point the grid has the mean velocity of the nodes around it (step/point_weights.hpp), and an
-// impulse there goes to the same nodes with the same weights.
+// impulse there goes to the same nodes with the same weights; near the edge of a face as contact/edge_cover.hpp has it.
 //
 // The points of one block of the grid follow each other, and blocks are taken by colour, so that blocks of one colour
 // share no node: many points are solved on several threads, with the same bits for any number of them.
@@ -21,6 +21,7 @@
 
 #include "mpm/contact/conjugate_sweeps.hpp"
 #include "mpm/contact/contact_point.hpp"
+#include "mpm/contact/edge_cover.hpp"
 #include "mpm/grid/fields.hpp"
 #include "mpm/rigid/contact_law.hpp"
 #include "mpm/rigid/free_motion.hpp"
@@ -43,11 +44,13 @@ class PointSolver {
     double friction = 0.0;         ///< coefficient in this step
     double adhesion = 0.0;         ///< largest pulling impulse [N s]
     bool sticks = false;           ///< no sliding while pressed
+    bool at_edge = false;          ///< whether a node of it lies in part beyond an edge
     Hold hold = Hold::free;        ///< in the step before, then in this one
     int found = 0;                 ///< index among the points that were found
     int first = 0, end = 0;        ///< its parts in parts_
     FreeMotion* motion = nullptr;  ///< motion of a free body; null for others
     Vec3 place;                    ///< world [m]
+    Vec3 beyond = Vec3::Zero();    ///< part of the velocity there that is of what lies beyond an edge, negative [m/s]
   };
   enum class Pass {
     step,      ///< impulses >= 0, friction: decides which points are held
@@ -57,8 +60,9 @@ class PointSolver {
   };
   using Member = NodalField Grid::*;
 
-  /// `fields` must outlive this object.
-  PointSolver(Fields& fields, ShapeKind shape, int threads) : fields_(fields), shape_(shape), threads_(threads) {}
+  /// `fields` and `bodies` must outlive this object. `sharp`: whether points see that faces end (edge_cover.hpp).
+  PointSolver(Fields& fields, const std::vector<const RigidBody*>& bodies, ShapeKind shape, bool sharp, int threads)
+      : fields_(fields), edges_(bodies), sharp_(sharp), shape_(shape), threads_(threads) {}
 
   /// Takes over the points found, in the order of solution and without those that have no node with mass around them.
   void connect(const std::vector<ContactPoint>& found);
@@ -70,6 +74,9 @@ class PointSolver {
   /// Adds the change of the nodes' velocities since load(), times `factor`.
   void store(Member to, double factor = 1.0);
   Vec3 velocity_at(const Point& point) const;
+  /// The velocity at which the material before a face moves away from that beyond its edge, which the nodes share
+  /// [m/s]: 0 away from edges. An impulse times it is the power that is lost where material is cut.
+  Vec3 cut_at(const Point& point) const;
   /// Applies the points' impulses to nodes and to free bodies.
   void push_all();
   /// Applies them to free bodies alone.
@@ -84,10 +91,17 @@ class PointSolver {
   int solving_threads() const { return solving_threads_; }
 
  private:
-  /// The weight of a node at a point.
+  /// A node of a point.
   struct Part {
-    int node;  ///< in nodes_
-    double weight;
+    int node;        ///< in nodes_
+    double weight;   ///< part of an impulse
+    double reading;  ///< factor of its velocity
+  };
+  /// A node beyond an edge, as a point sees it.
+  struct Beyond {
+    int point, field;
+    NodeRef ref;
+    double part;  ///< factor of its velocity, which is subtracted
   };
   struct alignas(32) Node {
     std::array<double, 3> velocity;  ///< [m/s]
@@ -127,11 +141,14 @@ class PointSolver {
   void sweep_free();
 
   Fields& fields_;
+  EdgeCover edges_;
+  bool sharp_;
   ShapeKind shape_;
   int threads_;
   int solving_threads_ = 0;
   std::vector<Point> points_;
   std::vector<Part> parts_;
+  std::vector<Beyond> beyond_;
   std::vector<Node> nodes_;
   std::vector<NodeOrigin> origins_;    ///< of nodes_
   std::vector<Cluster> clusters_;      ///< by colour
@@ -139,7 +156,7 @@ class PointSolver {
   SweepMemory sweeps_;
 
   // Kept so that a step allocates nothing.
-  std::vector<Part> found_parts_;  ///< stride_ parts for each point found; nodes by their index in the field
+  std::vector<PointNode> found_nodes_;  ///< stride_ of them for each point found
   std::vector<int> found_count_, found_block_;
   int stride_ = 0;
   std::vector<Cluster> unsorted_;

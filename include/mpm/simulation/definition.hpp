@@ -47,7 +47,8 @@ struct MethodDefinition {
   UpdateScheme update = UpdateScheme::usavg;
   Transfer transfer;
   bool average_dilatation = false;  ///< volume changes averaged over the grid, against locking
-  bool average_pressure = false;    ///< soil that flows has one pressure in a cell (mechanics/pressure_average.hpp)
+  /// Whether soil that flows has one stress in a cell (mechanics/stress_average.hpp); see averages_stress().
+  std::optional<bool> average_stress;
   DampingDefinition damping;
   AxisRules axis;                            ///< axisymmetric scenes alone
   int gradient_terms = 2;                    ///< terms of exp(grad v dt)
@@ -119,6 +120,7 @@ struct PairDefinition {
 };
 struct ContactDefinition {
   ContactMethod method = ContactMethod::points;
+  bool sharp_edges = true;  ///< contact at points: whether they see where a tool's face ends (contact/edge_cover.hpp)
   NormalRule normals;       ///< between deformable bodies (contact/material_contact.hpp) and for rigid particles
   DetectionRule detection;  ///< for the same contact
   /// Deformable bodies of different fields without a law pass through each other; a rigid body has a law with all.

@@ -18,4 +18,8 @@ struct MethodFault {
 /// The first rule that a method breaks; empty when it breaks none.
 std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry);
 
+/// Whether soil that flows has one stress in a cell. If the method does not say so: wherever soil can lock, unless
+/// another remedy, average_dilatation, is chosen.
+bool averages_stress(const MethodDefinition& method, GeometryKind geometry);
+
 }  // namespace mpm

@@ -26,4 +26,7 @@ struct PointWeights {
   PointWeights(const Grid& grid, ShapeKind shape, const Vec3& at);
 };
 
+/// The node nearest to a place [m]; its block is -1 if that node carries no mass, or lies far out of the domain.
+NodeRef nearest_node(const Grid& grid, const Vec3& at);
+
 }  // namespace mpm

@@ -3,8 +3,8 @@
 //
 // A limit load is exact for a rigid-plastic material that flows associatedly (dilation = friction; of clay: at constant
 // volume). Without associated flow it is an upper bound for any stress field that ends in the same mechanism
-// (Radenkovic (1961)), and Davis's reduced friction gives the usual estimate. Weak: geometry that changes on the way,
-// such as the heave in front of a blade, is in none of them. Angles are in radians, forces for one metre across the
+// (Radenkovic (1961)), and Davis's reduced friction gives the usual estimate. Weak: geometry that changes on the way
+// is in none of them but swept_soil_growth(). Angles are in radians, forces for one metre across the
 // plane.
 #pragma once
 
@@ -23,6 +23,12 @@ double active_coefficient(double friction);
 /// log spiral, the wall's force at a third of its height, Terzaghi (1943), Theoretical Soil Mechanics.
 /// @param friction in (0, 45 degrees]
 Bounds rough_wall_coefficient(double friction);
+/// How the force on a blade grows with its travel over its depth, as a part of the force at the start: the soil that
+/// the blade has swept, depth times travel, lies as a heap before it on what it pushes. Smooth: 2 tan(45 - phi/2),
+/// exact to the first order: the force is tan(45 + phi/2) times the weight above the plane from the edge at
+/// 45 - phi/2, to which the swept soil is added, and that plane is the one of the least force. Rough: the moment of a
+/// heap, as high in each place as the block of rough_wall_coefficient() rises there, over that of the block.
+double swept_soil_growth(double friction, bool rough);
 
 /// N_q = e^(pi tan phi) K_p and N_c = (N_q - 1) cot phi (2 + pi for phi = 0) of a strip, smooth or rough, on weightless
 /// soil. Prandtl (1921), Reissner (1924).

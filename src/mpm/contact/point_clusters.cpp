@@ -11,25 +11,27 @@ void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
   const int along = shape_ == ShapeKind::bspline3 ? 5 : 2, count = static_cast<int>(found.size());
   stride_ = 1;
   for (int k = 0; k < layout.dim(); ++k) stride_ *= along;
-  found_parts_.resize(found.size() * stride_);
+  found_nodes_.resize(found.size() * stride_);
   found_count_.resize(found.size());
   found_block_.resize(found.size());
 #pragma omp parallel for schedule(static) num_threads(threads_for(count))
   for (int i = 0; i < count; ++i) {
     const Grid& grid = *fields_[found[i].field];
     const PointWeights weights(grid, shape_, found[i].place);
-    Part* parts = &found_parts_[static_cast<std::size_t>(i) * stride_];
+    PointNode* nodes = &found_nodes_[static_cast<std::size_t>(i) * stride_];
     for (int n = 0; n < weights.count; ++n) {
-      parts[n] = {weights.node[n].block * layout.nodes_per_block() + weights.node[n].node, weights.weight[n]};
+      nodes[n] = {weights.node[n].block * layout.nodes_per_block() + weights.node[n].node, weights.weight[n],
+                  weights.weight[n]};
     }
+    const int nodes_count = sharp_ ? edges_.apply(found[i], grid, nodes, weights.count) : weights.count;
     // That of the nearest node, as of a particle: blocks of one colour then share no node, with splines either.
     std::array<int, 3> block{};
-    for (int k = 0; k < layout.dim() && weights.count > 0; ++k) {
+    for (int k = 0; k < layout.dim() && nodes_count > 0; ++k) {
       const int node = GridLayout::nearest(layout.in_cells(k, found[i].place[layout.axis(k)]));
       block[k] = (node + kBlockEdge) / kBlockEdge - 1;
     }
-    found_block_[i] = weights.count > 0 ? grid.blocks.find(layout.key(block)) : -1;
-    found_count_[i] = found_block_[i] < 0 ? 0 : weights.count;
+    found_block_[i] = nodes_count > 0 ? grid.blocks.find(layout.key(block)) : -1;
+    found_count_[i] = found_block_[i] < 0 ? 0 : nodes_count;
   }
 }
 
@@ -79,17 +81,23 @@ void PointSolver::add(const ContactPoint& contact, int found) {
   point.first = static_cast<int>(parts_.size());
   const Grid& grid = *fields_[contact.field];
   const int per_block = grid.layout.nodes_per_block();
-  const Part* parts = &found_parts_[static_cast<std::size_t>(found) * stride_];
+  const auto ref_of = [per_block](int node) { return NodeRef{node / per_block, node % per_block}; };
+  const PointNode* nodes = &found_nodes_[static_cast<std::size_t>(found) * stride_];
   for (int n = 0; n < found_count_[found]; ++n) {
-    int& slot = slot_[contact.field][parts[n].node];
+    const PointNode& node = nodes[n];
+    int& slot = slot_[contact.field][node.node];
     if (slot < 0) {
       slot = static_cast<int>(nodes_.size());
-      const NodeRef ref{parts[n].node / per_block, parts[n].node % per_block};
+      const NodeRef ref = ref_of(node.node);
       nodes_.push_back({{}, 1.0 / grid.mass.at(ref.block, 0, ref.node)});
       origins_.push_back({contact.field, ref, {}});
     }
-    parts_.push_back({slot, parts[n].weight});
-    point.compliance += parts[n].weight * (parts[n].weight * nodes_[slot].inverse_mass);
+    parts_.push_back({slot, node.weight, node.reading});
+    if (node.beyond_part > 0.0) {
+      point.at_edge = true;
+      beyond_.push_back({static_cast<int>(points_.size()), contact.field, ref_of(node.beyond), node.beyond_part});
+    }
+    point.compliance += node.reading * (node.weight * nodes_[slot].inverse_mass);
   }
   point.end = static_cast<int>(parts_.size());
   points_.push_back(point);
@@ -105,6 +113,7 @@ void PointSolver::connect(const std::vector<ContactPoint>& found) {
   }
   points_.clear();
   parts_.clear();
+  beyond_.clear();
   nodes_.clear();
   origins_.clear();
   for (const int i : order_) add(found[i], i);

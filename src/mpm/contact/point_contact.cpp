@@ -25,7 +25,7 @@ PointContact::PointContact(std::vector<RigidBody*> bodies, const std::vector<Par
       cell_(fields.front()->layout.smallest_cell()),
       with_pairs_(settings.with_pairs),
       search_(surfaces_, sets, fields, settings.geometry, settings.across, settings.threads),
-      solver_(fields, settings.shape, settings.threads),
+      solver_(fields, surfaces_, settings.shape, settings.sharp_edges, settings.threads),
       free_(bodies_, settings.gravity) {
   for (const RigidBody* body : bodies_) ledgers_.emplace_back(*body, axisymmetric(settings.geometry));
 }
@@ -52,10 +52,12 @@ PointContact::Contact PointContact::recall(const ContactPoint& found, PointSolve
   Contact contact;
   contact.found = &found;
   // What comes under a surface from beside it, or starts there, keeps the overlap that it came with.
-  contact.overlap = std::min(std::max(memory != nullptr ? memory->overlap : found.gap, found.gap), 0.0);
+  const double known = memory != nullptr && !point.at_edge ? memory->overlap : found.gap;
+  contact.overlap = std::min(std::max(known, found.gap), 0.0);
   contact.gap = found.gap - contact.overlap;
   contact.before = solver_.velocity_at(point) - point.velocity;
   if (memory != nullptr) contact.before += along_surface(memory->slip - contact.before, point.normal);
+  contact.cut = solver_.cut_at(point);
   const bool held = memory != nullptr && memory->hold != Hold::free;
   if (held) {
     point.hold = memory->hold;
@@ -124,6 +126,7 @@ void PointContact::momentum_updated(StepContext& context) {
     if (point.motion != nullptr) point.velocity = point.motion->velocity_at(point.place);
     const Vec3 slip = solver_.velocity_at(point) - point.velocity;
     give(i, mean, 0.5 * (contact.before + slip));
+    cut_ += point.impulse.dot(0.5 * (contact.cut + solver_.cut_at(point)));
     const Vec3 along = along_surface(slip, point.normal);
     // What has come to rest has friction at rest again.
     const double slid = along.norm() * context.dt;
@@ -188,6 +191,7 @@ void PointContact::accounts(std::vector<ImpulseAccount>& list) const {
 
 void PointContact::energies(EnergyReport& report) const {
   for (const ContactLedger& ledger : ledgers_) ledger.energies(report);
+  report.add("cutting", NamedEnergy::Kind::dissipated, cut_);
 }
 
 ContactLedger* PointContact::ledger_of(const RigidBody& body) {
@@ -202,6 +206,7 @@ void PointContact::serialise(StateArchive& archive) {
     ledgers_[b].serialise(archive);
   }
   memory_.serialise(archive);
+  archive.value("cut", cut_);
 }
 
 }  // namespace mpm

@@ -25,6 +25,11 @@ void PointSolver::load(Member from) {
     const Vec3 v = nodal_vector(grid.*from, grid.layout, origin.ref);
     nodes_[n].velocity = origin.loaded = {v.x(), v.y(), v.z()};
   }
+  for (const Beyond& one : beyond_) points_[one.point].beyond.setZero();
+  for (const Beyond& one : beyond_) {
+    const Grid& grid = *fields_[one.field];
+    points_[one.point].beyond -= one.part * nodal_vector(grid.*from, grid.layout, one.ref);
+  }
 }
 
 void PointSolver::store(Member to, double factor) {
@@ -38,10 +43,19 @@ void PointSolver::store(Member to, double factor) {
 }
 
 Vec3 PointSolver::velocity_at(const Point& point) const {
-  Vec3 v = Vec3::Zero();
+  Vec3 v = point.beyond;
   for (int i = point.first; i < point.end; ++i) {
     const Node& node = nodes_[parts_[i].node];
-    for (int k = 0; k < 3; ++k) v[k] += parts_[i].weight * node.velocity[k];
+    for (int k = 0; k < 3; ++k) v[k] += parts_[i].reading * node.velocity[k];
+  }
+  return v;
+}
+
+Vec3 PointSolver::cut_at(const Point& point) const {
+  Vec3 v = point.beyond;
+  for (int i = point.first; i < point.end; ++i) {
+    const Node& node = nodes_[parts_[i].node];
+    for (int k = 0; k < 3; ++k) v[k] += (parts_[i].reading - parts_[i].weight) * node.velocity[k];
   }
   return v;
 }

@@ -124,6 +124,12 @@ void read_rules(const Map& map, ContactDefinition& contact) {
   if (const auto method = map.find("method")) {
     contact.method = static_cast<ContactMethod>(method->choice({"points", "nodes"}));
   }
+  if (const auto edges = map.find("edges")) {
+    contact.sharp_edges = edges->choice({"blunt", "sharp"}) == 1;
+    if (contact.method == ContactMethod::nodes) {
+      edges->fail("it is for contact at points; leave it out, or write method: points");
+    }
+  }
   if (const auto normals = map.find("normals")) contact.normals.method = read_normals(*normals);
   if (const auto bias = map.find("rigid_bias")) contact.normals.rigid_bias = bias->non_negative(kPlain);
   if (const auto volume = map.find("minimum_volume")) {
@@ -232,7 +238,8 @@ void give_fields(const Laws& laws, const std::optional<ContactLaw>& all, Scene& 
 
 Map contact_map(const Value& section) {
   std::vector<std::string> keys = kLawKeys;
-  for (const char* key : {"method", "normals", "rigid_bias", "minimum_volume", "detection", "position", "pairs"}) {
+  for (const char* key :
+       {"method", "edges", "normals", "rigid_bias", "minimum_volume", "detection", "position", "pairs"}) {
     keys.emplace_back(key);
   }
   return Map(section, keys, {{"interface", "write law: interface, with opened, closed and tangential"}});

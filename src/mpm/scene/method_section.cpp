@@ -198,7 +198,7 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
     scene.choices.emplace_back("method.particles_per_cell", "two along each edge");
     return AutoMethod{};
   }
-  const Map map(*section, {"auto", "shape", "update", "transfer", "average_dilatation", "average_pressure", "damping",
+  const Map map(*section, {"auto", "shape", "update", "transfer", "average_dilatation", "average_stress", "damping",
                            "gradient_terms", "particles_per_cell", "precision", "axis"});
   std::optional<AutoMethod> chosen_later;
   if (const auto value = map.find("auto")) chosen_later = read_auto(*value, scene);
@@ -230,8 +230,8 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   if (const auto average = map.find("average_dilatation")) {
     method.average_dilatation = average->choice({"false", "true"}) == 1;
   }
-  if (const auto average = map.find("average_pressure")) {
-    method.average_pressure = average->choice({"false", "true"}) == 1;
+  if (const auto average = map.find("average_stress")) {
+    method.average_stress = average->choice({"false", "true"}) == 1;
   }
   if (const auto damping = map.find("damping")) read_damping(*damping, scene);
   if (const auto terms = map.find("gradient_terms")) method.gradient_terms = terms->integer();

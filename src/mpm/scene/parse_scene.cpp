@@ -1,10 +1,12 @@
 // From a scene's text to a Scene: the order in which its sections are read.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "mpm/scene/sections.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
+#include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
 
 namespace mpm {
@@ -113,6 +115,14 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
     scene.choices.emplace_back("gravity", "none: the scene names none");
   }
   read_materials(root, scene);
+  const bool soil = std::any_of(definition.materials.begin(), definition.materials.end(), [](const auto& material) {
+    return std::holds_alternative<DruckerPragerDefinition>(material.law) ||
+           std::holds_alternative<MohrCoulombDefinition>(material.law);
+  });
+  if (soil && !definition.method.average_stress && averages_stress(definition.method, definition.geometry)) {
+    scene.choices.emplace_back("method.average_stress",
+                               "true: soil that flows has one stress in a cell, against too much force on tools");
+  }
   read_bodies(root, scene);
   read_rigid_bodies(root, scene);
   read_contact_pairs(root, scene);

@@ -61,9 +61,14 @@ Fault dilatation_fault(const MethodDefinition& method, GeometryKind geometry) {
   return {};
 }
 
-Fault pressure_fault(const MethodDefinition& method, GeometryKind geometry) {
-  if (!method.average_pressure || (geometry != GeometryKind::line && geometry != GeometryKind::plane_stress)) return {};
-  return MethodFault{"average_pressure", "in a line and in plane stress nothing locks; leave it out"};
+/// Whether something locks that has one stress for each particle.
+bool may_lock(GeometryKind geometry) {
+  return geometry != GeometryKind::line && geometry != GeometryKind::plane_stress;
+}
+
+Fault stress_fault(const MethodDefinition& method, GeometryKind geometry) {
+  if (!method.average_stress.value_or(false) || may_lock(geometry)) return {};
+  return MethodFault{"average_stress", "in a line and in plane stress nothing locks; leave it out"};
 }
 
 Fault rate_fault(const char* key, const Function& rate) {
@@ -137,11 +142,15 @@ Fault damping_fault(const MethodDefinition& method) {
 
 }  // namespace
 
+bool averages_stress(const MethodDefinition& method, GeometryKind geometry) {
+  return method.average_stress.value_or(may_lock(geometry) && !method.average_dilatation);
+}
+
 std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry) {
   if (const Fault fault = shape_fault(method, geometry)) return fault;
   if (const Fault fault = transfer_fault(method)) return fault;
   if (const Fault fault = dilatation_fault(method, geometry)) return fault;
-  if (const Fault fault = pressure_fault(method, geometry)) return fault;
+  if (const Fault fault = stress_fault(method, geometry)) return fault;
   if (method.gradient_terms < 1 || method.gradient_terms > kMostTerms) {
     return MethodFault{"gradient_terms", fmt::format("{} is not possible; write 1 to {} terms, as 2, the default",
                                                      method.gradient_terms, kMostTerms)};

@@ -21,7 +21,7 @@ const std::vector<ShippedModules>& shipped_modules();
 void add_periodic(RunParts& parts);
 void add_leaving(RunParts& parts);
 void add_axis(RunParts& parts);
-void add_pressure_average(RunParts& parts);
+void add_stress_average(RunParts& parts);
 void add_damping(RunParts& parts);
 void add_rigid_motion(RunParts& parts);
 void add_tool_sides(RunParts& parts);

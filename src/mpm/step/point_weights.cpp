@@ -31,6 +31,23 @@ AxisWeights axis_weights(const Grid& grid, ShapeKind shape, int k, double cells)
   return {static_cast<int>(below), 2, {1.0 - (cells - below), cells - below}};
 }
 
+/// Whether a place may be looked up along an axis: nodes may be as far as a block beyond the domain.
+bool has_nodes(const GridLayout& layout, int k, double cells) {
+  return cells >= 2 - kBlockEdge && cells <= layout.last_node(k) + kBlockEdge - 2;
+}
+
+/// A node by its number along each axis; its block is -1 if it carries no mass.
+NodeRef node_that_carries(const Grid& grid, const std::array<int, 3>& number) {
+  std::array<int, 3> block{};
+  int local = 0;
+  for (int k = 0; k < grid.layout.dim(); ++k) {
+    block[k] = (number[k] + kBlockEdge) / kBlockEdge - 1;
+    local = local * kBlockEdge + number[k] - block[k] * kBlockEdge;
+  }
+  const int found = grid.blocks.find(grid.layout.key(block));
+  return {found < 0 || !grid.carries(found, local) ? -1 : found, local};
+}
+
 }  // namespace
 
 PointWeights::PointWeights(const Grid& grid, ShapeKind shape, const Vec3& at) {
@@ -40,8 +57,7 @@ PointWeights::PointWeights(const Grid& grid, ShapeKind shape, const Vec3& at) {
   for (AxisWeights& one : along) one = {0, 1, {1.0}};
   for (int k = 0; k < dim; ++k) {
     const double cells = layout.in_cells(k, at[layout.axis(k)]);
-    // Nodes may be as far as a block beyond the domain.
-    if (!(cells >= 2 - kBlockEdge && cells <= layout.last_node(k) + kBlockEdge - 2)) return;
+    if (!has_nodes(layout, k, cells)) return;
     along[k] = axis_weights(grid, shape, k, cells);
   }
   double sum = 0.0;
@@ -50,16 +66,9 @@ PointWeights::PointWeights(const Grid& grid, ShapeKind shape, const Vec3& at) {
       for (int l = 0; l < along[2].count; ++l) {
         const double value = along[0].weight[i] * along[1].weight[j] * along[2].weight[l];
         if (value == 0.0) continue;
-        const int number[3] = {along[0].first + i, along[1].first + j, along[2].first + l};
-        std::array<int, 3> block{};
-        int local = 0;
-        for (int k = 0; k < dim; ++k) {
-          block[k] = (number[k] + kBlockEdge) / kBlockEdge - 1;
-          local = local * kBlockEdge + number[k] - block[k] * kBlockEdge;
-        }
-        const int found = grid.blocks.find(layout.key(block));
-        if (found < 0 || !grid.carries(found, local)) continue;
-        node[count] = {found, local};
+        const NodeRef found = node_that_carries(grid, {along[0].first + i, along[1].first + j, along[2].first + l});
+        if (found.block < 0) continue;
+        node[count] = found;
         weight[count] = value;
         sum += value;
         ++count;
@@ -67,6 +76,16 @@ PointWeights::PointWeights(const Grid& grid, ShapeKind shape, const Vec3& at) {
     }
   }
   for (int i = 0; i < count; ++i) weight[i] /= sum;
+}
+
+NodeRef nearest_node(const Grid& grid, const Vec3& at) {
+  std::array<int, 3> number{};
+  for (int k = 0; k < grid.layout.dim(); ++k) {
+    const double cells = grid.layout.in_cells(k, at[grid.layout.axis(k)]);
+    if (!has_nodes(grid.layout, k, cells)) return {-1, 0};
+    number[k] = GridLayout::nearest(cells);
+  }
+  return node_that_carries(grid, number);
 }
 
 }  // namespace mpm

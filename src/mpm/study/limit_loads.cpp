@@ -14,11 +14,18 @@ namespace {
 
 double square(double x) { return x * x; }
 
-/// K_p of rough_wall_coefficient() by moment balance of one block: a wall from the foot (0, -1) to the surface z = 0,
-/// and a log spiral from the foot to the surface that grows as it turns from below towards the surface, on which the
-/// resultant of stress and friction points to the pole (x, z). Infinite for a pole that leaves no such block.
-double moment_balance(double friction, double x, double z) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
+/// A block that a wall pushes, by its moments about the pole of its log spiral.
+struct SpiralBlock {
+  double coefficient = std::numeric_limits<double>::infinity();  ///< K_p; infinite for a pole that leaves no block
+  double moment = 0.0;                                           ///< of its weight
+  double end = 0.0;                                              ///< where the spiral meets the surface
+};
+
+/// The block of rough_wall_coefficient() for one pole (x, z): a wall from the foot (0, -1) to the surface z = 0, and a
+/// log spiral from the foot to the surface that grows as it turns from below towards the surface, on which the
+/// resultant of stress and friction points to the pole. Soil of unit weight.
+SpiralBlock spiral_block(double friction, double x, double z) {
+  const SpiralBlock kNone;
   const double tangent = std::tan(friction);
   // The wall's force acts at a third of its height, and downwards on soil that rises along it.
   const double lever = z + 2.0 / 3.0 + x * tangent;
@@ -38,11 +45,32 @@ double moment_balance(double friction, double x, double z) {
     if (to_x < from_x) return kNone;
     // The strip of soil above this piece, of unit weight.
     moment += (to_x - from_x) * -0.5 * (from_z + to_z) * (0.5 * (from_x + to_x) - x);
-    if (surfaces) return moment / lever / 0.5;
+    if (surfaces) return {moment / lever / 0.5, moment, to_x};
     from_x = to_x;
     from_z = to_z;
   }
   return kNone;
+}
+
+struct WeakestBlock {
+  double x = -0.5, z = 0.5;  ///< its pole
+  SpiralBlock block;
+};
+
+/// The block of the least force, by a search over poles whose steps halve where none of them helps.
+WeakestBlock weakest_block(double friction) {
+  WeakestBlock best;
+  best.block = spiral_block(friction, best.x, best.z);
+  double step = 0.25;
+  while (step > 1e-4) {
+    const double before = best.block.coefficient;
+    for (const auto& [dx, dz] : {std::pair{step, 0.0}, {-step, 0.0}, {0.0, step}, {0.0, -step}}) {
+      const WeakestBlock tried{best.x + dx, best.z + dz, spiral_block(friction, best.x + dx, best.z + dz)};
+      if (tried.block.coefficient < best.block.coefficient) best = tried;
+    }
+    if (best.block.coefficient == before) step *= 0.5;
+  }
+  return best;
 }
 
 }  // namespace
@@ -63,20 +91,16 @@ Bounds rough_wall_coefficient(double friction) {
   const double sine = std::sin(friction), cosine = std::cos(friction);
   // With wall friction = friction the root of sin^2(phi) - sin^2(delta) vanishes, and 2 theta = 90 degrees + delta.
   const double lower = square(cosine) / (1.0 - sine) * std::exp((0.5 * kPi + friction) * std::tan(friction));
-  // The least over poles, by a search whose steps halve where none of them helps.
-  double x = -0.5, z = 0.5, step = 0.25, upper = moment_balance(friction, x, z);
-  while (step > 1e-4) {
-    const double before = upper;
-    for (const auto& [dx, dz] : {std::pair{step, 0.0}, {-step, 0.0}, {0.0, step}, {0.0, -step}}) {
-      const double value = moment_balance(friction, x + dx, z + dz);
-      if (!(value < upper)) continue;
-      upper = value;
-      x += dx;
-      z += dz;
-    }
-    if (upper == before) step *= 0.5;
-  }
-  return {lower, upper};
+  return {lower, weakest_block(friction).block.coefficient};
+}
+
+double swept_soil_growth(double friction, bool rough) {
+  if (!rough) return 2.0 * std::tan(0.25 * kPi - 0.5 * friction);
+  const WeakestBlock weakest = weakest_block(friction);
+  // The block turns about its pole, so that it rises in proportion to the distance from it, and so does the heap.
+  const double near = -weakest.x, far = weakest.block.end - weakest.x;
+  const double arm = 2.0 / 3.0 * (far * far * far - near * near * near) / (far * far - near * near);
+  return arm / weakest.block.moment;
 }
 
 double bearing_weight_factor(double friction, bool rough) {

@@ -2,8 +2,8 @@
 //
 // A problem writes the text of a scene (doc/scene.md), so that a row is what a user gets: keys that it leaves out have
 // their defaults, and any other key can be set beside it. Cells count across the tool's depth or width, where their
-// size decides about the force. Weak: a limit load belongs to the geometry of the start, and the force is the mean over
-// a stretch of the way, on which soil heaves; each problem says where.
+// size decides about the force. Weak: the force is the mean over a stretch of the way, on which soil
+// heaves; what that adds is in the answers to the first order, where it is known.
 #pragma once
 
 #include <functional>

@@ -1,7 +1,9 @@
 // A blade cuts level sand, in a plane: its front is upright and its edge lies at a depth d; behind it the bed is cut
-// down to the edge. What is exact for an associated soil is Rankine's passive pressure on the front, 1/2 rho g K_p d^2:
-// the wedge above the plane that rises from the edge at 45 - phi/2 moves as a block, and the stresses of that wedge go
-// on below it. Under a smooth blade nothing is lifted but what little the sand below the edge presses on the bottom.
+// down to the edge. What is exact for an associated soil at the start is Rankine's passive pressure on the front,
+// 1/2 rho g K_p d^2: the wedge above the plane that rises from the edge at 45 - phi/2 moves as a block, and the
+// stresses of that wedge go on below it. With the travel x the soil that the blade has swept, d x, adds its weight to
+// the wedge's: the force grows by the part swept_soil_growth() x / d, 11.5 % of a smooth blade on the stretch of the
+// mean. Under a smooth blade nothing is lifted but what little the sand below the edge presses on the bottom.
 //
 // flat: the bottom is level and 0.8 d long. chisel: the bottom rises from the edge backwards at 15 degrees, so that it
 // need not touch. Cells count over d.
@@ -17,6 +19,8 @@ namespace blade_problems {
 
 constexpr double kDepth = 0.2, kDensity = 1600.0, kGravity = 9.81, kYoung = 2e6, kPoisson = 0.3, kAngle = 30.0;
 constexpr double kThickness = 0.8 * kDepth, kTop = 1.5 * kDepth, kRise = 0.267949192431123;  // tan(15 degrees)
+
+constexpr double kMean = 0.1;  ///< travel over depth, in the mean over the stretch on which force is taken
 
 constexpr double kHalfWidth = kDepth;  ///< of the blade in space, of which a half is modelled
 
@@ -85,8 +89,8 @@ Problem blade(const std::string& name, const std::string& title, const std::stri
                  "√(gd). Cells: over the depth.";
   problem.push = Vec3::UnitX();
   problem.length = kDepth;
-  problem.from = 0.06;
-  problem.to = 0.14;
+  problem.from = 0.6 * kMean;
+  problem.to = 1.4 * kMean;
   problem.moves_on = true;
   problem.quick = true;
   problem.speed = 0.05;
@@ -102,8 +106,11 @@ Problem blade(const std::string& name, const std::string& title, const std::stri
 std::vector<Problem> blades() {
   using namespace blade_problems;
   const double unit = 0.5 * kDensity * kGravity * kDepth * kDepth, phi = kAngle * kPi / 180.0;
-  const double rankine = unit * passive_coefficient(phi);
-  const char* exact = "½ ρ g K_p d² a metre, K_p = 3: Rankine (1857); associated flow";
+  // In the mean over the stretch.
+  const auto swept = [](double friction, bool is_rough) { return 1.0 + kMean * swept_soil_growth(friction, is_rough); };
+  const double start = unit * passive_coefficient(phi), rankine = start * swept(phi, false);
+  const char* exact =
+      "½ ρ g K_p d² a metre, K_p = 3: Rankine (1857), and the weight of the swept soil, +11.5 %; associated flow";
   std::vector<Problem> list;
 
   Problem flat =
@@ -125,8 +132,9 @@ std::vector<Problem> blades() {
   still.known = Known::estimate;
   still.answer_text =
       "above, K_p = 3 of associated flow (Radenkovic (1961)); below, an estimate: K_p = 2.62 of Davis's (1968) reduced "
-      "friction";
-  still.answer = {unit * passive_coefficient(davis_friction(phi, 0.0)), rankine};
+      "friction; both with the weight of the swept soil, +11.5 % and +12.4 %";
+  const double reduced = davis_friction(phi, 0.0);
+  still.answer = {unit * passive_coefficient(reduced) * swept(reduced, false), rankine};
   still.free = Vec3::UnitZ();
   list.push_back(still);
 
@@ -134,11 +142,12 @@ std::vector<Problem> blades() {
       blade("blade_rough", "Blade as rough as the sand",
             "Blade with a bottom that rises behind the edge, as rough as the sand, associated flow.", {true, true});
   rough.known = Known::bounds;
-  rough.answer_text =
-      "along the push: K_p between 5.03 (Lancellotta (2002)) and 6.00 (log spiral, Terzaghi (1943)); tables of Kérisel "
-      "and Absi: 6.5 cos 30° = 5.6";
+  rough.answer_text = fmt::format(
+      "along the push: K_p between 5.03 (Lancellotta (2002)) and 6.00 (log spiral, Terzaghi (1943)); tables "
+      "of Kérisel and Absi: 6.5 cos 30° = 5.6; with the weight of the swept soil, {:+.1f} %",
+      100.0 * (swept(phi, true) - 1.0));
   const Bounds coefficient = rough_wall_coefficient(phi);
-  rough.answer = {unit * coefficient.lower, unit * coefficient.upper};
+  rough.answer = {unit * coefficient.lower * swept(phi, true), unit * coefficient.upper * swept(phi, true)};
   list.push_back(rough);
 
   Kind in_space;
@@ -151,10 +160,11 @@ std::vector<Problem> blades() {
   const double factor = 1.0 + std::cbrt(difference * difference) * 1.6 / (1.0 + 5.0 * 2.0 * kHalfWidth / kDepth);
   ends.known = Known::estimate;
   ends.answer_text = fmt::format(
-      "below, the force of a plane, K_p = 3; above, an estimate: {:.2f} times that, for the wedges at the ends (Ovesen "
-      "(1964), Anchor slabs, Danish Geotechnical Institute, Bulletin 16)",
+      "below, the force of a plane at the start, K_p = 3; above, an estimate: {:.2f} times that, for the wedges at the "
+      "ends (Ovesen (1964), Anchor slabs, Danish Geotechnical Institute, Bulletin 16), and the weight of the swept "
+      "soil, of which a part goes round the ends",
       factor);
-  ends.answer = {rankine * 2.0 * kHalfWidth, rankine * 2.0 * kHalfWidth * factor};
+  ends.answer = {start * 2.0 * kHalfWidth, rankine * 2.0 * kHalfWidth * factor};
   ends.whole = 2.0;
   ends.free = Vec3::UnitZ();
   ends.quick = false;

@@ -1,0 +1,109 @@
+#include "mpm/contact/edge_cover.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mpm/step/point_weights.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kLook = 2.0;        ///< cells along the surface to where an edge is looked for
+constexpr double kEdge = 0.9;        ///< cosine between the look and the normal met, from which on there is an edge
+constexpr double kLeast = 0.1;       ///< S of a point that counts
+constexpr double kLeastPart = 1e-3;  ///< cover of a node that counts
+constexpr double kHalf = 0.5;        ///< cover from which on a node decides with its whole weight
+constexpr double kThinnest = 1e-2;   ///< mass beyond an edge, over that of the node, from which on there is material
+
+/// Directions along the surface across the edges near a point, away from the face.
+struct Edges {
+  std::array<Vec3, 4> across;
+  int count = 0;
+};
+
+/// The surface nearest to a place, with the normal in the world.
+SurfacePoint nearest(const RigidBody& body, const Vec3& place) {
+  SurfacePoint surface = body.surface().at(body.pose().to_body(place));
+  surface.normal = body.pose().orientation * surface.normal;
+  return surface;
+}
+
+/// How far a place lies beyond a body's surface along a direction [m]; negative inside.
+double beyond(const RigidBody& body, const Vec3& place, const Vec3& along) {
+  const SurfacePoint surface = nearest(body, place);
+  return surface.distance * surface.normal.dot(along);
+}
+
+/// Edges across `along` and against it.
+void look(const RigidBody& body, const ContactPoint& point, const Vec3& along, double cell, Edges& edges) {
+  for (const double sign : {1.0, -1.0}) {
+    const SurfacePoint met = nearest(body, point.place + sign * kLook * cell * along);
+    if (!(met.distance > 0.0 && sign * along.dot(met.normal) > kEdge)) continue;
+    const Vec3 across = (met.normal - met.normal.dot(point.normal) * point.normal).normalized();
+    const auto known = [&](const Vec3& other) { return other.dot(across) > 0.99; };
+    const auto end = edges.across.begin() + edges.count;
+    if (std::none_of(edges.across.begin(), end, known)) edges.across[edges.count++] = across;
+  }
+}
+
+Edges edges_near(const RigidBody& body, const ContactPoint& point, const GridLayout& layout) {
+  Edges edges;
+  const double cell = layout.smallest_cell();
+  if (layout.dim() == 2) {
+    look(body, point, Vec3::UnitY().cross(point.normal).normalized(), cell, edges);
+  } else if (layout.dim() == 3) {
+    // Along the body's own axes, along which edges often lie.
+    const Vec3 normal = body.pose().orientation.conjugate() * point.normal;
+    int least = 0;
+    normal.cwiseAbs().minCoeff(&least);
+    const Vec3 first = body.pose().orientation * normal.cross(Vec3::Unit(least)).normalized();
+    look(body, point, first, cell, edges);
+    look(body, point, point.normal.cross(first), cell, edges);
+  }
+  return edges;
+}
+
+}  // namespace
+
+int EdgeCover::apply(const ContactPoint& point, const Grid& grid, PointNode* nodes, int count) const {
+  const RigidBody& body = *bodies_[point.body];
+  const GridLayout& layout = grid.layout;
+  const Edges edges = edges_near(body, point, layout);
+  if (edges.count == 0) return count;
+  const double cell = layout.smallest_cell();
+  const int per_block = layout.nodes_per_block();
+  double sum = 0.0;
+  int kept = 0;
+  for (int n = 0; n < count; ++n) {
+    PointNode node = nodes[n];
+    const NodeRef ref{node.node / per_block, node.node % per_block};
+    const Vec3 place = layout.node_position(grid.blocks.block(ref.block), ref.node);
+    double cover = 1.0;
+    for (int e = 0; e < edges.count; ++e) {
+      const Vec3& across = edges.across[e];
+      const double part = std::clamp(1.0 - beyond(body, place + 0.5 * cell * across, across) / cell, 0.0, 1.0);
+      if (part >= cover) continue;
+      const NodeRef further = nearest_node(grid, place + cell * across);
+      if (further.block < 0 || (further.block == ref.block && further.node == ref.node)) continue;
+      if (grid.mass.at(further.block, 0, further.node) < kThinnest * grid.mass.at(ref.block, 0, ref.node)) continue;
+      cover = part;
+      node.beyond = further.block * per_block + further.node;
+    }
+    if (cover < kLeastPart) continue;
+    node.reading = node.weight * std::min(1.0, cover / kHalf);
+    node.weight = node.reading * cover;
+    node.beyond_part = node.reading * (1.0 - cover);
+    sum += node.weight;
+    nodes[kept++] = node;
+  }
+  if (!(sum > kLeast)) return 0;
+  for (int n = 0; n < kept; ++n) {
+    nodes[n].weight /= sum;
+    nodes[n].reading /= sum;
+    nodes[n].beyond_part /= sum;
+  }
+  return kept;
+}
+
+}  // namespace mpm

@@ -1,0 +1,189 @@
+// Weights of the nodes around a point of contact near the edge of a tool's face.
+#include "mpm/contact/edge_cover.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mpm/step/point_weights.hpp"
+#include "mpm/step/sorter.hpp"
+
+namespace mpm {
+namespace edge_cover_test {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kCell = 0.1;
+
+/// A field whose nodes all carry 1 kg, from 0 to 2 m along each axis.
+struct Field {
+  explicit Field(int dim)
+      : fields(make_fields(GridLayout(dim, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Constant(2.0)))), sets(1) {
+    ParticleSet& set = sets[0];
+    set.half = {0.5, 0.5, 0.5};
+    set.highest = {20.0, 20.0, 20.0};
+    const int along = 20;
+    const std::size_t count = dim == 2 ? along * along : along * along * along;
+    set.id.resize(count);
+    set.x.assign(dim, PaddedArray<double>(count));
+    const auto zeros = [&](int number) {
+      return std::vector<ParticleScalar>(number, ParticleScalar(set.precision, count));
+    };
+    set.v = zeros(dim), set.f = zeros(dim == 2 ? 5 : 9), set.tau = zeros(dim == 2 ? 4 : 6), set.history = zeros(1);
+    for (std::size_t p = 0; p < count; ++p) {
+      set.id[p] = static_cast<std::uint32_t>(p);
+      std::size_t rest = p;
+      for (int k = 0; k < dim; ++k, rest /= along) set.x[k][p] = (0.5 + static_cast<double>(rest % along)) * kCell;
+    }
+    EXPECT_FALSE(Sorter(1).sort(sets, fields));
+    Grid& own = grid();
+    for (int b = 0; b < own.blocks.size(); ++b) {
+      for (int n = 0; n < own.layout.nodes_per_block(); ++n) own.mass.at(b, 0, n) = 1.0;
+    }
+  }
+  Grid& grid() { return *fields.front(); }
+  Vec3 place(int node) {
+    const int per_block = grid().layout.nodes_per_block();
+    return grid().layout.node_position(grid().blocks.block(node / per_block), node % per_block);
+  }
+  Fields fields;
+  std::vector<ParticleSet> sets;
+};
+
+RigidBody body_of(std::unique_ptr<Surface> surface, const Vec3& position) {
+  RigidBodyDefinition definition;
+  definition.name = "tool";
+  definition.surface = std::move(surface);
+  definition.pose = {position, Quat::Identity()};
+  return RigidBody(definition);
+}
+
+struct Around {
+  std::vector<PointNode> nodes;
+  std::vector<double> before;  ///< weights without edges; empty if a node was left out
+};
+
+Around around(Field& field, const RigidBody& body, const Vec3& place, const Vec3& normal) {
+  const std::vector<const RigidBody*> bodies = {&body};
+  ContactPoint point;
+  point.place = place;
+  point.normal = normal;
+  const PointWeights weights(field.grid(), ShapeKind::ugimp, place);
+  Around result;
+  for (int n = 0; n < weights.count; ++n) {
+    const int node = weights.node[n].block * field.grid().layout.nodes_per_block() + weights.node[n].node;
+    result.nodes.push_back({node, weights.weight[n], weights.weight[n]});
+    result.before.push_back(weights.weight[n]);
+  }
+  const int kept = EdgeCover(bodies).apply(point, field.grid(), result.nodes.data(), weights.count);
+  if (kept != weights.count) result.before.clear();
+  result.nodes.resize(kept);
+  return result;
+}
+
+/// A blade whose front is the plane x = 0.63 and whose edge lies at this height.
+RigidBody blade(double edge) { return body_of(make_box({0.5, kInfinite, 2.0}), {0.63 - 0.25, 0.0, edge + 1.0}); }
+
+TEST(EdgeCover, AwayFromEdgesNothingChanges) {
+  Field field(2);
+  const RigidBody body = blade(0.5);
+  const Around found = around(field, body, {0.63, 0.0, 0.87}, Vec3::UnitX());
+  ASSERT_EQ(found.before.size(), found.nodes.size());
+  for (std::size_t n = 0; n < found.nodes.size(); ++n) {
+    EXPECT_EQ(found.nodes[n].weight, found.before[n]);
+    EXPECT_EQ(found.nodes[n].reading, found.before[n]);
+    EXPECT_EQ(found.nodes[n].beyond_part, 0.0);
+  }
+}
+
+// What is before the face moves with one velocity, what is below the edge with another, and a node's velocity is their
+// mean by the parts of its cell, which is what a grid sees of two rigid halves. The point sees the upper velocity,
+// wherever the edge and the point lie between the nodes.
+TEST(EdgeCover, APointSeesWhatIsBeforeItsFace) {
+  Field field(2);
+  const double upper = 3.0, lower = -7.0;
+  for (const double edge : {0.5, 0.513, 0.54, 0.55, 0.567, 0.599}) {
+    const RigidBody body = blade(edge);
+    const auto velocity = [&](double z) {
+      const double part = std::clamp((z - edge) / kCell + 0.5, 0.0, 1.0);
+      return part * upper + (1.0 - part) * lower;
+    };
+    for (const double above : {0.01, 0.04, 0.08, 0.13}) {
+      const Around found = around(field, body, {0.63, 0.0, edge + above}, Vec3::UnitX());
+      ASSERT_FALSE(found.nodes.empty()) << edge << ' ' << above;
+      double seen = 0.0, whole = 0.0, compliance = 0.0;
+      for (const PointNode& node : found.nodes) {
+        seen += node.reading * velocity(field.place(node.node).z());
+        if (node.beyond_part > 0.0) seen -= node.beyond_part * velocity(field.place(node.beyond).z());
+        whole += node.weight;
+        compliance += node.weight * node.reading;
+      }
+      EXPECT_NEAR(seen, upper, 1e-9) << edge << ' ' << above;
+      EXPECT_NEAR(whole, 1.0, 1e-12);  // momentum
+      EXPECT_GT(compliance, 0.0);
+    }
+  }
+}
+
+TEST(EdgeCover, AnEdgeOnWhichMaterialEndsIsNone) {
+  Field field(2);
+  const RigidBody body = blade(0.5);
+  for (int b = 0; b < field.grid().blocks.size(); ++b) {
+    for (int n = 0; n < field.grid().layout.nodes_per_block(); ++n) {
+      const Vec3 place = field.grid().layout.node_position(field.grid().blocks.block(b), n);
+      if (place.z() < 0.45) field.grid().mass.at(b, 0, n) = 0.0;
+    }
+  }
+  const Around found = around(field, body, {0.63, 0.0, 0.51}, Vec3::UnitX());
+  ASSERT_EQ(found.before.size(), found.nodes.size());
+  for (std::size_t n = 0; n < found.nodes.size(); ++n) EXPECT_NEAR(found.nodes[n].weight, found.before[n], 1e-14);
+}
+
+TEST(EdgeCover, APointBeyondAnEdgeIsNoContact) {
+  Field field(2);
+  const RigidBody body = blade(0.5);
+  EXPECT_TRUE(around(field, body, {0.63, 0.0, 0.38}, Vec3::UnitX()).nodes.empty());
+}
+
+// A cylinder of one cell and a half in radius, and a face that goes on at 45 degrees.
+TEST(EdgeCover, ARoundSurfaceAndABendAreNoEdges) {
+  Field field(2);
+  const RigidBody round = body_of(make_cylinder(1.5 * kCell, kInfinite, 1), {0.9, 0.0, 0.9});
+  const RigidBody bent =
+      body_of(make_polygon({{0.0, 0.0}, {0.63, 0.0}, {0.63, -0.4}, {0.33, -0.7}, {0.0, -0.7}}), {0.0, 0.0, 1.4});
+  EXPECT_FALSE(around(field, round, {0.9 + 1.5 * kCell, 0.0, 0.9}, Vec3::UnitX()).before.empty());
+  const Around found = around(field, bent, {0.63, 0.0, 1.02}, Vec3::UnitX());
+  ASSERT_FALSE(found.before.empty());
+  for (std::size_t n = 0; n < found.nodes.size(); ++n) EXPECT_EQ(found.nodes[n].weight, found.before[n]);
+}
+
+// A box in space, near one edge, and near a corner, where two edges meet: nodes lie beyond either.
+TEST(EdgeCover, InSpaceToo) {
+  Field field(3);
+  const RigidBody body = body_of(make_box({0.5, 1.0, 1.0}), {0.38, 1.03, 1.04});  // edges at y = 0.53, z = 0.54
+  const auto velocity = [&](const Vec3& place) {
+    const double part = std::clamp((place.z() - 0.54) / kCell + 0.5, 0.0, 1.0);
+    return part * 3.0 - (1.0 - part) * 7.0;
+  };
+  const Around edge = around(field, body, {0.63, 1.02, 0.57}, Vec3::UnitX());
+  double seen = 0.0;
+  for (const PointNode& node : edge.nodes) {
+    seen += node.reading * velocity(field.place(node.node));
+    if (node.beyond_part > 0.0) seen -= node.beyond_part * velocity(field.place(node.beyond));
+  }
+  EXPECT_NEAR(seen, 3.0, 1e-9);
+  const Around corner = around(field, body, {0.63, 0.55, 0.56}, Vec3::UnitX());
+  bool beside = false, below = false;
+  for (const PointNode& node : corner.nodes) {
+    if (node.beyond < 0) continue;
+    const Vec3 way = field.place(node.beyond) - field.place(node.node);
+    beside = beside || way.isApprox(Vec3(0.0, -kCell, 0.0));
+    below = below || way.isApprox(Vec3(0.0, 0.0, -kCell));
+  }
+  EXPECT_TRUE(beside);
+  EXPECT_TRUE(below);
+}
+
+}  // namespace edge_cover_test
+}  // namespace mpm

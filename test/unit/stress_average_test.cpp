@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "mpm/step/sorter.hpp"
 
 namespace mpm {
@@ -74,9 +76,9 @@ TYPED_TEST_SUITE(StressAverageOf, Precisions);
 TYPED_TEST(StressAverageOf, SharedByWhatFlowsInACell) {
   const double tolerance = sizeof(TypeParam) == 4 ? 1e-6 : 1e-14;
   Soil<TypeParam> soil({{0.52, 0.41, -9.0, -5.0, 1.0, -4.0, 0.1},
-                        {0.48, 0.42, -1.0, -3.0, 0.5, -2.0, 0.2},
-                        {0.51, 0.39, -8.0, -8.0, 0.0, -8.0, 0.0},
-                        {0.47, 0.44, 3.0, 3.0, 0.0, 3.0, 0.1},
+                        {0.58, 0.48, -1.0, -3.0, 0.5, -2.0, 0.2},
+                        {0.51, 0.42, -8.0, -8.0, 0.0, -8.0, 0.0},
+                        {0.57, 0.44, 3.0, 3.0, 0.0, 3.0, 0.1},
                         {0.43, 0.56, -7.0, -7.0, 0.0, -7.0, 0.1}});
   soil.act();
   const double expected[][4] = {{-5.0, -4.0, 0.75, -3.0},
@@ -97,17 +99,31 @@ TYPED_TEST(StressAverageOf, SharedByWhatFlowsInACell) {
   EXPECT_NEAR(soil.energy(), lost, tolerance * lost);
 }
 
-// Cells are those around nodes: 0.55 is the border of two. Blocks of four nodes are no obstacle within a cell.
-TYPED_TEST(StressAverageOf, CellsAreThoseOfNodes) {
-  Soil<TypeParam> soil({{0.549, 0.40, -6.0, -6.0, 0.0, -6.0, 0.1},
-                        {0.551, 0.40, -2.0, -2.0, 0.0, -2.0, 0.1},
-                        {0.751, 0.40, -1.0, -1.0, 0.0, -1.0, 0.1},
-                        {0.849, 0.40, -3.0, -3.0, 0.0, -3.0, 0.1}});
+// Cells are those between nodes, whatever block the particles belong to: nodes 0 to 3, 4 to 7 and so on are a block's,
+// and a particle's block is that of its nearest node.
+TYPED_TEST(StressAverageOf, CellsAreThoseBetweenNodes) {
+  Soil<TypeParam> soil({{0.599, 0.41, -6.0, -6.0, 0.0, -6.0, 0.1},
+                        {0.601, 0.41, -2.0, -2.0, 0.0, -2.0, 0.1},
+                        {0.699, 0.49, -4.0, -4.0, 0.0, -4.0, 0.1},
+                        {0.701, 0.72, -1.0, -1.0, 0.0, -1.0, 0.1},
+                        {0.799, 0.78, -3.0, -3.0, 0.0, -3.0, 0.1}});
   soil.act();
-  EXPECT_EQ(soil.stress(0, 0), -6.0);
-  EXPECT_EQ(soil.stress(0, 1), -2.0);
-  EXPECT_EQ(soil.stress(0, 2), -2.0);
-  EXPECT_EQ(soil.stress(0, 3), -2.0);
+  const double expected[] = {-6.0, -3.0, -3.0, -2.0, -2.0};
+  for (std::uint32_t p = 0; p < 5; ++p) EXPECT_NEAR(soil.stress(0, p), expected[p], 1e-6) << p;
+}
+
+// 0.9 and 1.1 of one mass are 1.0 together: along the grid's axes each is stretched by the root of the ratio, and the
+// volume of the cell stays.
+TYPED_TEST(StressAverageOf, TheVolumeIsSharedToo) {
+  Soil<TypeParam> soil({{0.52, 0.41, -4.0, -4.0, 0.0, -4.0, 0.1}, {0.58, 0.48, -4.0, -4.0, 0.0, -4.0, 0.1}});
+  ParticleSet& set = soil.sets[0];
+  set.f[0].set(0, 0.9), set.f[0].set(1, 1.1);
+  soil.act();
+  for (int p = 0; p < 2; ++p) {
+    const double before = p == 0 ? 0.9 : 1.1, stretch = std::sqrt(1.0 / before);
+    EXPECT_NEAR(set.f[0][p], before * stretch, 1e-6);
+    EXPECT_NEAR(set.f[3][p], stretch, 1e-6);
+  }
 }
 
 }  // namespace stress_average_test

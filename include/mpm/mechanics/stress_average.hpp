@@ -8,8 +8,11 @@
 // not change, and since the elastic region is convex, the mean of admissible stresses is admissible. What the
 // particles lose of their elastic energy is booked.
 //
-// A cell is what is nearest to a node, so that it lies in one block. A particle that has left its block since the last
-// sort counts in the nearest cell of that block.
+// They also share their volume ratio J, whose sum over the mass does not change: nothing but its stress would keep a
+// particle from swelling while its neighbour shrinks.
+//
+// A cell is that between nodes. A particle that has left its block since the last sort by more than half a cell counts
+// in the nearest cell of that block.
 //
 // Weak: a part of the locking remains, since a band is still smeared over cells. Cells do not move with the material.
 // Where few particles are left in a cell, there is less to average. Sharing pressures alone, and not deviators, was
@@ -20,6 +23,7 @@
 // doc/verification.md has what it changes.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "mpm/math/geometry_kind.hpp"
@@ -49,17 +53,30 @@ class StressAverage final : public Stage {
   void serialise(StateArchive& archive) override { archive.value("taken", taken_); }
 
  private:
+  /// What the flowing particles of a cell have together; sums weighted by mass.
+  struct Cell {
+    double mass = 0.0;    ///< [kg]
+    double volume = 0.0;  ///< volume over that before deformation
+    std::array<double, 6> stress{};
+    int particles = 0;
+  };
+
   template <class Geometry, class T>
   void average(const AveragedSet& one, std::size_t place, const StepContext& context);
-  /// The particles [begin, end), which belong to one block; returns the energy that they lose [J].
+  /// Adds the flowing particles of a block to their cells.
   template <class Geometry, class T>
-  static double average_block(const AveragedSet& one, double* before, std::uint32_t begin, std::uint32_t end,
-                              const GridLayout& layout, const std::array<int, 3>& block);
+  void gather(const AveragedSet& one, double* before, const Grid& grid, int owner);
+  /// Gives the means to the flowing particles of a block; returns the energy that they lose [J].
+  template <class Geometry, class T>
+  double share(const AveragedSet& one, double* before, const Grid& grid, int owner);
+  /// The cell with this number along each axis, from -1, counted from the first of an owner's block.
+  Cell& cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell);
 
   std::vector<AveragedSet> sets_;
   std::vector<std::size_t> places_;  ///< of each set, the number that it was given
   GeometryKind geometry_;
   int threads_;
+  std::vector<Cell> cells_;       ///< of a field, by the node at their lower corner
   std::vector<double> of_owner_;  ///< energy that the particles of a block lose in this step [J]
   double taken_ = 0.0;            ///< [J]
 };

@@ -1,6 +1,7 @@
 #include "mpm/mechanics/stress_average.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mpm/math/dimension.hpp"
 
@@ -29,12 +30,54 @@ struct Stored {
   }
 };
 
-/// What the flowing particles of a cell have together.
-template <class Stress>
-struct CellSum {
-  double mass = 0.0;
-  Stress stress{};
-  int particles = 0;
+/// One particle's data as the average needs them.
+template <class Geometry, class T>
+class Particles {
+ public:
+  using Tensor = Stored<Geometry>;
+  using Stress = typename Tensor::Stress;
+
+  Particles(ParticleSet& set, double* strain_before)
+      : set_(set), strain_(set.history[kPlasticStrain].template data<T>()), before_(strain_before) {
+    for (int i = 0; i < Tensor::kCount; ++i) stress_[i] = set.tau[i].template data<T>();
+    for (int i = 0; i < kRows; ++i) gradient_[i] = set.f[i].template data<T>();
+  }
+
+  bool flows(std::uint32_t p) const { return strain_[p] > before_[p] && Tensor::mean(stress(p)) < 0.0; }
+  void remember(std::uint32_t p) { before_[p] = strain_[p]; }
+  double mass(std::uint32_t p) const { return set_.mass_of(static_cast<int>(p)); }
+  double volume_ratio(std::uint32_t p) const { return determinant(Geometry::load_matrix(set_.f, static_cast<int>(p))); }
+  Stress stress(std::uint32_t p) const {
+    Stress s;
+    for (int i = 0; i < Tensor::kCount; ++i) s[i] = static_cast<double>(stress_[i][p]);
+    return s;
+  }
+  void set_stress(std::uint32_t p, const Stress& s) {
+    for (int i = 0; i < Tensor::kCount; ++i) stress_[i][p] = static_cast<T>(s[i]);
+  }
+  /// Scales the deformation along the grid's axes, so that the volume grows by this factor.
+  void swell(std::uint32_t p, double factor) {
+    const double along = std::pow(factor, 1.0 / Geometry::kDim);
+    for (int i = 0; i < kRows; ++i) gradient_[i][p] = static_cast<T>(along * gradient_[i][p]);
+  }
+  /// Number of the cell along each axis, counted from its block's first; a particle lies at most half a cell before it.
+  std::array<int, 3> cell(std::uint32_t p, const GridLayout& layout, const std::array<int, 3>& block) const {
+    std::array<int, 3> cell{};
+    for (int k = 0; k < Geometry::kDim; ++k) {
+      const int number = static_cast<int>(std::floor(layout.in_cells(k, set_.x[k][p]))) - kBlockEdge * block[k];
+      cell[k] = std::clamp(number, -1, kBlockEdge - 1);
+    }
+    return cell;
+  }
+
+ private:
+  static constexpr int kRows = Geometry::kDim * Geometry::kDim;  ///< components along the grid's axes come first
+
+  ParticleSet& set_;
+  const T* strain_;
+  double* before_;
+  std::array<T*, Tensor::kCount> stress_;
+  std::array<T*, kRows> gradient_;
 };
 
 }  // namespace
@@ -44,76 +87,81 @@ StressAverage::StressAverage(std::vector<AveragedSet> sets, GeometryKind geometr
   for (const AveragedSet& one : sets_) places_.push_back(one.set->bring("plastic_strain_before", "1"));
 }
 
+StressAverage::Cell& StressAverage::cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell) {
+  const int dim = grid.layout.dim();
+  int neighbour = 0, local = 0;
+  for (int k = 0; k < dim; ++k) {
+    neighbour = 3 * neighbour + (cell[k] < 0 ? 0 : 1);
+    local = kBlockEdge * local + (cell[k] < 0 ? kBlockEdge - 1 : cell[k]);
+  }
+  const int block = grid.blocks.neighbours(owner)[neighbour];
+  return cells_[static_cast<std::size_t>(block) * grid.layout.nodes_per_block() + local];
+}
+
 template <class Geometry, class T>
-double StressAverage::average_block(const AveragedSet& one, double* before, std::uint32_t begin, std::uint32_t end,
-                                    const GridLayout& layout, const std::array<int, 3>& block) {
-  using Tensor = Stored<Geometry>;
-  using Stress = typename Tensor::Stress;
-  ParticleSet& set = *one.set;
-  const T* strain = set.history[kPlasticStrain].template data<T>();
-  std::array<T*, Tensor::kCount> component;
-  for (int i = 0; i < Tensor::kCount; ++i) component[i] = set.tau[i].template data<T>();
-  const auto stress = [&](std::uint32_t p) {
-    Stress s;
-    for (int i = 0; i < Tensor::kCount; ++i) s[i] = static_cast<double>(component[i][p]);
-    return s;
-  };
-  const auto flows = [&](std::uint32_t p) { return strain[p] > before[p] && Tensor::mean(stress(p)) < 0.0; };
-  const auto cell_of = [&](std::uint32_t p) {
-    int cell = 0;
-    for (int k = 0; k < Geometry::kDim; ++k) {
-      const int node = GridLayout::nearest(layout.in_cells(k, set.x[k][p])) - kBlockEdge * block[k];
-      cell = cell * kBlockEdge + std::clamp(node, 0, kBlockEdge - 1);
-    }
-    return cell;
-  };
-  CellSum<Stress> cells[nodes_of_block(Geometry::kDim)];
-  bool any = false;
-  for (std::uint32_t p = begin; p < end; ++p) {
-    if (!flows(p)) continue;
-    CellSum<Stress>& cell = cells[cell_of(p)];
-    const double mass = set.mass_of(static_cast<int>(p));
-    const Stress own = stress(p);
+void StressAverage::gather(const AveragedSet& one, double* before, const Grid& grid, int owner) {
+  Particles<Geometry, T> particles(*one.set, before);
+  const int place = grid.first_owner + owner;
+  const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(owner));
+  for (std::uint32_t p = one.set->begin[place]; p < one.set->begin[place + 1]; ++p) {
+    if (!particles.flows(p)) continue;
+    Cell& cell = cell_at(grid, owner, particles.cell(p, grid.layout, origin));
+    const double mass = particles.mass(p);
+    const auto stress = particles.stress(p);
     cell.mass += mass;
-    for (int i = 0; i < Tensor::kCount; ++i) cell.stress[i] += mass * own[i];
+    cell.volume += mass * particles.volume_ratio(p);
+    for (std::size_t i = 0; i < stress.size(); ++i) cell.stress[i] += mass * stress[i];
     ++cell.particles;
-    any = any || cell.particles > 1;
   }
+}
+
+template <class Geometry, class T>
+double StressAverage::share(const AveragedSet& one, double* before, const Grid& grid, int owner) {
+  using Tensor = Stored<Geometry>;
+  Particles<Geometry, T> particles(*one.set, before);
+  const int place = grid.first_owner + owner;
+  const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(owner));
   double lost = 0.0;
-  if (any) {
-    for (std::uint32_t p = begin; p < end; ++p) {
-      if (!flows(p)) continue;
-      const CellSum<Stress>& cell = cells[cell_of(p)];
-      if (cell.particles < 2) continue;
-      Stress mean = cell.stress;
-      for (double& value : mean) value /= cell.mass;
-      const double energy = Tensor::energy(stress(p), one.bulk, one.shear) - Tensor::energy(mean, one.bulk, one.shear);
-      for (int i = 0; i < Tensor::kCount; ++i) component[i][p] = static_cast<T>(mean[i]);
-      // Of Cauchy stress on the present volume.
-      const double j = determinant(Geometry::load_matrix(set.f, static_cast<int>(p)));
-      lost += set.mass_of(static_cast<int>(p)) * energy * one.density / j;
-    }
+  for (std::uint32_t p = one.set->begin[place]; p < one.set->begin[place + 1]; ++p) {
+    if (!particles.flows(p)) continue;
+    const Cell& cell = cell_at(grid, owner, particles.cell(p, grid.layout, origin));
+    if (cell.particles < 2) continue;
+    typename Tensor::Stress mean;
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = cell.stress[i] / cell.mass;
+    const double ratio = particles.volume_ratio(p), mean_ratio = cell.volume / cell.mass;
+    // Cauchy stress is that which is stored times density over volume ratio, and acts on the present volume.
+    const auto energy = [&](const typename Tensor::Stress& s, double j) {
+      return Tensor::energy(s, one.bulk, one.shear) * one.density / j;
+    };
+    lost += particles.mass(p) * (energy(particles.stress(p), ratio) - energy(mean, mean_ratio));
+    particles.set_stress(p, mean);
+    particles.swell(p, mean_ratio / ratio);
   }
-  for (std::uint32_t p = begin; p < end; ++p) before[p] = strain[p];
   return lost;
 }
 
 template <class Geometry, class T>
 void StressAverage::average(const AveragedSet& one, std::size_t place, const StepContext& context) {
-  const GridLayout& layout = context.layout();
   double* before = one.set->brought[place].values.data();
-  for (const auto& grid : context.fields) {
-    const BlockTable& blocks = grid->blocks;
-    const int owners = blocks.owners(), first = grid->first_owner;
+  for (const auto& field : context.fields) {
+    const Grid& grid = *field;
+    const int owners = grid.blocks.owners();
     of_owner_.resize(owners);
+    cells_.assign(static_cast<std::size_t>(grid.blocks.size()) * grid.layout.nodes_per_block(), {});
+    // A block adds to its own cells and to the last ones of those before it, so blocks of one colour share no cell.
+    for (int colour = 0; colour < grid.blocks.colours(); ++colour) {
+      const std::vector<int>& of_colour = grid.blocks.owners_of_colour(colour);
+      const int count = static_cast<int>(of_colour.size());
 #pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int owner = 0; owner < owners; ++owner) {
-      of_owner_[owner] =
-          average_block<Geometry, T>(one, before, one.set->begin[first + owner], one.set->begin[first + owner + 1],
-                                     layout, blocks.block(blocks.owner_block(owner)));
+      for (int i = 0; i < count; ++i) gather<Geometry, T>(one, before, grid, of_colour[i]);
     }
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (int owner = 0; owner < owners; ++owner) of_owner_[owner] = share<Geometry, T>(one, before, grid, owner);
     for (const double lost : of_owner_) taken_ += lost;
   }
+  Particles<Geometry, T> particles(*one.set, before);
+  const auto count = static_cast<std::uint32_t>(one.set->size());
+  for (std::uint32_t p = 0; p < count; ++p) particles.remember(p);
 }
 
 void StressAverage::momentum_gathered(StepContext& context) {

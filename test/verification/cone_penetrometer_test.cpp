@@ -4,15 +4,15 @@
 // beside the tip, is exact for a strip on weightless soil with associated flow (Prandtl; Reissner (1924)). A round
 // footing bears more than a strip, by a factor of 1 + tan phi after De Beer (1970). A footing of width B at a depth
 // D > B bears more than one on the surface, by 1 + 2 tan phi (1 - sin phi)^2 arctan(D / B) after Brinch Hansen (1970).
-// Factors of other authors give a third more (Meyerhof (1963): 1 + K / 10 and 1 + sqrt(K) D / 10 B, with
-// K = tan^2(45 + phi/2)), and soil without dilation, as here, bears less than all of these assume. Asked: Brinch
-// Hansen's product within a third.
+// All of these assume that the soil dilates by its friction angle; soil without dilation, as here, bears less. With the
+// reduced friction of Davis (1968), tan phi* = sin phi, they give the usual estimate of it. Asked: between the two.
 #include <fmt/core.h>
 
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "mpm/study/limit_loads.hpp"
 #include "page.hpp"
 #include "scene_run.hpp"
 
@@ -23,11 +23,15 @@ constexpr double kPi = 3.14159265358979323846;
 // Numbers of the scene.
 constexpr double kRadius = 0.01784, kFriction = 34.0 * kPi / 180.0, kUnitWeight = 1417.0 * 9.81;  // [m], [], [N/m^3]
 constexpr double kSurface = 0.44;                                                                 // [m]
-const double kStrip = std::exp(kPi * std::tan(kFriction)) * std::pow(std::tan(0.25 * kPi + 0.5 * kFriction), 2);
+const double kStrip = mpm::study::bearing_surcharge_factor(kFriction);
 
 constexpr double kFrom = 0.2;  ///< depth from which the resistance is compared [m]
-double depth_factor(double depth) {
-  return 1.0 + 2.0 * std::tan(kFriction) * std::pow(1.0 - std::sin(kFriction), 2) * std::atan(depth / (2.0 * kRadius));
+/// Resistance of a round footing at a depth [m] over the vertical stress there.
+double round_footing(double friction, double depth) {
+  const double shape = 1.0 + std::tan(friction);
+  const double deep =
+      2.0 * std::tan(friction) * std::pow(1.0 - std::sin(friction), 2) * std::atan(depth / (2.0 * kRadius));
+  return mpm::study::bearing_surcharge_factor(friction) * shape * (1.0 + deep);
 }
 
 /// Resistance over the cone's area, as means over each centimetre of depth.
@@ -67,17 +71,21 @@ void sound(const std::string& name, double cell, bool rough) {
                       "34 degrees, no dilation) at rest, at 0.5 m/s. Cells of {:.0f} mm.",
                       1e3 * cell))
       .exact(
-          "none is known; asked is the bearing capacity of a round footing at the tip's depth: that of a strip, N_q "
-          "times the vertical stress there, with De Beer's factor of shape and Brinch Hansen's of depth. Drawn are the "
-          "first two alone.",
+          "none is known; above, the bearing capacity of a round footing at the tip's depth in sand that dilates: that "
+          "of "
+          "a strip, N_q times the vertical stress there, with De Beer's factor of shape and Brinch Hansen's of depth; "
+          "below, the same with Davis's reduced friction of sand that does not dilate. Drawn are N_q and De Beer's "
+          "factor alone.",
           "Reissner (1924); E. E. De Beer (1970), Geotechnique 20(4), 387-411; J. Brinch Hansen (1970), Danish "
-          "Geotechnical Institute, Bulletin 28")
+          "Geotechnical Institute, Bulletin 28; E. H. Davis (1968), in Soil Mechanics: Selected Topics")
       .scene("cone_penetrometer");
   const std::string cells = fmt::format("grid.cell={}", cell);
   const Sounding smooth = push({cells});
   const double factor = smooth.factor(kFrom), shape = 1.0 + std::tan(kFriction);
-  const double at_depth = shape * kStrip * depth_factor(0.5 * (kFrom + smooth.depth.back()));
-  page.near("tip resistance over vertical stress, smooth, below 0.2 m", factor, at_depth, 1.0 / 3.0, "");
+  const double middle = 0.5 * (kFrom + smooth.depth.back());
+  page.above("tip resistance over vertical stress, smooth, below 0.2 m: Davis's friction", factor,
+             round_footing(mpm::study::davis_friction(kFriction, 0.0), middle), "");
+  page.below("the same: sand that dilates", factor, round_footing(kFriction, middle), "");
   page.beside("the same, beside N_q of a strip", factor, kStrip, "");
   page.beside("the same, beside N_q with De Beer's factor", factor, shape * kStrip, "");
   page.report("tip resistance at the end", smooth.resistance.back(), "kPa");
@@ -100,12 +108,9 @@ void sound(const std::string& name, double cell, bool rough) {
   page.figure().panel("Speed at 0.245 m", "r [m]", "z [m]").particles("speed [m/s]", smooth.r, smooth.z, smooth.speed);
   page.meaning(
       "The resistance grows with depth and comes to a multiple of the vertical stress that hardly changes from ten "
-      "radii on: 47 on cells of 8 mm, two to the cone's radius, where the force also varies as the tip passes each "
-      "row. "
-      "That is three tenths below the formulas for a footing at that depth, which are made for sand that dilates, and "
-      "near De Beer's for one at the surface. Real cones in loose sand meet more, for deeper sand is stiffer. With "
-      "friction the "
-      "force is that on cone and rod together.");
+      "radii on, and hardly from cells of 8 mm, two to the cone's radius, to cells of half of that. It lies between "
+      "the two estimates, nearer to that of sand which does not dilate. Real cones in loose sand meet more, for deeper "
+      "sand is stiffer. With friction the force is that on cone and rod together.");
 }
 
 TEST(ConePenetrometer, BearsMoreThanAStrip) { sound("cone_penetrometer", 0.008, false); }

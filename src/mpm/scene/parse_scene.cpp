@@ -117,7 +117,8 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_materials(root, scene);
   const bool soil = std::any_of(definition.materials.begin(), definition.materials.end(), [](const auto& material) {
     return std::holds_alternative<DruckerPragerDefinition>(material.law) ||
-           std::holds_alternative<MohrCoulombDefinition>(material.law);
+           std::holds_alternative<MohrCoulombDefinition>(material.law) ||
+           std::holds_alternative<MuIDefinition>(material.law);
   });
   if (soil && !definition.method.average_stress && averages_stress(definition.method, definition.geometry)) {
     scene.choices.emplace_back("method.average_stress",

@@ -197,7 +197,7 @@ TEST(Conversions, SolverStateKeepsItsNumbers) {
   EXPECT_EQ(message.energy_interface, 5.5);
   EXPECT_EQ(message.particles_returned, 6U);
   expect_same(state, message, state_quantities());
-  ASSERT_EQ(message.values.size(), 2U);
+  ASSERT_EQ(message.values.size(), 3U);
   EXPECT_EQ(message.values[0].name, "energy total");
   EXPECT_EQ(message.values[0].value, std::vector<double>{7.0});
   EXPECT_EQ(message.values[1].name, "heat");

@@ -26,6 +26,8 @@ class Leaving final : public Module {
 
   std::string name() const override { return "leaving"; }
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  /// "leaving", dissipated: the kinetic energy of the motion that led out.
+  void energies(EnergyReport& report) const override { report.add("leaving", NamedEnergy::Kind::dissipated, taken_); }
   /// "returned": how many particles have left.
   void numbers(std::vector<NamedNumber>& list) const override {
     list.push_back({"returned", "1", static_cast<double>(count_)});
@@ -39,6 +41,7 @@ class Leaving final : public Module {
     archive.value("count", count_);
     archive.list("left", left_);
     account_.serialise(archive);
+    archive.value("taken", taken_);
   }
 
  private:
@@ -48,6 +51,7 @@ class Leaving final : public Module {
   std::uint64_t count_ = 0;
   std::vector<std::uint8_t> left_;  ///< by id
   ImpulseAccount account_;
+  double taken_ = 0.0;  ///< [J]
 };
 
 }  // namespace mpm

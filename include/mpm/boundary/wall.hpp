@@ -14,6 +14,7 @@
 
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/step/coulomb.hpp"
+#include "mpm/step/node_loss.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
@@ -34,8 +35,9 @@ struct WallDefinition {
 
 class Wall final : public FieldStage {
  public:
-  /// `face`: 2 * grid axis, + 1 for the upper one. `name` as in scenes ("z_min").
-  Wall(int face, const WallDefinition& definition, const std::string& name);
+  /// `face`: 2 * grid axis, + 1 for the upper one. `name` as in scenes ("z_min"). `gravity` [m/s^2] serves the account
+  /// of energy alone.
+  Wall(int face, const WallDefinition& definition, const std::string& name, const Vec3& gravity = Vec3::Zero());
 
   std::string name() const override { return account_.name; }
   Ranks ranks(Hook hook) const override {
@@ -50,9 +52,18 @@ class Wall final : public FieldStage {
   void increment_found(FieldContext& context) override;
   void grid_advanced(FieldContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  /// "wall_friction" of a frictional wall, and "wall_loss", of motion that walls hold up.
+  void energies(EnergyReport& report) const override {
+    if (definition_.kind == WallKind::frictional) {
+      report.add("wall_friction", NamedEnergy::Kind::dissipated, loss_.friction);
+    }
+    report.add("wall_loss", NamedEnergy::Kind::dissipated, loss_.held);
+  }
   void serialise(StateArchive& archive) override {
     account_.serialise(archive);
     archive.value("given", given_);
+    archive.value("friction_energy", loss_.friction);
+    archive.value("held_energy", loss_.held);
     held_.serialise(archive);
   }
 
@@ -60,16 +71,21 @@ class Wall final : public FieldStage {
   struct Node {
     NodeRef ref;
     std::uint64_t id;
-    Hold hold;  ///< in the step before, then in this one
+    Hold hold;      ///< in the step before, then in this one
+    NodeLoss loss;  ///< in this step
   };
   /// Frictional: how the wall holds the node; else what it always does.
   ContactChange change(const Vec3& velocity, const Vec3& normal) const;
+  /// The change of a velocity for the strain; `held`: how the wall held the node before.
+  Vec3 change_for_strain(const Vec3& velocity, const Vec3& normal, Hold held) const;
   Vec3 normal(const GridLayout& layout) const;
 
   int face_;
   WallDefinition definition_;
+  Vec3 gravity_;
   ImpulseAccount account_;
   Vec3 given_ = Vec3::Zero();  ///< in this step [N s]
+  SurfaceLoss loss_;
   std::vector<Node> nodes_;
   HeldNodes held_;                ///< frictional only
   std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from

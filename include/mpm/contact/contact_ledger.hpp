@@ -12,6 +12,7 @@
 
 #include "mpm/contact/contact_report.hpp"
 #include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/node_loss.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
@@ -22,7 +23,7 @@ struct ContactImpulse {
   Vec3 normal;                    ///< out of the body
   Vec3 arm;                       ///< from the body's origin [m]
   Vec3 velocity;                  ///< of the body's surface there [m/s]
-  Vec3 mean_slip = Vec3::Zero();  ///< of the material against it, mean of before and after the impulse [m/s]
+  Vec3 mean_slip = Vec3::Zero();  ///< of the material against it, between the ends of the last step and of this [m/s]
 };
 
 /// What contact has done since the start.
@@ -34,6 +35,7 @@ struct ContactSums {
   Vec3 pressed_arm = Vec3::Zero();      ///< arms times those magnitudes [N s m]
   double area_time = 0.0;               ///< area in contact, over time [m^2 s]
   double friction_energy = 0.0;         ///< taken by sliding [J]
+  double held_energy = 0.0;             ///< of motion that contact at nodes held up [J]
   double work = 0.0;                    ///< done by the body on the material [J]
 };
 
@@ -43,6 +45,11 @@ class ContactLedger {
   ContactLedger(const RigidBody& body, bool axisymmetric);
 
   void give(const ContactImpulse& given);
+  /// What impulses took that were given without a slip.
+  void add_loss(const SurfaceLoss& loss) {
+    sums_.friction_energy += loss.friction;
+    sums_.held_energy += loss.held;
+  }
   /// Call when all impulses of a step have been given. `places`: nodes or points in contact; `area` [m^2].
   void end_step(double dt, int places, double area);
 
@@ -56,10 +63,12 @@ class ContactLedger {
   void serialise(StateArchive& archive);
 
   const RigidBody& body() const { return body_; }
-  /// Adds the work of the body on the material, and the energy that sliding on it took.
+  /// Adds the work of the body on the material, the energy that sliding on it took, and that of motion which it held
+  /// up.
   void energies(EnergyReport& report) const {
     report.add("contact_work", NamedEnergy::Kind::work, sums_.work);
     report.add("friction", NamedEnergy::Kind::dissipated, sums_.friction_energy);
+    if (sums_.held_energy != 0.0) report.add("contact_loss", NamedEnergy::Kind::dissipated, sums_.held_energy);
   }
   const ImpulseAccount& account() const { return account_; }  ///< impulses given to the material
   const ContactSums& sums() const { return sums_; }

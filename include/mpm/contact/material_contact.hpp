@@ -106,7 +106,8 @@ class MaterialContact final : public Stage, public ContactReporter {
   struct Scratch {
     std::vector<NodeMaterial> materials;
     std::vector<NodePair> pairs;
-    std::vector<Vec3> velocities, accelerations;  ///< of the materials before
+    std::vector<Vec3> velocities, accelerations;  ///< of the materials before contact
+    std::vector<Vec3> gathered;                   ///< velocities of the materials as the step began, before
   };
   /// Sums over a pair's nodes, of a step or since the start.
   struct Sums {

@@ -30,6 +30,11 @@ inline Vec3 kept_part(const Vec3& vector, const Vec3& normal, PairHold hold) {
   return holds_tangential(hold) ? Vec3(vector - along) : Vec3::Zero();
 }
 
+/// The slip that is left of a relative velocity where a pair is held.
+inline Vec3 held_slip(const Vec3& relative, const Vec3& normal, PairHold hold) {
+  return relative - kept_part(relative, normal, hold);
+}
+
 /// The impulse of contact on the first material of a pair; the second gets the opposite.
 struct PairImpulse {
   Vec3 on_a = Vec3::Zero();  ///< [N s]

@@ -24,6 +24,7 @@
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/step/coulomb.hpp"
+#include "mpm/step/node_loss.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
@@ -31,9 +32,9 @@ namespace mpm {
 class RigidContact final : public Stage, public ContactReporter {
  public:
   /// `body`, `fields` and `sides` must outlive the stage; `sides` is null in a scene without thin tools. `geometry`
-  /// only tells axisymmetric scenes from others.
+  /// only tells axisymmetric scenes from others; `gravity` [m/s^2] serves the account of energy alone.
   RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry = GeometryKind::solid,
-               const ToolSides* sides = nullptr);
+               const ToolSides* sides = nullptr, const Vec3& gravity = Vec3::Zero());
 
   std::string name() const override { return ledger_.account().name; }
   Ranks ranks(Hook) const override { return {Rank::rigid_body}; }
@@ -59,6 +60,7 @@ class RigidContact final : public Stage, public ContactReporter {
     Vec3 velocity;  ///< of the body's surface there [m/s]
     Vec3 arm;       ///< from the body's origin [m]
     Hold hold;
+    NodeLoss loss;  ///< in this step
   };
   struct NearBlock {
     int field, block;
@@ -69,13 +71,14 @@ class RigidContact final : public Stage, public ContactReporter {
   /// visit(node, grid of its field)
   template <class Visit>
   void each_node(Visit&& visit);
-  /// Books the impulse on one node; `slip`: its relative velocity before [m/s].
-  void give(const Node& node, double mass, const Vec3& slip, const Vec3& change);
+  /// Books the impulse on one node.
+  void give(const Node& node, const Vec3& impulse);
 
   const RigidBody& body_;
   Fields& fields_;
   int threads_;
   bool axisymmetric_;
+  Vec3 gravity_;  ///< [m/s^2]
   const ToolSides* sides_;
   const ThinTool* thin_;                  ///< the body as a thin tool, if its sides have a field each; else null
   std::vector<NearBlock> near_;           ///< blocks whose nodes may lie in the body

@@ -45,7 +45,10 @@ class RigidParticleContact final : public Stage, public ContactReporter {
   void increment_found(StepContext& context) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(ledger_.account()); }
-  void energies(EnergyReport& report) const override { ledger_.energies(report); }
+  void energies(EnergyReport& report) const override {
+    ledger_.energies(report);
+    report.leave_open();  // motion that it holds up is not counted
+  }
   ContactLedger* ledger_of(const RigidBody& body) override { return &body == &body_ ? &ledger_ : nullptr; }
   void serialise(StateArchive& archive) override;
 
@@ -72,7 +75,6 @@ class RigidParticleContact final : public Stage, public ContactReporter {
   PairHold held(int field, std::uint64_t node) const;
   /// Applies the law's impulse to the `velocity` of a node's material.
   void act(Node& node, Vec3& velocity, double dt);
-  void give(const Node& node, const Vec3& before, const Vec3& after);
 
   const RigidBody& body_;
   RigidParticleSettings settings_;

@@ -1,7 +1,8 @@
 // How particles take over the grid's motion, a register of them at a time, and how far they may go before they have to
 // be sorted.
 //
-// kIncrement   velocity gains a dt, less the slip that the PIC fraction takes away. GIMP notes (2.15), (2.16).
+// kIncrement   velocity gains a dt, less the slip that the PIC fraction takes away. GIMP notes (2.15), (2.16). What is
+//              taken times the mean of the velocity before and after is the kinetic energy that goes with it, exactly.
 // kAdopt       velocity becomes the grid's; x += (V^n + V^{n+1}) dt / 2. Method reference 6.6 (XPIC, FMPM).
 // kAffine      velocity becomes the grid's; x += V^{n+1} dt, without which angular momentum is not kept.
 // About an axis (Rings) the displacement gains what moves a particle by the grid's velocity at its place in place of
@@ -28,10 +29,10 @@ class Advance {
 
   /// Component c of particles [p, p + lanes), of which the grid says velocity and acceleration. Moves them; returns
   /// their displacement [m]. `beside`: of rings, a displacement that comes to the velocity's.
-  template <bool Damped>
+  template <bool Counted, bool Damped>
   W particles(int c, int p, int lanes, W grid_velocity, W acceleration, W beside) {
     W velocity = W::load_first(set_.v[c] + p, lanes);
-    W displacement = advance<Damped>(c, p, lanes, grid_velocity, acceleration, velocity);
+    W displacement = advance<Counted, Damped>(c, p, lanes, grid_velocity, acceleration, velocity);
     if constexpr (Rings) displacement += beside;
     velocity.store_first(set_.v[c] + p, lanes);
     W::B::displace(set_.next_x[c] + p, set_.x[c] + p, displacement.v, lanes);
@@ -44,16 +45,18 @@ class Advance {
     return dt_ * (Kind == mpm_kernel::kIncrement ? velocity - half_dt_ * acceleration : velocity);
   }
 
-  /// What damping took, if it acted.
+  /// What damping and PIC took, if they were counted.
   void add_to(mpm_kernel::Moved& moved) const {
     const double mass = Rings ? 1.0 : set_.mass;  // rings have been weighed one by one
     for (int c = 0; c < Dim; ++c) moved.drag[c] += total(drag_[c]) * mass;
+    moved.slip_energy += 0.5 * total(slip_work_) * mass;
+    moved.drag_energy += 0.5 * total(drag_work_) * mass;
     moved.grid_kinetic += 0.5 * total(grid_square_) * mass;
     moved.particle_kinetic += 0.5 * total(own_square_) * mass;
   }
 
  private:
-  template <bool Damped>
+  template <bool Counted, bool Damped>
   W advance(int c, int p, int lanes, W grid_velocity, W acceleration, W& velocity) {
     const W old = velocity;
     W drag(0.0);
@@ -62,11 +65,14 @@ class Advance {
       const W slip = pic_ * (velocity - (grid_velocity - acceleration * dt_));
       velocity += acceleration * dt_ - slip;
       if constexpr (Damped) velocity -= drag * dt_;
+      if constexpr (Counted) slip_work_ += weigh(p, lanes, slip * (old + velocity));
+      if constexpr (Damped) drag_work_ += weigh(p, lanes, drag * dt_ * (old + velocity));
       if constexpr (Damped) acceleration += drag;
       return dt_ * (grid_velocity - W(0.5) * slip - half_dt_ * acceleration);
     }
     velocity = grid_velocity;
     if constexpr (Damped) velocity -= drag * dt_;
+    if constexpr (Damped) drag_work_ += weigh(p, lanes, drag * dt_ * (old + velocity));
     return Kind == mpm_kernel::kAdopt ? half_dt_ * (old + velocity) : dt_ * velocity;
   }
 
@@ -79,14 +85,16 @@ class Advance {
     const W on_grid = of_place[0] == nullptr ? rate_[0] : W(W::B::place(of_place[0] + p, lanes, 0.0, 1.0, 0.0));
     const W on_own = of_place[1] == nullptr ? rate_[1] : W(W::B::place(of_place[1] + p, lanes, 0.0, 1.0, 0.0));
     const W drag = on_grid * grid_velocity + on_own * own;
-    const auto there = WideMask<T>::first(lanes);
-    W weight(1.0);
-    if constexpr (Rings) weight = mass_of<true>(set_, p, lanes);
-    const auto weigh = [&](W x) { return select(there, Rings ? weight * x : x, W(0.0)); };
-    drag_[c] += weigh(drag * dt_);
-    grid_square_ += weigh(grid_velocity * grid_velocity);
-    own_square_ += weigh(own * own);
+    drag_[c] += weigh(p, lanes, drag * dt_);
+    grid_square_ += weigh(p, lanes, grid_velocity * grid_velocity);
+    own_square_ += weigh(p, lanes, own * own);
     return drag;
+  }
+  // A term of a sum over particles of mass 1, or rings of their own; lanes beyond the last particle give nothing.
+  W weigh(int p, int lanes, W x) const {
+    const auto there = WideMask<T>::first(lanes);
+    if constexpr (Rings) return select(there, mass_of<true>(set_, p, lanes) * x, W(0.0));
+    return select(there, x, W(0.0));
   }
 
   static double total(W sum) {
@@ -98,6 +106,7 @@ class Advance {
   const SetView<T>& set_;
   W dt_, half_dt_, pic_, rate_[2];
   W drag_[Dim] = {}, grid_square_ = W(0.0), own_square_ = W(0.0);
+  W slip_work_ = W(0.0), drag_work_ = W(0.0);  // twice
 };
 
 /// How far particles of a set may go before they have to be sorted.

@@ -107,6 +107,7 @@ struct MoveSettings {
   double dt;                      ///< [s]
   double flip;                    ///< FLIP fraction
   bool regather;                  ///< the new momentum goes to the grid
+  bool counted = false;           ///< what the PIC fraction takes is counted; it is whenever `damped`
   bool damped = false;            ///< damping acts in the particles' update, or its energy is asked for
   bool by_point = false;          ///< about an axis: AxisMotion::point
   double grid_damping = 0.0;      ///< rate on the grid's velocity at the particle, where it is constant [1/s]
@@ -119,6 +120,8 @@ struct Moved {
   bool gone;   ///< some have left the tile's reach or the place where they may be, or are not finite
   int groups;  ///< groups of particles, and how often they were gathered: once when all lanes share a column
   int parts;
+  double slip_energy = 0.0;       ///< counted: kinetic energy that the PIC fraction took [J]
+  double drag_energy = 0.0;       ///< damped: the same of damping [J]
   double drag[3] = {};            ///< damped: momentum that damping took [N s]
   double grid_kinetic = 0.0;      ///< damped: sum of m |v0|^2 / 2, v0 the grid's velocity that is damped [J]
   double particle_kinetic = 0.0;  ///< damped: the same of the particles' own [J]

@@ -176,7 +176,7 @@ class Passes {
       const Reach<T, kDim, Interpolator::kNodes> reach(grid, block, set);
       Advance<T, kDim, Kind, kRings> advance(set, settings);
       WideMask<T> inside = reach.everywhere(), tight = inside;
-      const auto advance_all = [&](auto damped, const ParticleChunk& chunk) {
+      const auto advance_all = [&](auto counted, auto damped, const ParticleChunk& chunk) {
         WideMask<T> still_inside = inside, still_tight = tight;
         for (int q = 0; q < chunk.count; q += W::kLanes) {
           const int lanes = chunk.count - q;
@@ -190,8 +190,8 @@ class Passes {
                 beside = advance.to_point(W::load(at_place[0] + q) - velocity, change);
               }
             }
-            const W displacement = advance.template particles<decltype(damped)::value>(c, chunk.first + q, lanes,
-                                                                                       velocity, acceleration, beside);
+            const W displacement = advance.template particles<decltype(counted)::value, decltype(damped)::value>(
+                c, chunk.first + q, lanes, velocity, acceleration, beside);
             reach.check(c, in.cells(c, q), displacement, lanes, still_inside, still_tight);
           }
         }
@@ -208,13 +208,15 @@ class Passes {
         }
         if constexpr (kAffine) in.gather_affine(motion);
         if (settings.damped) {
-          advance_all(std::true_type(), chunk);
+          advance_all(std::true_type(), std::true_type(), chunk);
+        } else if (settings.counted) {
+          advance_all(std::true_type(), std::false_type(), chunk);
         } else {
-          advance_all(std::false_type(), chunk);
+          advance_all(std::false_type(), std::false_type(), chunk);
         }
         if (settings.regather) put_momentum<kAffine>(in, set, chunk, values, momentum);
       });
-      if (settings.damped) advance.add_to(moved);
+      if (settings.counted || settings.damped) advance.add_to(moved);
       moved.gone = moved.gone || !all(inside);
       moved.loose = moved.loose || !all(tight);
     });

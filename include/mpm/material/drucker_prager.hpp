@@ -14,11 +14,11 @@
 // s1 + s3 = 2/3 eta_bar sqrt(J2), and the dilation of the plane is psi.
 //
 // Dilation ends when the soil has gained a given volume, and its strength remains; or both fall together to those of
-// the critical state (softening.hpp; of a round cone, eta and xi c fall in a straight line). Weak: plastic work is
-// computed with the stress at the end of a step; no hardening; hypoelastic, meant for small elastic strain; with a
-// slope that follows the Lode angle, flow is not normal to the surface even if phi = psi, except in the states named
-// above. Source: method reference 10.6; exact-solutions 31 for plane strain with any dilation; the surface is
-// Mohr-Coulomb's in invariants, G. C. Nayak, O. C. Zienkiewicz (1972), J. Struct. Div. ASCE 98, 949-954.
+// the critical state (softening.hpp; of a round cone, eta and xi c fall in a straight line). Plastic work has the mean
+// stress of a step (returned_work.hpp). Weak: no hardening; hypoelastic, meant for small elastic strain; with a slope
+// that follows the Lode angle, flow is not normal to the surface even if phi = psi, except in the states named above.
+// Source: method reference 10.6; exact-solutions 31 for plane strain with any dilation; the surface is Mohr-Coulomb's
+// in invariants, G. C. Nayak, O. C. Zienkiewicz (1972), J. Struct. Div. ASCE 98, 949-954.
 #pragma once
 
 #include <algorithm>
@@ -27,6 +27,7 @@
 
 #include "mpm/material/linear_elastic.hpp"
 #include "mpm/material/opening.hpp"
+#include "mpm/material/returned_work.hpp"
 #include "mpm/material/softening.hpp"
 #include "mpm/math/principal.hpp"
 
@@ -53,7 +54,12 @@ class DruckerPrager : public LawTraits {
     const Surface<T> now = surface(history[kPlasticStrain]);
     const T yield_root_j2 = now.strength - now.eta * mean;
     const auto shears = (yield_root_j2 < T(0)) | (j2 > yield_root_j2 * yield_root_j2);
-    if (any(shears | (mean > now.cutoff))) flow(now, shears, sqrt(j2), yield_root_j2, step.j, mean, deviator, history);
+    const auto flows = shears | (mean > now.cutoff), closes = mean > trial_mean;
+    if (any(flows)) flow(now, shears, sqrt(j2), yield_root_j2, step.j, mean, deviator, history);
+    if (any(flows | closes)) {
+      const T work = returned_work(previous, trial, scale_shift(deviator, T(1), mean), bulk_, shear_);
+      history[kPlasticWork] += select(flows | closes, work * to_tau, T(0));
+    }
     tau = scale_shift(deviator, to_tau, mean * to_tau);
   }
 
@@ -142,7 +148,6 @@ class DruckerPrager : public LawTraits {
     deviator = scale_shift(deviator, select(shears, left / max(root_j2, T(kAlmostNothing)), T(1)), T(0));
     history[kOpening] += opened;
     history[kPlasticStrain] += multiplier;
-    history[kPlasticWork] += (left * multiplier + mean * (dilation + opened)) * (j * T(1.0 / density_));
   }
 
   static constexpr float kAlmostNothing = std::numeric_limits<float>::min();  // avoids 0 / 0

@@ -6,7 +6,7 @@
 // the cut-off. Opened soil (apex, cut-off) closes before it carries pressure (opening.hpp). Dilation ends when the soil
 // has gained a given volume, and its strength remains; or both fall together to those of the critical state
 // (softening.hpp). In a wide register, lanes that are certainly elastic are computed together and the others one by
-// one. Weak: plastic work is computed with the stress at the end of a step; no hardening; hypoelastic, meant for small
+// one. Plastic work has the mean stress of a step (returned_work.hpp). Weak: no hardening; hypoelastic, meant for small
 // elastic strain; an opening is stored as a volume without direction, and only where no pressure remains: a crack in
 // soil under pressure along the crack heals as it closes. Source: method reference 10.7; de Souza Neto, Peric & Owen
 // (2008) section 8.2; Clausen, Damkilde & Andersen (2006).
@@ -19,6 +19,7 @@
 
 #include "mpm/material/linear_elastic.hpp"
 #include "mpm/material/opening.hpp"
+#include "mpm/material/returned_work.hpp"
 #include "mpm/material/softening.hpp"
 #include "mpm/math/principal.hpp"
 
@@ -47,6 +48,11 @@ class MohrCoulomb : public LawTraits {
     const T j2 = T(0.5) * squared_norm(scale_shift(cauchy, T(1), -mean));
     const auto suspects = fall_.falls() ? may_flow(mean, j2, fall_.left(history[kPlasticStrain])) : may_flow(mean, j2);
     if (any(suspects)) flow_by_lanes(select(suspects, T(1), T(0)), step.j, cauchy, history);
+    const auto returns = suspects | (mean > trial_mean);
+    if (any(returns)) {
+      const T work = returned_work(previous, trial, cauchy, bulk_, shear_);
+      history[kPlasticWork] += select(returns, work * to_tau, T(0));
+    }
     tau = scale_shift(cauchy, to_tau, T(0));
   }
 
@@ -177,11 +183,10 @@ class MohrCoulomb : public LawTraits {
     // Plastic strain is the elastic strain lost: C^-1 applied to the stress removed by the return.
     for (int k = 0; k < 3; ++k) plastic[k] -= s[k];
     const T mean = (plastic[0] + plastic[1] + plastic[2]) / T(3);
-    T shear_strain = T(0), work = T(0);
+    T shear_strain = T(0);
     for (int k = 0; k < 3; ++k) {
       const T deviator = (plastic[k] - mean) / T(2.0 * shear_);
       shear_strain += T(2) * deviator * deviator;
-      work += s[k] * (deviator + mean / T(3.0 * bulk_));
       axes.value[order[k]] = s[k];
     }
     // Soil that is still under pressure has not parted. If an opening were recorded beside pressure, one would cancel
@@ -189,7 +194,6 @@ class MohrCoulomb : public LawTraits {
     const bool parts = has_room || s[0] + s[1] + s[2] >= T(0);
     if (region >= Region::apex && parts) opening += std::max(mean / T(bulk_), T(0));
     history[kPlasticStrain] += std::sqrt(shear_strain);
-    history[kPlasticWork] += work * j / T(density_);
     cauchy = compose(axes, cauchy);
   }
 

@@ -9,9 +9,10 @@
 namespace mpm {
 
 struct NamedEnergy {
-  /// stored: in the material now. of_bodies: of free rigid bodies now. dissipated: since the start. work: done on the
-  /// material, or on free rigid bodies, since the start.
-  enum class Kind { stored, of_bodies, dissipated, work };
+  /// stored: in the material now. dissipated: by the material, or where it slides, since the start. work: done on the
+  /// material since the start. of_bodies: of free rigid bodies now. at_bodies: work on free rigid bodies since the
+  /// start, or lost where they meet the material.
+  enum class Kind { stored, dissipated, work, of_bodies, at_bodies };
   std::string name;
   Kind kind = Kind::stored;
   double value = 0.0;  ///< [J]
@@ -48,8 +49,16 @@ class EnergyReport {
   /// Energy stored in the material, and of free rigid bodies [J].
   double whole() const { return total() + sum(Kind::of_bodies); }
 
+  /// What the material stores and has dissipated, less the work done on it [J]. It does not change in a run whose
+  /// energy is all accounted for.
+  double balance() const { return sum(Kind::stored) + sum(Kind::dissipated) - sum(Kind::work); }
+  /// Says that the run loses energy which no part of it counts, so that the balance has no meaning.
+  void leave_open() { closed_ = false; }
+  bool closed() const { return closed_; }
+
  private:
   std::vector<NamedEnergy> list_;
+  bool closed_ = true;
 };
 
 }  // namespace mpm

@@ -25,6 +25,10 @@ const std::vector<PairQuantity>& pair_quantities();
 /// Of the solver; impulses have names of their own and stand beside these.
 const std::vector<StateQuantity>& state_quantities();
 
+/// Name among SolverState::values: what the material stores and has dissipated, less the work done on it [J]
+/// (mpm::EnergyReport::balance()). Absent where the run does not count all that takes energy.
+inline constexpr char kBalance[] = "balance";
+
 /// An energy of the state [J], or work done.
 struct EnergyFigure {
   std::string key;      ///< in JSON

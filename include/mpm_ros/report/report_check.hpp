@@ -68,6 +68,8 @@ class RunChecks : public RunVisitor {
   void add_up(KnownImpulse& known, std::int64_t time, const Contact& contact, const mpm::Vec3& force);
   /// Whether time and steps since the last state belong together.
   void check_steps(std::int64_t time, const SolverState& state);
+  /// Energy that came or went without an account since the first state.
+  void check_balance(std::int64_t time, const SolverState& state);
   void check_against_material(const std::string& body, std::int64_t time, const mpm::Vec3& impulse);
 
   std::int64_t sync_period_;  ///< [ns]
@@ -96,7 +98,12 @@ class RunChecks : public RunVisitor {
   double worst_audit_ = 0.0;
   double worst_impulse_ = 0.0;
   double worst_reaction_ = 0.0;
-  double worst_stamp_ = 0.0;  ///< [s]
+  double worst_stamp_ = 0.0;             ///< [s]
+  std::optional<double> first_balance_;  ///< [J]
+  double worst_balance_ = 0.0;           ///< largest change since [J]
+  std::int64_t worst_balance_time_ = 0;  ///< [ns]
+  double spent_ = 0.0;                   ///< work done and stored energy given since the first state [J]
+  std::optional<SolverState> first_state_;
   double min_j_ = std::numeric_limits<double>::infinity();
 };
 

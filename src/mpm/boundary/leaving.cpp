@@ -28,6 +28,7 @@ bool Leaving::put_back() {
         if (!(outward > 0.0)) continue;
         given[layout_.axis(k)] -= side * outward * set.mass_of(p);
         set.v[k].set(p, 0.0);
+        taken_ += 0.5 * set.mass_of(p) * outward * outward;
       }
       if (!outside) continue;
       const std::uint32_t id = set.id[p];

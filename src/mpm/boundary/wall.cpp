@@ -1,8 +1,11 @@
 #include "mpm/boundary/wall.hpp"
 
+#include <utility>
+
 namespace mpm {
 
-Wall::Wall(int face, const WallDefinition& definition, const std::string& name) : face_(face), definition_(definition) {
+Wall::Wall(int face, const WallDefinition& definition, const std::string& name, const Vec3& gravity)
+    : face_(face), definition_(definition), gravity_(gravity) {
   account_.name = "wall/" + name;
 }
 
@@ -27,8 +30,14 @@ ContactChange Wall::change(const Vec3& velocity, const Vec3& normal) const {
   return {Vec3::Zero(), Hold::free};
 }
 
+Vec3 Wall::change_for_strain(const Vec3& velocity, const Vec3& normal, Hold held) const {
+  if (definition_.kind == WallKind::frictional) return strain_change(velocity, normal, definition_.friction, held);
+  return change(velocity, normal).velocity;
+}
+
 void Wall::momentum_gathered(FieldContext& context) {
   const BlockTable& blocks = context.grid.blocks;
+  for (Node& node : nodes_) node.loss = {};  // of a step that did not gather its end
   if (generation_ == blocks.generation()) return;
   generation_ = blocks.generation();
   nodes_.clear();
@@ -44,7 +53,7 @@ void Wall::momentum_gathered(FieldContext& context) {
       const int beyond = upper ? node - layout.last_node(axis) : -node;
       if (beyond >= 0 && beyond <= context.grid.wall_layers) {
         const std::uint64_t id = HeldNodes::id(blocks.key(b), n);
-        nodes_.push_back({{b, n}, id, held_.find(id)});
+        nodes_.push_back({{b, n}, id, held_.find(id), {}});
       }
     }
   }
@@ -52,19 +61,12 @@ void Wall::momentum_gathered(FieldContext& context) {
 
 void Wall::before_strain(FieldContext& context) {
   Grid& grid = context.grid;
-  if (definition_.kind != WallKind::frictional) {
-    // What always holds needs no vectors: slip takes the component along the normal, fixed takes all.
-    const bool all = definition_.kind == WallKind::fixed;
-    const int first = all ? 0 : face_ / 2, end = all ? grid.layout.dim() : first + 1;
-    for (const Node& node : nodes_) {
-      for (int k = first; k < end; ++k) grid.velocity.at(node.ref.block, k, node.ref.node) = 0.0;
-    }
-    return;
-  }
   const Vec3 n = normal(grid.layout);
-  for (const Node& node : nodes_) {
+  for (Node& node : nodes_) {
     const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
-    add_nodal_vector(grid.velocity, grid.layout, node.ref, strain_change(velocity, n, definition_.friction, node.hold));
+    const Vec3 change = change_for_strain(velocity, n, node.hold);
+    loss_ += node.loss.end(velocity, velocity + change);
+    add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
   }
 }
 
@@ -73,15 +75,20 @@ void Wall::momentum_updated(FieldContext& context) {
   const Vec3 n = normal(grid.layout);
   held_.clear();
   for (Node& node : nodes_) {
-    node.hold = Hold::free;
+    const Hold held = std::exchange(node.hold, Hold::free);
     if (!grid.carries(node.ref.block, node.ref.node)) continue;
-    const auto [dv, hold] = change(nodal_vector(grid.velocity, grid.layout, node.ref), n);
+    const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
+    const auto [dv, hold] = change(velocity, n);
     node.hold = hold;
+    const double mass = grid.mass.at(node.ref.block, 0, node.ref.node);
+    const Vec3 start = nodal_vector(grid.momentum, grid.layout, node.ref) / mass;
+    loss_ += node.loss.act({mass, n, mass * context.dt * gravity_, mass * dv, start,
+                            start + change_for_strain(start, n, held), velocity + dv});
     if (hold == Hold::free) continue;
     if (definition_.kind == WallKind::frictional) held_.add(node.id, hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, dv);
     add_nodal_vector(grid.force, grid.layout, node.ref, dv / context.dt);
-    given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * dv;
+    given_ += mass * dv;
   }
 }
 

@@ -16,6 +16,7 @@ void serialise_sums(StateArchive& archive, ContactSums& sums) {
   archive.value("pressed_arm", sums.pressed_arm);
   archive.value("area_time", sums.area_time);
   archive.value("friction_energy", sums.friction_energy);
+  archive.value("held_energy", sums.held_energy);
   archive.value("work", sums.work);
 }
 

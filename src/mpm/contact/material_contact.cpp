@@ -138,14 +138,21 @@ void MaterialContact::update(BlockNodes& block, const Node& node, double dt, Scr
       Pass::update, block, node, dt, [](Grid& grid) -> NodalField& { return grid.velocity; }, scratch);
   std::vector<Vec3>& start = scratch.velocities;
   std::vector<Vec3>& accelerations = scratch.accelerations;
+  std::vector<Vec3>& gathered = scratch.gathered;
   start.clear();
   accelerations.assign(node.groups, Vec3::Zero());
   for (const NodeMaterial& material : scratch.materials) start.push_back(material.velocity);
+  gathered.assign(node.groups, Vec3::Zero());
   for (int m = node.first_member; m < node.first_member + node.members; ++m) {
     const Member& member = block.members[m];
     const Grid& grid = *fields_[member.field];
     accelerations[member.group] +=
         nodal_vector(grid.force, grid.layout, member.ref) * (member.mass / scratch.materials[member.group].mass);
+    gathered[member.group] +=
+        nodal_vector(grid.momentum, grid.layout, member.ref) / scratch.materials[member.group].mass;
+  }
+  for (NodePair& pair : scratch.pairs) {
+    pair.start_slip = held_slip(gathered[pair.b] - gathered[pair.a], pair.normals.of_a, pair.hold);
   }
   solve_contact(scratch.materials, scratch.pairs, dt);
   for (int p = 0; p < node.pairs; ++p) block.pairs[node.first_pair + p].state = scratch.pairs[p];
@@ -264,6 +271,7 @@ void MaterialContact::read_pairs(double now, std::vector<PairReport>& reports, i
 }
 
 void MaterialContact::energies(EnergyReport& report) const {
+  report.leave_open();  // motion that a pair holds up is not counted
   for (std::size_t i = 0; i < total_.size(); ++i) {
     report.add("pair_friction", NamedEnergy::Kind::dissipated, total_[i].friction_energy);
     report.add("interface", NamedEnergy::Kind::stored, last_[i].interface_energy);  // as the last step began

@@ -47,8 +47,8 @@ void find_friction(const std::vector<Vec3>& before, const std::vector<NodeMateri
   pair.friction_energy = 0.0;
   if (pair.hold != PairHold::normal || pair.interface != nullptr || pair.keep != PairHold::none) return;
   const Vec3 tangential = pair.on_a - pair.on_a.dot(pair.normals.of_a) * pair.normals.of_a;
-  const Vec3 sliding = before[pair.b] - before[pair.a] + materials[pair.b].velocity - materials[pair.a].velocity;
-  pair.friction_energy = 0.5 * tangential.dot(sliding);
+  const Vec3 start = pair.start_slip.value_or(before[pair.b] - before[pair.a]);
+  pair.friction_energy = 0.5 * tangential.dot(start + materials[pair.b].velocity - materials[pair.a].velocity);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mpm {
 namespace {
@@ -14,11 +15,12 @@ constexpr double kThrough = 3.0;  ///< cells behind a thin tool that material be
 }  // namespace
 
 RigidContact::RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry,
-                           const ToolSides* sides)
+                           const ToolSides* sides, const Vec3& gravity)
     : body_(body),
       fields_(fields),
       threads_(threads),
       axisymmetric_(axisymmetric(geometry)),
+      gravity_(gravity),
       sides_(sides),
       thin_(sides == nullptr ? nullptr : sides->find(body)),
       held_(fields.size()),
@@ -80,7 +82,8 @@ void RigidContact::momentum_gathered(StepContext& context) {
                            normal,
                            body_.velocity_at(position),
                            position - body_.pose().position,
-                           held_[field].find(HeldNodes::id(grid.blocks.key(block), n))});
+                           held_[field].find(HeldNodes::id(grid.blocks.key(block), n)),
+                           {}});
     }
   }
 }
@@ -93,10 +96,11 @@ void RigidContact::each_node(Visit&& visit) {
 }
 
 void RigidContact::before_strain(StepContext&) {
-  each_node([&](const Node& node, Grid& grid) {
+  each_node([&](Node& node, Grid& grid) {
     const Vec3 relative = nodal_vector(grid.velocity, grid.layout, node.ref) - node.velocity;
     const Vec3 change = strain_change(relative, node.normal, body_.friction(), node.hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
+    ledger_.add_loss(node.loss.end(relative, relative + change));
   });
 }
 
@@ -106,12 +110,17 @@ void RigidContact::momentum_updated(StepContext& context) {
   each_node([&](Node& node, Grid& grid) {
     const Vec3 relative = nodal_vector(grid.velocity, grid.layout, node.ref) - node.velocity;
     const auto [change, hold] = contact_change(relative, node.normal, body_.friction());
-    node.hold = hold;
+    const Hold held = std::exchange(node.hold, hold);
+    const double mass = grid.mass.at(node.ref.block, 0, node.ref.node);
+    const Vec3 start = nodal_vector(grid.momentum, grid.layout, node.ref) / mass - node.velocity;
+    const Vec3 seen = start + strain_change(start, node.normal, body_.friction(), held);
+    ledger_.add_loss(node.loss.act(
+        {mass, node.normal, mass * context.dt * gravity_, mass * change, start, seen, relative + change}));
     if (hold == Hold::free) return;
     held_[node.field].add(HeldNodes::id(grid.blocks.key(node.ref.block), node.ref.node), hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
     add_nodal_vector(grid.force, grid.layout, node.ref, change / context.dt);
-    give(node, grid.mass.at(node.ref.block, 0, node.ref.node), relative, change);
+    give(node, mass * change);
     ++touching;
   });
   touching_ = touching;
@@ -128,12 +137,12 @@ void RigidContact::increment_found(StepContext&) {
   each_node([&](const Node& node, Grid& grid) {
     const Vec3 change = held_part(nodal_vector(grid.increment, grid.layout, node.ref), node.normal, node.hold);
     add_nodal_vector(grid.increment, grid.layout, node.ref, change);
-    give(node, grid.mass.at(node.ref.block, 0, node.ref.node), Vec3::Zero(), change);
+    give(node, grid.mass.at(node.ref.block, 0, node.ref.node) * change);
   });
 }
 
-void RigidContact::give(const Node& node, double mass, const Vec3& slip, const Vec3& change) {
-  ledger_.give({mass * change, node.normal, node.arm, node.velocity, slip + 0.5 * change});
+void RigidContact::give(const Node& node, const Vec3& impulse) {
+  ledger_.give({impulse, node.normal, node.arm, node.velocity});
 }
 
 void RigidContact::grid_advanced(StepContext& context) { ledger_.end_step(context.dt, touching_, 0.0); }

@@ -167,20 +167,18 @@ void RigidParticleContact::momentum_updated(StepContext& context) {
     Grid& grid = *fields_[node.field];
     const Vec3 before = nodal_vector(grid.velocity, grid.layout, node.ref);
     Vec3 after = before;
+    const Vec3 start = nodal_vector(grid.momentum, grid.layout, node.ref) / node.material.mass - node.rigid.velocity;
+    const Vec3 slip = held_slip(start, node.pair.normals.of_a, node.pair.hold);
     act(node, after, context.dt);
     node.pair.hold = one_[0].hold;
     if (node.pair.hold == PairHold::none) continue;
     held_.push_back({node.field, node.id, node.pair.hold});
     add_nodal_vector(grid.velocity, grid.layout, node.ref, after - before);
     add_nodal_vector(grid.force, grid.layout, node.ref, (after - before) / context.dt);
-    give(node, before, after);
+    ledger_.give({node.material.mass * (after - before), -node.pair.normals.of_a, node.arm, node.rigid.velocity,
+                  0.5 * (slip + after - node.rigid.velocity)});
   }
   started_ = true;
-}
-
-void RigidParticleContact::give(const Node& node, const Vec3& before, const Vec3& after) {
-  ledger_.give({node.material.mass * (after - before), -node.pair.normals.of_a, node.arm, node.rigid.velocity,
-                0.5 * (before + after) - node.rigid.velocity});
 }
 
 void RigidParticleContact::velocity_found(StepContext&) {

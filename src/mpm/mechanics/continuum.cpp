@@ -165,9 +165,18 @@ class Continuum final : public Mechanics {
                        limit.place.y(), limit.place.z());
   }
   bool needs_sort() const override { return needs_sort_; }
+  void energies(EnergyReport& report) const override {
+    if (motion_ != mpm_kernel::kIncrement) report.leave_open();  // what XPIC, FMPM and APIC take is not counted
+    if (motion_ == mpm_kernel::kIncrement && (settings_.transfer.flip != 1.0 || settings_.damping != nullptr)) {
+      report.add("transfer", NamedEnergy::Kind::dissipated, slip_energy_);
+    }
+    if (settings_.damping != nullptr) report.add("damping", NamedEnergy::Kind::dissipated, drag_energy_);
+  }
   void serialise(StateArchive& archive) override {
     archive.generation("sorts_since", generation_);
     archive.value("parts_when_sorted", parts_when_sorted_);
+    archive.value("slip_energy", slip_energy_);
+    archive.value("drag_energy", drag_energy_);
   }
 
  private:
@@ -180,9 +189,9 @@ class Continuum final : public Mechanics {
     Grid& grid;
     mpm_kernel::GridView view{};
     std::vector<mpm_kernel::SetView<T>> views;
-    std::vector<int> set;                   ///< index of each
-    std::vector<std::uint8_t> loose;        ///< of each owner, after the motion
-    std::vector<mpm_kernel::Moved> damped;  ///< by damping, of each owner
+    std::vector<int> set;                  ///< index of each
+    std::vector<std::uint8_t> loose;       ///< of each owner, after the motion
+    std::vector<mpm_kernel::Moved> taken;  ///< by damping and PIC, of each owner
   };
 
   // Fields and particles may have been sorted or swapped since the last step.
@@ -240,17 +249,19 @@ class Continuum final : public Mechanics {
     mpm_kernel::MoveSettings settings{context.dt, settings_.transfer.flip, regather};
     settings.by_point = settings_.axis_motion == AxisMotion::point;
     settings.damped = look_at_damping(settings);
+    settings.counted = motion_ == mpm_kernel::kIncrement && settings.flip != 1.0;
+    const bool counts = settings.counted || settings.damped;
     std::atomic<bool> gone{false};
     std::atomic<int> groups{0}, parts{0};
     for (Field& field : fields_) {
-      if (settings.damped) field.damped.assign(field.grid.blocks.owners(), {});
+      if (counts) field.taken.assign(field.grid.blocks.owners(), {});
       field.loose.resize(field.grid.blocks.owners());
       each_block(field.grid, regather, [&](const mpm_kernel::BlockView& block) {
         const mpm_kernel::Moved moved =
             kernels_.move[motion_](field.view, block, field.sets(), field.count(), settings);
         field.loose[block.owner] = moved.loose;
         if (moved.gone) gone.store(true, std::memory_order_relaxed);
-        if (settings.damped) field.damped[block.owner] = moved;
+        if (counts) field.taken[block.owner] = moved;
         groups.fetch_add(moved.groups, std::memory_order_relaxed);
         parts.fetch_add(moved.parts, std::memory_order_relaxed);
       });
@@ -261,6 +272,7 @@ class Continuum final : public Mechanics {
       parts_when_sorted_ = parts;
     }
     needs_sort_ = gone || parts - parts_when_sorted_ > kMixed * groups;
+    if (counts) book_taken();
     if (settings.damped) close_damping(context);
   }
 
@@ -283,10 +295,19 @@ class Continuum final : public Mechanics {
   }
 
   // Sums over blocks in their order: the same bits for any number of threads.
+  void book_taken() {
+    for (const Field& field : fields_) {
+      for (const mpm_kernel::Moved& moved : field.taken) {
+        slip_energy_ += moved.slip_energy;
+        drag_energy_ += moved.drag_energy;
+      }
+    }
+  }
+
   void close_damping(const StepContext& context) {
     Damped sum;
     for (const Field& field : fields_) {
-      for (const mpm_kernel::Moved& moved : field.damped) {
+      for (const mpm_kernel::Moved& moved : field.taken) {
         for (int k = 0; k < layout_.dim(); ++k) sum.momentum[layout_.axis(k)] += moved.drag[k];
         sum.grid_energy += moved.grid_kinetic;
         sum.particle_energy += moved.particle_kinetic;
@@ -355,7 +376,8 @@ class Continuum final : public Mechanics {
   NodalField mean_;  ///< of the field at work
   std::optional<ParticleRef> failed_;
   bool needs_sort_ = false;
-  std::uint64_t generation_ = 0;  ///< of the blocks that parts_when_sorted_ was counted with
+  double slip_energy_ = 0.0, drag_energy_ = 0.0;  ///< taken by PIC and by damping of the particles [J]
+  std::uint64_t generation_ = 0;                  ///< of the blocks that parts_when_sorted_ was counted with
   int parts_when_sorted_ = 0;
 };
 

@@ -17,6 +17,11 @@ Vec3 particle_vector(const Field& field, const GridLayout& layout, int p) {
   return v;
 }
 
+/// Laws of soil: the balance of energy of their scenes has been measured.
+bool is_soil(const Law& law) {
+  return std::holds_alternative<DruckerPrager>(law) || std::holds_alternative<MohrCoulomb>(law);
+}
+
 /// What a report says of the particles altogether.
 struct Totals {
   double kinetic = 0.0, potential = 0.0, elastic = 0.0, plastic = 0.0;  ///< [J]
@@ -134,6 +139,7 @@ SolverState Simulation::state() const {
 
   Totals totals;
   for (std::size_t i = 0; i < s.sets.size(); ++i) {
+    if (!is_soil(s.laws[i])) report.energy.leave_open();
     totals += std::visit(
         [&](const auto& law) {
           return totals_of(s.sets[i], law, layout, s.definition.geometry, s.definition.gravity, s.threads);
@@ -144,6 +150,7 @@ SolverState Simulation::state() const {
   report.energy.add("elastic", NamedEnergy::Kind::stored, totals.elastic);
   report.energy.add("plastic", NamedEnergy::Kind::dissipated, totals.plastic);
   report.energy.add("potential", NamedEnergy::Kind::stored, totals.potential);
+  s.mechanics->energies(report.energy);
   s.modules.energies(report.energy);
   report.min_j = totals.min_j;
   report.numbers = s.modules.numbers();

@@ -139,8 +139,8 @@ void add_rigid_contact(RunParts& parts) {
       parts.modules.add(
           std::make_unique<RigidParticleContact>(body, particle_settings(parts, own), parts.fields, parts.volumes()));
     } else if (definition.contact.method == ContactMethod::nodes) {
-      parts.modules.add(
-          std::make_unique<RigidContact>(body, parts.fields, parts.threads, definition.geometry, parts.sides));
+      parts.modules.add(std::make_unique<RigidContact>(body, parts.fields, parts.threads, definition.geometry,
+                                                       parts.sides, definition.gravity));
     } else {
       met_at_points.push_back(&body);
       laws_at_points.insert(laws_at_points.end(), own.begin(), own.end());

@@ -28,8 +28,8 @@ class RigidMotion final : public Module {
       const FreeBodyReport of = free->report(body.name(), definition_.gravity);
       report.add("free_kinetic", NamedEnergy::Kind::of_bodies, of.kinetic);
       report.add("free_potential", NamedEnergy::Kind::of_bodies, of.potential);
-      report.add("free_work", NamedEnergy::Kind::work, of.wrench_work + of.drive_work);
-      report.add("free_loss", NamedEnergy::Kind::dissipated, of.contact_loss);
+      report.add("free_work", NamedEnergy::Kind::at_bodies, of.wrench_work + of.drive_work);
+      report.add("free_loss", NamedEnergy::Kind::at_bodies, of.contact_loss);
     }
   }
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override {

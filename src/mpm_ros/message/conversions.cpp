@@ -148,6 +148,7 @@ mpm_ros::SolverState to_message(const mpm::SolverState& state) {
   mpm_ros::SolverState message;
   fill(message, state, state_quantities());
   for (const mpm::NamedEnergy& energy : state.energy.list()) add_other(message, energy.name, "J", energy.value);
+  if (state.energy.closed()) add_other(message, kBalance, "J", state.energy.balance());
   for (const mpm::NamedNumber& number : state.numbers) add_other(message, number.name, number.unit, number.value);
   message.dt_limited_by = state.step.limited_by;
   for (const mpm::NamedImpulse& impulse : state.audit.impulses) {

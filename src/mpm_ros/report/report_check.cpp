@@ -18,6 +18,7 @@ constexpr std::int64_t kStampRounding = 1;  // [ns]: a time in double precision 
 constexpr double kStepRounding = 1e-9;      // of steps: N equal steps between sync points of whole nanoseconds
 constexpr double kUnitLimit = 1e-9;         // of a quaternion's norm: it is renormalised every step
 constexpr std::size_t kGapsListed = 10;
+constexpr double kBalanceLimit = 0.01;  // of the energy that was spent
 // Of impulses on bodies over their size: sums on the grid, which is double whatever the particles are.
 constexpr double kImpulseLimit = audit_limit(mpm::Precision::float64);
 
@@ -182,6 +183,7 @@ void RunChecks::solver_state(std::int64_t time, const SolverState& message) {
       fail("energy", time, one.name + " is not finite");
     }
   }
+  check_balance(time, message);
   min_j_ = std::min(min_j_, message.min_j);
   if (message.failed) fail("run", time, "the run failed: " + message.failure);
   if (!state_) {
@@ -225,6 +227,28 @@ void RunChecks::check_steps(std::int64_t time, const SolverState& state) {
          fmt::format("{} steps in {} s are {:.6g} s each, not within {:.6g} s to {:.6g} s", steps, elapsed, mean,
                      state.dt_min, state.dt_max));
   }
+}
+
+void RunChecks::check_balance(std::int64_t time, const SolverState& state) {
+  const auto named = [](const NamedValue& one) { return one.name == kBalance && one.value.size() == 1; };
+  const auto found = std::find_if(state.values.begin(), state.values.end(), named);
+  if (found == state.values.end()) return;
+  if (!first_state_) {
+    first_state_ = state;
+    first_balance_ = found->value[0];
+  }
+  const double change = std::abs(found->value[0] - *first_balance_);
+  if (!(change <= worst_balance_)) {
+    worst_balance_ = change;
+    worst_balance_time_ = time;
+  }
+  const auto gained = [](double now, double before) { return std::max(now - before, 0.0); };
+  const SolverState& first = *first_state_;
+  spent_ = std::max(spent_, gained(state.contact_work, first.contact_work) + gained(state.load_work, first.load_work) +
+                                gained(first.energy_kinetic, state.energy_kinetic) +
+                                gained(first.energy_elastic, state.energy_elastic) +
+                                gained(first.energy_interface, state.energy_interface) +
+                                gained(first.energy_potential, state.energy_potential));
 }
 
 void RunChecks::command(std::int64_t time, const Command& /*message*/) {
@@ -281,7 +305,21 @@ std::vector<CheckResult> RunChecks::results() const {
                      fmt::format("{} were refused and changed nothing ({} applied, {} late); /diagnostics said why",
                                  refused_, applied_, late_));
   }
+  const double residual = relative(worst_balance_, spent_);
+  if (first_balance_ && !(residual <= kBalanceLimit)) {
+    failures.emplace("balance", fmt::format("at {} s: {:.4g} J have no account, {:.2g} % of the {:.4g} J spent; a "
+                                            "smaller time.cfl may help",
+                                            seconds(worst_balance_time_), worst_balance_, 100.0 * residual, spent_));
+  }
   std::map<std::string, std::string> not_made;
+  if (!first_balance_) {
+    not_made.emplace(
+        "balance",
+        "made of drucker_prager and mohr_coulomb alone, moved by flip; not with contact between deformable bodies "
+        "or tools of particles");
+  } else if (spent_ == 0.0) {
+    not_made.emplace("balance", "no energy was spent");
+  }
   if (clocks_ == 0) not_made.emplace("clock", "/clock is not in the bag");
   if (spacing_.count("global_quantities") == 0) not_made.emplace("global", "the scene asks for no global quantities");
 
@@ -293,6 +331,8 @@ std::vector<CheckResult> RunChecks::results() const {
       {"audit",
        fmt::format("residual at most {:.2g} of the momentum exchanged, limit {:.0e}", worst_audit_, audit_limit_)},
       {"energy", "finite throughout"},
+      {"balance", fmt::format("work and stored energy of {:.4g} J are found again to {:.2g} %, limit {:g} %", spent_,
+                              100.0 * residual, 100.0 * kBalanceLimit)},
       {"gaps", fmt::format("{} states, every {} s from {} s to {} s", states.count, seconds(states.interval),
                            seconds(states.first.value_or(0)), seconds(states.last))},
       {"stamps", fmt::format("at most {:.2g} s off the solver's time", worst_stamp_)},

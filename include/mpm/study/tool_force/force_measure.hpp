@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "mpm/simulation/simulation.hpp"
+#include "mpm/study/tool_force/measure.hpp"
 #include "mpm/study/tool_force/problem.hpp"
-#include "mpm/study/tool_force/row.hpp"
 
 namespace mpm::study::tool_force {
 
@@ -31,15 +30,12 @@ class PressureScatter {
 /// squares has been taken out; samples are averaged over a tenth of the stretch first. NaN where the way is shorter.
 double ripple(const std::vector<double>& travel, const std::vector<double>& force, double from, double stretch);
 
-class ForceMeasure {
+class ForceMeasure final : public Measure {
  public:
   ForceMeasure(const Problem& problem, double cells);
-  /// At each sync point after the start. @throws PhysicsError for a run that has blown up: a particle faster than a
-  /// fifth of an elastic wave, which no tool here drives
-  void look(Simulation& simulation);
-  bool done() const { return !travel_.empty() && travel_.back() >= problem_.last(cells_); }
-  /// Fills in what was measured.
-  void report(ForceRow& row) const;
+  void look(Simulation& simulation) override;
+  bool done() const override { return !travel_.empty() && travel_.back() >= problem_.last(cells_); }
+  void report(ForceRow& row) const override;
 
  private:
   void look_at_particles(const Simulation& simulation);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "mpm/study/limit_loads.hpp"
 
 namespace mpm::study::tool_force {
+
+class Measure;
 
 /// What the scene of a problem is written with.
 struct Setup {
@@ -51,6 +54,9 @@ struct Problem {
   Box pressed;                                      ///< where pressure is looked at, from the tool's origin [m]
   /// Text of its scene. @throws StudyError for a setup that it cannot have
   std::function<std::string(const Problem&, const Setup&)> scene;
+  /// What is compared with `answer` in a run on so many cells, where it is not the force on a slow tool; `from` and
+  /// `to` are then times [s]. The problem outlives it.
+  std::function<std::unique_ptr<Measure>(const Problem&, double)> measure = {};
 
   const std::string& law_of(const Setup& setup) const { return setup.law.empty() ? law : setup.law; }
   /// Travel at which a run ends, over `length`.
@@ -80,5 +86,7 @@ std::vector<Problem> blades();
 std::vector<Problem> footings();
 std::vector<Problem> walls();
 std::vector<Problem> clay_tools();
+std::vector<Problem> slopes();
+std::vector<Problem> drags();
 
 }  // namespace mpm::study::tool_force

@@ -2,6 +2,9 @@
 // and a smooth wedge that is pressed into its surface. Half of each is modelled beside a plane of symmetry. The clay
 // around the cylinder starts under a pressure of 20 c, so that none parts from it behind. Cells count over the
 // diameter, and over the depth that the wedge reaches.
+//
+// And a smooth cone with a smooth shaft, about its axis, three diameters deep at the start. Estimates of its force come
+// from the pressure that opens a spherical cavity, 4/3 (1 + ln(G/c)) c.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -114,11 +117,64 @@ Problem wedge() {
   return problem;
 }
 
+constexpr double kConeYoung = 200.0 * kCohesion;
+
+std::string cone_scene(const Problem& problem, const Setup& setup) {
+  const double h = kLength / setup.cells, right = h * std::ceil(4.0 * setup.cells),
+               low = -h * std::ceil(7.0 * setup.cells);
+  return fmt::format(
+      "geometry: axisymmetric\n"
+      "grid: {{cell: {:.17g}, min: [0, {:.17g}], max: [{:.17g}, {:.17g}]}}\n"
+      "{}\n"
+      "materials:\n  - {}\n"
+      "bodies:\n"
+      "  - {{name: bed, material: soil, shape: {{box: {{min: [0, {:.17g}], max: [{:.17g}, 0]}}}}, cut_out: [tool]}}\n"
+      "rigid_bodies:\n"
+      "  - name: tool\n"
+      "    shape: {{cone: {{radius: {}, angle: 60 deg, shaft: {}}}}}\n"
+      "    pose: {{position: [0, -{}]}}\n"
+      "    friction: 0\n"
+      "    motion: {{velocity: [0, \"-{}\"]}}\n"
+      "boundaries: {{x_max: slip, z_min: fixed}}\n",
+      h, low, right, h * std::ceil(setup.cells), time_section(problem, setup),
+      soil_material(problem.law_of(setup), kDensity, kConeYoung, kPoisson, 0.0, 0.0, kCohesion), low, right,
+      0.5 * kLength, 6.0 * kLength, 3.0 * kLength, speed_expression(problem));
+}
+
+Problem cone() {
+  Problem problem = tool("cone_clay", "Smooth cone in clay");
+  problem.text =
+      "Smooth cone of 60°, 0.2 m wide, with a smooth shaft, pressed on at 0.3 m/s from a depth of three diameters in "
+      "weightless clay of Tresca's law, E = 200 c. Cells: over the diameter.";
+  problem.known = Known::estimate;
+  const double area = 0.25 * kPi * kLength * kLength, stiffness = 200.0 / (2.0 * (1.0 + kPoisson));
+  const double cavity = 4.0 / 3.0 * (1.0 + std::log(stiffness));
+  problem.answer = {cavity * kCohesion * area, (cavity + 2.57) * kCohesion * area};
+  problem.answer_text = fmt::format(
+      "estimates between {:.2f} c, the pressure that opens a sphere (Bishop, Hill and Mott (1945)), and {:.2f} c, 2.57 "
+      "c "
+      "more (Vesic (1977))",
+      cavity, cavity + 2.57);
+  problem.whole = 1.0;
+  problem.wave_speed = elastic_wave(kDensity, kConeYoung, kPoisson);
+  problem.law = "mohr_coulomb";
+  problem.push = -Vec3::UnitZ();
+  problem.from = 0.3;
+  problem.to = 0.6;
+  problem.moves_on = true;
+  problem.speed = 0.3;
+  problem.ramp = 0.02;
+  problem.finest = 16.0;
+  problem.pressed = {{0.0, 0.0, -0.5 * kLength}, {0.5 * kLength, 0.0, 0.0}};
+  problem.scene = cone_scene;
+  return problem;
+}
+
 }  // namespace clay_problems
 
 std::vector<Problem> clay_tools() {
   using namespace clay_problems;
-  return {pile(true), pile(false), wedge()};
+  return {pile(true), pile(false), wedge(), cone()};
 }
 
 }  // namespace mpm::study::tool_force

@@ -11,7 +11,6 @@ namespace mpm::study::tool_force {
 namespace {
 
 constexpr int kLooks = 5;            ///< at pressure, spread over the stretch of the mean
-constexpr double kBlownUp = 0.2;     ///< speed of a particle over that of an elastic wave
 constexpr std::size_t kFewest = 3;   ///< particles of a cell whose scatter counts
 constexpr double kNothing = 0.01;    ///< of the mean pressure: a particle that carries none
 constexpr std::size_t kCurve = 200;  ///< points of a curve
@@ -89,12 +88,7 @@ void ForceMeasure::look(Simulation& simulation) {
   const double scale = problem_.whole / (problem_.grows ? travel_.back() : 1.0);
   force_.push_back(-scale * force.dot(problem_.push));
   lift_.push_back(scale * force.dot(problem_.free));
-  simulation.particle_field("speed", values_);
-  const double fastest = *std::max_element(values_.begin(), values_.end());
-  if (!(fastest < kBlownUp * problem_.wave_speed)) {
-    throw PhysicsError(fmt::format("blown up: a particle moves at {:.3g} m/s where the tool moves at {:g} m/s", fastest,
-                                   problem_.speed));
-  }
+  check_speed(simulation, problem_.wave_speed, values_);
   if (travel_.back() >= next_scatter_ && next_scatter_ <= problem_.to) look_at_particles(simulation);
 }
 
@@ -128,13 +122,8 @@ void ForceMeasure::report(ForceRow& row) const {
     lift += lift_[i];
     count += 1.0;
   }
-  const Bounds& answer = problem_.answer;
   if (count > 0.0) {
-    row.force = force / count;
-    row.over_exact = row.force / answer.upper;
-    row.error = row.force > answer.upper   ? row.force / answer.upper - 1.0
-                : row.force < answer.lower ? 1.0 - row.force / answer.lower
-                                           : 0.0;
+    compare(force / count, row);
     if (problem_.free.norm() > 0.0) row.lift = lift / force;
   }
   if (problem_.moves_on) row.ripple = ripple(travel_, force_, problem_.from, 1.0 / cells_);
@@ -147,7 +136,7 @@ void ForceMeasure::report(ForceRow& row) const {
       way += travel_[i];
       sum += force_[i];
     }
-    row.curve.emplace_back(way / static_cast<double>(stride), sum / static_cast<double>(stride) / answer.upper);
+    row.curve.emplace_back(way / static_cast<double>(stride), sum / static_cast<double>(stride) / row.answer.upper);
   }
 }
 

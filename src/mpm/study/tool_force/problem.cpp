@@ -16,7 +16,7 @@ double Problem::time_of(double travel) const { return travel * length / speed + 
 const std::vector<Problem>& problems() {
   static const std::vector<Problem> list = [] {
     std::vector<Problem> all;
-    for (const auto& group : {blades, footings, walls, clay_tools}) {
+    for (const auto& group : {blades, footings, walls, clay_tools, slopes, drags}) {
       for (Problem& problem : group()) all.push_back(std::move(problem));
     }
     return all;

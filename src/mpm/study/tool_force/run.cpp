@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 
 #include "mpm/choice/method_choice.hpp"
@@ -111,10 +112,11 @@ ForceRow run_row(const Problem& problem, double cells, const Overrides& variant,
   row.known = problem.known;
   double spent = 0.0, simulated = 0.0;
   std::optional<Run> run;
-  std::optional<ForceMeasure> measure;
+  std::unique_ptr<Measure> measure;
   try {
     run = resolve(problem, cells, variant, set);
-    measure.emplace(run->problem, cells);
+    measure = run->problem.measure ? run->problem.measure(run->problem, cells)
+                                   : std::make_unique<ForceMeasure>(run->problem, cells);
     SimulationDefinition definition = build(run->scene());
     describe(definition, row);
     Simulation simulation(std::move(definition), SimulationOptions{1});

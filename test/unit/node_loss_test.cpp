@@ -1,0 +1,48 @@
+// What a surface takes at a node, by hand.
+#include "mpm/step/node_loss.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mpm {
+namespace node_loss_test {
+
+const Vec3 kUp = Vec3::UnitZ();
+
+// A force holds up what would slide: the node and its particles rest.
+TEST(NodeLoss, NothingIsTakenFromWhatSticks) {
+  NodeLoss loss;
+  const SurfaceLoss taken =
+      loss.act({2.0, kUp, Vec3::Zero(), {-3.0, 0.0, 5.0}, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
+  EXPECT_EQ(taken.friction, 0.0);
+  EXPECT_EQ(taken.held, 0.0);
+  const SurfaceLoss more = loss.end(Vec3::Zero(), Vec3::Zero());
+  EXPECT_EQ(more.friction, 0.0);
+  EXPECT_EQ(more.held, 0.0);
+}
+
+// 3 N s against a slip that goes from 2 to 1 m/s, which particles see as 1.5 m/s: 3 x (2 + 1.5) / 2.
+TEST(NodeLoss, FrictionTakesTheImpulseTimesTheMeanSlipOfStrain) {
+  NodeLoss loss;
+  const Vec3 start(2.0, 0.0, 0.0), left(1.0, 0.0, 0.0), gathered(1.5, 0.0, 0.0);
+  SurfaceLoss taken = loss.act({3.0, kUp, Vec3::Zero(), {-3.0, 0.0, 0.0}, start, start, left});
+  EXPECT_DOUBLE_EQ(taken.friction, 4.5);
+  taken += loss.end(gathered, gathered);
+  EXPECT_DOUBLE_EQ(taken.friction, 5.25);
+  EXPECT_EQ(taken.held, 0.0);
+  EXPECT_EQ(loss.end(left, left).friction, 0.0) << "an impulse counts once";
+}
+
+// A mass of 2 kg comes down at 3 m/s and is held, as it is in the strain of both ends: m v^2 / 2 is gone. So it is if
+// it comes in along a surface to which it sticks.
+TEST(NodeLoss, AHeldNodeLosesItsKineticEnergy) {
+  for (const Vec3& start : {Vec3(0.0, 0.0, -3.0), Vec3(3.0, 0.0, 0.0)}) {
+    NodeLoss loss;
+    SurfaceLoss taken = loss.act({2.0, kUp, Vec3::Zero(), -2.0 * start, start, Vec3::Zero(), Vec3::Zero()});
+    taken += loss.end(Vec3::Zero(), Vec3::Zero());
+    EXPECT_DOUBLE_EQ(taken.held, 9.0);
+    EXPECT_EQ(taken.friction, 0.0);
+  }
+}
+
+}  // namespace node_loss_test
+}  // namespace mpm

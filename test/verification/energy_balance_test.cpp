@@ -1,0 +1,74 @@
+// The energy of soil that a tool pushes, or that falls and spreads: what is stored and what plastic flow, friction on
+// tools and walls and the transfer between particles and grid have taken is the work done on it. Each term is counted
+// by itself. Source: balance of energy. 4 s.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "pair_scene.hpp"
+
+namespace verification {
+namespace energy_balance_test {
+
+constexpr double kOpen = 0.01;  // of the energy spent that may have no account
+
+/// Energy of this kind that came or went since the start [J].
+double since(const mpm::EnergyReport& before, const mpm::EnergyReport& after, const std::string& name) {
+  return after.of(name) - before.of(name);
+}
+
+void expect_closed(const mpm::EnergyReport& before, const mpm::EnergyReport& after) {
+  ASSERT_TRUE(after.closed());
+  const double spent =
+      std::max(since(before, after, "contact_work"), 0.0) + std::max(-since(before, after, "potential"), 0.0);
+  EXPECT_GT(spent, 0.0);
+  EXPECT_NEAR(after.balance() - before.balance(), 0.0, kOpen * spent);
+}
+
+/// A blade as deep as it cuts, 0.1 m, in sand of 30 degrees without dilation.
+std::string blade(const std::string& contact, double friction, const std::string& transfer) {
+  return fmt::format(
+      "geometry: plane_strain\ngravity: [0, -9.81]\n"
+      "grid: {{cell: 0.0166666666666666667, min: [-0.15, -0.2], max: [0.5, 0.2]}}\ntime: {{end: 0.5, sync: 5 ms}}\n"
+      "method: {{transfer: {{flip: {}}}}}\ncontact: {{method: {}}}\n"
+      "materials: [{{name: sand, density: 1600, young: 1 MPa, poisson: 0.3, law: drucker_prager, friction_angle: 30 "
+      "deg}}]\n"
+      "bodies:\n"
+      "  - {{name: bed, material: sand, initial: geostatic, shape: {{box: {{min: [0, -0.2], max: [0.5, 0]}}}}}}\n"
+      "  - {{name: cut, material: sand, initial: geostatic, shape: {{box: {{min: [-0.15, -0.2], max: [0, -0.1]}}}}}}\n"
+      "rigid_bodies:\n  - {{name: blade, shape: {{polygon: {{points: [[0, 0], [0, 0.3], [-0.08, 0.3], [-0.08, "
+      "0.02]]}}}}, "
+      "pose: {{position: [0, -0.1]}}, friction: {}, motion: {{velocity: [\"0.1 * min(1, t / 0.05)\", 0]}}}}\n"
+      "boundaries: {{x_min: slip, x_max: slip, z_min: {{friction: 0.5}}}}\n",
+      transfer, contact, friction);
+}
+
+class EnergyBalance : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Contact, EnergyBalance, testing::Values("points", "nodes"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST_P(EnergyBalance, OfSandBeforeABlade) {
+  mpm::Simulation simulation = from_text(blade(GetParam(), 0.2, "1"));
+  const mpm::EnergyReport before = simulation.state().energy;
+  run_until(simulation, 0.5);
+  const mpm::EnergyReport after = simulation.state().energy;
+  expect_closed(before, after);
+  EXPECT_GT(after.of("friction"), kOpen * after.of("contact_work")) << "the test would not see it";
+}
+
+// The transfer takes a part of the particles' velocity that the grid does not see, which is the energy of sand that
+// flies as well as of its noise.
+TEST_P(EnergyBalance, WithWhatTheTransferTakes) {
+  mpm::Simulation simulation = from_text(blade(GetParam(), 0.2, "0.9"));
+  const mpm::EnergyReport before = simulation.state().energy;
+  run_until(simulation, 0.5);
+  const mpm::EnergyReport after = simulation.state().energy;
+  expect_closed(before, after);
+  EXPECT_GT(after.of("transfer"), kOpen * after.of("contact_work")) << "the test would not see it";
+}
+
+}  // namespace energy_balance_test
+}  // namespace verification

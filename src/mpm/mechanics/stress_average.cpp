@@ -11,6 +11,10 @@ namespace {
 // Of every law of soil; simulation/stress_average_module.cpp checks it.
 constexpr int kPlasticStrain = 0;
 
+// Above round-off, which must not decide who takes part.
+constexpr double kFlow = 1e-12;     ///< plastic strain in a step from which on a particle flows
+constexpr double kPressure = 1e-9;  ///< pressure over the bulk modulus from which on it is under pressure
+
 /// How a stress is stored: in a plane xx, zz, xz, yy.
 template <class Geometry>
 struct Stored {
@@ -37,13 +41,18 @@ class Particles {
   using Tensor = Stored<Geometry>;
   using Stress = typename Tensor::Stress;
 
-  Particles(ParticleSet& set, double* strain_before)
-      : set_(set), strain_(set.history[kPlasticStrain].template data<T>()), before_(strain_before) {
-    for (int i = 0; i < Tensor::kCount; ++i) stress_[i] = set.tau[i].template data<T>();
-    for (int i = 0; i < kRows; ++i) gradient_[i] = set.f[i].template data<T>();
+  Particles(const AveragedSet& one, double* strain_before)
+      : set_(*one.set),
+        strain_(set_.history[kPlasticStrain].template data<T>()),
+        before_(strain_before),
+        least_pressure_(kPressure * one.bulk / one.density) {
+    for (int i = 0; i < Tensor::kCount; ++i) stress_[i] = set_.tau[i].template data<T>();
+    for (int i = 0; i < kRows; ++i) gradient_[i] = set_.f[i].template data<T>();
   }
 
-  bool flows(std::uint32_t p) const { return strain_[p] > before_[p] && Tensor::mean(stress(p)) < 0.0; }
+  bool flows(std::uint32_t p) const {
+    return strain_[p] > before_[p] + kFlow && Tensor::mean(stress(p)) < -least_pressure_;
+  }
   void remember(std::uint32_t p) { before_[p] = strain_[p]; }
   double mass(std::uint32_t p) const { return set_.mass_of(static_cast<int>(p)); }
   double volume_ratio(std::uint32_t p) const { return determinant(Geometry::load_matrix(set_.f, static_cast<int>(p))); }
@@ -76,6 +85,7 @@ class Particles {
   ParticleSet& set_;
   const T* strain_;
   double* before_;
+  double least_pressure_;  ///< [J/kg]
   std::array<T*, Tensor::kCount> stress_;
   std::array<T*, kRows> gradient_;
 };
@@ -100,7 +110,7 @@ StressAverage::Cell& StressAverage::cell_at(const Grid& grid, int owner, const s
 
 template <class Geometry, class T>
 void StressAverage::gather(const AveragedSet& one, double* before, const Grid& grid, int owner) {
-  Particles<Geometry, T> particles(*one.set, before);
+  Particles<Geometry, T> particles(one, before);
   const int place = grid.first_owner + owner;
   const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(owner));
   for (std::uint32_t p = one.set->begin[place]; p < one.set->begin[place + 1]; ++p) {
@@ -118,7 +128,7 @@ void StressAverage::gather(const AveragedSet& one, double* before, const Grid& g
 template <class Geometry, class T>
 double StressAverage::share(const AveragedSet& one, double* before, const Grid& grid, int owner) {
   using Tensor = Stored<Geometry>;
-  Particles<Geometry, T> particles(*one.set, before);
+  Particles<Geometry, T> particles(one, before);
   const int place = grid.first_owner + owner;
   const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(owner));
   double lost = 0.0;
@@ -159,7 +169,7 @@ void StressAverage::average(const AveragedSet& one, std::size_t place, const Ste
     for (int owner = 0; owner < owners; ++owner) of_owner_[owner] = share<Geometry, T>(one, before, grid, owner);
     for (const double lost : of_owner_) taken_ += lost;
   }
-  Particles<Geometry, T> particles(*one.set, before);
+  Particles<Geometry, T> particles(one, before);
   const auto count = static_cast<std::uint32_t>(one.set->size());
   for (std::uint32_t p = 0; p < count; ++p) particles.remember(p);
 }

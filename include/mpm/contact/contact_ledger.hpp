@@ -68,7 +68,7 @@ class ContactLedger {
   void energies(EnergyReport& report) const {
     report.add("contact_work", NamedEnergy::Kind::work, sums_.work);
     report.add("friction", NamedEnergy::Kind::dissipated, sums_.friction_energy);
-    if (sums_.held_energy != 0.0) report.add("contact_loss", NamedEnergy::Kind::dissipated, sums_.held_energy);
+    report.add("contact_loss", NamedEnergy::Kind::dissipated, sums_.held_energy);
   }
   const ImpulseAccount& account() const { return account_; }  ///< impulses given to the material
   const ContactSums& sums() const { return sums_; }

@@ -23,6 +23,12 @@
 // In scenes with laws between deformable bodies, the tools' forces of the step before are added to the nodes' forces,
 // and the solution corrects them. Pairs act before tools, and in this way know how hard tools press.
 //
+// What else is lost, of motion that is held up and of particles that move past a point which is held, is the account
+// `contact_loss`: all that the material loses by the work of the impulse and of the step's forces, as
+// step/node_loss.hpp derives it for nodes, less friction and cutting. At a point p, with weights w of nodes,
+//   -J.(u0 + u1)/2 + J.(k0 + k1)/2 + (I0 + I1)/2 . sum w (dv - g dt),
+// u and k slip and cut that strain sees at the ends of the step, I the impulses that contact adds for strain.
+//
 // A point that comes under a surface from beside it, or starts there, keeps its initial overlap.
 //
 // Where a face ends, points see the part of their nodes that lies before it (contact/edge_cover.hpp); the energy that
@@ -81,19 +87,34 @@ class PointContact final : public Stage, public ContactReporter {
 
  private:
   using Pass = PointSolver::Pass;
+  /// What strain sees at a point.
+  struct StrainSlip {
+    Vec3 slip = Vec3::Zero();     ///< against the body [m/s]
+    Vec3 cut = Vec3::Zero();      ///< PointSolver::cut_at [m/s]
+    Vec3 impulse = Vec3::Zero();  ///< by which contact changes the velocity for strain [N s]
+  };
   /// Data that the stage keeps for each point of the solver, in the same order.
   struct Contact {
     const ContactPoint* found;
-    Vec3 start = Vec3::Zero();   ///< impulse that the step's solution begins with [N s]
-    Vec3 before = Vec3::Zero();  ///< relative velocity before the impulses [m/s]
-    Vec3 cut = Vec3::Zero();     ///< PointSolver::cut_at before the impulses [m/s]
-    double gap = 0.0;            ///< counted from the initial overlap [m]
-    double slid = 0.0;           ///< slip since the point was at rest [m]
-    double overlap = 0.0;        ///< initial overlap, <= 0 [m]
+    Vec3 start = Vec3::Zero();    ///< impulse that the step's solution begins with [N s]
+    Vec3 before = Vec3::Zero();   ///< relative velocity before the impulses [m/s]
+    Vec3 cut = Vec3::Zero();      ///< PointSolver::cut_at before the impulses [m/s]
+    StrainSlip seen;              ///< by strain at the start of the step
+    StrainSlip left;              ///< on the grid after the impulses
+    Vec3 impulse = Vec3::Zero();  ///< on the material in the step [N s]
+    Vec3 gained = Vec3::Zero();   ///< change of velocity in the step, without that by gravity [m/s]
+    bool acted = false;           ///< whether the impulses of the step have been found
+    double gap = 0.0;             ///< counted from the initial overlap [m]
+    double slid = 0.0;            ///< slip since the point was at rest [m]
+    double overlap = 0.0;         ///< initial overlap, <= 0 [m]
   };
 
   /// Sets the point's law for this step and returns its data from memory.
   Contact recall(const ContactPoint& found, PointSolver::Point& point, double dt) const;
+  /// The velocity of the nodes at a point, weighted as an impulse there is spread.
+  Vec3 carried_at(const PointSolver::Point& point) const { return solver_.velocity_at(point) - solver_.cut_at(point); }
+  /// What the material has lost at a point if strain sees this at the end of the step [J].
+  static double lost(const Contact& contact, const StrainSlip& end);
   void clear_impulses();
   /// Sets the impulses that the step's solution begins with.
   void begin_impulses();
@@ -107,6 +128,7 @@ class PointContact final : public Stage, public ContactReporter {
   std::vector<FrictionLaw> laws_now_;
   std::vector<ContactLedger> ledgers_;
   double cell_;       ///< the smallest edge [m]
+  Vec3 gravity_;      ///< [m/s^2]
   double cut_ = 0.0;  ///< energy taken at edges since the start [J]
   bool with_pairs_;   ///< as in the settings
   PointSearch search_;

@@ -24,6 +24,7 @@ PointContact::PointContact(std::vector<RigidBody*> bodies, const std::vector<Par
       laws_now_(laws_.size()),
       cell_(fields.front()->layout.smallest_cell()),
       with_pairs_(settings.with_pairs),
+      gravity_(settings.gravity),
       search_(surfaces_, sets, fields, settings.geometry, settings.across, settings.threads),
       solver_(fields, surfaces_, settings.shape, settings.sharp_edges, settings.threads),
       free_(bodies_, settings.gravity) {
@@ -56,8 +57,10 @@ PointContact::Contact PointContact::recall(const ContactPoint& found, PointSolve
   contact.overlap = std::min(std::max(known, found.gap), 0.0);
   contact.gap = found.gap - contact.overlap;
   contact.before = solver_.velocity_at(point) - point.velocity;
+  contact.seen.slip = contact.before;
   if (memory != nullptr) contact.before += along_surface(memory->slip - contact.before, point.normal);
-  contact.cut = solver_.cut_at(point);
+  contact.cut = contact.seen.cut = solver_.cut_at(point);
+  contact.gained = -carried_at(point) - dt * gravity_;
   const bool held = memory != nullptr && memory->hold != Hold::free;
   if (held) {
     point.hold = memory->hold;
@@ -85,6 +88,21 @@ void PointContact::before_strain(StepContext&) {
   clear_impulses();
   solver_.solve(Pass::strain, false);
   solver_.store(&Grid::velocity);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const PointSolver::Point& point = solver_.points()[i];
+    Contact& contact = contacts_[i];
+    const StrainSlip seen{solver_.velocity_at(point) - point.velocity, solver_.cut_at(point), point.impulse};
+    if (!contact.acted) {
+      contact.seen = seen;
+    } else if (point.motion == nullptr) {
+      ledgers_[contact.found->body].add_loss({0.0, lost(contact, seen) - lost(contact, contact.left)});
+    }
+  }
+}
+
+double PointContact::lost(const Contact& contact, const StrainSlip& end) {
+  return 0.5 * (contact.impulse.dot(contact.seen.cut + end.cut - contact.seen.slip - end.slip) +
+                contact.gained.dot(contact.seen.impulse + end.impulse));
 }
 
 void PointContact::begin_impulses() {
@@ -125,8 +143,19 @@ void PointContact::momentum_updated(StepContext& context) {
     const Vec3 mean = point.motion != nullptr ? point.motion->mean_velocity_at(point.place) : point.velocity;
     if (point.motion != nullptr) point.velocity = point.motion->velocity_at(point.place);
     const Vec3 slip = solver_.velocity_at(point) - point.velocity;
-    give(i, mean, 0.5 * (contact.before + slip));
-    cut_ += point.impulse.dot(0.5 * (contact.cut + solver_.cut_at(point)));
+    const Vec3 mean_slip = 0.5 * (contact.before + slip);
+    give(i, mean, mean_slip);
+    const double cut = point.impulse.dot(0.5 * (contact.cut + solver_.cut_at(point)));
+    cut_ += cut;
+    contact.impulse = point.impulse;
+    contact.gained += carried_at(point);
+    contact.left = {slip, solver_.cut_at(point), Vec3::Zero()};
+    contact.acted = true;
+    if (point.motion == nullptr) {
+      // As the ledger counts it: the impulse along the surface.
+      const double friction = -along_surface(point.impulse, point.normal).dot(mean_slip);
+      ledgers_[contact.found->body].add_loss({0.0, lost(contact, contact.left) - friction - cut});
+    }
     const Vec3 along = along_surface(slip, point.normal);
     // What has come to rest has friction at rest again.
     const double slid = along.norm() * context.dt;

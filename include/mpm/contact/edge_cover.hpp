@@ -17,8 +17,8 @@
 // point with S < kLeast lies beyond the edge itself and is no contact.
 //
 // The cover is 1 half a cell inside the edge, 0 half a cell outside, and linear between: with t out of the face across
-// its edge, and d n the signed distance and normal of the tool at x_i + (h/2) t, it is 1 - (d n).t / h. The directions t
-// are found from the surface itself, by looking two cells along it from the point: beyond an edge the nearest surface
+// its edge, and d n the signed distance and normal of the tool at x_i + (h/2) t, it is 1 - (d n).t / h. The directions
+// t are found from the surface itself, by looking two cells along it from the point: beyond an edge the nearest surface
 // lies straight back, while a surface that is round, or goes on behind a bend, lies aside. Faces without an edge that
 // near cost these looks alone. Where no material lies beyond an edge, the whole node lies before the face.
 //

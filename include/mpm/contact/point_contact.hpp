@@ -128,9 +128,9 @@ class PointContact final : public Stage, public ContactReporter {
   std::vector<FrictionLaw> laws_now_;
   std::vector<ContactLedger> ledgers_;
   double cell_;       ///< the smallest edge [m]
-  Vec3 gravity_;      ///< [m/s^2]
   double cut_ = 0.0;  ///< energy taken at edges since the start [J]
   bool with_pairs_;   ///< as in the settings
+  Vec3 gravity_;      ///< [m/s^2]
   PointSearch search_;
   PointSolver solver_;
   PointMemory memory_;

@@ -152,10 +152,14 @@ TEST(EdgeCover, ARoundSurfaceAndABendAreNoEdges) {
   const RigidBody round = body_of(make_cylinder(1.5 * kCell, kInfinite, 1), {0.9, 0.0, 0.9});
   const RigidBody bent =
       body_of(make_polygon({{0.0, 0.0}, {0.63, 0.0}, {0.63, -0.4}, {0.33, -0.7}, {0.0, -0.7}}), {0.0, 0.0, 1.4});
-  EXPECT_FALSE(around(field, round, {0.9 + 1.5 * kCell, 0.0, 0.9}, Vec3::UnitX()).before.empty());
-  const Around found = around(field, bent, {0.63, 0.0, 1.02}, Vec3::UnitX());
-  ASSERT_FALSE(found.before.empty());
-  for (std::size_t n = 0; n < found.nodes.size(); ++n) EXPECT_EQ(found.nodes[n].weight, found.before[n]);
+  for (const Around& found : {around(field, round, {0.9 + 1.5 * kCell, 0.0, 0.9}, Vec3::UnitX()),
+                              around(field, bent, {0.63, 0.0, 1.02}, Vec3::UnitX())}) {
+    ASSERT_FALSE(found.before.empty());
+    for (std::size_t n = 0; n < found.nodes.size(); ++n) {
+      EXPECT_EQ(found.nodes[n].weight, found.before[n]);
+      EXPECT_EQ(found.nodes[n].beyond_part, 0.0);
+    }
+  }
 }
 
 // A box in space, near one edge, and near a corner, where two edges meet: nodes lie beyond either.

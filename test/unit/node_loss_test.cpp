@@ -44,5 +44,17 @@ TEST(NodeLoss, AHeldNodeLosesItsKineticEnergy) {
   }
 }
 
+// A node of 2 kg comes in at 2 m/s along a surface to which it sticks, pushed on by a force of 6 N s: it loses its 4 J,
+// and the force does no work on strain, which sees it at rest. -J.(u0 + u1)/2 is 0, and (F dt + J).(c0 + c1)/2, with
+// F dt + J = -4 N s, c0 = -2 m/s and c1 = 0, is 4 J.
+TEST(NodeLoss, WhatComesToStickLosesItsMotionWhateverPushesIt) {
+  NodeLoss loss;
+  SurfaceLoss taken =
+      loss.act({2.0, kUp, Vec3::Zero(), {-10.0, 0.0, 5.0}, {2.0, 0.0, 0.0}, Vec3::Zero(), Vec3::Zero()});
+  taken += loss.end(Vec3::Zero(), Vec3::Zero());
+  EXPECT_DOUBLE_EQ(taken.held, 4.0);
+  EXPECT_EQ(taken.friction, 0.0);
+}
+
 }  // namespace node_loss_test
 }  // namespace mpm

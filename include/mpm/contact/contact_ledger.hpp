@@ -19,11 +19,12 @@ namespace mpm {
 
 /// One impulse of contact on the material.
 struct ContactImpulse {
-  Vec3 impulse;                   ///< [N s]
-  Vec3 normal;                    ///< out of the body
-  Vec3 arm;                       ///< from the body's origin [m]
-  Vec3 velocity;                  ///< of the body's surface there [m/s]
-  Vec3 mean_slip = Vec3::Zero();  ///< of the material against it, between the ends of the last step and of this [m/s]
+  Vec3 impulse;   ///< [N s]
+  Vec3 normal;    ///< out of the body
+  Vec3 arm;       ///< from the body's origin [m]
+  Vec3 velocity;  ///< of the body's surface there [m/s]
+  Vec3 mean_slip =
+      Vec3::Zero();  ///< of the material against it, the mean of the ends of the last step and of this [m/s]
 };
 
 /// What contact has done since the start.
@@ -35,7 +36,7 @@ struct ContactSums {
   Vec3 pressed_arm = Vec3::Zero();      ///< arms times those magnitudes [N s m]
   double area_time = 0.0;               ///< area in contact, over time [m^2 s]
   double friction_energy = 0.0;         ///< taken by sliding [J]
-  double held_energy = 0.0;             ///< of motion that contact at nodes held up [J]
+  double held_energy = 0.0;             ///< of motion that contact held up [J]
   double work = 0.0;                    ///< done by the body on the material [J]
 };
 

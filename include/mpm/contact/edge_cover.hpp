@@ -2,8 +2,8 @@
 //
 // A node near the edge of a face stands for material before the face, which the tool pushes, and for material beyond
 // the edge, which it does not: below a blade, beside a plate. The node has one velocity for both. If a point of contact
-// takes it as it is, the tool has to move the material beyond as well, as if it were a cell wider, and the force is too
-// large by the first order in the cell.
+// takes it as it is, the tool has to move the material beyond as well: it acts as if it were larger by an amount
+// proportional to the cell.
 //
 // So the node's mass is divided: the part s in [0, 1], its cover, lies before the face, and the rest moves as the
 // material does one cell further out, with velocity U. The node's velocity is u = s v + (1 - s) U, and a point of
@@ -13,20 +13,23 @@
 //
 // and node i gets the part r_i s_i of an impulse at the point. These parts sum to 1, so momentum is exact; a velocity
 // that is the same everywhere is seen as it is; and since the parts are those of the mass s m of node i, V answers
-// the impulse symmetrically: sum r_i^2 s_i / m_i > 0. g keeps nodes that lie almost wholly beyond from deciding. A
-// point with S < kLeast lies beyond the edge itself and is no contact.
+// the impulse symmetrically: sum r_i^2 s_i / m_i > 0. The factor g takes weight from a node that lies
+// mostly beyond the edge, whose v is known the least. A point with S < kLeast lies beyond the edge itself and is no
+// contact.
 //
 // The cover is 1 half a cell inside the edge, 0 half a cell outside, and linear between: with t out of the face across
-// its edge, and d n the signed distance and normal of the tool at x_i + (h/2) t, it is 1 - (d n).t / h. The directions
-// t are found from the surface itself, by looking two cells along it from the point: beyond an edge the nearest surface
-// lies straight back, while a surface that is round, or goes on behind a bend, lies aside. Faces without an edge that
-// near cost these looks alone. Where no material lies beyond an edge, the whole node lies before the face.
+// its edge, h the length of a cell along t, and d n the signed distance and normal of the tool at x_i + (h/2) t, it is
+// 1 - (d n).t / h. The directions t are found from the surface itself, by looking two cells along it from the point:
+// beyond an edge the nearest surface lies straight back, while a surface that is round, or goes on behind a bend, lies
+// aside. Faces without an edge that near cost these looks alone. Where no material lies beyond an edge, the whole node
+// lies before the face.
 //
 // The tool does work on the part before the face, and the node's mean velocity takes over less: what is lost is the
 // impulse times sum r_i (1 - s_i)(u_i - U_i), the rate at which the material is cut there.
 //
 // Weak: a surface whose radius is below a cell counts as an edge. Of a tool narrower than a cell no node is wholly
-// covered. What is cut shears without strength within a cell of the edge.
+// covered. What is cut shears without strength within a cell of the edge. U is that before the step's impulses: where
+// another face, or another tool, pushes the node beyond in the same step, it is known a step late.
 // Source: derived for this project; the effect, a blade that is one cell too deep, is in doc/verification.md.
 #pragma once
 

@@ -34,7 +34,8 @@
 // Where a face ends, points see the part of their nodes that lies before it (contact/edge_cover.hpp); the energy that
 // goes where material is cut at an edge is booked beside friction.
 //
-// Weak: A particle drawn into a body is pushed out slowly (kPushOut). A block that slides with friction vibrates more
+// Weak: A particle drawn into a body is pushed out slowly (kPushOut), and one near an edge, which moves slower than the
+// face, not at all: it passes under the edge. A block that slides with friction vibrates more
 // than with contact at nodes. Source: contact as impulses at points with complementarity is usual for rigid bodies
 // (Moreau, Jean: non-smooth contact dynamics); the law at a point is GIMP notes (3.12)-(3.20), method reference 8.3,
 // without its node.

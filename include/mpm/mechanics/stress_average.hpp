@@ -3,10 +3,10 @@
 // The flow rule of soil ties the change of volume to the shear at every particle. A cell with four or eight particles
 // then forbids more motions than its nodes have: a slip band that is not parallel to the grid cannot form freely, and
 // what is pushed or pressed meets too much force. At the beginning of each step the particles of a cell whose plastic
-// strain has grown in the step before, and which are under pressure, get the mean of their stresses, weighted by mass.
-// So the cell flows as an element with one stress does; what is elastic stays as it is. The mean stress of a cell does
-// not change, and since the elastic region is convex, the mean of admissible stresses is admissible. What the
-// particles lose of their elastic energy is booked.
+// strain has grown in the step before, and which are under pressure, of one body, get the mean of their stresses,
+// weighted by mass. So the cell flows as an element with one stress does; what is elastic stays as it is. The mean
+// stress of a cell does not change, and since the elastic region is convex, the mean of admissible stresses is
+// admissible. What the particles lose of their elastic energy is booked.
 //
 // They also share their volume ratio J, whose sum over the mass does not change: nothing but its stress would keep a
 // particle from swelling while its neighbour shrinks.
@@ -24,6 +24,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "mpm/math/geometry_kind.hpp"
@@ -50,7 +51,10 @@ class StressAverage final : public Stage {
   void momentum_gathered(StepContext& context) override;
   /// "stress averaging", dissipated.
   void energies(EnergyReport& report) const override;
-  void serialise(StateArchive& archive) override { archive.value("taken", taken_); }
+  void serialise(StateArchive& archive) override {
+    archive.value("taken", taken_);
+    archive.value("begun", begun_);
+  }
 
  private:
   /// What the flowing particles of a cell have together; sums weighted by mass.
@@ -63,6 +67,9 @@ class StressAverage final : public Stage {
 
   template <class Geometry, class T>
   void average(const AveragedSet& one, std::size_t place, const StepContext& context);
+  /// Keeps the plastic strains for the next step.
+  template <class Geometry, class T>
+  void remember(const AveragedSet& one, std::size_t place);
   /// Adds the flowing particles of a block to their cells.
   template <class Geometry, class T>
   void gather(const AveragedSet& one, double* before, const Grid& grid, int owner);
@@ -79,6 +86,7 @@ class StressAverage final : public Stage {
   std::vector<Cell> cells_;       ///< of a field, by the node at their lower corner
   std::vector<double> of_owner_;  ///< energy that the particles of a block lose in this step [J]
   double taken_ = 0.0;            ///< [J]
+  std::uint64_t begun_ = 0;       ///< whether a step has been taken
 };
 
 }  // namespace mpm

@@ -29,6 +29,15 @@ SurfacePoint nearest(const RigidBody& body, const Vec3& place) {
   return surface;
 }
 
+/// Length of a cell along a direction [m].
+double cell_along(const GridLayout& layout, const Vec3& direction) {
+  double inverse = 0.0;
+  for (int k = 0; k < layout.dim(); ++k) {
+    inverse = std::max(inverse, std::abs(direction[layout.axis(k)]) * layout.inverse_cell(k));
+  }
+  return 1.0 / inverse;
+}
+
 /// How far a place lies beyond a body's surface along a direction [m]; negative inside.
 double beyond(const RigidBody& body, const Vec3& place, const Vec3& along) {
   const SurfacePoint surface = nearest(body, place);
@@ -36,7 +45,8 @@ double beyond(const RigidBody& body, const Vec3& place, const Vec3& along) {
 }
 
 /// Edges across `along` and against it.
-void look(const RigidBody& body, const ContactPoint& point, const Vec3& along, double cell, Edges& edges) {
+void look(const RigidBody& body, const ContactPoint& point, const Vec3& along, const GridLayout& layout, Edges& edges) {
+  const double cell = cell_along(layout, along);
   for (const double sign : {1.0, -1.0}) {
     const SurfacePoint met = nearest(body, point.place + sign * kLook * cell * along);
     if (!(met.distance > 0.0 && sign * along.dot(met.normal) > kEdge)) continue;
@@ -49,17 +59,16 @@ void look(const RigidBody& body, const ContactPoint& point, const Vec3& along, d
 
 Edges edges_near(const RigidBody& body, const ContactPoint& point, const GridLayout& layout) {
   Edges edges;
-  const double cell = layout.smallest_cell();
   if (layout.dim() == 2) {
-    look(body, point, Vec3::UnitY().cross(point.normal).normalized(), cell, edges);
+    look(body, point, Vec3::UnitY().cross(point.normal).normalized(), layout, edges);
   } else if (layout.dim() == 3) {
     // Along the body's own axes, along which edges often lie.
     const Vec3 normal = body.pose().orientation.conjugate() * point.normal;
     int least = 0;
     normal.cwiseAbs().minCoeff(&least);
     const Vec3 first = body.pose().orientation * normal.cross(Vec3::Unit(least)).normalized();
-    look(body, point, first, cell, edges);
-    look(body, point, point.normal.cross(first), cell, edges);
+    look(body, point, first, layout, edges);
+    look(body, point, point.normal.cross(first), layout, edges);
   }
   return edges;
 }
@@ -71,7 +80,6 @@ int EdgeCover::apply(const ContactPoint& point, const Grid& grid, PointNode* nod
   const GridLayout& layout = grid.layout;
   const Edges edges = edges_near(body, point, layout);
   if (edges.count == 0) return count;
-  const double cell = layout.smallest_cell();
   const int per_block = layout.nodes_per_block();
   double sum = 0.0;
   int kept = 0;
@@ -82,6 +90,7 @@ int EdgeCover::apply(const ContactPoint& point, const Grid& grid, PointNode* nod
     double cover = 1.0;
     for (int e = 0; e < edges.count; ++e) {
       const Vec3& across = edges.across[e];
+      const double cell = cell_along(layout, across);
       const double part = std::clamp(1.0 - beyond(body, place + 0.5 * cell * across, across) / cell, 0.0, 1.0);
       if (part >= cover) continue;
       const NodeRef further = nearest_node(grid, place + cell * across);

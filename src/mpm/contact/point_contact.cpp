@@ -94,7 +94,7 @@ void PointContact::before_strain(StepContext&) {
     const StrainSlip seen{solver_.velocity_at(point) - point.velocity, solver_.cut_at(point), point.impulse};
     if (!contact.acted) {
       contact.seen = seen;
-    } else if (point.motion == nullptr) {
+    } else {
       ledgers_[contact.found->body].add_loss({0.0, lost(contact, seen) - lost(contact, contact.left)});
     }
   }
@@ -151,11 +151,9 @@ void PointContact::momentum_updated(StepContext& context) {
     contact.gained += carried_at(point);
     contact.left = {slip, solver_.cut_at(point), Vec3::Zero()};
     contact.acted = true;
-    if (point.motion == nullptr) {
-      // As the ledger counts it: the impulse along the surface.
-      const double friction = -along_surface(point.impulse, point.normal).dot(mean_slip);
-      ledgers_[contact.found->body].add_loss({0.0, lost(contact, contact.left) - friction - cut});
-    }
+    // As the ledger counts it: the impulse along the surface.
+    const double friction = -along_surface(point.impulse, point.normal).dot(mean_slip);
+    ledgers_[contact.found->body].add_loss({0.0, lost(contact, contact.left) - friction - cut});
     const Vec3 along = along_surface(slip, point.normal);
     // What has come to rest has friction at rest again.
     const double slid = along.norm() * context.dt;

@@ -157,7 +157,10 @@ void StressAverage::average(const AveragedSet& one, std::size_t place, const Ste
     const Grid& grid = *field;
     const int owners = grid.blocks.owners();
     of_owner_.resize(owners);
-    cells_.assign(static_cast<std::size_t>(grid.blocks.size()) * grid.layout.nodes_per_block(), {});
+    cells_.resize(static_cast<std::size_t>(grid.blocks.size()) * grid.layout.nodes_per_block());
+    const auto cells = static_cast<std::int64_t>(cells_.size());
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (std::int64_t i = 0; i < cells; ++i) cells_[i] = {};
     // A block adds to its own cells and to the last ones of those before it, so blocks of one colour share no cell.
     for (int colour = 0; colour < grid.blocks.colours(); ++colour) {
       const std::vector<int>& of_colour = grid.blocks.owners_of_colour(colour);
@@ -169,22 +172,34 @@ void StressAverage::average(const AveragedSet& one, std::size_t place, const Ste
     for (int owner = 0; owner < owners; ++owner) of_owner_[owner] = share<Geometry, T>(one, before, grid, owner);
     for (const double lost : of_owner_) taken_ += lost;
   }
-  Particles<Geometry, T> particles(one, before);
-  const auto count = static_cast<std::uint32_t>(one.set->size());
-  for (std::uint32_t p = 0; p < count; ++p) particles.remember(p);
+}
+
+template <class Geometry, class T>
+void StressAverage::remember(const AveragedSet& one, std::size_t place) {
+  Particles<Geometry, T> particles(one, one.set->brought[place].values.data());
+  const int count = one.set->size();
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (int p = 0; p < count; ++p) particles.remember(p);
 }
 
 void StressAverage::momentum_gathered(StepContext& context) {
   with_geometry(geometry_, [&](auto kind) {
     using Geometry = decltype(kind);
     for (std::size_t s = 0; s < sets_.size(); ++s) {
+      const auto act = [&](auto scalar) {
+        using T = decltype(scalar);
+        // Plastic strain of the start, as ground has that was settled, is not of this run.
+        if (begun_ != 0) average<Geometry, T>(sets_[s], places_[s], context);
+        remember<Geometry, T>(sets_[s], places_[s]);
+      };
       if (sets_[s].set->precision == Precision::float64) {
-        average<Geometry, double>(sets_[s], places_[s], context);
+        act(double());
       } else {
-        average<Geometry, float>(sets_[s], places_[s], context);
+        act(float());
       }
     }
   });
+  begun_ = 1;
 }
 
 void StressAverage::energies(EnergyReport& report) const {

@@ -38,8 +38,7 @@ void add_stress_average(RunParts& parts) {
     if (!definition.method.average_stress) return;
     throw DefinitionError(
         "method.average_stress: no body is of drucker_prager, mohr_coulomb or mu_i, whose stresses it averages; leave "
-        "it "
-        "out");
+        "it out");
   }
   parts.modules.add(std::make_unique<StressAverage>(std::move(sets), definition.geometry, parts.threads));
 }

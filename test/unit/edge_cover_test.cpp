@@ -18,8 +18,8 @@ constexpr double kCell = 0.1;
 
 /// A field whose nodes all carry 1 kg, from 0 to 2 m along each axis.
 struct Field {
-  explicit Field(int dim)
-      : fields(make_fields(GridLayout(dim, Vec3::Constant(kCell), Vec3::Zero(), Vec3::Constant(2.0)))), sets(1) {
+  explicit Field(int dim, const Vec3& cell = Vec3::Constant(kCell))
+      : fields(make_fields(GridLayout(dim, cell, Vec3::Zero(), Vec3::Constant(2.0)))), sets(1) {
     ParticleSet& set = sets[0];
     set.half = {0.5, 0.5, 0.5};
     set.highest = {20.0, 20.0, 20.0};
@@ -122,6 +122,28 @@ TEST(EdgeCover, APointSeesWhatIsBeforeItsFace) {
       EXPECT_NEAR(seen, upper, 1e-9) << edge << ' ' << above;
       EXPECT_NEAR(whole, 1.0, 1e-12);  // momentum
       EXPECT_GT(compliance, 0.0);
+    }
+  }
+}
+
+// Cells twice as high as wide, with an edge below and one above.
+TEST(EdgeCover, OnCellsThatAreNotCubesToo) {
+  Field field(2, {kCell, kCell, 2.0 * kCell});
+  for (const double sense : {1.0, -1.0}) {
+    for (const double edge : {0.8, 0.87, 0.9, 0.96}) {
+      const RigidBody body = body_of(make_box({0.5, kInfinite, 0.9}), {0.63 - 0.25, 0.0, edge + sense * 0.45});
+      const auto velocity = [&](double z) {
+        const double part = std::clamp(sense * (z - edge) / (2.0 * kCell) + 0.5, 0.0, 1.0);
+        return part * 3.0 - (1.0 - part) * 7.0;
+      };
+      const Around found = around(field, body, {0.63, 0.0, edge + sense * 0.06}, Vec3::UnitX());
+      ASSERT_FALSE(found.nodes.empty()) << sense << ' ' << edge;
+      double seen = 0.0;
+      for (const PointNode& node : found.nodes) {
+        seen += node.reading * velocity(field.place(node.node).z());
+        if (node.beyond_part > 0.0) seen -= node.beyond_part * velocity(field.place(node.beyond).z());
+      }
+      EXPECT_NEAR(seen, 3.0, 1e-9) << sense << ' ' << edge;
     }
   }
 }

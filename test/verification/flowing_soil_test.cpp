@@ -49,7 +49,8 @@ double hourglass(const Places& start, const Places& now, int first) {
 TEST(FlowingSoil, NoMotionThatACellDoesNotSeeGrows) {
   verification::Page page("soil", "flowing_soil", "Sand that flows evenly for 5,600 steps: no spurious motion");
   page.problem(
-          "Sand (φ = 30°, ψ = 10°, E = 4 MPa, ν = 0.1) in an oedometer of 8 by 8 cells yields from the start. Its velocity "
+          "Sand (φ = 30°, ψ = 10°, E = 4 MPa, ν = 0.1) in an oedometer of 8 by 8 cells yields from the start. Its "
+          "velocity "
           "begins with a ripple of 1 cm/s, two and a half times the plate's speed, that changes its sign from node to "
           "node, which a cell with one stress does not see. The amplitude of this motion in the displacement is "
           "measured "

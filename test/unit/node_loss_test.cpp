@@ -8,18 +8,6 @@ namespace node_loss_test {
 
 const Vec3 kUp = Vec3::UnitZ();
 
-// A force holds up what would slide: the node and its particles rest.
-TEST(NodeLoss, NothingIsTakenFromWhatSticks) {
-  NodeLoss loss;
-  const SurfaceLoss taken =
-      loss.act({2.0, kUp, Vec3::Zero(), {-3.0, 0.0, 5.0}, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
-  EXPECT_EQ(taken.friction, 0.0);
-  EXPECT_EQ(taken.held, 0.0);
-  const SurfaceLoss more = loss.end(Vec3::Zero(), Vec3::Zero());
-  EXPECT_EQ(more.friction, 0.0);
-  EXPECT_EQ(more.held, 0.0);
-}
-
 // 3 N s against a slip that goes from 2 to 1 m/s, which particles see as 1.5 m/s: 3 x (2 + 1.5) / 2.
 TEST(NodeLoss, FrictionTakesTheImpulseTimesTheMeanSlipOfStrain) {
   NodeLoss loss;

@@ -10,6 +10,7 @@
 // alike.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "mpm/rigid/rigid_body.hpp"
@@ -71,13 +72,17 @@ class Wall final : public FieldStage {
   struct Node {
     NodeRef ref;
     std::uint64_t id;
-    Hold hold;      ///< in the step before, then in this one
-    NodeLoss loss;  ///< in this step
+    Hold hold;                   ///< in the step before, then in this one
+    Vec3 gained = Vec3::Zero();  ///< grid axes; of a wall that always holds: change of momentum, less the weight [N s]
   };
+  bool always_holds() const { return definition_.kind != WallKind::frictional; }
+  /// Grid axes [first, end) along which a wall that always holds does so.
+  std::pair<int, int> held_axes(const GridLayout& layout) const;
+  /// What a wall that always holds takes at a node by the start of the step; before_strain() adds that by its end. It
+  /// is NodeLoss with a slip of 0, so that (F dt + J).(c0 + c1)/2 is all, and c = -V along the axes held.
+  void hold_up(Node& node, const Grid& grid, double dt);
   /// Frictional: how the wall holds the node; else what it always does.
   ContactChange change(const Vec3& velocity, const Vec3& normal) const;
-  /// The change of a velocity for the strain; `held`: how the wall held the node before.
-  Vec3 change_for_strain(const Vec3& velocity, const Vec3& normal, Hold held) const;
   Vec3 normal(const GridLayout& layout) const;
 
   int face_;
@@ -87,6 +92,8 @@ class Wall final : public FieldStage {
   Vec3 given_ = Vec3::Zero();  ///< in this step [N s]
   SurfaceLoss loss_;
   std::vector<Node> nodes_;
+  std::vector<NodeLoss> losses_;  ///< frictional only: at nodes_, in this step
+  bool acted_ = false;            ///< whether the step's impulses were given
   HeldNodes held_;                ///< frictional only
   std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
 };

@@ -19,12 +19,11 @@ namespace mpm {
 
 /// One impulse of contact on the material.
 struct ContactImpulse {
-  Vec3 impulse;   ///< [N s]
-  Vec3 normal;    ///< out of the body
-  Vec3 arm;       ///< from the body's origin [m]
-  Vec3 velocity;  ///< of the body's surface there [m/s]
-  Vec3 mean_slip =
-      Vec3::Zero();  ///< of the material against it, the mean of the ends of the last step and of this [m/s]
+  Vec3 impulse;                   ///< [N s]
+  Vec3 normal;                    ///< out of the body
+  Vec3 arm;                       ///< from the body's origin [m]
+  Vec3 velocity;                  ///< of the body's surface there [m/s]
+  Vec3 mean_slip = Vec3::Zero();  ///< of the material against it: mean of the ends of the last step and this [m/s]
 };
 
 /// What contact has done since the start.

@@ -13,9 +13,8 @@
 //
 // and node i gets the part r_i s_i of an impulse at the point. These parts sum to 1, so momentum is exact; a velocity
 // that is the same everywhere is seen as it is; and since the parts are those of the mass s m of node i, V answers
-// the impulse symmetrically: sum r_i^2 s_i / m_i > 0. The factor g takes weight from a node that lies
-// mostly beyond the edge, whose v is known the least. A point with S < kLeast lies beyond the edge itself and is no
-// contact.
+// the impulse symmetrically: sum r_i^2 s_i / m_i > 0. The factor g takes weight from a node that lies mostly
+// beyond the edge, whose v is known the least. A point with S < kLeast lies beyond the edge itself and is no contact.
 //
 // The cover is 1 half a cell inside the edge, 0 half a cell outside, and linear between: with t out of the face across
 // its edge, h the length of a cell along t, and d n the signed distance and normal of the tool at x_i + (h/2) t, it is
@@ -30,7 +29,7 @@
 // Weak: a surface whose radius is below a cell counts as an edge. Of a tool narrower than a cell no node is wholly
 // covered. What is cut shears without strength within a cell of the edge. U is that before the step's impulses: where
 // another face, or another tool, pushes the node beyond in the same step, it is known a step late.
-// Source: derived for this project; the effect, a blade that is one cell too deep, is in doc/verification.md.
+// Source: derived for this project; doc/methods.md has the forces on blades and strips with and without it.
 #pragma once
 
 #include <vector>

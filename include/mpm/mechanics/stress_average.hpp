@@ -67,13 +67,14 @@ class StressAverage final : public Stage {
 
   template <class Geometry, class T>
   void average(const AveragedSet& one, std::size_t place, const StepContext& context);
-  /// Keeps the plastic strains for the next step.
+  /// Takes note of the plastic strains of the start, as ground has that was settled: they are not of this run.
   template <class Geometry, class T>
   void remember(const AveragedSet& one, std::size_t place);
   /// Adds the flowing particles of a block to their cells.
   template <class Geometry, class T>
   void gather(const AveragedSet& one, double* before, const Grid& grid, int owner);
-  /// Gives the means to the flowing particles of a block; returns the energy that they lose [J].
+  /// Gives the means to the flowing particles of a block, and takes note of the plastic strains of all of them for the
+  /// next step. Returns the energy that the particles lose [J].
   template <class Geometry, class T>
   double share(const AveragedSet& one, double* before, const Grid& grid, int owner);
   /// The cell with this number along each axis, from -1, counted from the first of an owner's block.

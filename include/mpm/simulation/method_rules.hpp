@@ -21,5 +21,7 @@ std::optional<MethodFault> method_fault(const MethodDefinition& method, Geometry
 /// Whether soil that flows has one stress in a cell. If the method does not say so: wherever soil can lock, unless
 /// another remedy, average_dilatation, is chosen.
 bool averages_stress(const MethodDefinition& method, GeometryKind geometry);
+/// The elastic constants of a law of soil whose stresses can be averaged; null of any other.
+const Elasticity* averaged_elasticity(const LawDefinition& law);
 
 }  // namespace mpm

@@ -14,9 +14,9 @@
 // node which is held: F dt + J is the node's change of momentum less its weight. Nothing of earlier steps is needed.
 //
 // V1 is known after the step's impulse: act() takes the slip that the impulse leaves on the grid in the place of u1,
-// and 0 for c1; end() replaces them. With
-// USF, whose particles are not gathered again, act() has the last word. Gravity, whose work is in the potential energy,
-// is no part of F. Weak: loads are; the difference is their impulse times (c0 + c1)/2.
+// and 0 for c1; end() replaces them. With USF, whose particles are not gathered again, act() has the last word.
+// Gravity, whose work is in the potential energy, is no part of F. Weak: loads are; the difference is their impulse
+// times (c0 + c1)/2.
 #pragma once
 
 #include "mpm/math/geometry.hpp"

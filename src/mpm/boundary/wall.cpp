@@ -1,5 +1,6 @@
 #include "mpm/boundary/wall.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace mpm {
@@ -30,14 +31,10 @@ ContactChange Wall::change(const Vec3& velocity, const Vec3& normal) const {
   return {Vec3::Zero(), Hold::free};
 }
 
-Vec3 Wall::change_for_strain(const Vec3& velocity, const Vec3& normal, Hold held) const {
-  if (definition_.kind == WallKind::frictional) return strain_change(velocity, normal, definition_.friction, held);
-  return change(velocity, normal).velocity;
-}
-
 void Wall::momentum_gathered(FieldContext& context) {
   const BlockTable& blocks = context.grid.blocks;
-  for (Node& node : nodes_) node.loss = {};  // of a step that did not gather its end
+  acted_ = false;
+  std::fill(losses_.begin(), losses_.end(), NodeLoss());  // of a step that did not gather its end
   if (generation_ == blocks.generation()) return;
   generation_ = blocks.generation();
   nodes_.clear();
@@ -53,19 +50,47 @@ void Wall::momentum_gathered(FieldContext& context) {
       const int beyond = upper ? node - layout.last_node(axis) : -node;
       if (beyond >= 0 && beyond <= context.grid.wall_layers) {
         const std::uint64_t id = HeldNodes::id(blocks.key(b), n);
-        nodes_.push_back({{b, n}, id, held_.find(id), {}});
+        nodes_.push_back({{b, n}, id, held_.find(id)});
       }
     }
+  }
+  if (!always_holds()) losses_.assign(nodes_.size(), {});
+}
+
+std::pair<int, int> Wall::held_axes(const GridLayout& layout) const {
+  if (definition_.kind == WallKind::fixed) return {0, layout.dim()};
+  return {face_ / 2, face_ / 2 + 1};
+}
+
+void Wall::hold_up(Node& node, const Grid& grid, double dt) {
+  const auto [first, end] = held_axes(grid.layout);
+  const double mass = grid.mass.at(node.ref.block, 0, node.ref.node);
+  for (int k = first; k < end; ++k) {
+    const double momentum = grid.momentum.at(node.ref.block, k, node.ref.node);
+    node.gained[k] = -momentum - mass * dt * gravity_[grid.layout.axis(k)];
+    loss_.held -= 0.5 * node.gained[k] * momentum / mass;
   }
 }
 
 void Wall::before_strain(FieldContext& context) {
   Grid& grid = context.grid;
+  if (always_holds()) {
+    const auto [first, end] = held_axes(grid.layout);
+    for (const Node& node : nodes_) {
+      for (int k = first; k < end; ++k) {
+        double& velocity = grid.velocity.at(node.ref.block, k, node.ref.node);
+        if (acted_) loss_.held -= 0.5 * node.gained[k] * velocity;
+        velocity = 0.0;
+      }
+    }
+    return;
+  }
   const Vec3 n = normal(grid.layout);
-  for (Node& node : nodes_) {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
     const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
-    const Vec3 change = change_for_strain(velocity, n, node.hold);
-    loss_ += node.loss.end(velocity, velocity + change);
+    const Vec3 change = strain_change(velocity, n, definition_.friction, node.hold);
+    loss_ += losses_[i].end(velocity, velocity + change);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
   }
 }
@@ -74,22 +99,29 @@ void Wall::momentum_updated(FieldContext& context) {
   Grid& grid = context.grid;
   const Vec3 n = normal(grid.layout);
   held_.clear();
-  for (Node& node : nodes_) {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    Node& node = nodes_[i];
     const Hold held = std::exchange(node.hold, Hold::free);
+    if (!acted_) node.gained.setZero();
     if (!grid.carries(node.ref.block, node.ref.node)) continue;
     const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
     const auto [dv, hold] = change(velocity, n);
     node.hold = hold;
     const double mass = grid.mass.at(node.ref.block, 0, node.ref.node);
-    const Vec3 start = nodal_vector(grid.momentum, grid.layout, node.ref) / mass;
-    loss_ += node.loss.act({mass, n, mass * context.dt * gravity_, mass * dv, start,
-                            start + change_for_strain(start, n, held), velocity + dv});
+    if (always_holds()) {
+      if (!acted_) hold_up(node, grid, context.dt);
+    } else {
+      const Vec3 start = nodal_vector(grid.momentum, grid.layout, node.ref) / mass;
+      loss_ += losses_[i].act({mass, n, mass * context.dt * gravity_, mass * dv, start,
+                               start + strain_change(start, n, definition_.friction, held), velocity + dv});
+    }
     if (hold == Hold::free) continue;
-    if (definition_.kind == WallKind::frictional) held_.add(node.id, hold);
+    if (!always_holds()) held_.add(node.id, hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, dv);
     add_nodal_vector(grid.force, grid.layout, node.ref, dv / context.dt);
     given_ += mass * dv;
   }
+  acted_ = true;
 }
 
 void Wall::velocity_found(FieldContext& context) {

@@ -19,6 +19,7 @@ constexpr double kThinnest = 1e-2;   ///< mass beyond an edge, over that of the 
 /// Directions along the surface across the edges near a point, away from the face.
 struct Edges {
   std::array<Vec3, 4> across;
+  std::array<double, 4> cell{};  ///< length of a cell along each [m]
   int count = 0;
 };
 
@@ -53,7 +54,9 @@ void look(const RigidBody& body, const ContactPoint& point, const Vec3& along, c
     const Vec3 across = (met.normal - met.normal.dot(point.normal) * point.normal).normalized();
     const auto known = [&](const Vec3& other) { return other.dot(across) > 0.99; };
     const auto end = edges.across.begin() + edges.count;
-    if (std::none_of(edges.across.begin(), end, known)) edges.across[edges.count++] = across;
+    if (std::any_of(edges.across.begin(), end, known)) continue;
+    edges.across[edges.count] = across;
+    edges.cell[edges.count++] = cell_along(layout, across);
   }
 }
 
@@ -90,7 +93,7 @@ int EdgeCover::apply(const ContactPoint& point, const Grid& grid, PointNode* nod
     double cover = 1.0;
     for (int e = 0; e < edges.count; ++e) {
       const Vec3& across = edges.across[e];
-      const double cell = cell_along(layout, across);
+      const double cell = edges.cell[e];
       const double part = std::clamp(1.0 - beyond(body, place + 0.5 * cell * across, across) / cell, 0.0, 1.0);
       if (part >= cover) continue;
       const NodeRef further = nearest_node(grid, place + cell * across);

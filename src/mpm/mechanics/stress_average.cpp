@@ -133,7 +133,9 @@ double StressAverage::share(const AveragedSet& one, double* before, const Grid& 
   const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(owner));
   double lost = 0.0;
   for (std::uint32_t p = one.set->begin[place]; p < one.set->begin[place + 1]; ++p) {
-    if (!particles.flows(p)) continue;
+    const bool flows = particles.flows(p);
+    particles.remember(p);
+    if (!flows) continue;
     const Cell& cell = cell_at(grid, owner, particles.cell(p, grid.layout, origin));
     if (cell.particles < 2) continue;
     typename Tensor::Stress mean;
@@ -177,9 +179,7 @@ void StressAverage::average(const AveragedSet& one, std::size_t place, const Ste
 template <class Geometry, class T>
 void StressAverage::remember(const AveragedSet& one, std::size_t place) {
   Particles<Geometry, T> particles(one, one.set->brought[place].values.data());
-  const int count = one.set->size();
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (int p = 0; p < count; ++p) particles.remember(p);
+  for (int p = 0; p < one.set->size(); ++p) particles.remember(p);
 }
 
 void StressAverage::momentum_gathered(StepContext& context) {
@@ -188,9 +188,11 @@ void StressAverage::momentum_gathered(StepContext& context) {
     for (std::size_t s = 0; s < sets_.size(); ++s) {
       const auto act = [&](auto scalar) {
         using T = decltype(scalar);
-        // Plastic strain of the start, as ground has that was settled, is not of this run.
-        if (begun_ != 0) average<Geometry, T>(sets_[s], places_[s], context);
-        remember<Geometry, T>(sets_[s], places_[s]);
+        if (begun_ != 0) {
+          average<Geometry, T>(sets_[s], places_[s], context);
+        } else {
+          remember<Geometry, T>(sets_[s], places_[s]);
+        }
       };
       if (sets_[s].set->precision == Precision::float64) {
         act(double());

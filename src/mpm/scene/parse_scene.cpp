@@ -115,11 +115,8 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
     scene.choices.emplace_back("gravity", "none: the scene names none");
   }
   read_materials(root, scene);
-  const bool soil = std::any_of(definition.materials.begin(), definition.materials.end(), [](const auto& material) {
-    return std::holds_alternative<DruckerPragerDefinition>(material.law) ||
-           std::holds_alternative<MohrCoulombDefinition>(material.law) ||
-           std::holds_alternative<MuIDefinition>(material.law);
-  });
+  const bool soil = std::any_of(definition.materials.begin(), definition.materials.end(),
+                                [](const auto& material) { return averaged_elasticity(material.law) != nullptr; });
   if (soil && !definition.method.average_stress && averages_stress(definition.method, definition.geometry)) {
     scene.choices.emplace_back("method.average_stress",
                                "true: soil that flows has one stress in a cell, against too much force on tools");

@@ -146,6 +146,13 @@ bool averages_stress(const MethodDefinition& method, GeometryKind geometry) {
   return method.average_stress.value_or(may_lock(geometry) && !method.average_dilatation);
 }
 
+const Elasticity* averaged_elasticity(const LawDefinition& law) {
+  if (const auto* soil = std::get_if<DruckerPragerDefinition>(&law)) return &soil->elasticity;
+  if (const auto* soil = std::get_if<MohrCoulombDefinition>(&law)) return &soil->elasticity;
+  if (const auto* grain = std::get_if<MuIDefinition>(&law)) return &grain->elasticity;
+  return nullptr;
+}
+
 std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry) {
   if (const Fault fault = shape_fault(method, geometry)) return fault;
   if (const Fault fault = transfer_fault(method)) return fault;

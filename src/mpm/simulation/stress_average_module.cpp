@@ -11,14 +11,6 @@ namespace {
 
 static_assert(DruckerPrager::kPlasticStrain == 0 && MohrCoulomb::kPlasticStrain == 0 && MuI::kPlasticStrain == 0);
 
-/// The elastic constants of a law of soil; null of any other.
-const Elasticity* soil_elasticity(const LawDefinition& law) {
-  if (const auto* soil = std::get_if<DruckerPragerDefinition>(&law)) return &soil->elasticity;
-  if (const auto* soil = std::get_if<MohrCoulombDefinition>(&law)) return &soil->elasticity;
-  if (const auto* grain = std::get_if<MuIDefinition>(&law)) return &grain->elasticity;
-  return nullptr;
-}
-
 }  // namespace
 
 void add_stress_average(RunParts& parts) {
@@ -29,7 +21,7 @@ void add_stress_average(RunParts& parts) {
     const std::string& name = definition.bodies[s].material;
     const auto material = std::find_if(definition.materials.begin(), definition.materials.end(),
                                        [&](const MaterialDefinition& one) { return one.name == name; });
-    const Elasticity* elasticity = soil_elasticity(material->law);
+    const Elasticity* elasticity = averaged_elasticity(material->law);
     if (elasticity != nullptr) {
       sets.push_back({&parts.sets[s], elasticity->bulk(), elasticity->shear(), material->density});
     }

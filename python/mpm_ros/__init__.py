@@ -1,0 +1,21 @@
+"""mpm_ros in Python: step a simulation, and read its recordings. doc/python.md shows the use.
+
+    Simulator        a simulator node of one's own, or one that runs, stepped in lockstep
+    Observation      what a step answers: bodies, contact forces, particles, as NumPy arrays
+    Recording        a bag, split or whole, as NumPy arrays or pandas
+    MpmError         whatever went wrong, in one sentence
+    mpm_ros.msg, mpm_ros.srv    the generated messages and services
+
+The names are loaded at their first use, so that tools which only want the messages need no NumPy.
+"""
+import importlib
+
+_HOMES = {"MpmError": "errors", "Observation": "simulator", "Particles": "particles", "Recording": "recording",
+          "Simulator": "simulator", "Table": "recording"}
+__all__ = list(_HOMES)
+
+
+def __getattr__(name):
+    if name not in _HOMES:
+        raise AttributeError(f"module 'mpm_ros' has no attribute '{name}'")
+    return getattr(importlib.import_module("." + _HOMES[name], __name__), name)

@@ -1,0 +1,103 @@
+"""A simulator node in a process of its own, as the client starts it: see supervise.py."""
+import json
+import logging
+import re
+import subprocess
+import sys
+import threading
+
+import rosgraph
+
+from .errors import MpmError
+
+_LOG = logging.getLogger("mpm_ros")
+_LEVELS = {"DEBUG": logging.DEBUG, "INFO": logging.INFO, "WARN": logging.WARNING, "ERROR": logging.ERROR,
+           "FATAL": logging.CRITICAL}
+_LINE = re.compile(r"\[ *(DEBUG|INFO|WARN|ERROR|FATAL)\] (.*)")
+_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+_KEPT = 20  # last lines of output, for a node that ends without a sentence of its own
+
+
+def find_program():
+    """Path of the program `simulator`."""
+    from roslib.packages import find_node
+    try:
+        found = find_node("mpm_ros", "simulator")
+    except Exception as error:  # rospkg's own, when the package is not on its path
+        raise MpmError(f"the package mpm_ros is not found ({error}); source the workspace's setup.bash") from error
+    if not found:
+        raise MpmError("the program simulator is not found; build the package and source the workspace's setup.bash")
+    return found[0]
+
+
+def master_runs():
+    """Whether a master answers at ROS_MASTER_URI."""
+    try:
+        return rosgraph.is_master_online()
+    except ValueError as error:
+        raise MpmError(f"ROS_MASTER_URI: {error}") from error
+
+
+class NodeProcess:
+    """A node and, with `own_master`, a master. What the node logs goes to Python's log `mpm_ros`."""
+
+    def __init__(self, program, namespace, parameters, own_master):
+        self.sentence = ""  # the node's last one of severity FATAL
+        self.exit_code = None
+        self._last_lines = []
+        task = {"program": program, "namespace": namespace, "parameters": parameters, "own_master": own_master}
+        # In a session of its own, so that Ctrl-C reaches the client alone, which then ends the node.
+        self._process = subprocess.Popen([sys.executable, "-m", "mpm_ros.supervise", json.dumps(task)],
+                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                         text=True, errors="replace", start_new_session=True)
+        self._listener = threading.Thread(target=self._listen, daemon=True)
+        try:
+            self.master_uri = self._read_master_uri()
+            self._listener.start()
+        except BaseException:
+            self.end()
+            raise
+
+    def _read_master_uri(self):
+        lines = []
+        for line in self._process.stdout:
+            if line.startswith("master "):
+                return line.split()[1]
+            lines.append(line)
+        raise MpmError(f"no simulator was started: {''.join(lines[-1:]).strip() or 'python3 ended at once'}")
+
+    def _listen(self):
+        level = logging.INFO
+        for line in self._process.stdout:
+            line = _COLOUR.sub("", line.rstrip("\n"))
+            self._last_lines = (self._last_lines + [line])[-_KEPT:]
+            match = _LINE.match(line)
+            if match:
+                level, line = _LEVELS[match[1]], match[2]
+                if level == logging.CRITICAL:
+                    # The client raises it: it is no news for the log.
+                    self.sentence, level = line, logging.INFO
+            _LOG.log(level, "%s", line)
+
+    def runs(self):
+        return self._process.poll() is None
+
+    def failure(self, doing):
+        """Why the node is gone, as an exception. Waits until its output is complete."""
+        self.end()
+        sentence = self.sentence
+        if not sentence:
+            sentence = f"the simulator ended with {self.exit_code} while {doing}"
+            if self._last_lines:
+                sentence += "; its last line: " + self._last_lines[-1]
+        return MpmError(sentence, self.exit_code)
+
+    def end(self):
+        """Ends the node in order, and the master: the bag is closed when this returns. Returns the exit code."""
+        if self.exit_code is None:
+            self._process.stdin.close()
+            if self._listener.ident is not None:
+                self._listener.join()
+            self.exit_code = self._process.wait()
+            self._process.stdout.close()
+        return self.exit_code

@@ -1,0 +1,374 @@
+"""A simulator stepped in lockstep: a controller in a loop of its own. doc/python.md shows the use, doc/loop.md has the
+contract of `step`."""
+import itertools
+import json
+import os
+import weakref
+
+import numpy as np
+import rosgraph
+from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
+
+from . import wire
+from .errors import MpmError
+from .particles import Particles
+from .process import NodeProcess, find_program, master_runs
+
+_CLOUD_PATIENCE = 20.0  # [s] wall time for a message that the node has handed to its connection
+_DEFAULT_NAMESPACE = "/mpm"
+_numbers = itertools.count(1)
+
+
+class Body:
+    """A rigid body after a step. Arrays are views of the node's answer; world axes, torques about the body's origin.
+
+    name
+    position, orientation    (3,) [m], (4,) unit quaternion x, y, z, w
+    velocity, rotation_rate  (3,) [m/s] of the origin, (3,) [rad/s]
+    force, torque            (3,) [N], (3,) [N m]: of the material on the body, mean of the step
+    peak_force, peak_torque  (3,) in that step of the solver with the largest force
+    impulse                  (3,) [N s] since the run's start
+    state, contact           all fields, as in mpm_ros/BodyState and mpm_ros/ContactForce
+    """
+
+    def __init__(self, state, contact):
+        self.name = state.name
+        self.position, self.orientation = state.pose[:3], state.pose[3:]
+        self.velocity, self.rotation_rate = state.twist[:3], state.twist[3:]
+        self.force, self.torque = contact.wrench[:3], contact.wrench[3:]
+        self.peak_force, self.peak_torque = contact.peak[:3], contact.peak[3:]
+        self.impulse = contact.impulse
+        self.state = state
+        self.contact = contact
+
+
+class Observation:
+    """What a step answers.
+
+    time       [s] simulated since the run's start
+    stamp      [ns] of the state reached
+    ended      whether the scene's end is reached; `reset` begins again
+    bodies     dict: name to Body
+    pairs      list: contacts between deformable bodies, as in mpm_ros/ContactPair
+    particles  Particles: the last snapshot up to `time`, at multiples of `particle_period`. None without that, and before
+               the first that comes: the one of time zero is sent before anybody listens, but for that of a reset
+    """
+
+    def __init__(self, answer, particles):
+        self.time = answer.time
+        self.stamp = answer.stamp
+        self.ended = "the run has ended" in answer.message
+        contacts = {contact.name: contact for contact in answer.contact_forces.bodies}
+        self.bodies = {state.name: Body(state, contacts[state.name]) for state in answer.bodies.bodies}
+        self.pairs = answer.contact_forces.pairs
+        self.particles = particles
+
+    def __getitem__(self, body):
+        """The body of that name."""
+        if body not in self.bodies:
+            raise KeyError(f"there is no rigid body '{body}'; there are {', '.join(self.bodies) or 'none'}")
+        return self.bodies[body]
+
+
+class Simulator:
+    """A simulator node, stepped by this object.
+
+        with Simulator("blade_in_soil", threads=1) as sim:
+            obs = sim.step(0.01, velocity={"blade": (0.2, 0, 0)})
+            print(obs["blade"].force)
+
+    `Simulator(scene)` starts a node in a process of its own: below `namespace`, or the first free one of /mpm, /mpm_2, …; at
+    the master of ROS_MASTER_URI, or where none answers with a master of its own on a free port. Both end at the end of the
+    block, and with this process however that ends. `Simulator.connect(namespace)` takes over a node that runs.
+
+    scene            a shipped scene's name, or a path
+    set              changes to the scene: {"time.end": 5, "materials.sand.young": "2 MPa"}, or ["time.end=5"]
+    particle_period  [s] simulated, whole sync periods: Observation.particles. None: no particles are sent
+    particle_fields  names of particle fields beside x, y, z and id. None: the scene's
+    namespace        of the node
+    own_master       True: a master of its own in any case; False: that of ROS_MASTER_URI; None: as above
+    parameters       any other parameter of the node (config/simulator.yaml): threads=1, record="run.bag"
+
+    The node's warnings go to Python's log `mpm_ros`. Whatever fails raises MpmError with the node's own sentence. Not for
+    several threads at once. Several simulators in one process, or one after the other, are independent.
+    """
+
+    def __init__(self, scene, *, set=None, particle_period=None, particle_fields=None, namespace=None, own_master=None,
+                 **parameters):
+        parameters.update(_node_parameters(scene, set, particle_period, particle_fields, parameters))
+        if own_master is None:
+            own_master = not master_runs()
+        elif not own_master and not master_runs():
+            raise MpmError(f"no master answers at {os.environ.get('ROS_MASTER_URI')}; start roscore")
+        namespace = _free_namespace(namespace, own_master)
+        self._process = NodeProcess(find_program(), namespace, parameters, own_master)
+        self._connect(namespace, self._process.master_uri, particle_period)
+
+    @classmethod
+    def connect(cls, namespace=_DEFAULT_NAMESPACE, particle_period=None):
+        """The simulator that runs below `namespace` with `_pacing:=lockstep`, at the master of ROS_MASTER_URI. It goes on
+        when the block ends. `particle_period` [s]: of the clouds that it publishes (its ~particle_rate)."""
+        if not master_runs():
+            raise MpmError(f"no master answers at {os.environ.get('ROS_MASTER_URI')}; start roscore and a simulator")
+        self = cls.__new__(cls)
+        self._process = None
+        self._connect(namespace, os.environ["ROS_MASTER_URI"], particle_period)
+        return self
+
+    def _connect(self, namespace, master_uri, particle_period):
+        self.namespace = "/" + namespace.strip("/")
+        self.master_uri = master_uri
+        self._caller = f"/mpm_ros_client_{os.getpid()}_{next(_numbers)}"
+        self._master = rosgraph.Master(self._caller, master_uri=master_uri)
+        self._connections = {}
+        self._clouds = None
+        self._particles = None
+        self._closer = weakref.finalize(self, _close, self._process, self._connections, self._master)
+        try:
+            self._service("step")
+            self.info = self._latched("run_info")
+            if particle_period is not None:
+                self._follow_particles(particle_period)
+        except BaseException:
+            self.close()
+            raise
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        """Ends the node that this object started, and its master; bags are closed. A second call does nothing."""
+        self._closer()
+
+    # --- what the node does -------------------------------------------------------------------------------------------
+
+    def step(self, duration=None, *, count=None, velocity=None, pose=None, wrench=None):
+        """Advances by `duration` [s], rounded up to whole sync periods, or by `count` of them; by one when neither is given.
+        Commands take effect at its start; each is a dict of bodies:
+
+        velocity  (3,) [m/s] of the body's origin, or (6,) with its rotation rate [rad/s]; world axes
+        pose      (7,) position [m] and quaternion x, y, z, w, to be reached at the end of the step
+        wrench    (3,) [N] on a free body, or (6,) with the torque [N m] about its origin
+
+        Returns an Observation. Raises MpmError when a command is refused, the run has ended, or the physics fail."""
+        commands = _commands(velocity, pose, wrench)
+        answer = self._call("step", duration=duration or 0.0, count=count or 0, commands=commands)
+        return Observation(answer, self._particles_at(answer.stamp))
+
+    def reset(self, set=None):
+        """Begins the scene again, at time zero. `set`: changes to the scene for the runs from here on, as in Simulator();
+        None: none. The next `step` has the first observation."""
+        self._call("reset", **_reset_fields(self._service("reset"), set))
+        self._begin_run()
+
+    def save_checkpoint(self, path):
+        """Saves the run, to the bit. Returns the file's absolute path. A relative path starts from the node's folder, which is
+        the present one for a node that this object started."""
+        return self._call("save_checkpoint", path=os.fspath(path)).path
+
+    def load_checkpoint(self, path):
+        """Goes on from a checkpoint of the same scene. Returns its simulated time [s]."""
+        answer = self._call("load_checkpoint", path=os.fspath(path))
+        self._begin_run(answer.stamp)
+        return answer.time
+
+    def solver_state(self):
+        """Steps, energies, audit of momentum and so on, as in mpm_ros/SolverState, at the last sync point."""
+        return self._latched("solver_state")
+
+    # --- connections --------------------------------------------------------------------------------------------------
+
+    def _name(self, relative):
+        return self.namespace.rstrip("/") + "/" + relative
+
+    def _alive(self):
+        """Raises MpmError when the node cannot answer any more."""
+        if self._process is None:
+            raise MpmError(f"no simulator runs below {self.namespace}; start one with _pacing:=lockstep")
+        if not self._process.runs():
+            raise self._process.failure("it started")
+
+    def _service(self, name):
+        if not self._closer.alive:
+            raise MpmError("this simulator is closed")
+        if name not in self._connections:
+            with self._failures("it was connected to"):
+                uri = wire.wait_for_service(self._master, self._name(name), self._alive)
+                self._connections[name] = wire.ServiceClient(self._name(name), _service_class(name), uri, self._caller)
+        return self._connections[name]
+
+    def _call(self, name, **fields):
+        service = self._service(name)
+        with self._failures(f"it was asked to {name.replace('_', ' ')}"):
+            answer = service.call(**fields)
+        if not answer.success:
+            raise MpmError(answer.message)
+        return answer
+
+    def _failures(self, doing):
+        return _Failures(self, doing)
+
+    def _reader(self, name):
+        with self._failures(f"{name} was asked for"):
+            return wire.TopicReader(self._name(name), _message_class(name), self._name("simulator"), self._master,
+                                    self._caller)
+
+    def _latched(self, name):
+        """The last message of a latched topic: sent to whoever connects, so it is never an earlier one."""
+        reader = self._reader(name)
+        try:
+            with self._failures(f"{name} was waited for"):
+                return reader.receive(_CLOUD_PATIENCE)
+        finally:
+            reader.close()
+
+    # --- particles ----------------------------------------------------------------------------------------------------
+
+    def _follow_particles(self, period):
+        periods = round(period / self.info.sync_period)
+        if periods < 1 or abs(periods * self.info.sync_period - period) > 1e-9 + 1e-6 * period:
+            raise MpmError(f"particle_period is {period:g} s; it must be a whole number of sync periods of "
+                           f"{self.info.sync_period:g} s (time.sync of the scene)")
+        self._cloud_period = periods * round(self.info.sync_period * 1e9)
+        self._clouds = self._connections["particles"] = self._reader("particles")
+        # The node's one thread for connections has accepted the first before it answers the second. What was published
+        # before, such as the snapshot of time zero, does not come.
+        self._clouds_after = self._latched("solver_state").header.stamp
+
+    def _begin_run(self, stamp=None):
+        """After a reset or a load: the node has published a snapshot of the state at `stamp`, by default time zero."""
+        self.info = self._latched("run_info")
+        self._particles = None
+        self._clouds_after = None
+        self._first_cloud = self.info.start if stamp is None else stamp
+
+    def _particles_at(self, stamp):
+        """The last snapshot up to `stamp`, which may come after the answer to the step."""
+        if self._clouds is None:
+            return None
+        due = stamp - (stamp - self.info.start) % self._cloud_period
+        if self._clouds_after is not None:
+            if due <= self._clouds_after:
+                return None
+        else:
+            due = max(due, self._first_cloud)
+        while self._particles is None or self._particles.stamp < due:
+            with self._failures("its particles were waited for"):
+                cloud = self._clouds.receive(_CLOUD_PATIENCE)
+            self._particles = Particles(cloud, self.info.start)
+        return self._particles
+
+
+class _Failures:
+    """Turns a lost connection into the node's own sentence."""
+
+    def __init__(self, simulator, doing):
+        self._simulator = simulator
+        self._doing = doing
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, error, _):
+        if not isinstance(error, wire.LOST):
+            return
+        process = self._simulator._process
+        self._simulator._closer()
+        if process is not None:
+            raise process.failure(self._doing) from error
+        raise MpmError(f"the simulator below {self._simulator.namespace} is gone: {error}") from error
+
+
+def _close(process, connections, master):
+    for connection in connections.values():
+        connection.close()
+    master.handle("close")()
+    if process is not None:
+        process.end()
+
+
+def _service_class(name):
+    from std_srvs.srv import Trigger
+    from . import srv
+    if name == "reset":
+        return getattr(srv, "Reset", Trigger)
+    return {"step": srv.Step, "save_checkpoint": srv.Checkpoint, "load_checkpoint": srv.Checkpoint}[name]
+
+
+def _message_class(name):
+    from sensor_msgs.msg import PointCloud2
+    from . import msg
+    return {"run_info": msg.RunInfo, "solver_state": msg.SolverState, "particles": PointCloud2}[name]
+
+
+# --- what is asked for ------------------------------------------------------------------------------------------------
+
+
+def _node_parameters(scene, changes, particle_period, particle_fields, others):
+    if others.get("pacing", "lockstep") != "lockstep":
+        raise MpmError(f"pacing is {others['pacing']}; a Simulator is stepped, in lockstep")
+    parameters = {"scene": os.fspath(scene), "pacing": "lockstep", "set": _changes(changes)}
+    if particle_period is not None:
+        if not 0.0 < particle_period < 1e9:
+            raise MpmError(f"particle_period is {particle_period} s; it must be above zero")
+        parameters.update(particle_rate=1.0 / particle_period, particle_first=0.0)
+    if particle_fields is not None:
+        parameters["particle_fields"] = list(particle_fields)
+    return parameters
+
+
+def _changes(changes):
+    """["key=value", …] of what the user gave as a dict or as such a list."""
+    if isinstance(changes, dict):
+        return [f"{key}={value if isinstance(value, str) else json.dumps(value)}" for key, value in changes.items()]
+    return [changes] if isinstance(changes, str) else list(changes or [])
+
+
+def _free_namespace(wished, own_master):
+    """The namespace of a new node. A second node of the same name would end the first."""
+    taken = [] if own_master else [name for kind in rosgraph.Master("/mpm_ros").getSystemState()
+                                   for _, nodes in kind for name in nodes]
+    if wished is not None:
+        wished = "/" + wished.strip("/")
+        if wished.rstrip("/") + "/simulator" in taken:
+            raise MpmError(f"a simulator runs below {wished}; name another namespace, or Simulator.connect('{wished}')")
+        return wished
+    names = itertools.chain([_DEFAULT_NAMESPACE], (f"{_DEFAULT_NAMESPACE}_{i}" for i in itertools.count(2)))
+    return next(name for name in names if name + "/simulator" not in taken)
+
+
+def _numbers_of(body, values, lengths, what):
+    numbers = np.asarray(values, dtype=float)
+    if numbers.ndim != 1 or len(numbers) not in lengths:
+        raise MpmError(f"{what} of '{body}' has the shape {numbers.shape}; it must have "
+                       f"{' or '.join(map(str, lengths))} numbers")
+    return [float(number) for number in numbers] + [0.0] * (lengths[-1] - len(numbers))
+
+
+def _commands(velocity, pose, wrench):
+    from .msg import Command
+    commands = []
+    for body, values in (velocity or {}).items():
+        numbers = _numbers_of(body, values, (3, 6), "velocity")
+        commands.append(Command(body=body, kind=Command.VELOCITY,
+                                twist=Twist(Vector3(*numbers[:3]), Vector3(*numbers[3:]))))
+    for body, values in (pose or {}).items():
+        numbers = _numbers_of(body, values, (7,), "pose")
+        commands.append(Command(body=body, kind=Command.POSE,
+                                pose=Pose(Point(*numbers[:3]), Quaternion(*numbers[3:]))))
+    for body, values in (wrench or {}).items():
+        numbers = _numbers_of(body, values, (3, 6), "wrench")
+        commands.append(Command(body=body, kind=Command.WRENCH,
+                                wrench=Wrench(Vector3(*numbers[:3]), Vector3(*numbers[3:]))))
+    return commands
+
+
+def _reset_fields(service, changes):
+    if changes is None:
+        return {}
+    if "set" not in service.request_fields:
+        raise MpmError("this version's reset takes no changes to the scene; start another Simulator")
+    return {"set": _changes(changes)}

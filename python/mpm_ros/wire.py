@@ -1,0 +1,121 @@
+"""Services and topics over TCPROS, without a node of one's own.
+
+rospy makes a process one node, of one master, which cannot begin again once it was shut down, and it copies every message
+several times. A client of many simulators, one after the other or side by side, can use neither. A TCPROS connection
+(wiki.ros.org/ROS/TCPROS) begins with a header each way; then come messages, each behind its length [byte] as uint32, and in
+an answer behind a byte that says whether the call succeeded. A topic is read without registration at the master: its
+publisher is asked where it sends from. Weak: a publisher that comes later is not found; a lockstep client knows its node.
+"""
+import http.client
+import io
+import select
+import socket
+import struct
+import time
+from urllib.parse import urlparse
+from xmlrpc import client as xmlrpc
+
+import numpy as np
+import rosgraph
+from rosgraph.network import ROSHandshakeException, decode_ros_handshake_header, write_ros_handshake_header
+
+from .decoding import decode
+from .errors import MpmError
+
+_HANDSHAKE = 10.0  # [s] longest wait for a connection and its header
+_LENGTH = struct.Struct("<I")
+
+# What a lost or refused connection raises, before it is known why.
+LOST = (OSError, ROSHandshakeException, rosgraph.MasterException, xmlrpc.Error, http.client.HTTPException)
+
+
+def _receive(connection, size):
+    """The next `size` bytes, in memory of their own that views may keep."""
+    buffer = np.empty(size, np.uint8)
+    rest = memoryview(buffer)
+    while rest.nbytes > 0:
+        count = connection.recv_into(rest)
+        if count == 0:
+            raise ConnectionResetError("the connection was closed")
+        rest = rest[count:]
+    return buffer
+
+
+def _receive_message(connection):
+    return _receive(connection, _LENGTH.unpack(_receive(connection, _LENGTH.size))[0])
+
+
+def _open(host, port, header):
+    """A connection after its handshake."""
+    connection = socket.create_connection((host, port), timeout=_HANDSHAKE)
+    try:
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        write_ros_handshake_header(connection, header)
+        answer = _receive_message(connection).tobytes()
+        fields = decode_ros_handshake_header(_LENGTH.pack(len(answer)) + answer)
+        if "error" in fields:
+            raise ROSHandshakeException(fields["error"])
+        connection.settimeout(None)
+        return connection
+    except BaseException:
+        connection.close()
+        raise
+
+
+class ServiceClient:
+    """One connection to a service, kept. `uri`: rosrpc://host:port, from the master."""
+
+    def __init__(self, name, service_class, uri, caller):
+        self._class = service_class
+        self.request_fields = service_class._request_class.__slots__
+        address = urlparse(uri)
+        self._connection = _open(address.hostname, address.port, {
+            "callerid": caller, "service": name, "md5sum": service_class._md5sum, "persistent": "1"})
+
+    def call(self, **fields):
+        """The decoded answer to a request with these fields. Raises one of LOST when the node is gone."""
+        request = io.BytesIO()
+        self._class._request_class(**fields).serialize(request)
+        self._connection.sendall(_LENGTH.pack(request.tell()) + request.getvalue())
+        succeeded = _receive(self._connection, 1)[0]
+        answer = _receive_message(self._connection)
+        if not succeeded:
+            raise MpmError(answer.tobytes().decode(errors="replace"))
+        return decode(self._class._response_class, answer)
+
+    def close(self):
+        self._connection.close()
+
+
+class TopicReader:
+    """Messages of one publisher of a topic. `node`: its name at the master."""
+
+    def __init__(self, name, message_class, node, master, caller):
+        self._name = name
+        self._class = message_class
+        with xmlrpc.ServerProxy(master.lookupNode(node)) as slave:
+            code, reason, protocol = slave.requestTopic(caller, name, [["TCPROS"]])
+        if code != 1 or not protocol:
+            raise MpmError(f"{node} does not publish {name}: {reason}")
+        self._connection = _open(protocol[1], protocol[2], {
+            "callerid": caller, "topic": name, "md5sum": message_class._md5sum, "type": message_class._type,
+            "tcp_nodelay": "1"})
+
+    def receive(self, timeout):
+        """The next message, decoded. Raises MpmError when none has begun to come after `timeout` [s] of wall time."""
+        if not select.select([self._connection], [], [], timeout)[0]:
+            raise MpmError(f"no message on {self._name} in {timeout:g} s")
+        return decode(self._class, _receive_message(self._connection))
+
+    def close(self):
+        self._connection.close()
+
+
+def wait_for_service(master, name, keep_waiting):
+    """The address of a service, as soon as the master knows it. `keep_waiting()` is asked between; it raises to give up."""
+    while True:
+        try:
+            return master.lookupService(name)
+        except rosgraph.MasterError:
+            keep_waiting()
+            time.sleep(0.01)

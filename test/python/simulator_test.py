@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+"""The lockstep client against nodes that it starts, with a master of its own and at one that runs."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import mpm_ros
+import numpy as np
+import rosgraph
+from support import eventually, processes_with, program, running_master, source_file
+
+PRESS = source_file("test/data/press.yaml")  # sync periods of 2 ms; the plate hangs 5 mm above the strip
+SYNC = 0.002  # [s]
+
+
+def press(**parameters):
+    parameters.setdefault("threads", 1)
+    return mpm_ros.Simulator(PRESS, **parameters)
+
+
+class Stepping(unittest.TestCase):
+    def test_a_body_moves_as_commanded_and_feels_what_it_touches(self):
+        with press() as sim:
+            self.assertEqual(sim.info.scene, "press")
+            obs = sim.step(0.01, velocity={"plate": (0, 0, -0.4), "rod": (0.1, 0, 0, 0, 2.0, 0)})
+            self.assertAlmostEqual(obs.time, 0.01, delta=1e-12)
+            np.testing.assert_allclose(obs["plate"].position, [0.1, 0, 0.065 - 0.4 * 0.01], atol=1e-12)
+            np.testing.assert_allclose(obs["rod"].position, [0.17 + 0.1 * 0.01, 0, 0.1], atol=1e-12)
+            np.testing.assert_allclose(obs["rod"].rotation_rate, [0, 2.0, 0], atol=1e-12)
+            np.testing.assert_array_equal(obs["plate"].force, [0, 0, 0])  # 1 mm above the strip
+            obs = sim.step(count=5)  # the command goes on
+            self.assertAlmostEqual(obs.time, 0.02, delta=1e-12)
+            self.assertAlmostEqual(obs["plate"].position[2], 0.065 - 0.4 * 0.02, delta=1e-12)
+            self.assertGreater(obs["plate"].force[2], 0.0)
+            self.assertGreaterEqual(obs["plate"].peak_force[2], obs["plate"].force[2])
+            self.assertFalse(obs.ended)
+            self.assertAlmostEqual(sim.step(velocity={"plate": (0, 0, 0)}).time, 0.02 + SYNC, delta=1e-12)
+            self.assertTrue(sim.step(1.0).ended)  # at 0.2 s
+            with self.assertRaisesRegex(mpm_ros.MpmError, "call reset"):
+                sim.step()
+            with self.assertRaisesRegex(KeyError, "there are plate, rod"):
+                obs["blade"]
+
+    def test_a_pose_is_reached_at_the_end_of_the_step(self):
+        with press() as sim:
+            obs = sim.step(0.02, pose={"rod": (0.16, 0, 0.09, 0, 0, 0, 1)})
+            np.testing.assert_allclose(obs["rod"].position, [0.16, 0, 0.09], atol=1e-12)
+
+    def test_a_reset_and_a_checkpoint_repeat_the_run_to_the_bit(self):
+        with press() as sim, tempfile.TemporaryDirectory() as folder:
+            def go_on():
+                return [sim.step(0.01).bodies["plate"].force.copy() for _ in range(4)]
+
+            sim.step(0.02, velocity={"plate": (0, 0, -0.4)})
+            path = sim.save_checkpoint(os.path.join(folder, "run.h5"))
+            first = go_on()
+            self.assertGreater(first[0][2], 0.0)
+            self.assertEqual(sim.load_checkpoint(path), 0.02)
+            np.testing.assert_array_equal(go_on(), first)
+            sim.reset()
+            self.assertEqual(sim.step(0.02, velocity={"plate": (0, 0, -0.4)}).time, 0.02)
+            np.testing.assert_array_equal(go_on(), first)
+            self.assertAlmostEqual(sim.solver_state().time, 0.06, delta=1e-12)
+
+    def test_bad_input_is_refused_with_a_sentence(self):
+        with press() as sim:
+            for arguments, sentence in [({"velocity": {"blade": (0, 0, 1)}}, "blade"),
+                                        ({"velocity": {"plate": (0, 0)}}, "velocity of 'plate' has the shape"),
+                                        ({"velocity": {"plate": (0, 0, float("nan"))}}, "plate"),
+                                        ({"pose": {"plate": (0, 0, 1)}}, "must have 7 numbers"),
+                                        ({"duration": -1.0}, "duration is -1")]:
+                with self.assertRaisesRegex(mpm_ros.MpmError, sentence):
+                    sim.step(**arguments)
+            self.assertEqual(sim.step().time, SYNC)  # it goes on
+        with self.assertRaisesRegex(mpm_ros.MpmError, "closed"):
+            sim.step()
+        with self.assertRaisesRegex(mpm_ros.MpmError, "in lockstep"):
+            press(pacing="free")
+
+
+class ParticleClouds(unittest.TestCase):
+    def test_each_step_has_its_own_snapshot(self):
+        with press(particle_period=SYNC, particle_fields=["speed"]) as sim:
+            for count in (1, 1, 3, 40):
+                obs = sim.step(count=count)
+                self.assertAlmostEqual(obs.particles.time, obs.time, delta=1e-9)
+                self.assertEqual(len(obs.particles), 160)
+                self.assertEqual(obs.particles.fields, ("x", "y", "z", "id", "speed"))
+            # 20 by 8 of 5 mm: the first centres lie 2.5 mm inside the strip's corner.
+            np.testing.assert_allclose(obs.particles.positions.min(axis=0), [0.0525, 0, 0.0025], atol=1e-6)
+            kept = obs.particles
+            sim.step()
+            self.assertLess(kept.time, sim.step().particles.time)  # the old one is as it was
+
+    def test_snapshots_come_at_their_period(self):
+        with press(particle_period=0.01) as sim, tempfile.TemporaryDirectory() as folder:
+            self.assertIsNone(sim.step(0.008).particles)
+            self.assertAlmostEqual(sim.step(0.004).particles.time, 0.01)
+            path = sim.save_checkpoint(os.path.join(folder, "run.h5"))
+            self.assertAlmostEqual(sim.step(0.012).particles.time, 0.02)
+            sim.reset()
+            self.assertEqual(sim.step(0.008).particles.time, 0.0)
+            self.assertAlmostEqual(sim.step(0.004).particles.time, 0.01)
+            sim.load_checkpoint(path)
+            self.assertAlmostEqual(sim.step(0.002).particles.time, 0.012)  # that of the checkpoint
+            self.assertAlmostEqual(sim.step(0.008).particles.time, 0.02)
+        with self.assertRaisesRegex(mpm_ros.MpmError, "whole number of sync periods"):
+            press(particle_period=0.003)
+
+
+class Failures(unittest.TestCase):
+    def test_a_scene_that_is_not_there_is_the_nodes_own_sentence(self):
+        with self.assertRaisesRegex(mpm_ros.MpmError, "no_such_scene: no shipped scene of that name") as raised:
+            mpm_ros.Simulator("no_such_scene")
+        self.assertEqual(raised.exception.exit_code, 2)
+        with self.assertRaisesRegex(mpm_ros.MpmError, "cel"):
+            press(set={"grid.cel": 0.01})
+
+    def test_changes_reach_the_scene(self):
+        with press(set={"time.end": 0.004, "rigid_bodies.plate.pose.position": [0.1, 0.07]}) as sim:
+            obs = sim.step(1.0)
+            self.assertAlmostEqual(obs.time, 0.004, delta=1e-12)
+            self.assertAlmostEqual(obs["plate"].position[2], 0.07, delta=1e-12)
+
+    def test_failed_physics_are_an_exception(self):
+        with mpm_ros.Simulator(source_file("test/data/leaves_domain.yaml"), threads=1, checkpoint_on_failure=False) as sim:
+            with self.assertRaisesRegex(mpm_ros.MpmError, "a particle is outside the domain"):
+                sim.step(1.0)
+
+    def test_a_node_that_is_killed_is_an_exception(self):
+        namespace = f"/killed_{os.getpid()}"
+        with press(namespace=namespace) as sim:
+            sim.step()
+            for process in processes_with(f"{program('simulator')} __ns:={namespace}"):
+                os.kill(process, signal.SIGKILL)
+            with self.assertRaisesRegex(mpm_ros.MpmError, "the simulator ended"):
+                sim.step()
+            self.assertEqual(processes_with(namespace), [])
+
+
+class Endings(unittest.TestCase):
+    """After each, neither a node nor a master is left."""
+
+    def expect_nothing_left(self, namespace, master_uri):
+        self.assertTrue(eventually(lambda: not processes_with(namespace)), processes_with(namespace))
+        self.assertFalse(rosgraph.is_master_online(master_uri))
+
+    def test_the_end_of_the_block_closes_the_bag(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bag = os.path.join(folder, "run.bag")
+            with press(namespace="/closing", record=bag) as sim:
+                uri = sim.master_uri
+                self.assertTrue(rosgraph.is_master_online(uri))
+                sim.step(0.02, velocity={"plate": (0, 0, -0.4)})
+            self.assertEqual(processes_with("/closing"), [])  # at once
+            self.expect_nothing_left("/closing", uri)
+            with mpm_ros.Recording(bag) as run:
+                self.assertEqual(run.namespace, "/closing")
+                self.assertAlmostEqual(run.motion("plate")["position"][-1, 2], 0.065 - 0.4 * 0.02, delta=1e-12)
+
+    def test_an_exception_in_the_block(self):
+        with self.assertRaises(ZeroDivisionError):
+            with press(namespace="/throwing") as sim:
+                uri = sim.master_uri
+                sim.step(velocity={"plate": (0, 0, 1 / 0)})
+        self.expect_nothing_left("/throwing", uri)
+
+    def start_other(self, namespace):
+        """A program that steps for ever; its output is the address of its master, and then nothing."""
+        text = (f"import mpm_ros\nwith mpm_ros.Simulator({PRESS!r}, threads=1, namespace={namespace!r}, "
+                "set={'time.end': 1e6}) as sim:\n    print(sim.master_uri, flush=True)\n    while True: sim.step(0.02)\n")
+        other = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(other.stderr.close)
+        self.addCleanup(other.stdout.close)
+        return other, other.stdout.readline().strip()
+
+    def test_signals_to_the_client(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+            namespace = f"/signal_{number}"
+            other, uri = self.start_other(namespace)
+            self.assertTrue(rosgraph.is_master_online(uri))
+            other.send_signal(number)
+            self.assertNotEqual(other.wait(), 0)
+            if number == signal.SIGINT:
+                self.assertIn("KeyboardInterrupt", other.stderr.read())
+            self.expect_nothing_left(namespace, uri)
+
+
+class RunningMaster(unittest.TestCase):
+    def test_two_simulators_share_a_master_that_runs_and_leave_it_clean(self):
+        with running_master() as master:
+            before = master.getParamNames()
+            with press() as first, press() as second:
+                self.assertEqual((first.master_uri, second.master_uri), (os.environ["ROS_MASTER_URI"],) * 2)
+                self.assertEqual((first.namespace, second.namespace), ("/mpm", "/mpm_2"))
+                self.assertEqual(master.getParam("/mpm_2/simulator/pacing"), "lockstep")
+                first.step(0.01)
+                self.assertEqual(second.step(0.02).time, 0.02)
+                with self.assertRaisesRegex(mpm_ros.MpmError, "a simulator runs below /mpm;"):
+                    press(namespace="mpm")
+                with mpm_ros.Simulator.connect("/mpm") as again:
+                    self.assertAlmostEqual(again.step(0.01).time, 0.02, delta=1e-12)
+                self.assertAlmostEqual(first.step(0.01).time, 0.03, delta=1e-12)  # connect() did not end it
+            self.assertTrue(rosgraph.is_master_online())
+            self.assertEqual(master.getParamNames(), before)
+            with self.assertRaisesRegex(mpm_ros.MpmError, "no simulator runs below /mpm"):
+                mpm_ros.Simulator.connect("/mpm")
+
+    def test_connecting_without_a_master_says_so_at_once(self):
+        with self.assertRaisesRegex(mpm_ros.MpmError, "no master answers"):
+            mpm_ros.Simulator.connect("/mpm")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,65 @@
+"""What several tests of the Python package use."""
+import contextlib
+import os
+import socket
+import subprocess
+import tempfile
+import time
+
+import rosgraph
+import roslib.packages
+
+SOURCE = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), "../.."))
+PATIENCE = 30.0  # [s] by the wall's clock
+
+
+def source_file(path):
+    return os.path.join(SOURCE, path)
+
+
+def program(name):
+    return roslib.packages.find_node("mpm_ros", name)[0]
+
+
+def run(*command):
+    """Runs a program, which has to succeed. Returns its output."""
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def eventually(ask, seconds=PATIENCE):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if ask():
+            return True
+        time.sleep(0.02)
+    return ask()
+
+
+@contextlib.contextmanager
+def running_master():
+    """A master that is not the client's own, at ROS_MASTER_URI."""
+    with socket.socket() as free:
+        free.bind(("localhost", 0))
+        port = free.getsockname()[1]
+    before = os.environ["ROS_MASTER_URI"]
+    os.environ["ROS_MASTER_URI"] = f"http://localhost:{port}/"
+    with tempfile.TemporaryFile() as log:
+        process = subprocess.Popen(["rosmaster", "--core", "-p", str(port)], stdout=log, stderr=log)
+        try:
+            assert eventually(rosgraph.is_master_online), "no master"
+            yield rosgraph.Master("/mpm_ros_test")
+        finally:
+            process.terminate()
+            process.wait()
+            os.environ["ROS_MASTER_URI"] = before
+
+
+def processes_with(text):
+    """Ids of the processes whose command line contains `text`."""
+    found = []
+    for entry in os.listdir("/proc"):
+        with contextlib.suppress(OSError, ValueError):
+            with open(f"/proc/{int(entry)}/cmdline", encoding="utf-8", errors="replace") as file:
+                if text in file.read().replace("\0", " "):
+                    found.append(int(entry))
+    return found

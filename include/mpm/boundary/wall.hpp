@@ -73,14 +73,15 @@ class Wall final : public FieldStage {
     NodeRef ref;
     std::uint64_t id;
     Hold hold;                   ///< in the step before, then in this one
-    Vec3 gained = Vec3::Zero();  ///< grid axes; of a wall that always holds: change of momentum, less the weight [N s]
+    Vec3 at_end = Vec3::Zero();  ///< grid axes; of a wall that always holds: factor of c1 in what it takes [N s]
   };
   bool always_holds() const { return definition_.kind != WallKind::frictional; }
   /// Grid axes [first, end) along which a wall that always holds does so.
   std::pair<int, int> held_axes(const GridLayout& layout) const;
-  /// What a wall that always holds takes at a node by the start of the step; before_strain() adds that by its end. It
-  /// is NodeLoss with a slip of 0, so that (F dt + J).(c0 + c1)/2 is all, and c = -V along the axes held.
-  void hold_up(Node& node, const Grid& grid, double dt);
+  /// What a wall that always holds takes at a node by the start of the step, by an impulse [N s], with how it held the
+  /// node before; before_strain() adds that by its end. It is NodeLoss with a slip of 0, and c = -V along the axes
+  /// held.
+  void hold_up(Node& node, const FieldContext& context, const Vec3& impulse, Hold before);
   /// Frictional: how the wall holds the node; else what it always does.
   ContactChange change(const Vec3& velocity, const Vec3& normal) const;
   Vec3 normal(const GridLayout& layout) const;

@@ -9,12 +9,19 @@
 // material does one cell further out, with velocity U. The node's velocity is u = s v + (1 - s) U, and a point of
 // contact sees v, the velocity of the part before the face:
 //
-//   V = sum_i r_i (u_i - (1 - s_i) U_i),   r_i = w_i g_i / S,   S = sum_i w_i g_i s_i,   g = min(1, 2 s),
+//   V = sum_i r_i (u_i - (1 - s_i) U_i),   r_i = w_i g_i / S,   S = sum_i w_i g_i s_i,   g = min(1, 2 s).
 //
-// and node i gets the part r_i s_i of an impulse at the point. These parts sum to 1, so momentum is exact; a velocity
-// that is the same everywhere is seen as it is; and since the parts are those of the mass s m of node i, V answers
-// the impulse symmetrically: sum r_i^2 s_i / m_i > 0. The factor g takes weight from a node that lies mostly
-// beyond the edge, whose v is known the least. A point with S < kLeast lies beyond the edge itself and is no contact.
+// By virtual work, an impulse J at the point then acts with r_i J on node i and with -r_i (1 - s_i) J on the node
+// beyond. These parts sum to 1, so momentum is exact; a velocity that is the same everywhere is seen as it is; the
+// answer is symmetric, and no energy is lost. The factor g takes weight from a node that lies mostly beyond the edge,
+// whose v is known the least. A point with S < kLeast lies beyond the edge itself and is no contact.
+//
+// What acts on the node beyond pulls at the plane that continues the face. Soil that is pressed from the other side of
+// that plane, as beside the edge of a blade in the ground, is pressed less; at a free surface, as beside a footing,
+// nothing can be pulled. So only the part f of it acts, the mass of the node behind that beyond, over the mass of that
+// beyond, at most 1, and node i gets r_i (s_i + f (1 - s_i)) J: the sum is 1 for every f. What the nodes take over is
+// then less than the tool's work by (1 - f) J . sum r_i (1 - s_i)(u_i - U_i), the rate at which the material is cut
+// inside the cells at the edge.
 //
 // The cover is 1 half a cell inside the edge, 0 half a cell outside, and linear between: with t out of the face across
 // its edge, h the length of a cell along t, and d n the signed distance and normal of the tool at x_i + (h/2) t, it is
@@ -23,12 +30,8 @@
 // aside. Faces without an edge that near cost these looks alone. Where no material lies beyond an edge, the whole node
 // lies before the face.
 //
-// The tool does work on the part before the face, and the node's mean velocity takes over less: what is lost is the
-// impulse times sum r_i (1 - s_i)(u_i - U_i), the rate at which the material is cut there.
-//
 // Weak: a surface whose radius is below a cell counts as an edge. Of a tool narrower than a cell no node is wholly
-// covered. What is cut shears without strength within a cell of the edge. U is that before the step's impulses: where
-// another face, or another tool, pushes the node beyond in the same step, it is known a step late.
+// covered. What is cut shears without strength within a cell of the edge.
 // Source: derived for this project; doc/methods.md has the forces on blades and strips with and without it.
 #pragma once
 
@@ -40,13 +43,11 @@
 
 namespace mpm {
 
-/// A node around a point of contact. Nodes are numbered block * nodes_per_block + node in their field's grid.
+/// A node of a point of contact. Nodes are numbered block * nodes_per_block + node in their field's grid.
 struct PointNode {
   int node;
-  double weight;             ///< part of the point's impulse that it gets; all sum to 1
-  double reading;            ///< factor of its velocity in that at the point; as `weight` away from edges
-  int beyond = -1;           ///< the node beyond the edge, or -1
-  double beyond_part = 0.0;  ///< factor of the velocity beyond, which is subtracted
+  double weight;   ///< part of the point's impulse that it gets, negative beyond an edge; all sum to 1
+  double reading;  ///< factor of its velocity in that at the point; as `weight` away from edges; all sum to 1
 };
 
 class EdgeCover {
@@ -54,9 +55,12 @@ class EdgeCover {
   /// `bodies` must outlive this.
   explicit EdgeCover(const std::vector<const RigidBody*>& bodies) : bodies_(bodies) {}
 
-  /// Changes the weights of the `count` nodes around a point for edges near it. Returns the number of nodes that
-  /// remain; 0 if the point lies beyond an edge.
-  int apply(const ContactPoint& point, const Grid& grid, PointNode* nodes, int count) const;
+  struct Nodes {
+    int count = 0;         ///< 0 if the point lies beyond an edge
+    bool at_edge = false;  ///< whether a node lies in part beyond an edge
+  };
+  /// Changes the `count` nodes around a point for edges near it. There is room for twice as many in `nodes`.
+  Nodes apply(const ContactPoint& point, const Grid& grid, PointNode* nodes, int count) const;
 
  private:
   const std::vector<const RigidBody*>& bodies_;

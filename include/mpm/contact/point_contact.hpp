@@ -26,8 +26,10 @@
 // What else is lost, of motion that is held up and of particles that move past a point which is held, is the account
 // `contact_loss`: all that the material loses by the work of the impulse and of the step's forces, as
 // step/node_loss.hpp derives it for nodes, less friction and cutting. At a point p, with weights w of nodes,
-//   -J.(u0 + u1)/2 + J.(k0 + k1)/2 + (I0 + I1)/2 . sum w (dv - g dt),
-// u and k slip and cut that strain sees at the ends of the step, I the impulses that contact adds for strain.
+//   -J.(U0 + U1)/2 + a (I0.D - J.c0) + b (I1.D - J.c1),   D = sum w (dv - g dt),
+// U the slip sum w V - v that particles have at the ends of the step, c the change of sum w V that contact makes there
+// for strain, and I the impulses by which it does. With USF, whose particles are not gathered again in the step, U1 is
+// the U0 of the next step at the same particle.
 //
 // A point that comes under a surface from beside it, or starts there, keeps its initial overlap.
 //
@@ -88,11 +90,11 @@ class PointContact final : public Stage, public ContactReporter {
 
  private:
   using Pass = PointSolver::Pass;
-  /// What strain sees at a point.
-  struct StrainSlip {
-    Vec3 slip = Vec3::Zero();     ///< against the body [m/s]
-    Vec3 cut = Vec3::Zero();      ///< PointSolver::cut_at [m/s]
-    Vec3 impulse = Vec3::Zero();  ///< by which contact changes the velocity for strain [N s]
+  /// A point at one end of the step.
+  struct End {
+    Vec3 slip = Vec3::Zero();     ///< of the material, as particles carry it, against the body [m/s]
+    Vec3 change = Vec3::Zero();   ///< by contact, for strain [m/s]
+    Vec3 impulse = Vec3::Zero();  ///< by which contact makes that change [N s]
   };
   /// Data that the stage keeps for each point of the solver, in the same order.
   struct Contact {
@@ -100,8 +102,7 @@ class PointContact final : public Stage, public ContactReporter {
     Vec3 start = Vec3::Zero();    ///< impulse that the step's solution begins with [N s]
     Vec3 before = Vec3::Zero();   ///< relative velocity before the impulses [m/s]
     Vec3 cut = Vec3::Zero();      ///< PointSolver::cut_at before the impulses [m/s]
-    StrainSlip seen;              ///< by strain at the start of the step
-    StrainSlip left;              ///< on the grid after the impulses
+    End first;                    ///< the start of the step
     Vec3 impulse = Vec3::Zero();  ///< on the material in the step [N s]
     Vec3 gained = Vec3::Zero();   ///< change of velocity in the step, without that by gravity [m/s]
     bool acted = false;           ///< whether the impulses of the step have been found
@@ -114,8 +115,8 @@ class PointContact final : public Stage, public ContactReporter {
   Contact recall(const ContactPoint& found, PointSolver::Point& point, double dt) const;
   /// The velocity of the nodes at a point, weighted as an impulse there is spread.
   Vec3 carried_at(const PointSolver::Point& point) const { return solver_.velocity_at(point) - solver_.cut_at(point); }
-  /// What the material has lost at a point if strain sees this at the end of the step [J].
-  static double lost(const Contact& contact, const StrainSlip& end);
+  /// What the material loses at a point by one end of the step, which has this part of the strain [J].
+  static double lost(const Contact& contact, const End& end, double strain);
   void clear_impulses();
   /// Sets the impulses that the step's solution begins with.
   void begin_impulses();
@@ -137,6 +138,7 @@ class PointContact final : public Stage, public ContactReporter {
   PointMemory memory_;
   FreeBodies free_;
   std::vector<Contact> contacts_;
+  std::vector<End> ends_;  ///< kept so that a step allocates nothing
 };
 
 }  // namespace mpm

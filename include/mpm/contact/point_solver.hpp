@@ -50,7 +50,6 @@ class PointSolver {
     int first = 0, end = 0;        ///< its parts in parts_
     FreeMotion* motion = nullptr;  ///< motion of a free body; null for others
     Vec3 place;                    ///< world [m]
-    Vec3 beyond = Vec3::Zero();    ///< part of the velocity there that is of what lies beyond an edge, negative [m/s]
   };
   enum class Pass {
     step,      ///< impulses >= 0, friction: decides which points are held
@@ -74,8 +73,8 @@ class PointSolver {
   /// Adds the change of the nodes' velocities since load(), times `factor`.
   void store(Member to, double factor = 1.0);
   Vec3 velocity_at(const Point& point) const;
-  /// The velocity at which the material before a face moves away from that beyond its edge, which the nodes share
-  /// [m/s]: 0 away from edges. An impulse times it is the power that is lost where material is cut.
+  /// The velocity that the nodes do not take over, near an edge on a free surface [m/s]; 0 elsewhere. An impulse times
+  /// it is the power that is lost where material is cut (edge_cover.hpp).
   Vec3 cut_at(const Point& point) const;
   /// Applies the points' impulses to nodes and to free bodies.
   void push_all();
@@ -96,12 +95,6 @@ class PointSolver {
     int node;        ///< in nodes_
     double weight;   ///< part of an impulse
     double reading;  ///< factor of its velocity
-  };
-  /// A node beyond an edge, as a point sees it.
-  struct Beyond {
-    int point, field;
-    NodeRef ref;
-    double part;  ///< factor of its velocity, which is subtracted
   };
   struct alignas(32) Node {
     std::array<double, 3> velocity;  ///< [m/s]
@@ -148,7 +141,6 @@ class PointSolver {
   int solving_threads_ = 0;
   std::vector<Point> points_;
   std::vector<Part> parts_;
-  std::vector<Beyond> beyond_;
   std::vector<Node> nodes_;
   std::vector<NodeOrigin> origins_;    ///< of nodes_
   std::vector<Cluster> clusters_;      ///< by colour
@@ -158,6 +150,7 @@ class PointSolver {
   // Kept so that a step allocates nothing.
   std::vector<PointNode> found_nodes_;  ///< stride_ of them for each point found
   std::vector<int> found_count_, found_block_;
+  std::vector<std::uint8_t> found_at_edge_;
   int stride_ = 0;
   std::vector<Cluster> unsorted_;
   std::vector<int> of_point_, order_;   ///< cluster of each point found; indices of points in the order of solution

@@ -10,6 +10,8 @@ struct StepContext {
   Fields& fields;
   double dt;           ///< [s]
   double start = 0.0;  ///< time at which the step begins [s]
+  /// Part of the strain that sees the velocities of the step's start, not its end: 1 for USF, 1/2 for USAVG, 0 for USL.
+  double strain_at_start = 0.5;
 
   /// The layout that all fields share.
   const GridLayout& layout() const { return fields.front()->layout; }
@@ -17,9 +19,10 @@ struct StepContext {
 
 /// For a stage that acts in one velocity field.
 struct FieldContext {
-  Grid& grid;          ///< grid of the field
-  double dt;           ///< [s]
-  double start = 0.0;  ///< time at which the step begins [s]
+  Grid& grid;                    ///< grid of the field
+  double dt;                     ///< [s]
+  double start = 0.0;            ///< time at which the step begins [s]
+  double strain_at_start = 0.5;  ///< as in StepContext
 };
 
 /// A node, by its block and its index in that block.

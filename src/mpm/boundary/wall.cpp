@@ -62,13 +62,18 @@ std::pair<int, int> Wall::held_axes(const GridLayout& layout) const {
   return {face_ / 2, face_ / 2 + 1};
 }
 
-void Wall::hold_up(Node& node, const Grid& grid, double dt) {
+void Wall::hold_up(Node& node, const FieldContext& context, const Vec3& impulse, Hold before) {
+  const Grid& grid = context.grid;
   const auto [first, end] = held_axes(grid.layout);
-  const double mass = grid.mass.at(node.ref.block, 0, node.ref.node);
+  const double mass = grid.mass.at(node.ref.block, 0, node.ref.node), at_start = context.strain_at_start;
   for (int k = first; k < end; ++k) {
-    const double momentum = grid.momentum.at(node.ref.block, k, node.ref.node);
-    node.gained[k] = -momentum - mass * dt * gravity_[grid.layout.axis(k)];
-    loss_.held -= 0.5 * node.gained[k] * momentum / mass;
+    const int axis = grid.layout.axis(k);
+    const double momentum = grid.momentum.at(node.ref.block, k, node.ref.node), given = impulse[axis];
+    const double pulled = -momentum - mass * context.dt * gravity_[axis] - given;
+    node.at_end[k] = 0.5 * given + (1.0 - at_start) * pulled;
+    double held = 0.5 * given + at_start * pulled;
+    if (at_start == 1.0 && before != Hold::free) held += node.at_end[k];  // nothing is gathered any more
+    loss_.held -= held * momentum / mass;
   }
 }
 
@@ -79,7 +84,7 @@ void Wall::before_strain(FieldContext& context) {
     for (const Node& node : nodes_) {
       for (int k = first; k < end; ++k) {
         double& velocity = grid.velocity.at(node.ref.block, k, node.ref.node);
-        if (acted_) loss_.held -= 0.5 * node.gained[k] * velocity;
+        if (acted_) loss_.held -= node.at_end[k] * velocity;
         velocity = 0.0;
       }
     }
@@ -102,18 +107,20 @@ void Wall::momentum_updated(FieldContext& context) {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Node& node = nodes_[i];
     const Hold held = std::exchange(node.hold, Hold::free);
-    if (!acted_) node.gained.setZero();
+    if (!acted_) node.at_end.setZero();
     if (!grid.carries(node.ref.block, node.ref.node)) continue;
     const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
     const auto [dv, hold] = change(velocity, n);
     node.hold = hold;
     const double mass = grid.mass.at(node.ref.block, 0, node.ref.node);
     if (always_holds()) {
-      if (!acted_) hold_up(node, grid, context.dt);
+      if (!acted_) hold_up(node, context, mass * dv, held);
     } else {
       const Vec3 start = nodal_vector(grid.momentum, grid.layout, node.ref) / mass;
-      loss_ += losses_[i].act({mass, n, mass * context.dt * gravity_, mass * dv, start,
-                               start + strain_change(start, n, definition_.friction, held), velocity + dv});
+      const Vec3 seen = start + strain_change(start, n, definition_.friction, held);
+      const Vec3 expected = held == Hold::free ? Vec3(Vec3::Zero()) : Vec3(seen - start);
+      loss_ += losses_[i].act({mass, n, mass * context.dt * gravity_, mass * dv, start, seen, velocity + dv, expected,
+                               context.strain_at_start});
     }
     if (hold == Hold::free) continue;
     if (!always_holds()) held_.add(node.id, hold);

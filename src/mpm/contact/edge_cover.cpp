@@ -76,21 +76,43 @@ Edges edges_near(const RigidBody& body, const ContactPoint& point, const GridLay
   return edges;
 }
 
+/// What lies beyond an edge, as a node near it sees it.
+struct Beyond {
+  int node = -1;        ///< none if negative
+  double backed = 0.0;  ///< how far the plane that continues the face is pressed from behind
+};
+
+/// Adds to a node of the list, or a node to the list.
+void add(int node, double weight, double reading, PointNode* nodes, int& count) {
+  PointNode* end = nodes + count;
+  PointNode* found = std::find_if(nodes, end, [node](const PointNode& one) { return one.node == node; });
+  if (found == end) {
+    *end = {node, 0.0, 0.0};
+    ++count;
+  }
+  found->weight += weight;
+  found->reading += reading;
+}
+
 }  // namespace
 
-int EdgeCover::apply(const ContactPoint& point, const Grid& grid, PointNode* nodes, int count) const {
+EdgeCover::Nodes EdgeCover::apply(const ContactPoint& point, const Grid& grid, PointNode* nodes, int count) const {
   const RigidBody& body = *bodies_[point.body];
   const GridLayout& layout = grid.layout;
   const Edges edges = edges_near(body, point, layout);
-  if (edges.count == 0) return count;
+  if (edges.count == 0) return {count, false};
   const int per_block = layout.nodes_per_block();
+  const auto mass_of = [&](const NodeRef& ref) { return grid.mass.at(ref.block, 0, ref.node); };
+  const Vec3 into = -cell_along(layout, point.normal) * point.normal;
+  std::array<PointNode, PointWeights::kMost> around;
+  std::copy(nodes, nodes + count, around.begin());
   double sum = 0.0;
-  int kept = 0;
+  Nodes result;
   for (int n = 0; n < count; ++n) {
-    PointNode node = nodes[n];
-    const NodeRef ref{node.node / per_block, node.node % per_block};
+    const NodeRef ref{around[n].node / per_block, around[n].node % per_block};
     const Vec3 place = layout.node_position(grid.blocks.block(ref.block), ref.node);
     double cover = 1.0;
+    Beyond other;
     for (int e = 0; e < edges.count; ++e) {
       const Vec3& across = edges.across[e];
       const double cell = edges.cell[e];
@@ -98,24 +120,27 @@ int EdgeCover::apply(const ContactPoint& point, const Grid& grid, PointNode* nod
       if (part >= cover) continue;
       const NodeRef further = nearest_node(grid, place + cell * across);
       if (further.block < 0 || (further.block == ref.block && further.node == ref.node)) continue;
-      if (grid.mass.at(further.block, 0, further.node) < kThinnest * grid.mass.at(ref.block, 0, ref.node)) continue;
+      if (mass_of(further) < kThinnest * mass_of(ref)) continue;
+      const NodeRef behind = nearest_node(grid, place + cell * across + into);
       cover = part;
-      node.beyond = further.block * per_block + further.node;
+      other.node = further.block * per_block + further.node;
+      other.backed = behind.block < 0 ? 0.0 : std::min(1.0, mass_of(behind) / mass_of(further));
     }
     if (cover < kLeastPart) continue;
-    node.reading = node.weight * std::min(1.0, cover / kHalf);
-    node.weight = node.reading * cover;
-    node.beyond_part = node.reading * (1.0 - cover);
-    sum += node.weight;
-    nodes[kept++] = node;
+    const double reading = around[n].reading * std::min(1.0, cover / kHalf), rest = reading * (1.0 - cover);
+    add(around[n].node, reading - (1.0 - other.backed) * rest, reading, nodes, result.count);
+    if (rest > 0.0) {
+      add(other.node, -other.backed * rest, -rest, nodes, result.count);
+      result.at_edge = true;
+    }
+    sum += reading * cover;
   }
-  if (!(sum > kLeast)) return 0;
-  for (int n = 0; n < kept; ++n) {
+  if (!(sum > kLeast)) return {};
+  for (int n = 0; n < result.count; ++n) {
     nodes[n].weight /= sum;
     nodes[n].reading /= sum;
-    nodes[n].beyond_part /= sum;
   }
-  return kept;
+  return result;
 }
 
 }  // namespace mpm

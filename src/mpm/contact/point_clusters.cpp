@@ -9,11 +9,12 @@ namespace mpm {
 void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
   const GridLayout& layout = fields_.front()->layout;
   const int along = shape_ == ShapeKind::bspline3 ? 5 : 2, count = static_cast<int>(found.size());
-  stride_ = 1;
+  stride_ = sharp_ ? 2 : 1;  // nodes beyond edges, too
   for (int k = 0; k < layout.dim(); ++k) stride_ *= along;
   found_nodes_.resize(found.size() * stride_);
   found_count_.resize(found.size());
   found_block_.resize(found.size());
+  found_at_edge_.resize(found.size());
 #pragma omp parallel for schedule(static) num_threads(threads_for(count))
   for (int i = 0; i < count; ++i) {
     const Grid& grid = *fields_[found[i].field];
@@ -23,7 +24,9 @@ void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
       nodes[n] = {weights.node[n].block * layout.nodes_per_block() + weights.node[n].node, weights.weight[n],
                   weights.weight[n]};
     }
-    const int nodes_count = sharp_ ? edges_.apply(found[i], grid, nodes, weights.count) : weights.count;
+    const auto [nodes_count, at_edge] =
+        sharp_ ? edges_.apply(found[i], grid, nodes, weights.count) : EdgeCover::Nodes{weights.count, false};
+    found_at_edge_[i] = at_edge;
     // That of the nearest node, as of a particle: blocks of one colour then share no node, with splines either.
     std::array<int, 3> block{};
     for (int k = 0; k < layout.dim() && nodes_count > 0; ++k) {
@@ -78,6 +81,7 @@ void PointSolver::add(const ContactPoint& contact, int found) {
   point.velocity = contact.velocity;
   point.place = contact.place;
   point.found = found;
+  point.at_edge = found_at_edge_[found] != 0;
   point.first = static_cast<int>(parts_.size());
   const Grid& grid = *fields_[contact.field];
   const int per_block = grid.layout.nodes_per_block();
@@ -93,10 +97,6 @@ void PointSolver::add(const ContactPoint& contact, int found) {
       origins_.push_back({contact.field, ref, {}});
     }
     parts_.push_back({slot, node.weight, node.reading});
-    if (node.beyond_part > 0.0) {
-      point.at_edge = true;
-      beyond_.push_back({static_cast<int>(points_.size()), contact.field, ref_of(node.beyond), node.beyond_part});
-    }
     point.compliance += node.reading * (node.weight * nodes_[slot].inverse_mass);
   }
   point.end = static_cast<int>(parts_.size());
@@ -113,7 +113,6 @@ void PointSolver::connect(const std::vector<ContactPoint>& found) {
   }
   points_.clear();
   parts_.clear();
-  beyond_.clear();
   nodes_.clear();
   origins_.clear();
   for (const int i : order_) add(found[i], i);

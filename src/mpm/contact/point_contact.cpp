@@ -44,6 +44,11 @@ void PointContact::momentum_gathered(StepContext& context) {
   solver_.load(&Grid::velocity);
   for (PointSolver::Point& point : solver_.points()) {
     contacts_.push_back(recall(found[point.found], point, context.dt));
+    const Contact& contact = contacts_.back();
+    const PointMemory::Entry* memory = memory_.find(*contact.found);
+    if (memory == nullptr || context.strain_at_start < 1.0) continue;
+    const double lost = -0.5 * context.dt * memory->force.dot(contact.first.slip);  // the end of the step before
+    ledgers_[contact.found->body].add_loss({0.0, lost});
   }
 }
 
@@ -57,9 +62,9 @@ PointContact::Contact PointContact::recall(const ContactPoint& found, PointSolve
   contact.overlap = std::min(std::max(known, found.gap), 0.0);
   contact.gap = found.gap - contact.overlap;
   contact.before = solver_.velocity_at(point) - point.velocity;
-  contact.seen.slip = contact.before;
   if (memory != nullptr) contact.before += along_surface(memory->slip - contact.before, point.normal);
-  contact.cut = contact.seen.cut = solver_.cut_at(point);
+  contact.cut = solver_.cut_at(point);
+  contact.first.slip = carried_at(point) - point.velocity;
   contact.gained = -carried_at(point) - dt * gravity_;
   const bool held = memory != nullptr && memory->hold != Hold::free;
   if (held) {
@@ -82,27 +87,33 @@ void PointContact::clear_impulses() {
   for (PointSolver::Point& point : solver_.points()) point.impulse.setZero();
 }
 
-void PointContact::before_strain(StepContext&) {
+void PointContact::before_strain(StepContext& context) {
   if (contacts_.empty()) return;
   solver_.load(&Grid::velocity);
+  ends_.clear();
+  for (const PointSolver::Point& point : solver_.points()) {
+    ends_.push_back({carried_at(point) - point.velocity, Vec3::Zero(), Vec3::Zero()});
+  }
   clear_impulses();
   solver_.solve(Pass::strain, false);
   solver_.store(&Grid::velocity);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const PointSolver::Point& point = solver_.points()[i];
     Contact& contact = contacts_[i];
-    const StrainSlip seen{solver_.velocity_at(point) - point.velocity, solver_.cut_at(point), point.impulse};
+    End& end = ends_[i];
+    end.change = carried_at(point) - point.velocity - end.slip;
+    end.impulse = point.impulse;
     if (!contact.acted) {
-      contact.seen = seen;
+      contact.first = end;
     } else {
-      ledgers_[contact.found->body].add_loss({0.0, lost(contact, seen) - lost(contact, contact.left)});
+      ledgers_[contact.found->body].add_loss({0.0, lost(contact, end, 1.0 - context.strain_at_start)});
     }
   }
 }
 
-double PointContact::lost(const Contact& contact, const StrainSlip& end) {
-  return 0.5 * (contact.impulse.dot(contact.seen.cut + end.cut - contact.seen.slip - end.slip) +
-                contact.gained.dot(contact.seen.impulse + end.impulse));
+double PointContact::lost(const Contact& contact, const End& end, double strain) {
+  return strain * (contact.gained.dot(end.impulse) - contact.impulse.dot(end.change)) -
+         0.5 * contact.impulse.dot(end.slip);
 }
 
 void PointContact::begin_impulses() {
@@ -149,11 +160,11 @@ void PointContact::momentum_updated(StepContext& context) {
     cut_ += cut;
     contact.impulse = point.impulse;
     contact.gained += carried_at(point);
-    contact.left = {slip, solver_.cut_at(point), Vec3::Zero()};
     contact.acted = true;
+    const double held = lost(contact, contact.first, context.strain_at_start);
     // As the ledger counts it: the impulse along the surface.
     const double friction = -along_surface(point.impulse, point.normal).dot(mean_slip);
-    ledgers_[contact.found->body].add_loss({0.0, lost(contact, contact.left) - friction - cut});
+    ledgers_[contact.found->body].add_loss({0.0, held - friction - cut});
     const Vec3 along = along_surface(slip, point.normal);
     // What has come to rest has friction at rest again.
     const double slid = along.norm() * context.dt;

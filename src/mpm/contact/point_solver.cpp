@@ -25,11 +25,6 @@ void PointSolver::load(Member from) {
     const Vec3 v = nodal_vector(grid.*from, grid.layout, origin.ref);
     nodes_[n].velocity = origin.loaded = {v.x(), v.y(), v.z()};
   }
-  for (const Beyond& one : beyond_) points_[one.point].beyond.setZero();
-  for (const Beyond& one : beyond_) {
-    const Grid& grid = *fields_[one.field];
-    points_[one.point].beyond -= one.part * nodal_vector(grid.*from, grid.layout, one.ref);
-  }
 }
 
 void PointSolver::store(Member to, double factor) {
@@ -43,7 +38,7 @@ void PointSolver::store(Member to, double factor) {
 }
 
 Vec3 PointSolver::velocity_at(const Point& point) const {
-  Vec3 v = point.beyond;
+  Vec3 v = Vec3::Zero();
   for (int i = point.first; i < point.end; ++i) {
     const Node& node = nodes_[parts_[i].node];
     for (int k = 0; k < 3; ++k) v[k] += parts_[i].reading * node.velocity[k];
@@ -52,7 +47,7 @@ Vec3 PointSolver::velocity_at(const Point& point) const {
 }
 
 Vec3 PointSolver::cut_at(const Point& point) const {
-  Vec3 v = point.beyond;
+  Vec3 v = Vec3::Zero();
   for (int i = point.first; i < point.end; ++i) {
     const Node& node = nodes_[parts_[i].node];
     for (int k = 0; k < 3; ++k) v[k] += (parts_[i].reading - parts_[i].weight) * node.velocity[k];
@@ -160,7 +155,9 @@ void PointSolver::relax(const Cluster& cluster, bool back, Progress& progress) {
 
 template <PointSolver::Pass Kind>
 void PointSolver::sweep_prescribed() {
-  const int threads = threads_for(static_cast<int>(points_.size()));
+  // Cubic splines reach so far that the nodes beyond edges may belong to two blocks of one colour.
+  const bool shared = sharp_ && shape_ == ShapeKind::bspline3;
+  const int threads = shared ? 1 : threads_for(static_cast<int>(points_.size()));
   const int colours = static_cast<int>(colour_begin_.size()) - 1;
   Progress all[2];  // of this sweep, and of the next
 #pragma omp parallel num_threads(threads)

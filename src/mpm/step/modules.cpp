@@ -65,7 +65,7 @@ void Modules::act(Hook hook, StepContext& context) const {
     if (call.across != nullptr) {
       (call.across->*kAtHook<StepContext>[h])(context);
     } else {
-      FieldContext own{*context.fields[call.field], context.dt, context.start};
+      FieldContext own{*context.fields[call.field], context.dt, context.start, context.strain_at_start};
       (call.in_field->*kAtHook<FieldContext>[h])(own);
     }
   }

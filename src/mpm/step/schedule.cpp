@@ -39,6 +39,7 @@ void finish_with_strain(Mechanics& mechanics, const Modules& modules, StepContex
 }  // namespace
 
 void step_usf(Mechanics& mechanics, const Modules& modules, StepContext& context) {
+  context.strain_at_start = 1.0;
   gather_momentum(mechanics, modules, context);
   modules.act(Hook::before_strain, context);
   mechanics.strain_and_force(context, context.dt);
@@ -47,6 +48,7 @@ void step_usf(Mechanics& mechanics, const Modules& modules, StepContext& context
 }
 
 void step_usl(Mechanics& mechanics, const Modules& modules, StepContext& context) {
+  context.strain_at_start = 0.0;
   gather_momentum(mechanics, modules, context);
   mechanics.internal_force(context);
   advance_grid(mechanics, modules, context);
@@ -54,6 +56,7 @@ void step_usl(Mechanics& mechanics, const Modules& modules, StepContext& context
 }
 
 void step_usavg(Mechanics& mechanics, const Modules& modules, StepContext& context) {
+  context.strain_at_start = 0.5;
   gather_momentum(mechanics, modules, context);
   modules.act(Hook::before_strain, context);
   mechanics.strain_and_force(context, 0.5 * context.dt);

@@ -90,10 +90,10 @@ Problem make(const std::string& name, const std::string& title, const std::strin
   problem.whole = footing.round ? 1.0 : 2.0;
   problem.push = -Vec3::UnitZ();
   problem.length = kWidth;
-  problem.from = 0.03;
-  problem.to = 0.05;
+  problem.from = 0.0075;
+  problem.to = 0.0125;
   problem.speed = 0.05;
-  problem.ramp = 0.02;
+  problem.ramp = 0.005;
   problem.wave_speed = elastic_wave(kDensity, footing.ground.young, kPoisson);
   problem.scene = [footing](const Problem& own, const Setup& setup) { return footing_scene(own, setup, footing); };
   problem.pressed = {{0.0, 0.0, -0.75 * kWidth}, {0.25 * kWidth, 0.0, -0.5 * kWidth}};  // the origin is B/2 above
@@ -102,7 +102,7 @@ Problem make(const std::string& name, const std::string& title, const std::strin
 
 void add_clay(std::vector<Problem>& list) {
   Ground clay;
-  clay.young = 10e6;
+  clay.young = 40e6;
   clay.cohesion = 10e3;
   const double area = 0.25 * kPi * kWidth * kWidth;
   for (const bool rough : {true, false}) {
@@ -127,7 +127,7 @@ void add_weightless(std::vector<Problem>& list, double degrees, double surcharge
   const std::size_t first = list.size();
   const double phi = degrees * kPi / 180.0, nc = bearing_cohesion_factor(phi), nq = bearing_surcharge_factor(phi);
   Ground soil;
-  soil.young = 1e4 * surcharge;
+  soil.young = 4e4 * surcharge;
   soil.friction = soil.dilation = degrees;
   soil.across = across;
   soil.down = down;

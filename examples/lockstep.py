@@ -3,8 +3,8 @@
 
     rosrun mpm_ros lockstep.py
 
-The plate moves down at gain * (target - force), within a limit (admittance control). Ends with 0 when the force has settled
-within 2 % of the target.
+The plate moves down at gain * (target - force), within a limit (admittance control). Ends with 0 when the force has
+settled within 2 % of the target.
 """
 import os
 import sys

@@ -35,9 +35,10 @@ class Box:
 
 
 class PressEnv:
-    """Action: speed of the plate upwards over SPEED, (1,). Observation: (3,): force over the target, depth of the plate below
-    the foam's surface over its thickness, last action. Reward of a step: minus the error of force over the target, at most 1.
-    An episode is truncated after `periods` steps; it terminates when the plate has gone LIMIT deep, or the physics fail.
+    """Action: speed of the plate upwards over SPEED, (1,). Observation: (3,): force over the target, depth of the
+    plate below the foam's surface over its thickness, last action. Reward of a step: minus the error of force over
+    the target, at most 1. An episode is truncated after `periods` steps; it terminates when the plate has gone LIMIT
+    deep, or the physics fail.
 
     parameters: of mpm_ros.Simulator, such as record="episode.bag"
     """

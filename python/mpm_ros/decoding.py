@@ -1,8 +1,9 @@
 """Serialised ROS messages as objects whose arrays are views of the received bytes.
 
-genpy, the generator of the message classes, copies every array and makes an object of each vector. Here the class serves
-as the description alone (`__slots__`, `_slot_types`), so a changed message needs no change here. Serialisation is that of
-ROS 1: fields one after the other, little-endian, without padding; lengths of strings and arrays as uint32 before them.
+genpy, the generator of the message classes, copies every array and makes an object of each vector. Here the class
+serves as the description alone (`__slots__`, `_slot_types`), so a changed message needs no change here. Serialisation
+is that of ROS 1: fields one after the other, little-endian, without padding; lengths of strings and arrays as uint32
+before them.
 """
 import struct
 
@@ -26,8 +27,8 @@ def decode(message_class, buffer):
     """`buffer`, a whole serialised message of the genpy class `message_class`, as a Message.
 
     Numbers become numbers, text str, times int [ns]. Arrays of numbers, and messages of nothing but one kind of number
-    (Vector3: 3 float64, Pose: 7, Twist and Wrench: 6), become NumPy views of `buffer`; an array of such messages is a view
-    of shape (n, 3) and so on. Other arrays become lists. Raises ValueError when the bytes are not such a message.
+    (Vector3: 3 float64, Pose: 7, Twist and Wrench: 6), become NumPy views of `buffer`; an array of such messages is a
+    view of shape (n, 3) and so on. Other arrays become lists. Raises ValueError when the bytes are not such a message.
     """
     try:
         _classes.setdefault(message_class._type, message_class)

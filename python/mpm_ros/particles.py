@@ -8,8 +8,8 @@ _NUMBERS = {1: "i1", 2: "u1", 3: "<i2", 4: "<u2", 5: "<i4", 6: "<u4", 7: "<f4", 
 
 
 def simulated_time(stamp, start):
-    """[s] since the run's start of a stamp; both [ns]. Time zero of a run that starts at zero is stamped 1 ns, since zero means
-    none to ROS."""
+    """[s] since the run's start of a stamp; both [ns]. Time zero of a run that starts at zero is stamped 1 ns, since
+    zero means none to ROS."""
     return (stamp - start) / 1e9 if stamp - start > 1 else 0.0
 
 

@@ -1,7 +1,8 @@
 """Bags of runs as NumPy arrays, whole or in parts (doc/recording.md); pandas where it is installed.
 
-rosbag reads the file; messages are decoded as views of what it read (decoding.py). Tables of all topics but particles fit into
-memory; particles come one snapshot at a time. Weak: a bag that was not closed is refused, where bag_report reads a copy.
+rosbag reads the file; messages are decoded as views of what it read (decoding.py). Tables of all topics but particles
+fit into memory; particles come one snapshot at a time. Weak: a bag that was not closed is refused, where bag_report
+reads a copy.
 """
 import os
 
@@ -115,8 +116,8 @@ class Recording:
         return table
 
     def contact_forces(self, body):
-        """Action of the material on a rigid body: the fields of mpm_ros/ContactForce, with `force`, `torque`, `peak_force` and
-        `peak_torque` (n, 3) in place of its wrenches."""
+        """Action of the material on a rigid body: the fields of mpm_ros/ContactForce, with `force`, `torque`,
+        `peak_force` and `peak_torque` (n, 3) in place of its wrenches."""
         self._check_body(body)
         table = self.table("contact_forces", lambda message: _named(message.bodies, body))
         return _split(table, {"wrench": ("force", "torque"), "peak": ("peak_force", "peak_torque")})
@@ -128,8 +129,8 @@ class Recording:
         return _split(table, {"pose": ("position", "orientation"), "twist": ("velocity", "rotation_rate")})
 
     def solver_state(self):
-        """Energies, audit, time step and so on: the numbers of mpm_ros/SolverState. Its own `time` counts from the run's start
-        too, and is this table's."""
+        """Energies, audit, time step and so on: the numbers of mpm_ros/SolverState. Its own `time` counts from the
+        run's start too, and is this table's."""
         return self.table("solver_state")
 
     def global_quantities(self):
@@ -184,7 +185,8 @@ def _named(entries, name):
 
 
 def _numbers(message):
-    """Fields of a message that are numbers or arrays of a fixed length, and its array `values` (mpm_ros/NamedValue) by name."""
+    """Fields of a message that are numbers or arrays of a fixed length, and its array `values` (mpm_ros/NamedValue)
+    by name."""
     row = {}
     for name, value in vars(message).items():
         if isinstance(value, (bool, int, float, np.ndarray)):

@@ -50,8 +50,8 @@ class Observation:
     ended      whether the scene's end is reached; `reset` begins again
     bodies     dict: name to Body
     pairs      list: contacts between deformable bodies, as in mpm_ros/ContactPair
-    particles  Particles: the last snapshot up to `time`, at multiples of `particle_period`. None without that, and before
-               the first that comes: the one of time zero is sent before anybody listens, but for that of a reset
+    particles  Particles: the last snapshot up to `time`, at multiples of `particle_period`. None without that, and
+               before the first that comes: that of time zero is sent before anybody listens, except after a reset
     """
 
     def __init__(self, answer, particles):
@@ -77,9 +77,10 @@ class Simulator:
             obs = sim.step(0.01, velocity={"blade": (0.2, 0, 0)})
             print(obs["blade"].force)
 
-    `Simulator(scene)` starts a node in a process of its own: below `namespace`, or the first free one of /mpm, /mpm_2, …; at
-    the master of ROS_MASTER_URI, or where none answers with a master of its own on a free port. Both end at the end of the
-    block, and with this process however that ends. `Simulator.connect(namespace)` takes over a node that runs.
+    `Simulator(scene)` starts a node in a process of its own: below `namespace`, or the first free one of /mpm, /mpm_2,
+    and so on; at the master of ROS_MASTER_URI, or where none answers with a master of its own on a free port. Both end
+    at the end of the block, and with this process however that ends. `Simulator.connect(namespace)` takes over a node
+    that runs.
 
     scene            a shipped scene's name, or a path
     set              changes to the scene: {"time.end": 5, "materials.sand.young": "2 MPa"}, or ["time.end=5"]
@@ -89,8 +90,8 @@ class Simulator:
     own_master       True: a master of its own in any case; False: that of ROS_MASTER_URI; None: as above
     parameters       any other parameter of the node (config/simulator.yaml): threads=1, record="run.bag"
 
-    The node's warnings go to Python's log `mpm_ros`. Whatever fails raises MpmError with the node's own sentence. Not for
-    several threads at once. Several simulators in one process, or one after the other, are independent.
+    The node's warnings go to Python's log `mpm_ros`. Whatever fails raises MpmError with the node's own sentence. Not
+    for several threads at once. Several simulators in one process, or one after the other, are independent.
     """
 
     def __init__(self, scene, *, set=None, particle_period=None, particle_fields=None, namespace=None, own_master=None,
@@ -106,8 +107,8 @@ class Simulator:
 
     @classmethod
     def connect(cls, namespace=_DEFAULT_NAMESPACE, particle_period=None):
-        """The simulator that runs below `namespace` with `_pacing:=lockstep`, at the master of ROS_MASTER_URI. It goes on
-        when the block ends. `particle_period` [s]: of the clouds that it publishes (its ~particle_rate)."""
+        """The simulator that runs below `namespace` with `_pacing:=lockstep`, at the master of ROS_MASTER_URI. It
+        goes on when the block ends. `particle_period` [s]: of the clouds that it publishes (its ~particle_rate)."""
         if not master_runs():
             raise MpmError(f"no master answers at {os.environ.get('ROS_MASTER_URI')}; start roscore and a simulator")
         self = cls.__new__(cls)
@@ -146,8 +147,8 @@ class Simulator:
     # --- what the node does -------------------------------------------------------------------------------------------
 
     def step(self, duration=None, *, count=None, velocity=None, pose=None, wrench=None):
-        """Advances by `duration` [s], rounded up to whole sync periods, or by `count` of them; by one when neither is given.
-        Commands take effect at its start; each is a dict of bodies:
+        """Advances by `duration` [s], rounded up to whole sync periods, or by `count` of them; by one when neither is
+        given. Commands take effect at its start; each is a dict of bodies:
 
         velocity  (3,) [m/s] of the body's origin, or (6,) with its rotation rate [rad/s]; world axes
         pose      (7,) position [m] and quaternion x, y, z, w, to be reached at the end of the step
@@ -159,14 +160,14 @@ class Simulator:
         return Observation(answer, self._particles_at(answer.stamp))
 
     def reset(self, set=None):
-        """Begins the scene again, at time zero. `set`: changes to the scene for the runs from here on, as in Simulator();
-        None: none. The next `step` has the first observation."""
+        """Begins the scene again, at time zero. `set`: changes to the scene for the runs from here on, as in
+        Simulator(); None: none. The next `step` has the first observation."""
         self._call("reset", **_reset_fields(self._service("reset"), set))
         self._begin_run()
 
     def save_checkpoint(self, path):
-        """Saves the run, to the bit. Returns the file's absolute path. A relative path starts from the node's folder, which is
-        the present one for a node that this object started."""
+        """Saves the run, to the bit. Returns the file's absolute path. A relative path starts from the node's folder,
+        which is the present one for a node that this object started."""
         return self._call("save_checkpoint", path=os.fspath(path)).path
 
     def load_checkpoint(self, path):

@@ -1,8 +1,8 @@
 """Runs a simulator node, and a master where it needs one, for as long as standard input is open.
 
-The client (process.py) holds the other end of the pipe, so the node and the master end with it however it ends: at the end of
-a `with` block, by an exception, by Ctrl-C, even by SIGKILL. The first line on standard output is `master URI`; what follows
-is the node's own output. The exit code is the node's.
+The client (process.py) holds the other end of the pipe, so the node and the master end with it however it ends: at
+the end of a `with` block, by an exception, by Ctrl-C, even by SIGKILL. The first line on standard output is `master
+URI`; what follows is the node's own output. The exit code is the node's.
 
     python3 -m mpm_ros.supervise '{"program": …, "namespace": "/mpm", "parameters": {…}, "own_master": true}'
 """
@@ -31,7 +31,7 @@ def start_master():
 
 def run(task):
     own_master = start_master() if task["own_master"] else None
-    name = task["namespace"] + "/simulator"
+    name = task["namespace"].rstrip("/") + "/simulator"
     master = rosgraph.Master("/mpm_ros_supervise")
     if master.hasParam(name):
         master.deleteParam(name)  # what an earlier run left there

@@ -1,10 +1,11 @@
 """Services and topics over TCPROS, without a node of one's own.
 
-rospy makes a process one node, of one master, which cannot begin again once it was shut down, and it copies every message
-several times. A client of many simulators, one after the other or side by side, can use neither. A TCPROS connection
-(wiki.ros.org/ROS/TCPROS) begins with a header each way; then come messages, each behind its length [byte] as uint32, and in
-an answer behind a byte that says whether the call succeeded. A topic is read without registration at the master: its
-publisher is asked where it sends from. Weak: a publisher that comes later is not found; a lockstep client knows its node.
+rospy makes a process one node, of one master, which cannot begin again once it was shut down, and it copies every
+message several times. A client of many simulators, one after the other or side by side, can use neither. A TCPROS
+connection (wiki.ros.org/ROS/TCPROS) begins with a header each way; then come messages, each behind its length [byte]
+as uint32, and in an answer behind a byte that says whether the call succeeded. A topic is read without registration
+at the master: its publisher is asked where it sends from. Weak: a publisher that comes later is not found; a lockstep
+client knows its node.
 """
 import http.client
 import io
@@ -112,7 +113,8 @@ class TopicReader:
 
 
 def wait_for_service(master, name, keep_waiting):
-    """The address of a service, as soon as the master knows it. `keep_waiting()` is asked between; it raises to give up."""
+    """The address of a service, as soon as the master knows it. `keep_waiting()` is asked between; it raises to give
+    up."""
     while True:
         try:
             return master.lookupService(name)

@@ -8,8 +8,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <memory>
 #include <thread>
 
+#include "mpm_ros/node/parameter_sources.hpp"
 #include "mpm_ros/node/simulator_node.hpp"
 #include "mpm_ros/run/shared_cores.hpp"
 
@@ -33,19 +35,31 @@ bool wait_for_master() {
   return false;
 }
 
-int run() {
+/// The node, once its parameters are read: only then, because diagnostic_updater reads one by itself. What the command
+/// line wrote to the parameter server is deleted then, also when there is no node because something is wrong with it.
+std::unique_ptr<mpm_ros::SimulatorNode> make_node(const mpm_ros::ParameterSources& sources) {
+  struct Forget {
+    const mpm_ros::ParameterSources& sources;
+    ~Forget() { sources.forget(); }
+  } const forget{sources};
+  const mpm_ros::ParameterValues values = mpm_ros::fetch_parameters(ros::NodeHandle("~"));
+  const std::string origin = sources.text(values, ros::this_node::getName());
+  if (sources.doubtful(values)) {
+    ROS_WARN_STREAM(origin);
+  } else if (!origin.empty()) {
+    ROS_INFO_STREAM(origin);
+  }
   std::vector<std::string> warnings;
-  const mpm_ros::NodeParameters parameters =
-      mpm_ros::read_parameters(mpm_ros::fetch_parameters(ros::NodeHandle("~")), warnings);
+  const mpm_ros::NodeParameters parameters = mpm_ros::read_parameters(values, warnings);
   for (const std::string& warning : warnings) ROS_WARN_STREAM(warning);
-  mpm_ros::SimulatorNode node(ros::NodeHandle(), parameters, stop_requested);
-  return node.spin();
+  return std::make_unique<mpm_ros::SimulatorNode>(ros::NodeHandle(), parameters, stop_requested);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   mpm_ros::spin_only_briefly(argv);
+  const mpm_ros::ParameterSources sources(argc, argv);
   // Own signal handlers, because roscpp's would close the connections before the bag is closed.
   ros::init(argc, argv, "simulator", ros::init_options::NoSigintHandler);
   std::signal(SIGINT, on_signal);
@@ -54,7 +68,7 @@ int main(int argc, char** argv) {
   ros::start();
   int exit_code = 1;
   try {
-    exit_code = run();
+    exit_code = make_node(sources)->spin();
   } catch (const mpm::PhysicsError& error) {
     ROS_FATAL_STREAM(error.what());
     exit_code = 3;

@@ -23,6 +23,7 @@
 #include "mpm/math/nearest.hpp"
 #include "mpm_ros/command/teleop_keys.hpp"
 #include "mpm_ros/message/conversions.hpp"
+#include "mpm_ros/message/run_namespaces.hpp"
 #include "mpm_ros/message/topics.hpp"
 
 namespace {
@@ -168,7 +169,7 @@ int main(int argc, char** argv) {
   app.add_option("--hold", options.hold,
                  "time for which a single key press counts [s]; more than the keyboard's delay before repetition")
       ->check(CLI::PositiveNumber);
-  app.add_option("--namespace", options.name_space, "namespace of the simulator");
+  app.add_option("--namespace", options.name_space, "namespace of the simulator; may be left out when one runs");
   ros::V_string words;
   ros::removeROSArgs(argc, argv, words);
   std::vector<std::string> arguments(words.rbegin(), words.rend() - 1);  // reversed, for CLI11, without the program
@@ -182,6 +183,10 @@ int main(int argc, char** argv) {
   try {
     if (!ros::master::check())
       throw std::runtime_error(fmt::format("no master at {}; start roscore", ros::master::getURI()));
+    if (options.name_space.empty() && ros::this_node::getNamespace() == "/") {
+      const std::vector<std::string> found = mpm_ros::running_namespaces();
+      if (found.size() == 1) options.name_space = found.front();
+    }
     ros::NodeHandle node(options.name_space);
     drive(node, find_body(node, options.body), options);
   } catch (const std::exception& error) {

@@ -1,12 +1,16 @@
 // rosrun mpm_ros watch [CONFIG.rviz] [_field:=NAME] [__ns:=NAMESPACE]: starts RViz with a view that fits the run at
-// hand. Waits for the first particles in its namespace, writes the domain, the particles' size and their field into the
-// configuration (by default the package's config/rviz/mpm.rviz), and becomes RViz.
+// hand, which it finds by its run_info; a namespace has to be named only where several runs go on, or where the run
+// starts later, as in a launch file. Waits for the first particles, writes the domain, the particles' size and their
+// field into the configuration (by default the package's config/rviz/mpm.rviz), and becomes RViz.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mpm_ros/RunInfo.h>
 #include <ros/callback_queue.h>
 #include <ros/package.h>
 #include <ros/ros.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,8 +18,10 @@
 #include <vector>
 
 #include "mpm/scene/scene.hpp"
+#include "mpm_ros/message/run_namespaces.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/message/view.hpp"
+#include "mpm_ros/node/parameter_sources.hpp"
 
 namespace {
 
@@ -42,13 +48,35 @@ mpm::Box domain_of(const mpm_ros::RunInfoConstPtr& info) {
   }
 }
 
+/// The namespace that was asked for, else that of the run that goes on.
+std::string find_namespace() {
+  const std::vector<std::string> found = mpm_ros::running_namespaces();
+  const std::string& asked = ros::this_node::getNamespace();
+  if (asked != "/") {
+    if (std::find(found.begin(), found.end(), asked) == found.end()) {
+      ROS_WARN("no run below %s yet: waiting %g s for one", asked.c_str(), kPatience);
+    }
+    return asked;
+  }
+  if (found.empty()) {
+    throw std::runtime_error(
+        "nothing runs: no simulator and no bag that is played publishes run_info; start one, or name the namespace in "
+        "which "
+        "it will start, __ns:=mpm");
+  }
+  if (found.size() > 1) {
+    throw std::runtime_error(fmt::format("which run? Name its namespace, __ns:=: {}", fmt::join(found, ", ")));
+  }
+  return found.front();
+}
+
 /// The configuration for RViz: fitted to the run, or unchanged when no particles arrive.
-std::string fitted(const std::string& path, const std::string& field) {
+std::string fitted(const std::string& path, const std::string& field, const std::string& name_space) {
   std::ifstream file(path);
   std::stringstream text;
   text << file.rdbuf();
   if (!file) throw std::runtime_error(path + " cannot be read");
-  ros::NodeHandle node;
+  ros::NodeHandle node(name_space);
   sensor_msgs::PointCloud2ConstPtr cloud;
   const auto subscriber = node.subscribe<sensor_msgs::PointCloud2>(
       mpm_ros::topics::kParticles, 1, [&](const sensor_msgs::PointCloud2ConstPtr& message) { cloud = message; });
@@ -67,7 +95,7 @@ std::string fitted(const std::string& path, const std::string& field) {
   const std::string fitted_file = fitted_path();
   std::ofstream out(fitted_file);
   out << mpm_ros::with_view(text.str(), mpm_ros::view_of(*cloud, field, domain_of(info)),
-                            ros::this_node::getNamespace() + "/");
+                            name_space == "/" ? name_space : name_space + "/");
   if (!out.flush()) throw std::runtime_error(fitted_file + " cannot be written");
   return fitted_file;
 }
@@ -75,6 +103,7 @@ std::string fitted(const std::string& path, const std::string& field) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const mpm_ros::ParameterSources sources(argc, argv);
   std::vector<char*> words(argv, argv + argc);  // with the arguments that roslaunch appended, which RViz accepts too
   ros::init(argc, argv, "watch");
   if (argc > 2) {
@@ -83,8 +112,11 @@ int main(int argc, char** argv) {
   }
   std::string configuration = argc == 2 ? argv[1] : ros::package::getPath("mpm_ros") + "/config/rviz/mpm.rviz";
   try {
+    const std::string name_space = find_namespace();
     ros::start();
-    configuration = fitted(configuration, ros::NodeHandle("~").param<std::string>("field", ""));
+    const auto field = ros::NodeHandle("~").param<std::string>("field", "");
+    sources.forget();
+    configuration = fitted(configuration, field, name_space);
   } catch (const std::exception& error) {
     ROS_FATAL("watch: %s", error.what());
     return 2;
@@ -95,7 +127,9 @@ int main(int argc, char** argv) {
   std::string rviz = "rviz", option = "-d";
   std::vector<char*> command{rviz.data(), option.data(), configuration.data()};
   for (std::size_t i = 1; i < words.size(); ++i) {
-    if (std::string(words[i]).find(":=") != std::string::npos) command.push_back(words[i]);
+    const std::string word = words[i];
+    const bool own = word[0] == '_' && word.compare(0, 2, "__") != 0;  // a parameter of watch
+    if (word.find(":=") != std::string::npos && !own) command.push_back(words[i]);
   }
   command.push_back(nullptr);
   execvp(rviz.c_str(), command.data());

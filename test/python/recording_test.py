@@ -23,7 +23,8 @@ class Recordings(unittest.TestCase):
         cls.whole, cls.split = cls.path("whole.bag"), cls.path("split.bag")
         scene = source_file("test/data/press.yaml")
         run(program("run_scene"), scene, "--bag", cls.whole, *CHANGES)
-        run(program("run_scene"), scene, "--bag", cls.split, "--bag-split", "0.05 s", "--bag-compression", "lz4", *CHANGES)
+        run(program("run_scene"), scene, "--bag", cls.split, "--bag-split", "0.05 s", "--bag-compression", "lz4",
+            *CHANGES)
         run(program("bag_report"), cls.whole, "--csv", cls.path("csv"))
 
     @classmethod
@@ -102,7 +103,8 @@ class Recordings(unittest.TestCase):
                 mpm_ros.Recording(*arguments)
 
         expect("nowhere.bag cannot be read", self.path("nowhere.bag"))
-        expect("several runs; name one of the namespaces /a, /b", self.bag_of("two.bag", ["/a/run_info", "/b/run_info"]))
+        expect("several runs; name one of the namespaces /a, /b",
+               self.bag_of("two.bag", ["/a/run_info", "/b/run_info"]))
         with mpm_ros.Recording(self.path("two.bag"), "/b") as recording:
             self.assertEqual(recording.info.scene, "some")
         expect("no topic run_info", self.bag_of("none.bag", []))

@@ -126,7 +126,8 @@ class Failures(unittest.TestCase):
             self.assertAlmostEqual(obs["plate"].position[2], 0.07, delta=1e-12)
 
     def test_failed_physics_are_an_exception(self):
-        with mpm_ros.Simulator(source_file("test/data/leaves_domain.yaml"), threads=1, checkpoint_on_failure=False) as sim:
+        scene = source_file("test/data/leaves_domain.yaml")
+        with mpm_ros.Simulator(scene, threads=1, checkpoint_on_failure=False) as sim:
             with self.assertRaisesRegex(mpm_ros.MpmError, "a particle is outside the domain"):
                 sim.step(1.0)
 
@@ -170,9 +171,13 @@ class Endings(unittest.TestCase):
 
     def start_other(self, namespace):
         """A program that steps for ever; its output is the address of its master, and then nothing."""
-        text = (f"import mpm_ros\nwith mpm_ros.Simulator({PRESS!r}, threads=1, namespace={namespace!r}, "
-                "set={'time.end': 1e6}) as sim:\n    print(sim.master_uri, flush=True)\n    while True: sim.step(0.02)\n")
-        other = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        text = (f"import mpm_ros\n"
+                f"changes = {{'time.end': 1e6}}\n"
+                f"with mpm_ros.Simulator({PRESS!r}, threads=1, namespace={namespace!r}, set=changes) as sim:\n"
+                f"    print(sim.master_uri, flush=True)\n"
+                f"    while True: sim.step(0.02)\n")
+        other = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                 text=True)
         self.addCleanup(other.stderr.close)
         self.addCleanup(other.stdout.close)
         return other, other.stdout.readline().strip()

@@ -1,6 +1,7 @@
 """What several tests of the Python package use."""
 import contextlib
 import os
+import signal
 import socket
 import subprocess
 import tempfile
@@ -63,3 +64,30 @@ def processes_with(text):
                 if text in file.read().replace("\0", " "):
                     found.append(int(entry))
     return found
+
+
+class Started:
+    """A program with its output, ended with the block."""
+
+    def __init__(self, *command):
+        self._log = tempfile.TemporaryFile(mode="w+")
+        environment = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1",
+                           ROSCONSOLE_FORMAT="[${severity}] ${message}")
+        self.process = subprocess.Popen(command, stdout=self._log, stderr=subprocess.STDOUT, env=environment)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+        self._log.close()
+
+    def output(self):
+        self._log.seek(0)
+        return self._log.read()
+
+    def end(self, number=signal.SIGINT):
+        self.process.send_signal(number)
+        return self.process.wait(40)

@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""Removes what a launch file set from the parameter server when the launch ends: a node for launch files.
+
+    <node pkg="mpm_ros" type="remove_parameters.py" name="remove_parameters" args="/use_sim_time /mpm/simulator"/>
+
+A master that roslaunch found running goes on after it, with all parameters: /use_sim_time would let every later node
+wait for a clock, and private parameters would hold for a later node of the same name. /use_sim_time stays where some
+node still publishes /clock. What an earlier value was is not known: roslaunch has replaced it.
+"""
+import signal
+import sys
+import time
+import xmlrpc.client
+
+import rosgraph
+
+CLOCK_PATIENCE = 8.0  # [s] for nodes of this launch to end; roslaunch loses patience after 15
+
+
+def clock_is_published(master):
+    """Whether a node that still answers publishes /clock."""
+    for topic, nodes in master.getSystemState()[0]:
+        for node in nodes if topic == "/clock" else []:
+            try:
+                with xmlrpc.client.ServerProxy(master.lookupNode(node)) as slave:
+                    slave.getPid(master.caller_id)
+                return True
+            except (OSError, rosgraph.MasterError):
+                pass  # it died, or ended meanwhile
+    return False
+
+
+def remove(master, name):
+    if name == "/use_sim_time":
+        end = time.monotonic() + CLOCK_PATIENCE
+        while clock_is_published(master):
+            if time.monotonic() > end:
+                return
+            time.sleep(0.1)
+    if master.hasParam(name):
+        master.deleteParam(name)
+
+
+def main():
+    names = [word for word in sys.argv[1:] if ":=" not in word]
+    numbers = {signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
+    signal.pthread_sigmask(signal.SIG_BLOCK, numbers)
+    signal.sigwait(numbers)
+    master = rosgraph.Master("/remove_parameters")
+    try:
+        for name in names:
+            remove(master, name)
+    except (OSError, rosgraph.MasterException):
+        pass  # the master has ended, and its parameters with it
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -23,6 +23,7 @@ import plot_style  # noqa: E402
 from plot_style import BLACK, BLUE, CYCLE, ORANGE, RED, SKY  # noqa: E402
 
 TABLE = "tool_force.json"
+DEFAULTS = "tool_force_defaults.json"  # every problem with the method left to its defaults
 COLOURS = {("points", False): BLUE, ("points", True): SKY, ("nodes", False): RED, ("nodes", True): ORANGE}
 LINES = [("-", "o"), ("--", "s"), (":", "^"), ("-.", "D")]
 COSTS = {"cpu_seconds": "processor time of one thread [s]", "real_time_factor": "simulated time over processor time"}
@@ -33,9 +34,9 @@ class TableError(Exception):
     """The table is missing or has another layout; the message is one line."""
 
 
-def read(folder):
+def read(folder, name=TABLE):
     """The table, {problems, rows}; each row with `label` and `error` as a number or None."""
-    path = os.path.join(folder, TABLE)
+    path = os.path.join(folder, name)
     try:
         with open(path, encoding="utf-8") as file:
             table = json.load(file)

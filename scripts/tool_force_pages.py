@@ -9,15 +9,20 @@ AT = 8.0  # cells at which lift, ripple, scatter and cost stand in the tables
 
 
 def keep(runs, doc):
-    """Copies the table, without curves, a row a line."""
-    table = plots.read(runs)
+    """Copies the tables, without curves, a row a line."""
+    for name in (plots.TABLE, plots.DEFAULTS):
+        keep_table(name, runs, doc)
+
+
+def keep_table(name, runs, doc):
+    table = plots.read(runs, name)
     for row in table["rows"]:
         row.pop("curve", None)
         row.pop("label")
     lines = ["{", ' "problems": [']
     lines += [",\n".join("  " + json.dumps(problem, ensure_ascii=False) for problem in table["problems"]), " ],"]
     lines += [' "rows": [', ",\n".join("  " + json.dumps(row, ensure_ascii=False) for row in table["rows"]), " ]", "}"]
-    (doc / plots.TABLE).write_text("\n".join(lines) + "\n", encoding="utf-8")
+    (doc / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def number(value, digits):
@@ -56,9 +61,30 @@ def problem_lines(problem, rows):
     return lines + [""]
 
 
+def defaults_lines(table):
+    """One row a problem."""
+    cells = sorted({row["cells"] for row in table["rows"]})
+    lines = ["| problem | known | " + " | ".join(f"{value:g}" for value in cells) + " |", "|---|---|" + "---|" * len(cells)]
+    for problem in table["problems"]:
+        own = {row["cells"]: row for row in table["rows"] if row["problem"] == problem["name"]}
+        if own:
+            lines.append(f"| {problem['title']} | {problem['known']} | " +
+                         " | ".join(between(own.get(value)) for value in cells) + " |")
+    return lines + [""]
+
+
+def between(row):
+    """The force, in bold letters where it is exact or between its bounds to 5 %."""
+    text = force(row)
+    return f"**{text}**" if row and row["status"] == "ok" and row["error"] is not None and row["error"] <= 0.05 else text
+
+
 def chapter(folder):
     table = plots.read(folder)
-    lines = []
+    lines = ["### All problems", "",
+             wrapped("Force, or what else is measured, over the exact one or the upper bound, with the method left to its "
+                     "defaults. Bold: within 5 %, or between the bounds."), ""]
+    lines += defaults_lines(plots.read(folder, plots.DEFAULTS))
     for problem in table["problems"]:
         rows = [row for row in table["rows"] if row["problem"] == problem["name"]]
         if rows:

@@ -1,9 +1,12 @@
 """A simulator node in a process of its own, as the client starts it: see supervise.py."""
+import fcntl
 import json
 import logging
+import os
 import re
 import subprocess
 import sys
+import tempfile
 import threading
 
 import rosgraph
@@ -32,18 +35,35 @@ def find_program():
 
 def master_runs():
     """Whether a master answers at ROS_MASTER_URI."""
+    uri = rosgraph.get_master_uri()
     try:
-        return rosgraph.is_master_online()
+        return rosgraph.is_master_online(uri)
     except ValueError as error:
-        raise MpmError(f"ROS_MASTER_URI: {error}") from error
+        raise MpmError(f"ROS_MASTER_URI is '{uri}': {error}") from error
+
+
+def claim(node):
+    """An open file that keeps the name of a node at the master of ROS_MASTER_URI for this process, until it is
+    closed; None when another process of this machine has it. A second node of a name would end the first, and several
+    clients that start at the same time do not see each other at the master yet."""
+    key = re.sub(r"\W+", "_", f"mpm_ros_{os.getuid()}_{rosgraph.get_master_uri()}_{node}")
+    file = open(os.path.join(tempfile.gettempdir(), key + ".lock"), "w", encoding="utf-8")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return file
+    except BlockingIOError:
+        file.close()
+        return None
 
 
 class NodeProcess:
-    """A node and, with `own_master`, a master. What the node logs goes to Python's log `mpm_ros`."""
+    """A node and, with `own_master`, a master. What the node logs goes to Python's log `mpm_ros`. `kept`: a file to
+    close at the end (claim())."""
 
-    def __init__(self, program, namespace, parameters, own_master):
+    def __init__(self, program, namespace, parameters, own_master, kept=None):
         self.sentence = ""  # the node's last one of severity FATAL
         self.exit_code = None
+        self._kept = kept
         self._last_lines = []
         task = {"program": program, "namespace": namespace, "parameters": parameters, "own_master": own_master}
         # In a session of its own, so that Ctrl-C reaches the client alone, which then ends the node.
@@ -100,4 +120,6 @@ class NodeProcess:
                 self._listener.join()
             self.exit_code = self._process.wait()
             self._process.stdout.close()
+            if self._kept is not None:
+                self._kept.close()
         return self.exit_code

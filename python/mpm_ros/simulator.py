@@ -12,7 +12,7 @@ from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
 from . import wire
 from .errors import MpmError
 from .particles import Particles
-from .process import NodeProcess, find_program, master_runs
+from .process import NodeProcess, claim, find_program, master_runs
 
 _CLOUD_PATIENCE = 20.0  # [s] wall time for a message that the node has handed to its connection
 _DEFAULT_NAMESPACE = "/mpm"
@@ -100,9 +100,14 @@ class Simulator:
         if own_master is None:
             own_master = not master_runs()
         elif not own_master and not master_runs():
-            raise MpmError(f"no master answers at {os.environ.get('ROS_MASTER_URI')}; start roscore")
-        namespace = _free_namespace(namespace, own_master)
-        self._process = NodeProcess(find_program(), namespace, parameters, own_master)
+            raise MpmError(f"no master answers at {rosgraph.get_master_uri()}; start roscore")
+        namespace = None if namespace is None else "/" + namespace.strip("/")
+        kept = None
+        if own_master:
+            namespace = namespace or _DEFAULT_NAMESPACE
+        else:
+            namespace, kept = _claim_namespace(namespace)
+        self._process = NodeProcess(find_program(), namespace, parameters, own_master, kept)
         self._connect(namespace, self._process.master_uri, particle_period)
 
     @classmethod
@@ -110,10 +115,10 @@ class Simulator:
         """The simulator that runs below `namespace` with `_pacing:=lockstep`, at the master of ROS_MASTER_URI. It
         goes on when the block ends. `particle_period` [s]: of the clouds that it publishes (its ~particle_rate)."""
         if not master_runs():
-            raise MpmError(f"no master answers at {os.environ.get('ROS_MASTER_URI')}; start roscore and a simulator")
+            raise MpmError(f"no master answers at {rosgraph.get_master_uri()}; start roscore and a simulator")
         self = cls.__new__(cls)
         self._process = None
-        self._connect(namespace, os.environ["ROS_MASTER_URI"], particle_period)
+        self._connect(namespace, rosgraph.get_master_uri(), particle_period)
         return self
 
     def _connect(self, namespace, master_uri, particle_period):
@@ -328,17 +333,16 @@ def _changes(changes):
     return [changes] if isinstance(changes, str) else list(changes or [])
 
 
-def _free_namespace(wished, own_master):
-    """The namespace of a new node. A second node of the same name would end the first."""
-    taken = [] if own_master else [name for kind in rosgraph.Master("/mpm_ros").getSystemState()
-                                   for _, nodes in kind for name in nodes]
-    if wished is not None:
-        wished = "/" + wished.strip("/")
-        if wished.rstrip("/") + "/simulator" in taken:
-            raise MpmError(f"a simulator runs below {wished}; name another namespace, or Simulator.connect('{wished}')")
-        return wished
-    names = itertools.chain([_DEFAULT_NAMESPACE], (f"{_DEFAULT_NAMESPACE}_{i}" for i in itertools.count(2)))
-    return next(name for name in names if name + "/simulator" not in taken)
+def _claim_namespace(wished):
+    """The namespace of a new node at the master that runs, and the file that keeps it (process.py)."""
+    taken = [node for kind in rosgraph.Master("/mpm_ros").getSystemState() for _, nodes in kind for node in nodes]
+    more = (f"{_DEFAULT_NAMESPACE}_{number}" for number in itertools.count(2))
+    for namespace in [wished] if wished else itertools.chain([_DEFAULT_NAMESPACE], more):
+        node = namespace.rstrip("/") + "/simulator"
+        kept = claim(node) if node not in taken else None
+        if kept is not None:
+            return namespace, kept
+    raise MpmError(f"a simulator runs below {wished}; name another namespace, or Simulator.connect('{wished}')")
 
 
 def _numbers_of(body, values, lengths, what):

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "mpm_ros/node/parameter_sources.hpp"
+
 namespace {
 
 struct Phase {
@@ -68,6 +70,7 @@ std::array<double, 6> twist_at(const std::vector<Phase>& phases, double time) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const mpm_ros::ParameterSources sources(argc, argv);
   ros::init(argc, argv, "blade_driver");
   ros::NodeHandle node;
   const ros::NodeHandle parameters("~");
@@ -89,6 +92,7 @@ int main(int argc, char** argv) {
   geometry_msgs::TwistStamped command;
   command.header.frame_id = parameters.param<std::string>("frame_id", "world");
   const auto topic = parameters.param<std::string>("topic", "bodies/blade/cmd_vel_stamped");
+  sources.forget();
   ros::Publisher publisher = node.advertise<geometry_msgs::TwistStamped>(topic, 100);
 
   // Simulated time starts with the run; without use_sim_time, time starts when the clock is first read.

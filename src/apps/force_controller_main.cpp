@@ -24,6 +24,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "mpm_ros/node/parameter_sources.hpp"
+
 namespace {
 
 struct Settings {
@@ -167,18 +169,22 @@ int control_by_topics(ros::NodeHandle& node, const Settings& settings) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const mpm_ros::ParameterSources sources(argc, argv);
   ros::init(argc, argv, "force_controller");
   ros::NodeHandle node;
   const ros::NodeHandle parameters("~");
   Settings settings;
+  const bool lockstep = parameters.param("lockstep", true);
   try {
     settings = read_settings(parameters);
+    sources.forget();
   } catch (const std::runtime_error& error) {
+    sources.forget();
     ROS_FATAL_STREAM(error.what());
     return 2;
   }
   try {
-    return parameters.param("lockstep", true) ? control_in_lockstep(node, settings) : control_by_topics(node, settings);
+    return lockstep ? control_in_lockstep(node, settings) : control_by_topics(node, settings);
   } catch (const std::runtime_error& error) {
     ROS_FATAL_STREAM(error.what());
     return 1;

@@ -38,6 +38,12 @@ class Parameters(unittest.TestCase):
                 self.assertNotIn("pacing", simulator.output().split("from the command line")[1].split("\n")[0])
             self.assertEqual(private_parameters(master), [])
 
+    def test_a_controllers_command_line_does_not_hold_either(self):
+        with running_master() as master, Started(program("force_controller"), "_target:=-1") as controller:
+            self.assertEqual(controller.process.wait(40), 2)
+            self.assertIn("~target is -1", controller.output())
+            self.assertEqual([name for name in master.getParamNames() if "force_controller" in name], [])
+
     def test_what_is_on_the_server_already_is_said(self):
         with running_master() as master:
             master.setParam("/simulator/pacing", "lockstep")

@@ -52,7 +52,8 @@ class Pictures(unittest.TestCase):
             with rosbag.Bag(bag) as recorded:
                 self.assertIn(namespace + "/run_info", recorded.get_type_and_topic_info().topics)
             with running_master() as master:
-                with Started("roslaunch", "mpm_ros", "replay.launch", "bag:=" + bag) as launch:
+                # As typed: roslaunch runs nodes in another folder.
+                with Started("roslaunch", "mpm_ros", "replay.launch", "bag:=" + os.path.relpath(bag)) as launch:
                     self.assertEqual(self.topics_shown(launch), {namespace + "/" + leaf for leaf in
                                                                 ("particles", "markers", "force_markers")})
                     self.assertIs(master.getParam("/use_sim_time"), True)

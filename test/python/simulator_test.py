@@ -214,6 +214,15 @@ class RunningMaster(unittest.TestCase):
             with self.assertRaisesRegex(mpm_ros.MpmError, "no simulator runs below /mpm"):
                 mpm_ros.Simulator.connect("/mpm")
 
+    def test_simulators_that_start_at_the_same_time_do_not_end_each_other(self):
+        text = (f"import mpm_ros\nwith mpm_ros.Simulator({PRESS!r}, threads=1) as sim:\n"
+                "    print(sim.namespace)\n    sim.step(0.1)\n")
+        with running_master():
+            others = [subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, text=True) for _ in range(4)]
+            names = {other.communicate()[0].strip() for other in others}
+            self.assertEqual([other.returncode for other in others], [0] * 4)
+            self.assertEqual(len(names - {""}), 4)
+
     def test_connecting_without_a_master_says_so_at_once(self):
         with self.assertRaisesRegex(mpm_ros.MpmError, "no master answers"):
             mpm_ros.Simulator.connect("/mpm")

@@ -166,8 +166,12 @@ class Simulator:
 
     def reset(self, set=None):
         """Begins the scene again, at time zero. `set`: changes to the scene for the runs from here on, as in
-        Simulator(); None: none. The next `step` has the first observation."""
-        self._call("reset", **_reset_fields(self._service("reset"), set))
+        Simulator(), in place of those of an earlier reset; None: the scene as it is now. The next `step` has the first
+        observation."""
+        if set is None:
+            self._call("reset")
+        else:
+            self._call("reset_with", set=_changes(set))
         self._begin_run()
 
     def save_checkpoint(self, path):
@@ -299,9 +303,8 @@ def _close(process, connections, master):
 def _service_class(name):
     from std_srvs.srv import Trigger
     from . import srv
-    if name == "reset":
-        return getattr(srv, "Reset", Trigger)
-    return {"step": srv.Step, "save_checkpoint": srv.Checkpoint, "load_checkpoint": srv.Checkpoint}[name]
+    return {"step": srv.Step, "reset": Trigger, "reset_with": srv.Reset, "save_checkpoint": srv.Checkpoint,
+            "load_checkpoint": srv.Checkpoint}[name]
 
 
 def _message_class(name):
@@ -369,11 +372,3 @@ def _commands(velocity, pose, wrench):
         commands.append(Command(body=body, kind=Command.WRENCH,
                                 wrench=Wrench(Vector3(*numbers[:3]), Vector3(*numbers[3:]))))
     return commands
-
-
-def _reset_fields(service, changes):
-    if changes is None:
-        return {}
-    if "set" not in service.request_fields:
-        raise MpmError("this version's reset takes no changes to the scene; start another Simulator")
-    return {"set": _changes(changes)}

@@ -6,19 +6,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <iostream>
+#include <new>
 
+#include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 #include "mpm_ros/run/shared_cores.hpp"
-
-namespace {
-
-volatile std::sig_atomic_t stop_signal = 0;
-
-void on_signal(int signal) { stop_signal = signal; }
-
-}  // namespace
+#include "mpm_ros/run/stop_signals.hpp"
 
 int main(int argc, char** argv) {
   mpm_ros::spin_only_briefly(argv);
@@ -59,8 +53,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  mpm_ros::catch_stop_signals();
   try {
     if (list) {
       mpm_ros::list_scenes(std::cout);
@@ -71,7 +64,13 @@ int main(int argc, char** argv) {
       return 0;
     }
     return static_cast<int>(
-        mpm_ros::run_scene(options, std::cout, std::cerr, isatty(STDERR_FILENO) != 0, [] { return stop_signal != 0; }));
+        mpm_ros::run_scene(options, std::cout, std::cerr, isatty(STDERR_FILENO) != 0, mpm_ros::stop_requested));
+  } catch (const mpm::StoppedError& error) {
+    std::cerr << error.what() << "\n";
+    return 0;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "run_scene: there is not enough memory for this scene; use a larger grid.cell or a smaller scene\n";
+    return 1;
   } catch (const std::exception& error) {
     std::cerr << "run_scene: " << error.what() << "\n";
     return 2;

@@ -45,6 +45,8 @@ class Dice {
          {&twist.linear.x, &twist.linear.y, &twist.linear.z, &twist.angular.x, &twist.angular.y, &twist.angular.z}) {
       *value = sound ? uniform(-0.05, 0.05) : number();
     }
+    // Others leave the plane of the scene, and are refused.
+    if (sound || below(4) > 0) twist.linear.y = twist.angular.x = twist.angular.z = 0.0;
     return twist;
   }
   geometry_msgs::Pose pose(bool sound = false) {

@@ -53,6 +53,45 @@ TEST(CommandQueue, StampedVelocityWaitsForTheFirstSyncPointAtOrAfterItsStamp) {
   EXPECT_EQ(queue.late().past + queue.late().unstamped, 0U);
 }
 
+TEST(CommandQueue, NoMoreWaitThanTheBound) {
+  CommandQueue queue(10);
+  queue.take(0);
+  for (std::size_t i = 0; i < CommandQueue::kMost; ++i) {
+    ASSERT_TRUE(queue.push(velocity(0, 1.0, 1000 + static_cast<std::int64_t>(i))));
+  }
+  EXPECT_FALSE(queue.push(velocity(0, 2.0)));
+  queue.hold();
+  EXPECT_FALSE(queue.push(velocity(0, 2.0)));
+  EXPECT_FALSE(queue.push_past_hold(velocity(0, 2.0)));
+  queue.release();
+  EXPECT_EQ(queue.waiting(), CommandQueue::kMost);
+  EXPECT_EQ(queue.take(1000).size(), 1U);
+  EXPECT_TRUE(queue.push(velocity(0, 2.0)));
+}
+
+// Poses that are far away are not looked at in each sync point; the answer must not depend on them. Those of two
+// seconds, given at once in any order, arrive one after the other at their stamps.
+TEST(CommandQueue, AWayGivenAheadIsFollowedPoseByPose) {
+  constexpr std::int64_t kSync = 10'000'000, kEnd = 2'000'000'000;
+  CommandQueue queue(kSync);
+  std::vector<std::int64_t> stamps;
+  for (std::int64_t stamp = 3 * kSync; stamp <= kEnd; stamp += 3 * kSync) stamps.push_back(stamp);
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    const std::int64_t stamp = stamps[(7 * i) % stamps.size()];  // 66 of them: each once
+    queue.push(pose(0, static_cast<double>(stamp), stamp));
+  }
+  std::size_t next = 0;
+  for (std::int64_t now = 0; now < kEnd; now += kSync) {
+    for (const DueCommand& due : queue.take(now)) {
+      ASSERT_LT(next, stamps.size());
+      EXPECT_EQ(due.arrival, stamps[next]);
+      EXPECT_EQ(now, next == 0 ? 0 : stamps[next - 1]);  // it sets out when the one before has arrived
+      ++next;
+    }
+  }
+  EXPECT_EQ(next, stamps.size());
+}
+
 TEST(CommandQueue, PastStampIsAppliedAtTheNextSyncPointAndCounted) {
   CommandQueue queue(10);
   queue.take(0);

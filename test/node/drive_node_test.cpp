@@ -152,8 +152,8 @@ TEST_F(Drive, SilenceStopsALimitedBodyWithinItsLimits) {
 TEST_F(Drive, SilenceOfAFrameHoldsItsLastPlaceOrEndsTheRun) {
   for (const std::string setting : {"hold", "stop", "error"}) {
     SCOPED_TRACE(setting);
-    SimulatorProcess simulator(
-        {kDrive, "pacing:=lockstep", "threads:=1", "command_timeout:=0.03", "on_timeout:=" + setting});
+    SimulatorProcess simulator({kDrive, "pacing:=lockstep", "threads:=1", "command_timeout:=0.03", "keep_alive:=false",
+                                "on_timeout:=" + setting});
     ASSERT_TRUE(simulator.ready()) << simulator.log();
     send(simulator, way("arm/tool0", 0.1, 0.06, 0.05), kProbe);
     const Step::Response response = simulator.step(1000);

@@ -5,6 +5,9 @@
 #include <mpm_ros/SolverState.h>
 #include <std_srvs/SetBool.h>
 
+#include <limits>
+#include <memory>
+
 #include "simulator_process.hpp"
 #include "test_files.hpp"
 
@@ -170,7 +173,8 @@ TEST(Endings, SilenceHoldsTheTwistByDefault) {
 }
 
 TEST(Endings, SilenceCanEndTheRun) {
-  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1", "command_timeout:=0.05", "on_timeout:=error"});
+  SimulatorProcess simulator(
+      {kPress, "pacing:=lockstep", "threads:=1", "command_timeout:=0.05", "on_timeout:=error", "keep_alive:=false"});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
   Step::Request request;
   request.duration = 0.1;
@@ -181,6 +185,83 @@ TEST(Endings, SilenceCanEndTheRun) {
   EXPECT_NEAR(response.time, 0.05, 1e-9);
   EXPECT_EQ(simulator.wait(), 3) << simulator.log();
 }
+
+bool says(const ProgramProcess& program, const std::string& text) {
+  return eventually([&] { return program.log().find(text) != std::string::npos; });
+}
+
+/// Wall time that a program takes to end after a signal [s]; infinite when it does not within a minute.
+double time_to_end(ProgramProcess& program, int signal, int& exit_code) {
+  const auto asked = std::chrono::steady_clock::now();
+  program.signal(signal);
+  exit_code = program.wait();
+  return exit_code == -1 ? std::numeric_limits<double>::infinity()
+                         : std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
+}
+
+TEST(Endings, HangUpClosesTheBag) { expect_closed_bag_after(SIGHUP); }
+
+/// With a master that is gone, or that does not answer: it ends within 2 s, with its bag closed.
+void expect_ends_without_master(int to_master, int to_node) {
+  const TemporaryFolder folder;
+  const std::string bag = folder.file("run.bag"), port = std::to_string(21600 + getpid() % 300);
+  auto master = std::make_unique<ProgramProcess>("rosmaster", std::vector<std::string>{"--core", "-p", port}, kNoNode);
+  SimulatorProcess simulator(
+      {kPress, "threads:=1", "set:=[time.end=1000]", "record:=" + bag, "_master:=http://localhost:" + port});
+  ASSERT_TRUE(says(simulator, "recording to")) << simulator.log();
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  master->signal(to_master);
+  // The node looks for topics of strangers each second.
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  int exit_code = 0;
+  EXPECT_LT(time_to_end(simulator, to_node, exit_code), 2.0);
+  EXPECT_EQ(exit_code, 0) << simulator.log();
+  EXPECT_EQ(hash_in(bag).size(), 16U);
+}
+
+TEST(Endings, InterruptWithoutMaster) { expect_ends_without_master(SIGKILL, SIGINT); }
+
+TEST(Endings, TerminationWhileTheMasterHangs) { expect_ends_without_master(SIGSTOP, SIGTERM); }
+
+// Ten thousand steps of settling that never satisfies it, some 40 s; it says how far it is every three seconds.
+TEST(Endings, SignalsEndAGeostaticStart) {
+  const std::string endless = R"(bodies.bed.initial={"geostatic":{"residual":1e-15}})";
+  int exit_code = 0;
+  SimulatorProcess simulator({"scene:=cone_penetrometer", "threads:=1", "set:=" + endless});
+  ASSERT_TRUE(says(simulator, "steps of settling the unbalanced force is")) << simulator.log();
+  EXPECT_LT(time_to_end(simulator, SIGINT, exit_code), 1.5);  // a second, and leaving the graph
+  EXPECT_EQ(exit_code, 0) << simulator.log();
+
+  for (const bool explain : {false, true}) {
+    std::vector<std::string> arguments{"cone_penetrometer", "--threads", "1", "--set", endless};
+    if (explain) arguments.push_back("--explain");
+    ProgramProcess run("run_scene", arguments, kNoNode);
+    ASSERT_TRUE(says(run, "steps of settling the unbalanced force is")) << run.log();
+    EXPECT_LT(time_to_end(run, explain ? SIGHUP : SIGTERM, exit_code), 1.0);
+    EXPECT_EQ(exit_code, 0) << run.log();
+    EXPECT_NE(run.log().find("stopped while 'bed' settled"), std::string::npos) << run.log();
+  }
+}
+
+// One sync period of 2,000 s simulated, some four million steps.
+TEST(Endings, SignalsActWithinALongSyncPeriod) {
+  const TemporaryFolder folder;
+  const std::string bag = folder.file("run.bag"), checkpoint = folder.file("run.h5");
+  int exit_code = 0;
+  ProgramProcess run("run_scene",
+                     {data_file("press.yaml"), "--threads", "1", "--set", "time.end=4000", "--set", "time.sync=2000",
+                      "--set", "output.period=2000", "--bag", bag, "--checkpoint", checkpoint},
+                     kNoNode);
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(bag) && std::filesystem::file_size(bag) > 10'000; }));
+  EXPECT_LT(time_to_end(run, SIGINT, exit_code), 1.0);
+  EXPECT_EQ(exit_code, 1) << run.log();  // a checkpoint was asked for
+  EXPECT_NE(run.log().find("stopped within a sync period"), std::string::npos) << run.log();
+  EXPECT_NE(run.log().find("not written, since the run was stopped between two sync points"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(checkpoint));
+  EXPECT_EQ(messages_in(bag, "mpm_ros/BodyStates"), 1U);  // the start
+}
+
+TEST(Endings, TooManyThreadsAreRefused) { expect_bad_input({kPress, "threads:=99999"}, "99999 threads are asked for"); }
 
 }  // namespace endings_node_test
 }  // namespace mpm_ros::test

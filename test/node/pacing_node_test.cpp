@@ -1,11 +1,14 @@
 // Pacing of simulated time, /clock, starting paused, and the effect of a reset on time. The parameter /use_sim_time is
 // set for each simulator.
+#include <geometry_msgs/TwistStamped.h>
 #include <mpm_ros/BodyStates.h>
+#include <mpm_ros/Command.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
 #include <rosgraph_msgs/Clock.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <cstring>
 
@@ -127,6 +130,129 @@ TEST(Pacing, WithoutSimulatedTimeThereIsNoClock) {
   EXPECT_EQ(simulator.step(2).stamp - first, ros::Duration(0, 20'000'000));
 }
 
+/// A robot's hand that moves along x at 0.05 m/s, by the wall clock.
+class Robot {
+ public:
+  void tell() {
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    geometry_msgs::TransformStamped& transform = message.transforms[0];
+    const ros::WallTime now = ros::WallTime::now();
+    transform.header.stamp = ros::Time(now.sec, now.nsec);
+    transform.header.frame_id = "world";
+    transform.child_frame_id = "hand";
+    place = 0.05 * (now - start_).toSec();
+    transform.transform.translation.x = place;
+    transform.transform.translation.z = 0.08;
+    transform.transform.rotation.w = 1.0;
+    tf_.publish(message);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  double place = 0.0;  ///< where it is now [m]
+
+ private:
+  ros::Publisher tf_ = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf", 100);
+  const ros::WallTime start_ = ros::WallTime::now();
+};
+
+// A run at a fifth of real time is 0.8 s behind after a second, and its tool as much behind the robot.
+TEST(Pacing, ARunBehindTheRobotsClockSaysSoInTheFirstSecond) {
+  use_sim_time(false);
+  SimulatorProcess simulator(
+      {"scene:=" + data_file("drive.yaml"), "set:=[time.end=100]", "threads:=1", "real_time_factor:=0.2"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  const auto from = std::chrono::steady_clock::now();
+  Robot robot;
+  ASSERT_TRUE(eventually([&] {
+    robot.tell();
+    return simulator.log().find("behind the wall clock") != std::string::npos;
+  })) << simulator.log();
+  // And a second for this test's own start, while the run goes on already.
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count(), 2.0);
+  for (const char* text : {"of the clock's pace", "the tf frame 'hand'", "/use_sim_time",
+                           "_tf_time:=latest", "grid.cell"}) {
+    EXPECT_NE(simulator.log().find(text), std::string::npos) << text << "\n" << simulator.log();
+  }
+}
+
+TEST(Pacing, TheNewestTransformIsFollowedOnRequestAndMarked) {
+  use_sim_time(false);
+  SimulatorProcess simulator({"scene:=" + data_file("drive.yaml"), "set:=[time.end=100]", "threads:=1",
+                              "real_time_factor:=0.2", "tf_time:=latest"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Ear<BodyStates> bodies(simulator.name("bodies"));
+  Ear<mpm_ros::Command> commands(simulator.name("commands"));
+  ASSERT_TRUE(bodies.connected() && commands.connected());
+  Robot robot;
+  double behind = 1.0;
+  for (int i = 0; i < 300; ++i) {
+    robot.tell();
+    if (const auto heard = bodies.heard(); !heard.empty())
+      behind = robot.place - heard.back().bodies.at(1).pose.position.x;
+  }
+  // After three seconds by stamps it would be 2.4 s behind, 0.12 m; here by a command period and messages under way.
+  EXPECT_LT(std::abs(behind), 0.03) << simulator.log();
+  ASSERT_TRUE(commands.hears(1));
+  for (const mpm_ros::Command& command : commands.heard()) {
+    EXPECT_TRUE(command.as_it_came);
+    EXPECT_GT(command.requested.toSec(), command.header.stamp.toSec());  // the stamp that was not used is ahead
+  }
+  EXPECT_EQ(simulator.log().find("behind the wall clock"), std::string::npos) << simulator.log();
+}
+
+TEST(Pacing, StampedCommandsByTheWallClockSayAndDoTheSame) {
+  use_sim_time(false);
+  for (const bool latest : {false, true}) {
+    SimulatorProcess simulator({kPress, kLong, "threads:=1", "real_time_factor:=0.2",
+                                std::string("command_time:=") + (latest ? "latest" : "stamp")});
+    ASSERT_TRUE(simulator.ready()) << simulator.log();
+    Ear<mpm_ros::Command> commands(simulator.name("commands"));
+    ros::Publisher publisher =
+        ros::NodeHandle().advertise<geometry_msgs::TwistStamped>(simulator.name("bodies/rod/cmd_vel_stamped"), 10);
+    ASSERT_TRUE(commands.connected() && eventually([&] { return publisher.getNumSubscribers() > 0; }));
+    const auto said = [&] { return simulator.log().find("the commands for 'rod' are stamped") != std::string::npos; };
+    for (int i = 0; i < 100 && !said(); ++i) {
+      geometry_msgs::TwistStamped command;
+      const ros::WallTime now = ros::WallTime::now();
+      command.header.stamp = ros::Time(now.sec, now.nsec);
+      publisher.publish(command);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    EXPECT_EQ(said(), !latest) << simulator.log();
+    if (!latest) continue;
+    ASSERT_TRUE(commands.hears(50)) << simulator.log();
+    EXPECT_TRUE(commands.heard().back().as_it_came);
+  }
+}
+
+TEST(Pacing, AnotherOwnersClockMayJump) {
+  use_sim_time(true);
+  SimulatorProcess simulator({kPress, kLong, "pacing:=lockstep", "threads:=1", "publish_clock:=false"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  ros::NodeHandle node;
+  ros::Publisher clock = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  ros::Publisher transforms = node.advertise<tf2_msgs::TFMessage>("/tf", 10);
+  ASSERT_TRUE(eventually([&] { return clock.getNumSubscribers() > 0 && transforms.getNumSubscribers() > 0; }));
+  // By more than the 68 years of a ros::Duration, and to the end of what a ros::Time holds.
+  for (const double now : {4e9, 1.0, 4294967295.0, 2.0}) {
+    rosgraph_msgs::Clock message;
+    message.clock = ros::Time(now);
+    clock.publish(message);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    tf2_msgs::TFMessage tf;
+    tf.transforms.resize(1);
+    tf.transforms[0].header.stamp = message.clock;
+    tf.transforms[0].header.frame_id = "world";
+    tf.transforms[0].child_frame_id = "arm";
+    tf.transforms[0].transform.rotation.w = 1.0;
+    transforms.publish(tf);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));  // diagnostics come each second
+  }
+  EXPECT_TRUE(simulator.step(1).success) << simulator.log();
+  simulator.signal(SIGINT);
+  EXPECT_EQ(simulator.wait(), 0) << simulator.log();
+}
+
 TEST(Pacing, StartingPausedHangsNobody) {
   use_sim_time(true);
   SimulatorProcess simulator({kPress, kLong, "threads:=1", "start_paused:=true"});
@@ -135,7 +261,7 @@ TEST(Pacing, StartingPausedHangsNobody) {
   ProgramProcess waiter("pacing_node_test", {kWaiter});
   EXPECT_EQ(waiter.wait(20.0), 0) << waiter.log();
   // Services answer.
-  EXPECT_FALSE(simulator.step(1).success);
+  EXPECT_TRUE(simulator.step(1).success);
   reset(simulator);
   Ear<SolverState> states(simulator.name("solver_state"));
   ASSERT_TRUE(states.hears(1));

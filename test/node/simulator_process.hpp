@@ -53,20 +53,24 @@ inline mpm_ros::Command velocity(const std::string& body, double vz) {
 /// tests there, which would start it again and again.
 constexpr const char* kChild = "MPM_TEST_CHILD";
 
-/// A program of this package in a process and a namespace of its own, as a user starts it.
+constexpr const char* kNoNode = "-";
+
+/// A program of this package, or of the path, in a process of its own, and a node in a namespace, as a user starts it.
 class ProgramProcess {
  public:
-  /// `arguments`: as on the command line. Each program has a namespace of its own, or the given one.
+  /// `arguments`: as on the command line. Each program has a namespace of its own, or the given one; kNoNode: it is no
+  /// node.
   /// `largest_file`: simulated space on the disk [byte]; 0: unlimited.
   explicit ProgramProcess(const std::string& program, const std::vector<std::string>& arguments,
                           const std::string& name_space = {}, rlim_t largest_file = 0) {
     static int count = 0;
     namespace_ = name_space.empty() ? "/sim" + std::to_string(getpid()) + "_" + std::to_string(++count) : name_space;
     log_ = folder_.file("log");
-    const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe").parent_path() / program;
+    std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe").parent_path() / program;
+    if (!std::filesystem::exists(path)) path = program;
     std::vector<std::string> words{path.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    words.push_back("__ns:=" + namespace_);
+    if (name_space != kNoNode) words.push_back("__ns:=" + namespace_);
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
@@ -80,7 +84,7 @@ class ProgramProcess {
       const int log = open(log_.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
       dup2(log, STDOUT_FILENO);
       dup2(log, STDERR_FILENO);
-      execv(path.c_str(), pointers.data());
+      execvp(path.c_str(), pointers.data());
       _exit(127);
     }
   }

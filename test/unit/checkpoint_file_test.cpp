@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "checkpoint_run.hpp"
+#include "full_disk.hpp"
 #include "mpm/simulation/checkpoint.hpp"
 
 namespace mpm::test {
@@ -168,6 +170,49 @@ TEST_F(BadCheckpoint, LeavesTheOneBefore) {
   EXPECT_EQ(refusal([&] { save_checkpoint(file_, simulation_, {"plane.yaml", kPlane, {}}, breaks); }), "no more room");
   EXPECT_EQ(read_checkpoint(file_).state_hash, hash);
   EXPECT_FALSE(fs::exists(file_ + ".part"));
+}
+
+/// Resident memory of this process [kB].
+double memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind("VmRSS:", 0) == 0) return std::stod(line.substr(6));
+  }
+  return 0.0;
+}
+
+// HDF5 keeps a file that it cannot close: a hundred of them held 240 MB.
+TEST_F(BadCheckpoint, FullDisksCostNoMemory) {
+  const mpm_ros::test::FullDisk full(4000);
+  const auto fail = [&] {
+    return refusal([&] { save_checkpoint(folder_.file("full.h5"), simulation_, {"plane.yaml", kPlane, {}}); });
+  };
+  for (int i = 0; i < 10; ++i) EXPECT_NE(fail().find("cannot be written whole (File too large)"), std::string::npos);
+  const double before = memory();
+  for (int i = 0; i < 100; ++i) fail();
+  EXPECT_LT(memory() - before, 1000.0);
+  EXPECT_FALSE(fs::exists(folder_.file("full.h5.part")));
+}
+
+// HDF5 tries to write such a file again when the process ends, and it says so on the terminal.
+TEST_F(BadCheckpoint, FullDisksEndInSilence) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(
+      {
+        const mpm_ros::test::FullDisk full(4000);
+        refusal([&] { save_checkpoint(folder_.file("full.h5"), simulation_, {"plane.yaml", kPlane, {}}); });
+        refusal([&] { load_checkpoint("/dev/null", simulation_, kPlane); });
+        std::exit(0);
+      },
+      testing::ExitedWithCode(0), "^$");
+}
+
+TEST_F(BadCheckpoint, IsNoRegularFile) {
+  EXPECT_NE(refusal([&] {
+              save_checkpoint("/dev/null", simulation_, {"plane.yaml", kPlane, {}});
+            }).find("cannot be written: it is a device"),
+            std::string::npos);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
 }  // namespace checkpoint_file_test

@@ -34,6 +34,19 @@ class PhysicsError : public Error {
   using Error::Error;
 };
 
+/// The run was asked to stop (SimulationOptions::stop) while it settled, or within a sync period: it cannot go on.
+class StoppedError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// How far a geostatic start is from rest.
+struct Settling {
+  std::uint64_t steps = 0;  ///< of settling so far
+  double unbalanced = 0.0;  ///< force over the weight, when last at rest; infinite before
+  double wanted = 0.0;      ///< at which the soil has settled
+};
+
 struct RunParts;
 /// Adds the modules of a physics to a run (simulation/run_parts.hpp).
 using AddModules = std::function<void(RunParts&)>;
@@ -43,11 +56,13 @@ struct SimulationOptions {
   std::optional<Isa> isa = {};           ///< instruction set of the kernels; without it the widest one available
   bool settle = true;                    ///< settle geostatic bodies first; not needed before a checkpoint is loaded
   std::vector<AddModules> modules = {};  ///< added after the shipped ones
+  std::function<bool()> stop = {};       ///< asked after every step; true: the step was the last, see StoppedError
+  std::function<void(const Settling&)> settling = {};  ///< told after every step of settling
 };
 
 class Simulation {
  public:
-  /// @throws DefinitionError, GridError, IsaError, MaterialError, RigidError
+  /// @throws DefinitionError, GridError, IsaError, MaterialError, RigidError; StoppedError while it settles
   /// Takes over the definition, whose particle data are freed as soon as they have been read.
   explicit Simulation(SimulationDefinition definition, SimulationOptions options = {});
   ~Simulation();
@@ -63,7 +78,7 @@ class Simulation {
   std::int64_t time() const;         ///< simulated time since the start [ns]
   std::int64_t sync_period() const;  ///< [ns]
   /// Runs to the next sync point. @throws PhysicsError; the state of the failed step can still be read and saved then,
-  /// and advance() throws from there on.
+  /// and advance() throws from there on. @throws StoppedError; advance() throws from there on.
   void advance();
 
   /// Index of a rigid body, or -1.

@@ -46,11 +46,12 @@ struct AppliedCommand {
   std::int64_t effect = 0;   ///< [ns] simulated time at which it takes effect
   std::int64_t arrival = 0;  ///< [ns] pose: when it is reached
   ros::Time requested;
+  bool as_it_came = false;  ///< it has a stamp, `requested`, which was not used
 };
 
 /// Gives the command to the simulation, whose time() is the command's effect. @throws mpm::RigidError, then nothing is
 /// changed: not finite, a pose that is none, or a motion of more than the domain's diagonal in a sync period, which no
-/// tool means and which would take steps without end.
+/// tool means and which would take steps without end; so too a wrench that makes a body so fast within one.
 void apply(const AppliedCommand& command, mpm::Simulation& simulation);
 
 /// The commands that stop a body: zero for its prescribed velocities, and no wrench if it is free.

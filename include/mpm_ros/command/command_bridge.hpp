@@ -1,10 +1,13 @@
 // Hears the command topics of every rigid body, and tf for their frames, and hands the messages to a CommandReader.
+//
+// tf is heard here and not by tf2_ros::TransformListener, which ends the process when /clock jumps back by more than
+// the 68 years that a ros::Duration holds.
 #pragma once
 
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <set>
 #include <string>
@@ -19,8 +22,10 @@ class CommandBridge {
  public:
   /// Subscribes at once, on the node handle's callback queue. `frames`: the tf frame that each body follows, or empty.
   /// `queue` and `health` must outlive it.
+  /// `latest_frames`, `latest_commands`: stamps of transforms, and of messages on topics, are not used.
   CommandBridge(ros::NodeHandle node, const std::vector<std::string>& bodies, const std::vector<std::string>& frames,
-                const std::string& world_frame, CommandQueue& queue, NodeHealth& health);
+                const std::string& world_frame, CommandQueue& queue, NodeHealth& health, bool latest_frames,
+                bool latest_commands);
 
   CommandReader& reader() { return reader_; }
   const CommandReader& reader() const { return reader_; }
@@ -35,11 +40,13 @@ class CommandBridge {
  private:
   template <typename Message>
   void subscribe(ros::NodeHandle& node, int body, const char* leaf);
+  void listen(ros::NodeHandle& node, const char* topic, bool fixed);
+  void hear(const tf2_msgs::TFMessage& message, const std::string& sender, bool fixed);
 
   const std::string prefix_;  // of body topics, resolved
   NodeHealth& health_;
-  tf2_ros::Buffer frames_;
-  tf2_ros::TransformListener listener_;
+  tf2::BufferCore frames_;
+  ros::Time heard_;  // by the clock, when a transform came last
   CommandReader reader_;
   FrameFollower follower_;
   std::vector<ros::Subscriber> subscribers_;

@@ -39,7 +39,7 @@ class CommandLimiter {
   std::vector<AppliedCommand> next(const mpm::Simulation& simulation);
   /// The body is on its way no longer.
   void drop(int body);
-  /// Goes on with what `other` is on the way to.
+  /// Goes on with what `other` is on the way to, within its limits.
   void take_over(const CommandLimiter& other);
 
   void serialise(mpm::StateArchive& archive);
@@ -57,7 +57,7 @@ class CommandLimiter {
   AppliedCommand towards_pose(Goal& goal, const mpm::RigidBody& body, const mpm::Simulation& simulation, bool& reached);
   void count(Goal& goal);
 
-  const std::vector<mpm::MotionLimits> limits_;
+  std::vector<mpm::MotionLimits> limits_;
   NodeHealth& health_;
   std::map<int, Goal> goals_;          // by body
   std::map<int, LimitHealth> report_;  // by body

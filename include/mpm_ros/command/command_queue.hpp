@@ -40,13 +40,13 @@ class CommandQueue {
   /// `sync_period` > 0 [ns].
   explicit CommandQueue(std::int64_t sync_period) : sync_period_(sync_period) {}
 
-  /// Any thread.
-  void push(BodyCommand command);
+  /// Any thread. False, with nothing done, when kMost wait already.
+  bool push(BodyCommand command);
   /// From hold() on commands wait outside; release() lets them in. A step of the lockstep takes what came before it.
   void hold();
   void release();
   /// Of what was looked up for this sync point, in the middle of a step.
-  void push_past_hold(BodyCommand command);
+  bool push_past_hold(BodyCommand command);
   /// What takes effect at the sync point `now` [ns], which is later than the one before.
   std::vector<DueCommand> take(std::int64_t now);
   /// Forgets everything but the counts, for a run that begins again.
@@ -58,13 +58,17 @@ class CommandQueue {
   /// The last sync point taken [ns]; -1 before the first.
   std::int64_t passed() const;
 
+  /// More commands than this do not wait: 100 s of a stream at 100 Hz. Each of them is looked at in every sync point.
+  static constexpr std::size_t kMost = 10'000;
+  /// A stamp farther ahead of the simulation than this [ns] is refused: it comes from another clock, or from a plan
+  /// that is better sent as it is carried out.
+  static constexpr std::int64_t kHorizon = 600'000'000'000;
   /// A gap in a body's stream of poses longer than this [ns] says nothing of its period.
   static constexpr std::int64_t kLongestPeriod = 1'000'000'000;
 
-  std::int64_t sync_period() const { return sync_period_; }
   /// For checkpoints: all but the counts. Of what was given in ROS time the simulated time counts.
   void serialise(mpm::StateArchive& archive);
-  /// Waits for what `other` waits for, and keeps its own counts.
+  /// Waits for what `other` waits for, by its sync period, and keeps its own counts.
   void take_over(const CommandQueue& other);
 
  private:
@@ -78,9 +82,11 @@ class CommandQueue {
   void admit(BodyCommand command);
   std::int64_t round_up(std::int64_t time) const { return (time + sync_period_ - 1) / sync_period_ * sync_period_; }
   bool is_due(const BodyCommand& command, std::int64_t now) const;
+  /// Moves what cannot be due at `now` to the end of waiting_, in any order. Returns where it begins.
+  std::vector<BodyCommand>::iterator part_later(std::int64_t now);
   std::int64_t arrival_of(const BodyCommand& command, std::int64_t now);
 
-  const std::int64_t sync_period_;
+  std::int64_t sync_period_;
   mutable std::mutex mutex_;
   std::vector<BodyCommand> waiting_;
   std::vector<BodyCommand> outside_;  ///< came while on hold

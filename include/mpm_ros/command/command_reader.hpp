@@ -34,8 +34,16 @@ class CommandReader {
 
   /// The body follows a tf frame: commands from elsewhere are refused, with the reason.
   void set_frame(int body, const std::string& frame) { followed_.at(body) = frame; }
-  /// Where that frame is, as a message on cmd_pose. Any thread.
-  void follow(int body, const geometry_msgs::PoseStamped& message);
+  /// Where that frame is, as a message on cmd_pose; not `by_stamp`: as one without a stamp. Any thread.
+  void follow(int body, const geometry_msgs::PoseStamped& message, bool by_stamp = true);
+  /// What comes on topics is applied as it comes, whatever its stamp, which is recorded. Before any message is taken.
+  void ignore_stamps() { use_stamps_ = false; }
+  /// The command that was stamped latest since the run began.
+  struct Newest {
+    int body = 0;
+    std::int64_t stamp = 0;  ///< [ns] simulated
+  };
+  Newest newest() const;
 
   /// A message for a body (its index) from a node: to the queue, or refused. Any thread.
   void take(int body, const geometry_msgs::Twist& message, const std::string& sender = {});
@@ -64,8 +72,6 @@ class CommandReader {
   void set_stamp(const ros::Time& stamp, BodyCommand& command, std::string& problem) const;
   /// Why a simulated time [ns] cannot be meant, or empty.
   std::string too_far_ahead(std::int64_t stamp) const;
-  void take_pose(const char* leaf, int body, const geometry_msgs::PoseStamped& message, const std::string& sender,
-                 std::string problem);
   void push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem);
   /// Why the body takes no commands, or empty.
   std::string refusal_of(int body) const;
@@ -80,8 +86,10 @@ class CommandReader {
   NodeHealth& health_;
   std::vector<std::string> followed_;  // frame of each body, or empty
   std::mutex taking_;                  // a message, from its stamp to the queue
-  mutable std::mutex mutex_;           // of stamps_
+  bool use_stamps_ = true;
+  mutable std::mutex mutex_;  // of stamps_ and newest_
   Stamps stamps_;
+  mutable Newest newest_;
   mutable std::mutex received_mutex_;
   mutable std::condition_variable received_changed_;
   std::uint64_t received_ = 0;

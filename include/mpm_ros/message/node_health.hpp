@@ -3,7 +3,8 @@
 // solver: ERROR when the run has failed, or goes on without its record; WARN when the audit does not close, a particle
 // is nearly crushed, particles left the grid and were put back, or the wall clock is not kept up with; else OK.
 // commands: WARN for ten seconds after one was refused or made a body jump, and as long as a body that was commanded
-// hears nothing (past ~command_timeout), waits for its tf frame, or is behind a pose for the sake of its limits; else
+// hears nothing (past ~command_timeout), waits for its tf frame, or is behind a pose for the sake of its limits, and
+// as long as the simulation is behind the clock by which commands are stamped; else
 // OK. A late command is normal latency: counted, no warning.
 #pragma once
 
@@ -40,9 +41,11 @@ struct SolverHealth {
 
 /// Commands that were taken, for the status `commands`.
 struct CommandHealth {
-  std::uint64_t unstamped = 0;  ///< on stamped topics, with stamp zero: applied at the next sync point
-  std::uint64_t past = 0;       ///< with a stamp that was past: the same
-  std::uint64_t waiting = 0;    ///< whose time is to come
+  std::uint64_t unstamped = 0;     ///< on stamped topics, with stamp zero: applied at the next sync point
+  std::uint64_t past = 0;          ///< with a stamp that was past: the same
+  std::uint64_t waiting = 0;       ///< whose time is to come
+  std::uint64_t most_waiting = 0;  ///< so many may; more are refused
+  double horizon = 0.0;            ///< [s] ahead of the simulation; stamps beyond are refused
 };
 
 /// How a body is kept within its limits.
@@ -70,6 +73,9 @@ class NodeHealth {
   void wait(const std::string& body, const std::string& what);
   /// A body was commanded to jump, as no tool moves. Counted, and logged like refusals.
   void jump(const std::string& what);
+  /// The simulation is behind the clock by which it is commanded; warns until `what` is empty. One log line, and again
+  /// every ten seconds.
+  void lag(const std::string& what);
   /// A body with limits moves. Warns while it is behind; one log line when its first command was limited.
   void limit(const std::string& body, const LimitHealth& limits);
   void set_solver(const SolverHealth& solver);
@@ -115,6 +121,8 @@ class NodeHealth {
   std::uint64_t jumps_ = 0;
   std::string last_jump_;
   std::string last_change_;
+  std::string lag_;
+  Clock::time_point lag_logged_;
   std::map<std::string, Clock::time_point> logged_;  // lines of refusals
   Clock::time_point quota_from_;
   int quota_used_ = 0;

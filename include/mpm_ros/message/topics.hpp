@@ -19,6 +19,7 @@ constexpr const char* kTf = "/tf";
 
 constexpr const char* kPause = "pause";
 constexpr const char* kReset = "reset";
+constexpr const char* kResetWith = "reset_with";
 constexpr const char* kStep = "step";
 constexpr const char* kSaveCheckpoint = "save_checkpoint";
 constexpr const char* kLoadCheckpoint = "load_checkpoint";

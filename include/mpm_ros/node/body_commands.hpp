@@ -48,8 +48,8 @@ class BodyCommands {
   void listen();
   void stop_listening();
 
-  /// For a run that is about to begin.
-  CommandMemory fresh_memory() const;
+  /// For a run of that scene, whose bodies are those of this one, that is about to begin.
+  CommandMemory fresh_memory(const mpm::Scene& scene) const;
   /// The run begins, or goes on from a checkpoint, with this memory. What came for the run before it is forgotten.
   void begin(const Run& run, const CommandMemory& memory);
   /// For checkpoints.
@@ -90,13 +90,12 @@ class BodyCommands {
   std::string apply(Run& run, const AppliedCommand& command);
   void apply_limited(Run& run);
   std::string act_on_silence(Run& run);
+  void look_at_lag(const Run& run);
 
   const NodeParameters& parameters_;
   NodeHealth& health_;
-  const std::int64_t sync_period_;  // [ns]
   std::vector<std::string> bodies_;
   CommandLog log_;
-  std::vector<mpm::MotionLimits> limits_;
   CommandMemory memory_;
   ros::CallbackQueue callbacks_;
   std::unique_ptr<CommandBridge> bridge_;  // none of a replay

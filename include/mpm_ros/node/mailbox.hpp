@@ -12,9 +12,11 @@ namespace mpm_ros {
 
 class Mailbox {
  public:
+  /// Whose turn it is when several wait.
+  enum class Turn { last, first };
   /// Hands over `work` and waits until it is done. False, with the work not done, once closed. Not from the thread
   /// that calls run_until().
-  bool call(const std::function<void()>& work);
+  bool call(const std::function<void()>& work, Turn turn = Turn::last);
   /// Does what has been handed over; waits for more until `deadline`, or until some work was done.
   /// What the work throws comes out here; the caller is let go.
   void run_until(std::chrono::steady_clock::time_point deadline);

@@ -33,6 +33,12 @@ enum class OnTimeout {
   error  ///< the run ends
 };
 
+/// When what has a stamp takes effect.
+enum class StampUse {
+  stamp,  ///< by its stamp
+  latest  ///< as it comes, whatever its stamp
+};
+
 /// Where the stamps of a run go on after a reset.
 enum class ResetTime {
   resume,  ///< after all stamps before: time never runs backwards
@@ -57,6 +63,8 @@ struct NodeParameters {
   std::string commands;                     ///< bag whose commands are replayed in place of live ones
   double command_timeout = 0.0;             ///< [s] simulated; 0: never
   OnTimeout on_timeout = OnTimeout::hold;
+  StampUse tf_time = StampUse::stamp;       ///< of tf frames that bodies follow
+  StampUse command_time = StampUse::stamp;  ///< of messages on command topics
   std::string world_frame = "world";
   bool publish_clock = true;                                ///< with use_sim_time
   double clock_rate = 0.0;                                  ///< [1/s] simulated; 0: every sync point

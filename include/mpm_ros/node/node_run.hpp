@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "mpm/scene/scene.hpp"
 #include "mpm_ros/node/node_parameters.hpp"
@@ -9,9 +10,10 @@
 
 namespace mpm_ros {
 
-/// `number`: of the run, from 1; it names the bag. `topics_below`: namespace of the topics in it.
+/// `number`: of the run, from 1; it names the bag. `topics_below`: namespace of the topics in it. `set`: what a reset
+/// has set in the scene, for the record.
 RunOptions run_options(const mpm::Scene& scene, const NodeParameters& parameters, int number,
-                       const std::string& topics_below);
+                       const std::string& topics_below, const std::vector<std::string>& set = {});
 
 /// What only both together show: no recording over what is read, particle fields that there are, a clock that can be
 /// set back. @throws ParameterError

@@ -12,6 +12,8 @@ class Pacer {
 
   /// `period` [ns] simulated from one deadline to the next, `factor` simulated over wall time, > 0.
   Pacer(std::int64_t period, double factor);
+  /// For a run with another period; restart() is to follow.
+  void set_period(std::int64_t period) { period_ = static_cast<double>(period) / factor_; }
 
   /// Begins again from `now`: at the start, after a pause.
   void restart(Clock::time_point now);
@@ -23,7 +25,8 @@ class Pacer {
   static constexpr std::chrono::milliseconds kLargestDebt{100};
 
  private:
-  const double period_;      // [ns] of the wall's clock
+  const double factor_;
+  double period_;            // [ns] of the wall's clock
   Clock::time_point start_;  // deadlines are counted from here, so that no rounding adds up
   std::int64_t count_ = 0;   // of deadlines since
   std::uint64_t overruns_ = 0;

@@ -15,8 +15,10 @@ namespace mpm_ros {
 class Publishers : public MessageSink {
  public:
   /// Advertises every topic, below the node's namespace. @param bodies names of the rigid bodies; `filtered`: their
-  /// filtered wrenches too; `global`: global quantities too.
-  Publishers(ros::NodeHandle node, const std::vector<std::string>& bodies, bool filtered = false, bool global = false);
+  /// filtered wrenches too
+  Publishers(ros::NodeHandle node, const std::vector<std::string>& bodies, bool filtered = false);
+  /// Global quantities too, from now on.
+  void add_global();
 
   bool wants(const std::string& topic) const override;
   void put(const std::string& topic, const ros::Time&, const RunInfo& m) override { at(topic).publish(m); }
@@ -39,6 +41,7 @@ class Publishers : public MessageSink {
  private:
   ros::Publisher& at(const std::string& topic) { return publishers_.at(topic); }
 
+  ros::NodeHandle node_;
   std::map<std::string, ros::Publisher> publishers_;
 };
 

@@ -1,11 +1,13 @@
 // The node: a run, its topics and services, and the loop that drives it.
 //
-// Three threads at work: the solver's (the one that calls spin(), the only one that touches the run), one for command
-// topics (checks and queues them), four for services and housekeeping (hand work to the solver's thread and wait).
+// Four kinds of threads at work: the solver's (the one that calls spin(), the only one that touches the run), one for
+// command topics (checks and queues them), four for services and housekeeping (hand work to the solver's thread and
+// wait), and one for `pause` alone, which ends a step under way and goes before all that waits.
 // A sync period is: apply the commands that are due, advance, publish and record, then pace.
 #pragma once
 
 #include <mpm_ros/Checkpoint.h>
+#include <mpm_ros/Reset.h>
 #include <mpm_ros/Step.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
@@ -13,7 +15,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
-#include <functional>
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,23 +35,33 @@ namespace mpm_ros {
 
 class SimulatorNode {
  public:
-  /// Loads the scene and makes the first run ready. `stop_requested` is asked between sync periods.
-  /// @throws mpm::Error, ParameterError, BagError: bad input, exit code 2.
-  SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters, std::function<bool()> stop_requested);
+  /// Loads the scene and makes the first run ready.
+  /// @throws mpm::Error, ParameterError, BagError: bad input, exit code 2. @throws mpm::StoppedError
+  SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters);
   ~SimulatorNode();
 
-  /// Runs until the scene ends (and, with keep_alive, on until it is stopped), a stop is requested or the physics
-  /// fails. Returns the exit code: 0 done, 1 the bag cannot be written, 2 bad input that showed only now (a function of
-  /// time that is not finite, recorded commands of another scene), 3 the physics failed (or silence, with on_timeout
-  /// error).
+  /// Runs until the scene ends or the run fails; with keep_alive it then waits for a reset, a checkpoint to load, or a
+  /// stop (stop_signals.hpp, or a shutdown of ROS). Returns the exit code, with keep_alive that of the last run: 0
+  /// done, 1 a bag could not be written, 2 bad input that showed only now (a function of time that is not finite,
+  /// recorded commands of another scene), 3 the physics failed (or silence, with on_timeout error).
   int spin();
 
  private:
   enum class Phase { running, paused, waiting, ended, failed };
 
+  /// A stop was asked for.
+  static bool ends();
   Stamps first_stamps() const;
+  /// What a run is made from: the scene, and what a reset has set in it.
+  struct Subject {
+    mpm::Scene scene;
+    std::vector<std::string> set;
+  };
+  /// The scene with `set` over what ~set says. @throws mpm::Error, ParameterError, also where it does not fit the node:
+  /// its topics belong to its rigid bodies
+  std::shared_ptr<const Subject> load_subject(const std::vector<std::string>& set) const;
   /// `resume`: a checkpoint, or empty. @throws mpm::Error, BagError; then the run that is there goes on.
-  void start_run(const Stamps& stamps, const std::string& resume = {});
+  void start_run(const std::shared_ptr<const Subject>& subject, const Stamps& stamps, const std::string& resume = {});
   /// Its first messages, and the pace from now on.
   void begin_run();
   /// One sync period; extra commands are applied after those that are due. False when it failed, or when an extra
@@ -66,10 +78,15 @@ class SimulatorNode {
   // Services; the first of each pair runs on a service thread, the second on the solver's.
   bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool on_reset_with(Reset::Request& request, Reset::Response& response);
   bool on_step(Step::Request& request, Step::Response& response);
   void pause(bool paused, std_srvs::SetBool::Response& response);
-  void reset(std_srvs::Trigger::Response& response);
+  /// Begins the subject from time zero. Returns what began; `success`: whether it did.
+  std::string reset(const std::shared_ptr<const Subject>& subject, bool& success);
+  void reset_with(const std::vector<std::string>& set, Reset::Response& response);
   void step(const Step::Request& request, Step::Response& response);
+  /// Why a step cannot begin now, or empty.
+  std::string step_refused() const;
   /// Waits for the messages on command topics that the request wants first. False, with the answer, when they stay
   /// away.
   bool wait_received(const Step::Request& request, Step::Response& response) const;
@@ -87,25 +104,26 @@ class SimulatorNode {
 
   ros::NodeHandle node_;
   const NodeParameters parameters_;
-  const std::function<bool()> stop_requested_;
-  const mpm::Scene scene_;
+  std::shared_ptr<const Subject> subject_;  // of the present run
   NodeHealth health_;
   Mailbox mailbox_;
   SimClock clock_;
   BodyCommands commands_;
-  ros::CallbackQueue service_callbacks_;
+  ros::CallbackQueue service_callbacks_, pause_callbacks_;
   std::unique_ptr<Publishers> publishers_;
   std::unique_ptr<Run> run_;
   std::unique_ptr<Pacer> pacer_;
   std::unique_ptr<NodeDiagnostics> diagnostics_;
   std::vector<ros::ServiceServer> services_;
-  std::unique_ptr<ros::AsyncSpinner> service_spinner_;
+  std::unique_ptr<ros::AsyncSpinner> service_spinner_, pause_spinner_;
+  std::atomic<int> pauses_asked_{0};  // that the solver's thread has not come to; a step ends for them
 
   int runs_ = 0;
   bool paused_ = false;
-  std::string failure_;
+  std::string failure_;       // of the present run
+  int failure_code_ = 0;      // exit code that goes with it
+  bool bag_lost_ = false;     // of any run
   bool record_lost_ = false;  // and said so
-  int exit_code_ = 0;
 };
 
 }  // namespace mpm_ros

@@ -69,6 +69,8 @@ class BagRecorder : public MessageSink {
 
  private:
   void open();
+  /// The name must still be that of the file which is written. @throws BagError as on_disk()
+  void check_there();
   /// Ends the present part, and begins the next with the latched messages.
   void begin_part(const ros::Time& stamp);
   template <typename Message>
@@ -89,7 +91,8 @@ class BagRecorder : public MessageSink {
   std::string path_;
   const BagOptions options_;
   std::string prefix_;
-  std::unique_ptr<rosbag::Bag> bag_;  ///< of the present part; null when closed or given up
+  std::unique_ptr<rosbag::Bag> bag_;                ///< of the present part; null when closed or given up
+  std::pair<std::uint64_t, std::uint64_t> opened_;  ///< device and number of its file
   int part_ = 1;
   bool part_over_ = false;
   bool started_ = false;  ///< the chunk of the run's start has ended

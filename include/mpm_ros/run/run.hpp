@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -23,9 +24,11 @@ struct RunOptions {
   OutputOptions output;
   std::string bag;  ///< path to write; empty: none
   BagOptions bag_options;
-  std::string parameters;   ///< for RunInfo, YAML
-  std::string resume;       ///< checkpoint that it goes on from; empty: none
-  mpm::SerialiseMore more;  ///< what the caller keeps beside, in that checkpoint
+  std::string parameters;      ///< for RunInfo, YAML
+  std::string resume;          ///< checkpoint that it goes on from; empty: none
+  mpm::SerialiseMore more;     ///< what the caller keeps beside, in that checkpoint
+  std::function<bool()> stop;  ///< as mpm::SimulationOptions has it
+  std::function<void(const mpm::Settling&)> settling;
 };
 
 class Run {
@@ -45,6 +48,7 @@ class Run {
   /// Applies a command at the present sync point, and writes it. @throws mpm::RigidError; then nothing is changed.
   void apply(const AppliedCommand& command);
   /// Runs to the next sync point and writes what is due. @throws mpm::PhysicsError; call fail() then. @throws BagError
+  /// @throws mpm::StoppedError; finish() then ends the record with the sync point before.
   void advance();
   /// Forgets the wall time since the last advance(): after a pause.
   void resume_clock() { clock_ = std::chrono::steady_clock::now(); }
@@ -65,6 +69,8 @@ class Run {
   /// [ns]; 0: it runs until it is stopped
   std::int64_t end() const { return end_; }
   bool closed() const { return closed_; }
+  /// It was stopped between two sync points, so there is no state that could be saved.
+  bool cut_short() const { return cut_short_; }
   bool ended() const { return end_ > 0 && simulation_.time() >= end_; }
   /// Simulated over wall time so far.
   double real_time_factor() const;
@@ -89,6 +95,7 @@ class Run {
   std::chrono::steady_clock::duration wall_{};  // while not paused
   std::int64_t from_ = 0;                       // [ns] simulated time of the checkpoint
   bool resumed_ = false;
+  bool cut_short_ = false;  // stopped between two sync points
   bool closed_ = false;
 };
 

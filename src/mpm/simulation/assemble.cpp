@@ -29,6 +29,7 @@ const std::array<const char*, 6> kWallNames = {"x_min", "x_max", "y_min", "y_max
 namespace {
 
 constexpr std::size_t kParticlesPerThread = 4000;  ///< fewer do not pay for the waiting at the end of every pass
+constexpr int kMostThreads = 1024;
 
 std::vector<ParticleScalar> zeros(int components, Precision precision, std::size_t particles) {
   std::vector<ParticleScalar> field;
@@ -275,6 +276,14 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
 Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : state_(std::make_unique<State>()) {
   State& s = *state_;
   check(given);
+  if (options.threads > kMostThreads) {
+    throw DefinitionError(
+        fmt::format("{} threads are asked for; at most {} can be had, and more than the machine's {} "
+                    "gain nothing (0: as many as are of use)",
+                    options.threads, kMostThreads, omp_get_num_procs()));
+  }
+  s.asked_to_stop = std::move(options.stop);
+  s.settling = std::move(options.settling);
   s.definition = std::move(given);
   Transfer& transfer = s.definition.method.transfer;
   const bool filters = transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm;

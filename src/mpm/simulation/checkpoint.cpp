@@ -11,6 +11,7 @@
 #include "hdf5_archive.hpp"
 #include "mpm/math/build_info.hpp"
 #include "mpm/math/geometry_kind.hpp"
+#include "mpm/math/output_file.hpp"
 #include "mpm/simulation/method_text.hpp"
 
 namespace mpm {
@@ -121,6 +122,9 @@ CheckpointAbout read_about(StateArchive& archive, const std::string& path) {
 
 CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation, const CheckpointLabel& label,
                                 const SerialiseMore& more) {
+  if (const std::string refused = refused_output(path); !refused.empty()) {
+    throw CheckpointError(fmt::format("checkpoint {}: cannot be written: {}", path, refused));
+  }
   CheckpointAbout about = about_of(simulation);
   about.label = label;
   about.state_hash = simulation.state_hash();

@@ -226,7 +226,13 @@ void Simulation::State::settle() {
       at_rest = now < before;
       if (at_rest) stop(r.sets);
       before = at_rest ? 0.0 : now;
+      if (settling) settling({count + 1, residual.mean, wanted});
+      if (asked_to_stop && asked_to_stop()) {
+        throw StoppedError(fmt::format("stopped while {} settled, after {} steps", names, count + 1));
+      }
     }
+  } catch (const StoppedError&) {
+    throw;
   } catch (const Error& error) {
     throw PhysicsError(fmt::format("geostatic start of {}, while it settled: {}", names, error.what()));
   }

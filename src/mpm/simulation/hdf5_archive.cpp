@@ -8,6 +8,8 @@
 #include <cstring>
 #include <utility>
 
+#include "mpm/math/output_file.hpp"
+
 namespace mpm {
 namespace {
 
@@ -35,6 +37,7 @@ constexpr hsize_t kChunk = hsize_t{1} << 20;  ///< numbers that have one checksu
 
 /// Why a file of that name cannot be opened so; empty if it can.
 std::string problem_with(const std::string& path, const char* mode) {
+  if (std::string refused = refused_output(path); !refused.empty()) return refused;  // a pipe would wait to be opened
   std::FILE* file = std::fopen(path.c_str(), mode);
   if (file == nullptr) return std::strerror(errno);
   std::fclose(file);
@@ -62,7 +65,9 @@ Hdf5Writer::Hdf5Writer(const std::string& path) : path_(path) {
   }
   // The later layouts of HDF5 have checksums for what is not data, and small lists of chunks.
   const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  if (!access || H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110) < 0) fail();
+  if (!access || H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110) < 0 ||
+      !write_tolerantly(access, error_))
+    fail();
   file_ = {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose};
   make_groups_ = {H5Pcreate(H5P_LINK_CREATE), H5Pclose};
   if (!file_ || !make_groups_ || H5Pset_create_intermediate_group(make_groups_, 1) < 0) fail();
@@ -78,15 +83,17 @@ void Hdf5Writer::values(const std::string& name, Number number, void* data, std:
   const Hdf5Id set(H5Dcreate2(file_, name.c_str(), type_of(number), space, make_groups_, layout, H5P_DEFAULT),
                    H5Dclose);
   if (!set || (count > 0 && H5Dwrite(set, type_of(number), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)) fail();
+  if (error_.code != 0) fail();  // the rest would be of no use
 }
 
 void Hdf5Writer::close() {
-  if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0 || !file_.close()) fail();
+  if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0 || !file_.close() || error_.code != 0) fail();
 }
 
 void Hdf5Writer::fail() const {
-  throw CheckpointError(
-      fmt::format("checkpoint {}: cannot be written whole; check the space on its disk, and try again", path_));
+  const std::string reason = error_.code != 0 ? fmt::format(" ({})", std::strerror(error_.code)) : "";
+  throw CheckpointError(fmt::format(
+      "checkpoint {}: cannot be written whole{}; check the space on its disk, and try again", path_, reason));
 }
 
 Hdf5Reader::Hdf5Reader(const std::string& path) : path_(path) {

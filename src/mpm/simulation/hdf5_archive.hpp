@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mpm/simulation/checkpoint.hpp"
+#include "tolerant_file.hpp"
 
 namespace mpm {
 
@@ -55,7 +56,7 @@ class Hdf5Writer final : public StateArchive {
   /// Makes the file anew. @throws CheckpointError
   explicit Hdf5Writer(const std::string& path);
   bool reading() const override { return false; }
-  /// All is on the disk then. @throws CheckpointError
+  /// All is with the system then. @throws CheckpointError
   void close();
 
  protected:
@@ -65,7 +66,8 @@ class Hdf5Writer final : public StateArchive {
  private:
   [[noreturn]] void fail() const;
   std::string path_;
-  Hdf5Silence silence_;
+  Hdf5Silence silence_;  // first, so that closing is silent too
+  DiskError error_;
   Hdf5Id file_, make_groups_;
 };
 

@@ -86,7 +86,13 @@ void Simulation::State::run_period() {
   }
   const int number = static_cast<int>(count);
   const double start = static_cast<double>(time) * kNanosecond, dt = period / number;
-  for (int k = 0; k < number; ++k) step(start + k * dt, dt);
+  for (int k = 0; k < number; ++k) {
+    step(start + k * dt, dt);
+    if (asked_to_stop && k + 1 < number && asked_to_stop()) {
+      throw StoppedError(fmt::format("stopped within a sync period, {} of {} steps after t = {:.6g} s", k + 1, number,
+                                     time * kNanosecond));
+    }
+  }
   time += definition.time.sync;
   for (Module* module : modules.list()) module->at_sync(time);
 

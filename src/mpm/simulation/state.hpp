@@ -35,6 +35,8 @@ struct Simulation::State {
   int threads = 1;
   Isa isa = Isa::plain;
   std::vector<std::string> warnings, notes;
+  std::function<bool()> asked_to_stop;  ///< may be empty
+  std::function<void(const Settling&)> settling;
 
   std::vector<ParticleSet> sets;
   std::vector<Law> laws;  ///< of each set
@@ -75,7 +77,7 @@ struct Simulation::State {
   StepLimit survey_material() const;
   /// What material and modules allow in the sync period that begins now. @throws DampingError
   StepLimit step_limit() const;
-  /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError
+  /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError, StoppedError
   void run_period();
   /// One step of the schedule, with the checks after it; it begins at `start` [s].
   void step(double start, double dt);
@@ -87,7 +89,7 @@ struct Simulation::State {
   void serialise_grid(StateArchive& archive);
   void serialise_limit(StateArchive& archive, const char* name, StepLimit& kept);
   /// Lets the bodies that start geostatic, already under their weight's stress, come to rest. Before anything is
-  /// sorted.
+  /// sorted. @throws PhysicsError, StoppedError
   void settle();
   [[noreturn]] void fail(const std::string& what, ParticleRef particle, double now, const std::string& remedy) const;
 };

@@ -25,6 +25,17 @@ double travel_of(const AppliedCommand& command, const mpm::Simulation& simulatio
   const double sync = static_cast<double>(simulation.sync_period()) * 1e-9;
   // What the geometry does not have is no motion: a link beside the plane of a planar scene.
   const mpm::GeometryKind geometry = simulation.definition().geometry;
+  if (command.kind == CommandKind::wrench) {
+    const mpm::FreeMotion* free = body.free_motion();
+    if (free == nullptr) return 0.0;  // which the body refuses
+    const mpm::FreeDefinition& of = free->definition();
+    double acceleration = 0.0;  // what it gains in a period it may travel in the next
+    for (int k = 0; k < 3; ++k) {
+      if (of.axes[k]) acceleration += std::abs(command.wrench.force[k]) / of.mass;
+      if (of.axes[3 + k]) acceleration += std::abs(command.wrench.torque[k]) / of.inertia(k, k) * reach_of(body);
+    }
+    return sync * sync * acceleration;
+  }
   if (command.kind == CommandKind::velocity) {
     const mpm::Twist twist = mpm::projected(command.twist, geometry, body.definition());
     return sync * (twist.linear.norm() + twist.angular.norm() * reach_of(body));
@@ -35,9 +46,30 @@ double travel_of(const AppliedCommand& command, const mpm::Simulation& simulatio
   return ((pose.position - body.pose().position).norm() + turn * reach_of(body)) / periods;
 }
 
+/// @throws mpm::RigidError for a velocity that a plane, or a line, does not have
+void check_plane(const AppliedCommand& command, const mpm::Simulation& simulation) {
+  const mpm::GeometryKind geometry = simulation.definition().geometry;
+  if (command.kind != CommandKind::velocity || geometry == mpm::GeometryKind::axisymmetric) return;
+  const mpm::RigidBody& body = simulation.rigid_body(command.body);
+  const mpm::Twist kept = mpm::projected(command.twist, geometry, body.definition());
+  const double moved = (command.twist.linear - kept.linear).norm(),
+               turned = (command.twist.angular - kept.angular).norm();
+  // Not more than the round-off of a change of axes.
+  constexpr double kRoundOff = 1e-9;
+  if (!(moved > kRoundOff * command.twist.linear.norm()) && !(turned > kRoundOff * command.twist.angular.norm()))
+    return;
+  throw mpm::RigidError(fmt::format(
+      "the velocity ({:g}, {:g}, {:g}) m/s with the rotation ({:g}, {:g}, {:g}) rad/s is not one of a {} scene: '{}' "
+      "moves {}; set the rest to zero",
+      command.twist.linear.x(), command.twist.linear.y(), command.twist.linear.z(), command.twist.angular.x(),
+      command.twist.angular.y(), command.twist.angular.z(), mpm::geometry_name(geometry), body.name(),
+      geometry == mpm::GeometryKind::line ? "along x" : "along x and z and turns about y"));
+}
+
 }  // namespace
 
 void check_travel(const AppliedCommand& command, const mpm::Simulation& simulation) {
+  check_plane(command, simulation);
   mpm::Vec3 size = simulation.definition().grid.max - simulation.definition().grid.min;
   for (const int axis : mpm::axes_beside(simulation.definition().geometry)) size[axis] = 0.0;  // nothing moves there
   const double longest = size.norm(), travel = travel_of(command, simulation);
@@ -63,11 +95,11 @@ std::string jump_of(const AppliedCommand& command, const mpm::Simulation& simula
 }
 
 void apply(const AppliedCommand& command, mpm::Simulation& simulation) {
+  check_travel(command, simulation);
   if (command.kind == CommandKind::wrench) {
     simulation.apply_wrench(command.body, command.wrench);
     return;
   }
-  check_travel(command, simulation);
   if (command.kind == CommandKind::velocity) {
     simulation.command_velocity(command.body, command.twist);
   } else {
@@ -96,6 +128,7 @@ mpm_ros::Command to_message(const AppliedCommand& command, const std::string& bo
   message.kind = static_cast<std::uint8_t>(command.kind);
   message.pose.orientation.w = 1.0;
   message.requested = command.requested;
+  message.as_it_came = command.as_it_came ? 1 : 0;
   message.effect_ns = command.effect;
   if (command.kind == CommandKind::velocity) {
     message.twist = to_message(command.twist);
@@ -126,6 +159,7 @@ AppliedCommand from_message(const mpm_ros::Command& message, const mpm::Simulati
   command.effect = message.effect_ns;
   command.arrival = message.arrival_ns;
   command.requested = message.requested;
+  command.as_it_came = message.as_it_came != 0;
   return command;
 }
 

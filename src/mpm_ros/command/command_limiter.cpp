@@ -175,6 +175,7 @@ void CommandLimiter::drop(int body) {
 }
 
 void CommandLimiter::take_over(const CommandLimiter& other) {
+  limits_ = other.limits_;
   goals_ = other.goals_;
   report_ = other.report_;
 }

@@ -4,24 +4,29 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <tuple>
 #include <utility>
 
 namespace mpm_ros {
 
-void CommandQueue::push(BodyCommand command) {
+bool CommandQueue::push(BodyCommand command) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (waiting_.size() + outside_.size() >= kMost) return false;
   if (on_hold_) {
     outside_.push_back(std::move(command));
   } else {
     admit(std::move(command));
   }
+  return true;
 }
 
-void CommandQueue::push_past_hold(BodyCommand command) {
+bool CommandQueue::push_past_hold(BodyCommand command) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (waiting_.size() + outside_.size() >= kMost) return false;
   admit(std::move(command));
+  return true;
 }
 
 void CommandQueue::hold() {
@@ -67,6 +72,26 @@ std::int64_t CommandQueue::arrival_of(const BodyCommand& command, std::int64_t n
   return stream.arrival;
 }
 
+// A pose to come is due when it is no later than the one under way, or the first; one that sets out now without a
+// stamp to come arrives a command period from now, which is kLongestPeriod at most.
+std::vector<BodyCommand>::iterator CommandQueue::part_later(std::int64_t now) {
+  std::map<int, std::int64_t> next;  // stamp of the first pose to come, by body
+  for (const BodyCommand& command : waiting_) {
+    if (command.kind != CommandKind::pose || !command.stamp || *command.stamp <= now) continue;
+    const auto [first, fresh] = next.emplace(command.body, *command.stamp);
+    if (!fresh) first->second = std::min(first->second, *command.stamp);
+  }
+  for (auto& [body, reach] : next) {
+    const auto stream = streams_.find(body);
+    if (stream != streams_.end()) reach = std::max(reach, stream->second.arrival);
+    reach = round_up(std::max(reach, now + std::max(kLongestPeriod, sync_period_)));
+  }
+  return std::partition(waiting_.begin(), waiting_.end(), [&](const BodyCommand& command) {
+    if (!command.stamp || *command.stamp <= now) return true;
+    return command.kind == CommandKind::pose && *command.stamp <= next.at(command.body);
+  });
+}
+
 std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   passed_ = now;
@@ -95,11 +120,12 @@ std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
     return std::make_tuple(effect(c), c.body, target(c), late, late ? CommandKind::velocity : c.kind,
                            std::cref(late ? nobody : c.sender), c.order);
   };
-  std::sort(waiting_.begin(), waiting_.end(),
-            [&](const BodyCommand& a, const BodyCommand& b) { return key(a) < key(b); });
+  const auto later = part_later(now);
+  std::sort(waiting_.begin(), later, [&](const BodyCommand& a, const BodyCommand& b) { return key(a) < key(b); });
 
   std::vector<DueCommand> due;
-  std::vector<BodyCommand> still_waiting;
+  std::vector<BodyCommand> still_waiting(std::make_move_iterator(later), std::make_move_iterator(waiting_.end()));
+  waiting_.erase(later, waiting_.end());
   for (BodyCommand& command : waiting_) {
     if (!is_due(command, now)) {
       still_waiting.push_back(std::move(command));
@@ -193,6 +219,7 @@ void CommandQueue::serialise(mpm::StateArchive& archive) {
 
 void CommandQueue::take_over(const CommandQueue& other) {
   const std::scoped_lock lock(mutex_, other.mutex_);
+  sync_period_ = other.sync_period_;
   waiting_ = other.waiting_;
   streams_ = other.streams_;
   passed_ = other.passed_;

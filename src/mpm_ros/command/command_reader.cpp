@@ -4,6 +4,7 @@
 #include <tf2/exceptions.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "mpm/math/nearest.hpp"
@@ -16,8 +17,6 @@ namespace {
 
 constexpr std::size_t kLongestFrame = 255;
 constexpr const char* kFollowing = "tf";  // stands for a topic where a frame's pose is refused
-/// A stamp farther ahead of the simulation than this [ns] comes from another clock: nobody plans an hour ahead.
-constexpr std::int64_t kFarthest = 3'600'000'000'000;
 
 }  // namespace
 
@@ -35,6 +34,7 @@ void CommandReader::set_stamps(const Stamps& stamps) {
   const std::lock_guard<std::mutex> taking(taking_);
   const std::lock_guard<std::mutex> lock(mutex_);
   stamps_ = stamps;
+  newest_ = {};
 }
 
 int CommandReader::find_body(const std::string& name) const {
@@ -68,7 +68,7 @@ mpm::Pose CommandReader::find_frame(const std::string& frame, const ros::Time& s
     problem = problem_of(pose);
     if (problem.empty()) return checked_pose(pose);
     problem = fmt::format("the transform from {} to {}: {}", world_frame_, frame, problem);
-  } catch (const tf2::TransformException& error) {
+  } catch (const std::runtime_error& error) {  // tf2's, or times that a ros::Duration cannot hold
     problem = fmt::format("frame '{}' is not known to tf ({})", frame, error.what());
   }
   return {};
@@ -80,16 +80,25 @@ void CommandReader::set_stamp(const ros::Time& stamp, BodyCommand& command, std:
     command.late = true;
     return;
   }
+  if (!use_stamps_) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   command.stamp = std::max<std::int64_t>(stamps_.time_of(stamp), -1);
+  if (*command.stamp > newest_.stamp) newest_ = {command.body, *command.stamp};
   problem = too_far_ahead(*command.stamp);
+}
+
+CommandReader::Newest CommandReader::newest() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return newest_;
 }
 
 std::string CommandReader::too_far_ahead(std::int64_t stamp) const {
   const std::int64_t ahead = stamp - queue_.passed();
-  if (ahead <= kFarthest) return {};
-  return fmt::format("the stamp lies {:.0f} s ahead of the simulation; does the sender read the same clock?",
-                     static_cast<double>(ahead) * 1e-9);
+  if (ahead <= CommandQueue::kHorizon) return {};
+  return fmt::format(
+      "the stamp lies {:.0f} s ahead of the simulation, and at most {:.0f} s are taken; does the sender read the same "
+      "clock?",
+      static_cast<double>(ahead) * 1e-9, static_cast<double>(CommandQueue::kHorizon) * 1e-9);
 }
 
 void CommandReader::read_twist(const geometry_msgs::Twist& twist, const std::string& frame, const ros::Time& stamp,
@@ -129,12 +138,17 @@ void CommandReader::read_pose(const geometry_msgs::Pose& pose, const std::string
 }
 
 void CommandReader::push_or_refuse(const char* leaf, BodyCommand command, const std::string& problem) {
-  if (problem.empty() && leaf == kFollowing) {
-    queue_.push_past_hold(std::move(command));
-  } else if (problem.empty()) {
-    queue_.push(std::move(command));
-  } else {
-    health_.refuse(fmt::format("a command on {}{}/{}: {}", prefix_, bodies_[command.body], leaf, problem));
+  const int body = command.body;
+  std::string refused = problem;
+  if (refused.empty()) {
+    const bool taken = leaf == kFollowing ? queue_.push_past_hold(std::move(command)) : queue_.push(std::move(command));
+    if (!taken) {
+      refused = fmt::format("{} commands wait for their time already, which is the most; send them when they are due",
+                            CommandQueue::kMost);
+    }
+  }
+  if (!refused.empty()) {
+    health_.refuse(fmt::format("a command on {}{}/{}: {}", prefix_, bodies_[body], leaf, refused));
   }
   if (leaf == kFollowing) return;  // looked up here, not received
   {
@@ -202,22 +216,25 @@ void CommandReader::take(int body, const geometry_msgs::WrenchStamped& message, 
 }
 
 void CommandReader::take(int body, const geometry_msgs::PoseStamped& message, const std::string& sender) {
-  take_pose(topics::kCmdPose, body, message, sender, refusal_of(body));
-}
-
-void CommandReader::follow(int body, const geometry_msgs::PoseStamped& message) {
-  take_pose(kFollowing, body, message, {}, {});
-}
-
-void CommandReader::take_pose(const char* leaf, int body, const geometry_msgs::PoseStamped& message,
-                              const std::string& sender, std::string problem) {
   const std::lock_guard<std::mutex> taking(taking_);
   BodyCommand command;
   command.body = body;
   command.sender = sender;
+  std::string problem = refusal_of(body);
   if (problem.empty()) set_stamp(message.header.stamp, command, problem);
   if (problem.empty()) read_pose(message.pose, message.header.frame_id, message.header.stamp, command, problem);
-  push_or_refuse(leaf, std::move(command), problem);
+  push_or_refuse(topics::kCmdPose, std::move(command), problem);
+}
+
+void CommandReader::follow(int body, const geometry_msgs::PoseStamped& message, bool by_stamp) {
+  const std::lock_guard<std::mutex> taking(taking_);
+  BodyCommand command;
+  command.body = body;
+  command.requested = message.header.stamp;
+  std::string problem;
+  if (by_stamp) set_stamp(message.header.stamp, command, problem);
+  if (problem.empty()) read_pose(message.pose, message.header.frame_id, message.header.stamp, command, problem);
+  push_or_refuse(kFollowing, std::move(command), problem);
 }
 
 BodyCommand CommandReader::read(const mpm_ros::Command& message, std::string& problem) const {
@@ -258,6 +275,7 @@ AppliedCommand in_world(const DueCommand& due, const std::vector<mpm::BodyState>
   applied.body = due.command.body;
   applied.kind = due.command.kind;
   applied.twist = due.command.twist;
+  applied.as_it_came = !due.command.requested.isZero() && !due.command.stamp;
   applied.wrench = due.command.wrench;
   applied.pose = due.command.pose;
   applied.effect = effect;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tf2/exceptions.h>
 
+#include <stdexcept>
 #include <utility>
 
 namespace mpm_ros {
@@ -15,8 +16,8 @@ constexpr double kFarthestAhead = 1.0;
 }  // namespace
 
 FrameFollower::FrameFollower(const std::vector<std::string>& frames, std::string world_frame,
-                             const tf2::BufferCore& transforms, CommandReader& reader, NodeHealth& health)
-    : world_frame_(std::move(world_frame)), transforms_(transforms), reader_(reader), health_(health) {
+                             const tf2::BufferCore& transforms, CommandReader& reader, NodeHealth& health, bool latest)
+    : world_frame_(std::move(world_frame)), transforms_(transforms), reader_(reader), health_(health), latest_(latest) {
   for (int body = 0; body < static_cast<int>(frames.size()); ++body) {
     if (!frames[body].empty()) followed_.push_back({body, frames[body], {}, false});
   }
@@ -31,13 +32,14 @@ void FrameFollower::look(Followed& followed, const ros::Time& next) {
   std::string problem;
   try {
     try {
-      transform = transforms_.lookupTransform(world_frame_, followed.frame, next);
+      transform = transforms_.lookupTransform(world_frame_, followed.frame, latest_ ? ros::Time() : next);
     } catch (const tf2::ExtrapolationException&) {
       transform = transforms_.lookupTransform(world_frame_, followed.frame, ros::Time());
     }
-    const double ahead = (transform.header.stamp - next).toSec();
-    if (ahead > kFarthestAhead) problem = fmt::format("its latest transform is stamped {:.3f} s ahead", ahead);
-  } catch (const tf2::TransformException& error) {
+    const double ahead = transform.header.stamp.toSec() - next.toSec();  // a ros::Duration may overflow
+    if (!latest_ && ahead > kFarthestAhead)
+      problem = fmt::format("its latest transform is stamped {:.3f} s ahead", ahead);
+  } catch (const std::runtime_error& error) {  // tf2's, or times that a ros::Duration cannot hold
     problem = error.what();
   }
   if (!problem.empty()) {
@@ -57,7 +59,22 @@ void FrameFollower::look(Followed& followed, const ros::Time& next) {
   pose.pose.position.y = transform.transform.translation.y;
   pose.pose.position.z = transform.transform.translation.z;
   pose.pose.orientation = transform.transform.rotation;
-  reader_.follow(followed.body, pose);
+  reader_.follow(followed.body, pose, !latest_);
+}
+
+std::pair<double, std::string> FrameFollower::farthest_ahead(const ros::Time& next) const {
+  std::pair<double, std::string> farthest{0.0, {}};
+  if (latest_) return farthest;
+  for (const Followed& followed : followed_) {
+    try {
+      const ros::Time newest = transforms_.lookupTransform(world_frame_, followed.frame, ros::Time()).header.stamp;
+      const double ahead = newest.toSec() - next.toSec();
+      if (ahead > farthest.first) farthest = {ahead, followed.frame};
+    } catch (const std::runtime_error&) {
+      // Not known yet, which look() tells.
+    }
+  }
+  return farthest;
 }
 
 void FrameFollower::clear() {

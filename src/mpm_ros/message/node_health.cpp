@@ -100,6 +100,17 @@ void NodeHealth::jump(const std::string& what) {
   log_refusal(last_jump_, jumped_at_);
 }
 
+void NodeHealth::lag(const std::string& what) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  news_ = news_ || what.empty() != lag_.empty();
+  const Clock::time_point now = Clock::now();
+  if (!what.empty() && (lag_.empty() || now - lag_logged_ >= kFresh)) {
+    lag_logged_ = now;
+    ROS_WARN_STREAM(one_line(what));
+  }
+  lag_ = one_line(what);
+}
+
 void NodeHealth::limit(const std::string& body, const LimitHealth& limits) {
   const std::lock_guard<std::mutex> lock(mutex_);
   LimitHealth& before = followers_[body].limits;
@@ -124,6 +135,7 @@ void NodeHealth::set_commands(const CommandHealth& commands) {
 void NodeHealth::restart() {
   const std::lock_guard<std::mutex> lock(mutex_);
   followers_.clear();
+  lag_.clear();
 }
 
 std::uint64_t NodeHealth::refused() const {
@@ -137,6 +149,7 @@ void NodeHealth::fill_commands(diagnostic_updater::DiagnosticStatusWrapper& stat
   const bool silent =
       std::any_of(followers_.begin(), followers_.end(), [](const auto& follower) { return follower.second.silent; });
   if (silent) status.mergeSummary(DiagnosticStatus::WARN, last_timeout_);
+  if (!lag_.empty()) status.mergeSummary(DiagnosticStatus::WARN, lag_);
   for (const auto& [body, follower] : followers_) {
     if (!follower.waits.empty()) status.mergeSummary(DiagnosticStatus::WARN, follower.waits);
     const LimitHealth& limits = follower.limits;
@@ -153,6 +166,8 @@ void NodeHealth::fill_commands(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("late: stamp zero", commands_.unstamped);
   status.add("late: stamp past", commands_.past);
   status.add("waiting", commands_.waiting);
+  status.add("waiting at most", commands_.most_waiting);
+  status.add("farthest stamp ahead [s]", commands_.horizon);
   status.add("timeouts", timeouts_);
   status.add("last timeout", last_timeout_);
   status.add("jumps", jumps_);

@@ -9,6 +9,9 @@ namespace mpm_ros {
 
 namespace {
 
+/// [s] behind the wall clock, from which on it is said: what the pacer does not catch up with, and a half more.
+constexpr double kLag = 0.15;
+
 const char* drive_text(mpm::Drive drive) {
   switch (drive) {
     case mpm::Drive::velocity:
@@ -47,17 +50,16 @@ BodyCommands::BodyCommands(ros::NodeHandle node, const mpm::Scene& scene, const 
                            NodeHealth& health)
     : parameters_(parameters),
       health_(health),
-      sync_period_(scene.definition.time.sync),
       bodies_(names_of(scene)),
       log_(parameters.commands.empty() ? CommandLog() : read_commands(parameters.commands)),
-      // What was recorded is within the limits already.
-      limits_(log_.empty() ? limits_of(scene) : std::vector<mpm::MotionLimits>()),
-      memory_(fresh_memory()) {
+      memory_(fresh_memory(scene)) {
   if (!log_.empty()) return;
   std::vector<std::string> frames;
   for (const mpm::CommandDefinition& commanded : scene.commands) frames.push_back(commanded.frame);
   node.setCallbackQueue(&callbacks_);
-  bridge_ = std::make_unique<CommandBridge>(node, bodies_, frames, parameters.world_frame, memory_.queue, health_);
+  bridge_ = std::make_unique<CommandBridge>(node, bodies_, frames, parameters.world_frame, memory_.queue, health_,
+                                            parameters.tf_time == StampUse::latest,
+                                            parameters.command_time == StampUse::latest);
 }
 
 void BodyCommands::listen() {
@@ -69,9 +71,11 @@ void BodyCommands::stop_listening() {
   if (spinner_) spinner_->stop();
 }
 
-CommandMemory BodyCommands::fresh_memory() const {
-  return {CommandQueue(sync_period_), CommandWatch(std::llround(parameters_.command_timeout * 1e9)),
-          CommandLimiter(limits_, health_)};
+CommandMemory BodyCommands::fresh_memory(const mpm::Scene& scene) const {
+  // What was recorded is within the limits already.
+  std::vector<mpm::MotionLimits> limits = log_.empty() ? limits_of(scene) : std::vector<mpm::MotionLimits>();
+  return {CommandQueue(scene.definition.time.sync), CommandWatch(std::llround(parameters_.command_timeout * 1e9)),
+          CommandLimiter(std::move(limits), health_)};
 }
 
 void BodyCommands::begin(const Run& run, const CommandMemory& memory) {
@@ -94,7 +98,8 @@ BodyCommands::Outcome BodyCommands::apply_due(Run& run, const std::vector<Applie
     return {};
   }
   const std::int64_t now = run.simulation().time();
-  bridge_->follower().look(run.stamps().at(now + sync_period_));
+  look_at_lag(run);
+  bridge_->follower().look(run.stamps().at(now + run.simulation().sync_period()));
   for (const DueCommand& due : memory_.queue.take(now)) apply(run, in_world(due, run.simulation().bodies(), now));
   for (const AppliedCommand& command : extra) {
     if (const std::string refusal = apply(run, command); !refusal.empty()) return {refusal, {}};
@@ -102,6 +107,34 @@ BodyCommands::Outcome BodyCommands::apply_due(Run& run, const std::vector<Applie
   if (const std::string silence = act_on_silence(run); !silence.empty()) return {{}, silence};
   apply_limited(run);
   return {};
+}
+
+// Without /use_sim_time stamps are those of the wall clock, which a run that is slower, was paused or is stepped falls
+// behind: what is stamped by it waits longer and longer for its time.
+void BodyCommands::look_at_lag(const Run& run) {
+  if (ros::Time::isSimTime()) return;
+  const std::int64_t now = run.simulation().time();
+  const double lag = ros::WallTime::now().toSec() - run.stamps().at(now).toSec();
+  if (!(lag > kLag)) {
+    health_.lag({});
+    return;
+  }
+  const auto [frame_ahead, frame] = bridge_->follower().farthest_ahead(run.stamps().at(now));
+  const CommandReader::Newest newest = bridge_->reader().newest();
+  const double command_ahead = static_cast<double>(newest.stamp - now) * 1e-9;
+  // What is stamped at present is ahead by the lag; a plan may be by anything.
+  const bool frames_wait = frame_ahead > 0.5 * lag;
+  if (!frames_wait && !(command_ahead > 0.5 * lag)) return;
+  const std::string pace = parameters_.pacing == Pacing::lockstep
+                               ? "it is stepped"
+                               : fmt::format("it advances at {:.2g} of the clock's pace", run.real_time_factor());
+  const std::string what = frames_wait ? fmt::format("the tf frame '{}'", frame)
+                                       : fmt::format("the commands for '{}'", bodies_[newest.body]);
+  health_.lag(fmt::format(
+      "the simulation is {:.2f} s behind the wall clock ({}), by which {} {} stamped: its body lags as much. Set "
+      "/use_sim_time to true before any node starts, so that all follow the simulation's clock; or take the newest, "
+      "whatever its stamp, with _{}:=latest; or make the run faster, with a larger grid.cell or more threads",
+      lag, pace, what, frames_wait ? "is" : "are", frames_wait ? "tf_time" : "command_time"));
 }
 
 void BodyCommands::apply_limited(Run& run) {

@@ -71,7 +71,7 @@ void SimulatorNode::load_checkpoint(const std::string& path, Checkpoint::Respons
   response.success = 0;
   try {
     const mpm::CheckpointAbout about = mpm::read_checkpoint(path);
-    start_run(stamps_from(about.time), path);
+    start_run(subject_, stamps_from(about.time), path);
     response.state_hash = hash_text(about.state_hash);
   } catch (const std::exception& error) {
     // A file that does not fit, a bag that cannot be opened, or memory: the run goes on as it was.
@@ -92,7 +92,7 @@ void SimulatorNode::leave_failed_state() {
   if (!parameters_.checkpoint_on_failure) return;
   const std::filesystem::path bag(run_->recorder() != nullptr ? run_->recorder()->path() : "");
   const std::filesystem::path folder = bag.parent_path();
-  const std::string name = bag.empty() ? scene_.definition.name : bag.stem().string();
+  const std::string name = bag.empty() ? subject_->scene.definition.name : bag.stem().string();
   const std::string path = from_root((folder / (name + "_failed.h5")).string());
   try {
     run_->save(

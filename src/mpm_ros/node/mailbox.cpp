@@ -5,11 +5,11 @@
 
 namespace mpm_ros {
 
-bool Mailbox::call(const std::function<void()>& work) {
+bool Mailbox::call(const std::function<void()>& work, Turn turn) {
   std::unique_lock<std::mutex> lock(mutex_);
   if (closed_) return false;
   Letter letter{&work};
-  letters_.push_back(&letter);
+  letters_.insert(turn == Turn::first ? letters_.begin() : letters_.end(), &letter);
   changed_.notify_all();
   // A letter that has left the queue is being worked on and will be done, closed or not.
   changed_.wait(lock, [&] {

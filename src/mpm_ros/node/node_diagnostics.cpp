@@ -1,5 +1,6 @@
 #include "mpm_ros/node/node_diagnostics.hpp"
 
+#include <stdexcept>
 #include <utility>
 
 namespace mpm_ros {
@@ -21,7 +22,12 @@ void NodeDiagnostics::look() {
     looked_at_ = now;
     every_second_();
   }
-  if (health_.take_news() || due) updater_.force_update();
+  if (!health_.take_news() && !due) return;
+  try {
+    updater_.force_update();
+  } catch (const std::runtime_error&) {
+    // A clock near the end of what a ros::Time holds: the updater's next time would be beyond.
+  }
 }
 
 }  // namespace mpm_ros

@@ -219,6 +219,9 @@ NodeParameters read_parameters(const ParameterValues& values, std::vector<std::s
   reader.read("command_timeout", parameters.command_timeout, 0.0);
   reader.read<OnTimeout>("on_timeout", parameters.on_timeout,
                          {{"hold", OnTimeout::hold}, {"stop", OnTimeout::stop}, {"error", OnTimeout::error}});
+  const std::vector<std::pair<std::string, StampUse>> uses{{"stamp", StampUse::stamp}, {"latest", StampUse::latest}};
+  reader.read<StampUse>("tf_time", parameters.tf_time, uses);
+  reader.read<StampUse>("command_time", parameters.command_time, uses);
   reader.read("world_frame", parameters.world_frame);
   reader.read("publish_clock", parameters.publish_clock);
   reader.read("clock_rate", parameters.clock_rate, 0.0);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/run/output_names.hpp"
@@ -13,7 +14,7 @@
 namespace mpm_ros {
 
 RunOptions run_options(const mpm::Scene& scene, const NodeParameters& parameters, int number,
-                       const std::string& topics_below) {
+                       const std::string& topics_below, const std::vector<std::string>& set) {
   RunOptions options;
   options.threads = parameters.threads;
   options.isa = parameters.isa;
@@ -38,6 +39,7 @@ RunOptions run_options(const mpm::Scene& scene, const NodeParameters& parameters
   options.bag_options.split_duration = std::llround(std::min(parameters.record_split_duration, 1e9) * 1e9);
   options.bag_options.required = parameters.record_required;
   options.parameters = parameters.text;
+  if (!set.empty()) options.parameters += fmt::format("\nreset_with: {}", nlohmann::json(set).dump());
   return options;
 }
 

@@ -4,7 +4,7 @@
 
 namespace mpm_ros {
 
-Pacer::Pacer(std::int64_t period, double factor) : period_(static_cast<double>(period) / factor) {}
+Pacer::Pacer(std::int64_t period, double factor) : factor_(factor), period_(static_cast<double>(period) / factor) {}
 
 void Pacer::restart(Clock::time_point now) {
   start_ = now;

@@ -12,7 +12,7 @@ constexpr std::uint32_t kLarge = 10;
 
 }  // namespace
 
-Publishers::Publishers(ros::NodeHandle node, const std::vector<std::string>& bodies, bool filtered, bool global) {
+Publishers::Publishers(ros::NodeHandle node, const std::vector<std::string>& bodies, bool filtered) : node_(node) {
   publishers_[topics::kRunInfo] = node.advertise<RunInfo>(topics::kRunInfo, 1, true);
   publishers_[topics::kMarkers] = node.advertise<visualization_msgs::MarkerArray>(topics::kMarkers, 1, true);
   publishers_[topics::kSolverState] = node.advertise<SolverState>(topics::kSolverState, kSmall, true);
@@ -29,8 +29,11 @@ Publishers::Publishers(ros::NodeHandle node, const std::vector<std::string>& bod
     const std::string smooth = topics::of_body(body, topics::kWrenchFiltered);
     publishers_[smooth] = node.advertise<geometry_msgs::WrenchStamped>(smooth, kSmall);
   }
-  if (global)
-    publishers_[topics::kGlobalQuantities] = node.advertise<GlobalQuantities>(topics::kGlobalQuantities, kSmall);
+}
+
+void Publishers::add_global() {
+  ros::Publisher& publisher = publishers_[topics::kGlobalQuantities];
+  if (!publisher) publisher = node_.advertise<GlobalQuantities>(topics::kGlobalQuantities, kSmall);
 }
 
 bool Publishers::wants(const std::string& topic) const {

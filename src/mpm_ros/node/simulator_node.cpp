@@ -4,12 +4,16 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <new>
 #include <thread>
 #include <utility>
 
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/node/node_run.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
+#include "mpm_ros/run/settling_news.hpp"
+#include "mpm_ros/run/stop_signals.hpp"
 
 namespace mpm_ros {
 
@@ -17,43 +21,45 @@ namespace {
 
 /// How long the solver's thread sleeps at most before it looks whether it is to stop.
 constexpr std::chrono::milliseconds kGlance{50};
-/// Steps that wait for messages hold one each; others are for who pauses or asks meanwhile.
+/// Steps that wait for messages hold one each; others are for who asks meanwhile.
 constexpr std::uint32_t kServiceThreads = 4;
 /// At the end: for messages and answers on their way out.
 constexpr std::chrono::milliseconds kLinger{300};
 
 }  // namespace
 
-SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters,
-                             std::function<bool()> stop_requested)
+SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters)
     : node_(std::move(node)),
       parameters_(parameters),
-      stop_requested_(std::move(stop_requested)),
-      scene_(mpm::load_scene(parameters.scene, parameters.set)),
+      subject_(std::make_shared<const Subject>(Subject{mpm::load_scene(parameters.scene, parameters.set), {}})),
       clock_(node_, parameters.publish_clock, parameters.clock_rate),
-      commands_(node_, scene_, parameters_, health_),
+      commands_(node_, subject_->scene, parameters_, health_),
       paused_(parameters.start_paused) {
-  check(parameters_, run_options(scene_, parameters_, 1, node_.getNamespace()));
-  ros::NodeHandle services(node_);
+  check(parameters_, run_options(subject_->scene, parameters_, 1, node_.getNamespace()));
+  ros::NodeHandle services(node_), urgent(node_);
   services.setCallbackQueue(&service_callbacks_);
-  publishers_ = std::make_unique<Publishers>(services, commands_.bodies(), parameters_.wrench_cutoff > 0.0,
-                                             !scene_.output.global.empty());
-  start_run(parameters_.resume.empty() ? first_stamps() : stamps_from(mpm::read_checkpoint(parameters_.resume).time),
+  urgent.setCallbackQueue(&pause_callbacks_);
+  publishers_ = std::make_unique<Publishers>(services, commands_.bodies(), parameters_.wrench_cutoff > 0.0);
+  pacer_ = std::make_unique<Pacer>(subject_->scene.definition.time.sync, parameters_.real_time_factor);
+  start_run(subject_,
+            parameters_.resume.empty() ? first_stamps() : stamps_from(mpm::read_checkpoint(parameters_.resume).time),
             parameters_.resume);
   for (const std::string& warning : run_->simulation().warnings()) ROS_WARN_STREAM(warning);
   for (const std::string& note : run_->simulation().notes()) ROS_INFO_STREAM(note);
-  pacer_ = std::make_unique<Pacer>(run_->simulation().sync_period(), parameters_.real_time_factor);
 
-  services_.push_back(services.advertiseService(topics::kPause, &SimulatorNode::on_pause, this));
+  services_.push_back(urgent.advertiseService(topics::kPause, &SimulatorNode::on_pause, this));
   services_.push_back(services.advertiseService(topics::kReset, &SimulatorNode::on_reset, this));
+  services_.push_back(services.advertiseService(topics::kResetWith, &SimulatorNode::on_reset_with, this));
   services_.push_back(services.advertiseService(topics::kStep, &SimulatorNode::on_step, this));
   services_.push_back(services.advertiseService(topics::kSaveCheckpoint, &SimulatorNode::on_save_checkpoint, this));
   services_.push_back(services.advertiseService(topics::kLoadCheckpoint, &SimulatorNode::on_load_checkpoint, this));
 
   diagnostics_ = std::make_unique<NodeDiagnostics>(services, health_, [this] { commands_.find_strangers(); });
   service_spinner_ = std::make_unique<ros::AsyncSpinner>(kServiceThreads, &service_callbacks_);
+  pause_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &pause_callbacks_);
   commands_.listen();
   service_spinner_->start();
+  pause_spinner_->start();
 }
 
 SimulatorNode::~SimulatorNode() {
@@ -61,7 +67,10 @@ SimulatorNode::~SimulatorNode() {
   if (diagnostics_) diagnostics_->stop();
   commands_.stop_listening();
   if (service_spinner_) service_spinner_->stop();
+  if (pause_spinner_) pause_spinner_->stop();
 }
+
+bool SimulatorNode::ends() { return stop_requested() || !ros::ok(); }
 
 Stamps SimulatorNode::first_stamps() const {
   if (ros::Time::isSimTime()) return Stamps();
@@ -69,16 +78,45 @@ Stamps SimulatorNode::first_stamps() const {
   return Stamps(ros::Time(now.sec, now.nsec));
 }
 
-void SimulatorNode::start_run(const Stamps& stamps, const std::string& resume) {
-  RunOptions options = run_options(scene_, parameters_, runs_ + 1, node_.getNamespace());
-  CommandMemory memory = commands_.fresh_memory();
+std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::load_subject(const std::vector<std::string>& set) const {
+  std::vector<std::string> overrides = parameters_.set;
+  overrides.insert(overrides.end(), set.begin(), set.end());
+  auto subject = std::make_shared<const Subject>(Subject{mpm::load_scene(parameters_.scene, overrides), set});
+  check(parameters_, run_options(subject->scene, parameters_, runs_ + 1, node_.getNamespace()));
+  const auto bodies = [](const mpm::Scene& scene) {
+    std::vector<std::pair<std::string, std::string>> names;  // and the frames that they follow
+    for (std::size_t body = 0; body < scene.commands.size(); ++body) {
+      names.emplace_back(scene.definition.rigid_bodies[body].name, scene.commands[body].frame);
+    }
+    return names;
+  };
+  if (bodies(subject->scene) != bodies(subject_->scene)) {
+    throw ParameterError(
+        "a reset cannot change the names of rigid bodies, or the tf frames that they follow: the node's topics are "
+        "theirs; start another node for that scene");
+  }
+  return subject;
+}
+
+void SimulatorNode::start_run(const std::shared_ptr<const Subject>& subject, const Stamps& stamps,
+                              const std::string& resume) {
+  RunOptions options = run_options(subject->scene, parameters_, runs_ + 1, node_.getNamespace(), subject->set);
+  options.stop = stop_overdue;
+  options.settling = settling_news([](const std::string& line) {
+    ROS_INFO_STREAM(line);
+    std::fflush(stdout);  // a pipe would keep it until the run has long begun
+  });
+  CommandMemory memory = commands_.fresh_memory(subject->scene);
   if (!resume.empty()) {
     resume_from(resume, options);
     options.more = [&](mpm::StateArchive& archive) { memory.serialise(archive); };
   }
-  auto run = std::make_unique<Run>(scene_, options, stamps, publishers_.get());
+  if (!subject->scene.output.global.empty()) publishers_->add_global();
+  auto run = std::make_unique<Run>(subject->scene, options, stamps, publishers_.get());
   if (run_) end_run();
   run_ = std::move(run);
+  subject_ = subject;
+  pacer_->set_period(run_->simulation().sync_period());
   ++runs_;  // names the next bag
   record_lost_ = false;
   if (const BagRecorder* recorder = run_->recorder()) {
@@ -112,9 +150,9 @@ void SimulatorNode::begin_run() {
 int SimulatorNode::spin() {
   begin_run();
   std::string ignored;  // nothing is asked for that could be refused
-  while (!stop_requested_()) {
+  while (!ends()) {
     const Phase now = phase();
-    if (now == Phase::failed || (now == Phase::ended && !parameters_.keep_alive)) break;
+    if ((now == Phase::failed || now == Phase::ended) && !parameters_.keep_alive) break;
     if (now != Phase::running) {
       mailbox_.run_until(Pacer::Clock::now() + kGlance);
       continue;
@@ -122,14 +160,15 @@ int SimulatorNode::spin() {
     mailbox_.run_until(Pacer::Clock::now());
     if (phase() != Phase::running || !sync_period({}, ignored) || parameters_.pacing != Pacing::real_time) continue;
     const Pacer::Clock::time_point due = pacer_->next(Pacer::Clock::now());
-    while (Pacer::Clock::now() < due && phase() == Phase::running && !stop_requested_()) {
+    while (Pacer::Clock::now() < due && phase() == Phase::running && !ends()) {
       mailbox_.run_until(std::min(due, Pacer::Clock::now() + kGlance));
     }
   }
   end_run();
   mailbox_.close();
   std::this_thread::sleep_for(kLinger);
-  return exit_code_;
+  if (!failure_.empty()) return failure_code_;
+  return bag_lost_ ? 1 : 0;
 }
 
 bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra, std::string& refusal) {
@@ -144,6 +183,8 @@ bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra, std::s
     if (run_->ended()) end_run();
     report();
     return true;
+  } catch (const mpm::StoppedError& error) {
+    ROS_WARN_STREAM(error.what() << "; the record ends at the sync point before");
   } catch (const mpm::PhysicsError& error) {
     fail(error.what(), 3);
   } catch (const mpm::Error& error) {
@@ -152,13 +193,16 @@ bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra, std::s
     fail(error.what(), 2);
   } catch (const BagError& error) {
     fail(error.what(), 1);
+  } catch (const std::bad_alloc&) {
+    fail("there is not enough memory to go on; use a larger grid.cell or a smaller scene", 1);
   }
   return false;
 }
 
 void SimulatorNode::fail(const std::string& reason, int exit_code) {
   failure_ = reason;
-  exit_code_ = exit_code;
+  failure_code_ = exit_code;
+  if (exit_code == 1) bag_lost_ = true;
   ROS_FATAL_STREAM(reason);
   try {
     count_commands();
@@ -168,6 +212,7 @@ void SimulatorNode::fail(const std::string& reason, int exit_code) {
     ROS_FATAL_STREAM(error.what());
   }
   leave_failed_state();
+  if (parameters_.keep_alive) ROS_WARN_STREAM("the node waits for reset, reset_with or load_checkpoint");
   report();
 }
 
@@ -184,7 +229,7 @@ void SimulatorNode::end_run() {
     say_closed();
   } catch (const BagError& error) {
     ROS_FATAL_STREAM(error.what());
-    exit_code_ = 1;
+    bag_lost_ = true;
   }
 }
 
@@ -236,7 +281,8 @@ void SimulatorNode::report() {
   health_.set_solver(solver);
 
   const LateCommands late = commands_.late();
-  health_.set_commands({late.unstamped, late.past, commands_.waiting()});
+  health_.set_commands({late.unstamped, late.past, commands_.waiting(), CommandQueue::kMost,
+                        static_cast<double>(CommandQueue::kHorizon) * 1e-9});
 }
 
 }  // namespace mpm_ros

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "mpm_ros/message/contact_average.hpp"
@@ -26,13 +27,26 @@ constexpr std::chrono::milliseconds kPoll{50};
 
 bool SimulatorNode::on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
   response.message = kEnding;
-  mailbox_.call([&] { pause(request.data != 0, response); });
+  const int steps_end = request.data != 0 ? 1 : 0;
+  pauses_asked_ += steps_end;
+  mailbox_.call([&] { pause(request.data != 0, response); }, Mailbox::Turn::first);
+  pauses_asked_ -= steps_end;
   return true;
 }
 
 bool SimulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   response.message = kEnding;
-  mailbox_.call([&] { reset(response); });
+  mailbox_.call([&] {
+    bool success = false;
+    response.message = reset(subject_, success);
+    response.success = success ? 1 : 0;
+  });
+  return true;
+}
+
+bool SimulatorNode::on_reset_with(Reset::Request& request, Reset::Response& response) {
+  response.message = kEnding;
+  mailbox_.call([&] { reset_with(request.set, response); });
   return true;
 }
 
@@ -53,7 +67,8 @@ void SimulatorNode::pause(bool paused, std_srvs::SetBool::Response& response) {
                                  static_cast<double>(run_->simulation().time()) * 1e-9);
 }
 
-void SimulatorNode::reset(std_srvs::Trigger::Response& response) {
+std::string SimulatorNode::reset(const std::shared_ptr<const Subject>& subject, bool& success) {
+  success = false;
   // Stamps never run backwards unless that was asked for: simulated time is zero again, at a stamp later than all
   // before.
   ros::Time origin;
@@ -63,19 +78,36 @@ void SimulatorNode::reset(std_srvs::Trigger::Response& response) {
     if (!ros::Time::isSimTime()) origin = std::max(origin, first_stamps().origin());
   }
   try {
-    start_run(Stamps(origin));
+    start_run(subject, Stamps(origin));
+  } catch (const std::bad_alloc&) {
+    return "there is not enough memory for that scene; the run before it is as it was";
   } catch (const std::exception& error) {
-    // A bag that cannot be opened, or memory: the run goes on as it was.
-    response.success = 0;
-    response.message = error.what();
-    return;
+    // A bag that cannot be opened, a scene that cannot be simulated: the run before it is as it was.
+    return error.what();
   }
   if (parameters_.reset_time == ResetTime::zero) commands_.forget_frames();
   begin_run();
-  response.success = failure_.empty() ? 1 : 0;
-  response.message = failure_.empty() ? fmt::format("run {}: simulated time is zero again, at stamp {}.{:09d}", runs_,
-                                                    origin.sec, origin.nsec)
-                                      : failure_;
+  success = failure_.empty();
+  return success
+             ? fmt::format("run {}: simulated time is zero again, at stamp {}.{:09d}", runs_, origin.sec, origin.nsec)
+             : failure_;
+}
+
+void SimulatorNode::reset_with(const std::vector<std::string>& set, Reset::Response& response) {
+  bool success = false;
+  try {
+    response.message = reset(load_subject(set), success);
+  } catch (const std::exception& error) {
+    response.message = error.what();
+  }
+  response.success = success ? 1 : 0;
+  response.run = static_cast<std::uint32_t>(runs_);
+  response.received = commands_.received();
+  if (!success) return;
+  if (run_->recorder() != nullptr) response.bag = run_->recorder()->path();
+  response.stamp = run_->outputs().stamp();
+  response.contact_forces = run_->outputs().contact_forces(run_->outputs().contacts());
+  response.bodies = run_->outputs().body_states();
 }
 
 bool SimulatorNode::wait_received(const Step::Request& request, Step::Response& response) const {
@@ -85,7 +117,7 @@ bool SimulatorNode::wait_received(const Step::Request& request, Step::Response& 
     response.message = "recorded commands are being replayed (~commands); others are not received";
     return false;
   }
-  for (auto waited = std::chrono::milliseconds(0); waited < kPatience && !stop_requested_(); waited += kPoll) {
+  for (auto waited = std::chrono::milliseconds(0); waited < kPatience && !ends(); waited += kPoll) {
     if (commands_.wait_received(request.after_received, kPoll)) return true;
   }
   response.received = commands_.received();
@@ -106,25 +138,30 @@ std::int64_t SimulatorNode::periods_of(const Step::Request& request, std::string
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(periods - 1e-6)));
 }
 
+std::string SimulatorNode::step_refused() const {
+  switch (phase()) {
+    case Phase::running:
+      return "the run advances by itself; call pause with true first, or start the node with ~pacing lockstep";
+    case Phase::paused:
+      return parameters_.pacing == Pacing::lockstep ? "paused; call pause with false first" : "";
+    case Phase::ended:
+      return fmt::format("the run has ended at {:.6f} s; call reset to begin again",
+                         static_cast<double>(run_->simulation().time()) * 1e-9);
+    case Phase::failed:
+      return failure_ + "; call reset or reset_with to begin again, or load_checkpoint";
+    case Phase::waiting:
+      break;
+  }
+  return {};
+}
+
 void SimulatorNode::step(const Step::Request& request, Step::Response& response) {
   response.success = 0;
-  response.message.clear();
   response.stamp = run_->outputs().stamp();
   response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
-  response.bodies = run_->outputs().body_states();
   response.received = commands_.received();
 
-  std::string problem;
-  const Phase now = phase();
-  if (parameters_.pacing != Pacing::lockstep) {
-    problem = "step needs ~pacing lockstep";
-  } else if (now == Phase::paused) {
-    problem = "paused; call pause with false first";
-  } else if (now == Phase::ended) {
-    problem = fmt::format("the run has ended at {:.6f} s; call reset to begin again", response.time);
-  } else if (now == Phase::failed) {
-    problem = failure_;
-  }
+  std::string problem = step_refused();
   std::int64_t periods = 0;
   std::vector<AppliedCommand> commands;
   if (problem.empty()) periods = periods_of(request, problem);
@@ -140,18 +177,23 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
   std::string refusal;
   ContactAverage contacts;
   run_->resume_clock();
-  const std::int64_t end = run_->simulation().time() + periods * run_->simulation().sync_period();
-  for (std::int64_t period = 0; period < periods && !run_->ended() && !stop_requested_(); ++period) {
-    if (!sync_period(period == 0 ? commands : std::vector<AppliedCommand>(), refusal)) break;
+  std::int64_t done = 0;
+  for (; done < periods && !run_->ended() && !ends() && pauses_asked_ == 0; ++done) {
+    if (!sync_period(done == 0 ? commands : std::vector<AppliedCommand>(), refusal)) break;
     contacts.add(run_->outputs().contacts());
   }
   commands_.release();
-  response.message = failure_.empty() ? refusal : failure_;
-  if (response.message.empty() && !run_->ended() && run_->simulation().time() < end) response.message = kEnding;
-  response.success = response.message.empty() ? 1 : 0;
-  if (response.message.empty() && run_->ended()) response.message = "the run has ended";
   response.stamp = run_->outputs().stamp();
   response.time = static_cast<double>(run_->simulation().time()) * 1e-9;
+  response.message = failure_.empty() ? refusal : failure_;
+  if (response.message.empty() && !run_->ended() && done < periods) {
+    response.message =
+        fmt::format("{} after {} of {} sync periods, at {:.6f} s",
+                    ends() ? "the node is ending:" : "interrupted by pause,", done, periods, response.time);
+  }
+  response.success = response.message.empty() ? 1 : 0;
+  if (response.message.empty() && run_->ended()) response.message = "the run has ended";
+  if (done == 0) return;
   response.contact_forces = run_->outputs().contact_forces(contacts.take());
   response.bodies = run_->outputs().body_states();
 }

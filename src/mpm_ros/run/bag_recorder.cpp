@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 #include <ros/message_traits.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
+#include "mpm/math/output_file.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/topics.hpp"
 
@@ -36,6 +39,13 @@ boost::shared_ptr<ros::M_string> latched_header(const std::string& topic) {
   return header;
 }
 
+/// Which file has that name: device and number; zeros: none.
+std::pair<std::uint64_t, std::uint64_t> file_at(const std::string& path) {
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0) return {};
+  return {found.st_dev, found.st_ino};
+}
+
 /// The system's reason where it has one; rosbag's own names no cause.
 std::string reason_of(const rosbag::BagException& error, int code) {
   for (const int known : {ENOSPC, EFBIG, EDQUOT, EIO, EROFS, EACCES}) {
@@ -59,6 +69,9 @@ BagRecorder::BagRecorder(const std::string& path, const BagOptions& options)
   if (access(folder.c_str(), W_OK) != 0) {
     throw BagError(fmt::format("bag {}: the folder {} is not writable; choose another path", path, folder.string()));
   }
+  if (const std::string refused = mpm::refused_output(path); !refused.empty()) {
+    throw BagError(fmt::format("bag {}: cannot be written: {}", path, refused));
+  }
   std::error_code ignored;
   replaced_ = std::filesystem::is_regular_file(path, ignored);
   replaced_ = remove_later_parts(path) > 0 || replaced_;
@@ -81,6 +94,7 @@ BagRecorder::~BagRecorder() {
 void BagRecorder::open() {
   bag_ = std::make_unique<rosbag::Bag>();
   bag_->open(part_path(path_, part_), rosbag::bagmode::Write);
+  opened_ = file_at(part_path(path_, part_));
   bag_->setCompression(compression(options_.compression));
   bag_->setChunkThreshold(kChunkBytes);
   chunk_began_ = std::chrono::steady_clock::now();
@@ -119,6 +133,8 @@ void BagRecorder::sync_point() {
     // until a message is above the threshold; the next one is.
     on_disk([this] { bag_->setChunkThreshold(1); });
     if (!bag_) return;
+    check_there();
+    if (!bag_) return;
     cut_ = true;
     std::fflush(nullptr);
   }
@@ -133,6 +149,18 @@ void BagRecorder::close() {
     bag_->close();
     bag_.reset();
   });
+  if (failure_.empty()) check_there();
+}
+
+void BagRecorder::check_there() {
+  const std::string part = part_path(path_, part_);
+  if (file_at(part) == opened_) return;
+  static_cast<void>(bag_.release());  // as in give_up()
+  failure_ = fmt::format(
+      "bag {}: it is not there any more: it, or its folder, was removed, renamed or replaced while it was written; "
+      "leave it in its place, and run again",
+      part);
+  if (options_.required) throw BagError(failure_);
 }
 
 void BagRecorder::begin_part(const ros::Time& stamp) {

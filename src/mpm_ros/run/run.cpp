@@ -11,8 +11,12 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
     : scene_(scene),
       parameters_(options.parameters),
       stamps_(stamps),
-      simulation_(mpm::build(scene),
-                  mpm::SimulationOptions{options.threads, mpm::choose_isa(options.isa), options.resume.empty()}),
+      simulation_(mpm::build(scene), mpm::SimulationOptions{options.threads,
+                                                            mpm::choose_isa(options.isa),
+                                                            options.resume.empty(),
+                                                            {},
+                                                            options.stop,
+                                                            options.settling}),
       end_(std::llround(scene.definition.time.end * 1e9)),
       outputs_(simulation_, stamps_, options.output) {
   if (!options.resume.empty()) {
@@ -73,7 +77,12 @@ void Run::apply(const AppliedCommand& command) {
 }
 
 void Run::advance() {
-  simulation_.advance();
+  try {
+    simulation_.advance();
+  } catch (const mpm::StoppedError&) {
+    cut_short_ = true;
+    throw;
+  }
   const auto now = std::chrono::steady_clock::now();
   wall_ += now - clock_;
   clock_ = now;
@@ -99,7 +108,8 @@ void Run::fail(const std::string& reason) { close(reason); }
 void Run::close(const std::string& failure) {
   if (closed_) return;
   closed_ = true;
-  outputs_.finish(real_time_factor(), failure);
+  // Between two sync points there is no state that could be written.
+  if (!cut_short_) outputs_.finish(real_time_factor(), failure);
   if (recorder_) recorder_->close();
 }
 

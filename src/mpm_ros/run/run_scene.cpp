@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
+#include "mpm/math/output_file.hpp"
 #include "mpm/scene/explain.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/scene/units.hpp"
@@ -24,6 +26,8 @@
 #include "mpm_ros/run/run_scene_summary.hpp"
 #include "mpm_ros/run/run_scene_vtk.hpp"
 #include "mpm_ros/run/scene_files.hpp"
+#include "mpm_ros/run/settling_news.hpp"
+#include "mpm_ros/run/stop_signals.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -58,8 +62,10 @@ mpm::Scene load(const RunSceneOptions& options, const std::optional<Rerun>& reru
   } catch (const mpm::UnitError& error) {
     throw mpm::SceneError(fmt::format("--end: {}", error.what()));
   }
-  if (!(end > 0.0))
-    throw mpm::SceneError(fmt::format("--end: '{}' is not greater than 0; write a time such as 0.5", options.end));
+  // The shortest period between sync points is a nanosecond, and 64 bits of them last 292 years.
+  if (!(end >= 1e-9 && end <= 1e9))
+    throw mpm::SceneError(
+        fmt::format("--end: '{}' is not between 1e-9 s and 1e9 s; write a time such as 0.5", options.end));
   scene.definition.time.end = end;
   return scene;
 }
@@ -68,6 +74,8 @@ mpm::Scene load(const RunSceneOptions& options, const std::optional<Rerun>& reru
 std::ofstream open_summary(const std::string& path) {
   std::ofstream file;
   if (path.empty()) return file;
+  if (const std::string refused = mpm::refused_output(path); !refused.empty())
+    throw mpm::SceneError(fmt::format("--summary {}: cannot be written: {}", path, refused));
   file.open(path);
   if (!file)
     throw mpm::SceneError(fmt::format("--summary {}: cannot be written; check that the folder is there", path));
@@ -135,7 +143,7 @@ void check_not_there(const RunSceneOptions& options) {
 /// The run with its sinks, from beginning to end.
 class OfflineRun {
  public:
-  explicit OfflineRun(const RunSceneOptions& options)
+  OfflineRun(const RunSceneOptions& options, std::ostream& err)
       : options_(options),
         rerun_(read(options)),
         scene_(load(options_, rerun_)),
@@ -149,6 +157,8 @@ class OfflineRun {
     run_options.isa = options_.isa;
     run_options.output = output_options(scene_);
     check_fields(run_options.output);
+    run_options.stop = stop_overdue;
+    run_options.settling = settling_news([&err](const std::string& line) { err << line << std::endl; });
     run_options.bag_options.compression = options_.bag_compression;
     read_split(options_.bag_split, run_options.bag_options);
     if (rerun_) choose_as_recorded(run_options);
@@ -163,6 +173,10 @@ class OfflineRun {
     if (!options_.vtk.empty()) vtk_ = std::make_unique<Leavable<VtkSink>>(options_.vtk, stamps_);
     run_ = std::make_unique<Run>(scene_, run_options, stamps_, csv_.get());
     if (vtk_) run_->add(*vtk_);
+    if (!options_.resume.empty() && !options_.end.empty() && run_->simulation().time() > run_->end()) {
+      throw mpm::SceneError(fmt::format("--end: '{}' is before the checkpoint's time of {:g} s; write a later one",
+                                        options_.end, static_cast<double>(run_->simulation().time()) * 1e-9));
+    }
     commands_.skip_to(run_->simulation().time());
     if (check_ && run_->simulation().time() > rerun_->hashed_at)
       check_->differs("it goes on from a checkpoint after the recorded state");
@@ -170,6 +184,10 @@ class OfflineRun {
 
   RunSceneResult go(std::ostream& out, std::ostream& err, bool bar, const std::function<bool()>& stop_requested) {
     const mpm::Simulation& simulation = run_->simulation();
+    if (!options_.resume.empty() && run_->ended()) {
+      err << fmt::format("note: the checkpoint is of t = {:g} s, where the run ends already; nothing is computed\n",
+                         static_cast<double>(simulation.time()) / 1e9);
+    }
     for (const std::string& warning : simulation.warnings()) err << "warning: " << warning << "\n";
     for (const std::string& note : simulation.notes()) err << note << "\n";
     for (std::size_t body = 0; body < scene_.commands.size(); ++body) {
@@ -222,6 +240,11 @@ class OfflineRun {
           err << fmt::format("stopped at t = {:g} s, before the end\n", static_cast<double>(simulation.time()) / 1e9);
           if (check_) check_->differs("it was stopped before its end");
         }
+        run_->finish();
+      } catch (const mpm::StoppedError& error) {
+        progress.clear();
+        err << error.what() << "; the record ends at the sync point before\n";
+        if (check_) check_->differs("it was stopped before its end");
         run_->finish();
       } catch (const mpm::PhysicsError& error) {
         failed = true;
@@ -346,7 +369,16 @@ void explain_scene(const RunSceneOptions& options, std::ostream& out) {
                                         : std::optional<Rerun>(read_rerun(options.from_bag, !options.resume.empty())));
   mpm::SimulationDefinition built = mpm::build(scene);
   out << mpm::explain(scene, built);
-  const mpm::Simulation simulation(std::move(built), {options.threads, instruction_set(options)});
+  if (!(scene.definition.time.end > 0.0)) out << "note: the scene has no end; run_scene needs --end\n";
+  mpm::Simulation simulation(
+      std::move(built),
+      {options.threads, instruction_set(options), true, {}, stop_overdue, settling_news([&](const std::string& line) {
+         out << line << std::endl;
+       })});
+  // What a run writes is checked as a run checks it.
+  const OutputOptions output = output_options(scene);
+  check_fields(output);
+  const RunOutputs outputs(simulation, Stamps(), output);
   out << fmt::format("kernels: instruction set {}, {} thread{}\n", simulation.isa(), simulation.threads(),
                      simulation.threads() == 1 ? "" : "s");
   for (const std::string& warning : simulation.warnings()) out << "warning: " << warning << "\n";
@@ -356,10 +388,16 @@ void explain_scene(const RunSceneOptions& options, std::ostream& out) {
 RunSceneResult run_scene(const RunSceneOptions& options, std::ostream& out, std::ostream& err, bool bar,
                          const std::function<bool()>& stop_requested) {
   try {
-    return OfflineRun(options).go(out, err, bar, stop_requested);
+    return OfflineRun(options, err).go(out, err, bar, stop_requested);
+  } catch (const mpm::StoppedError& error) {
+    err << error.what() << "; nothing was recorded\n";
+    return RunSceneResult::done;
   } catch (const mpm::PhysicsError& error) {
     err << "run_scene: " << error.what() << "\n";
     return RunSceneResult::physics_failed;
+  } catch (const std::bad_alloc&) {
+    err << "run_scene: there is not enough memory for this scene; use a larger grid.cell or a smaller scene\n";
+    return RunSceneResult::machine_failed;
   } catch (const mpm::Error& error) {
     err << "run_scene: " << error.what() << "\n";
   } catch (const BagError& error) {

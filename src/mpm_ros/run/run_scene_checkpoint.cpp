@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "mpm/math/output_file.hpp"
 #include "mpm/scene/units.hpp"
 #include "mpm/simulation/checkpoint.hpp"
 
@@ -49,10 +50,13 @@ RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::in
   if (path_.empty()) return;
   // Told before hours of work.
   const std::string part = path_ + ".part";
+  for (const std::string& name : {path_, part}) {
+    if (const std::string refused = mpm::refused_output(name); !refused.empty())
+      throw mpm::SceneError(fmt::format("--checkpoint {}: cannot be written: {}", name, refused));
+  }
   std::FILE* file = std::fopen(part.c_str(), "ab");
-  if (file == nullptr || std::filesystem::is_directory(path_)) {
-    throw mpm::SceneError(fmt::format("--checkpoint {}: cannot be written: {}", path_,
-                                      file == nullptr ? std::strerror(errno) : "it is a folder"));
+  if (file == nullptr) {
+    throw mpm::SceneError(fmt::format("--checkpoint {}: cannot be written: {}", path_, std::strerror(errno)));
   }
   std::fclose(file);
   std::remove(part.c_str());
@@ -69,6 +73,12 @@ void RunSceneCheckpoints::at_sync(Run& run, std::ostream& err) {
 
 void RunSceneCheckpoints::at_end(Run& run, std::ostream& out) {
   if (path_.empty()) return;
+  if (run.cut_short()) {
+    throw mpm::CheckpointError(
+        fmt::format("checkpoint {}: not written, since the run was stopped between two sync points, which a shorter "
+                    "time.sync avoids; --checkpoint-every saves earlier ones",
+                    path_));
+  }
   run.save(path_);
   out << fmt::format("  checkpoint {} at t = {:g} s\n", path_, static_cast<double>(run.simulation().time()) * 1e-9);
 }

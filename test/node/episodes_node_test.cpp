@@ -1,0 +1,66 @@
+// Episodes of a controller that learns, in one node: each begins with a reset to other values of the scene, and each
+// twentieth fails. Argument: how many.
+#include <mpm_ros/Reset.h>
+
+#include "simulator_process.hpp"
+#include "test_files.hpp"
+
+namespace mpm_ros::test {
+namespace episodes_node_test {
+
+int episodes = 200;
+
+/// Resident memory of a process [kB].
+double memory_of(pid_t pid) {
+  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind("VmRSS:", 0) == 0) return std::stod(line.substr(6));
+  }
+  return 0.0;
+}
+
+// What the node holds after a fifth of the episodes it holds at their end: 2 % is the bound that users of long
+// trainings asked for. Each episode is recorded, and each that fails saves its state.
+TEST(Episodes, MemoryStaysFlat) {
+  const TemporaryFolder folder;
+  SimulatorProcess simulator({"scene:=" + data_file("leaves_domain.yaml"), "pacing:=lockstep", "threads:=1",
+                              "record:=" + folder.file("run.bag")});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  ros::NodeHandle node;
+  ros::ServiceClient reset = node.serviceClient<Reset>(simulator.name("reset_with"), true);
+  ros::ServiceClient step = node.serviceClient<Step>(simulator.name("step"), true);
+  double warm = 0.0;
+  int failed = 0;
+  for (int episode = 1; episode <= episodes; ++episode) {
+    const bool fails = episode % 20 == 0;
+    Reset begin;
+    // At rest the block stays where it is; at 2 m/s its front leaves the domain after 0.055 s.
+    begin.request.set = {fails ? "bodies.0.initial.velocity=[2, 0]" : "bodies.0.initial.velocity=[0, 0]",
+                         "materials.0.young=" + std::to_string(5e4 + 100.0 * episode), "time.end=0.08"};
+    ASSERT_TRUE(reset.call(begin)) << simulator.log();
+    ASSERT_TRUE(begin.response.success) << begin.response.message;
+    Step advance;
+    advance.request.duration = 0.08;
+    ASSERT_TRUE(step.call(advance)) << simulator.log();
+    ASSERT_EQ(advance.response.success != 0, !fails) << episode << ": " << advance.response.message;
+    failed += fails ? 1 : 0;
+    // Its files would fill the disk.
+    std::filesystem::remove(begin.response.bag);
+    if (episode == episodes / 5) warm = memory_of(simulator.pid());
+  }
+  EXPECT_EQ(failed, episodes / 20);
+  const double now = memory_of(simulator.pid());
+  std::cout << episodes << " episodes, " << failed << " of them failed: " << warm << " kB after a fifth, " << now
+            << " kB at the end\n";
+  EXPECT_LT(std::abs(now - warm), 0.02 * warm);
+  simulator.signal(SIGINT);
+  EXPECT_EQ(simulator.wait(), 3) << simulator.log();  // the last one failed
+}
+
+}  // namespace episodes_node_test
+}  // namespace mpm_ros::test
+
+int main(int argc, char** argv) {
+  if (argc > 1 && argv[1][0] != '-') mpm_ros::test::episodes_node_test::episodes = std::stoi(argv[1]);
+  return mpm_ros::test::run_node_tests(argc, argv, "episodes_node_test");
+}

@@ -65,6 +65,18 @@ class Stepping(unittest.TestCase):
             np.testing.assert_array_equal(go_on(), first)
             self.assertAlmostEqual(sim.solver_state().time, 0.06, delta=1e-12)
 
+    def test_a_reset_changes_the_scene(self):
+        with press() as sim:
+            sim.reset({"rigid_bodies.plate.pose.position": [0.1, 0.08]})
+            self.assertEqual(sim.step()["plate"].position[2], 0.08)
+            sim.reset()  # as it is now
+            self.assertEqual(sim.step()["plate"].position[2], 0.08)
+            sim.reset({})  # as it began
+            self.assertEqual(sim.step()["plate"].position[2], 0.065)
+            with self.assertRaisesRegex(mpm_ros.MpmError, "cel"):
+                sim.reset({"grid.cel": 0.02})
+            self.assertEqual(sim.step().time, 2 * SYNC)
+
     def test_bad_input_is_refused_with_a_sentence(self):
         with press() as sim:
             for arguments, sentence in [({"velocity": {"blade": (0, 0, 1)}}, "blade"),

@@ -18,9 +18,13 @@ mpm::Scene scene_of(const RunInfo& info) {
   try {
     return mpm::parse_scene(info.scene_text, info.scene_path);
   } catch (const mpm::Error&) {
-    YAML::Node root = YAML::Load(info.scene_text);
-    root.remove("rigid_bodies");
-    return mpm::parse_scene(YAML::Dump(root), info.scene_path);
+    try {
+      YAML::Node root = YAML::Load(info.scene_text);
+      root.remove("rigid_bodies");
+      return mpm::parse_scene(YAML::Dump(root), info.scene_path);
+    } catch (const YAML::Exception& error) {
+      throw mpm::SceneError("the scene that was recorded is not YAML: " + error.msg);
+    }
   }
 }
 

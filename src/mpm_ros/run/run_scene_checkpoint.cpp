@@ -41,7 +41,7 @@ RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::in
       throw mpm::SceneError(fmt::format("--checkpoint-every: {}", error.what()));
     }
     if (!(period > 0.0 && period < 1e9)) {
-      throw mpm::SceneError(fmt::format("--checkpoint-every: '{}' is not greater than 0; write a time such as 0.5 s",
+      throw mpm::SceneError(fmt::format("--checkpoint-every: '{}' is not between 0 and 1e9 s; write a time such as 0.5 s",
                                         options.checkpoint_every));
     }
     const double periods = std::round(period * 1e9 / static_cast<double>(sync_period));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "mpm/simulation/method_text.hpp"
@@ -138,7 +139,11 @@ std::string RunSummary::text() const {
   if (const double returned = state.number("returned"); returned > 0.0) {
     text += fmt::format("  particles that left the grid and were put back: {:.0f}\n", returned);
   }
-  for (const auto& [name, value] : metrics) text += fmt::format("  {} = {:.9g}\n", name, value);
+  for (const auto& [name, value] : metrics) {
+    text += std::isnan(value)
+                ? fmt::format("  {} has no value: its window held less than two sync points of the run\n", name)
+                : fmt::format("  {} = {:.9g}\n", name, value);
+  }
   return text;
 }
 

@@ -27,7 +27,8 @@ std::string ParameterSources::text(const ParameterValues& values, const std::str
   std::vector<std::string> given, found;
   for (const auto& [name, value] : values) {
     std::ostringstream words;
-    words << "~" << name << " = " << value;
+    words << "~" << name << " = ";
+    value.write(words);
     (on_command_line(name) ? given : found).push_back(words.str());
   }
   std::vector<std::string> sources;

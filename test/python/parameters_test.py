@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What a node or a launch file writes to the parameter server does not hold for a later run, and none of it holds in
-silence."""
+silence. 7 s."""
 import signal
 import unittest
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """`watch` and `replay` find the run's namespace, and say at once when there is none. In place of RViz stands a
-program that keeps its configuration."""
+program that keeps its configuration. 25 s."""
 import os
 import stat
 import subprocess
@@ -14,7 +14,7 @@ import yaml
 from support import Started, eventually, program, running_master, source_file
 
 SCENE = source_file("test/data/press.yaml")
-AT_ONCE = 5.0  # [s]; `watch` waits 20 s for particles
+AT_ONCE = 10.0  # [s]; `watch` waits 20 s for particles
 
 
 class Pictures(unittest.TestCase):
@@ -78,6 +78,9 @@ class Pictures(unittest.TestCase):
                     if left.step().ended:
                         left.reset()
                 self.assertIn("/left/particles", self.topics_shown(watch))
+            with Started(program("teleop"), "nobody") as teleop:
+                self.assertEqual(teleop.process.wait(AT_ONCE), 2)
+                self.assertIn("there is no rigid body 'nobody'", teleop.output())
             with mpm_ros.Simulator(SCENE, threads=1, namespace="/right"), Started(program("watch")) as watch:
                 self.assertEqual(watch.process.wait(AT_ONCE), 2)
                 self.assertIn("which run? Name its namespace, __ns:=: /left, /right", watch.output())

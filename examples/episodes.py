@@ -34,7 +34,7 @@ def main():
                 total += reward
                 over = terminated or truncated
             failures += "failure" in last
-            print(f"episode {episode + 1}: reward {total:.2f}, "
+            print(f"episode {episode + 1}: {info['young'] * 1e-3:.1f} kPa, reward {total:.2f}, "
                   f"force {observation[0] * info['target']:.2f} N for {info['target']:.2f} N"
                   + (f", failed: {last['failure']}" if "failure" in last else ""))
     print(f"{options.episodes} episodes, {failures} failed, {time.monotonic() - begin:.1f} s")

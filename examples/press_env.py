@@ -1,4 +1,5 @@
-"""An environment for learning, in the shape of Gymnasium's: a plate has to press foam to a force.
+"""An environment for learning, in the shape of Gymnasium's: a plate has to press foam of unknown stiffness to a
+force.
 
 Gymnasium is not needed. What wants a gymnasium.Env proper wraps it: the methods and their results are the same, and the
 spaces have Gymnasium's `low`, `high`, `shape`, `dtype` and `sample()`.
@@ -57,16 +58,16 @@ class PressEnv:
         self._random = np.random.default_rng()
 
     def reset(self, *, seed=None, options=None):
-        """A new target of 5 to 20 N; `options`: {"target": N}."""
+        """A new block of foam of 10 to 40 kPa, and a target of 5 to 20 N; `options`: {"young": Pa, "target": N}."""
         if seed is not None:
             self._random = np.random.default_rng(seed)
             self.action_space.random = np.random.default_rng(seed)
-        drawn = {"target": self._random.uniform(5.0, 20.0)}
+        drawn = {"young": self._random.uniform(10e3, 40e3), "target": self._random.uniform(5.0, 20.0)}
         drawn.update(options or {})
         self._target = drawn["target"]
-        self._simulator.reset()
+        answer = self._simulator.reset({"materials.foam.young": drawn["young"]})
         self._left = self.periods
-        return self._observe(self._simulator.step(velocity={"plate": (0, 0, 0)}), 0.0), drawn
+        return self._observe(answer, 0.0), drawn
 
     def step(self, action):
         action = float(np.clip(action, -1.0, 1.0)[0])

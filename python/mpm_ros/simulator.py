@@ -127,6 +127,7 @@ class Simulator:
         self._caller = f"/mpm_ros_client_{os.getpid()}_{next(_numbers)}"
         self._master = rosgraph.Master(self._caller, master_uri=master_uri)
         self._connections = {}
+        self._changes = []  # of the last reset
         self._clouds = None
         self._particles = None
         self._closer = weakref.finalize(self, _close, self._process, self._connections, self._master)
@@ -165,14 +166,14 @@ class Simulator:
         return Observation(answer, self._particles_at(answer.stamp))
 
     def reset(self, set=None):
-        """Begins the scene again, at time zero. `set`: changes to the scene for the runs from here on, as in
-        Simulator(), in place of those of an earlier reset; None: the scene as it is now. The next `step` has the first
-        observation."""
-        if set is None:
-            self._call("reset")
-        else:
-            self._call("reset_with", set=_changes(set))
+        """Begins the scene again and returns the Observation at time zero. Also after a failure of the physics. `set`:
+        changes to the scene, as in Simulator() and over those given there, for this run and the next ones; None: those of
+        the last call."""
+        changes = self._changes if set is None else _changes(set)
+        answer = self._call("reset_with", set=changes)
+        self._changes = changes
         self._begin_run()
+        return Observation(answer, self._particles_at(answer.stamp))
 
     def save_checkpoint(self, path):
         """Saves the run, to the bit. Returns the file's absolute path. A relative path starts from the node's folder,
@@ -237,12 +238,17 @@ class Simulator:
 
     # --- particles ----------------------------------------------------------------------------------------------------
 
+    def _check_particle_period(self):
+        period, sync = self._particle_period, self.info.sync_period
+        periods = round(period / sync)
+        if periods < 1 or abs(periods * sync - period) > 1e-9 + 1e-6 * period:
+            raise MpmError(f"particle_period is {period:g} s; it must be a whole number of sync periods of {sync:g} s "
+                           "(time.sync of the scene)")
+        self._cloud_period = periods * round(sync * 1e9)
+
     def _follow_particles(self, period):
-        periods = round(period / self.info.sync_period)
-        if periods < 1 or abs(periods * self.info.sync_period - period) > 1e-9 + 1e-6 * period:
-            raise MpmError(f"particle_period is {period:g} s; it must be a whole number of sync periods of "
-                           f"{self.info.sync_period:g} s (time.sync of the scene)")
-        self._cloud_period = periods * round(self.info.sync_period * 1e9)
+        self._particle_period = period
+        self._check_particle_period()
         self._clouds = self._connections["particles"] = self._reader("particles")
         # The node's one thread for connections has accepted the first before it answers the second. What was published
         # before, such as the snapshot of time zero, does not come.
@@ -251,6 +257,8 @@ class Simulator:
     def _begin_run(self, stamp=None):
         """After a reset or a load: the node has published a snapshot of the state at `stamp`, by default time zero."""
         self.info = self._latched("run_info")
+        if self._clouds is not None:
+            self._check_particle_period()  # another scene may have another sync period
         self._particles = None
         self._clouds_after = None
         self._first_cloud = self.info.start if stamp is None else stamp

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Episodes of PressEnv (press_env.py) in one simulator, with a proportional controller in place of a policy.
 
     rosrun mpm_ros episodes.py --episodes 20

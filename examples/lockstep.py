@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """A force controller in lockstep: a plate is pressed into foam until it feels 20 N. Starts its own simulator.
 
     rosrun mpm_ros lockstep.py

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Removes what a launch file set from the parameter server when the launch ends: a node for launch files.
 
     <node pkg="mpm_ros" type="remove_parameters.py" name="remove_parameters" args="/use_sim_time /mpm/simulator"/>

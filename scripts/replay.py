@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Plays a bag of a run, and shows it in RViz with a view that fits it.
 
     roslaunch mpm_ros replay.launch bag:=run.bag

@@ -120,7 +120,9 @@ TEST_F(RunCheckpoint, RefusesWhatMakesNoSense) {
   expect_bad_input("--checkpoint-every: name the file too");
   options_.checkpoint = folder_.file("run.h5");
   options_.checkpoint_every = "-1";
-  expect_bad_input("--checkpoint-every: '-1' is not greater than 0");
+  expect_bad_input("--checkpoint-every: '-1' is not between 0 and 1e9 s");
+  options_.checkpoint_every = "1e300";
+  expect_bad_input("--checkpoint-every: '1e300' is not between 0 and 1e9 s");
   options_.checkpoint_every = "20 mm";
   expect_bad_input("--checkpoint-every: ");
   options_.checkpoint_every.clear();

@@ -154,6 +154,17 @@ metrics:
   EXPECT_NE(out.str().find("Contact of deformable bodies"), std::string::npos) << out.str();
 }
 
+// The wheel's speed is a rate over a window that has not come.
+TEST_F(RunScene, TellsThatAMetricHasNoValueYet) {
+  options_.scene = source_file("config/scenes/wheel_in_sand.yaml");
+  options_.end = "10 ms";
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  EXPECT_NE(out_.str().find("speed has no value: its window held less than two sync points"), std::string::npos)
+      << out_.str();
+  EXPECT_EQ(out_.str().find("nan"), std::string::npos) << out_.str();
+  EXPECT_TRUE(summary()["metrics"]["speed"].is_null());
+}
+
 TEST_F(RunScene, CountsParticlesThatWerePutBack) {
   // The block falls out of the grid. Its lowest row of ten particles, at 0.205 m, leaves after 0.2044 s; the next, 0.01
   // m above, after 0.2094 s: sqrt(2 h / g).

@@ -217,6 +217,23 @@ TEST(Alive, StampedCommandsInTheQueueAreBounded) {
   EXPECT_LT((ros::WallTime::now() - before).toSec(), 1.0);
 }
 
+TEST(Alive, AVelocityOutOfThePlaneIsRefused) {
+  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  mpm_ros::Command aside = velocity("plate", -0.1);
+  aside.twist.linear.y = 0.05;
+  Step::Response refused = simulator.step(1, {aside});
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(refused.message.find("is not one of a plane_strain scene: 'plate' moves along x and z"), std::string::npos)
+      << refused.message;
+  aside.twist.linear.y = 0.0;
+  aside.twist.angular.z = 1.0;
+  EXPECT_FALSE(simulator.step(1, {aside}).success);
+  aside.twist.angular.z = 1e-18;  // the round-off of a change of axes
+  aside.twist.angular.y = 0.1;
+  EXPECT_TRUE(simulator.step(1, {aside}).success);
+}
+
 TEST(Alive, ABodyIsNotPushedAcrossTheDomain) {
   SimulatorProcess simulator({"scene:=" + data_file("free_ball.yaml"), "pacing:=lockstep", "threads:=1"});
   ASSERT_TRUE(simulator.ready()) << simulator.log();

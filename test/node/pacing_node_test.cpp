@@ -169,8 +169,8 @@ TEST(Pacing, ARunBehindTheRobotsClockSaysSoInTheFirstSecond) {
   })) << simulator.log();
   // And a second for this test's own start, while the run goes on already.
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count(), 2.0);
-  for (const char* text : {"of the clock's pace", "the tf frame 'hand'", "/use_sim_time",
-                           "_tf_time:=latest", "grid.cell"}) {
+  for (const char* text :
+       {"of the clock's pace", "the tf frame 'hand'", "/use_sim_time", "_tf_time:=latest", "grid.cell"}) {
     EXPECT_NE(simulator.log().find(text), std::string::npos) << text << "\n" << simulator.log();
   }
 }

@@ -165,6 +165,18 @@ TEST_F(RunScene, TellsThatAMetricHasNoValueYet) {
   EXPECT_TRUE(summary()["metrics"]["speed"].is_null());
 }
 
+// The rod is at x = 0.17 m in a grid to 0.2 m and moves at 1 m/s. The circle around the box of its radius of 15 mm has one
+// of 21.2 mm: it is beside the grid after 0.0512 s, and told of at the next sync point, of 2 ms.
+TEST_F(RunScene, TellsOfABodyThatLeavesTheGrid) {
+  options_.scene = source_file("test/data/press.yaml");
+  options_.set = {"rigid_bodies.rod.motion={velocity: [1, 0]}"};
+  options_.end = "0.1";
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  const std::string told = "warning: rigid body 'rod' has left the grid at t = 0.052 s";
+  EXPECT_NE(err_.str().find(told), std::string::npos) << err_.str();
+  EXPECT_EQ(err_.str().find(told), err_.str().rfind("warning: rigid body 'rod' has left")) << err_.str();
+}
+
 TEST_F(RunScene, CountsParticlesThatWerePutBack) {
   // The block falls out of the grid. Its lowest row of ten particles, at 0.205 m, leaves after 0.2044 s; the next, 0.01
   // m above, after 0.2094 s: sqrt(2 h / g).

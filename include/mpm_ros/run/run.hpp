@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/checkpoint.hpp"
@@ -50,6 +51,8 @@ class Run {
   /// Runs to the next sync point and writes what is due. @throws mpm::PhysicsError; call fail() then. @throws BagError
   /// @throws mpm::StoppedError; finish() then ends the record with the sync point before.
   void advance();
+  /// What should be known of the run since the last call, a line each: a rigid body that has left the grid.
+  std::vector<std::string> take_warnings();
   /// Forgets the wall time since the last advance(): after a pause.
   void resume_clock() { clock_ = std::chrono::steady_clock::now(); }
   /// Writes the last state, and closes the bag. Nothing when done before. @throws BagError
@@ -81,6 +84,9 @@ class Run {
 
  private:
   void close(const std::string& failure);
+  /// Whether a rigid body, with the sphere around its box, lies wholly beside the grid; one that has no end does not.
+  bool outside(const mpm::RigidBody& body) const;
+  void look_for_lost_bodies();
   /// What a checkpoint holds beside the simulation.
   void serialise(mpm::StateArchive& archive, const mpm::SerialiseMore& more);
 
@@ -94,6 +100,9 @@ class Run {
   std::chrono::steady_clock::time_point clock_;
   std::chrono::steady_clock::duration wall_{};  // while not paused
   std::int64_t from_ = 0;                       // [ns] simulated time of the checkpoint
+  enum class Place : std::uint8_t { outside_yet, inside, lost };
+  std::vector<Place> places_;  // of the rigid bodies
+  std::vector<std::string> warnings_;
   bool resumed_ = false;
   bool cut_short_ = false;  // stopped between two sync points
   bool closed_ = false;

@@ -179,6 +179,7 @@ bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra, std::s
     if (!failure_.empty() || !refusal.empty()) return false;
     count_commands();
     run_->advance();
+    for (const std::string& warning : run_->take_warnings()) ROS_WARN_STREAM(warning);
     publish_clock(run_->ended());
     if (run_->ended()) end_run();
     report();

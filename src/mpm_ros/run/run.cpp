@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace mpm_ros {
 
@@ -18,7 +20,8 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
                                                             options.stop,
                                                             options.settling}),
       end_(std::llround(scene.definition.time.end * 1e9)),
-      outputs_(simulation_, stamps_, options.output) {
+      outputs_(simulation_, stamps_, options.output),
+      places_(scene.definition.rigid_bodies.size(), Place::outside_yet) {
   if (!options.resume.empty()) {
     const mpm::SerialiseMore both = [&](mpm::StateArchive& archive) { serialise(archive, options.more); };
     from_ = mpm::load_checkpoint(options.resume, simulation_, scene.text, both).time;
@@ -83,12 +86,53 @@ void Run::advance() {
     cut_short_ = true;
     throw;
   }
+  look_for_lost_bodies();
   const auto now = std::chrono::steady_clock::now();
   wall_ += now - clock_;
   clock_ = now;
   outputs_.sync(ended(), real_time_factor());
   if (recorder_) recorder_->sync_point();
 }
+
+bool Run::outside(const mpm::RigidBody& body) const {
+  const mpm::GridDefinition& grid = simulation_.definition().grid;
+  const mpm::Box bounds = body.surface().bounds();
+  mpm::Vec3 corner = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs());
+  std::array<bool, 3> counts{true, true, true};
+  for (const int axis : mpm::axes_beside(simulation_.definition().geometry)) {
+    counts[static_cast<std::size_t>(axis)] = false;
+    corner[axis] = 0.0;
+  }
+  const double reach = corner.norm();
+  if (!std::isfinite(reach)) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double at = body.pose().position[axis];
+    if (counts[static_cast<std::size_t>(axis)] && (at + reach < grid.min[axis] || at - reach > grid.max[axis]))
+      return true;
+  }
+  return false;
+}
+
+// Told once, and only of a body that was in the grid: others wait beside it for their time.
+void Run::look_for_lost_bodies() {
+  for (std::size_t b = 0; b < places_.size(); ++b) {
+    if (places_[b] == Place::lost) continue;
+    const mpm::RigidBody& body = simulation_.rigid_body(static_cast<int>(b));
+    if (!outside(body)) {
+      places_[b] = Place::inside;
+    } else if (places_[b] == Place::inside) {
+      places_[b] = Place::lost;
+      const mpm::Vec3 at = body.pose().position;
+      warnings_.push_back(
+          fmt::format("rigid body '{}' has left the grid at t = {:.6g} s: it is at ({:.3g}, {:.3g}, {:.3g}) m, where "
+                      "nothing touches "
+                      "it; end the run before, or enlarge grid.min/grid.max and what it rests on",
+                      body.name(), static_cast<double>(simulation_.time()) * 1e-9, at.x(), at.y(), at.z()));
+    }
+  }
+}
+
+std::vector<std::string> Run::take_warnings() { return std::exchange(warnings_, {}); }
 
 double Run::real_time_factor() const {
   const double wall = std::chrono::duration<double>(wall_).count();

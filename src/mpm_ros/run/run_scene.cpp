@@ -231,6 +231,10 @@ class OfflineRun {
         while (!run_->ended() && !stop_requested()) {
           for (const AppliedCommand& command : commands_.take(simulation)) run_->apply(command);
           run_->advance();
+          for (const std::string& warning : run_->take_warnings()) {
+            progress.clear();
+            err << "warning: " << warning << "\n";
+          }
           checkpoints_.at_sync(*run_, err);
           if (check_) check_->look(simulation);
           progress.show(static_cast<double>(simulation.time()) / end, where);

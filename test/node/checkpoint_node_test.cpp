@@ -137,6 +137,34 @@ TEST(CheckpointNode, WrongFilesAreRefusedAndTheRunGoesOn) {
   EXPECT_NEAR(next.time, 0.008, 1e-12);
 }
 
+/// Resident memory of a process [kB].
+double memory_of(pid_t pid) {
+  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind("VmRSS:", 0) == 0) return std::stod(line.substr(6));
+  }
+  return 0.0;
+}
+
+// A hundred refused checkpoints held 240 MB, and the node then ended in a segmentation fault of HDF5.
+TEST(CheckpointNode, AFullDiskCostsTheNodeNothing) {
+  const TemporaryFolder folder;
+  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1"}, 20'000);
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  double before = 0.0;
+  for (int i = 0; i < 110; ++i) {
+    const Checkpoint::Response refused = call(simulator, "save_checkpoint", folder.file("run.h5"));
+    ASSERT_FALSE(refused.success);
+    EXPECT_NE(refused.message.find("cannot be written whole (File too large)"), std::string::npos) << refused.message;
+    if (i == 9) before = memory_of(simulator.pid());
+  }
+  EXPECT_LT(memory_of(simulator.pid()) - before, 0.02 * before);
+  EXPECT_TRUE(simulator.step(1).success);
+  simulator.signal(SIGINT);
+  EXPECT_EQ(simulator.wait(), 0) << simulator.log();
+  EXPECT_EQ(simulator.log().find("HDF5"), std::string::npos) << simulator.log();
+}
+
 TEST(CheckpointNode, AFailedRunLeavesItsState) {
   const TemporaryFolder folder;
   SimulatorProcess simulator(

@@ -142,5 +142,43 @@ TEST_F(Follower, ARunThatBeginsAgainSaysAgainThatItWaits) {
   EXPECT_NE(diagnostic().find("'probe' waits for the tf frame 'tool0'"), std::string::npos) << diagnostic();
 }
 
+// A robot whose clock is five seconds ahead, as that of a wall is of a slow run.
+TEST_F(Follower, TheLatestIsFollowedWhateverItsStampAndMarked) {
+  FrameFollower latest({"", "tool0"}, "world", frames_, reader_, health_, true);
+  transform(0.1, 5.0);
+  const auto due_at = [&](int sync) {
+    latest.look(Stamps().at((sync + 1) * kSync));
+    return queue_.take(sync * kSync);
+  };
+  std::vector<DueCommand> due = due_at(0);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due[0].command.pose.position.x(), 0.1);
+  EXPECT_EQ(due[0].arrival, kSync);  // as a pose without a stamp: one sync period, with no stream before it
+  const AppliedCommand applied = in_world(due[0], {}, 0);
+  EXPECT_TRUE(applied.as_it_came);
+  EXPECT_EQ(applied.requested, ros::Time(5.0));
+  EXPECT_TRUE(due_at(1).empty());  // each once
+  transform(0.2, 5.1);
+  EXPECT_EQ(due_at(2).size(), 1U);
+  EXPECT_EQ(latest.farthest_ahead(ros::Time(0.03)).first, 0.0);  // nothing waits for it
+  EXPECT_EQ(queue_.late().past + queue_.late().unstamped, 0U);
+}
+
+TEST_F(Follower, KnowsHowFarAFrameIsAhead) {
+  EXPECT_EQ(follower_.farthest_ahead(ros::Time(0.01)).first, 0.0);  // not known yet
+  transform(0.1, 0.02);
+  transform(0.2, 0.53);
+  const auto [ahead, frame] = follower_.farthest_ahead(ros::Time(0.03));
+  EXPECT_NEAR(ahead, 0.5, 1e-9);
+  EXPECT_EQ(frame, "tool0");
+}
+
+// A ros::Duration holds 68 years; the difference of these is more.
+TEST_F(Follower, StampsOfFarClocksAreNoMistake) {
+  transform(0.1, 4e9);
+  EXPECT_TRUE(at(0).empty());
+  EXPECT_NE(diagnostic().find("s ahead"), std::string::npos) << diagnostic();
+}
+
 }  // namespace frame_follower_test
 }  // namespace mpm_ros

@@ -18,10 +18,11 @@
 //
 // What acts on the node beyond pulls at the plane that continues the face. Soil that is pressed from the other side of
 // that plane, as beside the edge of a blade in the ground, is pressed less; at a free surface, as beside a footing,
-// nothing can be pulled. So only the part f of it acts, the mass of the node behind that beyond, over the mass of that
-// beyond, at most 1, and node i gets r_i (s_i + f (1 - s_i)) J: the sum is 1 for every f. What the nodes take over is
-// then less than the tool's work by (1 - f) J . sum r_i (1 - s_i)(u_i - U_i), the rate at which the material is cut
-// inside the cells at the edge.
+// nothing can be pulled. So only the part f of it acts, the lesser of the masses of the node beyond and of the one
+// behind that, over the mass of node i, at most 1, and node i gets r_i (s_i + f (1 - s_i)) J: the sum is 1 for every f,
+// and no light node is pulled faster than node i is pushed. What the nodes take over is then less than the tool's work
+// by (1 - f) J . sum r_i (1 - s_i)(u_i - U_i), the rate at which the material is cut inside the cells at the edge. Of U
+// the part 1 - f is that before the impulses, so that points answer each other symmetrically for every f, too.
 //
 // The cover is 1 half a cell inside the edge, 0 half a cell outside, and linear between: with t out of the face across
 // its edge, h the length of a cell along t, and d n the signed distance and normal of the tool at x_i + (h/2) t, it is
@@ -46,8 +47,9 @@ namespace mpm {
 /// A node of a point of contact. Nodes are numbered block * nodes_per_block + node in their field's grid.
 struct PointNode {
   int node;
-  double weight;   ///< part of the point's impulse that it gets, negative beyond an edge; all sum to 1
-  double reading;  ///< factor of its velocity in that at the point; as `weight` away from edges; all sum to 1
+  double weight;       ///< part of the point's impulse that it gets, negative beyond an edge; all sum to 1
+  double reading;      ///< factor of its velocity in that at the point; as `weight` away from edges
+  double start = 0.0;  ///< factor of its velocity before the impulses; with `reading` all sum to 1
 };
 
 class EdgeCover {

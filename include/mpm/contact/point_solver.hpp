@@ -50,6 +50,7 @@ class PointSolver {
     int first = 0, end = 0;        ///< its parts in parts_
     FreeMotion* motion = nullptr;  ///< motion of a free body; null for others
     Vec3 place;                    ///< world [m]
+    Vec3 start = Vec3::Zero();     ///< what the velocity at the point takes from nodes before the impulses [m/s]
   };
   enum class Pass {
     step,      ///< impulses >= 0, friction: decides which points are held
@@ -95,6 +96,7 @@ class PointSolver {
     int node;        ///< in nodes_
     double weight;   ///< part of an impulse
     double reading;  ///< factor of its velocity
+    double start;    ///< factor of its velocity before the impulses
   };
   struct alignas(32) Node {
     std::array<double, 3> velocity;  ///< [m/s]

@@ -83,15 +83,16 @@ struct Beyond {
 };
 
 /// Adds to a node of the list, or a node to the list.
-void add(int node, double weight, double reading, PointNode* nodes, int& count) {
+void add(const PointNode& added, PointNode* nodes, int& count) {
   PointNode* end = nodes + count;
-  PointNode* found = std::find_if(nodes, end, [node](const PointNode& one) { return one.node == node; });
+  PointNode* found = std::find_if(nodes, end, [&](const PointNode& one) { return one.node == added.node; });
   if (found == end) {
-    *end = {node, 0.0, 0.0};
+    *end = {added.node, 0.0, 0.0};
     ++count;
   }
-  found->weight += weight;
-  found->reading += reading;
+  found->weight += added.weight;
+  found->reading += added.reading;
+  found->start += added.start;
 }
 
 }  // namespace
@@ -124,13 +125,15 @@ EdgeCover::Nodes EdgeCover::apply(const ContactPoint& point, const Grid& grid, P
       const NodeRef behind = nearest_node(grid, place + cell * across + into);
       cover = part;
       other.node = further.block * per_block + further.node;
-      other.backed = behind.block < 0 ? 0.0 : std::min(1.0, mass_of(behind) / mass_of(further));
+      const double least = behind.block < 0 ? 0.0 : std::min(mass_of(behind), mass_of(further));
+      other.backed = std::min(1.0, least / mass_of(ref));
     }
     if (cover < kLeastPart) continue;
     const double reading = around[n].reading * std::min(1.0, cover / kHalf), rest = reading * (1.0 - cover);
-    add(around[n].node, reading - (1.0 - other.backed) * rest, reading, nodes, result.count);
+    const double carried = other.backed * rest;
+    add({around[n].node, reading - rest + carried, reading}, nodes, result.count);
     if (rest > 0.0) {
-      add(other.node, -other.backed * rest, -rest, nodes, result.count);
+      add({other.node, -carried, -carried, carried - rest}, nodes, result.count);
       result.at_edge = true;
     }
     sum += reading * cover;
@@ -139,6 +142,7 @@ EdgeCover::Nodes EdgeCover::apply(const ContactPoint& point, const Grid& grid, P
   for (int n = 0; n < result.count; ++n) {
     nodes[n].weight /= sum;
     nodes[n].reading /= sum;
+    nodes[n].start /= sum;
   }
   return result;
 }

@@ -96,7 +96,7 @@ void PointSolver::add(const ContactPoint& contact, int found) {
       nodes_.push_back({{}, 1.0 / grid.mass.at(ref.block, 0, ref.node)});
       origins_.push_back({contact.field, ref, {}});
     }
-    parts_.push_back({slot, node.weight, node.reading});
+    parts_.push_back({slot, node.weight, node.reading, node.start});
     point.compliance += node.reading * (node.weight * nodes_[slot].inverse_mass);
   }
   point.end = static_cast<int>(parts_.size());

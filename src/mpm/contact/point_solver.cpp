@@ -25,6 +25,13 @@ void PointSolver::load(Member from) {
     const Vec3 v = nodal_vector(grid.*from, grid.layout, origin.ref);
     nodes_[n].velocity = origin.loaded = {v.x(), v.y(), v.z()};
   }
+  for (Point& point : points_) {
+    if (!point.at_edge) continue;
+    point.start.setZero();
+    for (int i = point.first; i < point.end; ++i) {
+      for (int k = 0; k < 3; ++k) point.start[k] += parts_[i].start * origins_[parts_[i].node].loaded[k];
+    }
+  }
 }
 
 void PointSolver::store(Member to, double factor) {
@@ -38,7 +45,7 @@ void PointSolver::store(Member to, double factor) {
 }
 
 Vec3 PointSolver::velocity_at(const Point& point) const {
-  Vec3 v = Vec3::Zero();
+  Vec3 v = point.start;
   for (int i = point.first; i < point.end; ++i) {
     const Node& node = nodes_[parts_[i].node];
     for (int k = 0; k < 3; ++k) v[k] += parts_[i].reading * node.velocity[k];
@@ -47,7 +54,7 @@ Vec3 PointSolver::velocity_at(const Point& point) const {
 }
 
 Vec3 PointSolver::cut_at(const Point& point) const {
-  Vec3 v = Vec3::Zero();
+  Vec3 v = point.start;
   for (int i = point.first; i < point.end; ++i) {
     const Node& node = nodes_[parts_[i].node];
     for (int k = 0; k < 3; ++k) v[k] += (parts_[i].reading - parts_[i].weight) * node.velocity[k];

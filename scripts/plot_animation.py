@@ -70,7 +70,8 @@ class Film:
         colors = [BLUE, ORANGE, RED, SKY, GREY]
         for i, body in enumerate(self.run.bodies):
             size = np.linalg.norm(self.run.forces.vector(body + " f"), axis=1)
-            self.forces.plot(time, size, color=colors[i % len(colors)], linewidth=1.3, label=body)
+            self.forces.plot(time, size, color=colors[i % len(colors)], linewidth=1.3, label=body,
+                             drawstyle="steps-pre")
         self.forces.set_ylabel("|force| [N]")
         self.forces.set_xlabel("simulated time [s]")
         self.forces.margins(x=0.01)

@@ -27,8 +27,9 @@ class Compared:
     def caption(self):
         return "\n".join(f"{label}:  {run.caption()}" for run, label in zip(self.runs, self.labels))
 
-    def draw(self, axes, values_of, runs=None, log=False):
-        """Draws one line for each run; values_of(run) returns (times, values)."""
+    def draw(self, axes, values_of, runs=None, log=False, means=False):
+        """Draws one line for each run; values_of(run) returns (times, values); `means`: of the intervals that end at
+        the times, as steps."""
         entries = []
         for i, (run, label, color) in enumerate(zip(self.runs, self.labels, self.colors)):
             if runs is not None and run not in runs:
@@ -37,7 +38,8 @@ class Compared:
             if log:
                 draw_residual(axes, time, values, color)
             else:
-                axes.plot(time, values, color=color, linestyle=self.styles[i // len(CYCLE) % 4])
+                axes.plot(time, values, color=color, linestyle=self.styles[i // len(CYCLE) % 4],
+                          drawstyle="steps-pre" if means else "default")
             entries.append((values[-1], label, color))
         return entries
 
@@ -78,7 +80,7 @@ def compare_contact(compared, body, folder):
     note = f" (not in {', '.join(without)})" if without else ""
     caption(figure, f"What the material does to {body}{note}", compared.caption())
     for panel, (title, unit, values_of) in zip(panels, wanted):
-        entries = compared.draw(panel, values_of, runs)
+        entries = compared.draw(panel, values_of, runs, means=unit.endswith("[N]"))
         zero_line(panel)
         panel.set_title(title)
         panel.set_ylabel(unit)

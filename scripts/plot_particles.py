@@ -1,4 +1,6 @@
 """Pictures of the particles at a few times: slices through the tool, and views from the side."""
+import textwrap
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -132,12 +134,14 @@ def plot_particles(run, folder, fields):
 
 def draw_all(scene, snapshots, field, coloring, folder, title):
     figure, axes = panels(len(snapshots), scene.aspect, scene.room)
-    caption(figure, title, scene.run.caption())
     columns = axes[0].get_subplotspec().get_gridspec().ncols
+    caption(figure, title + "\n", scene.run.caption())  # a line between it and the panels' own titles
+    letters = int(72 * (figure.get_figwidth() - 1.6) / columns / 7.5)  # that a panel's title has room for
     for i, (snapshot, panel) in enumerate(zip(snapshots, axes)):
         scene.draw(panel, snapshot.time, snapshot.positions, coloring.map.to_rgba(snapshot.table[field]))
         force = scene.force_text(snapshot.time)
-        panel.set_title(f"t = {snapshot.time:.4g} s{snapshot.label}" + (f"\n{force}" if force else ""))
+        parts = [f"t = {snapshot.time:.4g} s{snapshot.label}"] + ([force] if force else [])
+        panel.set_title("\n".join(line for part in parts for line in textwrap.wrap(part, letters)))
         if i % columns:
             panel.set_ylabel("")
     coloring.bar(figure, axes, shrink=0.8, aspect=30, pad=0.02)

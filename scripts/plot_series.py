@@ -3,7 +3,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from plot_style import (AXES, BLACK, BLUE, CYCLE, GREEN, GREY, ORANGE, PINK, RED, SKY, YELLOW, caption, mark_peak, name_lines,
-                        save, zero_line)
+                        save, with_jumps, zero_line)
 from plot_tables import file_stem
 
 AUDIT_LIMIT = 1e-10
@@ -42,17 +42,18 @@ def shade(axes, spans, labelled):
                       fontsize=8.5, color="#666666")
 
 
-def draw_vector(axes, time, vector, size_name=None):
-    """Draws the components that are not zero (or round-off) throughout, and the magnitude in black. Returns entries for
-    name_lines()."""
+def draw_vector(axes, time, vector, size_name=None, means=False):
+    """Draws the components that are not zero (or round-off) throughout, and the magnitude in black; `means`: of the
+    intervals that end at the times, as steps. Returns entries for name_lines()."""
+    style = "steps-pre" if means else "default"
     entries = []
     if size_name:
         size = np.linalg.norm(vector, axis=1)
-        axes.plot(time, size, color=BLACK, linewidth=2.6)
+        axes.plot(time, size, color=BLACK, linewidth=2.6, drawstyle=style)
         entries.append((size[-1], size_name, BLACK))
     for i, (axis, color) in enumerate(AXES.items()):
         if np.any(np.abs(vector[:, i]) > 1e-9 * max(np.abs(vector).max(), 1e-300)):
-            axes.plot(time, vector[:, i], color=color)
+            axes.plot(time, vector[:, i], color=color, drawstyle=style)
             entries.append((vector[-1, i], axis, color))
     zero_line(axes)
     return entries
@@ -80,8 +81,8 @@ def plot_contact(run, body, folder):
                                   height_ratios=ratios, constrained_layout=True)
     caption(figure, f"{run.title}: what the material does to {body}", run.caption())
     top, below = panels[0], list(panels[1:])
-    top.fill_between(time, peak, color="#d9d9d9", linewidth=0, zorder=1)
-    entries = draw_vector(top, time, force, "|F|")
+    top.fill_between(time, peak, color="#d9d9d9", linewidth=0, zorder=1, step="pre")
+    entries = draw_vector(top, time, force, "|F|", means=True)
     # One step's spike must not flatten the rest.
     largest, low = np.linalg.norm(force, axis=1).max(), min(0, force.min())
     if largest > 0:
@@ -106,7 +107,7 @@ def plot_contact(run, body, folder):
     name_lines(panel, names)
     if turns:
         panel = below.pop(0)
-        entries = draw_vector(panel, time, torque, "|T|")
+        entries = draw_vector(panel, time, torque, "|T|", means=True)
         panel.margins(y=0.2)
         mark_peak(panel, time, np.linalg.norm(torque, axis=1), "N m")
         panel.set_ylabel("torque [N m]")
@@ -114,7 +115,7 @@ def plot_contact(run, body, folder):
         name_lines(panel, entries)
     if moves:
         panel = below.pop(0)
-        entries = draw_vector(panel, run.poses["time"], velocity)
+        entries = draw_vector(panel, *with_jumps(run.poses["time"], velocity))
         panel.set_ylabel("velocity [m/s]")
         panel.set_title("Velocity of the body's origin")
         name_lines(panel, entries)
@@ -210,9 +211,9 @@ def frame_residual(axes, largest):
 
 
 def draw_steps(axes, state, color):
-    """Draws the time step over time, from the first step on."""
+    """Draws the time step over time, from the first step on: all steps of an interval are as long."""
     made = state["dt"] > 0
-    axes.plot(state["time"][made], 1e6 * state["dt"][made], color=color)
+    axes.plot(state["time"][made], 1e6 * state["dt"][made], color=color, drawstyle="steps-pre")
     return state["dt"][-1] * 1e6
 
 
@@ -245,6 +246,6 @@ def plot_audit(run, folder):
     volume.set_ylim(low - 0.1 * (high - low), high + 0.1 * (high - low))
     volume.set_ylabel("det F [1]")
     volume.set_title("Smallest volume of a particle over its volume at the start (must stay above 0)")
-    name_lines(volume, [(state["min j"][-1], f"least {state['min j'].min():.4g}", BLUE)])
+    name_lines(volume, [(state["min j"][-1], f"least {state['min j'].min():.4g}\nend {state['min j'][-1]:.4g}", BLUE)])
     steps_of_time(panels)
     save(figure, folder, "audit.png")

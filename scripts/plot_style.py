@@ -43,7 +43,8 @@ def style():
 
 def caption(figure, title, text):
     """Writes the run's name and the subject above the picture, and how the run was made below."""
-    figure.suptitle(title, fontweight="bold", fontsize=13, x=0.012, ha="left")
+    figure.suptitle(title, fontweight="bold", fontsize=13, x=0.012, ha="left", linespacing=0.5)
+    text = text.replace("  ·  ", "\u00a0\u00a0·  ")  # a line ends with a dot, and does not begin with one
     lines = [part for line in text.splitlines() for part in textwrap.wrap(line, int(15.5 * figure.get_figwidth()))]
     figure.supxlabel("\n".join(lines), fontsize=8, color="#666666", x=0.012, ha="left")
 
@@ -54,8 +55,8 @@ def save(figure, folder, name):
 
 
 def name_lines(axes, entries):
-    """Writes names beside the right ends of lines, in their colours and without overlap; each entry is (value at the
-    end, name, colour)."""
+    """Writes names beside the right ends of lines, in their colours and without overlap, and joins a name that had to
+    move to the end of its line; each entry is (value at the end, name, colour)."""
     entries = [entry for entry in entries if np.isfinite(entry[0])]
     if not entries:
         return
@@ -68,7 +69,7 @@ def name_lines(axes, entries):
         value = np.log10(max(value, 1e-300)) if axes.get_yscale() == "log" else value
         places.append([np.clip((value - low) / (high - low), 0, 1), name, color])
     places.sort(key=lambda place: place[0])
-    needed = [(12 * name.count("\n") + 14) / height for _, name, _ in places]
+    needed = [12 * (name.count("\n") + 1) / height for _, name, _ in places]
     centers = [place[0] for place in places]
     for _ in range(200):  # pushed apart until none overlap
         for i in range(len(centers) - 1):
@@ -78,9 +79,26 @@ def name_lines(axes, entries):
                 centers[i + 1] += 0.5 * overlap
         centers[0] = max(centers[0], 0.0)
         centers[-1] = min(centers[-1], 1.0)
-    for center, (_, name, color) in zip(centers, places):
-        axes.text(1.012, center, name, transform=axes.transAxes, color=color, ha="left", va="center", fontsize=9.5,
+    moved = any(abs(center - place[0]) > 4 / height for center, place in zip(centers, places))
+    beside = 1.035 if moved else 1.012
+    for center, (end, name, color) in zip(centers, places):
+        axes.text(beside, center, name, transform=axes.transAxes, color=color, ha="left", va="center", fontsize=9.5,
                   linespacing=1.05)
+        if moved:
+            axes.plot([1.003, beside - 0.006], [end, center], transform=axes.transAxes, color=color, linewidth=0.7,
+                      clip_on=False, scalex=False, scaley=False)
+
+
+def with_jumps(time, values):
+    """The points of a line through samples (rows of `values`) at which a component jumps as it does where a motion is
+    given piecewise: upright at the start of the interval that shows it first, since a sample tells of the interval
+    before it. Slopes between others stay."""
+    change = np.abs(np.diff(values, axis=0))
+    if len(change) < 3:
+        return time, values
+    beside = np.maximum(np.pad(change, ((1, 0), (0, 0)))[:-1], np.pad(change, ((0, 1), (0, 0)))[1:])
+    jumps = np.flatnonzero(np.any((change > 0.1 * np.ptp(values, axis=0)) & (change > 4 * beside), axis=1))
+    return np.insert(time, jumps + 1, time[jumps]), np.insert(values, jumps + 1, values[jumps + 1], axis=0)
 
 
 def zero_line(axes):

@@ -58,6 +58,17 @@ TEST(ForceMarkers, ArrowBallAndSizeAtTheCentreOfPressure) {
   EXPECT_EQ(text.text, "blade 50.0 N");
 }
 
+TEST(ForceMarkers, TheSizeStandsAboveTheTool) {
+  ForceMarkers markers(0.1, 1.0);
+  const auto height = [&](double top) {
+    return markers.markers({contact()}, "world", ros::Time(), {top}).markers[2].pose.position.z;
+  };
+  // The arrow's head is at 0.1 m/N x 40 N, the text 0.15 arrow lengths above it or the tool.
+  EXPECT_DOUBLE_EQ(height(2.0), 4.15);
+  EXPECT_DOUBLE_EQ(height(5.0), 5.15);
+  EXPECT_DOUBLE_EQ(height(100.0), 4.15);  // out of the picture
+}
+
 TEST(ForceMarkers, TheLargestForceMetIsDrawnAsLongAsItMayBe) {
   ForceMarkers markers(0.0, 0.5);
   const auto length = [&](const mpm::ContactReport& report) {
@@ -82,6 +93,18 @@ TEST(ForceMarkers, AllGoWhenTheContactEnds) {
     // RViz refuses markers that are not finite, whatever their action.
     EXPECT_TRUE(std::isfinite(gone.markers[i].pose.position.x));
   }
+}
+
+TEST(ShapeMarkers, KnowTheTopsOfTilted) {
+  // The plate, 0.04 m high at 0.065 m, and the rod, a disc of 15 mm at 0.1 m; then the plate, 0.14 m long, upright.
+  const mpm::Scene scene = mpm::load_scene(data_file("press.yaml"));
+  const std::vector<double> tops = tops_of(mpm::Simulation(mpm::build(scene), {1}));
+  ASSERT_EQ(tops.size(), 2U);
+  EXPECT_NEAR(tops[0], 0.085, 1e-12);
+  EXPECT_NEAR(tops[1], 0.115, 1e-12);
+  const mpm::Scene turned =
+      mpm::load_scene(data_file("press.yaml"), {"rigid_bodies.plate.pose={position: [0.1, 0.2], rpy: [0, 90 deg, 0]}"});
+  EXPECT_NEAR(tops_of(mpm::Simulation(mpm::build(turned), {1}))[0], 0.27, 1e-12);
 }
 
 TEST(ShapeMarkers, PlanarBodiesAreSlices) {

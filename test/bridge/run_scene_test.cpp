@@ -6,6 +6,8 @@
 #include <rosbag/view.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -165,8 +167,8 @@ TEST_F(RunScene, TellsThatAMetricHasNoValueYet) {
   EXPECT_TRUE(summary()["metrics"]["speed"].is_null());
 }
 
-// The rod is at x = 0.17 m in a grid to 0.2 m and moves at 1 m/s. The circle around the box of its radius of 15 mm has one
-// of 21.2 mm: it is beside the grid after 0.0512 s, and told of at the next sync point, of 2 ms.
+// The rod is at x = 0.17 m in a grid to 0.2 m and moves at 1 m/s. The circle around the box of its radius of 15 mm has
+// one of 21.2 mm: it is beside the grid after 0.0512 s, and told of at the next sync point, of 2 ms.
 TEST_F(RunScene, TellsOfABodyThatLeavesTheGrid) {
   options_.scene = source_file("test/data/press.yaml");
   options_.set = {"rigid_bodies.rod.motion={velocity: [1, 0]}"};
@@ -200,6 +202,24 @@ TEST_F(RunScene, PhysicsThatFailEndWithThreeAndLeaveEverythingWritten) {
   EXPECT_NEAR(summary()["time"].get<double>(), std::sqrt(2.0 * 0.205 / 9.81), 0.0025);  // a sync period
   rosbag::Bag bag(options_.bag, rosbag::bagmode::Read);
   EXPECT_GT(rosbag::View(bag).size(), 0U);
+}
+
+TEST_F(RunScene, AFailureBesideAToolNamesItAndItsTablesAreWritten) {
+  // The rod pushes a strip of three cells out of the grid at x = 0.2 m.
+  options_.scene = data_file("press.yaml");
+  options_.set = {"bodies.strip.shape={box: {min: [0.16, 0], max: [0.19, 0.04]}}",
+                  "rigid_bodies.rod.pose={position: [0.14, 0.02]}", "rigid_bodies.rod.motion={velocity: [2, 0]}"};
+  options_.end = "0.1 s";
+  options_.csv = (folder_ / "csv").string();
+  EXPECT_EQ(run(), RunSceneResult::physics_failed) << err_.str();
+  EXPECT_NE(err_.str().find("cells from rigid body 'rod'"), std::string::npos) << err_.str();
+  EXPECT_EQ(err_.str().find("columns"), std::string::npos) << err_.str();
+  std::ifstream table(fs::path(options_.csv) / "contact_forces.csv");
+  std::string header, row;
+  std::getline(table, header);
+  while (std::getline(table, row)) {
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(header.begin(), header.end(), ','));
+  }
 }
 
 TEST_F(RunScene, BadInputEndsWithTwoAndOneLine) {
@@ -240,6 +260,20 @@ TEST(ClockText, CountsHoursAndMinutes) {
   EXPECT_EQ(clock_text(7.2), "0:07");
   EXPECT_EQ(clock_text(754.0), "12:34");
   EXPECT_EQ(clock_text(10921.0), "3:02:01");
+}
+
+TEST(ProgressBar, WritesALineForEachTenthWhereThereIsNoTerminal) {
+  std::ostringstream out;
+  ProgressBar bar(out, false, std::chrono::milliseconds(0));
+  for (int i = 0; i <= 1000; ++i) bar.show(0.001 * i, [] { return "half way"; });
+  bar.clear();
+  const std::string text = out.str();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 9);  // 10 to 90 %
+  EXPECT_EQ(text.find(" 10 %  half way  0:00 left\n"), 0U) << text;
+  EXPECT_EQ(text.find('\r'), std::string::npos);
+  std::ostringstream brief;
+  ProgressBar(brief, false).show(0.5, [] { return "half way"; });  // at once: a short work says nothing
+  EXPECT_EQ(brief.str(), "");
 }
 
 }  // namespace run_scene_test

@@ -17,6 +17,12 @@ std::string refusal(const std::string& expression) {
   return "";
 }
 
+TEST(Function, TellsWhatTheParserFoundFromWhatMayBeWritten) {
+  const std::string text = refusal("t<");
+  EXPECT_EQ(text.find("expression 't<' does not parse: "), 0U) << text;
+  EXPECT_NE(text.find("; an expression may use t, x, y, z"), std::string::npos) << text;
+}
+
 TEST(Function, DefaultsToZeroAndHoldsConstants) {
   EXPECT_EQ(Function()(3.0), 0.0);
   EXPECT_EQ(Function(2.5)(3.0, Vec3(1, 2, 3)), 2.5);

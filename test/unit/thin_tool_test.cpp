@@ -31,6 +31,15 @@ TEST(ThinTool, APlateHasTheSidesOfItsPlaneHoweverItLies) {
   }
 }
 
+TEST(ThinTool, ABodyOfThreeCellsIsNotThin) {
+  RigidBodyDefinition cube;
+  cube.name = "cube";
+  cube.surface = make_box({0.3, 0.3, 0.3});
+  EXPECT_FALSE(is_thin(cube, GeometryKind::solid, 0.1));  // 3 x 0.1 is more than 0.3 in doubles
+  cube.surface = make_box({0.3, 0.3, 0.299});
+  EXPECT_TRUE(is_thin(cube, GeometryKind::solid, 0.1));
+}
+
 TEST(ThinTool, ItIsBetweenPointsWhoseLineMeetsIt) {
   const RigidBody plate = body_of(make_box({1.0, kInfinite, 0.001}), {{1.0, 0.0, 2.0}, Quat::Identity()});
   const ThinTool tool(plate, GeometryKind::plane_strain);

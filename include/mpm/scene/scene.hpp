@@ -67,8 +67,9 @@ struct CommandDefinition {
 
 /// The output of a run.
 struct OutputDefinition {
-  double period = 0.0;  ///< time between particle snapshots, a multiple of the sync period [s]
-  double first = 0.0;   ///< time of the first snapshot after that of the start, a multiple of the sync period [s]
+  double period = 0.0;         ///< time between particle snapshots, a multiple of the sync period [s]
+  bool period_chosen = false;  ///< the scene does not say how often: by the length of the run
+  double first = 0.0;  ///< time of the first snapshot after that of the start, a multiple of the sync period [s]
   std::vector<std::string> particle_fields;  ///< chosen scalars, besides x, y, z, id
   int particle_stride = 1;
   std::optional<Box> particle_region;  ///< region outside which particles are not written [m]

@@ -21,6 +21,8 @@ class ContactAverage {
  public:
   /// One report a body and a pair, always in the same order; interval after interval.
   void add(const Contacts& contacts);
+  /// Whether nothing was added since the last take().
+  bool empty() const { return empty_; }
   /// Each number over all intervals, as its line in quantities.cpp says. Starts anew.
   Contacts take();
   /// For checkpoints.

@@ -17,14 +17,20 @@ visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation)
 /// A force for people: three digits and a prefix, "537 N", "1.24 kN", "35.0 mN".
 std::string force_text(double newtons);
 
+/// Height of the highest point of every rigid body, by its bounds [m]; infinite for one without end.
+std::vector<double> tops_of(const mpm::Simulation& simulation);
+
 /// For each body that something presses on: an arrow along the mean contact force, a ball at its foot, which is the
-/// centre of pressure, and the force's size at its head. They go when the contact ends.
+/// centre of pressure, and the force's size at its head, above the body
+/// where that would hide it. They go when the contact ends.
 class ForceMarkers {
  public:
   /// `scale` [m/N]; zero: the largest force met so far is drawn `longest` [m] long.
   ForceMarkers(double scale, double longest) : scale_(scale), longest_(longest) {}
+  /// `tops`: tops_of() the bodies; without them sizes stay at the heads.
   visualization_msgs::MarkerArray markers(const std::vector<mpm::ContactReport>& contacts,
-                                          const std::string& world_frame, const ros::Time& stamp);
+                                          const std::string& world_frame, const ros::Time& stamp,
+                                          const std::vector<double>& tops = {});
 
  private:
   double scale_;

@@ -15,8 +15,8 @@ constexpr double kAsThin = 0.5;           ///< of the largest part: a direction 
 constexpr double kTurned = 0.8660254038;  ///< cosine of 30 degrees
 constexpr double kLeastStride = 1e-3;     ///< of a line that is traced: a sheet thinner than that may be missed
 
-constexpr double kThinCells = 3.0;
-constexpr double kOpposite = 1.5, kBefore = 0.1;  ///< thicknesses into the body, to beyond it, and out of it
+constexpr double kThinCells = 3.0 * (1.0 - 1e-9);  ///< a body of just three cells is not thin for round-off
+constexpr double kOpposite = 1.5, kBefore = 0.1;   ///< thicknesses into the body, to beyond it, and out of it
 
 /// The middle of the bounds, 0 along axes without end.
 Vec3 middle_of(const Surface& surface) {

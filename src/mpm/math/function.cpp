@@ -72,8 +72,9 @@ Function Function::parse(const std::string& expression, const FunctionUnits& uni
       throw FunctionError(fmt::format("expression '{}': unknown name '{}'; {}", expression, error.GetToken(),
                                       hint(error.GetToken(), places)));
     }
-    throw FunctionError(
-        fmt::format("expression '{}' does not parse: {} {}", expression, error.GetMsg(), variables(places)));
+    std::string why = error.GetMsg();
+    while (!why.empty() && (why.back() == '.' || why.back() == ' ')) why.pop_back();
+    throw FunctionError(fmt::format("expression '{}' does not parse: {}; {}", expression, why, variables(places)));
   }
   if (parser.GetNumResults() != 1) {
     throw FunctionError(fmt::format("expression '{}' has {} values, separated by commas; write one", expression,

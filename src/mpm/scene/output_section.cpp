@@ -130,6 +130,7 @@ void choose_periods(const std::optional<Value>& sync_key, const std::optional<Va
                                                             time.end > 0.0 ? ": 50 to 125 snapshots to the end" : ""));
   }
   scene.output.period = seconds(period);
+  scene.output.period_chosen = !period_key;
   scene.output.first = seconds(first);
 }
 

@@ -43,7 +43,7 @@ visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation)
     marker.action = visualization_msgs::Marker::ADD;
     marker.pose.orientation.w = 1.0;
     marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
-    marker.color = color(0.80F, 0.85F, 0.92F, 0.5F);  // seen through: contact lies behind
+    marker.color = color(0.80F, 0.85F, 0.92F, 0.35F);  // seen through: material and contact lie behind
     marker.frame_locked = 1;
     for (const std::array<mpm::Vec3, 3>& triangle : rigid.surface().triangles()) {
       for (mpm::Vec3 vertex : triangle) {
@@ -54,6 +54,21 @@ visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation)
     markers.markers.push_back(std::move(marker));
   }
   return markers;
+}
+
+std::vector<double> tops_of(const mpm::Simulation& simulation) {
+  std::vector<double> tops;
+  for (int body = 0; body < static_cast<int>(simulation.bodies().size()); ++body) {
+    const mpm::RigidBody& rigid = simulation.rigid_body(body);
+    const mpm::Box bounds = rigid.surface().bounds();
+    const mpm::Vec3 up = rigid.pose().orientation.conjugate() * mpm::Vec3::UnitZ();
+    double top = rigid.pose().position.z();
+    for (int k = 0; k < 3; ++k) {
+      if (up[k] != 0.0) top += std::max(up[k] * bounds.min[k], up[k] * bounds.max[k]);
+    }
+    tops.push_back(top);
+  }
+  return tops;
 }
 
 std::string force_text(double newtons) {
@@ -68,7 +83,8 @@ std::string force_text(double newtons) {
 }
 
 visualization_msgs::MarkerArray ForceMarkers::markers(const std::vector<mpm::ContactReport>& contacts,
-                                                      const std::string& world_frame, const ros::Time& stamp) {
+                                                      const std::string& world_frame, const ros::Time& stamp,
+                                                      const std::vector<double>& tops) {
   using visualization_msgs::Marker;
   for (const mpm::ContactReport& contact : contacts) {
     largest_force_ = std::max(largest_force_, contact.mean.force.norm());
@@ -106,7 +122,10 @@ visualization_msgs::MarkerArray ForceMarkers::markers(const std::vector<mpm::Con
     ball.color = color(0.98F, 0.80F, 0.10F, 1.0F);
 
     Marker& text = add("contact_force_size", Marker::TEXT_VIEW_FACING);
-    text.pose.position = to_point(head + mpm::Vec3(0.0, 0.0, 0.15 * longest_));
+    mpm::Vec3 place = head;
+    // A body that reaches far beyond the picture leaves the size at the head.
+    if (body < tops.size() && tops[body] < head.z() + 2.0 * longest_) place.z() = std::max(place.z(), tops[body]);
+    text.pose.position = to_point(place + mpm::Vec3(0.0, 0.0, 0.15 * longest_));
     text.scale.z = 0.15 * longest_;
     text.color = color(1.0F, 1.0F, 1.0F, 1.0F);
     text.text = contact.body + " " + force_text(contact.mean.force.norm());

@@ -13,13 +13,23 @@
 
 namespace mpm_ros {
 
+namespace {
+
+constexpr double kLivePeriod = 0.02;  ///< longest time between two clouds that nobody chose [s]: motion looks smooth
+
+}  // namespace
+
 RunOptions run_options(const mpm::Scene& scene, const NodeParameters& parameters, int number,
                        const std::string& topics_below, const std::vector<std::string>& set) {
   RunOptions options;
   options.threads = parameters.threads;
   options.isa = parameters.isa;
   options.output = output_options(scene);
-  if (parameters.particle_rate) options.output.particle_period = 1.0 / *parameters.particle_rate;
+  if (parameters.particle_rate) {
+    options.output.particle_period = 1.0 / *parameters.particle_rate;
+  } else if (scene.output.period_chosen) {  // by the length of the run, which says nothing about who watches it
+    options.output.particle_period = std::min(options.output.particle_period, kLivePeriod);
+  }
   if (parameters.particle_first) options.output.particle_first = *parameters.particle_first;
   if (parameters.particle_fields) options.output.particles.fields = *parameters.particle_fields;
   if (parameters.particle_stride) options.output.particles.choice.stride = *parameters.particle_stride;

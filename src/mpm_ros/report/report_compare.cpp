@@ -28,7 +28,7 @@ Figures run_figures(const RecordedRun& run) {
           {"particles", std::to_string(last.particles)},
           {"particles returned", std::to_string(last.particles_returned)},
           {"snapshots", std::to_string(statistics.snapshots().size())},
-          {"smallest det F", number(statistics.smallest_j())},
+          {"smallest det F of the run", number(statistics.smallest_j())},
           {"largest audit residual", fmt::format("{:.2g}", statistics.worst_audit())},
           {"gaps in time", run.gaps.empty() ? "none" : "yes"}};
 }

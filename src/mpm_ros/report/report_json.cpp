@@ -96,6 +96,7 @@ Json report_json(const RecordedRun& run) {
   json["particles"] = last.particles;
   json["returned"] = last.particles_returned;
   json["min_j"] = statistics.smallest_j();
+  json["min_j_end"] = last.min_j;
   json["state_hash"] = last.state_hash;
   json["failed"] = static_cast<bool>(last.failed);
   json["failure"] = last.failure;

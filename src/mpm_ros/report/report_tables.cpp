@@ -35,7 +35,8 @@ std::string run_table(const RecordedRun& run) {
                                 fmt::join(run.particle_fields, " ")));
   if (last.particles_returned > 0)
     line("returned", fmt::format("{} particles left the grid and were put back", last.particles_returned));
-  line("smallest det F", number(statistics.smallest_j()));
+  line("smallest det F",
+       fmt::format("{} in the run, {} at its end", number(statistics.smallest_j()), number(last.min_j)));
   if (!last.state_hash.empty()) line("state hash", last.state_hash);
   for (const std::string& note : run.notes) line("note", note);
   return text;

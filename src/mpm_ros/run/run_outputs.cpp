@@ -190,7 +190,7 @@ void RunOutputs::finish(double real_time_factor, const std::string& failure) {
   if (failed || contacts_at_ != simulation_.time()) {
     if (read_at_ != simulation_.time()) read_contacts();
     write_bodies();
-    write_contacts();
+    if (!average_.empty()) write_contacts();  // what failed within a period may have written all up to its start
   }
   write_state(true, real_time_factor);
   if (failed || particles_at_ != simulation_.time()) write_particles();
@@ -252,7 +252,8 @@ void RunOutputs::write_contacts() {
     put(filtered_topics_[body], message);
   }
   if (wanted(topics::kForceMarkers)) {
-    put(topics::kForceMarkers, force_markers_.markers(contacts.bodies, options_.world_frame, stamp()));
+    put(topics::kForceMarkers,
+        force_markers_.markers(contacts.bodies, options_.world_frame, stamp(), tops_of(simulation_)));
   }
 }
 

@@ -1,23 +1,32 @@
 // rosrun mpm_ros watch [CONFIG.rviz] [_field:=NAME] [__ns:=NAMESPACE]: starts RViz with a view that fits the run at
 // hand, which it finds by its run_info; a namespace has to be named only where several runs go on, or where the run
 // starts later, as in a launch file. Waits for the first particles, writes the domain, the particles' size and their
-// field into the configuration (by default the package's config/rviz/mpm.rviz), and becomes RViz.
+// field into the configuration (by default the package's config/rviz/mpm.rviz), and starts RViz. While RViz is open it
+// publishes what RViz cannot make by itself: the particles in colours whose range outliers do not set, and a colour
+// bar.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <mpm_ros/RunInfo.h>
 #include <ros/callback_queue.h>
 #include <ros/package.h>
 #include <ros/ros.h>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <optional>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "mpm/scene/scene.hpp"
+#include "mpm_ros/message/particle_colours.hpp"
 #include "mpm_ros/message/run_namespaces.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/message/view.hpp"
@@ -70,8 +79,51 @@ std::string find_namespace() {
   return found.front();
 }
 
-/// The configuration for RViz: fitted to the run, or unchanged when no particles arrive.
-std::string fitted(const std::string& path, const std::string& field, const std::string& name_space) {
+/// What RViz is to show: a configuration fitted to the run, or unchanged when no particles arrive (then `view` is
+/// empty).
+struct Fitted {
+  std::string configuration;
+  std::optional<mpm_ros::View> view;
+};
+
+/// Publishes a run's particles in colours, and the colour bar, from each cloud that arrives.
+class Colourist {
+ public:
+  Colourist(const std::string& name_space, mpm_ros::View view)
+      : view_(std::move(view)),
+        colours_(view_.field),
+        coloured_(own_.advertise<sensor_msgs::PointCloud2>("particles", 1, true)),
+        bar_(own_.advertise<visualization_msgs::MarkerArray>("colour_bar", 1, true)),
+        subscriber_(ros::NodeHandle(name_space).subscribe(mpm_ros::topics::kParticles, 1, &Colourist::take, this)) {}
+
+ private:
+  void take(const sensor_msgs::PointCloud2ConstPtr& cloud) {
+    coloured_.publish(colours_.colour(*cloud));
+    bar_.publish(colours_.bar(view_, cloud->header.frame_id));
+  }
+
+  ros::NodeHandle own_{"~"};
+  const mpm_ros::View view_;
+  mpm_ros::ParticleColours colours_;
+  ros::Publisher coloured_, bar_;
+  ros::Subscriber subscriber_;
+};
+
+/// Waits for a program while callbacks are served; ends it when this node is told to end. Its exit code.
+int serve_until_end(pid_t program) {
+  int status = 0;
+  while (waitpid(program, &status, WNOHANG) == 0) {
+    if (!ros::ok()) {
+      kill(program, SIGTERM);
+      waitpid(program, &status, 0);
+      return 0;
+    }
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+Fitted fitted(const std::string& path, const std::string& field, const std::string& name_space) {
   std::ifstream file(path);
   std::stringstream text;
   text << file.rdbuf();
@@ -90,14 +142,18 @@ std::string fitted(const std::string& path, const std::string& field, const std:
   }
   if (!cloud) {
     ROS_WARN("no particles on %s yet: the view is the configuration's own", subscriber.getTopic().c_str());
-    return path;
+    return {path, {}};
   }
   const std::string fitted_file = fitted_path();
   std::ofstream out(fitted_file);
-  out << mpm_ros::with_view(text.str(), mpm_ros::view_of(*cloud, field, domain_of(info)),
-                            name_space == "/" ? name_space : name_space + "/");
+  mpm_ros::View view = mpm_ros::view_of(*cloud, field, domain_of(info));
+  if (!view.field.empty()) {
+    view.coloured = ros::names::resolve("~particles");
+    view.bar = ros::names::resolve("~colour_bar");
+  }
+  out << mpm_ros::with_view(text.str(), view, name_space == "/" ? name_space : name_space + "/");
   if (!out.flush()) throw std::runtime_error(fitted_file + " cannot be written");
-  return fitted_file;
+  return {fitted_file, view};
 }
 
 }  // namespace
@@ -105,34 +161,37 @@ std::string fitted(const std::string& path, const std::string& field, const std:
 int main(int argc, char** argv) {
   const mpm_ros::ParameterSources sources(argc, argv);
   std::vector<char*> words(argv, argv + argc);  // with the arguments that roslaunch appended, which RViz accepts too
-  ros::init(argc, argv, "watch");
+  ros::init(argc, argv, "watch", ros::init_options::AnonymousName);  // several can watch
   if (argc > 2) {
     ROS_FATAL("usage: rosrun mpm_ros watch [CONFIG.rviz] [_field:=NAME] [__ns:=NAMESPACE]");
     return 2;
   }
-  std::string configuration = argc == 2 ? argv[1] : ros::package::getPath("mpm_ros") + "/config/rviz/mpm.rviz";
+  Fitted shown{argc == 2 ? argv[1] : ros::package::getPath("mpm_ros") + "/config/rviz/mpm.rviz", {}};
+  std::unique_ptr<Colourist> colourist;
   try {
     const std::string name_space = find_namespace();
     ros::start();
     const auto field = ros::NodeHandle("~").param<std::string>("field", "");
     sources.forget();
-    configuration = fitted(configuration, field, name_space);
+    shown = fitted(shown.configuration, field, name_space);
+    if (shown.view && !shown.view->field.empty()) colourist = std::make_unique<Colourist>(name_space, *shown.view);
   } catch (const std::exception& error) {
     ROS_FATAL("watch: %s", error.what());
     return 2;
   }
-  const bool stopped = !ros::ok();
-  ros::shutdown();
-  if (stopped) return 0;
+  if (!ros::ok()) return 0;
   std::string rviz = "rviz", option = "-d";
-  std::vector<char*> command{rviz.data(), option.data(), configuration.data()};
+  std::vector<char*> command{rviz.data(), option.data(), shown.configuration.data()};
   for (std::size_t i = 1; i < words.size(); ++i) {
     const std::string word = words[i];
     const bool own = word[0] == '_' && word.compare(0, 2, "__") != 0;  // a parameter of watch
     if (word.find(":=") != std::string::npos && !own) command.push_back(words[i]);
   }
   command.push_back(nullptr);
-  execvp(rviz.c_str(), command.data());
-  ROS_FATAL("watch: rviz cannot be started; install it with scripts/install_packages rviz");
-  return 1;
+  pid_t program = 0;
+  if (posix_spawnp(&program, rviz.c_str(), nullptr, nullptr, command.data(), environ) != 0) {
+    ROS_FATAL("watch: rviz cannot be started; install it with scripts/install_packages rviz");
+    return 1;
+  }
+  return serve_until_end(program);
 }

@@ -2,6 +2,7 @@
 #include "mpm_ros/message/view.hpp"
 
 #include <gtest/gtest.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <sstream>
 
 #include "mpm_ros/message/particle_cloud.hpp"
+#include "mpm_ros/message/particle_colours.hpp"
 #include "test_files.hpp"
 
 namespace mpm_ros {
@@ -114,6 +116,73 @@ TEST(View, IsPutIntoTheShippedConfiguration) {
   const YAML::Node eye = manager["Views"]["Current"];
   EXPECT_EQ(eye["Distance"].as<double>(), 4.5);
   EXPECT_EQ(eye["Focal Point"]["Z"].as<double>(), 3.0);
+}
+
+TEST(View, ShowsTheColouredParticlesAndTheirBar) {
+  std::ifstream file(source_file("config/rviz/mpm.rviz"));
+  std::stringstream text;
+  text << file.rdbuf();
+  View view;
+  view.field = "ep";
+  view.coloured = "/watch_1/particles";
+  view.bar = "/watch_1/colour_bar";
+  const YAML::Node root = YAML::Load(with_view(text.str(), view, "/mpm/"));
+  const YAML::Node displays = root["Visualization Manager"]["Displays"];
+  for (const YAML::Node& display : displays) {
+    if (display["Class"].as<std::string>() != "rviz/PointCloud2") continue;
+    EXPECT_EQ(display["Topic"].as<std::string>(), "/watch_1/particles");
+    EXPECT_EQ(display["Color Transformer"].as<std::string>(), "RGB8");
+  }
+  const YAML::Node bar = displays[displays.size() - 1];
+  EXPECT_EQ(bar["Marker Topic"].as<std::string>(), "/watch_1/colour_bar");
+}
+
+/// A hundred particles along x with the values 0 to 98 and one outlier.
+sensor_msgs::PointCloud2 with_outlier(float outlier) {
+  mpm::ParticleColumns columns;
+  columns.values.resize(4);
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    columns.ids.push_back(i);
+    columns.values[0].push_back(static_cast<float>(i));
+    columns.values[1].push_back(0.0F);
+    columns.values[2].push_back(0.5F);
+    columns.values[3].push_back(i < 99 ? static_cast<float>(i) : outlier);
+  }
+  sensor_msgs::PointCloud2 cloud;
+  fill_cloud({"speed"}, columns, cloud);
+  return cloud;
+}
+
+TEST(ParticleColours, AnOutlierDoesNotSetTheRange) {
+  ParticleColours colours("speed");
+  const sensor_msgs::PointCloud2 coloured = colours.colour(with_outlier(1e6F));
+  EXPECT_EQ(colours.low(), 0.0);    // the 1st per cent, 0 or 1, lies so near to 0 that the range begins there
+  EXPECT_EQ(colours.high(), 98.0);  // the 99th
+  sensor_msgs::PointCloud2ConstIterator<float> x(coloured, "x"), z(coloured, "z");
+  sensor_msgs::PointCloud2ConstIterator<std::uint8_t> rgb(coloured, "rgb");
+  EXPECT_EQ(*(x + 7), 7.0F);
+  EXPECT_EQ(*(z + 7), 0.5F);
+  const auto sum = [&](int i) { return int((rgb + i)[0]) + int((rgb + i)[1]) + int((rgb + i)[2]); };
+  EXPECT_LT(sum(0), sum(50));
+  EXPECT_LT(sum(50), sum(98));
+  EXPECT_EQ(sum(98), sum(99));  // beyond the end: its colour
+}
+
+TEST(ParticleColours, TheRangeWidensAtOnceAndNarrowsSlowly) {
+  ParticleColours colours("speed");
+  sensor_msgs::PointCloud2 rest = with_outlier(0.0F);
+  for (sensor_msgs::PointCloud2Iterator<float> value(rest, "speed"); value != value.end(); ++value) *value = 0.0F;
+  colours.colour(rest);
+  EXPECT_EQ(colours.high(), 0.0);
+  colours.colour(with_outlier(0.0F));
+  EXPECT_EQ(colours.high(), 97.0);  // the second largest of 0, 0, 1 ... 98
+  colours.colour(rest);
+  EXPECT_NEAR(colours.high(), 0.95 * 97.0, 1e-12);
+  const visualization_msgs::MarkerArray bar = colours.bar(View(), "world");
+  ASSERT_EQ(bar.markers.size(), 4U);
+  EXPECT_EQ(bar.markers[1].text, "speed [m/s]");
+  EXPECT_EQ(bar.markers[2].text, "92.2");
+  EXPECT_EQ(bar.markers[3].text, "0");
 }
 
 TEST(View, RefusesWhatIsNoConfiguration) {

@@ -19,6 +19,11 @@ struct View {
   double floor = 0.0;                   ///< height of the lowest particle [m]
   double particle_size = 0.01;          ///< [m]
   std::string field;                    ///< that colours the particles; empty: none is there
+  std::string coloured;  ///< topic of the cloud with colours (rgb); empty: RViz colours the particles' own
+  std::string bar;       ///< topic of the colour bar's markers; empty: there is none
+
+  /// Of the sphere that fills the picture [m].
+  double radius() const;
 };
 
 /// All of the domain in the picture (empty: of the particles), each particle as large as their spacing; planar scenes

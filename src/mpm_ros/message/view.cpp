@@ -54,10 +54,24 @@ void fit_particles(YAML::Node display, const View& view) {
   display["Size (m)"] = view.particle_size;
   if (view.field.empty()) {
     display["Color Transformer"] = "FlatColor";
+  } else if (!view.coloured.empty()) {
+    display["Topic"] = view.coloured;
+    display["Color Transformer"] = "RGB8";
+    display["Name"] = "Colour: " + view.field;
   } else {
     display["Channel Name"] = view.field;
     display["Name"] = "Colour: " + view.field;
   }
+}
+
+YAML::Node bar_display(const std::string& topic) {
+  YAML::Node display;
+  display["Class"] = "rviz/MarkerArray";
+  display["Name"] = "Colour bar";
+  display["Enabled"] = true;
+  display["Marker Topic"] = topic;
+  display["Queue Size"] = 2;
+  return display;
 }
 
 void fit_grid(YAML::Node display, const View& view) {
@@ -73,6 +87,8 @@ void fit_grid(YAML::Node display, const View& view) {
 }
 
 }  // namespace
+
+double View::radius() const { return distance / kDistance; }
 
 View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field, const mpm::Box& domain) {
   std::vector<mpm::Vec3> points;
@@ -114,6 +130,7 @@ std::string with_view(const std::string& configuration, const View& view, const 
       if (type == "rviz/Grid") fit_grid(display, view);
       if (type == "rviz/TF") display["Marker Scale"] = 0.12 * view.distance;
     }
+    if (!view.bar.empty()) manager["Displays"].push_back(bar_display(view.bar));
     YAML::Node eye = manager["Views"]["Current"];
     eye["Distance"] = view.distance;
     eye["Yaw"] = view.yaw;

@@ -1,5 +1,6 @@
 """A simulator stepped in lockstep: a controller in a loop of its own. doc/python.md shows the use, doc/loop.md has the
 contract of `step`."""
+import contextlib
 import itertools
 import json
 import os
@@ -130,6 +131,7 @@ class Simulator:
         self._changes = []  # of the last reset
         self._clouds = None
         self._particles = None
+        self._interrupted = False
         self._closer = weakref.finalize(self, _close, self._process, self._connections, self._master)
         try:
             self._service("step")
@@ -162,18 +164,20 @@ class Simulator:
 
         Returns an Observation. Raises MpmError when a command is refused, the run has ended, or the physics fail."""
         commands = _commands(velocity, pose, wrench)
-        answer = self._call("step", duration=duration or 0.0, count=count or 0, commands=commands)
-        return Observation(answer, self._particles_at(answer.stamp))
+        with self._whole():
+            answer = self._call("step", duration=duration or 0.0, count=count or 0, commands=commands)
+            return Observation(answer, self._particles_at(answer.stamp))
 
     def reset(self, set=None):
         """Begins the scene again and returns the Observation at time zero. Also after a failure of the physics. `set`:
         changes to the scene, as in Simulator() and over those given there, for this run and the next ones; None: those of
         the last call."""
         changes = self._changes if set is None else _changes(set)
-        answer = self._call("reset_with", set=changes)
-        self._changes = changes
-        self._begin_run()
-        return Observation(answer, self._particles_at(answer.stamp))
+        with self._whole():
+            answer = self._call("reset_with", set=changes)
+            self._changes = changes
+            self._begin_run()
+            return Observation(answer, self._particles_at(answer.stamp))
 
     def save_checkpoint(self, path):
         """Saves the run, to the bit. Returns the file's absolute path. A relative path starts from the node's folder,
@@ -182,9 +186,10 @@ class Simulator:
 
     def load_checkpoint(self, path):
         """Goes on from a checkpoint of the same scene. Returns its simulated time [s]."""
-        answer = self._call("load_checkpoint", path=os.fspath(path))
-        self._begin_run(answer.stamp)
-        return answer.time
+        with self._whole():
+            answer = self._call("load_checkpoint", path=os.fspath(path))
+            self._begin_run(answer.stamp)
+            return answer.time
 
     def solver_state(self):
         """Steps, energies, audit of momentum and so on, as in mpm_ros/SolverState, at the last sync point."""
@@ -205,16 +210,35 @@ class Simulator:
     def _service(self, name):
         if not self._closer.alive:
             raise MpmError("this simulator is closed")
-        if name not in self._connections:
+        if name not in self._connections or self._connections[name].closed:
             with self._failures("it was connected to"):
                 uri = wire.wait_for_service(self._master, self._name(name), self._alive)
                 self._connections[name] = wire.ServiceClient(self._name(name), _service_class(name), uri, self._caller)
         return self._connections[name]
 
+    @contextlib.contextmanager
+    def _whole(self):
+        """For a call of several parts: where it is interrupted, by Ctrl-C for example, the next one asks for the state of
+        things anew."""
+        try:
+            yield
+        except MpmError:
+            raise
+        except BaseException:
+            self._interrupted = True
+            raise
+
     def _call(self, name, **fields):
+        interrupted = self._interrupted
+        if interrupted and self._clouds is not None:
+            self._follow_particles(self._particle_period)
         service = self._service(name)
         with self._failures(f"it was asked to {name.replace('_', ' ')}"):
             answer = service.call(**fields)
+        if interrupted:
+            # The node has answered, so the call that was interrupted is done.
+            self.info = self._latched("run_info")
+            self._interrupted = False
         if not answer.success:
             raise MpmError(answer.message)
         return answer
@@ -249,6 +273,9 @@ class Simulator:
     def _follow_particles(self, period):
         self._particle_period = period
         self._check_particle_period()
+        if self._clouds is not None:
+            self._clouds.close()
+        self._particles = None
         self._clouds = self._connections["particles"] = self._reader("particles")
         # The node's one thread for connections has accepted the first before it answers the second. What was published
         # before, such as the snapshot of time zero, does not come.

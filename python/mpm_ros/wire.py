@@ -64,7 +64,11 @@ def _open(host, port, header):
 
 
 class ServiceClient:
-    """One connection to a service, kept. `uri`: rosrpc://host:port, from the master."""
+    """One connection to a service, kept. `uri`: rosrpc://host:port, from the master.
+
+    closed  whether close() was called, or a call was interrupted: what is left of its answer on the connection would
+            be taken for the answer to the next request
+    """
 
     def __init__(self, name, service_class, uri, caller):
         self._class = service_class
@@ -72,24 +76,31 @@ class ServiceClient:
         address = urlparse(uri)
         self._connection = _open(address.hostname, address.port, {
             "callerid": caller, "service": name, "md5sum": service_class._md5sum, "persistent": "1"})
+        self.closed = False
 
     def call(self, **fields):
         """The decoded answer to a request with these fields. Raises one of LOST when the node is gone."""
         request = io.BytesIO()
         self._class._request_class(**fields).serialize(request)
-        self._connection.sendall(_LENGTH.pack(request.tell()) + request.getvalue())
-        succeeded = _receive(self._connection, 1)[0]
-        answer = _receive_message(self._connection)
+        try:
+            self._connection.sendall(_LENGTH.pack(request.tell()) + request.getvalue())
+            succeeded = _receive(self._connection, 1)[0]
+            answer = _receive_message(self._connection)
+        except BaseException:
+            self.close()
+            raise
         if not succeeded:
             raise MpmError(answer.tobytes().decode(errors="replace"))
         return decode(self._class._response_class, answer)
 
     def close(self):
+        self.closed = True
         self._connection.close()
 
 
 class TopicReader:
-    """Messages of one publisher of a topic. `node`: its name at the master."""
+    """Messages of one publisher of a topic. `node`: its name at the master. Closed when a message was interrupted, as
+    ServiceClient."""
 
     def __init__(self, name, message_class, node, master, caller):
         self._name = name
@@ -101,14 +112,21 @@ class TopicReader:
         self._connection = _open(protocol[1], protocol[2], {
             "callerid": caller, "topic": name, "md5sum": message_class._md5sum, "type": message_class._type,
             "tcp_nodelay": "1"})
+        self.closed = False
 
     def receive(self, timeout):
         """The next message, decoded. Raises MpmError when none has begun to come after `timeout` [s] of wall time."""
         if not select.select([self._connection], [], [], timeout)[0]:
             raise MpmError(f"no message on {self._name} in {timeout:g} s")
-        return decode(self._class, _receive_message(self._connection))
+        try:
+            message = _receive_message(self._connection)
+        except BaseException:
+            self.close()
+            raise
+        return decode(self._class, message)
 
     def close(self):
+        self.closed = True
         self._connection.close()
 
 

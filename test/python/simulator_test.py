@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The lockstep client against nodes that it starts, with a master of its own and at one that runs. 25 s."""
+import contextlib
 import os
 import signal
 import subprocess
@@ -91,6 +92,46 @@ class Stepping(unittest.TestCase):
             sim.step()
         with self.assertRaisesRegex(mpm_ros.MpmError, "in lockstep"):
             press(pacing="free")
+
+
+class Interrupted(Exception):
+    """Raised by a timer, as Ctrl-C raises KeyboardInterrupt."""
+
+
+@contextlib.contextmanager
+def interrupted_after(seconds):
+    """The block is interrupted after this many seconds of wall time, and has to be."""
+    def interrupt(*_):
+        raise Interrupted
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+        yield
+        raise AssertionError(f"it took less than {seconds} s")
+    except Interrupted:
+        pass
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+class Interruptions(unittest.TestCase):
+    def test_the_next_call_has_its_own_answer(self):
+        # 2000 sync periods take some 0.5 s, their interruption comes long before.
+        with press(set={"time.end": 1000, "time.sync": SYNC}, particle_period=SYNC) as sim:
+            sim.step()
+            with interrupted_after(0.05):
+                sim.step(count=2000)
+            for count in (2002, 2003):  # the node has completed the interrupted step
+                obs = sim.step(count=1)
+                self.assertAlmostEqual(obs.time, count * SYNC, delta=1e-9)
+                self.assertAlmostEqual(obs.particles.time, obs.time, delta=1e-9)
+            with interrupted_after(0.05):
+                sim.step(count=2000)
+            obs = sim.reset()
+            self.assertEqual((obs.time, obs.particles.time), (0.0, 0.0))
+            self.assertEqual(sim.step().time, SYNC)
 
 
 class ParticleClouds(unittest.TestCase):

@@ -76,6 +76,7 @@ std::vector<Case> cases() {
   };
   // Shape functions with update schemes and transfers, each at least once.
   add(kPlane, "dirac_usf_flip", {"method.shape=dirac", "method.update=usf", "method.transfer={flip: 0.99}"});
+  add(kTool, "usf_slip_wall", {"method.update=usf"});
   add(kPlane, "ugimp_usl_pic", {"method.update=usl", "method.transfer=pic"});
   add(kPlane, "ugimp_usavg_xpic", {"method.transfer={xpic: 3}"});
   add(kPlane, "stretch_usf_fmpm", {"method.shape=ugimp_stretch", "method.update=usf", "method.transfer={fmpm: 2}"});

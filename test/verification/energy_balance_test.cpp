@@ -1,6 +1,6 @@
 // The energy of soil that a tool pushes, or that falls and spreads: what is stored and what plastic flow, friction on
 // tools and walls and the transfer between particles and grid have taken is the work done on it. Each term is counted
-// by itself. USL is left out: it loses energy by itself, which has no account. Source: balance of energy. 4 s.
+// by itself. USL is left out: it loses energy by itself, which has no account. Source: balance of energy. 5 s.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -72,6 +72,26 @@ TEST_P(EnergyBalance, OfSandBeforeABlade) { expect_balance(GetParam(), "1", "fri
 // The transfer takes a part of the particles' velocity that the grid does not see, which is the energy of sand that
 // flies as well as of its noise.
 TEST_P(EnergyBalance, WithWhatTheTransferTakes) { expect_balance(GetParam(), "0.9", "transfer"); }
+
+// A column of sand falls on a fixed floor and flows into the corners of a box whose sides are fixed, too.
+TEST(EnergyBalanceOfWalls, OfSandThatFallsIntoABox) {
+  for (const char* update : {"usf", "usavg"}) {
+    mpm::Simulation simulation = from_text(fmt::format(
+        "geometry: plane_strain\ngravity: [0, -9.81]\n"
+        "grid: {{cell: 0.02, min: [0, 0], max: [0.4, 0.4]}}\ntime: {{end: 0.5, sync: 5 ms}}\n"
+        "method: {{update: {}}}\n"
+        "materials: [{{name: sand, density: 1600, young: 1 MPa, poisson: 0.3, law: drucker_prager, friction_angle: 30 "
+        "deg}}]\n"
+        "bodies: [{{name: column, material: sand, shape: {{box: {{min: [0.04, 0.04], max: [0.2, 0.32]}}}}}}]\n"
+        "boundaries: {{x_min: fixed, x_max: fixed, z_min: fixed}}\n",
+        update));
+    const mpm::EnergyReport before = simulation.state().energy;
+    run_until(simulation, 0.5);
+    const mpm::EnergyReport after = simulation.state().energy;
+    expect_closed(before, after);
+    EXPECT_GT(after.of("wall_loss"), -kOpen * since(before, after, "potential")) << "the test would not see it";
+  }
+}
 
 }  // namespace energy_balance_test
 }  // namespace verification

@@ -72,15 +72,17 @@ class Wall final : public FieldStage {
   struct Node {
     NodeRef ref;
     std::uint64_t id;
-    Hold hold;                   ///< in the step before, then in this one
-    Vec3 at_end = Vec3::Zero();  ///< grid axes; of a wall that always holds: factor of c1 in what it takes [N s]
+    Hold hold;  ///< in the step before, then in this one
+    // Of a wall that always holds, along the grid's axes:
+    Vec3 removed = Vec3::Zero();  ///< velocity for strain at the start of the step; 0 after another wall [m/s]
+    Vec3 at_end = Vec3::Zero();   ///< factor of c1 in what it takes [N s]
   };
   bool always_holds() const { return definition_.kind != WallKind::frictional; }
   /// Grid axes [first, end) along which a wall that always holds does so.
   std::pair<int, int> held_axes(const GridLayout& layout) const;
-  /// What a wall that always holds takes at a node by the start of the step, by an impulse [N s], with how it held the
-  /// node before; before_strain() adds that by its end. It is NodeLoss with a slip of 0, and c = -V along the axes
-  /// held.
+  /// Books what a wall that always holds takes at a node by the start of the step, by an impulse [N s], and keeps for
+  /// before_strain() what it will take by the end. With USF, where nothing is gathered any more, it books both if it
+  /// held the node in the step before. It is NodeLoss with a slip of 0, and c = -V along the axes held.
   void hold_up(Node& node, const FieldContext& context, const Vec3& impulse, Hold before);
   /// Frictional: how the wall holds the node; else what it always does.
   ContactChange change(const Vec3& velocity, const Vec3& normal) const;
@@ -95,7 +97,7 @@ class Wall final : public FieldStage {
   std::vector<Node> nodes_;
   std::vector<NodeLoss> losses_;  ///< frictional only: at nodes_, in this step
   bool acted_ = false;            ///< whether the step's impulses were given
-  HeldNodes held_;                ///< frictional only
+  HeldNodes held_;                ///< of a frictional wall, and with USF
   std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
 };
 

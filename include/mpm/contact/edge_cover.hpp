@@ -19,10 +19,12 @@
 // What acts on the node beyond pulls at the plane that continues the face. Soil that is pressed from the other side of
 // that plane, as beside the edge of a blade in the ground, is pressed less; at a free surface, as beside a footing,
 // nothing can be pulled. So only the part f of it acts, the lesser of the masses of the node beyond and of the one
-// behind that, over the mass of node i, at most 1, and node i gets r_i (s_i + f (1 - s_i)) J: the sum is 1 for every f,
-// and no light node is pulled faster than node i is pushed. What the nodes take over is then less than the tool's work
-// by (1 - f) J . sum r_i (1 - s_i)(u_i - U_i), the rate at which the material is cut inside the cells at the edge. Of U
-// the part 1 - f is that before the impulses, so that points answer each other symmetrically for every f, too.
+// behind that, over the mass of node i, at most 1, so that no light node is pulled faster than r_i J would push node i;
+// and node i gets r_i (s_i + f_i (1 - s_i)) J: the sum is 1 for every f. Of U_i the part 1 - f_i is that before the
+// impulses, so that points answer each other symmetrically: exactly along the grid's axes, within a few per cent where
+// an edge is oblique, since the node nearest to one cell further out is less far then. What the nodes take over is less
+// than the tool's work by J . sum r_i (1 - f_i)(1 - s_i)(u_i - U_i), with U_i before the impulses: the work of cutting
+// the material inside the cells at the edge.
 //
 // The cover is 1 half a cell inside the edge, 0 half a cell outside, and linear between: with t out of the face across
 // its edge, h the length of a cell along t, and d n the signed distance and normal of the tool at x_i + (h/2) t, it is

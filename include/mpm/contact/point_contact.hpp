@@ -28,8 +28,10 @@
 // step/node_loss.hpp derives it for nodes, less friction and cutting. At a point p, with weights w of nodes,
 //   -J.(U0 + U1)/2 + a (I0.D - J.c0) + b (I1.D - J.c1),   D = sum w (dv - g dt),
 // U the slip sum w V - v that particles have at the ends of the step, c the change of sum w V that contact makes there
-// for strain, and I the impulses by which it does. With USF, whose particles are not gathered again in the step, U1 is
-// the U0 of the next step at the same particle.
+// for strain, and I the impulses by which it does. (F dt is m (dv - g dt) less all impulses of contact; summed over
+// points, which share nodes, F dt.c is I.D - J.c.) With USF, whose particles are not gathered again in the step, U1 is
+// the U0 of the next step at the same particle: the account is complete a step later, takes the two steps to be as
+// long, and leaves this term out for a particle that has no point then.
 //
 // A point that comes under a surface from beside it, or starts there, keeps its initial overlap.
 //
@@ -93,7 +95,7 @@ class PointContact final : public Stage, public ContactReporter {
   /// A point at one end of the step.
   struct End {
     Vec3 slip = Vec3::Zero();     ///< of the material, as particles carry it, against the body [m/s]
-    Vec3 change = Vec3::Zero();   ///< by contact, for strain [m/s]
+    Vec3 change = Vec3::Zero();   ///< of that by contact, for strain [m/s]
     Vec3 impulse = Vec3::Zero();  ///< by which contact makes that change [N s]
   };
   /// Data that the stage keeps for each point of the solver, in the same order.

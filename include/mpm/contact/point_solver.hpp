@@ -3,7 +3,8 @@
 // impulse there goes to the same nodes with the same weights; near the edge of a face as contact/edge_cover.hpp has it.
 //
 // The points of one block of the grid follow each other, and blocks are taken by colour, so that blocks of one colour
-// share no node: many points are solved on several threads, with the same bits for any number of them.
+// share no node: many points are solved on several threads, with the same bits for any number of them. With cubic
+// splines and a point near an edge one thread solves them.
 //
 // The velocity of a free body is an unknown like those of the nodes: the compliance of a point is the sum of the nodes'
 // part and the body's, n.(1/M + (r x n) I^-1 (r x n)) along the normal, and an impulse changes both. Sweeps are then
@@ -75,7 +76,7 @@ class PointSolver {
   void store(Member to, double factor = 1.0);
   Vec3 velocity_at(const Point& point) const;
   /// The velocity that the nodes do not take over, near an edge on a free surface [m/s]; 0 elsewhere. An impulse times
-  /// it is the power that is lost where material is cut (edge_cover.hpp).
+  /// it is the energy that is lost where material is cut (edge_cover.hpp).
   Vec3 cut_at(const Point& point) const;
   /// Applies the points' impulses to nodes and to free bodies.
   void push_all();
@@ -141,6 +142,7 @@ class PointSolver {
   ShapeKind shape_;
   int threads_;
   int solving_threads_ = 0;
+  bool any_at_edge_ = false;  ///< whether a point lies near an edge
   std::vector<Point> points_;
   std::vector<Part> parts_;
   std::vector<Node> nodes_;

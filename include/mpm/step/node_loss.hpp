@@ -15,11 +15,10 @@
 // energy of motion that is held up, of a blow or of particles that move past a node which is held: F dt is the node's
 // change of momentum less its weight and J. Nothing of earlier steps is needed.
 //
-// V1 is known after the step's impulse, and end() adds its terms. With USF, whose particles are not gathered again in
-// the step, act() has the last word: it takes the slip that the impulse leaves on the grid in the place of u1, and for
-// c1 what is expected, c0 where the node was held before.
-// Gravity, whose work is in the potential energy, is no part of F. Weak: loads are; the difference is their impulse
-// times (c0 + c1)/2.
+// strain() is told V0 and c0 before the impulse, V1 and c1 after it. With USF, whose particles are not gathered again
+// in the step, act() has the last word: it takes the slip that the impulse leaves on the grid in the place of u1, and
+// for c1 what is expected, c0 where the node was held before. Gravity, whose work is in the potential energy, is no
+// part of F. Weak: loads are; the difference is their impulse times (c0 + c1)/2.
 #pragma once
 
 #include "mpm/math/geometry.hpp"
@@ -47,47 +46,45 @@ class NodeLoss {
     Vec3 weight;                   ///< times the step [N s]
     Vec3 impulse;                  ///< on the material [N s]
     Vec3 start;                    ///< gathered at the start of the step
-    Vec3 seen;                     ///< the same with the change that contact makes for strain
+    Vec3 change;                   ///< that contact makes for strain at the start, or would with USL
     Vec3 left;                     ///< that the impulse leaves on the grid
-    Vec3 expected;                 ///< change that contact will make for strain
+    Vec3 expected;                 ///< change that contact will make for strain at the end
     double strain_at_start = 0.5;  ///< StepContext::strain_at_start
   };
-  /// An impulse of the step, of which a wall may give two. Returns what it takes by the start of the step.
+  /// The impulse of the step. Returns what it takes by the start of the step.
   SurfaceLoss act(const Act& act) {
-    const Vec3 pressing = act.impulse.dot(act.normal) * act.normal, along = act.impulse - pressing;
-    Vec3 pulled = act.mass * (act.left - (acted_ ? left_ : act.start)) - act.impulse;
-    if (!acted_) pulled -= act.weight;
     acted_ = true;
-    pressing_ += pressing;
-    along_ += along;
-    pulled_ += pulled;
-    left_ = act.left;
+    pressing_ = act.impulse.dot(act.normal) * act.normal;
+    along_ = act.impulse - pressing_;
+    pulled_ = act.mass * (act.left - act.start) - act.impulse - act.weight;
     at_end_ = 1.0 - act.strain_at_start;
-    SurfaceLoss taken = lost(pressing, along, pulled, act.seen, act.seen - act.start, act.strain_at_start);
-    if (at_end_ == 0.0) taken += lost(pressing, along, pulled, act.left, act.expected, at_end_);
+    // What an earlier surface took at the node is no part of the change.
+    const Vec3 change = act.strain_at_start > 0.0 ? change_ : act.change;
+    SurfaceLoss taken = lost(act.start + change, change, act.strain_at_start);
+    if (at_end_ == 0.0) taken += lost(act.left, act.expected, at_end_);
     return taken;
   }
-  /// At the end of the step the velocity that was gathered, and the one that strain sees. Returns what this adds;
-  /// nothing before act(), and with USF.
-  SurfaceLoss end(const Vec3& gathered, const Vec3& seen) {
+  /// The velocity that was gathered, and the change that contact makes for strain. Returns what this adds at the end of
+  /// the step; nothing before act(), and with USF.
+  SurfaceLoss strain(const Vec3& gathered, const Vec3& change) {
     SurfaceLoss more;
-    if (at_end_ > 0.0) more = lost(pressing_, along_, pulled_, seen, seen - gathered, at_end_);
+    if (acted_ && at_end_ > 0.0) more = lost(gathered + change, change, at_end_);
     *this = {};
+    change_ = change;
     return more;
   }
 
  private:
   /// The terms of one end of the step, which has this part of the strain.
-  static SurfaceLoss lost(const Vec3& pressing, const Vec3& along, const Vec3& pulled, const Vec3& slip,
-                          const Vec3& change, double strain) {
-    return {-0.5 * along.dot(slip),
-            0.5 * ((pressing + along).dot(change) - pressing.dot(slip)) + strain * pulled.dot(change)};
+  SurfaceLoss lost(const Vec3& slip, const Vec3& change, double strain) const {
+    return {-0.5 * along_.dot(slip),
+            0.5 * ((pressing_ + along_).dot(change) - pressing_.dot(slip)) + strain * pulled_.dot(change)};
   }
 
   bool acted_ = false;                                   ///< in this step
+  Vec3 change_ = Vec3::Zero();                           ///< for strain at the start of the step [m/s]
   Vec3 pressing_ = Vec3::Zero(), along_ = Vec3::Zero();  ///< parts of the impulse [N s]
   Vec3 pulled_ = Vec3::Zero();                           ///< F dt [N s]
-  Vec3 left_ = Vec3::Zero();                             ///< [m/s]
   double at_end_ = 0.5;                                  ///< part of the strain at the end of the step
 };
 

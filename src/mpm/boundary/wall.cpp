@@ -71,9 +71,9 @@ void Wall::hold_up(Node& node, const FieldContext& context, const Vec3& impulse,
     const double momentum = grid.momentum.at(node.ref.block, k, node.ref.node), given = impulse[axis];
     const double pulled = -momentum - mass * context.dt * gravity_[axis] - given;
     node.at_end[k] = 0.5 * given + (1.0 - at_start) * pulled;
-    double held = 0.5 * given + at_start * pulled;
+    double held = 0.5 * given;
     if (at_start == 1.0 && before != Hold::free) held += node.at_end[k];  // nothing is gathered any more
-    loss_.held -= held * momentum / mass;
+    loss_.held -= held * momentum / mass + at_start * pulled * node.removed[k];
   }
 }
 
@@ -81,10 +81,14 @@ void Wall::before_strain(FieldContext& context) {
   Grid& grid = context.grid;
   if (always_holds()) {
     const auto [first, end] = held_axes(grid.layout);
-    for (const Node& node : nodes_) {
+    for (Node& node : nodes_) {
       for (int k = first; k < end; ++k) {
         double& velocity = grid.velocity.at(node.ref.block, k, node.ref.node);
-        if (acted_) loss_.held -= node.at_end[k] * velocity;
+        if (acted_) {
+          loss_.held -= node.at_end[k] * velocity;
+        } else {
+          node.removed[k] = velocity;
+        }
         velocity = 0.0;
       }
     }
@@ -95,7 +99,7 @@ void Wall::before_strain(FieldContext& context) {
     const Node& node = nodes_[i];
     const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
     const Vec3 change = strain_change(velocity, n, definition_.friction, node.hold);
-    loss_ += losses_[i].end(velocity, velocity + change);
+    loss_ += losses_[i].strain(velocity, change);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
   }
 }
@@ -117,13 +121,14 @@ void Wall::momentum_updated(FieldContext& context) {
       if (!acted_) hold_up(node, context, mass * dv, held);
     } else {
       const Vec3 start = nodal_vector(grid.momentum, grid.layout, node.ref) / mass;
-      const Vec3 seen = start + strain_change(start, n, definition_.friction, held);
-      const Vec3 expected = held == Hold::free ? Vec3(Vec3::Zero()) : Vec3(seen - start);
-      loss_ += losses_[i].act({mass, n, mass * context.dt * gravity_, mass * dv, start, seen, velocity + dv, expected,
-                               context.strain_at_start});
+      const Vec3 strained = strain_change(start, n, definition_.friction, held);
+      const Vec3 expected = held == Hold::free ? Vec3(Vec3::Zero()) : strained;
+      loss_ += losses_[i].act({mass, n, mass * context.dt * gravity_, mass * dv, start, strained, velocity + dv,
+                               expected, context.strain_at_start});
     }
     if (hold == Hold::free) continue;
-    if (!always_holds()) held_.add(node.id, hold);
+    // How a wall that always holds held before decides with USF alone, in hold_up().
+    if (!always_holds() || context.strain_at_start == 1.0) held_.add(node.id, hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, dv);
     add_nodal_vector(grid.force, grid.layout, node.ref, dv / context.dt);
     given_ += mass * dv;

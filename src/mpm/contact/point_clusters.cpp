@@ -27,7 +27,8 @@ void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
     const auto [nodes_count, at_edge] =
         sharp_ ? edges_.apply(found[i], grid, nodes, weights.count) : EdgeCover::Nodes{weights.count, false};
     found_at_edge_[i] = at_edge;
-    // That of the nearest node, as of a particle: blocks of one colour then share no node, with splines either.
+    // That of the nearest node, as of a particle: blocks of one colour then share no node (but see
+    // sweep_prescribed() for cubic splines).
     std::array<int, 3> block{};
     for (int k = 0; k < layout.dim() && nodes_count > 0; ++k) {
       const int node = GridLayout::nearest(layout.in_cells(k, found[i].place[layout.axis(k)]));
@@ -82,6 +83,7 @@ void PointSolver::add(const ContactPoint& contact, int found) {
   point.place = contact.place;
   point.found = found;
   point.at_edge = found_at_edge_[found] != 0;
+  any_at_edge_ = any_at_edge_ || point.at_edge;
   point.first = static_cast<int>(parts_.size());
   const Grid& grid = *fields_[contact.field];
   const int per_block = grid.layout.nodes_per_block();
@@ -111,6 +113,7 @@ void PointSolver::connect(const std::vector<ContactPoint>& found) {
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     slot_[f].resize(static_cast<std::size_t>(fields_[f]->blocks.size()) * per_block, -1);
   }
+  any_at_edge_ = false;
   points_.clear();
   parts_.clear();
   nodes_.clear();

@@ -47,8 +47,8 @@ void PointContact::momentum_gathered(StepContext& context) {
     const Contact& contact = contacts_.back();
     const PointMemory::Entry* memory = memory_.find(*contact.found);
     if (memory == nullptr || context.strain_at_start < 1.0) continue;
-    const double lost = -0.5 * context.dt * memory->force.dot(contact.first.slip);  // the end of the step before
-    ledgers_[contact.found->body].add_loss({0.0, lost});
+    const double before = -0.5 * context.dt * memory->force.dot(contact.first.slip);  // by the end of that step
+    ledgers_[contact.found->body].add_loss({0.0, before});
   }
 }
 

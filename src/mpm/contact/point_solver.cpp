@@ -163,8 +163,7 @@ void PointSolver::relax(const Cluster& cluster, bool back, Progress& progress) {
 template <PointSolver::Pass Kind>
 void PointSolver::sweep_prescribed() {
   // Cubic splines reach so far that the nodes beyond edges may belong to two blocks of one colour.
-  const bool shared = sharp_ && shape_ == ShapeKind::bspline3;
-  const int threads = shared ? 1 : threads_for(static_cast<int>(points_.size()));
+  const int threads = any_at_edge_ && shape_ == ShapeKind::bspline3 ? 1 : threads_for(static_cast<int>(points_.size()));
   const int colours = static_cast<int>(colour_begin_.size()) - 1;
   Progress all[2];  // of this sweep, and of the next
 #pragma omp parallel num_threads(threads)

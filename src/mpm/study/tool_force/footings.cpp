@@ -2,10 +2,10 @@
 // or a disc about the axis. With associated flow the limit load is exact: of clay (2 + pi) c under a strip and 5.69 c
 // (smooth) or 6.05 c (rough) under a disc; N_c c and N_q q of weightless soil with friction, where a pressure q acts on
 // the surface beside the strip; N_gamma of sand with weight. Cells count over the width B; the footing's edge lies on a
-// node. A strip on soil that dilates must be slow, for the soil in its fan is much faster than it. The soil is stiff, so
-// that the limit is reached at a hundredth of the width: a footing that has sunk by s has soil beside it, up to 3 s high
-// at 30 degrees, which the exact loads do not know. Weak: that is still 0.6 % of the load on clay and 1.3 % of N_q, and
-// where sand has weight about N_q rho g s.
+// node. A strip on soil that dilates must be slow, for the soil in its fan is much faster than it. The soil is so stiff
+// that the limit is reached before the mean begins, at 0.75 % of the width. Soil rises beside a footing that sinks, up
+// to three times as far at 30 degrees, and the exact loads leave that out. Weak: where it has sunk by 1 % of the width,
+// this adds 0.6 % to the load on clay and 1.3 % to N_q, and N_q rho g s where sand has weight.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -18,6 +18,7 @@ _LEVELS = {"DEBUG": logging.DEBUG, "INFO": logging.INFO, "WARN": logging.WARNING
            "FATAL": logging.CRITICAL}
 _LINE = re.compile(r"\[ *(DEBUG|INFO|WARN|ERROR|FATAL)\] (.*)")
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+_SIGNALLED = 128  # and a signal's number: exit code of what it killed
 _KEPT = 20  # last lines of output, for a node that ends without a sentence of its own
 
 
@@ -64,6 +65,7 @@ class NodeProcess:
         self.sentence = ""  # the node's last one of severity FATAL
         self.exit_code = None
         self._kept = kept
+        self._owner = os.getpid()
         self._last_lines = []
         task = {"program": program, "namespace": namespace, "parameters": parameters, "own_master": own_master}
         # In a session of its own, so that Ctrl-C reaches the client alone, which then ends the node.
@@ -107,18 +109,26 @@ class NodeProcess:
         self.end()
         sentence = self.sentence
         if not sentence:
-            sentence = f"the simulator ended with {self.exit_code} while {doing}"
+            how = f"ended with {self.exit_code}"
+            if self.exit_code > _SIGNALLED:
+                how = f"was killed by signal {self.exit_code - _SIGNALLED}"
+            sentence = f"the simulator {how} while {doing}"
             if self._last_lines:
                 sentence += "; its last line: " + self._last_lines[-1]
         return MpmError(sentence, self.exit_code)
 
     def end(self):
-        """Ends the node in order, and the master: the bag is closed when this returns. Returns the exit code."""
+        """Ends the node in order, and the master: the bag is closed when this returns. Returns the exit code; None in a
+        fork of the process that started the node, which it leaves alone."""
         if self.exit_code is None:
             self._process.stdin.close()
+            if os.getpid() != self._owner:
+                return None
+            self._process.terminate()  # a fork may hold the pipe too
             if self._listener.ident is not None:
                 self._listener.join()
-            self.exit_code = self._process.wait()
+            exit_code = self._process.wait()
+            self.exit_code = exit_code if exit_code >= 0 else _SIGNALLED - exit_code
             self._process.stdout.close()
             if self._kept is not None:
                 self._kept.close()

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import mpm_ros
@@ -192,8 +193,9 @@ class Failures(unittest.TestCase):
             sim.step()
             for process in processes_with(f"{program('simulator')} __ns:={namespace}"):
                 os.kill(process, signal.SIGKILL)
-            with self.assertRaisesRegex(mpm_ros.MpmError, "the simulator ended"):
+            with self.assertRaisesRegex(mpm_ros.MpmError, "the simulator was killed by signal 9") as raised:
                 sim.step()
+            self.assertEqual(raised.exception.exit_code, 128 + 9)
             self.assertEqual(processes_with(namespace), [])
 
 
@@ -223,6 +225,27 @@ class Endings(unittest.TestCase):
                 uri = sim.master_uri
                 sim.step(velocity={"plate": (0, 0, 1 / 0)})
         self.expect_nothing_left("/throwing", uri)
+
+    def test_a_fork_of_the_program_neither_ends_the_node_nor_keeps_it(self):
+        namespace = f"/forking_{os.getpid()}"
+        with press(namespace=namespace) as sim:
+            uri = sim.master_uri
+            forks = []
+            for seconds in (0, 60):
+                fork = os.fork()
+                if fork == 0:
+                    if seconds == 0:
+                        sim.close()
+                    time.sleep(seconds)
+                    os._exit(0)
+                forks.append(fork)
+            self.addCleanup(os.waitpid, forks[1], 0)
+            self.addCleanup(os.kill, forks[1], signal.SIGKILL)
+            os.waitpid(forks[0], 0)
+            self.assertEqual(sim.step().time, SYNC)
+            begin = time.monotonic()
+        self.assertLess(time.monotonic() - begin, 20.0)  # the second fork still holds the pipe
+        self.expect_nothing_left(f"__ns:={namespace}", uri)
 
     def start_other(self, namespace):
         """A program that steps for ever; its output is the address of its master, and then nothing."""
@@ -277,6 +300,13 @@ class RunningMaster(unittest.TestCase):
             names = {other.communicate()[0].strip() for other in others}
             self.assertEqual([other.returncode for other in others], [0] * 4)
             self.assertEqual(len(names - {""}), 4)
+
+    def test_a_node_outlives_its_master_with_its_exit_code(self):
+        with running_master():
+            sim = press()
+            sim.step()
+        sim.close()
+        self.assertEqual(sim._process.exit_code, 0)
 
     def test_connecting_without_a_master_says_so_at_once(self):
         with self.assertRaisesRegex(mpm_ros.MpmError, "no master answers"):

@@ -176,7 +176,7 @@ class Simulator:
         with self._whole():
             answer = self._call("reset_with", set=changes)
             self._changes = changes
-            self._begin_run()
+            self._begin_run(answer.stamp)
             return Observation(answer, self._particles_at(answer.stamp))
 
     def save_checkpoint(self, path):
@@ -280,31 +280,36 @@ class Simulator:
         # The node's one thread for connections has accepted the first before it answers the second. What was published
         # before, such as the snapshot of time zero, does not come.
         self._clouds_after = self._latched("solver_state").header.stamp
+        self._first_cloud = None
 
-    def _begin_run(self, stamp=None):
-        """After a reset or a load: the node has published a snapshot of the state at `stamp`, by default time zero."""
+    def _begin_run(self, stamp):
+        """After a reset or a load: the node has published a snapshot of the state at `stamp`. What comes before it is
+        of the run before; its stamps may be later (~reset_time "zero")."""
         self.info = self._latched("run_info")
         if self._clouds is not None:
             self._check_particle_period()  # another scene may have another sync period
         self._particles = None
         self._clouds_after = None
-        self._first_cloud = self.info.start if stamp is None else stamp
+        self._first_cloud = stamp
 
     def _particles_at(self, stamp):
         """The last snapshot up to `stamp`, which may come after the answer to the step."""
         if self._clouds is None:
             return None
         due = stamp - (stamp - self.info.start) % self._cloud_period
-        if self._clouds_after is not None:
-            if due <= self._clouds_after:
-                return None
-        else:
-            due = max(due, self._first_cloud)
+        if self._clouds_after is not None and due <= self._clouds_after:
+            return None
+        while self._first_cloud is not None:
+            cloud = self._receive_cloud()
+            if cloud.header.stamp == self._first_cloud:
+                self._particles, self._first_cloud = Particles(cloud, self.info.start), None
         while self._particles is None or self._particles.stamp < due:
-            with self._failures("its particles were waited for"):
-                cloud = self._clouds.receive(_CLOUD_PATIENCE)
-            self._particles = Particles(cloud, self.info.start)
+            self._particles = Particles(self._receive_cloud(), self.info.start)
         return self._particles
+
+    def _receive_cloud(self):
+        with self._failures("its particles were waited for"):
+            return self._clouds.receive(_CLOUD_PATIENCE)
 
 
 class _Failures:

@@ -165,6 +165,25 @@ class ParticleClouds(unittest.TestCase):
             press(particle_period=0.003)
 
 
+    def test_snapshots_of_a_failed_run_are_not_those_after_the_reset(self):
+        # The block flies at 2 m/s from [0.05, 0.09] through the snapshot at 0.02 s, and out at 0.2 m.
+        with running_master() as master:
+            master.setParam("/use_sim_time", True)
+            scene = source_file("test/data/leaves_domain.yaml")
+            for reset_time in ("zero", "continue"):
+                with mpm_ros.Simulator(scene, threads=1, checkpoint_on_failure=False, particle_period=0.02,
+                                       reset_time=reset_time) as sim:
+                    for _ in range(2):
+                        with self.assertRaisesRegex(mpm_ros.MpmError, "outside the domain"):
+                            sim.step(1.0)
+                        obs = sim.reset()
+                        self.assertEqual(obs.particles.time, 0.0)
+                        self.assertLess(obs.particles.positions[:, 0].max(), 0.09)
+                        obs = sim.step(0.02)
+                        self.assertAlmostEqual(obs.particles.time, 0.02, delta=1e-9)
+                        self.assertAlmostEqual(obs.particles.positions[:, 0].min(), 0.0525 + 0.04, delta=1e-3)
+
+
 class Failures(unittest.TestCase):
     def test_a_scene_that_is_not_there_is_the_nodes_own_sentence(self):
         with self.assertRaisesRegex(mpm_ros.MpmError, "no_such_scene: no shipped scene of that name") as raised:

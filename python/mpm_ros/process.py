@@ -34,15 +34,6 @@ def find_program():
     return found[0]
 
 
-def master_runs():
-    """Whether a master answers at ROS_MASTER_URI."""
-    uri = rosgraph.get_master_uri()
-    try:
-        return rosgraph.is_master_online(uri)
-    except ValueError as error:
-        raise MpmError(f"ROS_MASTER_URI is '{uri}': {error}") from error
-
-
 def claim(node):
     """An open file that keeps the name of a node at the master of ROS_MASTER_URI for this process, until it is
     closed; None when another process of this machine has it. A second node of a name would end the first, and several

@@ -12,8 +12,9 @@ from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
 
 from . import wire
 from .errors import MpmError
+from .master import close, forget_services, master_at, master_runs, node_answers, nodes_of
 from .particles import Particles
-from .process import NodeProcess, claim, find_program, master_runs
+from .process import NodeProcess, claim, find_program
 
 _CLOUD_PATIENCE = 20.0  # [s] wall time for a message that the node has handed to its connection
 _DEFAULT_NAMESPACE = "/mpm"
@@ -126,7 +127,7 @@ class Simulator:
         self.namespace = "/" + namespace.strip("/")
         self.master_uri = master_uri
         self._caller = f"/mpm_ros_client_{os.getpid()}_{next(_numbers)}"
-        self._master = rosgraph.Master(self._caller, master_uri=master_uri)
+        self._master = master_at(self._caller, master_uri)
         self._connections = {}
         self._changes = []  # of the last reset
         self._clouds = None
@@ -335,7 +336,7 @@ class _Failures:
 def _close(process, connections, master):
     for connection in connections.values():
         connection.close()
-    master.handle("close")()
+    close(master)
     if process is not None:
         process.end()
 
@@ -378,13 +379,21 @@ def _changes(changes):
 
 def _claim_namespace(wished):
     """The namespace of a new node at the master that runs, and the file that keeps it (process.py)."""
-    taken = [node for kind in rosgraph.Master("/mpm_ros").getSystemState() for _, nodes in kind for node in nodes]
-    more = (f"{_DEFAULT_NAMESPACE}_{number}" for number in itertools.count(2))
-    for namespace in [wished] if wished else itertools.chain([_DEFAULT_NAMESPACE], more):
-        node = namespace.rstrip("/") + "/simulator"
-        kept = claim(node) if node not in taken else None
-        if kept is not None:
-            return namespace, kept
+    master = master_at("/mpm_ros")
+    try:
+        known = nodes_of(master)
+        more = (f"{_DEFAULT_NAMESPACE}_{number}" for number in itertools.count(2))
+        for namespace in [wished] if wished else itertools.chain([_DEFAULT_NAMESPACE], more):
+            node = namespace.rstrip("/") + "/simulator"
+            if node in known and node_answers(master, node):
+                continue
+            kept = claim(node)
+            if kept is not None:
+                if node in known:
+                    forget_services(master, node)
+                return namespace, kept
+    finally:
+        close(master)
     raise MpmError(f"a simulator runs below {wished}; name another namespace, or Simulator.connect('{wished}')")
 
 

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import threading
 
-import rosgraph
+from .master import UNANSWERED, master_at
 
 _PATIENCE = 20.0  # [s] for the node to close its bag, before it is killed
 
@@ -49,7 +49,7 @@ def run(task):
         signal.signal(number, end)
     own_master = start_master() if task["own_master"] else None
     name = task["namespace"].rstrip("/") + "/simulator"
-    master = rosgraph.Master("/mpm_ros_supervise")
+    master = master_at("/mpm_ros_supervise")
     if master.hasParam(name):
         master.deleteParam(name)  # what an earlier run left there
     master.setParam(name, task["parameters"])
@@ -66,7 +66,7 @@ def run(task):
             master.deleteParam(name)
         else:
             own_master.stop()
-    except (OSError, rosgraph.MasterException):
+    except UNANSWERED:
         pass  # the master has ended, and its parameters with it
     finally:
         sys.stdout.flush()

@@ -7,14 +7,12 @@ as uint32, and in an answer behind a byte that says whether the call succeeded. 
 at the master: its publisher is asked where it sends from. Weak: a publisher that comes later is not found; a lockstep
 client knows its node.
 """
-import http.client
 import io
 import select
 import socket
 import struct
 import time
 from urllib.parse import urlparse
-from xmlrpc import client as xmlrpc
 
 import numpy as np
 import rosgraph
@@ -22,12 +20,16 @@ from rosgraph.network import ROSHandshakeException, decode_ros_handshake_header,
 
 from .decoding import decode
 from .errors import MpmError
+from .master import UNANSWERED, proxy
 
 _HANDSHAKE = 10.0  # [s] longest wait for a connection and its header
+_SILENCE = 20.0  # [s] longest wait for the rest of a message
+# An answer may take as long as a step does. A machine that has vanished is noticed after 30 s + 3 * 10 s of silence.
+_KEEPALIVE = {socket.TCP_KEEPIDLE: 30, socket.TCP_KEEPINTVL: 10, socket.TCP_KEEPCNT: 3}
 _LENGTH = struct.Struct("<I")
 
 # What a lost or refused connection raises, before it is known why.
-LOST = (OSError, ROSHandshakeException, rosgraph.MasterException, xmlrpc.Error, http.client.HTTPException)
+LOST = (ROSHandshakeException, *UNANSWERED)
 
 
 def _receive(connection, size):
@@ -51,6 +53,9 @@ def _open(host, port, header):
     connection = socket.create_connection((host, port), timeout=_HANDSHAKE)
     try:
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+        for option, value in _KEEPALIVE.items():
+            connection.setsockopt(socket.IPPROTO_TCP, option, value)
         write_ros_handshake_header(connection, header)
         answer = _receive_message(connection).tobytes()
         fields = decode_ros_handshake_header(_LENGTH.pack(len(answer)) + answer)
@@ -105,18 +110,21 @@ class TopicReader:
     def __init__(self, name, message_class, node, master, caller):
         self._name = name
         self._class = message_class
-        with xmlrpc.ServerProxy(master.lookupNode(node)) as slave:
+        with proxy(master.lookupNode(node)) as slave:
             code, reason, protocol = slave.requestTopic(caller, name, [["TCPROS"]])
         if code != 1 or not protocol:
             raise MpmError(f"{node} does not publish {name}: {reason}")
         self._connection = _open(protocol[1], protocol[2], {
             "callerid": caller, "topic": name, "md5sum": message_class._md5sum, "type": message_class._type,
             "tcp_nodelay": "1"})
+        self._connection.settimeout(_SILENCE)
+        self._poll = select.poll()  # select() takes no file descriptor above 1023
+        self._poll.register(self._connection, select.POLLIN)
         self.closed = False
 
     def receive(self, timeout):
         """The next message, decoded. Raises MpmError when none has begun to come after `timeout` [s] of wall time."""
-        if not select.select([self._connection], [], [], timeout)[0]:
+        if not self._poll.poll(1e3 * timeout):
             raise MpmError(f"no message on {self._name} in {timeout:g} s")
         try:
             message = _receive_message(self._connection)

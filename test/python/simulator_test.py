@@ -311,6 +311,20 @@ class RunningMaster(unittest.TestCase):
             with self.assertRaisesRegex(mpm_ros.MpmError, "no simulator runs below /mpm"):
                 mpm_ros.Simulator.connect("/mpm")
 
+    def test_a_node_that_was_killed_does_not_keep_its_namespace(self):
+        with running_master() as master:
+            for _ in range(2):
+                node = subprocess.Popen([program("simulator"), "__ns:=/left", f"_scene:={PRESS}", "_pacing:=lockstep",
+                                         "_threads:=1"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                self.assertTrue(eventually(lambda: "/left/step" in [name for name, _ in master.getSystemState()[2]]))
+                with self.assertRaisesRegex(mpm_ros.MpmError, "a simulator runs below /left;"):
+                    press(namespace="/left")
+                node.kill()
+                node.wait()
+                self.assertIn("/left/step", [name for name, _ in master.getSystemState()[2]])
+                with press(namespace="/left") as sim:
+                    self.assertEqual(sim.step().time, SYNC)
+
     def test_simulators_that_start_at_the_same_time_do_not_end_each_other(self):
         text = (f"import mpm_ros\nwith mpm_ros.Simulator({PRESS!r}, threads=1) as sim:\n"
                 "    print(sim.namespace)\n    sim.step(0.1)\n")

@@ -1,15 +1,12 @@
 """A simulator node in a process of its own, as the client starts it: see supervise.py."""
-import fcntl
 import json
 import logging
 import os
 import re
 import subprocess
 import sys
-import tempfile
 import threading
-
-import rosgraph
+import weakref
 
 from .errors import MpmError
 
@@ -19,7 +16,7 @@ _LEVELS = {"DEBUG": logging.DEBUG, "INFO": logging.INFO, "WARN": logging.WARNING
 _LINE = re.compile(r"\[ *(DEBUG|INFO|WARN|ERROR|FATAL)\] (.*)")
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _SIGNALLED = 128  # and a signal's number: exit code of what it killed
-_KEPT = 20  # last lines of output, for a node that ends without a sentence of its own
+_LAST = 20  # last lines of output, for a node that ends without a sentence of its own
 
 
 def find_program():
@@ -34,35 +31,36 @@ def find_program():
     return found[0]
 
 
-def claim(node):
-    """An open file that keeps the name of a node at the master of ROS_MASTER_URI for this process, until it is
-    closed; None when another process of this machine has it. A second node of a name would end the first, and several
-    clients that start at the same time do not see each other at the master yet."""
-    key = re.sub(r"\W+", "_", f"mpm_ros_{os.getuid()}_{rosgraph.get_master_uri()}_{node}")
-    file = open(os.path.join(tempfile.gettempdir(), key + ".lock"), "w", encoding="utf-8")
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        return file
-    except BlockingIOError:
-        file.close()
-        return None
+_owned = weakref.WeakSet()
+
+
+def _leave_to_parent():
+    for process in _owned:
+        process.leave()
+
+
+os.register_at_fork(after_in_child=_leave_to_parent)
 
 
 class NodeProcess:
-    """A node and, with `own_master`, a master. What the node logs goes to Python's log `mpm_ros`. `kept`: a file to
-    close at the end (claim())."""
+    """A node and, with `own_master`, a master. What the node logs goes to Python's log `mpm_ros`. `name_lock`:
+    closed at the end (names.py)."""
 
-    def __init__(self, program, namespace, parameters, own_master, kept=None):
+    def __init__(self, program, namespace, parameters, own_master, name_lock=None):
         self.sentence = ""  # the node's last one of severity FATAL
         self.exit_code = None
-        self._kept = kept
-        self._owner = os.getpid()
+        self._name_lock = name_lock
+        self._left = False
         self._last_lines = []
         task = {"program": program, "namespace": namespace, "parameters": parameters, "own_master": own_master}
         # In a session of its own, so that Ctrl-C reaches the client alone, which then ends the node.
-        self._process = subprocess.Popen([sys.executable, "-m", "mpm_ros.supervise", json.dumps(task)],
-                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                         text=True, errors="replace", start_new_session=True)
+        try:
+            self._process = subprocess.Popen([sys.executable, "-m", "mpm_ros.supervise", json.dumps(task)],
+                                             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                             text=True, errors="replace", start_new_session=True)
+        except OSError as error:
+            raise MpmError(f"no simulator was started: {error}") from error
+        _owned.add(self)
         self._listener = threading.Thread(target=self._listen, daemon=True)
         try:
             self.master_uri = self._read_master_uri()
@@ -83,7 +81,7 @@ class NodeProcess:
         level = logging.INFO
         for line in self._process.stdout:
             line = _COLOUR.sub("", line.rstrip("\n"))
-            self._last_lines = (self._last_lines + [line])[-_KEPT:]
+            self._last_lines = (self._last_lines + [line])[-_LAST:]
             match = _LINE.match(line)
             if match:
                 level, line = _LEVELS[match[1]], match[2]
@@ -108,19 +106,24 @@ class NodeProcess:
                 sentence += "; its last line: " + self._last_lines[-1]
         return MpmError(sentence, self.exit_code)
 
+    def leave(self):
+        """In a fork of this process: the node stays the parent's, and ends with it."""
+        self._left = True
+        self._process.stdin.close()
+        if self._name_lock is not None:
+            self._name_lock.close()
+
     def end(self):
         """Ends the node in order, and the master: the bag is closed when this returns. Returns the exit code; None in a
-        fork of the process that started the node, which it leaves alone."""
-        if self.exit_code is None:
+        fork."""
+        if self.exit_code is None and not self._left:
             self._process.stdin.close()
-            if os.getpid() != self._owner:
-                return None
-            self._process.terminate()  # a fork may hold the pipe too
+            self._process.terminate()  # a fork that Python does not know of may hold the pipe too
             if self._listener.ident is not None:
                 self._listener.join()
             exit_code = self._process.wait()
             self.exit_code = exit_code if exit_code >= 0 else _SIGNALLED - exit_code
             self._process.stdout.close()
-            if self._kept is not None:
-                self._kept.close()
+            if self._name_lock is not None:
+                self._name_lock.close()
         return self.exit_code

@@ -2,22 +2,20 @@
 contract of `step`."""
 import contextlib
 import itertools
-import json
 import os
 import weakref
 
-import numpy as np
 import rosgraph
-from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
 
 from . import wire
 from .errors import MpmError
-from .master import close, forget_services, master_at, master_runs, node_answers, nodes_of
+from .master import close, master_at, master_runs
+from .names import DEFAULT_NAMESPACE, lock_namespace
 from .particles import Particles
-from .process import NodeProcess, claim, find_program
+from .process import NodeProcess, find_program
+from .requests import advance, changes_of, commands_of, node_parameters, path_of
 
 _CLOUD_PATIENCE = 20.0  # [s] wall time for a message that the node has handed to its connection
-_DEFAULT_NAMESPACE = "/mpm"
 _numbers = itertools.count(1)
 
 
@@ -98,22 +96,22 @@ class Simulator:
 
     def __init__(self, scene, *, set=None, particle_period=None, particle_fields=None, namespace=None, own_master=None,
                  **parameters):
-        parameters.update(_node_parameters(scene, set, particle_period, particle_fields, parameters))
+        parameters = node_parameters(scene, set, particle_period, particle_fields, parameters)
         if own_master is None:
             own_master = not master_runs()
         elif not own_master and not master_runs():
             raise MpmError(f"no master answers at {rosgraph.get_master_uri()}; start roscore")
         namespace = None if namespace is None else "/" + namespace.strip("/")
-        kept = None
+        name_lock = None
         if own_master:
-            namespace = namespace or _DEFAULT_NAMESPACE
+            namespace = namespace or DEFAULT_NAMESPACE
         else:
-            namespace, kept = _claim_namespace(namespace)
-        self._process = NodeProcess(find_program(), namespace, parameters, own_master, kept)
+            namespace, name_lock = lock_namespace(namespace)
+        self._process = NodeProcess(find_program(), namespace, parameters, own_master, name_lock)
         self._connect(namespace, self._process.master_uri, particle_period)
 
     @classmethod
-    def connect(cls, namespace=_DEFAULT_NAMESPACE, particle_period=None):
+    def connect(cls, namespace=DEFAULT_NAMESPACE, particle_period=None):
         """The simulator that runs below `namespace` with `_pacing:=lockstep`, at the master of ROS_MASTER_URI. It
         goes on when the block ends. `particle_period` [s]: of the clouds that it publishes (its ~particle_rate)."""
         if not master_runs():
@@ -164,16 +162,16 @@ class Simulator:
         wrench    (3,) [N] on a free body, or (6,) with the torque [N m] about its origin
 
         Returns an Observation. Raises MpmError when a command is refused, the run has ended, or the physics fail."""
-        commands = _commands(velocity, pose, wrench)
+        request = dict(advance(duration, count), commands=commands_of(velocity, pose, wrench))
         with self._whole():
-            answer = self._call("step", duration=duration or 0.0, count=count or 0, commands=commands)
+            answer = self._call("step", **request)
             return Observation(answer, self._particles_at(answer.stamp))
 
     def reset(self, set=None):
         """Begins the scene again and returns the Observation at time zero. Also after a failure of the physics. `set`:
         changes to the scene, as in Simulator() and over those given there, for this run and the next ones; None: those of
         the last call."""
-        changes = self._changes if set is None else _changes(set)
+        changes = self._changes if set is None else changes_of(set)
         with self._whole():
             answer = self._call("reset_with", set=changes)
             self._changes = changes
@@ -183,12 +181,12 @@ class Simulator:
     def save_checkpoint(self, path):
         """Saves the run, to the bit. Returns the file's absolute path. A relative path starts from the node's folder,
         which is the present one for a node that this object started."""
-        return self._call("save_checkpoint", path=os.fspath(path)).path
+        return self._call("save_checkpoint", path=path_of(path, "path")).path
 
     def load_checkpoint(self, path):
         """Goes on from a checkpoint of the same scene. Returns its simulated time [s]."""
         with self._whole():
-            answer = self._call("load_checkpoint", path=os.fspath(path))
+            answer = self._call("load_checkpoint", path=path_of(path, "path"))
             self._begin_run(answer.stamp)
             return answer.time
 
@@ -352,72 +350,3 @@ def _message_class(name):
     from sensor_msgs.msg import PointCloud2
     from . import msg
     return {"run_info": msg.RunInfo, "solver_state": msg.SolverState, "particles": PointCloud2}[name]
-
-
-# --- what is asked for ------------------------------------------------------------------------------------------------
-
-
-def _node_parameters(scene, changes, particle_period, particle_fields, others):
-    if others.get("pacing", "lockstep") != "lockstep":
-        raise MpmError(f"pacing is {others['pacing']}; a Simulator is stepped, in lockstep")
-    parameters = {"scene": os.fspath(scene), "pacing": "lockstep", "set": _changes(changes)}
-    if particle_period is not None:
-        if not 0.0 < particle_period < 1e9:
-            raise MpmError(f"particle_period is {particle_period} s; it must be above zero")
-        parameters.update(particle_rate=1.0 / particle_period, particle_first=0.0)
-    if particle_fields is not None:
-        parameters["particle_fields"] = list(particle_fields)
-    return parameters
-
-
-def _changes(changes):
-    """["key=value", …] of what the user gave as a dict or as such a list."""
-    if isinstance(changes, dict):
-        return [f"{key}={value if isinstance(value, str) else json.dumps(value)}" for key, value in changes.items()]
-    return [changes] if isinstance(changes, str) else list(changes or [])
-
-
-def _claim_namespace(wished):
-    """The namespace of a new node at the master that runs, and the file that keeps it (process.py)."""
-    master = master_at("/mpm_ros")
-    try:
-        known = nodes_of(master)
-        more = (f"{_DEFAULT_NAMESPACE}_{number}" for number in itertools.count(2))
-        for namespace in [wished] if wished else itertools.chain([_DEFAULT_NAMESPACE], more):
-            node = namespace.rstrip("/") + "/simulator"
-            if node in known and node_answers(master, node):
-                continue
-            kept = claim(node)
-            if kept is not None:
-                if node in known:
-                    forget_services(master, node)
-                return namespace, kept
-    finally:
-        close(master)
-    raise MpmError(f"a simulator runs below {wished}; name another namespace, or Simulator.connect('{wished}')")
-
-
-def _numbers_of(body, values, lengths, what):
-    numbers = np.asarray(values, dtype=float)
-    if numbers.ndim != 1 or len(numbers) not in lengths:
-        raise MpmError(f"{what} of '{body}' has the shape {numbers.shape}; it must have "
-                       f"{' or '.join(map(str, lengths))} numbers")
-    return [float(number) for number in numbers] + [0.0] * (lengths[-1] - len(numbers))
-
-
-def _commands(velocity, pose, wrench):
-    from .msg import Command
-    commands = []
-    for body, values in (velocity or {}).items():
-        numbers = _numbers_of(body, values, (3, 6), "velocity")
-        commands.append(Command(body=body, kind=Command.VELOCITY,
-                                twist=Twist(Vector3(*numbers[:3]), Vector3(*numbers[3:]))))
-    for body, values in (pose or {}).items():
-        numbers = _numbers_of(body, values, (7,), "pose")
-        commands.append(Command(body=body, kind=Command.POSE,
-                                pose=Pose(Point(*numbers[:3]), Quaternion(*numbers[3:]))))
-    for body, values in (wrench or {}).items():
-        numbers = _numbers_of(body, values, (3, 6), "wrench")
-        commands.append(Command(body=body, kind=Command.WRENCH,
-                                wrench=Wrench(Vector3(*numbers[:3]), Vector3(*numbers[3:]))))
-    return commands

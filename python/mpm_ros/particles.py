@@ -29,11 +29,14 @@ class Particles:
         self.time = simulated_time(self.stamp, start)
         if cloud.is_bigendian:
             raise MpmError("a cloud of a big-endian machine is not read")
-        layout = np.dtype({"names": [field.name for field in cloud.fields],
-                           "formats": [_NUMBERS[field.datatype] for field in cloud.fields],
-                           "offsets": [field.offset for field in cloud.fields], "itemsize": cloud.point_step})
+        try:
+            layout = np.dtype({"names": [field.name for field in cloud.fields],
+                               "formats": [_NUMBERS[field.datatype] for field in cloud.fields],
+                               "offsets": [field.offset for field in cloud.fields], "itemsize": cloud.point_step})
+            self.array = cloud.data.view(layout)
+        except (KeyError, TypeError, ValueError) as error:
+            raise MpmError(f"a cloud's data are not of the fields that it names: {error}") from error
         self.fields = layout.names
-        self.array = cloud.data.view(layout)
 
     def __len__(self):
         return len(self.array)

@@ -51,6 +51,7 @@ class Recording:
     def __init__(self, path, namespace=None):
         self.parts = _parts(os.fspath(path))
         self._bags = []
+        self._closed = False
         try:
             self._open(namespace)
         except BaseException:
@@ -62,7 +63,7 @@ class Recording:
             self._bags.append(_open_bag(part))
         self.namespace = namespace_of(self._bags[0], self.parts[0]) if namespace is None else namespace.rstrip("/")
         begin = self.namespace + "/"
-        topics = {topic for bag in self._bags for topic in bag.get_type_and_topic_info().topics}
+        topics = {topic for bag, part in zip(self._bags, self.parts) for topic in _topics_of(bag, part)}
         self.topics = sorted(topic[len(begin):] for topic in topics if topic.startswith(begin))
         infos = [next(self._messages("run_info", [bag]), None) for bag in self._bags]
         self.info = infos[0]
@@ -81,11 +82,14 @@ class Recording:
         self.close()
 
     def close(self):
+        self._closed = True
         for bag in self._bags:
             bag.close()
 
     def messages(self, topic):
         """The messages of a topic below the namespace, decoded, in the order of time."""
+        if self._closed:
+            raise MpmError(f"the recording {self.parts[0]} is closed")
         if topic not in self.topics:
             raise MpmError(f"{self.parts[0]} has no topic {topic} below '{self.namespace}/'; there are "
                            f"{', '.join(self.topics)}")
@@ -93,13 +97,18 @@ class Recording:
 
     def _messages(self, topic, bags=None):
         for bag in self._bags if bags is None else bags:
-            for _, (kind, data, md5sum, _, _), _ in bag.read_messages(f"{self.namespace}/{topic}", raw=True):
-                message_class = get_message_class(kind)
+            entries = _reading(bag.filename, bag.read_messages, f"{self.namespace}/{topic}", raw=True)
+            while True:
+                entry = _reading(bag.filename, next, entries, None)
+                if entry is None:
+                    break
+                kind, data, md5sum = entry.message[:3]
+                message_class = _reading(bag.filename, get_message_class, kind)
                 if message_class is None:
                     raise MpmError(f"{bag.filename}: the message {kind} of {topic} is not installed")
                 if message_class._md5sum != md5sum:
                     raise MpmError(f"{bag.filename}: {topic} was recorded by another version of {kind}; read it there")
-                yield decode(message_class, data)
+                yield _reading(bag.filename, decode, message_class, data)
 
     def _time(self, message):
         return simulated_time(message.header.stamp, self.info.start)
@@ -111,8 +120,11 @@ class Recording:
             rows.append(_numbers(choose(message)))
             times.append(self._time(message))
         table = Table(time=np.array(times))
-        for name in rows[0] if rows else []:
-            table[name] = np.array([row[name] for row in rows])
+        try:
+            for name in rows[0] if rows else []:
+                table[name] = np.array([row[name] for row in rows])
+        except (KeyError, ValueError) as error:
+            raise MpmError(f"the messages of {topic} do not all have the same numbers, so they make no table") from error
         return table
 
     def contact_forces(self, body):
@@ -153,7 +165,7 @@ class Recording:
 
 def namespace_of(bag, path):
     """Namespace of the run in an open rosbag.Bag, "" for the root: that of its mpm_ros/RunInfo."""
-    found = [topic[:-len("/run_info")] for topic, info in bag.get_type_and_topic_info().topics.items()
+    found = [topic[:-len("/run_info")] for topic, info in _topics_of(bag, path).items()
              if info.msg_type == "mpm_ros/RunInfo" and topic.endswith("/run_info")]
     if not found:
         raise MpmError(f"{path} is not the bag of a run: it has no topic run_info (mpm_ros/RunInfo)")
@@ -162,13 +174,25 @@ def namespace_of(bag, path):
     return found[0]
 
 
+def _topics_of(bag, path):
+    return _reading(path, bag.get_type_and_topic_info).topics
+
+
 def _open_bag(path):
     try:
         return rosbag.Bag(path)
     except rosbag.ROSBagUnindexedException:
         raise MpmError(f"{path} was not closed; `rosbag reindex {path}` makes its index") from None
-    except (OSError, rosbag.ROSBagException) as error:
+    except Exception as error:  # as in _reading
         raise MpmError(f"{path} cannot be read as a bag: {error}") from error
+
+
+def _reading(path, read, *arguments, **options):
+    """What `read` returns; whatever a damaged bag makes it raise becomes MpmError."""
+    try:
+        return read(*arguments, **options)
+    except Exception as error:  # rosbag lets through what the libraries below it raise, of many kinds
+        raise MpmError(f"{path} is damaged: {error}; `rosbag reindex {path}` may save what is whole") from error
 
 
 def _parts(path):
@@ -181,7 +205,10 @@ def _parts(path):
 
 
 def _named(entries, name):
-    return next(entry for entry in entries if entry.name == name)
+    for entry in entries:
+        if entry.name == name:
+            return entry
+    raise MpmError(f"a message has no rigid body '{name}'; it has {', '.join(entry.name for entry in entries)}")
 
 
 def _numbers(message):
@@ -192,7 +219,7 @@ def _numbers(message):
         if isinstance(value, (bool, int, float, np.ndarray)):
             row[name] = value
         elif name == "values" and value and isinstance(value[0], Message):
-            row.update({entry.name: entry.value if len(entry.value) > 1 else entry.value[0] for entry in value})
+            row.update({entry.name: entry.value[0] if len(entry.value) == 1 else entry.value for entry in value})
     row.pop("time", None)
     return row
 

@@ -48,6 +48,13 @@ def _receive_message(connection):
     return _receive(connection, _LENGTH.unpack(_receive(connection, _LENGTH.size))[0])
 
 
+def _decoded(message_class, buffer):
+    try:
+        return decode(message_class, buffer)
+    except ValueError as error:
+        raise MpmError(f"the node has sent what cannot be read: {error}") from error
+
+
 def _open(host, port, header):
     """A connection after its handshake."""
     connection = socket.create_connection((host, port), timeout=_HANDSHAKE)
@@ -96,7 +103,7 @@ class ServiceClient:
             raise
         if not succeeded:
             raise MpmError(answer.tobytes().decode(errors="replace"))
-        return decode(self._class._response_class, answer)
+        return _decoded(self._class._response_class, answer)
 
     def close(self):
         self.closed = True
@@ -131,7 +138,7 @@ class TopicReader:
         except BaseException:
             self.close()
             raise
-        return decode(self._class, message)
+        return _decoded(self._class, message)
 
     def close(self):
         self.closed = True

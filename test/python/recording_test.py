@@ -117,11 +117,20 @@ class Recordings(unittest.TestCase):
             head[at:at + 8] = bytes(8)  # as a bag has it until it is closed
             cut.write(head)
         expect("rosbag reindex", self.path("cut.bag"))
+        with open(self.split, "rb") as file:
+            lz4 = bytearray(file.read())
+        at = lz4.index(b"compression=lz4") + 100  # in the first chunk
+        lz4[at:at + 100] = bytes(100)
+        with open(self.path("damaged.bag"), "wb") as file:
+            file.write(lz4)
+        expect("damaged.bag is damaged", self.path("damaged.bag"))
         with mpm_ros.Recording(self.whole) as recording:
             with self.assertRaisesRegex(mpm_ros.MpmError, "there are plate, rod"):
                 recording.contact_forces("blade")
             with self.assertRaisesRegex(mpm_ros.MpmError, "no topic nothing"):
                 recording.messages("nothing")
+        with self.assertRaisesRegex(mpm_ros.MpmError, "whole.bag is closed"):
+            recording.solver_state()
 
 
 if __name__ == "__main__":

@@ -5,7 +5,8 @@
     rosrun mpm_ros replay.py run.bag [--rate 0.3] [--loop] [--field speed] [--view FILE.rviz] [--no-rviz]
 
 All parts of a split recording are played. RViz gets the namespace that the bag's topics have. /use_sim_time is true
-as long as the bag is played, and then as it was before. Exit codes: 0 done, 2 bad input.
+as long as the bag is played, and then as it was before. Exit codes: 0 done, 1 the machine (the master is gone, a
+program is missing, rosbag failed), 2 bad input.
 """
 import argparse
 import os
@@ -42,25 +43,25 @@ def find_bag(path):
 
 def wait_for_topic(master, topic, player):
     end = time.monotonic() + TOPIC_PATIENCE
-    while topic not in (name for name, _ in master.getTopicTypes()):
+    while topic not in (name for name, _ in master.getPublishedTopics("")):
         if player.poll() is not None or time.monotonic() > end:
             raise mpm_ros.MpmError(f"rosbag does not play {topic}")
         time.sleep(0.05)
 
 
 def play(options, recording, master):
-    """Until the bag ends, or a signal raises KeyboardInterrupt. Returns rosbag's exit code."""
+    """Until the bag ends, or a signal raises KeyboardInterrupt. Returns 0, or 1 when rosbag failed."""
     children = []
     try:
         words = ["rosbag", "play", "--clock", "--rate", str(options.rate)] + ["--loop"] * options.loop
         children.append(subprocess.Popen(words + recording.parts))
         if not options.no_rviz:
             wait_for_topic(master, recording.namespace + "/run_info", children[0])
-            watch = roslib.packages.find_node("mpm_ros", "watch")[0]
+            watch = (roslib.packages.find_node("mpm_ros", "watch") or ["watch"])[0]
             # In a launch file this process has a name, which is not that of RViz.
             words = [watch] + [options.view] * bool(options.view) + ["__ns:=" + (recording.namespace or "/")]
             children.append(subprocess.Popen(words + [f"_field:={options.field}"] * bool(options.field)))
-        return children[0].wait()
+        return 0 if children[0].wait() == 0 else 1
     finally:
         for child in children:
             if child.poll() is None:
@@ -104,8 +105,15 @@ def main():
     except mpm_ros.MpmError as error:
         print(f"replay.py: {error}", file=sys.stderr)
         return 2
-    except (OSError, rosgraph.MasterException) as error:
+    except FileNotFoundError as error:
+        print(f"replay.py: the program {error.filename} is not found; scripts/install_packages demo installs what "
+              "belongs to ROS, and the workspace's setup.bash finds what was built", file=sys.stderr)
+        return 1
+    except (ConnectionError, rosgraph.MasterException) as error:
         print(f"replay.py: the master is gone: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"replay.py: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 0

@@ -9,7 +9,7 @@ from support import source_file
 class Examples(unittest.TestCase):
     def expect(self, text, *command):
         done = subprocess.run([source_file("examples/" + command[0]), *command[1:]], capture_output=True, text=True,
-                              check=False)
+                              check=False, timeout=120)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn(text, done.stdout)
 

@@ -2,6 +2,7 @@
 """`watch` and `replay` find the run's namespace, and say at once when there is none. In place of RViz stands a
 program that keeps its configuration. 25 s."""
 import os
+import re
 import stat
 import subprocess
 import tempfile
@@ -11,7 +12,7 @@ import unittest
 import mpm_ros
 import rosbag
 import yaml
-from support import Started, eventually, program, running_master, source_file
+from support import PATIENCE, Started, eventually, program, running_master, source_file
 
 SCENE = source_file("test/data/press.yaml")
 AT_ONCE = 10.0  # [s]; `watch` waits 20 s for particles
@@ -40,11 +41,13 @@ class Pictures(unittest.TestCase):
         return bag
 
     def topics_shown(self, program_with_output):
+        """With "~" for the name of `watch`, which colours the particles and publishes them anew."""
         self.assertTrue(eventually(lambda: os.path.exists(self.path("shown"))), program_with_output.output())
         with open(self.path("shown"), encoding="utf-8") as file:
             displays = yaml.safe_load(file)["Visualization Manager"]["Displays"]
         os.remove(self.path("shown"))
-        return {display[key] for display in displays for key in ("Topic", "Marker Topic") if key in display}
+        topics = {display[key] for display in displays for key in ("Topic", "Marker Topic") if key in display}
+        return {re.sub(r"watch_\w+/", "~", topic) for topic in topics}
 
     def test_a_bag_is_shown_from_its_own_namespace_and_the_clock_is_given_back(self):
         for namespace in ("", "/mpm", "/some/robot"):
@@ -55,7 +58,8 @@ class Pictures(unittest.TestCase):
                 # As typed: roslaunch runs nodes in another folder.
                 with Started("roslaunch", "mpm_ros", "replay.launch", "bag:=" + os.path.relpath(bag)) as launch:
                     self.assertEqual(self.topics_shown(launch), {namespace + "/" + leaf for leaf in
-                                                                ("particles", "markers", "force_markers")})
+                                                                ("~particles", "~colour_bar", "markers",
+                                                                 "force_markers")})
                     self.assertIs(master.getParam("/use_sim_time"), True)
                     launch.end()
                     self.assertFalse(master.hasParam("/use_sim_time"), launch.output())
@@ -72,12 +76,12 @@ class Pictures(unittest.TestCase):
     def test_watch_finds_the_simulator_that_runs(self):
         with running_master(), mpm_ros.Simulator(SCENE, threads=1, namespace="/left", particle_period=0.01) as left:
             with Started(program("watch")) as watch:
-                for _ in range(40):  # particles for watch
-                    left.step()
-                    time.sleep(0.05)
-                    if left.step().ended:
+                end = time.monotonic() + PATIENCE
+                while not os.path.exists(self.path("shown")) and time.monotonic() < end:
+                    if left.step(count=2).ended:  # particles for watch
                         left.reset()
-                self.assertIn("/left/particles", self.topics_shown(watch))
+                    time.sleep(0.05)
+                self.assertIn("/left/markers", self.topics_shown(watch))
             with Started(program("teleop"), "nobody") as teleop:
                 self.assertEqual(teleop.process.wait(AT_ONCE), 2)
                 self.assertIn("there is no rigid body 'nobody'", teleop.output())
@@ -108,6 +112,14 @@ class Pictures(unittest.TestCase):
             expect("nowhere.bag cannot be read", self.path("nowhere.bag"))
             rosbag.Bag(self.path("empty.bag"), "w").close()
             expect("no topic run_info", self.path("empty.bag"))
+
+    def test_a_program_that_is_missing_is_named(self):
+        bag = self.bag_in("/mpm")
+        with running_master():
+            done = subprocess.run([program("replay.py"), bag], capture_output=True, text=True, check=False,
+                                  timeout=AT_ONCE, env=dict(os.environ, PATH=self.folder.name))
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("the program rosbag is not found", done.stderr)
 
 
 if __name__ == "__main__":

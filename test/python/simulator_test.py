@@ -245,24 +245,26 @@ class Endings(unittest.TestCase):
         self.assertFalse(rosgraph.is_master_online(master_uri))
 
     def test_the_end_of_the_block_closes_the_bag(self):
+        namespace = f"/closing_{os.getpid()}"
         with tempfile.TemporaryDirectory() as folder:
             bag = os.path.join(folder, "run.bag")
-            with press(namespace="/closing", record=bag) as sim:
+            with press(namespace=namespace, record=bag) as sim:
                 uri = sim.master_uri
                 self.assertTrue(rosgraph.is_master_online(uri))
                 sim.step(0.02, velocity={"plate": (0, 0, -0.4)})
-            self.assertEqual(processes_with("/closing"), [])  # at once
-            self.expect_nothing_left("/closing", uri)
+            self.assertEqual(processes_with(namespace), [])  # at once
+            self.expect_nothing_left(namespace, uri)
             with mpm_ros.Recording(bag) as run:
-                self.assertEqual(run.namespace, "/closing")
+                self.assertEqual(run.namespace, namespace)
                 self.assertAlmostEqual(run.motion("plate")["position"][-1, 2], 0.065 - 0.4 * 0.02, delta=1e-12)
 
     def test_an_exception_in_the_block(self):
+        namespace = f"/throwing_{os.getpid()}"
         with self.assertRaises(ZeroDivisionError):
-            with press(namespace="/throwing") as sim:
+            with press(namespace=namespace) as sim:
                 uri = sim.master_uri
                 sim.step(velocity={"plate": (0, 0, 1 / 0)})
-        self.expect_nothing_left("/throwing", uri)
+        self.expect_nothing_left(namespace, uri)
 
     def test_a_fork_leaves_the_node_to_the_program(self):
         namespace = f"/forking_{os.getpid()}"
@@ -312,7 +314,7 @@ class Endings(unittest.TestCase):
 
     def test_signals_to_the_client(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-            namespace = f"/signal_{number}"
+            namespace = f"/signal_{number}_{os.getpid()}"
             other, uri = self.start_other(namespace)
             self.assertTrue(rosgraph.is_master_online(uri))
             other.send_signal(number)

@@ -38,8 +38,8 @@ class Box:
 class PressEnv:
     """Action: speed of the plate upwards over SPEED, (1,). Observation: (3,): force over the target, depth of the
     plate below the foam's surface over its thickness, last action. Reward of a step: minus the error of force over
-    the target, at most 1. An episode is truncated after `periods` steps; it terminates when the plate has gone LIMIT
-    deep, or the physics fail.
+    the target, at most 1. An episode is truncated after `periods` steps, or at the scene's end; it terminates when
+    the plate has gone LIMIT deep, or the physics fail.
 
     parameters: of mpm_ros.Simulator, such as record="episode.bag"
     """
@@ -70,16 +70,23 @@ class PressEnv:
         return self._observe(answer, 0.0), drawn
 
     def step(self, action):
+        """Raises ValueError for an action that is no number, and MpmError when the simulator is gone."""
         action = float(np.clip(action, -1.0, 1.0)[0])
+        if not np.isfinite(action):
+            raise ValueError("the action is not a number")
         try:
             answer = self._simulator.step(self.PERIOD, velocity={"plate": (0, 0, action * self.SPEED)})
         except mpm_ros.MpmError as error:
-            # The reset that follows begins again.
+            if error.exit_code is not None:
+                raise
+            self._simulator.solver_state()  # raises when the simulator does not answer
+            # The physics failed: the reset that follows begins again.
             return np.zeros(3, np.float32), -1.0, True, False, {"failure": str(error)}
         observation = self._observe(answer, action)
         self._left -= 1
         reward = -min(1.0, abs(float(observation[0]) - 1.0))
-        return observation, reward, bool(observation[1] > self.LIMIT), self._left == 0, {"time": answer.time}
+        truncated = self._left == 0 or answer.ended
+        return observation, reward, bool(observation[1] > self.LIMIT), truncated, {"time": answer.time}
 
     def close(self):
         self._simulator.close()

@@ -96,11 +96,10 @@ class NodeProcess:
     def failure(self, doing):
         """Why the node is gone, as an exception. Waits until its output is complete."""
         self.end()
+        killed = self.exit_code is not None and self.exit_code > _SIGNALLED
         sentence = self.sentence
-        if not sentence:
-            how = f"ended with {self.exit_code}"
-            if self.exit_code > _SIGNALLED:
-                how = f"was killed by signal {self.exit_code - _SIGNALLED}"
+        if killed or not sentence:  # of a node that was killed, the sentence is that of an earlier failure
+            how = f"was killed by signal {self.exit_code - _SIGNALLED}" if killed else f"ended with {self.exit_code}"
             sentence = f"the simulator {how} while {doing}"
             if self._last_lines:
                 sentence += "; its last line: " + self._last_lines[-1]

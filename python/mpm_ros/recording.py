@@ -124,7 +124,7 @@ class Recording:
             for name in rows[0] if rows else []:
                 table[name] = np.array([row[name] for row in rows])
         except (KeyError, ValueError) as error:
-            raise MpmError(f"the messages of {topic} do not all have the same numbers, so they make no table") from error
+            raise MpmError(f"the messages of {topic} make no table: their numbers differ in name or count") from error
         return table
 
     def contact_forces(self, body):

@@ -217,8 +217,8 @@ class Simulator:
 
     @contextlib.contextmanager
     def _whole(self):
-        """For a call of several parts: where it is interrupted, by Ctrl-C for example, the next one asks for the state of
-        things anew."""
+        """For a call of several parts: where it is interrupted, by Ctrl-C for example, the next one asks for the state
+        of things anew."""
         try:
             yield
         except MpmError:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The lockstep client against nodes that it starts, with a master of its own and at one that runs. 25 s."""
+"""The lockstep client against nodes that it starts, with a master of its own and at one that runs. 40 s."""
 import contextlib
 import os
 import signal

@@ -10,24 +10,16 @@ node still publishes /clock. What an earlier value was is not known: roslaunch h
 import signal
 import sys
 import time
-import xmlrpc.client
 
-import rosgraph
+from mpm_ros.master import UNANSWERED, master_at, node_answers
 
 CLOCK_PATIENCE = 8.0  # [s] for nodes of this launch to end; roslaunch loses patience after 15
 
 
 def clock_is_published(master):
     """Whether a node that still answers publishes /clock."""
-    for topic, nodes in master.getSystemState()[0]:
-        for node in nodes if topic == "/clock" else []:
-            try:
-                with xmlrpc.client.ServerProxy(master.lookupNode(node)) as slave:
-                    slave.getPid(master.caller_id)
-                return True
-            except (OSError, rosgraph.MasterError):
-                pass  # it died, or ended meanwhile
-    return False
+    return any(node_answers(master, node)
+               for topic, nodes in master.getSystemState()[0] if topic == "/clock" for node in nodes)
 
 
 def remove(master, name):
@@ -46,11 +38,11 @@ def main():
     numbers = {signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
     signal.pthread_sigmask(signal.SIG_BLOCK, numbers)
     signal.sigwait(numbers)
-    master = rosgraph.Master("/remove_parameters")
+    master = master_at("/remove_parameters")
     try:
         for name in names:
             remove(master, name)
-    except (OSError, rosgraph.MasterException):
+    except UNANSWERED:
         pass  # the master has ended, and its parameters with it
     return 0
 

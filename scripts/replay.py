@@ -18,6 +18,7 @@ import time
 import mpm_ros
 import rosgraph
 import roslib.packages
+from mpm_ros.master import master_at, master_runs
 
 TOPIC_PATIENCE = 20.0  # [s] for rosbag to read its index
 
@@ -75,11 +76,11 @@ def play(options, recording, master):
 
 
 def run(options):
-    if not rosgraph.is_master_online():
+    if not master_runs():
         raise mpm_ros.MpmError(f"no master answers at {rosgraph.get_master_uri()}; start roscore, or use "
                                "roslaunch mpm_ros replay.launch bag:=FILE.bag")
     with mpm_ros.Recording(find_bag(options.bag)) as recording:
-        master = rosgraph.Master("/mpm_ros_replay")
+        master = master_at("/mpm_ros_replay")
         name = "/use_sim_time"
         before = master.getParam(name) if master.hasParam(name) else None
         master.setParam(name, True)
@@ -109,7 +110,7 @@ def main():
         print(f"replay.py: the program {error.filename} is not found; scripts/install_packages demo installs what "
               "belongs to ROS, and the workspace's setup.bash finds what was built", file=sys.stderr)
         return 1
-    except (ConnectionError, rosgraph.MasterException) as error:
+    except (ConnectionError, TimeoutError, rosgraph.MasterException) as error:
         print(f"replay.py: the master is gone: {error}", file=sys.stderr)
         return 1
     except OSError as error:

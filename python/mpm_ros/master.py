@@ -6,7 +6,7 @@ import rosgraph
 
 from .errors import MpmError
 
-PATIENCE = 10.0  # [s] for one answer
+PATIENCE = 5.0  # [s] for one answer
 
 # What a call raises that gets no answer, or a refusal.
 UNANSWERED = (OSError, xmlrpc.Error, http.client.HTTPException, rosgraph.MasterException)

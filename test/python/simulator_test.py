@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """The lockstep client against nodes that it starts, with a master of its own and at one that runs. 40 s."""
-import contextlib
 import os
 import signal
 import subprocess
@@ -12,7 +11,7 @@ import unittest
 import mpm_ros
 import numpy as np
 import rosgraph
-from support import eventually, processes_with, program, running_master, source_file
+from support import eventually, interrupted_after, processes_with, program, running_master, source_file
 
 PRESS = source_file("test/data/press.yaml")  # sync periods of 2 ms; the plate hangs 5 mm above the strip
 SYNC = 0.002  # [s]
@@ -112,28 +111,6 @@ class Stepping(unittest.TestCase):
                                      ({"particle_period": "1 s"}, "particle_period is 1 s")]:
             with self.assertRaisesRegex(mpm_ros.MpmError, sentence):
                 press(**parameters)
-
-
-class Interrupted(Exception):
-    """Raised by a timer, as Ctrl-C raises KeyboardInterrupt."""
-
-
-@contextlib.contextmanager
-def interrupted_after(seconds):
-    """The block is interrupted after this many seconds of wall time, and has to be."""
-    def interrupt(*_):
-        raise Interrupted
-
-    before = signal.signal(signal.SIGALRM, interrupt)
-    try:
-        signal.setitimer(signal.ITIMER_REAL, seconds)
-        yield
-        raise AssertionError(f"it took less than {seconds} s")
-    except Interrupted:
-        pass
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
 
 
 class Interruptions(unittest.TestCase):

@@ -66,6 +66,28 @@ def processes_with(text):
     return found
 
 
+class Interrupted(Exception):
+    """Raised by a timer, as Ctrl-C raises KeyboardInterrupt."""
+
+
+@contextlib.contextmanager
+def interrupted_after(seconds):
+    """The block is interrupted after this many seconds of wall time, and has to be."""
+    def interrupt(*_):
+        raise Interrupted
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+        yield
+        raise AssertionError(f"it took less than {seconds} s")
+    except Interrupted:
+        pass
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
 class Started:
     """A program with its output, ended with the block."""
 

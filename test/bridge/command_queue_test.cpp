@@ -53,20 +53,61 @@ TEST(CommandQueue, StampedVelocityWaitsForTheFirstSyncPointAtOrAfterItsStamp) {
   EXPECT_EQ(queue.late().past + queue.late().unstamped, 0U);
 }
 
-TEST(CommandQueue, NoMoreWaitThanTheBound) {
+TEST(CommandQueue, NoMoreOfABodyWaitForTheirStampsThanTheBound) {
   CommandQueue queue(10);
   queue.take(0);
   for (std::size_t i = 0; i < CommandQueue::kMost; ++i) {
     ASSERT_TRUE(queue.push(velocity(0, 1.0, 1000 + static_cast<std::int64_t>(i))));
   }
-  EXPECT_FALSE(queue.push(velocity(0, 2.0)));
+  EXPECT_FALSE(queue.push(velocity(0, 2.0, 999)));
   queue.hold();
-  EXPECT_FALSE(queue.push(velocity(0, 2.0)));
-  EXPECT_FALSE(queue.push_past_hold(velocity(0, 2.0)));
+  EXPECT_FALSE(queue.push(velocity(0, 2.0, 999)));
+  EXPECT_FALSE(queue.push_past_hold(velocity(0, 2.0, 999)));
   queue.release();
   EXPECT_EQ(queue.waiting(), CommandQueue::kMost);
   EXPECT_EQ(queue.take(1000).size(), 1U);
-  EXPECT_TRUE(queue.push(velocity(0, 2.0)));
+  EXPECT_TRUE(queue.push(velocity(0, 2.0, 1001)));
+  EXPECT_FALSE(queue.push(velocity(0, 2.0, 1001)));
+}
+
+// Whatever waits, a stop without a stamp, or with one that is past, is taken and applied at the next sync point.
+TEST(CommandQueue, AStopIsTakenBesideAnyNumberOfStampedCommands) {
+  CommandQueue queue(10);
+  queue.take(0);
+  for (std::size_t i = 0; i < CommandQueue::kMost; ++i) {
+    ASSERT_TRUE(queue.push(velocity(0, 1.0, 1000 + static_cast<std::int64_t>(i))));
+  }
+  EXPECT_TRUE(queue.push(velocity(0, 0.0)));
+  EXPECT_TRUE(queue.push(velocity(0, 0.25, 0)));
+  EXPECT_TRUE(queue.push(velocity(1, 0.5)));
+  EXPECT_TRUE(queue.push(velocity(1, 2.0, 1000)));
+  EXPECT_EQ(speeds(queue.take(10)), (Speeds{0.0, 0.25, 0.5}));
+}
+
+// In a pause a stream without stamps goes on: its last command is the one that holds. Another sender's, of the same
+// body, stays. On hold the same.
+TEST(CommandQueue, TheOldestWithoutAStampMakesRoom) {
+  for (const bool on_hold : {false, true}) {
+    CommandQueue queue(10);
+    queue.take(0);
+    BodyCommand other = velocity(0, -1.0);
+    other.sender = "/other";
+    EXPECT_TRUE(queue.push(other));
+    if (on_hold) queue.hold();
+    constexpr std::size_t kBeyond = 20;
+    for (std::size_t i = 0; i < CommandQueue::kMost + kBeyond; ++i) {
+      ASSERT_TRUE(queue.push(velocity(0, static_cast<double>(i))));
+    }
+    queue.release();
+    EXPECT_EQ(queue.waiting(), CommandQueue::kMost + 1);
+    const Speeds applied = speeds(queue.take(10));
+    ASSERT_EQ(applied.size(), CommandQueue::kMost + 1);
+    EXPECT_EQ(applied[0], -1.0);
+    EXPECT_EQ(applied[1], static_cast<double>(kBeyond));
+    EXPECT_EQ(applied.back(), static_cast<double>(CommandQueue::kMost + kBeyond - 1));
+    EXPECT_TRUE(queue.push(velocity(0, 0.0)));
+    EXPECT_EQ(queue.waiting(), 1U);
+  }
 }
 
 // Poses that are far away are not looked at in each sync point; the answer must not depend on them. Those of two

@@ -40,6 +40,17 @@ class Follower : public testing::Test {
   }
 };
 
+// One stamp of another clock must not stand for the newest command for ever.
+TEST_F(Follower, AStampThatIsRefusedIsNotTheNewest) {
+  geometry_msgs::TwistStamped command;
+  command.header.stamp = ros::Time(1.0);
+  reader_.take(0, command);
+  command.header.stamp = ros::Time(1e4);
+  reader_.take(0, command);
+  EXPECT_EQ(health_.refused(), 1U);
+  EXPECT_EQ(reader_.newest().stamp, 1'000'000'000);
+}
+
 TEST_F(Follower, WaitsForTheFrameAndSaysSo) {
   EXPECT_TRUE(at(0).empty());
   EXPECT_NE(diagnostic().find("'probe' waits for the tf frame 'tool0'"), std::string::npos) << diagnostic();

@@ -11,12 +11,18 @@
 // poses, then the sender's name decides, then arrival, which for one sender and one topic is the order of sending. So
 // commands that came before their stamps are applied in an order that does not depend on when they came. What came late
 // is applied after them, in the order of arrival.
+//
+// A body holds a bounded number of commands whose stamps are to come; more are refused. Commands without such a stamp
+// are never refused, for one of them may be a stop: where too many wait, as in a pause, the oldest of the same body,
+// kind and sender makes room.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "mpm/math/state_archive.hpp"
@@ -40,7 +46,7 @@ class CommandQueue {
   /// `sync_period` > 0 [ns].
   explicit CommandQueue(std::int64_t sync_period) : sync_period_(sync_period) {}
 
-  /// Any thread. False, with nothing done, when kMost wait already.
+  /// Any thread. False, with nothing done, when the stamp is to come and kMost such commands of the body wait already.
   bool push(BodyCommand command);
   /// From hold() on commands wait outside; release() lets them in. A step of the lockstep takes what came before it.
   void hold();
@@ -58,7 +64,8 @@ class CommandQueue {
   /// The last sync point taken [ns]; -1 before the first.
   std::int64_t passed() const;
 
-  /// More commands than this do not wait: 100 s of a stream at 100 Hz. Each of them is looked at in every sync point.
+  /// So many commands of a body whose stamps are to come may wait, and so many others of one body, kind and sender:
+  /// 100 s of a stream at 100 Hz. Each of them is looked at in every sync point.
   static constexpr std::size_t kMost = 10'000;
   /// A stamp farther ahead of the simulation than this [ns] is refused: it comes from another clock, or from a plan
   /// that is better sent as it is carried out.
@@ -79,6 +86,14 @@ class CommandQueue {
     std::int64_t arrival = 0;      ///< [ns] of the pose under way
   };
 
+  /// Body, kind and sender.
+  using Stream = std::tuple<int, CommandKind, std::string>;
+
+  static Stream stream_of(const BodyCommand& command);
+  bool is_ahead(const BodyCommand& command) const { return command.stamp && *command.stamp > passed_; }
+  /// Counts the command that is to come in, and drops what has to go for it. False when it cannot come in.
+  bool make_room(const BodyCommand& command);
+  void count_waiting();
   void admit(BodyCommand command);
   std::int64_t round_up(std::int64_t time) const { return (time + sync_period_ - 1) / sync_period_ * sync_period_; }
   bool is_due(const BodyCommand& command, std::int64_t now) const;
@@ -91,6 +106,8 @@ class CommandQueue {
   std::vector<BodyCommand> waiting_;
   std::vector<BodyCommand> outside_;  ///< came while on hold
   bool on_hold_ = false;
+  std::map<int, std::size_t> ahead_;    ///< of both, those whose stamp is to come, by body
+  std::map<Stream, std::size_t> next_;  ///< of both, the others
   std::map<int, PoseStream> streams_;
   std::int64_t passed_ = -1;  ///< last sync point taken [ns]
   std::uint64_t arrivals_ = 0;

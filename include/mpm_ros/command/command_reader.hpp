@@ -38,7 +38,7 @@ class CommandReader {
   void follow(int body, const geometry_msgs::PoseStamped& message, bool by_stamp = true);
   /// What comes on topics is applied as it comes, whatever its stamp, which is recorded. Before any message is taken.
   void ignore_stamps() { use_stamps_ = false; }
-  /// The command that was stamped latest since the run began.
+  /// The command that was stamped latest since the run began, of those whose stamp was taken.
   struct Newest {
     int body = 0;
     std::int64_t stamp = 0;  ///< [ns] simulated

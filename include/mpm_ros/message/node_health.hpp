@@ -44,7 +44,7 @@ struct CommandHealth {
   std::uint64_t unstamped = 0;     ///< on stamped topics, with stamp zero: applied at the next sync point
   std::uint64_t past = 0;          ///< with a stamp that was past: the same
   std::uint64_t waiting = 0;       ///< whose time is to come
-  std::uint64_t most_waiting = 0;  ///< so many may; more are refused
+  std::uint64_t most_waiting = 0;  ///< of a body; more with stamps to come are refused
   double horizon = 0.0;            ///< [s] ahead of the simulation; stamps beyond are refused
 };
 

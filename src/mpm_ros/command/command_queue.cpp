@@ -13,7 +13,7 @@ namespace mpm_ros {
 
 bool CommandQueue::push(BodyCommand command) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (waiting_.size() + outside_.size() >= kMost) return false;
+  if (!make_room(command)) return false;
   if (on_hold_) {
     outside_.push_back(std::move(command));
   } else {
@@ -24,7 +24,7 @@ bool CommandQueue::push(BodyCommand command) {
 
 bool CommandQueue::push_past_hold(BodyCommand command) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (waiting_.size() + outside_.size() >= kMost) return false;
+  if (!make_room(command)) return false;
   admit(std::move(command));
   return true;
 }
@@ -41,10 +41,47 @@ void CommandQueue::release() {
   outside_.clear();
 }
 
+CommandQueue::Stream CommandQueue::stream_of(const BodyCommand& command) {
+  return {command.body, command.kind, command.sender};
+}
+
+bool CommandQueue::make_room(const BodyCommand& command) {
+  if (is_ahead(command)) {
+    std::size_t& ahead = ahead_[command.body];
+    if (ahead >= kMost) return false;
+    ++ahead;
+    return true;
+  }
+  const Stream stream = stream_of(command);
+  std::size_t& next = next_[stream];
+  if (next < kMost) {
+    ++next;
+    return true;
+  }
+  // Those that are due at the next sync point stand in the order in which they came, on hold last.
+  const auto same = [&](const BodyCommand& other) { return !is_ahead(other) && stream_of(other) == stream; };
+  for (std::vector<BodyCommand>* commands : {&waiting_, &outside_}) {
+    const auto oldest = std::find_if(commands->begin(), commands->end(), same);
+    if (oldest == commands->end()) continue;
+    commands->erase(oldest);
+    break;
+  }
+  return true;
+}
+
+void CommandQueue::count_waiting() {
+  ahead_.clear();
+  next_.clear();
+  for (const std::vector<BodyCommand>* commands : {&waiting_, &outside_}) {
+    for (const BodyCommand& command : *commands)
+      ++(is_ahead(command) ? ahead_[command.body] : next_[stream_of(command)]);
+  }
+}
+
 void CommandQueue::admit(BodyCommand command) {
   command.order = arrivals_++;
   // Sync points up to passed_ are used up.
-  const bool past = command.stamp && *command.stamp <= passed_;
+  const bool past = command.stamp && !is_ahead(command);
   if (past) ++late_.past;
   if (command.late && !past) ++late_.unstamped;
   command.late = command.late || past;
@@ -95,6 +132,7 @@ std::vector<BodyCommand>::iterator CommandQueue::part_later(std::int64_t now) {
 std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   passed_ = now;
+  const std::size_t before = waiting_.size();
   // A velocity that takes effect ends the poses that were received before it, those that could set out now as well.
   std::map<int, std::uint64_t> last_velocity;
   for (const BodyCommand& command : waiting_) {
@@ -150,6 +188,7 @@ std::vector<DueCommand> CommandQueue::take(std::int64_t now) {
     still_waiting.erase(std::remove_if(still_waiting.begin(), still_waiting.end(), superseded), still_waiting.end());
   }
   waiting_ = std::move(still_waiting);
+  if (waiting_.size() != before || !outside_.empty()) count_waiting();
   return due;
 }
 
@@ -159,6 +198,7 @@ void CommandQueue::clear() {
   outside_.clear();
   streams_.clear();
   passed_ = -1;
+  count_waiting();
 }
 
 LateCommands CommandQueue::late() const {
@@ -215,6 +255,7 @@ void CommandQueue::serialise(mpm::StateArchive& archive) {
   if (archive.reading()) streams_ = std::map<int, PoseStream>(streams.begin(), streams.end());
   archive.value("passed", passed_);
   archive.value("arrivals", arrivals_);
+  if (archive.reading()) count_waiting();
 }
 
 void CommandQueue::take_over(const CommandQueue& other) {
@@ -224,6 +265,7 @@ void CommandQueue::take_over(const CommandQueue& other) {
   streams_ = other.streams_;
   passed_ = other.passed_;
   arrivals_ = other.arrivals_;
+  count_waiting();
 }
 
 }  // namespace mpm_ros

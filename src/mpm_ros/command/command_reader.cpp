@@ -83,8 +83,8 @@ void CommandReader::set_stamp(const ros::Time& stamp, BodyCommand& command, std:
   if (!use_stamps_) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   command.stamp = std::max<std::int64_t>(stamps_.time_of(stamp), -1);
-  if (*command.stamp > newest_.stamp) newest_ = {command.body, *command.stamp};
   problem = too_far_ahead(*command.stamp);
+  if (problem.empty() && *command.stamp > newest_.stamp) newest_ = {command.body, *command.stamp};
 }
 
 CommandReader::Newest CommandReader::newest() const {
@@ -143,8 +143,9 @@ void CommandReader::push_or_refuse(const char* leaf, BodyCommand command, const 
   if (refused.empty()) {
     const bool taken = leaf == kFollowing ? queue_.push_past_hold(std::move(command)) : queue_.push(std::move(command));
     if (!taken) {
-      refused = fmt::format("{} commands wait for their time already, which is the most; send them when they are due",
-                            CommandQueue::kMost);
+      refused = fmt::format(
+          "{} commands wait for their time already, which is the most for a body; send them when they are due",
+          CommandQueue::kMost);
     }
   }
   if (!refused.empty()) {

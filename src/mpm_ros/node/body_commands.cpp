@@ -124,7 +124,10 @@ void BodyCommands::look_at_lag(const Run& run) {
   const double command_ahead = static_cast<double>(newest.stamp - now) * 1e-9;
   // What is stamped at present is ahead by the lag; a plan may be by anything.
   const bool frames_wait = frame_ahead > 0.5 * lag;
-  if (!frames_wait && !(command_ahead > 0.5 * lag)) return;
+  if (!frames_wait && !(command_ahead > 0.5 * lag)) {
+    health_.lag({});
+    return;
+  }
   const std::string pace = parameters_.pacing == Pacing::lockstep
                                ? "it is stepped"
                                : fmt::format("it advances at {:.2g} of the clock's pace", run.real_time_factor());

@@ -128,6 +128,11 @@ TEST(OutputsRefused, ABagThatIsRemovedEndsTheRun) {
   std::filesystem::create_directory(folder.file("bags"));
   RunSceneOptions options = press();
   options.bag = folder.file("bags/run.bag");
+  const auto open_files = [] {
+    const std::filesystem::directory_iterator files("/proc/self/fd");
+    return std::distance(begin(files), end(files));
+  };
+  const auto before = open_files();
   std::ostringstream out, err;
   int looks = 0;
   const auto result = run_scene(options, out, err, false, [&] {
@@ -136,6 +141,7 @@ TEST(OutputsRefused, ABagThatIsRemovedEndsTheRun) {
   });
   EXPECT_EQ(result, RunSceneResult::machine_failed) << err.str();
   EXPECT_NE(err.str().find("run.bag: it is not there any more"), std::string::npos) << err.str();
+  EXPECT_EQ(open_files(), before);
 }
 
 }  // namespace outputs_refused_test

@@ -82,6 +82,44 @@ TEST_F(RunCheckpoint, StoppedAndResumedEndsAsUninterrupted) {
     EXPECT_GE(message.getTime(), ros::Time(0, 17'500'000));
 }
 
+// Stopped in the third sync period, after its first step: nothing can go on from there.
+TEST_F(RunCheckpoint, AStateBetweenTwoSyncPointsIsNotSaved) {
+  const mpm::Scene scene = mpm::load_scene(options_.scene);
+  RunOptions options;
+  options.threads = 1;
+  bool stop = false;
+  options.stop = [&stop] { return stop; };
+  mpm_ros::Run run(scene, options, Stamps(), nullptr);
+  run.begin();
+  run.advance();
+  run.advance();
+  stop = true;
+  EXPECT_THROW(run.advance(), mpm::StoppedError);
+  try {
+    run.save(folder_.file("run.h5"));
+    FAIL();
+  } catch (const mpm::CheckpointError& error) {
+    EXPECT_NE(std::string(error.what()).find("stopped between two sync points"), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(fs::exists(folder_.file("run.h5")));
+}
+
+TEST_F(RunCheckpoint, IsSavedWhereTheWorkingFolderWasRemoved) {
+  const fs::path here = fs::current_path();
+  fs::create_directory(folder_.file("gone"));
+  fs::copy_file(options_.scene, folder_.file("gone/block.yaml"));
+  fs::current_path(folder_.file("gone"));
+  const mpm::Scene scene = mpm::load_scene("block.yaml");
+  RunOptions options;
+  options.threads = 1;
+  mpm_ros::Run run(scene, options, Stamps(), nullptr);
+  fs::remove_all(folder_.file("gone"));
+  EXPECT_NO_THROW(run.begin());
+  EXPECT_NO_THROW(run.save(folder_.file("run.h5")));
+  fs::current_path(here);
+  EXPECT_EQ(mpm::read_checkpoint(folder_.file("run.h5")).time, 0);
+}
+
 TEST_F(RunCheckpoint, EverySoOftenOneFileIsReplaced) {
   options_.checkpoint = folder_.file("run.h5");
   options_.checkpoint_every = "20 ms";

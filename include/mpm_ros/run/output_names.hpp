@@ -14,4 +14,7 @@ std::string bag_path(const std::string& name, const std::string& scene, int run,
 /// @throws mpm::Error when it cannot be made
 std::string make_run_folder(const std::string& base, const std::string& scene);
 
+/// The path from the root; as it is given where the working folder was removed.
+std::string absolute_path(const std::string& path);
+
 }  // namespace mpm_ros

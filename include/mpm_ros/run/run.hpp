@@ -43,7 +43,8 @@ class Run {
   /// Writes static content and the state at time zero, or of the checkpoint.
   void begin();
   /// Saves a checkpoint of the present sync point. `more`: what the caller keeps beside. With a `failure`: of the state
-  /// that it left, which can be looked at but not resumed. @throws mpm::CheckpointError
+  /// that it left, which can be looked at but not resumed. @throws mpm::CheckpointError, also when the run was cut
+  /// short
   mpm::CheckpointAbout save(const std::string& path, const mpm::SerialiseMore& more = {},
                             const std::string& failure = {});
   /// Applies a command at the present sync point, and writes it. @throws mpm::RigidError; then nothing is changed.
@@ -72,7 +73,7 @@ class Run {
   /// [ns]; 0: it runs until it is stopped
   std::int64_t end() const { return end_; }
   bool closed() const { return closed_; }
-  /// It was stopped between two sync points, so there is no state that could be saved.
+  /// It was stopped between two sync points: its state is of neither, and is not to be saved or told of.
   bool cut_short() const { return cut_short_; }
   bool ended() const { return end_ > 0 && simulation_.time() >= end_; }
   /// Simulated over wall time so far.

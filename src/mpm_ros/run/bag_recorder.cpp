@@ -14,6 +14,7 @@
 #include "mpm/math/output_file.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/run/output_names.hpp"
 
 namespace mpm_ros {
 
@@ -39,11 +40,13 @@ boost::shared_ptr<ros::M_string> latched_header(const std::string& topic) {
   return header;
 }
 
-/// Which file has that name: device and number; zeros: none.
-std::pair<std::uint64_t, std::uint64_t> file_at(const std::string& path) {
+using FileNumber = std::pair<std::uint64_t, std::uint64_t>;
+
+/// Device and number of the file of that name; none, with errno, where it cannot be looked at.
+std::optional<FileNumber> file_at(const std::string& path) {
   struct stat found {};
-  if (stat(path.c_str(), &found) != 0) return {};
-  return {found.st_dev, found.st_ino};
+  if (stat(path.c_str(), &found) != 0) return std::nullopt;
+  return FileNumber(found.st_dev, found.st_ino);
 }
 
 /// The system's reason where it has one; rosbag's own names no cause.
@@ -61,7 +64,7 @@ BagRecorder::BagRecorder(const std::string& path, const BagOptions& options)
   if (prefix_.empty() || prefix_.front() != '/') prefix_.insert(prefix_.begin(), '/');
   if (prefix_.back() != '/') prefix_.push_back('/');
   compression(options.compression);
-  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  const std::filesystem::path folder = std::filesystem::path(absolute_path(path)).parent_path();
   if (!std::filesystem::is_directory(folder)) {
     throw BagError(
         fmt::format("bag {}: there is no folder {}; create it or choose another path", path, folder.string()));
@@ -94,7 +97,7 @@ BagRecorder::~BagRecorder() {
 void BagRecorder::open() {
   bag_ = std::make_unique<rosbag::Bag>();
   bag_->open(part_path(path_, part_), rosbag::bagmode::Write);
-  opened_ = file_at(part_path(path_, part_));
+  opened_ = file_at(part_path(path_, part_)).value_or(FileNumber());
   bag_->setCompression(compression(options_.compression));
   bag_->setChunkThreshold(kChunkBytes);
   chunk_began_ = std::chrono::steady_clock::now();
@@ -154,8 +157,15 @@ void BagRecorder::close() {
 
 void BagRecorder::check_there() {
   const std::string part = part_path(path_, part_);
-  if (file_at(part) == opened_) return;
-  static_cast<void>(bag_.release());  // as in give_up()
+  const std::optional<FileNumber> there = file_at(part);
+  if (there ? *there == opened_ : errno != ENOENT && errno != ENOTDIR) return;
+  // What is written goes to a file without a name, which frees its space with this.
+  try {
+    if (bag_) bag_->close();
+    bag_.reset();
+  } catch (const rosbag::BagException&) {
+    static_cast<void>(bag_.release());  // as in give_up()
+  }
   failure_ = fmt::format(
       "bag {}: it is not there any more: it, or its folder, was removed, renamed or replaced while it was written; "
       "leave it in its place, and run again",

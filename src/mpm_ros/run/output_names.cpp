@@ -50,4 +50,10 @@ std::string make_run_folder(const std::string& base, const std::string& scene) {
   throw mpm::Error(fmt::format("--out {}: no folder can be made in it ({}); choose another", base, error.message()));
 }
 
+std::string absolute_path(const std::string& path) {
+  std::error_code error;
+  const fs::path absolute = fs::absolute(path, error);
+  return error ? path : absolute.string();
+}
+
 }  // namespace mpm_ros

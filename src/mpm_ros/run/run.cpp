@@ -4,8 +4,9 @@
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <utility>
+
+#include "mpm_ros/run/output_names.hpp"
 
 namespace mpm_ros {
 
@@ -69,8 +70,13 @@ void Run::serialise(mpm::StateArchive& archive, const mpm::SerialiseMore& more) 
 }
 
 mpm::CheckpointAbout Run::save(const std::string& path, const mpm::SerialiseMore& more, const std::string& failure) {
-  return mpm::save_checkpoint(path, simulation_,
-                              {std::filesystem::absolute(scene_.path).string(), scene_.text, failure},
+  if (cut_short_) {
+    throw mpm::CheckpointError(fmt::format(
+        "checkpoint {}: not written, since the run was stopped between two sync points, where no run can go "
+        "on; save earlier, or shorten time.sync",
+        path));
+  }
+  return mpm::save_checkpoint(path, simulation_, {absolute_path(scene_.path), scene_.text, failure},
                               [&](mpm::StateArchive& archive) { serialise(archive, more); });
 }
 
@@ -125,8 +131,7 @@ void Run::look_for_lost_bodies() {
       const mpm::Vec3 at = body.pose().position;
       warnings_.push_back(
           fmt::format("rigid body '{}' has left the grid at t = {:.6g} s: it is at ({:.3g}, {:.3g}, {:.3g}) m, where "
-                      "nothing touches "
-                      "it; end the run before, or enlarge grid.min/grid.max and what it rests on",
+                      "nothing touches it; end the run before, or enlarge grid.min/grid.max and what it rests on",
                       body.name(), static_cast<double>(simulation_.time()) * 1e-9, at.x(), at.y(), at.z()));
     }
   }

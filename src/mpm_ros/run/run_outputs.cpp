@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "mpm/math/build_info.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/scene_files.hpp"
 
 namespace mpm_ros {
@@ -43,7 +43,7 @@ RunInfo run_info(const mpm::Scene& scene, const mpm::Simulation& simulation, con
   info.header.stamp = stamps.at(simulation.time());
   info.scene = scene.definition.name;
   info.scene_text = scene.text;
-  info.scene_path = std::filesystem::absolute(scene.path).string();
+  info.scene_path = absolute_path(scene.path);
   info.files = scene_files(scene.text, scene.path);
   info.isa = simulation.isa();
   info.sync_period = static_cast<double>(simulation.sync_period()) * 1e-9;

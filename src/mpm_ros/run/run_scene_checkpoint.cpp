@@ -41,8 +41,8 @@ RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::in
       throw mpm::SceneError(fmt::format("--checkpoint-every: {}", error.what()));
     }
     if (!(period > 0.0 && period < 1e9)) {
-      throw mpm::SceneError(fmt::format("--checkpoint-every: '{}' is not between 0 and 1e9 s; write a time such as 0.5 s",
-                                        options.checkpoint_every));
+      throw mpm::SceneError(fmt::format(
+          "--checkpoint-every: '{}' is not between 0 and 1e9 s; write a time such as 0.5 s", options.checkpoint_every));
     }
     const double periods = std::round(period * 1e9 / static_cast<double>(sync_period));
     period_ = sync_period * std::max<std::int64_t>(1, static_cast<std::int64_t>(periods));
@@ -73,12 +73,6 @@ void RunSceneCheckpoints::at_sync(Run& run, std::ostream& err) {
 
 void RunSceneCheckpoints::at_end(Run& run, std::ostream& out) {
   if (path_.empty()) return;
-  if (run.cut_short()) {
-    throw mpm::CheckpointError(
-        fmt::format("checkpoint {}: not written, since the run was stopped between two sync points, which a shorter "
-                    "time.sync avoids; --checkpoint-every saves earlier ones",
-                    path_));
-  }
   run.save(path_);
   out << fmt::format("  checkpoint {} at t = {:g} s\n", path_, static_cast<double>(run.simulation().time()) * 1e-9);
 }

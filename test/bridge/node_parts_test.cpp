@@ -173,6 +173,29 @@ TEST(Mailbox, WorkIsDoneOnTheOtherThread) {
   EXPECT_EQ(worker, std::this_thread::get_id());
 }
 
+// A step that is under way ends when a pause can be found, not before and not after, and the pause is then the first.
+TEST(Mailbox, WorkAtOnceIsToldOfWhileItWaits) {
+  Mailbox mailbox;
+  std::vector<std::string> done;
+  std::thread step([&] { mailbox.call([&] { done.emplace_back("step"); }); });
+  std::this_thread::sleep_for(milliseconds(20));
+  EXPECT_FALSE(mailbox.urgent());
+  std::thread pause([&] {
+    mailbox.call(
+        [&] {
+          EXPECT_FALSE(mailbox.urgent());
+          done.emplace_back("pause");
+        },
+        Mailbox::Turn::at_once);
+  });
+  while (!mailbox.urgent()) std::this_thread::yield();
+  mailbox.run_until(std::chrono::steady_clock::now());
+  pause.join();
+  step.join();
+  EXPECT_EQ(done, (std::vector<std::string>{"pause", "step"}));
+  EXPECT_FALSE(mailbox.urgent());
+}
+
 TEST(Mailbox, ClosingLetsCallersGo) {
   Mailbox mailbox;
   bool done = true;

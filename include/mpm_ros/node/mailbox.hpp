@@ -2,6 +2,7 @@
 // only one thread ever touches the simulation.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -12,8 +13,8 @@ namespace mpm_ros {
 
 class Mailbox {
  public:
-  /// Whose turn it is when several wait.
-  enum class Turn { last, first };
+  /// Whose turn it is when several wait; at_once: first, and work that takes long ends for it.
+  enum class Turn { last, first, at_once };
   /// Hands over `work` and waits until it is done. False, with the work not done, once closed. Not from the thread
   /// that calls run_until().
   bool call(const std::function<void()>& work, Turn turn = Turn::last);
@@ -22,16 +23,20 @@ class Mailbox {
   void run_until(std::chrono::steady_clock::time_point deadline);
   /// Lets every waiting caller go.
   void close();
+  /// Whether some work waits that others end for. Any thread; true from the moment in which run_until() would find it.
+  bool urgent() const { return urgent_ > 0; }
 
  private:
   struct Letter {
     const std::function<void()>* work;
+    Turn turn;
     bool done = false;
   };
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Letter*> letters_;
   bool closed_ = false;
+  std::atomic<int> urgent_{0};  // of letters_, those of Turn::at_once
 };
 
 }  // namespace mpm_ros

@@ -15,7 +15,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
-#include <atomic>
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
@@ -81,6 +81,8 @@ class SimulatorNode {
   bool on_reset_with(Reset::Request& request, Reset::Response& response);
   bool on_step(Step::Request& request, Step::Response& response);
   void pause(bool paused, std_srvs::SetBool::Response& response);
+  /// Why a service did nothing, for its answer.
+  static std::string refusal_of(const std::exception& error);
   /// Begins the subject from time zero. Returns what began; `success`: whether it did.
   std::string reset(const std::shared_ptr<const Subject>& subject, bool& success);
   void reset_with(const std::vector<std::string>& set, Reset::Response& response);
@@ -116,7 +118,6 @@ class SimulatorNode {
   std::unique_ptr<NodeDiagnostics> diagnostics_;
   std::vector<ros::ServiceServer> services_;
   std::unique_ptr<ros::AsyncSpinner> service_spinner_, pause_spinner_;
-  std::atomic<int> pauses_asked_{0};  // that the solver's thread has not come to; a step ends for them
 
   int runs_ = 0;
   bool paused_ = false;

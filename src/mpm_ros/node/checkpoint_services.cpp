@@ -8,6 +8,7 @@
 
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/node/simulator_node.hpp"
+#include "mpm_ros/run/output_names.hpp"
 
 namespace mpm_ros {
 
@@ -15,7 +16,9 @@ namespace {
 
 constexpr const char* kNodeEnds = "the node is ending";
 
-std::string from_root(const std::string& path) { return std::filesystem::absolute(path).lexically_normal().string(); }
+std::string from_root(const std::string& path) {
+  return std::filesystem::path(absolute_path(path)).lexically_normal().string();
+}
 
 std::int64_t nanoseconds(const ros::Time& time) { return static_cast<std::int64_t>(time.toNSec()); }
 
@@ -42,7 +45,7 @@ void SimulatorNode::save_checkpoint(const std::string& path, Checkpoint::Respons
         run_->save(path, [this](mpm::StateArchive& archive) { commands_.serialise(archive); });
     response.state_hash = hash_text(about.state_hash);
   } catch (const std::exception& error) {
-    response.message = error.what();
+    response.message = refusal_of(error);
     return;
   }
   run_->resume_clock();
@@ -75,7 +78,7 @@ void SimulatorNode::load_checkpoint(const std::string& path, Checkpoint::Respons
     response.state_hash = hash_text(about.state_hash);
   } catch (const std::exception& error) {
     // A file that does not fit, a bag that cannot be opened, or memory: the run goes on as it was.
-    response.message = error.what();
+    response.message = refusal_of(error);
     return;
   }
   begin_run();
@@ -90,16 +93,16 @@ void SimulatorNode::load_checkpoint(const std::string& path, Checkpoint::Respons
 
 void SimulatorNode::leave_failed_state() {
   if (!parameters_.checkpoint_on_failure) return;
-  const std::filesystem::path bag(run_->recorder() != nullptr ? run_->recorder()->path() : "");
-  const std::filesystem::path folder = bag.parent_path();
-  const std::string name = bag.empty() ? subject_->scene.definition.name : bag.stem().string();
-  const std::string path = from_root((folder / (name + "_failed.h5")).string());
   try {
+    const std::filesystem::path bag(run_->recorder() != nullptr ? run_->recorder()->path() : "");
+    const std::filesystem::path folder = bag.parent_path();
+    const std::string name = bag.empty() ? subject_->scene.definition.name : bag.stem().string();
+    const std::string path = from_root((folder / (name + "_failed.h5")).string());
     run_->save(
         path, [this](mpm::StateArchive& archive) { commands_.serialise(archive); }, failure_);
     ROS_INFO_STREAM("the state of the failure is in " << path);
-  } catch (const mpm::Error& error) {
-    ROS_ERROR_STREAM(error.what());
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM("the state of the failure is not saved: " << error.what());
   }
 }
 

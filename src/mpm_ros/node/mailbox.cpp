@@ -8,8 +8,9 @@ namespace mpm_ros {
 bool Mailbox::call(const std::function<void()>& work, Turn turn) {
   std::unique_lock<std::mutex> lock(mutex_);
   if (closed_) return false;
-  Letter letter{&work};
-  letters_.insert(turn == Turn::first ? letters_.begin() : letters_.end(), &letter);
+  Letter letter{&work, turn};
+  letters_.insert(turn == Turn::last ? letters_.end() : letters_.begin(), &letter);
+  if (turn == Turn::at_once) ++urgent_;
   changed_.notify_all();
   // A letter that has left the queue is being worked on and will be done, closed or not.
   changed_.wait(lock, [&] {
@@ -25,6 +26,7 @@ void Mailbox::run_until(std::chrono::steady_clock::time_point deadline) {
   while (!letters_.empty() && !closed_) {
     Letter* letter = letters_.front();
     letters_.pop_front();
+    if (letter->turn == Turn::at_once) --urgent_;
     lock.unlock();
     std::exception_ptr error;
     try {

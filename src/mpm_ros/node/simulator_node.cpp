@@ -141,6 +141,7 @@ void SimulatorNode::begin_run() {
   try {
     run_->begin();
   } catch (const BagError& error) {
+    bag_lost_ = true;
     fail(error.what(), 1);
   }
   pacer_->restart(Pacer::Clock::now());
@@ -193,6 +194,7 @@ bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra, std::s
   } catch (const ParameterError& error) {
     fail(error.what(), 2);
   } catch (const BagError& error) {
+    bag_lost_ = true;
     fail(error.what(), 1);
   } catch (const std::bad_alloc&) {
     fail("there is not enough memory to go on; use a larger grid.cell or a smaller scene", 1);
@@ -203,7 +205,6 @@ bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra, std::s
 void SimulatorNode::fail(const std::string& reason, int exit_code) {
   failure_ = reason;
   failure_code_ = exit_code;
-  if (exit_code == 1) bag_lost_ = true;
   ROS_FATAL_STREAM(reason);
   try {
     count_commands();
@@ -211,6 +212,7 @@ void SimulatorNode::fail(const std::string& reason, int exit_code) {
     say_closed();
   } catch (const BagError& error) {
     ROS_FATAL_STREAM(error.what());
+    bag_lost_ = true;
   }
   leave_failed_state();
   if (parameters_.keep_alive) ROS_WARN_STREAM("the node waits for reset, reset_with or load_checkpoint");

@@ -27,10 +27,8 @@ constexpr std::chrono::milliseconds kPoll{50};
 
 bool SimulatorNode::on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
   response.message = kEnding;
-  const int steps_end = request.data != 0 ? 1 : 0;
-  pauses_asked_ += steps_end;
-  mailbox_.call([&] { pause(request.data != 0, response); }, Mailbox::Turn::first);
-  pauses_asked_ -= steps_end;
+  const bool paused = request.data != 0;
+  mailbox_.call([&] { pause(paused, response); }, paused ? Mailbox::Turn::at_once : Mailbox::Turn::first);
   return true;
 }
 
@@ -67,6 +65,11 @@ void SimulatorNode::pause(bool paused, std_srvs::SetBool::Response& response) {
                                  static_cast<double>(run_->simulation().time()) * 1e-9);
 }
 
+std::string SimulatorNode::refusal_of(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) == nullptr) return error.what();
+  return "there is not enough memory for this; the run is as it was";
+}
+
 std::string SimulatorNode::reset(const std::shared_ptr<const Subject>& subject, bool& success) {
   success = false;
   // Stamps never run backwards unless that was asked for: simulated time is zero again, at a stamp later than all
@@ -79,11 +82,9 @@ std::string SimulatorNode::reset(const std::shared_ptr<const Subject>& subject, 
   }
   try {
     start_run(subject, Stamps(origin));
-  } catch (const std::bad_alloc&) {
-    return "there is not enough memory for that scene; the run before it is as it was";
   } catch (const std::exception& error) {
-    // A bag that cannot be opened, a scene that cannot be simulated: the run before it is as it was.
-    return error.what();
+    // A bag that cannot be opened, a scene that cannot be simulated, or memory: the run before it is as it was.
+    return refusal_of(error);
   }
   if (parameters_.reset_time == ResetTime::zero) commands_.forget_frames();
   begin_run();
@@ -98,7 +99,7 @@ void SimulatorNode::reset_with(const std::vector<std::string>& set, Reset::Respo
   try {
     response.message = reset(load_subject(set), success);
   } catch (const std::exception& error) {
-    response.message = error.what();
+    response.message = refusal_of(error);
   }
   response.success = success ? 1 : 0;
   response.run = static_cast<std::uint32_t>(runs_);
@@ -178,7 +179,7 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
   ContactAverage contacts;
   run_->resume_clock();
   std::int64_t done = 0;
-  for (; done < periods && !run_->ended() && !ends() && pauses_asked_ == 0; ++done) {
+  for (; done < periods && !run_->ended() && !ends() && !mailbox_.urgent(); ++done) {
     if (!sync_period(done == 0 ? commands : std::vector<AppliedCommand>(), refusal)) break;
     contacts.add(run_->outputs().contacts());
   }
@@ -193,7 +194,7 @@ void SimulatorNode::step(const Step::Request& request, Step::Response& response)
   }
   response.success = response.message.empty() ? 1 : 0;
   if (response.message.empty() && run_->ended()) response.message = "the run has ended";
-  if (done == 0) return;
+  if (done == 0 || run_->cut_short()) return;
   response.contact_forces = run_->outputs().contact_forces(contacts.take());
   response.bodies = run_->outputs().body_states();
 }

@@ -5,8 +5,10 @@
 #include <mpm_ros/SolverState.h>
 #include <std_srvs/SetBool.h>
 
+#include <fstream>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "simulator_process.hpp"
 #include "test_files.hpp"
@@ -247,10 +249,11 @@ TEST(Endings, SignalsEndAGeostaticStart) {
 TEST(Endings, SignalsActWithinALongSyncPeriod) {
   const TemporaryFolder folder;
   const std::string bag = folder.file("run.bag"), checkpoint = folder.file("run.h5");
+  const std::string summary = folder.file("summary.json");
   int exit_code = 0;
   ProgramProcess run("run_scene",
                      {data_file("press.yaml"), "--threads", "1", "--set", "time.end=4000", "--set", "time.sync=2000",
-                      "--set", "output.period=2000", "--bag", bag, "--checkpoint", checkpoint},
+                      "--set", "output.period=2000", "--bag", bag, "--checkpoint", checkpoint, "--summary", summary},
                      kNoNode);
   ASSERT_TRUE(eventually([&] { return std::filesystem::exists(bag) && std::filesystem::file_size(bag) > 10'000; }));
   EXPECT_LT(time_to_end(run, SIGINT, exit_code), 1.0);
@@ -258,6 +261,10 @@ TEST(Endings, SignalsActWithinALongSyncPeriod) {
   EXPECT_NE(run.log().find("stopped within a sync period"), std::string::npos) << run.log();
   EXPECT_NE(run.log().find("not written, since the run was stopped between two sync points"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(checkpoint));
+  std::ifstream file(summary);
+  const nlohmann::json told = nlohmann::json::parse(file);
+  EXPECT_TRUE(told.at("cut_short").get<bool>());
+  EXPECT_FALSE(told.contains("state_hash"));
   EXPECT_EQ(messages_in(bag, "mpm_ros/BodyStates"), 1U);  // the start
 }
 

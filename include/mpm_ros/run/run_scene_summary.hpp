@@ -13,9 +13,10 @@
 namespace mpm_ros {
 
 struct RunSummary {
-  /// Reads the simulation where it stands. `start`: where the run began. `contacts`: the last reports.
+  /// Reads the simulation where it stands. `start`: where the run began. `contacts`: the last reports. `cut_short`: it
+  /// stands between two sync points, and its state is none that a run has.
   RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::SolverState& start,
-             const Contacts& contacts);
+             const Contacts& contacts, bool cut_short = false);
 
   /// Keys and units as doc/analysis.md lists them; the order of the keys is kept.
   nlohmann::ordered_json json() const;
@@ -28,7 +29,8 @@ struct RunSummary {
   int threads = 0;
   mpm::SolverState state;
   mpm::SolverState start;  ///< at time zero
-  std::uint64_t state_hash = 0;
+  bool cut_short = false;
+  std::uint64_t state_hash = 0;   ///< none when it was cut short
   std::uint64_t peak_memory = 0;  ///< [byte] of the whole process
   Contacts contacts;              ///< impulses and energies since the start
   std::vector<std::pair<std::string, double>> metrics;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -11,10 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "mpm/math/output_file.hpp"
-#include "mpm/scene/explain.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/scene/units.hpp"
 #include "mpm_ros/command/command_log.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/progress_bar.hpp"
@@ -23,6 +19,7 @@
 #include "mpm_ros/run/run.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
 #include "mpm_ros/run/run_scene_csv.hpp"
+#include "mpm_ros/run/run_scene_options.hpp"
 #include "mpm_ros/run/run_scene_summary.hpp"
 #include "mpm_ros/run/run_scene_vtk.hpp"
 #include "mpm_ros/run/scene_files.hpp"
@@ -31,88 +28,6 @@
 
 namespace mpm_ros {
 namespace {
-
-/// @throws mpm::SceneError that names the option
-mpm::Isa instruction_set(const RunSceneOptions& options) {
-  try {
-    return mpm::choose_isa(options.isa);
-  } catch (const mpm::IsaError& error) {
-    throw mpm::SceneError(fmt::format("--isa: {}", error.what()));
-  }
-}
-
-/// The recorded scene, to where the recording ends.
-mpm::Scene recorded_scene(const RunSceneOptions& options, const Rerun& rerun) {
-  mpm::Scene scene = mpm::parse_scene(rerun.info.scene_text, rerun.info.scene_path, options.set);
-  // What failed is given the time to fail again.
-  const std::int64_t after = rerun.failed ? 2 * scene.definition.time.sync : 0;
-  scene.definition.time.end = static_cast<double>(rerun.end + after) * 1e-9;
-  return scene;
-}
-
-/// Before the summary is opened: what is refused here leaves that of an earlier run as it is.
-mpm::Scene load(const RunSceneOptions& options, const std::optional<Rerun>& rerun) {
-  instruction_set(options);
-  mpm::Scene scene = rerun ? recorded_scene(options, *rerun) : scene_of(options);
-  if (options.end.empty()) return scene;
-  // The sync and output periods stay the scene's: a shorter run is the beginning of the longer one, bit for bit.
-  double end = 0.0;
-  try {
-    end = mpm::parse_quantity(options.end, mpm::kTime);
-  } catch (const mpm::UnitError& error) {
-    throw mpm::SceneError(fmt::format("--end: {}", error.what()));
-  }
-  // The shortest period between sync points is a nanosecond, and 64 bits of them last 292 years.
-  if (!(end >= 1e-9 && end <= 1e9))
-    throw mpm::SceneError(
-        fmt::format("--end: '{}' is not between 1e-9 s and 1e9 s; write a time such as 0.5", options.end));
-  scene.definition.time.end = end;
-  return scene;
-}
-
-/// Opens the file before the run, so that a path that cannot be written is reported before hours of work.
-std::ofstream open_summary(const std::string& path) {
-  std::ofstream file;
-  if (path.empty()) return file;
-  if (const std::string refused = mpm::refused_output(path); !refused.empty())
-    throw mpm::SceneError(fmt::format("--summary {}: cannot be written: {}", path, refused));
-  file.open(path);
-  if (!file)
-    throw mpm::SceneError(fmt::format("--summary {}: cannot be written; check that the folder is there", path));
-  return file;
-}
-
-/// "500 MB" or "10 s". @throws mpm::SceneError
-void read_split(const std::string& text, BagOptions& bag) {
-  if (text.empty()) return;
-  const std::size_t unit = text.find_last_of("0123456789. ");
-  const std::string last = unit == std::string::npos ? text : text.substr(unit + 1);
-  double size = 0.0;
-  std::string rest;
-  for (const auto& [name, bytes] : {std::pair<const char*, double>{"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}}) {
-    if (last != name) continue;
-    if (mpm::split_number(text, size, rest) && size * bytes >= 1.0 && size * bytes < 1e15) {
-      bag.split_size = static_cast<std::uint64_t>(size * bytes);
-      return;
-    }
-  }
-  double time = 0.0;
-  try {
-    if (!last.empty()) time = mpm::parse_quantity(text, mpm::kTime);
-  } catch (const mpm::UnitError&) {
-    // Neither a size nor a time.
-  }
-  if (!(time > 0.0 && time < 1e9)) {
-    throw mpm::SceneError(fmt::format(
-        "--bag-split: '{}' is neither a size nor a time with its unit; write one such as 500 MB or 10 s", text));
-  }
-  bag.split_duration = std::llround(time * 1e9);
-}
-
-void check_fields(const OutputOptions& output) {
-  const std::string problem = problem_of(output.particles);
-  if (!problem.empty()) throw mpm::SceneError(fmt::format("output: {}", problem));
-}
 
 /// A sink that gets no more once it is left out.
 template <typename Sink>
@@ -127,26 +42,13 @@ class Leavable : public Sink {
   bool left_out_ = false;
 };
 
-/// What goes on keeps what was recorded so far. @throws mpm::SceneError for a name that holds it
-void check_not_there(const RunSceneOptions& options) {
-  std::error_code ignored;
-  if (options.bag != "auto" && std::filesystem::exists(options.bag, ignored)) {
-    throw mpm::SceneError(fmt::format("--bag {}: holds the run so far; choose another name", options.bag));
-  }
-  for (const auto& [option, folder] : {std::pair("--csv", options.csv), std::pair("--vtk", options.vtk)}) {
-    if (folder.empty() || !std::filesystem::exists(folder, ignored)) continue;
-    if (std::filesystem::is_directory(folder, ignored) && std::filesystem::is_empty(folder, ignored)) continue;
-    throw mpm::SceneError(fmt::format("{} {}: holds the run so far; choose another name", option, folder));
-  }
-}
-
 /// The run with its sinks, from beginning to end.
 class OfflineRun {
  public:
   OfflineRun(const RunSceneOptions& options, std::ostream& err)
       : options_(options),
         rerun_(read(options)),
-        scene_(load(options_, rerun_)),
+        scene_(scene_to_run(options_, rerun_)),
         checkpoints_(options, scene_.definition.time.sync) {
     if (!(scene_.definition.time.end > 0.0)) {
       throw mpm::SceneError(
@@ -262,7 +164,7 @@ class OfflineRun {
     if (!room) recorded([&] { run_->finish(); });
     if (csv_ && !csv_->left_out()) recorded([&] { csv_->close(); });
     if (vtk_ && !vtk_->left_out()) recorded([&] { vtk_->close(); });
-    const RunSummary summary(scene_, simulation, start, run_->outputs().contacts());
+    const RunSummary summary(scene_, simulation, start, run_->outputs().contacts(), run_->cut_short());
     out << summary.text();
     if (!write(summary, err)) room = false;
     if (!run_->bag().empty()) out << "  bag " << run_->bag() << "\n";
@@ -365,28 +267,6 @@ class OfflineRun {
 
 void list_scenes(std::ostream& out) {
   for (const auto& [name, line] : mpm::shipped_scenes()) out << fmt::format("{:<26} {}\n", name, line);
-}
-
-void explain_scene(const RunSceneOptions& options, std::ostream& out) {
-  const mpm::Scene scene = load(
-      options, options.from_bag.empty() ? std::nullopt
-                                        : std::optional<Rerun>(read_rerun(options.from_bag, !options.resume.empty())));
-  mpm::SimulationDefinition built = mpm::build(scene);
-  out << mpm::explain(scene, built);
-  if (!(scene.definition.time.end > 0.0)) out << "note: the scene has no end; run_scene needs --end\n";
-  mpm::Simulation simulation(
-      std::move(built),
-      {options.threads, instruction_set(options), true, {}, stop_overdue, settling_news([&](const std::string& line) {
-         out << line << std::endl;
-       })});
-  // What a run writes is checked as a run checks it.
-  const OutputOptions output = output_options(scene);
-  check_fields(output);
-  const RunOutputs outputs(simulation, Stamps(), output);
-  out << fmt::format("kernels: instruction set {}, {} thread{}\n", simulation.isa(), simulation.threads(),
-                     simulation.threads() == 1 ? "" : "s");
-  for (const std::string& warning : simulation.warnings()) out << "warning: " << warning << "\n";
-  for (const std::string& note : simulation.notes()) out << note << "\n";
 }
 
 RunSceneResult run_scene(const RunSceneOptions& options, std::ostream& out, std::ostream& err, bool bar,

@@ -53,14 +53,15 @@ nlohmann::ordered_json energy_json(const mpm::SolverState& state) {
 }  // namespace
 
 RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::SolverState& start,
-                       const Contacts& contacts)
+                       const Contacts& contacts, bool cut_short)
     : scene(scene.definition.name),
       definition(simulation.definition()),
       isa(simulation.isa()),
       threads(simulation.threads()),
       state(simulation.state()),
       start(start),
-      state_hash(simulation.state_hash()),
+      cut_short(cut_short),
+      state_hash(cut_short ? 0 : simulation.state_hash()),
       peak_memory(peak_memory_bytes()),
       contacts(contacts),
       metrics(simulation.metrics()) {}
@@ -91,7 +92,8 @@ nlohmann::ordered_json RunSummary::json() const {
   root["real_time_factor"] = real_time_factor();
   root["peak_memory_bytes"] = peak_memory;
   root["threads"] = threads;
-  root["state_hash"] = hash_text(state_hash);
+  root["cut_short"] = cut_short;
+  if (!cut_short) root["state_hash"] = hash_text(state_hash);
   root["energy"] = {{"start", energy_json(start)}, {"end", energy_json(state)}};
   root["momentum_error"] = state.audit.residual;
   // Of a body by quantity and body, of a pair the other way round.
@@ -125,9 +127,14 @@ std::string RunSummary::text() const {
       "{:.4g}); lost to plastic or viscous flow {:.4g} J, work of tools {:.4g} J\n",
       start.energy.total(), state.energy.total(), state.energy.of("kinetic"), state.energy.of("elastic"),
       state.energy.of("potential"), state.energy.of("plastic"), state.energy.of("contact_work"));
-  text +=
-      fmt::format("  momentum error {:.2g} of the momentum exchanged, smallest J {:.4g} at the end, state hash {}\n",
-                  state.audit.residual, state.min_j, hash_text(state_hash));
+  text += fmt::format("  momentum error {:.2g} of the momentum exchanged, smallest J {:.4g} at the end, {}\n",
+                      state.audit.residual, state.min_j,
+                      cut_short ? "no state hash" : "state hash " + hash_text(state_hash));
+  if (cut_short) {
+    text +=
+        "  steps, energies and errors are those of the stop, between two sync points; time and contact are those "
+        "of the sync point before\n";
+  }
   for (const mpm::ContactReport& contact : contacts.bodies) {
     text += fmt::format("  contact impulse on {}: {} N s; friction took {:.4g} J\n", contact.body,
                         triple(contact.impulse), contact.friction_energy);

@@ -1,0 +1,32 @@
+// What the options of run_scene say, each checked before anything is run or written.
+#pragma once
+
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "mpm/kernel/isa.hpp"
+#include "mpm/scene/scene.hpp"
+#include "mpm_ros/run/bag_recorder.hpp"
+#include "mpm_ros/run/rerun.hpp"
+#include "mpm_ros/run/run_outputs.hpp"
+#include "mpm_ros/run/run_scene.hpp"
+
+namespace mpm_ros {
+
+/// @throws mpm::SceneError that names the option
+mpm::Isa instruction_set(const RunSceneOptions& options);
+/// The scene, or that of the recording, to the end that was asked for. Call it before the summary is opened: what is
+/// refused here leaves that of an earlier run as it is. @throws mpm::Error
+mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Rerun>& rerun);
+/// @throws mpm::SceneError for particle fields that are none
+void check_fields(const OutputOptions& output);
+/// Opens the file before the run, so that a path that cannot be written is reported before hours of work. No file for
+/// an empty path. @throws mpm::SceneError
+std::ofstream open_summary(const std::string& path);
+/// Where a part of the bag ends: "500 MB" or "10 s". @throws mpm::SceneError
+void read_split(const std::string& text, BagOptions& bag);
+/// What goes on keeps what was recorded so far. @throws mpm::SceneError for a name that holds it
+void check_not_there(const RunSceneOptions& options);
+
+}  // namespace mpm_ros

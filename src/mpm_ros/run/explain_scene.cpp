@@ -1,0 +1,34 @@
+// What `run_scene --explain` tells of a scene.
+#include <fmt/format.h>
+
+#include "mpm/scene/explain.hpp"
+#include "mpm_ros/run/run_scene.hpp"
+#include "mpm_ros/run/run_scene_options.hpp"
+#include "mpm_ros/run/settling_news.hpp"
+#include "mpm_ros/run/stop_signals.hpp"
+
+namespace mpm_ros {
+
+void explain_scene(const RunSceneOptions& options, std::ostream& out) {
+  const mpm::Scene scene = scene_to_run(
+      options, options.from_bag.empty() ? std::nullopt
+                                        : std::optional<Rerun>(read_rerun(options.from_bag, !options.resume.empty())));
+  mpm::SimulationDefinition built = mpm::build(scene);
+  out << mpm::explain(scene, built);
+  if (!(scene.definition.time.end > 0.0)) out << "note: the scene has no end; run_scene needs --end\n";
+  mpm::Simulation simulation(
+      std::move(built),
+      {options.threads, instruction_set(options), true, {}, stop_overdue, settling_news([&](const std::string& line) {
+         out << line << std::endl;
+       })});
+  // What a run writes is checked as a run checks it.
+  const OutputOptions output = output_options(scene);
+  check_fields(output);
+  const RunOutputs outputs(simulation, Stamps(), output);
+  out << fmt::format("kernels: instruction set {}, {} thread{}\n", simulation.isa(), simulation.threads(),
+                     simulation.threads() == 1 ? "" : "s");
+  for (const std::string& warning : simulation.warnings()) out << "warning: " << warning << "\n";
+  for (const std::string& note : simulation.notes()) out << note << "\n";
+}
+
+}  // namespace mpm_ros

@@ -1,0 +1,108 @@
+#include "mpm_ros/run/run_scene_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "mpm/math/output_file.hpp"
+#include "mpm/scene/units.hpp"
+#include "mpm_ros/run/run_scene_checkpoint.hpp"
+
+namespace mpm_ros {
+namespace {
+
+/// The recorded scene, to where the recording ends.
+mpm::Scene recorded_scene(const RunSceneOptions& options, const Rerun& rerun) {
+  mpm::Scene scene = mpm::parse_scene(rerun.info.scene_text, rerun.info.scene_path, options.set);
+  // What failed is given the time to fail again.
+  const std::int64_t after = rerun.failed ? 2 * scene.definition.time.sync : 0;
+  scene.definition.time.end = static_cast<double>(rerun.end + after) * 1e-9;
+  return scene;
+}
+
+}  // namespace
+
+mpm::Isa instruction_set(const RunSceneOptions& options) {
+  try {
+    return mpm::choose_isa(options.isa);
+  } catch (const mpm::IsaError& error) {
+    throw mpm::SceneError(fmt::format("--isa: {}", error.what()));
+  }
+}
+
+mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Rerun>& rerun) {
+  instruction_set(options);
+  mpm::Scene scene = rerun ? recorded_scene(options, *rerun) : scene_of(options);
+  if (options.end.empty()) return scene;
+  // The sync and output periods stay the scene's: a shorter run is the beginning of the longer one, bit for bit.
+  double end = 0.0;
+  try {
+    end = mpm::parse_quantity(options.end, mpm::kTime);
+  } catch (const mpm::UnitError& error) {
+    throw mpm::SceneError(fmt::format("--end: {}", error.what()));
+  }
+  // The shortest period between sync points is a nanosecond, and 64 bits of them last 292 years.
+  if (!(end >= 1e-9 && end <= 1e9))
+    throw mpm::SceneError(
+        fmt::format("--end: '{}' is not between 1e-9 s and 1e9 s; write a time such as 0.5", options.end));
+  scene.definition.time.end = end;
+  return scene;
+}
+
+std::ofstream open_summary(const std::string& path) {
+  std::ofstream file;
+  if (path.empty()) return file;
+  if (const std::string refused = mpm::refused_output(path); !refused.empty())
+    throw mpm::SceneError(fmt::format("--summary {}: cannot be written: {}", path, refused));
+  file.open(path);
+  if (!file)
+    throw mpm::SceneError(fmt::format("--summary {}: cannot be written; check that the folder is there", path));
+  return file;
+}
+
+void read_split(const std::string& text, BagOptions& bag) {
+  if (text.empty()) return;
+  const std::size_t unit = text.find_last_of("0123456789. ");
+  const std::string last = unit == std::string::npos ? text : text.substr(unit + 1);
+  double size = 0.0;
+  std::string rest;
+  for (const auto& [name, bytes] : {std::pair<const char*, double>{"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}}) {
+    if (last != name) continue;
+    if (mpm::split_number(text, size, rest) && size * bytes >= 1.0 && size * bytes < 1e15) {
+      bag.split_size = static_cast<std::uint64_t>(size * bytes);
+      return;
+    }
+  }
+  double time = 0.0;
+  try {
+    if (!last.empty()) time = mpm::parse_quantity(text, mpm::kTime);
+  } catch (const mpm::UnitError&) {
+    // Neither a size nor a time.
+  }
+  if (!(time > 0.0 && time < 1e9)) {
+    throw mpm::SceneError(fmt::format(
+        "--bag-split: '{}' is neither a size nor a time with its unit; write one such as 500 MB or 10 s", text));
+  }
+  bag.split_duration = std::llround(time * 1e9);
+}
+
+void check_fields(const OutputOptions& output) {
+  const std::string problem = problem_of(output.particles);
+  if (!problem.empty()) throw mpm::SceneError(fmt::format("output: {}", problem));
+}
+
+void check_not_there(const RunSceneOptions& options) {
+  std::error_code ignored;
+  if (options.bag != "auto" && std::filesystem::exists(options.bag, ignored)) {
+    throw mpm::SceneError(fmt::format("--bag {}: holds the run so far; choose another name", options.bag));
+  }
+  for (const auto& [option, folder] : {std::pair("--csv", options.csv), std::pair("--vtk", options.vtk)}) {
+    if (folder.empty() || !std::filesystem::exists(folder, ignored)) continue;
+    if (std::filesystem::is_directory(folder, ignored) && std::filesystem::is_empty(folder, ignored)) continue;
+    throw mpm::SceneError(fmt::format("{} {}: holds the run so far; choose another name", option, folder));
+  }
+}
+
+}  // namespace mpm_ros

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm_ros/node/master.hpp"
 #include "mpm_ros/node/parameter_sources.hpp"
 
 namespace {
@@ -67,16 +68,38 @@ std::array<double, 6> twist_at(const std::vector<Phase>& phases, double time) {
   return twist;
 }
 
+struct Settings {
+  std::vector<Phase> phases;
+  double period = 0.0;  // [s] between commands
+  double lead = 0.0;    // [s]
+  std::string frame_id, topic;
+};
+
+Settings read_settings(const mpm_ros::ParameterSources& sources) {
+  const mpm_ros::ForgetParameters forget(sources);
+  const ros::NodeHandle parameters("~");
+  Settings settings;
+  settings.phases = read_phases(parameters);
+  settings.period = parameters.param("period", 0.01);
+  settings.lead = parameters.param("lead", 0.1);
+  settings.frame_id = parameters.param<std::string>("frame_id", "world");
+  settings.topic = parameters.param<std::string>("topic", "bodies/blade/cmd_vel_stamped");
+  return settings;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const mpm_ros::ParameterSources sources(argc, argv);
+  if (!mpm_ros::master_answers(argc, argv)) {
+    ROS_FATAL("no master answers at %s; start roscore, or a launch file", ros::master::getURI().c_str());
+    return 2;
+  }
   ros::init(argc, argv, "blade_driver");
   ros::NodeHandle node;
-  const ros::NodeHandle parameters("~");
-  std::vector<Phase> phases;
+  Settings settings;
   try {
-    phases = read_phases(parameters);
+    settings = read_settings(sources);
   } catch (const std::exception& error) {
     ROS_FATAL("parameter ~phases: %s", error.what());
     return 2;
@@ -84,16 +107,14 @@ int main(int argc, char** argv) {
     ROS_FATAL("parameter ~phases: %s", error.getMessage().c_str());
     return 2;
   }
-  const double period = parameters.param("period", 0.01);
-  const double lead = parameters.param("lead", 0.1);
+  const std::vector<Phase>& phases = settings.phases;
+  const double period = settings.period, lead = settings.lead;
   double end = 0.0;
   for (const Phase& phase : phases) end = std::max(end, phase.end);
 
   geometry_msgs::TwistStamped command;
-  command.header.frame_id = parameters.param<std::string>("frame_id", "world");
-  const auto topic = parameters.param<std::string>("topic", "bodies/blade/cmd_vel_stamped");
-  sources.forget();
-  ros::Publisher publisher = node.advertise<geometry_msgs::TwistStamped>(topic, 100);
+  command.header.frame_id = settings.frame_id;
+  ros::Publisher publisher = node.advertise<geometry_msgs::TwistStamped>(settings.topic, 100);
 
   // Simulated time starts with the run; without use_sim_time, time starts when the clock is first read.
   const ros::Time start = ros::Time::isSimTime() ? ros::Time() : ros::Time::now();

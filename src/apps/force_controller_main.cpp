@@ -24,6 +24,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "mpm_ros/node/master.hpp"
 #include "mpm_ros/node/parameter_sources.hpp"
 
 namespace {
@@ -170,16 +171,20 @@ int control_by_topics(ros::NodeHandle& node, const Settings& settings) {
 
 int main(int argc, char** argv) {
   const mpm_ros::ParameterSources sources(argc, argv);
+  if (!mpm_ros::master_answers(argc, argv)) {
+    ROS_FATAL("no master answers at %s; start roscore, or a launch file", ros::master::getURI().c_str());
+    return 2;
+  }
   ros::init(argc, argv, "force_controller");
   ros::NodeHandle node;
-  const ros::NodeHandle parameters("~");
   Settings settings;
-  const bool lockstep = parameters.param("lockstep", true);
+  bool lockstep = true;
   try {
+    const mpm_ros::ForgetParameters forget(sources);
+    const ros::NodeHandle parameters("~");
+    lockstep = parameters.param("lockstep", true);
     settings = read_settings(parameters);
-    sources.forget();
   } catch (const std::runtime_error& error) {
-    sources.forget();
     ROS_FATAL_STREAM(error.what());
     return 2;
   }

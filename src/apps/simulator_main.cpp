@@ -6,13 +6,13 @@
 #include <ros/init.h>
 #include <ros/master.h>
 
-#include <atomic>
 #include <chrono>
-#include <cstdlib>
 #include <memory>
 #include <new>
 #include <thread>
 
+#include "mpm_ros/node/exit_watchdog.hpp"
+#include "mpm_ros/node/master.hpp"
 #include "mpm_ros/node/parameter_sources.hpp"
 #include "mpm_ros/node/simulator_node.hpp"
 #include "mpm_ros/run/shared_cores.hpp"
@@ -22,38 +22,11 @@ namespace {
 
 using mpm_ros::stop_requested;
 
-/// Ends the process where roscpp does not: with a master that is gone, or hangs, its calls wait without a limit.
-class Ender {
- public:
-  Ender() {
-    std::thread([this] { watch(); }).detach();
-  }
-  /// Nothing is being recorded: after a stop the process may end with this exit code, finished or not.
-  void may_end(int exit_code) {
-    exit_code_ = exit_code;
-    may_end_ = true;
-  }
-  /// There is a record, which has to be closed first.
-  void must_finish() { may_end_ = false; }
-
- private:
-  [[noreturn]] void watch() const {
-    constexpr std::chrono::milliseconds kLook{50}, kPatience{900};
-    for (std::chrono::milliseconds waited{0};; std::this_thread::sleep_for(kLook)) {
-      waited = stop_requested() && may_end_ ? waited + kLook : std::chrono::milliseconds{0};
-      if (waited > kPatience) std::_Exit(exit_code_);
-    }
-  }
-
-  std::atomic<int> exit_code_{0};
-  std::atomic<bool> may_end_{true};
-};
-
 /// Returns false if the program is stopped before there is a master.
-bool wait_for_master() {
+bool wait_for_master(int argc, char** argv) {
   bool said = false;
   while (!stop_requested()) {
-    if (ros::master::check()) return true;
+    if (mpm_ros::master_answers(argc, argv)) return true;
     if (!said) ROS_WARN_STREAM("waiting for a master at " << ros::master::getURI() << "; start roscore");
     said = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -64,10 +37,7 @@ bool wait_for_master() {
 /// The node, once its parameters are read: only then, because diagnostic_updater reads one by itself. What the command
 /// line wrote to the parameter server is deleted then, also when there is no node because something is wrong with it.
 std::unique_ptr<mpm_ros::SimulatorNode> make_node(const mpm_ros::ParameterSources& sources) {
-  struct Forget {
-    const mpm_ros::ParameterSources& sources;
-    ~Forget() { sources.forget(); }
-  } const forget{sources};
+  const mpm_ros::ForgetParameters forget(sources);
   const mpm_ros::ParameterValues values = mpm_ros::fetch_parameters(ros::NodeHandle("~"));
   const std::string origin = sources.text(values, ros::this_node::getName());
   if (sources.doubtful(values)) {
@@ -81,11 +51,11 @@ std::unique_ptr<mpm_ros::SimulatorNode> make_node(const mpm_ros::ParameterSource
   return std::make_unique<mpm_ros::SimulatorNode>(ros::NodeHandle(), parameters);
 }
 
-int run(const mpm_ros::ParameterSources& sources, Ender& ender) {
+int run(const mpm_ros::ParameterSources& sources, mpm_ros::ExitWatchdog& watchdog) {
   const std::unique_ptr<mpm_ros::SimulatorNode> node = make_node(sources);
-  ender.must_finish();
+  watchdog.must_finish();
   const int exit_code = node->spin();
-  ender.may_end(exit_code);
+  watchdog.ends(exit_code);
   return exit_code;
 }
 
@@ -94,15 +64,15 @@ int run(const mpm_ros::ParameterSources& sources, Ender& ender) {
 int main(int argc, char** argv) {
   mpm_ros::spin_only_briefly(argv);
   const mpm_ros::ParameterSources sources(argc, argv);
+  mpm_ros::catch_stop_signals();
+  static mpm_ros::ExitWatchdog watchdog;
+  if (!wait_for_master(argc, argv)) return 0;
   // Own signal handlers, because roscpp's would close the connections before the bag is closed.
   ros::init(argc, argv, "simulator", ros::init_options::NoSigintHandler);
-  mpm_ros::catch_stop_signals();
-  static Ender ender;
-  if (!wait_for_master()) return 0;
   ros::start();
   int exit_code = 1;
   try {
-    exit_code = run(sources, ender);
+    exit_code = run(sources, watchdog);
   } catch (const mpm::StoppedError& error) {
     ROS_WARN_STREAM(error.what());
     exit_code = 0;
@@ -123,7 +93,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM("unexpected: " << error.what());
   }
-  ender.may_end(exit_code);
+  watchdog.ends(exit_code);
   ros::shutdown();
   return exit_code;
 }

@@ -30,6 +30,7 @@
 #include "mpm_ros/message/run_namespaces.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/message/view.hpp"
+#include "mpm_ros/node/master.hpp"
 #include "mpm_ros/node/parameter_sources.hpp"
 
 namespace {
@@ -70,13 +71,18 @@ std::string find_namespace() {
   if (found.empty()) {
     throw std::runtime_error(
         "nothing runs: no simulator and no bag that is played publishes run_info; start one, or name the namespace in "
-        "which "
-        "it will start, __ns:=mpm");
+        "which it will start, __ns:=mpm");
   }
   if (found.size() > 1) {
     throw std::runtime_error(fmt::format("which run? Name its namespace, __ns:=: {}", fmt::join(found, ", ")));
   }
   return found.front();
+}
+
+/// The field that the command line or a launch file names, or empty.
+std::string field_asked(const mpm_ros::ParameterSources& sources) {
+  const mpm_ros::ForgetParameters forget(sources);
+  return ros::param::param<std::string>("~field", "");
 }
 
 /// What RViz is to show: a configuration fitted to the run, or unchanged when no particles arrive (then `view` is
@@ -161,7 +167,12 @@ Fitted fitted(const std::string& path, const std::string& field, const std::stri
 int main(int argc, char** argv) {
   const mpm_ros::ParameterSources sources(argc, argv);
   std::vector<char*> words(argv, argv + argc);  // with the arguments that roslaunch appended, which RViz accepts too
+  if (!mpm_ros::master_answers(argc, argv)) {
+    ROS_FATAL("no master answers at %s; start roscore, or a launch file", ros::master::getURI().c_str());
+    return 2;
+  }
   ros::init(argc, argv, "watch", ros::init_options::AnonymousName);  // several can watch
+  const std::string field = field_asked(sources);
   if (argc > 2) {
     ROS_FATAL("usage: rosrun mpm_ros watch [CONFIG.rviz] [_field:=NAME] [__ns:=NAMESPACE]");
     return 2;
@@ -171,8 +182,6 @@ int main(int argc, char** argv) {
   try {
     const std::string name_space = find_namespace();
     ros::start();
-    const auto field = ros::NodeHandle("~").param<std::string>("field", "");
-    sources.forget();
     shown = fitted(shown.configuration, field, name_space);
     if (shown.view && !shown.view->field.empty()) colourist = std::make_unique<Colourist>(name_space, *shown.view);
   } catch (const std::exception& error) {

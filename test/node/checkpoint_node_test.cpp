@@ -5,6 +5,7 @@
 
 #include "mpm/simulation/checkpoint.hpp"
 #include "mpm_ros/message/conversions.hpp"
+#include "process_memory.hpp"
 #include "simulator_process.hpp"
 #include "test_files.hpp"
 
@@ -135,15 +136,6 @@ TEST(CheckpointNode, WrongFilesAreRefusedAndTheRunGoesOn) {
   const Step::Response next = simulator.step(1);
   EXPECT_TRUE(next.success);
   EXPECT_NEAR(next.time, 0.008, 1e-12);
-}
-
-/// Resident memory of a process [kB].
-double memory_of(pid_t pid) {
-  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.rfind("VmRSS:", 0) == 0) return std::stod(line.substr(6));
-  }
-  return 0.0;
 }
 
 // A hundred refused checkpoints held 240 MB, and the node then ended in a segmentation fault of HDF5.

@@ -2,6 +2,7 @@
 // twentieth fails. Argument: how many.
 #include <mpm_ros/Reset.h>
 
+#include "process_memory.hpp"
 #include "simulator_process.hpp"
 #include "test_files.hpp"
 
@@ -9,15 +10,6 @@ namespace mpm_ros::test {
 namespace episodes_node_test {
 
 int episodes = 200;
-
-/// Resident memory of a process [kB].
-double memory_of(pid_t pid) {
-  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.rfind("VmRSS:", 0) == 0) return std::stod(line.substr(6));
-  }
-  return 0.0;
-}
 
 // What the node holds after a fifth of the episodes it holds at their end: 2 % is the bound that users of long
 // trainings asked for. Each episode is recorded, and each that fails saves its state.

@@ -6,21 +6,12 @@
 #include <iostream>
 
 #include "mpm_ros/message/bag_parts.hpp"
+#include "process_memory.hpp"
 #include "simulator_process.hpp"
 #include "test_files.hpp"
 
 namespace mpm_ros::test {
 namespace full_endurance_node_test {
-
-/// Resident memory of a process [kB].
-long memory_of(pid_t pid) {
-  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.compare(0, 6, "VmRSS:") == 0) return std::stol(line.substr(6));
-  }
-  ADD_FAILURE() << "no memory is reported for process " << pid;
-  return 0;
-}
 
 TEST(FullEndurance, TwoMillionStepsInLockstep) {
   constexpr std::uint64_t kSteps = 2'000'000, kStepsOfSync = 100, kSyncs = kSteps / kStepsOfSync;
@@ -34,21 +25,21 @@ TEST(FullEndurance, TwoMillionStepsInLockstep) {
                               "record:=" + bag, "record_split_size:=1"});
   ASSERT_TRUE(simulator.ready()) << simulator.log();
   const auto began = std::chrono::steady_clock::now();
-  long warm = 0, largest = 0;
+  double warm = 0.0, largest = 0.0;
   for (int call = 1; call <= kCalls; ++call) {
     const Step::Response response = simulator.step(kSyncs / kCalls, {velocity("stop", call % 2 == 0 ? 0.001 : -0.001)});
     ASSERT_TRUE(response.success) << response.message;
     const std::uint64_t syncs = call * (kSyncs / kCalls);
     ASSERT_EQ(response.stamp.toNSec(), syncs * kSync);
     ASSERT_EQ(response.time, static_cast<double>(syncs * kSync) * 1e-9);
-    const long memory = memory_of(simulator.pid());
+    const double memory = memory_of(simulator.pid());
     if (call % (kCalls / 10) == 0)
       std::cout << fmt::format("{} kB after {} sync periods\n", memory, syncs) << std::flush;
     if (call == kCalls / 10) warm = memory;  // several parts are closed by then
     if (call > kCalls / 10) largest = std::max(largest, memory);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  const long end = memory_of(simulator.pid());
+  const double end = memory_of(simulator.pid());
   simulator.signal(SIGINT);
   EXPECT_EQ(simulator.wait(), 0) << simulator.log();
 

@@ -33,4 +33,16 @@ class ParameterSources {
   bool launched_ = false;           ///< has an argument __name:=
 };
 
+/// Forgets at the end of a scope, whatever ended it: while the parameters are read.
+class ForgetParameters {
+ public:
+  explicit ForgetParameters(const ParameterSources& sources) : sources_(sources) {}
+  ~ForgetParameters() { sources_.forget(); }
+  ForgetParameters(const ForgetParameters&) = delete;
+  ForgetParameters& operator=(const ForgetParameters&) = delete;
+
+ private:
+  const ParameterSources& sources_;
+};
+
 }  // namespace mpm_ros

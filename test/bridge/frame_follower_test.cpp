@@ -166,7 +166,7 @@ TEST_F(Follower, TheLatestIsFollowedWhateverItsStampAndMarked) {
   EXPECT_EQ(due[0].command.pose.position.x(), 0.1);
   EXPECT_EQ(due[0].arrival, kSync);  // as a pose without a stamp: one sync period, with no stream before it
   const AppliedCommand applied = in_world(due[0], {}, 0);
-  EXPECT_TRUE(applied.as_it_came);
+  EXPECT_TRUE(applied.stamp_ignored);
   EXPECT_EQ(applied.requested, ros::Time(5.0));
   EXPECT_TRUE(due_at(1).empty());  // each once
   transform(0.2, 5.1);

@@ -223,6 +223,19 @@ TEST(Alive, StampedCommandsInTheQueueAreBounded) {
   EXPECT_TRUE(simulator.step(1, {velocity("plate", -0.1)}).success);
 }
 
+TEST(Alive, ACommandCopiedToARequestHasNoStampThatIsIgnored) {
+  SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1"});
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  Ear<mpm_ros::Command> applied(simulator.name("commands"));
+  ASSERT_TRUE(applied.connected());
+  mpm_ros::Command copied = velocity("plate", -0.1);
+  copied.requested = ros::Time(3.0);
+  ASSERT_TRUE(simulator.step(1, {copied}).success);
+  ASSERT_TRUE(applied.hears(1));
+  EXPECT_EQ(applied.heard()[0].requested, ros::Time(3.0));
+  EXPECT_FALSE(applied.heard()[0].stamp_ignored);
+}
+
 TEST(Alive, AVelocityOutOfThePlaneIsRefused) {
   SimulatorProcess simulator({kPress, "pacing:=lockstep", "threads:=1"});
   ASSERT_TRUE(simulator.ready()) << simulator.log();

@@ -225,6 +225,22 @@ TEST(Endings, InterruptWithoutMaster) { expect_ends_without_master(SIGKILL, SIGI
 
 TEST(Endings, TerminationWhileTheMasterHangs) { expect_ends_without_master(SIGSTOP, SIGTERM); }
 
+// Nobody stops it: it ends by itself after 4 s, and does not wait for the master longer than five. Cost: 10 s.
+TEST(Endings, ARunThatIsOverWhileTheMasterHangs) {
+  const TemporaryFolder folder;
+  const std::string bag = folder.file("run.bag"), port = std::to_string(21900 + getpid() % 300);
+  ProgramProcess master("rosmaster", {"--core", "-p", port}, kNoNode);
+  SimulatorProcess simulator({kPress, "threads:=1", "set:=[time.end=4]", "keep_alive:=false", "record:=" + bag,
+                              "_master:=http://localhost:" + port});
+  ASSERT_TRUE(says(simulator, "recording to")) << simulator.log();
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  master.signal(SIGSTOP);
+  int exit_code = 0;
+  EXPECT_LT(time_to_end(simulator, 0, exit_code), 12.0);
+  EXPECT_EQ(exit_code, 0) << simulator.log();
+  EXPECT_EQ(hash_in(bag).size(), 16U);
+}
+
 // Ten thousand steps of settling that never satisfies it, some 40 s; it says how far it is every three seconds.
 TEST(Endings, SignalsEndAGeostaticStart) {
   const std::string endless = R"(bodies.bed.initial={"geostatic":{"residual":1e-15}})";

@@ -194,7 +194,7 @@ TEST(Pacing, TheNewestTransformIsFollowedOnRequestAndMarked) {
   EXPECT_LT(std::abs(behind), 0.03) << simulator.log();
   ASSERT_TRUE(commands.hears(1));
   for (const mpm_ros::Command& command : commands.heard()) {
-    EXPECT_TRUE(command.as_it_came);
+    EXPECT_TRUE(command.stamp_ignored);
     EXPECT_GT(command.requested.toSec(), command.header.stamp.toSec());  // the stamp that was not used is ahead
   }
   EXPECT_EQ(simulator.log().find("behind the wall clock"), std::string::npos) << simulator.log();
@@ -221,7 +221,7 @@ TEST(Pacing, StampedCommandsByTheWallClockSayAndDoTheSame) {
     EXPECT_EQ(said(), !latest) << simulator.log();
     if (!latest) continue;
     ASSERT_TRUE(commands.hears(50)) << simulator.log();
-    EXPECT_TRUE(commands.heard().back().as_it_came);
+    EXPECT_TRUE(commands.heard().back().stamp_ignored);
   }
 }
 

@@ -46,7 +46,7 @@ struct AppliedCommand {
   std::int64_t effect = 0;   ///< [ns] simulated time at which it takes effect
   std::int64_t arrival = 0;  ///< [ns] pose: when it is reached
   ros::Time requested;
-  bool as_it_came = false;  ///< it has a stamp, `requested`, which was not used
+  bool stamp_ignored = false;  ///< it has a stamp, `requested`, which was not used
 };
 
 /// Gives the command to the simulation, whose time() is the command's effect. @throws mpm::RigidError, then nothing is

@@ -128,7 +128,7 @@ mpm_ros::Command to_message(const AppliedCommand& command, const std::string& bo
   message.kind = static_cast<std::uint8_t>(command.kind);
   message.pose.orientation.w = 1.0;
   message.requested = command.requested;
-  message.as_it_came = command.as_it_came ? 1 : 0;
+  message.stamp_ignored = command.stamp_ignored ? 1 : 0;
   message.effect_ns = command.effect;
   if (command.kind == CommandKind::velocity) {
     message.twist = to_message(command.twist);
@@ -159,7 +159,7 @@ AppliedCommand from_message(const mpm_ros::Command& message, const mpm::Simulati
   command.effect = message.effect_ns;
   command.arrival = message.arrival_ns;
   command.requested = message.requested;
-  command.as_it_came = message.as_it_came != 0;
+  command.stamp_ignored = message.stamp_ignored != 0;
   return command;
 }
 

@@ -276,7 +276,7 @@ AppliedCommand in_world(const DueCommand& due, const std::vector<mpm::BodyState>
   applied.body = due.command.body;
   applied.kind = due.command.kind;
   applied.twist = due.command.twist;
-  applied.as_it_came = !due.command.requested.isZero() && !due.command.stamp;
+  applied.stamp_ignored = !due.command.requested.isZero() && !due.command.stamp;
   applied.wrench = due.command.wrench;
   applied.pose = due.command.pose;
   applied.effect = effect;

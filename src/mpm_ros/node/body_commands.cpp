@@ -225,6 +225,7 @@ std::vector<AppliedCommand> BodyCommands::read(const std::vector<Command>& reque
       due.arrival = (arrival + sync - 1) / sync * sync;
     }
     commands.push_back(in_world(due, run.simulation().bodies(), now));
+    commands.back().stamp_ignored = false;  // a request has no stamp; `requested` is what it was copied with
   }
   return commands;
 }

@@ -105,6 +105,7 @@ class PointContact final : public Stage, public ContactReporter {
     Vec3 before = Vec3::Zero();   ///< relative velocity before the impulses [m/s]
     Vec3 cut = Vec3::Zero();      ///< PointSolver::cut_at before the impulses [m/s]
     End first;                    ///< the start of the step
+    End now;                      ///< that at which strain is found
     Vec3 impulse = Vec3::Zero();  ///< on the material in the step [N s]
     Vec3 gained = Vec3::Zero();   ///< change of velocity in the step, without that by gravity [m/s]
     bool acted = false;           ///< whether the impulses of the step have been found
@@ -140,7 +141,6 @@ class PointContact final : public Stage, public ContactReporter {
   PointMemory memory_;
   FreeBodies free_;
   std::vector<Contact> contacts_;
-  std::vector<End> ends_;  ///< kept so that a step allocates nothing
 };
 
 }  // namespace mpm

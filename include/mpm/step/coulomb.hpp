@@ -61,6 +61,7 @@ class HeldNodes {
  public:
   static std::uint64_t id(std::uint64_t block_key, int node) { return block_key * 64 + node; }
   void clear() { held_.clear(); }
+  void reserve(std::size_t nodes) { held_.reserve(nodes); }
   /// Nodes have to be added in ascending order of id.
   void add(std::uint64_t id, Hold hold) { held_.push_back({id, hold}); }
   void serialise(StateArchive& archive) {

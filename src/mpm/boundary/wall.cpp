@@ -55,6 +55,7 @@ void Wall::momentum_gathered(FieldContext& context) {
     }
   }
   if (!always_holds()) losses_.assign(nodes_.size(), {});
+  held_.reserve(nodes_.size());
 }
 
 std::pair<int, int> Wall::held_axes(const GridLayout& layout) const {

@@ -90,9 +90,9 @@ void PointContact::clear_impulses() {
 void PointContact::before_strain(StepContext& context) {
   if (contacts_.empty()) return;
   solver_.load(&Grid::velocity);
-  ends_.clear();
-  for (const PointSolver::Point& point : solver_.points()) {
-    ends_.push_back({carried_at(point) - point.velocity, Vec3::Zero(), Vec3::Zero()});
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const PointSolver::Point& point = solver_.points()[i];
+    contacts_[i].now.slip = carried_at(point) - point.velocity;
   }
   clear_impulses();
   solver_.solve(Pass::strain, false);
@@ -100,7 +100,7 @@ void PointContact::before_strain(StepContext& context) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const PointSolver::Point& point = solver_.points()[i];
     Contact& contact = contacts_[i];
-    End& end = ends_[i];
+    End& end = contact.now;
     end.change = carried_at(point) - point.velocity - end.slip;
     end.impulse = point.impulse;
     if (!contact.acted) {

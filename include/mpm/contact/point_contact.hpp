@@ -103,9 +103,8 @@ class PointContact final : public Stage, public ContactReporter {
     const ContactPoint* found;
     Vec3 start = Vec3::Zero();    ///< impulse that the step's solution begins with [N s]
     Vec3 before = Vec3::Zero();   ///< relative velocity before the impulses [m/s]
-    Vec3 cut = Vec3::Zero();      ///< PointSolver::cut_at before the impulses [m/s]
-    End first;                    ///< the start of the step
-    End now;                      ///< that at which strain is found
+    Vec3 cut = Vec3::Zero();      ///< of that, what the nodes do not carry [m/s]
+    End first, last;              ///< of the step
     Vec3 impulse = Vec3::Zero();  ///< on the material in the step [N s]
     Vec3 gained = Vec3::Zero();   ///< change of velocity in the step, without that by gravity [m/s]
     bool acted = false;           ///< whether the impulses of the step have been found
@@ -114,10 +113,9 @@ class PointContact final : public Stage, public ContactReporter {
     double overlap = 0.0;         ///< initial overlap, <= 0 [m]
   };
 
-  /// Sets the point's law for this step and returns its data from memory.
-  Contact recall(const ContactPoint& found, PointSolver::Point& point, double dt) const;
-  /// The velocity of the nodes at a point, weighted as an impulse there is spread.
-  Vec3 carried_at(const PointSolver::Point& point) const { return solver_.velocity_at(point) - solver_.cut_at(point); }
+  /// Sets the point's law for this step and returns its data; `memory`: null if it had no point in the step before.
+  Contact recall(const ContactPoint& found, const PointMemory::Entry* memory, PointSolver::Point& point,
+                 double dt) const;
   /// What the material loses at a point by one end of the step, which has this part of the strain [J].
   static double lost(const Contact& contact, const End& end, double strain);
   void clear_impulses();

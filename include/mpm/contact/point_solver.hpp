@@ -74,10 +74,11 @@ class PointSolver {
   void load(Member from);
   /// Adds the change of the nodes' velocities since load(), times `factor`.
   void store(Member to, double factor = 1.0);
+  /// What contact sees of the material [m/s].
   Vec3 velocity_at(const Point& point) const;
-  /// The velocity that the nodes do not take over, near an edge on a free surface [m/s]; 0 elsewhere. An impulse times
-  /// it is the energy that is lost where material is cut (edge_cover.hpp).
-  Vec3 cut_at(const Point& point) const;
+  /// The nodes' velocities, weighted as an impulse is spread [m/s]. Near an edge on a free surface this is not what
+  /// contact sees: an impulse times the difference is the energy that is lost where material is cut (edge_cover.hpp).
+  Vec3 carried_at(const Point& point) const;
   /// Applies the points' impulses to nodes and to free bodies.
   void push_all();
   /// Applies them to free bodies alone.
@@ -97,7 +98,11 @@ class PointSolver {
     int node;        ///< in nodes_
     double weight;   ///< part of an impulse
     double reading;  ///< factor of its velocity
-    double start;    ///< factor of its velocity before the impulses
+  };
+  /// A node whose velocity before the impulses a point sees.
+  struct Start {
+    int point, node;  ///< in points_, in nodes_
+    double factor;
   };
   struct alignas(32) Node {
     std::array<double, 3> velocity;  ///< [m/s]
@@ -145,6 +150,7 @@ class PointSolver {
   bool any_at_edge_ = false;  ///< whether a point lies near an edge
   std::vector<Point> points_;
   std::vector<Part> parts_;
+  std::vector<Start> starts_;
   std::vector<Node> nodes_;
   std::vector<NodeOrigin> origins_;    ///< of nodes_
   std::vector<Cluster> clusters_;      ///< by colour

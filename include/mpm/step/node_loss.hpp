@@ -15,9 +15,10 @@
 // energy of motion that is held up, of a blow or of particles that move past a node which is held: F dt is the node's
 // change of momentum less its weight and J. Nothing of earlier steps is needed.
 //
-// strain() is told V0 and c0 before the impulse, V1 and c1 after it. With USF, whose particles are not gathered again
-// in the step, act() has the last word: it takes the slip that the impulse leaves on the grid in the place of u1, and
-// for c1 what is expected, c0 where the node was held before. Gravity, whose work is in the potential energy, is no
+// strain() is told V0 and c0 before the impulse, V1 and c1 after it. With USL, whose strain does not see V0, c0 is what
+// contact would change: it decides what is friction. With USF, whose particles are not gathered again in the step,
+// act() has the last word: it takes the slip that the impulse leaves on the grid in the place of u1, and for c1 what is
+// to be expected, c0 where the node was held before. Gravity, whose work is in the potential energy, is no
 // part of F. Weak: loads are; the difference is their impulse times (c0 + c1)/2.
 #pragma once
 
@@ -46,9 +47,8 @@ class NodeLoss {
     Vec3 weight;                   ///< times the step [N s]
     Vec3 impulse;                  ///< on the material [N s]
     Vec3 start;                    ///< gathered at the start of the step
-    Vec3 change;                   ///< that contact makes for strain at the start, or would with USL
     Vec3 left;                     ///< that the impulse leaves on the grid
-    Vec3 expected;                 ///< change that contact will make for strain at the end
+    bool held = false;             ///< whether the node was held in the step before
     double strain_at_start = 0.5;  ///< StepContext::strain_at_start
   };
   /// The impulse of the step. Returns what it takes by the start of the step.
@@ -58,10 +58,8 @@ class NodeLoss {
     along_ = act.impulse - pressing_;
     pulled_ = act.mass * (act.left - act.start) - act.impulse - act.weight;
     at_end_ = 1.0 - act.strain_at_start;
-    // What an earlier surface took at the node is no part of the change.
-    const Vec3 change = act.strain_at_start > 0.0 ? change_ : act.change;
-    SurfaceLoss taken = lost(act.start + change, change, act.strain_at_start);
-    if (at_end_ == 0.0) taken += lost(act.left, act.expected, at_end_);
+    SurfaceLoss taken = lost(act.start + change_, change_, act.strain_at_start);
+    if (at_end_ == 0.0) taken += lost(act.left, act.held ? change_ : Vec3(Vec3::Zero()), at_end_);
     return taken;
   }
   /// The velocity that was gathered, and the change that contact makes for strain. Returns what this adds at the end of

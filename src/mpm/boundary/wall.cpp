@@ -1,6 +1,5 @@
 #include "mpm/boundary/wall.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace mpm {
@@ -34,7 +33,6 @@ ContactChange Wall::change(const Vec3& velocity, const Vec3& normal) const {
 void Wall::momentum_gathered(FieldContext& context) {
   const BlockTable& blocks = context.grid.blocks;
   acted_ = false;
-  std::fill(losses_.begin(), losses_.end(), NodeLoss());  // of a step that did not gather its end
   if (generation_ == blocks.generation()) return;
   generation_ = blocks.generation();
   nodes_.clear();
@@ -122,10 +120,9 @@ void Wall::momentum_updated(FieldContext& context) {
       if (!acted_) hold_up(node, context, mass * dv, held);
     } else {
       const Vec3 start = nodal_vector(grid.momentum, grid.layout, node.ref) / mass;
-      const Vec3 strained = strain_change(start, n, definition_.friction, held);
-      const Vec3 expected = held == Hold::free ? Vec3(Vec3::Zero()) : strained;
-      loss_ += losses_[i].act({mass, n, mass * context.dt * gravity_, mass * dv, start, strained, velocity + dv,
-                               expected, context.strain_at_start});
+      if (context.strain_at_start == 0.0) losses_[i].strain(start, strain_change(start, n, definition_.friction, held));
+      loss_ += losses_[i].act({mass, n, mass * context.dt * gravity_, mass * dv, start, velocity + dv,
+                               held != Hold::free, context.strain_at_start});
     }
     if (hold == Hold::free) continue;
     // How a wall that always holds held before decides with USF alone, in hold_up().

@@ -98,7 +98,8 @@ void PointSolver::add(const ContactPoint& contact, int found) {
       nodes_.push_back({{}, 1.0 / grid.mass.at(ref.block, 0, ref.node)});
       origins_.push_back({contact.field, ref, {}});
     }
-    parts_.push_back({slot, node.weight, node.reading, node.start});
+    parts_.push_back({slot, node.weight, node.reading});
+    if (node.start != 0.0) starts_.push_back({static_cast<int>(points_.size()), slot, node.start});
     point.compliance += node.reading * (node.weight * nodes_[slot].inverse_mass);
   }
   point.end = static_cast<int>(parts_.size());
@@ -116,6 +117,7 @@ void PointSolver::connect(const std::vector<ContactPoint>& found) {
   any_at_edge_ = false;
   points_.clear();
   parts_.clear();
+  starts_.clear();
   nodes_.clear();
   origins_.clear();
   for (const int i : order_) add(found[i], i);

@@ -43,29 +43,30 @@ void PointContact::momentum_gathered(StepContext& context) {
   if (solver_.points().empty()) return;
   solver_.load(&Grid::velocity);
   for (PointSolver::Point& point : solver_.points()) {
-    contacts_.push_back(recall(found[point.found], point, context.dt));
-    const Contact& contact = contacts_.back();
-    const PointMemory::Entry* memory = memory_.find(*contact.found);
+    const PointMemory::Entry* memory = memory_.find(found[point.found]);
+    contacts_.push_back(recall(found[point.found], memory, point, context.dt));
     if (memory == nullptr || context.strain_at_start < 1.0) continue;
+    const Contact& contact = contacts_.back();
     const double before = -0.5 * context.dt * memory->force.dot(contact.first.slip);  // by the end of that step
     ledgers_[contact.found->body].add_loss({0.0, before});
   }
 }
 
-PointContact::Contact PointContact::recall(const ContactPoint& found, PointSolver::Point& point, double dt) const {
+PointContact::Contact PointContact::recall(const ContactPoint& found, const PointMemory::Entry* memory,
+                                           PointSolver::Point& point, double dt) const {
   const FrictionLaw& law = laws_now_[found.law];
-  const PointMemory::Entry* memory = memory_.find(found);
   Contact contact;
   contact.found = &found;
   // What comes under a surface from beside it, or starts there, keeps the overlap that it came with.
   const double known = memory != nullptr && !point.at_edge ? memory->overlap : found.gap;
   contact.overlap = std::min(std::max(known, found.gap), 0.0);
   contact.gap = found.gap - contact.overlap;
-  contact.before = solver_.velocity_at(point) - point.velocity;
+  const Vec3 seen = solver_.velocity_at(point), carried = solver_.carried_at(point);
+  contact.before = seen - point.velocity;
   if (memory != nullptr) contact.before += along_surface(memory->slip - contact.before, point.normal);
-  contact.cut = solver_.cut_at(point);
-  contact.first.slip = carried_at(point) - point.velocity;
-  contact.gained = -carried_at(point) - dt * gravity_;
+  contact.cut = seen - carried;
+  contact.first.slip = carried - point.velocity;
+  contact.gained = -carried - dt * gravity_;
   const bool held = memory != nullptr && memory->hold != Hold::free;
   if (held) {
     point.hold = memory->hold;
@@ -92,7 +93,8 @@ void PointContact::before_strain(StepContext& context) {
   solver_.load(&Grid::velocity);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const PointSolver::Point& point = solver_.points()[i];
-    contacts_[i].now.slip = carried_at(point) - point.velocity;
+    Contact& contact = contacts_[i];
+    (contact.acted ? contact.last : contact.first).slip = solver_.carried_at(point) - point.velocity;
   }
   clear_impulses();
   solver_.solve(Pass::strain, false);
@@ -100,14 +102,11 @@ void PointContact::before_strain(StepContext& context) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const PointSolver::Point& point = solver_.points()[i];
     Contact& contact = contacts_[i];
-    End& end = contact.now;
-    end.change = carried_at(point) - point.velocity - end.slip;
+    End& end = contact.acted ? contact.last : contact.first;
+    end.change = solver_.carried_at(point) - point.velocity - end.slip;
     end.impulse = point.impulse;
-    if (!contact.acted) {
-      contact.first = end;
-    } else {
-      ledgers_[contact.found->body].add_loss({0.0, lost(contact, end, 1.0 - context.strain_at_start)});
-    }
+    if (!contact.acted) continue;
+    ledgers_[contact.found->body].add_loss({0.0, lost(contact, end, 1.0 - context.strain_at_start)});
   }
 }
 
@@ -153,13 +152,14 @@ void PointContact::momentum_updated(StepContext& context) {
     // What an impulse does to a free body is counted with the mean velocity, as what it does to the material.
     const Vec3 mean = point.motion != nullptr ? point.motion->mean_velocity_at(point.place) : point.velocity;
     if (point.motion != nullptr) point.velocity = point.motion->velocity_at(point.place);
-    const Vec3 slip = solver_.velocity_at(point) - point.velocity;
+    const Vec3 seen = solver_.velocity_at(point), carried = solver_.carried_at(point);
+    const Vec3 slip = seen - point.velocity;
     const Vec3 mean_slip = 0.5 * (contact.before + slip);
     give(i, mean, mean_slip);
-    const double cut = point.impulse.dot(0.5 * (contact.cut + solver_.cut_at(point)));
+    const double cut = point.impulse.dot(0.5 * (contact.cut + seen - carried));
     cut_ += cut;
     contact.impulse = point.impulse;
-    contact.gained += carried_at(point);
+    contact.gained += carried;
     contact.acted = true;
     const double held = lost(contact, contact.first, context.strain_at_start);
     // As the ledger counts it: the impulse along the surface.

@@ -25,12 +25,9 @@ void PointSolver::load(Member from) {
     const Vec3 v = nodal_vector(grid.*from, grid.layout, origin.ref);
     nodes_[n].velocity = origin.loaded = {v.x(), v.y(), v.z()};
   }
-  for (Point& point : points_) {
-    if (!point.at_edge) continue;
-    point.start.setZero();
-    for (int i = point.first; i < point.end; ++i) {
-      for (int k = 0; k < 3; ++k) point.start[k] += parts_[i].start * origins_[parts_[i].node].loaded[k];
-    }
+  for (const Start& one : starts_) points_[one.point].start.setZero();
+  for (const Start& one : starts_) {
+    for (int k = 0; k < 3; ++k) points_[one.point].start[k] += one.factor * origins_[one.node].loaded[k];
   }
 }
 
@@ -53,11 +50,11 @@ Vec3 PointSolver::velocity_at(const Point& point) const {
   return v;
 }
 
-Vec3 PointSolver::cut_at(const Point& point) const {
-  Vec3 v = point.start;
+Vec3 PointSolver::carried_at(const Point& point) const {
+  Vec3 v = Vec3::Zero();
   for (int i = point.first; i < point.end; ++i) {
     const Node& node = nodes_[parts_[i].node];
-    for (int k = 0; k < 3; ++k) v[k] += (parts_[i].reading - parts_[i].weight) * node.velocity[k];
+    for (int k = 0; k < 3; ++k) v[k] += parts_[i].weight * node.velocity[k];
   }
   return v;
 }

@@ -113,10 +113,11 @@ void RigidContact::momentum_updated(StepContext& context) {
     const Hold held = std::exchange(node.hold, hold);
     const double mass = grid.mass.at(node.ref.block, 0, node.ref.node);
     const Vec3 start = nodal_vector(grid.momentum, grid.layout, node.ref) / mass - node.velocity;
-    const Vec3 strained = strain_change(start, node.normal, body_.friction(), held);
-    const Vec3 expected = held == Hold::free ? Vec3(Vec3::Zero()) : strained;
-    ledger_.add_loss(node.loss.act({mass, node.normal, mass * context.dt * gravity_, mass * change, start, strained,
-                                    relative + change, expected, context.strain_at_start}));
+    if (context.strain_at_start == 0.0) {
+      node.loss.strain(start, strain_change(start, node.normal, body_.friction(), held));
+    }
+    ledger_.add_loss(node.loss.act({mass, node.normal, mass * context.dt * gravity_, mass * change, start,
+                                    relative + change, held != Hold::free, context.strain_at_start}));
     if (hold == Hold::free) return;
     held_[node.field].add(HeldNodes::id(grid.blocks.key(node.ref.block), node.ref.node), hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);

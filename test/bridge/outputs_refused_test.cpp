@@ -1,7 +1,9 @@
 // What run_scene cannot mean, or write to, is refused before it runs, also by --explain; a bag that is removed under it
 // is noticed.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -142,6 +144,118 @@ TEST(OutputsRefused, ABagThatIsRemovedEndsTheRun) {
   EXPECT_EQ(result, RunSceneResult::machine_failed) << err.str();
   EXPECT_NE(err.str().find("run.bag: it is not there any more"), std::string::npos) << err.str();
   EXPECT_EQ(open_files(), before);
+}
+
+// What a folder for tables or pictures holds already may be a link to something else. The first files are opened before
+// the run, those of a snapshot in it.
+TEST(OutputsRefused, LinksToDevicesInFolders) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder.file("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  int number = 0;
+  const auto expect_link_refused = [&](std::string RunSceneOptions::*option, const std::string& file,
+                                       RunSceneResult result) {
+    for (const std::string& target : {std::string("/dev/null"), pipe}) {
+      const std::string outputs = folder.file(std::to_string(++number));
+      std::filesystem::create_directory(outputs);
+      std::filesystem::create_symlink(target, outputs + "/" + file);
+      RunSceneOptions options = press();
+      options.*option = outputs;
+      const Told told = run(options);
+      EXPECT_EQ(told.result, result) << file << ": " << told.errors;
+      EXPECT_NE(told.errors.find(outputs + "/" + file + ": cannot be written: it is a device, a pipe or a socket"),
+                std::string::npos)
+          << told.errors;
+    }
+  };
+  expect_link_refused(&RunSceneOptions::csv, "particles.csv", RunSceneResult::bad_input);
+  expect_link_refused(&RunSceneOptions::csv, "particles_0001.csv", RunSceneResult::machine_failed);
+  expect_link_refused(&RunSceneOptions::vtk, "run.pvd", RunSceneResult::bad_input);
+  expect_link_refused(&RunSceneOptions::vtk, "particles_0001.vtp", RunSceneResult::machine_failed);
+}
+
+/// A user who may not write everywhere, as long as the object exists: where the tests run as root, the user nobody.
+class NoRoot {
+ public:
+  NoRoot() : root_(getuid() == 0) {
+    if (root_ && setresuid(kNobody, kNobody, 0) != 0) ADD_FAILURE() << "still root";
+  }
+  ~NoRoot() {
+    if (root_ && setresuid(0, 0, 0) != 0) ADD_FAILURE() << "not root any more";
+  }
+
+ private:
+  static constexpr uid_t kNobody = 65534;
+  bool root_;
+};
+
+TEST(OutputsRefused, FoldersThatMayNotBeWritten) {
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  const std::string closed = folder.file("closed"), scene = folder.file("press.yaml");
+  fs::copy_file(data_file("press.yaml"), scene);
+  fs::create_directory(closed);
+  std::ofstream(closed + "/old.json") << "{}";
+  fs::permissions(folder.file("."), fs::perms(0755));
+  fs::permissions(scene, fs::perms(0644));
+  fs::permissions(closed + "/old.json", fs::perms(0444));
+  fs::permissions(closed, fs::perms(0555));
+  const auto expect_closed = [&](std::string RunSceneOptions::*option, const std::string& name,
+                                 const std::string& text) {
+    RunSceneOptions options = press();
+    options.scene = scene;
+    options.*option = closed + name;
+    const NoRoot nobody;
+    expect_refused(options, text);
+  };
+  const std::string may_not = "Permission denied", advice = "choose another";
+  expect_closed(&RunSceneOptions::bag, "/run.bag", "is not writable; " + advice);
+  expect_closed(&RunSceneOptions::csv, "", "/commands.csv: cannot be written: " + may_not);
+  expect_closed(&RunSceneOptions::csv, "/csv", may_not + "; " + advice);
+  expect_closed(&RunSceneOptions::vtk, "", "/run.pvd: cannot be written: " + may_not);
+  expect_closed(&RunSceneOptions::vtk, "/vtk", may_not + "; " + advice);
+  expect_closed(&RunSceneOptions::summary, "/run.json", "cannot be written: " + may_not + "; check the folder");
+  expect_closed(&RunSceneOptions::summary, "/old.json", "cannot be written: " + may_not + "; check the folder");
+  expect_closed(&RunSceneOptions::checkpoint, "/run.h5", "cannot be written: " + may_not + "; check the folder");
+  expect_closed(&RunSceneOptions::out, "", may_not + "); " + advice);
+}
+
+/// As long as the object exists, the process may have this much memory [bytes].
+class LittleMemory {
+ public:
+  explicit LittleMemory(rlim_t bytes) {
+    getrlimit(RLIMIT_AS, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_AS, &limit);
+  }
+  ~LittleMemory() { setrlimit(RLIMIT_AS, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+/// Address space of this process [bytes].
+rlim_t memory_taken() {
+  std::ifstream pages("/proc/self/statm");
+  rlim_t number = 0;
+  pages >> number;
+  return number * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+// The block is 0.1 m wide: 200 cells with 8 particles each along each edge are 64 million, 50 cells one million.
+TEST(OutputsRefused, MoreParticlesThanMemory) {
+  RunSceneOptions options = press();
+  options.scene = "elastic_block";
+  options.set = {"grid.cell=0.0005"};
+  {
+    const LittleMemory memory(4'000'000'000);
+    expect_refused(options,
+                   "bodies.block.shape: with body 'block' there would be about 6.4e+07 particles, which need ");
+    expect_refused(options, " GB of memory; 4 GB can be had here: make grid.cell larger");
+  }
+  options.set = {"grid.cell=0.002"};
+  const LittleMemory memory(memory_taken() + 150'000'000);
+  expect_refused(options, "there is not enough memory for its 1e+06 particles, which need at least 0.2");
 }
 
 }  // namespace outputs_refused_test

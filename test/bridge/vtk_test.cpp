@@ -10,6 +10,7 @@
 #include <regex>
 #include <sstream>
 
+#include "full_disk.hpp"
 #include "mpm_ros/report/report_bag.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
 #include "mpm_ros/run/run_scene.hpp"
@@ -101,7 +102,14 @@ TEST(Vtk, ATriangleAsTheFormatHasIt) {
 
 TEST(Vtk, WhatCannotBeWrittenIsNamed) {
   EXPECT_THROW(VtkFile(0.0, {}).write("/no/such/folder/one.vtp"), VtkError);
-  EXPECT_THROW(VtkFile(0.0, {0, 0, 0}).write("/dev/full"), VtkError);
+  const TemporaryFolder folder;
+  const test::FullDisk disk(100);
+  try {
+    VtkFile(0.0, {0, 0, 0}).write(folder.file("one.vtp"));
+    ADD_FAILURE() << "written";
+  } catch (const VtkError& error) {
+    EXPECT_EQ(error.what(), folder.file("one.vtp") + ": cannot be written; check the space on its disk");
+  }
 }
 
 /// The clouds and bodies of a bag.

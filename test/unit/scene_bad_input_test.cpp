@@ -334,5 +334,22 @@ TEST(SceneBadInput, MutatedScenesNeverEscape) {
   EXPECT_GT(refused, 100);  // otherwise the mutations are too mild
 }
 
+// A wave of speed c, c^2 = 1.346 E / density at nu = 0.3, crosses half a cell of 0.1 m in each step: 1e7 steps in a
+// sync period of 1 ms are c = 5e8 m/s, and E = 1.857e20 Pa.
+TEST(SceneBadInput, StepsThatCannotBeMeant) {
+  const auto refusal = [](const std::string& text) { return scene_bad_input_test::refusal(text, {"time.sync=0.001"}); };
+  EXPECT_EQ(refusal(with_line(16, "    young: 1.85e20")), "no error");
+  const std::string just = refusal(with_line(16, "    young: 1.87e20"));
+  EXPECT_EQ(just.find("bad.yaml: materials.soft: its wave of 5.01"), 0U) << just;
+  EXPECT_NE(just.find("check its stiffness, its density and their units"), std::string::npos) << just;
+  for (const std::string young : {"1e300", "1e308"}) {
+    const std::string found = refusal(with_line(16, "    young: " + young));
+    EXPECT_EQ(found.find("bad.yaml: materials.soft: its wave of "), 0U) << found;
+  }
+  const std::string step = refusal(with_line(6, "time: {end: 1, cfl: 0.5, step: 1e-12}"));
+  EXPECT_EQ(step.find("bad.yaml: time.step: it means 1e+09 steps of 1e-12 s in each sync period of 0.001 s"), 0U)
+      << step;
+}
+
 }  // namespace scene_bad_input_test
 }  // namespace mpm

@@ -5,6 +5,7 @@
 
 #include "mpm/scene/explain.hpp"
 #include "mpm/scene/scene.hpp"
+#include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
 namespace scene_build_test {
@@ -147,6 +148,17 @@ TEST(SceneBuild, ExplainsWhatFollows) {
   EXPECT_NE(text.find("run: to 1 s in about 100 steps"), std::string::npos) << text;
   EXPECT_NE(text.find("method: solid, ugimp, usavg, flip"), std::string::npos) << text;
   EXPECT_NE(text.find(", double precision,"), std::string::npos) << text;
+}
+
+TEST(SceneBuild, ASimulationCanBeMadeOfTheSceneItself) {
+  const Scene scene = parse_scene(
+      "gravity: [0, 0, -10]\nmethod: {shape: ugimp}\n" + solid("{box: {min: [0, 0, 0], max: [0.2, 0.2, 0.2]}}"),
+      "test.yaml");
+  Simulation of_scene(scene, {1}), of_definition(build(scene), {1});
+  of_scene.advance();
+  of_definition.advance();
+  EXPECT_EQ(of_scene.state_hash(), of_definition.state_hash());
+  EXPECT_EQ(of_scene.particles(), 64U);
 }
 
 }  // namespace scene_build_test

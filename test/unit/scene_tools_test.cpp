@@ -1,6 +1,9 @@
 // Tools of revolution in scenes: their shapes in solid and in axisymmetric scenes, and refusals.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "scene_tool.hpp"
 
 namespace mpm {
@@ -86,6 +89,54 @@ TEST(SceneTools, NumbersThatMakeNoBodyAreRefused) {
   refused("cone: {radius: 0.1, height: 1, shaft: -1}", "shape.cone.shaft", "");
   refused("ring: {inner: 0.3, outer: 0.1, height: 1}", "shape.ring.outer", "not greater than the inner one");
   refused("ring: {inner: 0, outer: 0.1, height: 1}", "shape.ring.inner", "");
+}
+
+/// A plate 0.5 m x 0.5 m as an OBJ file, of which 20 strips become linearly thinner, from `thick` to `thin` [m].
+std::string plate_file(double thick, double thin) {
+  constexpr int kStrips = 20;
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / "mpm_scene_plate.obj";
+  std::ofstream file(path);
+  for (int i = 0; i <= kStrips; ++i) {
+    const double x = 0.5 * i / kStrips, half = 0.5 * (thick + (thin - thick) * i / kStrips);
+    for (const double y : {0.0, 0.5}) {
+      for (const double z : {-half, half}) file << "v " << x << " " << y << " " << z << "\n";
+    }
+  }
+  // Corners of a station: 1 low near, 2 high near, 3 low far, 4 high far; near is y = 0.
+  const auto quad = [&file](int a, int b, int c, int d) {
+    file << "f " << a << " " << b << " " << c << "\nf " << a << " " << c << " " << d << "\n";
+  };
+  quad(1, 2, 4, 3);
+  for (int i = 0; i < kStrips; ++i) {
+    const int a = 4 * i, b = a + 4;
+    quad(a + 1, a + 3, b + 3, b + 1);
+    quad(a + 2, b + 2, b + 4, a + 4);
+    quad(a + 1, b + 1, b + 2, a + 2);
+    quad(a + 3, a + 4, b + 4, b + 3);
+  }
+  const int last = 4 * kStrips;
+  quad(last + 1, last + 3, last + 4, last + 2);
+  return path.string();
+}
+
+// A hundredth of a cell is 1 mm.
+TEST(SceneTools, AMeshThinnerThanAHundredthOfACellIsRefused) {
+  const auto mesh = [](double thick, double thin, const std::string& more = "") {
+    return scene("solid", "mesh: {file: " + plate_file(thick, thin) + more + "}");
+  };
+  expect_refused(
+      mesh(0.0009, 0.0009), "shape.mesh.file",
+      "half of the mesh is less than 0.0009 m thick, and it has to be at least 0.001 m; its size is 0.5 x 0.5 "
+      "x 0.0009 m: check its unit (scale), make it thicker, or the grid's cells smaller");
+  expect_refused(mesh(0.1, 0.1, ", scale: 1 mm"), "shape.mesh.file", "its size is 0.0005 x 0.0005 x 0.0001 m");
+  const auto thickness = [](const std::string& text) {
+    return parse_scene(text, "good.yaml").definition.rigid_bodies.at(0).surface->thickness();
+  };
+  EXPECT_NEAR(thickness(mesh(0.0011, 0.0011)), 0.0011, 1e-9);  // assimp reads single precision
+  // A knife: a twentieth of it is thinner than that, and half of it is not.
+  EXPECT_LT(thickness(mesh(0.003, 0.0)), 0.001);
+  expect_refused(mesh(0.0018, 0.0), "shape.mesh.file", "half of the mesh is less than 0.0009");
+  std::filesystem::remove(plate_file(1.0, 1.0));
 }
 
 }  // namespace scene_tools_test

@@ -79,5 +79,19 @@ TEST(Urdf, ALinkIsTheShapeOfATool) {
                  "a scene is read without ROS");
 }
 
+TEST(Urdf, AMeshIsToBeSoThickAndABoxIsNot) {
+  const auto refused = [](const std::string& link, double thinnest) {
+    try {
+      load_urdf_link(kRobot, link, thinnest);
+    } catch (const RigidError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refused("wedge", 1.0).find("link 'wedge': collision 1: half of the mesh is less than "), std::string::npos);
+  EXPECT_EQ(refused("wedge", 0.01), "");
+  EXPECT_EQ(refused("scoop", 1.0), "");  // 0.1 m thick
+}
+
 }  // namespace urdf_test
 }  // namespace mpm

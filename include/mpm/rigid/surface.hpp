@@ -108,8 +108,8 @@ struct HeightGrid {
 /// RigidError
 std::unique_ptr<Surface> make_height_field(const HeightGrid& grid);
 /// A solid from a mesh; one that is inside out as a whole is turned. @throws RigidError when the mesh is empty,
-/// degenerate, not closed or not consistently oriented.
-std::unique_ptr<Surface> make_mesh(const TriangleMesh& mesh);
+/// degenerate, not closed or not consistently oriented, or half of its surface is less than `thinnest` [m] thick.
+std::unique_ptr<Surface> make_mesh(const TriangleMesh& mesh, double thinnest = 0.0);
 
 /// Reads any format that assimp reads, joining equal vertices; `scale` multiplies coordinates, which are taken in the
 /// file's own axes (a COLLADA unit is applied, its up axis is not, as in RViz).

@@ -6,7 +6,7 @@
 
 namespace mpm {
 
-/// Memory of this machine, or of the container if its limit is lower [bytes].
+/// Memory of this machine, or of the container or this process if their limits are lower [bytes].
 double usable_memory();
 
 /// Least memory per particle while particles are sorted [bytes]: the particle's data, scratch, and its share of the

@@ -1,7 +1,7 @@
 // From YAML to a checked Scene, and from there to the definition of a Simulation.
 //
 //   mpm::Scene scene = mpm::load_scene("blade_in_soil", {"grid.cell=0.02"});
-//   mpm::Simulation simulation(mpm::build(scene), {.threads = 2});
+//   mpm::Simulation simulation(scene, {2});  // on two threads; the same as of mpm::build(scene)
 #pragma once
 
 #include <string>

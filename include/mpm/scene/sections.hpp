@@ -48,8 +48,10 @@ void read_free(const Map& map, const SimulationDefinition& definition, RigidBody
 std::unique_ptr<Surface> read_polygon(const Value& value, const SimulationDefinition& definition);
 /// The `shape` of a rigid body that is a `height_field`, after `grid`
 std::unique_ptr<Surface> read_height_field(const Value& value, const SimulationDefinition& definition);
-/// The `shape` of a rigid body that is a robot's link, `urdf`
-std::unique_ptr<Surface> read_urdf_link(const Value& value, GeometryKind geometry);
+/// The `shape` of a rigid body that is a robot's link, `urdf`, after `grid`
+std::unique_ptr<Surface> read_urdf_link(const Value& value, const SimulationDefinition& definition);
+/// Below this a mesh is refused as too thin [m], after `grid`.
+double thinnest_mesh(const SimulationDefinition& definition);
 /// `drive` and `limits` of a rigid body, after its shape
 CommandDefinition read_commands(const Map& body, const std::string& name, Scene& scene);
 /// `boundaries`, after bodies and rigid bodies

@@ -1,7 +1,7 @@
 // The assembled run. Time advances from one sync point (integer nanoseconds) to the next by a whole number of equal
 // steps; commands given at a sync point act from there on; all reports are those of a sync point.
 //
-//   auto simulation = mpm::Simulation(definition, mpm::SimulationOptions{2});
+//   mpm::Simulation simulation(mpm::load_scene("blade_in_soil"));  // or a SimulationDefinition
 //   while (simulation.time() < end) { simulation.advance(); auto report = simulation.take_contact(0); … }
 #pragma once
 
@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mpm/kernel/isa.hpp"
@@ -47,6 +48,8 @@ struct Settling {
   double wanted = 0.0;      ///< at which the soil has settled
 };
 
+constexpr double kMostSteps = 1e7;  ///< in a sync period; more is a run that went wrong
+
 struct RunParts;
 /// Adds the modules of a physics to a run (simulation/run_parts.hpp).
 using AddModules = std::function<void(RunParts&)>;
@@ -65,6 +68,11 @@ class Simulation {
   /// @throws DefinitionError, GridError, IsaError, MaterialError, RigidError; StoppedError while it settles
   /// Takes over the definition, whose particle data are freed as soon as they have been read.
   explicit Simulation(SimulationDefinition definition, SimulationOptions options = {});
+  /// Of a scene (scene/scene.hpp), which lies in a layer above: its build() is found where the scene is declared.
+  /// @throws SceneError, and what the other constructor throws
+  template <class AnyScene, class Built = decltype(build(std::declval<const AnyScene&>()))>
+  explicit Simulation(const AnyScene& scene, SimulationOptions options = {})
+      : Simulation(Built(build(scene)), std::move(options)) {}
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

@@ -1,5 +1,7 @@
 #include "mpm/math/output_file.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <system_error>
 
@@ -19,6 +21,15 @@ std::string refused_output(const std::string& path) {
     default:
       return "it is a device, a pipe or a socket; name a regular file, or a new one";
   }
+}
+
+std::string open_output(std::ofstream& file, const std::string& path) {
+  if (std::string refused = refused_output(path); !refused.empty()) return refused;
+  errno = 0;
+  file.open(path, std::ios::trunc | std::ios::binary);
+  if (file) return {};
+  return std::string(errno != 0 ? std::strerror(errno) : "it cannot be opened") +
+         "; check the folder and its permissions, or choose another";
 }
 
 }  // namespace mpm

@@ -1,5 +1,7 @@
 // A closed triangle mesh as a signed distance: the nearest triangle through a bounding-volume hierarchy, the sign
 // by angle-weighted pseudonormals (Baerentzen & Aanaes (2005), IEEE Trans. Vis. Comput. Graph. 11(3), 243-253).
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -17,9 +19,12 @@ namespace mpm {
 
 namespace {
 
+constexpr double kThinFaces = 0.05;   // of the surface: less may be thinner than the thickness
+constexpr double kHalfOfFaces = 0.5;  // of the surface: a sharp edge does not make a mesh thin
+
 class MeshSurface final : public Surface {
  public:
-  explicit MeshSurface(const TriangleMesh& mesh) : mesh_(solid_mesh(mesh)) {
+  MeshSurface(const TriangleMesh& mesh, double thinnest) : mesh_(solid_mesh(mesh)) {
     find_pseudonormals();
     std::vector<Triangle> triangles;
     std::vector<Eigen::AlignedBox3d> boxes;
@@ -30,7 +35,15 @@ class MeshSurface final : public Surface {
       for (const Vec3& corner : {a, b, c}) bounds_.add(corner);
     }
     tree_.init(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
-    thickness_ = find_thickness(triangles);
+    const std::vector<Sample> samples = sample_thickness(triangles);
+    thickness_ = thickness_of(samples, kThinFaces);
+    if (const double half = thickness_of(samples, kHalfOfFaces); half < thinnest) {
+      const Vec3 size = bounds_.size();
+      throw RigidError(fmt::format(
+          "half of the mesh is less than {:.3g} m thick, and it has to be at least {:.3g} m; its size is "
+          "{:.4g} x {:.4g} x {:.4g} m: check its unit (scale), make it thicker, or the grid's cells smaller",
+          half, thinnest, size.x(), size.y(), size.z()));
+    }
   }
 
   SurfacePoint at(const Vec3& point) const override {
@@ -191,23 +204,32 @@ class MeshSurface final : public Surface {
     }
   };
 
-  /// Length of a ray inwards from each triangle's centroid; the length that 5 % of the area stays below. An estimate:
-  /// a large triangle is sampled once, and a knife edge of less area than that does not count.
-  double find_thickness(const std::vector<Triangle>& triangles) const {
-    std::vector<std::pair<double, double>> samples;  // length, area
-    double total = 0.0;
+  /// A triangle's area, and the length of a ray inwards from its centroid; infinite where none leaves the mesh.
+  struct Sample {
+    double length, area;
+  };
+
+  std::vector<Sample> sample_thickness(const std::vector<Triangle>& triangles) const {
+    std::vector<Sample> samples;
     for (const Triangle& t : triangles) {
       Ray ray{t.a + (t.ab + t.ac) / 3.0, -face_normals_[t.index], t.index};
       Eigen::BVIntersect(tree_, ray);
-      const double area = 0.5 * t.ab.cross(t.ac).norm();
-      if (std::isfinite(ray.length)) samples.emplace_back(ray.length, area);
-      total += area;
+      samples.push_back({ray.length, 0.5 * t.ab.cross(t.ac).norm()});
     }
-    std::sort(samples.begin(), samples.end());
-    double below = 0.0;
-    for (const auto& [length, area] : samples) {
-      below += area;
-      if (below >= 0.05 * total) return length;
+    std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
+      return a.length != b.length ? a.length < b.length : a.area < b.area;
+    });
+    return samples;
+  }
+
+  /// The length that this part of the area stays below. An estimate: a large triangle is sampled once, and a knife edge
+  /// of less area than that does not count.
+  double thickness_of(const std::vector<Sample>& samples, double part) const {
+    double total = 0.0, below = 0.0;
+    for (const Sample& sample : samples) total += sample.area;
+    for (const Sample& sample : samples) {
+      below += sample.area;
+      if (below >= part * total && std::isfinite(sample.length)) return sample.length;
     }
     return bounds_.size().minCoeff();
   }
@@ -222,6 +244,8 @@ class MeshSurface final : public Surface {
 
 }  // namespace
 
-std::unique_ptr<Surface> make_mesh(const TriangleMesh& mesh) { return std::make_unique<MeshSurface>(mesh); }
+std::unique_ptr<Surface> make_mesh(const TriangleMesh& mesh, double thinnest) {
+  return std::make_unique<MeshSurface>(mesh, thinnest);
+}
 
 }  // namespace mpm

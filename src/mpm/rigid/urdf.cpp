@@ -71,7 +71,8 @@ Pose to_pose(const urdf::Pose& pose) {
   return {to_vec3(pose.position), Quat(r.w, r.x, r.y, r.z).normalized()};
 }
 
-std::unique_ptr<Surface> surface_of(const urdf::Geometry& geometry, const std::filesystem::path& folder) {
+std::unique_ptr<Surface> surface_of(const urdf::Geometry& geometry, const std::filesystem::path& folder,
+                                    double thinnest) {
   switch (geometry.type) {
     case urdf::Geometry::SPHERE:
       return make_sphere(static_cast<const urdf::Sphere&>(geometry).radius);
@@ -88,7 +89,7 @@ std::unique_ptr<Surface> surface_of(const urdf::Geometry& geometry, const std::f
       if (!scale.allFinite() || (scale.array() == 0.0).any())
         throw RigidError(fmt::format("{}: its scale has a zero, or is not finite", mesh.filename));
       for (Vec3& vertex : loaded.vertices) vertex = vertex.cwiseProduct(scale);
-      return make_mesh(loaded);
+      return make_mesh(loaded, thinnest);
     }
   }
 }
@@ -104,7 +105,7 @@ std::vector<std::string> links_with_collision(const urdf::ModelInterface& model)
 
 }  // namespace
 
-std::unique_ptr<Surface> load_urdf_link(const std::string& path, const std::string& link) try {
+std::unique_ptr<Surface> load_urdf_link(const std::string& path, const std::string& link, double thinnest) try {
   const std::string file = file_of(path, {});
   const urdf::ModelInterfaceSharedPtr model = read_model(file);
   const urdf::LinkConstSharedPtr found = model->getLink(link);
@@ -120,8 +121,8 @@ std::unique_ptr<Surface> load_urdf_link(const std::string& path, const std::stri
     const std::size_t number = parts.size() + 1;
     if (!collision->geometry) throw RigidError(fmt::format("link '{}': collision {} has no geometry", link, number));
     try {
-      parts.push_back(
-          {surface_of(*collision->geometry, std::filesystem::path(file).parent_path()), to_pose(collision->origin)});
+      parts.push_back({surface_of(*collision->geometry, std::filesystem::path(file).parent_path(), thinnest),
+                       to_pose(collision->origin)});
     } catch (const RigidError& error) {
       throw RigidError(fmt::format("link '{}': collision {}: {}", link, number, error.what()));
     }

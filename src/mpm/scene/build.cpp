@@ -5,19 +5,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <random>
 #include <set>
 
-#include "mpm/math/constants.hpp"
 #include "mpm/math/nearest.hpp"
-#include "mpm/scene/memory.hpp"
+#include "mpm/scene/feasible.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
 namespace {
 
-// Largest number of particles: they are numbered by signed 32-bit integers.
-constexpr double kMostParticles = 2147483647.0;
 // Faces count as equal within this part of a cell, since 0.1 is not a binary number.
 constexpr double kFaceSlack = 1e-6;
 
@@ -72,38 +70,6 @@ Lattice lattice(const Scene& scene, const Box& bounds, int axis) {
   const double last = std::ceil((bounds.max[axis] - grid.min[axis]) / spacing) + 1.0;
   return {grid.min[axis], spacing, static_cast<std::int64_t>(std::max(0.0, first)),
           static_cast<std::int64_t>(std::min(all - 1.0, last))};
-}
-
-/// Volume of a region relative to its bounds; in planar scenes, where a sphere is a disk, area; in a line length.
-double fullness(const Region& region, GeometryKind geometry) {
-  if (region.kind == Region::Kind::box || geometry == GeometryKind::line) return 1.0;
-  if (axisymmetric(geometry) && region.kind == Region::Kind::cylinder) return 1.0;
-  return region.kind == Region::Kind::sphere && geometry == GeometryKind::solid ? kPi / 6.0 : kPi / 4.0;
-}
-
-/// Refuses scenes with too many particles to number or to hold in memory, before any particle is made.
-void check_size(const Scene& scene) {
-  const GeometryKind geometry = scene.definition.geometry;
-  const double memory = usable_memory(), bytes = least_bytes_of_particle(scene.definition.method, geometry);
-  double total = 0.0;
-  for (const BodyDefinition& body : scene.bodies) {
-    const Box bounds = body.region.bounds();
-    double places = fullness(body.region, geometry);
-    for (const int axis : axes_of(scene))
-      places *= (bounds.max[axis] - bounds.min[axis]) / particle_spacing(scene, axis);
-    total += places;
-    const std::string start =
-        fmt::format("{}: with body '{}' there would be about {:.2g} particles", body.where, body.name, total);
-    if (!(total <= kMostParticles)) {
-      throw SceneError(fmt::format("{}, more than {:.0f}; make grid.cell larger", start, kMostParticles));
-    }
-    if (total * bytes > memory) {
-      throw SceneError(
-          fmt::format("{}, which need at least {:.3g} GB of memory; this machine has {:.3g} GB: make "
-                      "grid.cell larger",
-                      start, 1e-9 * total * bytes, 1e-9 * memory));
-    }
-  }
 }
 
 /// Moves each particle by a number of cells drawn evenly from [-jitter, jitter] along each axis, but not out of the
@@ -338,12 +304,13 @@ Box Region::bounds() const {
   return bounds;
 }
 
-SimulationDefinition build(const Scene& scene) {
+SimulationDefinition build(const Scene& scene) try {
   SimulationDefinition definition = scene.definition;
   double half_spacing = std::numeric_limits<double>::infinity();
   for (const int axis : axes_of(scene)) half_spacing = std::min(half_spacing, 0.5 * particle_spacing(scene, axis));
   for (const BodyDefinition& body : scene.bodies) check_place(body, scene);
-  check_size(scene);
+  check_particles(scene);
+  check_steps(scene);
   for (const BodyDefinition& body : scene.bodies) {
     DeformableBody filled = fill(body, scene);
     cut_out(body, scene, filled);
@@ -372,6 +339,8 @@ SimulationDefinition build(const Scene& scene) {
     if (body.jitter == 0.0) check_faces(load, scene.traction_regions[i], *made, scene);
   }
   return definition;
+} catch (const std::bad_alloc&) {
+  throw SceneError(lack_of_memory(scene));
 }
 
 }  // namespace mpm

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
-#include "mpm/material/material_point.hpp"
+#include "mpm/scene/feasible.hpp"
 #include "mpm/scene/sections.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/method_text.hpp"
@@ -20,12 +19,6 @@ std::string geometry_text(const SimulationDefinition& definition) {
   std::string text = spoken_name(definition.geometry);
   if (planar(definition.geometry)) text += fmt::format(", {:g} m thick", definition.thickness);
   return text;
-}
-
-double smallest_cell(const Scene& scene) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const int axis : axes_of(scene)) smallest = std::min(smallest, scene.definition.grid.cell[axis]);
-  return smallest;
 }
 
 void add_bodies(const Scene& scene, const SimulationDefinition& built, std::string& text) {
@@ -54,21 +47,13 @@ void add_bodies(const Scene& scene, const SimulationDefinition& built, std::stri
   text += fmt::format("total: {:.0f} particles in {:.0f} cells\n", particles, particles / per_cell);
 }
 
-void add_steps(const Scene& scene, const SimulationDefinition& built, std::string& text) {
-  double fastest = 0.0;
-  std::string material_name;
-  for (const MaterialDefinition& material : built.materials) {
-    const double speed = MaterialPoint(material).wave_speed();
-    if (speed <= fastest) continue;
-    fastest = speed;
-    material_name = material.name;
-  }
+void add_steps(const SimulationDefinition& built, std::string& text) {
   const TimeDefinition& time = built.time;
-  const double by_wave = time.cfl * smallest_cell(scene) / fastest;
+  const WaveStep wave = wave_step(built);
   const double sync = static_cast<double>(time.sync) * kSyncUnit;
-  double limit = by_wave;
+  double limit = wave.dt;
   std::string reason =
-      fmt::format("the wave in {} ({:.5g} m/s) crosses {:g} of a cell", material_name, fastest, time.cfl);
+      fmt::format("the wave in {} ({:.5g} m/s) crosses {:g} of a cell", wave.material, wave.speed, time.cfl);
   if (time.step && *time.step < limit) {
     limit = *time.step;
     reason = "time.step";
@@ -100,7 +85,7 @@ std::string explain(const Scene& scene, const SimulationDefinition& built) {
                         grid.cell[axis], axis == axes_of(scene).back() ? "\n" : ",");
   }
   add_bodies(scene, built, text);
-  add_steps(scene, built, text);
+  add_steps(built, text);
   text += fmt::format("output: every {:.9g} s\n", scene.output.period);
   if (!scene.choices.empty()) text += "chosen, because the scene does not specify them:\n";
   for (const auto& [key, reason] : scene.choices) text += fmt::format("  {}: {}\n", key, reason);

@@ -1,5 +1,6 @@
 #include "mpm/scene/memory.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,6 +18,12 @@ double usable_memory() {
     std::ifstream file(path);
     double limit = 0.0;
     if (file >> limit && limit > 0.0) bytes = std::min(bytes, limit);
+  }
+  // `ulimit -v` and `ulimit -d`.
+  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+      bytes = std::min(bytes, static_cast<double>(limit.rlim_cur));
   }
   return bytes;
 }

@@ -11,7 +11,12 @@
 namespace mpm {
 namespace {
 
-std::unique_ptr<Surface> read_mesh(const Value& value, GeometryKind geometry) {
+/// In cells. A mesh that is thinner has most often another unit than its scene says; a sheet that is meant to be thin
+/// can be as thick as this without any effect.
+constexpr double kThinnestMesh = 0.01;
+
+std::unique_ptr<Surface> read_mesh(const Value& value, const SimulationDefinition& definition) {
+  const GeometryKind geometry = definition.geometry;
   if (axisymmetric(geometry)) value.fail("a mesh is not a body of revolution; write its section as revolved");
   if (planar(geometry))
     value.fail("a planar scene has no mesh; write box, sphere or cylinder, each without end along y");
@@ -25,7 +30,7 @@ std::unique_ptr<Surface> read_mesh(const Value& value, GeometryKind geometry) {
   const auto scale_key = map.find("scale");
   const double scale = scale_key ? scale_key->positive(kLength) : value.context().units.factor(kLength);
   try {
-    return make_mesh(load_mesh(path, scale));
+    return make_mesh(load_mesh(path, scale), thinnest_mesh(definition));
   } catch (const RigidError& error) {
     file.fail(error.what());
   }
@@ -103,8 +108,8 @@ std::unique_ptr<Surface> read_surface(const Value& value, const SimulationDefini
     if (kind == "plane") return read_plane(shape, definition);
     if (kind == "polygon") return read_polygon(shape, definition);
     if (kind == "height_field") return read_height_field(shape, definition);
-    if (kind == "mesh") return read_mesh(shape, geometry);
-    if (kind == "urdf") return read_urdf_link(shape, geometry);
+    if (kind == "mesh") return read_mesh(shape, definition);
+    if (kind == "urdf") return read_urdf_link(shape, definition);
     if (kind == "box") return read_box_surface(shape, geometry);
     if (kind == "sphere") return read_sphere_surface(shape, geometry);
     if (kind == "cylinder") return read_cylinder_surface(shape, geometry);
@@ -209,6 +214,10 @@ void read_divides(const Value& value, const Scene& scene, RigidBodyDefinition& b
 }
 
 }  // namespace
+
+double thinnest_mesh(const SimulationDefinition& definition) {
+  return kThinnestMesh * definition.grid.cell.minCoeff();  // of a solid scene, which alone has meshes
+}
 
 void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinition& body) {
   if (const auto motion = map.find("motion")) read_motion(*motion, geometry, body);

@@ -6,8 +6,8 @@
 
 namespace mpm {
 
-std::unique_ptr<Surface> read_urdf_link(const Value& value, GeometryKind geometry) {
-  if (geometry != GeometryKind::solid)
+std::unique_ptr<Surface> read_urdf_link(const Value& value, const SimulationDefinition& definition) {
+  if (definition.geometry != GeometryKind::solid)
     value.fail("a robot's link is of a solid scene; write box, sphere or cylinder, as the scene's geometry has them");
   const Map map(value, {"file", "link"},
                 {{"parameter", "a scene is read without ROS; write the robot_description to a file, and name that"},
@@ -18,7 +18,7 @@ std::unique_ptr<Surface> read_urdf_link(const Value& value, GeometryKind geometr
   if (path.find("://") == std::string::npos && std::filesystem::path(path).is_relative())
     path = (std::filesystem::path(value.context().source->label()).parent_path() / path).string();
   try {
-    return load_urdf_link(path, link);
+    return load_urdf_link(path, link, thinnest_mesh(definition));
   } catch (const RigidError& error) {
     value.fail(error.what());
   }

@@ -11,8 +11,7 @@ namespace mpm {
 namespace {
 
 constexpr double kNanosecond = 1e-9;
-constexpr double kMostSteps = 1e7;  ///< in a sync period; more is a run that went wrong
-constexpr double kAtTool = 4.0;     ///< cells: what goes wrong nearer to a rigid body than this is told with its name
+constexpr double kAtTool = 4.0;  ///< cells: what goes wrong nearer to a rigid body than this is told with its name
 
 /// "0.4 cells from rigid body 'blade', ..." of the moving one nearest to a point; empty when none is within kAtTool
 /// cells.

@@ -5,11 +5,14 @@
 #include <iterator>
 #include <system_error>
 
+#include "mpm/math/output_file.hpp"
+
 namespace mpm_ros {
 
 CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& columns)
-    : path_(path), columns_(columns.size()), file_(path, std::ios::trunc | std::ios::binary) {
-  if (!file_) throw CsvError(path + ": cannot be opened for writing; check the folder and its permissions");
+    : path_(path), columns_(columns.size()) {
+  if (const std::string problem = mpm::open_output(file_, path); !problem.empty())
+    throw CsvError(path + ": cannot be written: " + problem);
   for (const std::string& column : columns) *this << column;
   end_row();
 }
@@ -76,7 +79,7 @@ void add_vector_columns(std::vector<std::string>& columns, const std::string& pr
 void make_csv_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw CsvError(folder + ": the folder cannot be made: " + error.message());
+  if (error) throw CsvError(folder + ": the folder cannot be made: " + error.message() + "; choose another");
 }
 
 std::string file_stem(const std::string& name) {

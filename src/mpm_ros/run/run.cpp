@@ -4,13 +4,15 @@
 
 #include <array>
 #include <cmath>
+#include <new>
 #include <utility>
 
+#include "mpm/scene/feasible.hpp"
 #include "mpm_ros/run/output_names.hpp"
 
 namespace mpm_ros {
 
-Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamps, MessageSink* live)
+Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamps, MessageSink* live) try
     : scene_(scene),
       parameters_(options.parameters),
       stamps_(stamps),
@@ -32,6 +34,8 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
   if (!options.bag.empty()) recorder_ = std::make_unique<BagRecorder>(options.bag, options.bag_options);
   if (recorder_) outputs_.add(*recorder_);
   if (live != nullptr) outputs_.add(*live);
+} catch (const std::bad_alloc&) {
+  throw mpm::SceneError(mpm::lack_of_memory(scene));
 }
 
 void Run::begin() {

@@ -56,7 +56,9 @@ RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::in
   }
   std::FILE* file = std::fopen(part.c_str(), "ab");
   if (file == nullptr) {
-    throw mpm::SceneError(fmt::format("--checkpoint {}: cannot be written: {}", path_, std::strerror(errno)));
+    throw mpm::SceneError(
+        fmt::format("--checkpoint {}: cannot be written: {}; check the folder and its permissions, or choose another",
+                    path_, std::strerror(errno)));
   }
   std::fclose(file);
   std::remove(part.c_str());

@@ -54,11 +54,8 @@ mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Reru
 std::ofstream open_summary(const std::string& path) {
   std::ofstream file;
   if (path.empty()) return file;
-  if (const std::string refused = mpm::refused_output(path); !refused.empty())
-    throw mpm::SceneError(fmt::format("--summary {}: cannot be written: {}", path, refused));
-  file.open(path);
-  if (!file)
-    throw mpm::SceneError(fmt::format("--summary {}: cannot be written; check that the folder is there", path));
+  if (const std::string problem = mpm::open_output(file, path); !problem.empty())
+    throw mpm::SceneError(fmt::format("--summary {}: cannot be written: {}", path, problem));
   return file;
 }
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "mpm/math/output_file.hpp"
 #include "mpm_ros/csv/csv_writer.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/topics.hpp"
@@ -29,11 +30,12 @@ std::vector<Value> column(const sensor_msgs::PointCloud2& cloud, const std::stri
 VtkSink::VtkSink(const std::string& folder, const Stamps& stamps) : folder_(folder), stamps_(stamps) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  list_.open(folder + "/run.pvd");
-  if (error || !list_) {
-    throw VtkError(fmt::format("{}: the files for ParaView cannot be written there{}; choose another folder", folder,
-                               error ? " (" + error.message() + ")" : ""));
+  if (error) {
+    throw VtkError(
+        fmt::format("{}: the folder for ParaView cannot be made: {}; choose another", folder, error.message()));
   }
+  if (const std::string problem = mpm::open_output(list_, folder + "/run.pvd"); !problem.empty())
+    throw VtkError(fmt::format("{}/run.pvd: cannot be written: {}", folder, problem));
   list_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n" << kListEnd;
 }
 

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "mpm/math/output_file.hpp"
+
 namespace mpm_ros {
 
 VtkFile::VtkFile(double time, const std::vector<float>& points) : time_(time), points_(points.size() / 3) {
@@ -69,7 +71,9 @@ void VtkFile::write(const std::string& path) const {
   text +=
       "<PointData>\n" + describe(values_) + "</PointData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
 
-  std::ofstream file(path, std::ios::binary);
+  std::ofstream file;
+  if (const std::string problem = mpm::open_output(file, path); !problem.empty())
+    throw VtkError(fmt::format("{}: cannot be written: {}", path, problem));
   file << text;
   const auto append = [&file](const std::vector<Array>& arrays) {
     for (const Array& entry : arrays) {
@@ -83,7 +87,7 @@ void VtkFile::write(const std::string& path) const {
   append(values_);
   file << "\n</AppendedData>\n</VTKFile>\n";
   file.close();
-  if (!file) throw VtkError(fmt::format("{}: cannot be written; check the folder and the space on its disk", path));
+  if (!file) throw VtkError(fmt::format("{}: cannot be written; check the space on its disk", path));
 }
 
 std::string xml_text(const std::string& text) {

@@ -1,0 +1,26 @@
+// Refuses scenes that are right in every key and still cannot be run: more particles than can be numbered or held in
+// memory, or steps so short that no run of them can be meant.
+#pragma once
+
+#include <string>
+
+#include "mpm/scene/scene.hpp"
+
+namespace mpm {
+
+/// The time step that the stiffest material asks for before it is strained.
+struct WaveStep {
+  double dt = 0.0;       ///< in which the wave crosses time.cfl of the smallest cell [s]
+  double speed = 0.0;    ///< of the wave [m/s]
+  std::string material;  ///< its name
+};
+WaveStep wave_step(const SimulationDefinition& definition);
+
+/// Refuses too many particles, before any is made. @throws SceneError with their number and memory
+void check_particles(const Scene& scene);
+/// Refuses more steps in a sync period than Simulation takes. @throws SceneError
+void check_steps(const Scene& scene);
+/// What to say when memory was refused: the number of particles, and the least memory that they need.
+std::string lack_of_memory(const Scene& scene);
+
+}  // namespace mpm

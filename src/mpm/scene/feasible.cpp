@@ -1,0 +1,100 @@
+#include "mpm/scene/feasible.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mpm/material/material_point.hpp"
+#include "mpm/math/constants.hpp"
+#include "mpm/scene/memory.hpp"
+#include "mpm/scene/sections.hpp"
+#include "mpm/simulation/simulation.hpp"
+
+namespace mpm {
+namespace {
+
+// Largest number of particles: they are numbered by signed 32-bit integers.
+constexpr double kMostParticles = 2147483647.0;
+constexpr double kGigabyte = 1e9;
+
+/// Volume of a region relative to its bounds; in planar scenes, where a sphere is a disk, area; in a line length.
+double fullness(const Region& region, GeometryKind geometry) {
+  if (region.kind == Region::Kind::box || geometry == GeometryKind::line) return 1.0;
+  if (axisymmetric(geometry) && region.kind == Region::Kind::cylinder) return 1.0;
+  return region.kind == Region::Kind::sphere && geometry == GeometryKind::solid ? kPi / 6.0 : kPi / 4.0;
+}
+
+/// Number of particles that a body will have, about.
+double particles_of(const BodyDefinition& body, const Scene& scene) {
+  const Box bounds = body.region.bounds();
+  double places = fullness(body.region, scene.definition.geometry);
+  for (const int axis : axes_of(scene)) places *= (bounds.max[axis] - bounds.min[axis]) / particle_spacing(scene, axis);
+  return places;
+}
+
+double least_bytes(const Scene& scene) {
+  return least_bytes_of_particle(scene.definition.method, scene.definition.geometry);
+}
+
+}  // namespace
+
+WaveStep wave_step(const SimulationDefinition& definition) {
+  WaveStep step;
+  for (const MaterialDefinition& material : definition.materials) {
+    const double speed = MaterialPoint(material).wave_speed();
+    if (speed <= step.speed) continue;
+    step.speed = speed;
+    step.material = material.name;
+  }
+  double cell = std::numeric_limits<double>::infinity();
+  for (const int axis : axes_of(definition.geometry)) cell = std::min(cell, definition.grid.cell[axis]);
+  step.dt = definition.time.cfl * cell / step.speed;
+  return step;
+}
+
+void check_particles(const Scene& scene) {
+  const double memory = usable_memory(), bytes = least_bytes(scene);
+  double total = 0.0;
+  for (const BodyDefinition& body : scene.bodies) {
+    total += particles_of(body, scene);
+    const std::string start =
+        fmt::format("{}: with body '{}' there would be about {:.2g} particles", body.where, body.name, total);
+    if (!(total <= kMostParticles)) {
+      throw SceneError(fmt::format("{}, more than {:.0f}; make grid.cell larger", start, kMostParticles));
+    }
+    if (total * bytes > memory) {
+      throw SceneError(
+          fmt::format("{}, which need at least {:.3g} GB of memory; {:.3g} GB can be had here: make grid.cell larger",
+                      start, total * bytes / kGigabyte, memory / kGigabyte));
+    }
+  }
+}
+
+void check_steps(const Scene& scene) {
+  const TimeDefinition& time = scene.definition.time;
+  const WaveStep wave = wave_step(scene.definition);
+  const bool chosen = time.step && *time.step < wave.dt;
+  const double dt = chosen ? *time.step : wave.dt, sync = 1e-9 * static_cast<double>(time.sync);
+  if (std::ceil(sync / dt) <= kMostSteps) return;
+  const std::string steps =
+      fmt::format("{:.3g} steps of {:.3g} s in each sync period of {:g} s; at most {:.0e} are taken",
+                  std::ceil(sync / dt), dt, sync, kMostSteps);
+  if (chosen) throw SceneError(fmt::format("{}: time.step: it means {}: make it longer", scene.path, steps));
+  throw SceneError(
+      fmt::format("{}: materials.{}: its wave of {:.4g} m/s crosses {:g} of a cell in {}: check its stiffness, its "
+                  "density and their units, make grid.cell larger, or time.sync shorter",
+                  scene.path, wave.material, wave.speed, time.cfl, steps));
+}
+
+std::string lack_of_memory(const Scene& scene) {
+  double particles = 0.0;
+  for (const BodyDefinition& body : scene.bodies) particles += particles_of(body, scene);
+  return fmt::format(
+      "{}: there is not enough memory for its {:.2g} particles, which need at least {:.3g} GB and more for outputs and "
+      "grid; {:.3g} GB can be had here, shared with all that runs: use a larger grid.cell or a smaller scene",
+      scene.path, particles, particles * least_bytes(scene) / kGigabyte, usable_memory() / kGigabyte);
+}
+
+}  // namespace mpm

@@ -342,13 +342,27 @@ TEST(SceneBadInput, StepsThatCannotBeMeant) {
   const std::string just = refusal(with_line(16, "    young: 1.87e20"));
   EXPECT_EQ(just.find("bad.yaml: materials.soft: its wave of 5.01"), 0U) << just;
   EXPECT_NE(just.find("check its stiffness, its density and their units"), std::string::npos) << just;
-  for (const std::string young : {"1e300", "1e308"}) {
+  for (const std::string young : {"1e30", "1e60"}) {
     const std::string found = refusal(with_line(16, "    young: " + young));
     EXPECT_EQ(found.find("bad.yaml: materials.soft: its wave of "), 0U) << found;
   }
   const std::string step = refusal(with_line(6, "time: {end: 1, cfl: 0.5, step: 1e-12}"));
   EXPECT_EQ(step.find("bad.yaml: time.step: it means 1e+09 steps of 1e-12 s in each sync period of 0.001 s"), 0U)
       << step;
+}
+
+TEST(SceneBadInput, NumbersBeyondAllMeasure) {
+  const auto refused = [](std::size_t line, const std::string& text, const std::string& where,
+                          const std::string& number) {
+    expect_refused(line, text,
+                   where + ": '" + number + "' is beyond 1e-60 to 1e+60 SI units, where products overflow; ");
+  };
+  refused(16, "    young: 1e300", "materials.soft.young", "1e300");
+  refused(14, "    density: 1e-300", "materials.soft.density", "1e-300");
+  refused(11, "gravity: [0, 0, -1e300]", "gravity.2", "-1e300");
+  refused(22, "    initial: {velocity: [1e300, 0, 0]}", "bodies.block.initial.velocity.0", "1e300");
+  refused(27, "    motion: {velocity: [0, 0, -2e60]}", "rigid_bodies.ball.motion.velocity.2", "-2e60");
+  EXPECT_EQ(refusal(with_line(27, "    motion: {velocity: [0, 0, 1e-50]}")), "no error");
 }
 
 }  // namespace scene_bad_input_test

@@ -7,12 +7,17 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 
 #include "mpm/math/nearest.hpp"
 
 namespace mpm {
 namespace {
+
+/// Largest size of a number in SI units, and one over the least: no quantity of a scene comes near, what stands for
+/// "without limit" fits, and products of a few numbers stay within those of a double.
+constexpr double kMostNumber = 1e60;
 
 const Later* find_later(const std::string& word, const std::vector<Later>& later) {
   for (const Later& entry : later) {
@@ -56,11 +61,18 @@ double Value::number(const Dimension& dimension) const {
   if (!is_text()) {
     fail(fmt::format("found {}; write {}, such as {}", kind_of(node_), describe(dimension), example(dimension)));
   }
+  double value = 0.0;
   try {
-    return parse_quantity(node_.Scalar(), dimension, context_->units);
+    value = parse_quantity(node_.Scalar(), dimension, context_->units);
   } catch (const UnitError& error) {
     fail(error.what());
   }
+  const double size = std::abs(value);
+  if (size > kMostNumber || (size > 0.0 && size < 1.0 / kMostNumber)) {
+    fail(fmt::format("'{}' is beyond {:g} to {:g} SI units, where products overflow; write {}, such as {}", text(),
+                     1.0 / kMostNumber, kMostNumber, describe(dimension), example(dimension)));
+  }
+  return value;
 }
 
 double Value::positive(const Dimension& dimension) const {

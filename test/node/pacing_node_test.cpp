@@ -88,6 +88,44 @@ TEST(Pacing, OverrunsAreCountedAndShown) {
   EXPECT_TRUE(diagnosed(diagnostics, simulator, "slower than asked"));
 }
 
+// What the start says of a run's pace: before it runs, by timing a copy of it in real time alone, which is then kept
+// for all.
+TEST(Pacing, TheStartForecastsAndWarns) {
+  use_sim_time(false);
+  const TemporaryFolder folder;
+  setenv("XDG_CACHE_HOME", folder.file("cache").c_str(), 1);
+  const auto said = [](const SimulatorProcess& simulator, const std::string& text) {
+    return eventually([&] { return simulator.log().find(text) != std::string::npos; });
+  };
+  const std::vector<std::string> step = {kPress, "set:=[time.end=10, time.step=1e-6]", "threads:=1"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), step.begin(), step.end());
+    return more;
+  };
+  {
+    SimulatorProcess simulator(with({"pacing:=lockstep"}));
+    ASSERT_TRUE(simulator.ready()) << simulator.log();
+    EXPECT_TRUE(said(simulator, "160 particles, lockstep, 1 thread, in " + simulator.name_space() +
+                                    "; waits for the service " + simulator.name("step")))
+        << simulator.log();
+    EXPECT_EQ(simulator.log().find("expected on"), std::string::npos) << "nothing is timed: " << simulator.log();
+  }
+  {
+    // A million steps a second, of 160 particles, are beyond any machine.
+    SimulatorProcess simulator(with({}));
+    ASSERT_TRUE(simulator.ready()) << simulator.log();
+    for (const char* text : {"real time, 1 thread, in ", "runs to 10 s",
+                             "real time is not in reach: ", "of real time expected on 1 thread; 10 s will take ",
+                             "method.precision=single", "--explain"})
+      EXPECT_TRUE(said(simulator, text)) << text << "\n" << simulator.log();
+  }
+  SimulatorProcess simulator(with({"pacing:=free"}));
+  ASSERT_TRUE(simulator.ready()) << simulator.log();
+  EXPECT_TRUE(said(simulator, "of real time expected on 1 thread")) << "as it was kept: " << simulator.log();
+  EXPECT_TRUE(said(simulator, "the run goes at ")) << simulator.log();
+  unsetenv("XDG_CACHE_HOME");
+}
+
 TEST(Pacing, TheClockIsThrottledInSimulatedTime) {
   use_sim_time(true);
   SimulatorProcess simulator({kPress, kLong, "pacing:=lockstep", "threads:=1", "clock_rate:=20.0"});

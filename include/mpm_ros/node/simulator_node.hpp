@@ -17,6 +17,7 @@
 
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@
 #include "mpm_ros/node/pacer.hpp"
 #include "mpm_ros/node/publishers.hpp"
 #include "mpm_ros/node/sim_clock.hpp"
+#include "mpm_ros/run/expected_pace.hpp"
 #include "mpm_ros/run/run.hpp"
 
 namespace mpm_ros {
@@ -62,6 +64,10 @@ class SimulatorNode {
   std::shared_ptr<const Subject> load_subject(const std::vector<std::string>& set) const;
   /// `resume`: a checkpoint, or empty. @throws mpm::Error, BagError; then the run that is there goes on.
   void start_run(const std::shared_ptr<const Subject>& subject, const Stamps& stamps, const std::string& resume = {});
+  /// Says what runs, at what pace it is expected to, and what the node waits for.
+  void tell_start(const std::optional<ExpectedPace>& expected) const;
+  /// With nobody who waits: by a run's first second, how long it will take.
+  void tell_pace();
   /// Its first messages, and the pace from now on.
   void begin_run();
   /// One sync period; extra commands are applied after those that are due. False when it failed, or when an extra
@@ -121,10 +127,12 @@ class SimulatorNode {
 
   int runs_ = 0;
   bool paused_ = false;
-  std::string failure_;       // of the present run
-  int failure_code_ = 0;      // exit code that goes with it
-  bool bag_lost_ = false;     // of any run
-  bool record_lost_ = false;  // and said so
+  bool pace_told_ = false;          // of a run that nothing paces
+  Pacer::Clock::time_point begun_;  // the present run
+  std::string failure_;             // of the present run
+  int failure_code_ = 0;            // exit code that goes with it
+  bool bag_lost_ = false;           // of any run
+  bool record_lost_ = false;        // and said so
 };
 
 }  // namespace mpm_ros

@@ -17,6 +17,7 @@
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/rigid_rules.hpp"
+#include "mpm/simulation/threads.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
 #include "velocity_fields.hpp"
@@ -28,7 +29,6 @@ const std::array<const char*, 6> kWallNames = {"x_min", "x_max", "y_min", "y_max
 
 namespace {
 
-constexpr std::size_t kParticlesPerThread = 4000;  ///< fewer do not pay for the waiting at the end of every pass
 constexpr int kMostThreads = 1024;
 
 std::vector<ParticleScalar> zeros(int components, Precision precision, std::size_t particles) {
@@ -291,8 +291,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   const SimulationDefinition& definition = s.definition;
   std::size_t count = 0;
   for (const DeformableBody& body : definition.bodies) count += body.positions.size();
-  s.threads = options.threads > 0 ? options.threads
-                                  : std::clamp(static_cast<int>(count / kParticlesPerThread), 1, omp_get_max_threads());
+  s.threads = options.threads > 0 ? options.threads : useful_threads(count);
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
   project(s.definition);
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {

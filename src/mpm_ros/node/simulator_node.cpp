@@ -11,6 +11,7 @@
 
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/node/node_run.hpp"
+#include "mpm_ros/node/start_line.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
 #include "mpm_ros/run/settling_news.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
@@ -23,6 +24,8 @@ namespace {
 constexpr std::chrono::milliseconds kGlance{50};
 /// Steps that wait for messages hold one each; others are for who asks meanwhile.
 constexpr std::uint32_t kServiceThreads = 4;
+/// Of a run, by which its pace is told.
+constexpr std::chrono::seconds kFirstSecond{1};
 /// At the end: for messages and answers on their way out.
 constexpr std::chrono::milliseconds kLinger{300};
 
@@ -35,12 +38,18 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
       clock_(node_, parameters.publish_clock, parameters.clock_rate),
       commands_(node_, subject_->scene, parameters_, health_),
       paused_(parameters.start_paused) {
-  check(parameters_, run_options(subject_->scene, parameters_, 1, node_.getNamespace()));
+  RunOptions first_run = run_options(subject_->scene, parameters_, 1, node_.getNamespace());
+  check(parameters_, first_run);
   ros::NodeHandle services(node_), urgent(node_);
   services.setCallbackQueue(&service_callbacks_);
   urgent.setCallbackQueue(&pause_callbacks_);
   publishers_ = std::make_unique<Publishers>(services, commands_.bodies(), parameters_.wrench_cutoff > 0.0);
   pacer_ = std::make_unique<Pacer>(subject_->scene.definition.time.sync, parameters_.real_time_factor);
+  // Before the run has a time to keep; the copy that is timed is freed before the run is built.
+  first_run.stop = stop_overdue;
+  const bool paced = parameters_.pacing == Pacing::real_time;
+  const std::optional<ExpectedPace> expected =
+      expected_pace(subject_->scene, first_run, paced ? parameters_.real_time_factor : 1.0, paced);
   start_run(subject_,
             parameters_.resume.empty() ? first_stamps() : stamps_from(mpm::read_checkpoint(parameters_.resume).time),
             parameters_.resume);
@@ -60,6 +69,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
   commands_.listen();
   service_spinner_->start();
   pause_spinner_->start();
+  tell_start(expected);
 }
 
 SimulatorNode::~SimulatorNode() {
@@ -128,6 +138,46 @@ void SimulatorNode::start_run(const std::shared_ptr<const Subject>& subject, con
   clock_.restart();
 }
 
+void SimulatorNode::tell_start(const std::optional<ExpectedPace>& expected) const {
+  const mpm::Scene& scene = subject_->scene;
+  StartFacts facts;
+  facts.scene = scene.definition.name;
+  facts.particles = run_->simulation().particles();
+  facts.pacing = parameters_.pacing;
+  facts.real_time_factor = parameters_.real_time_factor;
+  facts.threads = run_->simulation().threads();
+  facts.name_space = node_.getNamespace();
+  facts.end = scene.definition.time.end;
+  facts.paused = paused_;
+  facts.clock = parameters_.publish_clock && ros::Time::isSimTime();
+  facts.commands = parameters_.commands;
+  for (std::size_t body = 0; body < scene.commands.size(); ++body) {
+    if (!scene.commands[body].frame.empty())
+      facts.frames.emplace_back(scene.definition.rigid_bodies[body].name, scene.commands[body].frame);
+  }
+  ROS_INFO_STREAM(start_line(facts));
+  const bool paced = parameters_.pacing == Pacing::real_time;
+  if (const std::string warning = expected && paced ? pace_warning(*expected) : ""; !warning.empty()) {
+    ROS_WARN_STREAM(warning);
+  } else if (expected) {
+    ROS_INFO_STREAM(expected_text(*expected));
+  }
+  std::fflush(stdout);  // a pipe would keep it until the run has long begun
+}
+
+void SimulatorNode::tell_pace() {
+  if (pace_told_ || parameters_.pacing != Pacing::free || Pacer::Clock::now() - begun_ < kFirstSecond) return;
+  pace_told_ = true;
+  const double factor = run_->real_time_factor(), now = static_cast<double>(run_->simulation().time()) * 1e-9;
+  const double end = subject_->scene.definition.time.end;
+  std::string text = fmt::format("the run goes at {:.2g} of real time", factor);
+  if (end > now) {
+    text += fmt::format("; to {:g} s it will take {} more", end, mpm::pace::duration_text((end - now) / factor));
+  }
+  ROS_INFO_STREAM(text);
+  std::fflush(stdout);
+}
+
 SimulatorNode::Phase SimulatorNode::phase() const {
   if (!failure_.empty()) return Phase::failed;
   if (run_->ended()) return Phase::ended;
@@ -136,6 +186,8 @@ SimulatorNode::Phase SimulatorNode::phase() const {
 }
 
 void SimulatorNode::begin_run() {
+  pace_told_ = false;
+  begun_ = Pacer::Clock::now();
   publish_clock(true);
   count_commands();  // those of an earlier run stay in the count
   try {
@@ -183,6 +235,7 @@ bool SimulatorNode::sync_period(const std::vector<AppliedCommand>& extra, std::s
     for (const std::string& warning : run_->take_warnings()) ROS_WARN_STREAM(warning);
     publish_clock(run_->ended());
     if (run_->ended()) end_run();
+    tell_pace();
     report();
     return true;
   } catch (const mpm::StoppedError& error) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "mpm/scene/explain.hpp"
+#include "mpm_ros/run/expected_pace.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 #include "mpm_ros/run/run_scene_options.hpp"
 #include "mpm_ros/run/settling_news.hpp"
@@ -16,11 +17,14 @@ void explain_scene(const RunSceneOptions& options, std::ostream& out) {
   mpm::SimulationDefinition built = mpm::build(scene);
   out << mpm::explain(scene, built);
   if (!(scene.definition.time.end > 0.0)) out << "note: the scene has no end; run_scene needs --end\n";
-  mpm::Simulation simulation(
-      std::move(built),
-      {options.threads, instruction_set(options), true, {}, stop_overdue, settling_news([&](const std::string& line) {
-         out << line << std::endl;
-       })});
+  mpm::pace::StepTimer timer(kTimingBudget, stop_overdue);
+  mpm::Simulation simulation(std::move(built),
+                             {options.threads,
+                              instruction_set(options),
+                              true,
+                              {},
+                              [&timer] { return timer.after_step(); },
+                              settling_news([&](const std::string& line) { out << line << std::endl; })});
   // What a run writes is checked as a run checks it.
   const OutputOptions output = output_options(scene);
   check_fields(output);
@@ -29,6 +33,7 @@ void explain_scene(const RunSceneOptions& options, std::ostream& out) {
                      simulation.threads() == 1 ? "" : "s");
   for (const std::string& warning : simulation.warnings()) out << "warning: " << warning << "\n";
   for (const std::string& note : simulation.notes()) out << note << "\n";
+  out << std::flush << explain_pace(scene, simulation, timer, options.threads);
 }
 
 }  // namespace mpm_ros

@@ -1,0 +1,38 @@
+// How long a run will take, and its pace: simulated over wall time.
+//
+// A forecast and no promise: it takes the steps that were timed for all the others. Stepping alone, without outputs.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "mpm/pace/step_cost.hpp"
+
+namespace mpm::pace {
+
+struct Forecast {
+  StepCost cost;
+  std::uint64_t particles = 0;
+  int threads = 1;
+  double simulated = 0.0;  ///< time that is to be simulated [s]; 0: it has no end
+
+  double steps() const { return simulated * cost.steps_per_second; }
+  double wall_seconds() const { return steps() * cost.step_seconds; }
+  /// Simulated over wall time, as far as stepping sets it.
+  double real_time_factor() const { return 1.0 / (cost.step_seconds * cost.steps_per_second); }
+};
+
+/// Times a copy of a run, unsettled, that is built for this alone and freed again. Takes the time to build it besides
+/// the budget [s] (StepTimer). Returns nothing when not one step was made.
+/// @throws Error as Simulation has it, StoppedError when `stop` was true
+std::optional<Forecast> time_copy(SimulationDefinition definition, int threads, std::optional<Isa> isa, double budget,
+                                  const std::function<bool()>& stop);
+
+/// "0.13 of real time expected on 2 threads; 1.5 s will take 11 s of wall time (2084 steps of 5.4 ms)"
+std::string forecast_text(const Forecast& forecast);
+/// A duration as one reads it: "3.4 ms", "11 s", "4 min", "2.5 h".
+std::string duration_text(double seconds);
+
+}  // namespace mpm::pace

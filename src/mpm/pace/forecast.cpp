@@ -1,0 +1,52 @@
+#include "mpm/pace/forecast.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace mpm::pace {
+
+std::optional<Forecast> time_copy(SimulationDefinition definition, int threads, std::optional<Isa> isa, double budget,
+                                  const std::function<bool()>& stop) {
+  StepTimer timer(budget, stop);
+  SimulationOptions options;
+  options.threads = threads;
+  options.isa = isa;
+  options.settle = false;
+  options.stop = [&timer] { return timer.after_step(); };
+  Forecast forecast;
+  forecast.simulated = definition.time.end;
+  Simulation copy(std::move(definition), options);
+  forecast.particles = copy.particles();
+  forecast.threads = copy.threads();
+  const std::optional<StepCost> cost = timer.time(copy);
+  if (!cost) return std::nullopt;
+  forecast.cost = *cost;
+  return forecast;
+}
+
+std::string duration_text(double seconds) {
+  constexpr std::array<std::pair<double, const char*>, 4> kUnits{
+      {{86400.0, "d"}, {3600.0, "h"}, {60.0, "min"}, {1.0, "s"}}};
+  constexpr double kAtLeast = 1.95;  // of a unit, so that "90 s" is not "1.5 min"
+  for (const auto& [unit, name] : kUnits) {
+    if (seconds >= kAtLeast * unit) return fmt::format("{:.3g} {}", seconds / unit, name);
+  }
+  constexpr double kRounds = 0.9995;  // what would be written as 1000 of the unit below
+  if (seconds >= kRounds) return fmt::format("{:.3g} s", seconds);
+  return seconds >= 1e-3 * kRounds ? fmt::format("{:.3g} ms", 1e3 * seconds) : fmt::format("{:.3g} us", 1e6 * seconds);
+}
+
+std::string forecast_text(const Forecast& forecast) {
+  std::string text = fmt::format("{:.2g} of real time expected on {} thread{}", forecast.real_time_factor(),
+                                 forecast.threads, forecast.threads == 1 ? "" : "s");
+  const std::string step = duration_text(forecast.cost.step_seconds);
+  if (!(forecast.simulated > 0.0)) {
+    return text + fmt::format(" ({:.3g} steps of {} a simulated second)", forecast.cost.steps_per_second, step);
+  }
+  return text + fmt::format("; {:g} s will take {} of wall time ({:.0f} steps of {})", forecast.simulated,
+                            duration_text(forecast.wall_seconds()), forecast.steps(), step);
+}
+
+}  // namespace mpm::pace

@@ -1,0 +1,123 @@
+#include "mpm_ros/run/expected_pace.hpp"
+
+#include <fmt/format.h>
+
+#include "mpm/pace/kept_costs.hpp"
+#include "mpm/simulation/threads.hpp"
+#include "mpm_ros/run/stop_signals.hpp"
+
+namespace mpm_ros {
+
+namespace {
+
+using mpm::pace::Forecast;
+
+constexpr std::size_t kMostTimed = 1'000'000;     ///< particles; to build a copy of more takes too long
+constexpr std::uint64_t kMostCompared = 200'000;  ///< the same, for several copies
+constexpr double kComparingBudget = 0.15;         ///< [s] for each of them
+
+std::string timed_text(const Forecast& forecast, std::int64_t ago) {
+  return fmt::format("{} step{} timed{}", forecast.cost.steps, forecast.cost.steps == 1 ? "" : "s",
+                     ago > 0 ? " " + mpm::pace::duration_text(static_cast<double>(ago)) + " ago" : "");
+}
+
+std::size_t count(const mpm::SimulationDefinition& definition) {
+  std::size_t particles = 0;
+  for (const mpm::DeformableBody& body : definition.bodies) particles += body.positions.size();
+  return particles;
+}
+
+/// Times as fast as `before`, where there is a copy that was timed.
+std::optional<double> faster(const Forecast& before, const mpm::SimulationDefinition& definition, int threads,
+                             mpm::Isa isa) {
+  const auto after = mpm::pace::time_copy(definition, threads, isa, kComparingBudget, stop_overdue);
+  if (!after) return std::nullopt;
+  return after->real_time_factor() / before.real_time_factor();
+}
+
+mpm::pace::TimedFactors compare(const mpm::Scene& scene, const Forecast& before, int threads, mpm::Isa isa) {
+  mpm::pace::TimedFactors timed;
+  const mpm::SimulationDefinition built = mpm::build(scene);
+  try {
+    if (threads > before.threads) timed.threads = faster(before, built, threads, isa);
+    mpm::SimulationDefinition changed = built;
+    changed.method.precision = mpm::Precision::float32;
+    if (built.method.precision != changed.method.precision) timed.single = faster(before, changed, before.threads, isa);
+    changed = built;
+    changed.method.update = mpm::UpdateScheme::usf;
+    if (built.method.update == mpm::UpdateScheme::usavg) timed.usf = faster(before, changed, before.threads, isa);
+  } catch (const mpm::StoppedError&) {
+    throw;
+  } catch (const mpm::Error&) {
+    // A method that there is not: it will not be proposed.
+  }
+  return timed;
+}
+
+}  // namespace
+
+std::optional<ExpectedPace> expected_pace(const mpm::Scene& scene, const RunOptions& options, double wanted,
+                                          bool may_time) {
+  const mpm::pace::KeptCosts costs(mpm::pace::kept_costs_path());
+  const mpm::Isa isa = mpm::choose_isa(options.isa);
+  const std::string key = mpm::pace::cost_key(scene.text, isa, options.threads);
+  const std::int64_t now = mpm::pace::wall_time();
+  ExpectedPace pace;
+  if (const auto kept = costs.find(key, now)) {
+    pace.forecast = {kept->cost, kept->particles, kept->threads, scene.definition.time.end};
+    pace.origin = timed_text(pace.forecast, now - kept->when);
+  } else if (may_time) {
+    try {
+      mpm::SimulationDefinition built = mpm::build(scene);
+      if (count(built) > kMostTimed) return std::nullopt;
+      const auto timed = mpm::pace::time_copy(std::move(built), options.threads, isa, kTimingBudget, options.stop);
+      if (!timed) return std::nullopt;
+      pace.forecast = *timed;
+    } catch (const mpm::StoppedError&) {
+      throw;
+    } catch (const mpm::Error&) {
+      return std::nullopt;  // the run will say what is wrong
+    }
+    costs.keep(key, {pace.forecast.cost, pace.forecast.threads, pace.forecast.particles, now});
+    pace.origin = timed_text(pace.forecast, 0);
+  } else {
+    return std::nullopt;
+  }
+  pace.plan =
+      mpm::pace::make_plan(scene.definition, pace.forecast, wanted, mpm::useful_threads(pace.forecast.particles));
+  return pace;
+}
+
+std::string expected_text(const ExpectedPace& pace) {
+  return fmt::format("{}; {}", mpm::pace::forecast_text(pace.forecast), pace.origin);
+}
+
+std::string pace_warning(const ExpectedPace& pace) {
+  if (pace.plan.together.empty()) return {};
+  const std::string wanted =
+      pace.plan.wanted == 1.0 ? "real time" : fmt::format("a pace of {:g} of real time", pace.plan.wanted);
+  return fmt::format("{} is not in reach: {}. {}; `run_scene SCENE --explain` says at what price", wanted,
+                     expected_text(pace), mpm::pace::plan_text(pace.plan));
+}
+
+std::string explain_pace(const mpm::Scene& scene, mpm::Simulation& simulation, mpm::pace::StepTimer& timer,
+                         int threads) {
+  const auto cost = timer.time(simulation);
+  if (!cost) return "pace: not one step could be timed\n";
+  const Forecast forecast{*cost, simulation.particles(), simulation.threads(), scene.definition.time.end};
+  const mpm::Isa isa = mpm::choose_isa(simulation.isa());
+  const mpm::pace::KeptCosts costs(mpm::pace::kept_costs_path());
+  const bool kept = costs.keep(mpm::pace::cost_key(scene.text, isa, threads),
+                               {*cost, forecast.threads, forecast.particles, mpm::pace::wall_time()});
+  std::string text = fmt::format("pace: {}; {}, without outputs{}\n", mpm::pace::forecast_text(forecast),
+                                 timed_text(forecast, 0), kept ? ", kept for a day in " + costs.path() : "");
+  if (forecast.real_time_factor() >= 1.0) return text;
+  const int useful = mpm::useful_threads(forecast.particles);
+  const auto timed =
+      forecast.particles <= kMostCompared ? compare(scene, forecast, useful, isa) : mpm::pace::TimedFactors();
+  const mpm::pace::Plan plan = mpm::pace::make_plan(scene.definition, forecast, 1.0, useful, timed);
+  return text + "real time is not in reach; what would bring it nearer, the least harmful first:\n" +
+         mpm::pace::plan_table(plan, forecast);
+}
+
+}  // namespace mpm_ros

@@ -126,6 +126,23 @@ TEST(Pacing, TheStartForecastsAndWarns) {
   unsetenv("XDG_CACHE_HOME");
 }
 
+TEST(Pacing, TheForecastLeavesTheBitsOfARun) {
+  use_sim_time(false);
+  const TemporaryFolder folder;
+  setenv("XDG_CACHE_HOME", folder.file("cache").c_str(), 1);
+  std::vector<std::string> hashes;
+  for (const char* pacing : {"free", "real_time"}) {  // the second is timed, the first is not
+    const std::string bag = folder.file(pacing + std::string(".bag"));
+    SimulatorProcess simulator({kPress, "threads:=1", "record:=" + bag, std::string("pacing:=") + pacing});
+    EXPECT_EQ(simulator.wait(), 0) << simulator.log();
+    const bool forecast = simulator.log().find("of real time expected") != std::string::npos;
+    EXPECT_EQ(forecast, std::string(pacing) == "real_time") << simulator.log();
+    hashes.push_back(hash_in(bag));
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  unsetenv("XDG_CACHE_HOME");
+}
+
 TEST(Pacing, TheClockIsThrottledInSimulatedTime) {
   use_sim_time(true);
   SimulatorProcess simulator({kPress, kLong, "pacing:=lockstep", "threads:=1", "clock_rate:=20.0"});

@@ -85,6 +85,16 @@ TEST(SolverHealth, AuditInSinglePrecisionIsOffByTheRoundingOfFloats) {
   EXPECT_EQ(solver_status(solver).level, DiagnosticStatus::WARN);
 }
 
+TEST(SolverHealth, WarnsWhenAWaveOutrunsACell) {
+  SolverHealth solver = running();
+  solver.courant = 1.0;
+  EXPECT_EQ(solver_status(solver).level, DiagnosticStatus::OK);
+  solver.courant = 1.3;
+  const Status status = solver_status(solver);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_NE(status.message.find("crossed 1.3 cells"), std::string::npos) << status.message;
+}
+
 TEST(SolverHealth, WarnsOfACrushedParticle) {
   SolverHealth solver = running();
   solver.min_j = 0.05;

@@ -78,6 +78,12 @@ TEST_F(ReportRecorded, ParticlesMoveAsForcesWeightAndWallsSay) {
   }
 }
 
+// Foam that starts under its weight is denser than in the scene by half of rho g h (1 - 2 nu) / E.
+TEST_F(ReportRecorded, ParticlesThatStartUnderStressHaveTheMassOfTheRun) {
+  const json report = report_of(record({"bodies.0.initial=geostatic"}, "elastic_block"));
+  EXPECT_EQ(results_of(report).at("momentum"), "ok") << detail_of(report, "momentum");
+}
+
 TEST_F(ReportRecorded, TheBalanceOfSoilCloses) {
   const json report = report_of(record({"grid.cell=0.02", "time.end=0.3"}, "column_collapse"));
   EXPECT_EQ(results_of(report).at("balance"), "ok") << detail_of(report, "balance");

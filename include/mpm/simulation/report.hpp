@@ -45,7 +45,10 @@ struct StepReport {
   double dt_min = 0.0;      ///< [s] over the run so far
   double dt_max = 0.0;
   double dt_last = 0.0;
-  std::string limited_by;  ///< what and where: "wave speed of 'soil' (61 m/s …) at (0.1, 0, 0.3) m", "time.step"
+  double courant =
+      0.0;  ///< largest part of a cell that a wave was seen to cross in a step; above 1 steps were too long
+  std::uint64_t divided = 0;  ///< sync periods whose steps were made shorter on the way
+  std::string limited_by;     ///< what and where: "wave speed of 'soil' (61 m/s …) at (0.1, 0, 0.3) m", "time.step"
 };
 
 struct SolverState {

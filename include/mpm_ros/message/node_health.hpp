@@ -32,6 +32,7 @@ struct SolverHealth {
   std::uint64_t steps = 0;                             ///< since the start
   double step = 0.0;                                   ///< the last one [s]
   std::string step_limited_by;                         ///< what and where
+  double courant = 0.0;                                ///< largest part of a cell that a wave crossed in a step
   double momentum_error = 0.0;                         ///< residual of the audit over the momentum exchanged
   mpm::Precision precision = mpm::Precision::float64;  ///< of the particles: how well the audit must close
   double min_j = 1.0;                                  ///< smallest det F

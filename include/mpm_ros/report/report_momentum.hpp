@@ -46,9 +46,8 @@ class MomentumCheck : public RunVisitor {
   /// Once all three messages of a time are there: those of one stamp come in any order.
   void compare();
 
-  std::vector<ParticleMass> masses_;
+  std::vector<double> masses_;             ///< by id [kg]
   double total_mass_ = 0.0;                ///< [kg]
-  std::uint64_t count_ = 0;                ///< of all particles
   mpm::Vec3 gravity_ = mpm::Vec3::Zero();  ///< [m/s^2]
   double audit_limit_ = 0.0;               ///< of the solver's own residual over the momentum exchanged
   std::string obstacle_;                   ///< why the check cannot be made; empty: it can

@@ -14,12 +14,6 @@
 
 namespace mpm_ros {
 
-/// Particles of one mass with consecutive ids.
-struct ParticleMass {
-  std::uint64_t count = 0;
-  double mass = 0.0;  ///< [kg] of one
-};
-
 struct SceneFacts {
   std::optional<double> end;  ///< [s] simulated time that the run was to reach; none: until stopped
   std::string method;         ///< "3D, uGIMP, USAVG, FLIP 0.998, …"; empty: the text could not be read
@@ -31,9 +25,9 @@ struct SceneFacts {
 /// A text that this version does not read (or none) gives facts without values.
 SceneFacts scene_facts(const RunInfo& info);
 
-/// Masses of the particles in the order of their ids; of rings about an axis each its own. Makes all particles of the
-/// scene.
+/// Masses of the particles in the order of their ids [kg], as the run had them: a particle that starts under stress
+/// holds as much as its volume under that stress. Takes the memory of the run.
 /// @throws mpm::Error when the scene cannot be read or built
-std::vector<ParticleMass> particle_masses(const RunInfo& info);
+std::vector<double> particle_masses(const RunInfo& info);
 
 }  // namespace mpm_ros

@@ -127,9 +127,30 @@ Vec3 Simulation::State::impulse(const std::string& account) const {
   return found == accounts.end() ? Vec3(Vec3::Zero()) : found->impulse;
 }
 
+RunTotals Simulation::State::totals() const {
+  RunTotals run;
+  Totals of_all;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    if (!is_soil(laws[i])) run.energy.leave_open();
+    of_all += std::visit(
+        [&](const auto& law) {
+          return totals_of(sets[i], law, layout(), definition.geometry, definition.gravity, threads);
+        },
+        laws[i]);
+  }
+  run.energy.add("kinetic", NamedEnergy::Kind::stored, of_all.kinetic);
+  run.energy.add("elastic", NamedEnergy::Kind::stored, of_all.elastic);
+  run.energy.add("plastic", NamedEnergy::Kind::dissipated, of_all.plastic);
+  run.energy.add("potential", NamedEnergy::Kind::stored, of_all.potential);
+  mechanics->energies(run.energy);
+  modules.energies(run.energy);
+  run.carried = of_all.carried;
+  run.min_j = of_all.min_j;
+  return run;
+}
+
 SolverState Simulation::state() const {
   const State& s = *state_;
-  const GridLayout& layout = s.layout();
   SolverState report;
   report.time = s.time;
   report.step = s.steps;
@@ -137,21 +158,8 @@ SolverState Simulation::state() const {
   report.particles = particles();
   report.wall_seconds = s.wall.count();
 
-  Totals totals;
-  for (std::size_t i = 0; i < s.sets.size(); ++i) {
-    if (!is_soil(s.laws[i])) report.energy.leave_open();
-    totals += std::visit(
-        [&](const auto& law) {
-          return totals_of(s.sets[i], law, layout, s.definition.geometry, s.definition.gravity, s.threads);
-        },
-        s.laws[i]);
-  }
-  report.energy.add("kinetic", NamedEnergy::Kind::stored, totals.kinetic);
-  report.energy.add("elastic", NamedEnergy::Kind::stored, totals.elastic);
-  report.energy.add("plastic", NamedEnergy::Kind::dissipated, totals.plastic);
-  report.energy.add("potential", NamedEnergy::Kind::stored, totals.potential);
-  s.mechanics->energies(report.energy);
-  s.modules.energies(report.energy);
+  const RunTotals totals = s.totals();
+  report.energy = totals.energy;
   report.min_j = totals.min_j;
   report.numbers = s.modules.numbers();
 

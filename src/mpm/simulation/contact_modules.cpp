@@ -122,6 +122,12 @@ void add_point_contact(RunParts& parts, const std::vector<RigidBody*>& bodies, s
 
 void add_pairs(RunParts& parts) {
   MaterialContactSettings settings = pair_settings(parts);
+  if (settings.normals.method == NormalMethod::own) {
+    parts.warnings.push_back(
+        "contact.normals: 'own' keeps neither momentum nor energy where the normals of two sides are not opposite (the "
+        "audit's account contact_normals shows how much): a stack at rest can gain energy. It is for comparison with "
+        "other programs; use average elsewhere");
+  }
   if (settings.pairs.empty()) return;
   parts.modules.add(std::make_unique<MaterialContact>(std::move(settings), parts.fields, parts.volumes()));
 }

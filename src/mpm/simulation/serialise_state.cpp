@@ -87,6 +87,8 @@ void Simulation::State::serialise(StateArchive& archive) {
   archive.value("dt_min", steps.dt_min);
   archive.value("dt_max", steps.dt_max);
   archive.value("dt_last", steps.dt_last);
+  archive.value("courant", steps.courant);
+  archive.value("divided", steps.divided);
   archive.value("initial_momentum", initial_momentum);
   archive.value("total_mass", total_mass);
   serialise_particles(archive);
@@ -107,6 +109,10 @@ void Simulation::State::serialise(StateArchive& archive) {
   serialise_limit(archive, "material_limit", material_limit);
   serialise_limit(archive, "previous_limit", previous_limit);
   serialise_limit(archive, "limit", limit);
+  {
+    const StateArchive::Group group(archive, "energy_watch");
+    energy_watch.serialise(archive);
+  }
   {
     const StateArchive::Group group(archive, "rates");
     LineFit::serialise(archive, rates);

@@ -10,7 +10,6 @@
 namespace mpm {
 namespace {
 
-constexpr double kNanosecond = 1e-9;
 constexpr double kAtTool = 4.0;  ///< cells: what goes wrong nearer to a rigid body than this is told with its name
 
 /// "0.4 cells from rigid body 'blade', ..." of the moving one nearest to a point; empty when none is within kAtTool
@@ -28,6 +27,22 @@ std::string tool_at(const std::vector<RigidBody>& bodies, const Vec3& point, dou
   if (nearest == nullptr) return {};
   return fmt::format("{} rigid body '{}', so look first at how it moves and how far it presses, or ",
                      least <= 0.0 ? "inside" : fmt::format("{:.2g} cells from", least), nearest->name());
+}
+
+/// What is to be changed first where the method is one that is known to fail (doc/methods.md, doc/contact.md).
+std::string known_to_fail(const SimulationDefinition& definition) {
+  const ShapeKind shape = definition.method.shape;
+  std::string text;
+  if (shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi) {
+    text += fmt::format(
+        "take method.shape: ugimp where material is sheared far, since the corners of {}'s domains run "
+        "apart there; or ",
+        shape_name(shape));
+  }
+  if (definition.contact.normals.method == NormalMethod::own) {
+    text += "take contact.normals: average, since 'own' keeps neither momentum nor energy; or ";
+  }
+  return text;
 }
 
 }  // namespace
@@ -50,9 +65,10 @@ void Simulation::State::fail(const std::string& what, ParticleRef particle, doub
   Vec3 position = Vec3::Zero();
   for (int k = 0; k < layout().dim(); ++k) position[layout().axis(k)] = set.x[k][particle.index];
   const std::string tool = position.allFinite() ? tool_at(bodies, position, layout().smallest_cell()) : std::string();
-  throw PhysicsError(fmt::format(
-      "{}: particle {} of body '{}' after step {} (t = {:.6g} s) at ({:.6g}, {:.6g}, {:.6g}) m; {}{}", what,
-      set.id[particle.index], set.name, steps.steps, now, position.x(), position.y(), position.z(), tool, remedy));
+  throw PhysicsError(
+      fmt::format("{}: particle {} of body '{}' after step {} (t = {:.6g} s) at ({:.6g}, {:.6g}, {:.6g}) m; {}{}{}",
+                  what, set.id[particle.index], set.name, steps.steps, now, position.x(), position.y(), position.z(),
+                  tool, known_to_fail(definition), remedy));
 }
 
 void Simulation::State::sort(double now) {
@@ -70,79 +86,6 @@ void Simulation::State::sort(double now) {
   }
   fail("a particle is outside the domain or not finite", *outside, now,
        "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', or lower time.cfl if the run blew up");
-}
-
-void Simulation::State::step(double start, double dt) {
-  for (RigidBody& body : bodies) body.begin_step(start, dt);
-  StepContext context{fields, dt, start};
-  constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg};  // in the order of UpdateScheme
-  kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
-  gravity.add(definition.gravity * (total_mass * dt));
-  for (RigidBody& body : bodies) body.end_step(dt);
-  ++steps.steps;
-  steps.dt_last = dt;
-  steps.dt_min = steps.steps == 1 ? dt : std::min(steps.dt_min, dt);
-  steps.dt_max = std::max(steps.dt_max, dt);
-  if (const auto particle = mechanics->failed()) {
-    fail("the volume ratio J is not positive", *particle, start + dt,
-         "lower time.cfl, use a finer grid.cell or slower tools, or stiffen what is crushed");
-  }
-  const auto asks = [](const Module* module) { return module->needs_sort(); };
-  const std::vector<Module*>& list = modules.list();
-  if (mechanics->needs_sort() || std::any_of(list.begin(), list.end(), asks)) sort(start + dt);
-}
-
-void Simulation::State::run_period() {
-  limit = step_limit();
-  const double period = static_cast<double>(definition.time.sync) * kNanosecond;
-  const double count = std::max(1.0, std::ceil(period / limit.dt - 1e-9));
-  if (!(limit.dt > 0.0) || !(count <= kMostSteps)) {
-    throw PhysicsError(
-        fmt::format("the time step fell to {:.3g} s at t = {:.6g} s, limited by the {}: look for what "
-                    "runs away, or lower time.sync when such steps are meant",
-                    limit.dt, time * kNanosecond, limit.text()));
-  }
-  const int number = static_cast<int>(count);
-  const double start = static_cast<double>(time) * kNanosecond, dt = period / number;
-  for (int k = 0; k < number; ++k) {
-    step(start + k * dt, dt);
-    if (asked_to_stop && k + 1 < number && asked_to_stop()) {
-      throw StoppedError(fmt::format("stopped within a sync period, {} of {} steps after t = {:.6g} s", k + 1, number,
-                                     time * kNanosecond));
-    }
-  }
-  time += definition.time.sync;
-  for (Module* module : modules.list()) module->at_sync(time);
-
-  // What accelerated or stiffened within the period was not known at its start: a wave may not have outrun a cell.
-  previous_limit = material_limit;
-  material_limit = survey_material();
-  if (!(dt * definition.time.cfl <= material_limit.dt)) {
-    throw PhysicsError(
-        fmt::format("the time step {:.3g} s was above the limit {:.3g} s that the {} set in the period "
-                    "before t = {:.6g} s; lower time.sync, time.cfl or time.step",
-                    dt, material_limit.dt / definition.time.cfl, material_limit.text(), time * kNanosecond));
-  }
-}
-
-void Simulation::advance() {
-  State& s = *state_;
-  if (s.failed) throw PhysicsError("the run has failed and cannot go on; start it again");
-  const auto started = std::chrono::steady_clock::now();
-  s.failed = true;  // until the period is done
-  try {
-    s.run_period();
-  } catch (const ModuleError& error) {
-    throw PhysicsError(error.what());
-  } catch (const RigidError& error) {
-    throw PhysicsError(fmt::format("{} (in the sync period from t = {:.6g} s)", error.what(), s.time * kNanosecond));
-  } catch (const FunctionError& error) {
-    throw PhysicsError(fmt::format("motion of a rigid body, or a law of contact, at t = {:.6g} s: {}",
-                                   s.time * kNanosecond, error.what()));
-  }
-  s.failed = false;
-  s.wall += std::chrono::steady_clock::now() - started;
-  sample_metrics();
 }
 
 int Simulation::find_body(const std::string& name) const {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <limits>
 
+#include "energy_watch.hpp"
 #include "mpm/contact/contact_reporter.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/particles/sum_particles.hpp"
@@ -13,6 +14,8 @@
 #include "mpm/step/schedule.hpp"
 
 namespace mpm {
+
+inline constexpr double kNanosecond = 1e-9;  ///< [s]
 
 /// The straight line with the least squares through points that come one by one.
 class LineFit {
@@ -29,6 +32,13 @@ class LineFit {
 };
 
 struct SetView;
+
+/// Sums over the whole run.
+struct RunTotals {
+  EnergyReport energy;
+  double carried = 0.0;  ///< sum of m |v| of the particles [N s]
+  double min_j = 0.0;    ///< smallest det F of any particle
+};
 
 struct Simulation::State {
   SimulationDefinition definition;
@@ -57,7 +67,8 @@ struct Simulation::State {
   std::chrono::duration<double> wall{0.0};
   StepLimit material_limit;  ///< as surveyed at the last sync point
   StepLimit previous_limit;  ///< as surveyed at the one before
-  StepLimit limit;           ///< of the last period's steps
+  StepLimit limit;           ///< of the last steps
+  EnergyWatch energy_watch;
   bool failed = false;
   std::vector<LineFit> rates;  ///< of each metric; those without a window stay empty
 
@@ -75,8 +86,14 @@ struct Simulation::State {
   Vec3 momentum() const;
   /// What the material allows now.
   StepLimit survey_material() const;
-  /// What material and modules allow in the sync period that begins now. @throws DampingError
-  StepLimit step_limit() const;
+  /// What material and modules allow in the sync period, when the material has gone from one limit to the other.
+  /// @throws DampingError
+  StepLimit step_limit(const StepLimit& before, const StepLimit& now) const;
+  /// Notes what part of a cell the fastest wave crossed in a step of dt [s].
+  void see_courant(double dt, const StepLimit& found);
+  /// `now` [s]. @throws PhysicsError when the run makes energy
+  void watch_energy(double now);
+  RunTotals totals() const;
   /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError, StoppedError
   void run_period();
   /// One step of the schedule, with the checks after it; it begins at `start` [s].

@@ -1,8 +1,8 @@
 // The largest stable time step: a fraction cfl of the time in which a wave on a moving particle, or a point of a tool,
 // crosses a cell; viscosity and damping have their own rates. Every particle is looked at in its present state at
-// every sync point (kernel/survey.hpp), and what got stiffer in the last period is expected to go on doing so in the
-// next. A law's wave speed is that of a solid: in plane stress, where thickness gives way, it is an upper bound.
-// Source: method reference 11.
+// every sync point and some times in between (kernel/survey.hpp, advance.cpp), and what got stiffer since the look
+// before is expected to go on doing so until the next. A law's wave speed is that of a solid: in plane stress, where
+// thickness gives way, it is an upper bound. Source: method reference 11.
 #include <algorithm>
 #include <cmath>
 
@@ -54,11 +54,11 @@ StepLimit Simulation::State::survey_material() const {
   return limit;
 }
 
-StepLimit Simulation::State::step_limit() const {
+StepLimit Simulation::State::step_limit(const StepLimit& before, const StepLimit& now) const {
   const PeriodAhead period{1e-9 * static_cast<double>(time), 1e-9 * static_cast<double>(definition.time.sync),
                            definition.time.cfl, layout().smallest_cell()};
-  StepLimit limit = material_limit;
-  const double trend = std::clamp(material_limit.dt / previous_limit.dt, kMostForeseen, 1.0);
+  StepLimit limit = now;
+  const double trend = std::clamp(now.dt / before.dt, kMostForeseen, 1.0);
   limit.dt *= trend;
   limit.foreseen = trend < kWorthTelling;
   for (const Module* module : modules.list()) module->limit_step(period, limit);

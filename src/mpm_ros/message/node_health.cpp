@@ -196,6 +196,10 @@ void NodeHealth::fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status
   if (!(solver_.momentum_error <= audit_limit(solver_.precision))) {
     add_warning(fmt::format("the momentum audit is off by {:.2g} of the momentum exchanged", solver_.momentum_error));
   }
+  if (!(solver_.courant <= 1.0)) {
+    add_warning(fmt::format("a wave crossed {:.2g} cells in a step, which may be unstable: lower time.sync or time.cfl",
+                            solver_.courant));
+  }
   if (!(solver_.min_j >= kCrushed)) {
     add_warning(fmt::format("a particle is crushed to {:.3g} of its volume", solver_.min_j));
   }
@@ -217,6 +221,7 @@ void NodeHealth::fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status
   status.add("steps", solver_.steps);
   status.add("time step [s]", solver_.step);
   status.add("time step limited by", solver_.step_limited_by);
+  status.add("largest part of a cell crossed by a wave in a step", solver_.courant);
   status.add("audit: momentum error", solver_.momentum_error);
   status.add("smallest det F", solver_.min_j);
   status.add("particles", solver_.particles);

@@ -110,6 +110,8 @@ const std::vector<StateQuantity>& state_quantities() {
       Q("dt", "s", Over::now, FIELD(step.dt_last), FIELD(dt), "dt", "the last time step"),
       Q("dt min", "s", Over::start, FIELD(step.dt_min), FIELD(dt_min), "dt min", ""),
       Q("dt max", "s", Over::start, FIELD(step.dt_max), FIELD(dt_max), "dt max", ""),
+      Q("courant", "1", Over::start, FIELD(step.courant), FIELD(courant), "courant",
+        "largest part of a cell that a wave was seen to cross in a step"),
       Q("particles", "1", Over::now, FIELD(particles), FIELD(particles), "particles", ""),
       Q(
           "particles returned", "1", Over::start,

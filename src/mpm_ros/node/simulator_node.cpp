@@ -332,6 +332,7 @@ void SimulatorNode::report() {
   solver.precision = run_->simulation().definition().method.precision;
   solver.momentum_error = state.momentum_error;
   solver.min_j = state.min_j;
+  solver.courant = state.courant;
   solver.particles = state.particles;
   solver.returned = state.particles_returned;
   health_.set_solver(solver);

@@ -91,7 +91,11 @@ Json report_json(const RecordedRun& run) {
   json["duration"] = last.time;
   json["end"] = run.scene.end ? Json(*run.scene.end) : Json(nullptr);
   json["steps"] = last.steps;
-  json["dt"] = {{"min", last.dt_min}, {"max", last.dt_max}, {"last", last.dt}, {"limited_by", last.dt_limited_by}};
+  json["dt"] = {{"min", last.dt_min},
+                {"max", last.dt_max},
+                {"last", last.dt},
+                {"courant", last.courant},
+                {"limited_by", last.dt_limited_by}};
   json["real_time_factor"] = last.real_time_factor;
   json["particles"] = last.particles;
   json["returned"] = last.particles_returned;

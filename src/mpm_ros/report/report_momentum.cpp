@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "mpm/math/error.hpp"
 #include "mpm/shape/ring.hpp"
@@ -31,10 +32,7 @@ MomentumCheck::MomentumCheck(const std::optional<RunInfo>& info) {
     obstacle_ = fmt::format("the particles' masses are not known: {}", error.what());
     return;
   }
-  for (const ParticleMass& body : masses_) {
-    count_ += body.count;
-    total_mass_ += static_cast<double>(body.count) * body.mass;
-  }
+  total_mass_ = std::accumulate(masses_.begin(), masses_.end(), 0.0);
 }
 
 void MomentumCheck::contact_forces(std::int64_t time, const ContactForces& message) {
@@ -55,8 +53,8 @@ void MomentumCheck::solver_state(std::int64_t time, const SolverState& message) 
 
 std::optional<MomentumCheck::Sums> MomentumCheck::sums_of(const sensor_msgs::PointCloud2& cloud) {
   const CloudField ids(cloud, "id");
-  if (!ids.found() || ids.size() != count_) {
-    obstacle_ = fmt::format("the clouds hold {} of {} particles", ids.found() ? ids.size() : 0, count_);
+  if (!ids.found() || ids.size() != masses_.size()) {
+    obstacle_ = fmt::format("the clouds hold {} of {} particles", ids.found() ? ids.size() : 0, masses_.size());
     return std::nullopt;
   }
   Sums sums;
@@ -65,17 +63,13 @@ std::optional<MomentumCheck::Sums> MomentumCheck::sums_of(const sensor_msgs::Poi
     const CloudField velocity(cloud, kVelocities[axis]);
     if (!velocity.found()) continue;
     axes_ += static_cast<char>('x' + axis);
-    std::uint64_t first = 0;
-    std::size_t body = 0;
-    for (std::size_t particle = 0; particle < count_; ++particle) {
+    for (std::size_t particle = 0; particle < masses_.size(); ++particle) {
       const auto id = static_cast<std::uint64_t>(ids.at(particle));
-      if (id >= count_) {
-        obstacle_ = fmt::format("a particle has the number {}, where the scene makes {}", id, count_);
+      if (id >= masses_.size()) {
+        obstacle_ = fmt::format("a particle has the number {}, where the scene makes {}", id, masses_.size());
         return std::nullopt;
       }
-      if (id < first) first = body = 0;  // clouds are in the order of their ids, but need not be
-      while (id >= first + masses_[body].count) first += masses_[body++].count;
-      const double momentum = masses_[body].mass * velocity.at(particle);
+      const double momentum = masses_[id] * velocity.at(particle);
       sums.momentum[axis] += momentum;
       sums.size[axis] += std::abs(momentum);
     }

@@ -7,8 +7,8 @@
 
 #include "mpm/math/lanes.hpp"
 #include "mpm/scene/scene.hpp"
-#include "mpm/shape/ring.hpp"
 #include "mpm/simulation/method_text.hpp"
+#include "mpm/simulation/simulation.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -57,23 +57,11 @@ SceneFacts scene_facts(const RunInfo& info) {
   return facts;
 }
 
-std::vector<ParticleMass> particle_masses(const RunInfo& info) {
-  const mpm::SimulationDefinition built = mpm::build(scene_of(info));
-  const double half = 0.5 * built.grid.cell.x() / built.method.particles_per_direction;
-  const bool whole = built.method.axis.domains == mpm::AxisDomains::whole;
-  std::vector<ParticleMass> masses;
-  for (const mpm::DeformableBody& body : built.bodies) {
-    for (const mpm::MaterialDefinition& material : built.materials) {
-      if (material.name != body.material) continue;
-      const double mass = material.density * body.particle_volume;
-      if (!mpm::axisymmetric(built.geometry)) {
-        masses.push_back({body.positions.size(), mass});
-        continue;
-      }
-      for (const mpm::Vec3& place : body.positions)
-        masses.push_back({1, mass * mpm::ring_length(place.x(), half, whole)});
-    }
-  }
+std::vector<double> particle_masses(const RunInfo& info) {
+  mpm::SimulationOptions options;
+  options.settle = false;  // moves particles, whose masses stay
+  std::vector<double> masses;
+  mpm::Simulation(mpm::build(scene_of(info)), options).particle_field("mass", masses);
   return masses;
 }
 

@@ -86,7 +86,11 @@ nlohmann::ordered_json RunSummary::json() const {
   root["returned"] = static_cast<std::uint64_t>(state.number("returned"));
   root["steps"] = state.step.steps;
   root["time"] = seconds();
-  root["dt"] = {{"min", state.step.dt_min}, {"max", state.step.dt_max}, {"limited_by", state.step.limited_by}};
+  root["dt"] = {{"min", state.step.dt_min},
+                {"max", state.step.dt_max},
+                {"courant", state.step.courant},
+                {"divided", state.step.divided},
+                {"limited_by", state.step.limited_by}};
   root["wall_seconds"] = state.wall_seconds;
   root["particle_steps_per_second"] = particle_steps_per_second();
   root["real_time_factor"] = real_time_factor();
@@ -122,6 +126,15 @@ std::string RunSummary::text() const {
       mpm::precision_name(definition.method.precision), 1e-6 * static_cast<double>(peak_memory));
   text += fmt::format("  time step {:.4g} to {:.4g} s, limited by {}\n", state.step.dt_min, state.step.dt_max,
                       state.step.limited_by);
+  if (const std::uint64_t divided = state.step.divided; divided > 0) {
+    text +=
+        fmt::format("  steps were made shorter on the way in {} sync period{}, since material got faster or stiffer\n",
+                    divided, divided == 1 ? "" : "s");
+  }
+  if (!(state.step.courant <= 1.0)) {
+    text += fmt::format("  a wave crossed {:.2g} cells in a step, which may be unstable: lower time.sync or time.cfl\n",
+                        state.step.courant);
+  }
   text += fmt::format(
       "  energy {:.6g} J at the start, {:.6g} J at the end (kinetic {:.4g}, elastic {:.4g}, potential "
       "{:.4g}); lost to plastic or viscous flow {:.4g} J, work of tools {:.4g} J\n",

@@ -1,0 +1,137 @@
+// The way from one sync point to the next: equal steps as the limit at the period's start allows. In between the
+// particles are looked at again, and where they have got so fast or stiff that a wave would nearly cross a cell in a
+// step, the rest of the period is divided anew. Between two such looks a wave may outrun a cell all the same; this does
+// not end a run, since a few such steps do no harm that lasts. A run that they do harm makes energy, and ends by that
+// (energy_watch.hpp).
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "state.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr int kStepsBetweenLooks = 16;  ///< a look at all particles costs a twentieth of a step
+
+/// Equal steps to the next sync point.
+struct EqualSteps {
+  int number;
+  double dt;  ///< [s]
+};
+
+/// The longest equal steps within the limit; `now` [s] is for the message. @throws PhysicsError
+EqualSteps equal_steps(double length, const StepLimit& limit, double now) {
+  const double count = std::max(1.0, std::ceil(length / limit.dt - 1e-9));
+  if (!(limit.dt > 0.0) || !(count <= kMostSteps)) {
+    throw PhysicsError(
+        fmt::format("the time step fell to {:.3g} s at t = {:.6g} s, limited by the {}: look for what "
+                    "runs away, or lower time.sync when such steps are meant",
+                    limit.dt, now, limit.text()));
+  }
+  return {static_cast<int>(count), length / count};
+}
+
+/// Whether a step of dt comes nearer to the one in which a wave crosses a whole cell, dt_limit / cfl, than to dt_limit.
+bool comes_too_near(double dt, double dt_limit, double cfl) { return !(dt <= dt_limit / std::sqrt(cfl)); }
+
+/// After how many steps of dt the particles are looked at again, when the limit went from `before` to `now` in so many
+/// steps: half of those in which the steps would come too near, if what allows them went on changing as it did.
+int steps_until_look(double before, double now, int steps, double dt, double cfl) {
+  const double growth = (1.0 / now - 1.0 / before) / steps;
+  if (!(growth > 0.0)) return kStepsBetweenLooks;
+  const double left = (1.0 / (dt * std::sqrt(cfl)) - 1.0 / now) / growth;
+  return static_cast<int>(std::clamp(0.5 * left, 1.0, static_cast<double>(kStepsBetweenLooks)));
+}
+
+}  // namespace
+
+void Simulation::State::see_courant(double dt, const StepLimit& found) {
+  steps.courant = std::max(steps.courant, dt * definition.time.cfl / found.dt);
+}
+
+void Simulation::State::step(double start, double dt) {
+  for (RigidBody& body : bodies) body.begin_step(start, dt);
+  StepContext context{fields, dt, start};
+  constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg};  // in the order of UpdateScheme
+  kSchedules[static_cast<int>(definition.method.update)](*mechanics, modules, context);
+  gravity.add(definition.gravity * (total_mass * dt));
+  for (RigidBody& body : bodies) body.end_step(dt);
+  ++steps.steps;
+  steps.dt_last = dt;
+  steps.dt_min = steps.steps == 1 ? dt : std::min(steps.dt_min, dt);
+  steps.dt_max = std::max(steps.dt_max, dt);
+  if (const auto particle = mechanics->failed()) {
+    fail("the volume ratio J is not positive", *particle, start + dt,
+         "lower time.cfl, use a finer grid.cell or slower tools, or stiffen what is crushed");
+  }
+  const auto asks = [](const Module* module) { return module->needs_sort(); };
+  const std::vector<Module*>& list = modules.list();
+  if (mechanics->needs_sort() || std::any_of(list.begin(), list.end(), asks)) sort(start + dt);
+}
+
+void Simulation::State::run_period() {
+  const double cfl = definition.time.cfl;
+  const double begin = static_cast<double>(time) * kNanosecond;
+  const double end = begin + static_cast<double>(definition.time.sync) * kNanosecond;
+  limit = step_limit(previous_limit, material_limit);
+  EqualSteps steps_ahead = equal_steps(end - begin, limit, begin);
+  StepLimit seen = material_limit;
+  int until_look = steps_until_look(previous_limit.dt, seen.dt, steps_ahead.number, steps_ahead.dt, cfl);
+  int since_look = 0;
+  double part_begin = begin;  // of those steps
+  for (int k = 0; k < steps_ahead.number; ++k) {
+    step(part_begin + k * steps_ahead.dt, steps_ahead.dt);
+    if (k + 1 == steps_ahead.number) break;
+    if (asked_to_stop && asked_to_stop()) {
+      throw StoppedError(fmt::format("stopped within a sync period, {} of {} steps after t = {:.6g} s", k + 1,
+                                     steps_ahead.number, part_begin));
+    }
+    if (++since_look < until_look) continue;
+    const StepLimit now = survey_material();
+    see_courant(steps_ahead.dt, now);
+    if (comes_too_near(steps_ahead.dt, now.dt, cfl)) {
+      part_begin += (k + 1) * steps_ahead.dt;
+      watch_energy(part_begin);
+      limit = step_limit(seen, now);
+      steps_ahead = equal_steps(end - part_begin, limit, part_begin);
+      ++steps.divided;
+      k = -1;
+    }
+    until_look = steps_until_look(seen.dt, now.dt, since_look, steps_ahead.dt, cfl);
+    since_look = 0;
+    seen = now;
+  }
+  time += definition.time.sync;
+  for (Module* module : modules.list()) module->at_sync(time);
+
+  previous_limit = material_limit;
+  material_limit = survey_material();
+  equal_steps(end - begin, material_limit, end);  // what is not finite ends the run before it is told of
+  see_courant(steps_ahead.dt, material_limit);
+  if (energy_watch.due(steps.steps)) watch_energy(end);
+}
+
+void Simulation::advance() {
+  State& s = *state_;
+  if (s.failed) throw PhysicsError("the run has failed and cannot go on; start it again");
+  const auto started = std::chrono::steady_clock::now();
+  s.failed = true;  // until the period is done
+  try {
+    s.run_period();
+  } catch (const ModuleError& error) {
+    throw PhysicsError(error.what());
+  } catch (const RigidError& error) {
+    throw PhysicsError(fmt::format("{} (in the sync period from t = {:.6g} s)", error.what(), s.time * kNanosecond));
+  } catch (const FunctionError& error) {
+    throw PhysicsError(fmt::format("motion of a rigid body, or a law of contact, at t = {:.6g} s: {}",
+                                   s.time * kNanosecond, error.what()));
+  }
+  s.failed = false;
+  s.wall += std::chrono::steady_clock::now() - started;
+  sample_metrics();
+}
+
+}  // namespace mpm

@@ -1,0 +1,61 @@
+#include "energy_watch.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "state.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kStillSpeed = 1e-4;  ///< of the speed of waves: particles that move by less may do so out of rounding
+
+}  // namespace
+
+EnergyWatch::Made EnergyWatch::look(const EnergyReport& energy, double least, std::uint64_t steps) {
+  looked_ = steps;
+  const double potential = energy.of("potential"), work = energy.sum(NamedEnergy::Kind::work);
+  if (!begun_) {
+    begun_ = true;
+    balance_ = energy.balance();
+    kinetic_ = energy.of("kinetic");
+    elastic_ = energy.total() - kinetic_ - potential;
+    potential_ = potential;
+    work_ = work;
+  }
+  const double fell = std::max(0.0, potential_ - potential), worked = std::max(0.0, work - work_);
+  given_ = std::max(given_, kinetic_ + std::max(0.0, elastic_) + fell + worked + least);
+  Made made{energy.of("kinetic"), given_, energy.balance() - balance_, false};
+  for (const NamedEnergy& loss : energy.list()) {  // a loss below zero is no loss, though it closes the balance
+    if (loss.kind == NamedEnergy::Kind::dissipated) made.made += std::max(0.0, -loss.value);
+  }
+  made.too_much = made.kinetic > given_ && made.made > given_;
+  return made;
+}
+
+void EnergyWatch::serialise(StateArchive& archive) {
+  archive.value("begun", begun_);
+  archive.value("looked", looked_);
+  archive.value("balance", balance_);
+  archive.value("kinetic", kinetic_);
+  archive.value("elastic", elastic_);
+  archive.value("potential", potential_);
+  archive.value("work", work_);
+  archive.value("given", given_);
+}
+
+void Simulation::State::watch_energy(double now) {
+  const double noise = kStillSpeed * material_limit.speed;
+  const EnergyWatch::Made made = energy_watch.look(totals().energy, 0.5 * total_mass * noise * noise, steps.steps);
+  if (!made.too_much) return;
+  const ParticleRef fastest{material_limit.part,
+                            mechanics->fastest(material_limit.part, layout().smallest_cell()).index};
+  fail(
+      fmt::format("the run makes energy: {:.3g} J have no source and {:.3g} J are in motion, while {:.3g} J were there "
+                  "at the start, fell down or were given by tools and loads; the fastest",
+                  made.made, made.kinetic, made.given),
+      fastest, now, "lower time.cfl, take a finer grid.cell, or use method.update: usavg");
+}
+
+}  // namespace mpm

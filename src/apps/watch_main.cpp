@@ -20,7 +20,6 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <optional>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -35,8 +34,7 @@
 
 namespace {
 
-/// Longest wait for particles, since a run may be paused [s].
-constexpr double kPatience = 20.0;
+constexpr double kPatience = 2.0;  ///< of a wait for particles that nothing is said about [s]
 
 std::filesystem::path fitted_path() {
   const char* ros_home = std::getenv("ROS_HOME");
@@ -64,7 +62,7 @@ std::string find_namespace() {
   const std::string& asked = ros::this_node::getNamespace();
   if (asked != "/") {
     if (std::find(found.begin(), found.end(), asked) == found.end()) {
-      ROS_WARN("no run below %s yet: waiting %g s for one", asked.c_str(), kPatience);
+      ROS_INFO("no run below %s yet: waiting for one", asked.c_str());
     }
     return asked;
   }
@@ -85,27 +83,24 @@ std::string field_asked(const mpm_ros::ParameterSources& sources) {
   return ros::param::param<std::string>("~field", "");
 }
 
-/// What RViz is to show: a configuration fitted to the run, or unchanged when no particles arrive (then `view` is
-/// empty).
-struct Fitted {
-  std::string configuration;
-  std::optional<mpm_ros::View> view;
-};
-
 /// Publishes a run's particles in colours, and the colour bar, from each cloud that arrives.
 class Colourist {
  public:
-  Colourist(const std::string& name_space, mpm_ros::View view)
+  /// Begins with the cloud that has arrived, since it may be the last one for long.
+  Colourist(const std::string& name_space, mpm_ros::View view, const sensor_msgs::PointCloud2& first)
       : view_(std::move(view)),
         colours_(view_.field),
         coloured_(own_.advertise<sensor_msgs::PointCloud2>("particles", 1, true)),
         bar_(own_.advertise<visualization_msgs::MarkerArray>("colour_bar", 1, true)),
-        subscriber_(ros::NodeHandle(name_space).subscribe(mpm_ros::topics::kParticles, 1, &Colourist::take, this)) {}
+        subscriber_(ros::NodeHandle(name_space).subscribe(mpm_ros::topics::kParticles, 1, &Colourist::take, this)) {
+    show(first);
+  }
 
  private:
-  void take(const sensor_msgs::PointCloud2ConstPtr& cloud) {
-    coloured_.publish(colours_.colour(*cloud));
-    bar_.publish(colours_.bar(view_, cloud->header.frame_id));
+  void take(const sensor_msgs::PointCloud2ConstPtr& cloud) { show(*cloud); }
+  void show(const sensor_msgs::PointCloud2& cloud) {
+    coloured_.publish(colours_.colour(cloud));
+    bar_.publish(colours_.bar(view_, cloud.header.frame_id));
   }
 
   ros::NodeHandle own_{"~"};
@@ -114,6 +109,14 @@ class Colourist {
   ros::Publisher coloured_, bar_;
   ros::Subscriber subscriber_;
 };
+
+/// Whether RViz is given this word of the command line too: names of topics and namespaces, but neither a parameter of
+/// watch nor its name and log, since two nodes of one name end each other.
+bool for_rviz(const std::string& word) {
+  if (word.find(":=") == std::string::npos) return false;
+  const auto begins = [&word](const char* prefix) { return word.rfind(prefix, 0) == 0; };
+  return begins("__") ? !begins("__name:=") && !begins("__log:=") : !begins("_");
+}
 
 /// Waits for a program while callbacks are served; ends it when this node is told to end. Its exit code.
 int serve_until_end(pid_t program) {
@@ -129,37 +132,52 @@ int serve_until_end(pid_t program) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
-Fitted fitted(const std::string& path, const std::string& field, const std::string& name_space) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file) throw std::runtime_error(path + " cannot be read");
-  ros::NodeHandle node(name_space);
+/// A run's first particles, with the domain of its scene; no cloud when this node is told to end.
+struct First {
   sensor_msgs::PointCloud2ConstPtr cloud;
+  mpm::Box domain;
+};
+
+/// Waits for a run's particles as long as it takes: a run may be paused, wait for `step`, or still settle.
+First first_particles(const std::string& name_space) {
+  ros::NodeHandle node(name_space);
+  First first;
   const auto subscriber = node.subscribe<sensor_msgs::PointCloud2>(
-      mpm_ros::topics::kParticles, 1, [&](const sensor_msgs::PointCloud2ConstPtr& message) { cloud = message; });
+      mpm_ros::topics::kParticles, 1, [&](const sensor_msgs::PointCloud2ConstPtr& message) { first.cloud = message; });
   mpm_ros::RunInfoConstPtr info;
   const auto info_subscriber = node.subscribe<mpm_ros::RunInfo>(
       mpm_ros::topics::kRunInfo, 1, [&](const mpm_ros::RunInfoConstPtr& message) { info = message; });
   // In wall time, because simulated time may stand still.
-  for (const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
-       ros::ok() && !(cloud && info) && ros::WallTime::now() < end;) {
+  ros::WallTime known;  // since when there has been a part of what is waited for
+  for (bool said = false; ros::ok() && !(first.cloud && info);) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
+    if (!first.cloud && !info) continue;
+    if (known.isZero()) known = ros::WallTime::now();
+    if (ros::WallTime::now() < known + ros::WallDuration(kPatience)) continue;
+    if (first.cloud) break;
+    if (!said) {
+      ROS_INFO(
+          "no particles on %s yet: RViz opens with the first ones; a paused run has to go on, a run in lockstep "
+          "waits for `step`",
+          subscriber.getTopic().c_str());
+    }
+    said = true;
   }
-  if (!cloud) {
-    ROS_WARN("no particles on %s yet: the view is the configuration's own", subscriber.getTopic().c_str());
-    return {path, {}};
-  }
+  first.domain = domain_of(info);
+  return first;
+}
+
+/// Writes a configuration with the view put in. Returns the file's path.
+std::string write_fitted(const std::string& path, const mpm_ros::View& view, const std::string& name_space) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  if (!file) throw std::runtime_error(path + " cannot be read");
   const std::string fitted_file = fitted_path();
   std::ofstream out(fitted_file);
-  mpm_ros::View view = mpm_ros::view_of(*cloud, field, domain_of(info));
-  if (!view.field.empty()) {
-    view.coloured = ros::names::resolve("~particles");
-    view.bar = ros::names::resolve("~colour_bar");
-  }
   out << mpm_ros::with_view(text.str(), view, name_space == "/" ? name_space : name_space + "/");
   if (!out.flush()) throw std::runtime_error(fitted_file + " cannot be written");
-  return {fitted_file, view};
+  return fitted_file;
 }
 
 }  // namespace
@@ -177,24 +195,28 @@ int main(int argc, char** argv) {
     ROS_FATAL("usage: rosrun mpm_ros watch [CONFIG.rviz] [_field:=NAME] [__ns:=NAMESPACE]");
     return 2;
   }
-  Fitted shown{argc == 2 ? argv[1] : ros::package::getPath("mpm_ros") + "/config/rviz/mpm.rviz", {}};
+  std::string configuration = argc == 2 ? argv[1] : ros::package::getPath("mpm_ros") + "/config/rviz/mpm.rviz";
   std::unique_ptr<Colourist> colourist;
   try {
     const std::string name_space = find_namespace();
     ros::start();
-    shown = fitted(shown.configuration, field, name_space);
-    if (shown.view && !shown.view->field.empty()) colourist = std::make_unique<Colourist>(name_space, *shown.view);
+    const First first = first_particles(name_space);
+    if (!first.cloud) return 0;
+    mpm_ros::View view = mpm_ros::view_of(*first.cloud, field, first.domain);
+    if (!view.field.empty()) {
+      view.coloured = ros::names::resolve("~particles");
+      view.bar = ros::names::resolve("~colour_bar");
+      colourist = std::make_unique<Colourist>(name_space, view, *first.cloud);
+    }
+    configuration = write_fitted(configuration, view, name_space);
   } catch (const std::exception& error) {
     ROS_FATAL("watch: %s", error.what());
     return 2;
   }
-  if (!ros::ok()) return 0;
   std::string rviz = "rviz", option = "-d";
-  std::vector<char*> command{rviz.data(), option.data(), shown.configuration.data()};
+  std::vector<char*> command{rviz.data(), option.data(), configuration.data()};
   for (std::size_t i = 1; i < words.size(); ++i) {
-    const std::string word = words[i];
-    const bool own = word[0] == '_' && word.compare(0, 2, "__") != 0;  // a parameter of watch
-    if (word.find(":=") != std::string::npos && !own) command.push_back(words[i]);
+    if (for_rviz(words[i])) command.push_back(words[i]);
   }
   command.push_back(nullptr);
   pid_t program = 0;

@@ -69,6 +69,16 @@ TEST(ForceMarkers, TheSizeStandsAboveTheTool) {
   EXPECT_DOUBLE_EQ(height(100.0), 4.15);  // out of the picture
 }
 
+TEST(ForceMarkers, TheSizeStaysBelowTheTopOfTheDomain) {
+  const auto place = [](double ceiling) {
+    return ForceMarkers(0.1, 1.0, ceiling).markers({contact()}, "world", ros::Time()).markers[2].pose.position;
+  };
+  EXPECT_DOUBLE_EQ(place(5.0).z, 4.15);
+  EXPECT_DOUBLE_EQ(place(5.0).x, 4.0);  // of the arrow's head
+  EXPECT_DOUBLE_EQ(place(3.0).z, 3.0);
+  EXPECT_GT(place(3.0).x, 4.5);  // beside it
+}
+
 TEST(ForceMarkers, TheLargestForceMetIsDrawnAsLongAsItMayBe) {
   ForceMarkers markers(0.0, 0.5);
   const auto length = [&](const mpm::ContactReport& report) {
@@ -116,6 +126,11 @@ TEST(ShapeMarkers, PlanarBodiesAreSlices) {
     ASSERT_FALSE(marker.points.empty());
     // The shape is as thick as a cell, 0.01 m.
     for (const geometry_msgs::Point& point : marker.points) EXPECT_LE(std::abs(point.y), 0.005);
+    ASSERT_EQ(marker.colors.size(), marker.points.size());  // otherwise RViz ignores them
+    for (const std_msgs::ColorRGBA& color : marker.colors) {
+      EXPECT_EQ(color.a, 0.5F);
+      EXPECT_GT(color.g, 0.3F);  // twice the background's 43 / 255 at least, whichever way the face looks
+    }
   }
   EXPECT_EQ(array.markers[0].header.frame_id, "plate");
   EXPECT_EQ(std::abs(array.markers[0].points[0].y), 0.005);

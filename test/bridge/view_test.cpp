@@ -178,11 +178,64 @@ TEST(ParticleColours, TheRangeWidensAtOnceAndNarrowsSlowly) {
   EXPECT_EQ(colours.high(), 97.0);  // the second largest of 0, 0, 1 ... 98
   colours.colour(rest);
   EXPECT_NEAR(colours.high(), 0.95 * 97.0, 1e-12);
-  const visualization_msgs::MarkerArray bar = colours.bar(View(), "world");
-  ASSERT_EQ(bar.markers.size(), 4U);
-  EXPECT_EQ(bar.markers[1].text, "speed [m/s]");
-  EXPECT_EQ(bar.markers[2].text, "92.2");
-  EXPECT_EQ(bar.markers[3].text, "0");
+}
+
+mpm::Vec3 place_of(const geometry_msgs::Point& point) { return {point.x, point.y, point.z}; }
+
+TEST(ParticleColours, TheBarStandsInThePictureWhereverItIsSeenFrom) {
+  ParticleColours colours("speed");
+  colours.colour(with_outlier(0.0F));
+  for (const bool planar : {false, true}) {
+    View view = view_of(lattice({"speed"}, planar));
+    view.bar = "/watch/colour_bar";
+    std::ifstream file(source_file("config/rviz/mpm.rviz"));
+    std::stringstream text;
+    text << file.rdbuf();
+    const YAML::Node eye =
+        YAML::Load(with_view(text.str(), view, "/mpm/"))["Visualization Manager"]["Views"]["Current"];
+    const YAML::Node at = eye["Focal Point"];
+    const mpm::Vec3 target(at["X"].as<double>(), at["Y"].as<double>(), at["Z"].as<double>());
+    // RViz's orbit: the eye lies at yaw and pitch from the target. A half of its picture is as high as the tangent of
+    // half of 45 degrees, and with the panels of a window of 1360 x 860 pixels 1.27 times as wide.
+    const double yaw = eye["Yaw"].as<double>(), pitch = eye["Pitch"].as<double>();
+    const mpm::Vec3 back(std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch));
+    const mpm::Vec3 right = mpm::Vec3::UnitZ().cross(back).normalized(), up = back.cross(right);
+    const double half = std::tan(M_PI / 8.0) * eye["Distance"].as<double>();
+    const visualization_msgs::MarkerArray bar = colours.bar(view, "world");
+    ASSERT_EQ(bar.markers.size(), 5U);
+    const auto expect_inside = [&](const mpm::Vec3& point, double beside) {
+      const mpm::Vec3 away = point - target;
+      EXPECT_NEAR(away.dot(back), 0.0, 1e-6 * half);  // neither in front of the target nor behind it
+      EXPECT_GT(away.dot(right), 0.5 * half);
+      EXPECT_LT(away.dot(right) + beside, 1.27 * half);
+      EXPECT_LT(std::abs(away.dot(up)), half);
+    };
+    const mpm::Vec3 middle = place_of(bar.markers[0].pose.position);
+    ASSERT_EQ(bar.markers[0].points.size(), bar.markers[0].colors.size());
+    for (const geometry_msgs::Point& corner : bar.markers[0].points) expect_inside(middle + place_of(corner), 0.0);
+    for (std::size_t i = 1; i < bar.markers.size(); ++i) {
+      const auto& label = bar.markers[i];  // a letter is about half as wide as high
+      expect_inside(place_of(label.pose.position), 0.25 * label.scale.z * static_cast<double>(label.text.size()));
+    }
+  }
+}
+
+TEST(ParticleColours, TheBarsEndsHaveThreeDigits) {
+  const auto labels = [](float largest) {
+    ParticleColours colours("speed");
+    sensor_msgs::PointCloud2 cloud = with_outlier(0.0F);
+    for (sensor_msgs::PointCloud2Iterator<float> value(cloud, "speed"); value != value.end(); ++value) {
+      *value *= largest / 97.0F;  // 97 is at the 99th per cent
+    }
+    colours.colour(cloud);
+    const visualization_msgs::MarkerArray bar = colours.bar(View(), "world");
+    return std::vector<std::string>{bar.markers[1].text, bar.markers[2].text, bar.markers[3].text, bar.markers[4].text};
+  };
+  // The reference grid's cell is the round number below 0.15 times the eye's distance of 1 m.
+  EXPECT_EQ(labels(0.05786F), (std::vector<std::string>{"speed [m/s]", "0.0579", "0", "grid 0.1 m"}));
+  EXPECT_EQ(labels(97.0F)[1], "97.0");
+  EXPECT_EQ(labels(5082.0F)[1], "5080");
+  EXPECT_EQ(labels(2.5e7F)[1], "2.50e+07");
 }
 
 TEST(View, RefusesWhatIsNoConfiguration) {

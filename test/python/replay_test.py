@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """`watch` and `replay` find the run's namespace, and say at once when there is none. In place of RViz stands a
-program that keeps its configuration. 25 s."""
+program that keeps its configuration and its command line. 40 s."""
 import os
 import re
 import stat
@@ -15,7 +15,7 @@ import yaml
 from support import PATIENCE, Started, eventually, program, running_master, source_file
 
 SCENE = source_file("test/data/press.yaml")
-AT_ONCE = 10.0  # [s]; `watch` waits 20 s for particles
+AT_ONCE = 10.0  # [s]
 
 
 class Pictures(unittest.TestCase):
@@ -25,7 +25,7 @@ class Pictures(unittest.TestCase):
         self.addCleanup(os.environ.update, {name: os.environ[name] for name in ("PATH", "ROS_HOME")})
         rviz = self.path("rviz")
         with open(rviz, "w", encoding="utf-8") as file:
-            file.write(f'#!/bin/sh\ncp "$2" "{self.path("shown.part")}"\nmv "{self.path("shown.part")}" '
+            file.write(f'#!/bin/sh\necho "$@" > "{self.path("words")}"\ncp "$2" "{self.path("shown.part")}"\nmv "{self.path("shown.part")}" '
                        f'"{self.path("shown")}"\nexec sleep 60\n')
         os.chmod(rviz, stat.S_IRWXU)
         os.environ["PATH"] = self.folder.name + ":" + os.environ["PATH"]
@@ -47,7 +47,7 @@ class Pictures(unittest.TestCase):
             displays = yaml.safe_load(file)["Visualization Manager"]["Displays"]
         os.remove(self.path("shown"))
         topics = {display[key] for display in displays for key in ("Topic", "Marker Topic") if key in display}
-        return {re.sub(r"watch_\w+/", "~", topic) for topic in topics}
+        return {re.sub(r"watch(_\w+)?/", "~", topic) for topic in topics}
 
     def test_a_bag_is_shown_from_its_own_namespace_and_the_clock_is_given_back(self):
         for namespace in ("", "/mpm", "/some/robot"):
@@ -63,6 +63,25 @@ class Pictures(unittest.TestCase):
                     self.assertIs(master.getParam("/use_sim_time"), True)
                     launch.end()
                     self.assertFalse(master.hasParam("/use_sim_time"), launch.output())
+
+    def test_launch_files_show_their_run_in_colours(self):
+        for name, driven in (("blade_in_soil", True), ("cone_penetrometer", True), ("wheel_in_sand", False)):
+            words = [name + ".launch", "scene:=" + SCENE, "rviz:=true", "field:=p", "set:=[time.end=60]"] + ["driver:=false"] * driven
+            with running_master(), Started("roslaunch", "mpm_ros", *words) as launch:
+                self.assertEqual(self.topics_shown(launch), {"/mpm/" + leaf for leaf in
+                                                             ("~particles", "~colour_bar", "markers",
+                                                              "force_markers")})
+                with open(self.path("words"), encoding="utf-8") as file:
+                    # A node of the same name as `watch` would end it, and with it RViz.
+                    self.assertNotIn("__name:=", file.read())
+                launch.end()
+
+    def test_watch_waits_for_a_run_that_stands_still_and_says_so(self):
+        with running_master(), mpm_ros.Simulator(SCENE, threads=1, namespace="/still", particle_period=0.01) as still:
+            with Started(program("watch")) as watch:
+                self.assertTrue(eventually(lambda: "waits for `step`" in watch.output(), AT_ONCE), watch.output())
+                still.step(0.02)
+                self.assertIn("/still/markers", self.topics_shown(watch))
 
     def test_a_clock_that_was_set_before_stays(self):
         bag = self.bag_in("/mpm")

@@ -1,6 +1,7 @@
 // Volume, centre and inertia of closed surfaces, against formulas of textbooks and against each other.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -109,6 +110,25 @@ TEST(Polygon, KnowsItsDistance) {
   EXPECT_NEAR(polygon->at({1.0, 0.0, 1.0}).distance, 0.5 * std::cos(std::atan(0.5)), 1e-15);
   EXPECT_THROW(mpm::make_polygon({{0.0, 0.0}, {1.0, 0.0}}), mpm::RigidError);
   EXPECT_THROW(mpm::make_polygon({{0.0, 0.0}, {1.0, 1.0}, {1.0, 0.0}, {0.0, 1.0}}), mpm::RigidError);
+}
+
+// A notch whose lowest corner a triangle from corner to corner would cover, in both senses.
+TEST(Polygon, IsDrawnFilled) {
+  mpm::Profile notched = {{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 0.5}, {0.0, 1.0}};
+  for (int sense = 0; sense < 2; ++sense) {
+    const auto polygon = mpm::make_polygon(notched, 0.2);
+    double volume = 0.0, front = 0.0;
+    for (const auto& [a, b, c] : polygon->triangles()) {
+      volume += a.dot(b.cross(c)) / 6.0;
+      const Vec3 area = 0.5 * (b - a).cross(c - a);
+      if (area.y() < 0.0) front -= area.y();
+      EXPECT_LE(polygon->at((a + b + c) / 3.0).distance, 1e-15);
+    }
+    // By hand: the rectangle of 2 less the notch of 0.5; 0.2 m thick.
+    EXPECT_NEAR(front, 1.5, 1e-14);
+    EXPECT_NEAR(volume, 0.3, 1e-14);
+    std::reverse(notched.begin(), notched.end());
+  }
 }
 
 }  // namespace solid_moments_test

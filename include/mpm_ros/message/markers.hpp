@@ -3,6 +3,7 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,13 @@ std::string force_text(double newtons);
 std::vector<double> tops_of(const mpm::Simulation& simulation);
 
 /// For each body that something presses on: an arrow along the mean contact force, a ball at its foot, which is the
-/// centre of pressure, and the force's size at its head, above the body
-/// where that would hide it. They go when the contact ends.
+/// centre of pressure, and the force's size at its head, above the body where that would hide it; where that is above
+/// the domain, and so out of the picture, beside the arrow at the domain's top. They go when the contact ends.
 class ForceMarkers {
  public:
-  /// `scale` [m/N]; zero: the largest force met so far is drawn `longest` [m] long.
-  ForceMarkers(double scale, double longest) : scale_(scale), longest_(longest) {}
+  /// `scale` [m/N]; zero: the largest force met so far is drawn `longest` [m] long. `ceiling`: top of the domain [m].
+  ForceMarkers(double scale, double longest, double ceiling = std::numeric_limits<double>::infinity())
+      : scale_(scale), longest_(longest), ceiling_(ceiling) {}
   /// `tops`: tops_of() the bodies; without them sizes stay at the heads.
   visualization_msgs::MarkerArray markers(const std::vector<mpm::ContactReport>& contacts,
                                           const std::string& world_frame, const ros::Time& stamp,
@@ -35,6 +37,7 @@ class ForceMarkers {
  private:
   double scale_;
   double longest_;
+  double ceiling_;
   double largest_force_ = 0.0;
 };
 

@@ -23,7 +23,8 @@ class ParticleColours {
   const sensor_msgs::PointCloud2& colour(const sensor_msgs::PointCloud2& cloud);
   double low() const { return low_; }
   double high() const { return high_; }
-  /// An upright bar right of what `view` shows, with the field's name and unit and the values at its ends.
+  /// A bar right of what `view` shows, upright in its picture, with the field's name and unit, the values at its ends,
+  /// and the size of the reference grid's cells.
   visualization_msgs::MarkerArray bar(const View& view, const std::string& frame) const;
 
  private:

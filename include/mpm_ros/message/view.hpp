@@ -24,6 +24,11 @@ struct View {
 
   /// Of the sphere that fills the picture [m].
   double radius() const;
+  /// Of the picture, as unit vectors.
+  mpm::Vec3 right() const;
+  mpm::Vec3 up() const;
+  /// Of the reference grid: a round number [m].
+  double grid_cell() const;
 };
 
 /// All of the domain in the picture (empty: of the particles), each particle as large as their spacing; planar scenes
@@ -31,8 +36,9 @@ struct View {
 /// `field`: wished for; when the cloud does not have it (or it is empty) the first of speed, p, and the cloud's own.
 View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field = {}, const mpm::Box& domain = {});
 
-/// An RViz configuration (YAML text) with the view put in: camera, particles, a reference grid of round cells below
-/// them (behind them in a planar scene), axes of the frames; its topics below `name_space`, which ends with a slash.
+/// An RViz configuration (YAML text) with the view put in: camera, particles, a reference grid below them (behind them
+/// in a planar scene) whose lines have round coordinates, axes of the frames; its topics below `name_space`, which ends
+/// with a slash. With a colour bar the camera looks a little to the right, so that the bar is in the picture too.
 /// @throws std::runtime_error when it is not such a configuration.
 std::string with_view(const std::string& configuration, const View& view, const std::string& name_space);
 

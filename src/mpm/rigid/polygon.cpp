@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ear_clipping.hpp"
 #include "mpm/rigid/surface.hpp"
 #include "outline.hpp"
 
@@ -41,7 +42,6 @@ class PolygonSurface final : public Surface {
 
   double thickness() const override { return thickness_; }
 
-  // The sides alone: a planar scene is looked at along y, and ends would have to be cut into triangles.
   std::vector<std::array<Vec3, 3>> triangles() const override {
     const auto vertex = [&](const Vec2& p, double side) { return Vec3(p.x(), 0.5 * side * drawn_, p.y()); };
     std::vector<std::array<Vec3, 3>> result;
@@ -50,6 +50,10 @@ class PolygonSurface final : public Surface {
       const Vec3 c = vertex(edge.to, 1.0), d = vertex(edge.from, 1.0);
       result.push_back({a, c, b});
       result.push_back({a, d, c});
+    }
+    for (const auto& [a, b, c] : cut_into_triangles(outline_.profile())) {  // the ends
+      result.push_back({vertex(a, -1.0), vertex(b, -1.0), vertex(c, -1.0)});
+      result.push_back({vertex(a, 1.0), vertex(c, 1.0), vertex(b, 1.0)});
     }
     return result;
   }

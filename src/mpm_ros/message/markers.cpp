@@ -22,6 +22,15 @@ std_msgs::ColorRGBA color(float red, float green, float blue, float alpha) {
   return value;
 }
 
+/// Of a face of a rigid body: seen through, since material and contact lie behind; lighter or darker by where it faces,
+/// but in no light so dark as to be lost on RViz's dark background.
+std_msgs::ColorRGBA face_color(const std::array<mpm::Vec3, 3>& triangle) {
+  const mpm::Vec3 light = mpm::Vec3(0.35, -0.45, 0.8).normalized();
+  const mpm::Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
+  const auto shade = static_cast<float>(0.7 + 0.3 * normal.dot(light));
+  return color(0.80F * shade, 0.85F * shade, 0.92F * shade, 0.5F);
+}
+
 }  // namespace
 
 visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation) {
@@ -43,12 +52,13 @@ visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation)
     marker.action = visualization_msgs::Marker::ADD;
     marker.pose.orientation.w = 1.0;
     marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
-    marker.color = color(0.80F, 0.85F, 0.92F, 0.35F);  // seen through: material and contact lie behind
+    marker.color = color(0.80F, 0.85F, 0.92F, 0.5F);
     marker.frame_locked = 1;
     for (const std::array<mpm::Vec3, 3>& triangle : rigid.surface().triangles()) {
       for (mpm::Vec3 vertex : triangle) {
         for (const int axis : beside) vertex[axis] = std::clamp(vertex[axis], -half_slice, half_slice);
         marker.points.push_back(to_point(vertex));
+        marker.colors.push_back(face_color(triangle));
       }
     }
     markers.markers.push_back(std::move(marker));
@@ -125,7 +135,12 @@ visualization_msgs::MarkerArray ForceMarkers::markers(const std::vector<mpm::Con
     mpm::Vec3 place = head;
     // A body that reaches far beyond the picture leaves the size at the head.
     if (body < tops.size() && tops[body] < head.z() + 2.0 * longest_) place.z() = std::max(place.z(), tops[body]);
-    text.pose.position = to_point(place + mpm::Vec3(0.0, 0.0, 0.15 * longest_));
+    place.z() += 0.15 * longest_;
+    if (place.z() > ceiling_) {  // beside the arrow, which would cover it
+      place.z() = std::max(ceiling_, foot.z());
+      place.x() += 0.6 * longest_;
+    }
+    text.pose.position = to_point(place);
     text.scale.z = 0.15 * longest_;
     text.color = color(1.0F, 1.0F, 1.0F, 1.0F);
     text.text = contact.body + " " + force_text(contact.mean.force.norm());

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kBeyond = 0.01;     ///< part of the values that lies beyond each end
 constexpr double kNarrowing = 0.05;  ///< of the way to a narrower range, each cloud
-constexpr int kBarPieces = 48;
+constexpr double kBarAt = 1.17;      ///< right of the view's focus, in radii of what it shows
 
 using Rgb = std::array<double, 3>;
 
@@ -39,6 +39,24 @@ std::string with_unit(const std::string& field) {
     if (name == field && !unit.empty() && unit != "1") return fmt::format("{} [{}]", field, unit);
   }
   return field;
+}
+
+/// Three digits, without an exponent unless the number is very large or small; 0 for what is nothing beside `range`.
+std::string end_text(double value, double range) {
+  if (value == 0.0 || std::abs(value) < 5e-4 * range) return "0";
+  const double rounded = std::stod(fmt::format("{:.2e}", value));
+  const int power = static_cast<int>(std::floor(std::log10(std::abs(rounded)) + 1e-9));
+  if (power < -4 || power > 5) return fmt::format("{:.2e}", rounded);
+  return fmt::format("{:.{}f}", rounded, std::max(0, 2 - power));
+}
+
+std_msgs::ColorRGBA as_colour(const Rgb& rgb) {
+  std_msgs::ColorRGBA colour;
+  colour.r = static_cast<float>(rgb[0] / 255.0);
+  colour.g = static_cast<float>(rgb[1] / 255.0);
+  colour.b = static_cast<float>(rgb[2] / 255.0);
+  colour.a = 1.0F;
+  return colour;
 }
 
 }  // namespace
@@ -97,10 +115,9 @@ const sensor_msgs::PointCloud2& ParticleColours::colour(const sensor_msgs::Point
 
 visualization_msgs::MarkerArray ParticleColours::bar(const View& view, const std::string& frame) const {
   using visualization_msgs::Marker;
-  const mpm::Vec3 right(-std::sin(view.yaw), std::cos(view.yaw), 0.0);
-  const double radius = view.radius();
-  const mpm::Vec3 middle = view.focus + 1.15 * radius * right;
-  const double height = radius, piece = height / kBarPieces;
+  const mpm::Vec3 right = view.right(), up = view.up();
+  const double radius = view.radius(), height = radius;
+  const mpm::Vec3 middle = view.focus + kBarAt * radius * right;
   visualization_msgs::MarkerArray markers;
   const auto add = [&](int type, const mpm::Vec3& place) -> Marker& {
     Marker marker;
@@ -114,26 +131,31 @@ visualization_msgs::MarkerArray ParticleColours::bar(const View& view, const std
     markers.markers.push_back(std::move(marker));
     return markers.markers.back();
   };
-  Marker& scale = add(Marker::CUBE_LIST, middle);
-  scale.scale.x = scale.scale.y = 0.06 * radius;
-  scale.scale.z = piece;
-  for (int i = 0; i < kBarPieces; ++i) {
-    const double part = (i + 0.5) / kBarPieces;
-    scale.points.push_back(to_point(mpm::Vec3(0.0, 0.0, (part - 0.5) * height)));
-    const Rgb rgb = colour_at(part);
-    scale.colors.push_back(scale.color);
-    scale.colors.back().r = static_cast<float>(rgb[0] / 255.0);
-    scale.colors.back().g = static_cast<float>(rgb[1] / 255.0);
-    scale.colors.back().b = static_cast<float>(rgb[2] / 255.0);
+  // Triangles whose corners have colours are not shaded, and blend them as colour_at() does.
+  Marker& scale = add(Marker::TRIANGLE_LIST, middle);
+  scale.scale.x = scale.scale.y = scale.scale.z = 1.0;
+  for (std::size_t i = 0; i + 1 < kScale.size(); ++i) {
+    const auto corner = [&](double side, std::size_t end) {
+      const double part = static_cast<double>(end) / (kScale.size() - 1);
+      scale.points.push_back(to_point(mpm::Vec3(0.03 * side * radius * right + (part - 0.5) * height * up)));
+      scale.colors.push_back(as_colour(kScale[end]));
+    };
+    corner(-1.0, i);
+    corner(1.0, i);
+    corner(1.0, i + 1);
+    corner(-1.0, i);
+    corner(1.0, i + 1);
+    corner(-1.0, i + 1);
   }
-  const auto write = [&](double up, const std::string& words) {
-    Marker& text = add(Marker::TEXT_VIEW_FACING, middle + mpm::Vec3(0.0, 0.0, up * height));
+  const auto write = [&](double place, const std::string& words) {
+    Marker& text = add(Marker::TEXT_VIEW_FACING, middle + place * height * up);
     text.scale.z = 0.07 * radius;
     text.text = words;
   };
   write(0.66, with_unit(field_));
-  write(0.55, fmt::format("{:.3g}", high_));
-  write(-0.55, fmt::format("{:.3g}", low_));
+  write(0.55, end_text(high_, high_ - low_));
+  write(-0.55, end_text(low_, high_ - low_));
+  write(-0.70, fmt::format("grid {:g} m", view.grid_cell()));
   return markers;
 }
 

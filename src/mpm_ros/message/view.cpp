@@ -15,6 +15,8 @@ namespace {
 
 /// Distance of the eye over the radius of what is to be seen: RViz's field of view is 45 degrees high.
 constexpr double kDistance = 2.4;
+/// How far right of the focus the camera looks when a colour bar stands there, in radii of what is to be seen.
+constexpr double kAside = 0.15;
 
 std::string choose_field(const sensor_msgs::PointCloud2& cloud, const std::string& wished) {
   std::vector<std::string> names;
@@ -52,6 +54,10 @@ void set_point(YAML::Node node, const mpm::Vec3& point) {
 
 void fit_particles(YAML::Node display, const View& view) {
   display["Size (m)"] = view.particle_size;
+  if (view.planar) {  // without shades, which would change colours, and without gaps, which make patterns
+    display["Style"] = "Flat Squares";
+    display["Size (m)"] = 1.25 * view.particle_size;
+  }
   if (view.field.empty()) {
     display["Color Transformer"] = "FlatColor";
   } else if (!view.coloured.empty()) {
@@ -75,11 +81,13 @@ YAML::Node bar_display(const std::string& topic) {
 }
 
 void fit_grid(YAML::Node display, const View& view) {
-  display["Cell Size"] = round_size(0.15 * view.distance);
+  const double cell = view.grid_cell();
+  display["Cell Size"] = cell;
   display["Plane"] = view.planar ? "XZ" : "XY";
-  mpm::Vec3 offset = view.focus;
+  mpm::Vec3 offset;
+  for (int k = 0; k < 3; ++k) offset[k] = cell * std::round(view.focus[k] / cell);
   if (view.planar) {
-    offset.y() += 0.05 * view.distance;
+    offset.y() = view.focus.y() + 0.05 * view.distance;
   } else {
     offset.z() = view.floor - 0.5 * view.particle_size;
   }
@@ -89,6 +97,14 @@ void fit_grid(YAML::Node display, const View& view) {
 }  // namespace
 
 double View::radius() const { return distance / kDistance; }
+
+mpm::Vec3 View::right() const { return {-std::sin(yaw), std::cos(yaw), 0.0}; }
+
+mpm::Vec3 View::up() const {
+  return {-std::cos(yaw) * std::sin(pitch), -std::sin(yaw) * std::sin(pitch), std::cos(pitch)};
+}
+
+double View::grid_cell() const { return round_size(0.15 * distance); }
 
 View view_of(const sensor_msgs::PointCloud2& cloud, const std::string& field, const mpm::Box& domain) {
   std::vector<mpm::Vec3> points;
@@ -135,7 +151,8 @@ std::string with_view(const std::string& configuration, const View& view, const 
     eye["Distance"] = view.distance;
     eye["Yaw"] = view.yaw;
     eye["Pitch"] = view.pitch;
-    set_point(eye["Focal Point"], view.focus);
+    const double aside = view.bar.empty() ? 0.0 : kAside * view.radius();
+    set_point(eye["Focal Point"], view.focus + aside * view.right());
     return YAML::Dump(root);
   } catch (const YAML::Exception& error) {
     throw std::runtime_error(fmt::format("the RViz configuration cannot be used: {}", error.what()));

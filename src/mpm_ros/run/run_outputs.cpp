@@ -24,6 +24,13 @@ std::int64_t in_syncs(double period, std::int64_t sync) {
 /// The longest contact arrow, as a part of the domain's longest edge.
 constexpr double kArrowLength = 0.25;
 
+/// Of the longest contact arrow [m]; axes that the scene does not have, such as the turn about an axis, do not count.
+double arrow_length(const mpm::SimulationDefinition& scene) {
+  mpm::Vec3 size = scene.grid.max - scene.grid.min;
+  for (const int axis : mpm::axes_beside(scene.geometry)) size[axis] = 0.0;
+  return kArrowLength * size.maxCoeff();
+}
+
 }  // namespace
 
 OutputOptions output_options(const mpm::Scene& scene) {
@@ -63,8 +70,8 @@ RunOutputs::RunOutputs(mpm::Simulation& simulation, const Stamps& stamps, Output
       global_period_(in_syncs(options_.global_period, simulation.sync_period())),
       cloud_(options_.particles),
       global_(simulation, options_.global),
-      force_markers_(options_.force_scale,
-                     kArrowLength * (simulation.definition().grid.max - simulation.definition().grid.min).maxCoeff()) {
+      force_markers_(options_.force_scale, arrow_length(simulation.definition()),
+                     simulation.definition().grid.max.z()) {
   for (const mpm::BodyState& body : simulation.bodies()) {
     wrench_topics_.push_back(topics::of_body(body.name, topics::kWrench));
     filtered_topics_.push_back(topics::of_body(body.name, topics::kWrenchFiltered));

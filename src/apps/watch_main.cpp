@@ -138,7 +138,7 @@ struct First {
   mpm::Box domain;
 };
 
-/// Waits for a run's particles as long as it takes: a run may be paused, wait for `step`, or still settle.
+/// Waits for a run's particles as long as it takes: a run may be paused, wait for `step` or `reset`, or still settle.
 First first_particles(const std::string& name_space) {
   ros::NodeHandle node(name_space);
   First first;
@@ -157,8 +157,8 @@ First first_particles(const std::string& name_space) {
     if (first.cloud) break;
     if (!said) {
       ROS_INFO(
-          "no particles on %s yet: RViz opens with the first ones; a paused run has to go on, a run in lockstep "
-          "waits for `step`",
+          "no particles on %s yet: RViz opens with the first ones; a paused run has to go on, a run in lockstep waits "
+          "for `step`, one that has ended for `reset`",
           subscriber.getTopic().c_str());
     }
     said = true;

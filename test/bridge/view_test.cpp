@@ -118,6 +118,25 @@ TEST(View, IsPutIntoTheShippedConfiguration) {
   EXPECT_EQ(eye["Focal Point"]["Z"].as<double>(), 3.0);
 }
 
+TEST(View, DrawsSmallParticlesOfPlanarScenesFlat) {
+  std::ifstream file(source_file("config/rviz/mpm.rviz"));
+  std::stringstream text;
+  text << file.rdbuf();
+  const auto style = [&](bool planar, double size) {
+    View view;  // what it shows has a radius of 1 / 2.4 m
+    view.planar = planar;
+    view.particle_size = size;
+    for (const YAML::Node& display :
+         YAML::Load(with_view(text.str(), view, "/"))["Visualization Manager"]["Displays"]) {
+      if (display["Class"].as<std::string>() == "rviz/PointCloud2") return display["Style"].as<std::string>();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(style(true, 0.004), "Flat Squares");
+  EXPECT_EQ(style(true, 0.005), "Spheres");
+  EXPECT_EQ(style(false, 0.004), "Spheres");
+}
+
 TEST(View, ShowsTheColouredParticlesAndTheirBar) {
   std::ifstream file(source_file("config/rviz/mpm.rviz"));
   std::stringstream text;

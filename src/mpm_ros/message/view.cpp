@@ -17,6 +17,8 @@ namespace {
 constexpr double kDistance = 2.4;
 /// How far right of the focus the camera looks when a colour bar stands there, in radii of what is to be seen.
 constexpr double kAside = 0.15;
+/// Particles below this part of that radius are too small for their shape to be seen.
+constexpr double kSmall = 0.01;
 
 std::string choose_field(const sensor_msgs::PointCloud2& cloud, const std::string& wished) {
   std::vector<std::string> names;
@@ -54,7 +56,8 @@ void set_point(YAML::Node node, const mpm::Vec3& point) {
 
 void fit_particles(YAML::Node display, const View& view) {
   display["Size (m)"] = view.particle_size;
-  if (view.planar) {  // without shades, which would change colours, and without gaps, which make patterns
+  if (view.planar && view.particle_size < kSmall * view.radius()) {
+    // Without shades, which would change colours, and without gaps, which make patterns; RViz tilts large ones.
     display["Style"] = "Flat Squares";
     display["Size (m)"] = 1.25 * view.particle_size;
   }

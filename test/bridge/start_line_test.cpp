@@ -1,6 +1,7 @@
 // The node's first line, and the pace that a run is expected to have.
 #include "mpm_ros/node/start_line.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -98,6 +99,31 @@ TEST_F(ExpectedPaceTest, IsTimedOnceAndKept) {
   EXPECT_EQ(pace_warning(*wanted).find("a pace of 1e+09 of real time is not in reach: "), 0U) << pace_warning(*wanted);
   EXPECT_NE(pace_warning(*wanted).find("grid.cell="), std::string::npos);
   EXPECT_EQ(pace_warning(*expected_pace(scene, options_, 1e-9, false)), "");
+}
+
+TEST_F(ExpectedPaceTest, IsThatOfARunThatEnded) {
+  const mpm::Scene scene = mpm::load_scene("falling_block");
+  const auto run = [&](double end) {
+    mpm::Simulation simulation(mpm::build(scene), {1});
+    while (1e-9 * static_cast<double>(simulation.time()) < end) simulation.advance();
+    keep_reached_pace(scene, 1, simulation, 0.0);
+    return simulation.state();
+  };
+  const mpm::SolverState whole = run(0.4);
+  run(0.1);  // has fewer steps, and does not replace it
+  std::ostringstream out;
+  RunSceneOptions explained;
+  explained.threads = 1;
+  explained.scene = "falling_block";
+  explain_scene(explained, out);
+  const auto expected = expected_pace(scene, options_, 1.0, false);
+  ASSERT_TRUE(expected);
+  const mpm::pace::StepCost& cost = expected->forecast.cost;
+  // The explanation, which leaves out the first step, cannot have timed more.
+  EXPECT_NE(out.str().find(fmt::format("; {} steps timed", whole.step.steps)), std::string::npos) << out.str();
+  EXPECT_EQ(cost.steps, whole.step.steps);
+  EXPECT_NEAR(cost.step_seconds * static_cast<double>(whole.step.steps) / whole.wall_seconds, 1.0, 1e-5);
+  EXPECT_NEAR(cost.steps_per_second * 0.4 / static_cast<double>(whole.step.steps), 1.0, 1e-5);
 }
 
 TEST_F(ExpectedPaceTest, IsExplainedWithWhatWouldHelp) {

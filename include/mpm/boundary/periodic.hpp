@@ -7,7 +7,8 @@
 // that of its image.
 //
 // Weak: rigid bodies do not go around, and must keep a cell and a half from periodic faces or be endless along that
-// axis. Energy in gravity along a periodic axis jumps when a particle is put back.
+// axis. Along a gravity that has a part along a periodic axis, what is put back gains or loses potential energy: this
+// is the work `around`.
 #pragma once
 
 #include <string>
@@ -24,8 +25,8 @@ namespace mpm {
 inline constexpr double kPeriodicReach = 2.0;
 
 /// Puts every particle where its nearest node is one of the domain, 0 to the number of cells less one, along periodic
-/// axes. Those that are not finite stay.
-void put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int threads);
+/// axes. Those that are not finite stay. Returns the sum of mass times the way that it was put [kg m].
+Vec3 put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int threads);
 
 /// Of a body that reaches a periodic face, which one: "x_max"; else empty.
 std::string periodic_face_reached(const RigidBody& body, const GridLayout& layout);
@@ -34,15 +35,26 @@ std::string periodic_face_reached(const RigidBody& body, const GridLayout& layou
 class PeriodicAxes final : public Module {
  public:
   /// `sets` and `layout` outlive this.
-  PeriodicAxes(std::vector<ParticleSet>& sets, const GridLayout& layout, int threads)
-      : sets_(sets), layout_(layout), threads_(threads) {}
+  PeriodicAxes(std::vector<ParticleSet>& sets, const GridLayout& layout, const Vec3& gravity, int threads)
+      : sets_(sets), layout_(layout), gravity_(gravity), threads_(threads) {}
   std::string name() const override { return "periodic"; }
-  void before_sort() override { put_around(sets_, layout_, threads_); }
+  void before_sort() override { work_ -= gravity_.dot(put_around(sets_, layout_, threads_)); }
+  void energies(EnergyReport& report) const override {
+    for (int k = 0; k < layout_.dim(); ++k) {
+      if (layout_.periodic(k) && gravity_[layout_.axis(k)] != 0.0) {
+        report.add("around", NamedEnergy::Kind::work, work_);
+        return;
+      }
+    }
+  }
+  void serialise(StateArchive& archive) override { archive.value("work", work_); }
 
  private:
   std::vector<ParticleSet>& sets_;
   const GridLayout& layout_;
+  Vec3 gravity_;
   int threads_;
+  double work_ = 0.0;  // against gravity [J]
 };
 
 }  // namespace mpm

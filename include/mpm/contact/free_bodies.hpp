@@ -25,6 +25,13 @@ class FreeBodies {
   void predict(double dt) {
     each([&](RigidBody& body, FreeMotion& motion, Taken&) { motion.predict(body.pose(), body.twist(), gravity_, dt); });
   }
+  /// From here on velocities change for a trial, until end_trial() takes the changes back.
+  void begin_trial() {
+    each([](RigidBody& body, FreeMotion& motion, Taken&) { motion.begin_trial(body.pose()); });
+  }
+  void end_trial() {
+    each([](RigidBody&, FreeMotion& motion, Taken&) { motion.end_trial(); });
+  }
   /// From here on velocities are increments, until end_increment() adds them to the previous velocities.
   void begin_increment() {
     each([](RigidBody&, FreeMotion& motion, Taken&) { motion.begin_increment(); });

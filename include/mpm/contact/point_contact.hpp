@@ -12,8 +12,10 @@
 // first point that gives way.
 //
 // While strain is updated, points that were held stay held and open ones may not close more than their gap
-// (step/coulomb.hpp says why). A free body keeps the velocity that the solution gave it, because that velocity
-// moves it. Increments of XPIC and FMPM are solved together with free bodies too, since they exchange momentum.
+// (step/coulomb.hpp says why). The velocity of a free body is then found together with them, as in the step,
+// and forgotten: by that with which a light body falls, strain would get several times the energy of the fall. A free
+// body keeps the velocity that the solution gave it, because that velocity moves it. Increments of XPIC and FMPM are
+// solved together with free bodies too, since they exchange momentum.
 //
 // Friction takes the impulse along the surface times the mean slip before and after it. The slip before is that at the
 // end of the step before. Between two steps particles and nodes exchange velocities; the work of the impulse on this

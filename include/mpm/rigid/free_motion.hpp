@@ -97,6 +97,9 @@ class FreeMotion final : public BodyMotion {
   }
   /// Change of velocity of a world point by a unit impulse there, along each pair of axes [1/kg].
   Mat3 compliance_at(const Vec3& point) const;
+  /// What is pushed between the two calls is forgotten at the second.
+  void begin_trial(const Pose& pose);
+  void end_trial();
   /// Sets velocities to zero; they are increments until end_increment() adds them to the previous velocities.
   void begin_increment();
   void end_increment();
@@ -121,6 +124,8 @@ class FreeMotion final : public BodyMotion {
 
  private:
   Mat3 inertia_at(const Quat& orientation) const;
+  /// Takes over where the body is: its centre of mass, and its inertia about the world's axes.
+  void place(const Pose& pose);
   /// Rotation rate by angular momentum, of the free rotations alone [1/(kg m^2)].
   Mat3 lift_of(const Mat3& inertia) const;
   BodyMomentum momentum() const { return {definition_.mass * velocity_, inertia_ * rate_}; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,17 +23,22 @@ class EnergyReport {
  public:
   using Kind = NamedEnergy::Kind;
 
+  /// Takes all values back and keeps the names, so that the same energies can be added again without allocating.
+  void begin_again() {
+    for (NamedEnergy& energy : list_) energy.value = 0.0;
+    closed_ = true;
+  }
   /// Adds an energy [J]; values of one name are summed.
-  void add(const std::string& name, Kind kind, double value) {
+  void add(std::string_view name, Kind kind, double value) {
     const auto same = std::find_if(list_.begin(), list_.end(), [&](const NamedEnergy& e) { return e.name == name; });
     if (same == list_.end()) {
-      list_.push_back({name, kind, value});
+      list_.push_back({std::string(name), kind, value});
     } else {
       same->value += value;
     }
   }
   /// The energy of this name [J]; 0 if there is none.
-  double of(const std::string& name) const {
+  double of(std::string_view name) const {
     const auto found = std::find_if(list_.begin(), list_.end(), [&](const NamedEnergy& e) { return e.name == name; });
     return found == list_.end() ? 0.0 : found->value;
   }

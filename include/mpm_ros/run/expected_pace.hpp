@@ -1,5 +1,6 @@
 // The pace that a run is expected to have on this machine: by a cost of its steps that was kept, or by timing a copy of
-// it for a part of a second. The run itself is not touched, so its bits are the same.
+// it for a part of a second. The run itself is not touched, so its bits are the same. A run that ends leaves its own
+// cost, which knows what the first steps do not: tools that reach the material later, and soil that flows.
 #pragma once
 
 #include <optional>
@@ -30,8 +31,12 @@ std::string expected_text(const ExpectedPace& pace);
 /// "real time is not in reach: ...", and what would reach it; empty where it is in reach.
 std::string pace_warning(const ExpectedPace& pace);
 
-/// For --explain: times the simulation's own steps, keeps their cost, and times copies with what could be changed where
-/// it is slower than real time. Several lines. @throws mpm::StoppedError
+/// Keeps what a step of a run has cost, if it stepped for `least` at least [s] and no more steps were timed before.
+void keep_reached_pace(const mpm::Scene& scene, int threads_asked, const mpm::Simulation& simulation,
+                       double least = 1.0);
+
+/// For --explain: times the simulation's own steps and keeps their cost, unless that of a run is kept, and times copies
+/// with what could be changed where it is slower than real time. Several lines. @throws mpm::StoppedError
 std::string explain_pace(const mpm::Scene& scene, mpm::Simulation& simulation, mpm::pace::StepTimer& timer,
                          int threads);
 

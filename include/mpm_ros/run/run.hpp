@@ -93,6 +93,7 @@ class Run {
 
   const mpm::Scene& scene_;
   const std::string parameters_;
+  const int threads_asked_;
   const Stamps stamps_;
   mpm::Simulation simulation_;
   const std::int64_t end_;

@@ -4,7 +4,8 @@
 
 namespace mpm {
 
-void put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int threads) {
+Vec3 put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int threads) {
+  Vec3 carried = Vec3::Zero();
   for (int k = 0; k < layout.dim(); ++k) {
     if (!layout.periodic(k)) continue;
     const int cells = layout.last_node(k);
@@ -13,7 +14,10 @@ void put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int th
       double* x = set.x[k].data();
       double* start = set.start_x.empty() ? nullptr : set.start_x[k].data();
       const int size = set.size();
-#pragma omp parallel for schedule(static) num_threads(threads)
+      // Whole numbers are summed, so the order does not matter; where masses differ one thread sums.
+      const bool equal = set.masses.empty();
+      double mass = 0.0;
+#pragma omp parallel for schedule(static) num_threads(equal ? threads : 1) reduction(+ : mass)
       for (int p = 0; p < size; ++p) {
         const double place = layout.in_cells(k, x[p]);
         if (!(std::abs(place) < cells + kPeriodicReach + 1.0)) continue;
@@ -21,10 +25,13 @@ void put_around(std::vector<ParticleSet>& sets, const GridLayout& layout, int th
         const double shift = nearest < 0 ? length : (nearest >= cells ? -length : 0.0);
         if (shift == 0.0) continue;
         x[p] += shift;
+        mass += std::copysign(equal ? 1.0 : set.mass_of(p), shift);
         if (start != nullptr) start[p] += shift;
       }
+      carried[layout.axis(k)] += length * (equal ? set.mass * mass : mass);
     }
   }
+  return carried;
 }
 
 std::string periodic_face_reached(const RigidBody& body, const GridLayout& layout) {

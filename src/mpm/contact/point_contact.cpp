@@ -97,7 +97,13 @@ void PointContact::before_strain(StepContext& context) {
     (contact.acted ? contact.last : contact.first).slip = solver_.carried_at(point) - point.velocity;
   }
   clear_impulses();
-  solver_.solve(Pass::strain, false);
+  const bool free = free_.any();
+  if (free) {
+    free_.begin_trial();
+    solver_.find_compliance_with_bodies();
+  }
+  solver_.solve(Pass::strain, free);
+  if (free) free_.end_trial();
   solver_.store(&Grid::velocity);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const PointSolver::Point& point = solver_.points()[i];

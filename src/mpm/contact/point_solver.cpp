@@ -215,7 +215,7 @@ void PointSolver::solve(Pass pass, bool free) {
     case Pass::step:
       return free ? sweep_free<Pass::step>() : sweep_prescribed<Pass::step>();
     case Pass::strain:
-      return sweep_prescribed<Pass::strain>();
+      return free ? sweep_free<Pass::strain>() : sweep_prescribed<Pass::strain>();
     case Pass::held:
       return sweep_prescribed<Pass::held>();
     case Pass::increment:

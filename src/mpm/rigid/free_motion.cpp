@@ -101,12 +101,27 @@ void FreeMotion::start(const Pose& pose, const Twist& twist) {
   initial_ = momentum();
 }
 
-void FreeMotion::predict(const Pose& pose, const Twist& twist, const Vec3& gravity, double dt) {
-  start_velocity_ = velocity_;
-  start_rate_ = rate_;
+void FreeMotion::place(const Pose& pose) {
   inertia_ = inertia_at(pose.orientation);
   lifted_ = lift_of(inertia_);
   centre_ = pose.to_world(definition_.centre);
+}
+
+void FreeMotion::begin_trial(const Pose& pose) {
+  place(pose);
+  kept_velocity_ = velocity_;
+  kept_rate_ = rate_;
+}
+
+void FreeMotion::end_trial() {
+  velocity_ = kept_velocity_;
+  rate_ = kept_rate_;
+}
+
+void FreeMotion::predict(const Pose& pose, const Twist& twist, const Vec3& gravity, double dt) {
+  start_velocity_ = velocity_;
+  start_rate_ = rate_;
+  place(pose);
   const Vec3 arm = centre_ - pose.position;
   const double mass = definition_.mass;
   const Vec3 weight = mass * gravity * dt;

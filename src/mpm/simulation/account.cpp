@@ -22,34 +22,17 @@ bool is_soil(const Law& law) {
   return std::holds_alternative<DruckerPrager>(law) || std::holds_alternative<MohrCoulomb>(law);
 }
 
-/// What a report says of the particles altogether.
-struct Totals {
-  double kinetic = 0.0, potential = 0.0, elastic = 0.0, plastic = 0.0;  ///< [J]
-  double carried = 0.0;                                                 ///< sum of m |v| [N s]
-  double min_j = std::numeric_limits<double>::infinity();
-
-  Totals& operator+=(const Totals& other) {
-    kinetic += other.kinetic;
-    potential += other.potential;
-    elastic += other.elastic;
-    plastic += other.plastic;
-    carried += other.carried;
-    min_j = std::min(min_j, other.min_j);
-    return *this;
-  }
-};
-
 // In one pass, since most of the time goes into fetching the particles; grouped so that the result does not depend on
-// the number of threads.
+// the number of threads. `partial`: memory for the groups' sums.
 template <class LawType>
-Totals totals_of(const ParticleSet& set, const LawType& law, const GridLayout& layout, GeometryKind geometry,
-                 const Vec3& gravity, int threads) {
+MaterialTotals totals_of(const ParticleSet& set, const LawType& law, const GridLayout& layout, GeometryKind geometry,
+                         const Vec3& gravity, int threads, std::vector<MaterialTotals>& partial) {
   constexpr int kGroup = 4096;
   const int groups = (set.size() + kGroup - 1) / kGroup, dim = layout.dim();
-  std::vector<Totals> partial(groups);
+  partial.assign(groups, {});
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (int g = 0; g < groups; ++g) {
-    Totals& sum = partial[g];
+    MaterialTotals& sum = partial[g];
     const int end = std::min(set.size(), (g + 1) * kGroup);
     for (int p = g * kGroup; p < end; ++p) {
       const ParticleTensors t = particle_tensors(set, geometry, p);
@@ -72,8 +55,8 @@ Totals totals_of(const ParticleSet& set, const LawType& law, const GridLayout& l
       sum.min_j = std::min(sum.min_j, t.j);
     }
   }
-  Totals total;
-  for (const Totals& part : partial) total += part;
+  MaterialTotals total;
+  for (const MaterialTotals& part : partial) total += part;
   for (double* by_mass : {&total.kinetic, &total.potential, &total.elastic, &total.plastic, &total.carried}) {
     if (set.masses.empty()) *by_mass *= set.mass;
   }
@@ -127,14 +110,24 @@ Vec3 Simulation::State::impulse(const std::string& account) const {
   return found == accounts.end() ? Vec3(Vec3::Zero()) : found->impulse;
 }
 
-RunTotals Simulation::State::totals() const {
-  RunTotals run;
-  Totals of_all;
+MaterialTotals& MaterialTotals::operator+=(const MaterialTotals& other) {
+  kinetic += other.kinetic;
+  potential += other.potential;
+  elastic += other.elastic;
+  plastic += other.plastic;
+  carried += other.carried;
+  min_j = std::min(min_j, other.min_j);
+  return *this;
+}
+
+const RunTotals& Simulation::State::find_totals(RunTotals& run) const {
+  run.energy.begin_again();
+  MaterialTotals& of_all = run.material = {};
   for (std::size_t i = 0; i < sets.size(); ++i) {
     if (!is_soil(laws[i])) run.energy.leave_open();
     of_all += std::visit(
         [&](const auto& law) {
-          return totals_of(sets[i], law, layout(), definition.geometry, definition.gravity, threads);
+          return totals_of(sets[i], law, layout(), definition.geometry, definition.gravity, threads, run.partial);
         },
         laws[i]);
   }
@@ -144,8 +137,6 @@ RunTotals Simulation::State::totals() const {
   run.energy.add("potential", NamedEnergy::Kind::stored, of_all.potential);
   mechanics->energies(run.energy);
   modules.energies(run.energy);
-  run.carried = of_all.carried;
-  run.min_j = of_all.min_j;
   return run;
 }
 
@@ -158,9 +149,9 @@ SolverState Simulation::state() const {
   report.particles = particles();
   report.wall_seconds = s.wall.count();
 
-  const RunTotals totals = s.totals();
-  report.energy = totals.energy;
-  report.min_j = totals.min_j;
+  RunTotals totals;
+  report.energy = s.find_totals(totals).energy;
+  report.min_j = totals.material.min_j;
   report.numbers = s.modules.numbers();
 
   AuditReport& audit = report.audit;
@@ -174,7 +165,7 @@ SolverState Simulation::state() const {
     audit.exchanged += account.exchanged;
     given += account.impulse;
   }
-  audit.carried = totals.carried;
+  audit.carried = totals.material.carried;
   const double scale = std::max(audit.exchanged, audit.carried);
   const double error = (audit.momentum - audit.initial_momentum - given).norm();
   audit.residual = scale > 0.0 ? error / scale : error;

@@ -75,9 +75,9 @@ void Simulation::State::step(double start, double dt) {
 void Simulation::State::run_period() {
   const double cfl = definition.time.cfl;
   const double begin = static_cast<double>(time) * kNanosecond;
-  const double end = begin + static_cast<double>(definition.time.sync) * kNanosecond;
+  const double period = static_cast<double>(definition.time.sync) * kNanosecond, end = begin + period;
   limit = step_limit(previous_limit, material_limit);
-  EqualSteps steps_ahead = equal_steps(end - begin, limit, begin);
+  EqualSteps steps_ahead = equal_steps(period, limit, begin);
   StepLimit seen = material_limit;
   int until_look = steps_until_look(previous_limit.dt, seen.dt, steps_ahead.number, steps_ahead.dt, cfl);
   int since_look = 0;
@@ -109,7 +109,7 @@ void Simulation::State::run_period() {
 
   previous_limit = material_limit;
   material_limit = survey_material();
-  equal_steps(end - begin, material_limit, end);  // what is not finite ends the run before it is told of
+  equal_steps(period, material_limit, end);  // what is not finite ends the run before it is told of
   see_courant(steps_ahead.dt, material_limit);
   if (energy_watch.due(steps.steps)) watch_energy(end);
 }

@@ -23,7 +23,8 @@ void each_face(const GridLayout& layout, Visit&& visit) {
 
 void add_periodic(RunParts& parts) {
   if (!parts.layout().any_periodic()) return;
-  parts.modules.add(std::make_unique<PeriodicAxes>(parts.sets, parts.layout(), parts.threads));
+  parts.modules.add(
+      std::make_unique<PeriodicAxes>(parts.sets, parts.layout(), parts.definition.gravity, parts.threads));
 }
 
 void add_leaving(RunParts& parts) {

@@ -47,7 +47,8 @@ void EnergyWatch::serialise(StateArchive& archive) {
 
 void Simulation::State::watch_energy(double now) {
   const double noise = kStillSpeed * material_limit.speed;
-  const EnergyWatch::Made made = energy_watch.look(totals().energy, 0.5 * total_mass * noise * noise, steps.steps);
+  const EnergyWatch::Made made =
+      energy_watch.look(find_totals(watched).energy, 0.5 * total_mass * noise * noise, steps.steps);
   if (!made.too_much) return;
   const ParticleRef fastest{material_limit.part,
                             mechanics->fastest(material_limit.part, layout().smallest_cell()).index};

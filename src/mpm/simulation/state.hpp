@@ -33,11 +33,20 @@ class LineFit {
 
 struct SetView;
 
-/// Sums over the whole run.
+/// Sums over particles.
+struct MaterialTotals {
+  double kinetic = 0.0, potential = 0.0, elastic = 0.0, plastic = 0.0;  ///< [J]
+  double carried = 0.0;                                                 ///< sum of m |v| [N s]
+  double min_j = std::numeric_limits<double>::infinity();               ///< smallest det F
+
+  MaterialTotals& operator+=(const MaterialTotals& other);
+};
+
+/// Sums over the whole run; found again in the same memory.
 struct RunTotals {
+  MaterialTotals material;
   EnergyReport energy;
-  double carried = 0.0;  ///< sum of m |v| of the particles [N s]
-  double min_j = 0.0;    ///< smallest det F of any particle
+  std::vector<MaterialTotals> partial;  ///< of groups of particles
 };
 
 struct Simulation::State {
@@ -69,6 +78,7 @@ struct Simulation::State {
   StepLimit previous_limit;  ///< as surveyed at the one before
   StepLimit limit;           ///< of the last steps
   EnergyWatch energy_watch;
+  RunTotals watched;  ///< memory of watch_energy()
   bool failed = false;
   std::vector<LineFit> rates;  ///< of each metric; those without a window stay empty
 
@@ -93,7 +103,8 @@ struct Simulation::State {
   void see_courant(double dt, const StepLimit& found);
   /// `now` [s]. @throws PhysicsError when the run makes energy
   void watch_energy(double now);
-  RunTotals totals() const;
+  /// Finds them in `run`, and returns it.
+  const RunTotals& find_totals(RunTotals& run) const;
   /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError, StoppedError
   void run_period();
   /// One step of the schedule, with the checks after it; it begins at `start` [s].

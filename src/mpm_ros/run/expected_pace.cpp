@@ -100,21 +100,43 @@ std::string pace_warning(const ExpectedPace& pace) {
                      expected_text(pace), mpm::pace::plan_text(pace.plan));
 }
 
+void keep_reached_pace(const mpm::Scene& scene, int threads_asked, const mpm::Simulation& simulation, double least) {
+  const mpm::SolverState state = simulation.state();
+  const double simulated = 1e-9 * static_cast<double>(state.time), steps = static_cast<double>(state.step.steps);
+  if (!(state.wall_seconds >= least) || !(simulated > 0.0)) return;
+  const mpm::pace::KeptCosts costs(mpm::pace::kept_costs_path());
+  const std::string key = mpm::pace::cost_key(scene.text, mpm::choose_isa(simulation.isa()), threads_asked);
+  const std::int64_t now = mpm::pace::wall_time();
+  if (const auto kept = costs.find(key, now); kept && kept->cost.steps > state.step.steps) return;
+  const mpm::pace::StepCost cost{state.wall_seconds / steps, steps / simulated, state.step.steps};
+  costs.keep(key, {cost, simulation.threads(), state.particles, now});
+}
+
 std::string explain_pace(const mpm::Scene& scene, mpm::Simulation& simulation, mpm::pace::StepTimer& timer,
                          int threads) {
   const auto cost = timer.time(simulation);
   if (!cost) return "pace: not one step could be timed\n";
-  const Forecast forecast{*cost, simulation.particles(), simulation.threads(), scene.definition.time.end};
+  const Forecast timed_now{*cost, simulation.particles(), simulation.threads(), scene.definition.time.end};
   const mpm::Isa isa = mpm::choose_isa(simulation.isa());
   const mpm::pace::KeptCosts costs(mpm::pace::kept_costs_path());
-  const bool kept = costs.keep(mpm::pace::cost_key(scene.text, isa, threads),
-                               {*cost, forecast.threads, forecast.particles, mpm::pace::wall_time()});
+  const std::string key = mpm::pace::cost_key(scene.text, isa, threads);
+  const std::int64_t now = mpm::pace::wall_time();
+  Forecast forecast = timed_now;
+  std::int64_t ago = 0;
+  bool kept = true;
+  if (const auto before = costs.find(key, now); before && before->cost.steps > cost->steps) {
+    forecast.cost = before->cost;
+    forecast.threads = before->threads;
+    ago = now - before->when;
+  } else {
+    kept = costs.keep(key, {*cost, forecast.threads, forecast.particles, now});
+  }
   std::string text = fmt::format("pace: {}; {}, without outputs{}\n", mpm::pace::forecast_text(forecast),
-                                 timed_text(forecast, 0), kept ? ", kept for a day in " + costs.path() : "");
+                                 timed_text(forecast, ago), kept ? ", kept for a day in " + costs.path() : "");
   if (forecast.real_time_factor() >= 1.0) return text;
   const int useful = mpm::useful_threads(forecast.particles);
   const auto timed =
-      forecast.particles <= kMostCompared ? compare(scene, forecast, useful, isa) : mpm::pace::TimedFactors();
+      forecast.particles <= kMostCompared ? compare(scene, timed_now, useful, isa) : mpm::pace::TimedFactors();
   const mpm::pace::Plan plan = mpm::pace::make_plan(scene.definition, forecast, 1.0, useful, timed);
   return text + "real time is not in reach; what would bring it nearer, the least harmful first:\n" +
          mpm::pace::plan_table(plan, forecast);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mpm/scene/feasible.hpp"
+#include "mpm_ros/run/expected_pace.hpp"
 #include "mpm_ros/run/output_names.hpp"
 
 namespace mpm_ros {
@@ -15,6 +16,7 @@ namespace mpm_ros {
 Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamps, MessageSink* live) try
     : scene_(scene),
       parameters_(options.parameters),
+      threads_asked_(options.threads),
       stamps_(stamps),
       simulation_(mpm::build(scene), mpm::SimulationOptions{options.threads,
                                                             mpm::choose_isa(options.isa),
@@ -163,6 +165,7 @@ void Run::close(const std::string& failure) {
   closed_ = true;
   // Between two sync points there is no state that could be written.
   if (!cut_short_) outputs_.finish(real_time_factor(), failure);
+  if (!resumed_ && failure.empty()) keep_reached_pace(scene_, threads_asked_, simulation_);
   if (recorder_) recorder_->close();
 }
 

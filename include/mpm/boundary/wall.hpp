@@ -5,7 +5,7 @@
 // (Grid::mirrored).
 //
 // Two walls that meet act one after the other; as their normals are orthogonal neither undoes the other. Contact may: a
-// wall that always holds acts before it and again after it (step/order.hpp).
+// wall that always holds acts before it and again after it (step/order.hpp). Nodes are visited on several threads.
 // Source: Nairn, GIMP notes (3.1)-(3.11): a condition replaces the momentum along one direction, force and momentum
 // alike.
 #pragma once
@@ -13,32 +13,20 @@
 #include <utility>
 #include <vector>
 
-#include "mpm/rigid/rigid_body.hpp"
+#include "mpm/boundary/wall_definition.hpp"
+#include "mpm/step/chunk_sums.hpp"
 #include "mpm/step/coulomb.hpp"
 #include "mpm/step/node_loss.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
 
-/// absorbing and periodic faces are no walls: absorbing.hpp, periodic.hpp.
-enum class WallKind { none, fixed, slip, frictional, symmetry, absorbing, periodic };
-
-constexpr bool is_wall(WallKind kind) {
-  return kind != WallKind::none && kind != WallKind::absorbing && kind != WallKind::periodic;
-}
-
-/// What a scene says of a face of the domain.
-struct WallDefinition {
-  WallKind kind = WallKind::none;
-  FrictionLaw friction;  ///< frictional only
-  bool hold = false;     ///< absorbing only: the forces of the start are held
-};
-
 class Wall final : public FieldStage {
  public:
   /// `face`: 2 * grid axis, + 1 for the upper one. `name` as in scenes ("z_min"). `gravity` [m/s^2] serves the account
   /// of energy alone.
-  Wall(int face, const WallDefinition& definition, const std::string& name, const Vec3& gravity = Vec3::Zero());
+  Wall(int face, const WallDefinition& definition, const std::string& name, const Vec3& gravity = Vec3::Zero(),
+       int threads = 1);
 
   std::string name() const override { return account_.name; }
   Ranks ranks(Hook hook) const override {
@@ -77,13 +65,32 @@ class Wall final : public FieldStage {
     Vec3 removed = Vec3::Zero();  ///< velocity for strain at the start of the step; 0 after another wall [m/s]
     Vec3 at_end = Vec3::Zero();   ///< factor of c1 in what it takes [N s]
   };
+  /// What the wall does in a step.
+  struct Deeds {
+    Vec3 given = Vec3::Zero();  ///< [N s]
+    SurfaceLoss loss;
+    Deeds& operator+=(const Deeds& other) {
+      given += other.given;
+      loss += other.loss;
+      return *this;
+    }
+  };
   bool always_holds() const { return definition_.kind != WallKind::frictional; }
   /// Grid axes [first, end) along which a wall that always holds does so.
   std::pair<int, int> held_axes(const GridLayout& layout) const;
   /// Books what a wall that always holds takes at a node by the start of the step, by an impulse [N s], and keeps for
   /// before_strain() what it will take by the end. With USF, where nothing is gathered any more, it books both if it
   /// held the node in the step before. It is NodeLoss with a slip of 0, and c = -V along the axes held.
-  void hold_up(Node& node, const FieldContext& context, const Vec3& impulse, Hold before);
+  void hold_up(Node& node, const FieldContext& context, const Vec3& impulse, Hold before, SurfaceLoss& loss) const;
+  /// Acts at one node.
+  void act(std::size_t node, FieldContext& context, const Vec3& normal, Deeds& deeds);
+  /// Visits all nodes on several threads, and books the sums.
+  template <class Visit>
+  void each_node(Visit&& visit) {
+    const Deeds all = deeds_.over(nodes_.size(), threads_, visit);
+    given_ += all.given;
+    loss_ += all.loss;
+  }
   /// Frictional: how the wall holds the node; else what it always does.
   ContactChange change(const Vec3& velocity, const Vec3& normal) const;
   Vec3 normal(const GridLayout& layout) const;
@@ -91,10 +98,12 @@ class Wall final : public FieldStage {
   int face_;
   WallDefinition definition_;
   Vec3 gravity_;
+  int threads_;
   ImpulseAccount account_;
   Vec3 given_ = Vec3::Zero();  ///< in this step [N s]
   SurfaceLoss loss_;
   std::vector<Node> nodes_;
+  ChunkSums<Deeds> deeds_;
   std::vector<NodeLoss> losses_;  ///< frictional only: at nodes_, in this step
   bool acted_ = false;            ///< whether the step's impulses were given
   HeldNodes held_;                ///< of a frictional wall, and with USF

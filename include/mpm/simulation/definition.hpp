@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mpm/boundary/condition.hpp"
-#include "mpm/boundary/wall.hpp"
+#include "mpm/boundary/wall_definition.hpp"
 #include "mpm/contact/pair_detection.hpp"
 #include "mpm/contact/pair_normal.hpp"
 #include "mpm/material/definition.hpp"

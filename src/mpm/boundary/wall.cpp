@@ -4,8 +4,8 @@
 
 namespace mpm {
 
-Wall::Wall(int face, const WallDefinition& definition, const std::string& name, const Vec3& gravity)
-    : face_(face), definition_(definition), gravity_(gravity) {
+Wall::Wall(int face, const WallDefinition& definition, const std::string& name, const Vec3& gravity, int threads)
+    : face_(face), definition_(definition), gravity_(gravity), threads_(threads) {
   account_.name = "wall/" + name;
 }
 
@@ -54,6 +54,7 @@ void Wall::momentum_gathered(FieldContext& context) {
   }
   if (!always_holds()) losses_.assign(nodes_.size(), {});
   held_.reserve(nodes_.size());
+  deeds_.reserve(nodes_.size());
 }
 
 std::pair<int, int> Wall::held_axes(const GridLayout& layout) const {
@@ -61,7 +62,7 @@ std::pair<int, int> Wall::held_axes(const GridLayout& layout) const {
   return {face_ / 2, face_ / 2 + 1};
 }
 
-void Wall::hold_up(Node& node, const FieldContext& context, const Vec3& impulse, Hold before) {
+void Wall::hold_up(Node& node, const FieldContext& context, const Vec3& impulse, Hold before, SurfaceLoss& loss) const {
   const Grid& grid = context.grid;
   const auto [first, end] = held_axes(grid.layout);
   const double mass = grid.mass.at(node.ref.block, 0, node.ref.node), at_start = context.strain_at_start;
@@ -72,64 +73,72 @@ void Wall::hold_up(Node& node, const FieldContext& context, const Vec3& impulse,
     node.at_end[k] = 0.5 * given + (1.0 - at_start) * pulled;
     double held = 0.5 * given;
     if (at_start == 1.0 && before != Hold::free) held += node.at_end[k];  // nothing is gathered any more
-    loss_.held -= held * momentum / mass + at_start * pulled * node.removed[k];
+    loss.held -= held * momentum / mass + at_start * pulled * node.removed[k];
   }
 }
 
 void Wall::before_strain(FieldContext& context) {
   Grid& grid = context.grid;
   if (always_holds()) {
-    const auto [first, end] = held_axes(grid.layout);
-    for (Node& node : nodes_) {
-      for (int k = first; k < end; ++k) {
+    const auto [begin, end] = held_axes(grid.layout);
+    const int first = begin, last = end;
+    each_node([&, first, last](std::size_t i, Deeds& deeds) {
+      Node& node = nodes_[i];
+      for (int k = first; k < last; ++k) {
         double& velocity = grid.velocity.at(node.ref.block, k, node.ref.node);
         if (acted_) {
-          loss_.held -= node.at_end[k] * velocity;
+          deeds.loss.held -= node.at_end[k] * velocity;
         } else {
           node.removed[k] = velocity;
         }
         velocity = 0.0;
       }
-    }
+    });
     return;
   }
   const Vec3 n = normal(grid.layout);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+  each_node([&](std::size_t i, Deeds& deeds) {
     const Node& node = nodes_[i];
     const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
     const Vec3 change = strain_change(velocity, n, definition_.friction, node.hold);
-    loss_ += losses_[i].strain(velocity, change);
+    deeds.loss += losses_[i].strain(velocity, change);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
+  });
+}
+
+void Wall::act(std::size_t i, FieldContext& context, const Vec3& n, Deeds& deeds) {
+  Grid& grid = context.grid;
+  Node& node = nodes_[i];
+  const Hold held = std::exchange(node.hold, Hold::free);
+  if (!acted_) node.at_end.setZero();
+  if (!grid.carries(node.ref.block, node.ref.node)) return;
+  const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
+  const auto [dv, hold] = change(velocity, n);
+  node.hold = hold;
+  const double mass = grid.mass.at(node.ref.block, 0, node.ref.node);
+  if (always_holds()) {
+    if (!acted_) hold_up(node, context, mass * dv, held, deeds.loss);
+  } else {
+    const Vec3 start = nodal_vector(grid.momentum, grid.layout, node.ref) / mass;
+    if (context.strain_at_start == 0.0) losses_[i].strain(start, strain_change(start, n, definition_.friction, held));
+    deeds.loss += losses_[i].act({mass, n, mass * context.dt * gravity_, mass * dv, start, velocity + dv,
+                                  held != Hold::free, context.strain_at_start});
   }
+  if (hold == Hold::free) return;
+  add_nodal_vector(grid.velocity, grid.layout, node.ref, dv);
+  add_nodal_vector(grid.force, grid.layout, node.ref, dv / context.dt);
+  deeds.given += mass * dv;
 }
 
 void Wall::momentum_updated(FieldContext& context) {
-  Grid& grid = context.grid;
-  const Vec3 n = normal(grid.layout);
+  const Vec3 n = normal(context.grid.layout);
+  each_node([&](std::size_t i, Deeds& deeds) { act(i, context, n, deeds); });
   held_.clear();
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    Node& node = nodes_[i];
-    const Hold held = std::exchange(node.hold, Hold::free);
-    if (!acted_) node.at_end.setZero();
-    if (!grid.carries(node.ref.block, node.ref.node)) continue;
-    const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
-    const auto [dv, hold] = change(velocity, n);
-    node.hold = hold;
-    const double mass = grid.mass.at(node.ref.block, 0, node.ref.node);
-    if (always_holds()) {
-      if (!acted_) hold_up(node, context, mass * dv, held);
-    } else {
-      const Vec3 start = nodal_vector(grid.momentum, grid.layout, node.ref) / mass;
-      if (context.strain_at_start == 0.0) losses_[i].strain(start, strain_change(start, n, definition_.friction, held));
-      loss_ += losses_[i].act({mass, n, mass * context.dt * gravity_, mass * dv, start, velocity + dv,
-                               held != Hold::free, context.strain_at_start});
+  // How a wall that always holds held before decides with USF alone, in hold_up().
+  if (!always_holds() || context.strain_at_start == 1.0) {
+    for (const Node& node : nodes_) {
+      if (node.hold != Hold::free) held_.add(node.id, node.hold);
     }
-    if (hold == Hold::free) continue;
-    // How a wall that always holds held before decides with USF alone, in hold_up().
-    if (!always_holds() || context.strain_at_start == 1.0) held_.add(node.id, hold);
-    add_nodal_vector(grid.velocity, grid.layout, node.ref, dv);
-    add_nodal_vector(grid.force, grid.layout, node.ref, dv / context.dt);
-    given_ += mass * dv;
   }
   acted_ = true;
 }

@@ -14,7 +14,7 @@
 namespace mpm {
 namespace {
 
-constexpr int kStepsBetweenLooks = 16;  ///< a look at all particles costs a twentieth of a step
+constexpr int kStepsBetweenLooks = 16;  ///< a look at all particles costs a fiftieth of a step
 
 /// Equal steps to the next sync point.
 struct EqualSteps {

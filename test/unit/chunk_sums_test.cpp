@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace mpm {
-namespace {
+namespace chunk_sums_test {
 
 /// Numbers of very different size, whose sum depends on the order of addition.
 double number(std::size_t i) { return std::ldexp(i % 3 == 0 ? -1.1 : 1.3, static_cast<int>(i * 7 % 60)); }
@@ -31,5 +31,5 @@ TEST(ChunkSums, VisitEveryEntryOnceAndHaveTheSameBits) {
   }
 }
 
-}  // namespace
+}  // namespace chunk_sums_test
 }  // namespace mpm

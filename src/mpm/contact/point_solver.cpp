@@ -193,15 +193,19 @@ void PointSolver::sweep_prescribed() {
 
 template <PointSolver::Pass Kind>
 void PointSolver::sweep_free() {
+  // Strain needs no more accuracy than before a prescribed body: its impulses are not given.
+  constexpr bool kTrial = Kind == Pass::strain;
+  constexpr int kMost = kTrial ? kSweeps : kSweepsFree;
+  constexpr double kEnough = kTrial ? kTolerance : kToleranceFree;
   solving_threads_ = 1;
   ConjugateSweeps<Point> conjugate(sweeps_);
   const int count = static_cast<int>(clusters_.size());
-  for (int sweep = 0; sweep < kSweepsFree; ++sweep) {
+  for (int sweep = 0; sweep < kMost; ++sweep) {
     conjugate.begin(points_);
     const bool back = sweep % 2 != 0;
     Progress progress;
     for (int i = 0; i < count; ++i) relax<Kind, true>(clusters_[back ? count - 1 - i : i], back, progress);
-    if (progress.largest <= kToleranceFree * progress.scale || sweep + 1 == kSweepsFree) break;
+    if (progress.largest <= kEnough * progress.scale || sweep + 1 == kMost) break;
     conjugate.go_on(points_, [&](Point& point, const Vec3& change) {
       point.impulse += change;
       push<true>(point, change);

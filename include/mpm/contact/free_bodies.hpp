@@ -27,7 +27,7 @@ class FreeBodies {
   }
   /// From here on velocities change for a trial, until end_trial() takes the changes back.
   void begin_trial() {
-    each([](RigidBody& body, FreeMotion& motion, Taken&) { motion.begin_trial(body.pose()); });
+    each([](RigidBody& body, FreeMotion& motion, Taken&) { motion.begin_trial(body.pose(), body.twist()); });
   }
   void end_trial() {
     each([](RigidBody&, FreeMotion& motion, Taken&) { motion.end_trial(); });

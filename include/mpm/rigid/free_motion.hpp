@@ -97,8 +97,8 @@ class FreeMotion final : public BodyMotion {
   }
   /// Change of velocity of a world point by a unit impulse there, along each pair of axes [1/kg].
   Mat3 compliance_at(const Vec3& point) const;
-  /// What is pushed between the two calls is forgotten at the second.
-  void begin_trial(const Pose& pose);
+  /// What is pushed between the two calls is forgotten at the second. `twist`: as predict() has it.
+  void begin_trial(const Pose& pose, const Twist& twist);
   void end_trial();
   /// Sets velocities to zero; they are increments until end_increment() adds them to the previous velocities.
   void begin_increment();
@@ -140,7 +140,7 @@ class FreeMotion final : public BodyMotion {
   Vec3 centre_ = Vec3::Zero();
   Vec3 velocity_ = Vec3::Zero(), rate_ = Vec3::Zero();
   Vec3 start_velocity_ = Vec3::Zero(), start_rate_ = Vec3::Zero();
-  Vec3 kept_velocity_ = Vec3::Zero(), kept_rate_ = Vec3::Zero();  ///< without contact, or without the increment
+  Vec3 kept_velocity_ = Vec3::Zero(), kept_rate_ = Vec3::Zero();  ///< without contact, the increment or the trial
   Vec3 inverse_mass_ = Vec3::Zero();
   Mat3 inertia_ = Mat3::Zero(), lifted_ = Mat3::Zero();
   BodyMomentum step_wrench_, step_drive_;

@@ -8,13 +8,13 @@
 
 namespace mpm {
 
-/// The time step that the stiffest material asks for before it is strained.
+/// The time step that the stiffest material of the scene's bodies asks for before it is strained.
 struct WaveStep {
   double dt = 0.0;       ///< in which the wave crosses time.cfl of the smallest cell [s]
   double speed = 0.0;    ///< of the wave [m/s]
   std::string material;  ///< its name
 };
-WaveStep wave_step(const SimulationDefinition& definition);
+WaveStep wave_step(const Scene& scene);
 
 /// Refuses too many particles, before any is made. @throws SceneError with their number and memory
 void check_particles(const Scene& scene);

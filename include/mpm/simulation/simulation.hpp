@@ -1,5 +1,6 @@
-// The assembled run. Time advances from one sync point (integer nanoseconds) to the next by a whole number of equal
-// steps; commands given at a sync point act from there on; all reports are those of a sync point.
+// The assembled run. Time advances from one sync point (integer nanoseconds) to the next by a whole number of
+// steps, equal unless they have to get shorter on the way; commands given at a sync point act from there on; all
+// reports are those of a sync point.
 //
 //   mpm::Simulation simulation(mpm::load_scene("blade_in_soil"));  // or a SimulationDefinition
 //   while (simulation.time() < end) { simulation.advance(); auto report = simulation.take_contact(0); … }

@@ -62,7 +62,8 @@ class Module {
 
   /// Adds the module's impulse accounts to the list.
   virtual void accounts(std::vector<ImpulseAccount>&) const {}
-  /// Adds the energies that the module stores, dissipates or gives as work [J].
+  /// Adds the energies that the module stores, dissipates or gives as work [J]. A module that sets material in motion
+  /// has to add its work: a run that moves with energy of no source is ended as one that blows up.
   virtual void energies(EnergyReport&) const {}
   /// Adds other numbers of the module.
   virtual void numbers(std::vector<NamedNumber>&) const {}

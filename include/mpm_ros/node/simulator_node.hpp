@@ -127,12 +127,11 @@ class SimulatorNode {
 
   int runs_ = 0;
   bool paused_ = false;
-  bool pace_told_ = false;          // of a run that nothing paces
-  Pacer::Clock::time_point begun_;  // the present run
-  std::string failure_;             // of the present run
-  int failure_code_ = 0;            // exit code that goes with it
-  bool bag_lost_ = false;           // of any run
-  bool record_lost_ = false;        // and said so
+  bool pace_told_ = false;    // of a run that nothing paces
+  std::string failure_;       // of the present run
+  int failure_code_ = 0;      // exit code that goes with it
+  bool bag_lost_ = false;     // of any run
+  bool record_lost_ = false;  // and said so
 };
 
 }  // namespace mpm_ros

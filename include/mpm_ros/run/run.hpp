@@ -78,6 +78,8 @@ class Run {
   bool ended() const { return end_ > 0 && simulation_.time() >= end_; }
   /// Simulated over wall time so far.
   double real_time_factor() const;
+  /// Wall time of the run, while not paused [s].
+  double wall_seconds() const { return std::chrono::duration<double>(wall_).count(); }
   /// Null when none is written.
   const BagRecorder* recorder() const { return recorder_.get(); }
   /// The bag's path, and how many parts it has when it is split; empty when none is written.

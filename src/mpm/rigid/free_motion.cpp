@@ -107,10 +107,12 @@ void FreeMotion::place(const Pose& pose) {
   centre_ = pose.to_world(definition_.centre);
 }
 
-void FreeMotion::begin_trial(const Pose& pose) {
+void FreeMotion::begin_trial(const Pose& pose, const Twist& twist) {
   place(pose);
   kept_velocity_ = velocity_;
   kept_rate_ = rate_;
+  velocity_ += prescribed_part(twist.linear - velocity_, 0);
+  rate_ += prescribed_part(twist.angular - rate_, 3);
 }
 
 void FreeMotion::end_trial() {

@@ -47,9 +47,9 @@ void add_bodies(const Scene& scene, const SimulationDefinition& built, std::stri
   text += fmt::format("total: {:.0f} particles in {:.0f} cells\n", particles, particles / per_cell);
 }
 
-void add_steps(const SimulationDefinition& built, std::string& text) {
+void add_steps(const Scene& scene, const SimulationDefinition& built, std::string& text) {
   const TimeDefinition& time = built.time;
-  const WaveStep wave = wave_step(built);
+  const WaveStep wave = wave_step(scene);
   const double sync = static_cast<double>(time.sync) * kSyncUnit;
   double limit = wave.dt;
   std::string reason =
@@ -85,7 +85,7 @@ std::string explain(const Scene& scene, const SimulationDefinition& built) {
                         grid.cell[axis], axis == axes_of(scene).back() ? "\n" : ",");
   }
   add_bodies(scene, built, text);
-  add_steps(built, text);
+  add_steps(scene, built, text);
   text += fmt::format("output: every {:.9g} s\n", scene.output.period);
   if (!scene.choices.empty()) text += "chosen, because the scene does not specify them:\n";
   for (const auto& [key, reason] : scene.choices) text += fmt::format("  {}: {}\n", key, reason);

@@ -34,15 +34,24 @@ double particles_of(const BodyDefinition& body, const Scene& scene) {
   return places;
 }
 
+/// Of a particle, when the run is put together: its place in the definition is there beside it; where bodies start
+/// geostatic, so are the stress there, and a second run that settles.
 double least_bytes(const Scene& scene) {
-  return least_bytes_of_particle(scene.definition.method, scene.definition.geometry);
+  const double particle = least_bytes_of_particle(scene.definition.method, scene.definition.geometry);
+  const bool settles = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                   [](const BodyDefinition& body) { return body.geostatic.has_value(); });
+  const double defined = sizeof(Vec3) + (settles ? sizeof(Symmetric3<double>) : 0.0);
+  return (settles ? 2.0 : 1.0) * (particle + defined);
 }
 
 }  // namespace
 
-WaveStep wave_step(const SimulationDefinition& definition) {
+WaveStep wave_step(const Scene& scene) {
+  const SimulationDefinition& definition = scene.definition;
   WaveStep step;
   for (const MaterialDefinition& material : definition.materials) {
+    const auto is_used = [&](const BodyDefinition& body) { return body.material == material.name; };
+    if (std::none_of(scene.bodies.begin(), scene.bodies.end(), is_used)) continue;
     const double speed = MaterialPoint(material).wave_speed();
     if (speed <= step.speed) continue;
     step.speed = speed;
@@ -74,7 +83,7 @@ void check_particles(const Scene& scene) {
 
 void check_steps(const Scene& scene) {
   const TimeDefinition& time = scene.definition.time;
-  const WaveStep wave = wave_step(scene.definition);
+  const WaveStep wave = wave_step(scene);
   const bool chosen = time.step && *time.step < wave.dt;
   const double dt = chosen ? *time.step : wave.dt, sync = 1e-9 * static_cast<double>(time.sync);
   if (std::ceil(sync / dt) <= kMostSteps) return;

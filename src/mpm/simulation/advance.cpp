@@ -82,6 +82,7 @@ void Simulation::State::run_period() {
   int until_look = steps_until_look(previous_limit.dt, seen.dt, steps_ahead.number, steps_ahead.dt, cfl);
   int since_look = 0;
   double part_begin = begin;  // of those steps
+  bool divided = false;
   for (int k = 0; k < steps_ahead.number; ++k) {
     step(part_begin + k * steps_ahead.dt, steps_ahead.dt);
     if (k + 1 == steps_ahead.number) break;
@@ -92,12 +93,14 @@ void Simulation::State::run_period() {
     if (++since_look < until_look) continue;
     const StepLimit now = survey_material();
     see_courant(steps_ahead.dt, now);
+    const double reached = part_begin + (k + 1) * steps_ahead.dt;
+    if (energy_watch.due(steps.steps)) watch_energy(reached, now);
     if (comes_too_near(steps_ahead.dt, now.dt, cfl)) {
-      part_begin += (k + 1) * steps_ahead.dt;
-      watch_energy(part_begin);
+      part_begin = reached;
+      watch_energy(reached, now);
       limit = step_limit(seen, now);
       steps_ahead = equal_steps(end - part_begin, limit, part_begin);
-      ++steps.divided;
+      divided = true;
       k = -1;
     }
     until_look = steps_until_look(seen.dt, now.dt, since_look, steps_ahead.dt, cfl);
@@ -111,7 +114,8 @@ void Simulation::State::run_period() {
   material_limit = survey_material();
   equal_steps(period, material_limit, end);  // what is not finite ends the run before it is told of
   see_courant(steps_ahead.dt, material_limit);
-  if (energy_watch.due(steps.steps)) watch_energy(end);
+  if (divided) ++steps.divided;
+  if (energy_watch.due(steps.steps)) watch_energy(end, material_limit);
 }
 
 void Simulation::advance() {

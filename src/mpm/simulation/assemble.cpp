@@ -342,7 +342,8 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.modules.act(Hook::run_begun, start);
   s.material_limit = s.previous_limit = s.survey_material();
   s.initial_momentum = s.momentum();
-  s.watch_energy(0.0);
+  s.watch_energy(0.0, s.material_limit);
+  s.foreign_modules = !options.modules.empty();
   s.rates.resize(definition.metrics.size());
   for (const MetricDefinition& metric : definition.metrics) {
     if (find_body(metric.body) >= 0) continue;  // a rigid body has its own names

@@ -45,18 +45,20 @@ void EnergyWatch::serialise(StateArchive& archive) {
   archive.value("given", given_);
 }
 
-void Simulation::State::watch_energy(double now) {
-  const double noise = kStillSpeed * material_limit.speed;
+void Simulation::State::watch_energy(double now, const StepLimit& found) {
+  const double still = kStillSpeed * found.speed;
   const EnergyWatch::Made made =
-      energy_watch.look(find_totals(watched).energy, 0.5 * total_mass * noise * noise, steps.steps);
+      energy_watch.look(find_totals(watched).energy, 0.5 * total_mass * still * still, steps.steps);
   if (!made.too_much) return;
-  const ParticleRef fastest{material_limit.part,
-                            mechanics->fastest(material_limit.part, layout().smallest_cell()).index};
+  const ParticleRef fastest{found.part, mechanics->fastest(found.part, layout().smallest_cell()).index};
+  std::string remedy = "lower time.cfl, or take a finer grid.cell";
+  if (definition.method.update != UpdateScheme::usavg) remedy += ", or method.update: usavg";
+  if (foreign_modules) remedy += "; or let modules of the program report the work that they do (Module::energies)";
   fail(
       fmt::format("the run makes energy: {:.3g} J have no source and {:.3g} J are in motion, while {:.3g} J were there "
                   "at the start, fell down or were given by tools and loads; the fastest",
                   made.made, made.kinetic, made.given),
-      fastest, now, "lower time.cfl, take a finer grid.cell, or use method.update: usavg");
+      fastest, now, remedy);
 }
 
 }  // namespace mpm

@@ -78,7 +78,8 @@ struct Simulation::State {
   StepLimit previous_limit;  ///< as surveyed at the one before
   StepLimit limit;           ///< of the last steps
   EnergyWatch energy_watch;
-  RunTotals watched;  ///< memory of watch_energy()
+  RunTotals watched;             ///< memory of watch_energy()
+  bool foreign_modules = false;  ///< whether the caller added modules of its own
   bool failed = false;
   std::vector<LineFit> rates;  ///< of each metric; those without a window stay empty
 
@@ -101,8 +102,8 @@ struct Simulation::State {
   StepLimit step_limit(const StepLimit& before, const StepLimit& now) const;
   /// Notes what part of a cell the fastest wave crossed in a step of dt [s].
   void see_courant(double dt, const StepLimit& found);
-  /// `now` [s]. @throws PhysicsError when the run makes energy
-  void watch_energy(double now);
+  /// `now` [s]; `found`: what the material allows then. @throws PhysicsError when the run makes energy
+  void watch_energy(double now, const StepLimit& found);
   /// Finds them in `run`, and returns it.
   const RunTotals& find_totals(RunTotals& run) const;
   /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError, StoppedError

@@ -197,8 +197,9 @@ void NodeHealth::fill_solver(diagnostic_updater::DiagnosticStatusWrapper& status
     add_warning(fmt::format("the momentum audit is off by {:.2g} of the momentum exchanged", solver_.momentum_error));
   }
   if (!(solver_.courant <= 1.0)) {
-    add_warning(fmt::format("a wave crossed {:.2g} cells in a step, which may be unstable: lower time.sync or time.cfl",
-                            solver_.courant));
+    add_warning(fmt::format(
+        "since the start a wave has crossed {:.2g} cells in a step, which may be unstable: lower time.sync or time.cfl",
+        solver_.courant));
   }
   if (!(solver_.min_j >= kCrushed)) {
     add_warning(fmt::format("a particle is crushed to {:.3g} of its volume", solver_.min_j));

@@ -25,7 +25,7 @@ constexpr std::chrono::milliseconds kGlance{50};
 /// Steps that wait for messages hold one each; others are for who asks meanwhile.
 constexpr std::uint32_t kServiceThreads = 4;
 /// Of a run, by which its pace is told.
-constexpr std::chrono::seconds kFirstSecond{1};
+constexpr double kFirstSecond = 1.0;  // [s]
 /// At the end: for messages and answers on their way out.
 constexpr std::chrono::milliseconds kLinger{300};
 
@@ -166,7 +166,7 @@ void SimulatorNode::tell_start(const std::optional<ExpectedPace>& expected) cons
 }
 
 void SimulatorNode::tell_pace() {
-  if (pace_told_ || parameters_.pacing != Pacing::free || Pacer::Clock::now() - begun_ < kFirstSecond) return;
+  if (pace_told_ || parameters_.pacing != Pacing::free || run_->ended() || run_->wall_seconds() < kFirstSecond) return;
   pace_told_ = true;
   const double factor = run_->real_time_factor(), now = static_cast<double>(run_->simulation().time()) * 1e-9;
   const double end = subject_->scene.definition.time.end;
@@ -187,7 +187,6 @@ SimulatorNode::Phase SimulatorNode::phase() const {
 
 void SimulatorNode::begin_run() {
   pace_told_ = false;
-  begun_ = Pacer::Clock::now();
   publish_clock(true);
   count_commands();  // those of an earlier run stay in the count
   try {

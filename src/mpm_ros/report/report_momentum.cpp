@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <new>
 #include <numeric>
 
 #include "mpm/math/error.hpp"
@@ -30,6 +31,9 @@ MomentumCheck::MomentumCheck(const std::optional<RunInfo>& info) {
     audit_limit_ = audit_limit(facts.precision);
   } catch (const mpm::Error& error) {
     obstacle_ = fmt::format("the particles' masses are not known: {}", error.what());
+    return;
+  } catch (const std::bad_alloc&) {
+    obstacle_ = "there is not enough memory to make the scene's particles, whose masses it needs";
     return;
   }
   total_mass_ = std::accumulate(masses_.begin(), masses_.end(), 0.0);

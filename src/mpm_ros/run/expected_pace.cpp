@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <new>
+
 #include "mpm/pace/kept_costs.hpp"
 #include "mpm/simulation/threads.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
@@ -50,6 +52,8 @@ mpm::pace::TimedFactors compare(const mpm::Scene& scene, const Forecast& before,
     throw;
   } catch (const mpm::Error&) {
     // A method that there is not: it will not be proposed.
+  } catch (const std::bad_alloc&) {
+    // What there is no room to time is not proposed either.
   }
   return timed;
 }
@@ -77,6 +81,8 @@ std::optional<ExpectedPace> expected_pace(const mpm::Scene& scene, const RunOpti
       throw;
     } catch (const mpm::Error&) {
       return std::nullopt;  // the run will say what is wrong
+    } catch (const std::bad_alloc&) {
+      return std::nullopt;  // this too
     }
     costs.keep(key, {pace.forecast.cost, pace.forecast.threads, pace.forecast.particles, now});
     pace.origin = timed_text(pace.forecast, 0);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "mpm/scene/explain.hpp"
+#include "mpm/scene/feasible.hpp"
 #include "mpm_ros/run/expected_pace.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 #include "mpm_ros/run/run_scene_options.hpp"
@@ -10,10 +11,9 @@
 
 namespace mpm_ros {
 
-void explain_scene(const RunSceneOptions& options, std::ostream& out) {
-  const mpm::Scene scene = scene_to_run(
-      options, options.from_bag.empty() ? std::nullopt
-                                        : std::optional<Rerun>(read_rerun(options.from_bag, !options.resume.empty())));
+namespace {
+
+void explain(const mpm::Scene& scene, const RunSceneOptions& options, std::ostream& out) {
   mpm::SimulationDefinition built = mpm::build(scene);
   out << mpm::explain(scene, built);
   if (!(scene.definition.time.end > 0.0)) out << "note: the scene has no end; run_scene needs --end\n";
@@ -34,6 +34,19 @@ void explain_scene(const RunSceneOptions& options, std::ostream& out) {
   for (const std::string& warning : simulation.warnings()) out << "warning: " << warning << "\n";
   for (const std::string& note : simulation.notes()) out << note << "\n";
   out << std::flush << explain_pace(scene, simulation, timer, options.threads);
+}
+
+}  // namespace
+
+void explain_scene(const RunSceneOptions& options, std::ostream& out) {
+  const mpm::Scene scene = scene_to_run(
+      options, options.from_bag.empty() ? std::nullopt
+                                        : std::optional<Rerun>(read_rerun(options.from_bag, !options.resume.empty())));
+  try {
+    explain(scene, options, out);
+  } catch (const std::bad_alloc&) {
+    throw mpm::SceneError(mpm::lack_of_memory(scene));
+  }
 }
 
 }  // namespace mpm_ros

@@ -165,8 +165,8 @@ void Run::close(const std::string& failure) {
   closed_ = true;
   // Between two sync points there is no state that could be written.
   if (!cut_short_) outputs_.finish(real_time_factor(), failure);
-  if (!resumed_ && failure.empty()) keep_reached_pace(scene_, threads_asked_, simulation_);
   if (recorder_) recorder_->close();
+  if (!resumed_ && !cut_short_ && failure.empty()) keep_reached_pace(scene_, threads_asked_, simulation_);
 }
 
 }  // namespace mpm_ros

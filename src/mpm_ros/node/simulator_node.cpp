@@ -159,6 +159,9 @@ void SimulatorNode::tell_start(const std::optional<ExpectedPace>& expected) cons
   const bool paced = parameters_.pacing == Pacing::real_time;
   if (const std::string warning = expected && paced ? pace_warning(*expected) : ""; !warning.empty()) {
     ROS_WARN_STREAM(warning);
+  } else if (expected && paced) {
+    ROS_INFO_STREAM(fmt::format("the pace asked for can be kept: {:.2g} of real time would be reached at most; {}",
+                                expected->forecast.real_time_factor(), expected->origin));
   } else if (expected) {
     ROS_INFO_STREAM(expected_text(*expected));
   }
@@ -204,7 +207,12 @@ int SimulatorNode::spin() {
   std::string ignored;  // nothing is asked for that could be refused
   while (!ends()) {
     const Phase now = phase();
-    if ((now == Phase::failed || now == Phase::ended) && !parameters_.keep_alive) break;
+    if ((now == Phase::failed || now == Phase::ended) && !parameters_.keep_alive) {
+      if (now == Phase::ended) {
+        ROS_INFO("the run has reached its end at %g s, and the node ends with it", subject_->scene.definition.time.end);
+      }
+      break;
+    }
     if (now != Phase::running) {
       mailbox_.run_until(Pacer::Clock::now() + kGlance);
       continue;

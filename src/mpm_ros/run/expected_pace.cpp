@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 
 #include "mpm/pace/kept_costs.hpp"
@@ -144,8 +145,15 @@ std::string explain_pace(const mpm::Scene& scene, mpm::Simulation& simulation, m
   const auto timed =
       forecast.particles <= kMostCompared ? compare(scene, timed_now, useful, isa) : mpm::pace::TimedFactors();
   const mpm::pace::Plan plan = mpm::pace::make_plan(scene.definition, forecast, 1.0, useful, timed);
-  return text + "real time is not in reach; what would bring it nearer, the least harmful first:\n" +
-         mpm::pace::plan_table(plan, forecast);
+  text += "real time is not in reach; what would bring it nearer, the least harmful first:\n" +
+          mpm::pace::plan_table(plan, forecast);
+  const auto chosen = [](const auto& choice) { return choice.first == "method"; };
+  if (std::any_of(scene.choices.begin(), scene.choices.end(), chosen)) {
+    text +=
+        "the method was chosen for this scene, and a key of `method` set by itself turns the choice off: write\n"
+        "--set method.auto={} before it, and the rest is still chosen\n";
+  }
+  return text;
 }
 
 }  // namespace mpm_ros

@@ -34,7 +34,8 @@ def count(program, scene, settings, end):
         run = subprocess.run(
             ["valgrind", "--tool=callgrind", f"--callgrind-out-file={costs}", program, scene, "--isa", "plain",
              "--threads", "1", "--end", str(end), "--summary", summary, *changes],
-            env={**os.environ, "OMP_WAIT_POLICY": "passive"}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            # Without a home a run of a second or more does not keep its cost, which would count as steps.
+            env={**os.environ, "OMP_WAIT_POLICY": "passive", "HOME": "", "XDG_CACHE_HOME": ""}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
             text=True, check=False)
         if run.returncode != 0:
             sys.exit(f"{scene}: exit code {run.returncode}\n{run.stdout}")

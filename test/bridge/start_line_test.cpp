@@ -106,7 +106,7 @@ TEST_F(ExpectedPaceTest, IsThatOfARunThatEnded) {
   const auto run = [&](double end) {
     mpm::Simulation simulation(mpm::build(scene), {1});
     while (1e-9 * static_cast<double>(simulation.time()) < end) simulation.advance();
-    keep_reached_pace(scene, 1, simulation, 0.0);
+    keep_reached_pace(scene, 1, simulation);
     return simulation.state();
   };
   const mpm::SolverState whole = run(0.4);

@@ -18,6 +18,10 @@ struct MethodFault {
 /// The first rule that a method breaks; empty when it breaks none.
 std::optional<MethodFault> method_fault(const MethodDefinition& method, GeometryKind geometry);
 
+/// The largest time.cfl that a transfer is known to be stable with; 1 where it does not lower the limit. Source:
+/// doc/methods.md, the time step.
+double stable_cfl(const Transfer& transfer);
+
 /// Whether soil that flows has one stress in a cell. If the method does not say so: wherever soil can lock, unless
 /// another remedy, average_dilatation, is chosen.
 bool averages_stress(const MethodDefinition& method, GeometryKind geometry);

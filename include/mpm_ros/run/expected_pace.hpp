@@ -31,9 +31,8 @@ std::string expected_text(const ExpectedPace& pace);
 /// "real time is not in reach: ...", and what would reach it; empty where it is in reach.
 std::string pace_warning(const ExpectedPace& pace);
 
-/// Keeps what a step of a run has cost, if it stepped for `least` at least [s] and no more steps were timed before.
-void keep_reached_pace(const mpm::Scene& scene, int threads_asked, const mpm::Simulation& simulation,
-                       double least = 1.0);
+/// Keeps what a step of a run has cost, unless more steps were timed before. Sums over the particles once.
+void keep_reached_pace(const mpm::Scene& scene, int threads_asked, const mpm::Simulation& simulation);
 
 /// For --explain: times the simulation's own steps and keeps their cost, unless that of a run is kept, and times copies
 /// with what could be changed where it is slower than real time. Several lines. @throws mpm::StoppedError

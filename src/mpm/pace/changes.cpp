@@ -87,11 +87,8 @@ bool allowed(const SimulationDefinition& definition, Precision precision, Update
   return !method_fault(method, definition.geometry);
 }
 
-/// The largest cfl that a transfer is stable with, with a margin (doc/methods.md, the time step).
-double most_cfl(const MethodDefinition& method) {
-  const bool high = method.transfer.kind == TransferKind::fmpm && method.transfer.order >= 5;
-  return method.transfer.kind == TransferKind::apic || high ? 0.7 : 0.9;
-}
+/// The largest cfl that is proposed: below the largest stable one, but not below 0.7, which no transfer forbids.
+double most_cfl(const MethodDefinition& method) { return stable_cfl(method.transfer) < 1.0 ? 0.7 : 0.9; }
 
 Options options_of(const SimulationDefinition& definition, const Forecast& forecast, double steps, int threads,
                    const TimedFactors& timed) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "mpm/math/build_info.hpp"
+#include "mpm/math/byte_hash.hpp"
 
 namespace mpm::pace {
 
@@ -119,9 +120,9 @@ std::string kept_costs_path() {
 std::string cost_key(const std::string& scene_text, Isa isa, int threads) {
   const std::string all = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", build_version(), build_of_library(), processor(),
                                       sysconf(_SC_NPROCESSORS_ONLN), isa_name(isa), threads, scene_text);
-  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
-  for (const char c : all) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return fmt::format("{:016x}", hash);
+  ByteHash hash;
+  hash.add(all.data(), all.size());
+  return fmt::format("{:016x}", hash.value());
 }
 
 std::int64_t wall_time() {

@@ -1,9 +1,9 @@
 // What a Simulation says of itself: momentum audit, energies, the hash of its state. Computed when asked for.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
+#include "mpm/math/byte_hash.hpp"
 #include "mpm/math/dimension.hpp"
 #include "state.hpp"
 
@@ -62,24 +62,6 @@ MaterialTotals totals_of(const ParticleSet& set, const LawType& law, const GridL
   }
   return total;
 }
-
-// FNV-1a, 64 bits.
-class Hash {
- public:
-  template <class T>
-  void add(const T& value) {
-    unsigned char bytes[sizeof(T)];
-    std::memcpy(bytes, &value, sizeof(T));
-    for (const unsigned char byte : bytes) {
-      value_ ^= byte;
-      value_ *= 1099511628211ull;
-    }
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 14695981039346656037ull;
-};
 
 const Matrix3<double>& full(const Matrix3<double>& m) { return m; }
 Matrix3<double> full(const MatrixPlane<double>& m) { return {m.xx, 0.0, m.xz, 0.0, m.yy, 0.0, m.zx, 0.0, m.zz}; }
@@ -174,7 +156,7 @@ SolverState Simulation::state() const {
 
 std::uint64_t Simulation::state_hash() const {
   const State& s = *state_;
-  Hash hash;
+  ByteHash hash;
   hash.add(s.time);
   for (const ParticleSet& set : s.sets) {
     std::vector<int> place(set.size());

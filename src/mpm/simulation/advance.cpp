@@ -94,10 +94,10 @@ void Simulation::State::run_period() {
     const StepLimit now = survey_material();
     see_courant(steps_ahead.dt, now);
     const double reached = part_begin + (k + 1) * steps_ahead.dt;
-    if (energy_watch.due(steps.steps)) watch_energy(reached, now);
-    if (comes_too_near(steps_ahead.dt, now.dt, cfl)) {
+    const bool too_near = comes_too_near(steps_ahead.dt, now.dt, cfl);
+    if (too_near || energy_watch.due(steps.steps)) watch_energy(reached, now);
+    if (too_near) {
       part_begin = reached;
-      watch_energy(reached, now);
       limit = step_limit(seen, now);
       steps_ahead = equal_steps(end - part_begin, limit, part_begin);
       divided = true;

@@ -220,13 +220,12 @@ Pose projected(const Pose& pose, GeometryKind geometry, const RigidBodyDefinitio
   return {{pose.position.x(), 0.0, pose.position.z()}, Quat(q.w() * scale, 0.0, q.y() * scale, 0.0)};
 }
 
-// A transfer can make the largest stable step smaller than a cell over the wave speed: doc/methods.md, the time step.
+// A transfer can make the largest stable step smaller than a cell over the wave speed.
 std::string step_warning(const SimulationDefinition& definition) {
   const Transfer& transfer = definition.method.transfer;
+  const double most = stable_cfl(transfer);
+  if (definition.time.cfl <= most) return {};
   const bool affine = transfer.kind == TransferKind::apic;
-  const bool high = transfer.kind == TransferKind::fmpm && transfer.order >= 5;
-  const double most = affine ? 0.7 : 0.9;
-  if (!(affine || high) || definition.time.cfl <= most) return {};
   return fmt::format("time.cfl is {:g}: with {} steps that long may be unstable; use at most {:g}", definition.time.cfl,
                      affine ? "apic" : fmt::format("fmpm {}", transfer.order), most);
 }

@@ -15,18 +15,18 @@ constexpr double kStillSpeed = 1e-4;  ///< of the speed of waves: particles that
 
 EnergyWatch::Made EnergyWatch::look(const EnergyReport& energy, double least, std::uint64_t steps) {
   looked_ = steps;
-  const double potential = energy.of("potential"), work = energy.sum(NamedEnergy::Kind::work);
+  const double kinetic = energy.of("kinetic"), potential = energy.of("potential");
+  const double work = energy.sum(NamedEnergy::Kind::work);
   if (!begun_) {
     begun_ = true;
     balance_ = energy.balance();
-    kinetic_ = energy.of("kinetic");
-    elastic_ = energy.total() - kinetic_ - potential;
+    own_ = kinetic + std::max(0.0, energy.total() - kinetic - potential);
     potential_ = potential;
     work_ = work;
   }
   const double fell = std::max(0.0, potential_ - potential), worked = std::max(0.0, work - work_);
-  given_ = std::max(given_, kinetic_ + std::max(0.0, elastic_) + fell + worked + least);
-  Made made{energy.of("kinetic"), given_, energy.balance() - balance_, false};
+  given_ = std::max(given_, own_ + fell + worked + least);
+  Made made{kinetic, given_, energy.balance() - balance_, false};
   for (const NamedEnergy& loss : energy.list()) {  // a loss below zero is no loss, though it closes the balance
     if (loss.kind == NamedEnergy::Kind::dissipated) made.made += std::max(0.0, -loss.value);
   }
@@ -38,8 +38,7 @@ void EnergyWatch::serialise(StateArchive& archive) {
   archive.value("begun", begun_);
   archive.value("looked", looked_);
   archive.value("balance", balance_);
-  archive.value("kinetic", kinetic_);
-  archive.value("elastic", elastic_);
+  archive.value("own", own_);
   archive.value("potential", potential_);
   archive.value("work", work_);
   archive.value("given", given_);

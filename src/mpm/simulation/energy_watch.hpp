@@ -27,14 +27,13 @@ class EnergyWatch {
   void serialise(StateArchive& archive);
 
  private:
-  static constexpr std::uint64_t kStepsBetween = 200;  ///< a look costs a sixth of a step
+  static constexpr std::uint64_t kStepsBetween = 200;  ///< a look costs a tenth of a step
 
   bool begun_ = false;
-  std::uint64_t looked_ = 0;              ///< steps at the last look
-  double balance_ = 0.0;                  ///< at the start [J]
-  double kinetic_ = 0.0, elastic_ = 0.0;  ///< at the start [J]
-  double potential_ = 0.0, work_ = 0.0;   ///< at the start [J]
-  double given_ = 0.0;                    ///< the most that the run has had so far [J]
+  std::uint64_t looked_ = 0;                             ///< steps at the last look
+  double balance_ = 0.0, potential_ = 0.0, work_ = 0.0;  ///< at the start [J]
+  double own_ = 0.0;                                     ///< at the start, of motion and strain [J]
+  double given_ = 0.0;                                   ///< the most that the run has had so far [J]
 };
 
 }  // namespace mpm

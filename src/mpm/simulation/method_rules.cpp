@@ -142,6 +142,11 @@ Fault damping_fault(const MethodDefinition& method) {
 
 }  // namespace
 
+double stable_cfl(const Transfer& transfer) {
+  if (transfer.kind == TransferKind::apic) return 0.7;
+  return transfer.kind == TransferKind::fmpm && transfer.order >= 5 ? 0.9 : 1.0;
+}
+
 bool averages_stress(const MethodDefinition& method, GeometryKind geometry) {
   return method.average_stress.value_or(may_lock(geometry) && !method.average_dilatation);
 }

@@ -107,11 +107,11 @@ std::string pace_warning(const ExpectedPace& pace) {
                      expected_text(pace), mpm::pace::plan_text(pace.plan));
 }
 
-void keep_reached_pace(const mpm::Scene& scene, int threads_asked, const mpm::Simulation& simulation, double least) {
+void keep_reached_pace(const mpm::Scene& scene, int threads_asked, const mpm::Simulation& simulation) {
+  const mpm::pace::KeptCosts costs(mpm::pace::kept_costs_path());
+  if (costs.path().empty() || simulation.time() == 0) return;
   const mpm::SolverState state = simulation.state();
   const double simulated = 1e-9 * static_cast<double>(state.time), steps = static_cast<double>(state.step.steps);
-  if (!(state.wall_seconds >= least) || !(simulated > 0.0)) return;
-  const mpm::pace::KeptCosts costs(mpm::pace::kept_costs_path());
   const std::string key = mpm::pace::cost_key(scene.text, mpm::choose_isa(simulation.isa()), threads_asked);
   const std::int64_t now = mpm::pace::wall_time();
   if (const auto kept = costs.find(key, now); kept && kept->cost.steps > state.step.steps) return;

@@ -12,6 +12,11 @@
 #include "mpm_ros/run/output_names.hpp"
 
 namespace mpm_ros {
+namespace {
+
+constexpr double kWorthKeeping = 1.0;  ///< [s] of a run: the cost of its steps serves forecasts
+
+}  // namespace
 
 Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamps, MessageSink* live) try
     : scene_(scene),
@@ -166,7 +171,8 @@ void Run::close(const std::string& failure) {
   // Between two sync points there is no state that could be written.
   if (!cut_short_) outputs_.finish(real_time_factor(), failure);
   if (recorder_) recorder_->close();
-  if (!resumed_ && !cut_short_ && failure.empty()) keep_reached_pace(scene_, threads_asked_, simulation_);
+  const bool whole = !resumed_ && !cut_short_ && failure.empty();
+  if (whole && wall_seconds() >= kWorthKeeping) keep_reached_pace(scene_, threads_asked_, simulation_);
 }
 
 }  // namespace mpm_ros

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <optional>
 
+#include "mpm/math/byte_hash.hpp"
 #include "mpm/rigid/surface.hpp"
 
 namespace mpm_ros {
@@ -32,16 +33,13 @@ std::optional<fs::path> file_of(const std::string& text, const std::string& scen
 }
 
 std::string hash_of(const fs::path& path) {
-  std::uint64_t hash = 14695981039346656037ULL;
+  mpm::ByteHash hash;
   std::ifstream file(path, std::ios::binary);
   std::array<char, 65536> bytes;
   while (file.read(bytes.data(), bytes.size()), file.gcount() > 0) {
-    for (std::streamsize i = 0; i < file.gcount(); ++i) {
-      hash ^= static_cast<unsigned char>(bytes[static_cast<std::size_t>(i)]);
-      hash *= 1099511628211ULL;
-    }
+    hash.add(bytes.data(), static_cast<std::size_t>(file.gcount()));
   }
-  return fmt::format("{:016x}", hash);
+  return fmt::format("{:016x}", hash.value());
 }
 
 void find_files(const YAML::Node& node, const std::string& scene_path, std::vector<SceneFile>& files) {

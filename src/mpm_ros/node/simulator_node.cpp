@@ -160,7 +160,7 @@ void SimulatorNode::tell_start(const std::optional<ExpectedPace>& expected) cons
   if (const std::string warning = expected && paced ? pace_warning(*expected) : ""; !warning.empty()) {
     ROS_WARN_STREAM(warning);
   } else if (expected && paced) {
-    ROS_INFO_STREAM(fmt::format("the pace asked for can be kept: {:.2g} of real time would be reached at most; {}",
+    ROS_INFO_STREAM(fmt::format("up to {:.2g} of real time expected, so the pace asked for can be kept; {}",
                                 expected->forecast.real_time_factor(), expected->origin));
   } else if (expected) {
     ROS_INFO_STREAM(expected_text(*expected));

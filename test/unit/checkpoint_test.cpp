@@ -69,6 +69,20 @@ boundaries: {z_min: {friction: 0.2}}
 /// A change of kPlane: another law for its rubber.
 std::string law(const std::string& text) { return "materials.rubber=" + text; }
 
+// Most of the bed is asleep; the rod, which comes down at its left end, wakes some of it.
+const char* const kAsleep = R"yaml(
+geometry: plane_strain
+grid: {cell: 0.05, min: [0, 0], max: [2.4, 1]}
+time: {end: 1, sync: 5 ms, cfl: 0.4}
+gravity: [0, -9.81]
+materials: [{name: sand, density: 1600, law: drucker_prager, young: 500 kPa, poisson: 0.3, friction_angle: 30 deg}]
+bodies: [{name: bed, material: sand, shape: {box: {min: [0, 0], max: [2.4, 0.4]}}, initial: geostatic}]
+rigid_bodies:
+  - {name: rod, shape: {sphere: {radius: 0.2}}, pose: {position: [0.3, 0.62]}, motion: {velocity: [0.5, -1.5]}}
+boundaries: {x_min: slip, x_max: slip, z_min: slip}
+sleep: {speed: 20 mm/s, from_start: true, after: 10 ms}
+)yaml";
+
 std::vector<Case> cases() {
   std::vector<Case> list;
   const auto add = [&](const char* scene, const std::string& name, std::vector<std::string> changes) {
@@ -152,6 +166,10 @@ std::vector<Case> cases() {
   add(kRings, "rings_massless_nodes", {"method.shape=qcpdi"});
   add(kLine, "line", {"method.transfer=apic"});
   add(kSolid, "solid", {});
+  // Sleep.
+  add(kAsleep, "asleep", {});
+  add(kAsleep, "asleep_damped_xpic", {"sleep.damping=0.3", "method.transfer={xpic: 2}", "method.update=usl"});
+  add(kAsleep, "asleep_single_apic", {"method.precision=single", "method.transfer=apic"});
   add(kSolid, "solid_single_cpdi", {"method.shape=cpdi", "method.precision=single"});
   return list;
 }

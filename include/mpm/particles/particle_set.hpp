@@ -29,8 +29,11 @@ struct ParticleSet {
   std::array<double, 3> lowest{}, highest{};             ///< bounds of particle centres along each grid axis [cells]
   bool whole_domains = false, planar_functions = false;  ///< in axisymmetry: AxisRules (shape/axis_rules.hpp)
   std::uint32_t first_id = 0;                            ///< the smallest id
-  int field = 0;                                         ///< velocity field of its particles
-  int far_field = 0;                                     ///< of those on side 1, where a thin tool divides the body
+  /// So many particles, the last ones, take no part in steps: they are at rest, in no block and no group, and every
+  /// array keeps them as they are (sleep/sleeping_particles.hpp).
+  int asleep = 0;
+  int field = 0;      ///< velocity field of its particles
+  int far_field = 0;  ///< of those on side 1, where a thin tool divides the body
 
   Precision precision = Precision::float64;  ///< of velocity, deformation, stress and history
 
@@ -48,14 +51,15 @@ struct ParticleSet {
   std::vector<NamedScalar> brought;          ///< by physics beside the mechanics
   PaddedArray<std::uint8_t> side;            ///< of a divided body: the side of a thin tool, 0 or 1
 
-  /// First particle of each owner block (the owners of all fields, field by field), and one past the last particle.
+  /// First particle of each owner block (the owners of all fields, field by field), and one past the last one awake.
   std::vector<std::uint32_t> begin;
-  /// First particle of each group (particles computed together, step/sorter.hpp), and one past the last particle.
+  /// First particle of each group (particles computed together, step/sorter.hpp), and one past the last one awake.
   std::vector<std::uint32_t> group;
   /// First group of each owner block, and one past the last group.
   std::vector<std::uint32_t> group_begin;
 
   int size() const { return static_cast<int>(id.size()); }
+  int awake() const { return size() - asleep; }
   int field_of(int p) const { return side.empty() || side[p] == 0 ? field : far_field; }
   double mass_of(int p) const { return masses.empty() ? mass : masses[0][p]; }
   double total_mass() const {

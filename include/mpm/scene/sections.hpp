@@ -60,6 +60,8 @@ void read_boundaries(const Map& root, Scene& scene);
 void read_loads(const Map& root, Scene& scene);
 /// `time` and `output`, because sync points and snapshots are chosen together
 void read_time_and_output(const Map& root, Scene& scene);
+/// `sleep`, after bodies, rigid bodies, loads and time
+void read_sleep(const Map& root, Scene& scene);
 /// `metrics`, after bodies
 void read_metrics(const Map& root, Scene& scene);
 

@@ -22,6 +22,7 @@
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/shape/axis_rules.hpp"
 #include "mpm/shape/kind.hpp"
+#include "mpm/sleep/sleep_definition.hpp"
 #include "mpm/step/damping.hpp"
 #include "mpm/step/schedule.hpp"
 #include "mpm/step/transfer.hpp"
@@ -160,6 +161,7 @@ struct SimulationDefinition {
   std::vector<BodyForceDefinition> body_forces;
   std::vector<ParticleForceDefinition> particle_forces;
   std::vector<TractionDefinition> tractions;
+  std::optional<SleepDefinition> sleep;
   std::vector<MetricDefinition> metrics;
 
   /// Size of a particle across the grid's axes: thickness [m] in a plane, area [m^2] in a line, 1 in a solid.

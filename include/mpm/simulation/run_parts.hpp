@@ -12,6 +12,7 @@
 #include "mpm/material/law.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/simulation/definition.hpp"
+#include "mpm/step/block_probe.hpp"
 #include "mpm/step/modules.hpp"
 #include "mpm/step/scalar_transfer.hpp"
 #include "mpm/step/volume_survey.hpp"
@@ -49,6 +50,8 @@ struct RunParts {
   /// Makes an object that transfers a module's numbers between particles and nodes, by this shape function and in the
   /// run's precision.
   std::unique_ptr<ScalarTransfer> make_transfer(ShapeKind shape);
+  /// Makes an object that asks what one block gives to the grid, in the run's method and precision.
+  std::unique_ptr<BlockProbe> make_probe();
   /// Adds one stage for each field: make() returns a new one.
   template <class Make>
   void add_in_fields(Make&& make) {

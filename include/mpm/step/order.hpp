@@ -44,7 +44,8 @@ enum class Rank {
   load,             ///< computes its work with the velocity that all conditions have left
   traction,         ///< the same
   massless_node,    ///< books the force on nodes without mass, so it acts after all forces have been added
-  side_again        ///< shares between both sides what acted on one of them
+  side_again,       ///< shares between both sides what acted on one of them
+  asleep            ///< holds nodes of material asleep against all else, and reads the sum of all forces
 };
 
 /// Whether a stage of this rank is contact, after which others have to hold their nodes again.

@@ -1,5 +1,5 @@
-// Sorts every set of particles by velocity field, in a field by grid block, and inside a block by nearest node, and
-// tells each field which blocks are in use. Done when a particle has left the reach of its block or too many have left
+// Sorts the particles of every set that are awake by velocity field, in a field by grid block, and inside a block by
+// nearest node, and tells each field which blocks are in use. Done when a particle has left the reach of its block or too many have left
 // their group, not every step: the tile of a block reaches two nodes beyond it, one more than a sorted particle needs.
 //
 // A stable sort has one result, so it does not depend on the number of threads. It counts in two levels: particles by
@@ -60,7 +60,7 @@ class Sorter {
     std::vector<std::uint32_t> order;
   };
 
-  /// Writes the codes. Returns the first particle outside the range of its set, or the size of the set.
+  /// Writes the codes. Returns the first particle outside the range of its set, or how many are awake.
   template <int Dim>
   int find_blocks(const ParticleSet& set, const GridLayout& layout, Scratch& scratch);
   void collect_owners();

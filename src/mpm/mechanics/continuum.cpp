@@ -147,7 +147,7 @@ class Continuum final : public Mechanics {
   std::optional<ParticleRef> failed() const override { return failed_; }
   FastestParticle fastest(int set, double cell) const override {
     const mpm_kernel::SetView<T> view = view_of<T>(sets_[set], laws_[set], kernels_);
-    const int count = sets_[set].size(), groups = (count + kSurveyed - 1) / kSurveyed;
+    const int count = sets_[set].awake(), groups = (count + kSurveyed - 1) / kSurveyed;
     std::vector<mpm_kernel::Fastest> of_group(groups);
 #pragma omp parallel for schedule(static) num_threads(settings_.threads)
     for (int g = 0; g < groups; ++g) {

@@ -93,7 +93,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   const Value top(context, source.root(), "");
   const Map root(top,
                  {"name", "units", "geometry", "thickness", "area", "grid", "time", "method", "gravity", "materials",
-                  "bodies", "rigid_bodies", "contact", "boundaries", "loads", "output", "metrics"},
+                  "bodies", "rigid_bodies", "contact", "boundaries", "loads", "sleep", "output", "metrics"},
                  later_sections());
   Scene scene;
   scene.path = label;
@@ -127,6 +127,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_boundaries(root, scene);
   read_loads(root, scene);
   read_time_and_output(root, scene);
+  read_sleep(root, scene);
   read_metrics(root, scene);
   if (const auto fault = axis_fault(definition)) root.at(fault->key).fail(fault->text);
   if (asked) choose_method(*asked, load_method_costs(), scene);

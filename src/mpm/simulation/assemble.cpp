@@ -11,6 +11,7 @@
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/mechanics/block_probe.hpp"
 #include "mpm/mechanics/nodal_volumes.hpp"
 #include "mpm/mechanics/scalar_transfers.hpp"
 #include "mpm/shape/ring.hpp"
@@ -233,6 +234,13 @@ std::string step_warning(const SimulationDefinition& definition) {
 std::unique_ptr<ScalarTransfer> RunParts::make_transfer(ShapeKind shape) {
   return with_precision(definition.method.precision, [&](auto zero) {
     return make_scalar_transfer(kernel_table<decltype(zero)>(shape, definition.geometry, isa), fields, sets, threads);
+  });
+}
+
+std::unique_ptr<BlockProbe> RunParts::make_probe() {
+  const MethodDefinition& method = definition.method;
+  return with_precision(method.precision, [&](auto zero) {
+    return make_block_probe(kernel_table<decltype(zero)>(method.shape, definition.geometry, isa), fields, sets, laws);
   });
 }
 

@@ -4,10 +4,22 @@ namespace mpm {
 
 const std::vector<ShippedModules>& shipped_modules() {
   static const std::vector<ShippedModules> kList = {
-      {add_stress_average}, {add_periodic},   {add_leaving},    {add_axis},  {add_damping, {{"alpha", "1/s"}}},
-      {add_rigid_motion},   {add_tool_sides},  // before contact, which asks it
-      {add_absorbing},      {add_walls},      {add_conditions}, {add_pairs}, {add_rigid_contact},
-      {add_particle_loads}, {add_tractions},  {add_step_limit},
+      {add_stress_average},
+      {add_periodic},
+      {add_leaving},
+      {add_axis},
+      {add_damping, {{"alpha", "1/s"}}},
+      {add_rigid_motion},
+      {add_tool_sides},  // before contact, which asks it
+      {add_absorbing},
+      {add_walls},
+      {add_conditions},
+      {add_pairs},
+      {add_rigid_contact},
+      {add_particle_loads},
+      {add_tractions},
+      {add_sleep, {{"asleep", "1"}}},
+      {add_step_limit},
   };
   return kList;
 }

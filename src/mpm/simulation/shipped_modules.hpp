@@ -32,6 +32,7 @@ void add_pairs(RunParts& parts);
 void add_rigid_contact(RunParts& parts);
 void add_particle_loads(RunParts& parts);
 void add_tractions(RunParts& parts);
+void add_sleep(RunParts& parts);
 void add_step_limit(RunParts& parts);
 
 }  // namespace mpm

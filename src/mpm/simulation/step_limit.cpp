@@ -42,6 +42,7 @@ StepLimit Simulation::State::survey_material() const {
   const double cell = layout().smallest_cell();
   StepLimit limit;
   for (std::size_t s = 0; s < sets.size(); ++s) {
+    if (sets[s].awake() == 0) continue;
     const FastestParticle found = mechanics->fastest(static_cast<int>(s), cell);
     StepLimit material;
     material.dt = definition.time.cfl / found.rate;
@@ -58,7 +59,8 @@ StepLimit Simulation::State::step_limit(const StepLimit& before, const StepLimit
   const PeriodAhead period{1e-9 * static_cast<double>(time), 1e-9 * static_cast<double>(definition.time.sync),
                            definition.time.cfl, layout().smallest_cell()};
   StepLimit limit = now;
-  const double trend = std::clamp(now.dt / before.dt, kMostForeseen, 1.0);
+  const bool known = now.by != nullptr && before.by != nullptr;  // some material is awake
+  const double trend = known ? std::clamp(now.dt / before.dt, kMostForeseen, 1.0) : 1.0;
   limit.dt *= trend;
   limit.foreseen = trend < kWorthTelling;
   for (const Module* module : modules.list()) module->limit_step(period, limit);

@@ -27,7 +27,7 @@ Sorter::Sorter(int threads, Grouping grouping) : threads_(threads), grouping_(gr
 
 template <int Dim>
 int Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout, Scratch& scratch) {
-  const std::size_t n = set.id.size();
+  const auto n = static_cast<std::size_t>(set.awake());
   scratch.code.resize(n);
   struct Axis {
     const double* x;
@@ -43,7 +43,7 @@ int Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout, Scratc
     for (std::uint64_t& key : corner) key += axes[k].stride;
   }
   const std::uint8_t* side = set.side.empty() ? nullptr : set.side.data();
-  int outside = set.size();
+  int outside = set.awake();
 #pragma omp parallel for schedule(static) num_threads(threads_) reduction(min : outside)
   for (int t = 0; t < threads_; ++t) {
     RecentBlocks recent;
@@ -83,7 +83,7 @@ void Sorter::collect_owners() {
 }
 
 void Sorter::sort_by_block(ParticleSet& set, Scratch& scratch) {
-  const std::size_t n = set.id.size(), owners = owner_keys_.size();
+  const std::size_t n = static_cast<std::size_t>(set.awake()), owners = owner_keys_.size();
   const std::uint64_t node_mask = (std::uint64_t{1} << node_bits_) - 1;
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (int t = 0; t < threads_; ++t) {
@@ -192,11 +192,12 @@ void Sorter::fill_groups(ParticleSet& set, const Scratch& scratch) const {
       last = place;
     }
   }
-  set.group.back() = static_cast<std::uint32_t>(set.size());
+  set.group.back() = static_cast<std::uint32_t>(set.awake());
 }
 
 void Sorter::permute(ParticleSet& set, Scratch& scratch) const {
-  const int n = set.size();
+  const int n = set.awake();
+  const bool all = set.asleep == 0;  // then arrays change places; else what is asleep stays where it is
   const std::uint32_t* order = scratch.order.data();
   const auto reorder = [&](auto& values, auto& other) {
     other.resize(n);
@@ -204,7 +205,11 @@ void Sorter::permute(ParticleSet& set, Scratch& scratch) const {
     auto* to = other.data();
 #pragma omp parallel for schedule(static) num_threads(threads_)
     for (int i = 0; i < n; ++i) to[i] = from[order[i]];
-    values.swap(other);
+    if (all) {
+      values.swap(other);
+    } else {
+      std::copy_n(to, n, values.data());
+    }
   };
   set.each_scalar([&](auto& values) {
     if constexpr (std::is_same_v<std::decay_t<decltype(values[0])>, double>) {
@@ -243,7 +248,7 @@ std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Fields& 
     const int outside = dim == 3   ? find_blocks<3>(sets[s], layout, scratch_[s])
                         : dim == 2 ? find_blocks<2>(sets[s], layout, scratch_[s])
                                    : find_blocks<1>(sets[s], layout, scratch_[s]);
-    if (outside < sets[s].size()) return ParticleRef{static_cast<int>(s), outside};
+    if (outside < sets[s].awake()) return ParticleRef{static_cast<int>(s), outside};
   }
   collect_owners();
   for (std::size_t s = 0; s < sets.size(); ++s) {

@@ -1,0 +1,58 @@
+// Which blocks are at rest: watched over a time in two halves. In each half no particle may exceed the speed, and the
+// block's mean velocity over that half may not exceed a tenth of it. So what swings fast may do so a little, as
+// material in which waves run out does; what creeps, or begins to slide, has a mean velocity, and is not at rest. A
+// block that turns, as a pendulum at the end of its way, has one in both halves, of opposite signs.
+//
+// Motion slower than a tenth of the speed is not seen: a creep of so much is lost while a block is asleep.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mpm/grid/fields.hpp"
+#include "mpm/math/state_archive.hpp"
+#include "mpm/particles/particle_set.hpp"
+
+namespace mpm {
+
+/// Of one owner block.
+struct RestWatchEntry {
+  int field = 0;
+  std::uint64_t key = 0;
+  double begun = 0.0;         ///< time at which this half began [s]
+  double fastest = 0.0;       ///< highest speed seen in this half [m/s]
+  double last = 0.0;          ///< the same at the last look
+  Vec3 mean = Vec3::Zero();   ///< sum of the mean velocities at each look [m/s]
+  std::uint32_t looks = 0;    ///< in this half
+  bool half_at_rest = false;  ///< the half before was at rest
+};
+
+class RestWatch {
+ public:
+  static constexpr double kMean = 0.1;  ///< of the speed, that the mean velocity may reach
+
+  /// `speed` [m/s] and `time` [s], that of both halves.
+  RestWatch(double speed, double time) : speed_(speed), half_(0.5 * time) {}
+
+  /// To be called when particles were sorted: blocks that there were are watched on, others from `now` [s] on.
+  void follow(const Fields& fields, double now);
+  /// Looks at all particles. Afterwards at_rest() tells of each owner.
+  void look(const Fields& fields, const std::vector<ParticleSet>& sets, double now, int threads);
+  /// Of owners by number, through all fields: whether they have been at rest for the time, and are since.
+  bool at_rest(int owner) const { return at_rest_[owner] != 0; }
+  const RestWatchEntry& entry(int owner) const { return entries_[owner]; }
+  int owners() const { return static_cast<int>(entries_.size()); }
+  /// Begins again with all blocks, as if they had been at rest for the whole time.
+  void trust_all();
+
+  void serialise(StateArchive& archive);
+
+ private:
+  void look_at(RestWatchEntry& entry, int owner, const std::vector<ParticleSet>& sets, double now);
+
+  double speed_, half_;
+  std::vector<RestWatchEntry> entries_, before_;  ///< of each owner, in their order: ascending by field and key
+  std::vector<std::uint8_t> at_rest_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,115 @@
+// Sleep: blocks of material at rest are not stepped, and wake when a tool, a wave or a load arrives, so that a step
+// costs what moves and not what is there.
+//
+// A block falls asleep when it has been at rest for a time (rest_watch.hpp), away from tools and from other bodies'
+// velocity fields. Its motion is taken, its stress stays. The nodes that it shares with what is awake are held
+// (sleep_border.hpp): the impulse of holding them, the weight of what is asleep, which nothing in a step carries any
+// more, and the momentum that was taken make the account "sleep" of the audit, and the kinetic energies that were taken
+// the energy "sleep". A block wakes when forces at its border lose their balance, when material comes in there, when a
+// tool comes as near as four cells, or when another body's material comes as near as a block.
+//
+// Damping eases the way to rest: at nodes slower than four times the speed a part of the force without balance is taken
+// that would drive the node on, and added where it would slow it. It is off unless the scene asks for it.
+//
+// Weak: a wave too weak to wake a block is thrown back at its border as by a wall. Friction at the domain's faces
+// under a block that is asleep is not found, so their force is that of what is awake. What creeps slower than a tenth
+// of the speed is frozen.
+// Source of the damping: P. A. Cundall (1987), Distinct element models of rock and soil structure, in Analytical and
+// Computational Methods in Engineering Rock Mechanics, Allen & Unwin, 129-163.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mpm/rigid/rigid_body.hpp"
+#include "mpm/sleep/rest_watch.hpp"
+#include "mpm/sleep/sleep_border.hpp"
+#include "mpm/sleep/sleep_definition.hpp"
+#include "mpm/sleep/sleeping_blocks.hpp"
+#include "mpm/step/chunk_sums.hpp"
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+/// What a run hands to Sleep; the references outlive it.
+struct SleepParts {
+  Fields& fields;
+  std::vector<ParticleSet>& sets;
+  const std::vector<RigidBody>& bodies;
+  std::unique_ptr<BlockProbe> probe;
+  Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
+  int threads = 1;
+};
+
+class Sleep final : public Stage {
+ public:
+  Sleep(const SleepDefinition& definition, SleepParts parts);
+
+  std::string name() const override { return "sleep"; }
+  Ranks ranks(Hook) const override { return {Rank::asleep}; }
+  void momentum_gathered(StepContext& context) override;
+  void before_strain(StepContext& context) override;
+  void forces_gathered(StepContext& context) override;
+  void momentum_updated(StepContext& context) override;
+  void velocity_found(StepContext& context) override;
+  void increment_found(StepContext& context) override;
+  void grid_advanced(StepContext& context) override;
+
+  /// Who is to wake, wakes at once; who may fall asleep waits for a sort that others ask for, though not for long.
+  bool needs_sort() const override {
+    return !to_wake_.empty() || (!sleepers_.empty() && looks_waited_ >= kLooksToWait);
+  }
+  void before_sort() override;
+
+  void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
+  void energies(EnergyReport& report) const override;
+  void numbers(std::vector<NamedNumber>& list) const override;
+  void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
+  std::string limit_text(const StepLimit& limit) const override;
+  void serialise(StateArchive& archive) override;
+
+ private:
+  static constexpr std::uint32_t kLooksToWait = 4;
+
+  struct Taken {
+    Vec3 impulse = Vec3::Zero();
+    double energy = 0.0;
+    Taken& operator+=(const Taken& other) {
+      impulse += other.impulse;
+      energy += other.energy;
+      return *this;
+    }
+  };
+
+  void look(const StepContext& context);
+  /// Whether a tool is so near to a block that it has to be awake.
+  bool tool_near(const std::array<int, 3>& block) const;
+  /// Whether material of another velocity field is near to a block of one.
+  bool other_near(int field, std::uint64_t key) const;
+  void find_unrest(const Grid& grid, const SleepBorder& border);
+  Taken hold(Grid& grid, const SleepBorder& border, double dt);
+  Taken damp(Grid& grid, double dt);
+
+  SleepDefinition definition_;
+  SleepParts parts_;
+  const GridLayout& layout_;
+  SleepingBlocks asleep_;
+  RestWatch watch_;
+  std::vector<SleepBorder> borders_;  ///< of each field
+  std::uint64_t generation_ = 0;      ///< of the blocks that borders_ and watch_ were made for
+  std::uint32_t steps_ = 0;           ///< since the last look
+  std::uint32_t looks_waited_ = 0;    ///< by those who may fall asleep
+  bool begun_ = false;
+  std::vector<SleepingBlocks::Sleeper> sleepers_;  ///< who may fall asleep, without forces yet
+  std::vector<BlockName> to_wake_;                 ///< perhaps more than once
+  std::vector<double> unrest_;                     ///< of the nodes of a border [m/s]
+  ChunkSums<Taken> sums_;
+  ImpulseAccount account_;
+  Vec3 given_ = Vec3::Zero();  ///< in this step [N s]
+  double energy_ = 0.0;        ///< taken since the start by falling asleep and holding [J]
+  double damped_ = 0.0;        ///< the same by damping [J]
+};
+
+}  // namespace mpm

@@ -1,0 +1,99 @@
+// The blocks of material that are asleep, and their particles: the last ones of each set (ParticleSet::asleep), which
+// steps do not touch and reports read as ever. A block that falls asleep or wakes changes places with others, particle
+// by particle, so that this costs as much as the block has particles, however much is asleep.
+//
+// A block remembers what it gave to the grid when it fell asleep: it goes on holding its neighbours by that force.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "mpm/grid/grid_layout.hpp"
+#include "mpm/math/geometry.hpp"
+#include "mpm/math/state_archive.hpp"
+#include "mpm/particles/particle_set.hpp"
+#include "mpm/step/block_probe.hpp"
+
+namespace mpm {
+
+/// A block of a velocity field.
+struct BlockName {
+  int field = 0;
+  std::uint64_t key = 0;
+  bool operator<(const BlockName& other) const { return field != other.field ? field < other.field : key < other.key; }
+  bool operator==(const BlockName& other) const { return field == other.field && key == other.key; }
+};
+
+struct SleepingBlock {
+  BlockName name;
+  double rate = 0.0;                                  ///< by which the fastest wave would cross a cell [1/s]
+  double mass = 0.0;                                  ///< of its particles [kg]
+  BlockForces forces;                                 ///< on the nodes of its tile
+  std::vector<std::vector<std::uint32_t>> particles;  ///< of each set, their places
+};
+
+/// What was taken from particles when they fell asleep.
+struct TakenMotion {
+  Vec3 momentum = Vec3::Zero();  ///< [N s]
+  double energy = 0.0;           ///< kinetic [J]
+};
+
+class SleepingBlocks {
+ public:
+  /// `sets` outlive it.
+  SleepingBlocks(std::vector<ParticleSet>& sets, const GridLayout& layout) : sets_(sets), layout_(layout) {}
+
+  /// A block that is to fall asleep: all particles of an owner (numbered through all fields).
+  struct Sleeper {
+    BlockName name;
+    int owner = 0;
+    double rate = 0.0;
+    std::unique_ptr<BlockForces> forces;
+  };
+  /// Puts them to sleep, in ascending order of owners; particles have to be sorted. After it they are not any more.
+  TakenMotion put_to_sleep(const std::vector<Sleeper>& sleepers);
+  /// Wakes the block of this name, if it is asleep. Particles have to be sorted after it.
+  void wake(const BlockName& name);
+
+  const SleepingBlock* find(const BlockName& name) const {
+    const auto found = by_name_.find(name);
+    return found == by_name_.end() ? nullptr : found->second.get();
+  }
+  /// In ascending order of names.
+  const std::map<BlockName, std::unique_ptr<SleepingBlock>>& all() const { return by_name_; }
+  std::size_t particles() const;
+  double mass() const { return mass_; }  ///< [kg]
+  /// The largest rate of any block that is asleep, or has been since none was [1/s].
+  double rate() const { return rate_; }
+
+  void serialise(StateArchive& archive);
+
+ private:
+  /// Whose a particle asleep is, and where it stands in the block's list.
+  struct Owned {
+    SleepingBlock* block = nullptr;
+    std::uint32_t rank = 0;
+  };
+
+  void exchange(ParticleSet& set, std::uint32_t p, std::uint32_t q);
+  /// Both arrays of positions have what is asleep, since steps swap them.
+  void settle_place(ParticleSet& set, std::uint32_t p);
+  TakenMotion stop(ParticleSet& set, std::uint32_t p);
+  void note(std::size_t s, std::uint32_t p, SleepingBlock* block);
+  void put_set(std::size_t s, const std::vector<Sleeper>& sleepers, const std::vector<SleepingBlock*>& blocks,
+               TakenMotion& taken);
+  void wake_set(std::size_t s, SleepingBlock& block);
+
+  std::vector<ParticleSet>& sets_;
+  const GridLayout& layout_;
+  std::map<BlockName, std::unique_ptr<SleepingBlock>> by_name_;
+  std::vector<std::vector<Owned>> owned_;  ///< of each set, by place
+  std::vector<std::uint32_t> moving_, free_;
+  double mass_ = 0.0, rate_ = 0.0;
+};
+
+}  // namespace mpm

@@ -1,0 +1,14 @@
+// Sleep of a definition as a module.
+#include "mpm/sleep/sleep.hpp"
+#include "shipped_modules.hpp"
+
+namespace mpm {
+
+void add_sleep(RunParts& parts) {
+  if (!parts.definition.sleep) return;
+  SleepParts needed{parts.fields, parts.sets, parts.bodies, parts.make_probe(), parts.definition.gravity,
+                    parts.threads};
+  parts.modules.add(std::make_unique<Sleep>(*parts.definition.sleep, std::move(needed)));
+}
+
+}  // namespace mpm

@@ -1,0 +1,90 @@
+#include "mpm/sleep/rest_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace mpm {
+
+void RestWatch::follow(const Fields& fields, double now) {
+  before_.swap(entries_);
+  entries_.clear();
+  auto old = before_.begin();
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    const BlockTable& blocks = fields[f]->blocks;
+    for (int owner = 0; owner < blocks.owners(); ++owner) {
+      RestWatchEntry entry;
+      entry.field = static_cast<int>(f);
+      entry.key = blocks.key(blocks.owner_block(owner));
+      entry.begun = now;
+      const auto is_before = [&](const RestWatchEntry& one) {
+        return std::tie(one.field, one.key) < std::tie(entry.field, entry.key);
+      };
+      while (old != before_.end() && is_before(*old)) ++old;
+      const bool known = old != before_.end() && old->field == entry.field && old->key == entry.key;
+      entries_.push_back(known ? *old : entry);
+    }
+  }
+  at_rest_.assign(entries_.size(), 0);
+}
+
+void RestWatch::look_at(RestWatchEntry& entry, int owner, const std::vector<ParticleSet>& sets, double now) {
+  double fastest = 0.0, mass = 0.0;
+  std::array<double, 3> momentum{};
+  for (const ParticleSet& set : sets) {
+    for (std::uint32_t p = set.begin[owner]; p < set.begin[owner + 1]; ++p) {
+      const double m = set.mass_of(static_cast<int>(p));
+      double squared = 0.0;
+      for (std::size_t k = 0; k < set.v.size(); ++k) {
+        const double v = set.v[k][p];
+        squared += v * v;
+        momentum[k] += m * v;
+      }
+      mass += m;
+      fastest = std::max(fastest, squared);
+    }
+  }
+  entry.last = std::sqrt(fastest);
+  entry.fastest = std::max(entry.fastest, entry.last);
+  for (std::size_t k = 0; k < 3; ++k) entry.mean[static_cast<int>(k)] += momentum[k] / mass;
+  ++entry.looks;
+  at_rest_[owner] = at_rest_[owner] != 0 && entry.last < speed_;
+  if (now - entry.begun < half_) return;
+  const bool still = entry.fastest < speed_ && entry.mean.norm() < kMean * speed_ * entry.looks;
+  at_rest_[owner] = still && entry.half_at_rest;
+  entry.half_at_rest = still;
+  entry.begun = now;
+  entry.fastest = 0.0;
+  entry.mean.setZero();
+  entry.looks = 0;
+}
+
+void RestWatch::look(const Fields& fields, const std::vector<ParticleSet>& sets, double now, int threads) {
+  for (const auto& grid : fields) {
+    const int first = grid->first_owner, owners = grid->blocks.owners();
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int owner = first; owner < first + owners; ++owner) look_at(entries_[owner], owner, sets, now);
+  }
+}
+
+void RestWatch::trust_all() {
+  for (RestWatchEntry& entry : entries_) {
+    entry.half_at_rest = true;
+    entry.begun -= half_;
+  }
+}
+
+void RestWatch::serialise(StateArchive& archive) {
+  archive.rows("entries", entries_);
+  archive.column("field", entries_, &RestWatchEntry::field);
+  archive.column("key", entries_, &RestWatchEntry::key);
+  archive.column("begun", entries_, &RestWatchEntry::begun);
+  archive.column("fastest", entries_, &RestWatchEntry::fastest);
+  archive.column("last", entries_, &RestWatchEntry::last);
+  archive.column("mean", entries_, &RestWatchEntry::mean);
+  archive.column("looks", entries_, &RestWatchEntry::looks);
+  archive.column("half_at_rest", entries_, &RestWatchEntry::half_at_rest);
+  archive.list("at_rest", at_rest_);
+}
+
+}  // namespace mpm

@@ -1,0 +1,275 @@
+#include "mpm/sleep/sleep.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace mpm {
+namespace {
+
+constexpr std::uint32_t kStepsBetweenLooks = 8;
+constexpr double kNearTool = 4.0;   ///< cells: nearer to a tool nothing sleeps
+constexpr double kSlowNodes = 4.0;  ///< of the speed of sleep, below which nodes are damped
+
+}  // namespace
+
+Sleep::Sleep(const SleepDefinition& definition, SleepParts parts)
+    : definition_(definition),
+      parts_(std::move(parts)),
+      layout_(parts_.fields.front()->layout),
+      asleep_(parts_.sets, layout_),
+      watch_(definition.speed, definition.after),
+      borders_(parts_.fields.size()) {
+  account_.name = "sleep";
+}
+
+bool Sleep::tool_near(const std::array<int, 3>& block) const {
+  Box box{layout_.node_position(block, 0), layout_.node_position(block, layout_.nodes_per_block() - 1)};
+  const double margin = kNearTool * layout_.smallest_cell(), half = 0.5 * box.size().norm();
+  const Box grown = box.grown(margin);
+  for (const RigidBody& body : parts_.bodies) {
+    Box bounds = body.world_bounds();
+    for (int axis = 0; axis < 3; ++axis) {
+      bool present = false;
+      for (int k = 0; k < layout_.dim(); ++k) present = present || layout_.axis(k) == axis;
+      if (present) continue;
+      bounds.min[axis] = -std::numeric_limits<double>::infinity();
+      bounds.max[axis] = std::numeric_limits<double>::infinity();
+    }
+    SurfacePoint point;
+    if (bounds.intersects(grown) && body.surface().within(body.pose().to_body(box.center()), half + margin, point)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Sleep::other_near(int field, std::uint64_t key) const {
+  for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
+    if (static_cast<int>(f) != field && parts_.fields[f]->blocks.find(key) >= 0) return true;
+  }
+  return false;
+}
+
+void Sleep::look(const StepContext& context) {
+  for (const auto& [name, block] : asleep_.all()) {
+    if (tool_near(layout_.block(name.key)) || other_near(name.field, name.key)) to_wake_.push_back(name);
+  }
+  watch_.look(parts_.fields, parts_.sets, context.start, parts_.threads);
+  for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
+    const Grid& grid = *parts_.fields[f];
+    for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
+      if (!watch_.at_rest(grid.first_owner + owner)) continue;
+      const int block = grid.blocks.owner_block(owner);
+      const BlockName name{static_cast<int>(f), grid.blocks.key(block)};
+      if (tool_near(grid.blocks.block(block)) || other_near(name.field, name.key)) continue;
+      sleepers_.push_back({name, grid.first_owner + owner, 0.0, nullptr});
+    }
+  }
+}
+
+void Sleep::momentum_gathered(StepContext& context) {
+  const std::uint64_t generation = context.fields.front()->blocks.generation();
+  if (generation_ != generation || !begun_) {
+    generation_ = generation;
+    watch_.follow(context.fields, context.start);
+    for (std::size_t f = 0; f < borders_.size(); ++f) {
+      borders_[f].find(static_cast<int>(f), *context.fields[f], asleep_);
+    }
+  }
+  if (!begun_ && definition_.from_start) watch_.trust_all();
+  if (begun_ && ++steps_ < kStepsBetweenLooks) return;
+  if (begun_ && !sleepers_.empty()) ++looks_waited_;
+  begun_ = true;
+  steps_ = 0;
+  sleepers_.clear();
+  look(context);
+}
+
+void Sleep::before_strain(StepContext& context) {
+  for (std::size_t f = 0; f < borders_.size(); ++f) {
+    Grid& grid = *context.fields[f];
+    for (const SleepBorder::Node& node : borders_[f].nodes()) {
+      for (int k = 0; k < layout_.dim(); ++k) grid.velocity.at(node.ref.block, k, node.ref.node) = 0.0;
+    }
+  }
+}
+
+void Sleep::find_unrest(const Grid& grid, const SleepBorder& border) {
+  const std::vector<SleepBorder::Node>& nodes = border.nodes();
+  const int count = static_cast<int>(nodes.size());
+  unrest_.assign(nodes.size(), 0.0);
+#pragma omp parallel for schedule(static) num_threads(parts_.threads)
+  for (int i = 0; i < count; ++i) {
+    if (!grid.carries(nodes[i].ref.block, nodes[i].ref.node)) continue;
+    unrest_[i] = SleepBorder::unrest(nodes[i], grid, parts_.gravity);
+  }
+  for (int i = 0; i < count; ++i) {
+    if (!(unrest_[i] > definition_.wake)) continue;
+    for (int j = 0; j < nodes[i].count; ++j) to_wake_.push_back(border.sleeper(nodes[i], j).name);
+  }
+}
+
+void Sleep::forces_gathered(StepContext& context) {
+  for (std::size_t f = 0; f < borders_.size(); ++f) find_unrest(*context.fields[f], borders_[f]);
+}
+
+Sleep::Taken Sleep::hold(Grid& grid, const SleepBorder& border, double dt) {
+  const std::vector<SleepBorder::Node>& nodes = border.nodes();
+  return sums_.over(nodes.size(), parts_.threads, [&](std::size_t i, Taken& taken) {
+    const NodeRef ref = nodes[i].ref;
+    if (!grid.carries(ref.block, ref.node)) return;
+    const double mass = grid.mass.at(ref.block, 0, ref.node);
+    const Vec3 change = -nodal_vector(grid.velocity, layout_, ref);
+    add_nodal_vector(grid.velocity, layout_, ref, change);
+    add_nodal_vector(grid.force, layout_, ref, change / dt);
+    taken.impulse += mass * change;
+    taken.energy += nodal_vector(grid.momentum, layout_, ref).squaredNorm() / (2.0 * mass);
+  });
+}
+
+Sleep::Taken Sleep::damp(Grid& grid, double dt) {
+  const int nodes = layout_.nodes_per_block();
+  const double slow = kSlowNodes * definition_.speed;
+  return sums_.over(
+      static_cast<std::size_t>(grid.blocks.size()) * nodes, parts_.threads, [&](std::size_t i, Taken& taken) {
+        const NodeRef ref{static_cast<int>(i / nodes), static_cast<int>(i % nodes)};
+        if (!grid.carries(ref.block, ref.node)) return;
+        const Vec3 velocity = nodal_vector(grid.velocity, layout_, ref), rate = nodal_vector(grid.force, layout_, ref);
+        const double speed = velocity.norm();
+        if (!(speed < slow)) return;
+        const double part = definition_.damping * (1.0 - speed / slow) * dt;
+        Vec3 change = Vec3::Zero();
+        for (int axis = 0; axis < 3; ++axis) {
+          const double most = std::abs(velocity[axis]);
+          change[axis] = -std::copysign(std::min(part * std::abs(rate[axis]), most), velocity[axis]);
+        }
+        add_nodal_vector(grid.velocity, layout_, ref, change);
+        add_nodal_vector(grid.force, layout_, ref, change / dt);
+        const double mass = grid.mass.at(ref.block, 0, ref.node);
+        taken.impulse += mass * change;
+        taken.energy -= mass * change.dot(velocity + 0.5 * change);
+      });
+}
+
+void Sleep::momentum_updated(StepContext& context) {
+  for (std::size_t f = 0; f < borders_.size(); ++f) {
+    Grid& grid = *context.fields[f];
+    const Taken held = hold(grid, borders_[f], context.dt);
+    given_ += held.impulse;
+    energy_ += held.energy;
+    if (definition_.damping == 0.0) continue;
+    const Taken damped = damp(grid, context.dt);
+    given_ += damped.impulse;
+    damped_ += damped.energy;
+  }
+}
+
+void Sleep::velocity_found(StepContext& context) {
+  for (std::size_t f = 0; f < borders_.size(); ++f) {
+    NodalField& velocity = context.fields[f]->increment;
+    for (const SleepBorder::Node& node : borders_[f].nodes()) {
+      for (int k = 0; k < layout_.dim(); ++k) velocity.at(node.ref.block, k, node.ref.node) = 0.0;
+    }
+  }
+}
+
+void Sleep::increment_found(StepContext& context) {
+  for (std::size_t f = 0; f < borders_.size(); ++f) {
+    Grid& grid = *context.fields[f];
+    for (const SleepBorder::Node& node : borders_[f].nodes()) {
+      if (!grid.carries(node.ref.block, node.ref.node)) continue;
+      const Vec3 change = -nodal_vector(grid.increment, layout_, node.ref);
+      add_nodal_vector(grid.increment, layout_, node.ref, change);
+      given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
+    }
+  }
+}
+
+// Gravity is booked for all material; nothing in the step carries what is asleep.
+void Sleep::grid_advanced(StepContext& context) {
+  account_.add(given_ - asleep_.mass() * context.dt * parts_.gravity);
+  given_.setZero();
+}
+
+void Sleep::before_sort() {
+  if (sleepers_.empty() && to_wake_.empty()) return;
+  std::sort(to_wake_.begin(), to_wake_.end());
+  to_wake_.erase(std::unique(to_wake_.begin(), to_wake_.end()), to_wake_.end());
+  const auto wakes = [&](const SleepingBlocks::Sleeper& sleeper) {
+    return std::binary_search(to_wake_.begin(), to_wake_.end(), sleeper.name);
+  };
+  sleepers_.erase(std::remove_if(sleepers_.begin(), sleepers_.end(), wakes), sleepers_.end());
+  const double cell = layout_.smallest_cell();
+  for (SleepingBlocks::Sleeper& sleeper : sleepers_) {
+    const Grid& grid = *parts_.fields[sleeper.name.field];
+    sleeper.forces = std::make_unique<BlockForces>();
+    parts_.probe->find_forces(sleeper.name.field, sleeper.owner - grid.first_owner, *sleeper.forces);
+    for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+      const auto first = static_cast<int>(parts_.sets[s].begin[sleeper.owner]);
+      const auto last = static_cast<int>(parts_.sets[s].begin[sleeper.owner + 1]);
+      if (last > first) {
+        sleeper.rate = std::max(sleeper.rate, parts_.probe->fastest(static_cast<int>(s), first, last, cell));
+      }
+    }
+  }
+  if (!sleepers_.empty()) {
+    const TakenMotion taken = asleep_.put_to_sleep(sleepers_);
+    account_.add(-taken.momentum);
+    energy_ += taken.energy;
+  }
+  for (const BlockName& name : to_wake_) asleep_.wake(name);
+  sleepers_.clear();
+  to_wake_.clear();
+  looks_waited_ = 0;
+}
+
+void Sleep::energies(EnergyReport& report) const {
+  report.add("sleep", NamedEnergy::Kind::dissipated, energy_);
+  if (definition_.damping > 0.0) report.add("damping of slow material", NamedEnergy::Kind::dissipated, damped_);
+}
+
+void Sleep::numbers(std::vector<NamedNumber>& list) const {
+  list.push_back({"asleep", "1", static_cast<double>(asleep_.particles())});
+}
+
+void Sleep::limit_step(const PeriodAhead& period, StepLimit& limit) const {
+  if (asleep_.all().empty()) return;
+  StepLimit own;
+  own.by = this;
+  own.dt = period.cfl / asleep_.rate();
+  own.speed = asleep_.rate() * period.cell;
+  limit.tighten(own);
+}
+
+std::string Sleep::limit_text(const StepLimit& limit) const {
+  return fmt::format("wave speed of material asleep ({:.4g} m/s)", limit.speed);
+}
+
+void Sleep::serialise(StateArchive& archive) {
+  asleep_.serialise(archive);
+  {
+    const StateArchive::Group group(archive, "watch");
+    watch_.serialise(archive);
+  }
+  using Sleeper = SleepingBlocks::Sleeper;
+  archive.rows("sleepers", sleepers_);
+  archive.column("sleepers/field", sleepers_, [](Sleeper& sleeper) -> int& { return sleeper.name.field; });
+  archive.column("sleepers/key", sleepers_, [](Sleeper& sleeper) -> std::uint64_t& { return sleeper.name.key; });
+  archive.column("sleepers/owner", sleepers_, &Sleeper::owner);
+  archive.value("looks_waited", looks_waited_);
+  archive.value("steps", steps_);
+  archive.value("begun", begun_);
+  account_.serialise(archive);
+  archive.value("energy", energy_);
+  archive.value("damped", damped_);
+  archive.generation("sorts_since", generation_);
+  if (!archive.reading() || generation_ != parts_.fields.front()->blocks.generation()) return;
+  for (std::size_t f = 0; f < borders_.size(); ++f) {
+    borders_[f].find(static_cast<int>(f), *parts_.fields[f], asleep_);
+  }
+}
+
+}  // namespace mpm

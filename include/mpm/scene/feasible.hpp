@@ -15,6 +15,8 @@ struct WaveStep {
   std::string material;  ///< its name
 };
 WaveStep wave_step(const Scene& scene);
+/// Number of particles that a scene will have, about.
+double expected_particles(const Scene& scene);
 
 /// Refuses too many particles, before any is made. @throws SceneError with their number and memory
 void check_particles(const Scene& scene);

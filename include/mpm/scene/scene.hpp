@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mpm/math/error.hpp"
+#include "mpm/pace/target.hpp"
 #include "mpm/rigid/motion_limits.hpp"
 #include "mpm/simulation/definition.hpp"
 #include "mpm/simulation/global_quantity.hpp"
@@ -84,8 +85,9 @@ struct Scene {
   std::vector<LoadRegion> load_regions;      ///< one per entry of definition.particle_forces
   std::vector<LoadRegion> traction_regions;  ///< one per entry of definition.tractions
   OutputDefinition output;
-  std::string path;                                          ///< of the file
-  std::string text;                                          ///< as loaded, with overrides applied, for the record
+  std::optional<pace::Target> target;  ///< what its discretisation is to be chosen for (target_choice.hpp)
+  std::string path;                    ///< of the file
+  std::string text;                    ///< as loaded, with overrides applied, for the record
   std::vector<std::pair<std::string, std::string>> choices;  ///< key and reason of each choice made here, for --explain
 };
 

@@ -62,6 +62,8 @@ void read_loads(const Map& root, Scene& scene);
 void read_time_and_output(const Map& root, Scene& scene);
 /// `sleep`, after bodies, rigid bodies, loads and time
 void read_sleep(const Map& root, Scene& scene);
+/// `target`, after rigid bodies
+void read_target(const Map& root, Scene& scene);
 /// `metrics`, after bodies
 void read_metrics(const Map& root, Scene& scene);
 

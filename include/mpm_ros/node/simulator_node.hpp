@@ -59,6 +59,12 @@ class SimulatorNode {
     mpm::Scene scene;
     std::vector<std::string> set;
   };
+  /// The scene with `set` over what ~set says, with the choice that `recorded`, the text of a run, has for its target,
+  /// and else one that is made now, and told. @throws mpm::Error
+  static mpm::Scene load_aimed(const NodeParameters& parameters, const std::vector<std::string>& set,
+                               const std::string& recorded);
+  /// That of the present run, with what was chosen for its target in the checkpoint's. @throws mpm::Error
+  std::shared_ptr<const Subject> subject_of(const mpm::CheckpointAbout& about) const;
   /// The scene with `set` over what ~set says. @throws mpm::Error, ParameterError, also where it does not fit the node:
   /// its topics belong to its rigid bodies
   std::shared_ptr<const Subject> load_subject(const std::vector<std::string>& set) const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,7 @@ struct RunSummary {
   std::string text() const;
 
   std::string scene;
+  std::optional<mpm::pace::Target> target;  ///< with what was chosen for it
   mpm::SimulationDefinition definition;  ///< particle positions left out
   std::string isa;
   int threads = 0;

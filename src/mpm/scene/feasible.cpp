@@ -63,6 +63,12 @@ WaveStep wave_step(const Scene& scene) {
   return step;
 }
 
+double expected_particles(const Scene& scene) {
+  double total = 0.0;
+  for (const BodyDefinition& body : scene.bodies) total += particles_of(body, scene);
+  return total;
+}
+
 void check_particles(const Scene& scene) {
   const double memory = usable_memory(), bytes = least_bytes(scene);
   double total = 0.0;

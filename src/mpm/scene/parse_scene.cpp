@@ -93,7 +93,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   const Value top(context, source.root(), "");
   const Map root(top,
                  {"name", "units", "geometry", "thickness", "area", "grid", "time", "method", "gravity", "materials",
-                  "bodies", "rigid_bodies", "contact", "boundaries", "loads", "sleep", "output", "metrics"},
+                  "bodies", "rigid_bodies", "contact", "boundaries", "loads", "sleep", "output", "metrics", "target"},
                  later_sections());
   Scene scene;
   scene.path = label;
@@ -129,6 +129,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_time_and_output(root, scene);
   read_sleep(root, scene);
   read_metrics(root, scene);
+  read_target(root, scene);
   if (const auto fault = axis_fault(definition)) root.at(fault->key).fail(fault->text);
   if (asked) choose_method(*asked, load_method_costs(), scene);
   scene.text = asked ? with_method(source.root(), definition.method) : source.dump();

@@ -9,9 +9,11 @@
 #include <thread>
 #include <utility>
 
+#include "mpm/scene/target_choice.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/node/node_run.hpp"
 #include "mpm_ros/node/start_line.hpp"
+#include "mpm_ros/run/aim.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
 #include "mpm_ros/run/settling_news.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
@@ -34,7 +36,11 @@ constexpr std::chrono::milliseconds kLinger{300};
 SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters)
     : node_(std::move(node)),
       parameters_(parameters),
-      subject_(std::make_shared<const Subject>(Subject{mpm::load_scene(parameters.scene, parameters.set), {}})),
+      subject_(std::make_shared<const Subject>(
+          Subject{load_aimed(parameters, {},
+                             parameters.resume.empty() ? std::string()
+                                                       : mpm::read_checkpoint(parameters.resume).label.scene_text),
+                  {}})),
       clock_(node_, parameters.publish_clock, parameters.clock_rate),
       commands_(node_, subject_->scene, parameters_, health_),
       paused_(parameters.start_paused) {
@@ -88,10 +94,28 @@ Stamps SimulatorNode::first_stamps() const {
   return Stamps(ros::Time(now.sec, now.nsec));
 }
 
-std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::load_subject(const std::vector<std::string>& set) const {
-  std::vector<std::string> overrides = parameters_.set;
+mpm::Scene SimulatorNode::load_aimed(const NodeParameters& parameters, const std::vector<std::string>& set,
+                                     const std::string& recorded) {
+  std::vector<std::string> overrides = parameters.set;
   overrides.insert(overrides.end(), set.begin(), set.end());
-  auto subject = std::make_shared<const Subject>(Subject{mpm::load_scene(parameters_.scene, overrides), set});
+  mpm::Scene scene = mpm::load_scene(parameters.scene, overrides);
+  if (!scene.target) return scene;
+  scene = mpm::with_recorded_choice(scene, recorded);
+  const Aim aimed = aim(std::move(scene), parameters.threads, mpm::choose_isa(parameters.isa), stop_overdue);
+  for (const std::string& line : aimed.news) ROS_INFO_STREAM(line);
+  for (const std::string& warning : aimed.warnings) ROS_WARN_STREAM(warning);
+  std::fflush(stdout);
+  return aimed.scene;
+}
+
+std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::subject_of(const mpm::CheckpointAbout& about) const {
+  if (!subject_->scene.target) return subject_;
+  mpm::Scene scene = load_aimed(parameters_, subject_->set, about.label.scene_text);
+  return std::make_shared<const Subject>(Subject{std::move(scene), subject_->set});
+}
+
+std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::load_subject(const std::vector<std::string>& set) const {
+  auto subject = std::make_shared<const Subject>(Subject{load_aimed(parameters_, set, subject_->scene.text), set});
   check(parameters_, run_options(subject->scene, parameters_, runs_ + 1, node_.getNamespace()));
   const auto bodies = [](const mpm::Scene& scene) {
     std::vector<std::pair<std::string, std::string>> names;  // and the frames that they follow

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "mpm/pace/kept_costs.hpp"
+#include "mpm/scene/target_choice.hpp"
 #include "mpm/simulation/threads.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
 
@@ -65,7 +66,7 @@ std::optional<ExpectedPace> expected_pace(const mpm::Scene& scene, const RunOpti
                                           bool may_time) {
   const mpm::pace::KeptCosts costs(mpm::pace::kept_costs_path());
   const mpm::Isa isa = mpm::choose_isa(options.isa);
-  const std::string key = mpm::pace::cost_key(scene.text, isa, options.threads);
+  const std::string key = mpm::pace::cost_key(mpm::text_without_target(scene), isa, options.threads);
   const std::int64_t now = mpm::pace::wall_time();
   ExpectedPace pace;
   if (const auto kept = costs.find(key, now)) {
@@ -112,7 +113,7 @@ void keep_reached_pace(const mpm::Scene& scene, int threads_asked, const mpm::Si
   if (costs.path().empty() || simulation.time() == 0) return;
   const mpm::SolverState state = simulation.state();
   const double simulated = 1e-9 * static_cast<double>(state.time), steps = static_cast<double>(state.step.steps);
-  const std::string key = mpm::pace::cost_key(scene.text, mpm::choose_isa(simulation.isa()), threads_asked);
+  const std::string key = mpm::pace::cost_key(mpm::text_without_target(scene), mpm::choose_isa(simulation.isa()), threads_asked);
   const std::int64_t now = mpm::pace::wall_time();
   if (const auto kept = costs.find(key, now); kept && kept->cost.steps > state.step.steps) return;
   const mpm::pace::StepCost cost{state.wall_seconds / steps, steps / simulated, state.step.steps};
@@ -126,7 +127,7 @@ std::string explain_pace(const mpm::Scene& scene, mpm::Simulation& simulation, m
   const Forecast timed_now{*cost, simulation.particles(), simulation.threads(), scene.definition.time.end};
   const mpm::Isa isa = mpm::choose_isa(simulation.isa());
   const mpm::pace::KeptCosts costs(mpm::pace::kept_costs_path());
-  const std::string key = mpm::pace::cost_key(scene.text, isa, threads);
+  const std::string key = mpm::pace::cost_key(mpm::text_without_target(scene), isa, threads);
   const std::int64_t now = mpm::pace::wall_time();
   Forecast forecast = timed_now;
   std::int64_t ago = 0;

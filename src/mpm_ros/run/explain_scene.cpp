@@ -1,8 +1,11 @@
 // What `run_scene --explain` tells of a scene.
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "mpm/scene/explain.hpp"
 #include "mpm/scene/feasible.hpp"
+#include "mpm_ros/run/aim.hpp"
 #include "mpm_ros/run/expected_pace.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 #include "mpm_ros/run/run_scene_options.hpp"
@@ -39,9 +42,14 @@ void explain(const mpm::Scene& scene, const RunSceneOptions& options, std::ostre
 }  // namespace
 
 void explain_scene(const RunSceneOptions& options, std::ostream& out) {
-  const mpm::Scene scene = scene_to_run(
+  mpm::Scene given = scene_to_run(
       options, options.from_bag.empty() ? std::nullopt
                                         : std::optional<Rerun>(read_rerun(options.from_bag, !options.resume.empty())));
+  const Aim aimed = aim(std::move(given), options.threads, instruction_set(options), stop_overdue);
+  const mpm::Scene& scene = aimed.scene;
+  for (const std::string& line : aimed.news) out << line << "\n";
+  for (const std::string& warning : aimed.warnings) out << "warning: " << warning << "\n";
+  if (!aimed.table.empty()) out << "choices that were weighed:\n" << aimed.table;
   try {
     explain(scene, options, out);
   } catch (const std::bad_alloc&) {

@@ -14,6 +14,7 @@
 #include "mpm_ros/command/command_log.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/progress_bar.hpp"
+#include "mpm_ros/run/aim.hpp"
 #include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/rerun.hpp"
 #include "mpm_ros/run/run.hpp"
@@ -48,7 +49,8 @@ class OfflineRun {
   OfflineRun(const RunSceneOptions& options, std::ostream& err)
       : options_(options),
         rerun_(read(options)),
-        scene_(scene_to_run(options_, rerun_)),
+        aim_(aim(scene_to_run(options_, rerun_), options.threads, instruction_set(options), stop_overdue)),
+        scene_(aim_.scene),
         checkpoints_(options, scene_.definition.time.sync) {
     if (!(scene_.definition.time.end > 0.0)) {
       throw mpm::SceneError(
@@ -90,6 +92,8 @@ class OfflineRun {
       err << fmt::format("note: the checkpoint is of t = {:g} s, where the run ends already; nothing is computed\n",
                          static_cast<double>(simulation.time()) / 1e9);
     }
+    for (const std::string& line : aim_.news) err << line << "\n";
+    for (const std::string& warning : aim_.warnings) err << "warning: " << warning << "\n";
     for (const std::string& warning : simulation.warnings()) err << "warning: " << warning << "\n";
     for (const std::string& note : simulation.notes()) err << note << "\n";
     for (std::size_t body = 0; body < scene_.commands.size(); ++body) {
@@ -251,7 +255,8 @@ class OfflineRun {
 
   RunSceneOptions options_;
   const std::optional<Rerun> rerun_;
-  const mpm::Scene scene_;
+  const Aim aim_;
+  const mpm::Scene& scene_;
   RunSceneCheckpoints checkpoints_;
   std::ofstream summary_;
   const Stamps stamps_;

@@ -11,13 +11,19 @@
 #include <nlohmann/json.hpp>
 
 #include "mpm/math/output_file.hpp"
+#include "mpm/scene/target_choice.hpp"
 #include "mpm/scene/units.hpp"
 #include "mpm/simulation/checkpoint.hpp"
 
 namespace mpm_ros {
 
 mpm::Scene scene_of(const RunSceneOptions& options) {
-  if (options.resume.empty() || !options.scene.empty()) return mpm::load_scene(options.scene, options.set);
+  if (options.resume.empty()) return mpm::load_scene(options.scene, options.set);
+  if (!options.scene.empty()) {
+    mpm::Scene scene = mpm::load_scene(options.scene, options.set);
+    if (!scene.target) return scene;
+    return mpm::with_recorded_choice(scene, mpm::read_checkpoint(options.resume).label.scene_text);
+  }
   const mpm::CheckpointAbout about = mpm::read_checkpoint(options.resume);
   return mpm::parse_scene(about.label.scene_text, about.label.scene_path, options.set);
 }

@@ -50,11 +50,23 @@ nlohmann::ordered_json energy_json(const mpm::SolverState& state) {
   return json;
 }
 
+/// What was asked, chosen, expected of the choice, and reached. The error of the force is not known of a run alone.
+nlohmann::ordered_json target_json(const mpm::pace::Target& target, double reached) {
+  nlohmann::ordered_json json;
+  if (target.real_time) json["real_time"] = *target.real_time;
+  if (target.force_error) json["force_error"] = *target.force_error;
+  json["chosen"] = target.chosen.value_or(std::vector<std::string>{});
+  json["expected"] = {{"real_time", target.expected_pace}, {"force_error", target.expected_error}};
+  json["reached"] = {{"real_time", reached}};
+  return json;
+}
+
 }  // namespace
 
 RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::SolverState& start,
                        const Contacts& contacts, bool cut_short)
     : scene(scene.definition.name),
+      target(scene.target),
       definition(simulation.definition()),
       isa(simulation.isa()),
       threads(simulation.threads()),
@@ -94,6 +106,7 @@ nlohmann::ordered_json RunSummary::json() const {
   root["wall_seconds"] = state.wall_seconds;
   root["particle_steps_per_second"] = particle_steps_per_second();
   root["real_time_factor"] = real_time_factor();
+  if (target) root["target"] = target_json(*target, real_time_factor());
   root["peak_memory_bytes"] = peak_memory;
   root["threads"] = threads;
   root["cut_short"] = cut_short;
@@ -124,6 +137,11 @@ std::string RunSummary::text() const {
       "  particles {}, {:.3g} million particle-steps a second on {} thread{} ({}, {} precision), {:.0f} MB\n",
       state.particles, 1e-6 * particle_steps_per_second(), threads, threads == 1 ? "" : "s", isa,
       mpm::precision_name(definition.method.precision), 1e-6 * static_cast<double>(peak_memory));
+  if (target) {
+    text += fmt::format(
+        "  target {}: reached {:.2g} of real time, {:.2g} was expected, with an error of the force of {:.2g} %\n",
+        mpm::pace::target_text(*target), real_time_factor(), target->expected_pace, 100.0 * target->expected_error);
+  }
   text += fmt::format("  time step {:.4g} to {:.4g} s, limited by {}\n", state.step.dt_min, state.step.dt_max,
                       state.step.limited_by);
   if (const std::uint64_t divided = state.step.divided; divided > 0) {

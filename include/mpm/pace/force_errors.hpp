@@ -1,0 +1,80 @@
+// How wrong the force on a tool in soil is, for a discretisation: read from measured runs, in a small table.
+//
+//   problem,axes,cells,along,precision,update,cfl,force,cost
+//   blade_flat,2,8,2,double,usavg,0.5,0.985,170
+//
+// cells: across the tool's length; along: particles along a cell's edge; force: over the answer, exact or that of the
+// finest run; cost: processor time of a particle's step on one thread [ns], or empty. doc/methods.md says how each was
+// measured.
+//
+// The error of grid and particles is that of the reference, double, USAVG, cfl 0.5, against the answer: of a problem
+// the largest with so many cells or more, and 1 % at least, since less is met by accident; between two numbers of cells
+// a power of them; on grids coarser than a problem was run on that of its coarsest; over problems the root of the mean
+// square. Precision and update add the change of the force that they alone make in a run of the table, root of the mean
+// square too; so does the step, from the smallest cfl of the table on, in proportion between two of them. The whole is
+// the root of the sum of the squares, as of errors that do not depend on each other.
+//
+// Weak: as good as the problems, which are slow tools in sand.
+#pragma once
+
+#include <cmath>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mpm/math/error.hpp"
+#include "mpm/pace/discretisation.hpp"
+
+namespace mpm::pace {
+
+/// A table that is none.
+class FiguresError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A row of the table.
+struct ForceRun {
+  std::string problem;
+  int axes = 2;        ///< of its grid: 2 or 3
+  double cells = 0.0;  ///< across the tool
+  int along = 2;
+  Precision precision = Precision::float64;
+  UpdateScheme update = UpdateScheme::usavg;
+  double cfl = 0.5;
+  double force = 1.0;  ///< over the answer
+  double cost = 0.0;   ///< of a particle's step, one thread [ns]; 0 where it was not timed
+};
+
+/// Parts of the error, relative to the force.
+struct ForceError {
+  double grid = 0.0, precision = 0.0, update = 0.0, step = 0.0;
+  double total() const { return std::sqrt(grid * grid + precision * precision + update * update + step * step); }
+};
+
+class ForceErrors {
+ public:
+  ForceErrors() = default;
+  /// @throws FiguresError without a run at the reference
+  explicit ForceErrors(std::vector<ForceRun> runs);
+
+  /// `cells`: across the tool, by the widest of the cell's edges. Returns nothing for a grid that is coarser than all
+  /// that were measured, or so many particles in a cell that none were. Finer than the finest counts as that.
+  /// A scene with less than three axes is judged by problems with two.
+  std::optional<ForceError> of(const Discretisation& one, double cells, GeometryKind geometry) const;
+  /// Cost of a particle's step over that in double precision with USAVG: 1 where there is no figure.
+  double cost_factor(Precision precision, UpdateScheme update) const;
+
+ private:
+  std::optional<double> grid_error(int axes, double cells, int along) const;
+  double change(int axes, Precision precision, UpdateScheme update) const;
+  double step_error(int axes, double cfl) const;
+
+  std::vector<ForceRun> runs_;
+};
+
+/// @throws FiguresError naming the line when the text is no such table
+ForceErrors read_force_errors(std::istream& in);
+
+}  // namespace mpm::pace

@@ -1,0 +1,85 @@
+// What a run is to reach, a pace or an error of the force on its tool, and which discretisation reaches it.
+//
+// For a pace: of all candidates that are expected to reach it with a tenth to spare, and whose error is at most
+// kMostError, the one with the least error. For an error: of all that keep it, the fastest. Where no candidate reaches
+// the target, the one that comes nearest is taken, within kMostError where there is one. Errors that differ
+// by less than kSameError of the force count as the same, and so do paces within kSamePace; then the faster one, or the
+// more exact one, is taken. The pace is arithmetic: a step costs as its particles do, for each precision and update at
+// the cost that was timed on the scene; steps to a sync period are whole. Weak: a coarse grid's step costs more than
+// its particles do, so what is chosen should be timed itself.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mpm/pace/discretisation.hpp"
+#include "mpm/pace/force_errors.hpp"
+
+namespace mpm::pace {
+
+/// Exactly one of the first two.
+struct Target {
+  std::optional<double> real_time;    ///< simulated over wall time
+  std::optional<double> force_error;  ///< relative to the force on the tool
+  std::vector<std::string> keep;      ///< of discretisation_keys(): stay as the scene has them
+  /// Axis across whose middle plane the scene is its own mirror image: the half above it is modelled.
+  std::optional<int> symmetric;
+  double length = 0.0;  ///< of the tool, which cells count across [m]
+  /// Of a scene for which the choice was made before: what was set in it, "key=value"; it is not made anew.
+  std::optional<std::vector<std::string>> chosen;
+  double expected_pace = 0.0, expected_error = 0.0;  ///< beside `chosen`
+
+  bool keeps(const std::string& key) const;
+};
+
+/// "real_time: 1", "force_error: 5 %"
+std::string target_text(const Target& target);
+
+struct Candidate {
+  Discretisation what;
+  ForceError error;
+  double pace = 0.0;   ///< expected, simulated over wall time
+  bool timed = false;  ///< the pace was timed with it
+};
+
+inline constexpr double kSpare = 1.1;        ///< the pace that is asked of a candidate over the pace wanted
+inline constexpr double kMostError = 0.15;   ///< of the force; with more the figures say little
+inline constexpr double kSameError = 0.001;  ///< of the force
+inline constexpr double kSamePace = 0.02;    ///< relative
+
+/// What the pace of candidates is computed from.
+struct StepCosts {
+  GeometryKind geometry = GeometryKind::solid;
+  Discretisation base;         ///< that was timed
+  double particles = 0.0;      ///< with it
+  double sync = 0.0;           ///< period of sync points [s]
+  double wave_time = 0.0;      ///< in which the fastest wave crosses a cell of the base, by its shortest edge [s]
+  std::optional<double> step;  ///< upper limit of the step [s]
+  /// Of one particle's step in the base's grid [s].
+  std::function<double(Precision, UpdateScheme)> particle_step;
+
+  /// Simulated over wall time.
+  double pace(const Discretisation& one) const;
+};
+
+/// Every combination of cells, with the particles along an edge that fit them, and of what the target may change and
+/// the rules of methods allow, that there are figures for. `cells`: pairs that fit the scene, its own among them.
+std::vector<Candidate> candidates(const Target& target, const std::vector<std::pair<Vec3, int>>& cells,
+                                  const SimulationDefinition& definition, const ForceErrors& errors,
+                                  const StepCosts& costs);
+
+/// Whether a candidate reaches the target.
+bool reaches(const Target& target, const Candidate& candidate);
+/// The place in `all` of the one to take, by the rule above. @param all at least one
+std::size_t choose(const Target& target, const std::vector<Candidate>& all);
+
+/// Those that no other beats in both pace and error, by falling error.
+std::vector<Candidate> front(const std::vector<Candidate>& all);
+/// Several lines: the chosen one, the scene as it is, and the front, with pace, error and its parts.
+std::string candidates_table(const std::vector<Candidate>& all, const Candidate& chosen, const Discretisation& base,
+                             GeometryKind geometry);
+
+}  // namespace mpm::pace

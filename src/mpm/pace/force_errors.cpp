@@ -1,0 +1,206 @@
+#include "mpm/pace/force_errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <istream>
+#include <map>
+#include <utility>
+
+#include "mpm/simulation/method_text.hpp"
+
+namespace mpm::pace {
+
+namespace {
+
+constexpr const char* kColumns = "problem,axes,cells,along,precision,update,cfl,force,cost";
+constexpr double kReferenceCfl = 0.5;
+constexpr double kLeastError = 0.01;
+constexpr double kSame = 1e-6;  ///< part by which cells and steps of two runs may differ
+
+bool same(double a, double b) { return std::abs(a - b) <= kSame * std::abs(b); }
+
+bool reference(const ForceRun& run) {
+  return run.precision == Precision::float64 && run.update == UpdateScheme::usavg && same(run.cfl, kReferenceCfl);
+}
+
+bool same_grid(const ForceRun& a, const ForceRun& b) {
+  return a.problem == b.problem && same(a.cells, b.cells) && a.along == b.along;
+}
+
+/// Root of the mean square; 0 of none.
+class MeanSquare {
+ public:
+  void add(double value) {
+    sum_ += value * value;
+    ++count_;
+  }
+  double root() const { return count_ == 0 ? 0.0 : std::sqrt(sum_ / count_); }
+
+ private:
+  double sum_ = 0.0;
+  int count_ = 0;
+};
+
+/// Error of one problem, from points {cells, error} by falling cells, in which errors never fall.
+double between(const std::vector<std::pair<double, double>>& points, double cells) {
+  if (cells >= points.front().first) return points.front().second;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto& [finer, small] = points[i - 1];
+    const auto& [coarser, large] = points[i];
+    if (cells < coarser * (1.0 - kSame)) continue;
+    const double part = std::log(finer / cells) / std::log(finer / coarser);
+    return std::exp((1.0 - part) * std::log(small) + part * std::log(large));
+  }
+  return points.back().second;
+}
+
+std::vector<std::string> split_cells(const std::string& line) {
+  std::vector<std::string> words(1);
+  for (const char c : line) {
+    if (c == ',') {
+      words.emplace_back();
+    } else if (c != '\r') {
+      words.back() += c;
+    }
+  }
+  return words;
+}
+
+double positive_cell(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(value > 0.0) || !std::isfinite(value))
+    throw FiguresError("'" + text + "' is not a number greater than 0");
+  return value;
+}
+
+int whole_cell(const std::string& text, int least, int most) {
+  const double value = positive_cell(text);
+  if (value != std::floor(value) || value < least || value > most)
+    throw FiguresError(fmt::format("'{}' is not a whole number from {} to {}", text, least, most));
+  return static_cast<int>(value);
+}
+
+ForceRun parse_run(const std::string& line) {
+  const std::vector<std::string> words = split_cells(line);
+  if (words.size() != split_cells(kColumns).size()) throw FiguresError(fmt::format("{} cells, not 9", words.size()));
+  ForceRun run;
+  run.problem = words[0];
+  run.axes = whole_cell(words[1], 2, 3);
+  run.cells = positive_cell(words[2]);
+  run.along = whole_cell(words[3], 1, 5);
+  if (words[4] != "double" && words[4] != "single") throw FiguresError("'" + words[4] + "' is no precision");
+  run.precision = words[4] == "double" ? Precision::float64 : Precision::float32;
+  const auto update = std::find(kUpdateNames.begin(), kUpdateNames.end(), words[5]);
+  if (update == kUpdateNames.end()) throw FiguresError("'" + words[5] + "' is no update");
+  run.update = static_cast<UpdateScheme>(update - kUpdateNames.begin());
+  run.cfl = positive_cell(words[6]);
+  run.force = positive_cell(words[7]);
+  if (!words[8].empty()) run.cost = positive_cell(words[8]);
+  return run;
+}
+
+}  // namespace
+
+ForceErrors::ForceErrors(std::vector<ForceRun> runs) : runs_(std::move(runs)) {
+  if (std::none_of(runs_.begin(), runs_.end(), reference))
+    throw FiguresError("no run in double precision with usavg and cfl 0.5, which the others are compared with");
+}
+
+std::optional<double> ForceErrors::grid_error(int axes, double cells, int along) const {
+  std::map<std::string, std::vector<std::pair<double, double>>> problems;
+  for (const ForceRun& run : runs_) {
+    if (run.axes == axes && run.along == along && reference(run))
+      problems[run.problem].emplace_back(run.cells, std::max(kLeastError, std::abs(run.force - 1.0)));
+  }
+  MeanSquare mean;
+  bool covered = false;
+  for (auto& [name, points] : problems) {
+    std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (std::size_t i = 1; i < points.size(); ++i) points[i].second = std::max(points[i].second, points[i - 1].second);
+    mean.add(between(points, cells));
+    covered = covered || cells >= points.back().first * (1.0 - kSame);
+  }
+  if (!covered) return std::nullopt;
+  return mean.root();
+}
+
+double ForceErrors::change(int axes, Precision precision, UpdateScheme update) const {
+  MeanSquare mean;
+  for (const ForceRun& run : runs_) {
+    if (run.axes != axes || run.precision != precision || run.update != update || !same(run.cfl, kReferenceCfl))
+      continue;
+    for (const ForceRun& other : runs_) {
+      if (same_grid(run, other) && reference(other)) mean.add(run.force / other.force - 1.0);
+    }
+  }
+  return mean.root();
+}
+
+double ForceErrors::step_error(int axes, double cfl) const {
+  std::map<double, MeanSquare> by_cfl;
+  for (const ForceRun& run : runs_) {
+    if (run.axes != axes || run.precision != Precision::float64 || run.update != UpdateScheme::usavg) continue;
+    const ForceRun* least = nullptr;
+    for (const ForceRun& other : runs_) {
+      const bool comparable = same_grid(run, other) && other.precision == run.precision && other.update == run.update;
+      if (comparable && (least == nullptr || other.cfl < least->cfl)) least = &other;
+    }
+    // A grid that was run with one step alone tells nothing of steps.
+    if (least != &run) by_cfl[run.cfl].add(run.force / least->force - 1.0);
+  }
+  double before_cfl = 0.0, before = 0.0;
+  for (const auto& [at, mean] : by_cfl) {
+    const double error = std::max(before, mean.root());
+    if (cfl <= at * (1.0 + kSame)) return before + (error - before) * (cfl - before_cfl) / (at - before_cfl);
+    before_cfl = at;
+    before = error;
+  }
+  return before_cfl > 0.0 ? before * cfl / before_cfl : 0.0;
+}
+
+std::optional<ForceError> ForceErrors::of(const Discretisation& one, double cells, GeometryKind geometry) const {
+  const int axes = std::max(2, dimensions(geometry));
+  const std::optional<double> grid = grid_error(axes, cells, one.along);
+  if (!grid) return std::nullopt;
+  // USL is of first order in the step as USF is, and has no figures of its own.
+  const UpdateScheme update = one.update == UpdateScheme::usl ? UpdateScheme::usf : one.update;
+  return ForceError{*grid, change(axes, one.precision, UpdateScheme::usavg), change(axes, Precision::float64, update),
+                    step_error(axes, one.cfl)};
+}
+
+double ForceErrors::cost_factor(Precision precision, UpdateScheme update) const {
+  double product = 1.0;
+  int count = 0;
+  for (const ForceRun& run : runs_) {
+    if (run.precision != precision || run.update != update || run.cost == 0.0) continue;
+    for (const ForceRun& other : runs_) {
+      const bool usual = other.precision == Precision::float64 && other.update == UpdateScheme::usavg;
+      if (!usual || !same_grid(run, other) || !same(run.cfl, other.cfl) || other.cost == 0.0) continue;
+      product *= run.cost / other.cost;
+      ++count;
+    }
+  }
+  return count == 0 ? 1.0 : std::pow(product, 1.0 / count);
+}
+
+ForceErrors read_force_errors(std::istream& in) {
+  std::string line;
+  std::getline(in, line);
+  if (split_cells(line) != split_cells(kColumns))
+    throw FiguresError(fmt::format("line 1: not the header {}", kColumns));
+  std::vector<ForceRun> runs;
+  for (int number = 2; std::getline(in, line); ++number) {
+    try {
+      runs.push_back(parse_run(line));
+    } catch (const FiguresError& error) {
+      throw FiguresError(fmt::format("line {}: {}", number, error.what()));
+    }
+  }
+  return ForceErrors(std::move(runs));
+}
+
+}  // namespace mpm::pace

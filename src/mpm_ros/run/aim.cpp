@@ -1,0 +1,321 @@
+#include "mpm_ros/run/aim.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "mpm/pace/forecast.hpp"
+#include "mpm/pace/kept_costs.hpp"
+#include "mpm/pace/target.hpp"
+#include "mpm/scene/feasible.hpp"
+#include "mpm/scene/target_choice.hpp"
+
+namespace mpm_ros {
+
+namespace {
+
+using mpm::pace::Candidate;
+using mpm::pace::Discretisation;
+using mpm::pace::Forecast;
+using mpm::pace::Target;
+
+constexpr double kFewParticles = 200'000.0;  ///< that a copy which is timed has at most
+constexpr double kShort = 0.12;              ///< [s] of timing each copy
+constexpr double kLong = 0.5;                ///< [s] of timing the coarse one
+constexpr int kMostTries = 5;                ///< candidates that are timed before one is taken as it is
+constexpr double kMostOfARun = 0.5;          ///< part of a run's steps, from which on a kept cost is that of the run
+
+std::string percent_text(double part) { return fmt::format("{:.2g} %", 100.0 * part); }
+
+/// Costs of steps on this machine, found or timed.
+class Timing {
+ public:
+  Timing(int threads, mpm::Isa isa, const std::function<bool()>& stop)
+      : costs_(mpm::pace::kept_costs_path()), threads_(threads), isa_(isa), stop_(stop) {}
+
+  /// Nothing where the scene cannot be run, or not one step was made.
+  std::optional<Forecast> of(const mpm::Scene& scene, double budget, const std::string& purpose = {}) {
+    const std::string key = mpm::pace::cost_key(mpm::text_without_target(scene) + purpose, isa_, threads_);
+    const std::int64_t now = mpm::pace::wall_time();
+    if (const auto kept = costs_.find(key, now))
+      return Forecast{kept->cost, kept->particles, kept->threads, scene.definition.time.end};
+    try {
+      const auto timed = mpm::pace::time_copy(mpm::build(scene), threads_, isa_, budget, stop_);
+      if (timed) costs_.keep(key, {timed->cost, timed->threads, timed->particles, now});
+      return timed;
+    } catch (const mpm::StoppedError&) {
+      throw;
+    } catch (const mpm::Error&) {
+      return std::nullopt;
+    } catch (const std::bad_alloc&) {
+      return std::nullopt;
+    }
+  }
+
+ private:
+  const mpm::pace::KeptCosts costs_;
+  const int threads_;
+  const mpm::Isa isa_;
+  const std::function<bool()>& stop_;
+};
+
+/// The choice of one scene.
+class Chooser {
+ public:
+  /// @param before lines that are set in the scene already
+  Chooser(const mpm::Scene& scene, std::vector<std::string> before, int threads, mpm::Isa isa,
+          const std::function<bool()>& stop)
+      : scene_(scene),
+        before_(std::move(before)),
+        target_(*scene.target),
+        geometry_(scene.definition.geometry),
+        own_(mpm::pace::discretisation_of(scene.definition)),
+        errors_(mpm::load_force_errors(scene)),
+        fitting_(mpm::fitting_cells(scene)),
+        timing_(threads, isa, stop) {}
+
+  Aim aim() {
+    calibrate();
+    candidates_ = mpm::pace::candidates(target_, fitting_, scene_.definition, errors_, costs_);
+    std::size_t chosen = 0;
+    for (int tries = 0;; ++tries) {
+      if (candidates_.empty()) fail();
+      chosen = mpm::pace::choose(target_, candidates_);
+      if (candidates_[chosen].timed || tries == kMostTries) break;
+      time(chosen);
+    }
+    return tell(candidates_[chosen]);
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw mpm::SceneError(fmt::format(
+        "{}: target: there are no figures for {} cells across {:.3g} m of tool, with a cell that fits the grid and the "
+        "bodies; leave target out, use a smaller grid.cell, or write target.length",
+        scene_.path, std::round(target_.length / own_.cell.x()), target_.length));
+  }
+
+  std::vector<std::string> lines_of(const Discretisation& one) const {
+    std::vector<std::string> lines = before_;
+    const std::vector<std::string> more = mpm::pace::set_lines(one, own_, geometry_);
+    lines.insert(lines.end(), more.begin(), more.end());
+    return lines;
+  }
+
+  mpm::Scene with(const Discretisation& one) const { return mpm::with_chosen(scene_, lines_of(one), 1.0, 1.0); }
+
+  double particles(const Discretisation& one) const {
+    double count = mpm::expected_particles(scene_);
+    for (const int axis : mpm::axes_of(geometry_)) {
+      count *= own_.cell[axis] / one.cell[axis] * static_cast<double>(one.along) / static_cast<double>(own_.along);
+    }
+    return count;
+  }
+
+  /// Own particles a cell, the finest cell that has few enough particles, or the coarsest there is.
+  Discretisation affordable() const {
+    Discretisation best = own_;
+    if (particles(best) <= kFewParticles) return best;
+    for (const auto& [cell, along] : fitting_) {
+      Discretisation one = own_;
+      one.cell = cell;
+      if (along == own_.along && particles(one) < particles(best) &&
+          (particles(best) > kFewParticles || particles(one) > particles(best)))
+        best = one;
+    }
+    return best;
+  }
+
+  /// What steps cost more, all in all, than at the start: of the coarsest grid with the scene's particles a cell.
+  double rise() {
+    Discretisation coarse = own_;
+    for (const auto& [cell, along] : fitting_) {
+      if (along == own_.along && cell.prod() > coarse.cell.prod()) coarse.cell = cell;
+    }
+    if (particles(coarse) > kFewParticles) return 1.0;
+    const mpm::Scene scene = with(coarse);
+    const auto start = timing_.of(scene, 0.1 * kLong, "start"), all = timing_.of(scene, kLong, "run");
+    if (!start || !all) return 1.0;
+    return std::max(1.0, start->real_time_factor() / all->real_time_factor());
+  }
+
+  void calibrate() {
+    rise_ = rise();
+    costs_.base = affordable();
+    costs_.geometry = geometry_;
+    const mpm::Scene scene = with(costs_.base);
+    const auto usual = timing_.of(scene, kShort);
+    if (!usual) {
+      throw mpm::SceneError(fmt::format(
+          "{}: target: not one step of the scene could be timed; run it without target to see why", scene_.path));
+    }
+    costs_.particles = static_cast<double>(usual->particles);
+    costs_.sync = 1e-9 * static_cast<double>(scene.definition.time.sync);
+    costs_.step = scene.definition.time.step;
+    costs_.wave_time = mpm::wave_step(scene).dt / scene.definition.time.cfl;
+    const double own = seconds_of(*usual);
+    const Discretisation base = costs_.base;
+    const mpm::pace::ForceErrors& errors = errors_;
+    std::map<std::pair<int, int>, double> timed;
+    const auto place = [](mpm::Precision precision, mpm::UpdateScheme update) {
+      return std::pair(static_cast<int>(precision), static_cast<int>(update));
+    };
+    timed[place(base.precision, base.update)] = own;
+    for (const mpm::Precision precision : {mpm::Precision::float64, mpm::Precision::float32}) {
+      for (const mpm::UpdateScheme update : {mpm::UpdateScheme::usavg, mpm::UpdateScheme::usf}) {
+        if (target_.keeps("method.precision") && precision != own_.precision) continue;
+        if (target_.keeps("method.update") && update != own_.update) continue;
+        if (timed.count(place(precision, update)) > 0) continue;
+        Discretisation other = base;
+        other.precision = precision;
+        other.update = update;
+        if (const auto forecast = time_variant(other)) timed[place(precision, update)] = seconds_of(*forecast);
+      }
+    }
+    costs_.particle_step = [=](mpm::Precision precision, mpm::UpdateScheme update) {
+      const auto found = timed.find(place(precision, update));
+      if (found != timed.end()) return found->second;
+      return own * errors.cost_factor(precision, update) / errors.cost_factor(base.precision, base.update);
+    };
+  }
+
+  std::optional<Forecast> time_variant(const Discretisation& one) {
+    try {
+      return timing_.of(with(one), kShort);
+    } catch (const mpm::SceneError&) {
+      return std::nullopt;  // a method that there is not
+    }
+  }
+
+  /// Of a particle's step, such that StepCosts::pace() gives the pace that is expected of the whole run [s].
+  double seconds_of(const Forecast& forecast) const {
+    const double steps = std::max(1.0, std::ceil(costs_sync_steps() - 1e-9));
+    return costs_.sync / (steps * static_cast<double>(forecast.particles) * pace_of(forecast));
+  }
+  double costs_sync_steps() const {
+    return costs_.sync / std::min(costs_.base.cfl * costs_.wave_time, costs_.step.value_or(costs_.sync));
+  }
+
+  double pace_of(const Forecast& forecast) const {
+    const bool whole =
+        forecast.simulated > 0.0 && static_cast<double>(forecast.cost.steps) >= kMostOfARun * forecast.steps();
+    return forecast.real_time_factor() / (whole ? 1.0 : rise_);
+  }
+
+  /// Times a candidate. Others on the same grid are expected to differ from the arithmetic as it does; one that cannot
+  /// be run, or timed, is left out.
+  void time(std::size_t chosen) {
+    const Candidate one = candidates_[chosen];
+    if (particles(one.what) > kFewParticles) {
+      candidates_[chosen].timed = true;  // too large for a copy; its pace stays that of the arithmetic
+      return;
+    }
+    const auto forecast = time_variant(one.what);
+    if (!forecast) {
+      candidates_.erase(candidates_.begin() + static_cast<std::ptrdiff_t>(chosen));
+      return;
+    }
+    const double pace = pace_of(*forecast);
+    for (Candidate& other : candidates_) {
+      if (!other.timed && other.what.cell == one.what.cell && other.what.along == one.what.along)
+        other.pace *= pace / one.pace;
+    }
+    candidates_[chosen].pace = pace;
+    candidates_[chosen].timed = true;
+  }
+
+  Aim tell(const Candidate& chosen) const {
+    const std::vector<std::string> lines = lines_of(chosen.what);
+    const double error = chosen.error.total();
+    Aim told;
+    told.scene = mpm::with_chosen(scene_, lines, chosen.pace, error);
+    told.scene.choices.emplace_back("target", fmt::format("{}: {}", mpm::pace::target_text(target_),
+                                                          mpm::pace::discretisation_text(chosen.what, geometry_)));
+    const auto part = [](const char* name, double value) { return fmt::format("{} {}", name, percent_text(value)); };
+    told.news.push_back(fmt::format(
+        "target {}: {}; {:.2g} of real time expected, with an error of the tool's force of about {} ({}, {}, {}, {})",
+        mpm::pace::target_text(target_), mpm::pace::discretisation_text(chosen.what, geometry_), chosen.pace,
+        percent_text(error), part("grid", chosen.error.grid), part("precision", chosen.error.precision),
+        part("update", chosen.error.update), part("step", chosen.error.step)));
+    std::string repeat;
+    for (const std::string& line : lines) repeat += fmt::format(" --set \"{}\"", line);
+    told.news.push_back(lines.empty() ? "the scene's own keys are the choice"
+                                      : "to run the same without a target:" + repeat);
+    if (target_.symmetric)
+      told.news.push_back("the half above the plane of symmetry is modelled: forces are those of the half");
+    told.table = mpm::pace::candidates_table(candidates_, chosen, own_, geometry_);
+    if (!mpm::pace::reaches(target_, chosen)) told.warnings.push_back(out_of_reach(chosen));
+    return told;
+  }
+
+  std::string out_of_reach(const Candidate& chosen) const {
+    const std::string begin =
+        fmt::format("target {} is not in reach on this machine: {:.2g} of real time with an error of {}",
+                    mpm::pace::target_text(target_), chosen.pace, percent_text(chosen.error.total()));
+    if (!target_.real_time) {
+      return begin + fmt::format(
+                         " is the least that there are figures for; a smaller grid.cell that fits grid and bodies, or "
+                         "a larger error, would be needed{}",
+                         target_.keep.empty() ? "" : "; so would fewer keys in target.keep");
+    }
+    if (chosen.pace >= *target_.real_time)
+      return begin + fmt::format(", without the {:.0f} % to spare that are asked of a choice",
+                                 100.0 * (mpm::pace::kSpare - 1.0));
+    // The least error among those that are fast enough.
+    const Candidate* price = nullptr;
+    for (const Candidate& one : candidates_) {
+      const bool fast = one.pace >= mpm::pace::kSpare * *target_.real_time;
+      if (fast && (price == nullptr || one.error.total() < price->error.total())) price = &one;
+    }
+    if (price == nullptr) {
+      return begin +
+             "; nothing that there are figures for is fast enough: give up a part of the pace, the grid or the "
+             "bodies, or use more threads";
+    }
+    std::string repeat;
+    for (const std::string& line : lines_of(price->what)) repeat += fmt::format(" --set \"{}\"", line);
+    return begin + fmt::format(
+                       "; {:.2g} would take an error of {}, more than the {} that a target accepts: "
+                       "--set target= is then left out, and{}",
+                       price->pace, percent_text(price->error.total()), percent_text(mpm::pace::kMostError), repeat);
+  }
+
+  const mpm::Scene& scene_;
+  const std::vector<std::string> before_;
+  const Target& target_;
+  const mpm::GeometryKind geometry_;
+  const Discretisation own_;
+  const mpm::pace::ForceErrors errors_;
+  const std::vector<std::pair<mpm::Vec3, int>> fitting_;
+  Timing timing_;
+  double rise_ = 1.0;
+  mpm::pace::StepCosts costs_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+Aim aim(mpm::Scene scene, int threads, mpm::Isa isa, const std::function<bool()>& stop) {
+  if (!scene.target) return {std::move(scene), {}, {}, {}};
+  if (scene.target->chosen) {
+    const Target& target = *scene.target;
+    const std::string news = fmt::format(
+        "target {}: as it was chosen before, {}", mpm::pace::target_text(target),
+        target.chosen->empty() ? "the scene's own keys" : fmt::format("{}", fmt::join(*target.chosen, ", ")));
+    return {std::move(scene), {news}, {}, {}};
+  }
+  std::vector<std::string> half;
+  if (scene.target->symmetric) {
+    half = mpm::half_lines(scene, *scene.target->symmetric);
+    scene = mpm::with_chosen(scene, half, 1.0, 1.0);
+  }
+  return Chooser(scene, std::move(half), threads, isa, stop).aim();
+}
+
+}  // namespace mpm_ros

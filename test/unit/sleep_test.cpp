@@ -165,7 +165,8 @@ TEST(Sleep, TheForceOnAToolIsThatWithoutSleep) {
   for (std::size_t i = 0; i < surface.size(); ++i) EXPECT_NEAR(surface[i], surface_awake[i], 0.1 * 0.02) << i;
 }
 
-// Material asleep stays as it is to the bit, and is reported as ever.
+// Material asleep stays as it is to the bit, and is reported as ever. The energies that were kept for it are those that
+// are found anew.
 TEST(Sleep, WhatIsAsleepDoesNotChange) {
   Simulation run = start(kBed, {kSleep, "rigid_bodies=[]"});
   advance_to(run, 0.2);

@@ -23,6 +23,8 @@ struct NamedScalar {
 };
 
 struct ParticleSet {
+  static constexpr int kRestGroup = 4096;
+
   std::string name;                                      ///< of the body
   double mass = 0.0;                                     ///< of each particle, where all have the same [kg]
   std::array<double, 3> half{};                          ///< half of a particle's box along each grid axis [cells]
@@ -32,6 +34,8 @@ struct ParticleSet {
   /// So many particles, the last ones, take no part in steps: they are at rest, in no block and no group, and every
   /// array keeps them as they are (sleep/sleeping_particles.hpp).
   int asleep = 0;
+  /// Of each kRestGroup places: how often particles fell asleep there or changed places. Empty where nothing sleeps.
+  std::vector<std::uint32_t> rest_changes;
   int field = 0;      ///< velocity field of its particles
   int far_field = 0;  ///< of those on side 1, where a thin tool divides the body
 

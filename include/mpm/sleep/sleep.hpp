@@ -57,10 +57,9 @@ class Sleep final : public Stage {
   void increment_found(StepContext& context) override;
   void grid_advanced(StepContext& context) override;
 
-  /// Who is to wake, wakes at once; who may fall asleep waits for a sort that others ask for, though not for long.
-  bool needs_sort() const override {
-    return !to_wake_.empty() || (!sleepers_.empty() && looks_waited_ >= kLooksToWait);
-  }
+  /// Sorts cost, so those who are to wake wait some steps for others, unless it is urgent, and those who may fall
+  /// asleep wait for a sort that is asked for by others, though not for long.
+  bool needs_sort() const override;
   void before_sort() override;
 
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
@@ -71,8 +70,6 @@ class Sleep final : public Stage {
   void serialise(StateArchive& archive) override;
 
  private:
-  static constexpr std::uint32_t kLooksToWait = 4;
-
   struct Taken {
     Vec3 impulse = Vec3::Zero();
     double energy = 0.0;
@@ -101,6 +98,8 @@ class Sleep final : public Stage {
   std::uint64_t generation_ = 0;      ///< of the blocks that borders_ and watch_ were made for
   std::uint32_t steps_ = 0;           ///< since the last look
   std::uint32_t looks_waited_ = 0;    ///< by those who may fall asleep
+  std::uint32_t steps_waited_ = 0;    ///< by those who are to wake
+  bool at_once_ = false;              ///< one of them cannot wait
   bool begun_ = false;
   std::vector<SleepingBlocks::Sleeper> sleepers_;  ///< who may fall asleep, without forces yet
   std::vector<BlockName> to_wake_;                 ///< perhaps more than once

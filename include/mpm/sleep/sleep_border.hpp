@@ -23,28 +23,35 @@ class SleepBorder {
     double mass = 0.0;          ///< of what is asleep [kg]
     Vec3 force = Vec3::Zero();  ///< internal, of what is asleep [N]
     double rate = 0.0;          ///< by which a wave would cross a cell [1/s]
+    std::uint32_t from = 0;     ///< a bit for each block around that is asleep and reaches the node
     bool at_wall = false;       ///< a wall holds it too, with a force that is not known here
-    int first = 0, count = 0;   ///< of sleepers()
   };
+
+  explicit SleepBorder(const GridLayout& layout);
 
   /// Of a velocity field, as particles are sorted now.
   void find(int field, const Grid& grid, const SleepingBlocks& asleep);
   const std::vector<Node>& nodes() const { return nodes_; }
-  /// The blocks that reach a node.
-  const SleepingBlock& sleeper(const Node& node, int i) const { return *sleepers_[node.first + i]; }
+  /// Adds the names of the blocks asleep that reach a node.
+  void add_names(const Node& node, const Grid& grid, std::vector<BlockName>& names) const;
   /// What fails to balance at a node, once the forces are gathered, or the speed of what comes in: the larger [m/s].
   static double unrest(const Node& node, const Grid& grid, const Vec3& gravity);
 
  private:
-  /// What one block in use is given by what sleeps around it.
-  struct Given {
-    std::vector<double> mass;
-    std::vector<Vec3> force;
+  /// A node of a block in the tile of a block beside it.
+  struct Shared {
+    int node, of_tile;
   };
-  void add_block(int block, const Grid& grid, const std::vector<const SleepingBlock*>& around);
 
-  std::vector<Node> nodes_;
-  std::vector<const SleepingBlock*> sleepers_, around_;
+  std::uint64_t key_beside(const std::array<int, 3>& block, int side) const;
+  void add_block(int block, const Grid& grid);
+
+  const GridLayout* layout_;
+  int field_ = 0;
+  int sides_ = 0;                               ///< 3^dim: the blocks around one, itself in the middle
+  std::array<std::vector<Shared>, 27> shared_;  ///< with the block on each side
+  std::vector<const SleepingBlock*> around_;    ///< on each side
+  std::vector<Node> of_block_, nodes_;
 };
 
 }  // namespace mpm

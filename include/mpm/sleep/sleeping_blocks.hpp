@@ -7,8 +7,8 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -26,6 +26,11 @@ struct BlockName {
   std::uint64_t key = 0;
   bool operator<(const BlockName& other) const { return field != other.field ? field < other.field : key < other.key; }
   bool operator==(const BlockName& other) const { return field == other.field && key == other.key; }
+  struct Hash {
+    std::size_t operator()(const BlockName& name) const {
+      return (name.key * 0x9E3779B97F4A7C15ull) ^ static_cast<std::size_t>(name.field);
+    }
+  };
 };
 
 struct SleepingBlock {
@@ -59,12 +64,14 @@ class SleepingBlocks {
   /// Wakes the block of this name, if it is asleep. Particles have to be sorted after it.
   void wake(const BlockName& name);
 
+  /// Or null.
   const SleepingBlock* find(const BlockName& name) const {
     const auto found = by_name_.find(name);
     return found == by_name_.end() ? nullptr : found->second.get();
   }
-  /// In ascending order of names.
-  const std::map<BlockName, std::unique_ptr<SleepingBlock>>& all() const { return by_name_; }
+  using ByName = std::unordered_map<BlockName, std::unique_ptr<SleepingBlock>, BlockName::Hash>;
+  /// In no order.
+  const ByName& all() const { return by_name_; }
   std::size_t particles() const;
   double mass() const { return mass_; }  ///< [kg]
   /// The largest rate of any block that is asleep, or has been since none was [1/s].
@@ -79,6 +86,7 @@ class SleepingBlocks {
     std::uint32_t rank = 0;
   };
 
+  void make_room(std::size_t s);
   void exchange(ParticleSet& set, std::uint32_t p, std::uint32_t q);
   /// Both arrays of positions have what is asleep, since steps swap them.
   void settle_place(ParticleSet& set, std::uint32_t p);
@@ -90,7 +98,7 @@ class SleepingBlocks {
 
   std::vector<ParticleSet>& sets_;
   const GridLayout& layout_;
-  std::map<BlockName, std::unique_ptr<SleepingBlock>> by_name_;
+  ByName by_name_;
   std::vector<std::vector<Owned>> owned_;  ///< of each set, by place
   std::vector<std::uint32_t> moving_, free_;
   double mass_ = 0.0, rate_ = 0.0;

@@ -23,16 +23,23 @@ bool is_soil(const Law& law) {
 }
 
 // In one pass, since most of the time goes into fetching the particles; grouped so that the result does not depend on
-// the number of threads. `partial`: memory for the groups' sums.
+// the number of threads. `of_groups`: their sums, of which those asleep are kept from the last time.
 template <class LawType>
 MaterialTotals totals_of(const ParticleSet& set, const LawType& law, const GridLayout& layout, GeometryKind geometry,
-                         const Vec3& gravity, int threads, std::vector<MaterialTotals>& partial) {
-  constexpr int kGroup = 4096;
+                         const Vec3& gravity, int threads, RunTotals::OfGroups& of_groups) {
+  constexpr int kGroup = ParticleSet::kRestGroup;
   const int groups = (set.size() + kGroup - 1) / kGroup, dim = layout.dim();
-  partial.assign(groups, {});
+  of_groups.sums.resize(groups);
+  of_groups.changes.resize(groups);
+  of_groups.found_asleep.resize(groups);
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (int g = 0; g < groups; ++g) {
-    MaterialTotals& sum = partial[g];
+    const bool asleep = g * kGroup >= set.awake() && !set.rest_changes.empty();
+    const std::uint32_t changes = asleep ? set.rest_changes[g] : 0;
+    if (asleep && of_groups.found_asleep[g] != 0 && of_groups.changes[g] == changes) continue;
+    of_groups.found_asleep[g] = asleep;
+    of_groups.changes[g] = changes;
+    MaterialTotals& sum = of_groups.sums[g] = {};
     const int end = std::min(set.size(), (g + 1) * kGroup);
     for (int p = g * kGroup; p < end; ++p) {
       const ParticleTensors t = particle_tensors(set, geometry, p);
@@ -56,7 +63,7 @@ MaterialTotals totals_of(const ParticleSet& set, const LawType& law, const GridL
     }
   }
   MaterialTotals total;
-  for (const MaterialTotals& part : partial) total += part;
+  for (const MaterialTotals& part : of_groups.sums) total += part;
   for (double* by_mass : {&total.kinetic, &total.potential, &total.elastic, &total.plastic, &total.carried}) {
     if (set.masses.empty()) *by_mass *= set.mass;
   }
@@ -102,28 +109,29 @@ MaterialTotals& MaterialTotals::operator+=(const MaterialTotals& other) {
   return *this;
 }
 
-const RunTotals& Simulation::State::find_totals(RunTotals& run) const {
-  run.energy.begin_again();
-  MaterialTotals& of_all = run.material = {};
+const RunTotals& Simulation::State::find_totals() {
+  totals.energy.begin_again();
+  totals.of_set.resize(sets.size());
+  MaterialTotals& of_all = totals.material = {};
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    if (!is_soil(laws[i])) run.energy.leave_open();
+    if (!is_soil(laws[i])) totals.energy.leave_open();
     of_all += std::visit(
         [&](const auto& law) {
-          return totals_of(sets[i], law, layout(), definition.geometry, definition.gravity, threads, run.partial);
+          return totals_of(sets[i], law, layout(), definition.geometry, definition.gravity, threads, totals.of_set[i]);
         },
         laws[i]);
   }
-  run.energy.add("kinetic", NamedEnergy::Kind::stored, of_all.kinetic);
-  run.energy.add("elastic", NamedEnergy::Kind::stored, of_all.elastic);
-  run.energy.add("plastic", NamedEnergy::Kind::dissipated, of_all.plastic);
-  run.energy.add("potential", NamedEnergy::Kind::stored, of_all.potential);
-  mechanics->energies(run.energy);
-  modules.energies(run.energy);
-  return run;
+  totals.energy.add("kinetic", NamedEnergy::Kind::stored, of_all.kinetic);
+  totals.energy.add("elastic", NamedEnergy::Kind::stored, of_all.elastic);
+  totals.energy.add("plastic", NamedEnergy::Kind::dissipated, of_all.plastic);
+  totals.energy.add("potential", NamedEnergy::Kind::stored, of_all.potential);
+  mechanics->energies(totals.energy);
+  modules.energies(totals.energy);
+  return totals;
 }
 
 SolverState Simulation::state() const {
-  const State& s = *state_;
+  State& s = *state_;
   SolverState report;
   report.time = s.time;
   report.step = s.steps;
@@ -131,8 +139,8 @@ SolverState Simulation::state() const {
   report.particles = particles();
   report.wall_seconds = s.wall.count();
 
-  RunTotals totals;
-  report.energy = s.find_totals(totals).energy;
+  const RunTotals& totals = s.find_totals();
+  report.energy = totals.energy;
   report.min_j = totals.material.min_j;
   report.numbers = s.modules.numbers();
 

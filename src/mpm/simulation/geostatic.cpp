@@ -98,6 +98,7 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
   part.method.average_stress = false;
   part.bodies.clear();
   part.metrics.clear();
+  part.sleep.reset();
   part.method.damping.feedback.reset();  // it would remember the fall
   for (const DeformableBody& body : definition.bodies) {
     if (!body.geostatic) continue;

@@ -46,7 +46,13 @@ struct MaterialTotals {
 struct RunTotals {
   MaterialTotals material;
   EnergyReport energy;
-  std::vector<MaterialTotals> partial;  ///< of groups of particles
+  /// Of groups of one set's particles. Those of a group asleep hold until it changes (ParticleSet::rest_changes).
+  struct OfGroups {
+    std::vector<MaterialTotals> sums;
+    std::vector<std::uint32_t> changes;  ///< when they were found
+    std::vector<std::uint8_t> found_asleep;
+  };
+  std::vector<OfGroups> of_set;
 };
 
 struct Simulation::State {
@@ -78,7 +84,7 @@ struct Simulation::State {
   StepLimit previous_limit;  ///< as surveyed at the one before
   StepLimit limit;           ///< of the last steps
   EnergyWatch energy_watch;
-  RunTotals watched;             ///< memory of watch_energy()
+  RunTotals totals;              ///< when last asked for
   bool foreign_modules = false;  ///< whether the caller added modules of its own
   bool failed = false;
   std::vector<LineFit> rates;  ///< of each metric; those without a window stay empty
@@ -104,8 +110,7 @@ struct Simulation::State {
   void see_courant(double dt, const StepLimit& found);
   /// `now` [s]; `found`: what the material allows then. @throws PhysicsError when the run makes energy
   void watch_energy(double now, const StepLimit& found);
-  /// Finds them in `run`, and returns it.
-  const RunTotals& find_totals(RunTotals& run) const;
+  const RunTotals& find_totals();
   /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError, StoppedError
   void run_period();
   /// One step of the schedule, with the checks after it; it begins at `start` [s].

@@ -10,8 +10,11 @@ namespace mpm {
 namespace {
 
 constexpr std::uint32_t kStepsBetweenLooks = 8;
-constexpr double kNearTool = 4.0;   ///< cells: nearer to a tool nothing sleeps
-constexpr double kSlowNodes = 4.0;  ///< of the speed of sleep, below which nodes are damped
+constexpr std::uint32_t kLooksToWait = 4;  ///< for a sort that others ask for, before one is asked for to fall asleep
+constexpr std::uint32_t kStepsToWait = 4;  ///< for others at the border of unrest, before blocks are woken
+constexpr double kNearTool = 4.0;          ///< cells: nearer to a tool nothing sleeps
+constexpr double kAtOnce = 3.0;            ///< times `wake`, from which on a block wakes after this step
+constexpr double kSlowNodes = 4.0;         ///< of the speed of sleep, below which nodes are damped
 
 }  // namespace
 
@@ -21,7 +24,7 @@ Sleep::Sleep(const SleepDefinition& definition, SleepParts parts)
       layout_(parts_.fields.front()->layout),
       asleep_(parts_.sets, layout_),
       watch_(definition.speed, definition.after),
-      borders_(parts_.fields.size()) {
+      borders_(parts_.fields.size(), SleepBorder(layout_)) {
   account_.name = "sleep";
 }
 
@@ -57,6 +60,7 @@ void Sleep::look(const StepContext& context) {
   for (const auto& [name, block] : asleep_.all()) {
     if (tool_near(layout_.block(name.key)) || other_near(name.field, name.key)) to_wake_.push_back(name);
   }
+  std::sort(to_wake_.begin(), to_wake_.end());  // blocks asleep are in no order
   watch_.look(parts_.fields, parts_.sets, context.start, parts_.threads);
   for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
     const Grid& grid = *parts_.fields[f];
@@ -97,6 +101,11 @@ void Sleep::before_strain(StepContext& context) {
   }
 }
 
+bool Sleep::needs_sort() const {
+  if (!to_wake_.empty() && (at_once_ || steps_waited_ >= kStepsToWait)) return true;
+  return !sleepers_.empty() && looks_waited_ >= kLooksToWait;
+}
+
 void Sleep::find_unrest(const Grid& grid, const SleepBorder& border) {
   const std::vector<SleepBorder::Node>& nodes = border.nodes();
   const int count = static_cast<int>(nodes.size());
@@ -108,12 +117,14 @@ void Sleep::find_unrest(const Grid& grid, const SleepBorder& border) {
   }
   for (int i = 0; i < count; ++i) {
     if (!(unrest_[i] > definition_.wake)) continue;
-    for (int j = 0; j < nodes[i].count; ++j) to_wake_.push_back(border.sleeper(nodes[i], j).name);
+    border.add_names(nodes[i], grid, to_wake_);
+    at_once_ = at_once_ || unrest_[i] > kAtOnce * definition_.wake;
   }
 }
 
 void Sleep::forces_gathered(StepContext& context) {
   for (std::size_t f = 0; f < borders_.size(); ++f) find_unrest(*context.fields[f], borders_[f]);
+  if (!to_wake_.empty()) ++steps_waited_;
 }
 
 Sleep::Taken Sleep::hold(Grid& grid, const SleepBorder& border, double dt) {
@@ -223,7 +234,8 @@ void Sleep::before_sort() {
   for (const BlockName& name : to_wake_) asleep_.wake(name);
   sleepers_.clear();
   to_wake_.clear();
-  looks_waited_ = 0;
+  looks_waited_ = steps_waited_ = 0;
+  at_once_ = false;
 }
 
 void Sleep::energies(EnergyReport& report) const {
@@ -260,6 +272,11 @@ void Sleep::serialise(StateArchive& archive) {
   archive.column("sleepers/key", sleepers_, [](Sleeper& sleeper) -> std::uint64_t& { return sleeper.name.key; });
   archive.column("sleepers/owner", sleepers_, &Sleeper::owner);
   archive.value("looks_waited", looks_waited_);
+  archive.rows("to_wake", to_wake_);
+  archive.column("to_wake/field", to_wake_, &BlockName::field);
+  archive.column("to_wake/key", to_wake_, &BlockName::key);
+  archive.value("steps_waited", steps_waited_);
+  archive.value("at_once", at_once_);
   archive.value("steps", steps_);
   archive.value("begun", begun_);
   account_.serialise(archive);

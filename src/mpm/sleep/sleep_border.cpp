@@ -5,17 +5,11 @@
 namespace mpm {
 namespace {
 
-/// Of a node of one block in the tile of another; -1 when it is outside. `apart`: blocks from the other to the first.
-int in_tile(const GridLayout& layout, const std::array<int, 3>& apart, int node) {
-  std::array<int, 3> local{};
-  for (int k = layout.dim() - 1; k >= 0; --k, node /= kBlockEdge) local[k] = node % kBlockEdge;
-  int place = 0;
-  for (int k = 0; k < layout.dim(); ++k) {
-    const int at = local[k] + apart[k] * kBlockEdge + BlockForces::kMargin;
-    if (at < 0 || at >= BlockForces::kEdge) return -1;
-    place = place * BlockForces::kEdge + at;
-  }
-  return place;
+/// Steps from a block to the one on a side of it, along each axis.
+std::array<int, 3> step_to(int dim, int side) {
+  std::array<int, 3> step{};
+  for (int k = dim - 1; k >= 0; --k, side /= 3) step[k] = side % 3 - 1;
+  return step;
 }
 
 bool wall_holds(const Grid& grid, const std::array<int, 3>& node) {
@@ -28,49 +22,70 @@ bool wall_holds(const Grid& grid, const std::array<int, 3>& node) {
 
 }  // namespace
 
-void SleepBorder::find(int field, const Grid& grid, const SleepingBlocks& asleep) {
-  nodes_.clear();
-  sleepers_.clear();
-  if (asleep.all().empty()) return;
-  const GridLayout& layout = grid.layout;
-  int span = 1;
-  for (int k = 0; k < layout.dim(); ++k) span *= 3;
-  for (int b = 0; b < grid.blocks.size(); ++b) {
-    around_.assign(span, nullptr);
-    bool any = false;
-    for (int s = 0; s < span; ++s) {
-      std::array<int, 3> block = grid.blocks.block(b);
-      int rest = s;
-      for (int k = layout.dim() - 1; k >= 0; --k, rest /= 3) block[k] += rest % 3 - 1;
-      around_[s] = asleep.find({field, layout.key(block)});
-      any = any || around_[s] != nullptr;
+SleepBorder::SleepBorder(const GridLayout& layout) : layout_(&layout), sides_(1) {
+  const int dim = layout.dim();
+  for (int k = 0; k < dim; ++k) sides_ *= 3;
+  for (int side = 0; side < sides_; ++side) {
+    const std::array<int, 3> step = step_to(dim, side);
+    for (int n = 0; n < layout.nodes_per_block(); ++n) {
+      int rest = n, of_tile = 0, stride = 1;
+      bool inside = true;
+      for (int k = dim - 1; k >= 0; --k, rest /= kBlockEdge, stride *= BlockForces::kEdge) {
+        const int at = rest % kBlockEdge - step[k] * kBlockEdge + BlockForces::kMargin;
+        inside = inside && at >= 0 && at < BlockForces::kEdge;
+        of_tile += at * stride;
+      }
+      if (inside) shared_[side].push_back({n, of_tile});
     }
-    if (any) add_block(b, grid, around_);
   }
 }
 
-void SleepBorder::add_block(int block, const Grid& grid, const std::vector<const SleepingBlock*>& around) {
-  const GridLayout& layout = grid.layout;
-  for (int n = 0; n < layout.nodes_per_block(); ++n) {
-    Node node;
-    node.ref = {block, n};
-    node.first = static_cast<int>(sleepers_.size());
-    for (std::size_t s = 0; s < around.size(); ++s) {
-      if (around[s] == nullptr) continue;
-      std::array<int, 3> apart{};
-      int rest = static_cast<int>(s);
-      for (int k = layout.dim() - 1; k >= 0; --k, rest /= 3) apart[k] = 1 - rest % 3;
-      const int t = in_tile(layout, apart, n);
-      if (t < 0 || !(around[s]->forces.mass[t] > grid.least_mass)) continue;
-      node.mass += around[s]->forces.mass[t];
-      for (int k = 0; k < layout.dim(); ++k) node.force[layout.axis(k)] += around[s]->forces.force[k][t];
-      node.rate = std::max(node.rate, around[s]->rate);
-      sleepers_.push_back(around[s]);
+std::uint64_t SleepBorder::key_beside(const std::array<int, 3>& block, int side) const {
+  const std::array<int, 3> step = step_to(layout_->dim(), side);
+  return layout_->key({block[0] + step[0], block[1] + step[1], block[2] + step[2]});
+}
+
+void SleepBorder::find(int field, const Grid& grid, const SleepingBlocks& asleep) {
+  field_ = field;
+  nodes_.clear();
+  if (asleep.all().empty()) return;
+  around_.resize(sides_);
+  for (int b = 0; b < grid.blocks.size(); ++b) {
+    bool any = false;
+    for (int side = 0; side < sides_; ++side) {
+      around_[side] = asleep.find({field, key_beside(grid.blocks.block(b), side)});
+      any = any || around_[side] != nullptr;
     }
-    node.count = static_cast<int>(sleepers_.size()) - node.first;
-    if (node.count == 0) continue;
-    node.at_wall = wall_holds(grid, layout.node(grid.blocks.block(block), n));
+    if (any) add_block(b, grid);
+  }
+}
+
+void SleepBorder::add_block(int block, const Grid& grid) {
+  of_block_.assign(layout_->nodes_per_block(), {});
+  for (int side = 0; side < sides_; ++side) {
+    if (around_[side] == nullptr) continue;
+    const BlockForces& forces = around_[side]->forces;
+    for (const Shared& shared : shared_[side]) {
+      if (!(forces.mass[shared.of_tile] > grid.least_mass)) continue;
+      Node& node = of_block_[shared.node];
+      node.mass += forces.mass[shared.of_tile];
+      for (int k = 0; k < layout_->dim(); ++k) node.force[layout_->axis(k)] += forces.force[k][shared.of_tile];
+      node.rate = std::max(node.rate, around_[side]->rate);
+      node.from |= 1U << side;
+    }
+  }
+  for (int n = 0; n < layout_->nodes_per_block(); ++n) {
+    Node& node = of_block_[n];
+    if (node.from == 0) continue;
+    node.ref = {block, n};
+    node.at_wall = wall_holds(grid, layout_->node(grid.blocks.block(block), n));
     nodes_.push_back(node);
+  }
+}
+
+void SleepBorder::add_names(const Node& node, const Grid& grid, std::vector<BlockName>& names) const {
+  for (int side = 0; side < sides_; ++side) {
+    if ((node.from >> side & 1U) != 0) names.push_back({field_, key_beside(grid.blocks.block(node.ref.block), side)});
   }
 }
 

@@ -1,6 +1,7 @@
 #include "mpm/sleep/sleeping_blocks.hpp"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@ void SleepingBlocks::exchange(ParticleSet& set, std::uint32_t p, std::uint32_t q
   set.each_scalar([&](auto& values) { std::swap(values[p], values[q]); });
   std::swap(set.id[p], set.id[q]);
   if (!set.side.empty()) std::swap(set.side[p], set.side[q]);
+  for (const std::uint32_t place : {p, q}) ++set.rest_changes[place / ParticleSet::kRestGroup];
 }
 
 void SleepingBlocks::settle_place(ParticleSet& set, std::uint32_t p) {
@@ -18,6 +20,7 @@ void SleepingBlocks::settle_place(ParticleSet& set, std::uint32_t p) {
 
 TakenMotion SleepingBlocks::stop(ParticleSet& set, std::uint32_t p) {
   TakenMotion taken;
+  ++set.rest_changes[p / ParticleSet::kRestGroup];
   const double mass = set.mass_of(static_cast<int>(p));
   for (int k = 0; k < layout_.dim(); ++k) taken.momentum[layout_.axis(k)] = mass * set.v[k][p];
   taken.energy = taken.momentum.squaredNorm() / (2.0 * mass);
@@ -25,6 +28,12 @@ TakenMotion SleepingBlocks::stop(ParticleSet& set, std::uint32_t p) {
     for (ParticleScalar& scalar : *scalars) scalar.set(p, 0.0);
   }
   return taken;
+}
+
+void SleepingBlocks::make_room(std::size_t s) {
+  owned_.resize(sets_.size());
+  owned_[s].resize(sets_[s].id.size());
+  sets_[s].rest_changes.resize(sets_[s].id.size() / ParticleSet::kRestGroup + 1);
 }
 
 void SleepingBlocks::note(std::size_t s, std::uint32_t p, SleepingBlock* block) {
@@ -37,7 +46,7 @@ void SleepingBlocks::note(std::size_t s, std::uint32_t p, SleepingBlock* block) 
 void SleepingBlocks::put_set(std::size_t s, const std::vector<Sleeper>& sleepers,
                              const std::vector<SleepingBlock*>& blocks, TakenMotion& taken) {
   ParticleSet& set = sets_[s];
-  owned_[s].resize(set.id.size());
+  make_room(s);
   std::uint32_t count = 0;
   for (const Sleeper& sleeper : sleepers) count += set.begin[sleeper.owner + 1] - set.begin[sleeper.owner];
   const auto end = static_cast<std::uint32_t>(set.awake()), border = end - count;
@@ -68,7 +77,6 @@ void SleepingBlocks::put_set(std::size_t s, const std::vector<Sleeper>& sleepers
 }
 
 TakenMotion SleepingBlocks::put_to_sleep(const std::vector<Sleeper>& sleepers) {
-  owned_.resize(sets_.size());
   std::vector<SleepingBlock*> blocks;
   for (const Sleeper& sleeper : sleepers) {
     std::unique_ptr<SleepingBlock>& block = by_name_[sleeper.name];
@@ -133,6 +141,7 @@ std::size_t SleepingBlocks::particles() const {
 void SleepingBlocks::serialise(StateArchive& archive) {
   std::vector<SleepingBlock*> blocks;
   for (const auto& one : by_name_) blocks.push_back(one.second.get());
+  std::sort(blocks.begin(), blocks.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
   std::vector<std::unique_ptr<SleepingBlock>> read;
   archive.rows("blocks", blocks);
   if (archive.reading()) {
@@ -161,7 +170,6 @@ void SleepingBlocks::serialise(StateArchive& archive) {
   }
   std::map<const SleepingBlock*, std::uint32_t> number;
   for (std::size_t b = 0; b < blocks.size(); ++b) number[blocks[b]] = static_cast<std::uint32_t>(b);
-  owned_.resize(sets_.size());
   for (std::size_t s = 0; s < sets_.size(); ++s) {
     const StateArchive::Group group(archive, "set_" + std::to_string(s));
     ParticleSet& set = sets_[s];
@@ -172,7 +180,8 @@ void SleepingBlocks::serialise(StateArchive& archive) {
     }
     archive.list("of_block", of_block);
     if (!archive.reading()) continue;
-    owned_[s].assign(set.id.size(), {});
+    make_room(s);
+    for (std::uint32_t& changes : set.rest_changes) ++changes;
     for (int p = set.awake(); p < set.size(); ++p) {
       settle_place(set, static_cast<std::uint32_t>(p));
       note(s, static_cast<std::uint32_t>(p), blocks[of_block[p - set.awake()]]);

@@ -141,6 +141,27 @@ TEST(Pacer, DeadlinesFollowTheFactor) {
   EXPECT_EQ(pacer.overruns(), 0U);
 }
 
+// After a period that took 35 ms the next ones, which take 2 ms, come 8 ms apart, not at once, until the deadlines are
+// met again: a delay of 25 ms is caught up with in 12 periods.
+TEST(Pacer, DelaysAreCaughtUpWithEvenly) {
+  Pacer pacer(10'000'000, 1.0);
+  const Pacer::Clock::time_point start{};
+  pacer.restart(start);
+  Pacer::Clock::time_point begun = pacer.next(start + milliseconds(35));
+  EXPECT_LT(begun, start + milliseconds(35));
+  begun = start + milliseconds(35);
+  int late = 0;
+  for (int period = 2; period <= 20; ++period) {
+    const Pacer::Clock::time_point due = pacer.next(begun + milliseconds(2));
+    EXPECT_GE(due, begun + milliseconds(8));
+    late += due > start + milliseconds(10 * period) ? 1 : 0;
+    begun = due;
+  }
+  EXPECT_EQ(late, 12);
+  EXPECT_EQ(begun, start + milliseconds(200));
+  EXPECT_EQ(pacer.given_up(), 0U);
+}
+
 TEST(Pacer, SmallDelaysAreCaughtUpWithAndLargeOnesAreNot) {
   Pacer pacer(10'000'000, 1.0);
   const Pacer::Clock::time_point start{};
@@ -149,6 +170,7 @@ TEST(Pacer, SmallDelaysAreCaughtUpWithAndLargeOnesAreNot) {
   EXPECT_EQ(pacer.overruns(), 1U);
   EXPECT_EQ(pacer.next(start + milliseconds(500)), start + milliseconds(500));
   EXPECT_EQ(pacer.overruns(), 2U);
+  EXPECT_EQ(pacer.given_up(), 1U);
 }
 
 TEST(Pacer, NoRoundingAddsUp) {

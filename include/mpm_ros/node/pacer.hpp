@@ -17,19 +17,24 @@ class Pacer {
 
   /// Begins again from `now`: at the start, after a pause.
   void restart(Clock::time_point now);
-  /// When the sync period that is computed at `now` is due. A deadline that has passed is an overrun; a delay of more
-  /// than kLargestDebt is not caught up with.
+  /// When the sync period that is computed at `now` is due. A deadline that has passed is an overrun. A delay is caught
+  /// up with evenly: two sync points are kCatchUp of a period apart at least. One of more than kLargestDebt is given
+  /// up.
   Clock::time_point next(Clock::time_point now);
   std::uint64_t overruns() const { return overruns_; }
+  /// How often a delay was given up.
+  std::uint64_t given_up() const { return given_up_; }
 
   static constexpr std::chrono::milliseconds kLargestDebt{100};
+  static constexpr double kCatchUp = 0.8;
 
  private:
   const double factor_;
   double period_;            // [ns] of the wall's clock
   Clock::time_point start_;  // deadlines are counted from here, so that no rounding adds up
-  std::int64_t count_ = 0;   // of deadlines since
-  std::uint64_t overruns_ = 0;
+  Clock::time_point begun_;  // when the period that is computed now began
+  std::int64_t count_ = 0;   // of deadlines since start_
+  std::uint64_t overruns_ = 0, given_up_ = 0;
 };
 
 }  // namespace mpm_ros

@@ -74,6 +74,8 @@ class SimulatorNode {
   void tell_start(const std::optional<ExpectedPace>& expected) const;
   /// With nobody who waits: by a run's first second, how long it will take.
   void tell_pace();
+  /// When a delay has been given up: that the run cannot keep its pace, and what would help.
+  void tell_overload();
   /// Its first messages, and the pace from now on.
   void begin_run();
   /// One sync period; extra commands are applied after those that are due. False when it failed, or when an extra
@@ -133,7 +135,9 @@ class SimulatorNode {
 
   int runs_ = 0;
   bool paused_ = false;
-  bool pace_told_ = false;    // of a run that nothing paces
+  bool pace_told_ = false;           // of a run that nothing paces
+  std::uint64_t given_up_seen_ = 0;  // of Pacer::given_up()
+  std::optional<Pacer::Clock::time_point> overload_told_;
   std::string failure_;       // of the present run
   int failure_code_ = 0;      // exit code that goes with it
   bool bag_lost_ = false;     // of any run

@@ -23,6 +23,7 @@ namespace mpm_ros {
 namespace {
 
 /// How long the solver's thread sleeps at most before it looks whether it is to stop.
+constexpr std::chrono::seconds kOverloadAgain{10};  // until the node says again that it cannot keep its pace
 constexpr std::chrono::milliseconds kGlance{50};
 /// Steps that wait for messages hold one each; others are for who asks meanwhile.
 constexpr std::uint32_t kServiceThreads = 4;
@@ -205,6 +206,19 @@ void SimulatorNode::tell_pace() {
   std::fflush(stdout);
 }
 
+void SimulatorNode::tell_overload() {
+  if (std::exchange(given_up_seen_, pacer_->given_up()) == pacer_->given_up()) return;
+  const Pacer::Clock::time_point now = Pacer::Clock::now();
+  if (overload_told_ && now < *overload_told_ + kOverloadAgain) return;
+  overload_told_ = now;
+  ROS_WARN_STREAM(fmt::format(
+      "the run cannot keep its pace: at {:g} s it goes at {:.2g} of real time, {:g} was asked for, and falls behind by "
+      "as much. Lower _real_time_factor, give the scene a target (_set:=target.real_time=1), or see what would help "
+      "with "
+      "run_scene --explain",
+      static_cast<double>(run_->simulation().time()) * 1e-9, run_->real_time_factor(), parameters_.real_time_factor));
+}
+
 SimulatorNode::Phase SimulatorNode::phase() const {
   if (!failure_.empty()) return Phase::failed;
   if (run_->ended()) return Phase::ended;
@@ -214,6 +228,7 @@ SimulatorNode::Phase SimulatorNode::phase() const {
 
 void SimulatorNode::begin_run() {
   pace_told_ = false;
+  overload_told_.reset();
   publish_clock(true);
   count_commands();  // those of an earlier run stay in the count
   try {
@@ -244,6 +259,7 @@ int SimulatorNode::spin() {
     mailbox_.run_until(Pacer::Clock::now());
     if (phase() != Phase::running || !sync_period({}, ignored) || parameters_.pacing != Pacing::real_time) continue;
     const Pacer::Clock::time_point due = pacer_->next(Pacer::Clock::now());
+    tell_overload();
     while (Pacer::Clock::now() < due && phase() == Phase::running && !ends()) {
       mailbox_.run_until(std::min(due, Pacer::Clock::now() + kGlance));
     }

@@ -7,11 +7,13 @@ import pathlib
 import statistics
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "lib"))
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402: the backend comes first
 from matplotlib.ticker import NullLocator  # noqa: E402
+import real_time  # noqa: E402
 from plot_style import CYCLE, GREY, style  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -350,7 +352,8 @@ def main():
     draw_scenes(results["scenes"], pictures / "scenes.png")
     lines = [(ROOT / "benchmark" / "head.md").read_text().rstrip(), ""]
     roofline, kernels = results["roofline"], results["kernels"]
-    lines += machine_part(results) + scenes_part(results["scenes"], roofline)
+    lines += machine_part(results) + real_time.part(results["real_time"], table)
+    lines += scenes_part(results["scenes"], roofline)
     lines += targets_part(results["scenes"], roofline) + sizes_part(results["sizes"]) + output_part(results["output"])
     lines += roofline_part(roofline) + profile_part(kernels, roofline) + laws_part(kernels) + others_part(kernels)
     lines += instructions_part(results["instructions"])

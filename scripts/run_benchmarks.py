@@ -13,6 +13,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "lib"))
+import real_time  # noqa: E402: its folder comes first
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # The runs: a name for the table, the scene, the changes to it, and its end [s]; whether to run it for each instruction
 # set and precision. A case's steps are some 150 (of a million particles some 80), enough to fly across two cells.
@@ -227,6 +230,7 @@ def main():
         print(f"warning: the machine is busy (load {results['machine']['load']:.1f}); figures will be too low",
               file=sys.stderr)
     scenes = Scenes(programs)
+    results["real_time"] = real_time.measure(scenes.run_scene, options.quick)
     results["scenes"] = measure_scenes(scenes, options.quick)
     results["sizes"] = measure_sizes(scenes, options.quick, options.full)
     results["output"] = measure_output(scenes, options.quick)

@@ -81,8 +81,8 @@ class Sleep final : public Stage {
   };
 
   void look(const StepContext& context);
-  /// Whether a tool is so near to a block that it has to be awake.
-  bool tool_near(const std::array<int, 3>& block) const;
+  /// Whether a tool is so near to a block that it has to be awake, in steps of `dt` [s].
+  bool tool_near(const std::array<int, 3>& block, double dt) const;
   /// Whether material of another velocity field is near to a block of one.
   bool other_near(int field, std::uint64_t key) const;
   void find_unrest(const Grid& grid, const SleepBorder& border);

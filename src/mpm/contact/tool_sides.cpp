@@ -43,7 +43,7 @@ void ToolSides::before_sort() {
     double half = std::numeric_limits<double>::infinity();
     for (int k = 0; k < layout_.dim(); ++k) half = std::min(half, set.half[k] * layout_.cell(k));
 #pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int p = 0; p < set.size(); ++p) {
+    for (int p = 0; p < set.awake(); ++p) {  // near a tool nothing sleeps
       Vec3 place = Vec3::Zero();
       for (int k = 0; k < layout_.dim(); ++k) place[layout_.axis(k)] = set.x[k][p];
       double band = kBand * largest;

@@ -28,12 +28,16 @@ Sleep::Sleep(const SleepDefinition& definition, SleepParts parts)
   account_.name = "sleep";
 }
 
-bool Sleep::tool_near(const std::array<int, 3>& block) const {
-  Box box{layout_.node_position(block, 0), layout_.node_position(block, layout_.nodes_per_block() - 1)};
-  const double margin = kNearTool * layout_.smallest_cell(), half = 0.5 * box.size().norm();
-  const Box grown = box.grown(margin);
+bool Sleep::tool_near(const std::array<int, 3>& block, double dt) const {
+  const Box box{layout_.node_position(block, 0), layout_.node_position(block, layout_.nodes_per_block() - 1)};
+  const double half = 0.5 * box.size().norm();
   for (const RigidBody& body : parts_.bodies) {
     Box bounds = body.world_bounds();
+    // How far its surface comes until the next look.
+    double arm = 0.0;
+    if (const Vec3 size = bounds.size(); size.allFinite()) arm = size.norm();
+    const double speed = body.twist().linear.norm() + arm * body.twist().angular.norm();
+    const double margin = kNearTool * layout_.smallest_cell() + kStepsBetweenLooks * dt * speed;
     for (int axis = 0; axis < 3; ++axis) {
       bool present = false;
       for (int k = 0; k < layout_.dim(); ++k) present = present || layout_.axis(k) == axis;
@@ -42,7 +46,8 @@ bool Sleep::tool_near(const std::array<int, 3>& block) const {
       bounds.max[axis] = std::numeric_limits<double>::infinity();
     }
     SurfacePoint point;
-    if (bounds.intersects(grown) && body.surface().within(body.pose().to_body(box.center()), half + margin, point)) {
+    if (bounds.intersects(box.grown(margin)) &&
+        body.surface().within(body.pose().to_body(box.center()), half + margin, point)) {
       return true;
     }
   }
@@ -58,7 +63,7 @@ bool Sleep::other_near(int field, std::uint64_t key) const {
 
 void Sleep::look(const StepContext& context) {
   for (const auto& [name, block] : asleep_.all()) {
-    if (tool_near(layout_.block(name.key)) || other_near(name.field, name.key)) to_wake_.push_back(name);
+    if (tool_near(layout_.block(name.key), context.dt) || other_near(name.field, name.key)) to_wake_.push_back(name);
   }
   std::sort(to_wake_.begin(), to_wake_.end());  // blocks asleep are in no order
   watch_.look(parts_.fields, parts_.sets, context.start, parts_.threads);
@@ -68,7 +73,7 @@ void Sleep::look(const StepContext& context) {
       if (!watch_.at_rest(grid.first_owner + owner)) continue;
       const int block = grid.blocks.owner_block(owner);
       const BlockName name{static_cast<int>(f), grid.blocks.key(block)};
-      if (tool_near(grid.blocks.block(block)) || other_near(name.field, name.key)) continue;
+      if (tool_near(grid.blocks.block(block), context.dt) || other_near(name.field, name.key)) continue;
       sleepers_.push_back({name, grid.first_owner + owner, 0.0, nullptr});
     }
   }

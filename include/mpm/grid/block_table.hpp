@@ -27,6 +27,7 @@ class BlockTable {
   int owners() const { return static_cast<int>(owner_block_.size()); }
   /// Index of an owner among the blocks in use.
   int owner_block(int owner) const { return owner_block_[owner]; }
+  int neighbour_count() const { return span_; }  ///< 3^dim
   /// Indices of the 3^dim neighbours of an owner, itself in the middle, the last axis fastest.
   const int* neighbours(int owner) const { return &neighbours_[static_cast<std::size_t>(owner) * span_]; }
   const std::array<int, 3>& block(int index) const { return coordinates_[index]; }

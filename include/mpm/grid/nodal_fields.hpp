@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mpm/grid/block_table.hpp"
+#include "mpm/grid/block_shares.hpp"
 
 namespace mpm {
 
@@ -52,9 +52,12 @@ struct Grid {
   Grid(const Grid&) = delete;
   Grid& operator=(const Grid&) = delete;
 
-  /// Takes the blocks in use from the sorted particles and makes room for their nodes.
-  void rebuild(const std::vector<std::uint64_t>& owner_keys, int threads = 1) {
+  /// Takes the blocks in use from the sorted particles, shares them out and makes room for their nodes. `particles`: of
+  /// each owner; when empty, all owners count alike.
+  void rebuild(const std::vector<std::uint64_t>& owner_keys, int threads = 1,
+               const std::vector<std::uint32_t>& particles = {}) {
     blocks.rebuild(owner_keys, threads);
+    shares.rebuild(blocks, particles, threads);
     for (NodalField* field : {&mass, &momentum, &velocity, &force}) field->resize(blocks.size());
     loose.assign(blocks.owners(), 0);
   }
@@ -75,6 +78,7 @@ struct Grid {
 
   GridLayout layout;
   BlockTable blocks;
+  BlockShares shares;
   double least_mass = 0.0;  ///< [kg]
   int wall_layers = 1;      ///< layers of nodes beyond a wall that particles may reach, which the wall constrains too
   std::array<bool, 6> has_wall{};  ///< faces of the domain that are walls: 2 * axis, + 1 for the upper one

@@ -1,12 +1,12 @@
 // What the kernels (kernel/kernels.hpp) are handed: views of the grid, of the sets of particles and of the block at
-// work. Blocks are given out a colour after the other, so that no two at work at a time touch the same node. In every
-// colour and every pass a thread has the same part of space, whose nodes and particles stay in its core's cache: handed
-// out one by one, two threads took as long as one in a plane.
+// work. In every pass a thread has the same part of space (grid/block_shares.hpp), whose nodes and particles stay in
+// its core's cache: handed out one by one, two threads took as long as one in a plane.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "mpm/grid/each_share.hpp"
 #include "mpm/grid/nodal_fields.hpp"
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/material/law.hpp"
@@ -42,25 +42,16 @@ constexpr int neighbours_of(int dim) { return dim == 3 ? 27 : dim == 2 ? 9 : 3; 
 /// `owners`: of each, whether its particles may give to a block that is marked (one mark a block).
 void find_givers(const Grid& grid, const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& owners);
 
-/// pass(block) for every block that holds particles, in their order: for what writes to no node.
+/// pass(block) for every block that holds particles: for what writes to no node.
 template <class Pass>
 void each_owner_at_once(const Grid& grid, int threads, Pass&& pass) {
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (int owner = 0; owner < grid.blocks.owners(); ++owner) pass(view_of(grid, owner));
+  grid.shares.at_once(threads, [&](int owner) { pass(view_of(grid, owner)); });
 }
 
-/// pass(block) for every block that holds particles, a colour after the other.
+/// pass(block) for every block that holds particles, at a node a colour after the other.
 template <class Pass>
 void each_owner(const Grid& grid, int threads, Pass&& pass) {
-  const BlockTable& blocks = grid.blocks;
-  // One team for all colours: between two of them its threads wait, and do not part and meet again.
-#pragma omp parallel num_threads(threads)
-  for (int colour = 0; colour < blocks.colours(); ++colour) {
-    const std::vector<int>& owners = blocks.owners_of_colour(colour);
-    const int count = static_cast<int>(owners.size());
-#pragma omp for schedule(static)
-    for (int i = 0; i < count; ++i) pass(view_of(grid, owners[i]));
-  }
+  grid.shares.by_colour(threads, [&](int owner) { pass(view_of(grid, owner)); });
 }
 
 }  // namespace mpm

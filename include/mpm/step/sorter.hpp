@@ -68,7 +68,7 @@ class Sorter {
   void sort_by_node(ParticleSet& set, Scratch& scratch);
   void fill_groups(ParticleSet& set, const Scratch& scratch) const;
   void permute(ParticleSet& set, Scratch& scratch) const;
-  void rebuild(Fields& fields);
+  void rebuild(const std::vector<ParticleSet>& sets, Fields& fields);
   /// First particle of a thread's part of `count`.
   std::size_t part_begin(std::size_t count, int part) const { return count * part / threads_; }
 
@@ -77,8 +77,9 @@ class Sorter {
   unsigned node_bits_ = 0;  ///< of a code
   std::vector<Scratch> scratch_;
   std::vector<Part> parts_;
-  std::vector<std::uint64_t> owner_keys_;  ///< of all fields, counted on from field to field
-  std::vector<std::uint64_t> field_keys_;  ///< of one
+  std::vector<std::uint64_t> owner_keys_;       ///< of all fields, counted on from field to field
+  std::vector<std::uint64_t> field_keys_;       ///< of one
+  std::vector<std::uint32_t> field_particles_;  ///< of its owners
 };
 
 }  // namespace mpm

@@ -35,8 +35,7 @@ class Continuum final : public Mechanics {
     failed_.reset();
     for (Field& field : fields_) {
       look_at(field);
-      clear(field.grid.mass, field.grid);
-      clear(field.grid.momentum, field.grid);
+      clear(field.grid, field.grid.mass, field.grid.momentum);
       each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
         kernels_.scatter_momentum[motion_ == mpm_kernel::kAffine](field.view, block, field.sets(), field.count());
       });
@@ -51,7 +50,7 @@ class Continuum final : public Mechanics {
       return;
     }
     for (Field& field : fields_) {
-      clear(field.grid.force, field.grid);
+      clear(field.grid, field.grid.force);
       strain(field, {dt, settings_.gradient_terms, true});
     }
   }
@@ -59,7 +58,7 @@ class Continuum final : public Mechanics {
   void internal_force(StepContext&) override {
     for (Field& field : fields_) {
       const double* pressure = settings_.average_dilatation ? mean_of(field, true) : nullptr;
-      clear(field.grid.force, field.grid);
+      clear(field.grid, field.grid.force);
       each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
         kernels_.force(field.view, block, field.sets(), field.count(), pressure);
       });
@@ -99,7 +98,7 @@ class Continuum final : public Mechanics {
   void find_increment(StepContext&) override {
     for (Field& field : fields_) {
       Grid& grid = field.grid;
-      clear(grid.momentum, grid);
+      clear(grid, grid.momentum);
       each_block(grid, true, [&](const mpm_kernel::BlockView& block) {
         kernels_.project(field.view, block, field.sets(), field.count(), grid.increment.data(), grid.momentum.data());
       });
@@ -130,7 +129,7 @@ class Continuum final : public Mechanics {
   }
 
   void move_and_regather(StepContext& context) override {
-    for (Field& field : fields_) clear(field.grid.momentum, field.grid);
+    for (Field& field : fields_) clear(field.grid, field.grid.momentum);
     move(context, true);
     for (Field& field : fields_) velocity_from_momentum(field);
   }
@@ -227,10 +226,12 @@ class Continuum final : public Mechanics {
     for (int r = 0; r < ranges; ++r) pass(r * kBlocks, std::min(blocks, (r + 1) * kBlocks));
   }
 
-  void clear(NodalField& field, const Grid& grid) {
-    const int count = field.components() * grid.layout.nodes_per_block();
+  template <class... Nodal>
+  void clear(const Grid& grid, Nodal&... fields) {
+    const int nodes = grid.layout.nodes_per_block();
     each_node_range(grid, [&](int first, int last) {
-      std::fill(field.block(first), field.block(first) + static_cast<std::ptrdiff_t>(last - first) * count, 0.0);
+      (std::fill_n(fields.block(first), static_cast<std::ptrdiff_t>(last - first) * fields.components() * nodes, 0.0),
+       ...);
     });
   }
 
@@ -319,7 +320,7 @@ class Continuum final : public Mechanics {
   // Of the particles' dilatation or mean stress, the mass-weighted mean at the nodes of a field.
   const double* mean_of(const Field& field, bool of_stress) {
     mean_.resize(field.grid.blocks.size());
-    clear(mean_, field.grid);
+    clear(field.grid, mean_);
     each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
       kernels_.spread_mean[of_stress](field.view, block, field.sets(), field.count(), mean_.data());
     });

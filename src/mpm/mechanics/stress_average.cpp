@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/grid/each_share.hpp"
 #include "mpm/math/dimension.hpp"
 
 namespace mpm {
@@ -164,14 +165,8 @@ void StressAverage::average(const AveragedSet& one, std::size_t place, const Ste
 #pragma omp parallel for schedule(static) num_threads(threads_)
     for (std::int64_t i = 0; i < cells; ++i) cells_[i] = {};
     // A block adds to its own cells and to the last ones of those before it, so blocks of one colour share no cell.
-    for (int colour = 0; colour < grid.blocks.colours(); ++colour) {
-      const std::vector<int>& of_colour = grid.blocks.owners_of_colour(colour);
-      const int count = static_cast<int>(of_colour.size());
-#pragma omp parallel for schedule(static) num_threads(threads_)
-      for (int i = 0; i < count; ++i) gather<Geometry, T>(one, before, grid, of_colour[i]);
-    }
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int owner = 0; owner < owners; ++owner) of_owner_[owner] = share<Geometry, T>(one, before, grid, owner);
+    grid.shares.by_colour(threads_, [&](int owner) { gather<Geometry, T>(one, before, grid, owner); });
+    grid.shares.at_once(threads_, [&](int owner) { of_owner_[owner] = share<Geometry, T>(one, before, grid, owner); });
     for (const double lost : of_owner_) taken_ += lost;
   }
 }

@@ -222,7 +222,7 @@ void Sorter::permute(ParticleSet& set, Scratch& scratch) const {
   if (!set.side.empty()) reorder(set.side, scratch.sides);
 }
 
-void Sorter::rebuild(Fields& fields) {
+void Sorter::rebuild(const std::vector<ParticleSet>& sets, Fields& fields) {
   auto first = owner_keys_.begin();
   std::uint64_t corner = 0;  // key 0 of the field
   for (auto& field : fields) {
@@ -231,7 +231,12 @@ void Sorter::rebuild(Fields& fields) {
     field_keys_.assign(first, end);
     for (std::uint64_t& key : field_keys_) key -= corner;
     field->first_owner = static_cast<int>(first - owner_keys_.begin());
-    field->rebuild(field_keys_, threads_);
+    field_particles_.assign(field_keys_.size(), 0);
+    for (const ParticleSet& set : sets) {
+      const std::uint32_t* begin = set.begin.data() + field->first_owner;
+      for (std::size_t o = 0; o < field_particles_.size(); ++o) field_particles_[o] += begin[o + 1] - begin[o];
+    }
+    field->rebuild(field_keys_, threads_, field_particles_);
     first = end;
     corner = next;
   }
@@ -257,7 +262,7 @@ std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Fields& 
     fill_groups(sets[s], scratch_[s]);
     permute(sets[s], scratch_[s]);
   }
-  rebuild(fields);
+  rebuild(sets, fields);
   return std::nullopt;
 }
 

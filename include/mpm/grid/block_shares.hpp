@@ -1,0 +1,64 @@
+// Which thread works on which owners: contiguous parts of them, and so of space, with nearly the same work. A part
+// keeps its nodes and particles in a core's cache from pass to pass.
+//
+// What scatters to nodes takes its owners colour by colour (block_table.hpp), but threads need not wait for each other
+// at the end of every colour: owners of two parts share a node only where the parts touch. Of each colour a part takes
+// the owners beside other parts first, when these parts have done with theirs of the colours before. So the work has to
+// be balanced over a whole pass alone, and a node still gets its sums in the order of colours: the same bits for any
+// number of parts and threads.
+// Weak: a part is no smaller than a block, so a few blocks on many threads are shared unevenly.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "mpm/grid/block_table.hpp"
+
+namespace mpm {
+
+class BlockShares {
+ public:
+  /// Cuts the owners of `blocks` into `parts` parts, some of them empty where owners are few. `particles`: of each
+  /// owner; when empty, all owners count alike.
+  void rebuild(const BlockTable& blocks, const std::vector<std::uint32_t>& particles, int parts);
+
+  int parts() const { return static_cast<int>(begin_.size()) - 1; }
+  /// First owner of a part; of part parts() one past the last.
+  int begin(int part) const { return begin_[part]; }
+
+  // The loops over the owners are defined in each_share.hpp, for files that are compiled with OpenMP.
+  /// visit(owner) for all owners, on so many threads: for what writes to no node of another owner.
+  template <class Visit>
+  void at_once(int threads, Visit&& visit) const;
+  /// visit(owner) for all owners, at each node in the order of colours: for what scatters to a tile.
+  template <class Visit>
+  void by_colour(int threads, Visit&& visit) const;
+
+ private:
+  /// Colours of which a part has done its owners beside other parts. A cache line each.
+  struct alignas(64) Done {
+    std::atomic<int> colours{0};
+  };
+
+  /// Until the parts beside this one have done with all colours before this one.
+  void wait_for_others(int part, int colour) const;
+  void cut(const BlockTable& blocks, const std::vector<std::uint32_t>& particles, int parts);
+
+  int colours_ = 0;
+  std::vector<int> begin_ = {0};  ///< of each part, its first owner; and one past the last
+  std::vector<int> order_;        ///< owners by part, by colour, and of a colour those beside other parts first
+  /// Of each part and colour, where its owners begin in order_, and where those with neighbours in their own part alone
+  /// do; and where all end.
+  std::vector<int> runs_ = {0};
+  std::vector<int> beside_, beside_begin_ = {0};  ///< of each part, the parts that it touches
+  std::unique_ptr<Done[]> done_;                  ///< of each part
+  int room_ = 0;                                  ///< parts in done_
+
+  // Kept so that a sort allocates nothing.
+  std::vector<int> part_of_, owner_of_block_;
+  std::vector<std::uint8_t> at_edge_, touches_;
+};
+
+}  // namespace mpm

@@ -77,6 +77,7 @@ void Wall::hold_up(Node& node, const FieldContext& context, const Vec3& impulse,
   }
 }
 
+// Nodes without material have no velocity, and no loss.
 void Wall::before_strain(FieldContext& context) {
   Grid& grid = context.grid;
   if (always_holds()) {
@@ -84,6 +85,7 @@ void Wall::before_strain(FieldContext& context) {
     const int first = begin, last = end;
     each_node([&, first, last](std::size_t i, Deeds& deeds) {
       Node& node = nodes_[i];
+      if (!grid.carries(node.ref.block, node.ref.node)) return;
       for (int k = first; k < last; ++k) {
         double& velocity = grid.velocity.at(node.ref.block, k, node.ref.node);
         if (acted_) {
@@ -99,6 +101,7 @@ void Wall::before_strain(FieldContext& context) {
   const Vec3 n = normal(grid.layout);
   each_node([&](std::size_t i, Deeds& deeds) {
     const Node& node = nodes_[i];
+    if (!grid.carries(node.ref.block, node.ref.node)) return;
     const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
     const Vec3 change = strain_change(velocity, n, definition_.friction, node.hold);
     deeds.loss += losses_[i].strain(velocity, change);

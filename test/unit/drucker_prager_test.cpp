@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "mpm/math/exponential.hpp"
 
@@ -119,6 +120,22 @@ TEST(DruckerPrager, OpenedSoilDilatesWithoutPressure) {
   for (int i = 0; i < 1000; ++i) element.strain(0.0, 0.0, 0.0, 1e-4);
   EXPECT_EQ(element.mean(), 0.0);
   EXPECT_EQ(element.root_j2(), 0.0);
+}
+
+// What is left of the trial deviator and the mean stress say as much as the stresses themselves.
+TEST(DruckerPrager, TakesTheWorkOfAReturnFromItsDeviator) {
+  std::mt19937 engine(4);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int n = 0; n < 1000; ++n) {
+    const mpm::Symmetric3<double> start{u(engine), u(engine), u(engine), u(engine), u(engine), u(engine)};
+    const mpm::Symmetric3<double> trial{u(engine), u(engine), u(engine), u(engine), u(engine), u(engine)};
+    const double trial_mean = trace(trial) / 3.0, mean = u(engine), kept = 0.5 + 0.5 * u(engine);
+    const mpm::Symmetric3<double> deviator = scale_shift(trial, 1.0, -trial_mean);
+    const double work =
+        mpm::radially_returned_work(start, deviator, 0.5 * squared_norm(deviator), kept, trial_mean, mean, 3.0, 2.0);
+    // Some tens of numbers of order 1.
+    EXPECT_NEAR(work, mpm::returned_work(start, trial, scale_shift(deviator, kept, mean), 3.0, 2.0), 1e-14) << n;
+  }
 }
 
 TEST(DruckerPrager, CutsTensionWhereAsked) {

@@ -26,7 +26,11 @@ struct Backend<double> {
   static Vector repeat(const double* four) { return _mm512_maskz_broadcast_f64x4(kAll, _mm256_loadu_pd(four)); }
   static Mask first(int count) { return count >= 8 ? Mask(0xFF) : count <= 0 ? Mask(0) : Mask((1U << count) - 1U); }
   static Vector load_first(const double* from, int count) { return _mm512_maskz_loadu_pd(first(count), from); }
-  static void store_first(double* to, Vector v, int count) { _mm512_mask_storeu_pd(to, first(count), v); }
+  /// A store with a mask takes longer.
+  static void store_first(double* to, Vector v, int count) {
+    if (count >= kLanes) return store(to, v);
+    _mm512_mask_storeu_pd(to, first(count), v);
+  }
   static Mask less(Vector a, Vector b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
   static Mask less_equal(Vector a, Vector b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
   static Mask equal(Vector a, Vector b) { return _mm512_cmp_pd_mask(a, b, _CMP_EQ_OQ); }
@@ -65,7 +69,10 @@ struct Backend<float> {
   static Vector repeat(const float* four) { return _mm512_maskz_broadcast_f32x4(kAll, _mm_loadu_ps(four)); }
   static Mask first(int count) { return count >= 16 ? Mask(0xFFFF) : count <= 0 ? Mask(0) : Mask((1U << count) - 1U); }
   static Vector load_first(const float* from, int count) { return _mm512_maskz_loadu_ps(first(count), from); }
-  static void store_first(float* to, Vector v, int count) { _mm512_mask_storeu_ps(to, first(count), v); }
+  static void store_first(float* to, Vector v, int count) {
+    if (count >= kLanes) return store(to, v);
+    _mm512_mask_storeu_ps(to, first(count), v);
+  }
   static Mask less(Vector a, Vector b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
   static Mask less_equal(Vector a, Vector b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
   static Mask equal(Vector a, Vector b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }

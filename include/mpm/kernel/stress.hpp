@@ -74,6 +74,7 @@ class Stress {
     int bad = count;
     for (int q = 0; q < count; q += W::kLanes) {
       const int p = first + q, lanes = count - q;
+      fetch<LawType::kHistory>(set, p + mpm_kernel::kChunk);
       W l[kDim][kDim];
       for (int c = 0; c < kDim; ++c) {
         for (int k = 0; k < kDim; ++k) l[c][k] = W::load(gradients.l[c * kDim + k] + q) * dt;
@@ -115,6 +116,16 @@ class Stress {
   }
 
  private:
+  /// Particles of the next chunk, whose lines would else be waited for: of a solid there are more of them than the
+  /// processor fetches ahead by itself. Where a register is a line.
+  template <int History>
+  static void fetch(const Set& set, int p) {
+    if constexpr (kDim < 3 || sizeof(W) < 64) return;
+    for (int c = 0; c < 9; ++c) __builtin_prefetch(set.f[c] + p, 1);
+    for (int c = 0; c < 6; ++c) __builtin_prefetch(set.tau[c] + p, 1);
+    for (int h = 0; h < History; ++h) __builtin_prefetch(set.history[h] + p, 1);
+  }
+
   template <class Symmetric>
   static void put_columns(const Symmetric& stress, W mass, int q, Columns& out) {
     for (int k = 0; k < kDim; ++k) {

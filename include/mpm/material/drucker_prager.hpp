@@ -48,19 +48,20 @@ class DruckerPrager : public LawTraits {
     const Symmetric previous = scale_shift(tau, T(density_) / step.j_old, T(0));
     const Symmetric trial = LinearElastic::stress_rate_update(previous, step.du, bulk_, shear_);
     const T trial_mean = T(1.0 / 3.0) * trace(trial);
-    Symmetric deviator = scale_shift(trial, T(1), -trial_mean);
+    const Symmetric deviator = scale_shift(trial, T(1), -trial_mean);
     T mean = close_opening(trial_mean, bulk_, history[kOpening]);
     const T j2 = T(0.5) * squared_norm(deviator);
     const Surface<T> now = surface(history[kPlasticStrain]);
     const T yield_root_j2 = now.strength - now.eta * mean;
     const auto shears = (yield_root_j2 < T(0)) | (j2 > yield_root_j2 * yield_root_j2);
     const auto flows = shears | (mean > now.cutoff), closes = mean > trial_mean;
-    if (any(flows)) flow(now, shears, sqrt(j2), yield_root_j2, step.j, mean, deviator, history);
+    T kept(1);  // part of the trial deviator
+    if (any(flows)) kept = flow(now, shears, sqrt(j2), yield_root_j2, step.j, deviator, mean, history);
     if (any(flows | closes)) {
-      const T work = returned_work(previous, trial, scale_shift(deviator, T(1), mean), bulk_, shear_);
+      const T work = radially_returned_work(previous, deviator, j2, kept, trial_mean, mean, bulk_, shear_);
       history[kPlasticWork] += select(flows | closes, work * to_tau, T(0));
     }
-    tau = scale_shift(deviator, to_tau, mean * to_tau);
+    tau = scale_shift(deviator, kept * to_tau, mean * to_tau);
   }
 
   template <class Matrix, class Symmetric>
@@ -108,48 +109,57 @@ class DruckerPrager : public LawTraits {
     return now;
   }
 
-  /// ((s1 - s3) + (s1 + s3) sine) / 2 of the principal deviators {s1, s3}.
+  /// sqrt(3) k(a), where sin(a) is `sine`, from half_extremes() of the deviator scaled to d : d = 6. At least 1, but
+  /// without a deviator, whose extremes in a plane are zero.
   template <class T>
   static T shear_measure(const std::pair<T, T>& s, T sine) {
-    return T(0.5) * (T(1) + sine) * s.first - T(0.5) * (T(1) - sine) * s.second;
+    return max((T(1) + sine) * s.first + (T(1) - sine) * s.second, T(0.5));
   }
   double largest_flow_stiffness(bool dilates) const;
 
-  /// Returns `mean` and `deviator` to the cone or its apex in the lanes where `shears` holds, and to the cut-off in
-  /// all. With ConeMatch::mohr_coulomb, `yield_root_j2` is of the cone inside the surface, and so is `shears`.
+  /// Returns `mean` to the cone or its apex in the lanes where `shears` holds, and to the cut-off in all; returns the
+  /// part of the deviator that is left. With ConeMatch::mohr_coulomb, `yield_root_j2` is of the cone inside the
+  /// surface, and so is `shears`.
   template <class T, class Mask, class Symmetric>
-  void flow(const Surface<T>& now, Mask shears, T root_j2, T yield_root_j2, T j, T& mean, Symmetric& deviator,
-            T* history) const {
+  T flow(const Surface<T>& now, Mask shears, T root_j2, T yield_root_j2, T j, const Symmetric& deviator, T& mean,
+         T* history) const {
+    const T per_root_j2 = T(1) / max(root_j2, T(kAlmostNothing));
+    const bool dilates = eta_bar_ != 0.0;
     T eta = now.eta, eta_bar = T(eta_bar_);
     if (follows_lode_) {
       // Shear strength over that of the cone inside the surface, and the same of the dilation.
-      const auto extremes = principal_extremes(deviator);
-      const T size = root_j2 + T(kAlmostNothing);
-      const T stronger = size / (now.per_shear * shear_measure(extremes, now.sine) + T(kAlmostNothing));
+      const auto extremes = half_extremes(scale_shift(deviator, T(kRoot3) * per_root_j2, T(0)));
+      const T stronger = T(kRoot3) / (now.per_shear * shear_measure(extremes, now.sine));
       eta *= stronger;
       yield_root_j2 *= stronger;
       shears = shears & (root_j2 > yield_root_j2);
-      eta_bar *= size / (T(1.0 / most_dilation_shear_) * shear_measure(extremes, T(sin_dilation_)) + T(kAlmostNothing));
+      if (dilates) eta_bar *= T(kRoot3 * most_dilation_shear_) / shear_measure(extremes, T(sin_dilation_));
     }
-    // Opened soil has room to dilate into, so dilation builds up no pressure; loose soil has done with it.
-    eta_bar = select(history[kOpening] > T(0), T(0), eta_bar * now.dilates * dilation_end_.left(j));
+    const T beyond_yield = root_j2 - yield_root_j2;
     // Increment of the equivalent plastic shear strain, sqrt(2 de:de).
-    T multiplier = select(shears, (root_j2 - yield_root_j2) / (T(shear_) + T(bulk_) * eta * eta_bar), T(0));
+    T multiplier = T(1.0 / shear_) * beyond_yield;
+    if (dilates) {
+      // Opened soil has room to dilate into, so dilation builds up no pressure; loose soil has done with it.
+      eta_bar = select(history[kOpening] > T(0), T(0), eta_bar * now.dilates * dilation_end_.left(j));
+      multiplier = beyond_yield / (T(shear_) + T(bulk_) * eta * eta_bar);
+    }
+    multiplier = select(shears, multiplier, T(0));
     const T beyond = root_j2 - T(shear_) * multiplier;
     const T left = max(beyond, T(0));
     // Without friction there is no apex; values below zero are round-off.
     const auto apex = (beyond < T(0)) & (now.eta > T(0));
     multiplier = select(apex, T(1.0 / shear_) * root_j2, multiplier);
-    const T dilation = select(apex, T(0), eta_bar * multiplier);
     T opened = select(apex, T(1.0 / bulk_) * (mean - now.apex), T(0));
-    mean = select(apex, now.apex, mean - T(bulk_) * dilation);
+    const T returned = dilates ? mean - T(bulk_) * (eta_bar * multiplier) : mean;
+    mean = select(apex, now.apex, returned);
     opened += T(1.0 / bulk_) * max(mean - now.cutoff, T(0));
     mean = min(mean, now.cutoff);
-    deviator = scale_shift(deviator, select(shears, left / max(root_j2, T(kAlmostNothing)), T(1)), T(0));
     history[kOpening] += opened;
     history[kPlasticStrain] += multiplier;
+    return select(shears, left * per_root_j2, T(1));
   }
 
+  static constexpr double kRoot3 = 1.7320508075688772;
   static constexpr float kAlmostNothing = std::numeric_limits<float>::min();  // avoids 0 / 0
 
   double density_, bulk_, shear_;

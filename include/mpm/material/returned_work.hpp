@@ -30,4 +30,13 @@ auto returned_work(const Symmetric& start, const Symmetric& trial, const Symmetr
   return T(0.25 / shear) * (inner(both, lost) - T(1.0 / 3.0) * pressures) + T(1.0 / (18.0 * bulk)) * pressures;
 }
 
+/// The same of a radial return: of the trial deviator, with this J2, the part `kept` is left, and of its mean stress
+/// `mean`.
+template <class T, class Symmetric>
+T radially_returned_work(const Symmetric& start, const Symmetric& trial_deviator, T j2, T kept, T trial_mean, T mean,
+                         double bulk, double shear) {
+  const T shears = (T(1) - kept) * (inner(start, trial_deviator) + T(2) * kept * j2);
+  return T(0.25 / shear) * shears + T(1.0 / (6.0 * bulk)) * (trace(start) + T(3) * mean) * (trial_mean - mean);
+}
+
 }  // namespace mpm

@@ -14,6 +14,12 @@ Matrix3<T> exponential(const Matrix3<T>& a, int terms) {
     return {T(1) + a.xx, a.xy, a.xz, a.yx, T(1) + a.yy, a.yz, a.zx, a.zy, T(1) + a.zz};
   }
   const Matrix3<T> a2 = product(a, a);
+  if (terms == 2) {
+    const T half(0.5);
+    return {T(1) + a.xx + half * a2.xx, a.xy + half * a2.xy,        a.xz + half * a2.xz,
+            a.yx + half * a2.yx,        T(1) + a.yy + half * a2.yy, a.yz + half * a2.yz,
+            a.zx + half * a2.zx,        a.zy + half * a2.zy,        T(1) + a.zz + half * a2.zz};
+  }
   T square = T(0.5), linear = T(1), constant = T(1);
   if (terms > 2) {
     const T i1 = a.xx + a.yy + a.zz;

@@ -69,45 +69,42 @@ T cosine_of_third_by_half(T x) {
   return T(0.5) + sum;
 }
 
-/// |sin| of three times the Lode angle of a deviator d with d : d = 6, where determinant(d) / 2 is the cosine. With t =
-/// dev(d d), sin^2 = (|d|^2 |t|^2 - (d : t)^2) / 36, computed as a sum of squares: exact where two principal values are
-/// nearly equal too, where 1 - cos^2 has lost half of the digits.
+/// sin^2 of three times the Lode angle of a deviator d with d : d = 6, where `cosine` = determinant(d) / 2 is the
+/// cosine: the square of what dev(d d) has beside its part along d, |dev(d d) - cosine d|^2 / 6. Exact to round-off
+/// where two principal values are nearly equal too, where 1 - cos^2 has lost half of the digits.
 template <class T>
-T sine_of_lode(const Symmetric3<T>& d) {
+T squared_sine_of_lode(const Symmetric3<T>& d, T cosine) {
   const Symmetric3<T> square = {d.xx * d.xx + d.xy * d.xy + d.xz * d.xz, d.xy * d.xy + d.yy * d.yy + d.yz * d.yz,
                                 d.xz * d.xz + d.yz * d.yz + d.zz * d.zz, d.xy * d.xz + d.yy * d.yz + d.yz * d.zz,
                                 d.xx * d.xz + d.xy * d.yz + d.xz * d.zz, d.xx * d.xy + d.xy * d.yy + d.xz * d.yz};
-  constexpr double kRoot = 1.4142135623730951, kOther = 1.2247448713915890;  // roots of 2 and of 3/2
-  const T third = T(1.0 / 3.0) * trace(square);
-  const T a[5] = {T(kOther) * d.zz, T(1.0 / kRoot) * (d.xx - d.yy), T(kRoot) * d.yz, T(kRoot) * d.xz, T(kRoot) * d.xy};
-  const T b[5] = {T(kOther) * (square.zz - third), T(1.0 / kRoot) * (square.xx - square.yy), T(kRoot) * square.yz,
-                  T(kRoot) * square.xz, T(kRoot) * square.xy};
-  T sum(0);
-  for (int i = 0; i < 5; ++i) {
-    for (int k = 0; k < i; ++k) {
-      const T minor = a[i] * b[k] - a[k] * b[i];
-      sum += minor * minor;
-    }
-  }
-  return T(1.0 / 6.0) * sqrt(sum);
+  return T(1.0 / 6.0) *
+         squared_norm(sum(scale_shift(square, T(1), T(-1.0 / 3.0) * trace(square)), scale_shift(d, -cosine, T(0))));
+}
+
+/// Of a deviator d with d : d = 6 half of its largest and of its smallest principal value, the latter with its sign
+/// turned; both lie between 1/2 and 1. To 1e-10 (in single precision 1e-6). T: a number or a register. Source: Smith
+/// (1961), Commun. ACM 4, with the Lode angle from its sine where its cosine is near 1 or -1.
+template <class T>
+std::pair<T, T> half_extremes(const Symmetric3<T>& d) {
+  const T cosine = T(0.5) * determinant(d);
+  const T squared_most = T(0.5) + T(0.5) * min(abs(cosine), T(1));  // cosine of the half of the smaller angle
+  const T most = sqrt(squared_most);
+  const T least = min(T(0.5) * sqrt(squared_sine_of_lode(d, cosine) / squared_most), T(1));
+  const T far = cosine_of_third_by_half(most), near = cosine_of_third_by_half(least);
+  const auto extends = cosine >= T(0);
+  return {select(extends, far, near), select(extends, near, far)};
 }
 
 /// The largest and the smallest principal value in closed form, at a fraction of the cost of principal(): to 1e-10 of
-/// the deviator's norm (in single precision 1e-6). T: a number or a register. Source: Smith (1961), Commun. ACM 4, with
-/// the Lode angle from its sine where its cosine is near 1 or -1.
+/// the deviator's norm (in single precision 1e-6). T: a number or a register.
 template <class T>
 std::pair<T, T> principal_extremes(const Symmetric3<T>& s) {
   const T mean = T(1.0 / 3.0) * trace(s);
   const Symmetric3<T> deviator = scale_shift(s, T(1), -mean);
   const T size = sqrt(T(1.0 / 6.0) * squared_norm(deviator));
   constexpr float kAlmostNothing = std::numeric_limits<float>::min();  // avoids 0 / 0 where the deviator is zero
-  const Symmetric3<T> d = scale_shift(deviator, T(1) / max(size, T(kAlmostNothing)), T(0));
-  const T cosine = T(0.5) * determinant(d);
-  const T most = sqrt(T(0.5) + T(0.5) * min(abs(cosine), T(1)));  // cosine of the half of the smaller angle
-  const T least = min(T(0.5) * sine_of_lode(d) / most, T(1));
-  const T far = cosine_of_third_by_half(most), near = cosine_of_third_by_half(least);
-  const auto extends = cosine >= T(0);
-  return {mean + T(2) * size * select(extends, far, near), mean - T(2) * size * select(extends, near, far)};
+  const auto half = half_extremes(scale_shift(deviator, T(1) / max(size, T(kAlmostNothing)), T(0)));
+  return {mean + T(2) * size * half.first, mean - T(2) * size * half.second};
 }
 
 /// Planar overload, exact to round-off.
@@ -116,6 +113,13 @@ std::pair<T, T> principal_extremes(const SymmetricPlane<T>& s) {
   const T mean = T(0.5) * (s.xx + s.zz), half = T(0.5) * (s.xx - s.zz);
   const T radius = sqrt(half * half + s.xz * s.xz);
   return {max(mean + radius, s.yy), min(mean - radius, s.yy)};
+}
+
+/// Planar overload, exact to round-off.
+template <class T>
+std::pair<T, T> half_extremes(const SymmetricPlane<T>& d) {
+  const auto [largest, smallest] = principal_extremes(d);
+  return {T(0.5) * largest, T(-0.5) * smallest};
 }
 
 /// An upper bound of cos(acos(c)/3), at most 3e-5 above it; c in [-1, 1]. With x = sqrt((1 + c)/2) the function is

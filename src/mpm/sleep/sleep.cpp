@@ -88,7 +88,10 @@ void Sleep::momentum_gathered(StepContext& context) {
       borders_[f].find(static_cast<int>(f), *context.fields[f], asleep_);
     }
   }
-  if (!begun_ && definition_.from_start) watch_.trust_all();
+  if (!begun_ && definition_.from_start) {
+    watch_.trust_all();
+    looks_waited_ = kLooksToWait;
+  }
   if (begun_ && ++steps_ < kStepsBetweenLooks) return;
   if (begun_ && !sleepers_.empty()) ++looks_waited_;
   begun_ = true;

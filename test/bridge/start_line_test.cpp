@@ -31,6 +31,12 @@ StartFacts blade() {
 TEST(StartLine, SaysWhatRunsAndWhatItWaitsFor) {
   StartFacts facts = blade();
   EXPECT_EQ(start_line(facts), "blade_in_soil: 40640 particles, real time, 2 threads, in /mpm; runs to 1.5 s");
+  facts.heights = {{"soil", "/hills"}};
+  EXPECT_EQ(
+      start_line(facts),
+      "blade_in_soil: 40640 particles, real time, 2 threads, in /mpm; has the heights of 'soil' from /hills; runs to "
+      "1.5 s");
+  facts.heights.clear();
   facts.pacing = Pacing::lockstep;
   EXPECT_EQ(start_line(facts),
             "blade_in_soil: 40640 particles, lockstep, 2 threads, in /mpm; waits for the service /mpm/step");

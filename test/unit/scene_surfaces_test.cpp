@@ -92,7 +92,8 @@ TEST_F(SceneHeightFile, FilesThatHoldNoFieldAreRefused) {
   refused(write("words.csv", "0, 1\n0, high\n"), "words.csv:2: 'high' is not a number");
   refused(write("ragged.csv", "0, 1\n0\n"), "ragged.csv:2: 1 numbers, but 2 in the rows before");
   refused(write("one.csv", "0, 1\n"), "two points at least along each axis");
-  refused(write("nan.csv", "0, nan\n0, 0\n"), "all must be finite");
+  refused(write("nan.csv", "0, nan\n0, 0\n"),
+          "1 of its points under the body have no height, the first at x = 1 m, y = 0 m");
   refused(write("no_scale.pgm", "P2 2 2 1 0 0 0 0"), "write scale");
   refused(write("colour.pgm", "P3 2 2 1 0 0 0 0"), "not a greyscale image", ", scale: 1");
   refused(write("short.pgm", "P2 2 2 1 0 0 0"), "ends early", ", scale: 1");

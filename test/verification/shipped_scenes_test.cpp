@@ -43,6 +43,7 @@ std::vector<std::string> coarse(const std::string& name) {
   // Its probe waits for commands.
   if (name == "foam_probe") return {"time.end=0.6", R"(rigid_bodies.probe.motion={velocity: [0, "-0.03"]})"};
   if (name == "wheel_in_sand") return {"grid.cell=0.04"};
+  if (name == "rover_wheel_terrain") return {"grid.cell=0.08"};
   if (name == "rod_penetration") return {"grid.cell=1"};
   if (name == "sphere_indentation") return {"grid.cell=[0.002, 0.0005]"};
   if (name == "speed_block_3d_million") return {"grid.cell=0.1"};

@@ -4,6 +4,7 @@
 //   mpm::Simulation simulation(scene, {2});  // on two threads; the same as of mpm::build(scene)
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,16 +23,19 @@ class SceneError : public Error {
   using Error::Error;
 };
 
+class Terrain;
+
 /// A region of space that a deformable body fills. Half-open: a point on a face that two regions share is in one of
 /// them only. In planar scenes a sphere is a disk, and a box is infinite along y.
 struct Region {
-  enum class Kind { box, sphere, cylinder } kind = Kind::box;
+  enum class Kind { box, sphere, cylinder, terrain } kind = Kind::box;
   Box box;                     ///< box
   Vec3 center = Vec3::Zero();  ///< sphere, cylinder [m]
   double radius = 0.0;         ///< [m]
   double height = 0.0;         ///< cylinder, along `axis`
   int axis = 2;
-  bool about_axis = false;  ///< in an axisymmetric scene: only r >= 0 counts
+  bool about_axis = false;                 ///< in an axisymmetric scene: only r >= 0 counts
+  std::shared_ptr<const Terrain> terrain;  ///< terrain
   bool contains(const Vec3& point) const;
   Box bounds() const;
 };

@@ -25,8 +25,10 @@ void read_damping(const Value& value, Scene& scene);
 void read_materials(const Map& root, Scene& scene);
 /// `bodies`, after materials
 void read_bodies(const Map& root, Scene& scene);
-/// A `shape` of a body, or the `region` of a load.
+/// The `region` of a load or condition.
 Region read_region(const Value& value, GeometryKind geometry);
+/// The `shape` of a deformable body that is a `height_field`, after `grid`
+Region read_terrain(const Value& value, const SimulationDefinition& definition);
 /// `bodies.<name>.initial`
 void read_initial(const Value& value, const MaterialDefinition& material, Scene& scene, BodyDefinition& body);
 /// `rigid_bodies`, and by read_contact() `contact`, after bodies

@@ -24,6 +24,7 @@
 #include "mpm/scene/scene.hpp"
 #include "mpm_ros/message/node_health.hpp"
 #include "mpm_ros/node/body_commands.hpp"
+#include "mpm_ros/node/height_maps.hpp"
 #include "mpm_ros/node/mailbox.hpp"
 #include "mpm_ros/node/node_diagnostics.hpp"
 #include "mpm_ros/node/node_parameters.hpp"
@@ -37,7 +38,7 @@ namespace mpm_ros {
 
 class SimulatorNode {
  public:
-  /// Loads the scene and makes the first run ready.
+  /// Loads the scene, once the messages are there from which it takes heights, and makes the first run ready.
   /// @throws mpm::Error, ParameterError, BagError: bad input, exit code 2. @throws mpm::StoppedError
   SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters);
   ~SimulatorNode();
@@ -61,8 +62,7 @@ class SimulatorNode {
   };
   /// The scene with `set` over what ~set says, with the choice that `recorded`, the text of a run, has for its target,
   /// and else one that is made now, and told. @throws mpm::Error
-  static mpm::Scene load_aimed(const NodeParameters& parameters, const std::vector<std::string>& set,
-                               const std::string& recorded);
+  mpm::Scene load_aimed(const std::vector<std::string>& set, const std::string& recorded) const;
   /// That of the present run, with what was chosen for its target in the checkpoint's. @throws mpm::Error
   std::shared_ptr<const Subject> subject_of(const mpm::CheckpointAbout& about) const;
   /// The scene with `set` over what ~set says. @throws mpm::Error, ParameterError, also where it does not fit the node:
@@ -120,6 +120,7 @@ class SimulatorNode {
 
   ros::NodeHandle node_;
   const NodeParameters parameters_;
+  const HeightMaps heights_;                // with the overrides of the scene
   std::shared_ptr<const Subject> subject_;  // of the present run
   NodeHealth health_;
   Mailbox mailbox_;

@@ -19,9 +19,10 @@ struct StartFacts {
   std::string name_space;  ///< absolute: "/mpm", or "/"
   double end = 0.0;        ///< [s]; 0: none
   bool paused = false;
-  bool clock = false;                                       ///< publishes /clock
-  std::string commands;                                     ///< bag whose commands are replayed; empty: none
-  std::vector<std::pair<std::string, std::string>> frames;  ///< of bodies that follow one: body, tf frame
+  bool clock = false;                                        ///< publishes /clock
+  std::string commands;                                      ///< bag whose commands are replayed; empty: none
+  std::vector<std::pair<std::string, std::string>> frames;   ///< of bodies that follow one: body, tf frame
+  std::vector<std::pair<std::string, std::string>> heights;  ///< of bodies whose heights came in a message: body, topic
 };
 
 /// "blade_in_soil: 40640 particles, lockstep, 2 threads, in /mpm; waits for the service /mpm/step"

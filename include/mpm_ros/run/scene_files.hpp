@@ -1,5 +1,5 @@
-// The files that a scene names beside its own text, with a hash of each: a recording says by it whether a mesh is still
-// the one that it was made with.
+// The files that a scene names beside its own text, with a hash of each: a recording says by it whether a mesh or
+// a map of heights is still the one that it was made with.
 //
 // Weak: files that those name in turn (the meshes in a robot's description) are not looked at.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace mpm_ros {
 
-/// Every text under `rigid_bodies` that names a file which is there, by a path from the scene's folder or in a package.
+/// Every text under `bodies` and `rigid_bodies` that names a file which is there, by a path from the scene's folder or in a package.
 /// `text`: the scene's, YAML. `scene_path`: where it was read.
 std::vector<SceneFile> scene_files(const std::string& text, const std::string& scene_path);
 

@@ -75,6 +75,21 @@ Region read_cylinder(const Value& value, GeometryKind geometry) {
   return region;
 }
 
+Region read_simple(const std::string& kind, const Value& shape, GeometryKind geometry) {
+  if (kind == "box") return read_box(shape, geometry);
+  if (kind == "sphere") return read_sphere(shape, geometry);
+  return read_cylinder(shape, geometry);
+}
+
+Region read_shape(const Value& value, const SimulationDefinition& definition) {
+  const std::string advice = "use box, sphere, cylinder or height_field";
+  const auto [kind, shape] =
+      only_key(value, {"box", "sphere", "cylinder", "height_field"},
+               {{"mesh", advice}, {"polygon", advice}, {"capsule", advice}, {"disk", "use sphere"}});
+  if (kind == "height_field") return read_terrain(shape, definition);
+  return read_simple(kind, shape, definition.geometry);
+}
+
 /// Reads rigid bodies by name; whether they exist is checked when the body is filled.
 void read_cut_out(const Value& value, BodyDefinition& body) {
   body.cut_out_where = value.where();
@@ -90,12 +105,10 @@ void read_cut_out(const Value& value, BodyDefinition& body) {
 
 Region read_region(const Value& value, GeometryKind geometry) {
   const std::string advice = "use box, sphere or cylinder";
-  const auto [kind, shape] =
-      only_key(value, {"box", "sphere", "cylinder"},
-               {{"mesh", advice}, {"polygon", advice}, {"capsule", advice}, {"disk", "use sphere"}});
-  if (kind == "box") return read_box(shape, geometry);
-  if (kind == "sphere") return read_sphere(shape, geometry);
-  return read_cylinder(shape, geometry);
+  const auto [kind, shape] = only_key(
+      value, {"box", "sphere", "cylinder"},
+      {{"mesh", advice}, {"polygon", advice}, {"capsule", advice}, {"height_field", advice}, {"disk", "use sphere"}});
+  return read_simple(kind, shape, geometry);
 }
 
 void read_bodies(const Map& root, Scene& scene) {
@@ -119,7 +132,7 @@ void read_bodies(const Map& root, Scene& scene) {
     const MaterialDefinition& made_of = scene.definition.materials[found - materials.begin()];
     if (const std::string reason = refused_material(geometry, made_of); !reason.empty()) material.fail(reason);
     const Value shape = map.at("shape");
-    body.region = read_region(shape, geometry);
+    body.region = read_shape(shape, scene.definition);
     body.where = shape.where();
     if (const auto jitter = map.find("jitter")) {
       body.jitter = jitter->non_negative(kPlain);

@@ -12,6 +12,7 @@
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/feasible.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/scene/terrain.hpp"
 
 namespace mpm {
 namespace {
@@ -285,6 +286,7 @@ void check_faces(const TractionDefinition& load, const LoadRegion& chosen, const
 }  // namespace
 
 bool Region::contains(const Vec3& point) const {
+  if (kind == Kind::terrain) return terrain->contains(point);
   if (about_axis && point.x() < 0.0) return false;
   if (kind == Kind::box) return (point.array() >= box.min.array()).all() && (point.array() < box.max.array()).all();
   Vec3 arm = point - center;
@@ -296,6 +298,7 @@ bool Region::contains(const Vec3& point) const {
 }
 
 Box Region::bounds() const {
+  if (kind == Kind::terrain) return terrain->bounds();
   if (kind == Kind::box) return box;
   Vec3 half = Vec3::Constant(radius);
   if (kind == Kind::cylinder) half[axis] = 0.5 * height;

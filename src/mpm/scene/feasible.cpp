@@ -10,6 +10,7 @@
 #include "mpm/math/constants.hpp"
 #include "mpm/scene/memory.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/scene/terrain.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
@@ -21,6 +22,7 @@ constexpr double kGigabyte = 1e9;
 
 /// Volume of a region relative to its bounds; in planar scenes, where a sphere is a disk, area; in a line length.
 double fullness(const Region& region, GeometryKind geometry) {
+  if (region.kind == Region::Kind::terrain) return region.terrain->fullness();
   if (region.kind == Region::Kind::box || geometry == GeometryKind::line) return 1.0;
   if (axisymmetric(geometry) && region.kind == Region::Kind::cylinder) return 1.0;
   return region.kind == Region::Kind::sphere && geometry == GeometryKind::solid ? kPi / 6.0 : kPi / 4.0;

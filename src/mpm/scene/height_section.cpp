@@ -1,26 +1,21 @@
-// The shape of a rigid body that is a height_field: from a list, an expression of x and y, or a file.
+// The shape that is a height_field: its heights from a list, an expression of x and y, text or a file.
+#include "height_section.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
 #include "height_file.hpp"
-#include "mpm/scene/sections.hpp"
+#include "mpm/scene/terrain.hpp"
 
 namespace mpm {
 namespace {
 
-constexpr int kMostCells = 4096;  // of an expression's points, along an axis
-
-/// Reads an extent `[from, to]` [m].
-void read_extent(const Value& value, int axis, HeightGrid& grid) {
-  const std::vector<Value> ends = value.elements();
-  if (ends.size() != 2) value.fail(fmt::format("found {} numbers; write [from, to]", ends.size()));
-  grid.low[axis] = ends[0].number(kLength);
-  grid.high[axis] = ends[1].number(kLength);
-  if (!(grid.high[axis] > grid.low[axis])) value.fail("it ends where it begins or before; write [from, to]");
-}
+constexpr int kMostCells = 4096;     // of an expression's points, along an axis
+constexpr double kSpanSlack = 1e-6;  // of a pixel
 
 int read_cells(const Value& value) {
   const int cells = value.integer();
@@ -51,12 +46,11 @@ void choose_points(const Map& map, const SimulationDefinition& definition, bool 
 
 void sample(const Value& value, HeightGrid& grid) {
   const Function height = value.function(kLength);
+  grid.heights.reserve(static_cast<std::size_t>(grid.columns) * grid.rows);
   try {
     for (int j = 0; j < grid.rows; ++j) {
       for (int i = 0; i < grid.columns; ++i) {
-        const double u = static_cast<double>(i) / (grid.columns - 1);
-        const double v = grid.rows > 1 ? static_cast<double>(j) / (grid.rows - 1) : 0.0;
-        const Vec2 place = grid.low + (grid.high - grid.low).cwiseProduct(Vec2(u, v));
+        const Vec2 place = place_of(grid, i, j);
         grid.heights.push_back(height(0.0, {place.x(), place.y(), 0.0}));
       }
     }
@@ -77,20 +71,28 @@ void read_list(const Value& value, bool in_plane, HeightGrid& grid) {
   }
 }
 
-void read_file(const Value& value, const Map& map, bool in_plane, HeightGrid& grid) {
-  std::string path = value.text();
-  const auto scale_key = map.find("scale");
-  if (!scale_key && path.size() > 4 && path.compare(path.size() - 4, 4, ".pgm") == 0)
-    value.fail("an image has no heights of its own; write scale, the height of white above black");
-  const double scale = scale_key ? scale_key->positive(kLength) : value.context().units.factor(kLength);
-  if (path.find("://") == std::string::npos && std::filesystem::path(path).is_relative())
-    path = (std::filesystem::path(value.context().source->label()).parent_path() / path).string();
-  HeightTable table;
+/// Reads `file`, or text in `table`.
+HeightTable read_table(const Value& value, bool from_file) {
   try {
-    table = read_height_file(resolve_resource(path));
+    if (!from_file) {
+      std::istringstream text(value.text());
+      return read_height_text(text, "its text");
+    }
+    std::string path = value.text();
+    if (path.find("://") == std::string::npos && std::filesystem::path(path).is_relative())
+      path = (std::filesystem::path(value.context().source->label()).parent_path() / path).string();
+    return read_height_file(resolve_resource(path));
   } catch (const Error& error) {
     value.fail(error.what());
   }
+}
+
+void take_table(const Value& value, const Map& map, bool in_plane, HeightTable& table, HeightGrid& grid) {
+  const auto scale_key = map.find("scale"), offset_key = map.find("offset");
+  if (!scale_key && table.of_white)
+    value.fail("an image has no heights of its own; write scale, the height of white above black");
+  const double scale = scale_key ? scale_key->positive(kLength) : value.context().units.factor(kLength);
+  const double offset = offset_key ? offset_key->number(kLength) : 0.0;
   if (in_plane && table.columns == 1) std::swap(table.columns, table.rows);
   if (in_plane && table.rows != 1) {
     value.fail(fmt::format("it has {} rows of {} heights; a planar scene takes one row or one column", table.rows,
@@ -98,44 +100,125 @@ void read_file(const Value& value, const Map& map, bool in_plane, HeightGrid& gr
   }
   grid.columns = table.columns;
   grid.rows = table.rows;
-  for (const double height : table.values) grid.heights.push_back(scale * height);
+  grid.heights = std::move(table.values);
+  for (double& height : grid.heights) height = scale * height + offset;
+}
+
+/// Reads where the heights lie: as written, which must fit what the file says of its size, else as the file says.
+void read_place(const Map& map, const Value& source, int axis, const HeightTable& table, HeightGrid& grid) {
+  const char* name = axis == 0 ? "x" : "y";
+  const auto key = map.find(name);
+  if (!key) {
+    if (!table.span) {
+      source.fail(
+          fmt::format("{}; write x and y, from where to where it reaches, such as {}: [0, 20]", table.no_span, name));
+    }
+    grid.low[axis] = table.span->first[axis];
+    grid.high[axis] = table.span->second[axis];
+    return;
+  }
+  read_extent(*key, axis, grid.low, grid.high);
+  if (!table.span || grid.heights.empty()) return;
+  // The edges of an image lie half a pixel beyond its outer points: either size is meant.
+  const double given = grid.high[axis] - grid.low[axis];
+  const double size = table.span->second[axis] - table.span->first[axis];
+  const double pixel = size / ((axis == 0 ? grid.columns : grid.rows) - 1);
+  if (std::abs(given - size) <= pixel * (1.0 + kSpanSlack)) return;
+  key->fail(fmt::format(
+      "{:.6g} m, but the map measures {:.6g} m along {} ({} points {:.6g} m apart): write [{:.6g}, {:.6g}], "
+      "or leave out x and y to place it by its own coordinates",
+      given, size, name, axis == 0 ? grid.columns : grid.rows, pixel, grid.low[axis], grid.low[axis] + size));
 }
 
 }  // namespace
 
+std::vector<std::string> height_keys(const std::vector<std::string>& more) {
+  std::vector<std::string> keys = {"x", "y", "heights", "cells", "file", "table", "topic", "scale", "offset"};
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
+Value height_source(const Map& map) {
+  std::vector<Value> found;
+  for (const char* key : {"heights", "file", "table", "topic"}) {
+    if (const auto value = map.find(key)) found.push_back(*value);
+  }
+  if (found.size() != 1) map.fail("a height field has heights or file; write one of them");
+  return found.front();
+}
+
+void read_extent(const Value& value, int axis, Vec2& low, Vec2& high) {
+  const std::vector<Value> ends = value.elements();
+  if (ends.size() != 2) value.fail(fmt::format("found {} numbers; write [from, to]", ends.size()));
+  low[axis] = ends[0].number(kLength);
+  high[axis] = ends[1].number(kLength);
+  if (!(high[axis] > low[axis])) value.fail("it ends where it begins or before; write [from, to]");
+}
+
+HeightGrid read_height_grid(const Map& map, const SimulationDefinition& definition, bool over_grid) {
+  const bool in_plane = planar(definition.geometry);
+  if (const auto y = map.find("y"); y && in_plane)
+    y->fail("a planar scene's height field has no end along y; leave it out");
+  const Value source = height_source(map);
+  if (map.find("topic")) {
+    source.fail(
+        "its heights come in a message, for which only the node waits; run the simulator's node, or write file");
+  }
+  const bool from_file = map.find("file").has_value(), is_table = from_file || map.find("table").has_value();
+  const bool expression = !is_table && source.is_text();
+  if (const auto cells = map.find("cells"); cells && !expression)
+    cells->fail("the list or file determines the number of points; leave it out");
+  for (const char* name : {"scale", "offset"}) {
+    if (const auto key = map.find(name); key && !is_table) key->fail("belongs to file; leave it out");
+  }
+  HeightGrid grid;
+  HeightTable table;
+  if (is_table) {
+    table = read_table(source, from_file);
+    take_table(source, map, in_plane, table, grid);
+  } else if (!expression) {
+    read_list(source, in_plane, grid);
+  }
+  if (!expression && (grid.columns < 2 || (!in_plane && grid.rows < 2)))
+    source.fail("it needs two points at least along each axis");
+  if (expression && over_grid) table.span = {definition.grid.min.head<2>(), definition.grid.max.head<2>()};
+  for (int axis = 0; axis < (in_plane ? 1 : 2); ++axis) read_place(map, source, axis, table, grid);
+  if (expression) {
+    choose_points(map, definition, in_plane, grid);
+    sample(source, grid);
+  }
+  return grid;
+}
+
+void check_holes(const Value& source, const HeightGrid& map, const Vec2& low, const Vec2& high, const char* remedy) {
+  const HeightPoints points = points_of(map, low, high);
+  std::size_t count = 0;
+  int column = 0, row = 0;
+  for (int j = points.front; j <= points.back; ++j) {
+    for (int i = points.left; i <= points.right; ++i) {
+      if (std::isfinite(map.heights[static_cast<std::size_t>(j) * map.columns + i])) continue;
+      if (count++ == 0) column = i, row = j;
+    }
+  }
+  if (count == 0) return;
+  const Vec2 place = place_of(map, column, row);
+  source.fail(fmt::format(
+      "{} of its points under the body have no height, the first at x = {:.6g} m, y = {:.6g} m (column {}, row "
+      "{} from low y); {}",
+      count, place.x(), place.y(), column + 1, row + 1, remedy));
+}
+
 std::unique_ptr<Surface> read_height_field(const Value& value, const SimulationDefinition& definition) {
   if (axisymmetric(definition.geometry)) value.fail("a height field is not a body of revolution; write revolved");
   if (definition.geometry == GeometryKind::line) value.fail("a line has no height field; write plane, box or sphere");
-  const bool in_plane = planar(definition.geometry);
-  const Map map(value, {"x", "y", "heights", "cells", "file", "scale"});
-  HeightGrid grid;
-  read_extent(map.at("x"), 0, grid);
-  if (in_plane) {
-    if (const auto y = map.find("y")) y->fail("a planar scene's height field has no end along y; leave it out");
-  } else {
-    read_extent(map.at("y"), 1, grid);
-  }
-  const auto heights = map.find("heights");
-  const auto file = map.find("file");
-  if (heights.has_value() == file.has_value()) value.fail("a height field has heights or file; write one of them");
-  const bool expression = heights && heights->is_text();
-  if (const auto cells = map.find("cells"); cells && !expression)
-    cells->fail("the list or file determines the number of points; leave it out");
-  if (const auto scale = map.find("scale"); scale && !file) scale->fail("belongs to file; leave it out");
-  if (expression) {
-    choose_points(map, definition, in_plane, grid);
-    sample(*heights, grid);
-  } else if (heights) {
-    read_list(*heights, in_plane, grid);
-  } else {
-    read_file(*file, map, in_plane, grid);
-  }
-  if (grid.columns < 2 || (!in_plane && grid.rows < 2))
-    (heights ? *heights : *file).fail("it needs two points at least along each axis");
+  const Map map(value, height_keys(),
+                {{"bottom", "a rigid height field has no end downwards"}, {"within", "it is of deformable bodies"}});
+  const HeightGrid grid = read_height_grid(map, definition, false);
+  check_holes(height_source(map), grid, grid.low, grid.high, "fill them");
   try {
     return make_height_field(grid);
   } catch (const RigidError& error) {
-    (heights ? *heights : *file).fail(error.what());
+    height_source(map).fail(error.what());
   }
 }
 

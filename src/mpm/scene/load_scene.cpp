@@ -11,6 +11,7 @@
 #include "mpm/math/build_info.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/scene.hpp"
+#include "scene_text.hpp"
 
 namespace mpm {
 namespace {
@@ -85,9 +86,14 @@ std::vector<std::pair<std::string, std::string>> shipped_scenes() {
   return scenes;
 }
 
-Scene load_scene(const std::string& name_or_path, const std::vector<std::string>& overrides) {
+SceneText read_scene_text(const std::string& name_or_path) {
   const fs::path path = find_scene(name_or_path);
-  return parse_scene(read_file(path), path.string(), overrides);
+  return {read_file(path), path.string()};
+}
+
+Scene load_scene(const std::string& name_or_path, const std::vector<std::string>& overrides) {
+  const SceneText scene = read_scene_text(name_or_path);
+  return parse_scene(scene.text, scene.path, overrides);
 }
 
 }  // namespace mpm

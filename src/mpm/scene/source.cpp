@@ -14,6 +14,13 @@ namespace {
 // Aliases (&a, *a) can turn a small text into a huge or endless tree. These limits are far above any real scene.
 constexpr int kDeepest = 32;
 constexpr int kMostValues = 100000;
+constexpr std::size_t kOverrideShown =
+    100;  // characters of an override in an error: one can hold a whole map of heights
+
+/// What an error says of an override.
+std::string override_label(const std::string& text) {
+  return "--set " + (text.size() > kOverrideShown ? text.substr(0, kOverrideShown) + "..." : text);
+}
 
 std::string place(const std::string& label, const YAML::Mark& mark) {
   return mark.is_null() ? label : fmt::format("{}:{}", label, mark.line + 1);
@@ -143,13 +150,14 @@ std::string Source::where(const YAML::Node& node) const {
   // The last override of a value takes effect.
   for (auto it = overrides_.rbegin(); it != overrides_.rend(); ++it) {
     const auto same = [&node](const YAML::Node& created) { return created.is(node); };
-    if (holds(it->node, node) || std::any_of(it->created.begin(), it->created.end(), same)) return "--set " + it->text;
+    if (holds(it->node, node) || std::any_of(it->created.begin(), it->created.end(), same))
+      return override_label(it->text);
   }
   return place(label_, node.Mark());
 }
 
 void Source::apply(const std::string& text) {
-  const std::string label = "--set " + text;
+  const std::string label = override_label(text);
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw SceneError(fmt::format("{}: an override is key.path=value, as in grid.cell=0.02", label));

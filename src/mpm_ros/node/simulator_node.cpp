@@ -37,10 +37,10 @@ constexpr std::chrono::milliseconds kLinger{300};
 SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& parameters)
     : node_(std::move(node)),
       parameters_(parameters),
+      heights_(wait_for_height_maps(node_, parameters.scene, parameters.set, parameters.world_frame)),
       subject_(std::make_shared<const Subject>(
-          Subject{load_aimed(parameters, {},
-                             parameters.resume.empty() ? std::string()
-                                                       : mpm::read_checkpoint(parameters.resume).label.scene_text),
+          Subject{load_aimed({}, parameters.resume.empty() ? std::string()
+                                                           : mpm::read_checkpoint(parameters.resume).label.scene_text),
                   {}})),
       clock_(node_, parameters.publish_clock, parameters.clock_rate),
       commands_(node_, subject_->scene, parameters_, health_),
@@ -95,14 +95,13 @@ Stamps SimulatorNode::first_stamps() const {
   return Stamps(ros::Time(now.sec, now.nsec));
 }
 
-mpm::Scene SimulatorNode::load_aimed(const NodeParameters& parameters, const std::vector<std::string>& set,
-                                     const std::string& recorded) {
-  std::vector<std::string> overrides = parameters.set;
+mpm::Scene SimulatorNode::load_aimed(const std::vector<std::string>& set, const std::string& recorded) const {
+  std::vector<std::string> overrides = heights_.set;
   overrides.insert(overrides.end(), set.begin(), set.end());
-  mpm::Scene scene = mpm::load_scene(parameters.scene, overrides);
+  mpm::Scene scene = mpm::load_scene(parameters_.scene, overrides);
   if (!scene.target) return scene;
   scene = mpm::with_recorded_choice(scene, recorded);
-  const Aim aimed = aim(std::move(scene), parameters.threads, mpm::choose_isa(parameters.isa), stop_overdue);
+  const Aim aimed = aim(std::move(scene), parameters_.threads, mpm::choose_isa(parameters_.isa), stop_overdue);
   for (const std::string& line : aimed.news) ROS_INFO_STREAM(line);
   for (const std::string& warning : aimed.warnings) ROS_WARN_STREAM(warning);
   std::fflush(stdout);
@@ -111,12 +110,12 @@ mpm::Scene SimulatorNode::load_aimed(const NodeParameters& parameters, const std
 
 std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::subject_of(const mpm::CheckpointAbout& about) const {
   if (!subject_->scene.target) return subject_;
-  mpm::Scene scene = load_aimed(parameters_, subject_->set, about.label.scene_text);
+  mpm::Scene scene = load_aimed(subject_->set, about.label.scene_text);
   return std::make_shared<const Subject>(Subject{std::move(scene), subject_->set});
 }
 
 std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::load_subject(const std::vector<std::string>& set) const {
-  auto subject = std::make_shared<const Subject>(Subject{load_aimed(parameters_, set, subject_->scene.text), set});
+  auto subject = std::make_shared<const Subject>(Subject{load_aimed(set, subject_->scene.text), set});
   check(parameters_, run_options(subject->scene, parameters_, runs_ + 1, node_.getNamespace()));
   const auto bodies = [](const mpm::Scene& scene) {
     std::vector<std::pair<std::string, std::string>> names;  // and the frames that they follow
@@ -176,6 +175,7 @@ void SimulatorNode::tell_start(const std::optional<ExpectedPace>& expected) cons
   facts.paused = paused_;
   facts.clock = parameters_.publish_clock && ros::Time::isSimTime();
   facts.commands = parameters_.commands;
+  facts.heights = heights_.from;
   for (std::size_t body = 0; body < scene.commands.size(); ++body) {
     if (!scene.commands[body].frame.empty())
       facts.frames.emplace_back(scene.definition.rigid_bodies[body].name, scene.commands[body].frame);

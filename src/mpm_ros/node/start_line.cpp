@@ -20,6 +20,8 @@ std::string pacing_text(const StartFacts& facts) {
 std::string start_line(const StartFacts& facts) {
   const std::string below = facts.name_space == "/" ? "/" : facts.name_space + "/";
   std::vector<std::string> next;
+  for (const auto& [body, topic] : facts.heights)
+    next.push_back(fmt::format("has the heights of '{}' from {}", body, topic));
   if (facts.paused) next.push_back(fmt::format("waits for the service {}{} with false", below, topics::kPause));
   if (facts.pacing == Pacing::lockstep) {
     next.push_back(fmt::format("{} for the service {}{}", facts.paused ? "then" : "waits", below, topics::kStep));

@@ -62,8 +62,10 @@ void find_files(const YAML::Node& node, const std::string& scene_path, std::vect
 
 std::vector<SceneFile> scene_files(const std::string& text, const std::string& scene_path) {
   std::vector<SceneFile> files;
-  const YAML::Node bodies = YAML::Load(text)["rigid_bodies"];
-  if (bodies) find_files(bodies, scene_path, files);
+  const YAML::Node scene = YAML::Load(text);
+  for (const char* section : {"bodies", "rigid_bodies"}) {
+    if (const YAML::Node bodies = scene[section]) find_files(bodies, scene_path, files);
+  }
   return files;
 }
 

@@ -87,7 +87,8 @@ TEST_F(AimTest, SaysWhatWasChosenWhatItExpectsAndHowToRepeatIt) {
   EXPECT_EQ(easy.news[0].find("target real_time: 1e-06: cell "), 0U) << easy.news[0];
   EXPECT_NE(easy.news[0].find(" of real time expected, with an error of the tool's force of about "),
             std::string::npos);
-  EXPECT_EQ(easy.news[1].find("to run the same without a target: --set "), 0U) << easy.news[1];
+  EXPECT_EQ(easy.news[1].find("to run the same without a target, leave 'target' out of the scene and write --set "), 0U)
+      << easy.news[1];
   EXPECT_TRUE(easy.warnings.empty());
   EXPECT_NE(easy.table.find("chosen "), std::string::npos) << easy.table;
   // What it repeats is what was chosen.
@@ -127,6 +128,47 @@ TEST_F(AimTest, ATargetWithoutFiguresIsRefused) {
   options_.set = {"target.real_time=1", "target.length=5 mm"};  // no cell that fits is so small
   EXPECT_EQ(run(), RunSceneResult::bad_input);
   EXPECT_NE(err_.str().find("target: there are no figures for "), std::string::npos) << err_.str();
+}
+
+TEST_F(AimTest, ParticlesACellWithoutFiguresAreRefusedWithThoseThatHaveSome) {
+  options_.set = {"target.real_time=1", "method.particles_per_cell=16", "target.keep=[method.particles_per_cell]"};
+  EXPECT_EQ(run(), RunSceneResult::bad_input);
+  EXPECT_NE(
+      err_.str().find("target: there are no figures for 16 particles a cell, only for 4 and 9; write such a number "
+                      "as method.particles_per_cell, or take keys out of target.keep, or leave target out"),
+      std::string::npos)
+      << err_.str();
+}
+
+TEST_F(AimTest, WhatIsSetIsNotOverriddenByARecordedChoice) {
+  options_.set = {"target.force_error=10 %"};
+  options_.bag = folder_.file("run.bag");
+  options_.checkpoint = folder_.file("run.h5");
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  const RunSceneOptions first = options_;
+  options_.bag.clear();
+  options_.checkpoint.clear();
+  // A checkpoint is of its own scene, with its own target.
+  options_.resume = first.checkpoint;
+  options_.end = "0.03";
+  options_.set = {"target.force_error=10 %", "time.cfl=0.2"};
+  EXPECT_EQ(run(), RunSceneResult::bad_input);
+  EXPECT_NE(err_.str().find("run.h5: it is of another scene, or of another target: "), std::string::npos) << err_.str();
+  EXPECT_NE(err_.str().find("time.cfl"), std::string::npos) << err_.str();
+  EXPECT_EQ(err_.str().find("target force_error"), std::string::npos) << "nothing is chosen before: " << err_.str();
+  options_.set = {"target.force_error=12 %"};
+  EXPECT_EQ(run(), RunSceneResult::bad_input);
+  EXPECT_NE(err_.str().find("another target: the run has another target; resume"), std::string::npos) << err_.str();
+  // A recording runs again with another target: what was chosen for the first is undone.
+  options_ = first;
+  options_.bag.clear();
+  options_.checkpoint.clear();
+  options_.scene.clear();
+  options_.from_bag = first.bag;
+  options_.set = {"target.force_error=12 %"};
+  ASSERT_EQ(run(), RunSceneResult::done) << err_.str();
+  EXPECT_EQ(err_.str().find("as it was chosen before"), std::string::npos) << err_.str();
+  EXPECT_EQ(summary()["target"]["force_error"], 0.12);
 }
 
 // On another machine there may be another table, or none; the recorded choice needs neither it nor any timing.

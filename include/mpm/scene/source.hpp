@@ -41,6 +41,8 @@ class Source {
 std::string element_name(const YAML::Node& list, std::size_t index);
 /// The node of a key itself, for its line; the map when there is no such key.
 YAML::Node key_node(const YAML::Node& map, const std::string& key);
+/// The node at a path under `root`, not defined where there is none.
+YAML::Node node_at(const YAML::Node& root, const std::string& path);
 /// `path` extended by one part.
 std::string join_path(const std::string& path, const std::string& part);
 

@@ -59,6 +59,8 @@ using SerialiseMore = std::function<void(StateArchive&)>;
 /// Returns the description that was stored. @throws CheckpointError; an existing file of that name is not changed then.
 CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation, const CheckpointLabel& label,
                                 const SerialiseMore& more = {});
+/// Of two texts that are not the same, the first line that differs, in words.
+std::string text_difference(const std::string& here, const std::string& there);
 /// @throws CheckpointError for a file that is not a checkpoint, or of another version
 CheckpointAbout read_checkpoint(const std::string& path);
 /// `scene_text`: the scene from which `simulation` was built. @throws CheckpointError for a file that is not a

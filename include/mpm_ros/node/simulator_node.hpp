@@ -60,13 +60,17 @@ class SimulatorNode {
     mpm::Scene scene;
     std::vector<std::string> set;
   };
-  /// The scene with `set` over what ~set says, with the choice that `recorded`, the text of a run, has for its target,
-  /// and else one that is made now, and told. @throws mpm::Error
-  mpm::Scene load_aimed(const std::vector<std::string>& set, const std::string& recorded) const;
-  /// That of the present run, with what was chosen for its target in the checkpoint's. @throws mpm::Error
-  std::shared_ptr<const Subject> subject_of(const mpm::CheckpointAbout& about) const;
-  /// The scene with `set` over what ~set says. @throws mpm::Error, ParameterError, also where it does not fit the node:
-  /// its topics belong to its rigid bodies
+  /// The scene with `set` over what ~set says. @throws mpm::Error
+  mpm::Scene load(const std::vector<std::string>& set) const;
+  /// Chooses for a target that is open, and says so. @throws mpm::Error
+  mpm::Scene aimed(mpm::Scene scene) const;
+  /// A subject that fits the node, whose topics belong to its rigid bodies. @throws ParameterError, mpm::Error
+  std::shared_ptr<const Subject> checked(Subject loaded) const;
+  /// That of the present run, with what was chosen for its target in the checkpoint's.
+  /// @throws mpm::Error, ParameterError
+  std::shared_ptr<const Subject> subject_of(const std::string& checkpoint) const;
+  /// The scene with `set` over what ~set says; with the choice of the present run for a target where it is the same
+  /// scene, else with one that is made now. @throws mpm::Error, ParameterError
   std::shared_ptr<const Subject> load_subject(const std::vector<std::string>& set) const;
   /// `resume`: a checkpoint, or empty. @throws mpm::Error, BagError; then the run that is there goes on.
   void start_run(const std::shared_ptr<const Subject>& subject, const Stamps& stamps, const std::string& resume = {});

@@ -26,7 +26,7 @@ struct RunSummary {
 
   std::string scene;
   std::optional<mpm::pace::Target> target;  ///< with what was chosen for it
-  mpm::SimulationDefinition definition;  ///< particle positions left out
+  mpm::SimulationDefinition definition;     ///< particle positions left out
   std::string isa;
   int threads = 0;
   mpm::SolverState state;

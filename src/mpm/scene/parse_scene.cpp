@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "mpm/scene/sections.hpp"
+#include "mpm/scene/target_record.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/method_text.hpp"
@@ -88,6 +89,7 @@ double particle_spacing(const Scene& scene, int axis) {
 
 Scene parse_scene(const std::string& text, const std::string& label, const std::vector<std::string>& overrides) {
   const Source source(text, label, overrides);
+  reopen_other_target(source.root());
   ReadContext context;
   context.source = &source;
   const Value top(context, source.root(), "");

@@ -124,6 +124,23 @@ YAML::Node key_node(const YAML::Node& map, const std::string& key) {
   return map;
 }
 
+YAML::Node node_at(const YAML::Node& root, const std::string& path) {
+  YAML::Node node;
+  node.reset(root);
+  for (const std::string& part : split(path)) {
+    const YAML::Node here = node;
+    if (here.IsSequence()) {
+      const std::size_t index = find_element(here, part);
+      if (index == here.size()) return YAML::Node(YAML::NodeType::Undefined);
+      node.reset(here[index]);
+    } else {
+      if (!here.IsMap() || !here[part]) return YAML::Node(YAML::NodeType::Undefined);
+      node.reset(here[part]);
+    }
+  }
+  return node;
+}
+
 Source::Source(const std::string& text, std::string label, const std::vector<std::string>& overrides)
     : label_(std::move(label)) {
   try {

@@ -12,6 +12,7 @@
 
 #include "mpm/math/build_info.hpp"
 #include "mpm/scene/sections.hpp"
+#include "mpm/scene/source.hpp"
 
 namespace mpm {
 namespace {
@@ -22,13 +23,21 @@ constexpr double kLongestFace = 1e6;  ///< [cells]; beyond, a face is no face of
 
 bool whole(double number) { return std::abs(number - std::round(number)) <= kOnLattice; }
 
-/// Whether the faces of boxes that lie on the lattice of particles of the scene's own cell lie on the new one.
+/// Places of the ends of a body along an axis that are faces: not the uneven surface of ground.
+std::vector<double> faces_of(const BodyDefinition& body, int axis) {
+  if (body.region.kind == Region::Kind::box) return {body.region.box.min[axis], body.region.box.max[axis]};
+  if (body.region.kind != Region::Kind::terrain) return {};
+  const Box bounds = body.region.bounds();
+  if (axis == 2) return {bounds.min[axis]};
+  return {bounds.min[axis], bounds.max[axis]};
+}
+
+/// Whether the faces of bodies that lie on the lattice of particles of the scene's own cell lie on the new one.
 bool faces_fit(const Scene& scene, const Vec3& cell, int along) {
   const GridDefinition& grid = scene.definition.grid;
   for (const BodyDefinition& body : scene.bodies) {
-    if (body.region.kind != Region::Kind::box) continue;
     for (const int axis : axes_of(scene)) {
-      for (const double face : {body.region.box.min[axis], body.region.box.max[axis]}) {
+      for (const double face : faces_of(body, axis)) {
         const double from = face - grid.min[axis];
         if (!(std::abs(from) < kLongestFace * grid.cell[axis])) continue;
         if (whole(from / particle_spacing(scene, axis)) && !whole(from * along / cell[axis])) return false;
@@ -38,62 +47,17 @@ bool faces_fit(const Scene& scene, const Vec3& cell, int along) {
   return true;
 }
 
-/// "[0 m, 0.1 m]": components along the scene's axes.
-std::string vector_text(const Scene& scene, const Vec3& vector) {
-  std::string text;
-  for (const int axis : axes_of(scene)) text += fmt::format("{}{:.15g} m", text.empty() ? "[" : ", ", vector[axis]);
-  return text + "]";
-}
-
-double middle(const Scene& scene, int axis) {
-  const GridDefinition& grid = scene.definition.grid;
-  return 0.5 * (grid.min[axis] + grid.max[axis]);
-}
-
-std::string asymmetry_of_tool(const RigidBodyDefinition& body, double plane, double tolerance, int axis) {
-  const auto says = [&](const char* what) { return fmt::format("rigid body '{}' {}", body.name, what); };
-  if (body.free) return says("is free, and half of it would have half the mass and load; prescribe its motion");
-  if (body.particles) return says("is made of particles, of which half would be modelled; leave out particles");
-  if (std::abs(body.pose.position[axis] - plane) > tolerance) return says("does not lie on that plane; move it there");
-  if (!body.velocity[static_cast<std::size_t>(axis)].is_zero()) return says("moves across that plane");
-  for (int other = 0; other < 3; ++other) {
-    if (other != axis && !body.rotation_rate[static_cast<std::size_t>(other)].is_zero())
-      return says("turns out of that plane");
+/// Whether a shape is evaluated at points that follow grid.cell: a height_field from an expression, without `cells`.
+bool follows_cell(const Scene& scene) {
+  const YAML::Node root = YAML::Load(scene.text);
+  for (const char* section : {"bodies", "rigid_bodies"}) {
+    const YAML::Node bodies = root[section];
+    for (std::size_t i = 0; bodies && i < bodies.size(); ++i) {
+      const YAML::Node heights = node_at(bodies[i], "shape.height_field.heights");
+      if (heights && heights.IsScalar() && !node_at(bodies[i], "shape.height_field.cells")) return true;
+    }
   }
-  const Box bounds = body.surface->bounds();
-  const bool upright = body.pose.orientation.isApprox(Quat::Identity());
-  if (upright && std::abs(bounds.min[axis] + bounds.max[axis]) > tolerance)
-    return says("reaches further on one side of that plane");
-  return {};
-}
-
-/// The target of a recorded text, or nothing.
-YAML::Node target_of(const std::string& text) {
-  try {
-    const YAML::Node root = YAML::Load(text);
-    return root.IsMap() ? root["target"] : YAML::Node(YAML::NodeType::Undefined);
-  } catch (const YAML::Exception&) {
-    return YAML::Node(YAML::NodeType::Undefined);
-  }
-}
-
-/// What is asked, without what was chosen.
-std::string asked(const YAML::Node& target) {
-  YAML::Node copy = YAML::Clone(target);
-  copy.remove("chosen");
-  copy.remove("expected");
-  return YAML::Dump(copy);
-}
-
-Scene parsed_with(const Scene& scene, const std::string& text, const std::vector<std::string>& lines) {
-  Scene chosen = parse_scene(text, scene.path, lines);
-  chosen.definition.time.end = scene.definition.time.end;  // as --end has it
-  // What was chosen before the text was written is in it as if it had been said.
-  for (const auto& choice : scene.choices) {
-    const auto same = [&](const auto& other) { return other.first == choice.first; };
-    if (std::none_of(chosen.choices.begin(), chosen.choices.end(), same)) chosen.choices.push_back(choice);
-  }
-  return chosen;
+  return false;
 }
 
 }  // namespace
@@ -108,82 +72,18 @@ std::vector<std::pair<Vec3, int>> fitting_cells(const Scene& scene) {
   const int own = definition.method.particles_per_direction;
   std::vector<std::pair<Vec3, int>> fitting = {{grid.cell, own}};
   const int most_along = dimensions(definition.geometry) == 3 ? 3 : 5;
+  const bool only_own = follows_cell(scene);
   for (int parts = (shared + kMostTimes - 1) / kMostTimes; parts <= kMostTimes * shared; ++parts) {
     Vec3 cell = grid.cell;
     for (const int axis : axes_of(scene)) cell[axis] *= static_cast<double>(shared) / static_cast<double>(parts);
     if (parts == shared) cell = grid.cell;
+    if (only_own && parts != shared) continue;
     for (int along = 1; along <= most_along; ++along) {
       const bool is_own = parts == shared && along == own;
       if (!is_own && faces_fit(scene, cell, along)) fitting.emplace_back(cell, along);
     }
   }
   return fitting;
-}
-
-std::string asymmetry(const Scene& scene, int axis) {
-  const SimulationDefinition& definition = scene.definition;
-  const GridDefinition& grid = definition.grid;
-  const double plane = middle(scene, axis), tolerance = 1e-6 * grid.cell[axis];
-  const long cells = std::lround((grid.max[axis] - grid.min[axis]) / grid.cell[axis]);
-  if (cells % 2 != 0) return fmt::format("the grid's middle is in a cell, of {}; make their number even", cells);
-  const auto face = static_cast<std::size_t>(2 * axis);
-  const WallDefinition &low = definition.walls[face], &high = definition.walls[face + 1];
-  if (low.kind == WallKind::periodic) return "the grid is periodic along it; leave one of them out";
-  if (low.kind != high.kind || low.hold != high.hold || low.friction.stick != high.friction.stick)
-    return "the two faces of the grid differ; give them the same boundary";
-  if (definition.gravity[axis] != 0.0) return "gravity pulls across that plane";
-  if (!definition.conditions.empty() || !definition.body_forces.empty() || !definition.particle_forces.empty() ||
-      !definition.tractions.empty())
-    return "loads and velocity conditions are not halved; model the half by hand, with a face `symmetry`";
-  for (const BodyDefinition& body : scene.bodies) {
-    const Box& box = body.region.box;
-    if (body.region.kind != Region::Kind::box || std::abs(box.min[axis] + box.max[axis] - 2.0 * plane) > tolerance)
-      return fmt::format("body '{}' is no box whose middle lies on that plane; model the half by hand", body.name);
-  }
-  for (const RigidBodyDefinition& body : definition.rigid_bodies) {
-    if (const std::string why = asymmetry_of_tool(body, plane, tolerance, axis); !why.empty()) return why;
-  }
-  return {};
-}
-
-std::vector<std::string> half_lines(const Scene& scene, int axis) {
-  const double plane = middle(scene, axis);
-  Vec3 corner = scene.definition.grid.min;
-  corner[axis] = plane;
-  std::vector<std::string> lines = {"grid.min=" + vector_text(scene, corner),
-                                    fmt::format("boundaries.{}_min=symmetry", axis_name(axis))};
-  for (const BodyDefinition& body : scene.bodies) {
-    corner = body.region.box.min;
-    corner[axis] = plane;
-    lines.push_back(fmt::format("bodies.{}.shape.box.min={}", body.name, vector_text(scene, corner)));
-  }
-  return lines;
-}
-
-Scene with_chosen(const Scene& scene, const std::vector<std::string>& lines, double expected_pace,
-                  double expected_error) {
-  YAML::Node root = YAML::Load(scene.text);
-  YAML::Node target = root["target"];
-  target["chosen"] = lines;
-  target["expected"]["real_time"] = fmt::format("{:.4g}", expected_pace);
-  target["expected"]["force_error"] = fmt::format("{:.4g}", expected_error);
-  return parsed_with(scene, YAML::Dump(root), lines);
-}
-
-Scene with_recorded_choice(const Scene& scene, const std::string& recorded) {
-  if (!scene.target || scene.target->chosen) return scene;
-  const YAML::Node here = target_of(scene.text), there = target_of(recorded);
-  if (!there || !there.IsMap() || !there["chosen"] || asked(here) != asked(there)) return scene;
-  YAML::Node root = YAML::Load(scene.text);
-  root["target"] = there;
-  return parsed_with(scene, YAML::Dump(root), there["chosen"].as<std::vector<std::string>>());
-}
-
-std::string text_without_target(const Scene& scene) {
-  if (!scene.target) return scene.text;
-  YAML::Node root = YAML::Load(scene.text);
-  root.remove("target");
-  return YAML::Dump(root);
 }
 
 pace::ForceErrors load_force_errors(const Scene& scene) {

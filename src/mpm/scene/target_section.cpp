@@ -7,7 +7,9 @@
 #include <limits>
 
 #include "mpm/scene/sections.hpp"
-#include "mpm/scene/target_choice.hpp"
+#include "mpm/scene/source.hpp"
+#include "mpm/scene/target_half.hpp"
+#include "mpm/scene/target_record.hpp"
 
 namespace mpm {
 namespace {
@@ -59,10 +61,15 @@ std::vector<std::string> read_keep(const Value& value) {
 
 void read_chosen(const Map& map, pace::Target& target) {
   const auto chosen = map.find("chosen"), expected = map.find("expected");
-  if (expected && !chosen) expected->fail("belongs to a recorded choice, target.chosen; leave it out");
+  for (const char* key : {"before", "asked", "expected"}) {
+    const auto beside = map.find(key);
+    if (beside && !chosen) beside->fail("belongs to a recorded choice, target.chosen; leave it out");
+  }
   if (!chosen) return;
   target.chosen.emplace();
   for (const Value& line : chosen->elements()) target.chosen->push_back(line.text());
+  const std::string fault = fault_of_record(chosen->context().source->root());
+  if (!fault.empty()) chosen->fail(fault);
   if (!expected) return;
   const Map of(*expected, {"real_time", "force_error"});
   if (const auto pace = of.find("real_time")) target.expected_pace = pace->positive(kPlain);
@@ -78,10 +85,15 @@ void read_symmetric(const Value& value, Scene& scene) {
   if (axisymmetric(scene.definition.geometry)) value.fail("an axisymmetric scene is a section already; leave it out");
   scene.target->symmetric = axis;
   if (scene.target->chosen) return;
-  if (const std::string why = asymmetry(scene, axis); !why.empty()) {
-    value.fail(fmt::format("the scene is not its own mirror image across the middle of its grid along {}: {}",
-                           axis_name(axis), why));
+  std::string why = asymmetry(scene, axis);
+  const YAML::Node& root = value.context().source->root();
+  for (const RigidBodyDefinition& body : scene.definition.rigid_bodies) {
+    if (why.empty() && node_at(root, fmt::format("rigid_bodies.{}.shape.height_field", body.name)))
+      why = fmt::format("rigid body '{}' is a height field, whose heights may differ on its sides", body.name);
   }
+  if (why.empty()) return;
+  value.fail(fmt::format("the scene is not its own mirror image across the middle of its grid along {}: {}",
+                         axis_name(axis), why));
 }
 
 }  // namespace
@@ -89,7 +101,8 @@ void read_symmetric(const Value& value, Scene& scene) {
 void read_target(const Map& root, Scene& scene) {
   const auto section = root.find("target");
   if (!section) return;
-  const Map map(*section, {"real_time", "force_error", "keep", "length", "symmetric", "chosen", "expected"});
+  const Map map(*section,
+                {"real_time", "force_error", "keep", "length", "symmetric", "chosen", "before", "asked", "expected"});
   pace::Target& target = scene.target.emplace();
   const auto real_time = map.find("real_time"), error = map.find("force_error");
   if (real_time && error) {

@@ -63,19 +63,6 @@ CheckpointAbout about_of(const Simulation& simulation) {
   return about;
 }
 
-/// Of two texts, the first line that differs, in words.
-std::string difference(const std::string& here, const std::string& there) {
-  std::istringstream ours(here), theirs(there);
-  std::string a, b;
-  for (int line = 1;; ++line) {
-    const bool more = static_cast<bool>(std::getline(ours, a)), other = static_cast<bool>(std::getline(theirs, b));
-    if (!more && !other) return "white space at its end";
-    if (!more) a = "(its end)";
-    if (!other) b = "(its end)";
-    if (a != b) return fmt::format("line {} is '{}' there and '{}' here", line, b, a);
-  }
-}
-
 /// @throws CheckpointError
 void check(const std::string& path, const CheckpointAbout& there, const CheckpointAbout& here,
            const std::string& scene_text) {
@@ -88,7 +75,7 @@ void check(const std::string& path, const CheckpointAbout& there, const Checkpoi
     throw CheckpointError(
         fmt::format("{}it is of another scene, '{}': {}; resume with its own scene, or run this one "
                     "from its start",
-                    start, there.scene, difference(scene_text, there.label.scene_text)));
+                    start, there.scene, text_difference(scene_text, there.label.scene_text)));
   }
   if (there.precision != here.precision || there.method != here.method || there.geometry != here.geometry ||
       there.particles != here.particles) {
@@ -119,6 +106,18 @@ CheckpointAbout read_about(StateArchive& archive, const std::string& path) {
 }
 
 }  // namespace
+
+std::string text_difference(const std::string& here, const std::string& there) {
+  std::istringstream ours(here), theirs(there);
+  std::string a, b;
+  for (int line = 1;; ++line) {
+    const bool more = static_cast<bool>(std::getline(ours, a)), other = static_cast<bool>(std::getline(theirs, b));
+    if (!more && !other) return "white space at its end";
+    if (!more) a = "(its end)";
+    if (!other) b = "(its end)";
+    if (a != b) return fmt::format("line {} is '{}' there and '{}' here", line, b, a);
+  }
+}
 
 CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation, const CheckpointLabel& label,
                                 const SerialiseMore& more) {

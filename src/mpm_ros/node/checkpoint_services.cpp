@@ -74,7 +74,7 @@ void SimulatorNode::load_checkpoint(const std::string& path, Checkpoint::Respons
   response.success = 0;
   try {
     const mpm::CheckpointAbout about = mpm::read_checkpoint(path);
-    start_run(subject_of(about), stamps_from(about.time), path);
+    start_run(subject_of(path), stamps_from(about.time), path);
     response.state_hash = hash_text(about.state_hash);
   } catch (const std::exception& error) {
     // A file that does not fit, a bag that cannot be opened, or memory: the run goes on as it was.

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "mpm/scene/target_choice.hpp"
+#include "mpm/scene/target_record.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/node/node_run.hpp"
 #include "mpm_ros/node/start_line.hpp"
@@ -39,9 +39,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const NodeParameters& paramet
       parameters_(parameters),
       heights_(wait_for_height_maps(node_, parameters.scene, parameters.set, parameters.world_frame)),
       subject_(std::make_shared<const Subject>(
-          Subject{load_aimed({}, parameters.resume.empty() ? std::string()
-                                                           : mpm::read_checkpoint(parameters.resume).label.scene_text),
-                  {}})),
+          Subject{aimed(parameters.resume.empty() ? load({}) : with_choice_of(load({}), parameters.resume)), {}})),
       clock_(node_, parameters.publish_clock, parameters.clock_rate),
       commands_(node_, subject_->scene, parameters_, health_),
       paused_(parameters.start_paused) {
@@ -95,27 +93,36 @@ Stamps SimulatorNode::first_stamps() const {
   return Stamps(ros::Time(now.sec, now.nsec));
 }
 
-mpm::Scene SimulatorNode::load_aimed(const std::vector<std::string>& set, const std::string& recorded) const {
+mpm::Scene SimulatorNode::load(const std::vector<std::string>& set) const {
   std::vector<std::string> overrides = heights_.set;
   overrides.insert(overrides.end(), set.begin(), set.end());
-  mpm::Scene scene = mpm::load_scene(parameters_.scene, overrides);
-  if (!scene.target) return scene;
-  scene = mpm::with_recorded_choice(scene, recorded);
-  const Aim aimed = aim(std::move(scene), parameters_.threads, mpm::choose_isa(parameters_.isa), stop_overdue);
-  for (const std::string& line : aimed.news) ROS_INFO_STREAM(line);
-  for (const std::string& warning : aimed.warnings) ROS_WARN_STREAM(warning);
-  std::fflush(stdout);
-  return aimed.scene;
+  return mpm::load_scene(parameters_.scene, overrides);
 }
 
-std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::subject_of(const mpm::CheckpointAbout& about) const {
+mpm::Scene SimulatorNode::aimed(mpm::Scene scene) const {
+  if (!scene.target) return scene;
+  const Aim aim = mpm_ros::aim(std::move(scene), parameters_.threads, mpm::choose_isa(parameters_.isa), stop_overdue);
+  for (const std::string& line : aim.news) ROS_INFO_STREAM(line);
+  for (const std::string& warning : aim.warnings) ROS_WARN_STREAM(warning);
+  std::fflush(stdout);
+  return aim.scene;
+}
+
+std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::subject_of(const std::string& checkpoint) const {
   if (!subject_->scene.target) return subject_;
-  mpm::Scene scene = load_aimed(subject_->set, about.label.scene_text);
-  return std::make_shared<const Subject>(Subject{std::move(scene), subject_->set});
+  mpm::Scene scene = aimed(with_choice_of(load(subject_->set), checkpoint));
+  return checked({std::move(scene), subject_->set});
 }
 
 std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::load_subject(const std::vector<std::string>& set) const {
-  auto subject = std::make_shared<const Subject>(Subject{load_aimed(set, subject_->scene.text), set});
+  mpm::Scene scene = load(set);
+  if (mpm::RecordedChoice choice = mpm::with_recorded_choice(scene, subject_->scene.text); choice.scene)
+    scene = std::move(*choice.scene);
+  return checked({aimed(std::move(scene)), set});
+}
+
+std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::checked(Subject loaded) const {
+  auto subject = std::make_shared<const Subject>(std::move(loaded));
   check(parameters_, run_options(subject->scene, parameters_, runs_ + 1, node_.getNamespace()));
   const auto bodies = [](const mpm::Scene& scene) {
     std::vector<std::pair<std::string, std::string>> names;  // and the frames that they follow
@@ -126,7 +133,8 @@ std::shared_ptr<const SimulatorNode::Subject> SimulatorNode::load_subject(const 
   };
   if (bodies(subject->scene) != bodies(subject_->scene)) {
     throw ParameterError(
-        "a reset cannot change the names of rigid bodies, or the tf frames that they follow: the node's topics are "
+        "neither a reset nor a checkpoint can change the names of rigid bodies, or the tf frames that they follow: the "
+        "node's topics are "
         "theirs; start another node for that scene");
   }
   return subject;

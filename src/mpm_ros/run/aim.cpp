@@ -15,6 +15,8 @@
 #include "mpm/pace/target.hpp"
 #include "mpm/scene/feasible.hpp"
 #include "mpm/scene/target_choice.hpp"
+#include "mpm/scene/target_half.hpp"
+#include "mpm/scene/target_record.hpp"
 
 namespace mpm_ros {
 
@@ -31,7 +33,18 @@ constexpr double kLong = 0.5;                ///< [s] of timing the coarse one
 constexpr int kMostTries = 5;                ///< candidates that are timed before one is taken as it is
 constexpr double kMostOfARun = 0.5;          ///< part of a run's steps, from which on a kept cost is that of the run
 
+constexpr int kMostAlong = 5;       ///< particles along a cell's edge that a table may have figures for
+constexpr double kManyCells = 1e9;  ///< across a tool, for which there are figures if there are any
+
 std::string percent_text(double part) { return fmt::format("{:.2g} %", 100.0 * part); }
+
+/// How to run with `lines` in place of a target.
+std::string repeat_text(const std::vector<std::string>& lines) {
+  std::string text = "leave 'target' out of the scene";
+  if (!lines.empty()) text += " and write";
+  for (const std::string& line : lines) text += fmt::format(" --set \"{}\"", line);
+  return text;
+}
 
 /// Costs of steps on this machine, found or timed.
 class Timing {
@@ -94,11 +107,43 @@ class Chooser {
   }
 
  private:
+  /// Why there is no candidate.
   [[noreturn]] void fail() const {
+    if (left_out_) {
+      throw mpm::SceneError(fmt::format(
+          "{}: target: no choice that there are figures for could be run; run the scene without target to see why",
+          scene_.path));
+    }
+    std::vector<int> known;
+    for (int along = 1; along <= kMostAlong; ++along) {
+      Discretisation fine = own_;
+      fine.along = along;
+      if (errors_.of(fine, kManyCells, geometry_)) known.push_back(along);
+    }
+    const bool has_figures = std::any_of(fitting_.begin(), fitting_.end(), [&](const auto& pair) {
+      if (target_.keeps("grid.cell") && pair.first != own_.cell) return false;
+      if (target_.keeps("method.particles_per_cell") && pair.second != own_.along) return false;
+      return std::find(known.begin(), known.end(), pair.second) != known.end();
+    });
+    if (!has_figures) {
+      std::vector<std::string> numbers;
+      for (const int along : known) numbers.push_back(std::to_string(in_a_cell(along)));
+      throw mpm::SceneError(
+          fmt::format("{}: target: there are no figures for {} particles a cell, only for {}; write such a number as "
+                      "method.particles_per_cell{}, or leave target out",
+                      scene_.path, in_a_cell(own_.along), fmt::join(numbers, " and "),
+                      target_.keep.empty() ? "" : ", or take keys out of target.keep"));
+    }
     throw mpm::SceneError(fmt::format(
         "{}: target: there are no figures for {} cells across {:.3g} m of tool, with a cell that fits the grid and the "
         "bodies; leave target out, use a smaller grid.cell, or write target.length",
         scene_.path, std::round(target_.length / own_.cell.x()), target_.length));
+  }
+
+  int in_a_cell(int along) const {
+    int count = 1;
+    for (int axis = 0; axis < mpm::dimensions(geometry_); ++axis) count *= along;
+    return count;
   }
 
   std::vector<std::string> lines_of(const Discretisation& one) const {
@@ -219,6 +264,7 @@ class Chooser {
     const auto forecast = time_variant(one.what);
     if (!forecast) {
       candidates_.erase(candidates_.begin() + static_cast<std::ptrdiff_t>(chosen));
+      left_out_ = true;
       return;
     }
     const double pace = pace_of(*forecast);
@@ -243,10 +289,8 @@ class Chooser {
         mpm::pace::target_text(target_), mpm::pace::discretisation_text(chosen.what, geometry_), chosen.pace,
         percent_text(error), part("grid", chosen.error.grid), part("precision", chosen.error.precision),
         part("update", chosen.error.update), part("step", chosen.error.step)));
-    std::string repeat;
-    for (const std::string& line : lines) repeat += fmt::format(" --set \"{}\"", line);
     told.news.push_back(lines.empty() ? "the scene's own keys are the choice"
-                                      : "to run the same without a target:" + repeat);
+                                      : "to run the same without a target, " + repeat_text(lines));
     if (target_.symmetric)
       told.news.push_back("the half above the plane of symmetry is modelled: forces are those of the half");
     told.table = mpm::pace::candidates_table(candidates_, chosen, own_, geometry_);
@@ -278,12 +322,9 @@ class Chooser {
              "; nothing that there are figures for is fast enough: give up a part of the pace, the grid or the "
              "bodies, or use more threads";
     }
-    std::string repeat;
-    for (const std::string& line : lines_of(price->what)) repeat += fmt::format(" --set \"{}\"", line);
-    return begin + fmt::format(
-                       "; {:.2g} would take an error of {}, more than the {} that a target accepts: "
-                       "--set target= is then left out, and{}",
-                       price->pace, percent_text(price->error.total()), percent_text(mpm::pace::kMostError), repeat);
+    return begin + fmt::format("; {:.2g} would take an error of {}, more than the {} that a target accepts; for it, {}",
+                               price->pace, percent_text(price->error.total()), percent_text(mpm::pace::kMostError),
+                               repeat_text(lines_of(price->what)));
   }
 
   const mpm::Scene& scene_;
@@ -297,6 +338,7 @@ class Chooser {
   double rise_ = 1.0;
   mpm::pace::StepCosts costs_;
   std::vector<Candidate> candidates_;
+  bool left_out_ = false;  ///< of candidates, one that could not be run
 };
 
 }  // namespace

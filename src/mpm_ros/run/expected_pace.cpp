@@ -6,7 +6,7 @@
 #include <new>
 
 #include "mpm/pace/kept_costs.hpp"
-#include "mpm/scene/target_choice.hpp"
+#include "mpm/scene/target_record.hpp"
 #include "mpm/simulation/threads.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
 
@@ -113,7 +113,8 @@ void keep_reached_pace(const mpm::Scene& scene, int threads_asked, const mpm::Si
   if (costs.path().empty() || simulation.time() == 0) return;
   const mpm::SolverState state = simulation.state();
   const double simulated = 1e-9 * static_cast<double>(state.time), steps = static_cast<double>(state.step.steps);
-  const std::string key = mpm::pace::cost_key(mpm::text_without_target(scene), mpm::choose_isa(simulation.isa()), threads_asked);
+  const std::string key =
+      mpm::pace::cost_key(mpm::text_without_target(scene), mpm::choose_isa(simulation.isa()), threads_asked);
   const std::int64_t now = mpm::pace::wall_time();
   if (const auto kept = costs.find(key, now); kept && kept->cost.steps > state.step.steps) return;
   const mpm::pace::StepCost cost{state.wall_seconds / steps, steps / simulated, state.step.steps};

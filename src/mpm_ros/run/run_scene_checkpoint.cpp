@@ -9,21 +9,28 @@
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "mpm/math/output_file.hpp"
-#include "mpm/scene/target_choice.hpp"
+#include "mpm/scene/target_record.hpp"
 #include "mpm/scene/units.hpp"
 #include "mpm/simulation/checkpoint.hpp"
 
 namespace mpm_ros {
 
+mpm::Scene with_choice_of(const mpm::Scene& scene, const std::string& path) {
+  if (!scene.target) return scene;
+  mpm::RecordedChoice choice = mpm::with_recorded_choice(scene, mpm::read_checkpoint(path).label.scene_text);
+  if (choice.scene) return std::move(*choice.scene);
+  throw mpm::CheckpointError(
+      fmt::format("checkpoint {}: it is of another scene, or of another target: {}; resume with its own scene and what "
+                  "was set in it, or run this one from its start",
+                  path, choice.why));
+}
+
 mpm::Scene scene_of(const RunSceneOptions& options) {
   if (options.resume.empty()) return mpm::load_scene(options.scene, options.set);
-  if (!options.scene.empty()) {
-    mpm::Scene scene = mpm::load_scene(options.scene, options.set);
-    if (!scene.target) return scene;
-    return mpm::with_recorded_choice(scene, mpm::read_checkpoint(options.resume).label.scene_text);
-  }
+  if (!options.scene.empty()) return with_choice_of(mpm::load_scene(options.scene, options.set), options.resume);
   const mpm::CheckpointAbout about = mpm::read_checkpoint(options.resume);
   return mpm::parse_scene(about.label.scene_text, about.label.scene_path, options.set);
 }

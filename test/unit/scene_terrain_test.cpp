@@ -276,12 +276,14 @@ TEST_F(SceneTerrainFile, AMessageBecomesAnOverride) {
   // The record of the scene needs no message.
   EXPECT_EQ(build(parse_scene(loaded.text, loaded.path)).bodies.at(0).positions, same.positions);
   // In a scene of other units too, with the same floats.
-  EXPECT_EQ(build(load_scene(file, {"units={length: mm, mass: kg, time: s}", "grid={cell: 100, min: [0, 0, 0], max: [1000, 2000, 1000]}",
+  EXPECT_EQ(build(load_scene(file, {"units={length: mm, mass: kg, time: s}",
+                                    "grid={cell: 100, min: [0, 0, 0], max: [1000, 2000, 1000]}",
                                     "materials.0.density=1000 kg/m3", given}))
                 .bodies.at(0)
                 .positions.size(),
             same.positions.size());
   EXPECT_TRUE(height_topics(write("none.yaml", scene_of("heights: 0.5")), {}).empty());
+  EXPECT_TRUE(height_topics("blade_in_soil", {}).empty()) << "of boxes and a mesh";
   // Errors about a map do not quote it whole.
   map = {{0, 0}, {1, 1}, 100, 100, std::vector<double>(10000, 7.0)};
   try {

@@ -18,10 +18,8 @@ std::vector<HeightTopic> height_topics(const std::string& name_or_path, const st
     const YAML::Node list = source.root()[section];
     if (!list || !list.IsSequence()) continue;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const YAML::Node body = list[i];
-      const YAML::Node shape = body.IsMap() ? body["shape"] : YAML::Node();
-      const YAML::Node field = shape.IsMap() ? shape["height_field"] : YAML::Node();
-      if (!field.IsMap() || !field["topic"] || !field["topic"].IsScalar()) continue;
+      const YAML::Node field = node_at(list[i], "shape.height_field");
+      if (!field || !field.IsMap() || !field["topic"] || !field["topic"].IsScalar()) continue;
       HeightTopic topic;
       topic.body = element_name(list, i);
       topic.topic = field["topic"].Scalar();

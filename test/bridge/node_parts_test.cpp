@@ -171,6 +171,7 @@ TEST(Pacer, SmallDelaysAreCaughtUpWithAndLargeOnesAreNot) {
   EXPECT_EQ(pacer.next(start + milliseconds(500)), start + milliseconds(500));
   EXPECT_EQ(pacer.overruns(), 2U);
   EXPECT_EQ(pacer.given_up(), 1U);
+  EXPECT_EQ(pacer.last_delay(), milliseconds(480));
 }
 
 TEST(Pacer, NoRoundingAddsUp) {

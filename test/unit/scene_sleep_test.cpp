@@ -52,6 +52,10 @@ TEST(SceneSleep, RefusesWhatCannotBe) {
   expect_fault({"sleep={after: 0}"}, "sleep.after");
   expect_fault({"sleep={spede: 1}"}, "speed");
   expect_fault({"sleep={}", "gravity=[0, 0]"}, "write sleep.speed");
+  expect_fault({"sleep={speed: 2 m/s}"}, "is no rest");
+  expect_fault({"sleep={from_start: true}"}, "body 'bed' starts without stress");
+  EXPECT_EQ(fault_of({"sleep={from_start: true}", "bodies.bed.initial=geostatic"}), "");
+  expect_fault({"sleep={}", "method={average_dilatation: true}"}, "method.average_dilatation");
   expect_fault({"sleep={}", "loads=[{body_force: {acceleration: [1, 0]}}]"}, "loads");
   expect_fault(
       {"sleep={}",
@@ -69,6 +73,12 @@ TEST(SceneSleep, RefusesASpeedThatWouldFreezeWhatMoves) {
   EXPECT_EQ(fault_of({blade, "sleep={speed: 4 mm/s}"}), "");
   expect_fault({"bodies.bed.initial.velocity=[0.1, 0]", "sleep={speed: 20 mm/s}"}, "body 'bed' moves at 0.1 m/s");
   EXPECT_EQ(fault_of({"bodies.bed.initial.velocity=[0.1, 0]", "sleep={speed: 5 mm/s}"}), "");
+  expect_fault({"bodies.bed.initial.velocity=[\"0.1*z\", 0]", "sleep={speed: 20 mm/s}"},
+               "body 'bed' moves at 0.04 m/s");
+  expect_fault({"rigid_bodies=[{name: wheel, shape: {box: {size: [0.3, 0.4]}}, pose: {position: [0.8, 1]}, motion: "
+                "{rotation_rate: 0.2}}]",
+                "sleep={speed: 6 mm/s}"},
+               "rigid body 'wheel' moves at 0.05 m/s");
 }
 
 }  // namespace scene_sleep_test

@@ -32,7 +32,7 @@ struct ParticleSet {
   bool whole_domains = false, planar_functions = false;  ///< in axisymmetry: AxisRules (shape/axis_rules.hpp)
   std::uint32_t first_id = 0;                            ///< the smallest id
   /// So many particles, the last ones, take no part in steps: they are at rest, in no block and no group, and every
-  /// array keeps them as they are (sleep/sleeping_particles.hpp).
+  /// array keeps them as they are (sleep/sleeping_blocks.hpp).
   int asleep = 0;
   /// Of each kRestGroup places: how often particles fell asleep there or changed places. Empty where nothing sleeps.
   std::vector<std::uint32_t> rest_changes;

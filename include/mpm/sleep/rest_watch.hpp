@@ -1,9 +1,10 @@
 // Which blocks are at rest: watched over a time in two halves. In each half no particle may exceed the speed, and the
-// block's mean velocity over that half may not exceed a tenth of it. So what swings fast may do so a little, as
-// material in which waves run out does; what creeps, or begins to slide, has a mean velocity, and is not at rest. A
-// block that turns, as a pendulum at the end of its way, has one in both halves, of opposite signs.
+// block's mean velocity over that half may not exceed a tenth of it; and the second half's may not be that of the first
+// grown. So what swings fast may do so a little, as material in which waves run out does; what creeps has a mean
+// velocity, what begins to slide one that grows, and a pendulum at the end of its way one in each half.
 //
-// Motion slower than a tenth of the speed is not seen: a creep of so much is lost while a block is asleep.
+// Weak: motion slower than a tenth of the speed that does not grow is not seen, and lost while a block is asleep; so is
+// motion that grows while it is below a hundredth.
 #pragma once
 
 #include <cstdint>
@@ -19,22 +20,25 @@ namespace mpm {
 struct RestWatchEntry {
   int field = 0;
   std::uint64_t key = 0;
-  double begun = 0.0;         ///< time at which this half began [s]
-  double fastest = 0.0;       ///< highest speed seen in this half [m/s]
-  double last = 0.0;          ///< the same at the last look
-  Vec3 mean = Vec3::Zero();   ///< sum of the mean velocities at each look [m/s]
-  std::uint32_t looks = 0;    ///< in this half
-  bool half_at_rest = false;  ///< the half before was at rest
+  double begun = 0.0;               ///< time at which this half began [s]
+  double fastest = 0.0;             ///< highest speed seen in this half [m/s]
+  double last = 0.0;                ///< the same at the last look
+  Vec3 mean = Vec3::Zero();         ///< sum of the mean velocities at each look [m/s]
+  std::uint32_t looks = 0;          ///< in this half
+  Vec3 half_before = Vec3::Zero();  ///< mean velocity in the half before [m/s]
+  bool half_at_rest = false;        ///< the half before was at rest
 };
 
 class RestWatch {
  public:
-  static constexpr double kMean = 0.1;  ///< of the speed, that the mean velocity may reach
+  static constexpr double kMean = 0.1;             ///< of the speed, that the mean velocity may reach
+  static constexpr double kSeen = 0.01;            ///< of the speed, from which on its growth counts
+  static constexpr std::uint32_t kLeastLooks = 4;  ///< in a half
 
   /// `speed` [m/s] and `time` [s], that of both halves.
   RestWatch(double speed, double time) : speed_(speed), half_(0.5 * time) {}
 
-  /// To be called when particles were sorted: blocks that there were are watched on, others from `now` [s] on.
+  /// To be called when particles were sorted. New blocks are watched from `now` [s] on.
   void follow(const Fields& fields, double now);
   /// Looks at all particles. Afterwards at_rest() tells of each owner.
   void look(const Fields& fields, const std::vector<ParticleSet>& sets, double now, int threads);
@@ -42,8 +46,13 @@ class RestWatch {
   bool at_rest(int owner) const { return at_rest_[owner] != 0; }
   const RestWatchEntry& entry(int owner) const { return entries_[owner]; }
   int owners() const { return static_cast<int>(entries_.size()); }
-  /// Begins again with all blocks, as if they had been at rest for the whole time.
+  /// Takes all blocks to have been at rest for the time before.
   void trust_all();
+  /// Watches an owner anew, as one that has not been at rest.
+  void begin_again(int owner) {
+    entries_[owner].half_at_rest = false;
+    at_rest_[owner] = 0;
+  }
 
   void serialise(StateArchive& archive);
 

@@ -2,14 +2,15 @@
 // costs what moves and not what is there.
 //
 // A block falls asleep when it has been at rest for a time (rest_watch.hpp), away from tools and from other bodies'
-// velocity fields. Its motion is taken, its stress stays. The nodes that it shares with what is awake are held
+// velocity fields. Its motion is taken, its stress stays. The nodes that it shares with what is awake are held at rest
 // (sleep_border.hpp): the impulse of holding them, the weight of what is asleep, which nothing in a step carries any
 // more, and the momentum that was taken make the account "sleep" of the audit, and the kinetic energies that were taken
-// the energy "sleep". A block wakes when forces at its border lose their balance, when material comes in there, when a
-// tool comes as near as four cells, or when another body's material comes as near as a block.
+// the energy "sleep". A block wakes when a wave or other material arrives at its border, when the force there has lost
+// a tenth of its balance, when a tool comes as near as four cells, or when another body's material comes as near as a
+// block.
 //
-// Damping eases the way to rest: at nodes slower than four times the speed a part of the force without balance is taken
-// that would drive the node on, and added where it would slow it. It is off unless the scene asks for it.
+// Damping eases the way to rest: nodes slower than four times the speed lose a part of the force without balance that
+// drives them on, and gain it where that force slows them. It is off unless the scene asks for it.
 //
 // Weak: a wave too weak to wake a block is thrown back at its border as by a wall. Friction at the domain's faces
 // under a block that is asleep is not found, so their force is that of what is awake. What creeps slower than a tenth
@@ -68,6 +69,7 @@ class Sleep final : public Stage {
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
   std::string limit_text(const StepLimit& limit) const override;
   void serialise(StateArchive& archive) override;
+  void hashed(std::vector<double>& numbers) const override;
 
  private:
   struct Taken {
@@ -85,7 +87,9 @@ class Sleep final : public Stage {
   bool tool_near(const std::array<int, 3>& block, double dt) const;
   /// Whether material of another velocity field is near to a block of one.
   bool other_near(int field, std::uint64_t key) const;
-  void find_unrest(const Grid& grid, const SleepBorder& border);
+  void find_unrest(const Grid& grid, SleepBorder& border, double dt);
+  void strike_what_sets_off(StepContext& context);
+  double largest_cell() const;
   Taken hold(Grid& grid, const SleepBorder& border, double dt);
   Taken damp(Grid& grid, double dt);
 
@@ -101,9 +105,10 @@ class Sleep final : public Stage {
   std::uint32_t steps_waited_ = 0;    ///< by those who are to wake
   bool at_once_ = false;              ///< one of them cannot wait
   bool begun_ = false;
+  bool starting_ = false;                          ///< this is the first step, after which all that is at rest sleeps
   std::vector<SleepingBlocks::Sleeper> sleepers_;  ///< who may fall asleep, without forces yet
   std::vector<BlockName> to_wake_;                 ///< perhaps more than once
-  std::vector<double> unrest_;                     ///< of the nodes of a border [m/s]
+  std::vector<SleepBorder::Unrest> unrest_;        ///< of the nodes of a border
   ChunkSums<Taken> sums_;
   ImpulseAccount account_;
   Vec3 given_ = Vec3::Zero();  ///< in this step [N s]

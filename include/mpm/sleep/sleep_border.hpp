@@ -1,9 +1,11 @@
 // The nodes between material that is awake and blocks that are asleep. What is asleep does not move, so they are held
-// at rest. By how much the force of both sides and their weight fail to balance there, and how fast the material awake
-// comes in, says which blocks have to wake.
-//
-// A force without balance is told as the speed of a plane wave that would bring it: |f| / (m c / h), with m c / h the
-// wave's impedance over the area of a node [m/s].
+// at rest. What happens there says which blocks have to wake:
+// - waves, by the force that both sides and their weight leave without balance, told as the speed of the plane wave
+// that
+//   would bring it, |f| / (m c / h), with m c / h the wave's impedance over the area of a node;
+// - what comes in, by its speed;
+// - a load or a support that changes slowly, by the mean of that force over a time, as a part of the force that the
+//   block had on the node when it fell asleep, and of the node's weight.
 #pragma once
 
 #include <array>
@@ -25,6 +27,7 @@ class SleepBorder {
     double rate = 0.0;          ///< by which a wave would cross a cell [1/s]
     std::uint32_t from = 0;     ///< a bit for each block around that is asleep and reaches the node
     bool at_wall = false;       ///< a wall holds it too, with a force that is not known here
+    Vec3 mean = Vec3::Zero();   ///< of the force without balance, over a time [N]
   };
 
   explicit SleepBorder(const GridLayout& layout);
@@ -32,10 +35,18 @@ class SleepBorder {
   /// Of a velocity field, as particles are sorted now.
   void find(int field, const Grid& grid, const SleepingBlocks& asleep);
   const std::vector<Node>& nodes() const { return nodes_; }
+  std::vector<Node>& nodes() { return nodes_; }
   /// Adds the names of the blocks asleep that reach a node.
   void add_names(const Node& node, const Grid& grid, std::vector<BlockName>& names) const;
-  /// What fails to balance at a node, once the forces are gathered, or the speed of what comes in: the larger [m/s].
-  static double unrest(const Node& node, const Grid& grid, const Vec3& gravity);
+  struct Unrest {
+    double speed = 0.0;  ///< of a wave that would bring the force, or of what comes in: the larger [m/s]
+    double lost = 0.0;   ///< mean force without balance over that of the block asleep and the node's weight
+  };
+  /// At a node, once the forces are gathered. `part`: of the mean, that this step makes anew.
+  static Unrest find_unrest(Node& node, const Grid& grid, const Vec3& gravity, double part);
+
+  /// The means, which the next find() takes over.
+  void serialise(StateArchive& archive);
 
  private:
   /// A node of a block in the tile of a block beside it.
@@ -45,13 +56,15 @@ class SleepBorder {
 
   std::uint64_t key_beside(const std::array<int, 3>& block, int side) const;
   void add_block(int block, const Grid& grid);
+  void keep_means();
 
   const GridLayout* layout_;
   int field_ = 0;
   int sides_ = 0;                               ///< 3^dim: the blocks around one, itself in the middle
   std::array<std::vector<Shared>, 27> shared_;  ///< with the block on each side
   std::vector<const SleepingBlock*> around_;    ///< on each side
-  std::vector<Node> of_block_, nodes_;
+  std::vector<Node> of_block_, nodes_, before_;
+  std::vector<std::uint64_t> keys_, keys_before_;  ///< of the blocks of nodes_ and before_
 };
 
 }  // namespace mpm

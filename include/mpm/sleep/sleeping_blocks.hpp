@@ -2,7 +2,7 @@
 // steps do not touch and reports read as ever. A block that falls asleep or wakes changes places with others, particle
 // by particle, so that this costs as much as the block has particles, however much is asleep.
 //
-// A block remembers what it gave to the grid when it fell asleep: it goes on holding its neighbours by that force.
+// A block remembers the force that it had on the grid when it fell asleep, so that a loss of balance can be seen.
 #pragma once
 
 #include <array>
@@ -100,7 +100,7 @@ class SleepingBlocks {
   const GridLayout& layout_;
   ByName by_name_;
   std::vector<std::vector<Owned>> owned_;  ///< of each set, by place
-  std::vector<std::uint32_t> moving_, free_;
+  std::vector<std::uint32_t> free_;        ///< places that put_set() may exchange with
   double mass_ = 0.0, rate_ = 0.0;
 };
 

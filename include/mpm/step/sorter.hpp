@@ -1,6 +1,7 @@
 // Sorts the particles of every set that are awake by velocity field, in a field by grid block, and inside a block by
-// nearest node, and tells each field which blocks are in use. Done when a particle has left the reach of its block or too many have left
-// their group, not every step: the tile of a block reaches two nodes beyond it, one more than a sorted particle needs.
+// nearest node, and tells each field which blocks are in use. Done when a particle has left the reach of its block or
+// too many have left their group, not every step: the tile of a block reaches two nodes beyond it, one more than a
+// sorted particle needs.
 //
 // A stable sort has one result, so it does not depend on the number of threads. It counts in two levels: particles by
 // block, a contiguous part of them a thread and the parts in order, then the particles of a block by node, in cache. In

@@ -24,6 +24,8 @@ class Pacer {
   std::uint64_t overruns() const { return overruns_; }
   /// How often a delay was given up.
   std::uint64_t given_up() const { return given_up_; }
+  /// The delay that was given up last.
+  Clock::duration last_delay() const { return last_delay_; }
 
   static constexpr std::chrono::milliseconds kLargestDebt{100};
   static constexpr double kCatchUp = 0.8;
@@ -35,6 +37,7 @@ class Pacer {
   Clock::time_point begun_;  // when the period that is computed now began
   std::int64_t count_ = 0;   // of deadlines since start_
   std::uint64_t overruns_ = 0, given_up_ = 0;
+  Clock::duration last_delay_{};
 };
 
 }  // namespace mpm_ros

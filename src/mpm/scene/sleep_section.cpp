@@ -9,19 +9,51 @@
 namespace mpm {
 namespace {
 
-constexpr double kOfFall = 0.01;    ///< default speed: of that after a free fall of half a cell
-constexpr double kWake = 3.0;       ///< default of `wake`, in speeds
-constexpr double kFalls = 1.0;      ///< default of `after`, in times of a free fall of half a cell
-constexpr double kFromMotion = 10;  ///< what the scene moves on purpose has to be so many times as fast
-constexpr int kLooksAtMotion = 100;       ///< of a motion over the run
+constexpr double kOfFall = 0.01;     ///< default speed: of that after a free fall of half a cell
+constexpr double kWake = 3.0;        ///< default of `wake`, in speeds
+constexpr double kFalls = 1.0;       ///< default of `after`, in times of a free fall of half a cell
+constexpr double kFromMotion = 10;   ///< what the scene moves on purpose has to be so many times as fast
+constexpr double kWhile = 10.0;      ///< of a run without an end, that motions are looked at [s]
+constexpr int kLooksAtMotion = 100;  ///< of a motion over the run
 
-/// The highest speed of a body that has a motion of its own, as far as functions of time say it; 0: at rest.
+/// The highest speed of a tool's surface, as far as its functions of time tell it; 0: at rest. A run without an end is
+/// looked at for a while.
 double speed_of(const RigidBodyDefinition& body, double end) {
+  const double length = end > 0.0 ? end : kWhile;
+  // Along an axis without end, as y in a plane, it does not turn.
+  const Vec3 size = body.surface->bounds().size().unaryExpr([](double c) { return std::isfinite(c) ? c : 0.0; });
+  const double arm = 0.5 * size.norm();
   double highest = 0.0;
   for (int i = 0; i <= kLooksAtMotion; ++i) {
-    Vec3 velocity;
-    for (int k = 0; k < 3; ++k) velocity[k] = body.velocity[k](end * i / kLooksAtMotion, Vec3::Zero());
-    highest = std::max(highest, velocity.norm());
+    Vec3 velocity, turning;
+    try {
+      for (std::size_t k = 0; k < 3; ++k) {
+        velocity[static_cast<int>(k)] = body.velocity[k](length * i / kLooksAtMotion);
+        turning[static_cast<int>(k)] = body.rotation_rate[k](length * i / kLooksAtMotion);
+      }
+    } catch (const FunctionError&) {
+      continue;  // whoever moves the body says so
+    }
+    highest = std::max(highest, velocity.norm() + arm * turning.norm());
+  }
+  return highest;
+}
+
+/// The highest speed of a body at the start, at the corners and the middle of its bounds.
+double speed_of(const BodyDefinition& body) {
+  const Box bounds = body.region.bounds();
+  double highest = 0.0;
+  for (int corner = 0; corner < 9; ++corner) {
+    Vec3 place = bounds.center();
+    for (int axis = 0; axis < 3 && corner < 8; ++axis) {
+      place[axis] = (corner >> axis & 1) != 0 ? bounds.max[axis] : bounds.min[axis];
+    }
+    try {
+      const Vec3 velocity(body.velocity[0](0.0, place), body.velocity[1](0.0, place), body.velocity[2](0.0, place));
+      highest = std::max(highest, velocity.norm());
+    } catch (const FunctionError&) {
+      continue;  // building the body says so
+    }
   }
   return highest;
 }
@@ -39,9 +71,7 @@ void check_motion(const Value& where, const Scene& scene) {
     if (speed > 0.0 && speed < kFromMotion * sleep.speed) refuse(fmt::format("rigid body '{}'", body.name), speed);
   }
   for (const BodyDefinition& body : scene.bodies) {
-    double speed = 0.0;
-    for (const Function& part : body.velocity) speed += part.is_constant() ? std::pow(part(0.0, Vec3::Zero()), 2) : 0.0;
-    speed = std::sqrt(speed);
+    const double speed = speed_of(body);
     if (speed > 0.0 && speed < kFromMotion * sleep.speed) refuse(fmt::format("body '{}'", body.name), speed);
   }
 }
@@ -59,6 +89,10 @@ void read_sleep(const Map& root, Scene& scene) {
   const Map map(*section, {"speed", "wake", "after", "damping", "from_start"});
   if (const auto speed = map.find("speed")) {
     sleep.speed = speed->positive(kVelocity);
+    if (weight > 0.0 && sleep.speed > std::sqrt(weight * cell)) {
+      speed->fail(fmt::format("{:.3g} m/s is no rest: it is more than that of a fall of half a cell, {:.3g} m/s",
+                              sleep.speed, std::sqrt(weight * cell)));
+    }
   } else {
     if (weight == 0.0) map.fail("without gravity there is no scale for what is at rest; write sleep.speed");
     sleep.speed = kOfFall * std::sqrt(weight * cell);
@@ -90,6 +124,17 @@ void read_sleep(const Map& root, Scene& scene) {
   }
   if (!definition.conditions.empty()) {
     map.fail("boundaries.conditions move material wherever it is, and sleep does not know them; leave out one of both");
+  }
+  if (definition.method.average_dilatation) {
+    map.fail("method.average_dilatation needs the neighbours of every block; leave out one of both");
+  }
+  for (const BodyDefinition& body : scene.bodies) {
+    if (!sleep.from_start || weight == 0.0 || body.geostatic || body.stress) continue;
+    map.at("from_start")
+        .fail(fmt::format("body '{}' starts without stress under its weight, so it is not at rest; let it start "
+                          "geostatic, give it stress, "
+                          "or leave out from_start",
+                          body.name));
   }
   check_motion(*section, scene);
 }

@@ -46,8 +46,7 @@ void EnergyWatch::serialise(StateArchive& archive) {
 
 void Simulation::State::watch_energy(double now, const StepLimit& found) {
   const double still = kStillSpeed * found.speed;
-  const EnergyWatch::Made made =
-      energy_watch.look(find_totals().energy, 0.5 * total_mass * still * still, steps.steps);
+  const EnergyWatch::Made made = energy_watch.look(find_totals().energy, 0.5 * total_mass * still * still, steps.steps);
   if (!made.too_much) return;
   const ParticleRef fastest{found.part, mechanics->fastest(found.part, layout().smallest_cell()).index};
   std::string remedy = "lower time.cfl, or take a finer grid.cell";

@@ -1,6 +1,7 @@
 #include "mpm/sleep/rest_watch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -49,10 +50,13 @@ void RestWatch::look_at(RestWatchEntry& entry, int owner, const std::vector<Part
   for (std::size_t k = 0; k < 3; ++k) entry.mean[static_cast<int>(k)] += momentum[k] / mass;
   ++entry.looks;
   at_rest_[owner] = at_rest_[owner] != 0 && entry.last < speed_;
-  if (now - entry.begun < half_) return;
-  const bool still = entry.fastest < speed_ && entry.mean.norm() < kMean * speed_ * entry.looks;
-  at_rest_[owner] = still && entry.half_at_rest;
+  if (now - entry.begun < half_ || entry.looks < kLeastLooks) return;
+  const Vec3 mean = entry.mean / entry.looks;
+  const bool still = entry.fastest < speed_ && mean.norm() < kMean * speed_;
+  const bool sets_off = mean.norm() > kSeen * speed_ && mean.dot(entry.half_before) > entry.half_before.squaredNorm();
+  at_rest_[owner] = still && entry.half_at_rest && !sets_off;
   entry.half_at_rest = still;
+  entry.half_before = mean;
   entry.begun = now;
   entry.fastest = 0.0;
   entry.mean.setZero();
@@ -71,6 +75,7 @@ void RestWatch::trust_all() {
   for (RestWatchEntry& entry : entries_) {
     entry.half_at_rest = true;
     entry.begun -= half_;
+    entry.looks = kLeastLooks;
   }
 }
 
@@ -83,6 +88,7 @@ void RestWatch::serialise(StateArchive& archive) {
   archive.column("last", entries_, &RestWatchEntry::last);
   archive.column("mean", entries_, &RestWatchEntry::mean);
   archive.column("looks", entries_, &RestWatchEntry::looks);
+  archive.column("half_before", entries_, &RestWatchEntry::half_before);
   archive.column("half_at_rest", entries_, &RestWatchEntry::half_at_rest);
   archive.list("at_rest", at_rest_);
 }

@@ -14,8 +14,8 @@ std::array<int, 3> step_to(int dim, int side) {
 
 bool wall_holds(const Grid& grid, const std::array<int, 3>& node) {
   for (int k = 0; k < grid.layout.dim(); ++k) {
-    if (grid.has_wall[2 * k] && node[k] <= 0) return true;
-    if (grid.has_wall[2 * k + 1] && node[k] >= grid.layout.last_node(k)) return true;
+    if ((grid.has_wall[2 * k] || grid.mirrors[2 * k]) && node[k] <= 0) return true;
+    if ((grid.has_wall[2 * k + 1] || grid.mirrors[2 * k + 1]) && node[k] >= grid.layout.last_node(k)) return true;
   }
   return false;
 }
@@ -47,7 +47,10 @@ std::uint64_t SleepBorder::key_beside(const std::array<int, 3>& block, int side)
 
 void SleepBorder::find(int field, const Grid& grid, const SleepingBlocks& asleep) {
   field_ = field;
+  before_.swap(nodes_);
+  keys_before_.swap(keys_);
   nodes_.clear();
+  keys_.clear();
   if (asleep.all().empty()) return;
   around_.resize(sides_);
   for (int b = 0; b < grid.blocks.size(); ++b) {
@@ -57,6 +60,21 @@ void SleepBorder::find(int field, const Grid& grid, const SleepingBlocks& asleep
       any = any || around_[side] != nullptr;
     }
     if (any) add_block(b, grid);
+  }
+  keep_means();
+}
+
+// Both lists are in ascending order of blocks and nodes, unless an axis is periodic; then some begin anew.
+void SleepBorder::keep_means() {
+  std::size_t old = 0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const auto is_before = [&](std::size_t o) {
+      return keys_before_[o] != keys_[i] ? keys_before_[o] < keys_[i] : before_[o].ref.node < nodes_[i].ref.node;
+    };
+    while (old < before_.size() && is_before(old)) ++old;
+    if (old == before_.size()) return;
+    if (keys_before_[old] == keys_[i] && before_[old].ref.node == nodes_[i].ref.node)
+      nodes_[i].mean = before_[old].mean;
   }
 }
 
@@ -80,6 +98,7 @@ void SleepBorder::add_block(int block, const Grid& grid) {
     node.ref = {block, n};
     node.at_wall = wall_holds(grid, layout_->node(grid.blocks.block(block), n));
     nodes_.push_back(node);
+    keys_.push_back(grid.blocks.key(block));
   }
 }
 
@@ -89,12 +108,23 @@ void SleepBorder::add_names(const Node& node, const Grid& grid, std::vector<Bloc
   }
 }
 
-double SleepBorder::unrest(const Node& node, const Grid& grid, const Vec3& gravity) {
+SleepBorder::Unrest SleepBorder::find_unrest(Node& node, const Grid& grid, const Vec3& gravity, double part) {
   const double awake = grid.mass.at(node.ref.block, 0, node.ref.node), mass = awake + node.mass;
-  const double coming = nodal_vector(grid.momentum, grid.layout, node.ref).norm() / mass;
-  if (node.at_wall) return coming;
+  Unrest unrest{nodal_vector(grid.momentum, grid.layout, node.ref).norm() / mass, 0.0};
+  if (node.at_wall) return unrest;
   const Vec3 force = nodal_vector(grid.force, grid.layout, node.ref) + node.force + mass * gravity;
-  return std::max(coming, force.norm() / (mass * node.rate));
+  unrest.speed = std::max(unrest.speed, force.norm() / (mass * node.rate));
+  node.mean += part * (force - node.mean);
+  const double scale = node.force.norm() + mass * gravity.norm();
+  if (scale > 0.0) unrest.lost = node.mean.norm() / scale;
+  return unrest;
+}
+
+void SleepBorder::serialise(StateArchive& archive) {
+  archive.list("keys", keys_);
+  archive.rows("nodes", nodes_);
+  archive.column("node", nodes_, [](Node& node) -> int& { return node.ref.node; });
+  archive.column("mean", nodes_, &Node::mean);
 }
 
 }  // namespace mpm

@@ -208,7 +208,9 @@ void Sorter::permute(ParticleSet& set, Scratch& scratch) const {
     if (all) {
       values.swap(other);
     } else {
-      std::copy_n(to, n, values.data());
+      auto* own = values.data();
+#pragma omp parallel for schedule(static) num_threads(threads_)
+      for (int i = 0; i < n; ++i) own[i] = to[i];
     }
   };
   set.each_scalar([&](auto& values) {

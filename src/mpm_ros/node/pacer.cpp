@@ -19,6 +19,7 @@ Pacer::Clock::time_point Pacer::next(Clock::time_point now) {
   if (now > deadline) ++overruns_;
   if (now > deadline + kLargestDebt) {
     ++given_up_;
+    last_delay_ = now - deadline;
     restart(now);
     return now;
   }

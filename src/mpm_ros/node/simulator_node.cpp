@@ -23,8 +23,9 @@ namespace mpm_ros {
 namespace {
 
 /// How long the solver's thread sleeps at most before it looks whether it is to stop.
-constexpr std::chrono::seconds kOverloadAgain{10};  // until the node says again that it cannot keep its pace
 constexpr std::chrono::milliseconds kGlance{50};
+/// Until the node says again that it is late.
+constexpr std::chrono::seconds kOverloadAgain{10};
 /// Steps that wait for messages hold one each; others are for who asks meanwhile.
 constexpr std::uint32_t kServiceThreads = 4;
 /// Of a run, by which its pace is told.
@@ -219,12 +220,14 @@ void SimulatorNode::tell_overload() {
   const Pacer::Clock::time_point now = Pacer::Clock::now();
   if (overload_told_ && now < *overload_told_ + kOverloadAgain) return;
   overload_told_ = now;
-  ROS_WARN_STREAM(fmt::format(
-      "the run cannot keep its pace: at {:g} s it goes at {:.2g} of real time, {:g} was asked for, and falls behind by "
-      "as much. Lower _real_time_factor, give the scene a target (_set:=target.real_time=1), or see what would help "
-      "with "
-      "run_scene --explain",
-      static_cast<double>(run_->simulation().time()) * 1e-9, run_->real_time_factor(), parameters_.real_time_factor));
+  ROS_WARN_STREAM(
+      fmt::format("at {:g} s the run is {:.2g} s late, more than is caught up with, and goes on so much behind the "
+                  "wall clock. If this "
+                  "goes on, lower _real_time_factor, give the scene a target (_set:=target.real_time=1), or see what "
+                  "would help with "
+                  "run_scene --explain",
+                  static_cast<double>(run_->simulation().time()) * 1e-9,
+                  std::chrono::duration<double>(pacer_->last_delay()).count()));
 }
 
 SimulatorNode::Phase SimulatorNode::phase() const {

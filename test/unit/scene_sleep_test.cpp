@@ -35,6 +35,7 @@ void expect_fault(const std::vector<std::string>& changes, const std::string& pa
 
 TEST(SceneSleep, DefaultsFollowFromGravityAndCell) {
   EXPECT_FALSE(parse_scene(kScene, "sleep.yaml").definition.sleep.has_value());
+  EXPECT_FALSE(parse_scene(kScene, "sleep.yaml", {"sleep=off"}).definition.sleep.has_value());
   const Scene scene = parse_scene(kScene, "sleep.yaml", {"sleep={}"});
   const SleepDefinition& sleep = scene.definition.sleep.value();
   EXPECT_NEAR(sleep.speed, 0.01 * std::sqrt(9.81 * 0.1), 1e-15);

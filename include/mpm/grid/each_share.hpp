@@ -24,7 +24,7 @@ void BlockShares::by_colour(int threads, Visit&& visit) const {
     for (int colour = 0; colour < colours_; ++colour) {
       for (int part = first; part < parts(); part += step) {
         const int* of_colour = &runs_[2 * (part * colours_ + colour)];
-        wait_for_others(part, colour);
+        if (of_colour[0] != of_colour[1]) wait_for_others(part, colour);
         for (int i = of_colour[0]; i < of_colour[1]; ++i) visit(order_[i]);
         done_[part].colours.store(colour + 1, std::memory_order_release);
         for (int i = of_colour[1]; i < of_colour[2]; ++i) visit(order_[i]);

@@ -11,8 +11,8 @@
 
 namespace mpm_ros {
 
-/// Every text under `bodies` and `rigid_bodies` that names a file which is there, by a path from the scene's folder or in a package.
-/// `text`: the scene's, YAML. `scene_path`: where it was read.
+/// Every text under `bodies` and `rigid_bodies` that names a file which is there, by a path from the scene's folder or
+/// in a package. `text`: the scene's, YAML. `scene_path`: where it was read.
 std::vector<SceneFile> scene_files(const std::string& text, const std::string& scene_path);
 
 /// What became of recorded files, a line for each that is gone or has changed.

@@ -1,16 +1,19 @@
 #include "mpm/grid/block_shares.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <thread>
 
 namespace mpm {
 namespace {
 
-/// Work on a block's nodes, over that on a particle.
+/// Work on a block's nodes, over that on a particle: about what clearing and adding its tile takes, of a profile.
 constexpr std::uint64_t kBlockWork = 24;
-/// Looks at what another thread has done, tens of microseconds, before others may have this one's core.
-constexpr int kLooks = 1000;
+// Looks at what another thread has done: in a loop, some tens of microseconds; then while others may have this core;
+// and then, since that thread seems to have lost its own, at times.
+constexpr int kLooks = 1000, kYields = 50;
+constexpr std::chrono::microseconds kNap{50};
 
 }  // namespace
 
@@ -85,8 +88,10 @@ void BlockShares::wait_for_others(int part, int colour) const {
 #if defined(__x86_64__)
         __builtin_ia32_pause();
 #endif
-      } else {
+      } else if (look < kLooks + kYields) {
         std::this_thread::yield();
+      } else {
+        std::this_thread::sleep_for(kNap);
       }
     }
   }

@@ -80,7 +80,7 @@ void check_motion(const Value& where, const Scene& scene) {
 
 void read_sleep(const Map& root, Scene& scene) {
   const auto section = root.find("sleep");
-  if (!section) return;
+  if (!section || (section->is_text() && section->choice({"off"}) == 0)) return;
   SimulationDefinition& definition = scene.definition;
   SleepDefinition sleep;
   double cell = definition.grid.cell[0];

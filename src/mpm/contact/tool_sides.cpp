@@ -117,6 +117,7 @@ void SideGlue::watch(const Grid& grid, double dt) {
   const GridLayout& layout = grid.layout;
   const double around = half_diagonal(layout);
   double fastest = 0.0;
+#pragma omp parallel for schedule(static) num_threads(sides_.threads()) reduction(max : fastest)
   for (int b = 0; b < grid.blocks.size(); ++b) {
     const Vec3 middle = middle_of(layout, grid.blocks.block(b));
     for (const ThinTool& tool : sides_.tools()) {
@@ -136,16 +137,24 @@ void SideGlue::watch(const Grid& grid, double dt) {
 void SideGlue::find_nodes(const std::array<int, 2>& sides) {
   const Grid &first = *fields_[sides[0]], &second = *fields_[sides[1]];
   const GridLayout& layout = first.layout;
+  shared_.clear();
   for (int b = 0; b < second.blocks.size(); ++b) {
     const int other = first.blocks.find(second.blocks.key(b));
     if (other < 0) continue;
     for (int n = 0; n < layout.nodes_per_block(); ++n) {
-      if (!second.carries(b, n) || !first.carries(other, n)) continue;
-      const double mass[2] = {first.mass.at(other, 0, n), second.mass.at(b, 0, n)};
-      if (sides_.apart(first, {other, n}, second, {b, n})) continue;
-      const double total = mass[0] + mass[1];
-      nodes_.push_back({sides, {{other, n}, {b, n}}, {mass[0] / total, mass[1] / total}});
+      if (second.carries(b, n) && first.carries(other, n)) shared_.push_back({NodeRef{other, n}, NodeRef{b, n}});
     }
+  }
+  apart_.resize(shared_.size());
+  const int count = static_cast<int>(shared_.size());
+#pragma omp parallel for schedule(static) num_threads(sides_.threads())
+  for (int i = 0; i < count; ++i) apart_[i] = sides_.apart(first, shared_[i][0], second, shared_[i][1]);
+  for (int i = 0; i < count; ++i) {
+    if (apart_[i] != 0) continue;
+    const std::array<NodeRef, 2>& ref = shared_[i];
+    const double mass[2] = {first.mass.at(ref[0].block, 0, ref[0].node), second.mass.at(ref[1].block, 0, ref[1].node)};
+    const double total = mass[0] + mass[1];
+    nodes_.push_back({sides, {ref[0], ref[1]}, {mass[0] / total, mass[1] / total}});
   }
 }
 

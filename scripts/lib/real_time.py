@@ -2,7 +2,6 @@
 makes the table."""
 
 import json
-import os
 import pathlib
 import statistics
 import subprocess
@@ -28,7 +27,6 @@ WAYS = {
     "rover_wheel_terrain": [("as it is", [], 1)],
 }
 SLEEP = {"off": [], "on": ["sleep={from_start: true}"]}
-ENVIRONMENT = dict(os.environ, OMP_WAIT_POLICY="passive")
 
 
 def run(program, scene, changes, threads):
@@ -38,7 +36,7 @@ def run(program, scene, changes, threads):
                    "--csv", f"{folder}/tables"]
         for change in changes:
             command += ["--set", change]
-        done = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT, check=False)
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise SystemExit(f"real_time: {' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
         return json.loads(summary.read_text())

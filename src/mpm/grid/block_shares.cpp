@@ -10,9 +10,9 @@ namespace {
 
 /// Work on a block's nodes, over that on a particle: about what clearing and adding its tile takes, of a profile.
 constexpr std::uint64_t kBlockWork = 24;
-// Looks at what another thread has done: in a loop, some tens of microseconds; then while others may have this core;
-// and then, since that thread seems to have lost its own, at times.
-constexpr int kLooks = 1000, kYields = 50;
+// Looks at what another thread has done: in a loop, some tens of microseconds; then for a millisecond while others may
+// have this core; and then, since that thread seems to have lost its own, at times.
+constexpr int kLooks = 1000, kYields = 2000;
 constexpr std::chrono::microseconds kNap{50};
 
 }  // namespace

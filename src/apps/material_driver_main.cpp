@@ -26,6 +26,11 @@ int main(int argc, char** argv) {
   app.add_option("--stress", options.stress, "creep: the constant stress; compression is negative");
   app.add_option("--rate", options.rate, "strain rate, in 1/s (1)");
   app.add_option("--hold", options.hold, "relaxation, creep: time at constant strain or stress, in s (1)");
+  app.add_option("--storage", options.storage,
+                 "the last leg is undrained, stresses are total: storage 1/Q of the water in the pores, in 1/Pa");
+  app.add_option("--biot", options.biot, "with --storage: Biot's coefficient (1)");
+  app.add_option("--heating", options.heating, "the last leg is heated by so many K; with --expansion");
+  app.add_option("--expansion", options.expansion, "linear thermal expansion, in 1/K");
   app.add_flag("--shear", options.shear, "relaxation, creep: shear xz instead of strain along z with free sides");
   app.add_option("--steps", options.steps,
                  "steps per leg of the path (100), or from one row of a file to the next (10)")

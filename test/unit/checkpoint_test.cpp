@@ -133,6 +133,22 @@ std::vector<Case> cases() {
       {"boundaries={z_min: slip, conditions: [{name: grip, region: {box: {min: [0.3, 0.55], max: [0.8, 0.85]}}, "
        "motion: {velocity: [3, 0]}, direction: x}, {name: lift, region: {box: {min: [0.2, 0.2], max: [0.5, 0.45]}}, "
        "direction: z, velocity: \"0.3*sin(50*t)\"}]}"});
+  // Transport.
+  add(kTool, "heat",
+      {"transport={temperature: {initial: \"300+10*x\", tools: [{body: press, conductance: 5000, temperature: 500, "
+       "heat_capacity: 50}], values: [{region: {box: {min: [0, 0], max: [1.6, 0.05]}}, value: \"300+t\"}]}}",
+       "boundaries={z_min: {friction: 0.3}}", "materials.rubber.heat_capacity=1000", "materials.rubber.conductivity=40",
+       "materials.rubber.thermal_expansion=1e-4"});
+  add(kPlane, "heat_of_flow",
+      {law("{name: rubber, density: 1000, law: j2_plasticity, young: 100 kPa, poisson: 0.3, yield_stress: 1 kPa, "
+           "heat_capacity: 1, conductivity: 1e-3}"),
+       "transport={temperature: {method: particle_capacity}}"});
+  add(kPlane, "moist_and_wet",
+      {law("{name: rubber, density: 1000, law: drucker_prager, young: 100 kPa, poisson: 0.3, friction_angle: 30 deg, "
+           "cohesion: 100 Pa, storage: 1e-6, permeability: 1e-10, fluid_density: 1000, diffusivity: [1e-2, 1e-2, "
+           "2e-2], "
+           "solvent_expansion: 0.01}"),
+       "transport={concentration: {initial: \"x\"}, pore_pressure: {}}"});
   // Loads.
   add(kPlane, "loads",
       {"loads=[{body_force: {acceleration: [\"3*sin(30*t)\", \"X\"]}}, {particle_force: {force: [5, 0], "

@@ -205,6 +205,51 @@ TEST(MaterialDriver, RefusesFilesByTheirLine) {
   EXPECT_EQ(file_error("t, ezz\n-1, 0.1\n"), "2: t = -1 s is not after 0 s; rows go forward in time");
 }
 
+const char* const kElastic = "{law: linear_elastic, density: 2000, young: 10 MPa, poisson: 0.2}";
+
+// At a held volume heat presses with E alpha dT / (1 - 2 nu) in all directions; ten digits are printed, and the stretch
+// is 1 + alpha dT, whose logarithm is less by a part of 2.5e-4.
+TEST(MaterialDriver, HeatsAHeldMaterial) {
+  MaterialDriverOptions options;
+  options.material = kElastic;
+  options.path = "uniaxial_strain";
+  options.strain = "1e-14";
+  options.heating = "50 K";
+  options.expansion = "1e-5";
+  EXPECT_NEAR(last(table(options), "szz [Pa]"), -10e6 * std::log1p(5e-4) / 0.6, 0.01);
+  options.expansion.clear();
+  EXPECT_EQ(error_of(options), "--heating and --expansion go together");
+}
+
+// Undrained: p = -Q ln J beside the skeleton's stress. Confined by stress drained, then sheared undrained: with Q = 240
+// times the bulk modulus the material keeps its volume but for p / Q, so p is a third of the axial stress less 0.4 %.
+TEST(MaterialDriver, ClosesThePores) {
+  MaterialDriverOptions options;
+  options.material = kElastic;
+  options.path = "uniaxial_strain";
+  options.strain = "-0.001";
+  options.storage = "1e-9";
+  auto rows = table(options);
+  const double skeleton = 10e6 * 0.8 / (1.2 * 0.6) * 1e-3;
+  EXPECT_NEAR(last(rows, "pore_pressure [Pa]"), 1e6, 1e-3);
+  EXPECT_NEAR(last(rows, "szz [Pa]"), -1e6 - skeleton, 1e-3 * skeleton);
+  options.biot = "0.5";
+  rows = table(options);
+  EXPECT_NEAR(last(rows, "pore_pressure [Pa]"), 0.5e6, 1e-3);
+  EXPECT_NEAR(last(rows, "szz [Pa]"), -0.25e6 - skeleton, 1e-3 * skeleton);
+  options.biot.clear();
+  options.path = "triaxial";
+  rows = table(options);
+  const double bulk = 10e6 / (3.0 * 0.6), deviator = -100e3 - last(rows, "szz [Pa]");
+  EXPECT_NEAR(last(rows, "sxx [Pa]"), -100e3, 1e-3);
+  EXPECT_NEAR(last(rows, "pore_pressure [Pa]"), deviator / 3.0 * 1e9 / (1e9 + bulk), 1e-4 * deviator);
+  options.biot = "1.5";
+  EXPECT_EQ(error_of(options), "--biot: 1.5; it lies in (0, 1]");
+  options.storage.clear();
+  options.biot = "1";
+  EXPECT_EQ(error_of(options), "--biot is of water in pores; add --storage");
+}
+
 TEST(MaterialDriver, RefusesOptionsThatDoNotFit) {
   MaterialDriverOptions options;
   options.material = kSand;

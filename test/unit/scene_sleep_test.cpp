@@ -41,6 +41,7 @@ TEST(SceneSleep, DefaultsFollowFromGravityAndCell) {
   EXPECT_NEAR(sleep.speed, 0.01 * std::sqrt(9.81 * 0.1), 1e-15);
   EXPECT_NEAR(sleep.wake, 3 * sleep.speed, 1e-15);
   EXPECT_NEAR(sleep.after, std::sqrt(0.1 / 9.81), 1e-15);
+  EXPECT_EQ(sleep.balance, 0.1);
   EXPECT_EQ(sleep.damping, 0.0);
   EXPECT_FALSE(sleep.from_start);
 }
@@ -51,6 +52,7 @@ TEST(SceneSleep, RefusesWhatCannotBe) {
   expect_fault({"sleep={speed: 10 mm/s, wake: 5 mm/s}"}, "sleep.wake: it is below sleep.speed");
   expect_fault({"sleep={damping: 1}"}, "below 1");
   expect_fault({"sleep={after: 0}"}, "sleep.after");
+  expect_fault({"sleep={balance: 0}"}, "sleep.balance");
   expect_fault({"sleep={spede: 1}"}, "speed");
   expect_fault({"sleep={}", "gravity=[0, 0]"}, "write sleep.speed");
   expect_fault({"sleep={speed: 2 m/s}"}, "is no rest");

@@ -146,8 +146,8 @@ TEST(SleepingBlocks, ParticlesKeepWhatIsTheirs) {
   EXPECT_TRUE(asleep.all().empty());
 }
 
-// Material asleep stays as it is to the bit, and is reported as ever. The energies that were kept for it are those that
-// are found anew.
+// Material asleep stays as it is to the bit, and is reported as ever: the energy that is kept for it is m g z of the
+// particles that were read.
 TEST(Sleep, WhatIsAsleepDoesNotChange) {
   Simulation run = start(kBed, {kSleep, "rigid_bodies=[]"});
   advance_to(run, 0.2);
@@ -158,6 +158,8 @@ TEST(Sleep, WhatIsAsleepDoesNotChange) {
   EXPECT_EQ(field(run, "z"), z);
   EXPECT_EQ(field(run, "p"), p);
   EXPECT_EQ(run.state().energy.of("kinetic"), 0.0);
+  const double mass = 1600 * 1.6 * 0.2 * 0.1;  // density times the bed's volume [kg]
+  EXPECT_NEAR(run.state().energy.of("potential"), mass * kG * mean(z), 1e-9 * mass * kG);
   EXPECT_LT(run.state().audit.residual, 1e-10);
 }
 

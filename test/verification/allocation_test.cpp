@@ -61,7 +61,8 @@ mpm::TractionDefinition pulsing_pressure(const std::string& body) {
 // Number of allocations in a sync period of `steps` steps. A box full of material under gravity is touched by a tool
 // that moves along its surface, and shaken by loads that are functions. In a step the fastest wave crosses 0.4 cells.
 long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material, const mpm::MethodDefinition& method,
-                             mpm::Isa isa, mpm::GeometryKind geometry = mpm::GeometryKind::solid) {
+                             mpm::Isa isa, mpm::GeometryKind geometry = mpm::GeometryKind::solid,
+                             const mpm::TransportDefinition& transport = {}) {
   mpm::SimulationDefinition d;
   d.geometry = geometry;
   const bool planar = geometry != mpm::GeometryKind::solid;
@@ -76,6 +77,7 @@ long allocations_of_a_period(int steps, const mpm::MaterialDefinition& material,
   d.method = method;
   d.gravity = {0.0, 0.0, -9.81};
   d.materials = {material};
+  d.transport = transport;
   mpm::DeformableBody body;
   body.name = "body";
   body.material = material.name;
@@ -184,6 +186,44 @@ TEST(Allocation, StepsOfEveryMethodDoNotAllocate) {
         }
       }
     }
+  }
+}
+
+// Heat that conducts in one step and in several stages, with a flux, a source, a prescribed value and a hot tool; a
+// tensor; and water that drains. A look at all particles within a period would allocate: the scenes are such that there
+// is none.
+TEST(Allocation, TransportDoesNotAllocate) {
+  const mpm::MaterialDefinition material{"m", 1000.0, mpm::LinearElasticDefinition{{1e6, 0.3}}};
+  mpm::TransportDefinition transport;
+  for (const double conductivity : {1.0, 1e7}) {
+    mpm::QuantityDefinition heat;
+    heat.reference = 300.0;
+    heat.materials.resize(1);
+    heat.materials[0].capacity = 1000.0;
+    heat.materials[0].conductivity = conductivity;
+    heat.materials[0].expansion = 1e-6;
+    heat.fluxes.push_back({"flux", "body", 5, {}, mpm::FluxDefinition::Kind::convection, mpm::Function(310.0), 10.0});
+    heat.sources.push_back({"", false, mpm::Function(5.0)});
+    heat.tools.push_back({"tool", 100.0, mpm::Function(320.0), 0.0, 1.0});
+    mpm::ValueDefinition held;
+    held.region.surface = mpm::make_box({10.0, 10.0, 0.1});
+    held.value = mpm::Function::parse("300+t");
+    heat.values.push_back(held);
+    transport.quantities.push_back(heat);
+    mpm::QuantityDefinition water;
+    water.quantity = mpm::Transported::pore_pressure;
+    water.materials.resize(1);
+    water.materials[0].capacity = 1e-5;  // so that the water does not shorten the steps
+    water.materials[0].conductivity = conductivity > 1.0 ? 1e-8 : 1e-11;
+    if (conductivity > 1.0) water.materials[0].anisotropy = mpm::Symmetric3<double>{1.0, 1.0, 2.0, 0.0, 0.0, 0.0};
+    water.materials[0].biot = mpm::Symmetric3<double>::isotropic(1.0);
+    transport.quantities.push_back(water);
+    for (const mpm::GeometryKind geometry : {mpm::GeometryKind::plane_strain, mpm::GeometryKind::axisymmetric}) {
+      EXPECT_EQ(allocations_of_a_period(4, material, {}, mpm::best_isa(), geometry, transport),
+                allocations_of_a_period(12, material, {}, mpm::best_isa(), geometry, transport))
+          << conductivity << ", " << mpm::geometry_name(geometry);
+    }
+    transport.quantities.clear();
   }
 }
 

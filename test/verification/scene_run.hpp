@@ -25,6 +25,14 @@ inline std::vector<double> field(const mpm::Simulation& simulation, const std::s
   return values;
 }
 
+/// A number of the run that a module reports; 0 when none has that name.
+inline double number(const mpm::Simulation& simulation, const std::string& name) {
+  for (const mpm::NamedNumber& one : simulation.state().numbers) {
+    if (one.name == name) return one.value;
+  }
+  return 0.0;
+}
+
 /// Simulated time [s].
 inline double seconds(const mpm::Simulation& simulation) { return 1e-9 * static_cast<double>(simulation.time()); }
 

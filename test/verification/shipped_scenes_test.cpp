@@ -46,6 +46,11 @@ std::vector<std::string> coarse(const std::string& name) {
   if (name == "rover_wheel_terrain") return {"grid.cell=0.08"};
   if (name == "rod_penetration") return {"grid.cell=1"};
   if (name == "sphere_indentation") return {"grid.cell=[0.002, 0.0005]"};
+  if (name == "probe_in_clay") {
+    return {"grid.cell=0.009", "time.end=0.1", "metrics.pushing_force.rate={from: 0.05, to: 0.1}"};
+  }
+  if (name == "hot_tool") return {"grid.cell=0.001"};
+  if (name == "swelling_strip") return {"grid.cell=1e-4"};
   if (name == "speed_block_3d_million") return {"grid.cell=0.1"};
   if (name.rfind("speed_", 0) == 0) return {"grid.cell=0.04"};
   return {};

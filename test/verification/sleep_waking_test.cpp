@@ -4,33 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "mpm/scene/scene.hpp"
-#include "mpm/simulation/simulation.hpp"
+#include "scene_run.hpp"
 
 namespace verification {
 namespace sleep_waking_test {
 
-mpm::Simulation start(const std::string& text, const std::vector<std::string>& changes = {}) {
-  return mpm::Simulation(mpm::build(mpm::parse_scene(text, "sleep.yaml", changes)));
-}
-
-double number(const mpm::Simulation& run, const std::string& name) {
-  for (const mpm::NamedNumber& one : run.state().numbers) {
-    if (one.name == name) return one.value;
-  }
-  return 0.0;
+mpm::Simulation of_text(const std::string& text, const std::vector<std::string>& changes = {}) {
+  return mpm::Simulation(mpm::parse_scene(text, "sleep.yaml", changes));
 }
 
 double mean_height(const mpm::Simulation& run) {
-  std::vector<double> values;
-  run.particle_field("z", values);
+  const std::vector<double> heights = field(run, "z");
   double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-void advance_to(mpm::Simulation& run, double end) {
-  while (1e-9 * static_cast<double>(run.time()) < end - 1e-9) run.advance();
+  for (const double height : heights) sum += height;
+  return sum / static_cast<double>(heights.size());
 }
 
 // Soil that is put to sleep from the start stands only where it would: a column whose side is free falls.
@@ -45,10 +32,10 @@ materials: [{name: sand, law: drucker_prager, density: 1600, young: 1 MPa, poiss
 bodies: [{name: bed, material: sand, shape: {box: {min: [0.0, 0.0], max: [0.4, 0.6]}}, initial: {stress: {zz: "-1600*9.81*(0.6-z)", xx: "-800*9.81*(0.6-z)", yy: "-800*9.81*(0.6-z)"}}}]
 boundaries: {x_min: slip, x_max: slip, z_min: {friction: 0.6}}
 )yaml";
-  mpm::Simulation with = start(kColumn, {"sleep={from_start: true}"}), without = start(kColumn);
+  mpm::Simulation with = of_text(kColumn, {"sleep={from_start: true}"}), without = of_text(kColumn);
   const double high = mean_height(without);
-  advance_to(with, 0.5);
-  advance_to(without, 0.5);
+  run_until(with, 0.5);
+  run_until(without, 0.5);
   const double fell = high - mean_height(without);
   EXPECT_GT(fell, 0.05);
   EXPECT_NEAR(high - mean_height(with), fell, 0.02 * fell);
@@ -70,12 +57,12 @@ rigid_bodies:
      motion: {velocity: ["0.5*min(1, max(0, (t-0.1)/0.05))", 0]}}
 boundaries: {x_min: slip, x_max: slip, z_min: {friction: 0.6}}
 )yaml";
-  mpm::Simulation with = start(kGate, {"sleep={from_start: true}"}), without = start(kGate);
+  mpm::Simulation with = of_text(kGate, {"sleep={from_start: true}"}), without = of_text(kGate);
   const double high = mean_height(without);
-  advance_to(with, 0.1);
+  run_until(with, 0.1);
   EXPECT_GT(number(with, "asleep"), 0.5 * static_cast<double>(with.particles()));
-  advance_to(with, 0.7);
-  advance_to(without, 0.7);
+  run_until(with, 0.7);
+  run_until(without, 0.7);
   const double fell = high - mean_height(without);
   EXPECT_GT(fell, 0.01);
   EXPECT_NEAR(high - mean_height(with), fell, 0.03 * fell);

@@ -16,6 +16,7 @@
 #include "mpm/boundary/wall_definition.hpp"
 #include "mpm/step/chunk_sums.hpp"
 #include "mpm/step/coulomb.hpp"
+#include "mpm/step/heat_sink.hpp"
 #include "mpm/step/node_loss.hpp"
 #include "mpm/step/stage.hpp"
 
@@ -24,9 +25,9 @@ namespace mpm {
 class Wall final : public FieldStage {
  public:
   /// `face`: 2 * grid axis, + 1 for the upper one. `name` as in scenes ("z_min"). `gravity` [m/s^2] serves the account
-  /// of energy alone.
+  /// of energy alone. `heat`: what is told of friction, if there is heat; outlives the wall.
   Wall(int face, const WallDefinition& definition, const std::string& name, const Vec3& gravity = Vec3::Zero(),
-       int threads = 1);
+       int threads = 1, HeatSink* heat = nullptr);
 
   std::string name() const override { return account_.name; }
   Ranks ranks(Hook hook) const override {
@@ -75,6 +76,8 @@ class Wall final : public FieldStage {
       return *this;
     }
   };
+  /// The nodes on the face and beyond it, when blocks have changed.
+  void find_nodes(const Grid& grid);
   bool always_holds() const { return definition_.kind != WallKind::frictional; }
   /// Grid axes [first, end) along which a wall that always holds does so.
   std::pair<int, int> held_axes(const GridLayout& layout) const;
@@ -84,13 +87,16 @@ class Wall final : public FieldStage {
   void hold_up(Node& node, const FieldContext& context, const Vec3& impulse, Hold before, SurfaceLoss& loss) const;
   /// Acts at one node.
   void act(std::size_t node, FieldContext& context, const Vec3& normal, Deeds& deeds);
-  /// Visits all nodes on several threads, and books the sums.
+  /// Visits the nodes with material on several threads, and books the sums.
   template <class Visit>
   void each_node(Visit&& visit) {
-    const Deeds all = deeds_.over(nodes_.size(), threads_, visit);
+    const Deeds all =
+        deeds_.over(carrying_.size(), threads_, [&](std::size_t i, Deeds& deeds) { visit(carrying_[i], deeds); });
     given_ += all.given;
     loss_ += all.loss;
   }
+  /// Tells of what friction took since the last call.
+  void tell_of_heat(const FieldContext& context);
   /// Frictional: how the wall holds the node; else what it always does.
   ContactChange change(const Vec3& velocity, const Vec3& normal) const;
   Vec3 normal(const GridLayout& layout) const;
@@ -103,8 +109,11 @@ class Wall final : public FieldStage {
   Vec3 given_ = Vec3::Zero();  ///< in this step [N s]
   SurfaceLoss loss_;
   std::vector<Node> nodes_;
+  std::vector<std::uint32_t> carrying_;  ///< of nodes_, those with material in this step
   ChunkSums<Deeds> deeds_;
   std::vector<NodeLoss> losses_;  ///< frictional only: at nodes_, in this step
+  HeatSink* heat_;
+  std::vector<double> rubbed_;    ///< of nodes_, by friction, not told yet [J]
   bool acted_ = false;            ///< whether the step's impulses were given
   HeldNodes held_;                ///< of a frictional wall, and with USF
   std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from

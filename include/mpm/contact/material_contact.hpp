@@ -23,6 +23,7 @@
 #include "mpm/contact/shared_blocks.hpp"
 #include "mpm/contact/tool_sides.hpp"
 #include "mpm/math/geometry_kind.hpp"
+#include "mpm/step/heat_sink.hpp"
 #include "mpm/step/stage.hpp"
 #include "mpm/step/volume_survey.hpp"
 
@@ -43,6 +44,7 @@ struct MaterialContactSettings {
   double cell_volume =
       0.0;  ///< to which minimum volumes are relative [m^3]; about an axis the area of a cell's section
   int threads = 1;
+  HeatSink* heat = nullptr;  ///< what is told of friction and touch, if there is heat
   const ToolSides* sides =
       nullptr;  ///< sides of thin tools, which may lie between two bodies at a node; null without such tools
 };
@@ -155,6 +157,7 @@ class MaterialContact final : public Stage, public ContactReporter {
   void update(BlockNodes& block, const Node& node, double dt, Scratch& scratch);
   void keep_held();
   void book(const BlockNodes& block, bool updated, double dt);
+  void tell_of_heat(const BlockNodes& block, const Node& node, const NodePair& pair, double dt);
 
   MaterialContactSettings settings_;
   Fields& fields_;

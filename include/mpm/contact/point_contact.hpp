@@ -55,6 +55,7 @@
 #include "mpm/contact/point_memory.hpp"
 #include "mpm/contact/point_search.hpp"
 #include "mpm/contact/point_solver.hpp"
+#include "mpm/step/heat_sink.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
@@ -66,6 +67,7 @@ struct PointContactSettings {
   int threads = 1;
   Vec3 gravity = Vec3::Zero();  ///< acts on free bodies [m/s^2]
   bool with_pairs = false;      ///< whether deformable bodies have laws with each other
+  HeatSink* heat = nullptr;     ///< what is told of friction and touch, if there is heat
   bool sharp_edges = true;      ///< whether points see that faces end (contact/edge_cover.hpp)
 };
 
@@ -129,6 +131,8 @@ class PointContact final : public Stage, public ContactReporter {
   std::vector<RigidBody*> bodies_;
   std::vector<const RigidBody*> surfaces_;  ///< the same, for the search
   const std::vector<ParticleSet>& sets_;
+  Fields& fields_;
+  HeatSink* heat_;
   std::vector<ContactLaw> laws_;
   std::vector<FrictionLaw> laws_now_;
   std::vector<ContactLedger> ledgers_;

@@ -11,7 +11,11 @@
 // the steps of a nonlinear conjugate gradient method (contact/conjugate_sweeps.hpp), since a light body couples all
 // points that touch it, and they run on one thread.
 //
-// Sweeps end when one changes velocities by at most kTolerance of the largest, or after kSweeps. The remaining error is
+// Sweeps end when one changes velocities by at most kTolerance of the largest, or after kSweeps. With a free body they
+// also end when the force and the torque on every body, free or not, have stopped changing (steady()): single points
+// may go on for hundreds of sweeps, at the limit between sticking and sliding or where more points meet than the nodes
+// around them have motions. What such points do to the material under one body is then less accurate than what the body
+// meets. The remaining error is
 // a small approach, which the next steps correct; momentum is exact. Ten sweeps are enough: forces on a tool differ
 // from those of forty by 0.3 %, and both by 2 % from those of six hundred (speed_tool_3d).
 #pragma once
@@ -48,6 +52,7 @@ class PointSolver {
     bool at_edge = false;          ///< whether a node of it lies in part beyond an edge
     Hold hold = Hold::free;        ///< in the step before, then in this one
     int found = 0;                 ///< index among the points that were found
+    int body = 0;                  ///< index among the bodies
     int first = 0, end = 0;        ///< its parts in parts_
     FreeMotion* motion = nullptr;  ///< motion of a free body; null for others
     Vec3 place;                    ///< world [m]
@@ -63,7 +68,13 @@ class PointSolver {
 
   /// `fields` and `bodies` must outlive this object. `sharp`: whether points see that faces end (edge_cover.hpp).
   PointSolver(Fields& fields, const std::vector<const RigidBody*>& bodies, ShapeKind shape, bool sharp, int threads)
-      : fields_(fields), edges_(bodies), sharp_(sharp), shape_(shape), threads_(threads) {}
+      : fields_(fields),
+        bodies_(bodies),
+        edges_(bodies),
+        sharp_(sharp),
+        shape_(shape),
+        threads_(threads),
+        on_bodies_(bodies.size()) {}
 
   /// Takes over the points found, in the order of solution and without those that have no node with mass around them.
   void connect(const std::vector<ContactPoint>& found);
@@ -140,8 +151,11 @@ class PointSolver {
   void sweep_prescribed();
   template <Pass Kind>
   void sweep_free();
+  /// Whether the last sweep changed no body's force and torque by more than a part of their sums of magnitudes.
+  bool steady();
 
   Fields& fields_;
+  const std::vector<const RigidBody*>& bodies_;
   EdgeCover edges_;
   bool sharp_;
   ShapeKind shape_;
@@ -156,6 +170,12 @@ class PointSolver {
   std::vector<Cluster> clusters_;      ///< by colour
   std::array<int, 9> colour_begin_{};  ///< in clusters_
   SweepMemory sweeps_;
+  /// What the points do to a body together: the change in the last sweep, and sums of magnitudes.
+  struct OnBody {
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  ///< [N s], [N m s]
+    double all_force = 0.0, all_torque = 0.0;
+  };
+  std::vector<OnBody> on_bodies_;
 
   // Kept so that a step allocates nothing.
   std::vector<PointNode> found_nodes_;  ///< stride_ of them for each point found

@@ -24,6 +24,7 @@
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/step/coulomb.hpp"
+#include "mpm/step/heat_sink.hpp"
 #include "mpm/step/node_loss.hpp"
 #include "mpm/step/stage.hpp"
 
@@ -34,7 +35,7 @@ class RigidContact final : public Stage, public ContactReporter {
   /// `body`, `fields` and `sides` must outlive the stage; `sides` is null in a scene without thin tools. `geometry`
   /// only tells axisymmetric scenes from others; `gravity` [m/s^2] serves the account of energy alone.
   RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry = GeometryKind::solid,
-               const ToolSides* sides = nullptr, const Vec3& gravity = Vec3::Zero());
+               const ToolSides* sides = nullptr, const Vec3& gravity = Vec3::Zero(), HeatSink* heat = nullptr);
 
   std::string name() const override { return ledger_.account().name; }
   Ranks ranks(Hook) const override { return {Rank::rigid_body}; }
@@ -71,6 +72,8 @@ class RigidContact final : public Stage, public ContactReporter {
   /// visit(node, grid of its field)
   template <class Visit>
   void each_node(Visit&& visit);
+  /// Books what contact takes at a node.
+  void lose(const Node& node, const Grid& grid, const SurfaceLoss& loss, double dt);
   /// Books the impulse on one node.
   void give(const Node& node, const Vec3& impulse);
 
@@ -85,6 +88,7 @@ class RigidContact final : public Stage, public ContactReporter {
   std::vector<std::vector<Node>> nodes_;  ///< of each block in near_
   std::vector<HeldNodes> held_;           ///< of each field
   ContactLedger ledger_;
+  HeatSink* heat_;
   int touching_ = 0;
 };
 

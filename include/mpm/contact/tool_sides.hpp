@@ -42,7 +42,6 @@ class ToolSides final : public Module {
   /// The thin tool that a body is, or null.
   const ThinTool* find(const RigidBody& body) const;
   const FieldMap& map() const { return map_; }
-  int threads() const { return threads_; }
 
   /// Finds the side of every particle of the divided bodies, before a sort.
   void before_sort() override;
@@ -101,8 +100,6 @@ class SideGlue final : public Stage {
   ToolSides& sides_;
   Fields& fields_;
   std::vector<Node> nodes_;
-  std::vector<std::array<NodeRef, 2>> shared_;  ///< nodes that carry in both fields, of the division at work
-  std::vector<std::uint8_t> apart_;             ///< of each of these
 };
 
 }  // namespace mpm

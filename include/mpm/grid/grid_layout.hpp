@@ -24,6 +24,9 @@ inline constexpr int kBlockEdge = 4;  ///< nodes of a block along an axis
 /// Nodes of a block of a grid with `dim` axes.
 constexpr int nodes_of_block(int dim) { return dim == 1 ? kBlockEdge : kBlockEdge * nodes_of_block(dim - 1); }
 
+/// Blocks around one, itself among them.
+constexpr int neighbours_of(int dim) { return dim == 3 ? 27 : dim == 2 ? 9 : 3; }
+
 class GridLayout {
  public:
   /// `dim` 1 (x), 2 (x, z) or 3; cell sizes [m] > 0. @throws GridError
@@ -37,6 +40,7 @@ class GridLayout {
   double inverse_cell(int k) const { return inverse_cell_[k]; }
   double origin(int k) const { return origin_[k]; }
   double smallest_cell() const;
+  double largest_cell() const;
   /// Last node along axis k that lies in the domain; the domain is a whole number of cells.
   int last_node(int k) const { return last_node_[k]; }
 

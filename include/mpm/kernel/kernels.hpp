@@ -84,6 +84,10 @@ struct SetView {
   T* affine[9];  ///< APIC: B, sum of S v_c (x_i - x_p)_k, [component][axis] [m^2/s]
   /// Of place: rates on the grid's and on the particle's velocity [1/s]; null where constant.
   const double* damping[2];
+  /// Strain that brings no stress, as heat and moisture bring, alike along all axes: what it is to be, and what it was
+  /// when the stress was last computed (free_strain.hpp). Null where no material expands.
+  const double* free_strain;
+  double* strained_free;
   const void* law;  ///< the law; null where no pass asks for it
   const LawKernels<T>* law_kernels;
   const ShapeKernels<T>* shape;  ///< null for points of domains
@@ -223,6 +227,9 @@ struct KernelTable {
   /// as many components as axes component k += G_k from[0].
   void (*spread_gradient)(const GridView&, const BlockView&, const SetView<T>*, const ParticleArrays*, int sets,
                           int components, bool by_mass, double* field);
+  /// `to` -= m G_k from[0] times the gradient of `field` along k, summed over the axes: what conducts.
+  void (*diffuse)(const GridView&, const BlockView&, const SetView<T>*, const ParticleArrays*, int sets,
+                  const double* field, double* to);
 
   /// v = p / m on the nodes of blocks [first, last).
   void (*nodal_velocity)(const GridView&, int first, int last);

@@ -44,6 +44,7 @@ class Passes {
             &Transfers::gradient,
             &Transfers::spread,
             &Transfers::spread_gradient,
+            &Transfers::diffuse,
             &nodal_velocity<kDim>,
             &nodal_update<kDim>};
   }
@@ -89,12 +90,17 @@ class Passes {
         }
         const int bad = set.law_kernels->update(set, chunk.first, chunk.count, gradients, settings,
                                                 settings.and_force ? &stresses : nullptr);
+        if (set.free_strain != nullptr) note_free_strain(set, chunk);
         if (bad < chunk.count && failure.set < 0) failure = {number, chunk.first + bad};
         if (settings.and_force) in.spread_gradient(stresses, force);
       });
     });
     if (settings.and_force) force.template add_to<kDim>(grid.force, block, 0);
     return failure;
+  }
+
+  static void note_free_strain(const Set& set, const ParticleChunk& chunk) {
+    for (int p = chunk.first; p < chunk.first + chunk.count; ++p) set.strained_free[p] = set.free_strain[p];
   }
 
   static void force(const GridView& grid, const BlockView& given, const Set* sets, int count, const double* pressure) {

@@ -1,12 +1,14 @@
 // Strain and stress of a chunk of particles of one body: F <- exp(grad v dt) F and the body's law, a register of
 // particles at a time. The law is chosen once a body, from a table made of the closed list of laws, and called
-// once a chunk; inside the loop there is no call and no branch on it. Nothing here depends on the shape function.
+// once a chunk; inside the loop there is no call and no branch on it. Nothing here depends on the shape function. A law
+// knows nothing of free strain: it is taken off before, and put back after (free_strain.hpp).
 // Source: Nairn & Guilkey (2015) eq. (9), (64); method reference 7.
 #pragma once
 
 #include <type_traits>
 
 #include "mpm/kernel/chunks.hpp"
+#include "mpm/kernel/free_strain.hpp"
 #include "mpm/kernel/interleave.hpp"
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/kernel/wide_math.hpp"
@@ -61,12 +63,43 @@ class Stress {
   using Set = mpm_kernel::SetView<T>;
   using Columns = mpm_kernel::ChunkStresses<T>;
   static constexpr int kDim = Geometry::kDim;
+  /// The strain along y is found with the law, from what the plane's strain leaves of the free one.
+  static constexpr bool kFreeThickness = std::is_same_v<Geometry, PlaneStress>;
 
  public:
   template <class LawType>
-  MPM_FLATTEN static int update(const Set& set_view, int first, int count,
-                                const mpm_kernel::ChunkGradients<T>& gradients,
-                                const mpm_kernel::StrainSettings& settings, Columns* out) {
+  static int update(const Set& set, int first, int count, const mpm_kernel::ChunkGradients<T>& gradients,
+                    const mpm_kernel::StrainSettings& settings, Columns* out) {
+    if (set.free_strain != nullptr) return update_growing<LawType>(set, first, count, gradients, settings, out);
+    return update_plain<LawType>(set, first, count, gradients, settings, out);
+  }
+
+  /// Columns of the stress as it is, whatever the law.
+  static void columns(const Set& set, int first, int count, Columns& out) {
+    for (int q = 0; q < count; q += W::kLanes) {
+      const W mass = mass_of<Geometry::kHoop>(set, first + q, count - q);
+      put_columns(Geometry::load_symmetric(WideReader<T>{set.tau, count - q}, first + q), -mass, q, out);
+    }
+  }
+
+ private:
+  // Two functions, so that the loop of material that does not grow has no part of the other.
+  template <class LawType>
+  MPM_FLATTEN static int update_plain(const Set& set, int first, int count,
+                                      const mpm_kernel::ChunkGradients<T>& gradients,
+                                      const mpm_kernel::StrainSettings& settings, Columns* out) {
+    return update_each<LawType, false>(set, first, count, gradients, settings, out);
+  }
+  template <class LawType>
+  [[gnu::cold]] static int update_growing(const Set& set, int first, int count,
+                                          const mpm_kernel::ChunkGradients<T>& gradients,
+                                          const mpm_kernel::StrainSettings& settings, Columns* out) {
+    return update_each<LawType, true>(set, first, count, gradients, settings, out);
+  }
+
+  template <class LawType, bool Grows>
+  static int update_each(const Set& set_view, int first, int count, const mpm_kernel::ChunkGradients<T>& gradients,
+                         const mpm_kernel::StrainSettings& settings, Columns* out) {
     static_assert(std::is_trivially_copyable_v<LawType>, "laws cross the border between instruction sets as bytes");
     const Set set = set_view;
     const LawType law = *static_cast<const LawType*>(set.law);
@@ -79,11 +112,17 @@ class Stress {
       for (int c = 0; c < kDim; ++c) {
         for (int k = 0; k < kDim; ++k) l[c][k] = W::load(gradients.l[c * kDim + k] + q) * dt;
       }
-      const auto old = Geometry::load_matrix(WideReader<T>{set.f, lanes}, p);
+      auto old = Geometry::load_matrix(WideReader<T>{set.f, lanes}, p);
+      auto stress = Geometry::load_symmetric(WideReader<T>{set.tau, lanes}, p);
+      if constexpr (Grows) {
+        const auto parts = FreeStrain<T>::parts(set, p, lanes, old, stress);
+        old = parts.f;
+        stress = parts.tau;
+        for (int k = 0; k < kDim && kFreeThickness; ++k) l[k][k] = l[k][k] - parts.growth;
+      }
       const W j_old = determinant(old);
       auto now = old;
       W j;
-      auto stress = Geometry::load_symmetric(WideReader<T>{set.tau, lanes}, p);
       W history[LawType::kHistory + 1];
       for (int h = 0; h < LawType::kHistory; ++h) history[h] = W::load_first(set.history[h] + p, lanes);
       if constexpr (std::is_same_v<Geometry, PlaneStress>) {
@@ -91,11 +130,19 @@ class Stress {
       } else {
         auto du = Geometry::gradient(l);
         if constexpr (Geometry::kHoop) du.yy = W::load(gradients.l[mpm_kernel::kHoopGradient] + q) * dt;
+        if constexpr (Grows) du = FreeStrain<T>::less_growth(set, p, lanes, du);
         const auto df = exponential(du, settings.terms);
         now = product(df, old);
         if constexpr (LawType::kForgetsShape) now = Geometry::dilatation(j_old * determinant(df));
         j = determinant(now);
         law.update(Increment<W, std::decay_t<decltype(du)>>{du, df, now, j_old, j, dt}, stress, history);
+      }
+      if constexpr (Grows) {
+        const auto whole =
+            FreeStrain<T>::whole(set, p, lanes, Geometry::load_matrix(WideReader<T>{set.f, lanes}, p),
+                                 Geometry::load_symmetric(WideReader<T>{set.tau, lanes}, p), now, stress);
+        now = whole.f;
+        stress = whole.tau;
       }
       Geometry::store_matrix(now, WideWriter<T>{set.f, lanes}, p);
       Geometry::store_symmetric(stress, WideWriter<T>{set.tau, lanes}, p);
@@ -107,15 +154,6 @@ class Stress {
     return bad;
   }
 
-  /// Columns of the stress as it is, whatever the law.
-  static void columns(const Set& set, int first, int count, Columns& out) {
-    for (int q = 0; q < count; q += W::kLanes) {
-      const W mass = mass_of<Geometry::kHoop>(set, first + q, count - q);
-      put_columns(Geometry::load_symmetric(WideReader<T>{set.tau, count - q}, first + q), -mass, q, out);
-    }
-  }
-
- private:
   /// Particles of the next chunk, whose lines would else be waited for: of a solid there are more of them than the
   /// processor fetches ahead by itself. Where a register is a line.
   template <int History>

@@ -1,5 +1,6 @@
 // Passes that move any numbers between the particles of a block and its nodes, over an interpolator (interpolator.hpp):
-// gather, gradient, spread and spread_gradient of kernels.hpp. They know neither mass, unless asked, nor law of a body.
+// gather, gradient, spread, spread_gradient and diffuse of kernels.hpp. They know neither mass, unless asked, nor law
+// of a body.
 #pragma once
 
 #include "mpm/kernel/interpolator.hpp"
@@ -101,6 +102,33 @@ class TransferPasses {
       });
     });
     add_components(tile, block, components, field);
+  }
+
+  static void diffuse(const GridView& grid, const BlockView& given, const Set* sets, const Arrays* arrays, int count,
+                      const double* field, double* to) {
+    const BlockView block = Interpolator::reach(given);
+    Source<1> source;
+    source.template load<1>(field, block, 0);
+    Sink tile;
+    tile.clear(block);
+    mpm_kernel::ChunkGradients<T> gradients;
+    mpm_kernel::ChunkStresses<T> columns;
+    each_set<Interpolator>(grid, block, sets, count, [&](Interpolator& in, const Set& set, int number) {
+      const Arrays& of = arrays[number];
+      if (of.from[0] == nullptr) return;
+      in.each_chunk([&](const ParticleChunk& chunk) {
+        in.fill(Beside::gradient);
+        in.gradient(source, gradients);
+        for (int q = 0; q < chunk.count; q += W::kLanes) {
+          const W conducts = -give(set, of.from[0], chunk, q, true);
+          for (int k = 0; k < kDim; ++k) {
+            interleave(columns.column[k] + 4 * q, conducts * W::load(gradients.l[k] + q), W(0.0), W(0.0), W(0.0));
+          }
+        }
+        in.template spread_gradient<false>(columns, tile);
+      });
+    });
+    add_components(tile, block, 1, to);
   }
 
  private:

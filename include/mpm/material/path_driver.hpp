@@ -26,6 +26,9 @@ class PathDriver {
   /// Calls `after_step` at the end of every step. @throws PathError, PathFailure
   void run(const Leg& leg, const std::function<void()>& after_step = {});
 
+  /// From the next leg on no water leaves the pores, and stresses are total (MaterialPoint::close_pores).
+  void close_pores(double biot, double modulus) { point_.close_pores(biot, modulus); }
+
   const MaterialPoint& point() const { return point_; }
   double time() const { return time_; }                 ///< [s]
   const Components& strain() const { return strain_; }  ///< integral of the rate of deformation

@@ -25,6 +25,7 @@
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/shape/traction.hpp"
+#include "mpm/step/domain_faces.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
@@ -41,19 +42,12 @@ struct TractionTerm {
   std::array<Function, 3> value;
 };
 
-/// What all tractions of a scene have in common.
-struct TractionSettings {
-  GeometryKind geometry = GeometryKind::solid;
-  ShapeKind shape = ShapeKind::ugimp;
-  double across = 1.0;  ///< thickness of a plane [m], area of a line [m^2]
-};
-
 /// As ParticleLoads, one of the last stages: its work is taken with the velocity that conditions have left. Audit:
 /// "traction", the sum over faces of T times area times dt; the grid has no part in it.
 class FaceTractions : public Stage {
  public:
   /// `fields` and `sets` outlive this; those that a term with X, Y or Z acts on have their start_x.
-  FaceTractions(const TractionSettings& settings, Fields& fields, const std::vector<ParticleSet>& sets,
+  FaceTractions(const FaceSettings& settings, Fields& fields, const std::vector<ParticleSet>& sets,
                 std::vector<TractionTerm> terms);
 
   std::string name() const override { return account_.name; }
@@ -78,17 +72,15 @@ class FaceTractions : public Stage {
     Vec3 force;  ///< by world axis [N]
   };
 
-  void find_places();
-  PlacedDomain domain_of(const ParticleSet& set, int p, const GridLayout& layout) const;
-  double across(const ParticleSet& set, int p) const;
+  void look_for_particles();
   /// By world axis [Pa].
   Vec3 value_at(const TractionTerm& term, const FaceParts& parts, int p, const StepContext& context) const;
   /// A force on the nodes of the cell that a place is in, in the particle's field.
-  void spread(const ParticleSet& set, int p, const PlacedDomain::Vector& at, const Vec3& force);
+  void spread(int set, int p, const PlacedDomain::Vector& at, const Vec3& force);
 
-  TractionSettings settings_;
   Fields& fields_;
   const std::vector<ParticleSet>& sets_;
+  DomainFaces faces_;
   std::vector<TractionTerm> terms_;
   std::vector<std::vector<int>> places_;  ///< of each term's particles in their set, since it was sorted
   std::vector<int> place_of_;             ///< scratch: of a set's particles, by id from the first
@@ -97,9 +89,5 @@ class FaceTractions : public Stage {
   ImpulseAccount account_;
   double work_ = 0.0;
 };
-
-/// Of a set that is not sorted yet, the particles that no other lies beyond in their row along the face's axis, by
-/// place in the set. Rows are those of the lattice that boxes of the set's size make on the grid.
-std::vector<std::uint32_t> outermost_particles(const ParticleSet& set, const GridLayout& layout, DomainFace face);
 
 }  // namespace mpm

@@ -36,9 +36,6 @@ inline mpm_kernel::BlockView view_of(const Grid& grid, int owner) {
   return block;
 }
 
-/// Blocks around one and itself.
-constexpr int neighbours_of(int dim) { return dim == 3 ? 27 : dim == 2 ? 9 : 3; }
-
 /// `owners`: of each, whether its particles may give to a block that is marked (one mark a block).
 void find_givers(const Grid& grid, const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& owners);
 

@@ -62,29 +62,38 @@ class StressAverage final : public Stage {
     double mass = 0.0;    ///< [kg]
     double volume = 0.0;  ///< volume over that before deformation
     std::array<double, 6> stress{};
-    int particles = 0;
+    std::uint32_t particles = 0;
+    std::uint32_t step = 0;  ///< in which these are the sums
+  };
+  /// The cells of each set and block that may have particles of the set.
+  struct Cells {
+    std::uint64_t generation = 0;   ///< of the blocks that these are for
+    std::vector<int> of_set_block;  ///< where the cells of a set in a block begin, or -1
+    std::vector<Cell> all;          ///< by the node at their lower corner
   };
 
-  template <class Geometry, class T>
-  void average(const AveragedSet& one, std::size_t place, const StepContext& context);
-  /// Takes note of the plastic strains of the start, as ground has that was settled: they are not of this run.
-  template <class Geometry, class T>
-  void remember(const AveragedSet& one, std::size_t place);
+  /// Visits every set with its number, its particles' plastic strains before, and a value of their scalar type.
+  template <class Visit>
+  void each_set(Visit&& visit);
+  void find_cells(const Grid& grid, Cells& cells) const;
   /// Adds the flowing particles of a block to their cells.
   template <class Geometry, class T>
-  void gather(const AveragedSet& one, double* before, const Grid& grid, int owner);
+  void gather(std::size_t set, double* before, const Grid& grid, int owner, Cells& cells);
   /// Gives the means to the flowing particles of a block, and takes note of the plastic strains of all of them for the
   /// next step. Returns the energy that the particles lose [J].
   template <class Geometry, class T>
-  double share(const AveragedSet& one, double* before, const Grid& grid, int owner);
+  double share(std::size_t set, double* before, const Grid& grid, int owner, Cells& cells);
+  template <class Geometry>
+  void average(const Grid& grid, Cells& cells);
   /// The cell with this number along each axis, from -1, counted from the first of an owner's block.
-  Cell& cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell);
+  static Cell& cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell, const int* of_block, Cells& cells);
 
   std::vector<AveragedSet> sets_;
   std::vector<std::size_t> places_;  ///< of each set, the number that it was given
   GeometryKind geometry_;
   int threads_;
-  std::vector<Cell> cells_;       ///< of a field, by the node at their lower corner
+  std::vector<Cells> cells_;      ///< of each field
+  std::uint32_t step_ = 0;        ///< counts, so that what an earlier step left in a cell is known as that
   std::vector<double> of_owner_;  ///< energy that the particles of a block lose in this step [J]
   double taken_ = 0.0;            ///< [J]
   std::uint64_t begun_ = 0;       ///< whether a step has been taken

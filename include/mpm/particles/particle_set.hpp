@@ -53,7 +53,10 @@ struct ParticleSet {
   std::vector<ParticleScalar> domain;        ///< F at the start of the step, where the shape function follows it
   std::vector<PaddedArray<double>> next_x;   ///< position at the end of the step, when strain is updated after motion
   std::vector<NamedScalar> brought;          ///< by physics beside the mechanics
-  PaddedArray<std::uint8_t> side;            ///< of a divided body: the side of a thin tool, 0 or 1
+  /// Place in `brought` of the strain that brings no stress; the next one is what it was when the stress was last
+  /// computed (kernel/free_strain.hpp). Negative where nothing expands.
+  int free_strain = -1;
+  PaddedArray<std::uint8_t> side;  ///< of a divided body: the side of a thin tool, 0 or 1
 
   /// First particle of each owner block (the owners of all fields, field by field), and one past the last one awake.
   std::vector<std::uint32_t> begin;

@@ -1,6 +1,6 @@
 // The surface of a rigid body as a signed distance in the body's own frame.
 //
-// Distances are exact (for a mesh that to the nearest triangle, found by a bounding-volume hierarchy), normals are
+// Distances are exact (for a mesh that to the nearest triangle), normals are
 // their gradients. Beyond an edge or a corner normals turn with the point, from one face's to the other's. Where the
 // gradient is not defined, the normal is that of the first of several nearest faces (inside an edge, outside a notch),
 // or on an edge or corner itself that of a face (for a mesh the mean of its faces').

@@ -17,6 +17,10 @@ struct MaterialDriverOptions {
   std::string path;      ///< one of strain_path_names(); empty: read from `path_file`
   std::string path_file;
   std::string strain, confining, stress, rate, hold;
+  /// The last leg of the path is undrained: storage 1/Q of the water in the pores [1/Pa], and Biot's coefficient, 1.
+  std::string storage, biot;
+  /// The last leg is heated by a temperature [K], of a material with this linear expansion [1/K].
+  std::string heating, expansion;
   bool shear = false;
   int steps = 0;  ///< per leg; 0: the default, 100, or 10 from one row of a file to the next
 };

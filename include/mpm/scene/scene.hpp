@@ -88,6 +88,8 @@ struct Scene {
   std::vector<CommandDefinition> commands;   ///< one per entry of definition.rigid_bodies
   std::vector<LoadRegion> load_regions;      ///< one per entry of definition.particle_forces
   std::vector<LoadRegion> traction_regions;  ///< one per entry of definition.tractions
+  /// By Transported, one per entry of its fluxes.
+  std::array<std::vector<LoadRegion>, kQuantities> flux_regions;
   OutputDefinition output;
   std::optional<pace::Target> target;  ///< what its discretisation is to be chosen for (target_choice.hpp)
   std::string path;                    ///< of the file

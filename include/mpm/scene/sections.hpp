@@ -58,6 +58,12 @@ double thinnest_mesh(const SimulationDefinition& definition);
 CommandDefinition read_commands(const Map& body, const std::string& name, Scene& scene);
 /// `boundaries`, after bodies and rigid bodies
 void read_boundaries(const Map& root, Scene& scene);
+/// The name of a deformable body of the scene.
+std::string read_body(const Value& value, const Scene& scene);
+/// The `region` that chooses particles of a load or a flux, if there is one.
+LoadRegion read_load_region(const Map& map, const Scene& scene);
+/// A face of particles' domains by its name, in the order of kWallNames.
+int read_edge(const Value& value, const Scene& scene);
 /// `loads`, after bodies
 void read_loads(const Map& root, Scene& scene);
 /// `time` and `output`, because sync points and snapshots are chosen together
@@ -66,6 +72,19 @@ void read_time_and_output(const Map& root, Scene& scene);
 void read_sleep(const Map& root, Scene& scene);
 /// `target`, after rigid bodies
 void read_target(const Map& root, Scene& scene);
+/// `transport`, after materials, bodies, rigid bodies and `sleep`
+void read_transport(const Map& root, Scene& scene);
+/// Adds the keys that materials have for the quantities that the scene transports. @throws SceneError for a material
+/// that has one of another quantity
+void add_transport_keys(const Value& material, const Map& root, std::vector<std::string>& keys);
+/// A material's constants for a quantity; `material`: its index.
+TransportMaterial read_transport_constants(const Map& map, Transported quantity, std::size_t material, Scene& scene);
+/// Of a quantity's value.
+Dimension value_dimension(Transported quantity);
+/// One of `materials`, with the keys of its law and of transport.
+Map material_map(const Value& value, const Map& root);
+/// Of nodes that a condition or a prescribed value holds: `region`, or `shape` and `pose` as of a rigid body.
+void read_region_or_shape(const Map& map, const Scene& scene, RigidBodyDefinition& body);
 /// `metrics`, after bodies
 void read_metrics(const Map& root, Scene& scene);
 

@@ -45,6 +45,8 @@ inline constexpr Dimension kPressure{-1, 1, -2, 0};
 inline constexpr Dimension kViscosity{-1, 1, -1, 0};
 inline constexpr Dimension kTemperature{0, 0, 0, 0, 1};
 inline constexpr Dimension kHeatCapacity{2, 0, -2, 0, -1};
+inline constexpr Dimension kPerKelvin{0, 0, 0, 0, -1};
+inline constexpr Dimension kPerPascal{1, -1, 2, 0, 0};
 
 /// A dimension in words: "a pressure", "a length"; for a dimension without a name "a quantity in m^2/s".
 std::string describe(const Dimension& dimension);

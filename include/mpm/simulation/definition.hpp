@@ -26,6 +26,7 @@
 #include "mpm/step/damping.hpp"
 #include "mpm/step/schedule.hpp"
 #include "mpm/step/transfer.hpp"
+#include "mpm/transport/definition.hpp"
 
 namespace mpm {
 
@@ -141,6 +142,8 @@ struct MetricDefinition {
   /// With a window, the number is the statistic's rate of change in it [1/s]: the slope of the least-squares line
   /// through its values at sync points. Without one it is the statistic at the end.
   std::optional<TimeWindow> rate;
+  std::optional<double> at;   ///< the number is that of the first sync point not before this time [s]
+  std::optional<Box> region;  ///< particles whose centres are in it, at that time [m]; all of the body without one
 };
 
 struct SimulationDefinition {
@@ -162,6 +165,7 @@ struct SimulationDefinition {
   std::vector<ParticleForceDefinition> particle_forces;
   std::vector<TractionDefinition> tractions;
   std::optional<SleepDefinition> sleep;
+  TransportDefinition transport;
   std::vector<MetricDefinition> metrics;
 
   /// Size of a particle across the grid's axes: thickness [m] in a plane, area [m^2] in a line, 1 in a solid.

@@ -20,6 +20,7 @@
 namespace mpm {
 
 class DampingControl;
+class HeatSink;
 class ToolSides;
 
 /// Objects that modules share, each made when the first module asks for it.
@@ -44,6 +45,7 @@ struct RunParts {
   // Modules that later ones in the list need; null if the scene does not have them.
   const ToolSides* sides = nullptr;
   DampingControl* damping = nullptr;
+  HeatSink* heat = nullptr;
 
   const GridLayout& layout() const { return fields.front()->layout; }
   VolumeSurvey& volumes();

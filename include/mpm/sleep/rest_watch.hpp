@@ -22,7 +22,6 @@ struct RestWatchEntry {
   std::uint64_t key = 0;
   double begun = 0.0;               ///< time at which this half began [s]
   double fastest = 0.0;             ///< highest speed seen in this half [m/s]
-  double last = 0.0;                ///< the same at the last look
   Vec3 mean = Vec3::Zero();         ///< sum of the mean velocities at each look [m/s]
   std::uint32_t looks = 0;          ///< in this half
   Vec3 half_before = Vec3::Zero();  ///< mean velocity in the half before [m/s]
@@ -44,8 +43,6 @@ class RestWatch {
   void look(const Fields& fields, const std::vector<ParticleSet>& sets, double now, int threads);
   /// Of owners by number, through all fields: whether they have been at rest for the time, and are since.
   bool at_rest(int owner) const { return at_rest_[owner] != 0; }
-  const RestWatchEntry& entry(int owner) const { return entries_[owner]; }
-  int owners() const { return static_cast<int>(entries_.size()); }
   /// Takes all blocks to have been at rest for the time before.
   void trust_all();
   /// Watches an owner anew, as one that has not been at rest.

@@ -1,13 +1,13 @@
-// Sleep: blocks of material at rest are not stepped, and wake when a tool, a wave or a load arrives, so that a step
-// costs what moves and not what is there.
+// Sleep: blocks of material at rest are not stepped, and wake when a tool, a wave or other material arrives or their
+// support changes, so that a step costs what moves and not what is there.
 //
 // A block falls asleep when it has been at rest for a time (rest_watch.hpp), away from tools and from other bodies'
 // velocity fields. Its motion is taken, its stress stays. The nodes that it shares with what is awake are held at rest
 // (sleep_border.hpp): the impulse of holding them, the weight of what is asleep, which nothing in a step carries any
 // more, and the momentum that was taken make the account "sleep" of the audit, and the kinetic energies that were taken
 // the energy "sleep". A block wakes when a wave or other material arrives at its border, when the force there has lost
-// a tenth of its balance, when a tool comes as near as four cells, or when another body's material comes as near as a
-// block.
+// a part of its balance (a tenth, unless the scene says another), when a tool comes as near as four cells, or when
+// another body's material comes as near as a block.
 //
 // Damping eases the way to rest: nodes slower than four times the speed lose a part of the force without balance that
 // drives them on, and gain it where that force slows them. It is off unless the scene asks for it.
@@ -89,7 +89,6 @@ class Sleep final : public Stage {
   bool other_near(int field, std::uint64_t key) const;
   void find_unrest(const Grid& grid, SleepBorder& border, double dt);
   void strike_what_sets_off(StepContext& context);
-  double largest_cell() const;
   Taken hold(Grid& grid, const SleepBorder& border, double dt);
   Taken damp(Grid& grid, double dt);
 
@@ -98,16 +97,15 @@ class Sleep final : public Stage {
   const GridLayout& layout_;
   SleepingBlocks asleep_;
   RestWatch watch_;
-  std::vector<SleepBorder> borders_;  ///< of each field
-  std::uint64_t generation_ = 0;      ///< of the blocks that borders_ and watch_ were made for
-  std::uint32_t steps_ = 0;           ///< since the last look
-  std::uint32_t looks_waited_ = 0;    ///< by those who may fall asleep
-  std::uint32_t steps_waited_ = 0;    ///< by those who are to wake
-  bool at_once_ = false;              ///< one of them cannot wait
-  bool begun_ = false;
-  bool starting_ = false;                          ///< this is the first step, after which all that is at rest sleeps
+  std::vector<SleepBorder> borders_;               ///< of each field
+  std::uint64_t generation_ = 0;                   ///< of the blocks that borders_ and watch_ were made for
+  std::uint32_t steps_ = 0;                        ///< since the last look
+  std::uint32_t looks_waited_ = 0;                 ///< by those who may fall asleep
+  std::uint32_t steps_waited_ = 0;                 ///< by those who are to wake
+  bool at_once_ = false;                           ///< one of them cannot wait
+  bool begun_ = false;                             ///< the first step is done
   std::vector<SleepingBlocks::Sleeper> sleepers_;  ///< who may fall asleep, without forces yet
-  std::vector<BlockName> to_wake_;                 ///< perhaps more than once
+  std::vector<BlockName> to_wake_;                 ///< ascending, each once
   std::vector<SleepBorder::Unrest> unrest_;        ///< of the nodes of a border
   ChunkSums<Taken> sums_;
   ImpulseAccount account_;

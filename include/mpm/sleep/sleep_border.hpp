@@ -55,14 +55,18 @@ class SleepBorder {
   };
 
   std::uint64_t key_beside(const std::array<int, 3>& block, int side) const;
+  /// Which nodes of a block particles that are awake may give to, until they are sorted again.
+  void find_reached(int block, const Grid& grid);
   void add_block(int block, const Grid& grid);
   void keep_means();
 
   const GridLayout* layout_;
   int field_ = 0;
-  int sides_ = 0;                               ///< 3^dim: the blocks around one, itself in the middle
+  int sides_ = 0;                               ///< blocks around one, itself in the middle
   std::array<std::vector<Shared>, 27> shared_;  ///< with the block on each side
   std::vector<const SleepingBlock*> around_;    ///< on each side
+  std::vector<std::uint8_t> is_awake_;          ///< of each block in use, whether particles in it are awake
+  std::vector<std::uint8_t> reached_;           ///< of the nodes of a block
   std::vector<Node> of_block_, nodes_, before_;
   std::vector<std::uint64_t> keys_, keys_before_;  ///< of the blocks of nodes_ and before_
 };

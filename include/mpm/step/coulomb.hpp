@@ -60,6 +60,8 @@ inline Vec3 held_part(const Vec3& velocity, const Vec3& normal, Hold hold) {
 class HeldNodes {
  public:
   static std::uint64_t id(std::uint64_t block_key, int node) { return block_key * 64 + node; }
+  static std::uint64_t block_key(std::uint64_t id) { return id / 64; }
+  static int node(std::uint64_t id) { return static_cast<int>(id % 64); }
   void clear() { held_.clear(); }
   void reserve(std::size_t nodes) { held_.reserve(nodes); }
   /// Nodes have to be added in ascending order of id.

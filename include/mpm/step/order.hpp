@@ -43,6 +43,7 @@ enum class Rank {
   condition_again,  ///< the same
   load,             ///< computes its work with the velocity that all conditions have left
   traction,         ///< the same
+  transport,        ///< adds the force of the water in pores; moves what is transported when contact has told of heat
   massless_node,    ///< books the force on nodes without mass, so it acts after all forces have been added
   side_again,       ///< shares between both sides what acted on one of them
   asleep            ///< holds nodes of material asleep against all else, and reads the sum of all forces

@@ -7,6 +7,7 @@
 //   spread                number of a node      =  sum over p of S_ip number_p, or of m_p S_ip number_p
 //   spread_gradient       number of a node      =  sum over p of G_ip . vector_p
 //   spread_gradient_sum   vector of a node      =  sum over p of G_ip number_p
+//   diffuse               number of a node      =  - sum over p of m_p conducts_p G_ip . (sum over j of G_jp number_j)
 //
 // Functions are those of the particles' present positions. Domains that follow the deformation are those of the last
 // gathering of momentum, as in the rest of a step; so a stage calls these after momentum has been gathered and before
@@ -57,6 +58,10 @@ class ScalarTransfer {
   /// Sets `to`, of as many components as the grid has axes; takes the first number of each particle. Without T_ip.
   virtual void spread_gradient_sum(int field, const Given& of, Weight weight, NodalField& to,
                                    const Marks* only = nullptr) = 0;
+
+  /// Sets `to` to what flows to the nodes down the gradient of `from`, both of one component: gradient() and
+  /// spread_gradient() in one pass, with the conductance by mass in the first array of each set.
+  virtual void diffuse(int field, const Given& conducts, const NodalField& from, NodalField& to) = 0;
 };
 
 }  // namespace mpm

@@ -4,8 +4,9 @@
 
 namespace mpm {
 
-Wall::Wall(int face, const WallDefinition& definition, const std::string& name, const Vec3& gravity, int threads)
-    : face_(face), definition_(definition), gravity_(gravity), threads_(threads) {
+Wall::Wall(int face, const WallDefinition& definition, const std::string& name, const Vec3& gravity, int threads,
+           HeatSink* heat)
+    : face_(face), definition_(definition), gravity_(gravity), threads_(threads), heat_(heat) {
   account_.name = "wall/" + name;
 }
 
@@ -31,12 +32,24 @@ ContactChange Wall::change(const Vec3& velocity, const Vec3& normal) const {
 }
 
 void Wall::momentum_gathered(FieldContext& context) {
-  const BlockTable& blocks = context.grid.blocks;
   acted_ = false;
+  find_nodes(context.grid);
+  carrying_.clear();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (context.grid.carries(nodes_[i].ref.block, nodes_[i].ref.node)) {
+      carrying_.push_back(static_cast<std::uint32_t>(i));
+    } else {
+      nodes_[i].hold = Hold::free;
+    }
+  }
+}
+
+void Wall::find_nodes(const Grid& grid) {
+  const BlockTable& blocks = grid.blocks;
   if (generation_ == blocks.generation()) return;
   generation_ = blocks.generation();
   nodes_.clear();
-  const GridLayout& layout = context.grid.layout;
+  const GridLayout& layout = grid.layout;
   const int axis = face_ / 2;
   const bool upper = face_ % 2 == 1;
   for (int b = 0; b < blocks.size(); ++b) {
@@ -46,15 +59,17 @@ void Wall::momentum_gathered(FieldContext& context) {
       // A centre is half a cell beyond the face at most, and reaches one node beyond it; of a deformed domain, two.
       const int node = layout.node(blocks.block(b), n)[axis];
       const int beyond = upper ? node - layout.last_node(axis) : -node;
-      if (beyond >= 0 && beyond <= context.grid.wall_layers) {
+      if (beyond >= 0 && beyond <= grid.wall_layers) {
         const std::uint64_t id = HeldNodes::id(blocks.key(b), n);
         nodes_.push_back({{b, n}, id, held_.find(id)});
       }
     }
   }
   if (!always_holds()) losses_.assign(nodes_.size(), {});
+  if (heat_ != nullptr) rubbed_.assign(nodes_.size(), 0.0);
   held_.reserve(nodes_.size());
   deeds_.reserve(nodes_.size());
+  carrying_.reserve(nodes_.size());
 }
 
 std::pair<int, int> Wall::held_axes(const GridLayout& layout) const {
@@ -77,7 +92,6 @@ void Wall::hold_up(Node& node, const FieldContext& context, const Vec3& impulse,
   }
 }
 
-// Nodes without material have no velocity, and no loss.
 void Wall::before_strain(FieldContext& context) {
   Grid& grid = context.grid;
   if (always_holds()) {
@@ -85,7 +99,6 @@ void Wall::before_strain(FieldContext& context) {
     const int first = begin, last = end;
     each_node([&, first, last](std::size_t i, Deeds& deeds) {
       Node& node = nodes_[i];
-      if (!grid.carries(node.ref.block, node.ref.node)) return;
       for (int k = first; k < last; ++k) {
         double& velocity = grid.velocity.at(node.ref.block, k, node.ref.node);
         if (acted_) {
@@ -101,12 +114,14 @@ void Wall::before_strain(FieldContext& context) {
   const Vec3 n = normal(grid.layout);
   each_node([&](std::size_t i, Deeds& deeds) {
     const Node& node = nodes_[i];
-    if (!grid.carries(node.ref.block, node.ref.node)) return;
     const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
     const Vec3 change = strain_change(velocity, n, definition_.friction, node.hold);
-    deeds.loss += losses_[i].strain(velocity, change);
+    const SurfaceLoss loss = losses_[i].strain(velocity, change);
+    deeds.loss += loss;
+    if (heat_ != nullptr) rubbed_[i] += loss.friction;
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
   });
+  tell_of_heat(context);
 }
 
 void Wall::act(std::size_t i, FieldContext& context, const Vec3& n, Deeds& deeds) {
@@ -114,7 +129,6 @@ void Wall::act(std::size_t i, FieldContext& context, const Vec3& n, Deeds& deeds
   Node& node = nodes_[i];
   const Hold held = std::exchange(node.hold, Hold::free);
   if (!acted_) node.at_end.setZero();
-  if (!grid.carries(node.ref.block, node.ref.node)) return;
   const Vec3 velocity = nodal_vector(grid.velocity, grid.layout, node.ref);
   const auto [dv, hold] = change(velocity, n);
   node.hold = hold;
@@ -124,8 +138,10 @@ void Wall::act(std::size_t i, FieldContext& context, const Vec3& n, Deeds& deeds
   } else {
     const Vec3 start = nodal_vector(grid.momentum, grid.layout, node.ref) / mass;
     if (context.strain_at_start == 0.0) losses_[i].strain(start, strain_change(start, n, definition_.friction, held));
-    deeds.loss += losses_[i].act({mass, n, mass * context.dt * gravity_, mass * dv, start, velocity + dv,
-                                  held != Hold::free, context.strain_at_start});
+    const SurfaceLoss loss = losses_[i].act({mass, n, mass * context.dt * gravity_, mass * dv, start, velocity + dv,
+                                             held != Hold::free, context.strain_at_start});
+    deeds.loss += loss;
+    if (heat_ != nullptr) rubbed_[i] += loss.friction;
   }
   if (hold == Hold::free) return;
   add_nodal_vector(grid.velocity, grid.layout, node.ref, dv);
@@ -136,21 +152,30 @@ void Wall::act(std::size_t i, FieldContext& context, const Vec3& n, Deeds& deeds
 void Wall::momentum_updated(FieldContext& context) {
   const Vec3 n = normal(context.grid.layout);
   each_node([&](std::size_t i, Deeds& deeds) { act(i, context, n, deeds); });
+  tell_of_heat(context);
   held_.clear();
   // How a wall that always holds held before decides with USF alone, in hold_up().
   if (!always_holds() || context.strain_at_start == 1.0) {
-    for (const Node& node : nodes_) {
-      if (node.hold != Hold::free) held_.add(node.id, node.hold);
+    for (const std::uint32_t i : carrying_) {
+      if (nodes_[i].hold != Hold::free) held_.add(nodes_[i].id, nodes_[i].hold);
     }
   }
   acted_ = true;
+}
+
+void Wall::tell_of_heat(const FieldContext& context) {
+  if (heat_ == nullptr || always_holds()) return;
+  for (const std::uint32_t i : carrying_) {
+    heat_->rub(nullptr, context.grid, nodes_[i].id, std::exchange(rubbed_[i], 0.0), context.dt);
+  }
 }
 
 void Wall::velocity_found(FieldContext& context) {
   NodalField& velocity = context.grid.increment;
   const GridLayout& layout = context.grid.layout;
   const Vec3 n = normal(layout);
-  for (const Node& node : nodes_) {
+  for (const std::uint32_t i : carrying_) {
+    const Node& node = nodes_[i];
     add_nodal_vector(velocity, layout, node.ref, held_part(nodal_vector(velocity, layout, node.ref), n, node.hold));
   }
 }
@@ -158,8 +183,8 @@ void Wall::velocity_found(FieldContext& context) {
 void Wall::increment_found(FieldContext& context) {
   Grid& grid = context.grid;
   const Vec3 n = normal(grid.layout);
-  for (const Node& node : nodes_) {
-    if (!grid.carries(node.ref.block, node.ref.node)) continue;
+  for (const std::uint32_t i : carrying_) {
+    const Node& node = nodes_[i];
     const Vec3 change = held_part(nodal_vector(grid.increment, grid.layout, node.ref), n, node.hold);
     add_nodal_vector(grid.increment, grid.layout, node.ref, change);
     given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;

@@ -217,6 +217,7 @@ void MaterialContact::book(const BlockNodes& block, bool updated, double dt) {
       }
       if (!updated) continue;
       sums.friction_energy += pair.friction_energy;
+      if (settings_.heat != nullptr && !pair.on_a.isZero(0.0)) tell_of_heat(block, node, pair, dt);
       if (pair.interface != nullptr) {
         sums.interface_energy +=
             mpm::interface_energy(*pair.interface, {pair.opening, pair.area, 0.0}, pair.on_a, pair.normals.of_a, dt);
@@ -226,6 +227,17 @@ void MaterialContact::book(const BlockNodes& block, bool updated, double dt) {
       if (normal < 0.0) sums.area += pair.area;
     }
   }
+}
+
+void MaterialContact::tell_of_heat(const BlockNodes& block, const Node& node, const NodePair& pair, double dt) {
+  const auto member_of = [&](int group) {
+    int m = node.first_member;
+    while (block.members[m].group != group) ++m;
+    return block.members[m].field;
+  };
+  const double area = pair.on_a.dot(pair.normals.of_a) < 0.0 ? pair.area : 0.0;
+  settings_.heat->meet(*fields_[member_of(pair.a)], *fields_[member_of(pair.b)], node.id, area, pair.friction_energy,
+                       dt);
 }
 
 void MaterialContact::grid_advanced(StepContext&) {

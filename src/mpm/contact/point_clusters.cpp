@@ -5,6 +5,11 @@
 #include "mpm/step/point_weights.hpp"
 
 namespace mpm {
+namespace {
+
+constexpr int kPointsPerThread = 32;  ///< fewer do not pay for the start of a thread
+
+}  // namespace
 
 void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
   const GridLayout& layout = fields_.front()->layout;
@@ -15,7 +20,7 @@ void PointSolver::find_weights(const std::vector<ContactPoint>& found) {
   found_count_.resize(found.size());
   found_block_.resize(found.size());
   found_at_edge_.resize(found.size());
-#pragma omp parallel for schedule(static) num_threads(threads_for(count))
+#pragma omp parallel for schedule(static) num_threads(std::clamp(count / kPointsPerThread, 1, threads_))
   for (int i = 0; i < count; ++i) {
     const Grid& grid = *fields_[found[i].field];
     const PointWeights weights(grid, shape_, found[i].place);
@@ -82,6 +87,7 @@ void PointSolver::add(const ContactPoint& contact, int found) {
   point.velocity = contact.velocity;
   point.place = contact.place;
   point.found = found;
+  point.body = contact.body;
   point.at_edge = found_at_edge_[found] != 0;
   any_at_edge_ = any_at_edge_ || point.at_edge;
   point.first = static_cast<int>(parts_.size());

@@ -20,6 +20,8 @@ PointContact::PointContact(std::vector<RigidBody*> bodies, const std::vector<Par
     : bodies_(std::move(bodies)),
       surfaces_(bodies_.begin(), bodies_.end()),
       sets_(sets),
+      fields_(fields),
+      heat_(settings.heat),
       laws_(std::move(laws)),
       laws_now_(laws_.size()),
       cell_(fields.front()->layout.smallest_cell()),
@@ -171,6 +173,10 @@ void PointContact::momentum_updated(StepContext& context) {
     // As the ledger counts it: the impulse along the surface.
     const double friction = -along_surface(point.impulse, point.normal).dot(mean_slip);
     ledgers_[contact.found->body].add_loss({0.0, held - friction - cut});
+    if (heat_ != nullptr && (point.hold != Hold::free || contact.gap <= kTouching * cell_)) {
+      heat_->touch(*bodies_[contact.found->body], *fields_[contact.found->field], point.place, contact.found->area,
+                   friction, context.dt);
+    }
     const Vec3 along = along_surface(slip, point.normal);
     // What has come to rest has friction at rest again.
     const double slid = along.norm() * context.dt;

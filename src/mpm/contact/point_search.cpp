@@ -95,11 +95,14 @@ void PointSearch::search(const Job& job, double dt, double farthest, std::vector
     Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
     for (int k = 0; k < layout.dim(); ++k) centre[layout.axis(k)] = set.x[k][p];
     SurfacePoint surface;
-    if (!body.surface().within(body.pose().to_body(centre), band, surface)) return;
     for (int k = 0; k < layout.dim(); ++k) velocity[layout.axis(k)] = set.v[k][p];
+    const Vec3 approach = dt * (body.velocity_at(centre) - velocity);
+    // Farther away nothing passes the tests that follow; a little more, so that round-off leaves nothing out.
+    const double at_most = std::min(band, 1.000001 * (farthest + watched + approach.norm()));
+    if (!body.surface().within(body.pose().to_body(centre), at_most, surface)) return;
     ContactPoint point;
     point.normal = body.pose().orientation * surface.normal;
-    const double closing = (body.velocity_at(centre) - velocity).dot(point.normal) * dt;
+    const double closing = approach.dot(point.normal);
     const double seen_from = watched + std::max(closing, 0.0);
     if (surface.distance - farthest > seen_from) return;
     const double half_width = particle_reach<Geometry>(set, layout, p, point.normal);

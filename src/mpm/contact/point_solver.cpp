@@ -12,11 +12,13 @@ constexpr int kSweeps = 10;
 constexpr double kTolerance = 1e-3;      ///< change of velocity in a sweep over the largest one, at which sweeps end
 constexpr int kSweepsFree = 400;         ///< with a body that is free
 constexpr double kToleranceFree = 1e-5;  ///< the same as kTolerance
-constexpr int kPointsPerThread = 500;    ///< fewer do not pay for the waiting at the end of every colour
+constexpr double kSteady = 3e-5;         ///< change of a body's force in a sweep over the sum of magnitudes
+constexpr int kSteadySweeps = 3;         ///< one after another, at which sweeps end: to and fro differ
+constexpr int kPointsToSweep = 500;  ///< for each thread: fewer do not pay for the waiting at the end of every colour
 
 }  // namespace
 
-int PointSolver::threads_for(int points) const { return std::clamp(points / kPointsPerThread, 1, threads_); }
+int PointSolver::threads_for(int points) const { return std::clamp(points / kPointsToSweep, 1, threads_); }
 
 void PointSolver::load(Member from) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
@@ -200,17 +202,36 @@ void PointSolver::sweep_free() {
   solving_threads_ = 1;
   ConjugateSweeps<Point> conjugate(sweeps_);
   const int count = static_cast<int>(clusters_.size());
+  int steady_for = 0;
   for (int sweep = 0; sweep < kMost; ++sweep) {
     conjugate.begin(points_);
     const bool back = sweep % 2 != 0;
     Progress progress;
     for (int i = 0; i < count; ++i) relax<Kind, true>(clusters_[back ? count - 1 - i : i], back, progress);
-    if (progress.largest <= kEnough * progress.scale || sweep + 1 == kMost) break;
+    steady_for = !kTrial && steady() ? steady_for + 1 : 0;
+    if (progress.largest <= kEnough * progress.scale || steady_for == kSteadySweeps || sweep + 1 == kMost) break;
     conjugate.go_on(points_, [&](Point& point, const Vec3& change) {
       point.impulse += change;
       push<true>(point, change);
     });
   }
+}
+
+bool PointSolver::steady() {
+  for (OnBody& one : on_bodies_) one = {};
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Point& point = points_[i];
+    OnBody& one = on_bodies_[point.body];
+    const Vec3 change = point.impulse - sweeps_.before[i], arm = point.place - bodies_[point.body]->pose().position;
+    one.force += change;
+    one.torque += arm.cross(change);
+    const double size = point.impulse.norm();
+    one.all_force += size;
+    one.all_torque += arm.norm() * size;
+  }
+  return std::all_of(on_bodies_.begin(), on_bodies_.end(), [](const OnBody& one) {
+    return one.force.norm() <= kSteady * one.all_force && one.torque.norm() <= kSteady * one.all_torque;
+  });
 }
 
 void PointSolver::solve(Pass pass, bool free) {

@@ -15,7 +15,7 @@ constexpr double kThrough = 3.0;  ///< cells behind a thin tool that material be
 }  // namespace
 
 RigidContact::RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry,
-                           const ToolSides* sides, const Vec3& gravity)
+                           const ToolSides* sides, const Vec3& gravity, HeatSink* heat)
     : body_(body),
       fields_(fields),
       threads_(threads),
@@ -24,7 +24,8 @@ RigidContact::RigidContact(const RigidBody& body, Fields& fields, int threads, G
       sides_(sides),
       thin_(sides == nullptr ? nullptr : sides->find(body)),
       held_(fields.size()),
-      ledger_(body, axisymmetric(geometry)) {}
+      ledger_(body, axisymmetric(geometry)),
+      heat_(heat) {}
 
 bool RigidContact::touches(int field, NodeRef node, const Vec3& place, double reach, SurfacePoint& point) const {
   const Surface& surface = body_.surface();
@@ -95,12 +96,12 @@ void RigidContact::each_node(Visit&& visit) {
   }
 }
 
-void RigidContact::before_strain(StepContext&) {
+void RigidContact::before_strain(StepContext& context) {
   each_node([&](Node& node, Grid& grid) {
     const Vec3 relative = nodal_vector(grid.velocity, grid.layout, node.ref) - node.velocity;
     const Vec3 change = strain_change(relative, node.normal, body_.friction(), node.hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
-    ledger_.add_loss(node.loss.strain(relative, change));
+    lose(node, grid, node.loss.strain(relative, change), context.dt);
   });
 }
 
@@ -116,8 +117,10 @@ void RigidContact::momentum_updated(StepContext& context) {
     if (context.strain_at_start == 0.0) {
       node.loss.strain(start, strain_change(start, node.normal, body_.friction(), held));
     }
-    ledger_.add_loss(node.loss.act({mass, node.normal, mass * context.dt * gravity_, mass * change, start,
-                                    relative + change, held != Hold::free, context.strain_at_start}));
+    lose(node, grid,
+         node.loss.act({mass, node.normal, mass * context.dt * gravity_, mass * change, start, relative + change,
+                        held != Hold::free, context.strain_at_start}),
+         context.dt);
     if (hold == Hold::free) return;
     held_[node.field].add(HeldNodes::id(grid.blocks.key(node.ref.block), node.ref.node), hold);
     add_nodal_vector(grid.velocity, grid.layout, node.ref, change);
@@ -141,6 +144,12 @@ void RigidContact::increment_found(StepContext&) {
     add_nodal_vector(grid.increment, grid.layout, node.ref, change);
     give(node, grid.mass.at(node.ref.block, 0, node.ref.node) * change);
   });
+}
+
+void RigidContact::lose(const Node& node, const Grid& grid, const SurfaceLoss& loss, double dt) {
+  ledger_.add_loss(loss);
+  if (heat_ == nullptr) return;
+  heat_->rub(&body_, grid, HeldNodes::id(grid.blocks.key(node.ref.block), node.ref.node), loss.friction, dt);
 }
 
 void RigidContact::give(const Node& node, const Vec3& impulse) {

@@ -31,10 +31,9 @@ RigidParticles::RigidParticles(const RigidBody& body, const Grid& grid, Geometry
   const Box bounds = body.surface().bounds();
   std::array<int, 3> count{1, 1, 1};
   Vec3 spacing = Vec3::Zero(), first = Vec3::Zero();
-  double largest = 0.0;
+  const double largest = layout_.largest_cell();
   for (int k = 0; k < layout_.dim(); ++k) {
     const int axis = layout_.axis(k);
-    largest = std::max(largest, layout_.cell(k));
     spacing[axis] = layout_.cell(k) / per_cell;
     volume_each_ *= spacing[axis];
     const double length = bounds.max[axis] - bounds.min[axis];
@@ -76,9 +75,7 @@ void RigidParticles::gather(const std::vector<std::uint64_t>& keys) {
     reach.add(layout_.node_position(layout_.block(key), 0));
     reach.add(layout_.node_position(layout_.block(key), nodes - 1));
   }
-  double largest = 0.0;
-  for (int k = 0; k < layout_.dim(); ++k) largest = std::max(largest, layout_.cell(k));
-  reach = reach.grown(2.0 * largest);
+  reach = reach.grown(2.0 * layout_.largest_cell());
   for (const Vec3& local : local_) {
     const Vec3 place = body_.pose().to_world(local);
     bool near = true;

@@ -25,19 +25,12 @@ Vec3 middle_of(const GridLayout& layout, const std::array<int, 3>& block) {
   return 0.5 * (layout.node_position(block, 0) + layout.node_position(block, layout.nodes_per_block() - 1));
 }
 
-double largest_cell(const GridLayout& layout) {
-  double largest = 0.0;
-  for (int k = 0; k < layout.dim(); ++k) largest = std::max(largest, layout.cell(k));
-  return largest;
-}
-
 }  // namespace
 
 void ToolSides::before_sort() {
   travelled_ = 0.0;
   for (ThinTool& tool : tools_) tool.aim();
-  double largest = 0.0;
-  for (int k = 0; k < layout_.dim(); ++k) largest = std::max(largest, layout_.cell(k));
+  const double largest = layout_.largest_cell();
   for (ParticleSet& set : sets_) {
     if (set.side.empty()) continue;
     double half = std::numeric_limits<double>::infinity();
@@ -67,7 +60,7 @@ bool ToolSides::apart(const Grid& first, NodeRef of_first, const Grid& second, N
   const Vec3 node = layout_.node_position(first.blocks.block(of_first.block), of_first.node);
   SurfacePoint found;
   for (const ThinTool& tool : tools_) {
-    if (!tool.within(node, kBand * largest_cell(layout_), found)) continue;  // farther than what shares a node
+    if (!tool.within(node, kBand * layout_.largest_cell(), found)) continue;  // farther than what shares a node
     const Vec3 from = nodal_vector(first.place, layout_, of_first) / first.mass.at(of_first.block, 0, of_first.node);
     const Vec3 to = nodal_vector(second.place, layout_, of_second) / second.mass.at(of_second.block, 0, of_second.node);
     // The line between the centres does not leave this ball.
@@ -78,7 +71,7 @@ bool ToolSides::apart(const Grid& first, NodeRef of_first, const Grid& second, N
 }
 
 bool ToolSides::near(const Vec3& point, double radius) const {
-  const double largest = largest_cell(layout_);
+  const double largest = layout_.largest_cell();
   SurfacePoint found;
   return std::any_of(tools_.begin(), tools_.end(), [&](const ThinTool& tool) {
     return tool.within(point, radius + (kBand + kReach) * largest, found);
@@ -117,12 +110,11 @@ void SideGlue::watch(const Grid& grid, double dt) {
   const GridLayout& layout = grid.layout;
   const double around = half_diagonal(layout);
   double fastest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(sides_.threads()) reduction(max : fastest)
   for (int b = 0; b < grid.blocks.size(); ++b) {
     const Vec3 middle = middle_of(layout, grid.blocks.block(b));
     for (const ThinTool& tool : sides_.tools()) {
       SurfacePoint found;
-      if (!tool.within(middle, around + kBand * largest_cell(layout), found)) continue;
+      if (!tool.within(middle, around + kBand * layout.largest_cell(), found)) continue;
       for (int n = 0; n < layout.nodes_per_block(); ++n) {
         if (!grid.carries(b, n)) continue;
         const Vec3 velocity = nodal_vector(grid.velocity, layout, {b, n});
@@ -137,24 +129,16 @@ void SideGlue::watch(const Grid& grid, double dt) {
 void SideGlue::find_nodes(const std::array<int, 2>& sides) {
   const Grid &first = *fields_[sides[0]], &second = *fields_[sides[1]];
   const GridLayout& layout = first.layout;
-  shared_.clear();
   for (int b = 0; b < second.blocks.size(); ++b) {
     const int other = first.blocks.find(second.blocks.key(b));
     if (other < 0) continue;
     for (int n = 0; n < layout.nodes_per_block(); ++n) {
-      if (second.carries(b, n) && first.carries(other, n)) shared_.push_back({NodeRef{other, n}, NodeRef{b, n}});
+      if (!second.carries(b, n) || !first.carries(other, n)) continue;
+      const double mass[2] = {first.mass.at(other, 0, n), second.mass.at(b, 0, n)};
+      if (sides_.apart(first, {other, n}, second, {b, n})) continue;
+      const double total = mass[0] + mass[1];
+      nodes_.push_back({sides, {{other, n}, {b, n}}, {mass[0] / total, mass[1] / total}});
     }
-  }
-  apart_.resize(shared_.size());
-  const int count = static_cast<int>(shared_.size());
-#pragma omp parallel for schedule(static) num_threads(sides_.threads())
-  for (int i = 0; i < count; ++i) apart_[i] = sides_.apart(first, shared_[i][0], second, shared_[i][1]);
-  for (int i = 0; i < count; ++i) {
-    if (apart_[i] != 0) continue;
-    const std::array<NodeRef, 2>& ref = shared_[i];
-    const double mass[2] = {first.mass.at(ref[0].block, 0, ref[0].node), second.mass.at(ref[1].block, 0, ref[1].node)};
-    const double total = mass[0] + mass[1];
-    nodes_.push_back({sides, {ref[0], ref[1]}, {mass[0] / total, mass[1] / total}});
   }
 }
 

@@ -8,7 +8,7 @@
 namespace mpm {
 namespace {
 
-/// Work on a block's nodes, over that on a particle: about what clearing and adding its tile takes, of a profile.
+/// Work on a block's nodes, over that on a particle; an estimate, which sets how parts are cut and no result.
 constexpr std::uint64_t kBlockWork = 24;
 // Looks at what another thread has done: in a loop, some tens of microseconds; then for a millisecond while others may
 // have this core; and then, since that thread seems to have lost its own, at times.

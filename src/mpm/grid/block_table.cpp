@@ -62,7 +62,7 @@ void BlockTable::find_wrapped_neighbours(const std::vector<std::uint64_t>& owner
 
 void BlockTable::rebuild(const std::vector<std::uint64_t>& owner_keys, int threads) {
   const int dim = layout_->dim();
-  span_ = dim == 3 ? 27 : (dim == 2 ? 9 : 3);
+  span_ = neighbours_of(dim);
   for (int s = 0; s < span_; ++s) {
     int rest = s;
     offset_[s] = 0;

@@ -36,6 +36,8 @@ GridLayout::GridLayout(int dim, const Vec3& cell, const Vec3& min, const Vec3& m
 
 double GridLayout::smallest_cell() const { return *std::min_element(cell_.begin(), cell_.begin() + dim_); }
 
+double GridLayout::largest_cell() const { return *std::max_element(cell_.begin(), cell_.begin() + dim_); }
+
 void GridLayout::make_periodic(int k) {
   constexpr int kMultiple = 2 * kBlockEdge;
   const int cells = last_node_[k];

@@ -1,5 +1,7 @@
 #include "mpm/material/material_point.hpp"
 
+#include <cmath>
+
 #include "mpm/math/dimension.hpp"
 #include "mpm/math/exponential.hpp"
 
@@ -16,19 +18,32 @@ MaterialPoint::MaterialPoint(const MaterialDefinition& material)
   advance({}, 1.0);  // a step without motion gives the stress at the start
 }
 
-void MaterialPoint::advance(const Matrix3<double>& du, double dt) {
-  const Matrix3<double> df = exponential(du, kTerms);
+void MaterialPoint::advance(const Matrix3<double>& du, double dt, double growth) {
+  const Matrix3<double> stressed{du.xx - growth, du.xy, du.xz, du.yx,         du.yy - growth,
+                                 du.yz,          du.zx, du.zy, du.zz - growth};
+  const Matrix3<double> df = exponential(stressed, kTerms);
   const double j_old = determinant(f_);
   std::visit(
       [&](const auto& law) {
         f_ = law.kForgetsShape ? Solid::dilatation(j_old * determinant(df)) : product(df, f_);
-        const Increment<double, Matrix3<double>> step{du, df, f_, j_old, determinant(f_), dt};
+        const Increment<double, Matrix3<double>> step{stressed, df, f_, j_old, determinant(f_), dt};
         law.update(step, tau_, history_.data());
       },
       law_);
+  free_ *= std::exp(growth);
 }
 
-Symmetric3<double> MaterialPoint::cauchy() const { return scale_shift(tau_, density_ / j(), 0.0); }
+void MaterialPoint::close_pores(double biot, double modulus) {
+  biot_ = biot;
+  modulus_ = modulus;
+  closed_j_ = j();
+}
+
+double MaterialPoint::pore_pressure() const { return modulus_ * biot_ * std::log(closed_j_ / j()); }
+
+Symmetric3<double> MaterialPoint::cauchy() const {
+  return scale_shift(tau_, density_ / determinant(f_), -biot_ * pore_pressure());
+}
 
 double MaterialPoint::plastic_strain() const {
   return std::visit([this](const auto& law) { return history(law.kPlasticStrain); }, law_);
@@ -39,7 +54,7 @@ double MaterialPoint::plastic_work() const {
 double MaterialPoint::elastic_energy() const {
   return std::visit(
       [this](const auto& law) {
-        return law.elastic_energy(f_, tau_, j()) - law.heat_fraction() * history(law.kPlasticWork);
+        return law.elastic_energy(f_, tau_, determinant(f_)) - law.heat_fraction() * history(law.kPlasticWork);
       },
       law_);
 }
@@ -51,7 +66,7 @@ double MaterialPoint::temperature() const {
       law_);
 }
 double MaterialPoint::wave_speed() const {
-  return std::visit([this](const auto& law) { return law.wave_speed(f_, tau_, j()); }, law_);
+  return std::visit([this](const auto& law) { return law.wave_speed(f_, tau_, determinant(f_)); }, law_);
 }
 
 }  // namespace mpm

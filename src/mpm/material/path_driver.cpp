@@ -48,6 +48,7 @@ struct PathDriver::Step {
   const std::vector<int>& unknowns;
   double dt;
   double time;           ///< at its end [s]
+  double growth = 0.0;   ///< strain of the step that brings no stress
   Components goal{};     ///< stress at its end, where it is controlled [Pa]
   double tolerance = 0;  ///< [Pa]
 
@@ -66,7 +67,7 @@ PathDriver::PathDriver(const MaterialDefinition& material) : point_(material), d
 
 MaterialPoint PathDriver::advanced(const Step& step, const Components& increment) const {
   MaterialPoint next = point_;
-  next.advance(step.gradient(increment), step.dt);
+  next.advance(step.gradient(increment), step.dt, step.growth);
   return next;
 }
 
@@ -89,7 +90,8 @@ void PathDriver::run(const Leg& leg, const std::function<void()>& after_step) {
 
 void PathDriver::advance_to(Progress& progress, double share, int divisions) {
   const Leg& leg = progress.leg;
-  Step step{leg, progress.unknowns, (share - progress.share) * leg.duration, progress.begin + share * leg.duration};
+  const double part = share - progress.share;
+  Step step{leg, progress.unknowns, part * leg.duration, progress.begin + share * leg.duration, part * leg.growth};
   Components increment{};
   for (int k = 0; k < kComponents; ++k) {
     const double target = leg.control[k] == Control::simple_shear ? 0.5 * leg.target[k] : leg.target[k];

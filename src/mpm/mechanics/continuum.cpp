@@ -220,9 +220,11 @@ class Continuum final : public Mechanics {
   // pass(first block, last block), the blocks in use shared out among the threads.
   template <class Pass>
   void each_node_range(const Grid& grid, Pass&& pass) {
-    constexpr int kBlocks = 16;  // a range
+    constexpr int kBlocks = 16;           // a range
+    constexpr int kRangesPerThread = 64;  // fewer do not pay for the start of a thread
     const int blocks = grid.blocks.size(), ranges = (blocks + kBlocks - 1) / kBlocks;
-#pragma omp parallel for schedule(static) num_threads(settings_.threads)
+    const int threads = std::clamp(ranges / kRangesPerThread, 1, settings_.threads);
+#pragma omp parallel for schedule(static) num_threads(threads)
     for (int r = 0; r < ranges; ++r) pass(r * kBlocks, std::min(blocks, (r + 1) * kBlocks));
   }
 

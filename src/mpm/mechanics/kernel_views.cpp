@@ -43,6 +43,10 @@ mpm_kernel::SetView<T> view_of(ParticleSet& set, const mpm_kernel::KernelTable<T
   for (std::size_t c = 0; c < set.history.size(); ++c) view.history[c] = set.history[c].template data<T>();
   for (std::size_t c = 0; c < set.affine.size(); ++c) view.affine[c] = set.affine[c].template data<T>();
   for (std::size_t c = 0; c < set.domain.size(); ++c) view.domain[c] = set.domain[c].template data<T>();
+  if (set.free_strain >= 0) {
+    view.free_strain = set.brought[set.free_strain].values.data();
+    view.strained_free = set.brought[set.free_strain + 1].values.data();
+  }
   view.shape = kernels.shape;
   return view;
 }

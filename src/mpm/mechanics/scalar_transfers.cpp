@@ -46,6 +46,12 @@ class ScalarTransferOf final : public ScalarTransfer {
     spread_by_gradient(field, of, weight, to, only);
   }
 
+  void diffuse(int field, const Given& conducts, const NodalField& from, NodalField& to) override {
+    each_giving(field, conducts, to, nullptr, [&](const mpm_kernel::BlockView& block) {
+      kernels_.diffuse(view_, block, views_.data(), arrays_.data(), count(), from.block(0), to.data());
+    });
+  }
+
  private:
   int count() const { return static_cast<int>(views_.size()); }
 

@@ -67,20 +67,22 @@ class Particles {
   }
   /// Scales the deformation along the grid's axes, so that the volume grows by this factor.
   void swell(std::uint32_t p, double factor) {
-    const double along = std::pow(factor, 1.0 / Geometry::kDim);
+    const double along = Geometry::kDim == 3 ? std::cbrt(factor) : Geometry::kDim == 2 ? std::sqrt(factor) : factor;
     for (int i = 0; i < kRows; ++i) gradient_[i][p] = static_cast<T>(along * gradient_[i][p]);
   }
   /// Number of the cell along each axis, counted from its block's first; a particle lies at most half a cell before it.
   std::array<int, 3> cell(std::uint32_t p, const GridLayout& layout, const std::array<int, 3>& block) const {
     std::array<int, 3> cell{};
     for (int k = 0; k < Geometry::kDim; ++k) {
-      const int number = static_cast<int>(std::floor(layout.in_cells(k, set_.x[k][p]))) - kBlockEdge * block[k];
+      // The floor, by cutting off what is positive: a call of std::floor costs more than all else here.
+      const int number = static_cast<int>(layout.in_cells(k, set_.x[k][p]) - kBlockEdge * block[k] + kShift) - kShift;
       cell[k] = std::clamp(number, -1, kBlockEdge - 1);
     }
     return cell;
   }
 
  private:
+  static constexpr int kShift = 64;                              ///< cells: farther from its block no particle is
   static constexpr int kRows = Geometry::kDim * Geometry::kDim;  ///< components along the grid's axes come first
 
   ParticleSet& set_;
@@ -98,25 +100,65 @@ StressAverage::StressAverage(std::vector<AveragedSet> sets, GeometryKind geometr
   for (const AveragedSet& one : sets_) places_.push_back(one.set->bring("plastic_strain_before", "1"));
 }
 
-StressAverage::Cell& StressAverage::cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell) {
-  const int dim = grid.layout.dim();
+template <class Visit>
+void StressAverage::each_set(Visit&& visit) {
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    double* before = sets_[s].set->brought[places_[s]].values.data();
+    if (sets_[s].set->precision == Precision::float64) {
+      visit(s, before, double());
+    } else {
+      visit(s, before, float());
+    }
+  }
+}
+
+// A block's particles are in its own cells, and in the last ones of the blocks before it.
+void StressAverage::find_cells(const Grid& grid, Cells& cells) const {
+  if (cells.generation == grid.blocks.generation()) return;
+  cells.generation = grid.blocks.generation();
+  const int dim = grid.layout.dim(), blocks = grid.blocks.size();
+  cells.of_set_block.assign(sets_.size() * blocks, -1);
+  int used = 0;
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    const std::uint32_t* begin = &sets_[s].set->begin[grid.first_owner];
+    for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
+      if (begin[owner] == begin[owner + 1]) continue;
+      for (int before = 0; before < 1 << dim; ++before) {
+        int neighbour = 0;
+        for (int k = 0; k < dim; ++k) neighbour = 3 * neighbour + 1 - (before >> k & 1);
+        int& place = cells.of_set_block[s * blocks + grid.blocks.neighbours(owner)[neighbour]];
+        if (place < 0) place = grid.layout.nodes_per_block() * used++;
+      }
+    }
+  }
+  const std::size_t needed = static_cast<std::size_t>(grid.layout.nodes_per_block()) * used;
+  if (cells.all.size() < needed) cells.all.resize(needed);
+}
+
+StressAverage::Cell& StressAverage::cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell,
+                                            const int* of_block, Cells& cells) {
   int neighbour = 0, local = 0;
-  for (int k = 0; k < dim; ++k) {
+  for (int k = 0; k < grid.layout.dim(); ++k) {
     neighbour = 3 * neighbour + (cell[k] < 0 ? 0 : 1);
     local = kBlockEdge * local + (cell[k] < 0 ? kBlockEdge - 1 : cell[k]);
   }
-  const int block = grid.blocks.neighbours(owner)[neighbour];
-  return cells_[static_cast<std::size_t>(block) * grid.layout.nodes_per_block() + local];
+  return cells.all[of_block[grid.blocks.neighbours(owner)[neighbour]] + local];
 }
 
 template <class Geometry, class T>
-void StressAverage::gather(const AveragedSet& one, double* before, const Grid& grid, int owner) {
-  Particles<Geometry, T> particles(one, before);
+void StressAverage::gather(std::size_t set, double* before, const Grid& grid, int owner, Cells& cells) {
+  const AveragedSet& one = sets_[set];
+  const Particles<Geometry, T> particles(one, before);
+  const int* of_block = &cells.of_set_block[set * grid.blocks.size()];
   const int place = grid.first_owner + owner;
   const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(owner));
   for (std::uint32_t p = one.set->begin[place]; p < one.set->begin[place + 1]; ++p) {
     if (!particles.flows(p)) continue;
-    Cell& cell = cell_at(grid, owner, particles.cell(p, grid.layout, origin));
+    Cell& cell = cell_at(grid, owner, particles.cell(p, grid.layout, origin), of_block, cells);
+    if (cell.step != step_) {
+      cell = {};
+      cell.step = step_;
+    }
     const double mass = particles.mass(p);
     const auto stress = particles.stress(p);
     cell.mass += mass;
@@ -127,9 +169,11 @@ void StressAverage::gather(const AveragedSet& one, double* before, const Grid& g
 }
 
 template <class Geometry, class T>
-double StressAverage::share(const AveragedSet& one, double* before, const Grid& grid, int owner) {
+double StressAverage::share(std::size_t set, double* before, const Grid& grid, int owner, Cells& cells) {
   using Tensor = Stored<Geometry>;
+  const AveragedSet& one = sets_[set];
   Particles<Geometry, T> particles(one, before);
+  const int* of_block = &cells.of_set_block[set * grid.blocks.size()];
   const int place = grid.first_owner + owner;
   const std::array<int, 3>& origin = grid.blocks.block(grid.blocks.owner_block(owner));
   double lost = 0.0;
@@ -137,11 +181,12 @@ double StressAverage::share(const AveragedSet& one, double* before, const Grid& 
     const bool flows = particles.flows(p);
     particles.remember(p);
     if (!flows) continue;
-    const Cell& cell = cell_at(grid, owner, particles.cell(p, grid.layout, origin));
+    const Cell& cell = cell_at(grid, owner, particles.cell(p, grid.layout, origin), of_block, cells);
     if (cell.particles < 2) continue;
+    const double inverse_mass = 1.0 / cell.mass;
     typename Tensor::Stress mean;
-    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = cell.stress[i] / cell.mass;
-    const double ratio = particles.volume_ratio(p), mean_ratio = cell.volume / cell.mass;
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = cell.stress[i] * inverse_mass;
+    const double ratio = particles.volume_ratio(p), mean_ratio = cell.volume * inverse_mass;
     // Cauchy stress is that which is stored times density over volume ratio, and acts on the present volume.
     const auto energy = [&](const typename Tensor::Stress& s, double j) {
       return Tensor::energy(s, one.bulk, one.shear) * one.density / j;
@@ -153,48 +198,38 @@ double StressAverage::share(const AveragedSet& one, double* before, const Grid& 
   return lost;
 }
 
-template <class Geometry, class T>
-void StressAverage::average(const AveragedSet& one, std::size_t place, const StepContext& context) {
-  double* before = one.set->brought[place].values.data();
-  for (const auto& field : context.fields) {
-    const Grid& grid = *field;
-    const int owners = grid.blocks.owners();
-    of_owner_.resize(owners);
-    cells_.resize(static_cast<std::size_t>(grid.blocks.size()) * grid.layout.nodes_per_block());
-    const auto cells = static_cast<std::int64_t>(cells_.size());
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (std::int64_t i = 0; i < cells; ++i) cells_[i] = {};
-    // A block adds to its own cells and to the last ones of those before it, so blocks of one colour share no cell.
-    grid.shares.by_colour(threads_, [&](int owner) { gather<Geometry, T>(one, before, grid, owner); });
-    grid.shares.at_once(threads_, [&](int owner) { of_owner_[owner] = share<Geometry, T>(one, before, grid, owner); });
-    for (const double lost : of_owner_) taken_ += lost;
-  }
-}
-
-template <class Geometry, class T>
-void StressAverage::remember(const AveragedSet& one, std::size_t place) {
-  Particles<Geometry, T> particles(one, one.set->brought[place].values.data());
-  for (int p = 0; p < one.set->size(); ++p) particles.remember(p);
+template <class Geometry>
+void StressAverage::average(const Grid& grid, Cells& cells) {
+  find_cells(grid, cells);
+  of_owner_.assign(grid.blocks.owners(), 0.0);
+  // A block adds to its own cells and to the last ones of those before it, so blocks of one colour share no cell.
+  grid.shares.by_colour(threads_, [&](int owner) {
+    each_set([&](std::size_t s, double* before, auto scalar) {
+      gather<Geometry, decltype(scalar)>(s, before, grid, owner, cells);
+    });
+  });
+  grid.shares.at_once(threads_, [&](int owner) {
+    each_set([&](std::size_t s, double* before, auto scalar) {
+      of_owner_[owner] += share<Geometry, decltype(scalar)>(s, before, grid, owner, cells);
+    });
+  });
+  for (const double lost : of_owner_) taken_ += lost;
 }
 
 void StressAverage::momentum_gathered(StepContext& context) {
+  ++step_;
+  cells_.resize(context.fields.size());
   with_geometry(geometry_, [&](auto kind) {
     using Geometry = decltype(kind);
-    for (std::size_t s = 0; s < sets_.size(); ++s) {
-      const auto act = [&](auto scalar) {
-        using T = decltype(scalar);
-        if (begun_ != 0) {
-          average<Geometry, T>(sets_[s], places_[s], context);
-        } else {
-          remember<Geometry, T>(sets_[s], places_[s]);
-        }
-      };
-      if (sets_[s].set->precision == Precision::float64) {
-        act(double());
-      } else {
-        act(float());
-      }
+    if (begun_ != 0) {
+      for (std::size_t f = 0; f < context.fields.size(); ++f) average<Geometry>(*context.fields[f], cells_[f]);
+      return;
     }
+    // As ground has that was settled: the plastic strains of the start are not of this run.
+    each_set([&](std::size_t s, double* before, auto scalar) {
+      Particles<Geometry, decltype(scalar)> particles(sets_[s], before);
+      for (int p = 0; p < sets_[s].set->size(); ++p) particles.remember(p);
+    });
   });
   begun_ = 1;
 }

@@ -139,8 +139,8 @@ class HeightField final : public Surface {
     const double above = std::max({p.z() - most, least - p.z(), 0.0});
     if (gap(p, i, j) + above * above >= best.squared) return;
     const int index = 2 * (j * cells_x_ + i);
-    nearest_of({a, b - a, c - a, index}, p, best);
-    nearest_of({a, c - a, d - a, index + 1}, p, best);
+    nearest_of({a, b, c, index}, p, best);
+    nearest_of({a, c, d, index + 1}, p, best);
   }
 
   Vec3 triangle_normal(int index) const {

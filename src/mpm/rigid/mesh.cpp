@@ -1,5 +1,5 @@
-// A closed triangle mesh as a signed distance: the nearest triangle through a bounding-volume hierarchy, the sign
-// by angle-weighted pseudonormals (Baerentzen & Aanaes (2005), IEEE Trans. Vis. Comput. Graph. 11(3), 243-253).
+// A closed triangle mesh as a signed distance: the nearest triangle (near_triangles.hpp), the sign by angle-weighted
+// pseudonormals (Baerentzen & Aanaes (2005), IEEE Trans. Vis. Comput. Graph. 11(3), 243-253).
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -7,13 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <unsupported/Eigen/BVH>
 #include <utility>
 
 #include "mpm/math/constants.hpp"
 #include "mpm/rigid/mesh_topology.hpp"
 #include "mpm/rigid/surface.hpp"
-#include "triangle.hpp"
+#include "near_triangles.hpp"
 
 namespace mpm {
 
@@ -24,18 +23,15 @@ constexpr double kHalfOfFaces = 0.5;  // of the surface: a sharp edge does not m
 
 class MeshSurface final : public Surface {
  public:
-  MeshSurface(const TriangleMesh& mesh, double thinnest) : mesh_(solid_mesh(mesh)) {
+  MeshSurface(const TriangleMesh& mesh, double thinnest)
+      : mesh_(solid_mesh(mesh)),
+        triangles_(triangles_of(mesh_)),
+        bounds_(bounds_of(mesh_)),
+        tree_(triangles_),
+        near_(tree_, triangles_, bounds_,
+              [this](const Vec3& p, const Nearest& nearest) { return seen_from(p, nearest).distance < 0.0; }) {
     find_pseudonormals();
-    std::vector<Triangle> triangles;
-    std::vector<Eigen::AlignedBox3d> boxes;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto [a, b, c] = corners(t);
-      triangles.push_back({a, b - a, c - a, static_cast<int>(t)});
-      boxes.emplace_back(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
-      for (const Vec3& corner : {a, b, c}) bounds_.add(corner);
-    }
-    tree_.init(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
-    const std::vector<Sample> samples = sample_thickness(triangles);
+    const std::vector<Sample> samples = sample_thickness();
     thickness_ = thickness_of(samples, kThinFaces);
     if (const double half = thickness_of(samples, kHalfOfFaces); half < thinnest) {
       const Vec3 size = bounds_.size();
@@ -47,30 +43,17 @@ class MeshSurface final : public Surface {
   }
 
   SurfacePoint at(const Vec3& point) const override {
-    const Nearest nearest = find_nearest(point);
-    const Vec3 away = point - nearest.point;
-    SurfacePoint result;
-    if (nearest.feature == kFace) {
-      result.normal = face_normals_[nearest.triangle];
-      result.distance = away.dot(result.normal);
-      return result;
-    }
-    const Vec3& pseudonormal = nearest.feature < kEdge
-                                   ? corner_normals_[mesh_.triangles[nearest.triangle][nearest.feature]]
-                                   : edge_normals_[nearest.triangle][nearest.feature - kEdge];
-    const double distance = std::sqrt(nearest.squared);
-    const double sign = away.dot(pseudonormal) < 0.0 ? -1.0 : 1.0;
-    result.distance = sign * distance;
-    // On the edge itself, to rounding, there is no direction from the nearest point.
-    const bool on_surface = distance <= 1e-13 * (bounds_.size().norm() + point.norm());
-    result.normal = on_surface ? pseudonormal : Vec3(sign * away / distance);
-    return result;
+    Nearest nearest;
+    near_.nearest(point, kInfinity, nearest);
+    return seen_from(point, nearest);
   }
 
   bool within(const Vec3& point, double band, SurfacePoint& result) const override {
     const double outside = (bounds_.min - point).cwiseMax(point - bounds_.max).maxCoeff();
     if (outside > std::max(band, 0.0)) return false;
-    const SurfacePoint found = at(point);
+    Nearest nearest;
+    if (!near_.nearest(point, band, nearest)) return false;
+    const SurfacePoint found = seen_from(point, nearest);
     if (found.distance > band) return false;
     result = found;
     return true;
@@ -107,7 +90,33 @@ class MeshSurface final : public Surface {
   }
 
  private:
-  using Tree = Eigen::KdBVH<double, 3, Triangle>;
+  static Box bounds_of(const TriangleMesh& mesh) {
+    Box bounds;
+    for (const auto& triangle : mesh.triangles) {
+      for (const int corner : triangle) bounds.add(mesh.vertices[corner]);
+    }
+    return bounds;
+  }
+
+  SurfacePoint seen_from(const Vec3& point, const Nearest& nearest) const {
+    const Vec3 away = point - nearest.point;
+    SurfacePoint result;
+    if (nearest.feature == kFace) {
+      result.normal = face_normals_[nearest.triangle];
+      result.distance = away.dot(result.normal);
+      return result;
+    }
+    const Vec3& pseudonormal = nearest.feature < kEdge
+                                   ? corner_normals_[mesh_.triangles[nearest.triangle][nearest.feature]]
+                                   : edge_normals_[nearest.triangle][nearest.feature - kEdge];
+    const double distance = std::sqrt(nearest.squared);
+    const double sign = away.dot(pseudonormal) < 0.0 ? -1.0 : 1.0;
+    result.distance = sign * distance;
+    // On the edge itself, to rounding, there is no direction from the nearest point.
+    const bool on_surface = distance <= 1e-13 * (bounds_.size().norm() + point.norm());
+    result.normal = on_surface ? pseudonormal : Vec3(sign * away / distance);
+    return result;
+  }
 
   std::array<Vec3, 3> corners(std::size_t t) const {
     const auto& [i, j, k] = mesh_.triangles[t];
@@ -140,35 +149,6 @@ class MeshSurface final : public Surface {
         edge_normals_[t][i] = edge_sum.at(key(mesh_.triangles[t][i], mesh_.triangles[t][(i + 1) % 3])).normalized();
       }
     }
-  }
-
-  /// Depth first, the nearer child first; boxes farther than the best triangle so far are passed over.
-  Nearest find_nearest(const Vec3& point) const {
-    Nearest best;
-    struct Entry {
-      double squared;
-      int node;
-    };
-    std::array<Entry, 64> stack;  // the tree is balanced: its depth is the logarithm of the number of triangles
-    int size = 0;
-    stack[size++] = {0.0, tree_.getRootIndex()};
-    while (size > 0) {
-      const Entry entry = stack[--size];
-      if (entry.squared >= best.squared) continue;
-      Tree::VolumeIterator child = nullptr, last_child = nullptr;
-      Tree::ObjectIterator leaf = nullptr, last_leaf = nullptr;
-      tree_.getChildren(entry.node, child, last_child, leaf, last_leaf);
-      for (; leaf != last_leaf; ++leaf) nearest_of(*leaf, point, best);
-      const int first = size;
-      for (; child != last_child; ++child) {
-        const double squared = tree_.getVolume(*child).squaredExteriorDistance(point);
-        if (squared < best.squared) stack[size++] = {squared, *child};
-      }
-      if (size - first == 2 && stack[first].squared < stack[first + 1].squared) {
-        std::swap(stack[first], stack[first + 1]);
-      }
-    }
-    return best;
   }
 
   /// A ray from inside the mesh, for Eigen::BVIntersect: how far to where it leaves.
@@ -209,11 +189,11 @@ class MeshSurface final : public Surface {
     double length, area;
   };
 
-  std::vector<Sample> sample_thickness(const std::vector<Triangle>& triangles) const {
+  std::vector<Sample> sample_thickness() const {
     std::vector<Sample> samples;
-    for (const Triangle& t : triangles) {
+    for (const Triangle& t : triangles_) {
       Ray ray{t.a + (t.ab + t.ac) / 3.0, -face_normals_[t.index], t.index};
-      Eigen::BVIntersect(tree_, ray);
+      Eigen::BVIntersect(tree_.boxes(), ray);
       samples.push_back({ray.length, 0.5 * t.ab.cross(t.ac).norm()});
     }
     std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
@@ -235,10 +215,12 @@ class MeshSurface final : public Surface {
   }
 
   TriangleMesh mesh_;
+  std::vector<Triangle> triangles_;
+  Box bounds_;
+  TriangleTree tree_;
+  NearTriangles near_;
   std::vector<Vec3> face_normals_, corner_normals_;
   std::vector<std::array<Vec3, 3>> edge_normals_;  // of each triangle, edge i from corner i
-  Tree tree_;
-  Box bounds_;
   double thickness_ = 0.0;
 };
 

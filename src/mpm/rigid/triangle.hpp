@@ -12,7 +12,12 @@ enum Feature : int { kCorner = 0, kEdge = 3, kFace = 6 };
 
 struct Triangle {
   Vec3 a, ab, ac;
-  int index;  ///< in the mesh
+  double ab2, ac2, abc;  ///< ab.ab, ac.ac, ab.ac
+  int index;             ///< in the mesh
+
+  Triangle() = default;
+  Triangle(const Vec3& a, const Vec3& b, const Vec3& c, int index)
+      : a(a), ab(b - a), ac(c - a), ab2(ab.squaredNorm()), ac2(ac.squaredNorm()), abc(ab.dot(ac)), index(index) {}
 };
 
 struct Nearest {
@@ -22,14 +27,14 @@ struct Nearest {
   int feature = kFace;
 };
 
-/// Takes the triangle's nearest point to p where it is nearer than the best so far, by the Voronoi regions of its
-/// corners and edges: Ericson (2005), Real-Time Collision Detection, section 5.1.5.
+/// Takes the triangle's nearest point to p where it is nearer than the best so far, or as near in a triangle of lower
+/// index, so that the order in which triangles are looked at does not matter. By the Voronoi regions of its corners and
+/// edges: Ericson (2005), Real-Time Collision Detection, section 5.1.5.
 inline void nearest_of(const Triangle& t, const Vec3& p, Nearest& best) {
   const Vec3 ap = p - t.a;
   const double d1 = t.ab.dot(ap), d2 = t.ac.dot(ap);
-  const double ab2 = t.ab.squaredNorm(), ac2 = t.ac.squaredNorm(), abc = t.ab.dot(t.ac);
-  const double d3 = d1 - ab2, d4 = d2 - abc;  // ab.bp, ac.bp
-  const double d5 = d1 - abc, d6 = d2 - ac2;  // ab.cp, ac.cp
+  const double d3 = d1 - t.ab2, d4 = d2 - t.abc;  // ab.bp, ac.bp
+  const double d5 = d1 - t.abc, d6 = d2 - t.ac2;  // ab.cp, ac.cp
   const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
   double v = 0.0, w = 0.0;
   int feature = kFace;
@@ -51,7 +56,9 @@ inline void nearest_of(const Triangle& t, const Vec3& p, Nearest& best) {
   }
   const Vec3 offset = v * t.ab + w * t.ac;
   const double squared = (ap - offset).squaredNorm();
-  if (squared < best.squared) best = {squared, t.a + offset, t.index, feature};
+  if (squared < best.squared || (squared == best.squared && t.index < best.triangle)) {
+    best = {squared, t.a + offset, t.index, feature};
+  }
 }
 
 }  // namespace mpm

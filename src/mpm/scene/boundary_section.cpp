@@ -108,19 +108,8 @@ void read_condition(const Value& value, std::size_t index, Scene& scene) {
     }
   }
   condition.where = value.where();
-  const auto region = map.find("region");
-  const auto shape = map.find("shape");
-  if (region.has_value() == shape.has_value()) {
-    value.fail("write region, which is one of a body's shapes, or shape and pose, as of a rigid body: one of them");
-  }
-  if (shape) {
-    read_rigid_shape(map, scene.definition, condition.region);
-  } else {
-    if (const auto pose = map.find("pose"))
-      pose->fail("a region stands where it is written; leave it out, or use shape");
-    set_region(read_region(*region, geometry), scene, condition.region);
-    read_rigid_motion(map, geometry, condition.region);
-  }
+  read_region_or_shape(map, scene, condition.region);
+  if (!map.find("shape")) read_rigid_motion(map, geometry, condition.region);
   condition.direction = read_direction(map.at("direction"), geometry);
   if (const auto velocity = map.find("velocity")) {
     condition.velocity = velocity->function(kVelocity);
@@ -131,6 +120,19 @@ void read_condition(const Value& value, std::size_t index, Scene& scene) {
 }
 
 }  // namespace
+
+void read_region_or_shape(const Map& map, const Scene& scene, RigidBodyDefinition& body) {
+  const auto region = map.find("region");
+  if (region.has_value() == map.find("shape").has_value()) {
+    map.fail("write region, which is one of a body's shapes, or shape and pose, as of a rigid body: one of them");
+  }
+  if (!region) {
+    read_rigid_shape(map, scene.definition, body);
+    return;
+  }
+  if (const auto pose = map.find("pose")) pose->fail("a region stands where it is written; leave it out, or use shape");
+  set_region(read_region(*region, scene.definition.geometry), scene, body);
+}
 
 void read_boundaries(const Map& root, Scene& scene) {
   const auto section = root.find("boundaries");

@@ -257,10 +257,10 @@ std::vector<std::uint32_t> choose(const LoadRegion& chosen, const DeformableBody
   return particles;
 }
 
-/// Refuses tractions inside a body, that is on chosen particles with a neighbour of their body beyond the face. With
-/// jitter this is not checked, since positions then do not show which particles are neighbours.
-void check_faces(const TractionDefinition& load, const LoadRegion& chosen, const DeformableBody& body,
-                 const Scene& scene) {
+/// Refuses tractions and fluxes inside a body, that is on chosen particles with a neighbour of their body beyond the
+/// face. With jitter this is not checked, since positions then do not show which particles are neighbours.
+void check_faces(int face, const std::vector<std::uint32_t>& particles, const LoadRegion& chosen,
+                 const DeformableBody& body, const Scene& scene) {
   const auto cell_of = [&](const Vec3& point) {
     std::array<std::int64_t, 3> place{};
     for (const int axis : axes_of(scene)) {
@@ -271,15 +271,15 @@ void check_faces(const TractionDefinition& load, const LoadRegion& chosen, const
   };
   std::set<std::array<std::int64_t, 3>> filled;
   for (const Vec3& point : body.positions) filled.insert(cell_of(point));
-  for (const std::uint32_t p : load.particles) {
+  for (const std::uint32_t p : particles) {
     std::array<std::int64_t, 3> beyond = cell_of(body.positions[p]);
-    beyond[load.face / 2] += load.face % 2 == 1 ? 1 : -1;
+    beyond[face / 2] += face % 2 == 1 ? 1 : -1;
     if (filled.count(beyond) == 0) continue;
     const Vec3& at = body.positions[p];
     throw SceneError(fmt::format(
         "{}: the edge {} of the particle at ({:.6g}, {:.6g}, {:.6g}) m is inside body '{}': another particle "
         "lies beyond it; let the region hold no more than the outermost particles, or leave it out",
-        chosen.where, kWallNames.at(load.face), at.x(), at.y(), at.z(), body.name));
+        chosen.where, kWallNames.at(face), at.x(), at.y(), at.z(), body.name));
   }
 }
 
@@ -334,12 +334,19 @@ SimulationDefinition build(const Scene& scene) try {
   };
   choose_all(definition.particle_forces, scene.load_regions);
   choose_all(definition.tractions, scene.traction_regions);
-  for (std::size_t i = 0; i < definition.tractions.size(); ++i) {
-    const TractionDefinition& load = definition.tractions[i];
-    const auto made = std::find_if(definition.bodies.begin(), definition.bodies.end(),
-                                   [&](const DeformableBody& b) { return b.name == load.body; });
-    const BodyDefinition& body = scene.bodies[made - definition.bodies.begin()];
-    if (body.jitter == 0.0) check_faces(load, scene.traction_regions[i], *made, scene);
+  const auto check_all = [&](const auto& loads, const std::vector<LoadRegion>& regions) {
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      const auto made = std::find_if(definition.bodies.begin(), definition.bodies.end(),
+                                     [&](const DeformableBody& b) { return b.name == loads[i].body; });
+      const BodyDefinition& body = scene.bodies[made - definition.bodies.begin()];
+      if (body.jitter == 0.0) check_faces(loads[i].face, loads[i].particles, regions[i], *made, scene);
+    }
+  };
+  check_all(definition.tractions, scene.traction_regions);
+  for (QuantityDefinition& quantity : definition.transport.quantities) {
+    const std::vector<LoadRegion>& regions = scene.flux_regions[static_cast<std::size_t>(quantity.quantity)];
+    choose_all(quantity.fluxes, regions);
+    check_all(quantity.fluxes, regions);
   }
   return definition;
 } catch (const std::bad_alloc&) {

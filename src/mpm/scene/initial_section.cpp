@@ -95,9 +95,9 @@ void read_initial(const Value& value, const MaterialDefinition& material, Scene&
     read_geostatic(value, material, scene, body);
     return;
   }
-  const Map map(
-      value, {"velocity", "stress", "temperature", "geostatic"},
-      {{"concentration", "a run has no diffusion"}, {"pore_pressure", "a run has no pore pressure; write stress"}});
+  const Map map(value, {"velocity", "stress", "temperature", "geostatic"},
+                {{"concentration", "write it under transport.concentration.initial, by the body's name"},
+                 {"pore_pressure", "write it under transport.pore_pressure.initial, by the body's name"}});
   if (const auto velocity = map.find("velocity")) body.velocity = velocity->functions(kVelocity);
   if (const auto stress = map.find("stress")) {
     read_stress(*stress, scene.definition.geometry, body);

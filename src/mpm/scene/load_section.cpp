@@ -9,29 +9,10 @@
 namespace mpm {
 namespace {
 
-std::string read_body(const Value& value, const Scene& scene) {
-  std::vector<std::string> bodies;
-  for (const BodyDefinition& body : scene.bodies) bodies.push_back(body.name);
-  std::string name = value.text();
-  if (std::find(bodies.begin(), bodies.end(), name) == bodies.end()) {
-    value.fail(fmt::format("no deformable body '{}'; {}", name, suggest(name, bodies)));
-  }
-  return name;
-}
-
 LoadSpread read_spread(const Map& map) {
   const auto spread = map.find("spread");
   return spread ? static_cast<LoadSpread>(spread->choice({kSpreadNames.begin(), kSpreadNames.end()}))
                 : LoadSpread::domain;
-}
-
-LoadRegion read_load_region(const Map& map, const Scene& scene) {
-  LoadRegion chosen;
-  if (const auto region = map.find("region")) {
-    chosen.region = read_region(*region, scene.definition.geometry);
-    chosen.where = region->where();
-  }
-  return chosen;
 }
 
 void read_body_force(const Value& value, Scene& scene) {
@@ -65,15 +46,7 @@ void read_particle_force(const Value& value, Scene& scene) {
 TractionDefinition read_face(const Map& map, Scene& scene) {
   TractionDefinition load;
   load.body = read_body(map.at("body"), scene);
-  std::vector<std::string> names;
-  std::vector<int> faces;
-  for (const int axis : axes_of(scene)) {
-    for (const int face : {2 * axis, 2 * axis + 1}) {
-      names.emplace_back(kWallNames[face]);
-      faces.push_back(face);
-    }
-  }
-  load.face = faces[map.at("edge").choice(names)];
+  load.face = read_edge(map.at("edge"), scene);
   scene.traction_regions.push_back(read_load_region(map, scene));
   return load;
 }
@@ -104,6 +77,37 @@ void read_pressure(const Value& value, Scene& scene) {
 }
 
 }  // namespace
+
+std::string read_body(const Value& value, const Scene& scene) {
+  std::vector<std::string> bodies;
+  for (const BodyDefinition& body : scene.bodies) bodies.push_back(body.name);
+  std::string name = value.text();
+  if (std::find(bodies.begin(), bodies.end(), name) == bodies.end()) {
+    value.fail(fmt::format("no deformable body '{}'; {}", name, suggest(name, bodies)));
+  }
+  return name;
+}
+
+LoadRegion read_load_region(const Map& map, const Scene& scene) {
+  LoadRegion chosen;
+  if (const auto region = map.find("region")) {
+    chosen.region = read_region(*region, scene.definition.geometry);
+    chosen.where = region->where();
+  }
+  return chosen;
+}
+
+int read_edge(const Value& value, const Scene& scene) {
+  std::vector<std::string> names;
+  std::vector<int> faces;
+  for (const int axis : axes_of(scene)) {
+    for (const int face : {2 * axis, 2 * axis + 1}) {
+      names.emplace_back(kWallNames[face]);
+      faces.push_back(face);
+    }
+  }
+  return faces[value.choice(names)];
+}
 
 void read_loads(const Map& root, Scene& scene) {
   const auto section = root.find("loads");

@@ -33,7 +33,7 @@ MaterialDefinition read_inline(const std::string& text) {
   const Source source("materials: [" + text + "]", "MATERIAL", overrides);
   ReadContext context;
   context.source = &source;
-  const Map root(Value(context, source.root(), ""), {"materials"});
+  const Map root(Value(context, source.root(), ""), {"materials", "transport"});
   Scene scene;
   read_materials(root, scene);
   const std::vector<MaterialDefinition>& materials = scene.definition.materials;
@@ -53,17 +53,18 @@ std::optional<double> quantity(const std::string& text, const char* option, cons
   }
 }
 
-std::string header() {
+std::string header(bool wet) {
   std::string line = "time [s]";
   for (const char* name : kComponentNames) line += fmt::format(",e{} [1]", name);
   line += ",j [1]";
   for (const char* name : kComponentNames) line += fmt::format(",s{} [Pa]", name);
   return line +
          ",p [Pa],mises [Pa],plastic_strain [1],elastic_energy [J/kg],plastic_energy [J/kg],work [J/kg],"
-         "wave_speed [m/s],temperature [K]\n";
+         "wave_speed [m/s],temperature [K]" +
+         (wet ? ",pore_pressure [Pa]\n" : "\n");
 }
 
-std::string row(const PathDriver& driver) {
+std::string row(const PathDriver& driver, bool wet) {
   const MaterialPoint& point = driver.point();
   const Symmetric3<double> stress = point.cauchy();
   const double mean = trace(stress) / 3.0;
@@ -77,6 +78,7 @@ std::string row(const PathDriver& driver) {
                              driver.work(), point.wave_speed(), point.temperature()}) {
     add(value);
   }
+  if (wet) add(point.pore_pressure());
   return line + "\n";
 }
 
@@ -118,10 +120,23 @@ StrainPath read_driven_path(const MaterialDriverOptions& options) {
 }
 
 void drive_material(const MaterialDriverOptions& options, std::ostream& out) {
-  const StrainPath path = read_driven_path(options);
+  StrainPath path = read_driven_path(options);
+  const std::optional<double> storage = quantity(options.storage, "storage", kPerPascal);
+  const std::optional<double> biot = quantity(options.biot, "biot", kPlain);
+  const std::optional<double> heating = quantity(options.heating, "heating", kTemperature);
+  const std::optional<double> expansion = quantity(options.expansion, "expansion", kPerKelvin);
+  if (storage && !(*storage > 0.0)) throw PathError(fmt::format("--storage: {:g} 1/Pa; it must be positive", *storage));
+  if (biot && !(*biot > 0.0 && *biot <= 1.0)) throw PathError(fmt::format("--biot: {:g}; it lies in (0, 1]", *biot));
+  if (biot && !storage) throw PathError("--biot is of water in pores; add --storage");
+  if (heating.has_value() != expansion.has_value()) throw PathError("--heating and --expansion go together");
+  if (heating) path.back().growth = std::log1p(*heating * *expansion);
   PathDriver driver(read_driven_material(options));
-  out << header() << row(driver);
-  for (const Leg& leg : path) driver.run(leg, [&] { out << row(driver); });
+  const bool wet = storage.has_value();
+  out << header(wet) << row(driver, wet);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (wet && i + 1 == path.size()) driver.close_pores(biot.value_or(1.0), 1.0 / *storage);
+    driver.run(path[i], [&] { out << row(driver, wet); });
+  }
 }
 
 }  // namespace mpm

@@ -20,10 +20,7 @@ const std::vector<Later>& later_laws() {
 }
 
 const std::vector<Later>& later_keys() {
-  static const std::string thermal = "leave it out: a run is mechanical";
-  static const std::vector<Later> keys = {
-      {"thermal_expansion", thermal}, {"conductivity", thermal}, {"heat_capacity", thermal},
-      {"diffusion", thermal},         {"biot", thermal},         {"toughness", "leave it out: bodies are whole"}};
+  static const std::vector<Later> keys = {{"toughness", "leave it out: bodies are whole"}};
   return keys;
 }
 
@@ -335,7 +332,9 @@ const LawSection& find_section(const Value& law) {
   map.fail(what);
 }
 
-MaterialDefinition read_material(const Value& value, Scene& scene) {
+}  // namespace
+
+Map material_map(const Value& value, const Map& root) {
   std::vector<std::string> keys = {"name", "density", "law"};
   // The law determines the keys. Without a law the keys of all laws are allowed, and the missing key `law` is reported
   // below.
@@ -346,7 +345,13 @@ MaterialDefinition read_material(const Value& value, Scene& scene) {
   } else if (value.is_map()) {
     for (const LawSection& section : law_sections()) keys.insert(keys.end(), section.keys.begin(), section.keys.end());
   }
-  const Map map(value, keys, later_keys());
+  add_transport_keys(value, root, keys);
+  return Map(value, keys, later_keys());
+}
+
+namespace {
+
+MaterialDefinition read_material(const Map& map, Scene& scene) {
   MaterialDefinition material;
   material.name = map.at("name").name();
   material.density = map.at("density").number(kDensity);
@@ -363,7 +368,7 @@ MaterialDefinition read_material(const Value& value, Scene& scene) {
 
 void read_materials(const Map& root, Scene& scene) {
   for (const Value& value : root.at("materials").elements()) {
-    MaterialDefinition material = read_material(value, scene);
+    MaterialDefinition material = read_material(material_map(value, root), scene);
     for (const MaterialDefinition& other : scene.definition.materials) {
       if (other.name == material.name)
         value.fail(fmt::format("a second material '{}'; give each its own name", material.name));

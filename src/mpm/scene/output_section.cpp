@@ -251,7 +251,7 @@ void read_metrics(const Map& root, Scene& scene) {
   if (!section->is_map()) section->fail("write one line for each metric, as in mean_szz: {mean: szz, of: soil}");
   for (const auto& entry : section->node()) {
     const Value value = section->child(entry.second, entry.first.Scalar());
-    const Map map(value, {"mean", "std", "min", "max", "of", "rate"});
+    const Map map(value, {"mean", "std", "min", "max", "of", "rate", "at", "in"});
     MetricDefinition metric;
     metric.name = section->child(entry.first, entry.first.Scalar()).name();
     int statistics = 0;
@@ -288,6 +288,18 @@ void read_metrics(const Map& root, Scene& scene) {
         rate->fail(fmt::format("it is shorter than time.sync, {:g} s, and a rate needs two sync points; make it longer",
                                1e-9 * static_cast<double>(time.sync)));
       }
+    }
+    if (const auto at = map.find("at")) {
+      if (metric.rate) at->fail("a rate has a time of its own; leave one of the two out");
+      metric.at = at->non_negative(kTime);
+      const TimeDefinition& time = scene.definition.time;
+      if (time.end > 0.0 && *metric.at > time.end * (1.0 + 1e-9)) {
+        at->fail(fmt::format("{:g} s is after the end of the run, {:g} s", *metric.at, time.end));
+      }
+    }
+    if (const auto region = map.find("in")) {
+      if (of_rigid) region->fail("a rigid body has one number of a kind; leave it out");
+      metric.region = read_particle_region(*region);
     }
     scene.definition.metrics.push_back(std::move(metric));
   }

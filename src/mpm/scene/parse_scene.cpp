@@ -14,9 +14,7 @@ namespace mpm {
 namespace {
 
 const std::vector<Later>& later_sections() {
-  static const std::vector<Later> sections = {
-      {"transport", "leave it out: a run is mechanical, without heat, diffusion or pore pressure"},
-      {"cracks", "leave it out: bodies are whole"}};
+  static const std::vector<Later> sections = {{"cracks", "leave it out: bodies are whole"}};
   return sections;
 }
 
@@ -93,9 +91,9 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   ReadContext context;
   context.source = &source;
   const Value top(context, source.root(), "");
-  const Map root(top,
-                 {"name", "units", "geometry", "thickness", "area", "grid", "time", "method", "gravity", "materials",
-                  "bodies", "rigid_bodies", "contact", "boundaries", "loads", "sleep", "output", "metrics", "target"},
+  const Map root(top, {"name",   "units",     "geometry",  "thickness", "area",         "grid",    "time",
+                       "method", "gravity",   "materials", "bodies",    "rigid_bodies", "contact", "boundaries",
+                       "loads",  "transport", "sleep",     "output",    "metrics",      "target"},
                  later_sections());
   Scene scene;
   scene.path = label;
@@ -130,6 +128,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_loads(root, scene);
   read_time_and_output(root, scene);
   read_sleep(root, scene);
+  read_transport(root, scene);
   read_metrics(root, scene);
   read_target(root, scene);
   if (const auto fault = axis_fault(definition)) root.at(fault->key).fail(fault->text);

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kOfFall = 0.01;     ///< default speed: of that after a free fall of half a cell
 constexpr double kWake = 3.0;        ///< default of `wake`, in speeds
-constexpr double kFalls = 1.0;       ///< default of `after`, in times of a free fall of half a cell
 constexpr double kFromMotion = 10;   ///< what the scene moves on purpose has to be so many times as fast
 constexpr double kWhile = 10.0;      ///< of a run without an end, that motions are looked at [s]
 constexpr int kLooksAtMotion = 100;  ///< of a motion over the run
@@ -86,7 +85,7 @@ void read_sleep(const Map& root, Scene& scene) {
   double cell = definition.grid.cell[0];
   for (const int axis : axes_of(scene)) cell = std::min(cell, definition.grid.cell[axis]);
   const double weight = definition.gravity.norm();
-  const Map map(*section, {"speed", "wake", "after", "damping", "from_start"});
+  const Map map(*section, {"speed", "wake", "after", "balance", "damping", "from_start"});
   if (const auto speed = map.find("speed")) {
     sleep.speed = speed->positive(kVelocity);
     if (weight > 0.0 && sleep.speed > std::sqrt(weight * cell)) {
@@ -110,9 +109,10 @@ void read_sleep(const Map& root, Scene& scene) {
     sleep.after = after->positive(kTime);
   } else {
     if (weight == 0.0) map.fail("without gravity there is no scale for how long; write sleep.after");
-    sleep.after = kFalls * std::sqrt(cell / weight);
+    sleep.after = std::sqrt(cell / weight);
     scene.choices.emplace_back("sleep.after", fmt::format("{:.3g} s: the time of a fall of half a cell", sleep.after));
   }
+  if (const auto balance = map.find("balance")) sleep.balance = balance->positive(kPlain);
   if (const auto damping = map.find("damping")) {
     sleep.damping = damping->non_negative(kPlain);
     if (!(sleep.damping < 1.0)) damping->fail("it is a part of a force, so it is below 1");
@@ -132,8 +132,7 @@ void read_sleep(const Map& root, Scene& scene) {
     if (!sleep.from_start || weight == 0.0 || body.geostatic || body.stress) continue;
     map.at("from_start")
         .fail(fmt::format("body '{}' starts without stress under its weight, so it is not at rest; let it start "
-                          "geostatic, give it stress, "
-                          "or leave out from_start",
+                          "geostatic, give it stress, or leave out from_start",
                           body.name));
   }
   check_motion(*section, scene);

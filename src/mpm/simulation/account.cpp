@@ -52,7 +52,8 @@ MaterialTotals totals_of(const ParticleSet& set, const LawType& law, const GridL
       }
       sum.kinetic += mass * (0.5 * speed2);
       sum.potential -= mass * height;
-      sum.elastic += mass * law.elastic_energy(t.f, t.tau, t.j);
+      const ParticleTensors stressed = set.free_strain < 0 ? t : without_free_strain(set, p, t);
+      sum.elastic += mass * law.elastic_energy(stressed.f, stressed.tau, stressed.j);
       if constexpr (LawType::kPlasticWork >= 0) {
         const double work = mass * set.history[LawType::kPlasticWork][p];
         sum.elastic -= law.heat_fraction() * work;
@@ -83,6 +84,14 @@ ParticleTensors particle_tensors(const ParticleSet& set, GeometryKind geometry, 
     t.j = determinant(t.f);
     return t;
   });
+}
+
+ParticleTensors without_free_strain(const ParticleSet& set, int p, ParticleTensors t) {
+  const double shrink = 1.0 / (1.0 + set.brought[set.free_strain + 1].values[p]), volume = shrink * shrink * shrink;
+  for (double* c : {&t.f.xx, &t.f.xy, &t.f.xz, &t.f.yx, &t.f.yy, &t.f.yz, &t.f.zx, &t.f.zy, &t.f.zz}) *c *= shrink;
+  t.tau = scale_shift(t.tau, volume, 0.0);
+  t.j *= volume;
+  return t;
 }
 
 Vec3 Simulation::State::momentum() const {

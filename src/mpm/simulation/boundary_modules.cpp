@@ -72,8 +72,9 @@ void add_walls(RunParts& parts) {
   each_face(parts.layout(), [&](int face, int name) {
     const WallDefinition& wall = parts.definition.walls[name];
     if (!is_wall(wall.kind)) return;
-    parts.add_in_fields(
-        [&] { return std::make_unique<Wall>(face, wall, kWallNames[name], parts.definition.gravity, parts.threads); });
+    parts.add_in_fields([&] {
+      return std::make_unique<Wall>(face, wall, kWallNames[name], parts.definition.gravity, parts.threads, parts.heat);
+    });
   });
 }
 

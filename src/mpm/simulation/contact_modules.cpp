@@ -65,6 +65,7 @@ MaterialContactSettings pair_settings(RunParts& parts) {
   settings.geometry = definition.geometry;
   settings.threads = parts.threads;
   settings.sides = parts.sides;
+  settings.heat = parts.heat;
   settings.cell_volume = definition.across();
   for (int k = 0; k < layout.dim(); ++k) settings.cell_volume *= layout.cell(k);
   bool starts = needs_starts(definition);
@@ -113,8 +114,8 @@ RigidParticleSettings particle_settings(RunParts& parts, const std::vector<Conta
 void add_point_contact(RunParts& parts, const std::vector<RigidBody*>& bodies, std::vector<ContactLaw> laws) {
   const SimulationDefinition& definition = parts.definition;
   PointContactSettings settings{
-      definition.geometry, definition.method.shape, definition.across(),           parts.threads,
-      definition.gravity,  has_pairs(definition),   definition.contact.sharp_edges};
+      definition.geometry, definition.method.shape, definition.across(), parts.threads,
+      definition.gravity,  has_pairs(definition),   parts.heat,          definition.contact.sharp_edges};
   parts.modules.add(std::make_unique<PointContact>(bodies, parts.sets, parts.fields, std::move(laws), settings));
 }
 
@@ -146,7 +147,7 @@ void add_rigid_contact(RunParts& parts) {
           std::make_unique<RigidParticleContact>(body, particle_settings(parts, own), parts.fields, parts.volumes()));
     } else if (definition.contact.method == ContactMethod::nodes) {
       parts.modules.add(std::make_unique<RigidContact>(body, parts.fields, parts.threads, definition.geometry,
-                                                       parts.sides, definition.gravity));
+                                                       parts.sides, definition.gravity, parts.heat));
     } else {
       met_at_points.push_back(&body);
       laws_at_points.insert(laws_at_points.end(), own.begin(), own.end());

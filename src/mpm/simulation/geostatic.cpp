@@ -1,4 +1,5 @@
-// Soil at rest: the stress of the weight above it, and settling to rest before the run begins.
+// Soil at rest: the stress of the weight above it, less what water in its pores carries, and settling to rest before
+// the run begins.
 //
 // The settling is done by the solver itself, in a run of its own with the geostatic bodies alone, every tool held where
 // it stands and every load as at t = 0, and with kinetic damping: all velocities are set to zero whenever the kinetic
@@ -22,6 +23,7 @@ namespace {
 
 constexpr double kGap = 1.5;                          ///< particle spacings from centre to centre that part a column
 constexpr std::uint64_t kMostSettlingSteps = 10'000;  ///< of settling
+constexpr double kNoChange = 1e30;                    ///< storage at which a pressure stays as it is [1/Pa]
 constexpr std::uint64_t kSurveyEvery = 10;            ///< steps between looks at the wave speed
 
 struct Part {
@@ -130,6 +132,19 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
     condition.region.velocity = condition.region.rotation_rate = {};
     condition.velocity = Function();
   }
+  // Water stands: its pressure is what it is at the start, whatever the soil does. Heat and moisture come later.
+  std::vector<QuantityDefinition> water;
+  if (const QuantityDefinition* pores = part.transport.find(Transported::pore_pressure)) {
+    water.push_back(*pores);
+    water.back().values.clear();
+    water.back().fluxes.clear();
+    water.back().sources.clear();
+    for (TransportMaterial& material : water.back().materials) {
+      material.capacity = kNoChange;
+      material.conductivity = 0.0;
+    }
+  }
+  part.transport.quantities = std::move(water);
   // Dashpots would let it sink.
   for (WallDefinition& wall : part.walls) {
     if (wall.kind == WallKind::absorbing) wall.kind = WallKind::slip;
@@ -179,6 +194,24 @@ void add_geostatic_stress(SimulationDefinition& definition) {
     if (!on_other) above = 0.0;
     vertical[part.body][part.particle] = -(above + 0.5 * part.weight) / area;
     above += part.weight;
+  }
+  // Laws see effective stress: the weight less what the water carries.
+  const QuantityDefinition* water = definition.transport.find(Transported::pore_pressure);
+  for (std::size_t b = 0; b < definition.bodies.size() && water != nullptr; ++b) {
+    const DeformableBody& body = definition.bodies[b];
+    const auto material = &find_material(definition, body) - definition.materials.data();
+    const Symmetric3<double>& biot = water->materials[material].biot;
+    const double part = up == 0 ? biot.xx : up == 1 ? biot.yy : biot.zz;
+    for (std::size_t p = 0; p < vertical[b].size(); ++p) {
+      const Vec3& place = body.positions[p];
+      vertical[b][p] += part * initial_value(*water, body.name, place);
+      if (!(vertical[b][p] > 0.0)) continue;
+      throw DefinitionError(
+          fmt::format("body '{}': at ({:.6g}, {:.6g}, {:.6g}) m the water in the pores carries more than the weight "
+                      "above, by {:.4g} "
+                      "Pa, so that the soil would be pulled apart; lower the water table to its surface, or load it",
+                      body.name, place.x(), place.y(), place.z(), vertical[b][p]));
+    }
   }
   const auto stress = [up](double along, double ratio) {
     const double across = ratio * along;

@@ -63,6 +63,8 @@ const std::vector<Quantity>& table() {
         {"contactz", "N", Source::contact, {}, 2},
         {"contactr", "N/rad", Source::contact, {}, -1},
         {"temp", "K", Source::mean, {"temperature"}},
+        {"concentration", "1", Source::mean, {"concentration"}},
+        {"pore pressure", "Pa", Source::mean, {"pore_pressure"}},
         {"kinetic energy", "J", Source::sum, {"kinetic_energy"}},
         {"strain energy", "J", Source::sum, {"strain_energy"}},
         {"plastic energy", "J", Source::sum, {"plastic_energy"}},
@@ -120,9 +122,6 @@ std::string problem_of(const GlobalQuantity& quantity) {
   if (known >= 0) {
     if (quantity.body.empty() || of_bodies(table()[known])) return {};
     return fmt::format("'{}' is of the whole run, not of a body; leave 'body' out", quantity.name);
-  }
-  if (lower(quantity.name) == "concentration") {
-    return "'concentration' belongs to diffusion (transport), which is not built yet; leave it out";
   }
   std::vector<std::string> names;
   for (const Quantity& one : table()) names.emplace_back(one.name);
@@ -206,12 +205,13 @@ double GlobalQuantities::number(const std::string& name) const {
 
 double GlobalQuantities::mean(const Term& term) const {
   if (fields_[term.fields.front()] != "temperature") return sum(term) / static_cast<double>(term.last - term.first);
-  // Only bodies whose law has a temperature count.
+  // Only bodies that have a temperature count: all if it is transported, else those whose law has one.
   double total = 0.0, count = 0.0;
   const Simulation::State& state = *simulation_.state_;
+  const bool all = state.definition.transport.find(Transported::temperature) != nullptr;
   for (std::size_t s = 0; s < state.sets.size(); ++s) {
     const ParticleSet& set = state.sets[s];
-    if (!has_temperature(state.laws[s]) || set.first_id < term.first || set.first_id >= term.last) continue;
+    if (!(all || has_temperature(state.laws[s])) || set.first_id < term.first || set.first_id >= term.last) continue;
     const auto begin = columns_[term.fields.front()].begin() + set.first_id;
     for (auto value = begin; value != begin + set.size(); ++value) total += *value;
     count += set.size();

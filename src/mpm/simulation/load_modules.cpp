@@ -58,34 +58,44 @@ void remember_start(const std::array<Function, 3>& value, ParticleSet& set) {
   if (std::any_of(value.begin(), value.end(), uses_start)) set.start_x = set.x;
 }
 
-TractionTerm make_term(const TractionDefinition& load, const SimulationDefinition& definition,
-                       std::vector<ParticleSet>& sets, const GridLayout& layout) {
+TractionTerm make_term(const TractionDefinition& load, RunParts& parts) {
   TractionTerm term;
-  term.set = find_set(sets, load.body, "traction");
-  ParticleSet& set = sets[term.set];
-  const std::vector<int> axes = axes_of(definition.geometry);
-  const auto axis = std::find(axes.begin(), axes.end(), load.face / 2);
-  if (axis == axes.end()) {
-    throw DefinitionError(fmt::format("traction on '{}': its particles have no face {} in this geometry, {}", load.body,
-                                      kWallNames.at(load.face), geometry_name(definition.geometry)));
-  }
-  term.face = {static_cast<int>(axis - axes.begin()), load.face % 2 == 1};
-  term.particles = load.particles.empty() ? outermost_particles(set, layout, term.face) : load.particles;
-  check_particles(term.particles, set, "traction");
-  const double touching = set.half[0] * layout.cell(0) * (1.0 + 1e-9);
-  if (axisymmetric(definition.geometry) && term.face.axis == 0 && !term.face.upper &&
-      std::all_of(term.particles.begin(), term.particles.end(),
-                  [&](std::uint32_t p) { return set.x[0][p] <= touching; })) {
-    throw DefinitionError(
-        fmt::format("traction on '{}': its x_min lies on the axis r = 0 and has no area; use another face", load.body));
-  }
+  ChosenFaces faces = choose_faces(load.body, load.face, load.particles, "traction", parts);
+  term.set = faces.set;
+  term.face = faces.face;
+  term.particles = std::move(faces.particles);
   term.follows = load.follows;
   term.value = load.value;
-  remember_start(term.value, set);
+  remember_start(term.value, parts.sets[term.set]);
   return term;
 }
 
 }  // namespace
+
+ChosenFaces choose_faces(const std::string& body, int face, const std::vector<std::uint32_t>& particles,
+                         const char* what, const RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  ChosenFaces chosen;
+  chosen.set = find_set(parts.sets, body, what);
+  const ParticleSet& set = parts.sets[chosen.set];
+  const std::vector<int> axes = axes_of(definition.geometry);
+  const auto axis = std::find(axes.begin(), axes.end(), face / 2);
+  if (axis == axes.end()) {
+    throw DefinitionError(fmt::format("{} on '{}': its particles have no face {} in this geometry, {}", what, body,
+                                      kWallNames.at(face), geometry_name(definition.geometry)));
+  }
+  chosen.face = {static_cast<int>(axis - axes.begin()), face % 2 == 1};
+  chosen.particles = particles.empty() ? outermost_particles(set, parts.layout(), chosen.face) : particles;
+  check_particles(chosen.particles, set, what);
+  const double touching = set.half[0] * parts.layout().cell(0) * (1.0 + 1e-9);
+  if (axisymmetric(definition.geometry) && chosen.face.axis == 0 && !chosen.face.upper &&
+      std::all_of(chosen.particles.begin(), chosen.particles.end(),
+                  [&](std::uint32_t p) { return set.x[0][p] <= touching; })) {
+    throw DefinitionError(
+        fmt::format("{} on '{}': its x_min lies on the axis r = 0 and has no area; use another face", what, body));
+  }
+  return chosen;
+}
 
 void add_particle_loads(RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
@@ -113,10 +123,10 @@ void add_tractions(RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
   std::vector<TractionTerm> terms;
   for (const TractionDefinition& load : definition.tractions) {
-    terms.push_back(make_term(load, definition, parts.sets, parts.layout()));
+    terms.push_back(make_term(load, parts));
   }
   if (terms.empty()) return;
-  const TractionSettings settings{definition.geometry, definition.method.shape, definition.across()};
+  const FaceSettings settings{definition.geometry, definition.method.shape, definition.across()};
   parts.modules.add(std::make_unique<FaceTractions>(settings, parts.fields, parts.sets, std::move(terms)));
 }
 

@@ -13,13 +13,31 @@
 namespace mpm {
 namespace {
 
+/// Leaves the values of particles [first, last) whose centres are in the region.
+void keep_inside(const Simulation& simulation, const Box& region, std::uint64_t first, std::uint64_t last,
+                 std::vector<double>& values) {
+  std::array<std::vector<double>, 3> places;
+  for (int axis = 0; axis < 3; ++axis) {
+    static constexpr std::array<const char*, 3> kPlaces = {"x", "y", "z"};
+    simulation.particle_field(kPlaces.at(axis), places.at(axis));
+  }
+  std::size_t kept = 0;
+  for (std::uint64_t p = first; p < last; ++p) {
+    if (region.contains({places[0][p], places[1][p], places[2][p]})) values[kept++] = values[p];
+  }
+  values.resize(kept);
+}
+
 double statistic_of(const Simulation& simulation, const MetricDefinition& metric, std::vector<double>& values) {
   if (const int body = simulation.find_body(metric.body); body >= 0) return simulation.body_value(body, metric.field);
   simulation.particle_field(metric.field, values);
   const auto [first, last] = metric.body.empty() ? std::pair<std::uint64_t, std::uint64_t>{0, values.size()}
                                                  : simulation.body_ids(metric.body);
-  const auto begin = values.begin() + first, end = values.begin() + last;
-  const auto count = static_cast<double>(last - first);
+  if (metric.region) keep_inside(simulation, *metric.region, first, last, values);
+  const auto begin = metric.region ? values.begin() : values.begin() + first;
+  const auto end = metric.region ? values.end() : values.begin() + last;
+  if (begin == end) return std::numeric_limits<double>::quiet_NaN();
+  const auto count = static_cast<double>(end - begin);
   if (metric.statistic == Statistic::min) return *std::min_element(begin, end);
   if (metric.statistic == Statistic::max) return *std::max_element(begin, end);
   double mean = 0.0;
@@ -71,6 +89,9 @@ void Simulation::sample_metrics() {
   std::vector<double> values;
   for (std::size_t m = 0; m < s.definition.metrics.size(); ++m) {
     const MetricDefinition& metric = s.definition.metrics[m];
+    if (metric.at && s.rates[m].count() == 0 && now >= *metric.at - 1e-12) {
+      s.rates[m].add(now, statistic_of(*this, metric, values));
+    }
     // A sync point on the edge of the window is in it, round-off or not.
     if (!metric.rate || now < metric.rate->from - 1e-12 || now > metric.rate->to + 1e-12) continue;
     s.rates[m].add(now, statistic_of(*this, metric, values));
@@ -82,7 +103,16 @@ std::vector<std::pair<std::string, double>> Simulation::metrics() const {
   std::vector<double> values;
   for (std::size_t m = 0; m < state_->definition.metrics.size(); ++m) {
     const MetricDefinition& metric = state_->definition.metrics[m];
-    list.emplace_back(metric.name, metric.rate ? state_->rates[m].slope() : statistic_of(*this, metric, values));
+    const LineFit& over_time = state_->rates[m];
+    double value = 0.0;
+    if (metric.rate) {
+      value = over_time.slope();
+    } else if (metric.at && over_time.count() > 0) {
+      value = over_time.mean();
+    } else {
+      value = statistic_of(*this, metric, values);
+    }
+    list.emplace_back(metric.name, value);
   }
   return list;
 }

@@ -38,7 +38,9 @@ double kinetic(const View& a) {
   return 0.5 * mass(a) * sum;
 }
 double stored(const View& a) {
-  const double whole = std::visit([&](const auto& law) { return law.elastic_energy(a.f, a.tau, a.j); }, a.set.law);
+  ParticleTensors t{a.f, a.tau, a.j};
+  if (a.set.set.free_strain >= 0) t = without_free_strain(a.set.set, a.p, t);
+  const double whole = std::visit([&](const auto& law) { return law.elastic_energy(t.f, t.tau, t.j); }, a.set.law);
   return mass(a) * (whole - a.set.heat_fraction * plastic_work(a));
 }
 double thermal(const View& a) {
@@ -105,6 +107,9 @@ const Field kFields[] = {
     // Zero where the law has none.
     {"temperature", "K", kNeedsNothing,
      [](const View& a) { return a.set.temperature < 0 ? 0.0 : a.set.reference_temperature + heating(a); }},
+    // Brought by transport, where the scene has it.
+    {"concentration", "1", kNeedsNothing, [](const View&) { return 0.0; }},
+    {"pore_pressure", "Pa", kNeedsNothing, [](const View&) { return 0.0; }},
     {"h0", "1", kNeedsNothing, [](const View& a) { return a.set.history(0, a.p); }},
     {"h1", "1", kNeedsNothing, [](const View& a) { return a.set.history(1, a.p); }},
     {"h2", "1", kNeedsNothing, [](const View& a) { return a.set.history(2, a.p); }},
@@ -210,11 +215,12 @@ namespace {
 std::vector<Chosen> find_fields(const std::vector<std::string>& names, const std::vector<SetView>& sets) {
   std::vector<Chosen> fields;
   for (const std::string& name : names) {
-    const Field* field = find_field(name);
+    const auto has = [&](const SetView& view) { return brought_values(view.set, name) != nullptr; };
+    const bool brought = std::any_of(sets.begin(), sets.end(), has);
+    const Field* field = brought ? nullptr : find_field(name);  // what a module brings stands for a law's own
     fields.push_back({field, name});
     if (field == nullptr) {
-      const auto has = [&](const SetView& view) { return brought_values(view.set, name) != nullptr; };
-      if (std::none_of(sets.begin(), sets.end(), has)) refuse(name, sets);
+      if (!brought) refuse(name, sets);
       continue;
     }
     if (!field->of_start) continue;

@@ -9,6 +9,8 @@ const std::vector<ShippedModules>& shipped_modules() {
       {add_leaving},
       {add_axis},
       {add_damping, {{"alpha", "1/s"}}},
+      {add_transport,  // before contact, which tells it of heat
+       {{"temperature content", "J"}, {"concentration content", "m^3"}, {"pore_pressure content", "m^3"}}},
       {add_rigid_motion},
       {add_tool_sides},  // before contact, which asks it
       {add_absorbing},

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "mpm/shape/traction.hpp"
 #include "mpm/simulation/run_parts.hpp"
 
 namespace mpm {
@@ -17,6 +18,17 @@ struct ShippedModules {
 
 /// In the order in which they are added; when they act is said by their ranks (step/order.hpp).
 const std::vector<ShippedModules>& shipped_modules();
+
+/// Faces of some particles' domains, on which a traction or a flux acts.
+struct ChosenFaces {
+  int set = 0;
+  DomainFace face;
+  std::vector<std::uint32_t> particles;  ///< by id from the set's first
+};
+/// `what` acts: "traction", "flux". Before anything is sorted. @throws DefinitionError for a body, face or particle
+/// that is not there, or has no area
+ChosenFaces choose_faces(const std::string& body, int face, const std::vector<std::uint32_t>& particles,
+                         const char* what, const RunParts& parts);
 
 void add_periodic(RunParts& parts);
 void add_leaving(RunParts& parts);
@@ -34,5 +46,6 @@ void add_particle_loads(RunParts& parts);
 void add_tractions(RunParts& parts);
 void add_sleep(RunParts& parts);
 void add_step_limit(RunParts& parts);
+void add_transport(RunParts& parts);
 
 }  // namespace mpm

@@ -23,6 +23,8 @@ class LineFit {
   void add(double t, double y);
   /// Not a number before the second point.
   double slope() const;
+  double mean() const { return mean_y_; }
+  int count() const { return count_; }
   /// For checkpoints: of every metric.
   static void serialise(StateArchive& archive, std::vector<LineFit>& fits);
 
@@ -139,5 +141,8 @@ struct ParticleTensors {
   double j;                ///< det f
 };
 ParticleTensors particle_tensors(const ParticleSet& set, GeometryKind geometry, int p);
+/// Of a particle that expands, what its law has seen (kernel/free_strain.hpp); free strain across a plane or a line
+/// counts as J of the law there, too.
+ParticleTensors without_free_strain(const ParticleSet& set, int p, ParticleTensors tensors);
 
 }  // namespace mpm

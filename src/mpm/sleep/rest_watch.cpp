@@ -45,11 +45,11 @@ void RestWatch::look_at(RestWatchEntry& entry, int owner, const std::vector<Part
       fastest = std::max(fastest, squared);
     }
   }
-  entry.last = std::sqrt(fastest);
-  entry.fastest = std::max(entry.fastest, entry.last);
+  fastest = std::sqrt(fastest);
+  entry.fastest = std::max(entry.fastest, fastest);
   for (std::size_t k = 0; k < 3; ++k) entry.mean[static_cast<int>(k)] += momentum[k] / mass;
   ++entry.looks;
-  at_rest_[owner] = at_rest_[owner] != 0 && entry.last < speed_;
+  at_rest_[owner] = at_rest_[owner] != 0 && fastest < speed_;
   if (now - entry.begun < half_ || entry.looks < kLeastLooks) return;
   const Vec3 mean = entry.mean / entry.looks;
   const bool still = entry.fastest < speed_ && mean.norm() < kMean * speed_;
@@ -85,7 +85,6 @@ void RestWatch::serialise(StateArchive& archive) {
   archive.column("key", entries_, &RestWatchEntry::key);
   archive.column("begun", entries_, &RestWatchEntry::begun);
   archive.column("fastest", entries_, &RestWatchEntry::fastest);
-  archive.column("last", entries_, &RestWatchEntry::last);
   archive.column("mean", entries_, &RestWatchEntry::mean);
   archive.column("looks", entries_, &RestWatchEntry::looks);
   archive.column("half_before", entries_, &RestWatchEntry::half_before);

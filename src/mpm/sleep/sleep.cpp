@@ -14,7 +14,6 @@ namespace {
 constexpr std::uint32_t kStepsBetweenLooks = 8;
 constexpr std::uint32_t kLooksToWait = 4;  ///< for a sort that others ask for, before one is asked for to fall asleep
 constexpr std::uint32_t kStepsToWait = 8;  ///< for others at the border of unrest, before blocks are woken
-constexpr double kLostBalance = 0.1;       ///< of a force at rest, the mean of what is lost that wakes a block
 constexpr int kWorthThreads = 1000;        ///< nodes
 constexpr double kNearTool = 4.0;          ///< cells: nearer to a tool nothing sleeps
 constexpr double kAtOnce = 3.0;            ///< times `wake`, from which on a block wakes after this step
@@ -32,28 +31,15 @@ Sleep::Sleep(const SleepDefinition& definition, SleepParts parts)
   account_.name = "sleep";
 }
 
-double Sleep::largest_cell() const {
-  double largest = 0.0;
-  for (int k = 0; k < layout_.dim(); ++k) largest = std::max(largest, layout_.cell(k));
-  return largest;
-}
-
 bool Sleep::tool_near(const std::array<int, 3>& block, double dt) const {
   const Box box{layout_.node_position(block, 0), layout_.node_position(block, layout_.nodes_per_block() - 1)};
   const double half = 0.5 * box.size().norm();
   for (const RigidBody& body : parts_.bodies) {
-    Box bounds = body.world_bounds();
+    const Box bounds = body.world_bounds();
     // How far its surface comes until the next look.
     const Vec3 size = bounds.size().unaryExpr([](double c) { return std::isfinite(c) ? c : 0.0; });
     const double speed = body.twist().linear.norm() + size.norm() * body.twist().angular.norm();
-    const double margin = kNearTool * largest_cell() + kStepsBetweenLooks * dt * speed;
-    for (int axis = 0; axis < 3; ++axis) {
-      bool present = false;
-      for (int k = 0; k < layout_.dim(); ++k) present = present || layout_.axis(k) == axis;
-      if (present) continue;
-      bounds.min[axis] = -std::numeric_limits<double>::infinity();
-      bounds.max[axis] = std::numeric_limits<double>::infinity();
-    }
+    const double margin = kNearTool * layout_.largest_cell() + kStepsBetweenLooks * dt * speed;
     SurfacePoint point;
     if (bounds.intersects(box.grown(margin)) &&
         body.surface().within(body.pose().to_body(box.center()), half + margin, point)) {
@@ -74,7 +60,6 @@ void Sleep::look(const StepContext& context) {
   for (const auto& [name, block] : asleep_.all()) {
     if (tool_near(layout_.block(name.key), context.dt) || other_near(name.field, name.key)) to_wake_.push_back(name);
   }
-  std::sort(to_wake_.begin(), to_wake_.end());  // blocks asleep are in no order
   watch_.look(parts_.fields, parts_.sets, context.start, parts_.threads);
   for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
     const Grid& grid = *parts_.fields[f];
@@ -90,7 +75,7 @@ void Sleep::look(const StepContext& context) {
 
 void Sleep::momentum_gathered(StepContext& context) {
   const std::uint64_t generation = context.fields.front()->blocks.generation();
-  if (generation_ != generation || !begun_) {
+  if (generation_ != generation) {
     generation_ = generation;
     watch_.follow(context.fields, context.start);
     for (std::size_t f = 0; f < borders_.size(); ++f) {
@@ -100,11 +85,9 @@ void Sleep::momentum_gathered(StepContext& context) {
   if (!begun_ && definition_.from_start) {
     watch_.trust_all();
     looks_waited_ = kLooksToWait;
-    starting_ = true;
   }
   if (begun_ && ++steps_ < kStepsBetweenLooks) return;
-  if (begun_ && !sleepers_.empty()) ++looks_waited_;
-  begun_ = true;
+  if (!sleepers_.empty()) ++looks_waited_;
   steps_ = 0;
   sleepers_.clear();
   look(context);
@@ -136,17 +119,18 @@ void Sleep::find_unrest(const Grid& grid, SleepBorder& border, double dt) {
   }
   for (int i = 0; i < count; ++i) {
     const bool wave = unrest_[i].speed > definition_.wake;
-    if (!wave && !(unrest_[i].lost > kLostBalance)) continue;
+    if (!wave && !(unrest_[i].lost > definition_.balance)) continue;
     border.add_names(nodes[i], grid, to_wake_);
     at_once_ = at_once_ || unrest_[i].speed > kAtOnce * definition_.wake;
   }
-  std::sort(to_wake_.begin(), to_wake_.end());
-  to_wake_.erase(std::unique(to_wake_.begin(), to_wake_.end()), to_wake_.end());
 }
 
 void Sleep::forces_gathered(StepContext& context) {
   for (std::size_t f = 0; f < borders_.size(); ++f) find_unrest(*context.fields[f], borders_[f], context.dt);
-  if (!to_wake_.empty()) ++steps_waited_;
+  if (to_wake_.empty()) return;
+  ++steps_waited_;
+  std::sort(to_wake_.begin(), to_wake_.end());  // those that a look has found are in no order
+  to_wake_.erase(std::unique(to_wake_.begin(), to_wake_.end()), to_wake_.end());
 }
 
 Sleep::Taken Sleep::hold(Grid& grid, const SleepBorder& border, double dt) {
@@ -225,12 +209,10 @@ void Sleep::increment_found(StepContext& context) {
 void Sleep::strike_what_sets_off(StepContext& context) {
   double lightest = std::numeric_limits<double>::infinity();
   for (const ParticleSet& set : parts_.sets) lightest = std::min(lightest, set.least_mass());
-  int around = 1;
-  for (int k = 0; k < layout_.dim(); ++k) around *= 3;
   const auto sets_off = [&](const SleepingBlocks::Sleeper& sleeper) {
     const Grid& grid = *context.fields[sleeper.name.field];
     const int* blocks = grid.blocks.neighbours(sleeper.owner - grid.first_owner);
-    for (int i = 0; i < around; ++i) {
+    for (int i = 0; i < neighbours_of(layout_.dim()); ++i) {
       for (int n = 0; n < layout_.nodes_per_block(); ++n) {
         if (grid.mass.at(blocks[i], 0, n) < 0.5 * lightest) continue;
         const Vec3 rate = nodal_vector(grid.force, layout_, {blocks[i], n});
@@ -248,15 +230,14 @@ void Sleep::strike_what_sets_off(StepContext& context) {
 
 // Gravity is booked for all material; nothing in the step carries what is asleep.
 void Sleep::grid_advanced(StepContext& context) {
-  if (starting_) strike_what_sets_off(context);
-  starting_ = false;
+  if (!begun_ && definition_.from_start) strike_what_sets_off(context);
+  begun_ = true;
   account_.add(given_ - asleep_.mass() * context.dt * parts_.gravity);
   given_.setZero();
 }
 
 void Sleep::before_sort() {
   if (sleepers_.empty() && to_wake_.empty()) return;
-  std::sort(to_wake_.begin(), to_wake_.end());
   // A block that particles have left holds them under the wrong name, and those put around a periodic axis are far off.
   const auto wakes = [&](const SleepingBlocks::Sleeper& sleeper) {
     const Grid& grid = *parts_.fields[sleeper.name.field];

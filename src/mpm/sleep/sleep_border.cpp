@@ -12,19 +12,10 @@ std::array<int, 3> step_to(int dim, int side) {
   return step;
 }
 
-bool wall_holds(const Grid& grid, const std::array<int, 3>& node) {
-  for (int k = 0; k < grid.layout.dim(); ++k) {
-    if ((grid.has_wall[2 * k] || grid.mirrors[2 * k]) && node[k] <= 0) return true;
-    if ((grid.has_wall[2 * k + 1] || grid.mirrors[2 * k + 1]) && node[k] >= grid.layout.last_node(k)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
-SleepBorder::SleepBorder(const GridLayout& layout) : layout_(&layout), sides_(1) {
+SleepBorder::SleepBorder(const GridLayout& layout) : layout_(&layout), sides_(neighbours_of(layout.dim())) {
   const int dim = layout.dim();
-  for (int k = 0; k < dim; ++k) sides_ *= 3;
   for (int side = 0; side < sides_; ++side) {
     const std::array<int, 3> step = step_to(dim, side);
     for (int n = 0; n < layout.nodes_per_block(); ++n) {
@@ -53,6 +44,8 @@ void SleepBorder::find(int field, const Grid& grid, const SleepingBlocks& asleep
   keys_.clear();
   if (asleep.all().empty()) return;
   around_.resize(sides_);
+  is_awake_.assign(grid.blocks.size(), 0);
+  for (int owner = 0; owner < grid.blocks.owners(); ++owner) is_awake_[grid.blocks.owner_block(owner)] = 1;
   for (int b = 0; b < grid.blocks.size(); ++b) {
     bool any = false;
     for (int side = 0; side < sides_; ++side) {
@@ -78,7 +71,17 @@ void SleepBorder::keep_means() {
   }
 }
 
+void SleepBorder::find_reached(int block, const Grid& grid) {
+  reached_.assign(layout_->nodes_per_block(), 0);
+  for (int side = 0; side < sides_; ++side) {
+    const int beside = grid.blocks.find(key_beside(grid.blocks.block(block), side));
+    if (beside < 0 || is_awake_[beside] == 0) continue;
+    for (const Shared& shared : shared_[side]) reached_[shared.node] = 1;
+  }
+}
+
 void SleepBorder::add_block(int block, const Grid& grid) {
+  find_reached(block, grid);
   of_block_.assign(layout_->nodes_per_block(), {});
   for (int side = 0; side < sides_; ++side) {
     if (around_[side] == nullptr) continue;
@@ -94,9 +97,10 @@ void SleepBorder::add_block(int block, const Grid& grid) {
   }
   for (int n = 0; n < layout_->nodes_per_block(); ++n) {
     Node& node = of_block_[n];
-    if (node.from == 0) continue;
+    if (node.from == 0 || reached_[n] == 0) continue;
     node.ref = {block, n};
-    node.at_wall = wall_holds(grid, layout_->node(grid.blocks.block(block), n));
+    const std::array<bool, 3> across = grid.mirrored(layout_->node(grid.blocks.block(block), n));
+    node.at_wall = across[0] || across[1] || across[2];
     nodes_.push_back(node);
     keys_.push_back(grid.blocks.key(block));
   }

@@ -308,7 +308,7 @@ std::vector<CheckResult> RunChecks::results() const {
   const double residual = relative(worst_balance_, spent_);
   if (first_balance_ && !(residual <= kBalanceLimit)) {
     failures.emplace("balance", fmt::format("at {} s: {:.4g} J have no account, {:.2g} % of the {:.4g} J spent; a "
-                                            "smaller time.cfl may help",
+                                            "method.update=usavg or a smaller time.cfl may help",
                                             seconds(worst_balance_time_), worst_balance_, 100.0 * residual, spent_));
   }
   std::map<std::string, std::string> not_made;

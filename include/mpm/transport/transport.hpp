@@ -1,0 +1,73 @@
+// Transport of a run: its quantities, when they are updated, what they do to the motion, and the service through which
+// contact gives them its heat.
+//
+//   forces gathered   the pressure that strain has made is taken, and its force goes to the grid
+//   grid advanced     each quantity that is due moves; what expands gets its new free strain evenly over as long a time
+//                     as the update has waited, so that nothing is struck (kernel/free_strain.hpp)
+//
+// A quantity that moves slowly is not updated in every step: it waits until a stable step of one stage has gone by,
+// which it then takes in three, or the sync period ends, or contact has given heat; so a scene whose heat creeps pays
+// little for it. Reports are those of the sync point. One that moves fast is updated in every step, in stages; the step
+// of the mechanics does not shorten for it. The pressure of water, which pushes the material at once, is updated in
+// every step too; it changes the speed of waves, and so the step.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mpm/step/stage.hpp"
+#include "mpm/transport/pore_water.hpp"
+#include "mpm/transport/surface_heat.hpp"
+#include "mpm/transport/transported_field.hpp"
+
+namespace mpm {
+
+class Transport final : public Stage {
+ public:
+  /// `drained_speeds`: of each set, its fastest wave without water [m/s]; `sync`: [ns].
+  Transport(TransportParts parts, std::int64_t sync, std::vector<double> drained_speeds);
+
+  /// Quantities, in any order; all are added before the first step.
+  void add(std::unique_ptr<TransportedField> field);
+  void add(std::unique_ptr<PoreWater> water) { water_ = std::move(water); }
+  /// Takes over nothing: the temperature owns it.
+  void set_surface_heat(SurfaceHeat* heat) { surface_ = heat; }
+  /// Makes the sets whose materials expand remember their free strain.
+  void prepare_expansion();
+
+  std::string name() const override { return "transport"; }
+  Ranks ranks(Hook) const override { return {Rank::transport}; }
+  void forces_gathered(StepContext& context) override;
+  void grid_advanced(StepContext& context) override;
+  void at_sync(std::int64_t time) override { sync_end_ = time + sync_; }
+  void accounts(std::vector<ImpulseAccount>& list) const override;
+  void energies(EnergyReport& report) const override;
+  void numbers(std::vector<NamedNumber>& list) const override;
+  void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
+  std::string limit_text(const StepLimit& limit) const override;
+  void serialise(StateArchive& archive) override;
+  void hashed(std::vector<double>& numbers) const override;
+
+  /// Content gained by particles less that of all accounts, over what was exchanged: round-off.
+  double budget_error(const TransportedField& field) const;
+
+ private:
+  /// Takes the free strain nearer to that of the quantities, by a part of what is left.
+  void expand(double part);
+
+  TransportParts parts_;
+  std::int64_t sync_, sync_end_;
+  std::vector<double> drained_speeds_;
+  std::vector<std::unique_ptr<TransportedField>> fields_;
+  std::vector<double> waited_;  ///< of each quantity, since its last update [s]
+  std::unique_ptr<PoreWater> water_;
+  SurfaceHeat* surface_ = nullptr;
+  std::vector<double> sums_;
+  double expansion_work_ = 0.0;  ///< of expansion against the stress [J]
+  bool expands_ = false;
+  double expands_for_ = 0.0;  ///< time in which the free strain reaches that of the last update [s]
+  ImpulseAccount hoop_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,129 @@
+#include "mpm/step/domain_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mpm/math/dimension.hpp"
+#include "mpm/shape/particle_domain.hpp"
+#include "mpm/shape/ugimp_stretch.hpp"
+
+namespace mpm {
+namespace {
+
+bool deforms(ShapeKind shape) { return shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi; }
+
+void keep_within_reach(PlacedDomain& domain, const GridLayout& layout) {
+  double reach = kDomainReach;
+  for (int c = 0; c < domain.dim; ++c) {
+    double along = 0.0;
+    for (int k = 0; k < domain.dim; ++k) along += std::abs(domain.d[k][c]) * layout.inverse_cell(c);
+    reach = std::max(reach, along);
+  }
+  for (auto& vector : domain.d) {
+    for (double& component : vector) component *= kDomainReach / reach;
+  }
+}
+
+/// Block along an axis that a node is in, and its place there; nodes may be as far as a block before the first.
+int block_along(int node) { return (node + kBlockEdge) / kBlockEdge - 1; }
+
+}  // namespace
+
+PlacedDomain DomainFaces::domain_of(const ParticleSet& set, int p) const {
+  const GridLayout& grid = layout();
+  PlacedDomain domain;
+  domain.dim = grid.dim();
+  for (int k = 0; k < domain.dim; ++k) {
+    domain.center[k] = set.x[k][p];
+    double half = set.half[k];
+    if (settings_.shape == ShapeKind::ugimp_stretch) {
+      half = UgimpStretch<double>::half(set.domain[k][p], {half, grid.inverse_cell(k)});
+    }
+    half *= grid.cell(k);
+    domain.d[k][k] = half;
+    if (!deforms(settings_.shape)) continue;
+    for (int c = 0; c < domain.dim; ++c) domain.d[k][c] = set.domain[c * domain.dim + k][p] * half;
+  }
+  const bool ring = axisymmetric(settings_.geometry) && !set.whole_domains && !set.planar_functions;
+  if (ring && follows_deformation(settings_.shape)) shrink_to_axis(domain, settings_.shape == ShapeKind::ugimp_stretch);
+  if (ring && !follows_deformation(settings_.shape)) truncate_at_axis(domain);
+  if (deforms(settings_.shape)) keep_within_reach(domain, grid);
+  return domain;
+}
+
+// In plane stress a domain that follows the deformation has the thickness that the particle has now.
+double DomainFaces::across(const ParticleSet& set, int p) const {
+  const bool follows = settings_.geometry == GeometryKind::plane_stress && follows_deformation(settings_.shape);
+  return settings_.across * (follows ? set.f[PlaneStress::kMatrix - 1][p] : 1.0);
+}
+
+FaceParts DomainFaces::parts(int set, int particle, DomainFace face) const {
+  return face_parts(settings_.geometry, domain_of(sets_[set], particle), face, across(sets_[set], particle));
+}
+
+NodeShares DomainFaces::shares(int set, int particle, const PlacedDomain::Vector& at) const {
+  const int field = sets_[set].field_of(particle);
+  NodeShares found = node_shares(*fields_[field], at);
+  found.field = field;
+  return found;
+}
+
+NodeShares node_shares(const Grid& grid, const PlacedDomain::Vector& at) {
+  NodeShares found;
+  const GridLayout& layout = grid.layout;
+  const int dim = layout.dim();
+  std::array<int, 3> low{};
+  std::array<double, 3> beyond{};
+  for (int k = 0; k < dim; ++k) {
+    const double cells = std::floor(layout.in_cells(k, at[k]));
+    if (!(cells >= -kBlockEdge && cells < layout.last_node(k) + kBlockEdge)) return found;
+    low[k] = static_cast<int>(cells);
+    beyond[k] = layout.in_cells(k, at[k]) - cells;
+  }
+  double sum = 0.0;  // of the hats of nodes that carry mass: 1, but where dirac or folded splines leave one out
+  for (int i = 0; i < 1 << dim; ++i) {
+    std::array<int, 3> block{};
+    int local = 0;
+    double hat = 1.0;
+    for (int k = 0; k < dim; ++k) {
+      const int up = i >> k & 1, node = low[k] + up;
+      block[k] = block_along(node);
+      local = local * kBlockEdge + node - block[k] * kBlockEdge;
+      hat *= up == 1 ? beyond[k] : 1.0 - beyond[k];
+    }
+    if (!(hat > 0.0)) continue;
+    const NodeRef node{grid.blocks.find(layout.key(block)), local};
+    if (node.block < 0 || !grid.carries(node.block, local)) continue;
+    found.node[found.count] = node;
+    found.share[found.count++] = hat;
+    sum += hat;
+  }
+  for (int i = 0; i < found.count; ++i) found.share[i] /= sum;
+  return found;
+}
+
+void find_places(const ParticleSet& set, std::vector<int>& place_of) {
+  place_of.resize(set.size());
+  for (int p = 0; p < set.size(); ++p) place_of[set.id[p] - set.first_id] = p;
+}
+
+std::vector<std::uint32_t> outermost_particles(const ParticleSet& set, const GridLayout& layout, DomainFace face) {
+  std::map<std::array<int, 3>, std::uint32_t> outermost;
+  const auto& along = set.x[face.axis];
+  for (std::uint32_t p = 0; p < static_cast<std::uint32_t>(set.size()); ++p) {
+    std::array<int, 3> row{};
+    for (int k = 0; k < layout.dim(); ++k) {
+      if (k == face.axis) continue;
+      row[k] = static_cast<int>(std::floor(layout.in_cells(k, set.x[k][p]) / (2.0 * set.half[k])));
+    }
+    const auto [first, added] = outermost.emplace(row, p);
+    if (!added && (face.upper ? along[p] > along[first->second] : along[p] < along[first->second])) first->second = p;
+  }
+  std::vector<std::uint32_t> particles;
+  for (const auto& [row, p] : outermost) particles.push_back(p);
+  std::sort(particles.begin(), particles.end());
+  return particles;
+}
+
+}  // namespace mpm

@@ -1,0 +1,95 @@
+#include "mpm/transport/face_flux.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/transport/transported_field.hpp"
+
+namespace mpm {
+namespace {
+
+/// Into the body, of content by area and time.
+double flux(const FluxDefinition& of, double given, double there) {
+  if (of.kind == FluxDefinition::Kind::convection) return of.coefficient * (given - there);
+  if (of.kind == FluxDefinition::Kind::given) return given;
+  return of.coefficient * kStefanBoltzmann * (std::pow(given, 4) - std::pow(there, 4));
+}
+
+}  // namespace
+
+FaceFlux::FaceFlux(const FaceSettings& settings, const Fields& fields, const std::vector<ParticleSet>& sets,
+                   std::vector<FluxTerm> terms)
+    : faces_(settings, fields, sets), sets_(sets), terms_(std::move(terms)) {
+  for (const FluxTerm& term : terms_) accounts_.push_back({term.definition.name, 0.0, 0.0});
+}
+
+void FaceFlux::give(std::vector<NodalQuantity>& nodes, double start, double dt) {
+  int found = -1;  // the set that place_of_ is of
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const FluxTerm& term = terms_[i];
+    const ParticleSet& set = sets_[term.set];
+    if (found != term.set) find_places(set, place_of_);
+    found = term.set;
+    double content = 0.0;
+    for (const std::uint32_t id : term.particles) {
+      const int p = place_of_[id];
+      const FaceParts parts = faces_.parts(term.set, p, term.face);
+      Vec3 middle = Vec3::Zero();
+      for (int k = 0; k < faces_.layout().dim(); ++k) middle[faces_.layout().axis(k)] = parts.middle[k];
+      double given = 0.0;
+      try {
+        given = term.definition.value(start + 0.5 * dt, middle);
+      } catch (const FunctionError& error) {
+        throw TransportError(fmt::format("flux '{}' at particle {} of '{}': {}", term.definition.name, set.id[p],
+                                         set.name, error.what()));
+      }
+      for (int a = 0; a < parts.corners; ++a) {
+        const NodeShares shares = faces_.shares(term.set, p, parts.corner[a].at);
+        if (shares.count == 0) {
+          throw TransportError(
+              fmt::format("flux '{}': a corner of particle {} of '{}' lies where no material is on the grid; it is "
+                          "stretched too far",
+                          term.definition.name, set.id[p], set.name));
+        }
+        NodalQuantity& of = nodes[shares.field];
+        double there = 0.0;
+        for (int n = 0; n < shares.count; ++n) {
+          there += shares.share[n] * of.value.at(shares.node[n].block, 0, shares.node[n].node);
+        }
+        const double rate = parts.corner[a].area * flux(term.definition, given, there);
+        for (int n = 0; n < shares.count; ++n) {
+          of.source.at(shares.node[n].block, 0, shares.node[n].node) += shares.share[n] * rate;
+        }
+        content += rate * dt;
+      }
+    }
+    accounts_[i].add(content);
+  }
+}
+
+double FaceFlux::conductance(double most) const {
+  double largest = 0.0;
+  for (const FluxTerm& term : terms_) {
+    const FluxDefinition& of = term.definition;
+    if (of.kind == FluxDefinition::Kind::convection) largest = std::max(largest, of.coefficient);
+    if (of.kind != FluxDefinition::Kind::radiation) continue;
+    const double hottest = of.value.is_constant() ? std::max(most, of.value(0.0)) : most;
+    largest = std::max(largest, 4.0 * of.coefficient * kStefanBoltzmann * std::pow(hottest, 3));
+  }
+  return largest;
+}
+
+void FaceFlux::accounts(std::vector<ContentAccount>& list) const {
+  list.insert(list.end(), accounts_.begin(), accounts_.end());
+}
+
+void FaceFlux::serialise(StateArchive& archive) {
+  for (std::size_t i = 0; i < accounts_.size(); ++i) {
+    archive.value("given_" + std::to_string(i), accounts_[i].given);
+    archive.value("exchanged_" + std::to_string(i), accounts_[i].exchanged);
+  }
+}
+
+}  // namespace mpm

@@ -1,0 +1,238 @@
+#include "mpm/transport/pore_water.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mpm/math/dimension.hpp"
+
+namespace mpm {
+namespace {
+
+Matrix3<double> full(const Matrix3<double>& m) { return m; }
+Matrix3<double> full(const MatrixPlane<double>& m) { return {m.xx, 0.0, m.xz, 0.0, m.yy, 0.0, m.zx, 0.0, m.zz}; }
+
+/// a : the symmetric part of the strain from F0 to F1.
+double contract(const Symmetric3<double>& a, const Matrix3<double>& f0, const Matrix3<double>& f1) {
+  using M = Eigen::Matrix3d;
+  const auto eigen = [](const Matrix3<double>& m) {
+    M e;
+    e << m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz;
+    return e;
+  };
+  const M before = eigen(f0), now = eigen(f1);
+  const M d = (now - before) * (0.5 * (now + before)).inverse();
+  return a.xx * d(0, 0) + a.yy * d(1, 1) + a.zz * d(2, 2) + a.yz * (d(1, 2) + d(2, 1)) + a.xz * (d(0, 2) + d(2, 0)) +
+         a.xy * (d(0, 1) + d(1, 0));
+}
+
+}  // namespace
+
+SkeletonGain::SkeletonGain(const TransportParts& parts, std::vector<TransportMaterial> of_set)
+    : parts_(parts), of_set_(std::move(of_set)) {
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    ParticleSet& set = parts_.sets[s];
+    if (is_isotropic(of_set_[s].biot)) {
+      last_.push_back(set.bring("squeezed", "1"));
+      PaddedArray<double>& last = set.brought[last_[s]].values;
+      find_volume_ratios(set, parts_.geometry, 0, set.size(), last.data());
+      for (int p = 0; p < set.size(); ++p) last[p] = std::log(last[p]);
+      continue;
+    }
+    const std::size_t first = set.brought.size();
+    for (int c = 0; c < 9; ++c) set.bring("squeezed_" + std::to_string(c), "1");
+    last_.push_back(first);
+    for (int p = 0; p < set.size(); ++p) {
+      const Matrix3<double> f =
+          with_geometry(parts_.geometry, [&](auto kind) { return full(kind.load_matrix(set.f, p)); });
+      const double components[9] = {f.xx, f.xy, f.xz, f.yx, f.yy, f.yz, f.zx, f.zy, f.zz};
+      for (int c = 0; c < 9; ++c) set.brought[first + c].values[p] = components[c];
+    }
+  }
+}
+
+void SkeletonGain::take(int set, int first, int last, const double* value, double* gain) {
+  const TransportMaterial& material = of_set_[set];
+  ParticleSet& of = parts_.sets[set];
+  const auto modulus = [&](int p) { return 1.0 / material.capacity(value[p]); };
+  if (is_isotropic(material.biot)) {
+    double j[kGainGroup];
+    find_volume_ratios(of, parts_.geometry, first, last, j);
+    double* before = of.brought[last_[set]].values.data();
+    for (int p = first; p < last; ++p) {
+      const double now = std::log(j[p - first]);
+      gain[p - first] -= modulus(p) * material.biot.xx * (now - before[p]);
+      before[p] = now;
+    }
+    return;
+  }
+  for (int p = first; p < last; ++p) {
+    double old[9];
+    for (int c = 0; c < 9; ++c) old[c] = of.brought[last_[set] + c].values[p];
+    const Matrix3<double> before{old[0], old[1], old[2], old[3], old[4], old[5], old[6], old[7], old[8]};
+    const Matrix3<double> f =
+        with_geometry(parts_.geometry, [&](auto kind) { return full(kind.load_matrix(of.f, p)); });
+    gain[p - first] -= modulus(p) * contract(material.biot, before, f);
+    const double now[9] = {f.xx, f.xy, f.xz, f.yx, f.yy, f.yz, f.zx, f.zy, f.zz};
+    for (int c = 0; c < 9; ++c) of.brought[last_[set] + c].values[p] = now[c];
+  }
+}
+
+PoreWater::PoreWater(TransportedField& pressure, const TransportParts& parts, std::unique_ptr<ScalarTransfer> transfer,
+                     bool averaged)
+    : pressure_(pressure),
+      parts_(parts),
+      transfer_(std::move(transfer)),
+      averaged_(averaged),
+      force_(parts.fields.front()->layout.dim(), parts.fields.front()->layout.nodes_per_block()),
+      part_(1, parts.fields.front()->layout.nodes_per_block()),
+      push_(parts.sets.size()),
+      pushes_(parts.sets.size()),
+      by_axis_(parts.sets.size()),
+      means_(parts.sets.size()) {
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    isotropic_ = isotropic_ && is_isotropic(pressure_.material(static_cast<int>(s)).biot);
+    last_.push_back(parts_.sets[s].bring("pushed", "1"));
+    PaddedArray<double>& last = parts_.sets[s].brought[last_[s]].values;
+    find_volume_ratios(parts_.sets[s], parts_.geometry, 0, parts_.sets[s].size(), last.data());
+  }
+  const bool vectors = !isotropic_ || axisymmetric(parts_.geometry);
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    for (int k = 0; k < (vectors ? 3 : 1); ++k) push_[s][k].assign(parts_.sets[s].size(), 0.0);
+    if (averaged_) mean_.emplace_back(parts_.sets[s].size(), 0.0);
+  }
+}
+
+void PoreWater::average() {
+  const std::size_t sets = parts_.sets.size();
+  for (std::size_t s = 0; s < sets; ++s) {
+    pushes_[s] = {push_[s][0].data()};
+    means_[s] = {mean_[s].data()};
+  }
+  for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
+    const Grid& grid = *parts_.fields[f];
+    transfer_->spread(static_cast<int>(f), pushes_, ScalarTransfer::Weight::mass, part_);
+#pragma omp parallel for schedule(static) num_threads(parts_.threads)
+    for (int b = 0; b < grid.blocks.size(); ++b) {
+      for (int n = 0; n < grid.layout.nodes_per_block(); ++n) {
+        part_.at(b, 0, n) = grid.carries(b, n) ? part_.at(b, 0, n) / grid.mass.at(b, 0, n) : 0.0;
+      }
+    }
+    transfer_->gather(static_cast<int>(f), part_, means_);
+  }
+  for (std::size_t s = 0; s < sets; ++s) {
+    const double part = pressure_.material(static_cast<int>(s)).biot.xx / parts_.densities[s];
+    const double* j = parts_.sets[s].brought[last_[s]].values.data();
+    PaddedArray<double>& seen = pressure_.values(static_cast<int>(s));
+#pragma omp parallel for schedule(static) num_threads(parts_.threads)
+    for (int p = 0; p < parts_.sets[s].awake(); ++p) {
+      push_[s][0][p] = mean_[s][p];
+      seen[p] = mean_[s][p] / (part * j[p]);
+    }
+  }
+}
+
+void PoreWater::push_rows(int set, int axis) {
+  const ParticleSet& of = parts_.sets[set];
+  const GridLayout& layout = parts_.fields.front()->layout;
+  const Symmetric3<double>& a = pressure_.material(set).biot;
+  const double rows[3][3] = {{a.xx, a.xy, a.xz}, {a.xy, a.yy, a.yz}, {a.xz, a.yz, a.zz}};
+  const double* row = rows[layout.axis(axis)];
+  const PaddedArray<double>& pressure = pressure_.carried(set);
+  by_axis_[set] = {};
+  for (int c = 0; c < layout.dim(); ++c) {
+    find_volume_ratios(of, parts_.geometry, 0, of.awake(), push_[set][c].data());
+    const double part = row[layout.axis(c)] / parts_.densities[set];
+    for (int p = 0; p < of.awake(); ++p) push_[set][c][p] *= part * pressure[p];
+    by_axis_[set][c] = push_[set][c].data();
+  }
+}
+
+void PoreWater::push_hoop(int set) {
+  const ParticleSet& of = parts_.sets[set];
+  auto& push = push_[set];
+  std::fill(push[1].begin(), push[1].end(), 0.0);
+  if (isotropic_) {
+    by_axis_[set] = {push[1].data(), push[1].data(), push[0].data()};
+    return;
+  }
+  find_volume_ratios(of, parts_.geometry, 0, of.awake(), push[2].data());
+  const double part = pressure_.material(set).biot.yy / parts_.densities[set];
+  for (int p = 0; p < of.awake(); ++p) push[2][p] *= part * pressure_.carried(set)[p];
+  by_axis_[set] = {push[1].data(), push[1].data(), push[2].data()};
+}
+
+void PoreWater::add_force(StepContext& context) {
+  const int dim = context.layout().dim();
+  const bool rings = axisymmetric(parts_.geometry);
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    const ParticleSet& set = parts_.sets[s];
+    const TransportMaterial& own = pressure_.material(static_cast<int>(s));
+    const double part = own.biot.xx, per_mass = 1.0 / parts_.densities[s];
+    const PaddedArray<double>& pressure = pressure_.carried(static_cast<int>(s));
+    double* last = parts_.sets[s].brought[last_[s]].values.data();
+    double* push = push_[s][0].data();
+    const int groups = (set.awake() + kGainGroup - 1) / kGainGroup;
+    sums_.assign(groups, 0.0);
+#pragma omp parallel for schedule(static) num_threads(parts_.threads)
+    for (int g = 0; g < groups; ++g) {
+      const int first = g * kGainGroup, end = std::min(set.awake(), (g + 1) * kGainGroup);
+      double j[kGainGroup];
+      find_volume_ratios(set, parts_.geometry, first, end, j);
+      for (int p = first; p < end; ++p) {
+        push[p] = part * pressure[p] * j[p - first] * per_mass;
+        // The mean of the pressure: what the squeeze has made of it counts half.
+        const double grown = j[p - first] - last[p];
+        const double mean = pressure[p] + 0.5 * part * grown / (j[p - first] * own.capacity(pressure[p]));
+        sums_[g] += set.mass_of(p) * per_mass * part * mean * grown;
+        last[p] = j[p - first];
+      }
+    }
+    work_ = std::accumulate(sums_.begin(), sums_.end(), work_);
+    pushes_[s] = {push};
+  }
+  if (averaged_) average();
+  radial_ = 0.0;
+  for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
+    Grid& grid = *parts_.fields[f];
+    const int nodes = grid.layout.nodes_per_block();
+    const auto add = [&](const NodalField& from, int components, int to) {
+#pragma omp parallel for schedule(static) num_threads(parts_.threads)
+      for (int b = 0; b < grid.blocks.size(); ++b) {
+        for (int i = 0; i < components * nodes; ++i) grid.force.block(b)[to * nodes + i] += from.block(b)[i];
+      }
+    };
+    if (isotropic_) {
+      transfer_->spread_gradient_sum(static_cast<int>(f), pushes_, ScalarTransfer::Weight::mass, force_);
+      add(force_, dim, 0);
+    }
+    for (int k = 0; k < dim && !isotropic_; ++k) {
+      for (std::size_t s = 0; s < parts_.sets.size(); ++s) push_rows(static_cast<int>(s), k);
+      transfer_->spread_gradient(static_cast<int>(f), by_axis_, ScalarTransfer::Weight::mass, part_);
+      add(part_, 1, k);
+    }
+    if (!rings) continue;
+    // The hoop direction pushes outwards: T_ip alone.
+    for (std::size_t s = 0; s < parts_.sets.size(); ++s) push_hoop(static_cast<int>(s));
+    transfer_->spread_gradient(static_cast<int>(f), by_axis_, ScalarTransfer::Weight::mass, part_);
+    add(part_, 1, 0);
+    for (int b = 0; b < grid.blocks.size(); ++b) {
+      for (int n = 0; n < nodes; ++n) radial_ += part_.at(b, 0, n) * context.dt;
+    }
+  }
+}
+
+double PoreWater::stiffness(int set) const {
+  const TransportMaterial& own = pressure_.material(set);
+  const Symmetric3<double>& b = own.biot;
+  const double alpha = std::max({b.xx, b.yy, b.zz}) + std::abs(b.yz) + std::abs(b.xz) + std::abs(b.xy);
+  return alpha * alpha / own.capacity.least();
+}
+
+double PoreWater::undrained_speed(int set, double drained) const {
+  return std::sqrt(drained * drained + stiffness(set) / parts_.densities[set]);
+}
+
+void PoreWater::serialise(StateArchive& archive) { archive.value("work", work_); }
+
+}  // namespace mpm

@@ -1,0 +1,20 @@
+#include "mpm/transport/stages.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm {
+namespace {
+
+constexpr double kEuler = 0.25;  ///< of a stable step: a longer one of Euler's method errs more than three stages cost
+
+}  // namespace
+
+int stages_for(double ratio) {
+  if (!(ratio > kEuler)) return 1;
+  int stages = static_cast<int>(std::ceil(0.5 * (std::sqrt(9.0 + 16.0 * ratio) - 1.0)));
+  stages = std::max(3, stages);
+  return stages % 2 == 1 ? stages : stages + 1;
+}
+
+}  // namespace mpm

@@ -1,0 +1,184 @@
+#include "mpm/transport/transport.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mpm/math/constants.hpp"
+#include "mpm/math/dimension.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kWait = 1.0;  ///< of the step that one stage can take, which an update may wait for
+
+}  // namespace
+
+Transport::Transport(TransportParts parts, std::int64_t sync, std::vector<double> drained_speeds)
+    : parts_(std::move(parts)), sync_(sync), sync_end_(sync), drained_speeds_(std::move(drained_speeds)) {
+  hoop_.name = "hoop stress";
+}
+
+void Transport::add(std::unique_ptr<TransportedField> field) {
+  fields_.push_back(std::move(field));
+  waited_.push_back(0.0);
+}
+
+void Transport::prepare_expansion() {
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    const bool grows = std::any_of(fields_.begin(), fields_.end(), [&](const auto& field) {
+      return field->material(static_cast<int>(s)).expansion != 0.0;
+    });
+    if (!grows) continue;
+    expands_ = true;
+    parts_.sets[s].free_strain = static_cast<int>(parts_.sets[s].bring("free_strain", "1"));
+    parts_.sets[s].bring("free_strain_before", "1");
+  }
+  if (expands_) expands_for_ = 1e-9 * static_cast<double>(sync_);  // where the start is not free of strain
+}
+
+void Transport::expand(double part) {
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    ParticleSet& set = parts_.sets[s];
+    if (set.free_strain < 0) continue;
+    double* strain = set.brought[set.free_strain].values.data();
+    const int groups = (set.awake() + kGainGroup - 1) / kGainGroup;
+    sums_.assign(groups, 0.0);
+#pragma omp parallel for schedule(static) num_threads(parts_.threads)
+    for (int g = 0; g < groups; ++g) {
+      const int end = std::min(set.awake(), (g + 1) * kGainGroup);
+      for (int p = g * kGainGroup; p < end; ++p) {
+        double stretch = 1.0;
+        for (const auto& field : fields_) {
+          const double by_one = field->material(static_cast<int>(s)).expansion;
+          stretch *= 1.0 + by_one * (field->values(static_cast<int>(s))[p] - field->definition().reference);
+        }
+        const double grown = part * (stretch - 1.0 - strain[p]);
+        const double pressure =
+            with_geometry(parts_.geometry, [&](auto kind) { return trace(kind.load_symmetric(set.tau, p)); });
+        sums_[g] -= set.mass_of(p) * pressure * std::log1p(grown / (1.0 + strain[p]));
+        strain[p] += grown;
+      }
+    }
+    expansion_work_ = std::accumulate(sums_.begin(), sums_.end(), expansion_work_);
+  }
+}
+
+void Transport::forces_gathered(StepContext& context) {
+  if (!water_) return;
+  for (const auto& field : fields_) {
+    if (field->quantity() == Transported::pore_pressure) field->collect();
+  }
+  water_->add_force(context);
+  hoop_.add(Vec3(water_->radial(), 0.0, 0.0));
+}
+
+void Transport::grid_advanced(StepContext& context) {
+  const double end = context.start + context.dt;
+  const bool last = end + 0.25 * context.dt > 1e-9 * static_cast<double>(sync_end_);
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    TransportedField& field = *fields_[i];
+    waited_[i] += context.dt;
+    const double longest = std::min(kWait * field.stable_step(), field.longest_update());
+    const bool due =
+        last || field.quantity() == Transported::pore_pressure || waited_[i] + context.dt > longest || field.pending();
+    if (!due) continue;
+    if (field.quantity() != Transported::pore_pressure) field.collect();  // its force has taken that of water
+    // In parts only where a surface or points allow no longer update than a part of the mechanics' step.
+    const double count = std::max(1.0, std::ceil(waited_[i] / field.longest_update()));
+    for (int n = 0; n < static_cast<int>(count); ++n) {
+      field.update(end - waited_[i] * (1.0 - n / count), waited_[i] / count, last);
+    }
+    expands_for_ = std::max(expands_for_, waited_[i]);
+    waited_[i] = 0.0;
+  }
+  if (!expands_ || !(expands_for_ > 0.0)) return;
+  const bool arrives = expands_for_ < 1.5 * context.dt;
+  expand(arrives ? 1.0 : context.dt / expands_for_);
+  expands_for_ = arrives ? 0.0 : expands_for_ - context.dt;
+}
+
+void Transport::accounts(std::vector<ImpulseAccount>& list) const {
+  if (water_ && axisymmetric(parts_.geometry)) list.push_back(hoop_);
+}
+
+void Transport::energies(EnergyReport& report) const {
+  if (water_ && water_->isotropic()) report.add("pore_pressure", NamedEnergy::Kind::work, water_->work());
+  if (water_ && !water_->isotropic()) report.leave_open();  // its work is not counted
+  if (expands_) report.add("expansion", NamedEnergy::Kind::work, expansion_work_);
+}
+
+double Transport::budget_error(const TransportedField& field) const {
+  double given = 0.0, exchanged = 0.0;
+  for (const ContentAccount& account : field.accounts()) {
+    given += account.given;
+    exchanged += account.exchanged;
+  }
+  const double error = std::abs(field.gained() - given);
+  return exchanged > 0.0 ? error / exchanged : error;
+}
+
+void Transport::numbers(std::vector<NamedNumber>& list) const {
+  for (const auto& field : fields_) {
+    const auto kind = static_cast<int>(field->quantity());
+    const std::string name = kQuantityNames[kind], unit = kContentUnits[kind];
+    list.push_back({name + " content", unit, field->gained()});
+    for (const ContentAccount& account : field->accounts()) {
+      list.push_back({name + " by " + account.name, unit, account.given});
+    }
+    list.push_back({name + " budget error", "1", budget_error(*field)});
+  }
+  if (surface_ == nullptr) return;
+  list.push_back({"heat of friction in the next step", "J", surface_->waiting()});
+  for (const ToolHeat& tool : surface_->tools()) {
+    if (!(tool.definition.conductance > 0.0)) continue;
+    list.push_back({"heat from " + tool.definition.body, "J", tool.to_material});
+    if (tool.definition.capacity > 0.0)
+      list.push_back({"temperature of " + tool.definition.body, "K", tool.temperature});
+  }
+}
+
+void Transport::limit_step(const PeriodAhead& period, StepLimit& limit) const {
+  if (!water_) return;
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    StepLimit own;
+    own.by = this;
+    own.part = static_cast<int>(s);
+    own.speed = water_->undrained_speed(static_cast<int>(s), drained_speeds_[s]);
+    own.dt = period.reach() / own.speed;
+    limit.tighten(own);
+  }
+}
+
+std::string Transport::limit_text(const StepLimit& limit) const {
+  return fmt::format("wave speed of '{}' with the water in its pores ({:.4g} m/s)", parts_.sets[limit.part].name,
+                     limit.speed);
+}
+
+void Transport::hashed(std::vector<double>& numbers) const {
+  numbers.insert(numbers.end(), waited_.begin(), waited_.end());
+  numbers.push_back(expands_for_);
+  if (surface_ == nullptr) return;
+  numbers.push_back(surface_->waiting());
+  for (const ToolHeat& tool : surface_->tools()) numbers.push_back(tool.temperature);
+}
+
+void Transport::serialise(StateArchive& archive) {
+  archive.value("sync_end", sync_end_);
+  archive.value("expansion_work", expansion_work_);
+  archive.value("expands_for", expands_for_);
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    const StateArchive::Group group(archive, kQuantityNames[static_cast<int>(fields_[i]->quantity())]);
+    archive.value("waited", waited_[i]);
+    fields_[i]->serialise(archive);
+  }
+  if (water_) {
+    const StateArchive::Group group(archive, "water");
+    water_->serialise(archive);
+  }
+  hoop_.serialise(archive);
+}
+
+}  // namespace mpm

@@ -1,0 +1,234 @@
+#include "mpm/transport/transported_field.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include "mpm/math/dimension.hpp"
+#include "visits.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kBeyond = 0.1;     ///< of the range of given values, by which FLIP's scatter may leave it
+constexpr double kLargest = 1e30;   ///< of any quantity
+constexpr double kOfPoints = 0.25;  ///< of a stable step: longer updates grow at nodes that a point barely reaches
+
+/// A bound on the largest principal value.
+double largest(const Symmetric3<double>& s) {
+  return std::max({s.xx, s.yy, s.zz}) + std::abs(s.yz) + std::abs(s.xz) + std::abs(s.xy);
+}
+
+}  // namespace
+
+std::string text_of(const Vec3& place) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", place.x(), place.y(), place.z());
+}
+
+void find_volume_ratios(const ParticleSet& set, GeometryKind geometry, int first, int last, double* j) {
+  with_geometry(geometry, [&](auto kind) {
+    for (int p = first; p < last; ++p) j[p - first] = determinant(kind.load_matrix(set.f, p));
+  });
+}
+
+TransportedField::TransportedField(const QuantityDefinition& definition, const TransportParts& parts,
+                                   std::unique_ptr<ScalarTransfer> transfer)
+    : definition_(definition),
+      parts_(parts),
+      transfer_(std::move(transfer)),
+      volume_(1, parts.fields.front()->layout.nodes_per_block()),
+      stages_(parts.fields.front()->layout.nodes_per_block()),
+      scratch_(parts.sets.size()),
+      given_(parts.sets.size()),
+      taken_(parts.sets.size()) {
+  const int nodes = parts_.fields.front()->layout.nodes_per_block();
+  for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
+    nodes_.push_back({NodalField(1, nodes), NodalField(1, nodes), NodalField(1, nodes)});
+  }
+  const std::string name = kQuantityNames[static_cast<int>(definition_.quantity)];
+  const std::string unit = kQuantityUnits[static_cast<int>(definition_.quantity)];
+  for (ParticleSet& set : parts_.sets) {
+    place_.push_back(set.bring(name, unit));
+    set.bring(name + "_carried", unit);
+  }
+  bool one = definition_.quantity == Transported::temperature;
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    const TransportMaterial& own = material(static_cast<int>(s));
+    one = one && own.capacity.is_constant() && own.capacity(0.0) == material(0).capacity(0.0);
+    conducts_ = conducts_ || own.conductivity.most() > 0.0;
+    reads_nodes_ =
+        reads_nodes_ || !own.capacity.is_constant() || !own.conductivity.is_constant() || own.expansion != 0.0;
+    anisotropic_ = anisotropic_ || own.anisotropy.has_value();
+    gravity_driven_ = gravity_driven_ || own.fluid_density * parts_.gravity.norm() > 0.0;
+  }
+  if (one) one_capacity_ = material(0).capacity(0.0);
+  gravity_driven_ = gravity_driven_ && conducts_;
+  flows_ = conducts_ || !definition_.values.empty() || !definition_.fluxes.empty() || !definition_.sources.empty() ||
+           !definition_.tools.empty() || !definition_.pairs.empty();
+  if (flows_) make_room();
+  for (const ValueDefinition& value : definition_.values) {
+    if (!value.value.is_constant()) continue;
+    lowest_ = std::min(lowest_, value.value(0.0));
+    highest_ = std::max(highest_, value.value(0.0));
+  }
+  prescribed_.name = "prescribed values";
+  volume_sources_.name = "sources";
+  start_values();
+  find_limit();
+}
+
+void TransportedField::make_room() {
+  const int vectors = (anisotropic_ || gravity_driven_) ? parts_.fields.front()->layout.dim() : 1;
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    for (int k = 0; k < vectors; ++k) scratch_[s][k].resize(parts_.sets[s].size());
+  }
+  if (definition_.method != RateMethod::particle_capacity) return;
+  rooms_.assign(parts_.fields.size(), NodalField(1, parts_.fields.front()->layout.nodes_per_block()));
+}
+
+void TransportedField::add(std::unique_ptr<NodalSource> source) {
+  if (scratch_[0][0].empty()) make_room();
+  // A surface that takes h (T_a - T), h as at the start, is read once an update: that must not overshoot.
+  const double h = source->conductance(highest_);
+  const double cell = parts_.fields.front()->layout.smallest_cell();
+  if (h > 0.0) longest_update_ = std::min(longest_update_, least_of_volume_ * cell / (2.0 * h));
+  sources_.push_back(std::move(source));
+}
+
+void TransportedField::start_values() {
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    const ParticleSet& set = parts_.sets[s];
+    PaddedArray<double>& value = values(static_cast<int>(s));
+    for (int p = 0; p < set.size(); ++p) {
+      const Vec3 place = place_of(set, parts_.fields.front()->layout, p);
+      value[p] = initial_value(definition_, set.name, place);
+      lowest_ = std::min(lowest_, value[p]);
+      highest_ = std::max(highest_, value[p]);
+    }
+    carried(static_cast<int>(s)) = value;
+  }
+}
+
+void TransportedField::start_from(int set, const std::function<double(int)>& value) {
+  for (int p = 0; p < parts_.sets[set].size(); ++p) values(set)[p] = carried(set)[p] = value(p);
+}
+
+void TransportedField::find_limit() {
+  double fastest = 0.0;  // K over C [m^2/s]
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    const TransportMaterial& own = material(static_cast<int>(s));
+    const double turn = own.anisotropy ? largest(*own.anisotropy) : 1.0;
+    const double capacity =
+        own.capacity.least() * (definition_.quantity == Transported::temperature ? parts_.densities[s] : 1.0);
+    fastest = std::max(fastest, own.conductivity.most() * turn / capacity);
+    least_of_volume_ = std::min(least_of_volume_, capacity);
+    least_capacity_ = std::min(least_capacity_, capacity * parts_.sets[s].least_mass() / parts_.densities[s]);
+  }
+  const double cell = parts_.fields.front()->layout.smallest_cell();
+  stable_step_ = fastest > 0.0 ? cell * cell / (4.0 * fastest) : std::numeric_limits<double>::infinity();
+  longest_update_ = std::numeric_limits<double>::infinity();
+  if (parts_.shape == ShapeKind::dirac) longest_update_ = kOfPoints * stable_step_;
+}
+
+void TransportedField::collect() {
+  for (std::size_t g = 0; g < gains_.size(); ++g) {
+    for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+      const int index = static_cast<int>(s);
+      if (!gains_[g]->acts_on(index)) continue;
+      const ParticleSet& set = parts_.sets[s];
+      PaddedArray<double>&value = values(index), &held = carried(index);
+      sums_.assign((set.awake() + kGainGroup - 1) / kGainGroup, 0.0);
+      each_group(set.awake(), parts_.threads, [&](int first, int last, int group) {
+        double gain[kGainGroup] = {}, capacity[kGainGroup];
+        find_capacities(index, first, last, capacity);
+        gains_[g]->take(index, first, last, value.data(), gain);
+        for (int p = first; p < last; ++p) {
+          value[p] += gain[p - first];
+          held[p] += gain[p - first];
+          sums_[group] += set.mass_of(p) * capacity[p - first] * gain[p - first];
+        }
+      });
+      const double content = std::accumulate(sums_.begin(), sums_.end(), 0.0);
+      gain_accounts_[g].add(content);
+      gained_ += content;
+    }
+  }
+}
+
+void TransportedField::update(double start, double dt, bool reported) {
+  if (flows_ || pending()) {
+    find_nodal_values();
+    find_held();
+    add_volume_sources(start, dt);
+    for (auto& source : sources_) source->give(nodes_, start, dt);
+    if (gravity_driven_) drive_by_gravity();
+    if (conducts_ && !anisotropic_) fill(Number::conductance);
+    for (std::size_t f = 0; f < parts_.fields.size(); ++f) conduct(static_cast<int>(f), start, dt);
+    finish(start, dt, reported || reads_nodes_ || !gains_.empty());
+  }
+  for (auto& gain : gains_) {
+    for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+      if (!gain->acts_on(static_cast<int>(s))) continue;
+      each_group(parts_.sets[s].awake(), parts_.threads, [&](int first, int last, int) {
+        gain->written(static_cast<int>(s), first, last, values(static_cast<int>(s)).data());
+      });
+    }
+  }
+  check_range();
+}
+
+void TransportedField::check_range() const {
+  const bool absolute = definition_.quantity == Transported::temperature;
+  const double least = -kBeyond * (highest_ - lowest_);  // FLIP's scatter
+  const auto good = [&](double value) { return std::abs(value) < kLargest && (!absolute || value >= least); };
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    const ParticleSet& set = parts_.sets[s];
+    const PaddedArray<double>& value = values(static_cast<int>(s));
+    std::atomic<bool> all{true};
+    each_group(set.awake(), parts_.threads, [&](int first, int last, int) {
+      if (!std::all_of(value.data() + first, value.data() + last, good)) all.store(false, std::memory_order_relaxed);
+    });
+    for (int p = 0; p < set.awake() && !all; ++p) {
+      if (good(value[p])) continue;
+      throw TransportError(fmt::format(
+          "the {} of particle {} of body '{}' at {} is {:.4g} {}, {}; lower time.step, or look at sources and "
+          "conditions there",
+          kQuantityNames[static_cast<int>(definition_.quantity)], set.id[p], set.name,
+          text_of(place_of(set, parts_.fields.front()->layout, p)), value[p],
+          kQuantityUnits[static_cast<int>(definition_.quantity)],
+          absolute && value[p] < 0.0 ? "below the absolute zero" : "out of all range"));
+    }
+  }
+}
+
+bool TransportedField::pending() const {
+  return std::any_of(sources_.begin(), sources_.end(), [](const auto& source) { return source->pending(); });
+}
+
+std::vector<ContentAccount> TransportedField::accounts() const {
+  std::vector<ContentAccount> list = gain_accounts_;
+  if (!definition_.values.empty()) list.push_back(prescribed_);
+  if (!definition_.sources.empty()) list.push_back(volume_sources_);
+  for (const auto& source : sources_) source->accounts(list);
+  return list;
+}
+
+void TransportedField::serialise(StateArchive& archive) {
+  archive.value("gained", gained_);
+  const auto account = [&](const std::string& name, ContentAccount& one) {
+    archive.value(name + "/given", one.given);
+    archive.value(name + "/exchanged", one.exchanged);
+  };
+  account("prescribed", prescribed_);
+  account("sources", volume_sources_);
+  for (std::size_t g = 0; g < gains_.size(); ++g) account("gain_" + std::to_string(g), gain_accounts_[g]);
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    const StateArchive::Group group(archive, "source_" + std::to_string(s));
+    sources_[s]->serialise(archive);
+  }
+}
+
+}  // namespace mpm

@@ -27,8 +27,7 @@ struct CrackFaces {
   ContactLaw law;        ///< frictionless by default; kind one_field: no crack is felt at all
   bool ignored = false;  ///< the faces pass through each other
   Detection detection = Detection::displacements;
-  double position = 0.8;           ///< of detection by positions [cells]
-  double closed_stiffness = -1.0;  ///< of an interface that is closed [Pa/m]; negative: as opened
+  double position = 0.8;  ///< of detection by positions [cells]
 };
 
 struct CrackDefinition {

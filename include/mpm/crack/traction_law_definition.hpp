@@ -18,7 +18,7 @@ inline constexpr std::array<const char*, 8> kTractionKindNames = {"triangular", 
 struct TractionMode {
   double strength = 0.0;    ///< largest traction; of a trilinear law the one at the first corner [Pa]
   double opening = 0.0;     ///< at which the law has failed [m]
-  double elastic = 0.0;     ///< opening up to which it is elastic; of a trilinear law that of the first corner [m]
+  double elastic = 0.0;     ///< up to which it is elastic; of a trilinear law the first corner's, of a cubic one 0 [m]
   double strength_2 = 0.0;  ///< of a trilinear law, at the second corner [Pa]
   double elastic_2 = 0.0;   ///< opening of the second corner [m]
   double decay = 0.0;       ///< of an exponential law, alpha
@@ -28,9 +28,10 @@ struct TractionMode {
 struct TractionLawDefinition {
   std::string name;
   TractionKind kind = TractionKind::triangular;
+  TractionKind curve = TractionKind::triangular;  ///< of a mixed law: triangular, cubic, trilinear or exponential
   TractionMode normal, shear;
   /// Exponent n of (G_I/G_Ic)^n + (G_II/G_IIc)^n = 1, at which a law whose directions know nothing of each other has
-  /// failed; 0: when one of them has.
+  /// failed; 0 or less: when one of them has.
   double mix = 1.0;
   Function pressure;            ///< of time [Pa]; negative opens
   double least_opening = -1.0;  ///< below which the pressure does not act; negative: it acts always [m]

@@ -54,7 +54,7 @@ struct FractureConstants {
   std::array<double, 2> way{0.0, 0.0};           ///< of steady growth, along the plane's axes; (0, 0): self-similar
   double surface_energy = 0.0;                   ///< gamma of the energy balance [J/m^2]; 0: j_ic / 2
   double plastic_part = 1.0;                     ///< p of the energy balance
-  double gain = 1e5;                             ///< of its speed [(m/s)/(J/m^2)]
+  double gain = 0.1;                             ///< of its speed [(m/s)/(J/m^2)]; 1e5 (mm/s)/(N/mm)
   bool keeps_tips = false;                       ///< a tip in this material stays one of it ("constantTip")
 
   bool known() const {

@@ -74,7 +74,9 @@ TEST(CrackCriterion, HoopAngleIsWhereTheFieldsHoopStressIsLargest) {
       const double angle = kPi * (2.0 * i / kParts - 1.0);
       const Vec2 along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
       const double hoop = across.dot(field.at(along).stress * across);
-      if (hoop > best) best = hoop, best_angle = angle;
+      if (hoop <= best) continue;
+      best = hoop;
+      best_angle = angle;
     }
     EXPECT_NEAR(hoop_angle(k.one, k.two), best_angle, kPi / kParts * 1.01) << k.one << " " << k.two;
     EXPECT_NEAR(hoop_equivalent(k), std::sqrt(2.0 * kPi) * best, 1e-6);  // r = 1

@@ -355,7 +355,7 @@ TEST(CrackMeetings, AroundAContourAreOddWithOneTipInside) {
     wrong += (meetings % 2 == 1) != ends_apart;
   }
   EXPECT_GT(touching, 5000);
-  EXPECT_GT(odd, 3000);
+  EXPECT_GT(odd, 2000);
   EXPECT_EQ(wrong, 0);
 }
 

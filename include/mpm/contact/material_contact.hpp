@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "mpm/contact/contact_nodes.hpp"
 #include "mpm/contact/contact_reporter.hpp"
-#include "mpm/contact/node_contact.hpp"
 #include "mpm/contact/pair_detection.hpp"
 #include "mpm/contact/shared_blocks.hpp"
 #include "mpm/contact/tool_sides.hpp"
@@ -74,43 +74,11 @@ class MaterialContact final : public Stage, public ContactReporter {
   void read_pairs(double now, std::vector<PairReport>& reports, int reader = 0) override;
 
  private:
-  /// One velocity field at a node.
-  struct Member {
-    int field;
-    NodeRef ref;
-    double mass;
-    int group;  ///< index among the node's materials; fields that share one velocity are one material
-  };
-  struct PairOfNode {
-    NodePair state;
-    int rule;     ///< index in settings_.pairs
-    bool turned;  ///< a belongs to the second body
-    int fields;   ///< identifies the pair at its node from step to step
-  };
-  struct Node {
-    Vec3 position;
-    std::uint64_t id;  ///< HeldNodes::id
-    int first_member, members, first_pair, pairs, groups;
-  };
-  /// The nodes of a shared block, with their members, materials and pairs.
-  struct BlockNodes {
-    std::vector<Node> nodes;
-    std::vector<Member> members;
-    std::vector<NodeMaterial> materials;  ///< as gathered; groups of a node lie together, at its first member's place
-    std::vector<PairOfNode> pairs;
-  };
-  struct Held {
-    std::uint64_t node;
-    int fields;
-    PairHold hold;
-  };
-  /// One node's materials and pairs, for the solver.
-  struct Scratch {
-    std::vector<NodeMaterial> materials;
-    std::vector<NodePair> pairs;
-    std::vector<Vec3> velocities, accelerations;  ///< of the materials before contact
-    std::vector<Vec3> gathered;                   ///< velocities of the materials as the step began, before
-  };
+  using Member = ContactNodes::Member;
+  using PairOfNode = ContactNodes::PairOfNode;
+  using Node = ContactNodes::Node;
+  using BlockNodes = ContactNodes::Block;
+
   /// Sums over a pair's nodes, of a step or since the start.
   struct Sums {
     Vec3 impulse = Vec3::Zero(), friction = Vec3::Zero(), moment = Vec3::Zero();
@@ -124,7 +92,6 @@ class MaterialContact final : public Stage, public ContactReporter {
     std::vector<Sums> seen;
   };
   static void serialise_sums(StateArchive& archive, std::vector<Sums>& sums);
-  enum class Pass { strain, update, filter };
 
   /// The pair whose law holds between two fields (-1: none), and whether the first field belongs to its second body.
   struct Rule {
@@ -141,21 +108,6 @@ class MaterialContact final : public Stage, public ContactReporter {
   int group(Member* members, int count) const;
   NodeMaterial material_at(const Member& member, const Vec3& position) const;
   void add_pairs(Node& node, const std::array<bool, 3>& mirrored, double dt, BlockNodes& found) const;
-  /// Length around the axis that contact on a section at this place represents; 1 in scenes that are not axisymmetric.
-  double around(const Vec3& position) const;
-  PairHold held(std::uint64_t node, int fields) const;
-
-  /// Copies the node's materials, with the velocities of `velocity(grid)`, and its pairs as the pass needs them.
-  template <class FieldOf>
-  void load(Pass pass, const BlockNodes& block, const Node& node, double dt, FieldOf&& velocity,
-            Scratch& scratch) const;
-  /// Applies the pass to the node's velocities in `velocity(grid)`.
-  template <class FieldOf>
-  void hold(Pass pass, BlockNodes& block, const Node& node, double dt, FieldOf&& velocity, Scratch& scratch);
-  template <class FieldOf>
-  void hold_nodes(Pass pass, double dt, FieldOf&& velocity);
-  void update(BlockNodes& block, const Node& node, double dt, Scratch& scratch);
-  void keep_held();
   void book(const BlockNodes& block, bool updated, double dt);
   void tell_of_heat(const BlockNodes& block, const Node& node, const NodePair& pair, double dt);
 
@@ -167,8 +119,7 @@ class MaterialContact final : public Stage, public ContactReporter {
   std::vector<NodalVolumes> volumes_;
   std::vector<FrictionLaw> friction_;  ///< of each pair, in this step
   SharedBlocks shared_;
-  std::vector<BlockNodes> blocks_;  ///< of each shared block
-  std::vector<Held> held_;          ///< what was held, in ascending order of node and fields
+  ContactNodes nodes_;  ///< a block of each shared block
   bool started_ = false;
   std::vector<Sums> last_, total_;  ///< of each pair, in the last step and since the start
   std::vector<Reader> readers_;

@@ -21,7 +21,7 @@ namespace mpm {
 class BlockShares {
  public:
   /// Cuts the owners of `blocks` into `parts` parts, some of them empty where owners are few. `particles`: of each
-  /// owner; when empty, all owners count alike.
+  /// owner; when empty, all owners count alike. by_colour() leaves out owners without particles.
   void rebuild(const BlockTable& blocks, const std::vector<std::uint32_t>& particles, int parts);
 
   int parts() const { return static_cast<int>(begin_.size()) - 1; }

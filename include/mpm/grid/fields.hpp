@@ -2,7 +2,8 @@
 // grid each. All fields have the same layout, walls and least mass; each has its own blocks, so memory and work follow
 // the material of the field. A block has the same key in every field. A scene without such bodies has one field.
 //
-// A particle spreads to and gathers from one field, ParticleSet::field_of(). Interaction between fields takes place at
+// A particle spreads to and gathers from one field, ParticleSet::field_of(); near a crack it chooses one at every node
+// (grid/node_choice.hpp). Interaction between fields takes place at
 // nodes that carry mass in both.
 // Source: Bardenhagen, Brackbill & Sulsky (2000), The material-point method for granular materials, Comput. Methods
 // Appl. Mech. Engrg 187, 529-541; here the grids are sparse.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mpm/grid/fields.hpp"
+#include "mpm/grid/node_choice.hpp"
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/mechanics/damping.hpp"
@@ -26,6 +27,7 @@ struct ContinuumSettings {
   Vec3 gravity = Vec3::Zero();                ///< [m/s^2]
   int threads = 1;
   DampingControl* damping = nullptr;  ///< of a scene that has any; outlives the mechanics
+  NodeChoice* choice = nullptr;       ///< where particles choose a field at every node; outlives the mechanics
 };
 
 /// `kernels`: of the sets' precision, T double or float. `laws`: of each set; `fields`, sets and laws outlive the

@@ -5,15 +5,18 @@
 #include <vector>
 
 #include "mpm/grid/fields.hpp"
+#include "mpm/grid/node_choice.hpp"
 #include "mpm/kernel/kernels.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/step/scalar_transfer.hpp"
 
 namespace mpm {
 
-/// `kernels`: of the sets' precision, T double or float. `fields` and `sets` outlive the result.
+/// `kernels`: of the sets' precision, T double or float. `fields`, `sets` and `choice`
+/// (of particles that choose a field at every node, or null) outlive the result.
 template <class T>
 std::unique_ptr<ScalarTransfer> make_scalar_transfer(const mpm_kernel::KernelTable<T>& kernels, Fields& fields,
-                                                     std::vector<ParticleSet>& sets, int threads);
+                                                     std::vector<ParticleSet>& sets, int threads,
+                                                     const NodeChoice* choice = nullptr);
 
 }  // namespace mpm

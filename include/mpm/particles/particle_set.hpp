@@ -38,6 +38,9 @@ struct ParticleSet {
   std::vector<std::uint32_t> rest_changes;
   int field = 0;      ///< velocity field of its particles
   int far_field = 0;  ///< of those on side 1, where a thin tool divides the body
+  /// Those on side 1 are near a crack and choose a field at every node; far_field is the number of their patches
+  /// (grid/node_choice.hpp).
+  bool chooses = false;
 
   Precision precision = Precision::float64;  ///< of velocity, deformation, stress and history
 
@@ -67,7 +70,8 @@ struct ParticleSet {
 
   int size() const { return static_cast<int>(id.size()); }
   int awake() const { return size() - asleep; }
-  int field_of(int p) const { return side.empty() || side[p] == 0 ? field : far_field; }
+  /// Of a particle that chooses its field at every node, the one that it has on its own side.
+  int field_of(int p) const { return side.empty() || side[p] == 0 || chooses ? field : far_field; }
   double mass_of(int p) const { return masses.empty() ? mass : masses[0][p]; }
   double total_mass() const {
     if (masses.empty()) return mass * size();

@@ -13,6 +13,7 @@
 #include "mpm/boundary/wall_definition.hpp"
 #include "mpm/contact/pair_detection.hpp"
 #include "mpm/contact/pair_normal.hpp"
+#include "mpm/crack/definition.hpp"
 #include "mpm/material/definition.hpp"
 #include "mpm/math/geometry.hpp"
 #include "mpm/math/geometry_kind.hpp"
@@ -166,6 +167,7 @@ struct SimulationDefinition {
   std::vector<TractionDefinition> tractions;
   std::optional<SleepDefinition> sleep;
   TransportDefinition transport;
+  CracksDefinition cracks;
   std::vector<MetricDefinition> metrics;
 
   /// Size of a particle across the grid's axes: thickness [m] in a plane, area [m^2] in a line, 1 in a solid.

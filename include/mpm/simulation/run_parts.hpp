@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mpm/grid/field_map.hpp"
+#include "mpm/grid/node_choice.hpp"
 #include "mpm/kernel/isa.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/rigid/rigid_body.hpp"
@@ -36,6 +37,7 @@ struct RunParts {
   std::vector<ParticleSet>& sets;  ///< one for each body of the definition; not sorted yet
   const std::vector<Law>& laws;    ///< one for each set
   std::vector<RigidBody>& bodies;  ///< one for each rigid body of the definition
+  NodeChoice* choice;              ///< of particles near cracks; null without cracks
   int threads;
   Isa isa;
   Modules& modules;  ///< modules are added here

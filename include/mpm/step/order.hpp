@@ -15,6 +15,7 @@ namespace mpm {
 /// hook.
 enum class Hook {
   run_begun,
+  step_begun,
   momentum_gathered,
   before_strain,
   forces_gathered,
@@ -23,11 +24,12 @@ enum class Hook {
   increment_found,
   grid_advanced
 };
-inline constexpr int kHooks = 8;
+inline constexpr int kHooks = 9;
 
 enum class Rank {
   particle_stress,  ///< changes the particles' stress, which nothing has read in the step yet
   mass_centre,      ///< finds the mass centres of nodes, which `side` needs
+  node_choice,      ///< chooses the fields of particles, before anything is gathered
   side,             ///< joins both sides of a body where no tool is between them, before velocities are used
   hoop_stress,      ///< books the sum of the internal forces, so it acts before forces are added
   damping,          ///< a force from the gathered momentum, which no stage changes

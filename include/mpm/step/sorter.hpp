@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "mpm/grid/fields.hpp"
+#include "mpm/grid/node_choice.hpp"
 #include "mpm/particles/particle_set.hpp"
 
 namespace mpm {
@@ -35,7 +36,9 @@ struct Grouping {
 
 class Sorter {
  public:
-  explicit Sorter(int threads, Grouping grouping = {});
+  /// `choice`: of particles that choose a field at every node, which are sorted into a field of their own after the
+  /// others; null where there are none. It outlives the sorter.
+  explicit Sorter(int threads, Grouping grouping = {}, NodeChoice* choice = nullptr);
 
   /// Sorts, and rebuilds the blocks of every field. Owners are numbered through all fields. Returns the first
   /// particle (by set and index) that is outside the range of its set or not finite, if there is one; then nothing has
@@ -64,7 +67,7 @@ class Sorter {
   /// Writes the codes. Returns the first particle outside the range of its set, or how many are awake.
   template <int Dim>
   int find_blocks(const ParticleSet& set, const GridLayout& layout, Scratch& scratch);
-  void collect_owners();
+  void collect_owners(const GridLayout& layout);
   void sort_by_block(ParticleSet& set, Scratch& scratch);
   void sort_by_node(ParticleSet& set, Scratch& scratch);
   void fill_groups(ParticleSet& set, const Scratch& scratch) const;
@@ -75,6 +78,7 @@ class Sorter {
 
   int threads_;
   Grouping grouping_;
+  NodeChoice* choice_;
   unsigned node_bits_ = 0;  ///< of a code
   std::vector<Scratch> scratch_;
   std::vector<Part> parts_;

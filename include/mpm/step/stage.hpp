@@ -19,6 +19,8 @@ class StageWith : public Module {
   /// Called once, before the first step: particles are at their initial positions and sorted; nothing has been
   /// gathered.
   virtual void run_begun(Context&) {}
+  /// A step begins: nothing of it has been gathered. Particles may choose their fields here, and change places.
+  virtual void step_begun(Context&) {}
   /// Mass and momentum are on the grid, velocity is momentum over mass. Stages find their nodes here.
   virtual void momentum_gathered(Context&) {}
   /// The strain is about to be computed from Grid::velocity: impose conditions on it. Called once (USF, USL) or twice

@@ -5,8 +5,6 @@
 namespace mpm {
 namespace {
 
-constexpr double kNoTraction = 1e-12;
-
 SurveyWants wants_of(const MaterialContactSettings& settings) {
   const bool interface = std::any_of(settings.pairs.begin(), settings.pairs.end(), [](const MaterialPair& pair) {
     return pair.law.kind == ContactLaw::Kind::interface;
@@ -29,6 +27,7 @@ MaterialContact::MaterialContact(MaterialContactSettings settings, Fields& field
       rules_(fields.size() * fields.size()),
       volumes_(fields.size(), NodalVolumes(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())),
       friction_(settings_.pairs.size()),
+      nodes_(fields, settings_.threads),
       last_(settings_.pairs.size()),
       total_(settings_.pairs.size()),
       readers_{{0.0, total_}} {
@@ -44,151 +43,20 @@ MaterialContact::MaterialContact(MaterialContactSettings settings, Fields& field
   }
 }
 
-template <class FieldOf>
-void MaterialContact::load(Pass pass, const BlockNodes& block, const Node& node, double dt, FieldOf&& velocity,
-                           Scratch& scratch) const {
-  const auto first = block.materials.begin() + node.first_member;
-  scratch.materials.assign(first, first + node.groups);
-  for (NodeMaterial& material : scratch.materials) material.velocity.setZero();
-  for (int m = node.first_member; m < node.first_member + node.members; ++m) {
-    const Member& member = block.members[m];
-    Grid& grid = *fields_[member.field];
-    NodeMaterial& material = scratch.materials[member.group];
-    const Vec3 own = nodal_vector(velocity(grid), grid.layout, member.ref);
-    // A material of one member keeps its velocity to the last bit.
-    material.velocity += member.mass == material.mass ? own : Vec3(own * (member.mass / material.mass));
-  }
-  scratch.pairs.clear();
-  for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) {
-    NodePair pair = block.pairs[p].state;
-    pair.on_a.setZero();
-    pair.on_b.setZero();
-    if (pass == Pass::strain && pair.interface != nullptr) {
-      // What is too stiff to open within a step moves as one here too; strain would else be taken from a motion that
-      // the interface forbids, which gains energy as letting go of pressed nodes does (step/coulomb.hpp).
-      // No traction of the opening there is, but the side that the surfaces are on counts.
-      pair.opening *= kNoTraction;
-      // Little where a step resolves the interface's oscillation (K < 1): K^2 in the place of K.
-      const double mass = reduced_mass(scratch.materials[pair.a], scratch.materials[pair.b]);
-      const InterfaceLaw& law = *pair.interface;
-      pair.area *= pair.area * std::max({law.opened, law.closed, law.tangential, 0.0}) * dt * dt / mass;
-    } else if (pass != Pass::update) {
-      pair.keep = pair.hold;
-      pair.interface = nullptr;
-      pair.bond = 0.0;
-      if (pass == Pass::filter) pair.touching = false;
-    }
-    scratch.pairs.push_back(pair);
-  }
-}
-
-template <class FieldOf>
-void MaterialContact::hold(Pass pass, BlockNodes& block, const Node& node, double dt, FieldOf&& velocity,
-                           Scratch& scratch) {
-  load(pass, block, node, dt, velocity, scratch);
-  solve_contact(scratch.materials, scratch.pairs, dt);
-  for (int m = node.first_member; m < node.first_member + node.members; ++m) {
-    const Member& member = block.members[m];
-    Grid& grid = *fields_[member.field];
-    const Vec3 own = nodal_vector(velocity(grid), grid.layout, member.ref);
-    add_nodal_vector(velocity(grid), grid.layout, member.ref, scratch.materials[member.group].velocity - own);
-  }
-  for (int p = 0; p < node.pairs; ++p) {
-    NodePair& pair = block.pairs[node.first_pair + p].state;
-    pair.on_a = scratch.pairs[p].on_a;
-    pair.on_b = scratch.pairs[p].on_b;
-  }
-}
-
-template <class FieldOf>
-void MaterialContact::hold_nodes(Pass pass, double dt, FieldOf&& velocity) {
-  const int count = static_cast<int>(blocks_.size());
-#pragma omp parallel num_threads(settings_.threads)
-  {
-    Scratch scratch;
-#pragma omp for schedule(static)
-    for (int i = 0; i < count; ++i) {
-      for (const Node& node : blocks_[i].nodes) hold(pass, blocks_[i], node, dt, velocity, scratch);
-    }
-  }
-}
-
-void MaterialContact::before_strain(StepContext& context) {
-  hold_nodes(Pass::strain, context.dt, [](Grid& grid) -> NodalField& { return grid.velocity; });
-}
+void MaterialContact::before_strain(StepContext& context) { nodes_.strain(context.dt); }
 
 void MaterialContact::momentum_updated(StepContext& context) {
-  const int count = static_cast<int>(blocks_.size());
-#pragma omp parallel num_threads(settings_.threads)
-  {
-    Scratch scratch;
-#pragma omp for schedule(static)
-    for (int i = 0; i < count; ++i) {
-      for (const Node& node : blocks_[i].nodes) update(blocks_[i], node, context.dt, scratch);
-    }
-  }
-  keep_held();
+  nodes_.update(context.dt);
   started_ = true;
   last_.assign(last_.size(), {});
-  for (const BlockNodes& block : blocks_) book(block, true, context.dt);
+  for (const BlockNodes& block : nodes_.blocks) book(block, true, context.dt);
 }
 
-void MaterialContact::update(BlockNodes& block, const Node& node, double dt, Scratch& scratch) {
-  load(
-      Pass::update, block, node, dt, [](Grid& grid) -> NodalField& { return grid.velocity; }, scratch);
-  std::vector<Vec3>& start = scratch.velocities;
-  std::vector<Vec3>& accelerations = scratch.accelerations;
-  std::vector<Vec3>& gathered = scratch.gathered;
-  start.clear();
-  accelerations.assign(node.groups, Vec3::Zero());
-  for (const NodeMaterial& material : scratch.materials) start.push_back(material.velocity);
-  gathered.assign(node.groups, Vec3::Zero());
-  for (int m = node.first_member; m < node.first_member + node.members; ++m) {
-    const Member& member = block.members[m];
-    const Grid& grid = *fields_[member.field];
-    accelerations[member.group] +=
-        nodal_vector(grid.force, grid.layout, member.ref) * (member.mass / scratch.materials[member.group].mass);
-    gathered[member.group] +=
-        nodal_vector(grid.momentum, grid.layout, member.ref) / scratch.materials[member.group].mass;
-  }
-  for (NodePair& pair : scratch.pairs) {
-    pair.start_slip = held_slip(gathered[pair.b] - gathered[pair.a], pair.normals.of_a, pair.hold);
-  }
-  solve_contact(scratch.materials, scratch.pairs, dt);
-  for (int p = 0; p < node.pairs; ++p) block.pairs[node.first_pair + p].state = scratch.pairs[p];
-  for (int m = node.first_member; m < node.first_member + node.members; ++m) {
-    const Member& member = block.members[m];
-    Grid& grid = *fields_[member.field];
-    const Vec3 change = scratch.materials[member.group].velocity - start[member.group];
-    const Vec3 apart = start[member.group] - nodal_vector(grid.velocity, grid.layout, member.ref);
-    const Vec3 forced = accelerations[member.group] - nodal_vector(grid.force, grid.layout, member.ref);
-    add_nodal_vector(grid.velocity, grid.layout, member.ref, change + apart);
-    add_nodal_vector(grid.force, grid.layout, member.ref, change / dt + forced);
-  }
-}
-
-void MaterialContact::velocity_found(StepContext& context) {
-  hold_nodes(Pass::filter, context.dt, [](Grid& grid) -> NodalField& { return grid.increment; });
-}
+void MaterialContact::velocity_found(StepContext& context) { nodes_.filter(context.dt); }
 
 void MaterialContact::increment_found(StepContext& context) {
-  hold_nodes(Pass::filter, context.dt, [](Grid& grid) -> NodalField& { return grid.increment; });
-  for (const BlockNodes& block : blocks_) book(block, false, context.dt);
-}
-
-void MaterialContact::keep_held() {
-  held_.clear();
-  for (const BlockNodes& block : blocks_) {
-    for (const Node& node : block.nodes) {
-      const std::size_t first = held_.size();
-      for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) {
-        const PairOfNode& pair = block.pairs[p];
-        if (pair.state.hold != PairHold::none) held_.push_back({node.id, pair.fields, pair.state.hold});
-      }
-      std::sort(held_.begin() + static_cast<std::ptrdiff_t>(first), held_.end(),
-                [](const Held& a, const Held& b) { return a.fields < b.fields; });
-    }
-  }
+  nodes_.filter(context.dt);
+  for (const BlockNodes& block : nodes_.blocks) book(block, false, context.dt);
 }
 
 MaterialContact::Sums& MaterialContact::Sums::operator+=(const Sums& other) {
@@ -303,10 +171,7 @@ void MaterialContact::serialise_sums(StateArchive& archive, std::vector<Sums>& s
 
 void MaterialContact::serialise(StateArchive& archive) {
   archive.value("started", started_);
-  archive.rows("held", held_);
-  archive.column("held/node", held_, &Held::node);
-  archive.column("held/fields", held_, &Held::fields);
-  archive.column("held/hold", held_, &Held::hold);
+  nodes_.serialise(archive);
   const std::pair<const char*, std::vector<Sums>*> all[] = {{"last", &last_}, {"total", &total_}};
   for (const auto& [name, sums] : all) {
     const StateArchive::Group group(archive, name);

@@ -1,15 +1,11 @@
 // Finds the nodes where bodies of different velocity fields meet, and what contact has to know of them.
 #include <algorithm>
-#include <tuple>
 
 #include "mpm/contact/material_contact.hpp"
-#include "mpm/shape/ring.hpp"
 #include "mpm/step/coulomb.hpp"
 
 namespace mpm {
 namespace {
-
-constexpr double kOnAxis = 1e-6;  // of a cell
 
 Vec3 mean(const NodalField& sums, const GridLayout& layout, NodeRef ref, double mass) {
   return nodal_vector(sums, layout, ref) / mass;
@@ -27,16 +23,13 @@ void MaterialContact::momentum_gathered(StepContext& context) {
     if (shared_.any(f)) survey_.survey(f, shared_.marks(f), wants_, volumes_[f]);
   }
   const int count = static_cast<int>(shared_.list().size());
-  blocks_.resize(count);
+  nodes_.blocks.resize(count);
 #pragma omp parallel for schedule(static) num_threads(settings_.threads)
-  for (int i = 0; i < count; ++i) find_nodes(shared_.list()[i], context.dt, blocks_[i]);
+  for (int i = 0; i < count; ++i) find_nodes(shared_.list()[i], context.dt, nodes_.blocks[i]);
 }
 
 void MaterialContact::find_nodes(const SharedBlock& block, double dt, BlockNodes& found) const {
-  found.nodes.clear();
-  found.members.clear();
-  found.materials.clear();
-  found.pairs.clear();
+  found.clear();
   const Grid& first = *fields_[block.parts.front().field];
   const std::array<int, 3>& place = first.blocks.block(block.parts.front().block);
   for (int n = 0; n < first.layout.nodes_per_block(); ++n) {
@@ -153,9 +146,9 @@ void MaterialContact::add_pairs(Node& node, const std::array<bool, 3>& mirrored,
       if (state.normals.of_a.isZero(0.0)) continue;
       state.opposite = settings_.normals.method != NormalMethod::own;
       state.friction = friction_[between.pair];
-      state.hold = held(node.id, pair.fields);
+      state.hold = nodes_.held(node.id, pair.fields);
       const double across = across_cell(layout, state.normals.of_a);
-      state.area = contact_area(materials[a].volume, materials[b].volume, across) * around(node.position);
+      state.area = contact_area(materials[a].volume, materials[b].volume, across) * around_axis(settings_.geometry, layout, node.position);
       if (law.kind == ContactLaw::Kind::interface) {
         state.interface = &law.interface;
         state.opening = materials[b].displacement - materials[a].displacement;
@@ -169,21 +162,6 @@ void MaterialContact::add_pairs(Node& node, const std::array<bool, 3>& mirrored,
       found.pairs.push_back(pair);
     }
   }
-}
-
-double MaterialContact::around(const Vec3& position) const {
-  if (!axisymmetric(settings_.geometry)) return 1.0;
-  const double cell = fields_.front()->layout.cell(0), r = position.x();
-  // The hat function of a node on the axis: its integral of 2 pi r over that of 1.
-  return r > kOnAxis * cell ? kTurn * r : kTurn * cell / 3.0;
-}
-
-PairHold MaterialContact::held(std::uint64_t node, int fields) const {
-  const auto before = [](const Held& one, const std::pair<std::uint64_t, int>& wanted) {
-    return std::tie(one.node, one.fields) < std::tie(wanted.first, wanted.second);
-  };
-  const auto it = std::lower_bound(held_.begin(), held_.end(), std::pair{node, fields}, before);
-  return it != held_.end() && it->node == node && it->fields == fields ? it->hold : PairHold::none;
 }
 
 }  // namespace mpm

@@ -73,7 +73,10 @@ void BlockShares::rebuild(const BlockTable& blocks, const std::vector<std::uint3
       const auto end = std::lower_bound(first, of_colour.end(), begin_[part + 1]);
       for (const bool edge : {true, false}) {
         runs_.push_back(static_cast<int>(order_.size()));
-        std::copy_if(first, end, std::back_inserter(order_), [&](int owner) { return (at_edge_[owner] != 0) == edge; });
+        std::copy_if(first, end, std::back_inserter(order_), [&](int owner) {
+          const bool holds_any = particles.empty() || particles[owner] > 0;
+          return holds_any && (at_edge_[owner] != 0) == edge;
+        });
       }
     }
   }

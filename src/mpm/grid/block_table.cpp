@@ -104,4 +104,25 @@ void BlockTable::rebuild(const std::vector<std::uint64_t>& owner_keys, int threa
   ++generation_;
 }
 
+void BlockTable::rebuild_apart(const std::vector<std::uint64_t>& owner_keys) {
+  span_ = neighbours_of(layout_->dim());
+  const std::size_t owners = owner_keys.size(), blocks = owners * span_;
+  keys_.resize(blocks);
+  coordinates_.resize(blocks);
+  neighbours_.resize(blocks);
+  owner_block_.resize(owners);
+  for (auto& colour : colours_) colour.clear();
+  for (std::size_t o = 0; o < owners; ++o) {
+    for (int s = 0; s < span_; ++s) {
+      const std::size_t block = o * span_ + s;
+      keys_[block] = owner_keys[o];
+      coordinates_[block] = layout_->block(owner_keys[o]);  // that of the owner is what is asked for
+      neighbours_[block] = static_cast<int>(block);
+    }
+    owner_block_[o] = static_cast<int>(o * span_ + span_ / 2);
+    colours_[0].push_back(static_cast<int>(o));
+  }
+  ++generation_;
+}
+
 }  // namespace mpm

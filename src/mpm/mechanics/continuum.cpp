@@ -26,43 +26,49 @@ class Continuum final : public Mechanics {
         settings_(settings),
         motion_(settings.transfer.kind == TransferKind::apic   ? mpm_kernel::kAffine
                 : settings.transfer.kind == TransferKind::flip ? mpm_kernel::kIncrement
-                                                               : mpm_kernel::kAdopt),
-        mean_(1, layout_.nodes_per_block()) {
+                                                               : mpm_kernel::kAdopt) {
     for (auto& grid : fields) fields_.emplace_back(*grid);
+    if (settings.choice != nullptr) patches_.emplace(settings.choice->grid());
   }
 
   void scatter_momentum(StepContext&) override {
     failed_.reset();
-    for (Field& field : fields_) {
+    each_field([&](Field& field) {
       look_at(field);
       clear(field.grid, field.grid.mass, field.grid.momentum);
       each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
         kernels_.scatter_momentum[motion_ == mpm_kernel::kAffine](field.view, block, field.sets(), field.count());
       });
-      velocity_from_momentum(field);
-    }
+    });
+    give(&Grid::mass);
+    give(&Grid::momentum);
+    for (Field& field : fields_) velocity_from_momentum(field);
   }
 
   void strain_and_force(StepContext& context, double dt) override {
     if (settings_.average_dilatation) {
-      for (Field& field : fields_) strain(field, {dt, settings_.gradient_terms, false, mean_of(field, false)});
+      strain_by_mean(dt);
       internal_force(context);
       return;
     }
-    for (Field& field : fields_) {
+    take(&Grid::velocity);
+    each_field([&](Field& field) {
       clear(field.grid, field.grid.force);
       strain(field, {dt, settings_.gradient_terms, true});
-    }
+    });
+    give(&Grid::force);
   }
 
   void internal_force(StepContext&) override {
-    for (Field& field : fields_) {
-      const double* pressure = settings_.average_dilatation ? mean_of(field, true) : nullptr;
+    if (settings_.average_dilatation) find_means(true);
+    each_field([&](Field& field) {
+      const double* pressure = settings_.average_dilatation ? field.mean.data() : nullptr;
       clear(field.grid, field.grid.force);
       each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
         kernels_.force(field.view, block, field.sets(), field.count(), pressure);
       });
-    }
+    });
+    give(&Grid::force);
   }
 
   void update_momentum(StepContext& context) override {
@@ -96,12 +102,18 @@ class Continuum final : public Mechanics {
   }
 
   void find_increment(StepContext&) override {
-    for (Field& field : fields_) {
+    if (patches_) patches_->grid.increment.resize(patches_->grid.blocks.size());
+    take(&Grid::increment);
+    each_field([&](Field& field) {
       Grid& grid = field.grid;
       clear(grid, grid.momentum);
       each_block(grid, true, [&](const mpm_kernel::BlockView& block) {
         kernels_.project(field.view, block, field.sets(), field.count(), grid.increment.data(), grid.momentum.data());
       });
+    });
+    give(&Grid::momentum);
+    for (Field& field : fields_) {
+      Grid& grid = field.grid;
       each_carrying(grid, [&](int b, int n, double inverse_mass) {
         for (int k = 0; k < layout_.dim(); ++k) {
           const int i = k * layout_.nodes_per_block() + n;
@@ -129,15 +141,18 @@ class Continuum final : public Mechanics {
   }
 
   void move_and_regather(StepContext& context) override {
-    for (Field& field : fields_) clear(field.grid, field.grid.momentum);
+    each_field([&](Field& field) { clear(field.grid, field.grid.momentum); });
     move(context, true);
+    give(&Grid::momentum);
     for (Field& field : fields_) velocity_from_momentum(field);
   }
 
   void strain_and_place(StepContext&, double dt) override {
-    for (Field& field : fields_) {
-      const double* dilatation = settings_.average_dilatation ? mean_of(field, false) : nullptr;
-      strain(field, {dt, settings_.gradient_terms, false, dilatation});
+    if (settings_.average_dilatation) {
+      strain_by_mean(dt);
+    } else {
+      take(&Grid::velocity);
+      each_field([&](Field& field) { strain(field, {dt, settings_.gradient_terms, false, nullptr}); });
     }
     for (ParticleSet& set : sets_) set.x.swap(set.next_x);
     end_step();
@@ -181,7 +196,7 @@ class Continuum final : public Mechanics {
  private:
   /// A velocity field at work: its grid, and the sets that have particles in it.
   struct Field {
-    explicit Field(Grid& grid) : grid(grid) {}
+    explicit Field(Grid& grid) : grid(grid), mean(1, grid.layout.nodes_per_block()) {}
     int count() const { return static_cast<int>(views.size()); }
     const mpm_kernel::SetView<T>* sets() const { return views.data(); }
 
@@ -191,7 +206,21 @@ class Continuum final : public Mechanics {
     std::vector<int> set;                  ///< index of each
     std::vector<std::uint8_t> loose;       ///< of each owner, after the motion
     std::vector<mpm_kernel::Moved> taken;  ///< by damping and PIC, of each owner
+    NodalField mean;                       ///< of dilatation or mean stress, where these are averaged
   };
+
+  // Particles that choose a field at every node have nodes of their own, as if they were a field.
+  template <class Act>
+  void each_field(Act&& act) {
+    for (Field& field : fields_) act(field);
+    if (patches_) act(*patches_);
+  }
+  void give(NodalField Grid::*what) {
+    if (settings_.choice != nullptr) settings_.choice->give(what);
+  }
+  void take(NodalField Grid::*what) {
+    if (settings_.choice != nullptr) settings_.choice->take(what);
+  }
 
   // Fields and particles may have been sorted or swapped since the last step.
   void look_at(Field& field) {
@@ -256,7 +285,9 @@ class Continuum final : public Mechanics {
     const bool counts = settings.counted || settings.damped;
     std::atomic<bool> gone{false};
     std::atomic<int> groups{0}, parts{0};
-    for (Field& field : fields_) {
+    take(&Grid::velocity);
+    take(&Grid::force);
+    each_field([&](Field& field) {
       if (counts) field.taken.assign(field.grid.blocks.owners(), {});
       field.loose.resize(field.grid.blocks.owners());
       each_block(field.grid, regather, [&](const mpm_kernel::BlockView& block) {
@@ -268,7 +299,7 @@ class Continuum final : public Mechanics {
         groups.fetch_add(moved.groups, std::memory_order_relaxed);
         parts.fetch_add(moved.parts, std::memory_order_relaxed);
       });
-    }
+    });
     const std::uint64_t generation = fields_.front().grid.blocks.generation();  // of all: they are rebuilt together
     if (generation_ != generation) {
       generation_ = generation;
@@ -285,7 +316,7 @@ class Continuum final : public Mechanics {
     if (damping == nullptr) return false;
     settings.flip = damping->flip();
     if (!damping->in_update() && !damping->needs_energy()) return false;
-    for (Field& field : fields_) {
+    each_field([&](Field& field) {
       for (int i = 0; i < field.count(); ++i) {
         const DampingRates rates = damping->rates(field.set[i]);
         settings.grid_damping = rates.grid;
@@ -293,41 +324,53 @@ class Continuum final : public Mechanics {
         field.views[i].damping[0] = rates.grid_of_particle;
         field.views[i].damping[1] = rates.particle_of_particle;
       }
-    }
+    });
     return true;
   }
 
   // Sums over blocks in their order: the same bits for any number of threads.
   void book_taken() {
-    for (const Field& field : fields_) {
+    each_field([&](Field& field) {
       for (const mpm_kernel::Moved& moved : field.taken) {
         slip_energy_ += moved.slip_energy;
         drag_energy_ += moved.drag_energy;
       }
-    }
+    });
   }
 
   void close_damping(const StepContext& context) {
     Damped sum;
-    for (const Field& field : fields_) {
+    each_field([&](Field& field) {
       for (const mpm_kernel::Moved& moved : field.taken) {
         for (int k = 0; k < layout_.dim(); ++k) sum.momentum[layout_.axis(k)] += moved.drag[k];
         sum.grid_energy += moved.grid_kinetic;
         sum.particle_energy += moved.particle_kinetic;
       }
-    }
+    });
     settings_.damping->end_step(context, sum);
   }
 
-  // Of the particles' dilatation or mean stress, the mass-weighted mean at the nodes of a field.
-  const double* mean_of(const Field& field, bool of_stress) {
-    mean_.resize(field.grid.blocks.size());
-    clear(field.grid, mean_);
-    each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
-      kernels_.spread_mean[of_stress](field.view, block, field.sets(), field.count(), mean_.data());
+  void strain_by_mean(double dt) {
+    take(&Grid::velocity);
+    find_means(false);
+    each_field([&](Field& field) { strain(field, {dt, settings_.gradient_terms, false, field.mean.data()}); });
+  }
+
+  // Of the particles' dilatation or mean stress, the mass-weighted mean at the nodes of every field.
+  void find_means(bool of_stress) {
+    each_field([&](Field& field) {
+      field.mean.resize(field.grid.blocks.size());
+      clear(field.grid, field.mean);
+      each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
+        kernels_.spread_mean[of_stress](field.view, block, field.sets(), field.count(), field.mean.data());
+      });
     });
-    each_carrying(field.grid, [&](int b, int n, double inverse_mass) { mean_.block(b)[n] *= inverse_mass; });
-    return mean_.data();
+    for (std::size_t f = 0; f < fields_.size(); ++f) {
+      Field& field = fields_[f];
+      if (patches_) settings_.choice->give(patches_->mean, static_cast<int>(f), field.mean);
+      each_carrying(field.grid, [&](int b, int n, double inverse_mass) { field.mean.block(b)[n] *= inverse_mass; });
+      if (patches_) settings_.choice->take(field.mean, static_cast<int>(f), patches_->mean);
+    }
   }
 
   // visit(block, node, 1 / mass): zero where no particle is.
@@ -344,16 +387,16 @@ class Continuum final : public Mechanics {
 
   // Domains have grown, and particles with them moved: will the next step's tiles hold them?
   void end_step() {
-    for (Field& field : fields_) field.grid.loose.swap(field.loose);
+    for (Field& field : fields_) field.grid.loose.swap(field.loose);  // of patches all are
     if (kernels_.outgrown == nullptr || needs_sort_) return;
     std::atomic<bool> outgrown{false};
-    for (Field& field : fields_) {
+    each_field([&](Field& field) {
       look_at(field);
       each_block(field.grid, false, [&](const mpm_kernel::BlockView& block) {
         const bool one = kernels_.outgrown(field.view, block, field.sets(), field.count());
         if (one) outgrown.store(true, std::memory_order_relaxed);
       });
-    }
+    });
     needs_sort_ = outgrown;
   }
 
@@ -376,7 +419,7 @@ class Continuum final : public Mechanics {
   ContinuumSettings settings_;
   mpm_kernel::Motion motion_;
   std::vector<Field> fields_;
-  NodalField mean_;  ///< of the field at work
+  std::optional<Field> patches_;  ///< where particles choose a field at every node
   std::optional<ParticleRef> failed_;
   bool needs_sort_ = false;
   double slip_energy_ = 0.0, drag_energy_ = 0.0;  ///< taken by PIC and by damping of the particles [J]

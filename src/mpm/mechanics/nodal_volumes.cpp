@@ -26,7 +26,7 @@ class NodalVolumeSurvey final : public VolumeSurvey {
 
  public:
   NodalVolumeSurvey(std::unique_ptr<ScalarTransfer> transfer, Fields& fields, std::vector<ParticleSet>& sets,
-                    std::vector<double> densities, GeometryKind geometry, int threads)
+                    std::vector<double> densities, GeometryKind geometry, int threads, const NodeChoice* choice)
       : transfer_(std::move(transfer)),
         fields_(fields),
         sets_(sets),
@@ -34,6 +34,7 @@ class NodalVolumeSurvey final : public VolumeSurvey {
         geometry_(geometry),
         dim_(dimensions(geometry)),
         threads_(threads),
+        choice_(choice),
         arrays_(sets.size()) {}
 
   void survey(int field, const std::vector<std::uint8_t>& marked, const SurveyWants& wants,
@@ -97,14 +98,18 @@ class NodalVolumeSurvey final : public VolumeSurvey {
     const int owners = grid.blocks.owners();
 #pragma omp parallel for schedule(static) num_threads(threads_)
     for (int o = 0; o < owners; ++o) {
-      if (giving_[o] == 0) continue;
-      for (std::size_t s = 0; s < sets_.size(); ++s) {
-        const ParticleSet& set = sets_[s];
-        const int owner = grid.first_owner + o;
-        with_geometry(geometry_, [&](auto kind) {
-          for (std::uint32_t p = set.begin[owner]; p < set.begin[owner + 1]; ++p) fill(kind, s, p, wants);
-        });
-      }
+      if (giving_[o] != 0) fill_owner(grid.first_owner + o, wants);
+    }
+    if (choice_ == nullptr) return;
+    for (int patch = 0; patch < choice_->patches(); ++patch) fill_owner(choice_->grid().first_owner + patch, wants);
+  }
+
+  void fill_owner(int owner, const SurveyWants& wants) {
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      const ParticleSet& set = sets_[s];
+      with_geometry(geometry_, [&](auto kind) {
+        for (std::uint32_t p = set.begin[owner]; p < set.begin[owner + 1]; ++p) fill(kind, s, p, wants);
+      });
     }
   }
 
@@ -133,6 +138,7 @@ class NodalVolumeSurvey final : public VolumeSurvey {
   std::vector<double> densities_;
   GeometryKind geometry_;
   int dim_, threads_;
+  const NodeChoice* choice_;
   std::vector<Arrays> arrays_;
   ScalarTransfer::Given given_;
   std::vector<std::uint8_t> giving_;  ///< of each owner, whether its particles give to a marked block
@@ -142,9 +148,9 @@ class NodalVolumeSurvey final : public VolumeSurvey {
 
 std::unique_ptr<VolumeSurvey> make_volume_survey(std::unique_ptr<ScalarTransfer> transfer, Fields& fields,
                                                  std::vector<ParticleSet>& sets, std::vector<double> densities,
-                                                 GeometryKind geometry, int threads) {
-  return std::make_unique<NodalVolumeSurvey>(std::move(transfer), fields, sets, std::move(densities), geometry,
-                                             threads);
+                                                 GeometryKind geometry, int threads, const NodeChoice* choice) {
+  return std::make_unique<NodalVolumeSurvey>(std::move(transfer), fields, sets, std::move(densities), geometry, threads,
+                                             choice);
 }
 
 }  // namespace mpm

@@ -12,29 +12,31 @@ template <class T>
 class ScalarTransferOf final : public ScalarTransfer {
  public:
   ScalarTransferOf(const mpm_kernel::KernelTable<T>& kernels, Fields& fields, std::vector<ParticleSet>& sets,
-                   int threads)
-      : kernels_(kernels), fields_(fields), sets_(sets), threads_(threads) {}
+                   int threads, const NodeChoice* choice)
+      : kernels_(kernels),
+        fields_(fields),
+        sets_(sets),
+        threads_(threads),
+        choice_(choice),
+        own_{NodalField(1, fields.front()->layout.nodes_per_block()),
+             NodalField(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())} {}
 
   void gather(int field, const NodalField& from, const Taken& to) override {
-    Grid& grid = look_at(field);
-    for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(to[s].begin(), to[s].end(), arrays_[s].to);
-    each_owner_at_once(grid, threads_, [&](const mpm_kernel::BlockView& block) {
-      kernels_.gather(view_, block, views_.data(), arrays_.data(), count(), from.components(), from.block(0));
+    each_taking(field, from, to, [&](const mpm_kernel::BlockView& block, const NodalField& source) {
+      kernels_.gather(view_, block, views_.data(), arrays_.data(), count(), source.components(), source.block(0));
     });
   }
 
   void gradient(int field, const NodalField& from, const Taken& to) override {
-    Grid& grid = look_at(field);
-    for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(to[s].begin(), to[s].end(), arrays_[s].to);
-    each_owner_at_once(grid, threads_, [&](const mpm_kernel::BlockView& block) {
-      kernels_.gradient(view_, block, views_.data(), arrays_.data(), count(), from.block(0));
+    each_taking(field, from, to, [&](const mpm_kernel::BlockView& block, const NodalField& source) {
+      kernels_.gradient(view_, block, views_.data(), arrays_.data(), count(), source.block(0));
     });
   }
 
   void spread(int field, const Given& of, Weight weight, NodalField& to, const Marks* only) override {
-    each_giving(field, of, to, only, [&](const mpm_kernel::BlockView& block) {
-      kernels_.spread(view_, block, views_.data(), arrays_.data(), count(), to.components(), weight == Weight::mass,
-                      to.data());
+    each_giving(field, of, to, only, [&](const mpm_kernel::BlockView& block, NodalField& sink) {
+      kernels_.spread(view_, block, views_.data(), arrays_.data(), count(), sink.components(), weight == Weight::mass,
+                      sink.data());
     });
   }
 
@@ -46,37 +48,77 @@ class ScalarTransferOf final : public ScalarTransfer {
     spread_by_gradient(field, of, weight, to, only);
   }
 
+  // Particles that choose a field at every node take no part: the scene's rules keep cracks and transport apart.
   void diffuse(int field, const Given& conducts, const NodalField& from, NodalField& to) override {
-    each_giving(field, conducts, to, nullptr, [&](const mpm_kernel::BlockView& block) {
-      kernels_.diffuse(view_, block, views_.data(), arrays_.data(), count(), from.block(0), to.data());
+    each_giving(field, conducts, to, nullptr, [&](const mpm_kernel::BlockView& block, NodalField& sink) {
+      kernels_.diffuse(view_, block, views_.data(), arrays_.data(), count(), from.block(0), sink.data());
     });
   }
 
  private:
   int count() const { return static_cast<int>(views_.size()); }
+  bool chosen(int field) const {
+    return choice_ != nullptr && choice_->patches() > 0 &&
+           std::find(choice_->chosen().begin(), choice_->chosen().end(), field) != choice_->chosen().end();
+  }
 
   // Fields and particles may have been sorted or swapped since the last call.
-  Grid& look_at(int field) {
-    Grid& grid = *fields_[field];
-    view_ = view_of(grid);
+  void look_at(const Grid& grid) {
+    view_ = view_of(const_cast<Grid&>(grid));
     views_.clear();
     for (ParticleSet& set : sets_) views_.push_back(view_of(set, kernels_, grid.first_owner));
     arrays_.assign(sets_.size(), {});
-    return grid;
+  }
+
+  // pass(block, field to take from)
+  template <class Pass>
+  void each_taking(int field, const NodalField& from, const Taken& to, Pass&& pass) {
+    Grid& grid = *fields_[field];
+    look_at(grid);
+    for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(to[s].begin(), to[s].end(), arrays_[s].to);
+    each_owner_at_once(grid, threads_, [&](const mpm_kernel::BlockView& block) { pass(block, from); });
+    if (!chosen(field)) return;
+
+    // What a patch takes is the sum over the fields: of the first in the array itself, of others through memory beside.
+    const Grid& patches = choice_->grid();
+    NodalField& own = own_[from.components() > 1];
+    own.resize(patches.blocks.size());
+    choice_->clear(own);
+    choice_->take(from, field, own);
+    look_at(patches);
+    beside_.resize(sets_.size());
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      for (int k = 0; k < 3; ++k) {
+        if (to[s][k] == nullptr) continue;
+        if (sets_[s].field != field) beside_[s][k].resize(sets_[s].id.size());
+        arrays_[s].to[k] = sets_[s].field == field ? to[s][k] : beside_[s][k].data();
+      }
+    }
+    each_owner_at_once(patches, threads_, [&](const mpm_kernel::BlockView& block) { pass(block, own); });
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      const ParticleSet& set = sets_[s];
+      for (int k = 0; k < 3 && set.field != field; ++k) {
+        if (to[s][k] == nullptr) continue;
+        for (std::uint32_t p = set.begin[patches.first_owner]; p < set.begin.back(); ++p) {
+          to[s][k][p] += beside_[s][k][p];
+        }
+      }
+    }
   }
 
   // The kernel tells the two apart by the number of components, which on a line is one for both, as the sum is.
   void spread_by_gradient(int field, const Given& of, Weight weight, NodalField& to, const Marks* only) {
-    each_giving(field, of, to, only, [&](const mpm_kernel::BlockView& block) {
-      kernels_.spread_gradient(view_, block, views_.data(), arrays_.data(), count(), to.components(),
-                               weight == Weight::mass, to.data());
+    each_giving(field, of, to, only, [&](const mpm_kernel::BlockView& block, NodalField& sink) {
+      kernels_.spread_gradient(view_, block, views_.data(), arrays_.data(), count(), sink.components(),
+                               weight == Weight::mass, sink.data());
     });
   }
 
-  // pass(block) for those whose particles give to what is wanted, which begins with zero.
+  // pass(block, field to add to) for those whose particles give to what is wanted, which begins with zero.
   template <class Pass>
   void each_giving(int field, const Given& of, NodalField& to, const Marks* only, Pass&& pass) {
-    Grid& grid = look_at(field);
+    Grid& grid = *fields_[field];
+    look_at(grid);
     for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(of[s].begin(), of[s].end(), arrays_[s].from);
     const int blocks = grid.blocks.size();
     to.resize(blocks);
@@ -87,11 +129,21 @@ class ScalarTransferOf final : public ScalarTransfer {
     const std::ptrdiff_t numbers = static_cast<std::ptrdiff_t>(to.components()) * grid.layout.nodes_per_block();
 #pragma omp parallel for schedule(static) num_threads(threads_)
     for (int b = 0; b < blocks; ++b) {
-      if (only == nullptr || taking_[b] != 0) std::fill_n(to.block(b), numbers, 0.0);
+      if (only == nullptr || taking_[b] != 0 || (*only)[b] != 0) std::fill_n(to.block(b), numbers, 0.0);
     }
     each_owner(grid, threads_, [&](const mpm_kernel::BlockView& block) {
-      if (only == nullptr || giving_[block.owner] != 0) pass(block);
+      if (only == nullptr || giving_[block.owner] != 0) pass(block, to);
     });
+    if (!chosen(field)) return;
+
+    const Grid& patches = choice_->grid();
+    NodalField& own = own_[to.components() > 1];
+    own.resize(patches.blocks.size());
+    std::fill_n(own.data(), numbers * patches.blocks.size(), 0.0);
+    look_at(patches);
+    for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(of[s].begin(), of[s].end(), arrays_[s].from);
+    each_owner_at_once(patches, threads_, [&](const mpm_kernel::BlockView& block) { pass(block, own); });
+    choice_->give(own, field, to);
   }
 
   // Blocks that an owner at work gives to.
@@ -108,6 +160,9 @@ class ScalarTransferOf final : public ScalarTransfer {
   Fields& fields_;
   std::vector<ParticleSet>& sets_;
   int threads_;
+  const NodeChoice* choice_;
+  std::array<NodalField, 2> own_;  ///< of the patches, of one component and of one along each axis
+  std::vector<std::array<PaddedArray<double>, 3>> beside_;
   mpm_kernel::GridView view_{};
   std::vector<mpm_kernel::SetView<T>> views_;
   std::vector<mpm_kernel::ParticleArrays> arrays_;
@@ -118,13 +173,14 @@ class ScalarTransferOf final : public ScalarTransfer {
 
 template <class T>
 std::unique_ptr<ScalarTransfer> make_scalar_transfer(const mpm_kernel::KernelTable<T>& kernels, Fields& fields,
-                                                     std::vector<ParticleSet>& sets, int threads) {
-  return std::make_unique<ScalarTransferOf<T>>(kernels, fields, sets, threads);
+                                                     std::vector<ParticleSet>& sets, int threads,
+                                                     const NodeChoice* choice) {
+  return std::make_unique<ScalarTransferOf<T>>(kernels, fields, sets, threads, choice);
 }
 
 template std::unique_ptr<ScalarTransfer> make_scalar_transfer(const mpm_kernel::KernelTable<double>&, Fields&,
-                                                              std::vector<ParticleSet>&, int);
+                                                              std::vector<ParticleSet>&, int, const NodeChoice*);
 template std::unique_ptr<ScalarTransfer> make_scalar_transfer(const mpm_kernel::KernelTable<float>&, Fields&,
-                                                              std::vector<ParticleSet>&, int);
+                                                              std::vector<ParticleSet>&, int, const NodeChoice*);
 
 }  // namespace mpm

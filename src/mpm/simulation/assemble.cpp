@@ -233,7 +233,8 @@ std::string step_warning(const SimulationDefinition& definition) {
 
 std::unique_ptr<ScalarTransfer> RunParts::make_transfer(ShapeKind shape) {
   return with_precision(definition.method.precision, [&](auto zero) {
-    return make_scalar_transfer(kernel_table<decltype(zero)>(shape, definition.geometry, isa), fields, sets, threads);
+    return make_scalar_transfer(kernel_table<decltype(zero)>(shape, definition.geometry, isa), fields, sets, threads,
+                                choice);
   });
 }
 
@@ -249,7 +250,7 @@ VolumeSurvey& RunParts::volumes() {
   std::vector<double> densities;
   for (const DeformableBody& body : definition.bodies) densities.push_back(find_material(definition, body).density);
   services.volumes = make_volume_survey(make_transfer(definition.method.shape), fields, sets, std::move(densities),
-                                        definition.geometry, threads);
+                                        definition.geometry, threads, choice);
   return *services.volumes;
 }
 
@@ -258,7 +259,8 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
   for (ParticleSet& set : sets) prepare(set, method.shape, method.transfer);
   bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : definition.rigid_bodies) bodies.emplace_back(body);
-  RunParts parts{definition, field_map, fields, sets, laws, bodies, threads, isa, modules, services, warnings, notes};
+  RunParts parts{definition, field_map, fields,  sets,     laws,     bodies, choice.get(),
+                 threads,    isa,       modules, services, warnings, notes};
   for (const ShippedModules& shipped : shipped_modules()) shipped.add(parts);
   for (const AddModules& add : of_caller) add(parts);
   for (Module* module : modules.list()) {
@@ -273,10 +275,11 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
   settings.gravity = definition.gravity;
   settings.threads = threads;
   settings.damping = parts.damping;
+  settings.choice = choice.get();
   with_precision(method.precision, [&](auto zero) {
     const auto kernels = kernel_table<decltype(zero)>(method.shape, definition.geometry, isa);
     mechanics = make_mechanics(kernels, fields, sets, laws, settings);
-    sorter = std::make_unique<Sorter>(threads, kernel_grouping(kernels));
+    sorter = std::make_unique<Sorter>(threads, kernel_grouping(kernels), choice.get());
   });
 }
 
@@ -307,6 +310,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   }
   s.field_map = field_map(definition);
   s.fields = make_fields(definition, s.field_map.count());
+  s.choice = make_choice(s.field_map, s.fields);
   const GridLayout& layout = s.layout();
 
   const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
@@ -322,7 +326,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     const int number = static_cast<int>(s.sets.size()) - 1;
     set.field = s.field_map.field(number, 0);
     set.far_field = s.field_map.field(number, 1);
-    if (s.field_map.divided(number)) set.side.assign(set.id.size(), 0);
+    set.chooses = s.field_map.across(number) > 0;
+    if (set.chooses) set.far_field = s.choice->number();
+    if (set.far_field != set.field) set.side.assign(set.id.size(), 0);
     set.first_id = next_id;
     for (std::uint32_t& id : set.id) id = next_id++;
     s.total_mass += set.total_mass();

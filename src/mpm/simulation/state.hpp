@@ -69,6 +69,7 @@ struct Simulation::State {
   std::vector<Law> laws;  ///< of each set
   FieldMap field_map;
   Fields fields;
+  std::unique_ptr<NodeChoice> choice;  ///< of particles near cracks
   std::unique_ptr<Sorter> sorter;
   std::unique_ptr<Mechanics> mechanics;
   std::vector<RigidBody> bodies;

@@ -19,6 +19,21 @@ GridLayout layout_of(const SimulationDefinition& definition) {
   return layout;
 }
 
+// Of each body: one where one crack divides it; three where several may meet at a node.
+std::vector<int> fields_across_cracks(const SimulationDefinition& definition) {
+  std::vector<int> across;
+  for (const DeformableBody& body : definition.bodies) {
+    const auto& ignoring = definition.cracks.ignored_by;
+    const bool heeds = std::find(ignoring.begin(), ignoring.end(), body.name) == ignoring.end();
+    const auto& cracks = definition.cracks.list;
+    const auto count = std::count_if(cracks.begin(), cracks.end(), [&](const CrackDefinition& crack) {
+      return heeds && (crack.body.empty() || crack.body == body.name);
+    });
+    across.push_back(count == 0 ? 0 : count == 1 ? 1 : 3);
+  }
+  return across;
+}
+
 }  // namespace
 
 // A tool may come to any body, so a thin one divides all of them unless it names those that it divides.
@@ -40,7 +55,12 @@ FieldMap field_map(const SimulationDefinition& definition) {
     divided.push_back(std::any_of(tools.begin(), tools.end(),
                                   [&](const RigidBodyDefinition& tool) { return divided_by(tool, body.name); }));
   }
-  return {groups, divided};
+  return {groups, divided, fields_across_cracks(definition)};
+}
+
+std::unique_ptr<NodeChoice> make_choice(const FieldMap& map, Fields& fields) {
+  const std::vector<int> chosen = map.chosen();
+  return chosen.empty() ? nullptr : std::make_unique<NodeChoice>(fields, chosen);
 }
 
 Fields make_fields(const SimulationDefinition& definition, int count) {

@@ -1,9 +1,10 @@
-// Which velocity fields a scene has: one for each group of bodies that its bodies name, and a second one for a group
-// that thin tools divide (grid/field_map.hpp). Private to this folder.
+// Which velocity fields a scene has: one for each group of bodies that its bodies name, a second one for a group
+// that thin tools divide, and more for one that cracks divide (grid/field_map.hpp). Private to this folder.
 #pragma once
 
 #include "mpm/grid/field_map.hpp"
 #include "mpm/grid/fields.hpp"
+#include "mpm/grid/node_choice.hpp"
 #include "mpm/simulation/definition.hpp"
 
 namespace mpm {
@@ -13,5 +14,8 @@ FieldMap field_map(const SimulationDefinition& definition);
 
 /// The fields with walls, `count` of them, without blocks yet. @throws GridError
 Fields make_fields(const SimulationDefinition& definition, int count);
+
+/// Of the bodies that cracks divide; null if there are none.
+std::unique_ptr<NodeChoice> make_choice(const FieldMap& map, Fields& fields);
 
 }  // namespace mpm

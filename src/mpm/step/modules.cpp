@@ -14,9 +14,9 @@ using AtHook = void (StageWith<Context>::*)(Context&);
 /// In the order of Hook.
 template <class Context>
 constexpr std::array<AtHook<Context>, kHooks> kAtHook = {
-    &StageWith<Context>::run_begun,       &StageWith<Context>::momentum_gathered, &StageWith<Context>::before_strain,
-    &StageWith<Context>::forces_gathered, &StageWith<Context>::momentum_updated,  &StageWith<Context>::velocity_found,
-    &StageWith<Context>::increment_found, &StageWith<Context>::grid_advanced};
+    &StageWith<Context>::run_begun,      &StageWith<Context>::step_begun,      &StageWith<Context>::momentum_gathered,
+    &StageWith<Context>::before_strain,  &StageWith<Context>::forces_gathered, &StageWith<Context>::momentum_updated,
+    &StageWith<Context>::velocity_found, &StageWith<Context>::increment_found, &StageWith<Context>::grid_advanced};
 
 /// What an archive takes as the name of a group.
 std::string group_name(std::string name) {

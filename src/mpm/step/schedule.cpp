@@ -4,6 +4,7 @@ namespace mpm {
 namespace {
 
 void gather_momentum(Mechanics& mechanics, const Modules& modules, StepContext& context) {
+  modules.act(Hook::step_begun, context);
   mechanics.scatter_momentum(context);
   modules.act(Hook::momentum_gathered, context);
 }

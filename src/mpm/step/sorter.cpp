@@ -23,7 +23,8 @@ class RecentBlocks {
 
 }  // namespace
 
-Sorter::Sorter(int threads, Grouping grouping) : threads_(threads), grouping_(grouping), parts_(threads) {}
+Sorter::Sorter(int threads, Grouping grouping, NodeChoice* choice)
+    : threads_(threads), grouping_(grouping), choice_(choice), parts_(threads) {}
 
 template <int Dim>
 int Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout, Scratch& scratch) {
@@ -71,12 +72,19 @@ int Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout, Scratc
   return outside;
 }
 
-void Sorter::collect_owners() {
+void Sorter::collect_owners(const GridLayout& layout) {
   owner_keys_.clear();
   for (Part& part : parts_) {
     std::sort(part.blocks.begin(), part.blocks.end());
     part.blocks.erase(std::unique(part.blocks.begin(), part.blocks.end()), part.blocks.end());
     owner_keys_.insert(owner_keys_.end(), part.blocks.begin(), part.blocks.end());
+    // Fields have the blocks of those who choose from them.
+    for (const std::uint64_t key : part.blocks) {
+      if (choice_ == nullptr || key < choice_->number() * layout.keys()) continue;
+      for (const int field : choice_->chosen()) {
+        owner_keys_.push_back(key - (choice_->number() - field) * layout.keys());
+      }
+    }
   }
   std::sort(owner_keys_.begin(), owner_keys_.end());
   owner_keys_.erase(std::unique(owner_keys_.begin(), owner_keys_.end()), owner_keys_.end());
@@ -242,6 +250,10 @@ void Sorter::rebuild(const std::vector<ParticleSet>& sets, Fields& fields) {
     first = end;
     corner = next;
   }
+  if (choice_ == nullptr) return;
+  std::vector<std::uint64_t> keys(first, owner_keys_.end());
+  for (std::uint64_t& key : keys) key -= corner;
+  choice_->set_blocks(std::move(keys), static_cast<int>(first - owner_keys_.begin()));
 }
 
 std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Fields& fields) {
@@ -257,7 +269,7 @@ std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Fields& 
                                    : find_blocks<1>(sets[s], layout, scratch_[s]);
     if (outside < sets[s].awake()) return ParticleRef{static_cast<int>(s), outside};
   }
-  collect_owners();
+  collect_owners(layout);
   for (std::size_t s = 0; s < sets.size(); ++s) {
     sort_by_block(sets[s], scratch_[s]);
     sort_by_node(sets[s], scratch_[s]);

@@ -1,0 +1,64 @@
+// Contact between the faces of cracks: at a node that has material of both sides of a crack, each in a velocity field
+// of its own, the two act on each other by the crack's law (contact/contact_nodes.hpp), normal to the crack's segments.
+// Where two cracks divide a node, so do the four parts of it, each pair with one crack between them.
+//
+// Faces touch if they approach and lie on each other at the step's end: by the displacements of both sides since the
+// start, each carried to the node by its gradient, or by positions. Faces that a scene lets pass through each other
+// have no contact. Weak: a face is smeared over two cells, as bodies are; the four parts of a node are found with one
+// normal a crack. Source: Nairn (2003), CMES 4(6), 649-663; GIMP notes 3.2; crack reference 2.4 to 2.7.
+#pragma once
+
+#include <vector>
+
+#include "mpm/contact/contact_nodes.hpp"
+#include "mpm/crack/crack_fields.hpp"
+#include "mpm/math/geometry_kind.hpp"
+#include "mpm/step/stage.hpp"
+#include "mpm/step/volume_survey.hpp"
+
+namespace mpm {
+
+class CrackContact final : public Stage {
+ public:
+  /// All outlive the stage. Sets remember their places at the start (start_x).
+  CrackContact(const std::vector<Crack>& cracks, const CrackFields& chosen, Fields& fields, VolumeSurvey& survey,
+               GeometryKind geometry, int threads);
+
+  std::string name() const override { return "crack_contact"; }
+  Ranks ranks(Hook) const override { return {Rank::pair}; }
+
+  /// @throws FunctionError as ContactLaw::in_step().
+  void momentum_gathered(StepContext& context) override;
+  void before_strain(StepContext& context) override { nodes_.strain(context.dt); }
+  void momentum_updated(StepContext& context) override;
+  void velocity_found(StepContext& context) override { nodes_.filter(context.dt); }
+  void increment_found(StepContext& context) override { nodes_.filter(context.dt); }
+  void energies(EnergyReport& report) const override;
+  void serialise(StateArchive& archive) override;
+
+  /// Taken by friction on the faces of a crack since the start [J].
+  double friction_energy(int crack) const { return friction_energy_[crack]; }
+  /// Stored in the interface between its faces as the last step began [J].
+  double interface_energy(int crack) const { return interface_energy_[crack]; }
+
+ private:
+  void survey_nodes();
+  void add_node(const DividedNode& node, double dt);
+  void add_pair(int crack, int above, int below, const Vec2& normal, double dt);
+  NodeMaterial material_at(const ContactNodes::Member& member, const Vec3& position) const;
+
+  const std::vector<Crack>& cracks_;
+  const CrackFields& chosen_;
+  Fields& fields_;
+  VolumeSurvey& survey_;
+  GeometryKind geometry_;
+  SurveyWants wants_;
+  ContactNodes nodes_;
+  std::vector<NodalVolumes> volumes_;
+  std::vector<std::vector<std::uint8_t>> marks_;  ///< [field][block]: where nodes are divided
+  std::vector<FrictionLaw> friction_;             ///< of each crack, in this step
+  std::vector<double> friction_energy_, interface_energy_;
+  bool started_ = false;
+};
+
+}  // namespace mpm

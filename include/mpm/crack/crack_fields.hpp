@@ -1,0 +1,153 @@
+// Which velocity field a particle has at each node near cracks (grid/node_choice.hpp), found anew in every step from
+// the places of particles and chains at its start:
+//
+//   0   the way from particle to node crosses no crack
+//   1   it crosses one, and 1 of this node has that crack and side, or none yet
+//   2   it crosses one that is not that of 1
+//   3   it crosses two
+//
+// With one crack only 0 and 1 exist. 0 of a node holds what lies on the node's own side, so above a crack is 0 at some
+// nodes and 1 at others; the side of what is across stands with the node. What does not fit is put into 0 and counted.
+//
+// Particles choose where they lie in blocks whose tile a chain reaches; these are found at a sort, with room for the
+// chain to move, and a sort is asked for when it has used that up. All others spread to one field as ever.
+// Weak: the way begins at the particle's centre, so a domain that reaches over a crack is not cut.
+// Source: Nairn (2003), CMES 4(6), 649-663; crack reference 1.2, 2.1, 2.2, 2.5.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mpm/crack/chain.hpp"
+#include "mpm/grid/field_map.hpp"
+#include "mpm/grid/node_choice.hpp"
+#include "mpm/shape/kind.hpp"
+#include "mpm/step/patch_sorter.hpp"
+#include "mpm/step/step_context.hpp"
+
+namespace mpm {
+
+/// A crack in the run.
+struct Crack {
+  CrackDefinition definition;
+  Chain chain;
+  std::vector<std::uint8_t> divides;  ///< of each set, whether it heeds the crack
+  bool felt = true;                   ///< false: its faces are joined as if it were not there
+};
+
+/// Material across a crack from a node: above it or below it. Of field 3 there are two such, in the cracks' order.
+struct AcrossCrack {
+  int crack = -1;  ///< none
+  bool above = false;
+  bool operator==(const AcrossCrack& other) const { return crack == other.crack && above == other.above; }
+};
+
+/// A node at which fields across a crack are in use.
+struct DividedNode {
+  static constexpr int kFields = 4;
+  int first = 0;                        ///< number of its field 0 among all fields
+  std::array<NodeRef, kFields> ref{};   ///< in each of the fields; block -1 where there is none
+  std::array<AcrossCrack, 2> single{};  ///< of fields 1 and 2
+  std::array<AcrossCrack, 2> both{};    ///< of field 3
+  std::array<Vec2, 2> normal{Vec2::Zero(),
+                             Vec2::Zero()};  ///< of the cracks of 1 and 2, summed; from above to below [m]
+  Vec2 place = Vec2::Zero();                 ///< [m]
+};
+
+class CrackFields {
+ public:
+  /// All outlive this object; `choice` chooses from the fields of the sets that a crack divides. `ahead`: as far as a
+  /// tip may grow at once [m].
+  CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& sets, NodeChoice& choice, const FieldMap& map,
+              Grouping grouping, ShapeKind shape, int threads, double ahead);
+
+  /// Says which particles choose, before a sort.
+  void before_sort();
+  /// Whether a chain has come near particles that do not choose.
+  bool needs_sort() const;
+  /// Finds the fields of all pairs, and sorts particles into patches.
+  void choose();
+
+  /// Nodes at which something has been found across a crack, in the order of their finding.
+  const std::vector<DividedNode>& nodes() const { return nodes_; }
+  /// A node of one of the fields of a group of bodies, by their field 0.
+  struct NodeOfField {
+    int field = -1;  ///< none
+    NodeRef ref{-1, 0};
+  };
+  /// The node, given by its numbers, in the field that material at `from` has there. None: nothing at the node is on
+  /// that side of the cracks between them.
+  NodeOfField find_node(int first, const Vec2& from, const std::array<int, 2>& node) const;
+  /// visit(field, NodeRef) for the fields of a group that have the node.
+  template <class Visit>
+  void each_field(int first, const std::array<int, 2>& node, Visit&& visit) const {
+    const Place at = place_of_node(first, node);
+    if (at.number < 0) return;
+    visit(first, NodeRef{at.number, at.local});
+    const int divided = node_at_[first][at.index];
+    for (int f = 1; f < DividedNode::kFields && divided >= 0; ++f) {
+      if (nodes_[divided].ref[f].block >= 0) visit(first + f, nodes_[divided].ref[f]);
+    }
+  }
+  /// The field 0 of every set that the crack divides, each once.
+  std::vector<int> groups(int crack) const;
+
+  /// Pairs, since the start, that fitted into none of the fields.
+  long misfits() const { return misfits_; }
+  void serialise(StateArchive& archive);
+
+ private:
+  static constexpr int kMostWanted = 25;  ///< nodes that a particle reaches
+  struct Wanted {
+    int count = 0;
+    std::array<std::uint8_t, kMostWanted> node{};  ///< of the tile
+    std::array<std::uint8_t, kMostWanted> slot{};
+  };
+  /// Particles of one block that choose alike.
+  struct Patch {
+    int number, first;
+    std::array<std::int8_t, NodeChoice::kEdge * NodeChoice::kEdge> slot;  ///< -1: not chosen yet
+  };
+  /// Segments of a crack near a block or a particle: from the first point on, so many points; none: fewer than two.
+  struct Part {
+    int first = 0, points = 0;
+  };
+  struct Tile {
+    int block;                  ///< of NodeChoice::blocks()
+    std::array<int, 3> corner;  ///< number of its first node along each axis
+    std::vector<Part> parts;    ///< of each crack
+  };
+
+  /// A node in the first field of a group: its block's number (-1: none), its place there, and in node_at_.
+  struct Place {
+    int number, local;
+    std::size_t index;
+  };
+  Place place_of_node(int first, const std::array<int, 2>& node) const;
+  void find_listed();
+  template <class Visit>
+  void each_near_block(double margin, Visit&& visit) const;
+  Part part_between(int crack, const Part& within, const Vec2& low, const Vec2& high) const;
+  Wanted find_wanted(const Tile& tile, std::size_t set, std::size_t particle);
+  int find_slot(const Tile& tile, int tile_node, std::size_t set, const Vec2& particle, const Vec2& node);
+  DividedNode& divided_node(const Tile& tile, int tile_node, int first, const Vec2& place);
+  int fit(const Tile& tile, int first, const Wanted& wanted);
+
+  std::vector<Crack>& cracks_;
+  std::vector<ParticleSet>& sets_;
+  NodeChoice& choice_;
+  PatchSorter sorter_;
+  std::vector<int> across_;  ///< of each field 0, how many fields follow it
+  int reach_, threads_;
+  double ahead_;
+  std::vector<std::uint64_t> listed_;  ///< blocks whose particles choose
+  Tile tile_;
+  std::vector<Part> near_;  ///< of each crack, near a particle
+  std::vector<Patch> patches_;
+  std::vector<std::vector<int>> patch_of_;  ///< [set][particle that chooses]
+  std::vector<DividedNode> nodes_;
+  std::vector<std::vector<int>> node_at_;  ///< [field 0][node]: place in nodes_, or -1
+  long misfits_ = 0;
+};
+
+}  // namespace mpm

@@ -1,0 +1,336 @@
+#include "mpm/crack/crack_fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/crack/crossing.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kRoom = 0.5;  ///< for a chain to move between two sorts [cells]
+
+/// How far from its nearest node a particle may spread [nodes].
+int reach_of(ShapeKind shape) {
+  const bool wide = shape == ShapeKind::bspline3 || shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi;
+  return wide ? 2 : 1;
+}
+
+Vec2 place_of(const ParticleSet& set, std::size_t p) { return {set.x[0][p], set.x[1][p]}; }
+
+}  // namespace
+
+CrackFields::CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& sets, NodeChoice& choice,
+                         const FieldMap& map, Grouping grouping, ShapeKind shape, int threads, double ahead)
+    : cracks_(cracks),
+      sets_(sets),
+      choice_(choice),
+      sorter_(grouping),
+      reach_(reach_of(shape)),
+      threads_(threads),
+      ahead_(ahead),
+      near_(cracks.size()),
+      patch_of_(sets.size()) {
+  tile_.parts.resize(cracks.size());
+  across_.assign(choice.number(), 0);
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    int& across = across_[sets[s].field];
+    across = std::max(across, map.across(static_cast<int>(s)));
+  }
+}
+
+// visit(key) for every block with a chain within `margin` of its tile.
+template <class Visit>
+void CrackFields::each_near_block(double margin, Visit&& visit) const {
+  const GridLayout& layout = choice_.grid().layout;
+  for (const Crack& crack : cracks_) {
+    const std::vector<Vec2>& line = crack.chain.line();
+    const int last = static_cast<int>(line.size()) - 2;
+    for (int k = 0; k <= last; ++k) {
+      const bool grows =
+          (k == 0 && crack.chain.end(0) == CrackEnd::tip) || (k == last && crack.chain.end(1) == CrackEnd::tip);
+      std::array<int, 2> low{}, high{};
+      for (int a = 0; a < 2; ++a) {
+        // Tile nodes of block B are 4 B - 2 to 4 B + 5.
+        const double more = margin + (grows ? ahead_ * layout.inverse_cell(a) : 0.0);
+        const double from = layout.in_cells(a, std::min(line[k][a], line[k + 1][a])) - more;
+        const double to = layout.in_cells(a, std::max(line[k][a], line[k + 1][a])) + more;
+        const double last_block = layout.last_node(a) / static_cast<double>(kBlockEdge);
+        low[a] = static_cast<int>(std::clamp(std::ceil((from - 5.0) / kBlockEdge), 0.0, last_block + 1.0));
+        high[a] = static_cast<int>(std::clamp(std::floor((to + 2.0) / kBlockEdge), -1.0, last_block));
+      }
+      for (int i = low[0]; i <= high[0]; ++i) {
+        for (int j = low[1]; j <= high[1]; ++j) visit(layout.key({i, j, 0}));
+      }
+    }
+  }
+}
+
+void CrackFields::find_listed() {
+  listed_.clear();
+  each_near_block(kRoom, [&](std::uint64_t key) {
+    if (listed_.empty() || listed_.back() != key) listed_.push_back(key);
+  });
+  std::sort(listed_.begin(), listed_.end());
+  listed_.erase(std::unique(listed_.begin(), listed_.end()), listed_.end());
+}
+
+void CrackFields::before_sort() {
+  find_listed();
+  const GridLayout& layout = choice_.grid().layout;
+  for (ParticleSet& set : sets_) {
+    if (set.side.empty()) continue;
+#pragma omp parallel for schedule(static) num_threads(threads_)
+    for (int p = 0; p < set.awake(); ++p) {
+      std::array<int, 3> block{};
+      bool inside = true;  // the sort tells of those that are not
+      for (int k = 0; k < 2; ++k) {
+        const double cells = layout.in_cells(k, set.x[k][p]);
+        inside = inside && cells >= set.lowest[k] && cells <= set.highest[k];
+        block[k] = inside ? GridLayout::nearest(cells) / kBlockEdge : 0;
+      }
+      set.side[p] = inside && std::binary_search(listed_.begin(), listed_.end(), layout.key(block)) ? 1 : 0;
+    }
+  }
+}
+
+bool CrackFields::needs_sort() const {
+  bool needs = false;
+  each_near_block(
+      0.0, [&](std::uint64_t key) { needs = needs || !std::binary_search(listed_.begin(), listed_.end(), key); });
+  return needs;
+}
+
+// The fewest consecutive segments that hold all of `within` whose bounds meet those of the box.
+CrackFields::Part CrackFields::part_between(int crack, const Part& within, const Vec2& low, const Vec2& high) const {
+  const std::vector<Vec2>& line = cracks_[crack].chain.line();
+  int first = -1, last = -1;
+  for (int k = within.first; k + 1 < within.first + within.points; ++k) {
+    const Vec2 &a = line[k], &b = line[k + 1];
+    if (std::min(a[0], b[0]) > high[0] || std::max(a[0], b[0]) < low[0]) continue;
+    if (std::min(a[1], b[1]) > high[1] || std::max(a[1], b[1]) < low[1]) continue;
+    if (first < 0) first = k;
+    last = k;
+  }
+  if (first < 0) return {};
+  return {first, last - first + 2};
+}
+
+DividedNode& CrackFields::divided_node(const Tile& tile, int tile_node, int first, const Vec2& place) {
+  const NodeChoice::Node of = choice_.node_of(tile.block, tile_node, first);
+  int& at = node_at_[first][static_cast<std::size_t>(of.block) * choice_.grid().layout.nodes_per_block() + of.node];
+  if (at >= 0) return nodes_[at];
+  at = static_cast<int>(nodes_.size());
+  DividedNode node;
+  node.first = first;
+  node.place = place;
+  for (int f = 0; f < DividedNode::kFields; ++f) {
+    const NodeChoice::Node own =
+        f <= across_[first] ? choice_.node_of(tile.block, tile_node, first + f) : NodeChoice::Node{-1, 0};
+    node.ref[f] = {own.block, own.node};
+  }
+  nodes_.push_back(node);
+  return nodes_.back();
+}
+
+int CrackFields::find_slot(const Tile& tile, int tile_node, std::size_t set, const Vec2& particle, const Vec2& node) {
+  std::array<AcrossCrack, 2> across;
+  std::array<Vec2, 2> normals{Vec2::Zero(), Vec2::Zero()};
+  int count = 0;
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    const Part& part = near_[c];
+    if (part.points < 2 || cracks_[c].divides[set] == 0) continue;
+    const Crossing found = find_crossing(cracks_[c].chain.line().data() + part.first, part.points, particle, node);
+    if (!found.crosses) continue;
+    if (count == 2) {
+      ++misfits_;
+      return 0;
+    }
+    normals[count] = found.normal;
+    across[count++] = {static_cast<int>(c), found.above};
+  }
+  if (count == 0) return 0;
+  DividedNode& divided = divided_node(tile, tile_node, sets_[set].field, node);
+  if (count == 2) {
+    if (divided.ref[3].block >= 0 && (divided.both[0].crack < 0 || divided.both == across)) {
+      divided.both = across;
+      return 3;
+    }
+    ++misfits_;
+    return 0;
+  }
+  for (int f = 0; f < 2; ++f) {
+    if (divided.ref[1 + f].block < 0) break;
+    if (divided.single[f].crack >= 0 && !(divided.single[f] == across[0])) continue;
+    divided.single[f] = across[0];
+    divided.normal[f] += normals[0];
+    return 1 + f;
+  }
+  ++misfits_;
+  return 0;
+}
+
+CrackFields::Wanted CrackFields::find_wanted(const Tile& tile, std::size_t set, std::size_t particle) {
+  const GridLayout& layout = choice_.grid().layout;
+  const Vec2 place = place_of(sets_[set], particle);
+  std::array<int, 2> first{}, last{};
+  Vec2 low, high;
+  for (int k = 0; k < 2; ++k) {
+    const int nearest = GridLayout::nearest(layout.in_cells(k, place[k]));
+    first[k] = std::max(nearest - reach_, tile.corner[k]);
+    last[k] = std::min(nearest + reach_, tile.corner[k] + NodeChoice::kEdge - 1);
+    low[k] = std::min(place[k], layout.origin(k) + layout.cell(k) * first[k]);
+    high[k] = std::max(place[k], layout.origin(k) + layout.cell(k) * last[k]);
+  }
+  bool any = false;
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    near_[c] = {};
+    if (tile.parts[c].points >= 2) near_[c] = part_between(static_cast<int>(c), tile.parts[c], low, high);
+    any = any || near_[c].points >= 2;
+  }
+  Wanted wanted;
+  for (int i = first[0]; i <= last[0]; ++i) {
+    for (int j = first[1]; j <= last[1]; ++j) {
+      const int tile_node = (i - tile.corner[0]) * NodeChoice::kEdge + j - tile.corner[1];
+      int slot = 0;
+      if (any) {
+        const Vec2 node(layout.origin(0) + layout.cell(0) * i, layout.origin(1) + layout.cell(1) * j);
+        slot = find_slot(tile, tile_node, set, place, node);
+      }
+      wanted.node[wanted.count] = static_cast<std::uint8_t>(tile_node);
+      wanted.slot[wanted.count++] = static_cast<std::uint8_t>(slot);
+    }
+  }
+  return wanted;
+}
+
+// The first patch of the block that has chosen nothing else.
+int CrackFields::fit(const Tile& tile, int first, const Wanted& wanted) {
+  const auto fits = [&](const Patch& patch) {
+    if (patch.first != first) return false;
+    for (int i = 0; i < wanted.count; ++i) {
+      const int slot = patch.slot[wanted.node[i]];
+      if (slot >= 0 && slot != wanted.slot[i]) return false;
+    }
+    return true;
+  };
+  auto patch = std::find_if(patches_.begin(), patches_.end(), fits);
+  if (patch == patches_.end()) {
+    Patch made{choice_.add_patch(tile.block), first, {}};
+    made.slot.fill(-1);
+    patch = patches_.insert(patches_.end(), made);
+  }
+  for (int i = 0; i < wanted.count; ++i) {
+    std::int8_t& slot = patch->slot[wanted.node[i]];
+    if (slot >= 0) continue;
+    slot = static_cast<std::int8_t>(wanted.slot[i]);
+    choice_.choose(patch->number, wanted.node[i], first + wanted.slot[i]);
+  }
+  return patch->number;
+}
+
+void CrackFields::choose() {
+  const GridLayout& layout = choice_.grid().layout;
+  if (sorter_.outdated(choice_)) {
+    sorter_.look_at(sets_, choice_);
+    nodes_.clear();
+    node_at_.resize(choice_.number());
+    for (const ParticleSet& set : sets_) {
+      if (set.side.empty()) continue;
+      const Grid& grid = choice_.field(set.field);
+      node_at_[set.field].assign(static_cast<std::size_t>(grid.blocks.size()) * layout.nodes_per_block(), -1);
+    }
+  }
+  for (const DividedNode& node : nodes_) {
+    node_at_[node.first][static_cast<std::size_t>(node.ref[0].block) * layout.nodes_per_block() + node.ref[0].node] =
+        -1;
+  }
+  nodes_.clear();
+  choice_.clear_patches();
+  for (std::vector<int>& of_set : patch_of_) of_set.clear();
+  for (std::size_t b = 0; b < choice_.blocks().size(); ++b) {
+    const std::array<int, 3> block = layout.block(choice_.blocks()[b]);
+    tile_.block = static_cast<int>(b);
+    Vec2 low, high;
+    for (int k = 0; k < 2; ++k) {
+      tile_.corner[k] = block[k] * kBlockEdge - NodeChoice::kMargin;
+      low[k] = layout.origin(k) + layout.cell(k) * tile_.corner[k];
+      high[k] = low[k] + layout.cell(k) * (NodeChoice::kEdge - 1);
+    }
+    for (std::size_t c = 0; c < cracks_.size(); ++c) {
+      tile_.parts[c] = {};
+      if (!cracks_[c].felt) continue;
+      tile_.parts[c] =
+          part_between(static_cast<int>(c), {0, static_cast<int>(cracks_[c].chain.line().size())}, low, high);
+    }
+    patches_.clear();
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      for (std::uint32_t p = sorter_.begin(s, b); p < sorter_.begin(s, b + 1); ++p) {
+        patch_of_[s].push_back(fit(tile_, sets_[s].field, find_wanted(tile_, s, p)));
+      }
+    }
+  }
+  choice_.finish(threads_);
+  for (std::size_t s = 0; s < sets_.size(); ++s) sorter_.sort(s, sets_[s], choice_, patch_of_[s]);
+}
+
+CrackFields::Place CrackFields::place_of_node(int first, const std::array<int, 2>& node) const {
+  const GridLayout& layout = choice_.grid().layout;
+  std::array<int, 3> block{};
+  int local = 0;
+  for (int k = 0; k < 2; ++k) {
+    block[k] = (node[k] + kBlockEdge) / kBlockEdge - 1;
+    local = local * kBlockEdge + node[k] - block[k] * kBlockEdge;
+  }
+  const int number = choice_.field(first).blocks.find(layout.key(block));
+  return {number, local, static_cast<std::size_t>(std::max(number, 0)) * layout.nodes_per_block() + local};
+}
+
+CrackFields::NodeOfField CrackFields::find_node(int first, const Vec2& from, const std::array<int, 2>& node) const {
+  const GridLayout& layout = choice_.grid().layout;
+  const Place own = place_of_node(first, node);
+  if (own.number < 0) return {};
+  Vec2 place;
+  for (int k = 0; k < 2; ++k) place[k] = layout.origin(k) + layout.cell(k) * node[k];
+  std::array<AcrossCrack, 2> across;
+  int count = 0;
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    if (!cracks_[c].felt) continue;
+    const std::vector<Vec2>& line = cracks_[c].chain.line();
+    const Part part = part_between(static_cast<int>(c), {0, static_cast<int>(line.size())}, from.cwiseMin(place),
+                                   from.cwiseMax(place));
+    if (part.points < 2) continue;
+    const Crossing found = find_crossing(line.data() + part.first, part.points, from, place);
+    if (!found.crosses) continue;
+    if (count == 2) return {};
+    across[count++] = {static_cast<int>(c), found.above};
+  }
+  if (count == 0) return {first, {own.number, own.local}};
+  const int at = node_at_[first][own.index];
+  if (at < 0) return {};
+  const DividedNode& divided = nodes_[at];
+  if (count == 2) return divided.both == across ? NodeOfField{first + 3, divided.ref[3]} : NodeOfField{};
+  for (int f = 0; f < 2; ++f) {
+    if (divided.single[f] == across[0]) return {first + 1 + f, divided.ref[1 + f]};
+  }
+  return {};
+}
+
+std::vector<int> CrackFields::groups(int crack) const {
+  std::vector<int> list;
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    if (cracks_[crack].divides[s] != 0) list.push_back(sets_[s].field);
+  }
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+void CrackFields::serialise(StateArchive& archive) {
+  sorter_.serialise(archive, choice_);
+  archive.list("listed", listed_);
+  archive.value("misfits", misfits_);
+  if (archive.reading()) nodes_.clear();
+}
+
+}  // namespace mpm

@@ -1,0 +1,105 @@
+#include "mpm/crack/crack_motion.hpp"
+
+#include <cmath>
+
+namespace mpm {
+namespace {
+
+constexpr double kLargestMove = 0.5;  // of a cell
+
+Vec2 in_plane(const NodalField& field, NodeRef ref) {
+  return {field.at(ref.block, 0, ref.node), field.at(ref.block, 1, ref.node)};
+}
+
+/// visit(numbers of a node, its hat function) for the four nodes around a place.
+template <class Visit>
+void each_hat(const GridLayout& layout, const Vec2& place, Visit&& visit) {
+  std::array<int, 2> low{};
+  std::array<double, 2> beyond{};
+  for (int k = 0; k < 2; ++k) {
+    const double cells = layout.in_cells(k, place[k]);
+    if (!(cells >= -kBlockEdge && cells < layout.last_node(k) + kBlockEdge - 1)) return;  // far out of the domain
+    low[k] = static_cast<int>(std::floor(cells));
+    beyond[k] = cells - low[k];
+  }
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      const double hat = (i == 1 ? beyond[0] : 1.0 - beyond[0]) * (j == 1 ? beyond[1] : 1.0 - beyond[1]);
+      if (hat > 0.0) visit(std::array<int, 2>{low[0] + i, low[1] + j}, hat);
+    }
+  }
+}
+
+}  // namespace
+
+CrackMotion::CrackMotion(std::vector<Crack>& cracks, const CrackFields& chosen, const Fields& fields,
+                         CracksDefinition::Move by, bool prevent)
+    : cracks_(cracks), chosen_(chosen), fields_(fields), by_(by), prevent_(prevent) {
+  for (std::size_t c = 0; c < cracks.size(); ++c) groups_.push_back(chosen.groups(static_cast<int>(c)));
+}
+
+SurfaceMotion CrackMotion::surface(const std::vector<int>& groups, const Vec2& place, const Vec2& from) const {
+  SurfaceMotion motion;
+  double sum = 0.0;
+  for (const int first : groups) {
+    each_hat(fields_[first]->layout, place, [&](const std::array<int, 2>& node, double hat) {
+      const CrackFields::NodeOfField own = chosen_.find_node(first, from, node);
+      if (own.field < 0 || own.ref.block < 0) return;
+      const Grid& grid = *fields_[own.field];
+      if (!grid.carries(own.ref.block, own.ref.node)) return;
+      const double weight = hat * grid.mass.at(own.ref.block, 0, own.ref.node);
+      motion.velocity += weight * in_plane(grid.velocity, own.ref);
+      motion.acceleration += weight * in_plane(grid.force, own.ref);
+      sum += weight;
+    });
+  }
+  if (!(sum > 0.0)) return {};
+  return {motion.velocity / sum, motion.acceleration / sum, true};
+}
+
+SurfaceMotion CrackMotion::centre(const std::vector<int>& groups, const Vec2& place) const {
+  SurfaceMotion motion;
+  double sum = 0.0;
+  each_hat(fields_.front()->layout, place, [&](const std::array<int, 2>& node, double hat) {
+    double mass = 0.0;
+    Vec2 momentum = Vec2::Zero(), force = Vec2::Zero();
+    for (const int first : groups) {
+      chosen_.each_field(first, node, [&](int field, NodeRef ref) {
+        const Grid& grid = *fields_[field];
+        if (!grid.carries(ref.block, ref.node)) return;
+        const double own = grid.mass.at(ref.block, 0, ref.node);
+        mass += own;
+        momentum += own * in_plane(grid.velocity, ref);
+        force += own * in_plane(grid.force, ref);
+      });
+    }
+    if (!(mass > 0.0)) return;
+    motion.velocity += hat / mass * momentum;
+    motion.acceleration += hat / mass * force;
+    sum += hat;
+  });
+  if (!(sum > 0.0)) return {};
+  return {motion.velocity / sum, motion.acceleration / sum, true};
+}
+
+void CrackMotion::move(double dt) {
+  const double largest = kLargestMove * fields_.front()->layout.smallest_cell();
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    Chain& chain = cracks_[c].chain;
+    if (chain.fixed()) continue;
+    const std::size_t points = chain.points().size();
+    above_.resize(points);
+    below_.resize(points);
+    centre_.resize(points);
+    for (std::size_t k = 0; k < points; ++k) {
+      const CrackPoint& point = chain.points()[k];
+      above_[k] = surface(groups_[c], point.above, chain.beside(static_cast<int>(k), true));
+      below_[k] = surface(groups_[c], point.below, chain.beside(static_cast<int>(k), false));
+      if (by_ == CracksDefinition::Move::centre_of_mass) centre_[k] = centre(groups_[c], point.place);
+    }
+    stopped_ += chain.move(above_.data(), below_.data(), centre_.data(), dt, by_, largest);
+    if (prevent_) chain.prevent();
+  }
+}
+
+}  // namespace mpm

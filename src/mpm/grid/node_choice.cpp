@@ -1,0 +1,135 @@
+#include "mpm/grid/node_choice.hpp"
+
+#include <algorithm>
+
+namespace mpm {
+
+NodeChoice::NodeChoice(Fields& fields, std::vector<int> chosen)
+    : fields_(fields), chosen_(std::move(chosen)), grid_(fields.front()->layout) {}
+
+void NodeChoice::set_blocks(std::vector<std::uint64_t> keys, int first_owner) {
+  block_keys_.swap(keys);
+  grid_.first_owner = first_owner;
+  const GridLayout& layout = grid_.layout;
+  const int span = neighbours_of(layout.dim());
+  places_.assign(block_keys_.size() * fields_.size() * span, -1);
+  for (std::size_t b = 0; b < block_keys_.size(); ++b) {
+    const std::array<int, 3> owner = layout.block(block_keys_[b]);
+    for (int s = 0; s < span; ++s) {
+      std::array<int, 3> block = owner;
+      int rest = s;
+      for (int k = layout.dim() - 1; k >= 0; --k, rest /= 3) block[k] += rest % 3 - 1;
+      const std::uint64_t key = layout.key(block);
+      for (const int f : chosen_) places_[(b * fields_.size() + f) * span + s] = fields_[f]->blocks.find(key);
+    }
+  }
+  clear_patches();
+  ++sorted_;
+}
+
+void NodeChoice::clear_patches() {
+  patch_blocks_.clear();
+  patch_keys_.clear();
+  entries_.clear();
+}
+
+int NodeChoice::add_patch(int block) {
+  patch_blocks_.push_back(block);
+  patch_keys_.push_back(block_keys_[block]);
+  return patches() - 1;
+}
+
+namespace {
+
+/// Of a tile's node: which of the neighbours it lies in, and its place there.
+NodeChoice::Node place_in_tile(int dim, int tile_node) {
+  int neighbour = 0, local = 0, neighbour_stride = 1, local_stride = 1;
+  for (int k = dim - 1; k >= 0; --k, tile_node /= NodeChoice::kEdge) {
+    const int at = tile_node % NodeChoice::kEdge - NodeChoice::kMargin + kBlockEdge;
+    neighbour += at / kBlockEdge * neighbour_stride;
+    local += at % kBlockEdge * local_stride;
+    neighbour_stride *= 3;
+    local_stride *= kBlockEdge;
+  }
+  return {neighbour, local};
+}
+
+}  // namespace
+
+NodeChoice::Node NodeChoice::node_of(int block, int tile_node, int field) const {
+  const int dim = grid_.layout.dim();
+  const Node at = place_in_tile(dim, tile_node);
+  return {places_[(block * fields_.size() + field) * neighbours_of(dim) + at.block], at.node};
+}
+
+void NodeChoice::choose(int patch, int tile_node, int field) {
+  const Node own = place_in_tile(grid_.layout.dim(), tile_node);
+  const Node of = node_of(patch_blocks_[patch], tile_node, field);
+  entries_.push_back({patch * neighbours_of(grid_.layout.dim()) + own.block, of.block,
+                      static_cast<std::uint8_t>(own.node), static_cast<std::uint8_t>(of.node),
+                      static_cast<std::uint16_t>(field)});
+}
+
+void NodeChoice::finish(int threads) {
+  grid_.blocks.rebuild_apart(patch_keys_);
+  grid_.shares.rebuild(grid_.blocks, {}, threads);
+  for (NodalField* field : {&grid_.mass, &grid_.momentum, &grid_.velocity, &grid_.force}) {
+    field->resize(grid_.blocks.size());
+    std::fill_n(field->data(),
+                static_cast<std::size_t>(grid_.blocks.size()) * field->components() *
+                    static_cast<std::size_t>(grid_.layout.nodes_per_block()),
+                0.0);
+  }
+  grid_.loose.assign(grid_.blocks.owners(), 1);  // particles are taken as far from their block as a tile reaches
+  const Grid& like = *fields_[chosen_.front()];
+  grid_.least_mass = like.least_mass;
+  grid_.wall_layers = like.wall_layers;
+  grid_.has_wall = like.has_wall;
+  grid_.mirrors = like.mirrors;
+}
+
+void NodeChoice::clear(NodalField& own) const {
+  for (const Entry& entry : entries_) {
+    for (int c = 0; c < own.components(); ++c) own.at(entry.own_block, c, entry.own_node) = 0.0;
+  }
+}
+
+void NodeChoice::give(NodalField Grid::*what) {
+  const NodalField& own = grid_.*what;
+  for (const Entry& entry : entries_) {
+    NodalField& to = (*fields_[entry.field]).*what;
+    for (int c = 0; c < own.components(); ++c) {
+      to.at(entry.block, c, entry.node) += own.at(entry.own_block, c, entry.own_node);
+    }
+  }
+}
+
+void NodeChoice::take(NodalField Grid::*what) {
+  NodalField& own = grid_.*what;
+  for (const Entry& entry : entries_) {
+    const NodalField& from = (*fields_[entry.field]).*what;
+    for (int c = 0; c < own.components(); ++c) {
+      own.at(entry.own_block, c, entry.own_node) = from.at(entry.block, c, entry.node);
+    }
+  }
+}
+
+void NodeChoice::give(const NodalField& own, int field, NodalField& to) const {
+  for (const Entry& entry : entries_) {
+    if (entry.field != field) continue;
+    for (int c = 0; c < own.components(); ++c) {
+      to.at(entry.block, c, entry.node) += own.at(entry.own_block, c, entry.own_node);
+    }
+  }
+}
+
+void NodeChoice::take(const NodalField& from, int field, NodalField& own) const {
+  for (const Entry& entry : entries_) {
+    if (entry.field != field) continue;
+    for (int c = 0; c < own.components(); ++c) {
+      own.at(entry.own_block, c, entry.own_node) = from.at(entry.block, c, entry.node);
+    }
+  }
+}
+
+}  // namespace mpm

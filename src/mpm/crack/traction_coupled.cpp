@@ -55,12 +55,11 @@ void TractionLaw::advance_coupled(const FaceOpening& from, const FaceOpening& to
   state.work += traction_work(traction_of(secant, from), from, traction_of(secant, onset), onset) +
                 traction_work(traction_of(secant, onset), onset, state.traction, end);
 
-  // Directions of the way's two ends, and their mean.
+  // The mean of the directions at the way's two ends, which differ by less than a right angle.
   const double sine = onset.normal / (normal * before) + end.normal / (normal * state.damage);
   const double cosine = onset.shear / (shear * before) + end.shear / (shear * state.damage);
-  const double square = sine * sine + cosine * cosine, part = (state.damage - before) / (1.0 - elastic);
-  // From one side to the other through the closed crack they cancel: then the end's direction is as good.
-  const double mode_1 = square > 0.0 ? sine * sine / square : std::pow(end.normal / (normal * state.damage), 2);
+  const double mode_1 = sine * sine / (sine * sine + cosine * cosine);
+  const double part = (state.damage - before) / (1.0 - elastic);
   state.dissipated[0] += curve_[0].toughness() * mode_1 * part;
   state.dissipated[1] += curve_[1].toughness() * (1.0 - mode_1) * part;
 }

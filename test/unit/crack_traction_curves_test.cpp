@@ -167,6 +167,17 @@ TEST(CrackTractionCurves, FailWithTheirToughness) {
   }
 }
 
+// On straight lines from the origin to u_e and to u_c the trapezoid rule is exact: one step far beyond does G_c of
+// work.
+TEST(CrackTractionCurves, FailInOneStep) {
+  const TableRow row = triangular_row();
+  TractionState state;
+  law_of(row).advance(3.0 * row.mode.opening, 0.0, 0.0, state);
+  EXPECT_TRUE(state.failed);
+  EXPECT_NEAR(state.work, row.toughness, 1e-12 * row.toughness);
+  EXPECT_NEAR(state.dissipated[0], row.toughness, 1e-12 * row.toughness);
+}
+
 // A cubic curve has its peak at a third of its opening and starts with the slope 27 sigma / (4 u_c).
 TEST(CrackTractionCurves, HaveTheirPeakAndSlope) {
   const TableRow row = cubic_row();

@@ -5,11 +5,10 @@
 //   const GrowthDecision now = growth.look(tip, rules);
 //   if (now.grows) growth.grown(tip, now, length);      // the tip moves by length along now.direction
 //
-// A tip whose criterion sets a speed c (steady state, energy balance) next grows da / c after it was due, so that its
-// mean speed is c, however far apart the looks are; a tip that falls behind, because each look allows one length, makes
-// good one length at most.
-// Weak: J of one look decides, and J oscillates with the waves in the body. Faces that touch (a negative normal
-// opening or K_I) count as closed without load: only shear then drives growth.
+// A tip whose criterion sets a speed c (steady state, energy balance) next grows da / c after it was due, not after
+// it grew, so that its mean speed is c although looks come late. Each look allows one length; of what a tip falls
+// behind it makes good one length at most. Weak: J of one look decides, and J oscillates with the waves in the body.
+// Faces that touch (a negative normal opening or K_I) count as closed without load: only shear then drives growth.
 // Source: crack reference 5.1-5.3.
 #pragma once
 

@@ -21,28 +21,29 @@ double energy_density_slope(double angle, double one, double two, double kappa) 
          s * (kappa - 1.0 - 6.0 * c) * two * two;
 }
 
-std::string missing(FractureCriterion criterion, const char* constant, const char* meaning) {
+std::string constant_missing(FractureCriterion criterion, const char* constant, const char* meaning) {
   return fmt::format("criterion '{}' needs {}, {}: give it to the material, or choose another criterion",
                      kFractureCriterionNames[static_cast<int>(criterion)], constant, meaning);
 }
 
-std::string steady_fault(const FractureConstants& constants) {
+std::string steady_state_fault(const FractureConstants& constants) {
   if (!(constants.speed > 0.0)) {
-    return missing(FractureCriterion::steady_state, "speed", "at which the crack grows [m/s], above 0");
+    return constant_missing(FractureCriterion::steady_state, "speed", "at which the crack grows [m/s], above 0");
   }
   if (constants.start_time < 0.0 && !(constants.j_ic > 0.0)) {
-    return missing(FractureCriterion::steady_state, "j_ic [J/m^2] or start_time [s]", "at which growth starts");
+    return constant_missing(FractureCriterion::steady_state, "j_ic [J/m^2] or start_time [s]",
+                            "at which growth starts");
   }
   return {};
 }
 
-std::string balance_fault(const FractureConstants& constants, const ElasticConstants* elastic) {
+std::string energy_balance_fault(const FractureConstants& constants, const ElasticConstants* elastic) {
   const FractureCriterion criterion = FractureCriterion::energy_balance;
-  if (!(constants.j_ic > 0.0)) return missing(criterion, "j_ic", "the J at which growth starts [J/m^2]");
+  if (!(constants.j_ic > 0.0)) return constant_missing(criterion, "j_ic", "the J at which growth starts [J/m^2]");
   if (!(constants.speed > 0.0 && constants.speed <= 1.0)) {
-    return missing(criterion, "speed", "at the start as part of the wave speed, above 0 and at most 1");
+    return constant_missing(criterion, "speed", "at the start as part of the wave speed, above 0 and at most 1");
   }
-  if (!(constants.gain > 0.0)) return missing(criterion, "gain", "of its speed [(m/s)/(J/m^2)], above 0");
+  if (!(constants.gain > 0.0)) return constant_missing(criterion, "gain", "of its speed [(m/s)/(J/m^2)], above 0");
   if (elastic == nullptr || !(elastic->density > 0.0)) {
     return "criterion 'energy_balance' needs the wave speed of an isotropic elastic material with a density: choose "
            "'steady_state' with a speed, or 'release_rate'";
@@ -50,7 +51,7 @@ std::string balance_fault(const FractureConstants& constants, const ElasticConst
   return {};
 }
 
-std::string density_fault(const ElasticConstants& elastic) {
+std::string energy_density_fault(const ElasticConstants& elastic) {
   const double kappa = elastic.kappa();
   if (kappa > 1.0 && kappa < 3.0) return {};
   return fmt::format(
@@ -126,27 +127,29 @@ std::string criterion_fault(const GrowthRule& rule, const FractureConstants& con
           "'release_rate' or 'opening'",
           name);
     }
-    if (!(constants.k_ic > 0.0)) return missing(criterion, "k_ic", "the toughness in mode I [Pa sqrt(m)]");
+    if (!(constants.k_ic > 0.0)) return constant_missing(criterion, "k_ic", "the toughness in mode I [Pa sqrt(m)]");
   }
   switch (criterion) {
     case FractureCriterion::none:
     case FractureCriterion::hoop_stress:
       return {};
     case FractureCriterion::steady_state:
-      return steady_fault(constants);
+      return steady_state_fault(constants);
     case FractureCriterion::energy_balance:
-      return balance_fault(constants, elastic);
+      return energy_balance_fault(constants, elastic);
     case FractureCriterion::energy_density:
-      return density_fault(*elastic);
+      return energy_density_fault(*elastic);
     case FractureCriterion::elliptical:
-      if (!(constants.k_iic > 0.0)) return missing(criterion, "k_iic", "the toughness in mode II [Pa sqrt(m)]");
+      if (!(constants.k_iic > 0.0))
+        return constant_missing(criterion, "k_iic", "the toughness in mode II [Pa sqrt(m)]");
       if (constants.k_exponent > 0.0 && constants.k_ii_exponent > 0.0) return {};
-      return missing(criterion, "k_exponent and k_ii_exponent", "the powers of its ellipse, above 0");
+      return constant_missing(criterion, "k_exponent and k_ii_exponent", "the powers of its ellipse, above 0");
     case FractureCriterion::opening:
       if (constants.opening_ic > 0.0 || constants.opening_iic > 0.0) return {};
-      return missing(criterion, "opening_ic or opening_iic", "the largest opening across or along the faces [m]");
+      return constant_missing(criterion, "opening_ic or opening_iic",
+                              "the largest opening across or along the faces [m]");
     case FractureCriterion::release_rate:
-      return constants.j_ic > 0.0 ? std::string() : missing(criterion, "j_ic", "the largest J [J/m^2]");
+      return constants.j_ic > 0.0 ? std::string() : constant_missing(criterion, "j_ic", "the largest J [J/m^2]");
   }
   return {};
 }

@@ -23,22 +23,22 @@ void refuse_broken_tip(const TipState& tip) {
   if (!(tip.direction.allFinite() && tip.direction.norm() > 0.0)) refuse("the direction");
 }
 
-Vec2 turned(const Vec2& direction, double angle) { return Eigen::Rotation2Dd(angle) * direction; }
+Vec2 direction_turned(const Vec2& direction, double angle) { return Eigen::Rotation2Dd(angle) * direction; }
 
-double angle_between(const Vec2& from, const Vec2& to) {
+double angle_between_directions(const Vec2& from, const Vec2& to) {
   return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
 }
 
-bool sets_speed(FractureCriterion criterion) {
+bool criterion_sets_speed(FractureCriterion criterion) {
   return criterion == FractureCriterion::steady_state || criterion == FractureCriterion::energy_balance;
 }
 
-StressIntensity without_closure(const StressIntensity& k) { return {std::max(k.one, 0.0), k.two}; }
+StressIntensity opening_intensity(const StressIntensity& k) { return {std::max(k.one, 0.0), k.two}; }
 
 /// Of the criteria that compare a measure with the material's, and remember nothing.
-bool exceeded(FractureCriterion criterion, const TipState& tip, const TipRules& rules) {
+bool criterion_exceeded(FractureCriterion criterion, const TipState& tip, const TipRules& rules) {
   const FractureConstants& constants = rules.constants;
-  const StressIntensity k = without_closure(tip.k);
+  const StressIntensity k = opening_intensity(tip.k);
   switch (criterion) {
     case FractureCriterion::hoop_stress:
       return hoop_equivalent(k) > constants.k_ic;
@@ -58,7 +58,7 @@ bool exceeded(FractureCriterion criterion, const TipState& tip, const TipRules& 
 
 double angle_by_criterion(FractureCriterion criterion, const TipState& tip, const FractureConstants& constants,
                           double kappa) {
-  const StressIntensity k = without_closure(tip.k);
+  const StressIntensity k = opening_intensity(tip.k);
   switch (criterion) {
     case FractureCriterion::hoop_stress:
     case FractureCriterion::elliptical:
@@ -67,7 +67,7 @@ double angle_by_criterion(FractureCriterion criterion, const TipState& tip, cons
       return density_angle(k.one, k.two, kappa);
     case FractureCriterion::steady_state: {
       const Vec2 way(constants.way[0], constants.way[1]);
-      return way.norm() > 0.0 ? angle_between(tip.direction, way) : 0.0;
+      return way.norm() > 0.0 ? angle_between_directions(tip.direction, way) : 0.0;
     }
     default:
       return 0.0;
@@ -98,7 +98,7 @@ double growth_angle(const GrowthRule& rule, const TipState& tip, const FractureC
     case GrowthDirection::hoop_of_opening:
       return hoop_angle(normal, tip.shear_opening);
     case GrowthDirection::initial:
-      return angle_between(tip.direction, tip.initial_direction);
+      return angle_between_directions(tip.direction, tip.initial_direction);
   }
   return 0.0;
 }
@@ -132,7 +132,7 @@ GrowthDecision TipGrowth::look(const TipState& tip, const TipRules& rules) {
   }
   if (!decision.grows) return decision;
   decision.angle = growth_angle(*rule, tip, rules.constants, rules.elastic.kappa());
-  decision.direction = turned(decision.direction, decision.angle);
+  decision.direction = direction_turned(decision.direction, decision.angle);
   return decision;
 }
 
@@ -140,7 +140,7 @@ GrowthDecision TipGrowth::judge(const GrowthRule& rule, const TipState& tip, con
   GrowthDecision decision;
   if (rule.criterion == FractureCriterion::none) {
     decision.reason = "no criterion is given";
-  } else if (sets_speed(rule.criterion)) {
+  } else if (criterion_sets_speed(rule.criterion)) {
     if (tip.time < due_) {
       decision.reason = "the tip is as far as its speed takes it";
       return decision;
@@ -154,7 +154,7 @@ GrowthDecision TipGrowth::judge(const GrowthRule& rule, const TipState& tip, con
   } else if (rule.criterion != FractureCriterion::opening && !tip.j) {
     decision.reason = "J could not be found";
   } else {
-    decision.grows = exceeded(rule.criterion, tip, rules);
+    decision.grows = criterion_exceeded(rule.criterion, tip, rules);
     decision.reason = decision.grows ? "the criterion is exceeded" : "the criterion is not reached";
   }
   return decision;

@@ -89,6 +89,13 @@ class CrackFields {
       if (nodes_[divided].ref[f].block >= 0) visit(first + f, nodes_[divided].ref[f]);
     }
   }
+  /// The node in a field; block -1: that field does not have it.
+  NodeRef find_place(int field, const std::array<int, 2>& node) const;
+  /// The node in the field of what is across this one crack from it.
+  NodeOfField find_across(int first, int crack, const std::array<int, 2>& node) const;
+  /// How many fields a group has, field 0 among them.
+  int fields_of(int first) const { return 1 + across_[first]; }
+  const Grid& patches() const { return choice_.grid(); }
   /// The field 0 of every set that the crack divides, each once.
   std::vector<int> groups(int crack) const;
 

@@ -40,11 +40,13 @@ class ScalarTransfer {
   virtual ~ScalarTransfer() = default;
 
   /// Gathers `from` at the particles of velocity field `field`. `from` has one component, or as many as the grid has
-  /// axes; as many arrays of `to` are written, for the particles of this velocity field only.
-  virtual void gather(int field, const NodalField& from, const Taken& to) = 0;
+  /// axes; as many arrays of `to` are written, for the particles of this velocity field only. Those that choose a field
+  /// at every node (grid/node_choice.hpp) gather the sum over their fields: call it for all of these, in ascending
+  /// order. With `only`, particles in other blocks are left out unless they choose.
+  virtual void gather(int field, const NodalField& from, const Taken& to, const Marks* only = nullptr) = 0;
 
   /// Gradient of `from`, which has one component: `to` gets d/dx_k, and in the hoop direction the sum of T_ip number_i.
-  virtual void gradient(int field, const NodalField& from, const Taken& to) = 0;
+  virtual void gradient(int field, const NodalField& from, const Taken& to, const Marks* only = nullptr) = 0;
 
   /// Sets `to`, of one component or as many as the grid has axes, on all blocks of the velocity field; with `only` on
   /// the marked ones, and its values elsewhere have no meaning.

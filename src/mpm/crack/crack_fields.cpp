@@ -316,6 +316,21 @@ CrackFields::NodeOfField CrackFields::find_node(int first, const Vec2& from, con
   return {};
 }
 
+NodeRef CrackFields::find_place(int field, const std::array<int, 2>& node) const {
+  const Place at = place_of_node(field, node);
+  return {at.number, at.local};
+}
+
+CrackFields::NodeOfField CrackFields::find_across(int first, int crack, const std::array<int, 2>& node) const {
+  const Place own = place_of_node(first, node);
+  if (own.number < 0 || node_at_[first][own.index] < 0) return {};
+  const DividedNode& divided = nodes_[node_at_[first][own.index]];
+  for (int f = 0; f < 2; ++f) {
+    if (divided.single[f].crack == crack) return {first + 1 + f, divided.ref[1 + f]};
+  }
+  return {};
+}
+
 std::vector<int> CrackFields::groups(int crack) const {
   std::vector<int> list;
   for (std::size_t s = 0; s < sets_.size(); ++s) {

@@ -1,6 +1,6 @@
 #include "mpm/crack/crack_motion.hpp"
 
-#include <cmath>
+#include "mpm/crack/around_point.hpp"
 
 namespace mpm {
 namespace {
@@ -9,25 +9,6 @@ constexpr double kLargestMove = 0.5;  // of a cell
 
 Vec2 in_plane(const NodalField& field, NodeRef ref) {
   return {field.at(ref.block, 0, ref.node), field.at(ref.block, 1, ref.node)};
-}
-
-/// visit(numbers of a node, its hat function) for the four nodes around a place.
-template <class Visit>
-void each_hat(const GridLayout& layout, const Vec2& place, Visit&& visit) {
-  std::array<int, 2> low{};
-  std::array<double, 2> beyond{};
-  for (int k = 0; k < 2; ++k) {
-    const double cells = layout.in_cells(k, place[k]);
-    if (!(cells >= -kBlockEdge && cells < layout.last_node(k) + kBlockEdge - 1)) return;  // far out of the domain
-    low[k] = static_cast<int>(std::floor(cells));
-    beyond[k] = cells - low[k];
-  }
-  for (int i = 0; i < 2; ++i) {
-    for (int j = 0; j < 2; ++j) {
-      const double hat = (i == 1 ? beyond[0] : 1.0 - beyond[0]) * (j == 1 ? beyond[1] : 1.0 - beyond[1]);
-      if (hat > 0.0) visit(std::array<int, 2>{low[0] + i, low[1] + j}, hat);
-    }
-  }
 }
 
 }  // namespace

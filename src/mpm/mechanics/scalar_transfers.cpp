@@ -21,14 +21,14 @@ class ScalarTransferOf final : public ScalarTransfer {
         own_{NodalField(1, fields.front()->layout.nodes_per_block()),
              NodalField(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())} {}
 
-  void gather(int field, const NodalField& from, const Taken& to) override {
-    each_taking(field, from, to, [&](const mpm_kernel::BlockView& block, const NodalField& source) {
+  void gather(int field, const NodalField& from, const Taken& to, const Marks* only) override {
+    each_taking(field, from, to, only, [&](const mpm_kernel::BlockView& block, const NodalField& source) {
       kernels_.gather(view_, block, views_.data(), arrays_.data(), count(), source.components(), source.block(0));
     });
   }
 
-  void gradient(int field, const NodalField& from, const Taken& to) override {
-    each_taking(field, from, to, [&](const mpm_kernel::BlockView& block, const NodalField& source) {
+  void gradient(int field, const NodalField& from, const Taken& to, const Marks* only) override {
+    each_taking(field, from, to, only, [&](const mpm_kernel::BlockView& block, const NodalField& source) {
       kernels_.gradient(view_, block, views_.data(), arrays_.data(), count(), source.block(0));
     });
   }
@@ -72,11 +72,13 @@ class ScalarTransferOf final : public ScalarTransfer {
 
   // pass(block, field to take from)
   template <class Pass>
-  void each_taking(int field, const NodalField& from, const Taken& to, Pass&& pass) {
+  void each_taking(int field, const NodalField& from, const Taken& to, const Marks* only, Pass&& pass) {
     Grid& grid = *fields_[field];
     look_at(grid);
     for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(to[s].begin(), to[s].end(), arrays_[s].to);
-    each_owner_at_once(grid, threads_, [&](const mpm_kernel::BlockView& block) { pass(block, from); });
+    each_owner_at_once(grid, threads_, [&](const mpm_kernel::BlockView& block) {
+      if (only == nullptr || (*only)[grid.blocks.owner_block(block.owner)] != 0) pass(block, from);
+    });
     if (!chosen(field)) return;
 
     // What a patch takes is the sum over the fields: of the first in the array itself, of others through memory beside.

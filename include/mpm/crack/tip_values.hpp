@@ -1,0 +1,71 @@
+// What the J integral needs to know of a run around a crack's tip: values of the material at nodes, on their own side
+// of the crack and across it, and the particles inside the contour.
+//
+// Nodal values are means of the particles by mass and shape function, each field for itself: gradients of displacement
+// (F - I), Cauchy stress, and energies by present volume.
+// Weak: shape functions carry what particles know to nodes as far as they reach, so near the tip the field is smooth
+// where it is singular; contours stay two cells away from it.
+// Source: crack reference 4.2, 4.3.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "mpm/crack/contour_values.hpp"
+#include "mpm/crack/crack_fields.hpp"
+#include "mpm/crack/j_integral.hpp"
+#include "mpm/material/law.hpp"
+#include "mpm/math/geometry_kind.hpp"
+#include "mpm/step/scalar_transfer.hpp"
+
+namespace mpm {
+
+/// What the run has; all outlive TipValues.
+struct TipParts {
+  const std::vector<Crack>& cracks;
+  const CrackFields& chosen;
+  Fields& fields;
+  std::vector<ParticleSet>& sets;
+  const std::vector<Law>& laws;
+  std::vector<double> densities;  ///< of each set, undeformed [kg/m^3]
+  GeometryKind geometry;
+  double across;  ///< thickness of a planar scene [m]
+};
+
+class TipValues final : public ContourSource {
+ public:
+  TipValues(TipParts parts, std::unique_ptr<ScalarTransfer> transfer);
+
+  /// Finds the values on the blocks that hold nodes `low` to `high`, of the group whose field 0 is `first`, as seen
+  /// from a tip of `crack`. To be called while the fields are those of a step in which momentum has been gathered.
+  void gather(int first, int crack, const std::array<int, 2>& low, const std::array<int, 2>& high);
+  bool find(const std::array<int, 2>& node, ContourField field, ContourValues& values) const override;
+  /// At any place near gathered nodes, of the material on the side on which `from` lies.
+  bool at(const Vec2& place, const Vec2& from, ContourValues& values) const;
+  /// The particles inside the path, with their motion; Grid::velocity and Grid::force are of the step's end.
+  void find_samples(const GridLines& lines, const ContourPath& path, std::vector<AreaSample>& samples);
+
+ private:
+  /// Numbers that are carried to the nodes, in pairs.
+  enum Number { one, energy, xx, xz, zx, zz, stress_xx, stress_zz, stress_xz, stress_hoop, kinetic, hoop_gradient };
+  static constexpr int kNumbers = 12;
+
+  void fill(std::size_t set, std::uint32_t first, std::uint32_t last);
+  bool values_at(int field, NodeRef ref, ContourValues& values) const;
+
+  TipParts parts_;
+  std::unique_ptr<ScalarTransfer> transfer_;
+  int first_ = 0, crack_ = 0;
+  std::vector<std::array<PaddedArray<double>, kNumbers>> numbers_;        ///< of each set's particles
+  std::vector<std::array<PaddedArray<double>, 2>> acceleration_;          ///< of each set's particles
+  std::vector<std::array<std::array<PaddedArray<double>, 2>, 2>> slope_;  ///< of the velocity
+  std::vector<std::vector<NodalField>> nodal_;                            ///< [field of the group][pair of numbers]
+  std::vector<std::vector<std::uint8_t>> marks_;                          ///< [field of the group][block]
+  NodalField component_;                                                  ///< of a velocity
+  std::vector<std::uint8_t> givers_;
+  ScalarTransfer::Given given_;
+  ScalarTransfer::Taken taken_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,178 @@
+#include "mpm/crack/crack_tractions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/crack/around_point.hpp"
+#include "mpm/shape/ring.hpp"
+
+namespace mpm {
+
+CrackTractions::CrackTractions(std::vector<Crack>& cracks, const CrackFields& chosen, Fields& fields,
+                               const std::vector<TractionLawDefinition>& laws, GeometryKind geometry, double across)
+    : cracks_(cracks), chosen_(chosen), fields_(fields), geometry_(geometry), across_(across) {
+  for (const TractionLawDefinition& law : laws) laws_.emplace_back(law);
+  for (std::size_t c = 0; c < cracks.size(); ++c) {
+    groups_.push_back(chosen.groups(static_cast<int>(c)));
+    Points points;
+    const int size = cracks[c].chain.size();
+    points.law.assign(size, law_of(cracks[c].definition.traction));
+    points.state.resize(size);
+    points.force.assign(size, Vec2::Zero());
+    points_.push_back(std::move(points));
+  }
+}
+
+int CrackTractions::law_of(const std::string& name) const {
+  for (std::size_t l = 0; l < laws_.size(); ++l) {
+    if (laws_[l].definition().name == name) return static_cast<int>(l);
+  }
+  return -1;
+}
+
+double CrackTractions::area(int crack, int point) const {
+  const Crack& of = cracks_[crack];
+  const double thickness = of.definition.thickness > 0.0 ? of.definition.thickness : across_;
+  const double across = axisymmetric(geometry_) ? kTurn * of.chain.points()[point].place[0] : thickness;
+  return of.chain.tangent_area(point).norm() * across;
+}
+
+void CrackTractions::find(double time) {
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    const Chain& chain = cracks_[c].chain;
+    Points& points = points_[c];
+    for (int k = 0; k < chain.size(); ++k) {
+      points.force[k].setZero();
+      if (points.law[k] < 0 || points.state[k].failed) continue;
+      const Vec2 tangent = chain.tangent_area(k).normalized(), normal(-tangent[1], tangent[0]);
+      const Vec2 opening = chain.opening(k);
+      const Traction traction =
+          laws_[points.law[k]].advance(opening.dot(normal), opening.dot(tangent), time, points.state[k]);
+      points.force[k] = -area(static_cast<int>(c), k) * (traction.normal * normal + traction.shear * tangent);
+    }
+  }
+}
+
+void CrackTractions::find_shares(int crack, const Vec2& place, const Vec2& from, std::vector<Share>& shares) const {
+  shares.clear();
+  double sum = 0.0;
+  for (const int first : groups_[crack]) {
+    each_hat(fields_[first]->layout, place, [&](const std::array<int, 2>& node, double hat) {
+      const CrackFields::NodeOfField own = chosen_.find_node(first, from, node);
+      if (own.field < 0 || own.ref.block < 0 || !fields_[own.field]->carries(own.ref.block, own.ref.node)) return;
+      const double weight = hat * fields_[own.field]->mass.at(own.ref.block, 0, own.ref.node);
+      shares.push_back({own.field, own.ref, weight});
+      sum += weight;
+    });
+  }
+  for (Share& share : shares) share.part /= sum;
+}
+
+void CrackTractions::add_forces() {
+  double fastest = 0.0;  // square of a circular frequency
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    const Chain& chain = cracks_[c].chain;
+    const Points& points = points_[c];
+    for (int k = 0; k < chain.size(); ++k) {
+      if (points.law[k] < 0 || points.state[k].failed) continue;
+      find_shares(static_cast<int>(c), chain.points()[k].above, chain.beside(k, true), above_);
+      find_shares(static_cast<int>(c), chain.points()[k].below, chain.beside(k, false), below_);
+      if (above_.empty() || below_.empty()) continue;
+      const double spring = laws_[points.law[k]].stiffness() * area(static_cast<int>(c), k);
+      double sign = 1.0;
+      for (const std::vector<Share>* shares : {&above_, &below_}) {
+        double mass = 0.0;
+        for (const Share& share : *shares) {
+          Grid& grid = *fields_[share.field];
+          for (int i = 0; i < 2; ++i) {
+            grid.force.at(share.ref.block, i, share.ref.node) += sign * share.part * points.force[k][i];
+          }
+          mass += share.part * grid.mass.at(share.ref.block, 0, share.ref.node);
+        }
+        // Up to four points pull at a node, on both of its sides.
+        fastest = std::max(fastest, 8.0 * spring / mass);
+        sign = -1.0;
+      }
+    }
+  }
+  shortest_time_ = fastest > 0.0 ? 1.0 / std::sqrt(fastest) : 0.0;
+}
+
+void CrackTractions::grow(int crack, int end, int points, int law) {
+  Points& of = points_[crack];
+  const auto insert = [&](auto& list, const auto& value) {
+    list.insert(end == 0 ? list.begin() : list.end(), points, value);
+  };
+  insert(of.law, law);
+  insert(of.state, TractionState{});
+  insert(of.force, Vec2(Vec2::Zero()));
+}
+
+double CrackTractions::stored(int crack) const {
+  double sum = 0.0;
+  const Points& of = points_[crack];
+  for (std::size_t k = 0; k < of.law.size(); ++k) {
+    if (of.law[k] < 0 || laws_[of.law[k]].definition().kind == TractionKind::pressure) continue;
+    const FaceOpening& opening = of.state[k].opening;
+    sum += area(crack, static_cast<int>(k)) * laws_[of.law[k]].stored(of.state[k], opening.normal, opening.shear);
+  }
+  return sum;
+}
+
+double CrackTractions::released(int crack) const {
+  double sum = 0.0;
+  const Points& of = points_[crack];
+  for (std::size_t k = 0; k < of.law.size(); ++k) {
+    if (of.law[k] < 0 || laws_[of.law[k]].definition().kind == TractionKind::pressure) continue;
+    sum += area(crack, static_cast<int>(k)) * laws_[of.law[k]].released(of.state[k]);
+  }
+  return sum;
+}
+
+int CrackTractions::failed(int crack) const {
+  const auto& states = points_[crack].state;
+  return static_cast<int>(std::count_if(states.begin(), states.end(), [](const TractionState& s) { return s.failed; }));
+}
+
+void CrackTractions::energies(EnergyReport& report) const {
+  if (laws_.empty()) return;
+  double stored_sum = 0.0, released_sum = 0.0, work = 0.0;
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    stored_sum += stored(static_cast<int>(c));
+    released_sum += released(static_cast<int>(c));
+    const Points& of = points_[c];
+    for (std::size_t k = 0; k < of.law.size(); ++k) {
+      if (of.law[k] < 0 || laws_[of.law[k]].definition().kind != TractionKind::pressure) continue;
+      work -= area(static_cast<int>(c), static_cast<int>(k)) * of.state[k].work;
+    }
+  }
+  report.add("crack_tractions", NamedEnergy::Kind::stored, stored_sum);
+  report.add("crack_separation", NamedEnergy::Kind::dissipated, released_sum);
+  report.add("crack_pressure", NamedEnergy::Kind::work, work);
+}
+
+void CrackTractions::serialise(StateArchive& archive) {
+  for (std::size_t c = 0; c < points_.size(); ++c) {
+    const StateArchive::Group group(archive, "tractions_" + std::to_string(c));
+    archive.list("law", points_[c].law);
+    mpm::serialise(archive, points_[c].state);
+    points_[c].force.resize(points_[c].law.size(), Vec2::Zero());
+    for (int i = 0; i < 2; ++i) {
+      std::vector<double> part;
+      for (const Vec2& force : points_[c].force) part.push_back(force[i]);
+      archive.list(i == 0 ? "force_x" : "force_z", part);
+      for (std::size_t k = 0; k < part.size(); ++k) points_[c].force[k][i] = part[k];
+    }
+  }
+  archive.value("shortest_time", shortest_time_);
+}
+
+void CrackTractions::hashed(std::vector<double>& numbers) const {
+  for (const Points& of : points_) {
+    for (const TractionState& state : of.state) {
+      numbers.insert(numbers.end(), {state.largest[0], state.largest[1], state.damage});
+    }
+  }
+}
+
+}  // namespace mpm

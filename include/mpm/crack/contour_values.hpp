@@ -1,0 +1,56 @@
+// What a contour around a crack's tip is integrated over: values at its nodes, joined by straight pieces, with two
+// points at the place where it meets the crack, one on each face.
+//
+// Weak: the points on the faces are interpolated from the values on their side at the two nodes beside the crack, and
+// stand for one of them alone where the other has none.
+// Source: crack reference 4.2; NairnMPM's phantom points.
+#pragma once
+
+#include <vector>
+
+#include "mpm/crack/contour.hpp"
+
+namespace mpm {
+
+/// Values of one side of a crack at a place; axes x (or r) and z.
+struct ContourValues {
+  double gradient[2][2] = {};           ///< u_i,k; in the form of large strain F - I
+  double hoop_gradient = 0.0;           ///< u_r / r about an axis; in the form of large strain u_r / R
+  double xx = 0.0, zz = 0.0, xz = 0.0;  ///< Cauchy stress [Pa]
+  double hoop = 0.0;                    ///< stress around the axis [Pa]
+  double energy = 0.0;                  ///< W, work of the stress [J/m^3 of the present volume]
+  double kinetic = 0.0;                 ///< K [J/m^3]
+
+  /// (1 - part) a + part b
+  static ContourValues between(const ContourValues& a, const ContourValues& b, double part);
+  Vec2 traction(const Vec2& normal) const { return {xx * normal[0] + xz * normal[1], xz * normal[0] + zz * normal[1]}; }
+};
+
+enum class ContourField {
+  own,    ///< of the material on the node's own side of the crack
+  across  ///< of the material across the crack whose tip the contour surrounds
+};
+
+/// Gives nodal values, say of a grid's or of an exact field.
+class ContourSource {
+ public:
+  virtual ~ContourSource() = default;
+  /// Whether `field` has material at `node`; then its values are in `values`.
+  virtual bool find(const std::array<int, 2>& node, ContourField field, ContourValues& values) const = 0;
+};
+
+/// A straight piece of the contour along a grid line.
+struct ContourPiece {
+  Vec2 from{0.0, 0.0}, to{0.0, 0.0};  ///< [m]
+  ContourValues first, last;          ///< at its two ends
+  Vec2 normal{0.0, 0.0};              ///< outward, of length 1
+  double length() const { return (to - from).norm(); }
+};
+
+/// Lists the pieces of a complete path counter-clockwise, from the face where the path leaves the crack to the face
+/// where it comes back.
+/// @return `complete` or `no_material`.
+ContourStatus gather_contour(const GridLines& lines, const ContourPath& path, const ContourSource& source,
+                             std::vector<ContourPiece>& pieces);
+
+}  // namespace mpm

@@ -1,0 +1,77 @@
+// The J integral around the tip of a crack, energy released by area of new crack, as a vector J_k in the plane
+// [J/m^2]: the integral along a contour, and that over the area inside, which counts where material accelerates and
+// always about an axis.
+//
+//   J_k = int [(W + K) n_k - sigma_ij n_j u_i,k] ds + int rho (a_i u_i,k - v_i v_i,k) dA
+//         + the area term of the axis + the terms of faces (face_terms.hpp)
+//
+// About an axis it is by length of the crack's front, in one of two forms that give the same J. At large strain the
+// contour lies in the deformed body, derivatives are those by undeformed coordinates, and J is by undeformed area:
+//   J_k = int [w (F^T n)_k - (sigma n)_i (F - I)_ik] ds.
+//
+// Weak: trapezoidal rule, with exact nodal values 1.4 % low for contours of two cells around the nearest node, 0.6 %
+// for three (test/unit/crack_j_integral_test.cpp). The area is summed over particles, scaled to fill the rectangle.
+// Source: crack reference 4.1 to 4.3, 4.6; Bergkvist and Huong (1977), Broberg (1987) about an axis. The form of J_z
+// by Broberg has an area term of its own that NairnMPM leaves out.
+#pragma once
+
+#include <vector>
+
+#include "mpm/crack/contour_values.hpp"
+
+namespace mpm {
+
+/// Which integral.
+struct JForm {
+  enum class Kind { planar, broberg, bergkvist_huong };
+  Kind kind = Kind::planar;
+  double tip_radius = 0.0;    ///< of bergkvist_huong [m]; at large strain that of the undeformed body
+  bool large_strain = false;  ///< gradients are F - I, energies are by present volume
+
+  bool about_axis() const { return kind != Kind::planar; }
+};
+
+/// Factor of a term per length or area at a place: 1, but r / a in the form of Bergkvist and Huong, and in that of
+/// Broberg at large strain r / R.
+double weight_of(const JForm& form, const Vec2& place, const ContourValues& values);
+
+/// (W + K) n_k - t_i u_i,k, or its form of large strain, without the weight [J/m^2]; t is the traction there [Pa].
+Vec2 energy_flux(const JForm& form, const ContourValues& values, const Vec2& normal, const Vec2& traction);
+
+/// The integral along the contour [J/m^2].
+Vec2 contour_term(const JForm& form, const std::vector<ContourPiece>& pieces);
+
+/// A particle inside the contour. Those of bodies that ignore the crack are left out.
+struct AreaSample {
+  Vec2 place{0.0, 0.0};                 ///< [m]
+  double area = 0.0;                    ///< in the plane [m^2]
+  double density = 0.0;                 ///< of the present volume [kg/m^3]
+  Vec2 acceleration{0.0, 0.0};          ///< [m/s^2]
+  Vec2 velocity{0.0, 0.0};              ///< [m/s]
+  double velocity_gradient[2][2] = {};  ///< v_i,k by present coordinates [1/s]
+  ContourValues values;
+};
+
+/// The integral over an area [m^2] that the samples fill [J/m^2]; 0 without samples. `inertia`: with accelerations.
+Vec2 area_term(const JForm& form, const std::vector<AreaSample>& samples, double area, bool inertia = true);
+
+/// J at a tip and what it is made of [J/m^2].
+struct JResult {
+  ContourStatus status = ContourStatus::meets_no_crack;  ///< else than `complete`: all else is 0
+  Vec2 contour{0.0, 0.0};                                ///< the integral along the contour
+  Vec2 area{0.0, 0.0};                                   ///< that over the area inside
+  Vec2 faces{0.0, 0.0};                                  ///< to add for faces inside: face_term()
+  double faces_work = 0.0;  ///< to take off for tractions on this crack's faces: traction_work(), friction_work()
+  ContourCrossing crossing;
+
+  Vec2 j() const { return contour + area + faces; }
+  /// J of growth along a unit vector, without the work that tractions on the faces take up.
+  double along(const Vec2& direction) const { return j().dot(direction) - faces_work; }
+};
+
+/// Contour and area of a tip: gathers the values of a path into `pieces` and integrates them.
+/// @param samples particles inside the path; empty: without the area.
+JResult integrate_j(const JForm& form, const GridLines& lines, const ContourPath& path, const ContourSource& source,
+                    const std::vector<AreaSample>& samples, bool inertia, std::vector<ContourPiece>& pieces);
+
+}  // namespace mpm

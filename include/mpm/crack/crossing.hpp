@@ -10,7 +10,9 @@
 // the line meets it, depends on the way's direction. A node exactly on a segment belongs to the side above, except for
 // a particle exactly on the continuation of that segment. Around a closed path, a crack point exactly on a corner of
 // the path, or a segment along one of its edges, may be met once too often or too seldom. Where a way crosses and also
-// touches a corner of the crack exactly, the side and the segment may be those of the touch.
+// touches a corner of the crack exactly, the side and the segment may be those of the touch. Coordinates that are not
+// exact in double precision put a node on the crack on one side or the other, the same for all particles; a way along a
+// segment to round-off may then be decided wrongly.
 //
 // Source: crack reference 1.2, 2.5; J. A. Nairn (2003), CMES 4, 649-664, whose rule this is away from coincidences.
 #pragma once

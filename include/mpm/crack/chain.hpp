@@ -117,7 +117,7 @@ class Chain {
 double cell_along(const Vec2& direction, const Vec2& cells);
 
 /// The points by which a tip grows: `length` [edges of a cell, by cell_along()] along a unit vector, in one segment, or
-/// from 0.7 on in equal ones of about half an edge. `cells`: edges of a cell along both axes [m].
+/// from 0.75 on in equal ones of about half an edge. `cells`: edges of a cell along both axes [m].
 std::vector<Vec2> growth_points(const Vec2& tip, const Vec2& direction, double length, const Vec2& cells);
 
 template <class Open>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "mpm/crack/crossing.hpp"
 
@@ -13,7 +12,6 @@ constexpr double kExterior = 4.0;     ///< by which an exterior end is lengthene
 constexpr double kBeside = 1e-8;      ///< of a segment
 constexpr double kShallow = 1e-5;     ///< depth that is let be, of a segment
 constexpr double kPutBeside = 1e-12;  ///< of a segment
-constexpr double kWhole = 0.7;        ///< growth from this on is divided [cells]
 
 Vec2 left_of(const Vec2& direction) { return {-direction[1], direction[0]}; }
 
@@ -64,7 +62,6 @@ SegmentSeen nearest_seen(const Vec2& from_point, const Vec2* into, const Vec2* o
     corner.left = (first.left + second.left).normalized();
     return corner;
   }
-  if (first.along < 0.0) return second;
   if (second.along < 0.0) return first;
   return (from_point - first.foot).squaredNorm() < (from_point - second.foot).squaredNorm() ? first : second;
 }
@@ -217,7 +214,8 @@ double cell_along(const Vec2& direction, const Vec2& cells) {
 }
 
 std::vector<Vec2> growth_points(const Vec2& tip, const Vec2& direction, double length, const Vec2& cells) {
-  const int parts = length >= kWhole ? std::max(1, static_cast<int>(2.0 * (length + 0.25))) : 1;
+  // Crack reference 5.3; below 0.75 edges this is one.
+  const int parts = std::max(1, static_cast<int>(2.0 * (length + 0.25)));
   const Vec2 whole = length * cell_along(direction, cells) * direction;
   std::vector<Vec2> points;
   for (int k = 1; k <= parts; ++k) points.push_back(tip + static_cast<double>(k) / parts * whole);

@@ -105,7 +105,7 @@ TEST(SceneBadInput, UnknownWordsSuggestTheNearest) {
 
 TEST(SceneBadInput, WhatIsNotBuiltYetSaysSo) {
   expect_refused(28, "transport: {}", "transport: names no quantity;");
-  expect_refused(28, "cracks: {}", "cracks: not built yet;");
+  expect_refused(28, "cracks: {}", "cracks: a crack is a line in a plane;");
   expect_refused(21, "    shape: {mesh: {file: a.stl}}", "bodies.block.shape.mesh: not built yet; use box");
 }
 

@@ -372,6 +372,7 @@ class SceneMutator {
                    "name: \"a\\nb\"\n",
                    "loads: []\n",
                    "cracks: 1\n",
+                   "cracks: {list: [{name: notch, points: [[0, 0.5], [0.5, 0.5]]}]}\n",
                });
       case 8:
         return any<std::string>({"\xEF\xBB\xBF", "\xFF\xFE", "\n\n\n", "--- ", "  ", "\t", "# ", "- "}) + text;

@@ -38,6 +38,10 @@ void read_rigid_bodies(const Map& root, Scene& scene);
 FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools);
 /// `contact.pairs`, after rigid bodies. Deformable bodies that have a law with others get velocity fields of their own.
 void read_contact_pairs(const Map& root, Scene& scene);
+/// The keys of a law of contact, and the law that they say. `needs_friction`: whether friction has to be written, as
+/// for a pair; without it surfaces are smooth.
+const std::vector<std::string>& contact_law_keys();
+ContactLaw read_contact_law(const Map& map, bool needs_friction);
 /// `shape`, `pose` and `motion` of a rigid body, or of the region of a velocity condition.
 void read_rigid_shape(const Map& map, const SimulationDefinition& definition, RigidBodyDefinition& body);
 void read_rigid_motion(const Map& map, GeometryKind geometry, RigidBodyDefinition& body);
@@ -81,10 +85,31 @@ void add_transport_keys(const Value& material, const Map& root, std::vector<std:
 TransportMaterial read_transport_constants(const Map& map, Transported quantity, std::size_t material, Scene& scene);
 /// Of a quantity's value.
 Dimension value_dimension(Transported quantity);
-/// One of `materials`, with the keys of its law and of transport.
+/// One of `materials`, with the keys of its law, of transport and of fracture.
 Map material_map(const Value& value, const Map& root);
 /// Of nodes that a condition or a prescribed value holds: `region`, or `shape` and `pose` as of a rigid body.
 void read_region_or_shape(const Map& map, const Scene& scene, RigidBodyDefinition& body);
+/// `cracks`, after all that cracks may stand beside: rigid bodies, `boundaries`, `sleep` and `transport`
+void read_cracks(const Map& root, Scene& scene);
+/// One of `cracks.list`, but for what depends on its tips' materials.
+CrackDefinition read_crack(const Value& value, const Scene& scene);
+/// The material of each tip of a crack, and whether J and growth are possible there. @throws SceneError at the tip's
+/// key
+void check_crack_tips(const Value& value, const CrackDefinition& crack, const Scene& scene);
+/// One of `cracks.traction_laws`.
+TractionLawDefinition read_traction_law(const Value& value);
+/// The name of one of `laws`.
+std::string read_traction_name(const Value& value, const std::vector<TractionLawDefinition>& laws);
+/// `growth`, or `alternate`, of the scene or of a material.
+GrowthRule read_growth_rule(const Value& value, const std::vector<TractionLawDefinition>& laws, bool alternate);
+/// Adds the key `fracture`. @throws SceneError for a material that has it in a scene without cracks
+void add_fracture_keys(const Value& material, const Map& root, std::vector<std::string>& keys);
+/// A material's constants of fracture, after the scene's own rules of growth. `map`: of the material.
+FractureConstants read_fracture_constants(const Map& map, const CracksDefinition& cracks);
+/// Two numbers along x and z.
+Vec2 read_plane_vector(const Value& value, const Dimension& dimension);
+/// `true` or `false`.
+bool read_truth(const Value& value);
 /// `metrics`, after bodies
 void read_metrics(const Map& root, Scene& scene);
 

@@ -47,6 +47,8 @@ inline constexpr Dimension kTemperature{0, 0, 0, 0, 1};
 inline constexpr Dimension kHeatCapacity{2, 0, -2, 0, -1};
 inline constexpr Dimension kPerKelvin{0, 0, 0, 0, -1};
 inline constexpr Dimension kPerPascal{1, -1, 2, 0, 0};
+inline constexpr Dimension kToughness{-0.5, 1, -2, 0};   ///< of fracture, K
+inline constexpr Dimension kSurfaceEnergy{0, 1, -2, 0};  ///< energy over area, J and G
 
 /// A dimension in words: "a pressure", "a length"; for a dimension without a name "a quantity in m^2/s".
 std::string describe(const Dimension& dimension);

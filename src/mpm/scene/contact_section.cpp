@@ -68,9 +68,11 @@ InterfaceLaw read_interface(const Map& map) {
   return law;
 }
 
-/// Reads the law from the keys of a pair or of the whole section. `needs_friction`: true for a pair, which must state
-/// its friction.
-ContactLaw read_law(const Map& map, bool needs_friction) {
+}  // namespace
+
+const std::vector<std::string>& contact_law_keys() { return kLawKeys; }
+
+ContactLaw read_contact_law(const Map& map, bool needs_friction) {
   ContactLaw law;
   law.kind = read_kind(map);
   if (law.kind == Kind::coulomb || law.kind == Kind::stick) {
@@ -113,6 +115,8 @@ ContactLaw read_law(const Map& map, bool needs_friction) {
   }
   return law;
 }
+
+namespace {
 
 NormalMethod read_normals(const Value& value) {
   const std::string text = value.text();
@@ -196,7 +200,7 @@ Laws read_pairs(const Value& list, const Scene& scene) {
     if (const Laws::Pair* other = laws.find(first, second)) {
       between.fail(fmt::format("a second law for these two, the first is at {}; leave one out", other->where));
     }
-    const ContactLaw law = read_law(map, true);
+    const ContactLaw law = read_contact_law(map, true);
     const bool tool = second >= static_cast<int>(scene.bodies.size());
     if (tool && (law.kind == Kind::interface || law.kind == Kind::one_field)) {
       map.at("law").fail(fmt::format("{} is for two deformable bodies; a tool's is coulomb or stick",
@@ -292,7 +296,7 @@ FrictionLaw read_contact(const Map& root, Scene& scene, bool with_tools) {
     return {};
   }
   const Map map = contact_map(*section);
-  const ContactLaw law = read_law(map, false);
+  const ContactLaw law = read_contact_law(map, false);
   read_rules(map, scene.definition.contact);
   if (!with_tools) return {};
   const auto refuse_function = [&](const char* key, const Function& function) {
@@ -310,7 +314,7 @@ void read_contact_pairs(const Map& root, Scene& scene) {
   const Map map = contact_map(*section);
   std::optional<ContactLaw> all;
   if (const auto named = map.find("law")) {
-    all = read_law(map, true);
+    all = read_contact_law(map, true);
     const bool tools = !scene.definition.rigid_bodies.empty();
     if (tools && (all->kind == Kind::interface || all->kind == Kind::one_field)) {
       named->fail(fmt::format("{} is not for tools, and this is the law of all bodies; write it in pairs",

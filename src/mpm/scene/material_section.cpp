@@ -346,6 +346,7 @@ Map material_map(const Value& value, const Map& root) {
     for (const LawSection& section : law_sections()) keys.insert(keys.end(), section.keys.begin(), section.keys.end());
   }
   add_transport_keys(value, root, keys);
+  add_fracture_keys(value, root, keys);
   return Map(value, keys, later_keys());
 }
 

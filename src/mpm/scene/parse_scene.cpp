@@ -13,11 +13,6 @@
 namespace mpm {
 namespace {
 
-const std::vector<Later>& later_sections() {
-  static const std::vector<Later> sections = {{"cracks", "leave it out: bodies are whole"}};
-  return sections;
-}
-
 void read_geometry(const Map& root, ReadContext& context, Scene& scene) {
   SimulationDefinition& definition = scene.definition;
   if (const auto geometry = root.find("geometry")) {
@@ -93,8 +88,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   const Value top(context, source.root(), "");
   const Map root(top, {"name",   "units",     "geometry",  "thickness", "area",         "grid",    "time",
                        "method", "gravity",   "materials", "bodies",    "rigid_bodies", "contact", "boundaries",
-                       "loads",  "transport", "sleep",     "output",    "metrics",      "target"},
-                 later_sections());
+                       "loads",  "transport", "sleep",     "cracks",    "output",       "metrics", "target"});
   Scene scene;
   scene.path = label;
   SimulationDefinition& definition = scene.definition;
@@ -129,6 +123,7 @@ Scene parse_scene(const std::string& text, const std::string& label, const std::
   read_time_and_output(root, scene);
   read_sleep(root, scene);
   read_transport(root, scene);
+  read_cracks(root, scene);
   read_metrics(root, scene);
   read_target(root, scene);
   if (const auto fault = axis_fault(definition)) root.at(fault->key).fail(fault->text);

@@ -19,7 +19,6 @@ struct NamedUnit {
 };
 
 constexpr Dimension kPower{2, 1, -3, 0};
-constexpr Dimension kToughness{-0.5, 1, -2, 0};
 
 // Inch, foot, pound, ounce, pound-force: international definitions (NIST SP 811, appendix B).
 constexpr double kPound = 0.45359237;

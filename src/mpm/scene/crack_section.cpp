@@ -1,0 +1,172 @@
+// cracks: explicit cracks, how they move and grow, and how J is taken at their tips.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mpm/contact/thin_tool.hpp"
+#include "mpm/math/nearest.hpp"
+#include "mpm/scene/sections.hpp"
+
+namespace mpm {
+namespace {
+
+void refuse_geometry(const Value& section, GeometryKind geometry) {
+  if (dimensions(geometry) == 2) return;
+  section.fail(fmt::format(
+      "a crack is a line in a plane; {} has none: write geometry: plane_strain, plane_stress or axisymmetric",
+      geometry == GeometryKind::line ? "a line" : "a solid scene, where a crack would be a surface,"));
+}
+
+/// Refuses what else in a scene acts on both sides of a crack as if they were one.
+void refuse_beside_cracks(const Value& section, const Map& root, const Scene& scene) {
+  const SimulationDefinition& definition = scene.definition;
+  if (definition.sleep) root.at("sleep").fail("not yet together with cracks; leave one of the two out");
+  if (!definition.transport.quantities.empty()) {
+    root.at("transport").fail("not yet together with cracks; leave one of the two out");
+  }
+  for (std::size_t face = 0; face < definition.walls.size(); ++face) {
+    if (definition.walls[face].kind != WallKind::periodic) continue;
+    section.fail(fmt::format("not yet together with boundaries.{}: periodic; write faces such as {}: slip",
+                             axis_name(static_cast<int>(face / 2)), kWallNames[face]));
+  }
+  double cell = definition.grid.cell[0];
+  for (const int axis : axes_of(scene)) cell = std::min(cell, definition.grid.cell[axis]);
+  for (const RigidBodyDefinition& body : definition.rigid_bodies) {
+    if (body.particles) {
+      section.fail(fmt::format(
+          "not yet together with rigid bodies made of particles, as '{}' is; leave out its normals: particles",
+          body.name));
+    }
+    if (has_sides(body, definition.geometry, cell)) {
+      section.fail(fmt::format(
+          "not yet together with thin tools, whose sides have velocity fields of their own, as '{}' has; write "
+          "sides: one for it",
+          body.name));
+    }
+  }
+}
+
+void read_contour(const Value& value, GeometryKind geometry, ContourDefinition& contour) {
+  const Map map(value, {"size", "terms", "form", "energy"});
+  if (const auto size = map.find("size")) {
+    contour.size = size->integer();
+    if (contour.size < 2) {
+      size->fail(fmt::format("{} is too near the tip, where fields are wrong by a fifth; write 2 cells or more",
+                             contour.size));
+    }
+  }
+  if (const auto terms = map.find("terms")) {
+    contour.terms = terms->integer();
+    if (contour.terms != 1 && contour.terms != 2) terms->fail(fmt::format("{}; write 1 or 2", contour.terms));
+    if (contour.terms == 1 && axisymmetric(geometry)) {
+      terms->fail("about an axis J needs its term of the area; write 2");
+    }
+  }
+  if (const auto form = map.find("form")) {
+    if (!axisymmetric(geometry)) form->fail("the two forms differ about an axis alone; leave it out");
+    contour.about_axis_by_broberg = form->choice({"broberg", "bergkvist_huong"}) == 0;
+  }
+  if (const auto energy = map.find("energy")) {
+    contour.energy = static_cast<ContourDefinition::Energy>(energy->choice({"particles", "grid"}));
+  }
+}
+
+void read_growth(const Map& map, CracksDefinition& cracks) {
+  if (const auto growth = map.find("growth")) cracks.growth = read_growth_rule(*growth, cracks.laws, false);
+  if (const auto alternate = map.find("alternate")) cracks.alternate = read_growth_rule(*alternate, cracks.laws, true);
+  const auto length = map.find("length"), time_factor = map.find("time_factor");
+  if (length) cracks.length = length->positive(kPlain);
+  if (time_factor) cracks.time_factor = time_factor->positive(kPlain);
+  if (cracks.length < cracks.time_factor) {
+    (length ? *length : *time_factor)
+        .fail(fmt::format(
+            "steps of {:g} cells, one each time in which a wave crosses {:g} of a cell, keep a tip below the speed of "
+            "waves; write a length of at least time_factor",
+            cracks.length, cracks.time_factor));
+  }
+  if (const auto heating = map.find("heating")) {
+    cracks.heating = heating->non_negative(kPlain);
+    if (cracks.heating > 1.0) heating->fail("a part of the energy released, 1 at most");
+    if (cracks.heating > 0.0) {
+      heating->fail("heat needs transport: {temperature: {}}, which is not yet together with cracks; leave it out");
+    }
+  }
+}
+
+void read_settings(const Map& map, GeometryKind geometry, CracksDefinition& cracks, Scene& scene) {
+  if (const auto contour = map.find("contour")) read_contour(*contour, geometry, cracks.contour);
+  if (const auto move = map.find("move")) {
+    cracks.move = static_cast<CracksDefinition::Move>(move->choice({"average", "centre_of_mass"}));
+  }
+  if (const auto prevent = map.find("prevent")) cracks.prevent = read_truth(*prevent);
+  if (axisymmetric(geometry)) cracks.split = CracksDefinition::Split::openings;
+  if (const auto split = map.find("split")) {
+    cracks.split = static_cast<CracksDefinition::Split>(split->choice({"interaction", "openings"}));
+    if (axisymmetric(geometry) && cracks.split == CracksDefinition::Split::interaction) {
+      split->fail("the interaction integral is of planar scenes; write openings");
+    }
+  } else if (axisymmetric(geometry)) {
+    scene.choices.emplace_back("cracks.split", "openings: about an axis K follows from the faces behind the tip");
+  }
+  if (const auto ignored = map.find("ignored_by")) {
+    for (const Value& name : ignored->elements()) cracks.ignored_by.push_back(read_body(name, scene));
+  }
+}
+
+void read_laws(const Value& value, CracksDefinition& cracks) {
+  if (!value.is_map()) value.fail("write a map of names and laws, such as {glue: {kind: triangular, normal: {...}}}");
+  for (const auto& entry : value.node()) {
+    const std::string name = value.child(entry.first, entry.first.Scalar()).name();
+    TractionLawDefinition law = read_traction_law(value.child(entry.second, name));
+    law.name = name;
+    cracks.laws.push_back(std::move(law));
+  }
+}
+
+bool has_tip(const CrackDefinition& crack) {
+  return std::count(crack.ends.begin(), crack.ends.end(), CrackEnd::tip) > 0;
+}
+
+}  // namespace
+
+Vec2 read_plane_vector(const Value& value, const Dimension& dimension) {
+  const Vec3 vector = value.vector(dimension);
+  return {vector.x(), vector.z()};
+}
+
+bool read_truth(const Value& value) { return value.choice({"false", "true"}) == 1; }
+
+void read_cracks(const Map& root, Scene& scene) {
+  const auto section = root.find("cracks");
+  if (!section) return;
+  SimulationDefinition& definition = scene.definition;
+  refuse_geometry(*section, definition.geometry);
+  const Map map(*section, {"list", "traction_laws", "contour", "move", "prevent", "split", "growth", "alternate",
+                           "length", "time_factor", "heating", "ignored_by"});
+  refuse_beside_cracks(*section, root, scene);
+  CracksDefinition& cracks = definition.cracks;
+  if (const auto laws = map.find("traction_laws")) read_laws(*laws, cracks);
+  read_settings(map, definition.geometry, cracks, scene);
+  read_growth(map, cracks);
+  for (const Value& material : root.at("materials").elements()) {
+    cracks.materials.push_back(read_fracture_constants(material_map(material, root), cracks));
+  }
+  const std::vector<Value> list = map.at("list").elements();
+  if (list.empty()) map.at("list").fail("names no crack; write one, or leave out cracks");
+  for (const Value& value : list) {
+    CrackDefinition crack = read_crack(value, scene);
+    for (const CrackDefinition& other : cracks.list) {
+      if (other.name == crack.name) value.fail(fmt::format("a second crack '{}'; give each its own name", crack.name));
+    }
+    check_crack_tips(value, crack, scene);
+    cracks.list.push_back(std::move(crack));
+  }
+  for (const char* rule : {"growth", "alternate"}) {
+    const auto written = map.find(rule);
+    if (written && std::none_of(cracks.list.begin(), cracks.list.end(), has_tip)) {
+      written->fail("no crack has a tip, so none grows; write end: tip for one, or leave it out");
+    }
+  }
+}
+
+}  // namespace mpm

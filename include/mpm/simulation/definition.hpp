@@ -169,7 +169,6 @@ struct SimulationDefinition {
   TransportDefinition transport;
   CracksDefinition cracks;
   std::vector<MetricDefinition> metrics;
-  CracksDefinition cracks;
 
   /// Size of a particle across the grid's axes: thickness [m] in a plane, area [m^2] in a line, 1 in a solid.
   double across() const { return planar(geometry) ? thickness : (geometry == GeometryKind::line ? area : 1.0); }

@@ -66,15 +66,16 @@ std::vector<Vec2> read_point_file(const Value& value) {
   if (path.find("://") == std::string::npos && std::filesystem::path(path).is_relative()) {
     path = (std::filesystem::path(value.context().source->label()).parent_path() / path).string();
   }
+  std::ifstream stream;
   HeightTable table;
   try {
     path = resolve_resource(path);
-    std::ifstream stream(path);
-    if (!stream) value.fail(fmt::format("{}: cannot be read; check the path and its permissions", path));
-    table = read_height_text(stream, path);
-  } catch (const RigidError& error) {
+    stream.open(path);
+    if (stream) table = read_height_text(stream, path);
+  } catch (const Error& error) {
     value.fail(error.what());
   }
+  if (!stream.is_open()) value.fail(fmt::format("{}: cannot be read; check the path and its permissions", path));
   if (table.columns != 2) value.fail(fmt::format("{}: {} numbers a line; write two, x and z", path, table.columns));
   if (table.rows < 2) value.fail(fmt::format("{}: one point; a crack has two or more", path));
   const double unit = value.context().units.factor(kLength);

@@ -37,6 +37,8 @@ class CrackTractions {
 
   /// Number of a point's law; -1: none, or failed.
   int law_at(int crack, int point) const { return points_[crack].state[point].failed ? -1 : points_[crack].law[point]; }
+  /// The same, of a failed law too.
+  int law_number(int crack, int point) const { return points_[crack].law[point]; }
   const TractionState& state(int crack, int point) const { return points_[crack].state[point]; }
   /// Area of the faces that a point stands for [m^2].
   double area(int crack, int point) const;

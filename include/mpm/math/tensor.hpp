@@ -229,4 +229,23 @@ SymmetricPlane<T> rotate(const SymmetricPlane<T>& s, const MatrixPlane<T>& incre
   return {xx * cosine + xz * sine, zz * cosine - zx * sine, xz * cosine - xx * sine, s.yy};
 }
 
+// --- all components, whatever the geometry stores ---------------------------------------------------------------
+
+template <class T>
+const Matrix3<T>& full(const Matrix3<T>& m) {
+  return m;
+}
+template <class T>
+Matrix3<T> full(const MatrixPlane<T>& m) {
+  return {m.xx, T(0), m.xz, T(0), m.yy, T(0), m.zx, T(0), m.zz};
+}
+template <class T>
+const Symmetric3<T>& full(const Symmetric3<T>& s) {
+  return s;
+}
+template <class T>
+Symmetric3<T> full(const SymmetricPlane<T>& s) {
+  return {s.xx, s.yy, s.zz, T(0), s.xz, T(0)};
+}
+
 }  // namespace mpm

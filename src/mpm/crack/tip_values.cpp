@@ -1,6 +1,7 @@
 #include "mpm/crack/tip_values.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mpm/crack/around_point.hpp"
 #include "mpm/math/dimension.hpp"
@@ -76,7 +77,7 @@ void TipValues::fill(std::size_t s, std::uint32_t first, std::uint32_t last) {
             const auto f = Geometry::load_matrix(set.f, static_cast<int>(p));
             const auto tau = Geometry::load_symmetric(set.tau, static_cast<int>(p));
             const double j = determinant(f), present = density / j;
-            double work = law.elastic_energy(to_full(f), to_full(tau), j);
+            double work = law.elastic_energy(full(f), full(tau), j);
             if constexpr (LawType::kPlasticWork >= 0) {
               work += (1.0 - law.heat_fraction()) * set.history[LawType::kPlasticWork][p];
             }

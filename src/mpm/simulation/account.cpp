@@ -71,10 +71,6 @@ MaterialTotals totals_of(const ParticleSet& set, const LawType& law, const GridL
   return total;
 }
 
-const Matrix3<double>& full(const Matrix3<double>& m) { return m; }
-Matrix3<double> full(const MatrixPlane<double>& m) { return {m.xx, 0.0, m.xz, 0.0, m.yy, 0.0, m.zx, 0.0, m.zz}; }
-const Symmetric3<double>& full(const Symmetric3<double>& s) { return s; }
-Symmetric3<double> full(const SymmetricPlane<double>& s) { return {s.xx, s.yy, s.zz, 0.0, s.xz, 0.0}; }
 
 }  // namespace
 

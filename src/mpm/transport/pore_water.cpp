@@ -9,8 +9,6 @@
 namespace mpm {
 namespace {
 
-Matrix3<double> full(const Matrix3<double>& m) { return m; }
-Matrix3<double> full(const MatrixPlane<double>& m) { return {m.xx, 0.0, m.xz, 0.0, m.yy, 0.0, m.zx, 0.0, m.zz}; }
 
 /// a : the symmetric part of the strain from F0 to F1.
 double contract(const Symmetric3<double>& a, const Matrix3<double>& f0, const Matrix3<double>& f1) {

@@ -1,0 +1,110 @@
+// The tips of the cracks in a run: J and stress intensities, and growth.
+//
+// When J is due, at sync points and before every look at growth, it is taken on a contour around the tip
+// (j_integral.hpp) from nodal values (tip_values.hpp), with the terms of faces inside: tractions, friction, bends of
+// the crack, other cracks. It is the J of growth straight on. A tip without J says why; it keeps the crack as it is.
+// Growth is decided by tip_growth.hpp and adds points to the chain, which the next step's fields see; it ends where it
+// meets another crack or leaves the grid.
+// Weak: J is taken in the middle of a step, with the stress between its start and its end. J of a body that has turned
+// far is taken along the tip's present direction. Other tips inside the contour are not looked for.
+// Source: crack reference 4, 5; Nairn (2003), CMES 4(6), 649-663.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mpm/crack/crack_tractions.hpp"
+#include "mpm/crack/face_terms.hpp"
+#include "mpm/crack/interaction_integral.hpp"
+#include "mpm/crack/j_integral.hpp"
+#include "mpm/crack/tip_growth.hpp"
+#include "mpm/crack/tip_values.hpp"
+
+namespace mpm {
+
+/// What is known of a material for cracks.
+struct FractureMaterial {
+  std::string name;
+  FractureConstants constants;
+  std::optional<ElasticConstants> elastic;  ///< of isotropic elastic materials
+  double wave_speed = 0.0;                  ///< [m/s]
+};
+
+struct TipSettings {
+  ContourDefinition contour;
+  CracksDefinition::Split split = CracksDefinition::Split::interaction;
+  GrowthRule growth, alternate;
+  double length = 0.5;       ///< of a step of growth [cells]
+  double time_factor = 0.5;  ///< time between looks, over that in which a wave crosses a cell
+  std::vector<FractureMaterial> materials;
+  std::vector<int> material_of_set;
+};
+
+/// A tip as it was last looked at.
+struct CrackTip {
+  int crack = 0, end = 0;
+  bool looked = false;                                   ///< J has been asked for
+  ContourStatus status = ContourStatus::meets_no_crack;  ///< `complete`: J is known
+  double j = 0.0;                                        ///< at the tip, without work of tractions behind it [J/m^2]
+  double zone = 0.0;                                     ///< that work, by area [J/m^2]
+  StressIntensity k;                                     ///< 0 where the material has none
+  FaceOpening opening;                                   ///< near the tip, in its frame [m]
+  int material = -1;                                     ///< of TipSettings::materials
+  Vec2 start_direction = Vec2::UnitX();                  ///< at the run's start
+  double speed = 0.0;                                    ///< of the last growth: its length over the time since [m/s]
+  double grown = 0.0;                                    ///< by so much since the start [m]
+  double angle = 0.0;                                    ///< of the last growth from the direction before it [rad]
+  double first_angle = 0.0;                              ///< of the first growth [rad]
+  double released = 0.0;                                 ///< J at the last growth, with the zone [J/m^2]
+  double last_growth = 0.0;                              ///< time of it [s]
+  double next_look = 0.0;                                ///< at growth, not before [s]
+  int growths = 0;
+  bool by_alternate = false;  ///< the last growth
+  std::string why;            ///< it grew or did not, or stopped for good
+  TipGrowth growth;
+};
+
+class CrackTips {
+ public:
+  CrackTips(std::vector<Crack>& cracks, const CrackFields& chosen, CrackTractions& tractions, TipParts parts,
+            std::unique_ptr<ScalarTransfer> transfer, TipSettings settings);
+
+  /// Whether a tip wants to be looked at at this time [s].
+  bool growth_due(double time) const;
+  /// Finds J and K of all tips at a time [s]. Fields are those of a step in which momentum has been updated.
+  void find(double time);
+  /// Lets tips grow that are due, after find(). Returns whether a chain has changed. @throws FractureError
+  bool grow(double time, double dt);
+  const std::vector<CrackTip>& tips() const { return tips_; }
+  void serialise(StateArchive& archive);
+
+ private:
+  void find(CrackTip& tip);
+  int group_of(const CrackTip& tip, const ContourPath& path) const;
+  void find_material(CrackTip& tip);
+  void add_faces(const CrackTip& tip, JResult& result);
+  double friction_at(const CrackTip& tip, const JForm& form);
+  void split(CrackTip& tip, const JResult& result);
+  bool grow(CrackTip& tip, double time, double dt);
+  bool stopped(const CrackTip& tip) const;
+  JForm form_of(const Vec2& tip) const;
+
+  std::vector<Crack>& cracks_;
+  const CrackFields& chosen_;
+  CrackTractions& tractions_;
+  TipParts parts_;
+  TipSettings settings_;
+  TipValues values_;
+  GridLines lines_;
+  std::vector<CrackTip> tips_;
+  double time_ = 0.0;  ///< of the look at work [s]
+  ContourPath path_;
+  std::vector<ContourPiece> pieces_;
+  std::vector<AreaSample> samples_;
+  std::vector<FaceSample> faces_;
+  std::vector<FaceWork> work_;
+  std::vector<FrictionSample> slips_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,343 @@
+#include "mpm/crack/crack_tips.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mpm/crack/chain.hpp"
+#include "mpm/crack/crossing.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kBeyond = 0.25;  ///< of a cell, that growth is lengthened by to see other cracks
+
+GridLines lines_of(const GridLayout& layout) {
+  GridLines lines;
+  for (int k = 0; k < 2; ++k) {
+    lines.origin[k] = layout.origin(k);
+    lines.cell[k] = layout.cell(k);
+    lines.nodes[k] = layout.last_node(k) + 1;
+  }
+  return lines;
+}
+
+}  // namespace
+
+CrackTips::CrackTips(std::vector<Crack>& cracks, const CrackFields& chosen, CrackTractions& tractions, TipParts parts,
+                     std::unique_ptr<ScalarTransfer> transfer, TipSettings settings)
+    : cracks_(cracks),
+      chosen_(chosen),
+      tractions_(tractions),
+      parts_(std::move(parts)),
+      settings_(std::move(settings)),
+      values_(parts_, std::move(transfer)),
+      lines_(lines_of(parts_.fields.front()->layout)) {
+  for (std::size_t c = 0; c < cracks.size(); ++c) {
+    for (int end = 0; end < 2; ++end) {
+      if (cracks[c].chain.end(end) != CrackEnd::tip) continue;
+      CrackTip tip;
+      tip.crack = static_cast<int>(c);
+      tip.end = end;
+      tip.start_direction = cracks[c].chain.direction(end);
+      tips_.push_back(std::move(tip));
+    }
+  }
+}
+
+JForm CrackTips::form_of(const Vec2& tip) const {
+  JForm form;
+  form.large_strain = true;
+  form.tip_radius = tip[0];
+  if (axisymmetric(parts_.geometry)) {
+    form.kind = settings_.contour.about_axis_by_broberg ? JForm::Kind::broberg : JForm::Kind::bergkvist_huong;
+  }
+  return form;
+}
+
+void CrackTips::find(double time) {
+  time_ = time;
+  for (CrackTip& tip : tips_) find(tip);
+}
+
+// The group with most of the contour's nodes.
+int CrackTips::group_of(const CrackTip& tip, const ContourPath& path) const {
+  int best = -1, most = 0;
+  for (const int first : chosen_.groups(tip.crack)) {
+    int count = 0;
+    for (const std::array<int, 2>& node : path.nodes) {
+      const NodeRef ref = chosen_.find_place(first, node);
+      count += ref.block >= 0 && parts_.fields[first]->carries(ref.block, ref.node) ? 1 : 0;
+    }
+    if (count > most) {
+      most = count;
+      best = first;
+    }
+  }
+  return best;
+}
+
+void CrackTips::find_material(CrackTip& tip) {
+  const Chain& chain = cracks_[tip.crack].chain;
+  const std::string& named = cracks_[tip.crack].definition.tip_materials[tip.end];
+  const bool kept = tip.material >= 0 && settings_.materials[tip.material].constants.keeps_tips;
+  if (kept) return;
+  if (tip.material < 0 && !named.empty()) {
+    for (std::size_t m = 0; m < settings_.materials.size(); ++m) {
+      if (settings_.materials[m].name == named) tip.material = static_cast<int>(m);
+    }
+    return;
+  }
+  // That of the particle nearest to the tip.
+  const Vec2 place = chain.points()[chain.point_at(tip.end)].place;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    const ParticleSet& set = parts_.sets[s];
+    if (cracks_[tip.crack].divides[s] == 0) continue;
+    for (std::uint32_t p = set.begin[chosen_.patches().first_owner]; p < set.begin.back(); ++p) {
+      const double distance = (Vec2(set.x[0][p], set.x[1][p]) - place).squaredNorm();
+      if (!(distance < nearest)) continue;
+      nearest = distance;
+      tip.material = settings_.material_of_set[s];
+    }
+  }
+}
+
+void CrackTips::find(CrackTip& tip) {
+  const Chain& chain = cracks_[tip.crack].chain;
+  tip.looked = true;
+  tip.j = tip.zone = 0.0;
+  tip.k = {};
+  const Vec2 opening = chain.tip_opening(tip.end);
+  tip.opening = {opening[0], opening[1]};
+  find_material(tip);
+  const Vec2 place = chain.points()[chain.point_at(tip.end)].place;
+  make_path(lines_, chain.line().data(), static_cast<int>(chain.line().size()), place, settings_.contour.size, path_);
+  tip.status = path_.status;
+  if (path_.status != ContourStatus::complete) return;
+  const int first = group_of(tip, path_);
+  if (first < 0) {
+    tip.status = ContourStatus::no_material;
+    return;
+  }
+  values_.gather(first, tip.crack, path_.low, path_.high);
+  const bool inertia = settings_.contour.terms == 2;
+  samples_.clear();
+  if (inertia || axisymmetric(parts_.geometry)) values_.find_samples(lines_, path_, samples_);
+  JResult result = integrate_j(form_of(place), lines_, path_, values_, samples_, inertia, pieces_);
+  tip.status = result.status;
+  if (result.status != ContourStatus::complete) return;
+  add_faces(tip, result);
+  tip.zone = result.faces_work;
+  tip.j = result.along(chain.direction(tip.end));
+  split(tip, result);
+}
+
+// Faces inside the contour: bends of this crack, other cracks, tractions and friction.
+void CrackTips::add_faces(const CrackTip& tip, JResult& result) {
+  const JForm form = form_of(cracks_[tip.crack].chain.points()[cracks_[tip.crack].chain.point_at(tip.end)].place);
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    const Chain& chain = cracks_[c].chain;
+    const bool own = static_cast<int>(c) == tip.crack;
+    faces_.clear();
+    for (int k = 0; k + 1 < chain.size(); ++k) {
+      const Vec2 &from = chain.points()[k].place, &to = chain.points()[k + 1].place;
+      FaceSample sample;
+      sample.place = 0.5 * (from + to);
+      sample.along = to - from;
+      if (!path_.contains(lines_, sample.place)) continue;
+      const Vec2 aside = 1e-6 * Vec2(-sample.along[1], sample.along[0]);
+      if (!values_.at(sample.place, sample.place + aside, sample.above)) continue;
+      if (!values_.at(sample.place, sample.place - aside, sample.below)) continue;
+      const Vec2 normal = aside.normalized();
+      if (!own && 0.5 * (chain.opening(k) + chain.opening(k + 1)).dot(normal) <= 0.0) {
+        sample.traction_above = sample.above.traction(-normal);
+        sample.traction_below = sample.below.traction(normal);
+      }
+      faces_.push_back(sample);
+    }
+    result.faces += face_term(form, faces_, own ? FaceTractions::left_out : FaceTractions::counted);
+  }
+  // Tractions on this crack, from the contour's crossing to the tip.
+  const Chain& chain = cracks_[tip.crack].chain;
+  const int step = tip.end == 1 ? 1 : -1;
+  const ContourCrossing& crossing = path_.crossing;
+  int next = tip.end == 1 ? crossing.segment + 1 : crossing.segment;
+  const int before = tip.end == 1 ? crossing.segment : crossing.segment + 1;
+  work_.clear();
+  const auto work_at = [&](int point) {
+    const int law = tractions_.any() ? tractions_.law_number(tip.crack, point) : -1;
+    return law < 0 ? 0.0 : tractions_.law(law).face_work(tractions_.state(tip.crack, point));
+  };
+  const double along = tip.end == 1 ? crossing.along_segment : 1.0 - crossing.along_segment;
+  work_.push_back({crossing.place, (1.0 - along) * work_at(before) + along * work_at(next)});
+  for (; next >= 0 && next < chain.size(); next += step) work_.push_back({chain.points()[next].place, work_at(next)});
+  // Where the zone ends inside the contour, its last point stands for it.
+  const auto first = std::find_if(work_.begin(), work_.end(), [](const FaceWork& one) { return one.work != 0.0; });
+  work_.erase(work_.begin(), first);
+  result.faces_work = traction_work(form, work_) + friction_at(tip, form);
+}
+
+double CrackTips::friction_at(const CrackTip& tip, const JForm& form) {
+  const Crack& crack = cracks_[tip.crack];
+  const ContactLaw& law = crack.definition.faces.law;
+  if (law.kind != ContactLaw::Kind::coulomb || crack.definition.faces.ignored) return 0.0;
+  const double coefficient = law.at(time_).coefficient;
+  if (!(coefficient > 0.0)) return 0.0;
+  slips_.clear();
+  const Chain& chain = crack.chain;
+  for (int k = 0; k + 1 < chain.size(); ++k) {
+    const Vec2 &from = chain.points()[k].place, &to = chain.points()[k + 1].place;
+    const Vec2 middle = 0.5 * (from + to), along = (to - from).normalized(), normal(-along[1], along[0]);
+    if (!path_.contains(lines_, middle)) continue;
+    ContourValues above, below;
+    const Vec2 aside = 1e-6 * (to - from).norm() * normal;
+    if (!values_.at(middle, middle + aside, above) || !values_.at(middle, middle - aside, below)) continue;
+    const ContourValues mean = ContourValues::between(above, below, 0.5);
+    const double pressure = -mean.traction(normal).dot(normal);
+    if (!(pressure > 0.0)) continue;
+    slips_.push_back({middle, coefficient * pressure, (chain.opening(k + 1) - chain.opening(k)).dot(along)});
+  }
+  return friction_work(form, slips_);
+}
+
+void CrackTips::split(CrackTip& tip, const JResult&) {
+  if (tip.material < 0 || !settings_.materials[tip.material].elastic || cracks_[tip.crack].definition.fixed) return;
+  const ElasticConstants& elastic = *settings_.materials[tip.material].elastic;
+  const bool by_integral = settings_.split == CracksDefinition::Split::interaction && !axisymmetric(parts_.geometry);
+  if (!by_integral) {
+    tip.k = split_by_openings(tip.j, tip.opening.normal, tip.opening.shear, elastic, tip.speed);
+    return;
+  }
+  const Chain& chain = cracks_[tip.crack].chain;
+  const std::array<double, 2> k =
+      interaction_integral({elastic.shear_modulus(), elastic.kappa()}, chain.points()[chain.point_at(tip.end)].place,
+                           chain.direction(tip.end), pieces_);
+  tip.k = {k[0], k[1]};
+  if (tip.opening.normal <= 0.0) tip.k.one = 0.0;  // of closed faces the integral's K_I means nothing
+}
+
+bool CrackTips::stopped(const CrackTip& tip) const { return cracks_[tip.crack].chain.end(tip.end) != CrackEnd::tip; }
+
+bool CrackTips::growth_due(double time) const {
+  return std::any_of(tips_.begin(), tips_.end(), [&](const CrackTip& tip) {
+    const bool known = tip.material >= 0 && settings_.materials[tip.material].constants.growth.has_value();
+    const bool may = settings_.growth.criterion != FractureCriterion::none || known || tip.material < 0;
+    return may && !stopped(tip) && time >= tip.next_look;
+  });
+}
+
+bool CrackTips::grow(double time, double dt) {
+  bool grown = false;
+  for (CrackTip& tip : tips_) grown = grow(tip, time, dt) || grown;
+  return grown;
+}
+
+bool CrackTips::grow(CrackTip& tip, double time, double dt) {
+  Crack& crack = cracks_[tip.crack];
+  Chain& chain = crack.chain;
+  if (stopped(tip) || time < tip.next_look || tip.material < 0) return false;
+  const FractureMaterial& material = settings_.materials[tip.material];
+  const GridLayout& layout = parts_.fields.front()->layout;
+  tip.next_look = time + look_interval(dt, settings_.time_factor, layout.smallest_cell(), material.wave_speed);
+  const TipRules rules = [&] {
+    TipRules made = tip_rules(settings_.growth, settings_.alternate, material.constants,
+                              material.elastic.value_or(ElasticConstants{}));
+    made.longest = crack.definition.longest;
+    made.longest_open = crack.definition.longest_open;
+    return made;
+  }();
+  if (rules.first.criterion == FractureCriterion::none) return false;
+  TipState state;
+  state.time = time;
+  if (tip.status == ContourStatus::complete) state.j = tip.j;
+  state.k = tip.k;
+  state.normal_opening = tip.opening.normal;
+  state.shear_opening = tip.opening.shear;
+  state.direction = chain.direction(tip.end);
+  state.initial_direction = tip.start_direction;
+  state.length = chain.length();
+  state.open_length = chain.open_length([&](int point) { return tractions_.law_at(tip.crack, point) < 0; });
+  const GrowthDecision decision = tip.growth.look(state, rules);
+  tip.why = decision.reason;
+  if (!decision.grows) return false;
+
+  const Vec2 place = chain.points()[chain.point_at(tip.end)].place;
+  const Vec2 cells(layout.cell(0), layout.cell(1));
+  std::vector<Vec2> points = growth_points(place, decision.direction, settings_.length, cells);
+  const Vec2 seen = points.back() + kBeyond * cell_along(decision.direction, cells) * decision.direction;
+  bool ends = false;
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    if (static_cast<int>(c) == tip.crack) continue;
+    const std::vector<Vec2>& line = cracks_[c].chain.line();
+    std::vector<Meeting> met;
+    if (find_meetings(line.data(), static_cast<int>(line.size()), place, seen, met) == 0) continue;
+    points = {place + met.front().along * (seen - place)};
+    ends = true;
+    tip.why = "it has met crack '" + cracks_[c].definition.name + "'";
+    break;
+  }
+  for (const Vec2& point : points) {
+    for (int k = 0; k < 2; ++k) {
+      const double cell = layout.in_cells(k, point[k]);
+      if (cell >= 0.0 && cell <= layout.last_node(k)) continue;
+      chain.set_end(tip.end, CrackEnd::none);
+      tip.why = "it has left the grid";
+      return true;
+    }
+  }
+  double length = 0.0;
+  Vec2 last = place;
+  for (const Vec2& point : points) {
+    length += (point - last).norm();
+    last = point;
+  }
+  const GrowthRule& rule = decision.alternate ? rules.alternate : rules.first;
+  const std::string& law =
+      crack.definition.traction_of_growth.empty() ? rule.traction : crack.definition.traction_of_growth;
+  tip.growth.grown(state, decision, length);
+  tip.speed = time > tip.last_growth ? length / (time - tip.last_growth) : 0.0;
+  if (decision.speed > 0.0) tip.speed = decision.speed;
+  tip.last_growth = time;
+  tip.released = tip.j + tip.zone;
+  tip.angle = decision.angle;
+  if (tip.growths == 0) tip.first_angle = decision.angle;
+  ++tip.growths;
+  tip.grown += length;
+  tip.by_alternate = decision.alternate;
+  chain.grow(tip.end, points);
+  tractions_.grow(tip.crack, tip.end, static_cast<int>(points.size()), tractions_.law_of(law));
+  if (ends) chain.set_end(tip.end, CrackEnd::none);
+  return true;
+}
+
+void CrackTips::serialise(StateArchive& archive) {
+  for (std::size_t t = 0; t < tips_.size(); ++t) {
+    const StateArchive::Group group(archive, "tip_" + std::to_string(t));
+    CrackTip& tip = tips_[t];
+    archive.value("looked", tip.looked);
+    archive.value("status", tip.status);
+    for (const auto& [name, number] : {std::pair<const char*, double*>{"j", &tip.j},
+                                       {"zone", &tip.zone},
+                                       {"k_one", &tip.k.one},
+                                       {"k_two", &tip.k.two},
+                                       {"opening_normal", &tip.opening.normal},
+                                       {"opening_shear", &tip.opening.shear},
+                                       {"speed", &tip.speed},
+                                       {"grown", &tip.grown},
+                                       {"angle", &tip.angle},
+                                       {"first_angle", &tip.first_angle},
+                                       {"released", &tip.released},
+                                       {"last_growth", &tip.last_growth},
+                                       {"next_look", &tip.next_look}}) {
+      archive.value(name, *number);
+    }
+    archive.value("material", tip.material);
+    archive.value("growths", tip.growths);
+    archive.value("by_alternate", tip.by_alternate);
+    archive.value("why", tip.why);
+    tip.growth.serialise(archive);
+  }
+}
+
+}  // namespace mpm

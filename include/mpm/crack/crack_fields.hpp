@@ -56,10 +56,9 @@ struct DividedNode {
 
 class CrackFields {
  public:
-  /// All outlive this object; `choice` chooses from the fields of the sets that a crack divides. `ahead`: as far as a
-  /// tip may grow at once [m].
+  /// All outlive this object; `choice` chooses from the fields of the sets that a crack divides.
   CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& sets, NodeChoice& choice, const FieldMap& map,
-              Grouping grouping, ShapeKind shape, int threads, double ahead);
+              Grouping grouping, ShapeKind shape, int threads);
 
   /// Says which particles choose, before a sort.
   void before_sort();
@@ -146,7 +145,6 @@ class CrackFields {
   PatchSorter sorter_;
   std::vector<int> across_;  ///< of each field 0, how many fields follow it
   int reach_, threads_;
-  double ahead_;
   std::vector<std::uint64_t> listed_;  ///< blocks whose particles choose
   Tile tile_;
   std::vector<Part> near_;  ///< of each crack, near a particle

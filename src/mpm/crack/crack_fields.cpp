@@ -21,14 +21,13 @@ Vec2 place_of(const ParticleSet& set, std::size_t p) { return {set.x[0][p], set.
 }  // namespace
 
 CrackFields::CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& sets, NodeChoice& choice,
-                         const FieldMap& map, Grouping grouping, ShapeKind shape, int threads, double ahead)
+                         const FieldMap& map, Grouping grouping, ShapeKind shape, int threads)
     : cracks_(cracks),
       sets_(sets),
       choice_(choice),
       sorter_(grouping),
       reach_(reach_of(shape)),
       threads_(threads),
-      ahead_(ahead),
       near_(cracks.size()),
       patch_of_(sets.size()) {
   tile_.parts.resize(cracks.size());
@@ -47,14 +46,11 @@ void CrackFields::each_near_block(double margin, Visit&& visit) const {
     const std::vector<Vec2>& line = crack.chain.line();
     const int last = static_cast<int>(line.size()) - 2;
     for (int k = 0; k <= last; ++k) {
-      const bool grows =
-          (k == 0 && crack.chain.end(0) == CrackEnd::tip) || (k == last && crack.chain.end(1) == CrackEnd::tip);
       std::array<int, 2> low{}, high{};
       for (int a = 0; a < 2; ++a) {
         // Tile nodes of block B are 4 B - 2 to 4 B + 5.
-        const double more = margin + (grows ? ahead_ * layout.inverse_cell(a) : 0.0);
-        const double from = layout.in_cells(a, std::min(line[k][a], line[k + 1][a])) - more;
-        const double to = layout.in_cells(a, std::max(line[k][a], line[k + 1][a])) + more;
+        const double from = layout.in_cells(a, std::min(line[k][a], line[k + 1][a])) - margin;
+        const double to = layout.in_cells(a, std::max(line[k][a], line[k + 1][a])) + margin;
         const double last_block = layout.last_node(a) / static_cast<double>(kBlockEdge);
         low[a] = static_cast<int>(std::clamp(std::ceil((from - 5.0) / kBlockEdge), 0.0, last_block + 1.0));
         high[a] = static_cast<int>(std::clamp(std::floor((to + 2.0) / kBlockEdge), -1.0, last_block));

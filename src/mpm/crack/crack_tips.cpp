@@ -210,10 +210,8 @@ void CrackTips::split(CrackTip& tip, const JResult&) {
     return;
   }
   const Chain& chain = cracks_[tip.crack].chain;
-  const std::array<double, 2> k =
-      interaction_integral({elastic.shear_modulus(), elastic.kappa()}, chain.points()[chain.point_at(tip.end)].place,
-                           chain.direction(tip.end), pieces_);
-  tip.k = {k[0], k[1]};
+  tip.k =
+      interaction_integral(elastic, chain.points()[chain.point_at(tip.end)].place, chain.direction(tip.end), pieces_);
   if (tip.opening.normal <= 0.0) tip.k.one = 0.0;  // of closed faces the integral's K_I means nothing
 }
 

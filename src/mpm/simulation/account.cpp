@@ -71,7 +71,6 @@ MaterialTotals totals_of(const ParticleSet& set, const LawType& law, const GridL
   return total;
 }
 
-
 }  // namespace
 
 ParticleTensors particle_tensors(const ParticleSet& set, GeometryKind geometry, int p) {

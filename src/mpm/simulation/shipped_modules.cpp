@@ -1,6 +1,22 @@
 #include "shipped_modules.hpp"
 
+#include "mpm/crack/crack_stage.hpp"
+
 namespace mpm {
+namespace {
+
+constexpr int kNumbered = 9;  ///< cracks whose numbers are global quantities
+
+std::vector<std::pair<std::string, std::string>> numbers_of_cracks() {
+  std::vector<std::pair<std::string, std::string>> list;
+  for (int number = 1; number <= kNumbered; ++number) {
+    const auto own = crack_numbers(number);
+    list.insert(list.end(), own.begin(), own.end());
+  }
+  return list;
+}
+
+}  // namespace
 
 const std::vector<ShippedModules>& shipped_modules() {
   static const std::vector<ShippedModules> kList = {
@@ -20,6 +36,7 @@ const std::vector<ShippedModules>& shipped_modules() {
       {add_rigid_contact},
       {add_particle_loads},
       {add_tractions},
+      {add_cracks, numbers_of_cracks()},
       {add_sleep, {{"asleep", "1"}}},
       {add_step_limit},
   };

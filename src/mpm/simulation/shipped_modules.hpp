@@ -47,5 +47,6 @@ void add_tractions(RunParts& parts);
 void add_sleep(RunParts& parts);
 void add_step_limit(RunParts& parts);
 void add_transport(RunParts& parts);
+void add_cracks(RunParts& parts);
 
 }  // namespace mpm

@@ -1,0 +1,69 @@
+// Explicit cracks in a run: puts together what they do in a step.
+//
+//   a step begins     particles near cracks choose their fields, which hold for the whole step (crack_fields.hpp)
+//   forces gathered   tractions between faces (crack_tractions.hpp)
+//   grid advanced     J, K and growth where they are due (crack_tips.hpp); surfaces and chains move (crack_motion.hpp);
+//                     tractions of the next step follow from the new openings
+//
+// Contact between faces is a stage of its own (crack_contact.hpp).
+// Source: Nairn (2003), CMES 4(6), 649-663; crack reference 3.6, with J taken before the chain moves, in the middle of
+// the step.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mpm/crack/crack_contact.hpp"
+#include "mpm/crack/crack_error.hpp"
+#include "mpm/crack/crack_motion.hpp"
+#include "mpm/crack/crack_tips.hpp"
+#include "mpm/crack/crack_tractions.hpp"
+#include "mpm/step/stage.hpp"
+
+namespace mpm {
+
+class CrackStage final : public Stage {
+ public:
+  /// What it works with; made by simulation/crack_module.cpp. `sync`: between sync points [s].
+  struct Parts {
+    std::vector<Crack> cracks;
+    std::unique_ptr<CrackFields> chosen;
+    std::unique_ptr<CrackMotion> motion;
+    std::unique_ptr<CrackTractions> tractions;
+    std::unique_ptr<CrackTips> tips;
+    double sync = 0.0;
+  };
+  /// The parts refer to each other: `parts` is where they lie.
+  explicit CrackStage(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+
+  std::string name() const override { return "cracks"; }
+  Ranks ranks(Hook hook) const override { return {hook == Hook::step_begun ? Rank::node_choice : Rank::traction}; }
+
+  void before_sort() override { parts_->chosen->before_sort(); }
+  bool needs_sort() const override { return parts_->chosen->needs_sort(); }
+  void run_begun(StepContext&) override { parts_->chosen->choose(); }
+  void step_begun(StepContext&) override { parts_->chosen->choose(); }
+  void forces_gathered(StepContext&) override;
+  /// @throws CrackStageError
+  void grid_advanced(StepContext& context) override;
+
+  void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
+  std::string limit_text(const StepLimit&) const override { return "stiffest law of tractions on a crack"; }
+  void energies(EnergyReport& report) const override { parts_->tractions->energies(report); }
+  /// "crack length 1", "crack 1 end j", ...: cracks counted from 1.
+  void numbers(std::vector<NamedNumber>& list) const override;
+  void serialise(StateArchive& archive) override;
+  void hashed(std::vector<double>& numbers) const override;
+
+  const std::vector<Crack>& cracks() const { return parts_->cracks; }
+  const std::vector<CrackTip>& tips() const { return parts_->tips->tips(); }
+  const CrackTractions& tractions() const { return *parts_->tractions; }
+
+ private:
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Numbers that crack `number`, from 1, adds: name and unit.
+std::vector<std::pair<std::string, std::string>> crack_numbers(int number);
+
+}  // namespace mpm

@@ -1,0 +1,99 @@
+#include "mpm/crack/crack_stage.hpp"
+
+#include <cmath>
+
+namespace mpm {
+namespace {
+
+struct TipNumber {
+  const char *name, *unit;
+  double (*value)(const CrackTip&);
+};
+constexpr TipNumber kTipNumbers[] = {
+    {"j", "J/m^2", [](const CrackTip& tip) { return tip.j; }},
+    {"k_one", "Pa m^0.5", [](const CrackTip& tip) { return tip.k.one; }},
+    {"k_two", "Pa m^0.5", [](const CrackTip& tip) { return tip.k.two; }},
+    {"kink_angle", "rad", [](const CrackTip& tip) { return tip.first_angle; }},
+    {"growth", "m", [](const CrackTip& tip) { return tip.grown; }},
+    {"speed", "m/s", [](const CrackTip& tip) { return tip.speed; }},
+    {"opening", "m", [](const CrackTip& tip) { return tip.opening.normal; }},
+};
+constexpr const char* kEnds[] = {"start", "end"};
+
+std::string tip_number(int crack, int end, const TipNumber& number) {
+  return "crack " + std::to_string(crack) + " " + kEnds[end] + " " + number.name;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> crack_numbers(int number) {
+  std::vector<std::pair<std::string, std::string>> list{{"crack length " + std::to_string(number), "m"},
+                                                        {"debonded crack length " + std::to_string(number), "m"}};
+  for (int end = 0; end < 2; ++end) {
+    for (const TipNumber& of : kTipNumbers) list.emplace_back(tip_number(number, end, of), of.unit);
+  }
+  return list;
+}
+
+void CrackStage::forces_gathered(StepContext&) {
+  if (parts_->tractions->any()) parts_->tractions->add_forces();
+}
+
+void CrackStage::grid_advanced(StepContext& context) {
+  const double end = context.start + context.dt;
+  const double periods = std::round(end / parts_->sync);
+  const bool at_sync = std::abs(end - periods * parts_->sync) < 0.5 * context.dt;
+  const bool grows = parts_->tips->growth_due(end);
+  try {
+    if (at_sync || grows) parts_->tips->find(end);
+    parts_->motion->move(context.dt);
+    if (grows) parts_->tips->grow(end, context.dt);
+    if (parts_->tractions->any()) parts_->tractions->find(end);
+  } catch (const FractureError& error) {
+    throw ModuleError(error.what());
+  } catch (const CrackError& error) {
+    throw ModuleError(error.what());
+  }
+}
+
+void CrackStage::limit_step(const PeriodAhead& period, StepLimit& limit) const {
+  const double shortest = parts_->tractions->shortest_time();
+  if (!(shortest > 0.0)) return;
+  StepLimit own;
+  own.dt = 2.0 * period.cfl * shortest;
+  own.by = this;
+  limit.tighten(own);
+}
+
+void CrackStage::numbers(std::vector<NamedNumber>& list) const {
+  for (std::size_t c = 0; c < parts_->cracks.size(); ++c) {
+    const Chain& chain = parts_->cracks[c].chain;
+    const int crack = static_cast<int>(c), number = crack + 1;
+    list.push_back({"crack length " + std::to_string(number), "m", chain.length()});
+    list.push_back({"debonded crack length " + std::to_string(number), "m",
+                    chain.open_length([&](int point) { return parts_->tractions->law_at(crack, point) < 0; })});
+  }
+  for (const CrackTip& tip : tips()) {
+    for (const TipNumber& of : kTipNumbers) {
+      list.push_back({tip_number(tip.crack + 1, tip.end, of), of.unit, of.value(tip)});
+    }
+  }
+}
+
+void CrackStage::serialise(StateArchive& archive) {
+  for (std::size_t c = 0; c < parts_->cracks.size(); ++c) {
+    const StateArchive::Group group(archive, "crack_" + std::to_string(c));
+    parts_->cracks[c].chain.serialise(archive);
+  }
+  parts_->chosen->serialise(archive);
+  parts_->motion->serialise(archive);
+  parts_->tractions->serialise(archive);
+  parts_->tips->serialise(archive);
+}
+
+void CrackStage::hashed(std::vector<double>& numbers) const {
+  for (const Crack& crack : parts_->cracks) crack.chain.hashed(numbers);
+  parts_->tractions->hashed(numbers);
+}
+
+}  // namespace mpm

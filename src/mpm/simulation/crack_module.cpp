@@ -1,0 +1,122 @@
+// The explicit cracks of a definition as modules.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/crack/crack_stage.hpp"
+#include "mpm/kernel/select.hpp"
+#include "mpm/mechanics/continuum.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "shipped_modules.hpp"
+#include "state.hpp"
+#include "with_precision.hpp"
+
+namespace mpm {
+namespace {
+
+bool heeds(const CracksDefinition& cracks, const CrackDefinition& crack, const std::string& body) {
+  const bool ignores = std::find(cracks.ignored_by.begin(), cracks.ignored_by.end(), body) != cracks.ignored_by.end();
+  return !ignores && (crack.body.empty() || crack.body == body);
+}
+
+/// Of isotropic elastic materials.
+std::optional<ElasticConstants> elastic_of(const MaterialDefinition& material, GeometryKind geometry) {
+  return std::visit(
+      [&](const auto& law) -> std::optional<ElasticConstants> {
+        if constexpr (std::is_same_v<std::decay_t<decltype(law)>, LinearElasticDefinition> ||
+                      std::is_same_v<std::decay_t<decltype(law)>, NeoHookeanDefinition>) {
+          return ElasticConstants::of(law.elasticity.young, law.elasticity.poisson, material.density, geometry);
+        } else {
+          return std::nullopt;
+        }
+      },
+      material.law);
+}
+
+TipSettings tip_settings(const RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  const CracksDefinition& asked = definition.cracks;
+  TipSettings settings{asked.contour, asked.split,       asked.growth, asked.alternate,
+                       asked.length,  asked.time_factor, {},           {}};
+  for (std::size_t m = 0; m < definition.materials.size(); ++m) {
+    const MaterialDefinition& material = definition.materials[m];
+    FractureMaterial made;
+    made.name = material.name;
+    if (m < asked.materials.size()) made.constants = asked.materials[m];
+    made.elastic = elastic_of(material, definition.geometry);
+    made.wave_speed = made.elastic ? made.elastic->dilatational_speed() : 0.0;
+    settings.materials.push_back(std::move(made));
+  }
+  for (const DeformableBody& body : definition.bodies) {
+    const MaterialDefinition& material = find_material(definition, body);
+    settings.material_of_set.push_back(static_cast<int>(&material - definition.materials.data()));
+  }
+  for (std::size_t s = 0; s < parts.sets.size(); ++s) {
+    FractureMaterial& material = settings.materials[settings.material_of_set[s]];
+    if (material.wave_speed > 0.0) continue;
+    material.wave_speed = std::visit(
+        [](const auto& own) { return own.wave_speed(Matrix3<double>::identity(), Symmetric3<double>{}, 1.0); },
+        parts.laws[s]);
+  }
+  return settings;
+}
+
+void check(const RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  const auto refuse = [](const std::string& what) { throw DefinitionError("cracks: " + what); };
+  if (parts.layout().dim() != 2) refuse("explicit cracks are for planar scenes and for scenes about an axis");
+  if (definition.sleep) refuse("sleep does not know them; leave out 'sleep'");
+  if (!definition.transport.quantities.empty()) refuse("transport does not know them yet; leave out 'transport'");
+  if (!parts.map.divisions().empty())
+    refuse("thin tools with a field on each side are not known to them; write sides: one");
+  if (parts.layout().any_periodic()) refuse("periodic walls are not known to them");
+  if (definition.contact.method == ContactMethod::points && !definition.rigid_bodies.empty()) {
+    refuse("contact of tools at points does not see material near a crack; write contact.method: nodes");
+  }
+}
+
+}  // namespace
+
+void add_cracks(RunParts& parts) {
+  const SimulationDefinition& definition = parts.definition;
+  const CracksDefinition& asked = definition.cracks;
+  if (!asked.any()) return;
+  check(parts);
+  auto made = std::make_unique<CrackStage::Parts>();
+  made->sync = 1e-9 * static_cast<double>(definition.time.sync);
+  for (const CrackDefinition& crack : asked.list) {
+    Crack one{
+        crack, Chain(crack.points, crack.ends, crack.fixed), {}, crack.faces.law.kind != ContactLaw::Kind::one_field};
+    for (const ParticleSet& set : parts.sets) one.divides.push_back(heeds(asked, crack, set.name) ? 1 : 0);
+    made->cracks.push_back(std::move(one));
+  }
+  for (ParticleSet& set : parts.sets) {
+    if (set.start_x.empty()) set.start_x = set.x;
+  }
+  const Grouping grouping = with_precision(definition.method.precision, [&](auto zero) {
+    return kernel_grouping(kernel_table<decltype(zero)>(definition.method.shape, definition.geometry, parts.isa));
+  });
+  const double across = definition.across();
+  made->chosen = std::make_unique<CrackFields>(made->cracks, parts.sets, *parts.choice, parts.map, grouping,
+                                               definition.method.shape, parts.threads);
+  made->motion = std::make_unique<CrackMotion>(made->cracks, *made->chosen, parts.fields, asked.move, asked.prevent);
+  try {
+    made->tractions = std::make_unique<CrackTractions>(made->cracks, *made->chosen, parts.fields, asked.laws,
+                                                       definition.geometry, across);
+  } catch (const CrackError& error) {
+    throw DefinitionError(error.what());
+  }
+  TipParts tip_parts{made->cracks, *made->chosen,       parts.fields, parts.sets, parts.laws,
+                     {},           definition.geometry, across};
+  for (const DeformableBody& body : definition.bodies) {
+    tip_parts.densities.push_back(find_material(definition, body).density);
+  }
+  made->tips = std::make_unique<CrackTips>(made->cracks, *made->chosen, *made->tractions, std::move(tip_parts),
+                                           parts.make_transfer(definition.method.shape), tip_settings(parts));
+  parts.modules.add(std::make_unique<CrackContact>(made->cracks, *made->chosen, parts.fields, parts.volumes(),
+                                                   definition.geometry, parts.threads));
+  parts.modules.add(std::make_unique<CrackStage>(std::move(made)));
+}
+
+}  // namespace mpm

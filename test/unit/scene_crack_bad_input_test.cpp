@@ -213,6 +213,16 @@ TEST(SceneCrackBadInput, FacesAndTractions) {
                        "cracks.list.notch.traction: the faces of a fixed crack");
   std::string text = spoilt_scene(22, "      faces: {friction: 0.3}\n      traction_of_growth: glue");
   EXPECT_EQ(crack_refusal(text).rfind("bad.yaml:23: cracks.list.notch.traction_of_growth: faces with a law", 0), 0u);
+  const auto with_tractions = [](const std::string& own) {
+    std::string scene = spoilt_scene(22, own);
+    return scene.replace(scene.find("criterion: hoop_stress"), 22, "criterion: hoop_stress, traction: glue");
+  };
+  EXPECT_EQ(crack_refusal(with_tractions("      faces: {friction: 0.0}")), "no error");
+  const std::string rough = crack_refusal(with_tractions("      faces: {friction: 0.3}"));
+  EXPECT_EQ(rough.rfind("bad.yaml:20: cracks.list.notch.end: faces with a law of tractions are smooth", 0), 0u)
+      << rough;
+  const std::string held = crack_refusal(with_tractions("      fixed: true"));
+  EXPECT_EQ(held.rfind("bad.yaml:20: cracks.list.notch.end: 'notch' is fixed, and its growth", 0), 0u) << held;
   text = spoilt_scene(21, "      fixed: true");
   EXPECT_EQ(crack_refusal(text), "no error");  // K by the interaction integral needs no faces
   text += "  split: openings\n";

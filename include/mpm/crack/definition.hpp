@@ -28,6 +28,13 @@ struct CrackFaces {
   bool ignored = false;  ///< the faces pass through each other
   Detection detection = Detection::displacements;
   double position = 0.8;  ///< of detection by positions [cells]
+
+  /// Whether nothing but pressure acts where they meet, as faces with a law of tractions need.
+  bool smooth() const {
+    const auto zero = [](const Function& function) { return function.is_constant() && function(0.0) == 0.0; };
+    return !ignored && law.kind == ContactLaw::Kind::coulomb && zero(law.friction) && zero(law.adhesion) &&
+           (!law.static_friction || zero(*law.static_friction));
+  }
 };
 
 struct CrackDefinition {

@@ -188,20 +188,13 @@ void read_end(const Map& map, const char* key, const Scene& scene, CrackEnd& end
   }
 }
 
-bool is_smooth(const CrackFaces& faces) {
-  const ContactLaw& law = faces.law;
-  const auto zero = [](const Function& function) { return function.is_constant() && function(0.0) == 0.0; };
-  return !faces.ignored && law.kind == ContactLaw::Kind::coulomb && zero(law.friction) && zero(law.adhesion) &&
-         (!law.static_friction || zero(*law.static_friction));
-}
-
 void check_tractions(const Map& map, const CrackDefinition& crack) {
   for (const char* key : {"traction", "traction_of_growth"}) {
     const auto value = map.find(key);
     if (!value) continue;
     if (crack.fixed)
       value->fail("the faces of a fixed crack are not followed, so they have no tractions; leave it out");
-    if (!is_smooth(crack.faces)) {
+    if (!crack.faces.smooth()) {
       value->fail("faces with a law of tractions are smooth where they meet; leave out faces, or this");
     }
   }

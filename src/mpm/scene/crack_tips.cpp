@@ -60,6 +60,20 @@ void check_fixed(const Value& end, const GrowthRule& rule, const CrackDefinition
   }
 }
 
+/// Refuses tractions of new faces that would have none, or friction beside them.
+void check_new_faces(const Value& end, const GrowthRule& rule, const CrackDefinition& crack) {
+  if (rule.criterion == FractureCriterion::none || rule.traction.empty()) return;
+  if (crack.fixed) {
+    end.fail(fmt::format("'{}' is fixed, and its growth has the tractions '{}'; leave out fixed, or the tractions",
+                         crack.name, rule.traction));
+  }
+  if (!crack.faces.smooth()) {
+    end.fail(fmt::format(
+        "faces with a law of tractions are smooth where they meet, and the growth of '{}' has '{}'; leave out faces",
+        crack.name, rule.traction));
+  }
+}
+
 void check_growth(const Value& end, const CrackDefinition& crack, std::size_t material, const Scene& scene) {
   const CracksDefinition& cracks = scene.definition.cracks;
   const FractureConstants& constants = cracks.materials[material];
@@ -75,6 +89,7 @@ void check_growth(const Value& end, const CrackDefinition& crack, std::size_t ma
                            alternate ? "alternate" : "growth", fault));
     }
     check_fixed(end, rule, crack, cracks);
+    if (crack.traction_of_growth.empty()) check_new_faces(end, rule, crack);
   }
 }
 

@@ -20,13 +20,13 @@ struct FaceSample {
   Vec2 traction_above{0.0, 0.0}, traction_below{0.0, 0.0};  ///< that act on the material there [Pa]
 };
 
-enum class FaceTractions {
+enum class TractionTerms {
   counted,  ///< for other cracks: 0 on open faces, a law's traction, or that of the stress on closed ones
   left_out  ///< for this crack's own faces, whose tractions are in traction_work() and friction_work()
 };
 
 /// int [(W + K) n_k - t_i u_i,k] ds over both faces, n outward from the material: to add to J_k [J/m^2].
-Vec2 face_term(const JForm& form, const std::vector<FaceSample>& samples, FaceTractions tractions);
+Vec2 face_term(const JForm& form, const std::vector<FaceSample>& samples, TractionTerms tractions);
 
 /// Work that tractions have taken up at a place of the crack.
 struct FaceWork {

@@ -156,7 +156,7 @@ void CrackTips::add_faces(const CrackTip& tip, JResult& result) {
       }
       faces_.push_back(sample);
     }
-    result.faces += face_term(form, faces_, own ? FaceTractions::left_out : FaceTractions::counted);
+    result.faces += face_term(form, faces_, own ? TractionTerms::left_out : TractionTerms::counted);
   }
   // Tractions on this crack, from the contour's crossing to the tip.
   const Chain& chain = cracks_[tip.crack].chain;

@@ -4,8 +4,8 @@
 
 namespace mpm {
 
-Vec2 face_term(const JForm& form, const std::vector<FaceSample>& samples, FaceTractions tractions) {
-  const bool counted = tractions == FaceTractions::counted;
+Vec2 face_term(const JForm& form, const std::vector<FaceSample>& samples, TractionTerms tractions) {
+  const bool counted = tractions == TractionTerms::counted;
   const Vec2 none{0.0, 0.0};
   Vec2 sum{0.0, 0.0};
   for (const FaceSample& sample : samples) {

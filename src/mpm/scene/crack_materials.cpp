@@ -2,9 +2,6 @@
 // and the rules of growth.
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {

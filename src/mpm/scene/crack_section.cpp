@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "mpm/contact/thin_tool.hpp"
-#include "mpm/math/nearest.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {

@@ -134,9 +134,11 @@ enum class Statistic { mean, std_dev, min, max };
 struct TimeWindow {
   double from = 0.0, to = 0.0;  ///< [s]
 };
-/// A number of the summary: a statistic of a particle field over one body (over all when `body` is empty).
+/// A number of the summary: a statistic of a particle field over one body (over all when `body` is empty), or a number
+/// of the whole run.
 struct MetricDefinition {
   std::string name;
+  std::string number = {};  ///< that a module reports (NamedNumber); empty: a statistic
   Statistic statistic = Statistic::mean;
   std::string field;
   std::string body;

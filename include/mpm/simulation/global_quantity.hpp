@@ -20,6 +20,8 @@ struct GlobalQuantity {
 
 /// Names that quantities have, in lower case, with their units.
 std::vector<std::pair<std::string, std::string>> global_quantity_names();
+/// Those of them that are numbers which modules report.
+std::vector<std::string> reported_number_names();
 /// Why there is no such quantity (the nearest name, or the feature that is not built yet), or why it cannot be that of
 /// one body. Empty for a valid quantity. Whether the body exists is not checked.
 std::string problem_of(const GlobalQuantity& quantity);

@@ -111,6 +111,8 @@ class Simulation {
   /// "impulse_x" of contact on it since the start [N s]. @throws DefinitionError for an unknown name
   double body_value(int body, const std::string& name) const;
   static const std::vector<std::string>& body_values();
+  /// What modules report, as in state().
+  std::vector<NamedNumber> numbers() const;
   /// The action of the material on the body since the last call.
   ContactReport take_contact(int body);
   /// The action on each other of each pair of deformable bodies with a law of contact, since the last call.

@@ -197,6 +197,16 @@ Box read_particle_region(const Value& value) {
   return box;
 }
 
+/// The name of a number that some module can report.
+std::string read_reported_number(const Value& value) {
+  const std::string name = value.text();
+  const std::vector<std::string> known = reported_number_names();
+  if (std::find(known.begin(), known.end(), name) == known.end()) {
+    value.fail(fmt::format("no number '{}' of the run; {}", name, suggest(name, known)));
+  }
+  return name;
+}
+
 }  // namespace
 
 std::string read_particle_field(const Value& value) {
@@ -251,7 +261,7 @@ void read_metrics(const Map& root, Scene& scene) {
   if (!section->is_map()) section->fail("write one line for each metric, as in mean_szz: {mean: szz, of: soil}");
   for (const auto& entry : section->node()) {
     const Value value = section->child(entry.second, entry.first.Scalar());
-    const Map map(value, {"mean", "std", "min", "max", "of", "rate", "at", "in"});
+    const Map map(value, {"mean", "std", "min", "max", "number", "of", "rate", "at", "in"});
     MetricDefinition metric;
     metric.name = section->child(entry.first, entry.first.Scalar()).name();
     int statistics = 0;
@@ -265,7 +275,14 @@ void read_metrics(const Map& root, Scene& scene) {
         if (of_rigid && i > 0) value.fail("a rigid body has one number of a kind; write mean");
       }
     }
-    if (statistics != 1) value.fail(fmt::format("has {} statistics; write one of mean, std, min or max", statistics));
+    if (const auto number = map.find("number")) {
+      ++statistics;
+      metric.number = read_reported_number(*number);
+      if (of) of->fail("the number is of the whole run; leave it out");
+    }
+    if (statistics != 1) {
+      value.fail(fmt::format("has {} statistics; write one of mean, std, min, max or number", statistics));
+    }
     if (of) {
       metric.body = of->text();
       if (!of_rigid && std::find(bodies.begin(), bodies.end(), metric.body) == bodies.end()) {
@@ -298,7 +315,7 @@ void read_metrics(const Map& root, Scene& scene) {
       }
     }
     if (const auto region = map.find("in")) {
-      if (of_rigid) region->fail("a rigid body has one number of a kind; leave it out");
+      if (of_rigid || !metric.number.empty()) region->fail("it is one number for the whole; leave it out");
       metric.region = read_particle_region(*region);
     }
     scene.definition.metrics.push_back(std::move(metric));

@@ -359,7 +359,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.foreign_modules = !options.modules.empty();
   s.rates.resize(definition.metrics.size());
   for (const MetricDefinition& metric : definition.metrics) {
-    if (find_body(metric.body) >= 0) continue;  // a rigid body has its own names
+    if (find_body(metric.body) >= 0 || !metric.number.empty()) continue;  // these have their own names
     if (needs_start({metric.field})) keep_start();
     s.check_field(metric.field);
   }

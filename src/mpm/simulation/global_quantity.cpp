@@ -117,6 +117,14 @@ std::vector<std::pair<std::string, std::string>> global_quantity_names() {
   return names;
 }
 
+std::vector<std::string> reported_number_names() {
+  std::vector<std::string> names;
+  for (const Quantity& quantity : table()) {
+    if (quantity.source == Source::number) names.push_back(quantity.name);
+  }
+  return names;
+}
+
 std::string problem_of(const GlobalQuantity& quantity) {
   const int known = find(quantity.name);
   if (known >= 0) {

@@ -28,7 +28,16 @@ void keep_inside(const Simulation& simulation, const Box& region, std::uint64_t 
   values.resize(kept);
 }
 
+double reported(const Simulation& simulation, const MetricDefinition& metric) {
+  for (const NamedNumber& number : simulation.numbers()) {
+    if (number.name == metric.number) return number.value;
+  }
+  throw DefinitionError(fmt::format("metrics.{}: the run has no number '{}'; name another, or what would report it",
+                                    metric.name, metric.number));
+}
+
 double statistic_of(const Simulation& simulation, const MetricDefinition& metric, std::vector<double>& values) {
+  if (!metric.number.empty()) return reported(simulation, metric);
   if (const int body = simulation.find_body(metric.body); body >= 0) return simulation.body_value(body, metric.field);
   simulation.particle_field(metric.field, values);
   const auto [first, last] = metric.body.empty() ? std::pair<std::uint64_t, std::uint64_t>{0, values.size()}
@@ -82,6 +91,8 @@ double Simulation::body_value(int body, const std::string& name) const {
   }
   return (*vectors[place / 3])[place % 3];
 }
+
+std::vector<NamedNumber> Simulation::numbers() const { return state_->modules.numbers(); }
 
 void Simulation::sample_metrics() {
   State& s = *state_;

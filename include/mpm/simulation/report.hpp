@@ -51,6 +51,27 @@ struct StepReport {
   std::string limited_by;     ///< what and where: "wave speed of 'soil' (61 m/s …) at (0.1, 0, 0.3) m", "time.step"
 };
 
+/// An explicit crack. Lists have an entry for each point of its chain.
+struct CrackReport {
+  std::string name;
+  double length = 0.0, open_length = 0.0;               ///< all of it, and without tractions [m]
+  std::vector<Vec3> points, above, below;               ///< the chain and its faces, world [m]
+  std::vector<double> normal_traction, shear_traction;  ///< [Pa]
+  std::vector<bool> debonded;                           ///< the law of tractions has failed
+};
+
+/// The tip of an explicit crack, as it was last looked at: at the last sync point, or when it could grow.
+struct CrackTipReport {
+  std::string crack, end;                                ///< the crack's name; "start" or "end" of its chain
+  Vec3 place = Vec3::Zero(), direction = Vec3::UnitX();  ///< world [m]; of growth straight on
+  std::string state, growth, material;           ///< whether J is known; why it grew or not; whose constants hold
+  double j = 0.0, zone = 0.0;                    ///< at the tip; work of tractions behind it [J/m^2]
+  double k_one = 0.0, k_two = 0.0;               ///< [Pa sqrt(m)]
+  double opening = 0.0, slip = 0.0;              ///< of the faces next to it [m]
+  double grown = 0.0, speed = 0.0, angle = 0.0;  ///< since the start [m]; of the last growth [m/s], [rad]
+  int growths = 0;
+};
+
 struct SolverState {
   std::int64_t time = 0;  ///< [ns]
   StepReport step;

@@ -111,6 +111,9 @@ class Simulation {
   /// "impulse_x" of contact on it since the start [N s]. @throws DefinitionError for an unknown name
   double body_value(int body, const std::string& name) const;
   static const std::vector<std::string>& body_values();
+  /// The explicit cracks and their tips; empty without any.
+  std::vector<CrackReport> cracks() const;
+  std::vector<CrackTipReport> crack_tips() const;
   /// What modules report, as in state().
   std::vector<NamedNumber> numbers() const;
   /// The action of the material on the body since the last call.

@@ -5,6 +5,7 @@
 
 #include <mpm_ros/ContactForce.h>
 #include <mpm_ros/ContactPair.h>
+#include <mpm_ros/Cracks.h>
 #include <mpm_ros/SolverState.h>
 
 #include <cstdint>
@@ -85,6 +86,20 @@ class GlobalQuantitiesCsv {
  private:
   std::string path_;
   std::optional<CsvWriter> writer_;
+};
+
+/// crack_tips.csv: a row for each tip and time; crack_points.csv: a row for each point of a chain. No file of a scene
+/// without cracks.
+class CracksCsv {
+ public:
+  explicit CracksCsv(const std::string& folder) : folder_(folder) {}
+  /// `time` [s]. @throws CsvError
+  void add(double time, const Cracks& message);
+  void close();
+
+ private:
+  std::string folder_;
+  std::optional<CsvWriter> tips_, points_;
 };
 
 /// A command as it was applied.

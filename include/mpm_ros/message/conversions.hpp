@@ -9,6 +9,7 @@
 #include <mpm_ros/BodyState.h>
 #include <mpm_ros/ContactForce.h>
 #include <mpm_ros/ContactPair.h>
+#include <mpm_ros/Cracks.h>
 #include <mpm_ros/SolverState.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -46,6 +47,8 @@ mpm::Pose checked_pose(const geometry_msgs::Pose& message);
 mpm_ros::BodyState to_message(const mpm::BodyState& state);
 mpm_ros::ContactForce to_message(const mpm::ContactReport& report);
 mpm_ros::ContactPair to_message(const mpm::PairReport& report);
+/// Without a header.
+mpm_ros::Cracks to_message(const std::vector<mpm::CrackReport>& cracks, const std::vector<mpm::CrackTipReport>& tips);
 /// All but the header, real_time_factor, state_hash, and what only the run knows: commands and failure.
 mpm_ros::SolverState to_message(const mpm::SolverState& state);
 

@@ -15,6 +15,10 @@ namespace mpm_ros {
 /// The triangles of every rigid body in the body's own frame, locked to it: sent once, moved by /tf.
 visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation);
 
+/// The faces of every crack as lines in the plane of the scene.
+visualization_msgs::MarkerArray crack_markers(const std::vector<mpm::CrackReport>& cracks,
+                                              const std::string& world_frame, const ros::Time& stamp);
+
 /// A force for people: three digits and a prefix, "537 N", "1.24 kN", "35.0 mN".
 std::string force_text(double newtons);
 

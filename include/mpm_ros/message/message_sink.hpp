@@ -5,6 +5,7 @@
 #include <mpm_ros/BodyStates.h>
 #include <mpm_ros/Command.h>
 #include <mpm_ros/ContactForces.h>
+#include <mpm_ros/Cracks.h>
 #include <mpm_ros/GlobalQuantities.h>
 #include <mpm_ros/RunInfo.h>
 #include <mpm_ros/SolverState.h>
@@ -32,6 +33,7 @@ class MessageSink {
   virtual void put(const std::string& topic, const ros::Time& stamp, const SolverState& message) = 0;
   /// Not every sink has a place for them.
   virtual void put(const std::string&, const ros::Time&, const GlobalQuantities&) {}
+  virtual void put(const std::string&, const ros::Time&, const Cracks&) {}
   virtual void put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) = 0;
   virtual void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) = 0;
   virtual void put(const std::string& topic, const ros::Time& stamp, const Command& message) = 0;

@@ -19,6 +19,8 @@ class Publishers : public MessageSink {
   Publishers(ros::NodeHandle node, const std::vector<std::string>& bodies, bool filtered = false);
   /// Global quantities too, from now on.
   void add_global();
+  /// The same of cracks.
+  void add_cracks();
 
   bool wants(const std::string& topic) const override;
   void put(const std::string& topic, const ros::Time&, const RunInfo& m) override { at(topic).publish(m); }
@@ -32,6 +34,7 @@ class Publishers : public MessageSink {
   void put(const std::string& topic, const ros::Time&, const BodyStates& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const SolverState& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const GlobalQuantities& m) override { at(topic).publish(m); }
+  void put(const std::string& topic, const ros::Time&, const Cracks& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const tf2_msgs::TFMessage& m) override { at(topic).publish(m); }
   void put(const std::string& topic, const ros::Time&, const sensor_msgs::PointCloud2& m) override {
     at(topic).publish(m);

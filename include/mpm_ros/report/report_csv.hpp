@@ -23,6 +23,7 @@ class CsvExport : public RunVisitor {
   void bodies(std::int64_t time, const BodyStates& message) override;
   void solver_state(std::int64_t time, const SolverState& message) override;
   void global_quantities(std::int64_t time, const GlobalQuantities& message) override;
+  void cracks(std::int64_t time, const Cracks& message) override;
   void command(std::int64_t time, const Command& message) override;
   void markers(const visualization_msgs::MarkerArray& message) override;
   void close();
@@ -34,6 +35,7 @@ class CsvExport : public RunVisitor {
   BodiesCsv bodies_;
   SolverStateCsv solver_state_;
   GlobalQuantitiesCsv global_quantities_;
+  CracksCsv cracks_;
   CommandsCsv commands_;
 };
 

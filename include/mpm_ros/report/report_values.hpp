@@ -4,6 +4,7 @@
 #include <mpm_ros/BodyStates.h>
 #include <mpm_ros/Command.h>
 #include <mpm_ros/ContactForces.h>
+#include <mpm_ros/Cracks.h>
 #include <mpm_ros/GlobalQuantities.h>
 #include <mpm_ros/SolverState.h>
 
@@ -28,5 +29,6 @@ std::vector<ComparedValue> values_of(const BodyStates& message);
 std::vector<ComparedValue> values_of(const SolverState& message);
 std::vector<ComparedValue> values_of(const Command& message);
 std::vector<ComparedValue> values_of(const GlobalQuantities& message);
+std::vector<ComparedValue> values_of(const Cracks& message);
 
 }  // namespace mpm_ros

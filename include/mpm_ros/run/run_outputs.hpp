@@ -89,6 +89,7 @@ class RunOutputs {
   void write_bodies();
   void write_state(bool with_hash, double real_time_factor);
   void write_particles();
+  void write_cracks();
   void write_global();
   bool particles_due() const;
   std_msgs::Header header(const std::string& frame) const;
@@ -121,6 +122,7 @@ class RunOutputs {
   std::int64_t read_at_ = -1;       // [ns] when contacts were read last
   std::int64_t contacts_at_ = -1;   // [ns] the same
   std::int64_t global_at_ = -1;     // [ns] the same
+  std::int64_t cracks_at_ = -1;     // [ns] the same
   bool finished_ = false;
 };
 

@@ -25,6 +25,7 @@ class CsvSink : public MessageSink {
   void put(const std::string& topic, const ros::Time& stamp, const BodyStates& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const SolverState& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const GlobalQuantities& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const Cracks& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const Command& message) override;

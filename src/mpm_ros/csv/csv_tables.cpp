@@ -157,6 +157,42 @@ void GlobalQuantitiesCsv::add(double time, const std::vector<std::string>& names
 
 void GlobalQuantitiesCsv::close() { close_if_open(writer_); }
 
+void CracksCsv::add(double time, const Cracks& message) {
+  if (message.cracks.empty()) return;
+  if (!tips_) {
+    tips_.emplace(
+        folder_ + "/crack_tips.csv",
+        std::vector<std::string>{"time [s]",         "crack",       "end",       "x [m]",        "z [m]",
+                                 "direction x",      "direction z", "j [J/m^2]", "zone [J/m^2]", "k_one [Pa m^0.5]",
+                                 "k_two [Pa m^0.5]", "opening [m]", "slip [m]",  "grown [m]",    "speed [m/s]",
+                                 "angle [rad]",      "growths",     "material",  "state",        "growth"});
+    points_.emplace(folder_ + "/crack_points.csv",
+                    std::vector<std::string>{"time [s]", "crack", "point", "x [m]", "z [m]", "above x [m]",
+                                             "above z [m]", "below x [m]", "below z [m]", "normal traction [Pa]",
+                                             "shear traction [Pa]", "debonded"});
+  }
+  for (const CrackTip& tip : message.tips) {
+    *tips_ << time << tip.crack << tip.end << tip.place.x << tip.place.z << tip.direction.x << tip.direction.z << tip.j
+           << tip.zone << tip.k_one << tip.k_two << tip.opening << tip.slip << tip.grown << tip.speed << tip.angle
+           << static_cast<double>(tip.growths) << tip.material << tip.state << tip.growth;
+    tips_->end_row();
+  }
+  for (const Crack& crack : message.cracks) {
+    for (std::size_t k = 0; k < crack.points.size(); ++k) {
+      *points_ << time << crack.name << static_cast<double>(k) << crack.points[k].x << crack.points[k].z
+               << crack.above.at(k).x << crack.above.at(k).z << crack.below.at(k).x << crack.below.at(k).z
+               << crack.normal_traction.at(k) << crack.shear_traction.at(k)
+               << static_cast<double>(crack.debonded.at(k));
+      points_->end_row();
+    }
+  }
+}
+
+void CracksCsv::close() {
+  close_if_open(tips_);
+  close_if_open(points_);
+}
+
 CommandsCsv::CommandsCsv(const std::string& folder)
     : writer_(folder + "/commands.csv",
               {"time [s]",    "body",   "kind",   "vx [m/s]", "vy [m/s]", "vz [m/s]", "wx [rad/s]", "wy [rad/s]",

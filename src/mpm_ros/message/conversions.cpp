@@ -144,6 +144,45 @@ void add_other(mpm_ros::SolverState& message, const std::string& name, const std
 
 }  // namespace
 
+Cracks to_message(const std::vector<mpm::CrackReport>& cracks, const std::vector<mpm::CrackTipReport>& tips) {
+  Cracks message;
+  for (const mpm::CrackReport& crack : cracks) {
+    Crack& to = message.cracks.emplace_back();
+    to.name = crack.name;
+    to.length = crack.length;
+    to.open_length = crack.open_length;
+    for (std::size_t k = 0; k < crack.points.size(); ++k) {
+      to.points.push_back(to_point(crack.points[k]));
+      to.above.push_back(to_point(crack.above[k]));
+      to.below.push_back(to_point(crack.below[k]));
+      to.debonded.push_back(crack.debonded[k] ? 1 : 0);
+    }
+    to.normal_traction = crack.normal_traction;
+    to.shear_traction = crack.shear_traction;
+  }
+  for (const mpm::CrackTipReport& tip : tips) {
+    CrackTip& to = message.tips.emplace_back();
+    to.crack = tip.crack;
+    to.end = tip.end;
+    to.place = to_point(tip.place);
+    to.direction = to_vector(tip.direction);
+    to.state = tip.state;
+    to.growth = tip.growth;
+    to.material = tip.material;
+    to.j = tip.j;
+    to.zone = tip.zone;
+    to.k_one = tip.k_one;
+    to.k_two = tip.k_two;
+    to.opening = tip.opening;
+    to.slip = tip.slip;
+    to.grown = tip.grown;
+    to.speed = tip.speed;
+    to.angle = tip.angle;
+    to.growths = static_cast<std::uint32_t>(tip.growths);
+  }
+  return message;
+}
+
 mpm_ros::SolverState to_message(const mpm::SolverState& state) {
   mpm_ros::SolverState message;
   fill(message, state, state_quantities());

@@ -31,7 +31,37 @@ std_msgs::ColorRGBA face_color(const std::array<mpm::Vec3, 3>& triangle) {
   return color(0.80F * shade, 0.85F * shade, 0.92F * shade, 0.5F);
 }
 
+constexpr double kCrackWidth = 0.004;  ///< of a crack's length
+
 }  // namespace
+
+visualization_msgs::MarkerArray crack_markers(const std::vector<mpm::CrackReport>& cracks,
+                                              const std::string& world_frame, const ros::Time& stamp) {
+  visualization_msgs::MarkerArray markers;
+  int id = 0;
+  for (const mpm::CrackReport& crack : cracks) {
+    for (const std::vector<mpm::Vec3>* face : {&crack.above, &crack.below}) {
+      visualization_msgs::Marker marker;
+      marker.header.frame_id = world_frame;
+      marker.header.stamp = stamp;
+      marker.ns = "crack/" + crack.name;
+      marker.id = id++;
+      marker.type = visualization_msgs::Marker::LINE_STRIP;
+      marker.pose.orientation.w = 1.0;
+      marker.scale.x = kCrackWidth * crack.length;
+      marker.color = color(0.95F, 0.15F, 0.10F, 1.0F);
+      for (const mpm::Vec3& place : *face) {
+        geometry_msgs::Point point;
+        point.x = place.x();
+        point.y = place.y();
+        point.z = place.z();
+        marker.points.push_back(point);
+      }
+      markers.markers.push_back(marker);
+    }
+  }
+  return markers;
+}
 
 visualization_msgs::MarkerArray shape_markers(const mpm::Simulation& simulation) {
   visualization_msgs::MarkerArray markers;

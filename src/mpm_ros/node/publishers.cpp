@@ -36,6 +36,12 @@ void Publishers::add_global() {
   if (!publisher) publisher = node_.advertise<GlobalQuantities>(topics::kGlobalQuantities, kSmall);
 }
 
+void Publishers::add_cracks() {
+  if (publishers_.count(topics::kCracks) > 0) return;
+  publishers_[topics::kCracks] = node_.advertise<Cracks>(topics::kCracks, kSmall);
+  publishers_[topics::kCrackMarkers] = node_.advertise<visualization_msgs::MarkerArray>(topics::kCrackMarkers, kLarge);
+}
+
 bool Publishers::wants(const std::string& topic) const {
   const ros::Publisher& publisher = publishers_.at(topic);
   return publisher.isLatched() || publisher.getNumSubscribers() > 0;

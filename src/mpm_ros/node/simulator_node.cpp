@@ -155,6 +155,7 @@ void SimulatorNode::start_run(const std::shared_ptr<const Subject>& subject, con
     options.more = [&](mpm::StateArchive& archive) { memory.serialise(archive); };
   }
   if (!subject->scene.output.global.empty()) publishers_->add_global();
+  if (subject->scene.definition.cracks.any()) publishers_->add_cracks();
   auto run = std::make_unique<Run>(subject->scene, options, stamps, publishers_.get());
   if (run_) end_run();
   run_ = std::move(run);

@@ -230,7 +230,7 @@ void RunBag::hand_on(const rosbag::MessageInstance& instance, const std::vector<
 void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& reading) {
   std::vector<std::string> names;
   for (const char* name : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kGlobalQuantities,
-                           topics::kCommands, topics::kParticles, topics::kMarkers}) {
+                           topics::kCracks, topics::kCommands, topics::kParticles, topics::kMarkers}) {
     names.push_back(topic(name));
   }
   names.emplace_back(topics::kClock);
@@ -255,6 +255,8 @@ void RunBag::read(const std::vector<RunVisitor*>& visitors, const Reading& readi
         hand_on(instance, visitors, &RunVisitor::solver_state);
       } else if (name == topics::kGlobalQuantities) {
         hand_on(instance, visitors, &RunVisitor::global_quantities);
+      } else if (name == topics::kCracks) {
+        hand_on(instance, visitors, &RunVisitor::cracks);
       } else if (name == topics::kCommands) {
         hand_on(instance, visitors, &RunVisitor::command);
       } else if (name == topics::kParticles) {

@@ -27,6 +27,7 @@ CsvExport::CsvExport(const std::string& folder, bool axisymmetric)
       bodies_(folder),
       solver_state_(folder),
       global_quantities_(folder),
+      cracks_(folder),
       commands_(folder) {}
 
 void CsvExport::contact_forces(std::int64_t time, const ContactForces& message) {
@@ -48,6 +49,8 @@ void CsvExport::global_quantities(std::int64_t time, const GlobalQuantities& mes
   global_quantities_.add(seconds(time), message.names, message.units, message.values);
 }
 
+void CsvExport::cracks(std::int64_t time, const Cracks& message) { cracks_.add(seconds(time), message); }
+
 void CsvExport::command(std::int64_t time, const Command& message) { commands_.add(command_row_of(time, message)); }
 
 void CsvExport::markers(const visualization_msgs::MarkerArray& message) {
@@ -63,6 +66,7 @@ void CsvExport::close() {
   bodies_.close();
   solver_state_.close();
   global_quantities_.close();
+  cracks_.close();
   commands_.close();
 }
 

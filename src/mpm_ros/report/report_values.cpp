@@ -120,4 +120,37 @@ std::vector<ComparedValue> values_of(const GlobalQuantities& message) {
   return list.take();
 }
 
+std::vector<ComparedValue> values_of(const Cracks& message) {
+  List list;
+  for (const Crack& crack : message.cracks) {
+    list.number(crack.name + " length", crack.length);
+    list.number(crack.name + " open length", crack.open_length);
+    for (std::size_t k = 0; k < crack.points.size(); ++k) {
+      for (const auto& [what, place] : {std::pair{"", &crack.points[k]}, std::pair{" above", &crack.above.at(k)},
+                                        std::pair{" below", &crack.below.at(k)}}) {
+        list.number(crack.name + what + " x", place->x);
+        list.number(crack.name + what + " z", place->z);
+      }
+      list.number(crack.name + " normal traction", crack.normal_traction.at(k));
+      list.number(crack.name + " shear traction", crack.shear_traction.at(k));
+    }
+  }
+  for (const CrackTip& tip : message.tips) {
+    const std::string name = tip.crack + " " + tip.end + " ";
+    for (const auto& [what, number] : {std::pair{"j", tip.j},
+                                       {"zone", tip.zone},
+                                       {"k_one", tip.k_one},
+                                       {"k_two", tip.k_two},
+                                       {"opening", tip.opening},
+                                       {"slip", tip.slip},
+                                       {"grown", tip.grown},
+                                       {"speed", tip.speed},
+                                       {"angle", tip.angle}}) {
+      list.number(name + what, number);
+    }
+    list.word(name + "state", tip.state);
+  }
+  return list.take();
+}
+
 }  // namespace mpm_ros

@@ -250,6 +250,9 @@ void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const So
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const GlobalQuantities& message) {
   write(topic, stamp, message);
 }
+void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const Cracks& message) {
+  write(topic, stamp, message);
+}
 void BagRecorder::put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) {
   write(topic, stamp, message);
 }

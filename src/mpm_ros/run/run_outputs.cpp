@@ -120,6 +120,7 @@ void RunOutputs::begin(const RunInfo& info) {
   write_contacts();
   write_state(options_.state_hash, 0.0);
   write_particles();
+  write_cracks();
   write_global();
 }
 
@@ -129,6 +130,7 @@ void RunOutputs::begin_again(const RunInfo& info) {
   write_bodies();
   write_state(options_.state_hash, 0.0);
   write_particles();
+  write_cracks();
   if (!global_.empty() && !global_kept_) global_.read();  // contact forces are means from here
 }
 
@@ -177,6 +179,7 @@ void RunOutputs::sync(bool last, double real_time_factor) {
     write_bodies();
     write_contacts();
     write_state(last || options_.state_hash, real_time_factor);
+    write_cracks();
   }
   if (last || time % global_period_ == 0) write_global();
   if (last || particles_due()) write_particles();
@@ -200,6 +203,7 @@ void RunOutputs::finish(double real_time_factor, const std::string& failure) {
     if (!average_.empty()) write_contacts();  // what failed within a period may have written all up to its start
   }
   write_state(true, real_time_factor);
+  if (failed || cracks_at_ != simulation_.time()) write_cracks();
   if (failed || particles_at_ != simulation_.time()) write_particles();
   if (failed || global_at_ != simulation_.time()) write_global();
 }
@@ -298,6 +302,19 @@ void RunOutputs::write_particles() {
   cloud_.read(simulation_);
   cloud_.message().header = header(options_.world_frame);
   put(topics::kParticles, cloud_.message());
+}
+
+void RunOutputs::write_cracks() {
+  cracks_at_ = simulation_.time();
+  if (!simulation_.definition().cracks.any()) return;  // then nobody has a place for them
+  if (!wanted(topics::kCracks) && !wanted(topics::kCrackMarkers)) return;
+  const std::vector<mpm::CrackReport> cracks = simulation_.cracks();
+  if (wanted(topics::kCracks)) {
+    Cracks message = to_message(cracks, simulation_.crack_tips());
+    message.header = header(options_.world_frame);
+    put(topics::kCracks, message);
+  }
+  if (wanted(topics::kCrackMarkers)) put(topics::kCrackMarkers, crack_markers(cracks, options_.world_frame, stamp()));
 }
 
 void RunOutputs::write_global() {

@@ -15,7 +15,7 @@ void CsvSink::close() {
 bool CsvSink::wants(const std::string& topic) const {
   // The rest repeats these in another form, or is for displays.
   for (const char* table : {topics::kContactForces, topics::kBodies, topics::kSolverState, topics::kGlobalQuantities,
-                            topics::kParticles, topics::kCommands}) {
+                            topics::kCracks, topics::kParticles, topics::kCommands}) {
     if (topic == table) return true;
   }
   return topic == topics::kMarkers;
@@ -32,6 +32,9 @@ void CsvSink::put(const std::string&, const ros::Time& stamp, const SolverState&
 }
 void CsvSink::put(const std::string&, const ros::Time& stamp, const GlobalQuantities& message) {
   tables_.global_quantities(stamps_.time_of(stamp), message);
+}
+void CsvSink::put(const std::string&, const ros::Time& stamp, const Cracks& message) {
+  tables_.cracks(stamps_.time_of(stamp), message);
 }
 void CsvSink::put(const std::string&, const ros::Time& stamp, const Command& message) {
   tables_.command(stamps_.time_of(stamp), message);

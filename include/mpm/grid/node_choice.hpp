@@ -25,6 +25,7 @@ class NodeChoice {
  public:
   static constexpr int kEdge = 8;    ///< nodes of a tile along an axis: of the block, and two beyond it on each side
   static constexpr int kMargin = 2;  ///< of these, before the block's first
+  static constexpr int kTileNodes = kEdge * kEdge;  ///< choices are made in planes alone
 
   /// `chosen`: the fields that particles choose from; they outlive this object.
   NodeChoice(Fields& fields, std::vector<int> chosen);
@@ -63,6 +64,9 @@ class NodeChoice {
   };
   Node node_of(int block, int tile_node, int field) const;
 
+  /// The field that a patch has chosen at a node, given by its numbers, or -1.
+  int chosen_at(int patch, const std::array<int, 3>& node) const;
+
   // In a step.
 
   /// Zeroes the patches' nodes.
@@ -91,6 +95,7 @@ class NodeChoice {
   std::vector<int> patch_blocks_;
   std::vector<std::uint64_t> patch_keys_;
   std::vector<Entry> entries_;
+  std::vector<std::int16_t> chosen_at_;  ///< [patch][tile node]: field, or -1
 };
 
 }  // namespace mpm

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mpm/grid/fields.hpp"
+#include "mpm/grid/node_choice.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/shape/traction.hpp"
@@ -24,18 +25,20 @@ namespace mpm {
 struct FaceSettings {
   GeometryKind geometry = GeometryKind::solid;
   ShapeKind shape = ShapeKind::ugimp;
-  double across = 1.0;  ///< thickness of a plane [m], area of a line [m^2]
+  double across = 1.0;                 ///< thickness of a plane [m], area of a line [m^2]
+  const NodeChoice* choice = nullptr;  ///< where particles choose a field at every node
 };
 
 /// The nodes of the cell that a place is in, with shares that sum to 1.
 struct NodeShares {
-  int field = 0, count = 0;
+  int count = 0;
+  std::array<int, 8> field{};  ///< of each
   std::array<NodeRef, 8> node{};
   std::array<double, 8> share{};
 };
 
-/// Of a place by grid axis [m]; `field` is left 0. A count of 0: no node around it carries material.
-NodeShares node_shares(const Grid& grid, const PlacedDomain::Vector& at);
+/// Of a place by grid axis [m], in field `field` with this grid. A count of 0: no node around it carries material.
+NodeShares node_shares(const Grid& grid, const PlacedDomain::Vector& at, int field = 0);
 
 class DomainFaces {
  public:
@@ -45,7 +48,7 @@ class DomainFaces {
 
   /// The face of a particle as the step begins; its area is that of the whole ring about an axis [m^2].
   FaceParts parts(int set, int particle, DomainFace face) const;
-  /// Of a corner of that face, in the particle's velocity field.
+  /// Of a corner of that face, in the particle's velocity fields.
   NodeShares shares(int set, int particle, const PlacedDomain::Vector& at) const;
   const GridLayout& layout() const { return fields_.front()->layout; }
 

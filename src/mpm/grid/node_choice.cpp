@@ -31,11 +31,13 @@ void NodeChoice::clear_patches() {
   patch_blocks_.clear();
   patch_keys_.clear();
   entries_.clear();
+  chosen_at_.clear();
 }
 
 int NodeChoice::add_patch(int block) {
   patch_blocks_.push_back(block);
   patch_keys_.push_back(block_keys_[block]);
+  chosen_at_.insert(chosen_at_.end(), kTileNodes, -1);
   return patches() - 1;
 }
 
@@ -68,6 +70,18 @@ void NodeChoice::choose(int patch, int tile_node, int field) {
   entries_.push_back({patch * neighbours_of(grid_.layout.dim()) + own.block, of.block,
                       static_cast<std::uint8_t>(own.node), static_cast<std::uint8_t>(of.node),
                       static_cast<std::uint16_t>(field)});
+  chosen_at_[static_cast<std::size_t>(patch) * kTileNodes + tile_node] = static_cast<std::int16_t>(field);
+}
+
+int NodeChoice::chosen_at(int patch, const std::array<int, 3>& node) const {
+  const std::array<int, 3>& block = grid_.blocks.block(grid_.blocks.owner_block(patch));
+  int tile_node = 0;
+  for (int k = 0; k < grid_.layout.dim(); ++k) {
+    const int at = node[k] - block[k] * kBlockEdge + kMargin;
+    if (at < 0 || at >= kEdge) return -1;
+    tile_node = tile_node * kEdge + at;
+  }
+  return chosen_at_[static_cast<std::size_t>(patch) * kTileNodes + tile_node];
 }
 
 void NodeChoice::finish(int threads) {

@@ -71,7 +71,7 @@ void FaceTractions::spread(int set, int p, const PlacedDomain::Vector& at, const
         sets_[set].name, sets_[set].id[p]));
   }
   for (int i = 0; i < shares.count; ++i) {
-    loads_.push_back({shares.field, shares.node[i], force * shares.share[i]});
+    loads_.push_back({shares.field[i], shares.node[i], force * shares.share[i]});
   }
 }
 

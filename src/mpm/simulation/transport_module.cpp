@@ -138,7 +138,7 @@ void add_transport(RunParts& parts) {
   for (const QuantityDefinition& quantity : asked.quantities) {
     auto field = make_field(quantity, shared, parts);
     if (!quantity.fluxes.empty()) {
-      const FaceSettings faces{definition.geometry, shape, definition.across()};
+      const FaceSettings faces{definition.geometry, shape, definition.across(), parts.choice};
       field->add(std::make_unique<FaceFlux>(faces, parts.fields, parts.sets, flux_terms(quantity, parts)));
     }
     if (quantity.quantity == Transported::temperature) {

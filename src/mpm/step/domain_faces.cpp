@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "mpm/math/dimension.hpp"
 #include "mpm/shape/particle_domain.hpp"
@@ -62,16 +63,12 @@ FaceParts DomainFaces::parts(int set, int particle, DomainFace face) const {
   return face_parts(settings_.geometry, domain_of(sets_[set], particle), face, across(sets_[set], particle));
 }
 
-NodeShares DomainFaces::shares(int set, int particle, const PlacedDomain::Vector& at) const {
-  const int field = sets_[set].field_of(particle);
-  NodeShares found = node_shares(*fields_[field], at);
-  found.field = field;
-  return found;
-}
+namespace {
 
-NodeShares node_shares(const Grid& grid, const PlacedDomain::Vector& at) {
+/// `find(numbers of a node)`: its field and place there, block -1 if it is not there or carries nothing.
+template <class Find>
+NodeShares shares_around(const GridLayout& layout, const PlacedDomain::Vector& at, Find&& find) {
   NodeShares found;
-  const GridLayout& layout = grid.layout;
   const int dim = layout.dim();
   std::array<int, 3> low{};
   std::array<double, 3> beyond{};
@@ -83,24 +80,56 @@ NodeShares node_shares(const Grid& grid, const PlacedDomain::Vector& at) {
   }
   double sum = 0.0;  // of the hats of nodes that carry mass: 1, but where dirac or folded splines leave one out
   for (int i = 0; i < 1 << dim; ++i) {
-    std::array<int, 3> block{};
-    int local = 0;
+    std::array<int, 3> node{};
     double hat = 1.0;
     for (int k = 0; k < dim; ++k) {
-      const int up = i >> k & 1, node = low[k] + up;
-      block[k] = block_along(node);
-      local = local * kBlockEdge + node - block[k] * kBlockEdge;
+      const int up = i >> k & 1;
+      node[k] = low[k] + up;
       hat *= up == 1 ? beyond[k] : 1.0 - beyond[k];
     }
     if (!(hat > 0.0)) continue;
-    const NodeRef node{grid.blocks.find(layout.key(block)), local};
-    if (node.block < 0 || !grid.carries(node.block, local)) continue;
-    found.node[found.count] = node;
+    const std::pair<int, NodeRef> own = find(node);
+    if (own.second.block < 0) continue;
+    found.field[found.count] = own.first;
+    found.node[found.count] = own.second;
     found.share[found.count++] = hat;
     sum += hat;
   }
   for (int i = 0; i < found.count; ++i) found.share[i] /= sum;
   return found;
+}
+
+/// Of a node by its numbers; block -1 if the field does not have it or it carries nothing.
+NodeRef find_carrying(const Grid& grid, const std::array<int, 3>& node) {
+  std::array<int, 3> block{};
+  int local = 0;
+  for (int k = 0; k < grid.layout.dim(); ++k) {
+    block[k] = block_along(node[k]);
+    local = local * kBlockEdge + node[k] - block[k] * kBlockEdge;
+  }
+  const NodeRef ref{grid.blocks.find(grid.layout.key(block)), local};
+  return ref.block >= 0 && grid.carries(ref.block, local) ? ref : NodeRef{-1, 0};
+}
+
+}  // namespace
+
+NodeShares DomainFaces::shares(int set, int particle, const PlacedDomain::Vector& at) const {
+  const ParticleSet& of = sets_[set];
+  if (!of.chooses || of.side[particle] == 0)
+    return node_shares(*fields_[of.field_of(particle)], at, of.field_of(particle));
+  const auto first = of.begin.begin() + settings_.choice->grid().first_owner;
+  const auto next = std::upper_bound(first, of.begin.end(), static_cast<std::uint32_t>(particle));
+  const int patch = static_cast<int>(next - first) - 1;
+  return shares_around(layout(), at, [&](const std::array<int, 3>& node) {
+    const int field = settings_.choice->chosen_at(patch, node);
+    return std::pair{field, field < 0 ? NodeRef{-1, 0} : find_carrying(*fields_[field], node)};
+  });
+}
+
+NodeShares node_shares(const Grid& grid, const PlacedDomain::Vector& at, int field) {
+  return shares_around(grid.layout, at, [&](const std::array<int, 3>& node) {
+    return std::pair{field, find_carrying(grid, node)};
+  });
 }
 
 void find_places(const ParticleSet& set, std::vector<int>& place_of) {

@@ -6,7 +6,7 @@
 namespace mpm {
 namespace {
 
-constexpr std::uint32_t kTileNodes = NodeChoice::kEdge * NodeChoice::kEdge;  // choices are made in planes alone
+constexpr std::uint32_t kTileNodes = NodeChoice::kTileNodes;
 
 /// Nearest node of a particle in the tile of its patch's block, the last axis fastest.
 std::uint32_t tile_node(const ParticleSet& set, const GridLayout& layout, const std::array<int, 3>& block,

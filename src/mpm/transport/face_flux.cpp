@@ -53,14 +53,13 @@ void FaceFlux::give(std::vector<NodalQuantity>& nodes, double start, double dt) 
                           "stretched too far",
                           term.definition.name, set.id[p], set.name));
         }
-        NodalQuantity& of = nodes[shares.field];
         double there = 0.0;
         for (int n = 0; n < shares.count; ++n) {
-          there += shares.share[n] * of.value.at(shares.node[n].block, 0, shares.node[n].node);
+          there += shares.share[n] * nodes[shares.field[n]].value.at(shares.node[n].block, 0, shares.node[n].node);
         }
         const double rate = parts.corner[a].area * flux(term.definition, given, there);
         for (int n = 0; n < shares.count; ++n) {
-          of.source.at(shares.node[n].block, 0, shares.node[n].node) += shares.share[n] * rate;
+          nodes[shares.field[n]].source.at(shares.node[n].block, 0, shares.node[n].node) += shares.share[n] * rate;
         }
         content += rate * dt;
       }

@@ -146,7 +146,7 @@ TEST(CrackFaceTerms, CompleteJAcrossTheCrack) {
   const Vec2 d = field.direction(), up(-d[1], d[0]);
   const double distance = (contour.path.crossing.place - field.tip).norm();
   const Vec2 without = contour_term({}, contour.pieces);
-  const Vec2 faces = face_term({}, face_samples(field, distance, 400), FaceTractions::left_out);
+  const Vec2 faces = face_term({}, face_samples(field, distance, 400), TractionTerms::left_out);
   const double exact = -2.0 * 0.8 * 0.6 / field.modulus();
   EXPECT_NEAR((without + faces).dot(up), exact, 2e-3 * std::abs(exact));
   EXPECT_GT(std::abs(without.dot(up) - exact), 0.3 * std::abs(exact));
@@ -176,7 +176,7 @@ TEST(CrackFaceTerms, TakeOffTheWorkOfTractions) {
     EXPECT_NEAR(result.along(field.direction()), exact, 2e-3 * exact) << angle;
     // Or by the tractions themselves.
     result.faces_work = 0.0;
-    result.faces = face_term({}, face_samples(field, distance, 400), FaceTractions::counted);
+    result.faces = face_term({}, face_samples(field, distance, 400), TractionTerms::counted);
     EXPECT_NEAR(result.along(field.direction()), exact, 2e-3 * exact) << angle;
   }
 }
@@ -213,7 +213,7 @@ TEST(CrackFaceTerms, CountTheFacesOfAnotherCrack) {
     sample.traction_below = sample.below.traction(up);
   }
   EXPECT_GT(result.j().norm(), 1.0);
-  EXPECT_NEAR((result.j() + face_term({}, samples, FaceTractions::counted)).norm(), 0.0, 1e-13);
+  EXPECT_NEAR((result.j() + face_term({}, samples, TractionTerms::counted)).norm(), 0.0, 1e-13);
 }
 
 /// The cells' quarters inside a path, as particles.

@@ -25,7 +25,8 @@ std::optional<ElasticConstants> elastic_of(const MaterialDefinition& material, G
   return std::visit(
       [&](const auto& law) -> std::optional<ElasticConstants> {
         if constexpr (std::is_same_v<std::decay_t<decltype(law)>, LinearElasticDefinition> ||
-                      std::is_same_v<std::decay_t<decltype(law)>, NeoHookeanDefinition>) {
+                      std::is_same_v<std::decay_t<decltype(law)>, NeoHookeanDefinition> ||
+                      std::is_same_v<std::decay_t<decltype(law)>, J2PlasticityDefinition>) {
           return ElasticConstants::of(law.elasticity.young, law.elasticity.poisson, material.density, geometry);
         } else {
           return std::nullopt;

@@ -12,6 +12,7 @@
 
 #include "mpm/contact/contact_nodes.hpp"
 #include "mpm/crack/crack_fields.hpp"
+#include "mpm/crack/side_places.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/step/stage.hpp"
 #include "mpm/step/volume_survey.hpp"
@@ -21,8 +22,8 @@ namespace mpm {
 class CrackContact final : public Stage {
  public:
   /// All outlive the stage. Sets remember their places at the start (start_x).
-  CrackContact(const std::vector<Crack>& cracks, const CrackFields& chosen, Fields& fields, VolumeSurvey& survey,
-               GeometryKind geometry, int threads);
+  CrackContact(const std::vector<Crack>& cracks, const CrackFields& chosen, Fields& fields,
+               std::unique_ptr<SidePlaces> sides, VolumeSurvey& volumes, GeometryKind geometry, int threads);
 
   std::string name() const override { return "crack_contact"; }
   Ranks ranks(Hook) const override { return {Rank::pair}; }
@@ -42,20 +43,21 @@ class CrackContact final : public Stage {
   double interface_energy(int crack) const { return interface_energy_[crack]; }
 
  private:
-  void survey_nodes();
-  void add_node(const DividedNode& node, double dt);
-  void add_pair(int crack, int above, int below, const Vec2& normal, double dt);
-  NodeMaterial material_at(const ContactNodes::Member& member, const Vec3& position) const;
+  void add_node(const DividedNode& node);
+  void add_pair(int crack, int above, int below, const Vec2& normal);
+  void survey();
+  void look_at(const ContactNodes::Node& node, ContactNodes::PairOfNode& pair, double dt);
 
   const std::vector<Crack>& cracks_;
   const CrackFields& chosen_;
   Fields& fields_;
+  std::unique_ptr<SidePlaces> sides_;
   VolumeSurvey& survey_;
   GeometryKind geometry_;
-  SurveyWants wants_;
   ContactNodes nodes_;
   std::vector<NodalVolumes> volumes_;
   std::vector<std::vector<std::uint8_t>> marks_;  ///< [field][block]: where nodes are divided
+  std::vector<std::uint8_t> any_;                 ///< [field]: whether there are marks
   std::vector<FrictionLaw> friction_;             ///< of each crack, in this step
   std::vector<double> friction_energy_, interface_energy_;
   bool started_ = false;

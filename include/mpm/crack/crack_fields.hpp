@@ -144,7 +144,8 @@ class CrackFields {
   NodeChoice& choice_;
   PatchSorter sorter_;
   std::vector<int> across_;  ///< of each field 0, how many fields follow it
-  int reach_, threads_;
+  ShapeKind shape_;
+  int threads_;
   std::vector<std::uint64_t> listed_;  ///< blocks whose particles choose
   Tile tile_;
   std::vector<Part> near_;  ///< of each crack, near a particle

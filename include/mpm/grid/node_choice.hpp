@@ -64,6 +64,8 @@ class NodeChoice {
   };
   Node node_of(int block, int tile_node, int field) const;
 
+  /// `patches`: of each, whether it may give to a marked block of a field (one mark a block).
+  void find_givers(int field, const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& patches) const;
   /// The field that a patch has chosen at a node, given by its numbers, or -1.
   int chosen_at(int patch, const std::array<int, 3>& node) const;
 

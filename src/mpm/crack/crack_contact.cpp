@@ -9,10 +9,8 @@ namespace mpm {
 namespace {
 
 constexpr int kMembers = DividedNode::kFields;
-
-Vec3 mean_of(const NodalField& sums, const GridLayout& layout, const ContactNodes::Member& member) {
-  return nodal_vector(sums, layout, member.ref) / member.mass;
-}
+/// Faces that lie on each other to round-off touch [cells].
+constexpr double kTouch = 1e-12;
 
 /// Whether the faces of a crack act on each other.
 bool meets(const Crack& crack) { return crack.felt && !crack.definition.faces.ignored; }
@@ -25,19 +23,20 @@ bool both_above(const DividedNode& node, int crack) {
 }  // namespace
 
 CrackContact::CrackContact(const std::vector<Crack>& cracks, const CrackFields& chosen, Fields& fields,
-                           VolumeSurvey& survey, GeometryKind geometry, int threads)
+                           std::unique_ptr<SidePlaces> sides, VolumeSurvey& volumes, GeometryKind geometry, int threads)
     : cracks_(cracks),
       chosen_(chosen),
       fields_(fields),
-      survey_(survey),
+      sides_(std::move(sides)),
+      survey_(volumes),
       geometry_(geometry),
       nodes_(fields, threads),
       volumes_(fields.size(), NodalVolumes(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())),
       marks_(fields.size()),
+      any_(fields.size()),
       friction_(cracks.size()),
       friction_energy_(cracks.size(), 0.0),
       interface_energy_(cracks.size(), 0.0) {
-  wants_.position = wants_.displacement = wants_.slope = true;
   nodes_.blocks.resize(1);
 }
 
@@ -48,43 +47,79 @@ void CrackContact::momentum_gathered(StepContext& context) {
     const CrackDefinition& crack = cracks_[c].definition;
     friction_[c] = crack.faces.law.in_step(context.start, context.dt, [&] { return "crack '" + crack.name + "'"; });
   }
-  if (chosen_.nodes().empty()) return;
-  survey_nodes();
-  for (const DividedNode& node : chosen_.nodes()) add_node(node, context.dt);
+  for (const DividedNode& node : chosen_.nodes()) add_node(node);
+  if (found.nodes.empty()) return;
+  survey();
+  for (const ContactNodes::Node& node : found.nodes) {
+    for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) look_at(node, found.pairs[p], context.dt);
+  }
 }
 
-void CrackContact::survey_nodes() {
+// What laws ask for, on the blocks of the nodes found.
+void CrackContact::survey() {
+  const ContactNodes::Block& found = nodes_.blocks.front();
   for (std::size_t f = 0; f < fields_.size(); ++f) marks_[f].assign(fields_[f]->blocks.size(), 0);
-  std::vector<bool> any(fields_.size(), false);
-  for (const DividedNode& node : chosen_.nodes()) {
-    for (int f = 0; f < kMembers; ++f) {
-      if (node.ref[f].block < 0) continue;
-      marks_[node.first + f][node.ref[f].block] = 1;
-      any[node.first + f] = true;
-    }
+  std::fill(any_.begin(), any_.end(), 0);
+  for (const ContactNodes::Member& member : found.members)
+    marks_[member.field][member.ref.block] = any_[member.field] = 1;
+  bool displacements = false, places = false, areas = false;
+  for (const ContactNodes::PairOfNode& pair : found.pairs) {
+    const CrackFaces& faces = cracks_[pair.rule].definition.faces;
+    const bool interface = faces.law.kind == ContactLaw::Kind::interface;
+    const bool by_position = !interface && faces.detection == CrackFaces::Detection::positions;
+    (by_position ? places : displacements) = true;
+    areas = areas || interface || friction_[pair.rule].adhesion > 0.0;
   }
+  sides_->begin_step();
   for (std::size_t f = 0; f < fields_.size(); ++f) {
-    if (any[f]) survey_.survey(static_cast<int>(f), marks_[f], wants_, volumes_[f]);
+    if (any_[f] == 0) continue;
+    sides_->survey(static_cast<int>(f), marks_[f], displacements, places);
+    if (areas) survey_.survey(static_cast<int>(f), marks_[f], {}, volumes_[f]);
   }
 }
 
-NodeMaterial CrackContact::material_at(const ContactNodes::Member& member, const Vec3& position) const {
-  const NodalVolumes& volumes = volumes_[member.field];
+void CrackContact::look_at(const ContactNodes::Node& node, ContactNodes::PairOfNode& pair, double dt) {
+  const ContactNodes::Block& found = nodes_.blocks.front();
   const GridLayout& layout = fields_.front()->layout;
-  NodeMaterial material;
-  material.mass = member.mass;
-  material.velocity = nodal_vector(fields_[member.field]->velocity, layout, member.ref);
-  material.volume = volumes.volume.at(member.ref.block, 0, member.ref.node);
-  material.place = mean_of(volumes.position, layout, member);
-  material.displacement = mean_of(volumes.displacement, layout, member);
-  const Vec3 to_node = position - material.place;
-  for (int c = 0; c < layout.dim(); ++c) {
-    material.displacement[layout.axis(c)] += mean_of(volumes.slope[c], layout, member).dot(to_node);
+  const CrackFaces& faces = cracks_[pair.rule].definition.faces;
+  NodePair& state = pair.state;
+  const ContactNodes::Member &above = found.members[node.first_member + state.a],
+                             &below = found.members[node.first_member + state.b];
+  const Vec3& across = state.normals.of_a;
+  const double cell = across_cell(layout, across);
+  const Vec2 place(node.position.x(), node.position.z());
+  const auto world = [](const Vec2& vector) { return Vec3(vector[0], 0.0, vector[1]); };
+  const auto opening = [&] {
+    return world(sides_->displacement(below.field, below.ref, place, below.mass) -
+                 sides_->displacement(above.field, above.ref, place, above.mass));
+  };
+  const bool interface = faces.law.kind == ContactLaw::Kind::interface;
+  if (interface || state.friction.adhesion > 0.0) {
+    const auto volume = [&](const ContactNodes::Member& of) {
+      return volumes_[of.field].volume.at(of.ref.block, 0, of.ref.node);
+    };
+    state.area = contact_area(volume(above), volume(below), cell) * around_axis(geometry_, layout, node.position);
   }
-  return material;
+  if (interface) {
+    state.interface = &faces.law.interface;
+    state.opening = opening();
+    return;
+  }
+  double apart = 0.0;
+  if (faces.detection == CrackFaces::Detection::positions) {
+    const Vec2 between =
+        sides_->place(below.field, below.ref, below.mass) - sides_->place(above.field, above.ref, above.mass);
+    apart = world(between).dot(across) - faces.position * cell;
+  } else {
+    apart = opening().dot(across);
+  }
+  const Vec3 closing = nodal_vector(fields_[below.field]->velocity, layout, below.ref) -
+                       nodal_vector(fields_[above.field]->velocity, layout, above.ref);
+  state.touching = apart + dt * closing.dot(across) <= kTouch * cell;
+  if (state.hold != PairHold::none || !started_) state.bond = state.friction.adhesion * state.area * dt;
 }
 
-void CrackContact::add_node(const DividedNode& divided, double dt) {
+void CrackContact::add_node(const DividedNode& divided) {
   ContactNodes::Block& found = nodes_.blocks.front();
   const GridLayout& layout = fields_.front()->layout;
   ContactNodes::Node node{};
@@ -105,15 +140,16 @@ void CrackContact::add_node(const DividedNode& divided, double dt) {
   node.position = Vec3(divided.place[0], 0.0, divided.place[1]);
   node.first_pair = static_cast<int>(found.pairs.size());
   found.materials.resize(found.members.size());
-  for (int m = 0; m < node.members; ++m) {
-    found.materials[node.first_member + m] = material_at(found.members[node.first_member + m], node.position);
+  for (int m = node.first_member; m < node.first_member + node.members; ++m) {
+    found.materials[m] = {};
+    found.materials[m].mass = found.members[m].mass;
   }
   found.nodes.push_back(node);  // for add_pair()
   const std::array<AcrossCrack, 2>& single = divided.single;
   const auto add = [&](int of, int own, int across, bool across_is_above) {
     if (group[own] < 0 || group[across] < 0 || single[of].crack < 0 || !meets(cracks_[single[of].crack])) return;
     const int above = across_is_above ? across : own, below = across_is_above ? own : across;
-    add_pair(single[of].crack, group[above], group[below], divided.normal[of], dt);
+    add_pair(single[of].crack, group[above], group[below], divided.normal[of]);
   };
   for (int of = 0; of < 2; ++of) {
     add(of, 0, 1 + of, single[of].above);
@@ -130,38 +166,29 @@ void CrackContact::add_node(const DividedNode& divided, double dt) {
   }
 }
 
-void CrackContact::add_pair(int crack, int above, int below, const Vec2& normal, double dt) {
+// A pair whose sides draw apart is left out unless its law acts on what is apart.
+void CrackContact::add_pair(int crack, int above, int below, const Vec2& normal) {
   ContactNodes::Block& found = nodes_.blocks.front();
   const GridLayout& layout = fields_.front()->layout;
   const ContactNodes::Node& node = found.nodes.back();
-  const NodeMaterial &a = found.materials[node.first_member + above], &b = found.materials[node.first_member + below];
+  const ContactNodes::Member &a = found.members[node.first_member + above],
+                             &b = found.members[node.first_member + below];
   const double length = normal.norm();
   if (!(length > 0.0)) return;
-  const CrackFaces& faces = cracks_[crack].definition.faces;
   ContactNodes::PairOfNode pair{};
   pair.rule = crack;
-  pair.fields = found.members[node.first_member + above].field * static_cast<int>(fields_.size()) +
-                found.members[node.first_member + below].field;
+  pair.fields = a.field * static_cast<int>(fields_.size()) + b.field;
   NodePair& state = pair.state;
   state.a = above;
   state.b = below;
   state.normals.of_a = state.normals.of_b = Vec3(normal[0], 0.0, normal[1]) / length;
   state.friction = friction_[crack];
   state.hold = nodes_.held(node.id, pair.fields);
-  const Vec3& across = state.normals.of_a;
-  const double cell = across_cell(layout, across);
-  state.area = contact_area(a.volume, b.volume, cell) * around_axis(geometry_, layout, node.position);
-  if (faces.law.kind == ContactLaw::Kind::interface) {
-    state.interface = &faces.law.interface;
-    state.opening = b.displacement - a.displacement;
-  } else {
-    const bool by_position = faces.detection == CrackFaces::Detection::positions;
-    const double apart = by_position ? (b.place - a.place).dot(across) - faces.position * cell
-                                     : (b.displacement - a.displacement).dot(across);
-    state.touching = apart + dt * (b.velocity - a.velocity).dot(across) < 0.0;
-    if (state.hold != PairHold::none || !started_) state.bond = state.friction.adhesion * state.area * dt;
-  }
-  found.pairs.push_back(pair);
+  const Vec3 apart =
+      nodal_vector(fields_[b.field]->velocity, layout, b.ref) - nodal_vector(fields_[a.field]->velocity, layout, a.ref);
+  const bool acts_apart = cracks_[crack].definition.faces.law.kind == ContactLaw::Kind::interface ||
+                          state.friction.adhesion > 0.0 || state.hold != PairHold::none;
+  if (acts_apart || apart.dot(state.normals.of_a) <= 0.0) found.pairs.push_back(pair);
 }
 
 void CrackContact::momentum_updated(StepContext& context) {

@@ -8,12 +8,33 @@
 namespace mpm {
 namespace {
 
-constexpr double kRoom = 0.5;  ///< for a chain to move between two sorts [cells]
+constexpr double kRoom = 0.25;  ///< for a chain to move between two sorts [cells]
 
-/// How far from its nearest node a particle may spread [nodes].
-int reach_of(ShapeKind shape) {
-  const bool wide = shape == ShapeKind::bspline3 || shape == ShapeKind::cpdi || shape == ShapeKind::qcpdi;
-  return wide ? 2 : 1;
+constexpr double kSlack = 1e-6;  ///< of the extent of a particle [cells]
+
+/// How far beyond its centre a particle's function begins to be that of a point along an axis [cells]: nodes farther
+/// than a cell beyond that get nothing.
+double extent(const ParticleSet& set, const GridLayout& layout, ShapeKind shape, std::size_t p, std::size_t axis) {
+  switch (shape) {
+    case ShapeKind::dirac:
+      return 0.0;
+    case ShapeKind::bspline2:
+      return 0.5;
+    case ShapeKind::bspline3:
+      return 1.0;
+    case ShapeKind::ugimp_stretch:
+      return 0.5;  // the most that it is stretched to
+    case ShapeKind::cpdi:
+    case ShapeKind::qcpdi: {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < 2; ++k) {
+        sum += std::abs(static_cast<double>(set.f[2 * axis + k][p])) * set.half[k] * layout.cell(static_cast<int>(k));
+      }
+      return sum * layout.inverse_cell(static_cast<int>(axis));
+    }
+    default:
+      return set.half[axis];
+  }
 }
 
 Vec2 place_of(const ParticleSet& set, std::size_t p) { return {set.x[0][p], set.x[1][p]}; }
@@ -26,7 +47,7 @@ CrackFields::CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& s
       sets_(sets),
       choice_(choice),
       sorter_(grouping),
-      reach_(reach_of(shape)),
+      shape_(shape),
       threads_(threads),
       near_(cracks.size()),
       patch_of_(sets.size()) {
@@ -172,9 +193,11 @@ CrackFields::Wanted CrackFields::find_wanted(const Tile& tile, std::size_t set, 
   std::array<int, 2> first{}, last{};
   Vec2 low, high;
   for (int k = 0; k < 2; ++k) {
-    const int nearest = GridLayout::nearest(layout.in_cells(k, place[k]));
-    first[k] = std::max(nearest - reach_, tile.corner[k]);
-    last[k] = std::min(nearest + reach_, tile.corner[k] + NodeChoice::kEdge - 1);
+    const double cells = layout.in_cells(k, place[k]);
+    const double reach =
+        std::min(extent(sets_[set], layout, shape_, particle, static_cast<std::size_t>(k)), 1.5) + kSlack;
+    first[k] = std::max(static_cast<int>(std::floor(cells - reach)), tile.corner[k]);
+    last[k] = std::min(static_cast<int>(std::floor(cells + reach)) + 1, tile.corner[k] + NodeChoice::kEdge - 1);
     low[k] = std::min(place[k], layout.origin(k) + layout.cell(k) * first[k]);
     high[k] = std::max(place[k], layout.origin(k) + layout.cell(k) * last[k]);
   }

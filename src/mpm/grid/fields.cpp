@@ -9,7 +9,7 @@ namespace mpm {
 Fields make_fields(const GridLayout& layout, int count) {
   // The sort numbers a node by field, block and place in its block (step/sorter.hpp).
   const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / (64 * layout.keys());
-  if (static_cast<std::uint64_t>(count) + 1 > most) {  // one more for particles that choose (grid/node_choice.hpp)
+  if (static_cast<std::uint64_t>(count) > most) {
     throw GridError(
         fmt::format("grid: the domain holds more cells than can be numbered in {} velocity fields; use a "
                     "coarser cell or a smaller domain",

@@ -73,6 +73,15 @@ void NodeChoice::choose(int patch, int tile_node, int field) {
   chosen_at_[static_cast<std::size_t>(patch) * kTileNodes + tile_node] = static_cast<std::int16_t>(field);
 }
 
+void NodeChoice::find_givers(int field, const std::vector<std::uint8_t>& marked,
+                             std::vector<std::uint8_t>& patches) const {
+  patches.assign(patch_blocks_.size(), 0);
+  const int span = neighbours_of(grid_.layout.dim());
+  for (const Entry& entry : entries_) {
+    if (entry.field == field && marked[entry.block] != 0) patches[entry.own_block / span] = 1;
+  }
+}
+
 int NodeChoice::chosen_at(int patch, const std::array<int, 3>& node) const {
   const std::array<int, 3>& block = grid_.blocks.block(grid_.blocks.owner_block(patch));
   int tile_node = 0;

@@ -144,7 +144,10 @@ class ScalarTransferOf final : public ScalarTransfer {
     std::fill_n(own.data(), numbers * patches.blocks.size(), 0.0);
     look_at(patches);
     for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(of[s].begin(), of[s].end(), arrays_[s].from);
-    each_owner_at_once(patches, threads_, [&](const mpm_kernel::BlockView& block) { pass(block, own); });
+    if (only != nullptr) choice_->find_givers(field, *only, giving_);
+    each_owner_at_once(patches, threads_, [&](const mpm_kernel::BlockView& block) {
+      if (only == nullptr || giving_[block.owner] != 0) pass(block, own);
+    });
     choice_->give(own, field, to);
   }
 

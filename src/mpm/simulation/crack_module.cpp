@@ -174,8 +174,10 @@ void add_cracks(RunParts& parts) {
   }
   made->tips = std::make_unique<CrackTips>(made->cracks, *made->chosen, *made->tractions, std::move(tip_parts),
                                            parts.make_transfer(definition.method.shape), tip_settings(parts));
-  parts.modules.add(std::make_unique<CrackContact>(made->cracks, *made->chosen, parts.fields, parts.volumes(),
-                                                   definition.geometry, parts.threads));
+  auto sides = std::make_unique<SidePlaces>(parts.make_transfer(definition.method.shape), parts.fields,
+                                            parts.choice->grid(), parts.sets);
+  parts.modules.add(std::make_unique<CrackContact>(made->cracks, *made->chosen, parts.fields, std::move(sides),
+                                                   parts.volumes(), definition.geometry, parts.threads));
   parts.modules.add(std::make_unique<CrackStage>(std::move(made)));
 }
 

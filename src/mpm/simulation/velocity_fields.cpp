@@ -60,7 +60,9 @@ FieldMap field_map(const SimulationDefinition& definition) {
 
 std::unique_ptr<NodeChoice> make_choice(const FieldMap& map, Fields& fields) {
   const std::vector<int> chosen = map.chosen();
-  return chosen.empty() ? nullptr : std::make_unique<NodeChoice>(fields, chosen);
+  if (chosen.empty()) return nullptr;
+  make_fields(fields.front()->layout, map.count() + 1);  // patches have a number beside the fields'
+  return std::make_unique<NodeChoice>(fields, chosen);
 }
 
 Fields make_fields(const SimulationDefinition& definition, int count) {

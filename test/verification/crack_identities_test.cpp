@@ -2,16 +2,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "mpm/math/state_archive.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/checkpoint.hpp"
 #include "mpm/simulation/simulation.hpp"
-#include "page.hpp"
 #include "scene_run.hpp"
 
 namespace verification {
@@ -99,8 +97,9 @@ TEST(CrackIdentities, OneFieldIsNoCrack) {
   }
 }
 
-// Faces that stick and are pressed together. With APIC particles take over the grid's velocity, which is that of one
-// field: round-off. With FLIP they take over its change, which is that from the velocity of their own side.
+// Faces that stick and are pressed together, until waves from the free ends let go of them. With APIC particles take
+// over the grid's velocity, which is that of one field: round-off. With FLIP they take over its change, which is that
+// from the velocity of their own side: up to the 0.3 1/s of the start times the distance of the two sides' mean places.
 TEST(CrackIdentities, FacesThatStickAreNoCrackUnderPressure) {
   for (const std::string update : {"usl", "usf", "usavg"}) {
     for (const std::string faces : {"{law: stick}", "{law: interface, normal: perfect, tangential: perfect}"}) {
@@ -110,8 +109,8 @@ TEST(CrackIdentities, FacesThatStickAreNoCrackUnderPressure) {
         Changes with = both;
         with.insert(with.end(), {"cracks.list.notch.faces=" + faces, "cracks.list.notch.end=none"});
         mpm::Simulation cracked = simulation_of(kPlate + kNotch, with), whole = simulation_of(kPlate, both);
-        advance(cracked, 6), advance(whole, 6);  // until waves from the free ends are half way
-        const double limit = transfer == "apic" ? 1e-12 : 3e-3;  // of 0.24 m/s
+        advance(cracked, 4), advance(whole, 4);
+        const double limit = transfer == "apic" ? 1e-12 : 0.3 * 0.125;
         EXPECT_LT(difference(cracked, whole, "vx"), limit) << update << faces << transfer;
         EXPECT_LT(difference(cracked, whole, "vz"), limit) << update << faces << transfer;
       }
@@ -149,8 +148,8 @@ double change_of_velocity(const mpm::Simulation& simulation, const std::vector<d
 }
 
 double quarters_pull(const Changes& changes, int periods, double cross, double drift) {
-  Changes all = {fmt::format("bodies.plate.initial.velocity=[\"{0}+(x<{1} ? -0.5 : 0.5)\", \"{0}+(z<{1} ? -0.5 : 0.5)\"]",
-                             drift, cross)};
+  Changes all = {fmt::format(
+      "bodies.plate.initial.velocity=[\"{0}+(x<{1} ? -0.5 : 0.5)\", \"{0}+(z<{1} ? -0.5 : 0.5)\"]", drift, cross)};
   all.insert(all.end(), changes.begin(), changes.end());
   mpm::Simulation simulation = simulation_of(kPlate + kCross, all);
   const std::vector<double> vx = field(simulation, "vx"), vz = field(simulation, "vz");
@@ -176,7 +175,9 @@ TEST(CrackIdentities, CrossingCracksLetFourQuartersGo) {
 // The same where cracks lie on grid lines, their corners on nodes, and their crossing is such a node.
 TEST(CrackIdentities, CracksOnNodesLetFourQuartersGo) {
   const Changes on_nodes = {"cracks.list.flat.line={from: [0.0625, 0.75], to: [1.4375, 0.75]}",
-                            "cracks.list.upright.line={from: [0.75, 0.0625], to: [0.75, 1.4375]}"};
+                            "cracks.list.upright.line={from: [0.75, 0.0625], to: [0.75, 1.4375]}",
+                            // Cubic B-splines reach farther than 4 segments of half a cell.
+                            "cracks.list.flat.segment=1", "cracks.list.upright.segment=1"};
   for (const Method& method : methods()) {
     Changes changes = on_nodes;
     changes.insert(changes.end(), method.changes.begin(), method.changes.end());
@@ -188,10 +189,10 @@ TEST(CrackIdentities, CracksOnNodesLetFourQuartersGo) {
 
 // About the axis: a disk between two halves of a cylinder.
 TEST(CrackIdentities, HalvesOfACylinderPart) {
-  const Changes about_axis = {
-      "geometry=axisymmetric", "grid={cell: 0.125, min: [0, -0.75], max: [2.25, 2.25]}",
-      "bodies.plate.initial.velocity=[0, \"1+(z<0.8125 ? -0.5 : 0.5)\"]",
-      "cracks.list.notch.line={from: [0.03125, 0.8125], to: [1.46, 0.8125]}", "cracks.list.notch.end=exterior"};
+  const Changes about_axis = {"geometry=axisymmetric", "grid={cell: 0.125, min: [0, -0.75], max: [2.25, 2.25]}",
+                              "bodies.plate.initial.velocity=[0, \"1+(z<0.8125 ? -0.5 : 0.5)\"]",
+                              "cracks.list.notch.line={from: [0.03125, 0.8125], to: [1.46, 0.8125]}",
+                              "cracks.list.notch.end=exterior"};
   for (const char* shape : {"ugimp", "cpdi"}) {
     for (const char* update : {"usl", "usf", "usavg"}) {
       Changes changes = about_axis;
@@ -207,17 +208,17 @@ TEST(CrackIdentities, HalvesOfACylinderPart) {
 /// Laws between the faces, and tractions, that act on each other.
 std::vector<Method> actions() {
   std::vector<Method> list;
-  for (const char* faces : {"{friction: 0.3}", "{friction: 0.3, detection: positions}", "{law: stick}",
-                            "{friction: 0.3, static_friction: 0.5, adhesion: 200}",
-                            "{law: interface, normal: 1e6, tangential: 1e5}"}) {
+  for (const char* faces :
+       {"{friction: 0.3}", "{friction: 0.3, detection: positions}", "{law: stick}",
+        "{friction: 0.3, static_friction: 0.5, adhesion: 200}", "{law: interface, normal: 1e6, tangential: 1e5}"}) {
     list.push_back({faces, {fmt::format("cracks.list.notch.faces={}", faces), "cracks.list.notch.end=none"}});
   }
   list.push_back({"glue",
                   {"cracks.traction_laws={glue: {kind: triangular, normal: {strength: 500, opening: 0.01}}}",
                    "cracks.list.notch.traction=glue"}});
-  list.push_back({"growth",
-                  {"cracks.growth={criterion: release_rate, direction: self_similar}",
-                   "materials.rubber.fracture={j_ic: 0.05}"}});
+  list.push_back(
+      {"growth",
+       {"cracks.growth={criterion: release_rate, direction: self_similar}", "materials.rubber.fracture={j_ic: 0.05}"}});
   return list;
 }
 

@@ -131,6 +131,8 @@ class CrackFields {
   };
   Place place_of_node(int first, const std::array<int, 2>& node) const;
   void find_listed();
+  /// Forgets the nodes, and makes room for those of the fields' blocks.
+  void clear_nodes();
   template <class Visit>
   void each_near_block(double margin, Visit&& visit) const;
   Part part_between(int crack, const Part& within, const Vec2& low, const Vec2& high) const;

@@ -248,17 +248,21 @@ int CrackFields::fit(const Tile& tile, int first, const Wanted& wanted) {
   return patch->number;
 }
 
+void CrackFields::clear_nodes() {
+  nodes_.clear();
+  node_at_.resize(choice_.number());
+  for (const ParticleSet& set : sets_) {
+    if (set.side.empty()) continue;
+    const Grid& grid = choice_.field(set.field);
+    node_at_[set.field].assign(static_cast<std::size_t>(grid.blocks.size()) * grid.layout.nodes_per_block(), -1);
+  }
+}
+
 void CrackFields::choose() {
   const GridLayout& layout = choice_.grid().layout;
   if (sorter_.outdated(choice_)) {
     sorter_.look_at(sets_, choice_);
-    nodes_.clear();
-    node_at_.resize(choice_.number());
-    for (const ParticleSet& set : sets_) {
-      if (set.side.empty()) continue;
-      const Grid& grid = choice_.field(set.field);
-      node_at_[set.field].assign(static_cast<std::size_t>(grid.blocks.size()) * layout.nodes_per_block(), -1);
-    }
+    clear_nodes();
   }
   for (const DividedNode& node : nodes_) {
     node_at_[node.first][static_cast<std::size_t>(node.ref[0].block) * layout.nodes_per_block() + node.ref[0].node] =
@@ -364,7 +368,7 @@ void CrackFields::serialise(StateArchive& archive) {
   sorter_.serialise(archive, choice_);
   archive.list("listed", listed_);
   archive.value("misfits", misfits_);
-  if (archive.reading()) nodes_.clear();
+  if (archive.reading()) clear_nodes();
 }
 
 }  // namespace mpm

@@ -1,0 +1,196 @@
+// Two blocks that tractions hold together: what each law of tractions takes and gives back; faces joined by an
+// interface; and a crack that grows at a constant speed.
+//
+// Blocks that move apart as rigid ones, of mass m and speed v each, have the energy m v^2. It goes into the work of the
+// tractions, W(opening) times the area of the crack: in part dissipated, G_c where they have parted, and in part
+// stored. Source: crack reference 5.5, 7.12, 7.14, 7.15.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "mpm/scene/scene.hpp"
+#include "mpm/simulation/simulation.hpp"
+#include "page.hpp"
+#include "scene_run.hpp"
+
+namespace verification {
+namespace crack_cohesive_test {
+
+using Changes = std::vector<std::string>;
+
+constexpr double kHalf = 1000.0 * 0.8125 * 1.5, kArea = 1.375;  // mass of a block [kg], area of the crack [m^2]
+
+// 13 by 12 cells. A wave crosses a block in 2.6 ms; the blocks part within 50 ms.
+const std::string kBlocks = R"yaml(
+geometry: plane_strain
+grid: {cell: 0.125, min: [-0.75, -0.75], max: [2.375, 2.25]}
+time: {end: 1, sync: 0.25 ms, cfl: 0.4}
+method: {shape: ugimp, update: usavg, transfer: flip}
+materials: [{name: stiff, density: 1000, law: linear_elastic, young: 100 MPa, poisson: 0}]
+bodies: [{name: blocks, material: stiff, shape: {box: {min: [0, 0], max: [1.625, 1.5]}}}]
+cracks:
+  list: [{name: seam, line: {from: [0.8125, 0.0625], to: [0.8125, 1.4375]}, start: exterior, end: exterior}]
+)yaml";
+
+mpm::Simulation simulation_of(const Changes& changes) {
+  return mpm::Simulation(mpm::parse_scene(kBlocks, "blocks.yaml", changes), {1});
+}
+
+double energy(const mpm::Simulation& simulation, const std::string& name) {
+  const mpm::EnergyReport report = simulation.state().energy;
+  for (const mpm::NamedEnergy& one : report.list()) {
+    if (one.name == name) return one.value;
+  }
+  ADD_FAILURE() << "no energy " << name;
+  return 0.0;
+}
+
+/// Mean velocity of the right block along x [m/s].
+double mean_velocity(const mpm::Simulation& simulation) {
+  const std::vector<double> x = field(simulation, "x"), v = field(simulation, "vx");
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t p = 0; p < x.size(); ++p) {
+    if (x[p] < 0.8125) continue;
+    sum += v[p];
+    ++count;
+  }
+  return sum / count;
+}
+
+struct Law {
+  std::string name, text;
+};
+// All of strength 800 Pa and toughness 4 J/m^2.
+const std::vector<Law>& laws() {
+  static const std::vector<Law> all = {
+      {"triangular", "{kind: triangular, normal: {strength: 800, toughness: 4}}"},
+      {"cubic", "{kind: cubic, normal: {strength: 800, toughness: 4}}"},
+      {"trilinear",
+       "{kind: trilinear, normal: {strength: 800, elastic: 2 mm, strength_2: 400, elastic_2: 6 mm, opening: 10 mm}}"},
+      {"exponential", "{kind: exponential, normal: {strength: 800, toughness: 4, elastic: 2 mm, decay: 2}}"},
+      {"coupled", "{kind: coupled, normal: {strength: 800, toughness: 4}}"},
+      {"mixed", "{kind: mixed, normal: {strength: 800, toughness: 4}}"}};
+  return all;
+}
+
+Changes glued(const Law& law, double speed) {
+  return {"cracks.traction_laws={glue: " + law.text + "}", "cracks.list.seam.traction=glue",
+          fmt::format("bodies.blocks.initial.velocity=[\"x<0.8125 ? -{0} : {0}\", 0]", speed)};
+}
+
+TEST(CrackCohesive, BlocksPartAtTheToughness) {
+  Page page("crack", "cohesive_blocks", "Two blocks that part against tractions");
+  page.problem(
+          "Two blocks of 6.5 by 12 cells, 1219 kg each, leave each other at 0.1 m/s; the crack between them carries "
+          "tractions of each law, of strength 800 Pa and toughness 4 J/m².")
+      .exact("Dissipated: 4 J/m² times 1.375 m². Largest force: 800 Pa times that area.", "the laws' definitions")
+      .meaning(
+          "The energy that a law of tractions takes is that of its definition to round-off, since each point of the "
+          "crack keeps account of its own damage.");
+  Panel& panel = page.figure().panel("Force between the blocks", "time [ms]", "force / area [Pa]");
+  for (const Law& law : laws()) {
+    mpm::Simulation simulation = simulation_of(glued(law, 0.1));
+    const double start = energy(simulation, "kinetic");
+    EXPECT_NEAR(start, kHalf * 0.01, 1e-9);
+    Numbers times, stresses;
+    double before = mean_velocity(simulation), most = 0.0;
+    while (seconds(simulation) < 0.12) {
+      simulation.advance();
+      const double now = mean_velocity(simulation);
+      times.push_back(1e3 * seconds(simulation));
+      stresses.push_back(kHalf * (before - now) / 0.25e-3 / kArea);
+      most = std::max(most, stresses.back());
+      before = now;
+    }
+    // The peak is taken over 0.05 mm of opening, of 2 mm, and the blocks still ring from the start.
+    page.near("largest force over area, " + law.name, most, 800.0, 0.03, "Pa");
+    page.near("dissipated over area, " + law.name, energy(simulation, "crack_separation") / kArea, 4.0, 1e-6, "J/m²");
+    EXPECT_NEAR(energy(simulation, "crack_tractions"), 0.0, 1e-12) << law.name;
+    // What the blocks have lost, up to what the time step leaves open.
+    page.near("kinetic and elastic energy lost, over area, " + law.name,
+              (start - energy(simulation, "kinetic") - energy(simulation, "elastic")) / kArea, 4.0, 0.01, "J/m²");
+    EXPECT_LT(simulation.state().audit.residual, 1e-12) << law.name;
+    panel.line(law.name, times, stresses);
+  }
+}
+
+// Too slow to part: the blocks turn back along the line to the origin. At the turn W(opening) = m v^2 / area; what has
+// been dissipated then stays, and the rest is given back (triangular law).
+TEST(CrackCohesive, UnloadsToTheOrigin) {
+  mpm::Simulation simulation = simulation_of(glued(laws()[0], 0.05));
+  const double start = energy(simulation, "kinetic");
+  const double u_c = 0.01, u_e = 0.225926299 * u_c, work = start / kArea;
+  // W = 1/2 s [u (u_c - u) + u_c (u - u_e)] / (u_c - u_e); here s u_c / 2 = 4, Omega = 4 (u - u_e) / (u_c - u_e).
+  double low = u_e, high = u_c;
+  for (int k = 0; k < 100; ++k) {
+    const double u = 0.5 * (low + high);
+    (400.0 * (u * (u_c - u) + u_c * (u - u_e)) / (u_c - u_e) < work ? low : high) = u;
+  }
+  const double dissipated = 4.0 * (low - u_e) / (u_c - u_e);
+  EXPECT_GT(dissipated, 0.2);
+  EXPECT_LT(dissipated, 3.8);
+  double largest = 0.0;
+  while (mean_velocity(simulation) > 0.0) simulation.advance();
+  while (energy(simulation, "crack_tractions") > 1e-3 * start) {
+    simulation.advance();
+    largest = std::max(largest, energy(simulation, "crack_tractions"));
+    ASSERT_LT(seconds(simulation), 0.3);
+  }
+  // Blocks that ring open a little farther than rigid ones.
+  EXPECT_NEAR(energy(simulation, "crack_separation") / kArea, dissipated, 0.02 * dissipated);
+  EXPECT_NEAR(largest / kArea, work - dissipated, 0.02 * work);
+  EXPECT_NEAR(energy(simulation, "kinetic") / kArea, work - dissipated, 0.02 * work);
+}
+
+// Pulled by a stress s: an interface of stiffness D opens by s / D, beside the s L / E of the blocks.
+TEST(CrackCohesive, InterfaceOpensByItsStiffness) {
+  const auto elongation = [](const Changes& changes) {
+    Changes all = {
+        "loads=[{traction: {body: blocks, edge: x_max, traction: [\"1000*min(t/0.02,1)\", 0]}}, {traction: "
+        "{body: blocks, edge: x_min, traction: [\"-1000*min(t/0.02,1)\", 0]}}]",
+        "method.damping={grid: 200}", "time.sync=1 ms"};
+    all.insert(all.end(), changes.begin(), changes.end());
+    mpm::Simulation simulation = simulation_of(all);
+    while (seconds(simulation) < 0.15) simulation.advance();
+    const std::vector<double> u = field(simulation, "ux");
+    return *std::max_element(u.begin(), u.end()) - *std::min_element(u.begin(), u.end());
+  };
+  // Outermost particles are 1.5625 m apart.
+  const double whole = elongation({"cracks.list.seam.faces={law: one_field}"});
+  EXPECT_NEAR(whole, 1000.0 * 1.5625 / 1e8, 0.005 * whole);
+  for (const double stiffness : {1e8, 1e7}) {
+    const double joined =
+        elongation({fmt::format("cracks.list.seam.faces={{law: interface, normal: {0}, tangential: {0}}}", stiffness)});
+    // Its area is that of nodes, which reaches over the ends of the crack.
+    EXPECT_NEAR(joined - whole, 1000.0 / stiffness, 0.05 * 1000.0 / stiffness) << stiffness;
+  }
+  EXPECT_NEAR(elongation({"cracks.list.seam.faces={law: interface, normal: perfect, tangential: perfect}"}), whole,
+              0.01 * whole);
+}
+
+// A tip that grows at 5 m/s from 10 ms on until the crack is 1 m long.
+TEST(CrackCohesive, SteadyGrowth) {
+  mpm::Simulation simulation =
+      simulation_of({"cracks.list.seam.line={from: [0.8125, 0.0625], to: [0.8125, 0.5]}", "cracks.list.seam.end=tip",
+                     "materials.stiff.fracture={speed: 5, start_time: 10 ms, longest: 1}",
+                     "cracks.growth={criterion: steady_state}"});
+  const double step = 0.0625;
+  double stopped = 0.0;
+  while (seconds(simulation) < 0.2) {
+    simulation.advance();
+    const double t = seconds(simulation), growth = simulation.state().number("crack 1 end growth");
+    const double wanted = std::clamp(5.0 * (t - 0.01), 0.0, 1.0 - 0.4375);
+    ASSERT_NEAR(growth, wanted, step * (1.0 + 1e-9)) << t;
+    ASSERT_NEAR(simulation.state().number("crack length 1"), 0.4375 + growth, 1e-9) << t;
+    stopped = growth;
+  }
+  // 0.5625 m is 9 steps.
+  EXPECT_NEAR(stopped, 0.5625, 1e-9);
+}
+
+}  // namespace crack_cohesive_test
+}  // namespace verification

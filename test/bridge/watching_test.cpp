@@ -17,6 +17,15 @@ namespace watching_test {
 
 using Row = std::pair<std::string, std::string>;
 
+/// The names that a name of the table stands for: where it has the word N, those with 1 to 9 in its place.
+std::vector<std::string> numbered(const std::string& name) {
+  const std::size_t place = (name + " ").find(" N ");
+  if (place == std::string::npos) return {name};
+  std::vector<std::string> names;
+  for (char digit = '1'; digit <= '9'; ++digit) names.push_back(std::string(name).replace(place + 1, 1, 1, digit));
+  return names;
+}
+
 /// For each row of the table whose header begins with `header`: the words in backticks of its first cell, and its
 /// second cell.
 std::vector<Row> table(const std::string& header) {
@@ -35,7 +44,7 @@ std::vector<Row> table(const std::string& header) {
     unit = unit.substr(1, unit.size() - 2);
     for (std::size_t begin = names.find('`'); begin != std::string::npos; begin = names.find('`', begin)) {
       const std::size_t end = names.find('`', begin + 1);
-      rows.emplace_back(names.substr(begin + 1, end - begin - 1), unit);
+      for (const std::string& name : numbered(names.substr(begin + 1, end - begin - 1))) rows.emplace_back(name, unit);
       begin = end + 1;
     }
   }

@@ -54,7 +54,8 @@ std::string block(const Beam& beam, double width, double end, double sync, doubl
 /// One arm's half of the face at x = 0, or a part of a face.
 std::string half(const Beam& beam, bool upper) {
   const double h = beam.cell(), reach = kArm + h;
-  return fmt::format("min: [{:.9g}, {:.9g}], max: [{:.9g}, {:.9g}]", -h, upper ? 0.0 : -reach, h, upper ? reach : 0.0);
+  return fmt::format("min: [{:.9g}, {:.9g}], max: [{:.9g}, {:.9g}]", -h, upper ? 0.0 : -reach, 0.4 * h,
+                     upper ? reach : 0.0);
 }
 
 struct Opened {

@@ -166,12 +166,12 @@ TEST(CrackPlate, KinkAndPath) {
     const double kink = number(simulation, "crack 1 " + end + " kink_angle") / kDegree;
     page.near_absolute("first kink, " + end, std::abs(kink), 53.13, 1.0, "degrees");
     const std::size_t last = end == "end" ? crack.points.size() - 1 : 0, before = end == "end" ? last - 8 : 8;
-    const mpm::Vec2 way = crack.points[last] - crack.points[before];
+    const mpm::Vec3 way = crack.points[last] - crack.points[before];
     page.near_absolute("way of the last 4 cells from the normal of the load, " + end,
-                       std::atan(way.y() / way.x()) / kDegree, 0.0, 15.0, "degrees");
+                       std::atan(way.z() / way.x()) / kDegree, 0.0, 15.0, "degrees");
   }
   Numbers x, z;
-  for (const mpm::Vec2& point : crack.points) x.push_back(1e3 * point.x()), z.push_back(1e3 * point.y());
+  for (const mpm::Vec3& point : crack.points) x.push_back(1e3 * point.x()), z.push_back(1e3 * point.z());
   page.figure().panel("Path", "x [mm]", "z [mm]").line("crack", x, z);
 }
 

@@ -34,8 +34,8 @@ double cone_area(double tip) { return kPi * std::sqrt(2.0) * 1e-6 * tip * tip; }
 
 /// Of the radius 10.5 mm, from -half to half [mm].
 std::string cylinder(double half) {
-  return fmt::format("[{{name: cut, points: [[10.5 mm, {} mm], [10.5 mm, {} mm]], start: tip, traction: gas}}]\n", -half,
-                     half);
+  return fmt::format("[{{name: cut, points: [[10.5 mm, {} mm], [10.5 mm, {} mm]], start: tip, traction: gas}}]\n",
+                     -half, half);
 }
 double cylinder_area(double half) { return 2.0 * kPi * 10.5e-3 * 2e-3 * half; }  // [m^2]
 
@@ -53,8 +53,10 @@ Rest rest(const std::string& crack, const std::vector<std::string>& overrides = 
 TEST(CrackAboutAxis, ConeAndCylinderReleaseTheirEnergy) {
   Page page("crack", "crack_about_axis", "A conical and a cylindrical crack");
   page.problem(
-          "A rod of radius and half-height 40 mm, E = 2500 MPa, ν = 0.33, with a crack whose faces are pressed apart by "
-          "0.1 MPa: a cone of 45° from the axis to the radius 12.25 mm, or a cylinder of radius 10.5 mm and length 20.2 "
+          "A rod of radius and half-height 40 mm, E = 2500 MPa, ν = 0.33, with a crack whose faces are pressed apart "
+          "by "
+          "0.1 MPa: a cone of 45° from the axis to the radius 12.25 mm, or a cylinder of radius 10.5 mm and length "
+          "20.2 "
           "mm. Cells of 1 mm; the pressure rises slowly and the rod is brought to rest.")
       .exact("G = dU/dA, of runs in which tips lie 1 mm farther back and ahead.", "Griffith (1921)")
       .meaning(

@@ -46,8 +46,7 @@ double factor(double at_half, double power) { return 1.0 + at_half * std::pow(1.
 double j_of(const std::string& loads, const std::vector<std::string>& overrides) {
   mpm::Simulation simulation(mpm::build(mpm::parse_scene(kScene + loads, "penny", overrides)), {1});
   run_until(simulation, 0.4e-3);
-  EXPECT_LT(std::abs(number(simulation, "crack 1 end k_two")),
-            0.02 * number(simulation, "crack 1 end k_one"));
+  EXPECT_LT(std::abs(number(simulation, "crack 1 end k_two")), 0.02 * number(simulation, "crack 1 end k_one"));
   return number(simulation, "crack 1 end j");
 }
 
@@ -62,7 +61,8 @@ TEST(CrackPenny, RodOfTwiceItsRadius) {
           "radially; at this a/b = 0.505 f = 1.1635 and 1.1049.",
           "Sneddon, Proc. R. Soc. A 187 (1946) 229; f by finite elements (Sneddon and Tait: 1.149 and 1.098)")
       .meaning(
-          "Contours of 2 to 5 cells agree within 1 %, the two ways to load too. The form of Bergkvist and Huong, most of "
+          "Contours of 2 to 5 cells agree within 1 %, the two ways to load too. The form of Bergkvist and Huong, most "
+          "of "
           "whose area term cancels against its contour, gives 2 % less than Broberg's.");
   const double free = factor(0.1583, 3.2), held = factor(0.1018, 3.0);
   Panel& panel = page.figure().panel("J, over that in an infinite body", "size of the contour [cells]", "J / J∞");

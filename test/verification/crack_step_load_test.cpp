@@ -3,7 +3,8 @@
 // Exact, until waves return from the crack's mouth or from the other end: K = 2 s / (1 - nu) sqrt(c_d (t - t_c)
 // (1 - 2 nu) / pi), s = 2 sigma_0 where both ends are loaded together, since two waves meet; Freund (1990), Dynamic
 // Fracture Mechanics, 2.4; crack reference 7.10. The plate of 4 m is 14 m wide and its crack 7 m long: in
-// the 10 m of the reference waves from the free sides reach the tip at 2.5 t_c, and K at 3 t_c is 3 % low on every grid.
+// the 10 m of the reference waves from the free sides reach the tip at 2.5 t_c, and K at 3 t_c is 3 % low on every
+// grid.
 #include <fmt/core.h>
 
 #include "page.hpp"
@@ -64,14 +65,16 @@ TEST(CrackStepLoad, StressIntensityFollowsFreund) {
   EXPECT_NEAR(exact(2.0), 1.0195, 1e-4);  // the reference's figure
   Page page("crack", "crack_step_load", "A crack that a step of tension meets");
   page.problem(
-          "A plate of steel, 14 m by 4 m, E = 210 GPa, ν = 0.3, with an edge crack of 7 m at half its height, is pulled "
+          "A plate of steel, 14 m by 4 m, E = 210 GPa, ν = 0.3, with an edge crack of 7 m at half its height, is "
+          "pulled "
           "suddenly by σ0 = 0.1 MPa at both ends: 140 by 40 cells, undamped. K follows from J; over 2σ0 √H, H = 2 m.")
       .exact("K = 2 s/(1 - ν) √(c_d (t - t_c)(1 - 2ν)/π), s = 2σ0, t_c = H/c_d = 336.4 µs, until 3 t_c.",
              "Freund, Dynamic Fracture Mechanics (1990), section 2.4")
       .meaning(
           "With the term of the area J is that of the tip at each time, and does not depend on the contour. Without it "
           "J is that of the contour, which the waves have not filled yet.");
-  const History both = run({}), wide = run({"cracks.contour.size=6"}), one = run({"cracks.contour.terms=1", "cracks.contour.size=6"});
+  const History both = run({}), wide = run({"cracks.contour.size=6"}),
+                one = run({"cracks.contour.terms=1", "cracks.contour.size=6"});
   Numbers x, y;
   for (int i = 0; i <= 40; ++i) x.push_back(1.0 + 0.05 * i), y.push_back(exact(x.back()));
   page.figure()
@@ -91,11 +94,11 @@ TEST(CrackStepLoad, StressIntensityFollowsFreund) {
 // From t_c on the tip runs at 0.4 of the speed of Rayleigh waves: G = 0.502 of that of the tip at rest (crack reference
 // 7.10). It moves by half a cell at a time, so J is a sawtooth of which the mean over two cells counts.
 TEST(CrackStepLoad, RunningTip) {
-  mpm::Simulation simulation(
-      mpm::build(mpm::parse_scene(kScene, "running_tip",
-                                  {"materials.steel.fracture.speed=1178.7", "materials.steel.fracture.start_time=336.4e-6",
-                                   "cracks.growth.criterion=steady_state"})),
-      {1});
+  mpm::Simulation simulation(mpm::build(mpm::parse_scene(kScene, "running_tip",
+                                                         {"materials.steel.fracture.speed=1178.7",
+                                                          "materials.steel.fracture.start_time=336.4e-6",
+                                                          "cracks.growth.criterion=steady_state"})),
+                             {1});
   double sum = 0.0, at_rest = 0.0, least = 1e9, most = 0.0;
   while (seconds(simulation) < 0.82e-3) {
     simulation.advance();
@@ -114,7 +117,9 @@ TEST(CrackStepLoad, RunningTip) {
           "The plate above; from t_c on the tip runs at 0.4 of the speed of Rayleigh waves, by half a cell at a time. "
           "J is the mean while it runs through two cells, about 2.2 t_c.")
       .exact("G = 0.502 of that of a tip at rest.", "Freund, Dynamic Fracture Mechanics (1990), sections 5.3 and 6.4")
-      .meaning("Compare means: within a cell J rises from next to nothing to twice its mean, since the tip of the grid moves by whole cells.");
+      .meaning(
+          "Compare means: within a cell J rises from next to nothing to twice its mean, since the tip of the grid "
+          "moves by whole cells.");
   page.near("mean G, over that at rest", sum / at_rest, 0.502, 0.05, "");
   page.report("least G, over that at rest", least, "");
   page.report("largest G, over that at rest", most, "");

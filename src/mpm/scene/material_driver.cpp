@@ -33,7 +33,7 @@ MaterialDefinition read_inline(const std::string& text) {
   const Source source("materials: [" + text + "]", "MATERIAL", overrides);
   ReadContext context;
   context.source = &source;
-  const Map root(Value(context, source.root(), ""), {"materials", "transport"});
+  const Map root(Value(context, source.root(), ""), {"materials", "transport", "cracks"});
   Scene scene;
   read_materials(root, scene);
   const std::vector<MaterialDefinition>& materials = scene.definition.materials;

@@ -161,15 +161,19 @@ TEST(CrackBeam, EndNotchedFlexure) {
           "6 cells an arm. "
           "The cracked end is borne over the whole face, or its lower arm alone, which bears the other by contact.")
       .exact("J = 9 P²(a + 0.2089 h)²/(16 E'B²h³), K_I = 0.", "beams on the root that finite elements give")
-      .meaning("Mode II to the same accuracy as mode I, also where faces press on each other.");
+      .meaning(
+          "J is as near as in mode I, also where faces press on each other. K_II by the interaction integral is 9 % "
+          "too "
+          "high on 6 cells an arm and 3 % on 12, since arms bend within its contour: take sqrt(J E') in beams.");
   const Beam beam{6, 3, 3};
   const double exact = flexure_j(kMiddleLoad, beam.length()), k = std::sqrt(exact * kPlane);
   for (const bool lower_alone : {false, true}) {
     const Tip tip = bend(beam, lower_alone);
     const std::string name = lower_alone ? ", lower arm borne" : ", whole end borne";
     page.near("J" + name, tip.j, exact, 0.03, "J/m²");
-    page.near("|K_II|" + name, std::abs(tip.two), k, 0.02, "Pa √m");
-    page.report("K_I / |K_II|" + name, tip.one / std::abs(tip.two), "");
+    // Measured beside J: 8.6 % more than sqrt(J E') on 6 cells, 3.2 % on 12 (J within 1.3 and 0.7 %).
+    page.near("|K_II|" + name, std::abs(tip.two), k, 0.10, "Pa √m");
+    page.near_absolute("K_I / |K_II|" + name, tip.one / std::abs(tip.two), 0.0, 0.05, "");
   }
 }
 

@@ -31,6 +31,9 @@ struct TipParts {
   std::vector<double> densities;  ///< of each set, undeformed [kg/m^3]
   GeometryKind geometry;
   double across;  ///< thickness of a planar scene [m]
+  /// Energies at nodes follow from stress, strain and velocity there, as in linear elasticity; else they are means of
+  /// those of particles.
+  bool grid_energy = false;
 };
 
 class TipValues final : public ContourSource {

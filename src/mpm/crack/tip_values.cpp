@@ -93,7 +93,7 @@ void TipValues::fill(std::size_t s, std::uint32_t first, std::uint32_t last) {
             to[stress_zz][p] = present * tau.zz;
             to[stress_xz][p] = present * tau.xz;
             to[stress_hoop][p] = Geometry::kHoop ? present * tau.yy : 0.0;
-            to[kinetic][p] = 0.5 * present * speed2;
+            to[kinetic][p] = 0.5 * present * (parts_.grid_energy ? 1.0 : speed2);
             to[hoop_gradient][p] = Geometry::kHoop ? f.yy - 1.0 : 0.0;
           }
         },
@@ -118,6 +118,12 @@ bool TipValues::values_at(int field, NodeRef ref, ContourValues& values) const {
   values.hoop = sum(stress_hoop) / mass;
   values.energy = sum(energy) / mass;
   values.kinetic = sum(kinetic) / mass;
+  if (!parts_.grid_energy) return true;
+  values.energy =
+      0.5 * (values.xx * values.gradient[0][0] + values.zz * values.gradient[1][1] +
+             values.xz * (values.gradient[0][1] + values.gradient[1][0]) + values.hoop * values.hoop_gradient);
+  const NodalField& velocity = parts_.fields[field]->velocity;
+  values.kinetic *= std::pow(velocity.at(ref.block, 0, ref.node), 2) + std::pow(velocity.at(ref.block, 1, ref.node), 2);
   return true;
 }
 
@@ -202,7 +208,7 @@ void TipValues::find_samples(const GridLines& lines, const ContourPath& path, st
         values.xz = of[stress_xz][p];
         values.hoop = of[stress_hoop][p];
         values.energy = of[energy][p];
-        values.kinetic = of[kinetic][p];
+        values.kinetic = of[kinetic][p] * (parts_.grid_energy ? sample.velocity.squaredNorm() : 1.0);
         samples.push_back(sample);
       }
     };

@@ -169,6 +169,7 @@ void add_cracks(RunParts& parts) {
   }
   TipParts tip_parts{made->cracks, *made->chosen,       parts.fields, parts.sets, parts.laws,
                      {},           definition.geometry, across};
+  tip_parts.grid_energy = asked.contour.energy == ContourDefinition::Energy::grid;
   for (const DeformableBody& body : definition.bodies) {
     tip_parts.densities.push_back(find_material(definition, body).density);
   }

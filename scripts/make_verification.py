@@ -23,6 +23,7 @@ CHAPTERS = {
     "fluid": "Fluid and gas",
     "viscoelastic": "Viscoelastic material",
     "transport": "Heat, diffusion and water in pores",
+    "crack": "Explicit cracks",
 }
 # Okabe & Ito's colours, which colour-blind readers can distinguish too. Black is for exact solutions.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]

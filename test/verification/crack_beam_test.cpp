@@ -67,7 +67,7 @@ constexpr double kEndLoad = 0.01;  // [N]
 
 Opened open(const Beam& beam) {
   const double clamped = beam.length() + 0.6728 * kArm;  // length of a cantilever that bends as an arm
-  const double rate = 3.516 / std::sqrt(12.0) * kBarSpeed * kArm / (clamped * clamped), period = 2 * kPi / rate;
+  const double rate = 3.516 / std::sqrt(12.0) * kBarSpeed * kArm / (clamped * clamped), period = 2 * kHalfTurn / rate;
   const double sync = sync_of(2.0 * period, 10), end = 10 * sync, stress = kEndLoad / (kArm * kThickness);
   std::string text = block(beam, beam.crack * kArm + 3 * kArm, end, sync, 1.8 * rate);
   text += "loads:\n" + traction("x_min", ramped(stress, 0.6 * period), half(beam, true)) +
@@ -135,7 +135,7 @@ constexpr double kMiddleLoad = 0.1;  // [N]
 Tip bend(const Beam& beam, bool lower_alone) {
   const double width = 12 * kArm, height = 2 * kArm, h = beam.cell();
   const double rate = 9.87 / std::sqrt(12.0) * kBarSpeed * height / (width * width) * 0.7;  // softer by the slit
-  const double period = 2 * kPi / rate, sync = sync_of(1.8 * period, 10), end = 10 * sync;
+  const double period = 2 * kHalfTurn / rate, sync = sync_of(1.8 * period, 10), end = 10 * sync;
   const double across = lower_alone ? kArm : height, shear = 0.5 * kMiddleLoad / kThickness;
   const double patch = 2 * h;
   std::string text = block(beam, width, end, sync, 1.8 * rate);

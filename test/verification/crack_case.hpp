@@ -18,8 +18,8 @@
 namespace verification {
 namespace crack_case {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegree = kPi / 180.0;
+constexpr double kHalfTurn = 3.14159265358979323846;
+constexpr double kDegree = kHalfTurn / 180.0;
 constexpr double kYoung = 2500e6, kPoisson = 0.33;             // crack reference 7 [Pa]
 constexpr double kPlane = kYoung / (1 - kPoisson * kPoisson);  // E' [Pa]
 constexpr double kDensity = 1000.0, kBarSpeed = 1581.14;       // [kg/m^3], sqrt(E / density) [m/s]

@@ -23,7 +23,7 @@ struct Plate {
   double ramp = 0.6, end = 2.0;  ///< periods of the plate's slowest stretching
   std::string split = "interaction", growth, fracture, limit;
 
-  double infinite() const { return kStress * std::sqrt(kPi * half_crack * kCell); }  ///< [Pa m^0.5]
+  double infinite() const { return kStress * std::sqrt(kHalfTurn * half_crack * kCell); }  ///< [Pa m^0.5]
   double one() const { return infinite() * std::pow(std::sin(angle * kDegree), 2); }
   double two() const { return infinite() * std::sin(angle * kDegree) * std::cos(angle * kDegree); }
 };
@@ -37,7 +37,7 @@ mpm::Simulation pull(const Plate& plate) {
   const double along = std::cos(plate.angle * kDegree), across = std::sin(plate.angle * kDegree);
   const double a = plate.half_crack * h;
   std::string text =
-      head(h, {-x - 4 * h, -z - 4 * h, x + 4 * h, z + 5 * h}, end, sync, 0.9 * 2 * kPi / period, plate.fracture) +
+      head(h, {-x - 4 * h, -z - 4 * h, x + 4 * h, z + 5 * h}, end, sync, 0.9 * 2 * kHalfTurn / period, plate.fracture) +
       body(-x, -z, x, z + h);
   text += "loads:\n" + traction("z_max", ramped(kStress, plate.ramp * period)) +
           traction("z_min", ramped(-kStress, plate.ramp * period));

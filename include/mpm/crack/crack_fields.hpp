@@ -117,6 +117,10 @@ class CrackFields {
   /// Segments of a crack near a block or a particle: from the first point on, so many points; none: fewer than two.
   struct Part {
     int first = 0, points = 0;
+    Vec2 low = Vec2::Zero(), high = Vec2::Zero();  ///< bounds [m]
+    bool misses(const Vec2& other_low, const Vec2& other_high) const {
+      return points < 2 || (low.array() > other_high.array()).any() || (high.array() < other_low.array()).any();
+    }
   };
   struct Tile {
     int block;                  ///< of NodeChoice::blocks()

@@ -43,6 +43,7 @@ double traction_work(const JForm& form, const std::vector<FaceWork>& from_crossi
 struct FrictionSample {
   Vec2 place{0.0, 0.0};  ///< its middle [m]
   double shear = 0.0;    ///< stress of friction on its faces [Pa], of any sign
+  double length = 0.0;   ///< [m]
   double slip = 0.0;     ///< by which the slip at its two ends differs [m], of any sign
 };
 

@@ -104,9 +104,12 @@ Vec2 Chain::tangent_area(int point) const {
 }
 
 Vec2 Chain::beside(int point, bool above) const {
-  const Vec2 shift = kBeside * tangent_area(point).norm() * left_of(tangent(point));
-  if (above) return points_[point].above + shift;
-  return points_[point].below - shift;
+  const CrackPoint& at = points_[point];
+  const Vec2& surface = above ? at.above : at.below;
+  const Vec2 out = (above ? 1.0 : -1.0) * left_of(tangent(point));
+  const double margin = kBeside * tangent_area(point).norm();
+  // Surfaces of closed faces lie across the line by less than prevent() puts back: their own side is that of the place.
+  return ((surface - at.place).dot(out) < 0.0 ? at.place : surface) + margin * out;
 }
 
 Vec2 Chain::tip_opening(int end) const {

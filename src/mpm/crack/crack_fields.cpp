@@ -130,7 +130,12 @@ CrackFields::Part CrackFields::part_between(int crack, const Part& within, const
     last = k;
   }
   if (first < 0) return {};
-  return {first, last - first + 2};
+  Part part{first, last - first + 2, line[first], line[first]};
+  for (int k = first + 1; k < first + part.points; ++k) {
+    part.low = part.low.cwiseMin(line[k]);
+    part.high = part.high.cwiseMax(line[k]);
+  }
+  return part;
 }
 
 DividedNode& CrackFields::divided_node(const Tile& tile, int tile_node, int first, const Vec2& place) {
@@ -204,7 +209,7 @@ CrackFields::Wanted CrackFields::find_wanted(const Tile& tile, std::size_t set, 
   bool any = false;
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     near_[c] = {};
-    if (tile.parts[c].points >= 2) near_[c] = part_between(static_cast<int>(c), tile.parts[c], low, high);
+    if (!tile.parts[c].misses(low, high)) near_[c] = part_between(static_cast<int>(c), tile.parts[c], low, high);
     any = any || near_[c].points >= 2;
   }
   Wanted wanted;
@@ -284,7 +289,7 @@ void CrackFields::choose() {
       tile_.parts[c] = {};
       if (!cracks_[c].felt) continue;
       tile_.parts[c] =
-          part_between(static_cast<int>(c), {0, static_cast<int>(cracks_[c].chain.line().size())}, low, high);
+          part_between(static_cast<int>(c), {0, static_cast<int>(cracks_[c].chain.line().size()), {}, {}}, low, high);
     }
     patches_.clear();
     for (std::size_t s = 0; s < sets_.size(); ++s) {
@@ -320,8 +325,8 @@ CrackFields::NodeOfField CrackFields::find_node(int first, const Vec2& from, con
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     if (!cracks_[c].felt) continue;
     const std::vector<Vec2>& line = cracks_[c].chain.line();
-    const Part part = part_between(static_cast<int>(c), {0, static_cast<int>(line.size())}, from.cwiseMin(place),
-                                   from.cwiseMax(place));
+    const Part part = part_between(static_cast<int>(c), {0, static_cast<int>(line.size()), {}, {}},
+                                   from.cwiseMin(place), from.cwiseMax(place));
     if (part.points < 2) continue;
     const Crossing found = find_crossing(line.data() + part.first, part.points, from, place);
     if (!found.crosses) continue;

@@ -6,10 +6,12 @@
 
 #include "mpm/crack/chain.hpp"
 #include "mpm/crack/crossing.hpp"
+#include "mpm/math/constants.hpp"
 
 namespace mpm {
 namespace {
 
+constexpr double kClosed = 1e-3;  ///< of the slip, an opening that is none
 constexpr double kBeyond = 0.25;  ///< of a cell, that growth is lengthened by to see other cracks
 
 GridLines lines_of(const GridLayout& layout) {
@@ -179,12 +181,12 @@ void CrackTips::add_faces(const CrackTip& tip, JResult& result) {
 }
 
 double CrackTips::friction_at(const CrackTip& tip, const JForm& form) {
+  slips_.clear();
   const Crack& crack = cracks_[tip.crack];
   const ContactLaw& law = crack.definition.faces.law;
   if (law.kind != ContactLaw::Kind::coulomb || crack.definition.faces.ignored) return 0.0;
   const double coefficient = law.at(time_).coefficient;
   if (!(coefficient > 0.0)) return 0.0;
-  slips_.clear();
   const Chain& chain = crack.chain;
   for (int k = 0; k + 1 < chain.size(); ++k) {
     const Vec2 &from = chain.points()[k].place, &to = chain.points()[k + 1].place;
@@ -196,7 +198,8 @@ double CrackTips::friction_at(const CrackTip& tip, const JForm& form) {
     const ContourValues mean = ContourValues::between(above, below, 0.5);
     const double pressure = -mean.traction(normal).dot(normal);
     if (!(pressure > 0.0)) continue;
-    slips_.push_back({middle, coefficient * pressure, (chain.opening(k + 1) - chain.opening(k)).dot(along)});
+    slips_.push_back(
+        {middle, coefficient * pressure, (to - from).norm(), (chain.opening(k + 1) - chain.opening(k)).dot(along)});
   }
   return friction_work(form, slips_);
 }
@@ -212,7 +215,16 @@ void CrackTips::split(CrackTip& tip, const JResult&) {
   const Chain& chain = cracks_[tip.crack].chain;
   tip.k =
       interaction_integral(elastic, chain.points()[chain.point_at(tip.end)].place, chain.direction(tip.end), pieces_);
-  if (tip.opening.normal <= 0.0) tip.k.one = 0.0;  // of closed faces the integral's K_I means nothing
+  // The shear of friction on faces inside the contour, which the auxiliary field of free faces leaves out: the work of
+  // a traction on the jump of that field, (kappa + 1) / G sqrt(d / (2 pi)), times E' / 2 = 4 G / (kappa + 1).
+  const Vec2 at = chain.points()[chain.point_at(tip.end)].place;
+  double friction = 0.0;
+  for (const FrictionSample& sample : slips_) {
+    friction += std::sqrt(2.0 / kPi) * sample.shear * sample.length / std::sqrt((sample.place - at).norm());
+  }
+  tip.k.two -= std::copysign(std::min(friction, std::abs(tip.k.two)), tip.k.two);
+  // Of closed faces the integral's K_I means nothing; whether they are is known to a part of the slip.
+  if (tip.opening.normal <= kClosed * std::abs(tip.opening.shear)) tip.k.one = 0.0;
 }
 
 bool CrackTips::stopped(const CrackTip& tip) const { return cracks_[tip.crack].chain.end(tip.end) != CrackEnd::tip; }

@@ -4,8 +4,10 @@
 //
 // Motion: a surface moves with velocity V and acceleration a of its side's nodes at the end of a step by
 //   dt (3/2 V - 1/2 V_before - a dt),
-// which is exact for constant velocity and for constant acceleration. Where V_before is not known (first step, grown
-// point, side that has just met nodes) it is V - a dt, which is so too.
+// which is exact for constant velocity and for constant acceleration. Where a traction follows from the opening it
+// moves by dt V: then force, velocity and place take turns and an oscillation keeps its energy, which it would else
+// gain in every step, however short. Where V_before is not known (first step, grown point, side that has just met
+// nodes) it is V - a dt, which is so too.
 //
 // Weak: a point that no material surrounds stays where it is, so that the end of an exterior crack lags behind a body
 // that moves far. Points are not redistributed where the chain stretches.
@@ -40,6 +42,7 @@ struct SurfaceMotion {
   Vec2 velocity = Vec2::Zero();      ///< at the end of the step [m/s]
   Vec2 acceleration = Vec2::Zero();  ///< in the step [m/s^2]
   bool known = false;                ///< some node near carries material
+  bool pulled = false;               ///< a traction that follows from the opening acts there
 };
 
 class Chain {

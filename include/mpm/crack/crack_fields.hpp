@@ -103,7 +103,7 @@ class CrackFields {
   void serialise(StateArchive& archive);
 
  private:
-  static constexpr int kMostWanted = 25;  ///< nodes that a particle reaches
+  static constexpr int kMostWanted = 36;  ///< nodes that a particle reaches
   struct Wanted {
     int count = 0;
     std::array<std::uint8_t, kMostWanted> node{};  ///< of the tile
@@ -133,6 +133,8 @@ class CrackFields {
     int number, local;
     std::size_t index;
   };
+  /// Whether the crack divides material of this group.
+  bool divides(int crack, int first) const;
   Place place_of_node(int first, const std::array<int, 2>& node) const;
   void find_listed();
   /// Forgets the nodes, and makes room for those of the fields' blocks.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mpm/crack/crack_fields.hpp"
+#include "mpm/crack/crack_tractions.hpp"
 
 namespace mpm {
 
@@ -19,7 +20,7 @@ class CrackMotion {
               bool prevent);
 
   /// Grid::velocity is v^{n+1} and Grid::force the acceleration.
-  void move(double dt);
+  void move(const CrackTractions& tractions, double dt);
   /// Moves of more than half a cell in one step, which were stopped, since the start.
   long stopped() const { return stopped_; }
   void serialise(StateArchive& archive) { archive.value("stopped", stopped_); }

@@ -53,6 +53,7 @@ struct CrackTip {
   int material = -1;                                     ///< of TipSettings::materials
   Vec2 start_direction = Vec2::UnitX();                  ///< at the run's start
   double speed = 0.0;                                    ///< of the last growth: its length over the time since [m/s]
+  double running = 0.0;                                  ///< at a speed that its criterion sets, now [m/s]
   double grown = 0.0;                                    ///< by so much since the start [m]
   double angle = 0.0;                                    ///< of the last growth from the direction before it [rad]
   double first_angle = 0.0;                              ///< of the first growth [rad]

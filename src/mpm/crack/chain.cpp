@@ -23,6 +23,7 @@ CrackPoint point_in(const Vec2& place) {
 
 /// Displacement by which one of a point's places goes on.
 Vec2 displacement(const SurfaceMotion& now, const Vec2& before, bool known, double dt) {
+  if (now.pulled) return dt * now.velocity;
   const Vec2 old = known ? before : Vec2(now.velocity - dt * now.acceleration);
   return dt * (1.5 * now.velocity - 0.5 * old - dt * now.acceleration);
 }

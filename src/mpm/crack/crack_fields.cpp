@@ -323,7 +323,7 @@ CrackFields::NodeOfField CrackFields::find_node(int first, const Vec2& from, con
   std::array<AcrossCrack, 2> across;
   int count = 0;
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
-    if (!cracks_[c].felt) continue;
+    if (!cracks_[c].felt || !divides(static_cast<int>(c), first)) continue;
     const std::vector<Vec2>& line = cracks_[c].chain.line();
     const Part part = part_between(static_cast<int>(c), {0, static_cast<int>(line.size()), {}, {}},
                                    from.cwiseMin(place), from.cwiseMax(place));
@@ -357,6 +357,13 @@ CrackFields::NodeOfField CrackFields::find_across(int first, int crack, const st
     if (divided.single[f].crack == crack) return {first + 1 + f, divided.ref[1 + f]};
   }
   return {};
+}
+
+bool CrackFields::divides(int crack, int first) const {
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    if (sets_[s].field == first && cracks_[crack].divides[s] != 0) return true;
+  }
+  return false;
 }
 
 std::vector<int> CrackFields::groups(int crack) const {

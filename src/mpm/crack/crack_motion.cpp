@@ -63,7 +63,7 @@ SurfaceMotion CrackMotion::centre(const std::vector<int>& groups, const Vec2& pl
   return {motion.velocity / sum, motion.acceleration / sum, true};
 }
 
-void CrackMotion::move(double dt) {
+void CrackMotion::move(const CrackTractions& tractions, double dt) {
   const double largest = kLargestMove * fields_.front()->layout.smallest_cell();
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     Chain& chain = cracks_[c].chain;
@@ -76,6 +76,8 @@ void CrackMotion::move(double dt) {
       const CrackPoint& point = chain.points()[k];
       above_[k] = surface(groups_[c], point.above, chain.beside(static_cast<int>(k), true));
       below_[k] = surface(groups_[c], point.below, chain.beside(static_cast<int>(k), false));
+      above_[k].pulled = below_[k].pulled =
+          tractions.any() && tractions.law_at(static_cast<int>(c), static_cast<int>(k)) >= 0;
       if (by_ == CracksDefinition::Move::centre_of_mass) centre_[k] = centre(groups_[c], point.place);
     }
     stopped_ += chain.move(above_.data(), below_.data(), centre_.data(), dt, by_, largest);

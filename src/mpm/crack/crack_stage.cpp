@@ -46,7 +46,7 @@ void CrackStage::grid_advanced(StepContext& context) {
   const bool grows = parts_->tips->growth_due(end);
   try {
     if (at_sync || grows) parts_->tips->find(end);
-    parts_->motion->move(context.dt);
+    parts_->motion->move(*parts_->tractions, context.dt);
     if (grows) parts_->tips->grow(end, context.dt);
     if (parts_->tractions->any()) parts_->tractions->find(end);
   } catch (const FractureError& error) {

@@ -209,7 +209,7 @@ void CrackTips::split(CrackTip& tip, const JResult&) {
   const ElasticConstants& elastic = *settings_.materials[tip.material].elastic;
   const bool by_integral = settings_.split == CracksDefinition::Split::interaction && !axisymmetric(parts_.geometry);
   if (!by_integral) {
-    tip.k = split_by_openings(tip.j, tip.opening.normal, tip.opening.shear, elastic, tip.speed);
+    tip.k = split_by_openings(tip.j, tip.opening.normal, tip.opening.shear, elastic, tip.running);
     return;
   }
   const Chain& chain = cracks_[tip.crack].chain;
@@ -270,7 +270,11 @@ bool CrackTips::grow(CrackTip& tip, double time, double dt) {
   state.open_length = chain.open_length([&](int point) { return tractions_.law_at(tip.crack, point) < 0; });
   const GrowthDecision decision = tip.growth.look(state, rules);
   tip.why = decision.reason;
-  if (!decision.grows) return false;
+  if (!decision.grows) {
+    const double cell = layout.smallest_cell();
+    if (tip.running > 0.0 && time - tip.last_growth > 2.0 * settings_.length * cell / tip.running) tip.running = 0.0;
+    return false;
+  }
 
   const Vec2 place = chain.points()[chain.point_at(tip.end)].place;
   const Vec2 cells(layout.cell(0), layout.cell(1));
@@ -307,6 +311,7 @@ bool CrackTips::grow(CrackTip& tip, double time, double dt) {
       crack.definition.traction_of_growth.empty() ? rule.traction : crack.definition.traction_of_growth;
   tip.growth.grown(state, decision, length);
   tip.speed = time > tip.last_growth ? length / (time - tip.last_growth) : 0.0;
+  tip.running = decision.speed;
   if (decision.speed > 0.0) tip.speed = decision.speed;
   tip.last_growth = time;
   tip.released = tip.j + tip.zone;
@@ -337,6 +342,7 @@ void CrackTips::serialise(StateArchive& archive) {
                                        {"grown", &tip.grown},
                                        {"angle", &tip.angle},
                                        {"first_angle", &tip.first_angle},
+                                       {"running", &tip.running},
                                        {"released", &tip.released},
                                        {"last_growth", &tip.last_growth},
                                        {"next_look", &tip.next_look}}) {

@@ -77,8 +77,9 @@ void FaceTractions::spread(int set, int p, const PlacedDomain::Vector& at, const
 
 void FaceTractions::forces_gathered(StepContext& context) {
   const std::uint64_t generation =
-      context.fields.front()->blocks.generation();  // of all fields: they are rebuilt together
-  if (generation_ != generation) {
+      context.fields.front()->blocks.generation();                          // of all fields: they are rebuilt together
+  const auto chooses = [](const ParticleSet& set) { return set.chooses; };  // these change places in every step
+  if (generation_ != generation || std::any_of(sets_.begin(), sets_.end(), chooses)) {
     look_for_particles();
     generation_ = generation;
   }

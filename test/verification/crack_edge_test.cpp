@@ -91,7 +91,7 @@ TEST(CrackEdge, StressIntensity) {
       .points("20 cells", sizes, parts);
 }
 
-// Eight times the work: about 15 s.
+// Eight times the work: about 8 s.
 TEST(CrackEdge, FullStressIntensityOnFortyCells) {
   Strip strip;
   strip.cells = 40;
@@ -158,7 +158,7 @@ TEST(CrackEdge, PlaceInACell) {
   map_places(page, false);
 }
 
-// About 45 s.
+// About 30 s.
 TEST(CrackEdge, FullPlacesInACell) {
   Page page("crack", "crack_places_full", "Where a crack lies in a cell: all places");
   page.problem("The strip above, 20 cells across, with the tip and the line at places in a cell.")

@@ -35,8 +35,8 @@ class CrackMotion {
   const Fields& fields_;
   CracksDefinition::Move by_;
   bool prevent_;
-  std::vector<std::vector<int>> groups_;  ///< of each crack
-  std::vector<SurfaceMotion> above_, below_, centre_;
+  std::vector<std::vector<int>> groups_;                            ///< of each crack
+  std::vector<std::vector<SurfaceMotion>> above_, below_, centre_;  ///< of each crack
   long stopped_ = 0;
 };
 

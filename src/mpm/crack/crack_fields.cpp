@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mpm/crack/crossing.hpp"
+#include "mpm/shape/particle_domain.hpp"
 
 namespace mpm {
 namespace {
@@ -100,13 +101,13 @@ void CrackFields::before_sort() {
 #pragma omp parallel for schedule(static) num_threads(threads_)
     for (int p = 0; p < set.awake(); ++p) {
       std::array<int, 3> block{};
-      bool inside = true;  // the sort tells of those that are not
+      bool finite = true;  // the sort tells of what is not, and of those outside, which may be put back
       for (int k = 0; k < 2; ++k) {
         const double cells = layout.in_cells(k, set.x[k][p]);
-        inside = inside && cells >= set.lowest[k] && cells <= set.highest[k];
-        block[k] = inside ? GridLayout::nearest(cells) / kBlockEdge : 0;
+        finite = finite && std::isfinite(cells);
+        if (finite) block[k] = GridLayout::nearest(std::clamp(cells, set.lowest[k], set.highest[k])) / kBlockEdge;
       }
-      set.side[p] = inside && std::binary_search(listed_.begin(), listed_.end(), layout.key(block)) ? 1 : 0;
+      set.side[p] = finite && std::binary_search(listed_.begin(), listed_.end(), layout.key(block)) ? 1 : 0;
     }
   }
 }
@@ -200,7 +201,7 @@ CrackFields::Wanted CrackFields::find_wanted(const Tile& tile, std::size_t set, 
   for (int k = 0; k < 2; ++k) {
     const double cells = layout.in_cells(k, place[k]);
     const double reach =
-        std::min(extent(sets_[set], layout, shape_, particle, static_cast<std::size_t>(k)), 1.5) + kSlack;
+        std::min(extent(sets_[set], layout, shape_, particle, static_cast<std::size_t>(k)), kDomainReach) + kSlack;
     first[k] = std::max(static_cast<int>(std::floor(cells - reach)), tile.corner[k]);
     last[k] = std::min(static_cast<int>(std::floor(cells + reach)) + 1, tile.corner[k] + NodeChoice::kEdge - 1);
     low[k] = std::min(place[k], layout.origin(k) + layout.cell(k) * first[k]);

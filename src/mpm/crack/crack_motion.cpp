@@ -64,23 +64,31 @@ SurfaceMotion CrackMotion::centre(const std::vector<int>& groups, const Vec2& pl
 }
 
 void CrackMotion::move(const CrackTractions& tractions, double dt) {
+  // All look before any moves: fields are those of the lines as they were.
+  above_.resize(cracks_.size());
+  below_.resize(cracks_.size());
+  centre_.resize(cracks_.size());
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    const Chain& chain = cracks_[c].chain;
+    if (chain.fixed()) continue;
+    const std::size_t points = chain.points().size();
+    above_[c].resize(points);
+    below_[c].resize(points);
+    centre_[c].resize(points);
+    for (std::size_t k = 0; k < points; ++k) {
+      const CrackPoint& point = chain.points()[k];
+      SurfaceMotion &above = above_[c][k], &below = below_[c][k];
+      above = surface(groups_[c], point.above, chain.beside(static_cast<int>(k), true));
+      below = surface(groups_[c], point.below, chain.beside(static_cast<int>(k), false));
+      above.pulled = below.pulled = tractions.any() && tractions.law_at(static_cast<int>(c), static_cast<int>(k)) >= 0;
+      if (by_ == CracksDefinition::Move::centre_of_mass) centre_[c][k] = centre(groups_[c], point.place);
+    }
+  }
   const double largest = kLargestMove * fields_.front()->layout.smallest_cell();
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     Chain& chain = cracks_[c].chain;
     if (chain.fixed()) continue;
-    const std::size_t points = chain.points().size();
-    above_.resize(points);
-    below_.resize(points);
-    centre_.resize(points);
-    for (std::size_t k = 0; k < points; ++k) {
-      const CrackPoint& point = chain.points()[k];
-      above_[k] = surface(groups_[c], point.above, chain.beside(static_cast<int>(k), true));
-      below_[k] = surface(groups_[c], point.below, chain.beside(static_cast<int>(k), false));
-      above_[k].pulled = below_[k].pulled =
-          tractions.any() && tractions.law_at(static_cast<int>(c), static_cast<int>(k)) >= 0;
-      if (by_ == CracksDefinition::Move::centre_of_mass) centre_[k] = centre(groups_[c], point.place);
-    }
-    stopped_ += chain.move(above_.data(), below_.data(), centre_.data(), dt, by_, largest);
+    stopped_ += chain.move(above_[c].data(), below_[c].data(), centre_[c].data(), dt, by_, largest);
     if (prevent_) chain.prevent();
   }
 }

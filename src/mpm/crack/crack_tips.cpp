@@ -12,6 +12,7 @@ namespace mpm {
 namespace {
 
 constexpr double kClosed = 1e-3;  ///< of the slip, an opening that is none
+constexpr double kMet = 0.05;     ///< of a cell: a tip this near to another crack has met it
 constexpr double kBeyond = 0.25;  ///< of a cell, that growth is lengthened by to see other cracks
 
 GridLines lines_of(const GridLayout& layout) {
@@ -172,7 +173,8 @@ void CrackTips::add_faces(const CrackTip& tip, JResult& result) {
     return law < 0 ? 0.0 : tractions_.law(law).face_work(tractions_.state(tip.crack, point));
   };
   const double along = tip.end == 1 ? crossing.along_segment : 1.0 - crossing.along_segment;
-  work_.push_back({crossing.place, (1.0 - along) * work_at(before) + along * work_at(next)});
+  const double behind = work_at(before) == 0.0 ? work_at(next) : work_at(before);  // the zone may end in between
+  work_.push_back({crossing.place, (1.0 - along) * behind + along * work_at(next)});
   for (; next >= 0 && next < chain.size(); next += step) work_.push_back({chain.points()[next].place, work_at(next)});
   // Where the zone ends inside the contour, its last point stands for it.
   const auto first = std::find_if(work_.begin(), work_.end(), [](const FaceWork& one) { return one.work != 0.0; });
@@ -282,13 +284,18 @@ bool CrackTips::grow(CrackTip& tip, double time, double dt) {
   const Vec2 seen = points.back() + kBeyond * cell_along(decision.direction, cells) * decision.direction;
   bool ends = false;
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
-    if (static_cast<int>(c) == tip.crack) continue;
+    if (static_cast<int>(c) == tip.crack || !cracks_[c].felt) continue;
     const std::vector<Vec2>& line = cracks_[c].chain.line();
     std::vector<Meeting> met;
     if (find_meetings(line.data(), static_cast<int>(line.size()), place, seen, met) == 0) continue;
+    tip.why = "it has met crack '" + cracks_[c].definition.name + "'";
+    const double left = met.front().along * (seen - place).norm();
+    if (left < kMet * layout.smallest_cell()) {
+      chain.set_end(tip.end, CrackEnd::none);
+      return true;
+    }
     points = {place + met.front().along * (seen - place)};
     ends = true;
-    tip.why = "it has met crack '" + cracks_[c].definition.name + "'";
     break;
   }
   for (const Vec2& point : points) {

@@ -67,6 +67,12 @@ void check(const RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
   const auto refuse = [](const std::string& what) { throw DefinitionError("cracks: " + what); };
   if (parts.layout().dim() != 2) refuse("explicit cracks are for planar scenes and for scenes about an axis");
+  if (parts.choice == nullptr) refuse("no body heeds any of them; leave the section out, or name a body that does");
+  if (parts.modules.find("stress_average") != nullptr) {
+    refuse(
+        "averages of stress in cells (method.average_stress, on with soil) know no cracks; write average_stress: "
+        "false");
+  }
   if (definition.sleep) refuse("sleep does not know them; leave out 'sleep'");
   if (!definition.transport.quantities.empty()) refuse("transport does not know them yet; leave out 'transport'");
   if (!parts.map.divisions().empty())

@@ -297,7 +297,8 @@ TEST(CrackIdentities, SlowRotationOpensNothing) {
   const mpm::SolverState state = simulation.state();
   EXPECT_NEAR(state.number("crack 1 end j"), 0.0, 0.02 * 0.5);
   EXPECT_NEAR(state.number("crack 1 end opening"), 0.0, 2e-3 * 0.005 * 0.75);  // of the way of the plate's edges
-  EXPECT_NEAR(state.number("crack length 1"), length, 1e-4 * length);
+  // A surface moves as its nodes do in the mean by mass, and that mean lies up to a quarter of a cell beside it.
+  EXPECT_NEAR(state.number("crack length 1"), length, 0.25 * 0.125 * 0.3 * 0.0174533);
 }
 
 // The same bits for any number of threads, and after a checkpoint.

@@ -1,9 +1,10 @@
 // Patches of particles that choose a velocity field at every node (grid/node_choice.hpp): which nodes stand for which,
 // and what is handed to and fro.
+#include "mpm/grid/node_choice.hpp"
+
 #include <gtest/gtest.h>
 
 #include "mpm/grid/field_map.hpp"
-#include "mpm/grid/node_choice.hpp"
 
 namespace node_choice_test {
 

@@ -19,9 +19,11 @@
 namespace mpm {
 
 /// `transfer`: of these fields and sets. `densities` [kg/m^3, undeformed]: of each set. `fields`, `sets` and `choice`
-/// (that of the transfer) outlive the result; sets have their start_x where displacements are asked for, and about an axis for volumes at the start.
+/// (that of the transfer) outlive the result; sets have their start_x where displacements are asked for, and about an
+/// axis for volumes at the start.
 std::unique_ptr<VolumeSurvey> make_volume_survey(std::unique_ptr<ScalarTransfer> transfer, Fields& fields,
                                                  std::vector<ParticleSet>& sets, std::vector<double> densities,
-                                                 GeometryKind geometry, int threads, const NodeChoice* choice = nullptr);
+                                                 GeometryKind geometry, int threads,
+                                                 const NodeChoice* choice = nullptr);
 
 }  // namespace mpm

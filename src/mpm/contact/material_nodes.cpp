@@ -148,7 +148,8 @@ void MaterialContact::add_pairs(Node& node, const std::array<bool, 3>& mirrored,
       state.friction = friction_[between.pair];
       state.hold = nodes_.held(node.id, pair.fields);
       const double across = across_cell(layout, state.normals.of_a);
-      state.area = contact_area(materials[a].volume, materials[b].volume, across) * around_axis(settings_.geometry, layout, node.position);
+      state.area = contact_area(materials[a].volume, materials[b].volume, across) *
+                   around_axis(settings_.geometry, layout, node.position);
       if (law.kind == ContactLaw::Kind::interface) {
         state.interface = &law.interface;
         state.opening = materials[b].displacement - materials[a].displacement;

@@ -101,7 +101,7 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
   part.bodies.clear();
   part.metrics.clear();
   part.sleep.reset();
-  part.cracks = {};  // what settles is whole
+  part.cracks = {};                      // what settles is whole
   part.method.damping.feedback.reset();  // it would remember the fall
   for (const DeformableBody& body : definition.bodies) {
     if (!body.geostatic) continue;

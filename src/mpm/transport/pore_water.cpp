@@ -9,7 +9,6 @@
 namespace mpm {
 namespace {
 
-
 /// a : the symmetric part of the strain from F0 to F1.
 double contract(const Symmetric3<double>& a, const Matrix3<double>& f0, const Matrix3<double>& f1) {
   using M = Eigen::Matrix3d;

@@ -44,13 +44,14 @@ class CrackStage final : public Stage {
   void run_begun(StepContext&) override { parts_->chosen->choose(); }
   void step_begun(StepContext&) override { parts_->chosen->choose(); }
   void forces_gathered(StepContext&) override;
-  /// @throws CrackStageError
+  /// @throws ModuleError
   void grid_advanced(StepContext& context) override;
 
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
   std::string limit_text(const StepLimit&) const override { return "stiffest law of tractions on a crack"; }
   void energies(EnergyReport& report) const override { parts_->tractions->energies(report); }
-  /// "crack length 1", "crack 1 end j", ...: cracks counted from 1.
+  /// "crack length 1", "crack 1 end j", ...: cracks counted from 1; "crack misfits", pairs of particle and node that
+  /// fitted into no field; "crack moves stopped", of surfaces by more than half a cell in a step.
   void numbers(std::vector<NamedNumber>& list) const override;
   void serialise(StateArchive& archive) override;
   void hashed(std::vector<double>& numbers) const override;

@@ -86,7 +86,7 @@ class CrackTips {
   void find_material(CrackTip& tip);
   void add_faces(const CrackTip& tip, JResult& result);
   double friction_at(const CrackTip& tip, const JForm& form);
-  void split(CrackTip& tip, const JResult& result);
+  void split(CrackTip& tip);
   bool grow(CrackTip& tip, double time, double dt);
   bool stopped(const CrackTip& tip) const;
   JForm form_of(const Vec2& tip) const;

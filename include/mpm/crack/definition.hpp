@@ -2,6 +2,7 @@
 // Source: Nairn (2003), Material point method calculations with explicit cracks; NairnMPM's manual, Cracks.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -75,6 +76,11 @@ struct CracksDefinition {
   double heating = 0.0;      ///< part of the energy released at a growing tip that becomes heat there
 
   bool any() const { return !list.empty(); }
+  /// Whether the crack divides the material of a body.
+  bool divides(const CrackDefinition& crack, const std::string& body) const {
+    const bool ignores = std::find(ignored_by.begin(), ignored_by.end(), body) != ignored_by.end();
+    return !ignores && (crack.body.empty() || crack.body == body);
+  }
 };
 
 }  // namespace mpm

@@ -54,6 +54,8 @@ class TipValues final : public ContourSource {
   enum Number { one, energy, xx, xz, zx, zz, stress_xx, stress_zz, stress_xz, stress_hoop, kinetic, hoop_gradient };
   static constexpr int kNumbers = 12;
 
+  template <class Get>
+  static ContourValues values_of(Get&& number);
   void fill(std::size_t set, std::uint32_t first, std::uint32_t last);
   bool values_at(int field, NodeRef ref, ContourValues& values) const;
 

@@ -18,6 +18,8 @@ namespace mpm {
 
 using Fields = std::vector<std::unique_ptr<Grid>>;  ///< at least one
 
+/// @throws GridError when there are too many blocks to number in so many fields
+void check_field_count(const GridLayout& layout, int count);
 /// Makes `count` fields without blocks. @throws GridError when there are too many blocks to number
 Fields make_fields(const GridLayout& layout, int count = 1);
 

@@ -17,6 +17,6 @@ namespace mpm {
 template <class T>
 std::unique_ptr<ScalarTransfer> make_scalar_transfer(const mpm_kernel::KernelTable<T>& kernels, Fields& fields,
                                                      std::vector<ParticleSet>& sets, int threads,
-                                                     const NodeChoice* choice = nullptr);
+                                                     NodeChoice* choice = nullptr);
 
 }  // namespace mpm

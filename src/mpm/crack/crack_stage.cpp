@@ -73,6 +73,8 @@ void CrackStage::numbers(std::vector<NamedNumber>& list) const {
     list.push_back({"debonded crack length " + std::to_string(number), "m",
                     chain.open_length([&](int point) { return parts_->tractions->law_at(crack, point) < 0; })});
   }
+  list.push_back({"crack misfits", "1", static_cast<double>(parts_->chosen->misfits())});
+  list.push_back({"crack moves stopped", "1", static_cast<double>(parts_->motion->stopped())});
   for (const CrackTip& tip : tips()) {
     for (const TipNumber& of : kTipNumbers) {
       list.push_back({tip_number(tip.crack + 1, tip.end, of), of.unit, of.value(tip)});

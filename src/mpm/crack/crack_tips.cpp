@@ -133,7 +133,7 @@ void CrackTips::find(CrackTip& tip) {
   add_faces(tip, result);
   tip.zone = result.faces_work;
   tip.j = result.along(chain.direction(tip.end));
-  split(tip, result);
+  split(tip);
 }
 
 // Faces inside the contour: bends of this crack, other cracks, tractions and friction.
@@ -206,7 +206,7 @@ double CrackTips::friction_at(const CrackTip& tip, const JForm& form) {
   return friction_work(form, slips_);
 }
 
-void CrackTips::split(CrackTip& tip, const JResult&) {
+void CrackTips::split(CrackTip& tip) {
   if (tip.material < 0 || !settings_.materials[tip.material].elastic || cracks_[tip.crack].definition.fixed) return;
   const ElasticConstants& elastic = *settings_.materials[tip.material].elastic;
   const bool by_integral = settings_.split == CracksDefinition::Split::interaction && !axisymmetric(parts_.geometry);

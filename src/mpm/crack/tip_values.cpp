@@ -101,23 +101,31 @@ void TipValues::fill(std::size_t s, std::uint32_t first, std::uint32_t last) {
   });
 }
 
+// `number(n)`: the number n of a particle, or the mean of them.
+template <class Get>
+ContourValues TipValues::values_of(Get&& number) {
+  ContourValues values;
+  values.gradient[0][0] = number(xx);
+  values.gradient[0][1] = number(xz);
+  values.gradient[1][0] = number(zx);
+  values.gradient[1][1] = number(zz);
+  values.hoop_gradient = number(hoop_gradient);
+  values.xx = number(stress_xx);
+  values.zz = number(stress_zz);
+  values.xz = number(stress_xz);
+  values.hoop = number(stress_hoop);
+  values.energy = number(energy);
+  values.kinetic = number(kinetic);
+  return values;
+}
+
 bool TipValues::values_at(int field, NodeRef ref, ContourValues& values) const {
   const int f = field - first_;
   if (ref.block < 0 || marks_[f][ref.block] == 0) return false;
   const auto sum = [&](int number) { return nodal_[f][number / 2].at(ref.block, number % 2, ref.node); };
   const double mass = sum(one);
   if (!(mass > parts_.fields[field]->least_mass)) return false;
-  values.gradient[0][0] = sum(xx) / mass;
-  values.gradient[0][1] = sum(xz) / mass;
-  values.gradient[1][0] = sum(zx) / mass;
-  values.gradient[1][1] = sum(zz) / mass;
-  values.hoop_gradient = sum(hoop_gradient) / mass;
-  values.xx = sum(stress_xx) / mass;
-  values.zz = sum(stress_zz) / mass;
-  values.xz = sum(stress_xz) / mass;
-  values.hoop = sum(stress_hoop) / mass;
-  values.energy = sum(energy) / mass;
-  values.kinetic = sum(kinetic) / mass;
+  values = values_of([&](int number) { return sum(number) / mass; });
   if (!parts_.grid_energy) return true;
   values.energy =
       0.5 * (values.xx * values.gradient[0][0] + values.zz * values.gradient[1][1] +
@@ -197,18 +205,8 @@ void TipValues::find_samples(const GridLines& lines, const ContourPath& path, st
           sample.velocity[k] = set.v[k][p];
           for (int c = 0; c < 2; ++c) sample.velocity_gradient[c][k] = slope_[s][c][k][p];
         }
-        ContourValues& values = sample.values;
-        values.gradient[0][0] = of[xx][p];
-        values.gradient[0][1] = of[xz][p];
-        values.gradient[1][0] = of[zx][p];
-        values.gradient[1][1] = of[zz][p];
-        values.hoop_gradient = of[hoop_gradient][p];
-        values.xx = of[stress_xx][p];
-        values.zz = of[stress_zz][p];
-        values.xz = of[stress_xz][p];
-        values.hoop = of[stress_hoop][p];
-        values.energy = of[energy][p];
-        values.kinetic = of[kinetic][p] * (parts_.grid_energy ? sample.velocity.squaredNorm() : 1.0);
+        sample.values = values_of([&](int number) { return of[number][p]; });
+        if (parts_.grid_energy) sample.values.kinetic *= sample.velocity.squaredNorm();
         samples.push_back(sample);
       }
     };

@@ -6,7 +6,7 @@
 
 namespace mpm {
 
-Fields make_fields(const GridLayout& layout, int count) {
+void check_field_count(const GridLayout& layout, int count) {
   // The sort numbers a node by field, block and place in its block (step/sorter.hpp).
   const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / (64 * layout.keys());
   if (static_cast<std::uint64_t>(count) > most) {
@@ -15,6 +15,10 @@ Fields make_fields(const GridLayout& layout, int count) {
                     "coarser cell or a smaller domain",
                     count));
   }
+}
+
+Fields make_fields(const GridLayout& layout, int count) {
+  check_field_count(layout, count);
   Fields fields;
   for (int f = 0; f < count; ++f) fields.push_back(std::make_unique<Grid>(layout));
   return fields;

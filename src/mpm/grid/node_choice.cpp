@@ -98,11 +98,10 @@ void NodeChoice::finish(int threads) {
   grid_.shares.rebuild(grid_.blocks, {}, threads);
   for (NodalField* field : {&grid_.mass, &grid_.momentum, &grid_.velocity, &grid_.force}) {
     field->resize(grid_.blocks.size());
-    std::fill_n(field->data(),
-                static_cast<std::size_t>(grid_.blocks.size()) * field->components() *
-                    static_cast<std::size_t>(grid_.layout.nodes_per_block()),
-                0.0);
   }
+  // The others are zeroed before they are spread to; of this one, nodes that stand for none are read with no weight.
+  NodalField& velocity = grid_.velocity;
+  std::fill_n(velocity.data(), grid_.blocks.size() * velocity.components() * grid_.layout.nodes_per_block(), 0.0);
   grid_.loose.assign(grid_.blocks.owners(), 1);  // particles are taken as far from their block as a tile reaches
   const Grid& like = *fields_[chosen_.front()];
   grid_.least_mass = like.least_mass;

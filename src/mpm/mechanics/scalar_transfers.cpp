@@ -12,7 +12,7 @@ template <class T>
 class ScalarTransferOf final : public ScalarTransfer {
  public:
   ScalarTransferOf(const mpm_kernel::KernelTable<T>& kernels, Fields& fields, std::vector<ParticleSet>& sets,
-                   int threads, const NodeChoice* choice)
+                   int threads, NodeChoice* choice)
       : kernels_(kernels),
         fields_(fields),
         sets_(sets),
@@ -63,8 +63,8 @@ class ScalarTransferOf final : public ScalarTransfer {
   }
 
   // Fields and particles may have been sorted or swapped since the last call.
-  void look_at(const Grid& grid) {
-    view_ = view_of(const_cast<Grid&>(grid));
+  void look_at(Grid& grid) {
+    view_ = view_of(grid);
     views_.clear();
     for (ParticleSet& set : sets_) views_.push_back(view_of(set, kernels_, grid.first_owner));
     arrays_.assign(sets_.size(), {});
@@ -82,7 +82,7 @@ class ScalarTransferOf final : public ScalarTransfer {
     if (!chosen(field)) return;
 
     // What a patch takes is the sum over the fields: of the first in the array itself, of others through memory beside.
-    const Grid& patches = choice_->grid();
+    Grid& patches = choice_->grid();
     NodalField& own = own_[from.components() > 1];
     own.resize(patches.blocks.size());
     choice_->clear(own);
@@ -138,7 +138,7 @@ class ScalarTransferOf final : public ScalarTransfer {
     });
     if (!chosen(field)) return;
 
-    const Grid& patches = choice_->grid();
+    Grid& patches = choice_->grid();
     NodalField& own = own_[to.components() > 1];
     own.resize(patches.blocks.size());
     std::fill_n(own.data(), numbers * patches.blocks.size(), 0.0);
@@ -165,7 +165,7 @@ class ScalarTransferOf final : public ScalarTransfer {
   Fields& fields_;
   std::vector<ParticleSet>& sets_;
   int threads_;
-  const NodeChoice* choice_;
+  NodeChoice* choice_;
   std::array<NodalField, 2> own_;  ///< of the patches, of one component and of one along each axis
   std::vector<std::array<PaddedArray<double>, 3>> beside_;
   mpm_kernel::GridView view_{};
@@ -178,14 +178,13 @@ class ScalarTransferOf final : public ScalarTransfer {
 
 template <class T>
 std::unique_ptr<ScalarTransfer> make_scalar_transfer(const mpm_kernel::KernelTable<T>& kernels, Fields& fields,
-                                                     std::vector<ParticleSet>& sets, int threads,
-                                                     const NodeChoice* choice) {
+                                                     std::vector<ParticleSet>& sets, int threads, NodeChoice* choice) {
   return std::make_unique<ScalarTransferOf<T>>(kernels, fields, sets, threads, choice);
 }
 
 template std::unique_ptr<ScalarTransfer> make_scalar_transfer(const mpm_kernel::KernelTable<double>&, Fields&,
-                                                              std::vector<ParticleSet>&, int, const NodeChoice*);
+                                                              std::vector<ParticleSet>&, int, NodeChoice*);
 template std::unique_ptr<ScalarTransfer> make_scalar_transfer(const mpm_kernel::KernelTable<float>&, Fields&,
-                                                              std::vector<ParticleSet>&, int, const NodeChoice*);
+                                                              std::vector<ParticleSet>&, int, NodeChoice*);
 
 }  // namespace mpm

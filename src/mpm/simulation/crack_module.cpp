@@ -15,11 +15,6 @@
 namespace mpm {
 namespace {
 
-bool heeds(const CracksDefinition& cracks, const CrackDefinition& crack, const std::string& body) {
-  const bool ignores = std::find(cracks.ignored_by.begin(), cracks.ignored_by.end(), body) != cracks.ignored_by.end();
-  return !ignores && (crack.body.empty() || crack.body == body);
-}
-
 /// Of isotropic elastic materials.
 std::optional<ElasticConstants> elastic_of(const MaterialDefinition& material, GeometryKind geometry) {
   return std::visit(
@@ -72,6 +67,13 @@ void check(const RunParts& parts) {
     refuse(
         "averages of stress in cells (method.average_stress, on with soil) know no cracks; write average_stress: "
         "false");
+  }
+  std::vector<FractureCriterion> criteria{definition.cracks.growth.criterion, definition.cracks.alternate.criterion};
+  for (const FractureConstants& constants : definition.cracks.materials) {
+    if (constants.growth) criteria.push_back(constants.growth->criterion);
+  }
+  if (std::count(criteria.begin(), criteria.end(), FractureCriterion::energy_balance) > 0) {
+    refuse("the energies of the run do not reach the criterion energy_balance yet; take release_rate or steady_state");
   }
   if (definition.sleep) refuse("sleep does not know them; leave out 'sleep'");
   if (!definition.transport.quantities.empty()) refuse("transport does not know them yet; leave out 'transport'");
@@ -154,7 +156,7 @@ void add_cracks(RunParts& parts) {
   for (const CrackDefinition& crack : asked.list) {
     Crack one{
         crack, Chain(crack.points, crack.ends, crack.fixed), {}, crack.faces.law.kind != ContactLaw::Kind::one_field};
-    for (const ParticleSet& set : parts.sets) one.divides.push_back(heeds(asked, crack, set.name) ? 1 : 0);
+    for (const ParticleSet& set : parts.sets) one.divides.push_back(asked.divides(crack, set.name) ? 1 : 0);
     made->cracks.push_back(std::move(one));
   }
   for (ParticleSet& set : parts.sets) {

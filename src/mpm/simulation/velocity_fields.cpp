@@ -23,11 +23,9 @@ GridLayout layout_of(const SimulationDefinition& definition) {
 std::vector<int> fields_across_cracks(const SimulationDefinition& definition) {
   std::vector<int> across;
   for (const DeformableBody& body : definition.bodies) {
-    const auto& ignoring = definition.cracks.ignored_by;
-    const bool heeds = std::find(ignoring.begin(), ignoring.end(), body.name) == ignoring.end();
     const auto& cracks = definition.cracks.list;
     const auto count = std::count_if(cracks.begin(), cracks.end(), [&](const CrackDefinition& crack) {
-      return heeds && (crack.body.empty() || crack.body == body.name);
+      return definition.cracks.divides(crack, body.name);
     });
     across.push_back(count == 0 ? 0 : count == 1 ? 1 : 3);
   }
@@ -61,7 +59,7 @@ FieldMap field_map(const SimulationDefinition& definition) {
 std::unique_ptr<NodeChoice> make_choice(const FieldMap& map, Fields& fields) {
   const std::vector<int> chosen = map.chosen();
   if (chosen.empty()) return nullptr;
-  make_fields(fields.front()->layout, map.count() + 1);  // patches have a number beside the fields'
+  check_field_count(fields.front()->layout, map.count() + 1);  // patches have a number beside the fields'
   return std::make_unique<NodeChoice>(fields, chosen);
 }
 

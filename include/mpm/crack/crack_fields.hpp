@@ -19,6 +19,8 @@
 #include <vector>
 
 #include "mpm/crack/chain.hpp"
+#include "mpm/crack/divided_node.hpp"
+#include "mpm/crack/field_jumps.hpp"
 #include "mpm/grid/field_map.hpp"
 #include "mpm/grid/node_choice.hpp"
 #include "mpm/shape/kind.hpp"
@@ -35,30 +37,12 @@ struct Crack {
   bool felt = true;                   ///< false: its faces are joined as if it were not there
 };
 
-/// Material across a crack from a node: above it or below it. Of field 3 there are two such, in the cracks' order.
-struct AcrossCrack {
-  int crack = -1;  ///< none
-  bool above = false;
-  bool operator==(const AcrossCrack& other) const { return crack == other.crack && above == other.above; }
-};
-
-/// A node at which fields across a crack are in use.
-struct DividedNode {
-  static constexpr int kFields = 4;
-  int first = 0;                        ///< number of its field 0 among all fields
-  std::array<NodeRef, kFields> ref{};   ///< in each of the fields; block -1 where there is none
-  std::array<AcrossCrack, 2> single{};  ///< of fields 1 and 2
-  std::array<AcrossCrack, 2> both{};    ///< of field 3
-  std::array<Vec2, 2> normal{Vec2::Zero(),
-                             Vec2::Zero()};  ///< of the cracks of 1 and 2, summed; from above to below [m]
-  Vec2 place = Vec2::Zero();                 ///< [m]
-};
-
 class CrackFields {
  public:
-  /// All outlive this object; `choice` chooses from the fields of the sets that a crack divides.
-  CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& sets, NodeChoice& choice, const FieldMap& map,
-              Grouping grouping, ShapeKind shape, int threads);
+  /// All outlive this object; `choice` chooses from the fields of the sets that a crack divides. `jumps`: of pairs
+  /// that growth has put into another field since the last step.
+  CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& sets, NodeChoice& choice, const FieldJumps& jumps,
+              const FieldMap& map, Grouping grouping, ShapeKind shape, int threads);
 
   /// Says which particles choose, before a sort.
   void before_sort();
@@ -107,7 +91,8 @@ class CrackFields {
   struct Wanted {
     int count = 0;
     std::array<std::uint8_t, kMostWanted> node{};  ///< of the tile
-    std::array<std::uint8_t, kMostWanted> slot{};
+    std::array<std::uint8_t, kMostWanted> slot{};  ///< and of pairs that jump 4 times the code
+    std::array<Vec2, kMostWanted> jump;            ///< set only where there is a code
   };
   /// Particles of one block that choose alike.
   struct Patch {
@@ -143,15 +128,18 @@ class CrackFields {
   void each_near_block(double margin, Visit&& visit) const;
   Part part_between(int crack, const Part& within, const Vec2& low, const Vec2& high) const;
   Wanted find_wanted(const Tile& tile, std::size_t set, std::size_t particle);
-  int find_slot(const Tile& tile, int tile_node, std::size_t set, const Vec2& particle, const Vec2& node);
+  int find_slot(const Tile& tile, int tile_node, std::size_t set, const Vec2& particle, const Vec2& node, Vec2& jump);
+  int take_slot(DividedNode& node, const CracksBetween& between, const std::array<Vec2, 2>& normals);
   DividedNode& divided_node(const Tile& tile, int tile_node, int first, const Vec2& place);
   int fit(const Tile& tile, int first, const Wanted& wanted);
 
   std::vector<Crack>& cracks_;
   std::vector<ParticleSet>& sets_;
   NodeChoice& choice_;
+  const FieldJumps& jumps_;
   PatchSorter sorter_;
-  std::vector<int> across_;  ///< of each field 0, how many fields follow it
+  std::vector<int> across_;                        ///< of each field 0, how many fields follow it
+  std::vector<std::vector<std::uint8_t>> heeded_;  ///< [set][crack]
   ShapeKind shape_;
   int threads_;
   std::vector<std::uint64_t> listed_;  ///< blocks whose particles choose

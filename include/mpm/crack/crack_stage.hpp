@@ -27,11 +27,13 @@ class CrackStage final : public Stage {
   /// What it works with; made by simulation/crack_module.cpp. `sync`: between sync points [s].
   struct Parts {
     std::vector<Crack> cracks;
+    std::unique_ptr<FieldJumps> jumps;
     std::unique_ptr<CrackFields> chosen;
     std::unique_ptr<CrackMotion> motion;
     std::unique_ptr<CrackTractions> tractions;
     std::unique_ptr<CrackTips> tips;
     double sync = 0.0;
+    std::vector<Vec2> growing;  ///< places of tips
   };
   /// The parts refer to each other: `parts` is where they lie.
   explicit CrackStage(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -43,6 +45,7 @@ class CrackStage final : public Stage {
   bool needs_sort() const override { return parts_->chosen->needs_sort(); }
   void run_begun(StepContext&) override { parts_->chosen->choose(); }
   void step_begun(StepContext&) override { parts_->chosen->choose(); }
+  void before_strain(StepContext& context) override;
   void forces_gathered(StepContext&) override;
   /// @throws ModuleError
   void grid_advanced(StepContext& context) override;

@@ -68,11 +68,13 @@ struct CrackTip {
 
 class CrackTips {
  public:
-  CrackTips(std::vector<Crack>& cracks, const CrackFields& chosen, CrackTractions& tractions, TipParts parts,
-            std::unique_ptr<ScalarTransfer> transfer, TipSettings settings);
+  CrackTips(std::vector<Crack>& cracks, const CrackFields& chosen, CrackTractions& tractions, FieldJumps& jumps,
+            TipParts parts, std::unique_ptr<ScalarTransfer> transfer, TipSettings settings);
 
   /// Whether a tip wants to be looked at at this time [s].
   bool growth_due(double time) const;
+  /// Places of tips that may grow, now or later.
+  void find_growing(std::vector<Vec2>& places) const;
   /// Finds J and K of all tips at a time [s]. Fields are those of a step in which momentum has been updated.
   void find(double time);
   /// Lets tips grow that are due, after find(). Returns whether a chain has changed. @throws FractureError
@@ -88,12 +90,14 @@ class CrackTips {
   double friction_at(const CrackTip& tip, const JForm& form);
   void split(CrackTip& tip);
   bool grow(CrackTip& tip, double time, double dt);
+  bool may_grow(const CrackTip& tip) const;
   bool stopped(const CrackTip& tip) const;
   JForm form_of(const Vec2& tip) const;
 
   std::vector<Crack>& cracks_;
   const CrackFields& chosen_;
   CrackTractions& tractions_;
+  FieldJumps& jumps_;
   TipParts parts_;
   TipSettings settings_;
   TipValues values_;

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "mpm/grid/fields.hpp"
+#include "mpm/math/geometry.hpp"
 
 namespace mpm {
 
@@ -54,6 +55,9 @@ class NodeChoice {
   int add_patch(int block);
   /// The node of a patch's tile (the last axis fastest) stands for that of `field`.
   void choose(int patch, int tile_node, int field);
+  /// In this step the strain of the patch's particles also feels that this node moves by so much [m]: in the last step
+  /// they had another one there.
+  void jump(int patch, int tile_node, const Vec2& by);
   /// Makes room for the nodes. Walls, mirrors and the least mass are those of the first field chosen from.
   void finish(int threads);
   int patches() const { return static_cast<int>(patch_blocks_.size()); }
@@ -77,6 +81,8 @@ class NodeChoice {
   void give(NodalField Grid::*what);
   /// Sets the patches' nodes to what the nodes have that they stand for.
   void take(NodalField Grid::*what);
+  /// Takes the velocities for a pass that updates the strain in a step of length `step` [s], with the jumps.
+  void take_for_strain(double step);
   /// The same for nodes of one field, in any other nodal field. take() leaves those of other fields as they are.
   void give(const NodalField& own, int field, NodalField& to) const;
   void take(const NodalField& from, int field, NodalField& own) const;
@@ -97,6 +103,12 @@ class NodeChoice {
   std::vector<int> patch_blocks_;
   std::vector<std::uint64_t> patch_keys_;
   std::vector<Entry> entries_;
+  struct Jump {
+    int own_block;
+    std::uint8_t own_node;
+    Vec2 by;
+  };
+  std::vector<Jump> jumps_;
   std::vector<std::int16_t> chosen_at_;  ///< [patch][tile node]: field, or -1
 };
 

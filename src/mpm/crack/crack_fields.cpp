@@ -43,16 +43,21 @@ Vec2 place_of(const ParticleSet& set, std::size_t p) { return {set.x[0][p], set.
 }  // namespace
 
 CrackFields::CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& sets, NodeChoice& choice,
-                         const FieldMap& map, Grouping grouping, ShapeKind shape, int threads)
+                         const FieldJumps& jumps, const FieldMap& map, Grouping grouping, ShapeKind shape, int threads)
     : cracks_(cracks),
       sets_(sets),
       choice_(choice),
+      jumps_(jumps),
       sorter_(grouping),
       shape_(shape),
       threads_(threads),
       near_(cracks.size()),
       patch_of_(sets.size()) {
   tile_.parts.resize(cracks.size());
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    heeded_.emplace_back();
+    for (const Crack& crack : cracks) heeded_.back().push_back(crack.divides[s] != 0 && crack.felt ? 1 : 0);
+  }
   across_.assign(choice.number(), 0);
   for (std::size_t s = 0; s < sets.size(); ++s) {
     int& across = across_[sets[s].field];
@@ -156,37 +161,45 @@ DividedNode& CrackFields::divided_node(const Tile& tile, int tile_node, int firs
   return nodes_.back();
 }
 
-int CrackFields::find_slot(const Tile& tile, int tile_node, std::size_t set, const Vec2& particle, const Vec2& node) {
-  std::array<AcrossCrack, 2> across;
+int CrackFields::find_slot(const Tile& tile, int tile_node, std::size_t set, const Vec2& particle, const Vec2& node,
+                           Vec2& jump) {
+  CracksBetween between;
   std::array<Vec2, 2> normals{Vec2::Zero(), Vec2::Zero()};
-  int count = 0;
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     const Part& part = near_[c];
     if (part.points < 2 || cracks_[c].divides[set] == 0) continue;
     const Crossing found = find_crossing(cracks_[c].chain.line().data() + part.first, part.points, particle, node);
     if (!found.crosses) continue;
-    if (count == 2) {
+    if (between.count == 2) {
       ++misfits_;
       return 0;
     }
-    normals[count] = found.normal;
-    across[count++] = {static_cast<int>(c), found.above};
+    normals[between.count] = found.normal;
+    between.across[between.count++] = {static_cast<int>(c), found.above};
   }
-  if (count == 0) return 0;
-  DividedNode& divided = divided_node(tile, tile_node, sets_[set].field, node);
-  if (count == 2) {
-    if (divided.ref[3].block >= 0 && (divided.both[0].crack < 0 || divided.both == across)) {
-      divided.both = across;
+  int slot = 0;
+  if (between.count > 0) slot = take_slot(divided_node(tile, tile_node, sets_[set].field, node), between, normals);
+  if (!jumps_.any()) return slot;
+  const FieldJumps::Jump found = jumps_.find(sets_[set].field, particle, node, between, heeded_[set]);
+  jump = found.by;
+  return slot + DividedNode::kFields * found.code;
+}
+
+// Of the fields of a node, that of what lies beyond these cracks; an empty one becomes it.
+int CrackFields::take_slot(DividedNode& node, const CracksBetween& between, const std::array<Vec2, 2>& normals) {
+  if (between.count == 2) {
+    if (node.ref[3].block >= 0 && (node.both[0].crack < 0 || node.both == between.across)) {
+      node.both = between.across;
       return 3;
     }
     ++misfits_;
     return 0;
   }
   for (int f = 0; f < 2; ++f) {
-    if (divided.ref[1 + f].block < 0) break;
-    if (divided.single[f].crack >= 0 && !(divided.single[f] == across[0])) continue;
-    divided.single[f] = across[0];
-    divided.normal[f] += normals[0];
+    if (node.ref[1 + f].block < 0) break;
+    if (node.single[f].crack >= 0 && !(node.single[f] == between.across[0])) continue;
+    node.single[f] = between.across[0];
+    node.normal[f] += normals[0];
     return 1 + f;
   }
   ++misfits_;
@@ -220,7 +233,7 @@ CrackFields::Wanted CrackFields::find_wanted(const Tile& tile, std::size_t set, 
       int slot = 0;
       if (any) {
         const Vec2 node(layout.origin(0) + layout.cell(0) * i, layout.origin(1) + layout.cell(1) * j);
-        slot = find_slot(tile, tile_node, set, place, node);
+        slot = find_slot(tile, tile_node, set, place, node, wanted.jump[wanted.count]);
       }
       wanted.node[wanted.count] = static_cast<std::uint8_t>(tile_node);
       wanted.slot[wanted.count++] = static_cast<std::uint8_t>(slot);
@@ -249,7 +262,8 @@ int CrackFields::fit(const Tile& tile, int first, const Wanted& wanted) {
     std::int8_t& slot = patch->slot[wanted.node[i]];
     if (slot >= 0) continue;
     slot = static_cast<std::int8_t>(wanted.slot[i]);
-    choice_.choose(patch->number, wanted.node[i], first + wanted.slot[i]);
+    choice_.choose(patch->number, wanted.node[i], first + slot % DividedNode::kFields);
+    if (slot >= DividedNode::kFields) choice_.jump(patch->number, wanted.node[i], wanted.jump[i]);
   }
   return patch->number;
 }
@@ -321,8 +335,7 @@ CrackFields::NodeOfField CrackFields::find_node(int first, const Vec2& from, con
   if (own.number < 0) return {};
   Vec2 place;
   for (int k = 0; k < 2; ++k) place[k] = layout.origin(k) + layout.cell(k) * node[k];
-  std::array<AcrossCrack, 2> across;
-  int count = 0;
+  CracksBetween between;
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     if (!cracks_[c].felt || !divides(static_cast<int>(c), first)) continue;
     const std::vector<Vec2>& line = cracks_[c].chain.line();
@@ -331,18 +344,13 @@ CrackFields::NodeOfField CrackFields::find_node(int first, const Vec2& from, con
     if (part.points < 2) continue;
     const Crossing found = find_crossing(line.data() + part.first, part.points, from, place);
     if (!found.crosses) continue;
-    if (count == 2) return {};
-    across[count++] = {static_cast<int>(c), found.above};
+    if (between.count == 2) return {};
+    between.across[between.count++] = {static_cast<int>(c), found.above};
   }
-  if (count == 0) return {first, {own.number, own.local}};
+  if (between.count == 0) return {first, {own.number, own.local}};
   const int at = node_at_[first][own.index];
-  if (at < 0) return {};
-  const DividedNode& divided = nodes_[at];
-  if (count == 2) return divided.both == across ? NodeOfField{first + 3, divided.ref[3]} : NodeOfField{};
-  for (int f = 0; f < 2; ++f) {
-    if (divided.single[f] == across[0]) return {first + 1 + f, divided.ref[1 + f]};
-  }
-  return {};
+  const int slot = at < 0 ? -1 : nodes_[at].field_of(between);
+  return slot < 0 ? NodeOfField{} : NodeOfField{first + slot, nodes_[at].ref[slot]};
 }
 
 NodeRef CrackFields::find_place(int field, const std::array<int, 2>& node) const {

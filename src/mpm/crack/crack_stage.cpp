@@ -39,6 +39,12 @@ void CrackStage::forces_gathered(StepContext&) {
   if (parts_->tractions->any()) parts_->tractions->add_forces();
 }
 
+void CrackStage::before_strain(StepContext& context) {
+  const double start = context.strain_at_start, part = start > 0.0 && start < 1.0 ? start : 1.0;
+  parts_->tips->find_growing(parts_->growing);
+  parts_->jumps->move(parts_->growing, parts_->chosen->nodes(), part * context.dt);
+}
+
 void CrackStage::grid_advanced(StepContext& context) {
   const double end = context.start + context.dt;
   const double periods = std::round(end / parts_->sync);
@@ -47,6 +53,7 @@ void CrackStage::grid_advanced(StepContext& context) {
   try {
     if (at_sync || grows) parts_->tips->find(end);
     parts_->motion->move(*parts_->tractions, context.dt);
+    parts_->jumps->forget_growth();
     if (grows) parts_->tips->grow(end, context.dt);
     if (parts_->tractions->any()) parts_->tractions->find(end);
   } catch (const FractureError& error) {
@@ -88,6 +95,7 @@ void CrackStage::serialise(StateArchive& archive) {
     parts_->cracks[c].chain.serialise(archive);
   }
   parts_->chosen->serialise(archive);
+  parts_->jumps->serialise(archive);
   parts_->motion->serialise(archive);
   parts_->tractions->serialise(archive);
   parts_->tips->serialise(archive);

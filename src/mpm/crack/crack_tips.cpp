@@ -27,11 +27,12 @@ GridLines lines_of(const GridLayout& layout) {
 
 }  // namespace
 
-CrackTips::CrackTips(std::vector<Crack>& cracks, const CrackFields& chosen, CrackTractions& tractions, TipParts parts,
-                     std::unique_ptr<ScalarTransfer> transfer, TipSettings settings)
+CrackTips::CrackTips(std::vector<Crack>& cracks, const CrackFields& chosen, CrackTractions& tractions,
+                     FieldJumps& jumps, TipParts parts, std::unique_ptr<ScalarTransfer> transfer, TipSettings settings)
     : cracks_(cracks),
       chosen_(chosen),
       tractions_(tractions),
+      jumps_(jumps),
       parts_(std::move(parts)),
       settings_(std::move(settings)),
       values_(parts_, std::move(transfer)),
@@ -231,12 +232,22 @@ void CrackTips::split(CrackTip& tip) {
 
 bool CrackTips::stopped(const CrackTip& tip) const { return cracks_[tip.crack].chain.end(tip.end) != CrackEnd::tip; }
 
+bool CrackTips::may_grow(const CrackTip& tip) const {
+  const bool known = tip.material >= 0 && settings_.materials[tip.material].constants.growth.has_value();
+  return (settings_.growth.criterion != FractureCriterion::none || known || tip.material < 0) && !stopped(tip);
+}
+
 bool CrackTips::growth_due(double time) const {
-  return std::any_of(tips_.begin(), tips_.end(), [&](const CrackTip& tip) {
-    const bool known = tip.material >= 0 && settings_.materials[tip.material].constants.growth.has_value();
-    const bool may = settings_.growth.criterion != FractureCriterion::none || known || tip.material < 0;
-    return may && !stopped(tip) && time >= tip.next_look;
-  });
+  return std::any_of(tips_.begin(), tips_.end(),
+                     [&](const CrackTip& tip) { return may_grow(tip) && time >= tip.next_look; });
+}
+
+void CrackTips::find_growing(std::vector<Vec2>& places) const {
+  places.clear();
+  for (const CrackTip& tip : tips_) {
+    const Chain& chain = cracks_[tip.crack].chain;
+    if (may_grow(tip)) places.push_back(chain.points()[chain.point_at(tip.end)].place);
+  }
 }
 
 bool CrackTips::grow(double time, double dt) {
@@ -327,6 +338,10 @@ bool CrackTips::grow(CrackTip& tip, double time, double dt) {
   ++tip.growths;
   tip.grown += length;
   tip.by_alternate = decision.alternate;
+  std::vector<Vec2> line{place};
+  line.insert(line.end(), points.begin(), points.end());
+  if (tip.end == 0) std::reverse(line.begin(), line.end());
+  jumps_.add(tip.crack, std::move(line));
   chain.grow(tip.end, points);
   tractions_.grow(tip.crack, tip.end, static_cast<int>(points.size()), tractions_.law_of(law));
   if (ends) chain.set_end(tip.end, CrackEnd::none);

@@ -31,6 +31,7 @@ void NodeChoice::clear_patches() {
   patch_blocks_.clear();
   patch_keys_.clear();
   entries_.clear();
+  jumps_.clear();
   chosen_at_.clear();
 }
 
@@ -71,6 +72,11 @@ void NodeChoice::choose(int patch, int tile_node, int field) {
                       static_cast<std::uint8_t>(own.node), static_cast<std::uint8_t>(of.node),
                       static_cast<std::uint16_t>(field)});
   chosen_at_[static_cast<std::size_t>(patch) * kTileNodes + tile_node] = static_cast<std::int16_t>(field);
+}
+
+void NodeChoice::jump(int patch, int tile_node, const Vec2& by) {
+  const Node own = place_in_tile(grid_.layout.dim(), tile_node);
+  jumps_.push_back({patch * neighbours_of(grid_.layout.dim()) + own.block, static_cast<std::uint8_t>(own.node), by});
 }
 
 void NodeChoice::find_givers(int field, const std::vector<std::uint8_t>& marked,
@@ -133,6 +139,13 @@ void NodeChoice::take(NodalField Grid::*what) {
     for (int c = 0; c < own.components(); ++c) {
       own.at(entry.own_block, c, entry.own_node) = from.at(entry.block, c, entry.node);
     }
+  }
+}
+
+void NodeChoice::take_for_strain(double step) {
+  take(&Grid::velocity);
+  for (const Jump& jump : jumps_) {
+    for (int c = 0; c < 2; ++c) grid_.velocity.at(jump.own_block, c, jump.own_node) += jump.by[c] / step;
   }
 }
 

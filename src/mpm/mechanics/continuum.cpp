@@ -47,11 +47,11 @@ class Continuum final : public Mechanics {
 
   void strain_and_force(StepContext& context, double dt) override {
     if (settings_.average_dilatation) {
-      strain_by_mean(dt);
+      strain_by_mean(context.dt, dt);
       internal_force(context);
       return;
     }
-    take(&Grid::velocity);
+    take_for_strain(context.dt);
     each_field([&](Field& field) {
       clear(field.grid, field.grid.force);
       strain(field, {dt, settings_.gradient_terms, true});
@@ -147,11 +147,11 @@ class Continuum final : public Mechanics {
     for (Field& field : fields_) velocity_from_momentum(field);
   }
 
-  void strain_and_place(StepContext&, double dt) override {
+  void strain_and_place(StepContext& context, double dt) override {
     if (settings_.average_dilatation) {
-      strain_by_mean(dt);
+      strain_by_mean(context.dt, dt);
     } else {
-      take(&Grid::velocity);
+      take_for_strain(context.dt);
       each_field([&](Field& field) { strain(field, {dt, settings_.gradient_terms, false, nullptr}); });
     }
     for (ParticleSet& set : sets_) set.x.swap(set.next_x);
@@ -217,6 +217,9 @@ class Continuum final : public Mechanics {
   }
   void give(NodalField Grid::*what) {
     if (settings_.choice != nullptr) settings_.choice->give(what);
+  }
+  void take_for_strain(double step) {
+    if (settings_.choice != nullptr) settings_.choice->take_for_strain(step);
   }
   void take(NodalField Grid::*what) {
     if (settings_.choice != nullptr) settings_.choice->take(what);
@@ -350,8 +353,8 @@ class Continuum final : public Mechanics {
     settings_.damping->end_step(context, sum);
   }
 
-  void strain_by_mean(double dt) {
-    take(&Grid::velocity);
+  void strain_by_mean(double step, double dt) {
+    take_for_strain(step);
     find_means(false);
     each_field([&](Field& field) { strain(field, {dt, settings_.gradient_terms, false, field.mean.data()}); });
   }

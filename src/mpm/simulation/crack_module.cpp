@@ -166,8 +166,13 @@ void add_cracks(RunParts& parts) {
     return kernel_grouping(kernel_table<decltype(zero)>(definition.method.shape, definition.geometry, parts.isa));
   });
   const double across = definition.across();
-  made->chosen = std::make_unique<CrackFields>(made->cracks, parts.sets, *parts.choice, parts.map, grouping,
-                                               definition.method.shape, parts.threads);
+  const auto make_sides = [&] {
+    return std::make_unique<SidePlaces>(parts.make_transfer(definition.method.shape), parts.fields,
+                                        parts.choice->grid(), parts.sets);
+  };
+  made->jumps = std::make_unique<FieldJumps>(parts.fields, asked.length);
+  made->chosen = std::make_unique<CrackFields>(made->cracks, parts.sets, *parts.choice, *made->jumps, parts.map,
+                                               grouping, definition.method.shape, parts.threads);
   made->motion = std::make_unique<CrackMotion>(made->cracks, *made->chosen, parts.fields, asked.move, asked.prevent);
   try {
     made->tractions = std::make_unique<CrackTractions>(made->cracks, *made->chosen, parts.fields, asked.laws,
@@ -181,11 +186,10 @@ void add_cracks(RunParts& parts) {
   for (const DeformableBody& body : definition.bodies) {
     tip_parts.densities.push_back(find_material(definition, body).density);
   }
-  made->tips = std::make_unique<CrackTips>(made->cracks, *made->chosen, *made->tractions, std::move(tip_parts),
-                                           parts.make_transfer(definition.method.shape), tip_settings(parts));
-  auto sides = std::make_unique<SidePlaces>(parts.make_transfer(definition.method.shape), parts.fields,
-                                            parts.choice->grid(), parts.sets);
-  parts.modules.add(std::make_unique<CrackContact>(made->cracks, *made->chosen, parts.fields, std::move(sides),
+  made->tips =
+      std::make_unique<CrackTips>(made->cracks, *made->chosen, *made->tractions, *made->jumps, std::move(tip_parts),
+                                  parts.make_transfer(definition.method.shape), tip_settings(parts));
+  parts.modules.add(std::make_unique<CrackContact>(made->cracks, *made->chosen, parts.fields, make_sides(),
                                                    parts.volumes(), definition.geometry, parts.threads));
   parts.modules.add(std::make_unique<CrackStage>(std::move(made)));
 }

@@ -91,6 +91,8 @@ Map material_map(const Value& value, const Map& root);
 void read_region_or_shape(const Map& map, const Scene& scene, RigidBodyDefinition& body);
 /// `cracks`, after all that cracks may stand beside: rigid bodies, `boundaries`, `sleep` and `transport`
 void read_cracks(const Map& root, Scene& scene);
+/// Whether the scene names a criterion by which cracks grow.
+bool cracks_may_grow(const Map& root);
 /// One of `cracks.list`, but for what depends on its tips' materials.
 CrackDefinition read_crack(const Value& value, const Scene& scene);
 /// The material of each tip of a crack, and whether J and growth are possible there. @throws SceneError at the tip's

@@ -135,6 +135,24 @@ Vec2 read_plane_vector(const Value& value, const Dimension& dimension) {
 
 bool read_truth(const Value& value) { return value.choice({"false", "true"}) == 1; }
 
+bool cracks_may_grow(const Map& root) {
+  const auto section = root.find("cracks");
+  if (!section || !section->is_map()) return false;
+  const auto grows = [](const YAML::Node& rule) {
+    if (!rule || !rule.IsMap() || !rule["criterion"] || !rule["criterion"].IsScalar()) return false;
+    const std::string criterion = rule["criterion"].Scalar();
+    return criterion != "none" && criterion != "0";
+  };
+  if (grows(section->node()["growth"])) return true;
+  const auto materials = root.find("materials");
+  if (!materials || !materials->node().IsSequence()) return false;
+  for (const YAML::Node& material : materials->node()) {
+    if (!material.IsMap() || !material["fracture"] || !material["fracture"].IsMap()) continue;
+    if (grows(material["fracture"]["growth"])) return true;
+  }
+  return false;
+}
+
 void read_cracks(const Map& root, Scene& scene) {
   const auto section = root.find("cracks");
   if (!section) return;

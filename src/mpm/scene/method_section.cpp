@@ -189,14 +189,25 @@ void read_grid(const Map& root, Scene& scene) {
   }
 }
 
+/// What moves particles where the scene does not say it and cracks grow.
+void calm_growth(Scene& scene) {
+  scene.definition.method.transfer = Transfer{TransferKind::fmpm, 1.0, 2};
+  scene.choices.emplace_back("method.transfer",
+                             "fmpm 2: growing cracks set waves free, which flip leaves on the particles as noise");
+}
+
 std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   MethodDefinition& method = scene.definition.method;
   const auto section = root.find("method");
+  const bool grows = cracks_may_grow(root);
   if (!section || section->is_text()) {
     if (section) section->choice({"auto"});
     method.particles_per_direction = 2;
     scene.choices.emplace_back("method.particles_per_cell", "two along each edge");
-    return AutoMethod{};
+    AutoMethod all;
+    if (grows) calm_growth(scene);
+    all.keep_transfer = grows;
+    return all;
   }
   const Map map(*section, {"auto", "shape", "update", "transfer", "average_dilatation", "average_stress", "damping",
                            "gradient_terms", "particles_per_cell", "precision", "axis"});
@@ -219,13 +230,15 @@ std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {
   const auto transfer = map.find("transfer");
   if (transfer) {
     method.transfer = read_transfer(*transfer);
+  } else if (grows) {
+    calm_growth(scene);
   } else if (!chosen_later) {
     scene.choices.emplace_back("method.transfer", "flip: no numerical viscosity; write {flip: 0.99} to calm noise");
   }
   if (chosen_later) {
     chosen_later->keep_shape = shape.has_value();
     chosen_later->keep_update = update.has_value();
-    chosen_later->keep_transfer = transfer.has_value();
+    chosen_later->keep_transfer = transfer.has_value() || grows;
   }
   if (const auto average = map.find("average_dilatation")) {
     method.average_dilatation = average->choice({"false", "true"}) == 1;

@@ -2,7 +2,10 @@
 //
 // Source: crack reference 7.2: two arms of height h drawn apart by d each, J = G_c at
 // a = sqrt(d/2 sqrt(3 E' h^3 / G_c)) - 0.6728 h (beams on the root that finite elements give).
+#include <filesystem>
+
 #include "crack_case.hpp"
+#include "mpm/simulation/checkpoint.hpp"
 #include "page.hpp"
 
 namespace verification {
@@ -37,6 +40,11 @@ std::string drawn(double width, double slit, double end, const std::string& velo
   return text +
          fmt::format("cracks:\n  list: [{{name: slit, points: [[{}, 0], [{}, 0]], start: exterior, end: tip}}]\n{}",
                      0.3 * kCell, slit, growth);
+}
+
+std::string with_sync(std::string text, const std::string& sync) {
+  const std::string usual = "sync: 2e-5";
+  return text.replace(text.find(usual), usual.size(), "sync: " + sync);
 }
 
 double end_of_crack(double opening) {
@@ -98,6 +106,34 @@ TEST(CrackGrowth, LeavesNoStressBehind) {
   const double energy = whole.state().energy.of("elastic");
   page.near("elastic energy over that of the other run", grown.state().energy.of("elastic") / energy, 1.0, 0.01, "");
   page.near("J over that of the other run", tip(grown, "end").j / tip(whole, "end").j, 1.0, 0.02, "");
+}
+
+// A checkpoint between the step in which a crack grows and the next, which strains particles by what their new nodes
+// have opened. About 2 s.
+TEST(CrackGrowth, GoesOnFromACheckpointRightAfterIt) {
+  const std::string text = with_sync(drawn(18e-3, 6.1e-3, 1e-4, "1", "  growth: {criterion: steady_state}\n",
+                                           ", fracture: {start_time: 4e-5, speed: 100, longest: 15e-3}"),
+                                     "2e-7");
+  constexpr int kPeriods = 400;
+  const auto period = [](int n) { return n * 2e-7; };
+  mpm::Simulation whole = made(text);
+  int grown = -1;  // the last period in which it has grown
+  for (int n = 1; n <= kPeriods; ++n) {
+    const double before = number(whole, "crack 1 end growth");
+    run_until(whole, period(n));
+    if (n < kPeriods - 5 && number(whole, "crack 1 end growth") > before) grown = n;
+  }
+  ASSERT_GT(grown, 200);
+  const std::string file = testing::TempDir() + "/crack_growth.h5";
+  mpm::Simulation stopped = made(text);
+  run_until(stopped, period(grown));
+  mpm::save_checkpoint(file, stopped, {"crack.yaml", "text", {}});
+  mpm::Simulation resumed = made(text);
+  mpm::load_checkpoint(file, resumed, "text");
+  run_until(resumed, period(kPeriods));
+  EXPECT_EQ(resumed.state_hash(), whole.state_hash());
+  EXPECT_EQ(resumed.memory_hash(), whole.memory_hash());
+  std::filesystem::remove(file);
 }
 
 }  // namespace crack_growth_test

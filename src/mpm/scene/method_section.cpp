@@ -191,9 +191,9 @@ void read_grid(const Map& root, Scene& scene) {
 
 /// What moves particles where the scene does not say it and cracks grow.
 void calm_growth(Scene& scene) {
-  scene.definition.method.transfer = Transfer{TransferKind::fmpm, 1.0, 2};
+  scene.definition.method.transfer = Transfer{TransferKind::xpic, 1.0, 2};
   scene.choices.emplace_back("method.transfer",
-                             "fmpm 2: growing cracks set waves free, which flip leaves on the particles as noise");
+                             "xpic 2: growing cracks set waves free, which flip leaves on the particles as noise");
 }
 
 std::optional<AutoMethod> read_method(const Map& root, Scene& scene) {

@@ -214,6 +214,25 @@ TEST(SceneCrack, ConstantsOfMaterialsInTheirOrder) {
 }
 
 // Plain numbers in mm, g and ms are mm, MPa sqrt(mm) and N/mm: 22 MPa sqrt(mm) = 22e6 sqrt(1e-3) Pa sqrt(m).
+// Where a crack may grow, by the scene's rule or a material's, and the scene names no transfer, it is xpic 2.
+TEST(SceneCrack, GrowthIsCalmed) {
+  const auto transfer = [](const std::string& more, const std::vector<std::string>& changes) {
+    const std::string section = "cracks:\n  list: [{name: notch, points: [[0.22, 0.85], [1.01, 0.85]]}]\n" + more;
+    return crack_scene(section, changes).definition.method.transfer;
+  };
+  const std::string grows = "  growth: {criterion: hoop_stress}\n";
+  const std::string constant = "materials.glass.fracture.k_ic=0.7 MPa m^0.5";
+  for (const std::string method : {"auto", "{shape: ugimp}", "{auto: {}, shape: ugimp}"}) {
+    const Transfer calmed = transfer(grows, {constant, "method=" + method});
+    EXPECT_EQ(calmed.kind, TransferKind::xpic) << method;
+    EXPECT_EQ(calmed.order, 2) << method;
+  }
+  EXPECT_EQ(transfer("", {constant, "materials.glass.fracture.growth.criterion=hoop_stress"}).kind, TransferKind::xpic);
+  EXPECT_EQ(transfer(grows, {constant, "method={transfer: flip}"}).kind, TransferKind::flip);
+  EXPECT_EQ(transfer("", {"method={shape: ugimp}"}).kind, TransferKind::flip);
+  EXPECT_EQ(transfer("  growth: {criterion: none}\n", {"method={shape: ugimp}"}).kind, TransferKind::flip);
+}
+
 TEST(SceneCrack, PlainNumbersAreInTheScenesUnits) {
   const Scene scene = parse_scene(R"yaml(units: mm-g-ms
 geometry: plane_stress

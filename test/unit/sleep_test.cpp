@@ -108,7 +108,9 @@ TEST(SleepingBlocks, ParticlesKeepWhatIsTheirs) {
       EXPECT_EQ(set.x[1][p], -own);
       EXPECT_EQ(set.f[0][p], 1.0 + own);
       EXPECT_EQ(set.v[0][p] == 0.0, p >= set.awake()) << "those asleep, and no others, are at rest";
-      if (p >= set.awake()) EXPECT_EQ(set.next_x[0][p], own);
+      if (p >= set.awake()) {
+        EXPECT_EQ(set.next_x[0][p], own);
+      }
     }
   };
   SleepingBlocks asleep(sets, layout);
@@ -249,7 +251,9 @@ rigid_bodies: [{name: hammer, shape: {box: {size: 0.5}}, pose: {position: 0.7}, 
   for (std::size_t p = 0; p < x.size(); ++p) {
     carried += v[p];
     carried_awake += v_awake[p];
-    if (x[p] > 8.0) EXPECT_LT(std::abs(v[p]), 1e-2) << "the wave is not there yet: 31.6 m/s for 0.2 s";
+    if (x[p] > 8.0) {
+      EXPECT_LT(std::abs(v[p]), 1e-2) << "the wave is not there yet: 31.6 m/s for 0.2 s";
+    }
   }
   EXPECT_NEAR(carried, carried_awake, 0.01 * carried_awake);
   EXPECT_LT(with.state().audit.residual, 1e-10);

@@ -14,6 +14,7 @@
 #include "mpm/crack/crack_fields.hpp"
 #include "mpm/crack/side_places.hpp"
 #include "mpm/math/geometry_kind.hpp"
+#include "mpm/step/heat_sink.hpp"
 #include "mpm/step/stage.hpp"
 #include "mpm/step/volume_survey.hpp"
 
@@ -21,9 +22,11 @@ namespace mpm {
 
 class CrackContact final : public Stage {
  public:
-  /// All outlive the stage. Sets remember their places at the start (start_x).
+  /// All outlive the stage. Sets remember their places at the start (start_x). `heat`: is told of friction and of what
+  /// touches, or null.
   CrackContact(const std::vector<Crack>& cracks, const CrackFields& chosen, Fields& fields,
-               std::unique_ptr<SidePlaces> sides, VolumeSurvey& volumes, GeometryKind geometry, int threads);
+               std::unique_ptr<SidePlaces> sides, VolumeSurvey& volumes, GeometryKind geometry, int threads,
+               HeatSink* heat = nullptr);
 
   std::string name() const override { return "crack_contact"; }
   Ranks ranks(Hook) const override { return {Rank::pair}; }
@@ -46,6 +49,7 @@ class CrackContact final : public Stage {
   void add_node(const DividedNode& node);
   void add_pair(int crack, int above, int below, const Vec2& normal);
   void survey();
+  void tell_of_heat(double dt) const;
   void look_at(const ContactNodes::Node& node, ContactNodes::PairOfNode& pair, double dt);
 
   const std::vector<Crack>& cracks_;
@@ -54,6 +58,7 @@ class CrackContact final : public Stage {
   std::unique_ptr<SidePlaces> sides_;
   VolumeSurvey& survey_;
   GeometryKind geometry_;
+  HeatSink* heat_;
   ContactNodes nodes_;
   std::vector<NodalVolumes> volumes_;
   std::vector<std::vector<std::uint8_t>> marks_;  ///< [field][block]: where nodes are divided

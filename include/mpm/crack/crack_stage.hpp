@@ -1,7 +1,7 @@
 // Explicit cracks in a run: puts together what they do in a step.
 //
 //   a step begins     particles near cracks choose their fields, which hold for the whole step (crack_fields.hpp)
-//   forces gathered   tractions between faces (crack_tractions.hpp)
+//   forces gathered   tractions between faces (crack_tractions.hpp); heat of tips (tip_heating.hpp)
 //   grid advanced     J, K and growth where they are due (crack_tips.hpp); surfaces and chains move (crack_motion.hpp);
 //                     tractions of the next step follow from the new openings
 //
@@ -46,7 +46,7 @@ class CrackStage final : public Stage {
   void run_begun(StepContext&) override { parts_->chosen->choose(); }
   void step_begun(StepContext&) override { parts_->chosen->choose(); }
   void before_strain(StepContext& context) override;
-  void forces_gathered(StepContext&) override;
+  void forces_gathered(StepContext& context) override;
   /// @throws ModuleError
   void grid_advanced(StepContext& context) override;
 

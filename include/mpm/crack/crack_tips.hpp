@@ -19,6 +19,7 @@
 #include "mpm/crack/interaction_integral.hpp"
 #include "mpm/crack/j_integral.hpp"
 #include "mpm/crack/tip_growth.hpp"
+#include "mpm/crack/tip_heating.hpp"
 #include "mpm/crack/tip_values.hpp"
 
 namespace mpm {
@@ -80,6 +81,10 @@ class CrackTips {
   /// Lets tips grow that are due, after find(). Returns whether a chain has changed. @throws FractureError
   bool grow(double time, double dt);
   const std::vector<CrackTip>& tips() const { return tips_; }
+  /// Growth tells of its heat from now on; outlived by `heating`.
+  void set_heating(TipHeating* heating) { heating_ = heating; }
+  /// Heat of tips in this step, once masses are on the grid.
+  void heat(double dt);
   void serialise(StateArchive& archive);
 
  private:
@@ -103,6 +108,7 @@ class CrackTips {
   TipValues values_;
   GridLines lines_;
   std::vector<CrackTip> tips_;
+  TipHeating* heating_ = nullptr;
   double time_ = 0.0;  ///< of the look at work [s]
   ContourPath path_;
   std::vector<ContourPiece> pieces_;

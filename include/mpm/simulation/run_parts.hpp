@@ -23,6 +23,7 @@ namespace mpm {
 class DampingControl;
 class HeatSink;
 class ToolSides;
+class TransportedField;
 
 /// Objects that modules share, each made when the first module asks for it.
 struct Services {
@@ -48,6 +49,7 @@ struct RunParts {
   const ToolSides* sides = nullptr;
   DampingControl* damping = nullptr;
   HeatSink* heat = nullptr;
+  TransportedField* temperature = nullptr;
 
   const GridLayout& layout() const { return fields.front()->layout; }
   VolumeSurvey& volumes();

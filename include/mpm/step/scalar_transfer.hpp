@@ -62,8 +62,14 @@ class ScalarTransfer {
                                    const Marks* only = nullptr) = 0;
 
   /// Sets `to` to what flows to the nodes down the gradient of `from`, both of one component: gradient() and
-  /// spread_gradient() in one pass, with the conductance by mass in the first array of each set.
+  /// spread_gradient() in one pass, with the conductance by mass in the first array of each set. Particles that choose
+  /// a field at every node are left out.
   virtual void diffuse(int field, const Given& conducts, const NodalField& from, NodalField& to) = 0;
+
+  /// Adds what these give, after diffuse() of all fields: at each node to the field that they have there, down the
+  /// gradient of the values that their nodes have in all of them. `from` and `to`: of each field.
+  virtual void diffuse_chosen(const Given& conducts, const std::vector<NodalField>& from,
+                              std::vector<NodalField>& to) = 0;
 };
 
 }  // namespace mpm

@@ -58,6 +58,7 @@ struct TransportParts {
   std::vector<int> materials;     ///< of each set, its index among the definition's
   std::vector<double> densities;  ///< of each set, initial [kg/m^3]
   Vec3 gravity;                   ///< [m/s^2]
+  bool cracked = false;           ///< particles near cracks choose a field at every node
 };
 
 class TransportedField {
@@ -129,13 +130,22 @@ class TransportedField {
   double prescribed(const Held& held, double time) const;
   /// Flow to the nodes down the gradient of `value` [content/s]; conductances are in the scratch arrays.
   void flow(int field, const NodalField& value, NodalField& to);
+  void flow_in_all(const NodalField& value, NodalField& to);
+  /// Has gradients taken to the scratch arrays.
+  void take_gradients();
+  /// Makes fluxes of them, by mass, to be given.
+  void turn_gradients();
   void drive_by_gravity();
   /// What is in `volume_`.
   void add_to_sources(int field);
   void add_volume_sources(double start, double dt);
   static double value_of(const SourceDefinition& source, const std::string& body, double time, const Vec3& place);
-  void hold(int field, NodalField& value, double time) const;
+  /// Of the field's own nodes, which begin with block `first` of `value`.
+  void hold(int field, NodalField& value, double time, int first = 0) const;
   void conduct(int field, double start, double dt);
+  void conduct_in_all(double start, double dt);
+  void begin_conduction(int field, double start);
+  void end_conduction(int field, double start, double dt, const NodalField& came, int first = 0);
   void sharpen();
   void finish(double start, double dt, bool sees);
   void follow_ramps(double start, double dt);
@@ -159,6 +169,14 @@ class TransportedField {
   std::vector<NodalField> rooms_;     ///< V_i of each velocity field, for (6.24)
   NodalField volume_;                 ///< scratch
   Stages stages_;
+  /// Where particles near cracks join fields: the nodes of all, field by field, for the stages, and of each for a
+  /// stage.
+  struct Joined {
+    std::vector<int> first;  ///< block of each field, and one more for the end
+    NodalField value, capacity;
+    std::vector<NodalField> values, flows;
+  };
+  std::optional<Joined> joined_;
   std::vector<Held> held_;
   std::uint64_t generation_ = 0;  ///< of the blocks that held_ is of
   std::vector<std::array<PaddedArray<double>, 3>> scratch_;

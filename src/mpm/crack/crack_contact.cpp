@@ -23,13 +23,15 @@ bool both_above(const DividedNode& node, int crack) {
 }  // namespace
 
 CrackContact::CrackContact(const std::vector<Crack>& cracks, const CrackFields& chosen, Fields& fields,
-                           std::unique_ptr<SidePlaces> sides, VolumeSurvey& volumes, GeometryKind geometry, int threads)
+                           std::unique_ptr<SidePlaces> sides, VolumeSurvey& volumes, GeometryKind geometry, int threads,
+                           HeatSink* heat)
     : cracks_(cracks),
       chosen_(chosen),
       fields_(fields),
       sides_(std::move(sides)),
       survey_(volumes),
       geometry_(geometry),
+      heat_(heat),
       nodes_(fields, threads),
       volumes_(fields.size(), NodalVolumes(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())),
       marks_(fields.size()),
@@ -62,7 +64,7 @@ void CrackContact::survey() {
   std::fill(any_.begin(), any_.end(), 0);
   for (const ContactNodes::Member& member : found.members)
     marks_[member.field][member.ref.block] = any_[member.field] = 1;
-  bool displacements = false, places = false, areas = false;
+  bool displacements = false, places = false, areas = heat_ != nullptr;
   for (const ContactNodes::PairOfNode& pair : found.pairs) {
     const CrackFaces& faces = cracks_[pair.rule].definition.faces;
     const bool interface = faces.law.kind == ContactLaw::Kind::interface;
@@ -94,7 +96,7 @@ void CrackContact::look_at(const ContactNodes::Node& node, ContactNodes::PairOfN
                  sides_->displacement(above.field, above.ref, place, above.mass));
   };
   const bool interface = faces.law.kind == ContactLaw::Kind::interface;
-  if (interface || state.friction.adhesion > 0.0) {
+  if (interface || state.friction.adhesion > 0.0 || heat_ != nullptr) {
     const auto volume = [&](const ContactNodes::Member& of) {
       return volumes_[of.field].volume.at(of.ref.block, 0, of.ref.node);
     };
@@ -194,6 +196,7 @@ void CrackContact::add_pair(int crack, int above, int below, const Vec2& normal)
 void CrackContact::momentum_updated(StepContext& context) {
   nodes_.update(context.dt);
   started_ = true;
+  if (heat_ != nullptr) tell_of_heat(context.dt);
   std::fill(interface_energy_.begin(), interface_energy_.end(), 0.0);
   for (const ContactNodes::PairOfNode& pair : nodes_.blocks.front().pairs) {
     const NodePair& state = pair.state;
@@ -201,6 +204,23 @@ void CrackContact::momentum_updated(StepContext& context) {
     if (state.interface == nullptr) continue;
     interface_energy_[pair.rule] += mpm::interface_energy(*state.interface, {state.opening, state.area, 0.0},
                                                           state.on_a, state.normals.of_a, context.dt);
+  }
+}
+
+// Faces conduct where they press on each other; the material of both sides meets there.
+void CrackContact::tell_of_heat(double dt) const {
+  const ContactNodes::Block& found = nodes_.blocks.front();
+  for (const ContactNodes::Node& node : found.nodes) {
+    for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) {
+      const NodePair& state = found.pairs[p].state;
+      if (state.on_a.isZero(0.0)) continue;
+      const ContactNodes::Member &above = found.members[node.first_member + state.a],
+                                 &below = found.members[node.first_member + state.b];
+      const Grid& grid = *fields_[above.field];
+      const double area = state.on_a.dot(state.normals.of_a) < 0.0 ? state.area : 0.0;
+      heat_->meet(grid, *fields_[below.field], HeldNodes::id(grid.blocks.key(above.ref.block), above.ref.node), area,
+                  state.friction_energy, dt);
+    }
   }
 }
 

@@ -35,7 +35,8 @@ std::vector<std::pair<std::string, std::string>> crack_numbers(int number) {
   return list;
 }
 
-void CrackStage::forces_gathered(StepContext&) {
+void CrackStage::forces_gathered(StepContext& context) {
+  parts_->tips->heat(context.dt);
   if (parts_->tractions->any()) parts_->tractions->add_forces();
 }
 

@@ -343,9 +343,22 @@ bool CrackTips::grow(CrackTip& tip, double time, double dt) {
   if (tip.end == 0) std::reverse(line.begin(), line.end());
   jumps_.add(tip.crack, std::move(line));
   chain.grow(tip.end, points);
+  if (heating_ != nullptr && tip.j > 0.0) {
+    const double thickness = crack.definition.thickness > 0.0 ? crack.definition.thickness : parts_.across;
+    const double front = axisymmetric(parts_.geometry) ? 2.0 * kPi * points.back()[0] : thickness;
+    heating_->released(static_cast<int>(&tip - tips_.data()), tip.j, front, length,
+                       heated_steps(length, material.wave_speed, dt));
+  }
   tractions_.grow(tip.crack, tip.end, static_cast<int>(points.size()), tractions_.law_of(law));
   if (ends) chain.set_end(tip.end, CrackEnd::none);
   return true;
+}
+
+void CrackTips::heat(double dt) {
+  for (std::size_t t = 0; t < tips_.size() && heating_ != nullptr; ++t) {
+    const Chain& chain = cracks_[tips_[t].crack].chain;
+    heating_->heat(static_cast<int>(t), chain.points()[chain.point_at(tips_[t].end)].place, dt);
+  }
 }
 
 void CrackTips::serialise(StateArchive& archive) {

@@ -19,7 +19,8 @@ class ScalarTransferOf final : public ScalarTransfer {
         threads_(threads),
         choice_(choice),
         own_{NodalField(1, fields.front()->layout.nodes_per_block()),
-             NodalField(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())} {}
+             NodalField(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())},
+        flow_(1, fields.front()->layout.nodes_per_block()) {}
 
   void gather(int field, const NodalField& from, const Taken& to, const Marks* only) override {
     each_taking(field, from, to, only, [&](const mpm_kernel::BlockView& block, const NodalField& source) {
@@ -48,11 +49,31 @@ class ScalarTransferOf final : public ScalarTransfer {
     spread_by_gradient(field, of, weight, to, only);
   }
 
-  // Particles that choose a field at every node take no part: the scene's rules keep cracks and transport apart.
   void diffuse(int field, const Given& conducts, const NodalField& from, NodalField& to) override {
-    each_giving(field, conducts, to, nullptr, [&](const mpm_kernel::BlockView& block, NodalField& sink) {
+    give_own(field, conducts, to, nullptr, [&](const mpm_kernel::BlockView& block, NodalField& sink) {
       kernels_.diffuse(view_, block, views_.data(), arrays_.data(), count(), from.block(0), sink.data());
     });
+  }
+
+  void diffuse_chosen(const Given& conducts, const std::vector<NodalField>& from,
+                      std::vector<NodalField>& to) override {
+    if (choice_ == nullptr || choice_->patches() == 0) return;
+    Grid& patches = choice_->grid();
+    NodalField &source = own_[0], &sink = flow_;
+    source.resize(patches.blocks.size());
+    sink.resize(patches.blocks.size());
+    // Nodes that stand for none are read with no weight.
+    const std::ptrdiff_t numbers =
+        static_cast<std::ptrdiff_t>(patches.blocks.size()) * patches.layout.nodes_per_block();
+    std::fill_n(source.data(), numbers, 0.0);
+    std::fill_n(sink.data(), numbers, 0.0);
+    for (const int field : choice_->chosen()) choice_->take(from[field], field, source);
+    look_at(patches);
+    for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(conducts[s].begin(), conducts[s].end(), arrays_[s].from);
+    each_owner_at_once(patches, threads_, [&](const mpm_kernel::BlockView& block) {
+      kernels_.diffuse(view_, block, views_.data(), arrays_.data(), count(), source.block(0), sink.data());
+    });
+    for (const int field : choice_->chosen()) choice_->give(sink, field, to[field]);
   }
 
  private:
@@ -116,9 +137,10 @@ class ScalarTransferOf final : public ScalarTransfer {
     });
   }
 
-  // pass(block, field to add to) for those whose particles give to what is wanted, which begins with zero.
+  // pass(block, field to add to) for those whose particles give to what is wanted, which begins with zero. Without
+  // particles that choose their fields.
   template <class Pass>
-  void each_giving(int field, const Given& of, NodalField& to, const Marks* only, Pass&& pass) {
+  void give_own(int field, const Given& of, NodalField& to, const Marks* only, Pass&& pass) {
     Grid& grid = *fields_[field];
     look_at(grid);
     for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(of[s].begin(), of[s].end(), arrays_[s].from);
@@ -136,11 +158,17 @@ class ScalarTransferOf final : public ScalarTransfer {
     each_owner(grid, threads_, [&](const mpm_kernel::BlockView& block) {
       if (only == nullptr || giving_[block.owner] != 0) pass(block, to);
     });
+  }
+
+  template <class Pass>
+  void each_giving(int field, const Given& of, NodalField& to, const Marks* only, Pass&& pass) {
+    give_own(field, of, to, only, pass);
     if (!chosen(field)) return;
 
     Grid& patches = choice_->grid();
     NodalField& own = own_[to.components() > 1];
     own.resize(patches.blocks.size());
+    const std::ptrdiff_t numbers = static_cast<std::ptrdiff_t>(to.components()) * patches.layout.nodes_per_block();
     std::fill_n(own.data(), numbers * patches.blocks.size(), 0.0);
     look_at(patches);
     for (std::size_t s = 0; s < sets_.size(); ++s) std::copy(of[s].begin(), of[s].end(), arrays_[s].from);
@@ -167,6 +195,7 @@ class ScalarTransferOf final : public ScalarTransfer {
   int threads_;
   NodeChoice* choice_;
   std::array<NodalField, 2> own_;  ///< of the patches, of one component and of one along each axis
+  NodalField flow_;                ///< of the patches
   std::vector<std::array<PaddedArray<double>, 3>> beside_;
   mpm_kernel::GridView view_{};
   std::vector<mpm_kernel::SetView<T>> views_;

@@ -20,9 +20,6 @@ void refuse_geometry(const Value& section, GeometryKind geometry) {
 void refuse_beside_cracks(const Value& section, const Map& root, const Scene& scene) {
   const SimulationDefinition& definition = scene.definition;
   if (definition.sleep) root.at("sleep").fail("not yet together with cracks; leave one of the two out");
-  if (!definition.transport.quantities.empty()) {
-    root.at("transport").fail("not yet together with cracks; leave one of the two out");
-  }
   for (std::size_t face = 0; face < definition.walls.size(); ++face) {
     if (definition.walls[face].kind != WallKind::periodic) continue;
     section.fail(fmt::format("not yet together with boundaries.{}: periodic; write faces such as {}: slip",
@@ -70,7 +67,7 @@ void read_contour(const Value& value, GeometryKind geometry, ContourDefinition& 
   }
 }
 
-void read_growth(const Map& map, CracksDefinition& cracks) {
+void read_growth(const Map& map, const TransportDefinition& transport, CracksDefinition& cracks) {
   if (const auto growth = map.find("growth")) cracks.growth = read_growth_rule(*growth, cracks.laws, false);
   if (const auto alternate = map.find("alternate")) cracks.alternate = read_growth_rule(*alternate, cracks.laws, true);
   const auto length = map.find("length"), time_factor = map.find("time_factor");
@@ -86,8 +83,8 @@ void read_growth(const Map& map, CracksDefinition& cracks) {
   if (const auto heating = map.find("heating")) {
     cracks.heating = heating->non_negative(kPlain);
     if (cracks.heating > 1.0) heating->fail("a part of the energy released, 1 at most");
-    if (cracks.heating > 0.0) {
-      heating->fail("heat needs transport: {temperature: {}}, which is not yet together with cracks; leave it out");
+    if (cracks.heating > 0.0 && transport.find(Transported::temperature) == nullptr) {
+      heating->fail("heat needs a temperature; write transport: {temperature: {}}");
     }
   }
 }
@@ -164,7 +161,7 @@ void read_cracks(const Map& root, Scene& scene) {
   CracksDefinition& cracks = definition.cracks;
   if (const auto laws = map.find("traction_laws")) read_laws(*laws, cracks);
   read_settings(map, definition.geometry, cracks, scene);
-  read_growth(map, cracks);
+  read_growth(map, scene.definition.transport, cracks);
   for (const Value& material : root.at("materials").elements()) {
     cracks.materials.push_back(read_fracture_constants(material_map(material, root), cracks));
   }

@@ -8,6 +8,7 @@
 #include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "mpm/transport/transported_field.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
 #include "with_precision.hpp"
@@ -76,7 +77,9 @@ void check(const RunParts& parts) {
     refuse("the energies of the run do not reach the criterion energy_balance yet; take release_rate or steady_state");
   }
   if (definition.sleep) refuse("sleep does not know them; leave out 'sleep'");
-  if (!definition.transport.quantities.empty()) refuse("transport does not know them yet; leave out 'transport'");
+  if (definition.cracks.heating > 0.0 && parts.temperature == nullptr) {
+    refuse("heating needs a temperature; write transport: {temperature: {}}");
+  }
   if (!parts.map.divisions().empty())
     refuse("thin tools with a field on each side are not known to them; write sides: one");
   if (parts.layout().any_periodic()) refuse("periodic walls are not known to them");
@@ -189,8 +192,15 @@ void add_cracks(RunParts& parts) {
   made->tips =
       std::make_unique<CrackTips>(made->cracks, *made->chosen, *made->tractions, *made->jumps, std::move(tip_parts),
                                   parts.make_transfer(definition.method.shape), tip_settings(parts));
+  if (asked.heating > 0.0) {
+    std::vector<int> crack_of_tip;
+    for (const CrackTip& tip : made->tips->tips()) crack_of_tip.push_back(tip.crack);
+    auto heating = std::make_unique<TipHeating>(asked.heating, crack_of_tip, *made->chosen, parts.fields);
+    made->tips->set_heating(heating.get());
+    parts.temperature->add(std::move(heating));
+  }
   parts.modules.add(std::make_unique<CrackContact>(made->cracks, *made->chosen, parts.fields, make_sides(),
-                                                   parts.volumes(), definition.geometry, parts.threads));
+                                                   parts.volumes(), definition.geometry, parts.threads, parts.heat));
   parts.modules.add(std::make_unique<CrackStage>(std::move(made)));
 }
 

@@ -29,9 +29,9 @@ std::vector<FluxTerm> flux_terms(const QuantityDefinition& quantity, const RunPa
   return terms;
 }
 
-std::array<int, 2> fields_of(const std::string& body, const RunParts& parts) {
-  for (const ParticleSet& set : parts.sets) {
-    if (set.name == body) return {set.field, set.far_field};
+std::vector<int> fields_of(const std::string& body, const RunParts& parts) {
+  for (std::size_t s = 0; s < parts.sets.size(); ++s) {
+    if (parts.sets[s].name == body) return parts.map.fields(static_cast<int>(s));
   }
   throw DefinitionError(fmt::format("transport.temperature.pairs: no deformable body is called '{}'", body));
 }
@@ -45,7 +45,7 @@ SurfaceHeat* add_surface_heat(TransportedField& temperature, RunParts& parts) {
     const double at = quantity.reference;
     const double product =
         own.conductivity(at) * own.capacity(at) * find_material(parts.definition, parts.definition.bodies[s]).density;
-    effusivities[parts.sets[s].field] = effusivities[parts.sets[s].far_field] = std::sqrt(product);
+    for (const int field : parts.map.fields(static_cast<int>(s))) effusivities[field] = std::sqrt(product);
   }
   std::vector<ToolHeat> tools(parts.bodies.size());
   for (const ToolHeatDefinition& tool : quantity.tools) {
@@ -66,7 +66,8 @@ SurfaceHeat* add_surface_heat(TransportedField& temperature, RunParts& parts) {
   std::vector<double> pairs(fields * fields, 0.0);
   for (const PairHeatDefinition& pair : quantity.pairs) {
     const auto first = fields_of(pair.first, parts), second = fields_of(pair.second, parts);
-    if (first[0] == second[0]) {
+    const bool faces = pair.first == pair.second && first.size() > 1;  // those of its cracks
+    if (first[0] == second[0] && !faces) {
       throw DefinitionError(
           fmt::format("transport.temperature.pairs: '{}' and '{}' share one velocity field, in which heat flows by the "
                       "material's own conductivity; give them a law of contact, or leave the pair out",
@@ -125,7 +126,7 @@ void add_transport(RunParts& parts) {
   const TransportDefinition& asked = definition.transport;
   if (asked.quantities.empty()) return;
   TransportParts shared{parts.fields, parts.sets, definition.geometry, definition.method.shape, parts.threads,
-                        {},           {},         definition.gravity};
+                        {},           {},         definition.gravity,  parts.choice != nullptr};
   std::vector<double> speeds;
   for (std::size_t s = 0; s < parts.sets.size(); ++s) {
     const MaterialDefinition& material = find_material(parts.definition, parts.definition.bodies[s]);
@@ -145,6 +146,7 @@ void add_transport(RunParts& parts) {
       couple_heat(*field, parts, definition.geometry);
       SurfaceHeat* heat = add_surface_heat(*field, parts);
       parts.heat = heat;
+      parts.temperature = field.get();
       transport->set_surface_heat(heat);
     }
     if (quantity.quantity == Transported::pore_pressure) {

@@ -129,9 +129,38 @@ void TransportedField::find_held() {
   }
 }
 
-void TransportedField::hold(int field, NodalField& value, double time) const {
+void TransportedField::hold(int field, NodalField& value, double time, int first) const {
   for (const Held& held : held_) {
-    if (held.field == field) value.at(held.ref.block, 0, held.ref.node) = prescribed(held, time);
+    if (held.field == field) value.at(first + held.ref.block, 0, held.ref.node) = prescribed(held, time);
+  }
+}
+
+void TransportedField::take_gradients() {
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    taken_[s] = {};
+    for (int k = 0; k < parts_.fields.front()->layout.dim(); ++k) taken_[s][k] = scratch_[s][k].data();
+  }
+}
+
+void TransportedField::turn_gradients() {
+  const GridLayout& layout = parts_.fields.front()->layout;
+  const int dim = layout.dim();
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    const ParticleSet& set = parts_.sets[s];
+    const TransportMaterial& own = material(static_cast<int>(s));
+    const Symmetric3<double> k = own.anisotropy.value_or(Symmetric3<double>::isotropic(1.0));
+    each_group(set.awake(), parts_.threads, [&](int first, int last, int) {
+      double conducts[kGainGroup];
+      find_conductances(static_cast<int>(s), first, last, conducts);
+      for (int p = first; p < last; ++p) {
+        Vec3 g = Vec3::Zero();
+        for (int a = 0; a < dim; ++a) g[layout.axis(a)] = taken_[s][a][p];
+        const Vec3 q = times(k, g);
+        for (int a = 0; a < dim; ++a) taken_[s][a][p] = -conducts[p - first] * q[layout.axis(a)];
+      }
+    });
+    given_[s] = {};
+    for (int a = 0; a < dim; ++a) given_[s][a] = taken_[s][a];
   }
 }
 
@@ -145,34 +174,45 @@ void TransportedField::flow(int field, const NodalField& value, NodalField& to) 
     for (std::size_t s = 0; s < sets; ++s) given_[s] = {scratch_[s][0].data()};
     transfer_->diffuse(field, given_, value, to);
   } else {
-    const GridLayout& layout = grid.layout;
-    const int dim = layout.dim();
-    for (std::size_t s = 0; s < sets; ++s) {
-      taken_[s] = {};
-      for (int k = 0; k < dim; ++k) taken_[s][k] = scratch_[s][k].data();
-    }
+    take_gradients();
     transfer_->gradient(field, value, taken_);
-    for (std::size_t s = 0; s < sets; ++s) {
-      const ParticleSet& set = parts_.sets[s];
-      const TransportMaterial& own = material(static_cast<int>(s));
-      const Symmetric3<double> k = own.anisotropy.value_or(Symmetric3<double>::isotropic(1.0));
-      each_group(set.awake(), parts_.threads, [&](int first, int last, int) {
-        double conducts[kGainGroup];
-        find_conductances(static_cast<int>(s), first, last, conducts);
-        for (int p = first; p < last; ++p) {
-          Vec3 g = Vec3::Zero();
-          for (int a = 0; a < dim; ++a) g[layout.axis(a)] = taken_[s][a][p];
-          const Vec3 q = times(k, g);
-          for (int a = 0; a < dim; ++a) taken_[s][a][p] = -conducts[p - first] * q[layout.axis(a)];
-        }
-      });
-      given_[s] = {};
-      for (int a = 0; a < dim; ++a) given_[s][a] = taken_[s][a];
-    }
+    turn_gradients();
     transfer_->spread_gradient(field, given_, ScalarTransfer::Weight::mass, to);
   }
   const NodalField& source = nodes_[field].source;
   each_node(grid, parts_.threads, [&](int b, int n) { to.at(b, 0, n) += source.at(b, 0, n); });
+}
+
+// The same in all fields at once, whose nodes follow each other in `value`: a particle near a crack feels the gradient
+// of the nodes that it has in each of them.
+void TransportedField::flow_in_all(const NodalField& value, NodalField& to) {
+  Joined& joined = *joined_;
+  const int fields = static_cast<int>(parts_.fields.size()), nodes = parts_.fields.front()->layout.nodes_per_block();
+  to.resize(joined.first.back());
+  for (int f = 0; f < fields; ++f) {
+    const int blocks = parts_.fields[f]->blocks.size();
+    joined.values[f].resize(blocks);
+    std::copy_n(value.block(joined.first[f]), blocks * nodes, joined.values[f].data());
+  }
+  if (conducts_ && anisotropic_) {
+    take_gradients();
+    for (int f = 0; f < fields; ++f) transfer_->gradient(f, joined.values[f], taken_);
+    turn_gradients();
+    for (int f = 0; f < fields; ++f) {
+      transfer_->spread_gradient(f, given_, ScalarTransfer::Weight::mass, joined.flows[f]);
+    }
+  } else if (conducts_) {
+    for (std::size_t s = 0; s < parts_.sets.size(); ++s) given_[s] = {scratch_[s][0].data()};
+    for (int f = 0; f < fields; ++f) transfer_->diffuse(f, given_, joined.values[f], joined.flows[f]);
+    transfer_->diffuse_chosen(given_, joined.values, joined.flows);
+  }
+  for (int f = 0; f < fields; ++f) {
+    const NodalField& source = nodes_[f].source;
+    each_node(*parts_.fields[f], parts_.threads, [&](int b, int n) {
+      const double flow = conducts_ ? joined.flows[f].at(b, 0, n) : 0.0;
+      to.at(joined.first[f] + b, 0, n) = flow + source.at(b, 0, n);
+    });
+  }
 }
 
 // The part of Darcy's flux that does not depend on the pressure, K rho_w g; its divergence goes to the sources.
@@ -248,22 +288,56 @@ double TransportedField::value_of(const SourceDefinition& source, const std::str
 // that is round-off too. In stages such a node would follow the ratio of the two and drag the face's particles along
 // (half of a cell's conduction went missing); it keeps its value instead.
 void TransportedField::conduct(int field, double start, double dt) {
-  const Grid& grid = *parts_.fields[field];
+  NodalQuantity& nodes = nodes_[field];
+  begin_conduction(field, start);
+  NodalField& came = volume_;
+  stages_.advance(
+      parts_.fields[field]->blocks.size(), parts_.threads, dt, stages_for(dt / stable_step_), nodes.value,
+      nodes.capacity, kLight * least_capacity_,
+      [&](const NodalField& value, NodalField& to) { flow(field, value, to); },
+      [&](NodalField& value, double part) { hold(field, value, start + part * dt); }, came);
+  end_conduction(field, start, dt, came);
+}
+
+void TransportedField::conduct_in_all(double start, double dt) {
+  Joined& joined = *joined_;
+  const int fields = static_cast<int>(parts_.fields.size()), nodes = parts_.fields.front()->layout.nodes_per_block();
+  joined.first.assign(1, 0);
+  for (const auto& grid : parts_.fields) joined.first.push_back(joined.first.back() + grid->blocks.size());
+  joined.value.resize(joined.first.back());
+  joined.capacity.resize(joined.first.back());
+  for (int f = 0; f < fields; ++f) {
+    begin_conduction(f, start);
+    const int numbers = parts_.fields[f]->blocks.size() * nodes;
+    std::copy_n(nodes_[f].value.block(0), numbers, joined.value.block(joined.first[f]));
+    std::copy_n(nodes_[f].capacity.block(0), numbers, joined.capacity.block(joined.first[f]));
+  }
+  NodalField& came = volume_;
+  stages_.advance(
+      joined.first.back(), parts_.threads, dt, stages_for(dt / stable_step_), joined.value, joined.capacity,
+      kLight * least_capacity_, [&](const NodalField& value, NodalField& to) { flow_in_all(value, to); },
+      [&](NodalField& value, double part) {
+        for (int f = 0; f < fields; ++f) hold(f, value, start + part * dt, joined.first[f]);
+      },
+      came);
+  for (int f = 0; f < fields; ++f) end_conduction(f, start, dt, came, joined.first[f]);
+}
+
+void TransportedField::begin_conduction(int field, double start) {
   NodalQuantity& nodes = nodes_[field];
   for (Held& held : held_) {
     if (held.field == field) held.raw = nodes.value.at(held.ref.block, 0, held.ref.node);
   }
   hold(field, nodes.value, start);
-  NodalField& content = nodes.source;  // the stages read it to the end, and write it last
-  NodalField& came = volume_;
-  stages_.advance(
-      grid.blocks.size(), parts_.threads, dt, stages_for(dt / stable_step_), nodes.value, nodes.capacity,
-      kLight * least_capacity_, [&](const NodalField& value, NodalField& to) { flow(field, value, to); },
-      [&](NodalField& value, double part) { hold(field, value, start + part * dt); }, came);
-  each_node(grid, parts_.threads, [&](int b, int n) {
-    content.at(b, 0, n) = came.at(b, 0, n);
+}
+
+void TransportedField::end_conduction(int field, double start, double dt, const NodalField& came, int first) {
+  NodalQuantity& nodes = nodes_[field];
+  NodalField& content = nodes.source;  // the stages have read it to the end
+  each_node(*parts_.fields[field], parts_.threads, [&](int b, int n) {
+    content.at(b, 0, n) = came.at(first + b, 0, n);
     const double capacity = nodes.capacity.at(b, 0, n);
-    if (capacity > 0.0) nodes.value.at(b, 0, n) += came.at(b, 0, n) / capacity;
+    if (capacity > 0.0) nodes.value.at(b, 0, n) += came.at(first + b, 0, n) / capacity;
   });
   hold(field, nodes.value, start + dt);
   for (const Held& held : held_) {

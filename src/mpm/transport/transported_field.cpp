@@ -81,12 +81,17 @@ TransportedField::TransportedField(const QuantityDefinition& definition, const T
 }
 
 void TransportedField::make_room() {
+  const int nodes = parts_.fields.front()->layout.nodes_per_block();
+  if (parts_.cracked) {
+    const std::vector<NodalField> each(parts_.fields.size(), NodalField(1, nodes));
+    joined_.emplace(Joined{{}, NodalField(1, nodes), NodalField(1, nodes), each, each});
+  }
   const int vectors = (anisotropic_ || gravity_driven_) ? parts_.fields.front()->layout.dim() : 1;
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
     for (int k = 0; k < vectors; ++k) scratch_[s][k].resize(parts_.sets[s].size());
   }
   if (definition_.method != RateMethod::particle_capacity) return;
-  rooms_.assign(parts_.fields.size(), NodalField(1, parts_.fields.front()->layout.nodes_per_block()));
+  rooms_.assign(parts_.fields.size(), NodalField(1, nodes));
 }
 
 void TransportedField::add(std::unique_ptr<NodalSource> source) {
@@ -166,7 +171,8 @@ void TransportedField::update(double start, double dt, bool reported) {
     for (auto& source : sources_) source->give(nodes_, start, dt);
     if (gravity_driven_) drive_by_gravity();
     if (conducts_ && !anisotropic_) fill(Number::conductance);
-    for (std::size_t f = 0; f < parts_.fields.size(); ++f) conduct(static_cast<int>(f), start, dt);
+    if (joined_) conduct_in_all(start, dt);
+    for (std::size_t f = 0; f < parts_.fields.size() && !joined_; ++f) conduct(static_cast<int>(f), start, dt);
     finish(start, dt, reported || reads_nodes_ || !gains_.empty());
   }
   for (auto& gain : gains_) {

@@ -90,6 +90,38 @@ TEST(CrackHeat, NothingPassesAnOpenCrack) {
   }
 }
 
+// The same of a solvent, and of the water in pores, whose suction moves one half: faces pass through each other, so that
+// it does not squeeze the other half. About 1 s.
+TEST(CrackHeat, NorDoSolventAndWater) {
+  struct Case {
+    const char *name, *constants, *quantity;
+    double above;
+  };
+  for (const Case& one :
+       {Case{"concentration", "saturation: 0.2, diffusivity: 0.5", "concentration: {initial: \"z > 0 ? 1 : 0\"}", 1.0},
+        Case{"pore_pressure", "storage: 1e-9, permeability: 1e-9, viscosity: 1e-3",
+             "pore_pressure: {initial: \"z > 0 ? -1e3*(2 + cos(261.8*x)) : 0\"}", -2e3}}) {
+    SCOPED_TRACE(one.name);
+    std::string text = plate("plane_strain", "shape: ugimp", {12, 21}, 13, 2e-4, "HERE", "THERE", ", faces: ignored");
+    const auto replace = [&](const std::string& what, const std::string& by) {
+      text.replace(text.find(what), what.size(), by);
+    };
+    replace("heat_capacity: 1000, HERE", one.constants);
+    replace("temperature: {compression_heat: off, THERE}", one.quantity);
+    mpm::Simulation run = made(text);
+    run_until(run, 2e-4);
+    const Numbers z = field(run, "z"), value = field(run, std::string(one.name) + "_carried");
+    double below = 0.0, above = 0.0;
+    for (std::size_t p = 0; p < z.size(); ++p) {
+      if (z[p] < 0.0) below = std::max(below, std::abs(value[p]));
+      if (z[p] > 0.0) above += 2.0 * value[p] / static_cast<double>(z.size());
+    }
+    EXPECT_LT(below, 1e-10 * std::abs(one.above));
+    EXPECT_NEAR(above / one.above, 1.0, 0.9);
+    EXPECT_LT(reported(run, std::string(one.name) + " budget error"), 1e-10);
+  }
+}
+
 // --- a slit to the middle of a square -------------------------------------------------------------------------------
 
 /// The integral of |x (x - 1) (x^2 - 2)|^-1/2 from -sqrt 2 to `to` <= 0: by x = -sqrt 2 cos^2 u.
@@ -149,6 +181,194 @@ TEST(CrackHeat, ASlitToTheMiddleOfASquare) {
   page.near("difference at the mouth, 21 cells", coarse.mouth, mouth, 0.04, "K");
   page.near("difference at the mouth, 43 cells", fine.mouth, mouth, 0.02, "K");
   EXPECT_LT(std::abs(fine.flow - std::sqrt(0.5)), 0.7 * std::abs(coarse.flow - std::sqrt(0.5)));
+}
+
+// --- closed faces ---------------------------------------------------------------------------------------------------
+
+/// Two halves of 12 x 10.5 cells, 400 K and 300 K, that are pressed onto each other.
+mpm::Simulation pressed(const std::string& method, const std::string& faces, const std::string& transport, double end,
+                        const std::string& more = {}) {
+  const std::string loads = "loads:\n" + traction("z_max", ramped(-1e5, 5e-5)) + traction("z_min", ramped(1e5, 5e-5));
+  return made(plate("plane_strain", method, {12, 21}, 13, end, "conductivity: 2e7",
+                    "initial: \"z > 0 ? 400 : 300\"" + transport, faces, loads + more));
+}
+
+// About 2 s.
+TEST(CrackHeat, ClosedFacesConduct) {
+  constexpr double kConductance = 1e7, kHalf = 10.5e-3, kConductivity = 2e7, kHeat = 1e6;  // of a volume [J/(m^3 K)]
+  // Each half loses 2 h (T - mean) through its face: z tan z = 2 h H / k of its slowest mode, found by bisection.
+  double low = 0.0, high = 1.0;
+  while (high - low > 1e-14) {
+    const double z = 0.5 * (low + high);
+    (z * std::tan(z) < 2.0 * kConductance * kHalf / kConductivity ? low : high) = z;
+  }
+  const double rate = kConductivity / kHeat * std::pow(low / kHalf, 2);
+  const std::string conducts = fmt::format(", pairs: [{{bodies: [plate, plate], conductance: {}}}]", kConductance);
+  const std::string method = "shape: ugimp, damping: {grid: 60000}";
+  const auto decay = [&](const std::string& faces, const std::string& transport) {
+    mpm::Simulation run = pressed(method, faces, transport, 4e-4);
+    run_until(run, 2e-4);
+    const std::array<double, 2> first = halves(run);
+    run_until(run, 4e-4);
+    const std::array<double, 2> last = halves(run);
+    EXPECT_NEAR(last[0] + last[1], 700.0, 1e-8);  // what one half loses the other gains
+    EXPECT_LT(reported(run, "temperature budget error"), 1e-10);
+    return std::log((first[0] - first[1]) / (last[0] - last[1])) / 2e-4;
+  };
+  Page page("crack", "crack_heat_closed", "Heat flows through closed faces");
+  page.problem(
+          "A plate of 12 x 21 cells with a crack across its middle is pressed together by 0.1 MPa. One half is 400 K "
+          "warm, the other 300 K; the faces conduct 1e7 W/(m² K) where they touch.")
+      .exact(fmt::format("The difference decays at {:.1f} /s: z tan z = 2hH/k, α z²/H².", rate),
+             "Carslaw and Jaeger, Conduction of Heat in Solids (1959), section 3.11")
+      .meaning("The area of contact is that of the crack.");
+  page.near("rate of decay", decay("", conducts), rate, 0.05, "1/s");
+  EXPECT_LT(std::abs(decay("", "")), 1e-9);                        // without a conductance none
+  EXPECT_LT(std::abs(decay(", faces: ignored", conducts)), 1e-9);  // no contact, no heat
+}
+
+// About 1 s.
+TEST(CrackHeat, FrictionBecomesHeat) {
+  mpm::Simulation run = pressed("shape: ugimp", ", faces: {friction: 0.3}", "", 2e-4,
+                                "boundaries:\n  conditions:\n"
+                                "    - {name: drawn, region: {box: {min: [-1, 10.4 mm], max: [1, 1]}}, direction: x, "
+                                "velocity: 0.1}\n"
+                                "    - {name: held, region: {box: {min: [-1, -1], max: [1, -10.4 mm]}}, direction: x, "
+                                "velocity: 0}\n");
+  const auto booked = [&] {
+    return reported(run, "temperature by friction") + reported(run, "heat of friction in the next step");
+  };
+  run_until(run, 2e-4);
+  const double taken = run.state().energy.of("crack_friction");
+  // No more than 0.3 x 0.1 MPa x 12 mm x 1 mm over the whole way of the edge.
+  EXPECT_GT(taken, 1e-8);
+  EXPECT_LT(taken, 0.3 * 1e5 * 12e-6 * 0.1 * 2e-4);
+  EXPECT_NEAR(booked(), taken, 1e-12 * taken);
+  EXPECT_LT(reported(run, "temperature budget error"), 1e-10);
+}
+
+// --- tips -----------------------------------------------------------------------------------------------------------
+
+constexpr double kStep = 1e-7, kTip = 6.1, kPart = 0.6;
+constexpr int kSteps = 800;
+const double kWave = std::sqrt(kPlane / kDensity * (1 - kPoisson) * (1 - kPoisson) / (1 - 2 * kPoisson));  // [m/s]
+
+/// A plate, or a rod, of 20 x 21 cells that is drawn apart; its crack grows at 100 m/s from `start` [s] on, by half a
+/// cell at a time until it has grown 3.4 cells. Every step is a sync period.
+std::string growing(const std::string& geometry, const std::string& conductivity, const std::string& faces = {},
+                    double start = 2e-5) {
+  std::string text =
+      plate(geometry, "shape: ugimp", {20, 21}, kTip, kSteps * kStep,
+            "conductivity: " + conductivity +
+                fmt::format(", fracture: {{start_time: {}, speed: 100, longest: {}}}", start, (kTip + 3.7) * kCell),
+            "initial: 293", faces,
+            "boundaries:\n  conditions:\n"
+            "    - {name: upper, region: {box: {min: [0, 10.4 mm], max: [1, 1]}}, direction: z, velocity: 1}\n"
+            "    - {name: lower, region: {box: {min: [0, -1], max: [1, -10.4 mm]}}, direction: z, velocity: -1}\n");
+  const std::string sync = fmt::format("sync: {}", sync_of(kSteps * kStep, 10)), end = "end: none";
+  text.replace(text.find(sync), sync.size(), fmt::format("sync: {}", kStep));
+  text.replace(text.find(end), end.size(), "end: tip");
+  return text + fmt::format("  growth: {{criterion: steady_state}}\n  heating: {}\n", kPart);
+}
+
+struct Grown {
+  double heat = 0.0, moment = 0.0;  ///< f J B da of all steps [J], and with the places of the tip [J m]
+  int growths = 0;
+};
+
+/// Runs `steps` steps; `thickness` [m], 0: about the axis. `look(heat so far)` after each step.
+template <class Look>
+Grown grow(mpm::Simulation& run, double thickness, int steps, Look&& look) {
+  Grown sum;
+  double before = 0.0;
+  for (int n = 1; n <= steps; ++n) {
+    run_until(run, n * kStep);
+    const double grown = number(run, "crack 1 end growth"), tip = run.crack_tips().front().place.x();
+    if (grown > before) {
+      const double front = thickness > 0.0 ? thickness : 2.0 * kHalfTurn * tip;
+      const double heat = kPart * number(run, "crack 1 end j") * front * (grown - before);
+      sum.heat += heat;
+      sum.moment += heat * tip;
+      ++sum.growths;
+    }
+    before = grown;
+    look(sum);
+  }
+  return sum;
+}
+
+// About 4 s.
+TEST(CrackHeat, TipsReleaseTheirPart) {
+  struct Case {
+    const char *geometry, *faces;
+    double thickness;
+  };
+  for (const Case& one : {Case{"plane_strain", "", 1e-3}, Case{"plane_stress", ", thickness: 0.002", 2e-3},
+                          Case{"axisymmetric", "", 0.0}}) {
+    SCOPED_TRACE(one.geometry);
+    mpm::Simulation run = made(growing(one.geometry, "0", one.faces));
+    std::vector<double> given;  // by step, from the first growth on
+    double first = 0.0;
+    const Grown grown = grow(run, one.thickness, kSteps, [&](const Grown& now) {
+      if (now.growths == 1 && given.empty()) first = now.heat;
+      if (now.growths > 0) given.push_back(reported(run, "temperature by crack tips"));
+    });
+    EXPECT_GE(grown.growths, 6);  // half a cell each, 3.4 cells and no more than another half
+    EXPECT_LE(grown.growths, 8);
+    EXPECT_GT(grown.heat, 0.0);
+    EXPECT_NEAR(given.back() / grown.heat, 1.0, 1e-12);
+    EXPECT_NEAR(reported(run, "temperature content") / grown.heat, 1.0, 1e-10);
+    EXPECT_LT(reported(run, "temperature budget error"), 1e-10);
+    // n = floor(da / (c dt)) = floor(0.5e-3 / (1.925e3 1e-7)) = 2 steps, alike, from the next step on (plane stress:
+    // the same, 0.5e-3 / (1.675e3 1e-7) = 2.99).
+    EXPECT_EQ(given[0], 0.0);
+    EXPECT_NEAR(given[1], 0.5 * first, 1e-12 * first);
+    EXPECT_NEAR(given[2], first, 1e-12 * first);
+    EXPECT_NEAR(given[3], first, 1e-12 * first);
+    // Heat stays where the tips were: a tenth of a cell, since particles lie a quarter beside them.
+    const Numbers x = field(run, "x"), z = field(run, "z"), t = field(run, "temperature_carried"),
+                  mass = field(run, "mass");
+    double along = 0.0, across = 0.0, content = 0.0;
+    for (std::size_t p = 0; p < x.size(); ++p) {
+      const double heat = 1000.0 * mass[p] * (t[p] - 293.0);
+      content += heat;
+      along += heat * x[p];
+      across += heat * z[p];
+    }
+    EXPECT_NEAR(content / grown.heat, 1.0, 1e-6);
+    EXPECT_NEAR(along / content, grown.moment / grown.heat, 0.1 * kCell);
+    EXPECT_NEAR(across / content, 0.0, 0.1 * kCell);
+  }
+}
+
+// A checkpoint between the two steps that give the heat of a growth, and another before, from which two threads go on.
+// About 1 s.
+TEST(CrackHeat, SameBitsForAnyThreadsAndFromACheckpoint) {
+  const std::string text = growing("plane_strain", "1e4", "", 1e-5);
+  mpm::Simulation whole = made(text);
+  const int before = 90, half = 101, end = 115;  // it grows in step 100
+  const std::string file = testing::TempDir() + "/crack_heat.h5", earlier = testing::TempDir() + "/crack_heat_0.h5";
+  run_until(whole, before * kStep);
+  mpm::save_checkpoint(earlier, whole, {"crack.yaml", "text", {}});
+  EXPECT_EQ(reported(whole, "temperature by crack tips"), 0.0);
+  run_until(whole, half * kStep);
+  mpm::save_checkpoint(file, whole, {"crack.yaml", "text", {}});
+  const double given = reported(whole, "temperature by crack tips");
+  run_until(whole, end * kStep);
+  EXPECT_GT(given, 0.0);
+  EXPECT_NEAR(reported(whole, "temperature by crack tips"), 2.0 * given, 1e-12 * given);
+  mpm::Simulation two(mpm::build(mpm::parse_scene(text, "crack")), {2});
+  mpm::load_checkpoint(earlier, two, "text");
+  run_until(two, end * kStep);
+  EXPECT_EQ(two.state_hash(), whole.state_hash());
+  mpm::Simulation resumed = made(text);
+  mpm::load_checkpoint(file, resumed, "text");
+  run_until(resumed, end * kStep);
+  EXPECT_EQ(resumed.state_hash(), whole.state_hash());
+  EXPECT_EQ(resumed.memory_hash(), whole.memory_hash());
+  EXPECT_EQ(reported(resumed, "temperature by crack tips"), reported(whole, "temperature by crack tips"));
+  std::filesystem::remove(file);
+  std::filesystem::remove(earlier);
 }
 
 }  // namespace crack_heat_test

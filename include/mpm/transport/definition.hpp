@@ -107,7 +107,7 @@ struct ToolHeatDefinition {
   double capacity = 0.0;       ///< of the whole body [J/K]; 0: the temperature is given
   double friction_part = 1.0;  ///< of the heat of friction that goes to the material
 };
-/// Two bodies of different velocity fields that conduct where they touch.
+/// Two bodies of different velocity fields that conduct where they touch; a body twice: the faces of its cracks.
 struct PairHeatDefinition {
   std::string first, second;
   double conductance = 0.0;  ///< [W/(m^2 K)]

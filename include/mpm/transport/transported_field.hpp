@@ -17,6 +17,10 @@
 // booked: what particles have gained is what sources, prescribed values and local gains gave, each summed where it
 // arises.
 //
+// A particle near a crack conducts with the nodes of the fields that it chose (grid/node_choice.hpp), down the gradient
+// of their values in all of these; so nothing passes between nodes that no particle joins. There the stages of an
+// update run in all fields at once.
+//
 // nodal_flow.cpp brings it to the nodes and moves it there, handing_over.cpp back to the particles.
 //
 // Weak: first order in time where one stage is enough; values in a region hold at whole nodes; about an axis r = 0

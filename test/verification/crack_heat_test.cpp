@@ -90,8 +90,8 @@ TEST(CrackHeat, NothingPassesAnOpenCrack) {
   }
 }
 
-// The same of a solvent, and of the water in pores, whose suction moves one half: faces pass through each other, so that
-// it does not squeeze the other half. About 1 s.
+// The same of a solvent, and of the water in pores, whose suction moves one half: faces pass through each other, so
+// that it does not squeeze the other half. About 1 s.
 TEST(CrackHeat, NorDoSolventAndWater) {
   struct Case {
     const char *name, *constants, *quantity;

@@ -172,7 +172,7 @@ TEST(CrackFaceTerms, TakeOffTheWorkOfTractions) {
     result.contour = contour_term({}, contour.pieces);
     EXPECT_GT(std::abs(result.along(field.direction()) - exact), 0.5 * exact);
     result.faces_work = traction_work({}, {{contour.path.crossing.place, -0.2 * opening[1]}, {field.tip, 0.0}}) +
-                        friction_work({}, {{field.tip, -0.1, 0.0, opening[0]}});
+                        friction_work({}, {{contour.path.crossing.place, field.tip, -0.1, opening[0]}});
     EXPECT_NEAR(result.along(field.direction()), exact, 2e-3 * exact) << angle;
     // Or by the tractions themselves.
     result.faces_work = 0.0;

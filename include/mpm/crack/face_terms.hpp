@@ -41,10 +41,11 @@ double traction_work(const JForm& form, const std::vector<FaceWork>& from_crossi
 
 /// A piece of a closed crack inside the contour.
 struct FrictionSample {
-  Vec2 place{0.0, 0.0};  ///< its middle [m]
-  double shear = 0.0;    ///< stress of friction on its faces [Pa], of any sign
-  double length = 0.0;   ///< [m]
-  double slip = 0.0;     ///< by which the slip at its two ends differs [m], of any sign
+  Vec2 from{0.0, 0.0}, to{0.0, 0.0};  ///< its ends, the second one nearer to the tip [m]
+  double shear = 0.0;                 ///< stress of friction on its faces [Pa], of any sign
+  double slip = 0.0;                  ///< by which the slip at its two ends differs [m], of any sign
+
+  Vec2 middle() const { return 0.5 * (from + to); }
 };
 
 /// sum |shear| |change of slip|: to take off J [J/m^2], like traction_work().

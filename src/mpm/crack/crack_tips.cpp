@@ -191,18 +191,26 @@ double CrackTips::friction_at(const CrackTip& tip, const JForm& form) {
   const double coefficient = law.at(time_).coefficient;
   if (!(coefficient > 0.0)) return 0.0;
   const Chain& chain = crack.chain;
-  for (int k = 0; k + 1 < chain.size(); ++k) {
-    const Vec2 &from = chain.points()[k].place, &to = chain.points()[k + 1].place;
-    const Vec2 middle = 0.5 * (from + to), along = (to - from).normalized(), normal(-along[1], along[0]);
-    if (!path_.contains(lines_, middle)) continue;
+  const ContourCrossing& crossing = path_.crossing;
+  const int step = tip.end == 1 ? 1 : -1, before = tip.end == 1 ? crossing.segment : crossing.segment + 1;
+  const double part = tip.end == 1 ? crossing.along_segment : 1.0 - crossing.along_segment;
+  Vec2 from = crossing.place, opening = (1.0 - part) * chain.opening(before) + part * chain.opening(before + step);
+  for (int k = before + step; k >= 0 && k < chain.size(); k += step) {
+    const Vec2 to = chain.points()[k].place, along = (to - from).normalized(), normal(-along[1], along[0]);
+    // Faces part at the tip, where a point's own opening is that of the cells around it.
+    const Vec2 next = k == chain.point_at(tip.end) ? Vec2(0.0, 0.0) : chain.opening(k);
+    FrictionSample sample{from, to, 0.0, (next - opening).dot(along)};
+    from = to;
+    opening = next;
+    if (along.isZero(0.0)) continue;  // the path meets the crack at this point
+    const Vec2 middle = sample.middle(), aside = 1e-6 * (sample.to - sample.from).norm() * normal;
     ContourValues above, below;
-    const Vec2 aside = 1e-6 * (to - from).norm() * normal;
     if (!values_.at(middle, middle + aside, above) || !values_.at(middle, middle - aside, below)) continue;
     const ContourValues mean = ContourValues::between(above, below, 0.5);
     const double pressure = -mean.traction(normal).dot(normal);
     if (!(pressure > 0.0)) continue;
-    slips_.push_back(
-        {middle, coefficient * pressure, (to - from).norm(), (chain.opening(k + 1) - chain.opening(k)).dot(along)});
+    sample.shear = coefficient * pressure;
+    slips_.push_back(sample);
   }
   return friction_work(form, slips_);
 }
@@ -223,7 +231,8 @@ void CrackTips::split(CrackTip& tip) {
   const Vec2 at = chain.points()[chain.point_at(tip.end)].place;
   double friction = 0.0;
   for (const FrictionSample& sample : slips_) {
-    friction += std::sqrt(2.0 / kPi) * sample.shear * sample.length / std::sqrt((sample.place - at).norm());
+    const double far = std::sqrt((sample.from - at).norm()), close = std::sqrt((sample.to - at).norm());
+    friction += std::sqrt(2.0 / kPi) * sample.shear * 2.0 * (far - close);
   }
   tip.k.two -= std::copysign(std::min(friction, std::abs(tip.k.two)), tip.k.two);
   // Of closed faces the integral's K_I means nothing; whether they are is known to a part of the slip.

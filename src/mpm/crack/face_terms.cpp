@@ -36,7 +36,7 @@ double traction_work(const JForm& form, const std::vector<FaceWork>& from_crossi
 double friction_work(const JForm& form, const std::vector<FrictionSample>& samples) {
   double sum = 0.0;
   for (const FrictionSample& sample : samples) {
-    const double weight = form.kind == JForm::Kind::bergkvist_huong ? sample.place[0] / form.tip_radius : 1.0;
+    const double weight = form.kind == JForm::Kind::bergkvist_huong ? sample.middle()[0] / form.tip_radius : 1.0;
     sum += weight * std::abs(sample.shear * sample.slip);
   }
   return sum;

@@ -6,11 +6,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
 #include "mpm/simulation/simulation.hpp"
 #include "mpm_ros/run/run_scene.hpp"
+#include "mpm_ros/run/run_sweep.hpp"
 #include "mpm_ros/run/shared_cores.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
 
@@ -44,11 +46,30 @@ int main(int argc, char** argv) {
   app.add_option("--end", options.end, "stop at this time, in seconds or with a unit (\"20 ms\")");
   app.add_option("--set", options.set, "change the scene: key.path=value, as in grid.cell=0.02; may be repeated")
       ->allow_extra_args(false);
+  mpm_ros::RunSweepOptions sweep;
+  auto* plan =
+      app.add_option("--sweep", sweep.plan,
+                     "run a plan of many runs (doc/scale.md), or go on with the folder of one; --out is that folder");
+  auto* jobs = app.add_option("--jobs", sweep.jobs,
+                              "runs of a sweep at once; 0: lay it out only; without it as many as the machine carries")
+                   ->check(CLI::Range(0, 1024))
+                   ->needs(plan);
+  app.add_option("--only", sweep.only, "make this run of a sweep that is laid out, alone")
+      ->check(CLI::Range(1, 1000000))
+      ->needs(plan)
+      ->excludes(jobs);
   app.add_flag("--list", list, "list the shipped scenes, and exit");
   app.add_flag("--explain", explain, "report what was chosen for the scene and why, and exit");
   try {
     app.parse(argc, argv);
-    if (!list && scene->empty() && options.from_bag.empty() && options.resume.empty())
+    for (const CLI::Option* option : app.get_options()) {
+      const std::string name = option->get_name();
+      const bool goes = name == "--sweep" || name == "--jobs" || name == "--only" || name == "--out" ||
+                        name == "--threads" || name == "--isa" || name == "--help";
+      if (!plan->empty() && !option->empty() && !goes)
+        throw CLI::ValidationError(name, "not with --sweep: the plan says what is set and what is recorded");
+    }
+    if (!list && plan->empty() && scene->empty() && options.from_bag.empty() && options.resume.empty())
       throw CLI::RequiredError("SCENE (--list names those that are shipped)");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
@@ -58,6 +79,14 @@ int main(int argc, char** argv) {
     if (list) {
       mpm_ros::list_scenes(std::cout);
       return 0;
+    }
+    if (!sweep.plan.empty()) {
+      sweep.program = std::filesystem::read_symlink("/proc/self/exe").string();
+      sweep.out = options.out;
+      sweep.isa = options.isa;
+      if (options.threads > 0) sweep.threads = options.threads;
+      return static_cast<int>(
+          mpm_ros::run_sweep(sweep, std::cout, std::cerr, isatty(STDERR_FILENO) != 0, mpm_ros::stop_requested));
     }
     if (explain) {
       mpm_ros::explain_scene(options, std::cout);

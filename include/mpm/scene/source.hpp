@@ -13,12 +13,14 @@ namespace mpm {
 
 class Source {
  public:
-  /// `overrides`: "key.path=value", the value in YAML.
+  /// `overrides`: "key.path=value", the value in YAML. `kind`: what errors call the text.
   /// @throws SceneError when the text is not YAML, has a key twice, or an override does not fit the tree.
-  Source(const std::string& text, std::string label, const std::vector<std::string>& overrides);
+  Source(const std::string& text, std::string label, const std::vector<std::string>& overrides,
+         std::string kind = "scene");
 
   const YAML::Node& root() const { return root_; }
   const std::string& label() const { return label_; }
+  const std::string& kind() const { return kind_; }
   /// "file:line" of a value, or the override that set it.
   std::string where(const YAML::Node& node) const;
   /// The tree as YAML, with overrides applied.
@@ -32,7 +34,7 @@ class Source {
   };
   void apply(const std::string& text);
 
-  std::string label_;
+  std::string label_, kind_;
   YAML::Node root_;
   std::vector<Override> overrides_;
 };

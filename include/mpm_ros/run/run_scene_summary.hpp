@@ -31,6 +31,7 @@ struct RunSummary {
   int threads = 0;
   mpm::SolverState state;
   mpm::SolverState start;  ///< at time zero
+  std::int64_t end = 0;    ///< of the run as it was asked for [ns]
   bool cut_short = false;
   std::uint64_t state_hash = 0;   ///< none when it was cut short
   std::uint64_t peak_memory = 0;  ///< [byte] of the whole process

@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "mpm/scene/scene.hpp"
+#include "mpm/scene/scene_text.hpp"
 #include "mpm/scene/source.hpp"
-#include "scene_text.hpp"
 
 namespace mpm {
 

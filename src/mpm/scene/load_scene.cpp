@@ -11,7 +11,7 @@
 #include "mpm/math/build_info.hpp"
 #include "mpm/math/nearest.hpp"
 #include "mpm/scene/scene.hpp"
-#include "scene_text.hpp"
+#include "mpm/scene/scene_text.hpp"
 
 namespace mpm {
 namespace {

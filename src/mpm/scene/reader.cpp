@@ -47,7 +47,7 @@ Value::Value(const ReadContext& context, YAML::Node node, std::string path)
     : context_(&context), node_(std::move(node)), path_(std::move(path)) {}
 
 std::string Value::where() const {
-  return fmt::format("{}: {}", context_->source->where(node_), path_.empty() ? "scene" : path_);
+  return fmt::format("{}: {}", context_->source->where(node_), path_.empty() ? context_->source->kind() : path_);
 }
 
 void Value::fail(const std::string& what) const { throw SceneError(where() + ": " + what); }

@@ -141,13 +141,13 @@ YAML::Node node_at(const YAML::Node& root, const std::string& path) {
   return node;
 }
 
-Source::Source(const std::string& text, std::string label, const std::vector<std::string>& overrides)
-    : label_(std::move(label)) {
+Source::Source(const std::string& text, std::string label, const std::vector<std::string>& overrides, std::string kind)
+    : label_(std::move(label)), kind_(std::move(kind)) {
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1) {
-      throw SceneError(fmt::format("{}: the file holds {} YAML documents; a scene is one, remove the lines '---'",
-                                   label_, documents.size()));
+      throw SceneError(fmt::format("{}: the file holds {} YAML documents; a {} is one, remove the lines '---'", label_,
+                                   documents.size(), kind_));
     }
     if (!documents.empty()) root_ = documents[0];
   } catch (const YAML::Exception& error) {
@@ -155,8 +155,8 @@ Source::Source(const std::string& text, std::string label, const std::vector<std
                                  place(label_, error.mark), error.msg));
   }
   if (!root_.IsMap()) {
-    throw SceneError(fmt::format("{}: a scene is a list of 'key: value' lines; found {}", place(label_, root_.Mark()),
-                                 root_.IsSequence() ? "a list" : "no key"));
+    throw SceneError(fmt::format("{}: a {} is a list of 'key: value' lines; found {}", place(label_, root_.Mark()),
+                                 kind_, root_.IsSequence() ? "a list" : "no key"));
   }
   int values = 0;
   check_tree(root_, label_, "", 0, values);

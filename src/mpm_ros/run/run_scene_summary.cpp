@@ -72,6 +72,7 @@ RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulatio
       threads(simulation.threads()),
       state(simulation.state()),
       start(start),
+      end(std::llround(scene.definition.time.end * 1e9)),
       cut_short(cut_short),
       state_hash(cut_short ? 0 : simulation.state_hash()),
       peak_memory(peak_memory_bytes()),
@@ -110,6 +111,7 @@ nlohmann::ordered_json RunSummary::json() const {
   root["peak_memory_bytes"] = peak_memory;
   root["threads"] = threads;
   root["cut_short"] = cut_short;
+  root["ended"] = !cut_short && state.time >= end;
   if (!cut_short) root["state_hash"] = hash_text(state_hash);
   root["energy"] = {{"start", energy_json(start)}, {"end", energy_json(state)}};
   root["momentum_error"] = state.audit.residual;

@@ -1,0 +1,42 @@
+// One run of a study: its process, and its result from what the process left.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mpm_ros/run/run_process.hpp"
+#include "mpm_ros/sweep/study.hpp"
+
+namespace mpm_ros {
+
+/// How each run of a sweep is started.
+struct SweepRunOptions {
+  std::string program;  ///< run_scene
+  int threads = 1;
+  std::string isa = "auto";
+  std::vector<std::string> record;  ///< bag, csv, vtk
+};
+
+class SweepRun {
+ public:
+  /// Starts the run in its folder, whose lock it holds from now on. @throws SweepError
+  SweepRun(const Study& study, int run, FileLock lock, const SweepRunOptions& options);
+
+  int number() const { return run_; }
+  /// Nothing while it runs; then its result, which is kept in the study. @throws SweepError, MachineError
+  std::optional<RunResult> end();
+
+ private:
+  /// What its files and the end of its process say. @throws MachineError
+  RunResult result_of(const ProcessEnd& end) const;
+
+  const Study& study_;
+  int run_;
+  FileLock lock_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  RunProcess process_;
+};
+
+}  // namespace mpm_ros

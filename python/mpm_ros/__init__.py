@@ -1,8 +1,10 @@
-"""mpm_ros in Python: step a simulation, and read its recordings. doc/python.md shows the use.
+"""mpm_ros in Python: step a simulation, run many, and read their recordings. doc/python.md shows the use.
 
     Simulator        a simulator node of one's own, or one that runs, stepped in lockstep
     Observation      what a step answers: bodies, contact forces, particles, as NumPy arrays
     Recording        a bag, split or whole, as NumPy arrays or pandas
+    run_sweep        many runs of one scene with other values
+    Sweep            such runs, with their parameters, metrics and recordings
     MpmError         whatever went wrong, in one sentence
     mpm_ros.msg, mpm_ros.srv    the generated messages and services
 
@@ -11,7 +13,7 @@ The names are loaded at their first use, so that tools which only want the messa
 import importlib
 
 _HOMES = {"MpmError": "errors", "Observation": "simulator", "Particles": "particles", "Recording": "recording",
-          "Simulator": "simulator", "Table": "recording"}
+          "Simulator": "simulator", "Sweep": "sweep", "SweepRun": "sweep", "Table": "recording", "run_sweep": "sweep"}
 __all__ = list(_HOMES)
 
 

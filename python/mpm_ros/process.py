@@ -19,15 +19,15 @@ _SIGNALLED = 128  # and a signal's number: exit code of what it killed
 _LAST = 20  # last lines of output, for a node that ends without a sentence of its own
 
 
-def find_program():
-    """Path of the program `simulator`."""
+def find_program(name):
+    """Path of a program of the package."""
     from roslib.packages import find_node
     try:
-        found = find_node("mpm_ros", "simulator")
+        found = find_node("mpm_ros", name)
     except Exception as error:  # rospkg's own, when the package is not on its path
         raise MpmError(f"the package mpm_ros is not found ({error}); source the workspace's setup.bash") from error
     if not found:
-        raise MpmError("the program simulator is not found; build the package and source the workspace's setup.bash")
+        raise MpmError(f"the program {name} is not found; build the package and source the workspace's setup.bash")
     return found[0]
 
 

@@ -107,7 +107,7 @@ class Simulator:
             namespace = namespace or DEFAULT_NAMESPACE
         else:
             namespace, name_lock = lock_namespace(namespace)
-        self._process = NodeProcess(find_program(), namespace, parameters, own_master, name_lock)
+        self._process = NodeProcess(find_program("simulator"), namespace, parameters, own_master, name_lock)
         self._connect(namespace, self._process.master_uri, particle_period)
 
     @classmethod

@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
   mpm_ros::ReportOptions options;
   CLI::App app(
       "Tables, CSV files, JSON, pictures, an animation and checks of runs that the simulator or run_scene recorded.");
-  app.add_option("bag", options.bags, "the bag; several bags are compared side by side")->required();
+  app.add_option("bag", options.bags, "the bag; several bags are compared side by side; or the folder of a sweep")
+      ->required();
   app.add_option("--csv", options.csv, "write the tables as CSV files, with units in their headers, to this folder");
   app.add_option("--json", options.json, "write the figures of the tables to this file; -: to standard output alone");
   app.add_option("--plots", options.plots, "draw pictures (PNG) to this folder");

@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""Sweeps of many small runs: killed and started again, shared by several processes, on a full disk. 10 s."""
+"""Sweeps of many small runs: killed and started again, shared by several processes, on a full disk, reported, from
+Python. 15 s."""
 import csv
 import json
 import os
 import resource
+import shutil
 import signal
 import subprocess
 import tempfile
 import unittest
 
+import mpm_ros
 from support import eventually, processes_with, program, source_file
 
 # 160 particles and some 60 steps, in half of which the plate presses them: a run takes some 15 ms.
@@ -216,6 +219,65 @@ record: [bag]
         self.assertEqual(sorted(before), ["0001", "0002", "0003"])
         self.assertIn("5 runs: 5 done;", self.sweep(plan, "--out", self.study, "--jobs", "1"))
         self.assertEqual({run: self.results()[run] for run in before}, before)
+
+    def test_bag_report_reads_a_sweep(self):
+        self.write("few.yaml", """
+scene: press.yaml
+set: {time.end: 0.02, rigid_bodies.plate.motion: {velocity: [0, -0.5]}, metrics: {stress: {mean: szz}}}
+parameters:
+  materials.foam.young: {values: [0.1 MPa, 0.4 MPa, 0.2 MPa]}
+  method.update: {values: [usf, usl]}
+""")
+        shutil.copy(source_file("test/data/press.yaml"), self.folder)
+        self.sweep(self.path("few.yaml"), "--out", self.study)
+
+        def report(*words, code=0):
+            done = subprocess.run([program("bag_report"), self.study, *words], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+            return done.stdout + done.stderr
+
+        out = report("--csv", self.path("tables"), "--plots", self.path("plots"), "--check")
+        self.assertIn("6 runs, 6 done", out)
+        with open(self.path("tables/sweep.csv"), encoding="utf-8") as file, \
+                open(os.path.join(self.study, "sweep.csv"), encoding="utf-8") as kept:
+            self.assertEqual(file.read(), kept.read())
+        with open(self.path("plots/sweep.png"), "rb") as file:
+            self.assertEqual(file.read(4), b"\x89PNG")
+        found = json.loads(report("--json", "-"))
+        self.assertEqual([row["run"] for row in found["table"]], [1, 2, 3, 4, 5, 6])
+        self.assertEqual(found["table"][2]["materials.foam.young [MPa]"], 0.4)
+        self.assertEqual(found["table"][3]["method.update"], "usl")
+        stresses = [row["stress"] for row in found["table"]]
+        stress = found["metrics"]["stress"]
+        self.assertEqual((stress["min"], stress["max"]), (min(stresses), max(stresses)))
+        self.assertAlmostEqual(stress["mean"] / (sum(stresses) / 6), 1, 12)
+        # Stiffer foam carries more: compression is negative, and updates change it by less than the modulus does. Six
+        # values, in pairs of equal modulus, are in order: their ranks' correlation is sqrt(32 / 35).
+        self.assertAlmostEqual(stress["correlation"]["materials.foam.young [MPa]"], -(32 / 35) ** 0.5, 12)
+        self.assertIsNone(stress["correlation"]["method.update"])
+        self.assertIn("is a sweep", report("--animate", self.path("a.gif"), code=2))
+        os.remove(os.path.join(self.study, "runs/0003/result.json"))
+        self.assertIn("5 done, 1 open", report("--check", code=3))
+
+    def test_python_runs_a_plan_and_reads_its_runs(self):
+        plan = {"scene": source_file("test/data/press.yaml"), "record": ["bag"],
+                "set": {"time.end": 0.02, "rigid_bodies.plate.motion": {"velocity": [0, -0.5]},
+                        "metrics": {"stress": {"mean": "szz"}}},
+                "parameters": {"materials.foam.young": {"values": ["0.1 MPa", "0.4 MPa"]}}}
+        sweep = mpm_ros.run_sweep(plan, self.study, jobs=2)
+        self.assertEqual([(run.number, run.state, run.parameters) for run in sweep.runs],
+                         [(1, "done", {"materials.foam.young": "0.1 MPa"}), (2, "done", {"materials.foam.young": "0.4 MPa"})])
+        self.assertLess(sweep.runs[1].metrics["stress"], sweep.runs[0].metrics["stress"])
+        with sweep.runs[1].recording() as recording:
+            self.assertGreater(recording.contact_forces("plate")["force"][-1, 2], 0.0)
+        self.assertEqual([run.state_hash for run in mpm_ros.Sweep(self.study).runs],
+                         [run.state_hash for run in sweep.runs])
+        plan["parameters"] = {"materials.foam.poisson": {"values": [0.6]}}
+        with self.assertRaisesRegex(mpm_ros.MpmError, "Poisson's ratio is 0.6") as raised:
+            mpm_ros.run_sweep(plan, self.path("other"))
+        self.assertEqual(raised.exception.exit_code, 2)
+        with self.assertRaisesRegex(mpm_ros.MpmError, "not the folder of a sweep"):
+            mpm_ros.Sweep(self.path("none"))
 
 
 LIMIT = 700_000  # [bytes] of any file on the small disk

@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "mpm_ros/sweep/study.hpp"
 
@@ -11,8 +10,7 @@ namespace mpm_ros {
 
 struct LaidOut {
   int runs = 0;
-  double memory = 0.0;              ///< of the largest run, at least [bytes]
-  std::vector<std::string> record;  ///< what runs record: bag, csv, vtk
+  double memory = 0.0;  ///< of the largest run, at least [bytes]
 };
 
 /// The study of a plan, or of a folder that holds one. `out` names its folder where it is not that of the plan.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mpm/sweep/plan.hpp"
 #include "mpm_ros/run/run_process.hpp"
 #include "mpm_ros/sweep/study.hpp"
 
@@ -16,13 +17,12 @@ struct SweepRunOptions {
   std::string program;  ///< run_scene
   int threads = 1;
   std::string isa = "auto";
-  std::vector<std::string> record;  ///< bag, csv, vtk
 };
 
 class SweepRun {
  public:
-  /// Starts the run in its folder, whose lock it holds from now on. @throws SweepError
-  SweepRun(const Study& study, int run, FileLock lock, const SweepRunOptions& options);
+  /// Starts the run in its folder, whose lock it holds from now on. @throws MachineError
+  SweepRun(const Study& study, const mpm::sweep::Plan& plan, int run, FileLock lock, const SweepRunOptions& options);
 
   int number() const { return run_; }
   /// Nothing while it runs; then its result, which is kept in the study. @throws SweepError, MachineError
@@ -33,6 +33,7 @@ class SweepRun {
   RunResult result_of(const ProcessEnd& end) const;
 
   const Study& study_;
+  const mpm::sweep::Plan& plan_;
   int run_;
   FileLock lock_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

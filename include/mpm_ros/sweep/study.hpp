@@ -39,10 +39,11 @@ const char* state_name(RunState state);
 /// How a run ended.
 struct RunResult {
   RunState state = RunState::open;
-  std::string reason;                                   ///< of what is neither open nor done, one sentence
-  std::vector<std::pair<std::string, double>> metrics;  ///< the scene's; NaN for one without a value
-  std::string state_hash;                               ///< empty when it did not come to its end
-  double wall_seconds = 0.0;                            ///< from start to end of its process
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< what the plan sets in this run, by path
+  std::string reason;                                           ///< of what is neither open nor done, one sentence
+  std::vector<std::pair<std::string, double>> metrics;          ///< the scene's; NaN for one without a value
+  std::string state_hash;                                       ///< empty when it did not come to its end
+  double wall_seconds = 0.0;                                    ///< from start to end of its process
   /// Nothing more is to be computed.
   bool final() const { return state == RunState::done || state == RunState::failed; }
 };

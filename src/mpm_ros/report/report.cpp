@@ -22,6 +22,7 @@
 #include "mpm_ros/report/report_momentum.hpp"
 #include "mpm_ros/report/report_plots.hpp"
 #include "mpm_ros/report/report_same.hpp"
+#include "mpm_ros/report/report_sweep.hpp"
 #include "mpm_ros/report/report_tables.hpp"
 
 namespace mpm_ros {
@@ -215,6 +216,7 @@ void print(const std::vector<RecordedRun>& runs, std::ostream& out) {
 
 bool report(const ReportOptions& options, std::ostream& out, std::ostream& err, bool bar) {
   check_options(options);
+  if (is_study(options.bags.front())) return report_sweep(options, out);
   if (options.same) {
     RunBag a(options.bags[0], options.name_space), b(options.bags[1], options.name_space);
     return same_runs(a, b, options.tolerance, out);

@@ -36,4 +36,9 @@ void make_plots(const PlotOptions& options) {
 
 void make_work_precision_plots(const std::string& folder) { call({plot_script("plot_work_precision.py"), folder}); }
 
+void make_sweep_plots(const std::string& table, std::size_t parameters, std::size_t metrics,
+                      const std::string& folder) {
+  call({plot_script("plot_sweep.py"), table, std::to_string(parameters), std::to_string(metrics), folder});
+}
+
 }  // namespace mpm_ros

@@ -37,8 +37,11 @@ int jobs_of(const RunSweepOptions& options, double memory) {
 
 class Sweep {
  public:
-  Sweep(const Study& study, SweepRunOptions options, std::ostream& err)
-      : study_(study), options_(std::move(options)), err_(err) {}
+  Sweep(const Study& study, const RunSweepOptions& options, std::ostream& err)
+      : study_(study),
+        plan_(mpm::sweep::read_plan(study.plan())),
+        options_{options.program, options.threads, options.isa},
+        err_(err) {}
 
   /// Starts a run unless it has a result, or another process holds it. True when it was started.
   bool start(int run) {
@@ -48,7 +51,7 @@ class Sweep {
       return false;
     }
     if (study_.result(run).final()) return false;
-    running_.emplace_back(study_, run, std::move(*lock), options_);
+    running_.emplace_back(study_, plan_, run, std::move(*lock), options_);
     return true;
   }
 
@@ -73,6 +76,7 @@ class Sweep {
     }
   }
 
+  const mpm::sweep::Plan& plan() const { return plan_; }
   std::size_t running() const { return running_.size(); }
   int held() const { return held_; }
   /// Kills what runs: it has no result, and is made again.
@@ -80,6 +84,7 @@ class Sweep {
 
  private:
   const Study& study_;
+  const mpm::sweep::Plan plan_;
   const SweepRunOptions options_;
   std::ostream& err_;
   std::list<SweepRun> running_;
@@ -134,7 +139,7 @@ RunSweepResult run_all(const RunSweepOptions& options, std::ostream& out, std::o
   const int before = count_final(study, laid_out.runs);
   err << fmt::format("{} runs in {}, {} at once{}\n", laid_out.runs, study.folder(), jobs,
                      before > 0 ? fmt::format("; {} have a result already", before) : "");
-  Sweep sweep(study, {options.program, options.threads, options.isa, laid_out.record}, err);
+  Sweep sweep(study, options, err);
   ProgressBar progress(err, bar);
   int next = 1;
   try {
@@ -170,10 +175,9 @@ RunSweepResult run_one(const RunSweepOptions& options, std::ostream& out, std::o
     throw SweepError(fmt::format("--only {}: there is no study in {}; lay it out first: --sweep {} --jobs 0",
                                  options.only, study.folder(), options.plan));
   }
-  const mpm::sweep::Plan plan = mpm::sweep::read_plan(study.plan());
-  if (options.only > plan.runs())
-    throw SweepError(fmt::format("--only {}: the study {} has {} runs", options.only, study.folder(), plan.runs()));
-  Sweep sweep(study, {options.program, options.threads, options.isa, plan.record}, err);
+  Sweep sweep(study, options, err);
+  if (const int runs = sweep.plan().runs(); options.only > runs)
+    throw SweepError(fmt::format("--only {}: the study {} has {} runs", options.only, study.folder(), runs));
   ProgressBar progress(err, bar);
   try {
     sweep.start(options.only);

@@ -64,7 +64,6 @@ LaidOut lay_out(const std::string& plan_path, const Study& study, const std::fun
   check_free(study);
   LaidOut laid_out;
   laid_out.runs = runs;
-  laid_out.record = plan.record;
   std::vector<std::string> scenes;
   for (int run = 1; run <= runs; ++run) {
     if (told(static_cast<double>(run - 1) / runs)) throw mpm::StoppedError("stopped");

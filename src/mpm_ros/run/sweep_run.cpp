@@ -24,11 +24,12 @@ const std::string kTold = "run_scene: ";
 constexpr std::array<int, 5> kFromOutside = {SIGKILL, SIGTERM, SIGINT, SIGHUP, SIGQUIT};
 
 /// The command of a run. A log begins with it, so that the run can be repeated by hand.
-std::vector<std::string> command_of(const Study& study, int run, const SweepRunOptions& options) {
+std::vector<std::string> command_of(const Study& study, const mpm::sweep::Plan& plan, int run,
+                                    const SweepRunOptions& options) {
   std::vector<std::string> words = {
       options.program, study.of_run(run, "scene.yaml"), "--summary", study.of_run(run, kSummary),
       "--threads",     std::to_string(options.threads), "--isa",     options.isa};
-  for (const std::string& record : options.record) {
+  for (const std::string& record : plan.record) {
     words.push_back("--" + record);
     words.push_back(study.of_run(run, record == "bag" ? "run.bag" : record));
   }
@@ -56,17 +57,21 @@ std::string told_in(const std::string& log) {
 
 }  // namespace
 
-SweepRun::SweepRun(const Study& study, int run, FileLock lock, const SweepRunOptions& options)
+SweepRun::SweepRun(const Study& study, const mpm::sweep::Plan& plan, int run, FileLock lock,
+                   const SweepRunOptions& options)
     : study_(study),
+      plan_(plan),
       run_(run),
       lock_(std::move(lock)),
-      process_(command_of(study, run, options), begin_log(study, run, command_of(study, run, options)),
+      process_(command_of(study, plan, run, options), begin_log(study, run, command_of(study, plan, run, options)),
                lock_.descriptor()) {}
 
 std::optional<RunResult> SweepRun::end() {
   const std::optional<ProcessEnd> end = process_.end();
   if (!end) return std::nullopt;
   RunResult result = result_of(*end);
+  for (const mpm::sweep::Setting& setting : plan_.settings(run_))
+    result.parameters.emplace_back(setting.path, setting.value);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   study_.keep(run_, result);
   return result;

@@ -51,6 +51,7 @@ RunResult Study::result(int run) const {
     if (found == kStates.end()) throw SweepError("state");
     result.state = static_cast<RunState>(found - kStates.begin());
     result.reason = json.at("reason");
+    for (const auto& [name, value] : json.at("parameters").items()) result.parameters.emplace_back(name, value);
     result.state_hash = json.at("state_hash");
     result.wall_seconds = json.at("wall_seconds");
     for (const auto& [name, value] : json.at("metrics").items()) {
@@ -68,7 +69,8 @@ void Study::keep(int run, const RunResult& result) const {
   json["run"] = run;
   json["state"] = state_name(result.state);
   json["reason"] = result.reason;
-  json["metrics"] = nlohmann::ordered_json::object();
+  json["parameters"] = json["metrics"] = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : result.parameters) json["parameters"][name] = value;
   for (const auto& [name, value] : result.metrics) json["metrics"][name] = value;
   json["state_hash"] = result.state_hash;
   json["wall_seconds"] = result.wall_seconds;

@@ -31,8 +31,8 @@ class MachineError : public SweepError {
 enum class RunState {
   open,     ///< has no result
   done,     ///< came to its end
-  failed,   ///< ended with a failure that would come again: of the physics, of its scene, a crash
-  stopped,  ///< was ended from outside, and is run again
+  failed,   ///< ended with a failure that would come again: of the physics, a crash
+  stopped,  ///< was ended from outside, or something around it was in the way: it is run again
 };
 const char* state_name(RunState state);
 

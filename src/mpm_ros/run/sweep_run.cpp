@@ -91,7 +91,9 @@ RunResult SweepRun::result_of(const ProcessEnd& end) const {
     return result;
   }
   if (end.code != static_cast<int>(RunSceneResult::done)) {
-    result.state = RunState::failed;
+    // Its scene was read and built before: what is wrong now is around it, and may be mended.
+    const bool around = end.code == static_cast<int>(RunSceneResult::bad_input);
+    result.state = around ? RunState::stopped : RunState::failed;
     result.reason = told.empty() ? fmt::format("ended with exit code {}; its log has no reason", end.code) : told;
     return result;
   }

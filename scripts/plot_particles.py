@@ -118,7 +118,7 @@ def fields_of(run, wanted):
     return [wanted] if wanted else [name for name in ("speed", "ep", "mises", "p") if name in known][:2] or known[:1]
 
 
-def plot_particles(run, folder, fields):
+def plot_particles(run, folder, fields, cracks):
     if not fields:
         return
     snapshots = choose(run)
@@ -129,19 +129,22 @@ def plot_particles(run, folder, fields):
     for name in fields:
         coloring = coloring_of(snapshots, name)
         section = Section(run, box, gap, times)
-        draw_all(section, snapshots, name, coloring, folder, f"{run.title}: {coloring.name}, {section.where}")
+        draw_all(section, snapshots, name, coloring, folder, f"{run.title}: {coloring.name}, {section.where}",
+                 cracks)
         if np.ptp(box[:, 1]) > 0:
             view = View(run, box, gap, times)
             draw_all(view, snapshots, name, coloring, folder, f"{run.title}: {coloring.name}")
 
 
-def draw_all(scene, snapshots, field, coloring, folder, title):
+def draw_all(scene, snapshots, field, coloring, folder, title, cracks=None):
     figure, axes = panels(len(snapshots), scene.aspect, scene.room)
     columns = axes[0].get_subplotspec().get_gridspec().ncols
     caption(figure, title + "\n", scene.run.caption())  # a line between it and the panels' own titles
     letters = int(72 * (figure.get_figwidth() - 1.6) / columns / 7.5)  # that a panel's title has room for
     for i, (snapshot, panel) in enumerate(zip(snapshots, axes)):
         scene.draw(panel, snapshot.time, snapshot.positions, coloring.map.to_rgba(snapshot.table[field]))
+        if cracks:
+            cracks.draw(panel, snapshot.time)
         force = scene.force_text(snapshot.time)
         parts = [f"t = {snapshot.time:.4g} s{snapshot.label}"] + ([force] if force else [])
         panel.set_title("\n".join(line for part in parts for line in textwrap.wrap(part, letters)))

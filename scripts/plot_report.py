@@ -9,7 +9,9 @@ contact_<body>.png            force, impulse, torque and velocity of a rigid bod
 energies.png                  energies by kind
 audit.png                     impulses by source and the audit's residual, time step, smallest det F
 global_quantities.png         the quantities that the scene asks for, a panel for each unit
-section_<field>.png           the particles in a slice through the tool
+cracks.png                    J, K_I and K_II of each crack tip and the length of each crack over time
+crack_path_<crack>.png        the way of a crack that grew
+section_<field>.png           the particles in a slice through the tool, and the cracks
 view_<field>.png              the particles and the tools seen from the side (runs in 3D)
 compare_contact_<body>.png    several runs: force and impulse, a line for each run
 compare_energies.png, compare_audit.png
@@ -26,6 +28,7 @@ sys.dont_write_bytecode = True  # leaves no files among the sources
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import plot_animation  # noqa: E402
 import plot_compare  # noqa: E402
+import plot_cracks  # noqa: E402
 import plot_particles  # noqa: E402
 import plot_series  # noqa: E402
 import plot_style  # noqa: E402
@@ -46,13 +49,14 @@ def draw(options):
     if len(runs) > 1:
         plot_compare.plot_comparison(runs, plots)
         return
-    run = runs[0]
+    run, cracks = runs[0], plot_cracks.Cracks(folders[0])
     for body in run.bodies:
         plot_series.plot_contact(run, body, plots)
     plot_series.plot_energies(run, plots)
     plot_series.plot_audit(run, plots)
     plot_series.plot_global(run, plots)
-    plot_particles.plot_particles(run, plots, fields)
+    plot_cracks.plot_cracks(run, cracks, plots)
+    plot_particles.plot_particles(run, plots, fields, cracks)
 
 
 def main():

@@ -161,6 +161,28 @@ parameters: {{bodies.strip.initial.velocity: {{values: [[0, 0], [0, 8], [0, 0.1]
         self.sweep(self.study, code=3)
         self.assertNotEqual(self.results()["0002"][:2], failed[:2])
 
+    def test_a_run_that_crashes_or_is_killed_takes_no_other_with_it(self):
+        # Runs of more than a second, so that they can be met.
+        plan = self.write("long.yaml", f"""
+scene: {source_file("test/data/press.yaml")}
+set: {{time.end: 30}}
+parameters: {{materials.foam.poisson: {{values: [0.1, 0.2, 0.3, 0.4]}}}}
+""")
+        process = subprocess.Popen(self.command(plan, "--out", self.study, "--jobs", "4"), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        for run, number in [("0001", signal.SIGSEGV), ("0002", signal.SIGTERM), ("0003", signal.SIGKILL)]:
+            scene = os.path.join(self.study, "runs", run, "scene.yaml")
+            self.assertTrue(eventually(lambda path=scene: processes_with(path)))
+            os.kill(processes_with(scene)[0], number)
+        self.assertEqual(process.wait(60), 1)
+        rows = self.table()
+        self.assertEqual([row["state"] for row in rows], ["failed", "stopped", "stopped", "done"])
+        self.assertIn("crashed by signal 11", rows[0]["reason"])
+        self.assertRegex(rows[1]["reason"], "was stopped at t = |ended by signal 15")  # as soon as it catches signals
+        self.assertIn("ended by signal 9", rows[2]["reason"])
+        # What was stopped is made, what crashed is not.
+        self.assertIn("4 runs: 3 done, 1 failed;", self.sweep(self.study, code=3))
+
     def test_what_is_wrong_is_found_before_the_first_run(self):
         def refused(change, *sentence):
             with open(self.plan, encoding="utf-8") as file:

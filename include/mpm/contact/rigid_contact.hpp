@@ -11,11 +11,18 @@
 // material reaches through it: those that the line from the node's mass centre meets the tool on the way to. The normal
 // is that of the surface at the mass centre, the face that the material lies at.
 //
+// A tool in a crack has a field's material on one side of it, and nodes of that field on both: particles beside the
+// tool reach nodes beyond its middle, where the surface faces the other way, and would be pushed through it. So in
+// fields of bodies that cracks divide the normal of a node is that of the surface at its mass centre as well. (A wedge
+// between the halves of a block had eight times the force that it has between two bodies, with contact at points.)
+//
 // Weak: a surface between two rows of nodes is met up to a cell early; material on both sides of a tool thinner than
 // three cells shares nodes if it has one field. Source: Nairn, GIMP notes (3.12)-(3.20); method reference 5.3, 8.3; the
 // normal is the exact one instead of a mass gradient.
 #pragma once
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "mpm/contact/contact_reporter.hpp"
@@ -36,6 +43,10 @@ class RigidContact final : public Stage, public ContactReporter {
   /// only tells axisymmetric scenes from others; `gravity` [m/s^2] serves the account of energy alone.
   RigidContact(const RigidBody& body, Fields& fields, int threads, GeometryKind geometry = GeometryKind::solid,
                const ToolSides* sides = nullptr, const Vec3& gravity = Vec3::Zero(), HeatSink* heat = nullptr);
+
+  /// `fields`: one mark for each velocity field, not 0 where a normal is that at a node's mass centre. These need
+  /// Grid::place on blocks that the body's bounds meet.
+  void take_normals_at_centres(std::vector<std::uint8_t> fields) { centred_ = std::move(fields); }
 
   std::string name() const override { return ledger_.account().name; }
   Ranks ranks(Hook) const override { return {Rank::rigid_body}; }
@@ -66,6 +77,7 @@ class RigidContact final : public Stage, public ContactReporter {
   struct NearBlock {
     int field, block;
   };
+  Vec3 mass_centre(int field, NodeRef node) const;
   /// Whether a node of a field, at a world place, is in contact if it approaches; then `point` is the surface there.
   /// `reach`: largest distance outside the body [m].
   bool touches(int field, NodeRef node, const Vec3& place, double reach, SurfacePoint& point) const;
@@ -87,6 +99,7 @@ class RigidContact final : public Stage, public ContactReporter {
   std::vector<NearBlock> near_;           ///< blocks whose nodes may lie in the body
   std::vector<std::vector<Node>> nodes_;  ///< of each block in near_
   std::vector<HeldNodes> held_;           ///< of each field
+  std::vector<std::uint8_t> centred_;     ///< of each field
   ContactLedger ledger_;
   HeatSink* heat_;
   int touching_ = 0;

@@ -1,5 +1,5 @@
 // Where the mass of a node comes from: Grid::place = sum of m S x over particles [kg m], mass centre times mass, on
-// the blocks near something that asks for it (thin tools).
+// the blocks near something that asks for it (thin tools, tools in bodies that cracks divide).
 #pragma once
 
 #include <functional>

@@ -24,16 +24,23 @@ RigidContact::RigidContact(const RigidBody& body, Fields& fields, int threads, G
       sides_(sides),
       thin_(sides == nullptr ? nullptr : sides->find(body)),
       held_(fields.size()),
+      centred_(fields.size(), 0),
       ledger_(body, axisymmetric(geometry)),
       heat_(heat) {}
+
+Vec3 RigidContact::mass_centre(int field, NodeRef node) const {
+  const Grid& grid = *fields_[field];
+  return nodal_vector(grid.place, grid.layout, node) / grid.mass.at(node.block, 0, node.node);
+}
 
 bool RigidContact::touches(int field, NodeRef node, const Vec3& place, double reach, SurfacePoint& point) const {
   const Surface& surface = body_.surface();
   if (thin_ == nullptr || !sides_->map().one_sided(field)) {
-    return surface.within(body_.pose().to_body(place), reach, point);
+    if (!surface.within(body_.pose().to_body(place), reach, point)) return false;
+    if (centred_[field] != 0) point.normal = surface.at(body_.pose().to_body(mass_centre(field, node))).normal;
+    return true;
   }
-  const Grid& grid = *fields_[field];
-  const Vec3 centre = nodal_vector(grid.place, grid.layout, node) / grid.mass.at(node.block, 0, node.node);
+  const Vec3 centre = mass_centre(field, node);
   const double farthest = std::max(reach, (centre - place).norm());  // that the tool can be between them
   if (!surface.within(body_.pose().to_body(place), farthest, point)) return false;
   if (point.distance > reach && !thin_->between(centre, place)) return false;

@@ -28,8 +28,7 @@ class MassPlaces final : public Stage {
   void find_near(const Grid& grid) {
     const GridLayout& layout = grid.layout;
     is_near_.assign(grid.blocks.size(), 0);
-    for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
-      const int number = grid.blocks.owner_block(owner);
+    for (int number = 0; number < grid.blocks.size(); ++number) {
       const std::array<int, 3>& block = grid.blocks.block(number);
       const Vec3 low = layout.node_position(block, 0);
       const Vec3 high = layout.node_position(block, layout.nodes_per_block() - 1);
@@ -42,7 +41,7 @@ class MassPlaces final : public Stage {
   std::vector<ParticleSet>& sets_;
   NearBall near_;
   ScalarTransfer::Given places_;
-  ScalarTransfer::Marks is_near_;  ///< blocks of the field at work that hold particles and are near
+  ScalarTransfer::Marks is_near_;  ///< blocks of the field at work
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "mpm/contact/rigid_contact.hpp"
 #include "mpm/contact/rigid_particle_contact.hpp"
 #include "mpm/contact/tool_sides.hpp"
+#include "mpm/mechanics/mass_places.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "rigid_contacts.hpp"
 #include "shipped_modules.hpp"
@@ -119,6 +120,25 @@ void add_point_contact(RunParts& parts, const std::vector<RigidBody*>& bodies, s
   parts.modules.add(std::make_unique<PointContact>(bodies, parts.sets, parts.fields, std::move(laws), settings));
 }
 
+/// One mark for each velocity field, not 0 for those of bodies that cracks divide.
+std::vector<std::uint8_t> divided_fields(const RunParts& parts) {
+  std::vector<std::uint8_t> divided(parts.fields.size(), 0);
+  for (const int field : parts.map.chosen()) divided[field] = 1;
+  return divided;
+}
+
+/// Finds mass centres of nodes near these tools.
+void add_mass_places(RunParts& parts, std::vector<const RigidBody*> tools) {
+  const double cell = parts.layout().smallest_cell();
+  const auto near = [tools = std::move(tools), cell](const Vec3& middle, double radius) {
+    return std::any_of(tools.begin(), tools.end(), [&](const RigidBody* tool) {
+      return Box{middle, middle}.grown(radius + tool->reach() * cell).intersects(tool->world_bounds());
+    });
+  };
+  const ShapeKind shape = parts.definition.method.shape;
+  parts.modules.add(make_mass_places(parts.make_transfer(shape), parts.fields, parts.sets, near));
+}
+
 }  // namespace
 
 void add_pairs(RunParts& parts) {
@@ -138,6 +158,7 @@ void add_rigid_contact(RunParts& parts) {
   const std::vector<ContactLaw> laws = rigid_contact_laws(definition, parts.sets);
   std::vector<RigidBody*> met_at_points;
   std::vector<ContactLaw> laws_at_points;
+  std::vector<const RigidBody*> beside_cracks;
   for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
     RigidBody& body = parts.bodies[b];
     const auto first = laws.begin() + static_cast<std::ptrdiff_t>(b * parts.sets.size());
@@ -146,13 +167,19 @@ void add_rigid_contact(RunParts& parts) {
       parts.modules.add(
           std::make_unique<RigidParticleContact>(body, particle_settings(parts, own), parts.fields, parts.volumes()));
     } else if (definition.contact.method == ContactMethod::nodes) {
-      parts.modules.add(std::make_unique<RigidContact>(body, parts.fields, parts.threads, definition.geometry,
-                                                       parts.sides, definition.gravity, parts.heat));
+      auto contact = std::make_unique<RigidContact>(body, parts.fields, parts.threads, definition.geometry, parts.sides,
+                                                    definition.gravity, parts.heat);
+      if (parts.choice != nullptr) {
+        contact->take_normals_at_centres(divided_fields(parts));
+        beside_cracks.push_back(&body);
+      }
+      parts.modules.add(std::move(contact));
     } else {
       met_at_points.push_back(&body);
       laws_at_points.insert(laws_at_points.end(), own.begin(), own.end());
     }
   }
+  if (!beside_cracks.empty()) add_mass_places(parts, std::move(beside_cracks));
   if (!met_at_points.empty()) add_point_contact(parts, met_at_points, std::move(laws_at_points));
 }
 

@@ -112,7 +112,7 @@ TEST(View, IsPutIntoTheShippedConfiguration) {
   }
   EXPECT_EQ(clouds, 1);
   EXPECT_EQ(grids, 1);
-  EXPECT_EQ(arrays, 2);
+  EXPECT_EQ(arrays, 3);  // tools, contact forces, cracks
   const YAML::Node eye = manager["Views"]["Current"];
   EXPECT_EQ(eye["Distance"].as<double>(), 4.5);
   EXPECT_EQ(eye["Focal Point"]["Z"].as<double>(), 3.0);

@@ -13,6 +13,7 @@
 #include "full_disk.hpp"
 #include "mpm_ros/report/report_bag.hpp"
 #include "mpm_ros/report/temporary_folder.hpp"
+#include "mpm_ros/run/crack_lines.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 #include "mpm_ros/run/vtk_file.hpp"
 #include "test_files.hpp"
@@ -32,7 +33,7 @@ std::string content(const std::string& path) {
 /// The content of a .vtp file.
 struct PolyData {
   double time = -1.0;
-  std::size_t points = 0, verts = 0, polys = 0;
+  std::size_t points = 0, verts = 0, lines = 0, polys = 0;
   std::map<std::string, std::string> types;  ///< type of each array, "Float32" or "Float32 x 3"
   std::map<std::string, std::string> bytes;
 
@@ -61,6 +62,7 @@ PolyData read_vtp(const std::string& path) {
   };
   result.points = count("NumberOfPoints");
   result.verts = count("NumberOfVerts");
+  result.lines = count("NumberOfLines");
   result.polys = count("NumberOfPolys");
   std::size_t end = data;
   const std::regex array(
@@ -98,6 +100,88 @@ TEST(Vtk, ATriangleAsTheFormatHasIt) {
   EXPECT_EQ(read.values<std::int32_t>("connectivity"), (std::vector<std::int32_t>{0, 1, 2}));
   EXPECT_EQ(read.values<std::int32_t>("offsets"), (std::vector<std::int32_t>{3}));
   EXPECT_EQ(read.values<float>("height &amp; width"), (std::vector<float>{1.5F, -2.5F, 3.5F}));
+}
+
+geometry_msgs::Point point(double x, double z) {
+  geometry_msgs::Point result;
+  result.x = x;
+  result.z = z;
+  return result;
+}
+
+TEST(Vtk, ACrackIsALineAlongEachFace) {
+  // From (0, 0) to (3, 4) and on in that direction, which is (0.6, 0.8); to its left is (-0.8, 0.6). At the first point
+  // the faces are 0.5 apart across the crack, half of it on either side, and 0.25 along it.
+  Cracks message;
+  message.cracks.resize(1);
+  Crack& crack = message.cracks[0];
+  crack.name = "cut";
+  crack.points = {point(0, 0), point(3, 4), point(6, 8)};
+  crack.above = {point(-0.8 * 0.25 + 0.6 * 0.25, 0.6 * 0.25 + 0.8 * 0.25), point(3, 4), point(6, 8)};
+  crack.below = {point(0.8 * 0.25, -0.6 * 0.25), point(3, 4), point(6, 8)};
+  crack.normal_traction = {1.0, 2.0, 3.0};
+  crack.shear_traction = {4.0, 5.0, 6.0};
+  crack.debonded = {1, 0, 0};
+  message.tips.resize(1);
+  message.tips[0].crack = "cut";
+  message.tips[0].end = "end";
+  message.tips[0].j = 60.0;
+  message.tips[0].k_one = 7.0;
+  message.tips[0].k_two = -8.0;
+  const TemporaryFolder folder;
+  crack_lines(0.5, message).write(folder.file("cracks.vtp"));
+  const PolyData read = read_vtp(folder.file("cracks.vtp"));
+  EXPECT_EQ(read.time, 0.5);
+  EXPECT_EQ(read.points, 6U);
+  EXPECT_EQ(read.lines, 2U);
+  EXPECT_EQ(read.verts + read.polys, 0U);
+  EXPECT_EQ(read.values<std::int32_t>("connectivity"), (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(read.values<std::int32_t>("offsets"), (std::vector<std::int32_t>{3, 6}));
+  EXPECT_EQ(read.values<std::uint32_t>("crack"), (std::vector<std::uint32_t>(6, 1)));
+  EXPECT_EQ(read.values<std::uint32_t>("face"), (std::vector<std::uint32_t>{1, 1, 1, 2, 2, 2}));
+  EXPECT_EQ(read.values<std::uint32_t>("debonded"), (std::vector<std::uint32_t>{1, 0, 0, 1, 0, 0}));
+  EXPECT_EQ(read.values<float>("normal_traction"), (std::vector<float>{1, 2, 3, 1, 2, 3}));
+  EXPECT_EQ(read.values<float>("shear_traction"), (std::vector<float>{4, 5, 6, 4, 5, 6}));
+  const std::vector<float> places = read.values<float>("Points"), opening = read.values<float>("opening"),
+                           slip = read.values<float>("slip"), j = read.values<float>("j"),
+                           k_one = read.values<float>("k_one"), k_two = read.values<float>("k_two");
+  EXPECT_EQ(places[9], 0.2F);   // the face below, x of its first point: 0.8 x 0.25
+  EXPECT_EQ(places[17], 8.0F);  // z of its last
+  for (std::size_t k = 0; k < 6; ++k) {
+    // Rounded to a float32: 2^-24 of 0.5.
+    EXPECT_NEAR(opening[k], k % 3 == 0 ? 0.5 : 0.0, 3e-8) << k;
+    EXPECT_NEAR(slip[k], k % 3 == 0 ? 0.25 : 0.0, 3e-8) << k;
+    const bool tip = k % 3 == 2;
+    EXPECT_EQ(std::isnan(j[k]), !tip) << k;
+    if (!tip) continue;
+    EXPECT_EQ(j[k], 60.0F);
+    EXPECT_EQ(k_one[k], 7.0F);
+    EXPECT_EQ(k_two[k], -8.0F);
+  }
+}
+
+TEST(Vtk, CracksAreWrittenWithEachCloud) {
+  const TemporaryFolder folder;
+  RunSceneOptions options;
+  options.scene = source_file("config/scenes/edge_crack.yaml");
+  options.set = {"time.end=1.2e-5"};  // three sync periods, a cloud each, and the one of the start
+  options.threads = 1;
+  options.vtk = folder.file("vtk");
+  std::ostringstream out, err;
+  ASSERT_EQ(run_scene(options, out, err, false, [] { return false; }), RunSceneResult::done) << err.str();
+  const std::string list = content(options.vtk + "/run.pvd");
+  for (int cloud = 0; cloud < 4; ++cloud) {
+    const std::string name = "cracks_000" + std::to_string(cloud) + ".vtp";
+    EXPECT_NE(list.find("name=\"cracks\" file=\"" + name + "\""), std::string::npos) << list;
+    const PolyData cracks = read_vtp(options.vtk + "/" + name);
+    EXPECT_NEAR(cracks.time, 4e-6 * cloud, 1e-15);  // decimal digits read back
+    EXPECT_EQ(cracks.lines, 2U);
+    const std::vector<float> places = cracks.values<float>("Points");
+    // From the mouth to the tip, as the scene has them; what little the wave of the load moves them is less than a
+    // micrometre, since it has not come there.
+    EXPECT_NEAR(places[0], 0.3e-3, 1e-6);
+    EXPECT_NEAR(places[places.size() - 3], 10.1e-3, 1e-6);
+  }
 }
 
 TEST(Vtk, WhatCannotBeWrittenIsNamed) {

@@ -68,7 +68,8 @@ TEST(Watching, EveryGlobalQuantityIsInTheTableWithItsUnit) {
 }
 
 TEST(Watching, EveryRVizConfigurationNamesTopicsThatExist) {
-  const std::set<std::string> topics = {topics::kParticles, topics::kMarkers, topics::kForceMarkers};
+  const std::set<std::string> topics = {topics::kParticles, topics::kMarkers, topics::kForceMarkers,
+                                        topics::kCrackMarkers};
   int configurations = 0;
   for (const auto& entry : std::filesystem::directory_iterator(source_file("config/rviz"))) {
     const std::string path = entry.path().string();
@@ -85,7 +86,7 @@ TEST(Watching, EveryRVizConfigurationNamesTopicsThatExist) {
         EXPECT_EQ(topics.count(topic.substr(topic.rfind('/') + 1)), 1U) << path << ": " << topic;
       }
     }
-    EXPECT_EQ(named, 3) << path << ": particles, shapes and forces are shown";
+    EXPECT_EQ(named, 4) << path << ": particles, shapes, forces and cracks are shown";
   }
   EXPECT_GE(configurations, 1);
 }

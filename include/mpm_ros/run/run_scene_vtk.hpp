@@ -1,6 +1,6 @@
 // The messages of a run written as files for ParaView while it runs: particles_NNNN.vtp for each particle cloud,
-// body_<name>_NNNN.vtp for each rigid body where it was then, and run.pvd, which names them all with their times. Open
-// that one.
+// body_<name>_NNNN.vtp for each rigid body where it was then, cracks_NNNN.vtp for the faces of all cracks, and run.pvd,
+// which names them all with their times. Open that one.
 #pragma once
 
 #include <fstream>
@@ -27,6 +27,7 @@ class VtkSink : public MessageSink {
   void put(const std::string& topic, const ros::Time& stamp, const geometry_msgs::WrenchStamped& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const BodyStates& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const SolverState& message) override;
+  void put(const std::string& topic, const ros::Time& stamp, const Cracks& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const tf2_msgs::TFMessage& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) override;
   void put(const std::string& topic, const ros::Time& stamp, const Command& message) override;
@@ -34,6 +35,7 @@ class VtkSink : public MessageSink {
  private:
   void write_particles(double time, const sensor_msgs::PointCloud2& cloud);
   void write_bodies(double time);
+  void write_cracks(double time);
   /// Writes the file, and names it in run.pvd, which is whole after each.
   void write(const VtkFile& file, const std::string& stem, int part, double time);
 
@@ -43,6 +45,7 @@ class VtkSink : public MessageSink {
   int count_ = 0;       ///< of clouds
   visualization_msgs::MarkerArray shapes_;
   BodyStates bodies_;  ///< as they were last
+  Cracks cracks_;      ///< as they were last
 };
 
 }  // namespace mpm_ros

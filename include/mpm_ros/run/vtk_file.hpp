@@ -1,6 +1,6 @@
-// One .vtp file: points, or a surface of triangles, with values at each, as VTK's XML format of surfaces (PolyData).
-// The numbers stand behind the XML as raw bytes, so that a file is written, and read by ParaView, at the speed of the
-// disk.
+// One .vtp file: points, lines, or a surface of triangles, with values at each, as VTK's XML format of surfaces
+// (PolyData). The numbers stand behind the XML as raw bytes, so that a file is written, and read by ParaView, at the
+// speed of the disk.
 //
 // Weak: at most 2^31 points; uncompressed, and always of the byte order of this machine (which the file names).
 #pragma once
@@ -28,6 +28,8 @@ class VtkFile {
   void draw_points();
   /// Three points each, in their order, are a triangle.
   void draw_triangles();
+  /// Lines through that many points each, in their order; together all points.
+  void draw_lines(const std::vector<std::size_t>& points_of_line);
   /// A value for each point.
   void add(const std::string& name, const std::vector<float>& values);
   void add(const std::string& name, const std::vector<std::uint32_t>& values);
@@ -45,9 +47,12 @@ class VtkFile {
   template <typename Value>
   static Array array(const std::string& name, const char* type, int components, const std::vector<Value>& values);
 
+  void draw(const char* kind, const std::vector<std::size_t>& points_of_cell);
+
   double time_;
   std::size_t points_;
-  std::size_t corners_ = 0;  ///< points of a cell: 1 or 3; 0: nothing is drawn
+  const char* kind_ = "";           ///< of what is drawn: "Verts", "Lines" or "Polys"; empty: nothing is
+  std::vector<std::int32_t> ends_;  ///< of each cell: the number of points before the next one's
   std::vector<Array> place_, values_;
 };
 

@@ -119,8 +119,8 @@ void RunOutputs::begin(const RunInfo& info) {
   write_bodies();
   write_contacts();
   write_state(options_.state_hash, 0.0);
-  write_particles();
   write_cracks();
+  write_particles();
   write_global();
 }
 
@@ -129,8 +129,8 @@ void RunOutputs::begin_again(const RunInfo& info) {
   if (wanted(topics::kMarkers)) put(topics::kMarkers, shape_markers(simulation_));
   write_bodies();
   write_state(options_.state_hash, 0.0);
-  write_particles();
   write_cracks();
+  write_particles();
   if (!global_.empty() && !global_kept_) global_.read();  // contact forces are means from here
 }
 

@@ -9,6 +9,7 @@
 #include "mpm_ros/csv/csv_writer.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/topics.hpp"
+#include "mpm_ros/run/crack_lines.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -45,7 +46,8 @@ void VtkSink::close() {
 }
 
 bool VtkSink::wants(const std::string& topic) const {
-  return topic == topics::kParticles || topic == topics::kBodies || topic == topics::kMarkers;
+  return topic == topics::kParticles || topic == topics::kBodies || topic == topics::kMarkers ||
+         topic == topics::kCracks;
 }
 
 void VtkSink::put(const std::string&, const ros::Time&, const visualization_msgs::MarkerArray& message) {
@@ -54,10 +56,13 @@ void VtkSink::put(const std::string&, const ros::Time&, const visualization_msgs
 
 void VtkSink::put(const std::string&, const ros::Time&, const BodyStates& message) { bodies_ = message; }
 
+void VtkSink::put(const std::string&, const ros::Time&, const Cracks& message) { cracks_ = message; }
+
 void VtkSink::put(const std::string&, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) {
   const double time = static_cast<double>(stamps_.time_of(stamp)) * 1e-9;
   write_particles(time, message);
   write_bodies(time);
+  write_cracks(time);
   ++count_;
 }
 
@@ -98,6 +103,10 @@ void VtkSink::write_bodies(double time) {
       write(file, "body_" + file_stem(body.name), part, time);
     }
   }
+}
+
+void VtkSink::write_cracks(double time) {
+  if (!cracks_.cracks.empty()) write(crack_lines(time, cracks_), "cracks", 0, time);
 }
 
 void VtkSink::write(const VtkFile& file, const std::string& stem, int part, double time) {

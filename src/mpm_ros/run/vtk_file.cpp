@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <numeric>
 
 #include "mpm/math/output_file.hpp"
 
@@ -22,9 +23,18 @@ VtkFile::Array VtkFile::array(const std::string& name, const char* type, int com
   return result;
 }
 
-void VtkFile::draw_points() { corners_ = 1; }
+void VtkFile::draw_points() { draw("Verts", std::vector<std::size_t>(points_, 1)); }
 
-void VtkFile::draw_triangles() { corners_ = 3; }
+void VtkFile::draw_triangles() { draw("Polys", std::vector<std::size_t>(points_ / 3, 3)); }
+
+void VtkFile::draw_lines(const std::vector<std::size_t>& points_of_line) { draw("Lines", points_of_line); }
+
+void VtkFile::draw(const char* kind, const std::vector<std::size_t>& points_of_cell) {
+  kind_ = kind;
+  ends_.clear();
+  std::int32_t end = 0;
+  for (const std::size_t points : points_of_cell) ends_.push_back(end += static_cast<std::int32_t>(points));
+}
 
 void VtkFile::add(const std::string& name, const std::vector<float>& values) {
   values_.push_back(array(name, "Float32", 1, values));
@@ -36,11 +46,11 @@ void VtkFile::add(const std::string& name, const std::vector<std::uint32_t>& val
 
 void VtkFile::write(const std::string& path) const {
   std::vector<Array> cells;
-  if (corners_ > 0) {
-    std::vector<std::int32_t> corners(points_ / corners_ * corners_), ends(points_ / corners_);
-    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::int32_t>(i);
-    for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = static_cast<std::int32_t>((i + 1) * corners_);
-    cells = {array("connectivity", "Int32", 1, corners), array("offsets", "Int32", 1, ends)};
+  const std::string kind = kind_;
+  if (!kind.empty()) {
+    std::vector<std::int32_t> corners(ends_.empty() ? 0 : static_cast<std::size_t>(ends_.back()));
+    std::iota(corners.begin(), corners.end(), 0);
+    cells = {array("connectivity", "Int32", 1, corners), array("offsets", "Int32", 1, ends_)};
   }
 
   // Each array lies behind its length, 64 bits; `offset` counts from the first byte behind the underscore.
@@ -55,19 +65,18 @@ void VtkFile::write(const std::string& path) const {
     }
     return text;
   };
-  const std::size_t drawn = corners_ > 0 ? points_ / corners_ : 0;
+  const auto drawn = [&](const char* name) { return kind == name ? ends_.size() : 0; };
   std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n"
       "<PolyData>\n<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
       "format=\"ascii\">{:.17g}"
       "</DataArray></FieldData>\n"
-      "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
       "NumberOfPolys=\"{}\">\n",
-      BOOST_ENDIAN_LITTLE_BYTE ? "LittleEndian" : "BigEndian", time_, points_, corners_ == 1 ? drawn : 0,
-      corners_ == 3 ? drawn : 0);
+      BOOST_ENDIAN_LITTLE_BYTE ? "LittleEndian" : "BigEndian", time_, points_, drawn("Verts"), drawn("Lines"),
+      drawn("Polys"));
   text += "<Points>\n" + describe(place_) + "</Points>\n";
-  if (corners_ == 1) text += "<Verts>\n" + describe(cells) + "</Verts>\n";
-  if (corners_ == 3) text += "<Polys>\n" + describe(cells) + "</Polys>\n";
+  if (!kind.empty()) text += fmt::format("<{0}>\n{1}</{0}>\n", kind, describe(cells));
   text +=
       "<PointData>\n" + describe(values_) + "</PointData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
 

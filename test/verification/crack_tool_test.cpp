@@ -51,7 +51,7 @@ double force(double cell, double left, const std::string& method, bool crack) {
 // where the plane is in the middle of a cell the halves are reached only by a wedge that is a cell wide. About 25 s.
 TEST(CrackTool, AWedgeDrivesHalvesApartAsItDoesTwoBodies) {
   const double bodies = force(2e-3, -0.041, "flip: 1", false);
-  Page page("cracks", "crack_tool", "A wedge in a crack");
+  Page page("crack", "crack_tool", "A wedge in a crack");
   page.problem(
       "Two beams of foam (67 MPa, 31 mm wide, 100 mm long, 20 mm thick, fixed at the foot) that a crack divides over "
       "all of their length. A wedge of 30 degrees is driven between their ends at 0.4 m/s, with a friction of 0.2; the "

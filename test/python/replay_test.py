@@ -59,7 +59,7 @@ class Pictures(unittest.TestCase):
                 with Started("roslaunch", "mpm_ros", "replay.launch", "bag:=" + os.path.relpath(bag)) as launch:
                     self.assertEqual(self.topics_shown(launch), {namespace + "/" + leaf for leaf in
                                                                 ("~particles", "~colour_bar", "markers",
-                                                                 "force_markers")})
+                                                                 "force_markers", "crack_markers")})
                     self.assertIs(master.getParam("/use_sim_time"), True)
                     launch.end()
                     self.assertFalse(master.hasParam("/use_sim_time"), launch.output())
@@ -70,7 +70,7 @@ class Pictures(unittest.TestCase):
             with running_master(), Started("roslaunch", "mpm_ros", *words) as launch:
                 self.assertEqual(self.topics_shown(launch), {"/mpm/" + leaf for leaf in
                                                              ("~particles", "~colour_bar", "markers",
-                                                              "force_markers")})
+                                                              "force_markers", "crack_markers")})
                 with open(self.path("words"), encoding="utf-8") as file:
                     # A node of the same name as `watch` would end it, and with it RViz.
                     self.assertNotIn("__name:=", file.read())

@@ -74,6 +74,44 @@ TEST(CrackContour, MeetsACornerOnce) {
   EXPECT_NEAR((path.crossing.place - at(4.0, 4.0)).norm(), 0.0, 1e-12);
 }
 
+/// 31 x 31 nodes, cells of 1 m; a crack whose tip lies beside node (15, 15).
+ContourPath path_beside(const std::vector<Vec2>& others, int size) {
+  const GridLines lines{{0.0, 0.0}, {1.0, 1.0}, {31, 31}};
+  const std::vector<Vec2> line{{0.0, 15.4}, {15.1, 15.4}};
+  ContourPath path;
+  make_path(lines, line.data(), 2, line.back(), size, path, others);
+  return path;
+}
+
+using Node = std::array<int, 2>;
+
+// One to three cells short of the other tip, two from its own at least, on the side where the other is.
+TEST(CrackContour, KeepsAwayFromOtherTips) {
+  const auto expect = [](const std::vector<Vec2>& others, int size, const Node& low, const Node& high) {
+    const ContourPath path = path_beside(others, size);
+    ASSERT_EQ(path.status, ContourStatus::complete);
+    EXPECT_EQ(path.low, low);
+    EXPECT_EQ(path.high, high);
+    EXPECT_EQ(static_cast<int>(path.nodes.size()), 2 * (high[0] - low[0] + high[1] - low[1]));
+  };
+  expect({}, 4, {11, 11}, {19, 19});
+  expect({{20.1, 15.4}}, 4, {11, 11}, {19, 19});  // more than a cell beside it
+  expect({{15.0, 20.1}}, 4, {11, 11}, {19, 19});
+  expect({{19.9, 15.4}}, 4, {11, 11}, {17, 19});  // 2.9 cells short
+  expect({{18.0, 15.4}}, 4, {11, 11}, {17, 19});  // one cell short
+  expect({{20.5, 12.0}}, 6, {9, 9}, {18, 21});    // 2.5 cells short
+  expect({{16.0, 11.2}}, 4, {11, 13}, {19, 19});
+  expect({{11.3, 18.0}}, 4, {13, 11}, {19, 19});  // on the side on which it is farther
+  expect({{19.4, 15.4}, {15.0, 18.2}}, 4, {11, 11}, {17, 17});
+}
+
+TEST(CrackContour, HasNoRoomBetweenTipsNextToEachOther) {
+  for (const Vec2& other : {Vec2(17.9, 15.4), Vec2(15.0, 17.9), Vec2(12.1, 12.1), Vec2(15.1, 15.4)}) {
+    EXPECT_EQ(path_beside({other}, 4).status, ContourStatus::holds_other_tip);
+  }
+  EXPECT_GT(std::string(describe(ContourStatus::holds_other_tip)).size(), 10u);
+}
+
 /// A number as energy: 1 below the crack, 2 above, of which some nodes may have none.
 class TwoSides final : public ContourSource {
  public:

@@ -215,6 +215,42 @@ TEST(CrackCohesive, EndMomentsPartAGluedSeam) {
   EXPECT_NEAR(above[0], above[1], 0.5e-3);  // one point of the chain
 }
 
+// A law 20 times as stiff as what the waves' step allows limits the steps from the first one on. Nodes do not change
+// where the blocks rest, so that all periods have as many steps.
+TEST(CrackCohesive, StiffLawLimitsTheFirstStepToo) {
+  mpm::Simulation simulation = simulation_of(
+      {"cracks.traction_laws={glue: {kind: linear, normal: {stiffness: 1e12}}}", "cracks.list.seam.traction=glue"});
+  std::uint64_t before = 0;
+  std::vector<std::uint64_t> steps;
+  for (int k = 0; k < 3; ++k) {
+    simulation.advance();
+    steps.push_back(simulation.state().step.steps - before);
+    before += steps.back();
+    EXPECT_NE(simulation.state().step.limited_by.find("stiffest law of tractions"), std::string::npos);
+  }
+  // Without the law a wave of 316 m/s crosses 0.4 cells in a step: two in a period of 0.25 ms.
+  EXPECT_GT(steps[0], 10u);
+  EXPECT_EQ(steps[1], steps[0]);
+  EXPECT_EQ(steps[2], steps[0]);
+}
+
+// A tip that leaves a stiff law behind grows within a period, whose steps have to be short enough from its start.
+TEST(CrackCohesive, LawOfGrowthLimitsTheStepsBeforeIt) {
+  mpm::Simulation simulation = simulation_of(
+      {"cracks.traction_laws={glue: {kind: linear, normal: {stiffness: 1e12}}}",
+       "cracks.list=[{name: seam, line: {from: [0.8125, 0.0625], to: [0.8125, 0.70]}, start: exterior, end: tip}]",
+       "cracks.growth={criterion: steady_state, traction: glue}",
+       "materials=[{name: stiff, density: 1000, law: linear_elastic, young: 100 MPa, poisson: 0, fracture: "
+       "{start_time: 1e-4, speed: 100}}]"});
+  simulation.advance();
+  const double first = simulation.state().step.dt_last;
+  while (number(simulation, "crack 1 end growth") < 0.3) simulation.advance();
+  // Points of the chain stand for other lengths than growth adds, and their nodes for other parts of a cell.
+  const double later = simulation.state().step.dt_last;
+  EXPECT_LE(first, 1.001 * later);
+  EXPECT_GT(first, 0.5 * later);
+}
+
 // A tip that grows at 5 m/s from 10 ms on until the crack is 1 m long.
 TEST(CrackCohesive, SteadyGrowth) {
   mpm::Simulation simulation =

@@ -14,16 +14,17 @@ using namespace crack_case;
 
 constexpr double kLoading = 6e-4;  // [s]
 
-/// Ends of a body of cells of 1 mm that move apart by `move` [m] each within kLoading, at rows of nodes within it.
-std::string ends(double upper, double lower, double move) {
+/// Ends of a body of cells of 1 mm that move apart by `move` [m] each within kLoading, at rows of nodes within it, from
+/// x = `left` on [mm].
+std::string ends(double left, double upper, double lower, double move) {
   std::string text = "boundaries:\n  conditions:\n";
   for (const double side : {1.0, -1.0}) {
     const double z = side > 0 ? upper : lower;
     text += fmt::format(
-        "    - {{name: {}, region: {{box: {{min: [-50 mm, {} mm], max: [50 mm, {} mm]}}}}, direction: z, velocity: "
+        "    - {{name: {}, region: {{box: {{min: [{} mm, {} mm], max: [50 mm, {} mm]}}}}, direction: z, velocity: "
         "\"{}*(t "
         "< {} ? (1-cos(6.28318530717959*t/{}))/{} : 0)\"}}\n",
-        side > 0 ? "upper" : "lower", z - 0.1, z + 0.1, side * move, kLoading, kLoading, kLoading);
+        side > 0 ? "upper" : "lower", left, z - 0.1, z + 0.1, side * move, kLoading, kLoading, kLoading);
   }
   return text;
 }
@@ -52,11 +53,11 @@ double mean_release(const std::string& text, double end, const std::vector<std::
     }
     release = now;
   }
-  EXPECT_GE(count, 4);
+  EXPECT_GE(count, 3);
   return sum / count;
 }
 
-// About 15 s.
+// About 30 s.
 TEST(CrackBalance, BothTipsOfACrackInAPlate) {
   Page page("crack", "crack_release_plate", "Energy that growth releases at two tips");
   page.problem(
@@ -66,18 +67,18 @@ TEST(CrackBalance, BothTipsOfACrackInAPlate) {
       .meaning("The energies of the run agree with the contours; these are about 1 % low at 3 cells.");
   const std::string text =
       "geometry: plane_strain\nthickness: 1 mm\n"
-      "grid: {cell: 1 mm, min: [-44 mm, -64 mm], max: [44 mm, 65 mm]}\ntime: {end: 1.4 ms, cfl: 0.6, sync: 10 us}\n"
+      "grid: {cell: 1 mm, min: [-44 mm, -64 mm], max: [44 mm, 65 mm]}\ntime: {end: 1.1 ms, cfl: 0.6, sync: 10 us}\n"
       "method: {transfer: {fmpm: 2}, damping: {grid: 4e4 1/s}}\n"
       "materials: [{name: polymer, law: linear_elastic, density: 1000, young: 2500 MPa, poisson: 0.33, fracture: "
       "{j_ic: "
       "7e-4, speed: 2.08e-3, gain: 1e-9}}]\n"
       "bodies: [{name: plate, material: polymer, shape: {box: {min: [-40 mm, -60 mm], max: [40 mm, 61 mm]}}}]\n" +
-      ends(60, -59, 2.14e-7) +
+      ends(-50, 60, -59, 2.14e-7) +
       "cracks: {growth: {criterion: energy_balance}, list: [{name: slit, points: [[-7.9 mm, 0.5 mm], [8.1 mm, 0.5 "
       "mm]], "
       "start: tip, end: tip}]}\n";
   // Contours of 3 cells are 0.6 %, those of 2 cells 1.4 % low with exact values at nodes.
-  page.near("release by the energies over J, mean of 4 or more", mean_release(text, 1.4e-3, {"start", "end"}), 1.0,
+  page.near("release by the energies over J, mean of 3 or more", mean_release(text, 1.1e-3, {"start", "end"}), 1.0,
             0.02, "");
 }
 
@@ -96,11 +97,11 @@ TEST(CrackBalance, PennyInARod) {
       "{j_ic: "
       "0.045, speed: 1.04e-3, gain: 1e-9}}]\n"
       "bodies: [{name: rod, material: polymer, shape: {box: {min: [0, -50 mm], max: [20 mm, 51 mm]}}}]\n" +
-      ends(50, -49, 2.14e-6) +
+      ends(0, 50, -49, 2.14e-6) +
       "cracks: {growth: {criterion: energy_balance}, list: [{name: penny, points: [[0.25 mm, 0.5 mm], [10.1 mm, 0.5 "
       "mm]], "
       "start: exterior}]}\n";
-  page.near("release by the energies over J, mean of 4 or more", mean_release(text, 2e-3, {"end"}), 1.0, 0.02, "");
+  page.near("release by the energies over J, mean of 3 or more", mean_release(text, 2e-3, {"end"}), 1.0, 0.02, "");
 }
 
 }  // namespace crack_balance_test

@@ -43,7 +43,7 @@ mpm::Simulation pull(double gap, double periods, const std::string& growth, cons
   return simulation;
 }
 
-// About 10 s.
+// About 30 s.
 TEST(CrackPair, TipsThatFaceEachOther) {
   Page page("crack", "crack_pair", "Two cracks in line");
   page.problem(
@@ -72,7 +72,7 @@ TEST(CrackPair, TipsThatFaceEachOther) {
   }
 }
 
-// About 5 s.
+// About 25 s.
 TEST(CrackPair, TipsThatMeetStop) {
   const mpm::Simulation simulation =
       pull(9.8, 3.0, "  growth: {criterion: steady_state}\n", ", fracture: {start_time: 3e-4, speed: 30}");

@@ -91,13 +91,14 @@ class CrackTips {
   void find(CrackTip& tip);
   int group_of(const CrackTip& tip, const ContourPath& path) const;
   void find_material(CrackTip& tip);
-  void add_faces(const CrackTip& tip, JResult& result);
+  void add_faces(const CrackTip& tip, const JForm& form, JResult& result);
   double friction_at(const CrackTip& tip, const JForm& form);
   void split(CrackTip& tip);
   bool grow(CrackTip& tip, double time, double dt);
   bool may_grow(const CrackTip& tip) const;
   bool stopped(const CrackTip& tip) const;
-  JForm form_of(const Vec2& tip) const;
+  /// With the square around the tip, whose edge is in `edge_`.
+  JForm form_of(const Chain& chain, const Vec2& tip);
 
   std::vector<Crack>& cracks_;
   const CrackFields& chosen_;
@@ -110,7 +111,7 @@ class CrackTips {
   std::vector<CrackTip> tips_;
   TipHeating* heating_ = nullptr;
   double time_ = 0.0;  ///< of the look at work [s]
-  ContourPath path_;
+  ContourPath path_, edge_;
   std::vector<ContourPiece> pieces_;
   std::vector<AreaSample> samples_;
   std::vector<FaceSample> faces_;

@@ -41,7 +41,7 @@ void working_stress(const JForm& form, const ContourValues& values, double (&str
 Vec2 ring_density(const JForm& form, const AreaSample& sample) {
   const ContourValues& values = sample.values;
   const double stretch = form.large_strain ? 1.0 + values.hoop_gradient : 1.0;
-  if (form.kind == JForm::Kind::bergkvist_huong) {
+  if (form.kind_at(sample.place) == JForm::Kind::bergkvist_huong) {
     const double density = stretch * (values.energy + values.kinetic) - values.hoop * values.hoop_gradient;
     return {-density / form.tip_radius, 0.0};
   }
@@ -58,7 +58,7 @@ Vec2 ring_density(const JForm& form, const AreaSample& sample) {
 }  // namespace
 
 double weight_of(const JForm& form, const Vec2& place, const ContourValues& values) {
-  if (form.kind == JForm::Kind::bergkvist_huong) return place[0] / form.tip_radius;
+  if (form.kind_at(place) == JForm::Kind::bergkvist_huong) return place[0] / form.tip_radius;
   return form.about_axis() && form.large_strain ? 1.0 + values.hoop_gradient : 1.0;
 }
 
@@ -82,6 +82,13 @@ Vec2 contour_term(const JForm& form, const std::vector<ContourPiece>& pieces) {
     sum += 0.5 * piece.length() * (at(piece.from, piece.first, piece.normal) + at(piece.to, piece.last, piece.normal));
   }
   return sum;
+}
+
+Vec2 joining_term(const JForm& form, const std::vector<ContourPiece>& edge) {
+  JForm outside = form, inside = form;
+  outside.low = outside.high;
+  inside.kind = JForm::Kind::broberg;
+  return contour_term(inside, edge) - contour_term(outside, edge);
 }
 
 Vec2 area_term(const JForm& form, const std::vector<AreaSample>& samples, double area, bool inertia) {

@@ -149,6 +149,7 @@ void CrackTips::find(CrackTip& tip) {
   tip.status = result.status;
   if (result.status != ContourStatus::complete) return;
   result.contour += joining;
+  form.rotation = result.rotation;
   add_faces(tip, form, result);
   tip.zone = result.faces_work;
   tip.j = result.along(chain.direction(tip.end));

@@ -3,6 +3,11 @@
 namespace mpm {
 namespace {
 
+/// u_i,k without the rotation of the form.
+double turned_back(const JForm& form, const double (&gradient)[2][2], int i, int k) {
+  return gradient[i][k] - (k - i) * form.rotation;
+}
+
 /// rho (a_i u_i,k - v_i v_i,k), with derivatives by undeformed coordinates at large strain.
 Vec2 inertia_density(const JForm& form, const AreaSample& sample) {
   const auto& g = sample.values.gradient;
@@ -13,7 +18,7 @@ Vec2 inertia_density(const JForm& form, const AreaSample& sample) {
       if (form.large_strain) {
         for (int j = 0; j < 2; ++j) slope += sample.velocity_gradient[i][j] * g[j][k];
       }
-      density[k] += sample.acceleration[i] * g[i][k] - sample.velocity[i] * slope;
+      density[k] += sample.acceleration[i] * turned_back(form, g, i, k) - sample.velocity[i] * slope;
     }
   }
   return sample.density * density;
@@ -68,7 +73,7 @@ Vec2 energy_flux(const JForm& form, const ContourValues& values, const Vec2& nor
   Vec2 flux;
   for (int k = 0; k < 2; ++k) {
     const double way = normal[k] + (form.large_strain ? g[0][k] * normal[0] + g[1][k] * normal[1] : 0.0);
-    flux[k] = energy * way - traction[0] * g[0][k] - traction[1] * g[1][k];
+    flux[k] = energy * way - traction[0] * turned_back(form, g, 0, k) - traction[1] * turned_back(form, g, 1, k);
   }
   return flux;
 }
@@ -103,7 +108,7 @@ Vec2 area_term(const JForm& form, const std::vector<AreaSample>& samples, double
   return sum * (area / covered);
 }
 
-JResult integrate_j(const JForm& form, const GridLines& lines, const ContourPath& path, const ContourSource& source,
+JResult integrate_j(JForm form, const GridLines& lines, const ContourPath& path, const ContourSource& source,
                     const std::vector<AreaSample>& samples, bool inertia, std::vector<ContourPiece>& pieces) {
   JResult result;
   result.status = path.status;
@@ -111,6 +116,8 @@ JResult integrate_j(const JForm& form, const GridLines& lines, const ContourPath
   result.status = gather_contour(lines, path, source, pieces);
   if (result.status != ContourStatus::complete) return result;
   result.crossing = path.crossing;
+  if (inertia && !form.about_axis()) form.rotation = mean_rotation(pieces);
+  result.rotation = form.rotation;
   result.contour = contour_term(form, pieces);
   result.area = area_term(form, samples, path.area(lines), inertia);
   return result;

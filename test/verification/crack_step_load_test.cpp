@@ -135,7 +135,11 @@ TEST(CrackStepLoad, RunningTip) {
       .meaning(
           "Compare means: within a cell J rises from next to nothing to its largest value, since the tip of the grid "
           "moves by whole cells. FMPM of order 2 keeps the waves that a running tip lives on; XPIC of order 2, which "
-          "scenes with growth get unasked, takes a part of them away, the more the faster the tip.");
+          "scenes with growth get unasked, takes a part of them away, the more the faster the tip. At 0.6 of the speed "
+          "of "
+          "Rayleigh waves G is 0.22 of that at rest, where 0.305 is exact, on contours of 3 and of 6 cells alike: it "
+          "is "
+          "not the contour that misses it.");
   for (const auto& [rayleigh, exact_mean] : {std::pair{0.2, 0.729}, std::pair{0.4, 0.502}}) {
     const Running kept = run_at(rayleigh, "{transfer: {fmpm: 2}}"), calm = run_at(rayleigh, "{transfer: {xpic: 2}}");
     page.near(fmt::format("mean G at {}, fmpm 2, over that at rest", rayleigh), kept.mean, exact_mean, 0.03, "");
@@ -144,18 +148,11 @@ TEST(CrackStepLoad, RunningTip) {
     page.report(fmt::format("largest G at {}, fmpm 2, over that at rest", rayleigh), kept.most, "");
     page.near_absolute(fmt::format("place of the tip at {}", rayleigh), kept.place, kept.asked, 0.06, "m");
   }
-  for (const auto& [name, further] : std::vector<std::pair<std::string, std::vector<std::string>>>{
-           {"3 cells", {}},
-           {"half the step", {"time.cfl=0.25"}},
-           {"fine",
-            {"grid.cell=0.05", "grid.min=[-0.4, -2.425]", "grid.max=[14.4, 2.525]",
-             "cracks.list.crack.points=[[0.015, 0.025], [7.005, 0.025]]", "bodies.plate.shape.box.min=[0, -1.975]",
-             "bodies.plate.shape.box.max=[14, 2.025]"}}}) {
-    const Running fast = run_at(0.6, "{transfer: {fmpm: 2}}", further);
-    page.report("mean G at 0.6, fmpm 2, " + name + ", over that at rest", fast.mean, "");
-    page.report("least G at 0.6, fmpm 2, " + name + ", over that at rest", fast.least, "");
-    page.report("largest G at 0.6, fmpm 2, " + name + ", over that at rest", fast.most, "");
-    page.near_absolute("place of the tip at 0.6, " + name, fast.place, fast.asked, 0.06, "m");
+  // Not reached: 28 % low.
+  for (const int size : {3, 6}) {
+    const Running fast = run_at(0.6, "{transfer: {fmpm: 2}}", {fmt::format("cracks.contour.size={}", size)});
+    page.report(fmt::format("mean G at 0.6, fmpm 2, {} cells, over that at rest; exact 0.305", size), fast.mean, "");
+    page.near_absolute(fmt::format("place of the tip at 0.6, {} cells", size), fast.place, fast.asked, 0.06, "m");
   }
 }
 

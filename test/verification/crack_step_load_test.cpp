@@ -136,10 +136,8 @@ TEST(CrackStepLoad, RunningTip) {
           "Compare means: within a cell J rises from next to nothing to its largest value, since the tip of the grid "
           "moves by whole cells. FMPM of order 2 keeps the waves that a running tip lives on; XPIC of order 2, which "
           "scenes with growth get unasked, takes a part of them away, the more the faster the tip. At 0.6 of the speed "
-          "of "
-          "Rayleigh waves G is 0.22 of that at rest, where 0.305 is exact, on contours of 3 and of 6 cells alike: it "
-          "is "
-          "not the contour that misses it.");
+          "of Rayleigh waves G is 7 % low with FMPM of order 2 and 19 % high with order 4, which filters less; it "
+          "falls with smaller steps, of which each filters: to 0.27 and 0.25 of that at rest at cfl 0.25 and 0.125.");
   for (const auto& [rayleigh, exact_mean] : {std::pair{0.2, 0.729}, std::pair{0.4, 0.502}}) {
     const Running kept = run_at(rayleigh, "{transfer: {fmpm: 2}}"), calm = run_at(rayleigh, "{transfer: {xpic: 2}}");
     page.near(fmt::format("mean G at {}, fmpm 2, over that at rest", rayleigh), kept.mean, exact_mean, 0.03, "");
@@ -148,11 +146,11 @@ TEST(CrackStepLoad, RunningTip) {
     page.report(fmt::format("largest G at {}, fmpm 2, over that at rest", rayleigh), kept.most, "");
     page.near_absolute(fmt::format("place of the tip at {}", rayleigh), kept.place, kept.asked, 0.06, "m");
   }
-  // Not reached: 28 % low.
-  for (const int size : {3, 6}) {
-    const Running fast = run_at(0.6, "{transfer: {fmpm: 2}}", {fmt::format("cracks.contour.size={}", size)});
-    page.report(fmt::format("mean G at 0.6, fmpm 2, {} cells, over that at rest; exact 0.305", size), fast.mean, "");
-    page.near_absolute(fmt::format("place of the tip at 0.6, {} cells", size), fast.place, fast.asked, 0.06, "m");
+  // J is read in every step here: in every second one a saw of 3 teeth has 10 readings, and their mean is 0.22.
+  for (const int order : {2, 4}) {
+    const Running fast = run_at(0.6, fmt::format("{{transfer: {{fmpm: {}}}}}", order).c_str(), {"time.sync=8.41 us"});
+    page.report(fmt::format("mean G at 0.6, fmpm {}, over that at rest; exact 0.305", order), fast.mean, "");
+    page.near_absolute(fmt::format("place of the tip at 0.6, fmpm {}", order), fast.place, fast.asked, 0.06, "m");
   }
 }
 

@@ -33,7 +33,8 @@ struct Side {
 
 /// @param across values at the node `far` of material on this side; null: none
 /// @param part of the edge from `far` to `near` where the crack lies
-Side side_of(const ContourValues* across, const ContourValues& own, const Vec2& far, const Vec2& near, double part) {
+Side side_of(const ContourValues* across, const ContourValues& own, const Vec2& far, const Vec2& near, double part,
+             bool at_centres) {
   if (across == nullptr) return {own, own};
   const Vec2 edge = near - far;
   const auto along = [&](const ContourValues& values) { return (values.centre - far).dot(edge) / edge.squaredNorm(); };
@@ -42,7 +43,7 @@ Side side_of(const ContourValues* across, const ContourValues& own, const Vec2& 
     return std::abs(off[0] * edge[1] - off[1] * edge[0]) / edge.squaredNorm();
   };
   const double from = along(*across), to = along(own);
-  if (aside(*across) > kAside || aside(own) > kAside || to - from < kApart) {
+  if (!at_centres || aside(*across) > kAside || aside(own) > kAside || to - from < kApart) {
     return {ContourValues::between(*across, own, part), own};
   }
   return {ContourValues::between(*across, own, (part - from) / (to - from)),
@@ -63,7 +64,7 @@ double mean_rotation(const std::vector<ContourPiece>& pieces) {
 }
 
 ContourStatus gather_contour(const GridLines& lines, const ContourPath& path, const ContourSource& source,
-                             std::vector<ContourPiece>& pieces) {
+                             std::vector<ContourPiece>& pieces, bool at_centres) {
   pieces.clear();
   const int edges = static_cast<int>(path.nodes.size());
   const auto node = [&](int place) -> const std::array<int, 2>& { return path.nodes[place % edges]; };
@@ -78,7 +79,7 @@ ContourStatus gather_contour(const GridLines& lines, const ContourPath& path, co
   const auto place = [&](int at) { return lines.place(node(at)); };
   const auto side = [&](int far, int near, const ContourValues& own, double part) {
     const bool found = source.find(node(far), ContourField::across, across);
-    return side_of(found ? &across : nullptr, own, place(far), place(near), part);
+    return side_of(found ? &across : nullptr, own, place(far), place(near), part, at_centres);
   };
   const Side leaving = side(crossing.edge, crossing.edge + 1, after, crossing.along);
   const Side coming = side(crossing.edge + 1, crossing.edge, before, 1.0 - crossing.along);

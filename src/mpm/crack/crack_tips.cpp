@@ -139,7 +139,7 @@ void CrackTips::find(CrackTip& tip) {
   JForm form = form_of(chain, place);
   Vec2 joining{0.0, 0.0};
   if (edge_.status == ContourStatus::complete) {
-    if (gather_contour(lines_, edge_, values_, pieces_) == ContourStatus::complete) {
+    if (gather_contour(lines_, edge_, values_, pieces_, false) == ContourStatus::complete) {
       joining = joining_term(form, pieces_);
     } else {
       form.low = form.high;

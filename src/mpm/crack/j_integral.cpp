@@ -113,7 +113,7 @@ JResult integrate_j(JForm form, const GridLines& lines, const ContourPath& path,
   JResult result;
   result.status = path.status;
   if (path.status != ContourStatus::complete) return result;
-  result.status = gather_contour(lines, path, source, pieces);
+  result.status = gather_contour(lines, path, source, pieces, !form.about_axis());
   if (result.status != ContourStatus::complete) return result;
   result.crossing = path.crossing;
   if (inertia && !form.about_axis()) form.rotation = mean_rotation(pieces);

@@ -6,9 +6,9 @@
 // taken from the straight line through both. In arms 6 cells thick, whose stress grows toward the faces, J would be
 // 2.5 % low without it.
 //
-// Weak: on a crack askew to the contour values are taken as those of the nodes, and where one of the two nodes has none,
-// those of the other stand for both. About an axis they are left at the nodes too: with pressure on the faces J would be
-// 1.5 % farther from dU/dA, for a reason that has not been found.
+// Weak: on a crack askew to the contour values are taken as those of the nodes, and where one of the two nodes has
+// none, those of the other stand for both. About an axis they are left at the nodes too: with pressure on the faces J
+// would be 1.5 % farther from dU/dA, for a reason that has not been found.
 //
 // Source: crack reference 4.2; NairnMPM's phantom points.
 #pragma once

@@ -57,9 +57,9 @@ JForm CrackTips::form_of(const Chain& chain, const Vec2& tip) {
   if (axisymmetric(parts_.geometry)) {
     form.kind = settings_.contour.about_axis_by_broberg ? JForm::Kind::broberg : JForm::Kind::bergkvist_huong;
   }
-  const int size = std::min(settings_.contour.size - 1, kMoment);
+  const int size = std::min(settings_.contour.size, kMoment);
   edge_.status = ContourStatus::no_material;
-  if (form.kind != JForm::Kind::bergkvist_huong || size < 1) return form;
+  if (form.kind != JForm::Kind::bergkvist_huong) return form;
   make_path(lines_, chain.line().data(), static_cast<int>(chain.line().size()), tip, size, edge_);
   if (edge_.status != ContourStatus::complete) return form;
   form.low = lines_.place(edge_.low);

@@ -118,7 +118,9 @@ JResult integrate_j(JForm form, const GridLines& lines, const ContourPath& path,
   result.crossing = path.crossing;
   if (inertia && !form.about_axis()) form.rotation = mean_rotation(pieces);
   result.rotation = form.rotation;
-  result.contour = contour_term(form, pieces);
+  JForm outside = form;  // also where the square reaches the contour
+  outside.low = outside.high;
+  result.contour = contour_term(outside, pieces);
   result.area = area_term(form, samples, path.area(lines), inertia);
   return result;
 }

@@ -165,5 +165,43 @@ TEST(CrackContour, HasOnePointOnEachFace) {
   }
 }
 
+/// Energy that is linear on each side, as means of material whose centres lie off the nodes beside the crack at j
+/// = 3.5.
+class OffCentre final : public ContourSource {
+ public:
+  double aside = 0.0;  ///< of the centres of material across [cells]
+  static double energy(double j, bool above) { return above ? 2.0 + 0.3 * j : 1.0 - 0.2 * j; }
+  bool find(const std::array<int, 2>& node, ContourField field, ContourValues& values) const override {
+    const bool own = field == ContourField::own, above = (node[1] >= 4) == own;
+    double off = 0.0;
+    if (!own) off = above ? 0.75 : -0.75;
+    if (own && (node[1] == 3 || node[1] == 4)) off = above ? 0.1 : -0.1;
+    values = {};
+    values.energy = energy(node[1] + off, above);
+    values.centre = at(node[0] + (own ? 0.0 : aside), node[1] + off);
+    return true;
+  }
+};
+
+// At the face and at the node beside it a linear field is exact: by values as if of the nodes it is off by the slope
+// times 0.425 and 0.1 cells. Centres that lie aside count as at their nodes.
+TEST(CrackContour, TakesMeansAtTheirCentres) {
+  const ContourPath path = path_of({at(0.2, 3.5), at(5.1, 3.5)}, 1);
+  ASSERT_EQ(path.status, ContourStatus::complete);
+  OffCentre source;
+  std::vector<ContourPiece> pieces;
+  ASSERT_EQ(gather_contour(kLines, path, source, pieces), ContourStatus::complete);
+  EXPECT_NEAR(pieces.front().first.energy, OffCentre::energy(3.5, false), 1e-12);
+  EXPECT_NEAR(pieces.front().last.energy, OffCentre::energy(3.0, false), 1e-12);
+  EXPECT_EQ(pieces[1].first.energy, pieces.front().last.energy);
+  EXPECT_NEAR(pieces.back().last.energy, OffCentre::energy(3.5, true), 1e-12);
+  EXPECT_NEAR(pieces.back().first.energy, OffCentre::energy(4.0, true), 1e-12);
+  EXPECT_EQ(pieces[pieces.size() - 2].last.energy, pieces.back().first.energy);
+  source.aside = 0.3;
+  ASSERT_EQ(gather_contour(kLines, path, source, pieces), ContourStatus::complete);
+  EXPECT_NEAR(pieces.front().first.energy, OffCentre::energy(3.5 - 0.425, false), 1e-12);
+  EXPECT_NEAR(pieces.front().last.energy, OffCentre::energy(3.0 - 0.1, false), 1e-12);
+}
+
 }  // namespace crack_contour_test
 }  // namespace mpm::test

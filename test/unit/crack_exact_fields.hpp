@@ -20,6 +20,7 @@ class ExactContourSource final : public ContourSource {
   ExactContourSource(GridLines lines, CrackField field) : lines_(lines), field_(std::move(field)) {}
   bool find(const std::array<int, 2>& node, ContourField field, ContourValues& values) const override {
     values = field_(lines_.place(node), field);
+    values.centre = lines_.place(node);
     return true;
   }
 

@@ -106,14 +106,15 @@ class CrackTips {
   bool divide_one_body(int crack, int other) const;
   int group_of(const CrackTip& tip, const ContourPath& path) const;
   void find_material(CrackTip& tip);
-  void add_faces(const CrackTip& tip, JResult& result);
+  void add_faces(const CrackTip& tip, const JForm& form, JResult& result);
   double friction_at(const CrackTip& tip, const JForm& form);
   void split(CrackTip& tip);
   bool grow(CrackTip& tip, double time, double dt);
   bool may_grow(const CrackTip& tip) const;
   const std::string& law_of_growth(const CrackTip& tip, const GrowthRule& rule) const;
   bool stopped(const CrackTip& tip) const;
-  JForm form_of(const Vec2& tip) const;
+  /// With the square around the tip, whose edge is in `edge_`.
+  JForm form_of(const Chain& chain, const Vec2& tip);
 
   std::vector<Crack>& cracks_;
   const CrackFields& chosen_;
@@ -130,7 +131,7 @@ class CrackTips {
   double grown_area_ = 0.0;   ///< of all tips since the start [m^2]
   double area_before_ = 0.0;  ///< the same when energies were found
   double time_ = 0.0;         ///< of the look at work [s]
-  ContourPath path_;
+  ContourPath path_, edge_;
   std::vector<Vec2> others_;  ///< places of other tips [m]
   std::vector<ContourPiece> pieces_;
   std::vector<AreaSample> samples_;

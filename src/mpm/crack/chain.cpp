@@ -86,6 +86,15 @@ void Chain::update_line() {
   const int last = size() - 1;
   if (ends_[0] == CrackEnd::exterior) line_[0] += kExterior * (points_[0].place - points_[1].place);
   if (ends_[1] == CrackEnd::exterior) line_[last] += kExterior * (points_[last].place - points_[last - 1].place);
+  extents_.clear();
+  for (int first = 0; first < last; first += kRun) {
+    Extent extent{line_[first], line_[first]};
+    for (int k = first + 1; k <= std::min(first + kRun, last); ++k) {
+      extent.low = extent.low.cwiseMin(line_[k]);
+      extent.high = extent.high.cwiseMax(line_[k]);
+    }
+    extents_.push_back(extent);
+  }
 }
 
 Vec2 Chain::direction(int end) const {

@@ -128,8 +128,13 @@ bool CrackFields::needs_sort() const {
 // The fewest consecutive segments that hold all of `within` whose bounds meet those of the box.
 CrackFields::Part CrackFields::part_between(int crack, const Part& within, const Vec2& low, const Vec2& high) const {
   const std::vector<Vec2>& line = cracks_[crack].chain.line();
+  const std::vector<Chain::Extent>& extents = cracks_[crack].chain.extents();
   int first = -1, last = -1;
   for (int k = within.first; k + 1 < within.first + within.points; ++k) {
+    if (k % Chain::kRun == 0 && extents[k / Chain::kRun].misses(low, high)) {
+      k += Chain::kRun - 1;
+      continue;
+    }
     const Vec2 &a = line[k], &b = line[k + 1];
     if (std::min(a[0], b[0]) > high[0] || std::max(a[0], b[0]) < low[0]) continue;
     if (std::min(a[1], b[1]) > high[1] || std::max(a[1], b[1]) < low[1]) continue;

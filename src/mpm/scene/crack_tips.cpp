@@ -88,6 +88,12 @@ void check_growth(const Value& end, const CrackDefinition& crack, std::size_t ma
       end.fail(fmt::format("the tip's material is '{}', and its {}: {}", definition.name,
                            alternate ? "alternate" : "growth", fault));
     }
+    if (rule.criterion == FractureCriterion::energy_balance) {
+      end.fail(
+          fmt::format("the tip's material is '{}', and its growth has the criterion 'energy_balance', which the "
+                      "energies of the run do not reach yet; take release_rate or steady_state",
+                      definition.name));
+    }
     check_fixed(end, rule, crack, cracks);
     if (crack.traction_of_growth.empty()) check_new_faces(end, rule, crack);
   }

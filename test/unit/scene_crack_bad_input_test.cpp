@@ -147,6 +147,22 @@ TEST(SceneCrackBadInput, NamesThatAreNot) {
       << crack_refusal(text);
 }
 
+// Segments of half a cell, 0.05 m; the plate begins at 0.2 m, so that an end is exterior up to 0.4 m.
+TEST(SceneCrackBadInput, ExteriorEndsInsideABody) {
+  const auto from = [](const std::string& x) {
+    std::string text = spoilt_scene(19, "      points: [[" + x + ", 0.85], [1.02, 0.85]]");
+    return crack_refusal(text.replace(text.find("start: none"), 11, "start: exterior"));
+  };
+  EXPECT_EQ(from("0.22"), "no error");
+  EXPECT_EQ(from("0.37"), "no error");
+  const std::string inside = from("0.52"),
+                    start = "bad.yaml:21: cracks.list.notch.start: an exterior end is lengthened";
+  EXPECT_EQ(inside.substr(0, start.size()), start) << inside;
+  EXPECT_NE(inside.find("'plate' is still there at (0.32, 0.85) m; put the end a quarter to half a cell inside"),
+            std::string::npos)
+      << inside;
+}
+
 TEST(SceneCrackBadInput, CracksThatLieAlongOneAnother) {
   const auto beside = [](const std::string& points) {
     return crack_refusal(spoilt_scene(23, "    - {name: other, points: " + points + ", end: none}\n  traction_laws:"));

@@ -124,21 +124,21 @@ void NodeChoice::clear(NodalField& own) const {
 
 void NodeChoice::give(NodalField Grid::*what) {
   const NodalField& own = grid_.*what;
+  const int components = own.components(), nodes = grid_.layout.nodes_per_block();
   for (const Entry& entry : entries_) {
-    NodalField& to = (*fields_[entry.field]).*what;
-    for (int c = 0; c < own.components(); ++c) {
-      to.at(entry.block, c, entry.node) += own.at(entry.own_block, c, entry.own_node);
-    }
+    double* to = ((*fields_[entry.field]).*what).block(entry.block) + entry.node;
+    const double* from = own.block(entry.own_block) + entry.own_node;
+    for (int c = 0; c < components; ++c) to[c * nodes] += from[c * nodes];
   }
 }
 
 void NodeChoice::take(NodalField Grid::*what) {
   NodalField& own = grid_.*what;
+  const int components = own.components(), nodes = grid_.layout.nodes_per_block();
   for (const Entry& entry : entries_) {
-    const NodalField& from = (*fields_[entry.field]).*what;
-    for (int c = 0; c < own.components(); ++c) {
-      own.at(entry.own_block, c, entry.own_node) = from.at(entry.block, c, entry.node);
-    }
+    double* to = own.block(entry.own_block) + entry.own_node;
+    const double* from = ((*fields_[entry.field]).*what).block(entry.block) + entry.node;
+    for (int c = 0; c < components; ++c) to[c * nodes] = from[c * nodes];
   }
 }
 

@@ -60,6 +60,10 @@ class Module {
 
   // Reports, which are computed when asked for, between two steps.
 
+  /// Over several ranks: whether what the module reports is the whole run's on each of them, so that one alone counts.
+  /// Else it is this rank's part.
+  virtual bool same_on_all_ranks() const { return false; }
+
   /// Adds the module's impulse accounts to the list.
   virtual void accounts(std::vector<ImpulseAccount>&) const {}
   /// Adds the energies that the module stores, dissipates or gives as work [J]. A module that sets material in motion

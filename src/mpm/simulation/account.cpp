@@ -90,14 +90,17 @@ ParticleTensors without_free_strain(const ParticleSet& set, int p, ParticleTenso
 }
 
 Vec3 Simulation::State::momentum() const {
-  return sum_particles(sets, threads, Vec3(Vec3::Zero()), [&](const ParticleSet& set, int p) {
+  Vec3 total = sum_particles(sets, threads, Vec3(Vec3::Zero()), [&](const ParticleSet& set, int p) {
     return Vec3(set.mass_of(p) * particle_vector(set.v, layout(), p));
   });
+  if (over) over->add_up(total);
+  return total;
 }
 
 Vec3 Simulation::State::impulse(const std::string& account) const {
   std::vector<ImpulseAccount> accounts;
   modules.accounts(accounts);
+  if (over) over->add_up(accounts);
   const auto own = [&](const ImpulseAccount& one) { return one.name == account; };
   const auto found = std::find_if(accounts.begin(), accounts.end(), own);
   return found == accounts.end() ? Vec3(Vec3::Zero()) : found->impulse;
@@ -131,6 +134,13 @@ const RunTotals& Simulation::State::find_totals() {
   totals.energy.add("potential", NamedEnergy::Kind::stored, of_all.potential);
   mechanics->energies(totals.energy);
   modules.energies(totals.energy);
+  if (over) {
+    over->add_up(totals.energy);
+    over->ranks().sum(&of_all.carried, 1);
+    double least = -of_all.min_j;
+    over->ranks().largest(&least, 1);
+    of_all.min_j = -least;
+  }
   return totals;
 }
 
@@ -146,13 +156,15 @@ SolverState Simulation::state() const {
   const RunTotals& totals = s.find_totals();
   report.energy = totals.energy;
   report.min_j = totals.material.min_j;
-  report.numbers = s.modules.numbers();
+  report.numbers = s.numbers();
 
   AuditReport& audit = report.audit;
   audit.momentum = s.momentum();
   audit.initial_momentum = s.initial_momentum;
-  std::vector<ImpulseAccount> accounts{s.gravity};
+  std::vector<ImpulseAccount> accounts;
   s.modules.accounts(accounts);
+  if (s.over) s.over->add_up(accounts);
+  accounts.insert(accounts.begin(), s.gravity);
   Vec3 given = Vec3::Zero();
   for (const ImpulseAccount& account : accounts) {
     audit.impulses.push_back({account.name, account.impulse});

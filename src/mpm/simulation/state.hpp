@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "energy_watch.hpp"
+#include "over_ranks.hpp"
 #include "mpm/contact/contact_reporter.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/particles/sum_particles.hpp"
@@ -63,10 +64,13 @@ struct Simulation::State {
   Isa isa = Isa::plain;
   std::vector<std::string> warnings, notes;
   std::function<bool()> asked_to_stop;  ///< may be empty
+  std::shared_ptr<Ranks> ranks;
+  std::unique_ptr<OverRanks> over;  ///< over several ranks, else null
   std::function<void(const Settling&)> settling;
 
   std::vector<ParticleSet> sets;
-  std::vector<Law> laws;  ///< of each set
+  std::vector<std::uint64_t> sizes;  ///< of each set, on all ranks
+  std::vector<Law> laws;             ///< of each set
   FieldMap field_map;
   Fields fields;
   std::unique_ptr<NodeChoice> choice;  ///< of particles near cracks
@@ -120,6 +124,10 @@ struct Simulation::State {
   void step(double start, double dt);
   /// @throws PhysicsError for a particle that is not where it may be
   void sort(double now);
+  /// The same as the sorter: after particles have gone to their ranks, and before these meet.
+  std::optional<ParticleRef> sort_particles();
+  /// Ends the run on all ranks if check() throws on one of them, with its reason. @throws PhysicsError
+  void check_together(const std::function<void()>& check);
   /// All that the run remembers (serialise_state.cpp).
   void serialise(StateArchive& archive);
   void serialise_particles(StateArchive& archive);

@@ -77,6 +77,8 @@ class FaceTractions : public Stage {
   Vec3 value_at(const TractionTerm& term, const FaceParts& parts, int p, const StepContext& context) const;
   /// A force on the nodes of the cell that a place is in, in the particle's field.
   void spread(int set, int p, const PlacedDomain::Vector& at, const Vec3& force);
+  /// Adds the loads of a field on all ranks to its forces.
+  void add_over_ranks(int field);
 
   Fields& fields_;
   const std::vector<ParticleSet>& sets_;
@@ -86,6 +88,8 @@ class FaceTractions : public Stage {
   std::vector<int> place_of_;             ///< scratch: of a set's particles, by id from the first
   std::uint64_t generation_ = 0;          ///< of the blocks that places_ were found with
   std::vector<NodalLoad> loads_;          ///< of this step
+  Halo* halo_;
+  NodalField nodal_;  ///< of a field's loads, where there is a halo [N]
   ImpulseAccount account_;
   double work_ = 0.0;
 };

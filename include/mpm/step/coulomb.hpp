@@ -17,6 +17,7 @@
 
 #include "mpm/math/geometry.hpp"
 #include "mpm/math/state_archive.hpp"
+#include "mpm/ranks/lists.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 
 namespace mpm {
@@ -66,6 +67,14 @@ class HeldNodes {
   void reserve(std::size_t nodes) { held_.reserve(nodes); }
   /// Nodes have to be added in ascending order of id.
   void add(std::uint64_t id, Hold hold) { held_.push_back({id, hold}); }
+  /// Of all ranks, each of which knows some.
+  void share(Communicator& ranks) {
+    held_ = gather_list(ranks, held_);
+    const auto before = [](const Entry& a, const Entry& b) { return a.id < b.id; };
+    const auto same = [](const Entry& a, const Entry& b) { return a.id == b.id; };
+    std::sort(held_.begin(), held_.end(), before);
+    held_.erase(std::unique(held_.begin(), held_.end(), same), held_.end());
+  }
   void serialise(StateArchive& archive) {
     archive.rows("held", held_);
     archive.column("held/node", held_, &Entry::id);

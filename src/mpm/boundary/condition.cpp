@@ -197,7 +197,7 @@ void VelocityConditions::momentum_updated(FieldContext& context) {
     const Vec3 change = (held.end - along(grid.velocity, grid.layout, held.ref, held.direction)) * held.direction;
     add_nodal_vector(grid.velocity, grid.layout, held.ref, change);
     add_nodal_vector(grid.force, grid.layout, held.ref, change / context.dt);
-    give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change);
+    if (grid.counts(held.ref.block)) give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change);
   }
 }
 
@@ -217,7 +217,7 @@ void VelocityConditions::increment_found(FieldContext& context) {
     if (!grid.carries(held.ref.block, held.ref.node)) continue;
     const Vec3 change = -along(increment, grid.layout, held.ref, held.direction) * held.direction;
     add_nodal_vector(increment, grid.layout, held.ref, change);
-    give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change);
+    if (grid.counts(held.ref.block)) give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "mpm/ranks/lists.hpp"
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
@@ -142,6 +143,16 @@ void ContactNodes::update(double dt) {
 
 void ContactNodes::filter(double dt) {
   hold_nodes(Pass::filter, dt, [](Grid& grid) -> NodalField& { return grid.increment; });
+}
+
+void ContactNodes::share_memory(Communicator& ranks) {
+  held_ = gather_list(ranks, held_);
+  const auto before = [](const Held& a, const Held& b) {
+    return std::tie(a.node, a.fields) < std::tie(b.node, b.fields);
+  };
+  const auto same = [](const Held& a, const Held& b) { return a.node == b.node && a.fields == b.fields; };
+  std::sort(held_.begin(), held_.end(), before);
+  held_.erase(std::unique(held_.begin(), held_.end(), same), held_.end());
 }
 
 void ContactNodes::keep_held() {

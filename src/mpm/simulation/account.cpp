@@ -1,7 +1,9 @@
 // What a Simulation says of itself: momentum audit, energies, the hash of its state. Computed when asked for.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <numeric>
 
 #include "mpm/math/byte_hash.hpp"
 #include "mpm/math/dimension.hpp"
@@ -89,12 +91,38 @@ ParticleTensors without_free_strain(const ParticleSet& set, int p, ParticleTenso
   return t;
 }
 
+namespace {
+
+/// Places of a set's particles, in the order of their ids. `whole`: all of the set's particles are here.
+std::vector<int> places_by_id(const ParticleSet& set, bool whole) {
+  std::vector<int> places(set.size());
+  if (whole) {
+    for (int p = 0; p < set.size(); ++p) places[set.id[p] - set.first_id] = p;
+  } else {
+    std::iota(places.begin(), places.end(), 0);
+    std::sort(places.begin(), places.end(), [&](int a, int b) { return set.id[a] < set.id[b]; });
+  }
+  return places;
+}
+
+}  // namespace
+
 Vec3 Simulation::State::momentum() const {
   Vec3 total = sum_particles(sets, threads, Vec3(Vec3::Zero()), [&](const ParticleSet& set, int p) {
     return Vec3(set.mass_of(p) * particle_vector(set.v, layout(), p));
   });
   if (over) over->add_up(total);
   return total;
+}
+
+std::vector<NamedNumber> Simulation::State::numbers() const {
+  std::vector<NamedNumber> list = modules.numbers();
+  if (over) over->add_up(list);
+  return list;
+}
+
+double Simulation::State::from_first(double value) const {
+  return !over ? value : over->ranks().sum(over->ranks().first() ? value : 0.0);
 }
 
 Vec3 Simulation::State::impulse(const std::string& account) const {
@@ -183,8 +211,7 @@ std::uint64_t Simulation::state_hash() const {
   ByteHash hash;
   hash.add(s.time);
   for (const ParticleSet& set : s.sets) {
-    std::vector<int> place(set.size());
-    for (int p = 0; p < set.size(); ++p) place[set.id[p] - set.first_id] = p;
+    const std::vector<int> place = places_by_id(set, !s.over);
     const auto add = [&](const auto& values) {
       for (const int p : place) hash.add(values[p]);
     };
@@ -197,7 +224,17 @@ std::uint64_t Simulation::state_hash() const {
   std::vector<double> numbers;
   for (const Module* module : s.modules.list()) module->hashed(numbers);
   for (const double number : numbers) hash.add(number);
-  return hash.value();
+  if (!s.over) return hash.value();
+  const std::uint64_t own = hash.value();
+  Communicator::Bytes bytes(sizeof(own));
+  std::memcpy(bytes.data(), &own, sizeof(own));
+  ByteHash all;  // of all parts, in the order of ranks
+  for (const Communicator::Bytes& part : s.over->ranks().gather(bytes)) {
+    std::uint64_t of_rank = 0;
+    std::memcpy(&of_rank, part.data(), sizeof(of_rank));
+    all.add(of_rank);
+  }
+  return all.value();
 }
 
 }  // namespace mpm

@@ -25,7 +25,7 @@ double moved(const RigidBody& body, const Pose& from, const GridLayout& layout) 
 
 }  // namespace
 
-OverRanks::OverRanks(Ranks& ranks, const GridLayout& layout, const std::vector<RigidBody>& bodies)
+OverRanks::OverRanks(Communicator& ranks, const GridLayout& layout, const std::vector<RigidBody>& bodies)
     : ranks_(ranks),
       layout_(layout),
       bodies_(bodies),
@@ -65,9 +65,9 @@ void OverRanks::share_flags(bool& failed, bool& sorts) {
 }
 
 std::string OverRanks::first_reason(const std::string& own) {
-  Ranks::Bytes bytes(own.size());
+  Communicator::Bytes bytes(own.size());
   if (!own.empty()) std::memcpy(bytes.data(), own.data(), own.size());
-  for (const Ranks::Bytes& reason : ranks_.gather(bytes)) {
+  for (const Communicator::Bytes& reason : ranks_.gather(bytes)) {
     if (!reason.empty()) return {reinterpret_cast<const char*>(reason.data()), reason.size()};
   }
   return {};
@@ -86,10 +86,10 @@ void OverRanks::share(StepLimit& limit, const Modules& modules, const Module* me
   }
   const Told told{limit.dt, limit.speed, {limit.place.x(), limit.place.y(), limit.place.z()},
                   by,       limit.part,  limit.foreseen ? 1 : 0};
-  Ranks::Bytes bytes(sizeof(Told));
+  Communicator::Bytes bytes(sizeof(Told));
   std::memcpy(bytes.data(), &told, sizeof(Told));
   limit = {};
-  for (const Ranks::Bytes& other : ranks_.gather(bytes)) {
+  for (const Communicator::Bytes& other : ranks_.gather(bytes)) {
     Told heard{};
     std::memcpy(&heard, other.data(), sizeof(Told));
     StepLimit one;

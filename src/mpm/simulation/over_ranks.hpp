@@ -27,9 +27,9 @@ std::string ranks_fault(const SimulationDefinition& definition);
 class OverRanks {
  public:
   /// All outlive this object.
-  OverRanks(Ranks& ranks, const GridLayout& layout, const std::vector<RigidBody>& bodies);
+  OverRanks(Communicator& ranks, const GridLayout& layout, const std::vector<RigidBody>& bodies);
 
-  Ranks& ranks() { return ranks_; }
+  Communicator& ranks() { return ranks_; }
   Halo& halo() { return halo_; }
   const Halo& halo() const { return halo_; }
   const HandOver& hand_over() const { return hand_over_; }
@@ -54,7 +54,7 @@ class OverRanks {
  private:
   bool tools_have_moved() const;
 
-  Ranks& ranks_;
+  Communicator& ranks_;
   const GridLayout& layout_;
   const std::vector<RigidBody>& bodies_;
   Territory territory_;

@@ -54,7 +54,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 const SimulationDefinition& Simulation::definition() const { return state_->definition; }
 int Simulation::threads() const { return state_->threads; }
-Ranks* Simulation::ranks() const { return state_->ranks.get(); }
+Communicator* Simulation::ranks() const { return state_->ranks.get(); }
 bool Simulation::on_any_rank(bool own) const { return state_->over ? state_->over->ranks().any(own) : own; }
 std::string Simulation::isa() const { return isa_name(state_->isa); }
 std::vector<std::string> Simulation::warnings() const { return state_->warnings; }
@@ -111,7 +111,9 @@ void Simulation::State::sort(double now) {
            "up");
     });
   }
-  if (over) over->meet(fields);
+  if (!over) return;
+  over->meet(fields);
+  for (Module* module : list) module->share_memory(*ranks);
 }
 
 int Simulation::find_body(const std::string& name) const {

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "energy_watch.hpp"
-#include "over_ranks.hpp"
 #include "mpm/contact/contact_reporter.hpp"
 #include "mpm/mechanics/continuum.hpp"
 #include "mpm/particles/sum_particles.hpp"
@@ -13,6 +12,7 @@
 #include "mpm/simulation/run_parts.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/step/schedule.hpp"
+#include "over_ranks.hpp"
 
 namespace mpm {
 
@@ -64,7 +64,7 @@ struct Simulation::State {
   Isa isa = Isa::plain;
   std::vector<std::string> warnings, notes;
   std::function<bool()> asked_to_stop;  ///< may be empty
-  std::shared_ptr<Ranks> ranks;
+  std::shared_ptr<Communicator> ranks;
   std::unique_ptr<OverRanks> over;  ///< over several ranks, else null
   std::function<void(const Settling&)> settling;
 
@@ -106,6 +106,10 @@ struct Simulation::State {
   void check_field(const std::string& name) const;
   /// What the account of that name says that the material was given since the start; zero without one [N s].
   Vec3 impulse(const std::string& account) const;
+  /// Of all modules.
+  std::vector<NamedNumber> numbers() const;
+  /// The value that the first rank found.
+  double from_first(double value) const;
   /// Of all particles [N s].
   Vec3 momentum() const;
   /// What the material allows now.

@@ -28,6 +28,7 @@ class NodalField {
     }
     data_.resize(size);
   }
+  std::size_t size() const { return data_.size(); }
   double* data() { return data_.data(); }
   double* block(int b) { return data_.data() + static_cast<std::size_t>(b) * components_ * nodes_; }
   const double* block(int b) const { return data_.data() + static_cast<std::size_t>(b) * components_ * nodes_; }

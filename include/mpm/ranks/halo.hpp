@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "mpm/grid/fields.hpp"
-#include "mpm/ranks/ranks.hpp"
+#include "mpm/ranks/communicator.hpp"
 #include "mpm/ranks/territory.hpp"
 
 namespace mpm {
@@ -29,9 +29,9 @@ class Halo {
   using Everywhere = std::function<bool(const std::array<int, 3>&)>;
 
   /// Both must outlive this object.
-  Halo(Ranks& ranks, const Territory& territory) : ranks_(ranks), territory_(territory) {}
+  Halo(Communicator& ranks, const Territory& territory) : ranks_(ranks), territory_(territory) {}
 
-  Ranks& ranks() const { return ranks_; }
+  Communicator& ranks() const { return ranks_; }
   /// After the blocks of `fields` have been made anew from the particles of this rank.
   void meet(Fields& fields, const Everywhere& everywhere);
   /// Adds what others have spread to the nodes of a velocity field; `values` have its blocks.
@@ -64,7 +64,7 @@ class Halo {
   };
   struct OfField {
     std::vector<Sum> sums;
-    std::unique_ptr<Ranks::Copies> copies;
+    std::unique_ptr<Communicator::Copies> copies;
     std::vector<double> received;
     int rows = 0;
   };
@@ -80,7 +80,7 @@ class Halo {
   void plan(const Fields& fields, std::vector<Given>& given);
   void find_counted(Fields& fields, const std::vector<Given>& given) const;
 
-  Ranks& ranks_;
+  Communicator& ranks_;
   const Territory& territory_;
   std::vector<OfField> fields_;
   std::uint64_t numbers_received_ = 0, exchanges_ = 0;

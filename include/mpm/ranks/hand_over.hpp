@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mpm/particles/particle_set.hpp"
-#include "mpm/ranks/ranks.hpp"
+#include "mpm/ranks/communicator.hpp"
 #include "mpm/ranks/territory.hpp"
 
 namespace mpm {
@@ -14,7 +14,7 @@ namespace mpm {
 class HandOver {
  public:
   /// All must outlive this object.
-  HandOver(Ranks& ranks, Territory& territory, const GridLayout& layout)
+  HandOver(Communicator& ranks, Territory& territory, const GridLayout& layout)
       : ranks_(ranks), territory_(territory), layout_(layout) {}
 
   /// At the start, when every rank has all particles: divides the grid, and leaves each rank its own.
@@ -39,7 +39,7 @@ class HandOver {
   void find_leaving(const ParticleSet& set, Leaving& leaving) const;
   void divide_anew_if_due(const std::vector<ParticleSet>& sets);
 
-  Ranks& ranks_;
+  Communicator& ranks_;
   Territory& territory_;
   const GridLayout& layout_;
   double imbalance_ = 1.0, after_cut_ = 1.0;

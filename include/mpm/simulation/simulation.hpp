@@ -17,7 +17,7 @@
 #include "mpm/kernel/isa.hpp"
 #include "mpm/math/error.hpp"
 #include "mpm/math/state_archive.hpp"
-#include "mpm/ranks/ranks.hpp"
+#include "mpm/ranks/communicator.hpp"
 #include "mpm/simulation/definition.hpp"
 #include "mpm/simulation/particle_choice.hpp"
 #include "mpm/simulation/report.hpp"
@@ -65,7 +65,7 @@ struct SimulationOptions {
   std::function<void(const Settling&)> settling = {};  ///< told after every step of settling
   /// The ranks that compute the run together; null: this process alone. Then every function of the simulation whose
   /// result depends on particles is collective, and particle fields are given to the first rank alone.
-  std::shared_ptr<Ranks> ranks = {};
+  std::shared_ptr<Communicator> ranks = {};
 };
 
 class Simulation {
@@ -85,7 +85,7 @@ class Simulation {
   const SimulationDefinition& definition() const;  ///< particle positions left out
   int threads() const;
   /// Over several ranks, else null.
-  Ranks* ranks() const;
+  Communicator* ranks() const;
   /// Whether it holds on any rank.
   bool on_any_rank(bool own) const;
   std::string isa() const;                    ///< instruction set of the kernels

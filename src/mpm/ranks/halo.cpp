@@ -1,28 +1,11 @@
 #include "mpm/ranks/halo.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <tuple>
 
+#include "mpm/ranks/lists.hpp"
+
 namespace mpm {
-namespace {
-
-template <class T>
-Ranks::Bytes bytes_of(const std::vector<T>& list) {
-  Ranks::Bytes bytes(list.size() * sizeof(T));
-  if (!list.empty()) std::memcpy(bytes.data(), list.data(), bytes.size());
-  return bytes;
-}
-
-template <class T>
-std::vector<T> list_of(const Ranks::Bytes& bytes) {
-  std::vector<T> list(bytes.size() / sizeof(T));
-  if (!list.empty()) std::memcpy(list.data(), bytes.data(), list.size() * sizeof(T));
-  return list;
-}
-
-}  // namespace
-
 // The ranks whose particles may reach a block: those of the blocks around it, and its own.
 std::vector<int> Halo::ranks_around(const GridLayout& layout, std::uint64_t key) const {
   std::vector<int> list;
@@ -71,17 +54,17 @@ void Halo::find_own(const Fields& fields, const Everywhere& everywhere) {
 
 std::vector<Halo::Given> Halo::hear() {
   std::vector<Given> given;
-  std::vector<Ranks::Parcel> parcels;
+  std::vector<Communicator::Parcel> parcels;
   for (int rank = 0; rank < ranks_.size(); ++rank) {
     if (!told_[rank].empty()) parcels.push_back({rank, bytes_of(told_[rank])});
   }
-  for (const Ranks::Parcel& parcel : ranks_.deliver(parcels)) {
+  for (const Communicator::Parcel& parcel : ranks_.deliver(parcels)) {
     for (const Use& use : list_of<Use>(parcel.bytes)) {
       const bool met = std::binary_search(own_keys_.begin(), own_keys_.end(), use.key);
       given.push_back({use, parcel.rank, -1, met});
     }
   }
-  const std::vector<Ranks::Bytes> all = ranks_.gather(bytes_of(told_all_));
+  const std::vector<Communicator::Bytes> all = ranks_.gather(bytes_of(told_all_));
   for (int rank = 0; rank < ranks_.size(); ++rank) {
     for (const Use& use : list_of<Use>(all[rank])) given.push_back({use, rank, -1, rank != ranks_.rank()});
   }
@@ -109,15 +92,15 @@ void Halo::find_rows(const Fields& fields, std::vector<Given>& given) {
     for (const Use& use : uses) list.push_back(fields[use.field]->blocks.find(use.key));
     return bytes_of(list);
   };
-  std::vector<Ranks::Parcel> parcels;
+  std::vector<Communicator::Parcel> parcels;
   for (int rank = 0; rank < ranks_.size(); ++rank) {
     if (!told_[rank].empty()) parcels.push_back({rank, rows(told_[rank])});
   }
   auto next = given.begin();  // they come in the order in which the uses came
-  for (const Ranks::Parcel& parcel : ranks_.deliver(parcels)) {
+  for (const Communicator::Parcel& parcel : ranks_.deliver(parcels)) {
     for (const std::int32_t row : list_of<std::int32_t>(parcel.bytes)) next++->row = row;
   }
-  for (const Ranks::Bytes& bytes : ranks_.gather(rows(told_all_))) {
+  for (const Communicator::Bytes& bytes : ranks_.gather(rows(told_all_))) {
     for (const std::int32_t row : list_of<std::int32_t>(bytes)) next++->row = row;
   }
 }
@@ -131,7 +114,7 @@ void Halo::plan(const Fields& fields, std::vector<Given>& given) {
   auto next = given.begin();
   for (std::size_t f = 0; f < fields.size(); ++f) {
     OfField& field = fields_[f];
-    std::vector<Ranks::Source> sources;
+    std::vector<Communicator::Source> sources;
     field.sums.clear();
     while (next != given.end() && next->use.field == f) {
       const Use use = next->use;

@@ -32,12 +32,12 @@ void each_column(ParticleSet& set, Visit&& visit) {
 }
 
 template <class T>
-void put(Ranks::Bytes& bytes, const T* values, std::size_t count) {
+void put(Communicator::Bytes& bytes, const T* values, std::size_t count) {
   const auto* from = reinterpret_cast<const std::byte*>(values);
   bytes.insert(bytes.end(), from, from + count * sizeof(T));
 }
 
-void pack(ParticleSet& set, const std::vector<int>& leaving, Ranks::Bytes& bytes) {
+void pack(ParticleSet& set, const std::vector<int>& leaving, Communicator::Bytes& bytes) {
   const std::uint64_t count = leaving.size();
   put(bytes, &count, 1);
   each_column(set, [&](auto& values) {
@@ -47,7 +47,7 @@ void pack(ParticleSet& set, const std::vector<int>& leaving, Ranks::Bytes& bytes
 
 /// A parcel that is read from its beginning to its end.
 struct Unpacking {
-  const Ranks::Bytes& bytes;
+  const Communicator::Bytes& bytes;
   std::size_t at = 0;
 
   template <class T>
@@ -138,7 +138,7 @@ void HandOver::hand_over(std::vector<ParticleSet>& sets) {
   divide_anew_if_due(sets);
   std::vector<Leaving> leaving(sets.size());
   for (std::size_t s = 0; s < sets.size(); ++s) find_leaving(sets[s], leaving[s]);
-  std::vector<Ranks::Parcel> parcels;
+  std::vector<Communicator::Parcel> parcels;
   for (int rank = 0; rank < ranks_.size(); ++rank) {
     std::size_t count = 0;
     for (const Leaving& one : leaving) count += one.to[rank].size();
@@ -147,10 +147,10 @@ void HandOver::hand_over(std::vector<ParticleSet>& sets) {
     for (std::size_t s = 0; s < sets.size(); ++s) pack(sets[s], leaving[s].to[rank], parcels.back().bytes);
     handed_over_ += count;
   }
-  const std::vector<Ranks::Parcel> arrived = ranks_.deliver(parcels);
+  const std::vector<Communicator::Parcel> arrived = ranks_.deliver(parcels);
   if (parcels.empty() && arrived.empty()) return;
   std::vector<Unpacking> coming;
-  for (const Ranks::Parcel& parcel : arrived) coming.push_back({parcel.bytes});
+  for (const Communicator::Parcel& parcel : arrived) coming.push_back({parcel.bytes});
   for (std::size_t s = 0; s < sets.size(); ++s) replace(sets[s], leaving[s].staying, coming);
 }
 

@@ -21,7 +21,7 @@ class RanksError : public Error {
   using Error::Error;
 };
 
-class Ranks {
+class Communicator {
  public:
   using Bytes = std::vector<std::byte>;
   /// What one rank sends to another.
@@ -44,7 +44,7 @@ class Ranks {
     virtual void end(const double* from, double* to, int numbers) = 0;
   };
 
-  virtual ~Ranks() = default;
+  virtual ~Communicator() = default;
   virtual int rank() const = 0;
   virtual int size() const = 0;
   bool first() const { return rank() == 0; }

@@ -1,0 +1,39 @@
+// The ranks that this process was started as, for a program's main(): those of MPI in a build that has it (MPM_MPI),
+// and none in one that has not. Which of the two is what CMake links; callers are the same.
+//
+//   const std::shared_ptr<mpm::Communicator> ranks = mpm::make_ranks();  // null: alone
+//   try { … } catch (const std::exception& error) { if (ranks) mpm::end_all(*ranks, error.what(), 2); … }
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "mpm/ranks/communicator.hpp"
+
+namespace mpm {
+
+/// What a rank has sent since it was made.
+struct Traffic {
+  std::uint64_t messages = 0;     ///< to single ranks
+  std::uint64_t bytes = 0;        ///< in them
+  std::uint64_t collectives = 0;  ///< exchanges of all with all: sums, largest values, gathers
+  std::uint64_t shared = 0;       ///< bytes that this rank gave to those
+};
+
+/// To be called once. Null when the process was started alone: by no launcher of MPI, or as the only rank.
+/// @throws RanksError in a build without MPI that a launcher started as one of several ranks; or when MPI does not know
+/// of as many ranks as the launcher does
+std::shared_ptr<Communicator> make_ranks();
+
+/// Of a program that runs on one rank only. @throws RanksError where a launcher has started several
+void refuse_ranks(const std::string& program);
+
+/// Ends the processes of all ranks with an exit code, since this one cannot go on and others wait for it. `reason`: a
+/// line for stderr. Ranks other than the first wait for a moment: what goes wrong on all of them is told once.
+[[noreturn]] void end_all(const Communicator& ranks, const std::string& reason, int code);
+
+/// Of ranks that make_ranks() made.
+Traffic sent(const Communicator& ranks);
+
+}  // namespace mpm

@@ -1,0 +1,17 @@
+#include <fmt/format.h>
+
+#include "launcher.hpp"
+#include "mpm_ranks/make_ranks.hpp"
+
+namespace mpm {
+
+void refuse_ranks(const std::string& program) {
+  if (const int ranks = launched_ranks(); ranks > 1) {
+    throw RanksError(fmt::format(
+        "{}: started as one of {} ranks, but it runs in one process: start it without mpirun; run_scene runs a scene "
+        "on several ranks",
+        program, ranks));
+  }
+}
+
+}  // namespace mpm

@@ -52,9 +52,9 @@ class Wall final : public FieldStage {
   void share_memory(Communicator& ranks) override { held_.share(ranks); }
   void serialise(StateArchive& archive) override {
     account_.serialise(archive);
-    archive.value("given", given_);
-    archive.value("friction_energy", loss_.friction);
-    archive.value("held_energy", loss_.held);
+    archive.sum("given", given_);
+    archive.sum("friction_energy", loss_.friction);
+    archive.sum("held_energy", loss_.held);
     held_.serialise(archive);
   }
 

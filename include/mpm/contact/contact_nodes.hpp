@@ -95,6 +95,8 @@ class ContactNodes {
   void hold_nodes(Pass pass, double dt, FieldOf&& velocity);
   void update_node(Block& block, const Node& node, double dt, Scratch& scratch);
   void keep_held();
+  /// Of held_, without what is there twice.
+  void put_in_order();
 
   Fields& fields_;
   int threads_;

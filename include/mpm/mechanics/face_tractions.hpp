@@ -59,7 +59,7 @@ class FaceTractions : public Stage {
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void energies(EnergyReport& report) const override { report.add("load_work", NamedEnergy::Kind::work, work_); }
   void serialise(StateArchive& archive) override {
-    archive.value("work", work_);
+    archive.sum("work", work_);
     account_.serialise(archive);
   }
   /// Work on the material since the start [J]: nodal load times the displacement of its node in the step.

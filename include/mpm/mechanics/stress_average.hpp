@@ -54,7 +54,7 @@ class StressAverage final : public Stage {
   /// "stress averaging", dissipated.
   void energies(EnergyReport& report) const override;
   void serialise(StateArchive& archive) override {
-    archive.value("taken", taken_);
+    archive.sum("taken", taken_);
     archive.value("begun", begun_);
   }
 

@@ -27,6 +27,8 @@ class HandOver {
   double imbalance() const { return imbalance_; }
   std::uint64_t handed_over() const { return handed_over_; }  ///< particles of this rank, since the start
   std::uint64_t divisions() const { return divisions_; }      ///< how often the grid was divided anew
+  /// For checkpoints.
+  void serialise(StateArchive& archive) { archive.value("after_cut", after_cut_); }
 
  private:
   /// Particles of a set by where they go.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mpm/grid/grid_layout.hpp"
+#include "mpm/math/state_archive.hpp"
 
 namespace mpm {
 
@@ -28,6 +29,11 @@ class Territory {
   int owner(std::uint64_t key) const;
   /// Cuts anew, so that ranks have nearly as many particles each. `load`: this rank's blocks.
   void cut(const Load& load, const Sum& sum);
+  /// For checkpoints.
+  void serialise(StateArchive& archive) {
+    archive.list("cuts", cuts_);
+    if (archive.reading()) known_.clear();
+  }
 
  private:
   std::uint64_t place(std::uint64_t key) const;

@@ -30,8 +30,8 @@ struct ImpulseAccount {
     exchanged += step_impulse.norm();
   }
   void serialise(StateArchive& archive) {
-    archive.value("impulse", impulse);
-    archive.value("exchanged", exchanged);
+    archive.sum("impulse", impulse);
+    archive.sum("exchanged", exchanged);
   }
 };
 

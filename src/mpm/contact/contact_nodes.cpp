@@ -147,6 +147,10 @@ void ContactNodes::filter(double dt) {
 
 void ContactNodes::share_memory(Communicator& ranks) {
   held_ = gather_list(ranks, held_);
+  put_in_order();
+}
+
+void ContactNodes::put_in_order() {
   const auto before = [](const Held& a, const Held& b) {
     return std::tie(a.node, a.fields) < std::tie(b.node, b.fields);
   };
@@ -184,6 +188,7 @@ void ContactNodes::serialise(StateArchive& archive) {
   archive.column("held/node", held_, &Held::node);
   archive.column("held/fields", held_, &Held::fields);
   archive.column("held/hold", held_, &Held::hold);
+  if (archive.merging()) put_in_order();
 }
 
 }  // namespace mpm

@@ -185,14 +185,14 @@ void MaterialContact::energies(EnergyReport& report) const {
 }
 
 void MaterialContact::serialise_sums(StateArchive& archive, std::vector<Sums>& sums) {
-  archive.column("impulse", sums, &Sums::impulse);
-  archive.column("friction", sums, &Sums::friction);
-  archive.column("moment", sums, &Sums::moment);
-  archive.column("pressed", sums, &Sums::pressed);
-  archive.column("area", sums, &Sums::area);
-  archive.column("friction_energy", sums, &Sums::friction_energy);
-  archive.column("interface_energy", sums, &Sums::interface_energy);
-  archive.column("nodes", sums, &Sums::nodes);
+  archive.sum_column("impulse", sums, &Sums::impulse);
+  archive.sum_column("friction", sums, &Sums::friction);
+  archive.sum_column("moment", sums, &Sums::moment);
+  archive.sum_column("pressed", sums, &Sums::pressed);
+  archive.sum_column("area", sums, &Sums::area);
+  archive.sum_column("friction_energy", sums, &Sums::friction_energy);
+  archive.sum_column("interface_energy", sums, &Sums::interface_energy);
+  archive.sum_column("nodes", sums, &Sums::nodes);
 }
 
 void MaterialContact::serialise(StateArchive& archive) {
@@ -209,7 +209,7 @@ void MaterialContact::serialise(StateArchive& archive) {
     serialise_sums(archive, readers_[r].seen);
   }
   account_.serialise(archive);
-  archive.value("left_over", left_over_);
+  archive.sum("left_over", left_over_);
 }
 
 }  // namespace mpm

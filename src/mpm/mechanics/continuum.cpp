@@ -188,9 +188,9 @@ class Continuum final : public Mechanics {
   }
   void serialise(StateArchive& archive) override {
     archive.generation("sorts_since", generation_);
-    archive.value("parts_when_sorted", parts_when_sorted_);
-    archive.value("slip_energy", slip_energy_);
-    archive.value("drag_energy", drag_energy_);
+    archive.sum("parts_when_sorted", parts_when_sorted_);
+    archive.sum("slip_energy", slip_energy_);
+    archive.sum("drag_energy", drag_energy_);
   }
 
  private:

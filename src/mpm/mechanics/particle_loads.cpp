@@ -75,7 +75,7 @@ class ParticleLoads final : public Stage {
   }
   void energies(EnergyReport& report) const override { report.add("load_work", NamedEnergy::Kind::work, work_); }
   void serialise(StateArchive& archive) override {
-    archive.value("work", work_);
+    archive.sum("work", work_);
     for (int kind = 0; kind < kKinds; ++kind) {
       const StateArchive::Group group(archive, kKindNames[kind]);
       accounts_[kind].serialise(archive);

@@ -76,9 +76,7 @@ void replace(ParticleSet& set, const std::vector<int>& staying, std::vector<Unpa
     }
     values.swap(kept);
   });
-  // What a step writes before it reads it.
-  for (PaddedArray<double>& scalar : set.next_x) scalar = PaddedArray<double>(size);
-  for (ParticleScalar& scalar : set.domain) scalar = ParticleScalar(set.precision, size);
+  set.fit_scratch();
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // What a Simulation says of itself: momentum audit, energies, the hash of its state. Computed when asked for.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -224,17 +223,7 @@ std::uint64_t Simulation::state_hash() const {
   std::vector<double> numbers;
   for (const Module* module : s.modules.list()) module->hashed(numbers);
   for (const double number : numbers) hash.add(number);
-  if (!s.over) return hash.value();
-  const std::uint64_t own = hash.value();
-  Communicator::Bytes bytes(sizeof(own));
-  std::memcpy(bytes.data(), &own, sizeof(own));
-  ByteHash all;  // of all parts, in the order of ranks
-  for (const Communicator::Bytes& part : s.over->ranks().gather(bytes)) {
-    std::uint64_t of_rank = 0;
-    std::memcpy(&of_rank, part.data(), sizeof(of_rank));
-    all.add(of_rank);
-  }
-  return all.value();
+  return s.over ? s.over->hash_of_all(hash.value()) : hash.value();
 }
 
 }  // namespace mpm

@@ -120,6 +120,20 @@ Hdf5Id Hdf5Reader::open(const std::string& name) const {
   return set;
 }
 
+bool Hdf5Reader::has(const std::string& name) const { return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0; }
+
+void Hdf5Reader::part(const std::string& name, Number number, void* data, std::size_t first, std::size_t count) {
+  if (count == 0) return;
+  const Hdf5Id set = open(name);
+  const hsize_t begin = first, size = count;
+  const Hdf5Id there(H5Dget_space(set), H5Sclose), here(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  if (!there || !here || H5Sselect_hyperslab(there, H5S_SELECT_SET, &begin, nullptr, &size, nullptr) < 0 ||
+      H5Dread(set, type_of(number), here, there, H5P_DEFAULT, data) < 0) {
+    throw CheckpointError(
+        fmt::format("checkpoint {}: '{}' cannot be read: the file is cut off or damaged", path_, name));
+  }
+}
+
 std::size_t Hdf5Reader::stored(const std::string& name) {
   const Hdf5Id set = open(name);
   const Hdf5Id space(H5Dget_space(set), H5Sclose);

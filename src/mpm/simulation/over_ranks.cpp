@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "mpm/math/byte_hash.hpp"
+#include "mpm/ranks/lists.hpp"
 #include "mpm/step/step_context.hpp"
 
 namespace mpm {
@@ -33,21 +35,27 @@ OverRanks::OverRanks(Communicator& ranks, const GridLayout& layout, const std::v
       hand_over_(ranks, territory_, layout),
       halo_(ranks, territory_) {}
 
-void OverRanks::meet(Fields& fields) {
-  met_at_.clear();
-  for (const RigidBody& body : bodies_) met_at_.push_back(body.pose());
+Halo::Everywhere OverRanks::near_tool() const {
   Vec3 half = Vec3::Zero();
   for (int k = 0; k < layout_.dim(); ++k) half[layout_.axis(k)] = 0.5 * (kBlockEdge - 1) * layout_.cell(k);
   const double reach = half.norm() + (kAround + kMoves) * layout_.largest_cell();
-  const Halo::Everywhere near_tool = [&](const std::array<int, 3>& block) {
+  return [this, half, reach](const std::array<int, 3>& block) {
     const Vec3 middle = layout_.node_position(block, 0) + half;
     return std::any_of(bodies_.begin(), bodies_.end(), [&](const RigidBody& body) {
       SurfacePoint point;
       return body.surface().within(body.pose().to_body(middle), reach, point);
     });
   };
-  halo_.meet(fields, near_tool);
 }
+
+void OverRanks::meet(Fields& fields) {
+  met_at_.clear();
+  for (const RigidBody& body : bodies_) met_at_.push_back(body.pose());
+  halo_.meet(fields, near_tool());
+}
+
+// Where tools were when ranks met is kept: from there they may move until ranks meet the next time.
+void OverRanks::meet_again(Fields& fields) { halo_.meet(fields, near_tool()); }
 
 bool OverRanks::tools_have_moved() const {
   const double most = 0.5 * kMoves * layout_.smallest_cell();  // the rest is for the step that follows
@@ -132,5 +140,21 @@ void OverRanks::add_up(std::vector<NamedNumber>& numbers) {
 }
 
 void OverRanks::add_up(Vec3& vector) { ranks_.sum(vector.data(), 3); }
+
+std::uint64_t OverRanks::hash_of_all(std::uint64_t own) {
+  ByteHash all;
+  for (const std::uint64_t of_rank : gather_list(ranks_, std::vector<std::uint64_t>{own})) all.add(of_rank);
+  return all.value();
+}
+
+void OverRanks::serialise(StateArchive& archive) {
+  const StateArchive::Group group(archive, "ranks");
+  const StateArchive::Same same(archive);
+  territory_.serialise(archive);
+  hand_over_.serialise(archive);
+  archive.rows("met_at", met_at_);
+  archive.column("met_at/position", met_at_, &Pose::position);
+  archive.column("met_at/orientation", met_at_, &Pose::orientation);
+}
 
 }  // namespace mpm

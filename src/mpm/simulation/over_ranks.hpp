@@ -50,9 +50,18 @@ class OverRanks {
   void add_up(std::vector<ImpulseAccount>& accounts);
   void add_up(std::vector<NamedNumber>& numbers);
   void add_up(Vec3& vector);
+  /// One hash of all ranks' hashes, in their order.
+  std::uint64_t hash_of_all(std::uint64_t own);
+
+  /// For checkpoints that as many ranks read.
+  void serialise(StateArchive& archive);
+  /// After the blocks have been read from such a checkpoint.
+  void meet_again(Fields& fields);
 
  private:
   bool tools_have_moved() const;
+  /// Whether a block is near a tool, so that all ranks have to have it.
+  Halo::Everywhere near_tool() const;
 
   Communicator& ranks_;
   const GridLayout& layout_;

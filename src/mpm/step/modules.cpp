@@ -125,6 +125,7 @@ void Modules::serialise(StateArchive& archive) {
     std::string unique = name;
     for (int copy = 2; !taken.insert(unique).second; ++copy) unique = name + "_" + std::to_string(copy);
     const StateArchive::Group group(archive, unique);
+    const StateArchive::Same same(archive, module->same_on_all_ranks());
     module->serialise(archive);
   }
 }

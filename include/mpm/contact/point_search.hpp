@@ -49,7 +49,7 @@ class PointSearch {
   /// `farthest`: the largest reach of a particle from its centre [m].
   template <class Geometry>
   void search(const Job& job, double dt, double farthest, std::vector<ContactPoint>& found) const;
-  /// Takes the points that other ranks have found, too, in the order in which one process finds them.
+  /// Takes the points that other ranks have found, too.
   void gather();
   /// Whether the surface may be at most `band` from one of the particles [begin, end) of a set.
   bool near(const RigidBody& body, const ParticleSet& set, int begin, int end, double band) const;

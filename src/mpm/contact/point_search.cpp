@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 
 #include "mpm/contact/particle_reach.hpp"
 #include "mpm/ranks/lists.hpp"
@@ -40,7 +39,6 @@ double edge_part(const RigidBody& body, GeometryKind geometry, const Vec3& centr
 struct SentPoint {
   std::int32_t body, field, law;
   std::uint32_t particle;
-  std::uint64_t block;  ///< key of that which the particle is in
   std::array<double, 3> place, normal, velocity;
   double gap, area;
 };
@@ -48,12 +46,11 @@ struct SentPoint {
 std::array<double, 3> numbers_of(const Vec3& vector) { return {vector.x(), vector.y(), vector.z()}; }
 Vec3 vector_of(const std::array<double, 3>& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
 
-SentPoint sent(const ContactPoint& point, std::uint64_t block) {
+SentPoint sent(const ContactPoint& point) {
   return {point.body,
           point.field,
           point.law,
           point.particle,
-          block,
           numbers_of(point.place),
           numbers_of(point.normal),
           numbers_of(point.velocity),
@@ -203,17 +200,9 @@ void PointSearch::find_in(double dt) {
 
 void PointSearch::gather() {
   std::vector<SentPoint> own;
-  for (std::size_t i = 0; i < jobs_.size(); ++i) {
-    const BlockTable& blocks = fields_[jobs_[i].field]->blocks;
-    const std::uint64_t block = blocks.key(blocks.owner_block(jobs_[i].owner));
-    for (const ContactPoint& point : of_job_[i]) own.push_back(sent(point, block));
-  }
-  std::vector<SentPoint> all = gather_list(*ranks_, own);
-  std::stable_sort(all.begin(), all.end(), [](const SentPoint& a, const SentPoint& b) {
-    return std::tie(a.body, a.field, a.block) < std::tie(b.body, b.field, b.block);
-  });
+  for (const ContactPoint& point : points_) own.push_back(sent(point));
   points_.clear();
-  for (const SentPoint& one : all) points_.push_back(received(one));
+  for (const SentPoint& one : gather_list(*ranks_, own)) points_.push_back(received(one));
 }
 
 const std::vector<ContactPoint>& PointSearch::find(double dt) {

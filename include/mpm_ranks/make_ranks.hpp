@@ -2,7 +2,7 @@
 // and none in one that has not. Which of the two is what CMake links; callers are the same.
 //
 //   const std::shared_ptr<mpm::Communicator> ranks = mpm::make_ranks();  // null: alone
-//   try { … } catch (const std::exception& error) { if (ranks) mpm::end_all(*ranks, error.what(), 2); … }
+//   try { … } catch (const std::exception& error) { if (ranks) return mpm::end_all(*ranks, error.what(), 2); … }
 #pragma once
 
 #include <cstdint>
@@ -29,9 +29,14 @@ std::shared_ptr<Communicator> make_ranks();
 /// Of a program that runs on one rank only. @throws RanksError where a launcher has started several
 void refuse_ranks(const std::string& program);
 
-/// Ends the processes of all ranks with an exit code, since this one cannot go on and others wait for it. `reason`: a
-/// line for stderr. Ranks other than the first wait for a moment: what goes wrong on all of them is told once.
-[[noreturn]] void end_all(const Communicator& ranks, const std::string& reason, int code);
+/// For a rank that cannot go on, while others may wait for it. `reason`: a line for stderr. Where all ranks come here
+/// within a second, as they do when what they were given is at fault, the first one tells it and all return `code`;
+/// else this one tells it, and the processes of all ranks end with `code`.
+/// @throws RanksError with the reason, if the ranks are not those of make_ranks() but a test's
+int end_all(const Communicator& ranks, const std::string& reason, int code);
+
+/// How many threads a rank may take so that those of the same machine do not stand in each other's way.
+int threads_of_rank(const Communicator& ranks);
 
 /// Of ranks that make_ranks() made.
 Traffic sent(const Communicator& ranks);

@@ -30,6 +30,10 @@ class PetscCommunicator final : public Communicator {
   std::unique_ptr<Copies> make_copies(int rows, const std::vector<Source>& sources) override;
 
   const Traffic& sent() const;
+  /// Whether all ranks call this within so long [s]; whatever else they do in the meantime.
+  bool all_come(double seconds) const;
+  /// How many ranks there are on this machine, this one with them.
+  int on_this_machine() const;
 
  private:
   struct State;

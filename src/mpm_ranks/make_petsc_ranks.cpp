@@ -1,10 +1,12 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
-#include <thread>
+#include <cstdlib>
 
 #include "launcher.hpp"
+#include "mpm/simulation/threads.hpp"
 #include "mpm_ranks/petsc_communicator.hpp"
 #include "petsc_call.hpp"
 
@@ -24,13 +26,24 @@ std::shared_ptr<Communicator> make_ranks() {
   return ranks;
 }
 
-void end_all(const Communicator& ranks, const std::string& reason, int code) {
-  // The first rank ends the others while they wait, if it has something to tell itself.
-  if (!ranks.first()) std::this_thread::sleep_for(std::chrono::seconds(1));
-  std::fprintf(stderr, "%s\n", reason.c_str());
+int end_all(const Communicator& ranks, const std::string& reason, int code) {
+  const auto* petsc = dynamic_cast<const PetscCommunicator*>(&ranks);
+  if (petsc == nullptr) throw RanksError(reason);
+  constexpr double kGrace = 1.0;  ///< [s] in which ranks that fail alike come together
+  const bool all = petsc->all_come(kGrace);
+  if (!all || ranks.first()) std::fprintf(stderr, "%s\n", reason.c_str());
+  if (all) return code;
   std::fflush(nullptr);
   MPI_Abort(MPI_COMM_WORLD, code);
   std::abort();  // MPI_Abort does not return
+}
+
+int threads_of_rank(const Communicator& ranks) {
+  const auto* petsc = dynamic_cast<const PetscCommunicator*>(&ranks);
+  // Those that a launcher has bound to processors of their own may take all of these.
+  const int machine = machine_threads();
+  const auto processors = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+  return petsc == nullptr ? machine : std::max(1, std::min(machine, processors / petsc->on_this_machine()));
 }
 
 Traffic sent(const Communicator& ranks) {

@@ -1,9 +1,8 @@
 // In place of PETSc in a build without MPI: a process is alone, and says so where a launcher thinks otherwise.
 #include <fmt/format.h>
 
-#include <cstdlib>
-
 #include "launcher.hpp"
+#include "mpm/simulation/threads.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 
 namespace mpm {
@@ -18,10 +17,9 @@ std::shared_ptr<Communicator> make_ranks() {
   return nullptr;
 }
 
-void end_all(const Communicator&, const std::string& reason, int code) {
-  fmt::print(stderr, "{}\n", reason);
-  std::exit(code);
-}
+int end_all(const Communicator&, const std::string& reason, int) { throw RanksError(reason); }
+
+int threads_of_rank(const Communicator&) { return machine_threads(); }
 
 Traffic sent(const Communicator&) { return {}; }
 

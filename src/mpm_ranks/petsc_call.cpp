@@ -68,11 +68,14 @@ PetscSession::PetscSession() {
   char** arguments = list;
   check(PetscInitialize(&count, &arguments, nullptr, nullptr));
   check(PetscPushErrorHandler(keep_error, nullptr));
-  check_mpi(MPI_Comm_dup(MPI_COMM_WORLD, &all_));
-  check_mpi(MPI_Comm_set_errhandler(all_, MPI_ERRORS_RETURN));
+  for (MPI_Comm* ranks : {&all_, &ends_}) {
+    check_mpi(MPI_Comm_dup(MPI_COMM_WORLD, ranks));
+    check_mpi(MPI_Comm_set_errhandler(*ranks, MPI_ERRORS_RETURN));
+  }
 }
 
 PetscSession::~PetscSession() {
+  MPI_Comm_free(&ends_);
   MPI_Comm_free(&all_);
   PetscFinalize();
   if (own_mpi_) MPI_Finalize();

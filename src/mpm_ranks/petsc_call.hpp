@@ -21,11 +21,12 @@ class PetscSession {
   PetscSession(const PetscSession&) = delete;
   PetscSession& operator=(const PetscSession&) = delete;
 
-  MPI_Comm all() const { return all_; }  ///< all ranks; errors come back as codes
+  MPI_Comm all() const { return all_; }    ///< all ranks; errors come back as codes
+  MPI_Comm ends() const { return ends_; }  ///< the same, apart from all that goes on between them
 
  private:
   bool own_mpi_ = false;  ///< the program had not started it before
-  MPI_Comm all_ = MPI_COMM_NULL;
+  MPI_Comm all_ = MPI_COMM_NULL, ends_ = MPI_COMM_NULL;
 };
 
 /// Who reads which row of whom.

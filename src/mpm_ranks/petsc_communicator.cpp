@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <climits>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <thread>
 
 #include "petsc_call.hpp"
 
@@ -31,7 +33,7 @@ struct Notice {
 
 struct PetscCommunicator::State {
   PetscSession session;
-  int rank = 0, size = 1;
+  int rank = 0, size = 1, beside = 1;
   Traffic sent;
   std::vector<double> gathered;
   Together piece{static_cast<int>(kPiece), MPI_BYTE};
@@ -39,6 +41,10 @@ struct PetscCommunicator::State {
   State() {
     check_mpi(MPI_Comm_rank(session.all(), &rank));
     check_mpi(MPI_Comm_size(session.all(), &size));
+    MPI_Comm machine = MPI_COMM_NULL;
+    check_mpi(MPI_Comm_split_type(session.all(), MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &machine));
+    check_mpi(MPI_Comm_size(machine, &beside));
+    check_mpi(MPI_Comm_free(&machine));
   }
 
   void count_shared(std::uint64_t bytes) {
@@ -117,6 +123,20 @@ PetscCommunicator::~PetscCommunicator() = default;
 int PetscCommunicator::rank() const { return state_->rank; }
 int PetscCommunicator::size() const { return state_->size; }
 const Traffic& PetscCommunicator::sent() const { return state_->sent; }
+int PetscCommunicator::on_this_machine() const { return state_->beside; }
+
+bool PetscCommunicator::all_come(double seconds) const {
+  MPI_Request request = MPI_REQUEST_NULL;
+  check_mpi(MPI_Ibarrier(state_->session.ends(), &request));
+  const double until = MPI_Wtime() + seconds;
+  int come = 0;
+  do {
+    check_mpi(MPI_Test(&request, &come, MPI_STATUS_IGNORE));
+    if (come != 0) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  } while (MPI_Wtime() < until);
+  return false;
+}
 
 void PetscCommunicator::sum(double* numbers, int count) {
   const int ranks = state_->size, most = std::max(1, kGathered / ranks);

@@ -28,7 +28,7 @@ template <class Visit>
 void each_column(ParticleSet& set, Visit&& visit) {
   visit(set.id);
   set.each_scalar(visit);
-  if (!set.side.empty()) visit(set.side);
+  if (set.far_field != set.field) visit(set.side);  // it may be empty, where all particles are elsewhere
 }
 
 template <class T>

@@ -92,11 +92,10 @@ class Wall final : public FieldStage {
   /// Visits the nodes with material on several threads, and books the sums.
   template <class Visit>
   void each_node(Visit&& visit) {
-    const Deeds all =
-        deeds_.over(carrying_.size(), threads_, [&](std::size_t i, Deeds& deeds) {
-          Deeds of_other_rank;
-          visit(carrying_[i], nodes_[carrying_[i]].counts ? deeds : of_other_rank);
-        });
+    const Deeds all = deeds_.over(carrying_.size(), threads_, [&](std::size_t i, Deeds& deeds) {
+      Deeds of_other_rank;
+      visit(carrying_[i], nodes_[carrying_[i]].counts ? deeds : of_other_rank);
+    });
     given_ += all.given;
     loss_ += all.loss;
   }

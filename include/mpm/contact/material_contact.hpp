@@ -44,7 +44,7 @@ struct MaterialContactSettings {
   double cell_volume =
       0.0;  ///< to which minimum volumes are relative [m^3]; about an axis the area of a cell's section
   int threads = 1;
-  HeatSink* heat = nullptr;  ///< what is told of friction and touch, if there is heat
+  HeatSink* heat = nullptr;       ///< what is told of friction and touch, if there is heat
   Communicator* ranks = nullptr;  ///< where the run is over several
   const ToolSides* sides =
       nullptr;  ///< sides of thin tools, which may lie between two bodies at a node; null without such tools
@@ -127,7 +127,7 @@ class MaterialContact final : public Stage, public ContactReporter {
   std::vector<FrictionLaw> friction_;  ///< of each pair, in this step
   SharedBlocks shared_;
   std::vector<double> surveyed_;  ///< of each field, 1 where a block of it is shared, else 0
-  ContactNodes nodes_;  ///< a block of each shared block
+  ContactNodes nodes_;            ///< a block of each shared block
   bool started_ = false;
   std::vector<Sums> last_, total_;  ///< of each pair, in the last step and since the start
   std::vector<Reader> readers_;

@@ -65,10 +65,10 @@ struct PointContactSettings {
   ShapeKind shape = ShapeKind::ugimp;
   double across = 1.0;  ///< thickness [m] of a plane, area [m^2] of a line
   int threads = 1;
-  Vec3 gravity = Vec3::Zero();  ///< acts on free bodies [m/s^2]
-  bool with_pairs = false;      ///< whether deformable bodies have laws with each other
-  HeatSink* heat = nullptr;     ///< what is told of friction and touch, if there is heat
-  bool sharp_edges = true;      ///< whether points see that faces end (contact/edge_cover.hpp)
+  Vec3 gravity = Vec3::Zero();    ///< acts on free bodies [m/s^2]
+  bool with_pairs = false;        ///< whether deformable bodies have laws with each other
+  HeatSink* heat = nullptr;       ///< what is told of friction and touch, if there is heat
+  bool sharp_edges = true;        ///< whether points see that faces end (contact/edge_cover.hpp)
   Communicator* ranks = nullptr;  ///< where the run is over several
 };
 

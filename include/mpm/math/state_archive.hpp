@@ -8,9 +8,9 @@
 //     archive.column("held/node", held_, &Held::node);
 //   }
 //
-// A run over several ranks (ranks/communicator.hpp) stores what each of them has. When it goes on with as many, each reads
-// its own; with another number of them, Merge says what becomes of it: what is the same on all is a value, parts of a
-// sum are stored by sum() and sum_column(), and lists are joined.
+// A run over several ranks (ranks/communicator.hpp) stores what each of them has. When it goes on with as many, each
+// reads its own; with another number of them, Merge says what becomes of it: what is the same on all is a value, parts
+// of a sum are stored by sum() and sum_column(), and lists are joined.
 //
 // Numbers are stored to the last bit. A derived class decides where they go (simulation/hdf5_archive.hpp). Weak:
 // reading trusts the names; a class that stores other numbers than before needs a new version of the file.

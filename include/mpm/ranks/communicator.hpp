@@ -1,9 +1,9 @@
 // The processes that compute one run together, each with a part of its material, and what they tell each other. In the
 // words of MPI each of them is a rank.
 //
-// Every function is collective: all ranks call it, in the same order. What is summed is summed in the order of ranks, so
-// all ranks get the same bits, and a run on as many ranks as before repeats to the bit. The library knows this interface
-// alone; mpm_ranks/petsc_ranks.hpp, which only a build with MPI has, implements it on PETSc.
+// Every function is collective: all ranks call it, in the same order. What is summed is summed in the order of ranks,
+// so all ranks get the same bits, and a run on as many ranks as before repeats to the bit. The library knows this
+// interface alone; mpm_ranks/petsc_ranks.hpp, which only a build with MPI has, implements it on PETSc.
 #pragma once
 
 #include <cstddef>

@@ -1,15 +1,15 @@
 // Nodes that several ranks give to. Each rank spreads its own particles to its own grid; a node that particles of two
 // ranks reach then has a part of its sum on either. After every pass that spreads, each of them gets the parts of the
-// others and adds all of them in the order of ranks. So all that know a node have the same bits, do to it what a step does
-// to nodes (motion, walls, contact) each for itself, and gather from it without asking again.
+// others and adds all of them in the order of ranks. So all that know a node have the same bits, do to it what a step
+// does to nodes (motion, walls, contact) each for itself, and gather from it without asking again.
 //
 //   sort:   halo.meet(fields, near tools?)      who gives to what; blocks that only others give to join the grid
 //   spread: halo.add(field, nodal field)
 //
 // Ranks that meet at a block have it in all velocity fields that any of them has it in, since contact looks at nodes of
-// several. Blocks near tools are on all ranks: contact at points couples everything that touches one tool, and each rank
-// solves it for itself.
-// Weak: whole blocks are sent, the nodes beyond two from the border too; what is near tools is sent to all ranks.
+// several. Blocks near tools are on all ranks: contact at points couples everything that touches one tool, and each
+// rank solves it for itself. Weak: whole blocks are sent, the nodes beyond two from the border too; what is near tools
+// is sent to all ranks.
 #pragma once
 
 #include <cstdint>

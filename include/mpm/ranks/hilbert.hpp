@@ -1,6 +1,6 @@
-// A block's place along the Hilbert curve, which passes from each block of a cube to one beside it: a contiguous part of
-// the curve is a compact part of space, with little surface.
-// Source: Skilling (2004), Programming the Hilbert curve, AIP Conf. Proc. 707, 381-387: AxestoTranspose.
+// A block's place along the Hilbert curve, which passes from each block of a cube to one beside it: a contiguous part
+// of the curve is a compact part of space, with little surface. Source: Skilling (2004), Programming the Hilbert curve,
+// AIP Conf. Proc. 707, 381-387: AxestoTranspose.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
-// Which rank a block of the grid belongs to: the blocks in their order along the Hilbert curve, cut into as many parts as
-// there are ranks, with nearly as many particles each. A rank keeps the cuts alone, so nothing here grows with the grid.
+// Which rank a block of the grid belongs to: the blocks in their order along the Hilbert curve, cut into as many parts
+// as there are ranks, with nearly as many particles each. A rank keeps the cuts alone, so nothing here grows with the
+// grid.
 #pragma once
 
 #include <array>

@@ -40,7 +40,7 @@ struct RunParts {
   const std::vector<Law>& laws;    ///< one for each set
   std::vector<RigidBody>& bodies;  ///< one for each rigid body of the definition
   NodeChoice* choice;              ///< of particles near cracks; null without cracks
-  Communicator* ranks;                    ///< where the run is over several; else null, and `halo` too
+  Communicator* ranks;             ///< where the run is over several; else null, and `halo` too
   Halo* halo;
   int threads;
   Isa isa;

@@ -15,9 +15,9 @@
 #include "mpm/grid/fields.hpp"
 #include "mpm/grid/node_choice.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/ranks/halo.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/shape/traction.hpp"
-#include "mpm/ranks/halo.hpp"
 #include "mpm/step/step_context.hpp"
 
 namespace mpm {

@@ -217,7 +217,8 @@ void StressAverage::exchange(const Grid& grid, int field, Cells& cells) {
       sums.at(b, kMass, n) = cell.mass;
       sums.at(b, kVolume, n) = cell.volume;
       sums.at(b, kParticles, n) = cell.particles;
-      for (std::size_t i = 0; i < cell.stress.size(); ++i) sums.at(b, kStress + static_cast<int>(i), n) = cell.stress[i];
+      for (std::size_t i = 0; i < cell.stress.size(); ++i)
+        sums.at(b, kStress + static_cast<int>(i), n) = cell.stress[i];
     });
     halo_->add(field, sums);
     each_cell([&](Cell& cell, int b, int n) {
@@ -226,7 +227,8 @@ void StressAverage::exchange(const Grid& grid, int field, Cells& cells) {
       cell.mass = sums.at(b, kMass, n);
       cell.volume = sums.at(b, kVolume, n);
       cell.particles = static_cast<std::uint32_t>(sums.at(b, kParticles, n));
-      for (std::size_t i = 0; i < cell.stress.size(); ++i) cell.stress[i] = sums.at(b, kStress + static_cast<int>(i), n);
+      for (std::size_t i = 0; i < cell.stress.size(); ++i)
+        cell.stress[i] = sums.at(b, kStress + static_cast<int>(i), n);
     });
   }
 }
@@ -256,7 +258,8 @@ void StressAverage::momentum_gathered(StepContext& context) {
   with_geometry(geometry_, [&](auto kind) {
     using Geometry = decltype(kind);
     if (begun_ != 0) {
-      for (std::size_t f = 0; f < context.fields.size(); ++f) average<Geometry>(*context.fields[f], static_cast<int>(f), cells_[f]);
+      for (std::size_t f = 0; f < context.fields.size(); ++f)
+        average<Geometry>(*context.fields[f], static_cast<int>(f), cells_[f]);
       return;
     }
     // As ground has that was settled: the plastic strains of the start are not of this run.

@@ -263,9 +263,11 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
     over = std::make_unique<OverRanks>(*ranks, layout(), bodies);
     if (!ranks->first()) modules.leave_shared_to_first();
   }
-  RunParts parts{definition,  field_map,          fields,  sets, laws,    bodies,   choice.get(),
-                 ranks.get(), over ? &over->halo() : nullptr, threads, isa,  modules, services, warnings,
-                 notes};
+  RunParts parts{definition,   field_map,   fields,
+                 sets,         laws,        bodies,
+                 choice.get(), ranks.get(), over ? &over->halo() : nullptr,
+                 threads,      isa,         modules,
+                 services,     warnings,    notes};
   for (const ShippedModules& shipped : shipped_modules()) shipped.add(parts);
   for (const AddModules& add : of_caller) add(parts);
   for (Module* module : modules.list()) {
@@ -340,7 +342,10 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     if (set.chooses) set.far_field = s.choice->number();
     if (set.far_field != set.field) set.side.assign(set.id.size(), 0);
     if (s.ranks && set.far_field != set.field) {
-      throw DefinitionError(fmt::format("body '{}': a thin tool divides it in two velocity fields, which does not work over several ranks yet; start the run as one process, or write sides: one for that tool", set.name));
+      throw DefinitionError(
+          fmt::format("body '{}': a thin tool divides it in two velocity fields, which does not work over several "
+                      "ranks yet; start the run as one process, or write sides: one for that tool",
+                      set.name));
     }
     set.first_id = next_id;
     for (std::uint32_t& id : set.id) id = next_id++;

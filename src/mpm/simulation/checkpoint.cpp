@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <sstream>
 
-#include "mpm/ranks/lists.hpp"
-#include "ranks_archive.hpp"
 #include "mpm/math/build_info.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/math/output_file.hpp"
+#include "mpm/ranks/lists.hpp"
 #include "mpm/simulation/method_text.hpp"
+#include "ranks_archive.hpp"
 
 namespace mpm {
 namespace {

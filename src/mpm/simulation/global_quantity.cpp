@@ -156,8 +156,7 @@ GlobalQuantities::GlobalQuantities(Simulation& simulation, const std::vector<Glo
     : simulation_(simulation) {
   for (const GlobalQuantity& wanted : chosen) {
     Term term{find(wanted.name), {}, 0, static_cast<std::size_t>(simulation.particles()), {}, 0.0};
-    const std::string unit =
-        wanted.body.empty() ? unit_of_number(simulation.numbers(), wanted.name) : "";
+    const std::string unit = wanted.body.empty() ? unit_of_number(simulation.numbers(), wanted.name) : "";
     if (term.quantity < 0 && !unit.empty()) {  // of a module that is not shipped
       names_.push_back(wanted.name);
       units_.push_back(unit);

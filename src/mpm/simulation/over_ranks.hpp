@@ -2,8 +2,8 @@
 // A run on one process has none of this. Private to this folder.
 //
 // What is the same on all ranks: time, steps, rigid bodies and contact with them, the sums of modules that say so
-// (Module::same_on_all_ranks). What each rank has of its own: particles, nodes around them, sums of other modules, which
-// are parts that are added up when they are asked for.
+// (Module::same_on_all_ranks). What each rank has of its own: particles, nodes around them, sums of other modules,
+// which are parts that are added up when they are asked for.
 #pragma once
 
 #include <memory>
@@ -38,8 +38,8 @@ class OverRanks {
   void hand_over(std::vector<ParticleSet>& sets) { hand_over_.hand_over(sets); }
   /// After particles have been sorted.
   void meet(Fields& fields);
-  /// After a step: whether it failed on any rank, and whether particles have to be sorted on all of them; also because a
-  /// tool has come near to blocks that not all ranks have.
+  /// After a step: whether it failed on any rank, and whether particles have to be sorted on all of them; also because
+  /// a tool has come near to blocks that not all ranks have.
   void share_flags(bool& failed, bool& sorts);
 
   /// The reason of the first rank that has one; empty if none has.

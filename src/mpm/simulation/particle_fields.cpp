@@ -248,8 +248,7 @@ std::int64_t by_id(const SetView& view, int p) { return view.set.id[p]; }
 
 /// Columns of this rank's own particles, which come to the first rank by id.
 std::vector<std::vector<double>> gather_columns(Communicator& ranks, const std::vector<SetView>& sets,
-                                                const std::vector<Chosen>& fields, int threads,
-                                                std::size_t particles) {
+                                                const std::vector<Chosen>& fields, int threads, std::size_t particles) {
   std::vector<std::uint64_t> ids;
   std::vector<std::int64_t> first;  // of each set
   for (const SetView& view : sets) {

@@ -103,10 +103,7 @@ void RanksWriter::close() {
 }
 
 RanksReader::RanksReader(const Communicator* ranks, const std::string& path)
-    : file_(path),
-      rank_(ranks == nullptr ? 0 : ranks->rank()),
-      here_(ranks == nullptr ? 1 : ranks->size()),
-      there_(1) {
+    : file_(path), rank_(ranks == nullptr ? 0 : ranks->rank()), here_(ranks == nullptr ? 1 : ranks->size()), there_(1) {
   if (!file_.has(kRanks)) return;
   std::uint64_t size = 1;
   file_.value(kRanks, size);

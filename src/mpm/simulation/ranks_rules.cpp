@@ -10,12 +10,14 @@ namespace mpm {
 
 std::string ranks_fault(const SimulationDefinition& definition) {
   const auto refused = [](const std::string& what) {
-    return fmt::format("{} does not work over several ranks yet; start the run as one process (it takes as many threads "
-                       "as are of use), or leave that out",
-                       what);
+    return fmt::format(
+        "{} does not work over several ranks yet; start the run as one process (it takes as many threads "
+        "as are of use), or leave that out",
+        what);
   };
   if (!definition.cracks.list.empty()) return refused("a crack ('cracks')");
-  if (!definition.transport.quantities.empty()) return refused("the transport of heat, moisture or water ('transport')");
+  if (!definition.transport.quantities.empty())
+    return refused("the transport of heat, moisture or water ('transport')");
   if (definition.sleep) return refused("'sleep'");
   if (definition.grid.leave_limit > 0) return refused("particles that leave the domain ('grid.leave_limit')");
   if (definition.method.damping.feedback) return refused("damping by feedback ('method.damping.feedback')");

@@ -76,10 +76,12 @@ bool MaterialContact::counts(const BlockNodes& block) const {
 }
 
 void MaterialContact::book(const BlockNodes& block, bool updated, double dt) {
-  if (!counts(block)) return;
+  const bool counted = counts(block);
   for (const Node& node : block.nodes) {
     for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) {
       const NodePair& pair = block.pairs[p].state;
+      if (updated && settings_.heat != nullptr && !pair.on_a.isZero(0.0)) tell_of_heat(block, node, pair, dt);
+      if (!counted) continue;
       Sums& sums = last_[block.pairs[p].rule];
       const Vec3 on_second = block.pairs[p].turned ? pair.on_a : pair.on_b;
       const double normal = pair.on_a.dot(pair.normals.of_a);
@@ -93,7 +95,6 @@ void MaterialContact::book(const BlockNodes& block, bool updated, double dt) {
       }
       if (!updated) continue;
       sums.friction_energy += pair.friction_energy;
-      if (settings_.heat != nullptr && !pair.on_a.isZero(0.0)) tell_of_heat(block, node, pair, dt);
       if (pair.interface != nullptr) {
         sums.interface_energy +=
             mpm::interface_energy(*pair.interface, {pair.opening, pair.area, 0.0}, pair.on_a, pair.normals.of_a, dt);

@@ -16,8 +16,6 @@ std::string ranks_fault(const SimulationDefinition& definition) {
         what);
   };
   if (!definition.cracks.list.empty()) return refused("a crack ('cracks')");
-  if (!definition.transport.quantities.empty())
-    return refused("the transport of heat, moisture or water ('transport')");
   if (definition.sleep) return refused("'sleep'");
   if (definition.grid.leave_limit > 0) return refused("particles that leave the domain ('grid.leave_limit')");
   if (definition.method.damping.feedback) return refused("damping by feedback ('method.damping.feedback')");

@@ -26,8 +26,8 @@ struct Traffic {
 /// of as many ranks as the launcher does
 std::shared_ptr<Communicator> make_ranks();
 
-/// Of a program that runs on one rank only. @throws RanksError where a launcher has started several
-void refuse_ranks(const std::string& program);
+/// Of what runs in one process only, by its name. @throws RanksError where a launcher has started several
+void refuse_ranks(const std::string& what);
 
 /// For a rank that cannot go on, while others may wait for it. `reason`: a line for stderr. Where all ranks come here
 /// within a second, as they do when what they were given is at fault, the first one tells it and all return `code`;

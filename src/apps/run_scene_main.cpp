@@ -108,7 +108,7 @@ int main(int argc, char** argv) {
           mpm_ros::run_sweep(sweep, std::cout, std::cerr, isatty(STDERR_FILENO) != 0, mpm_ros::stop_requested));
     }
     if (explain) {
-      mpm::refuse_ranks("run_scene --explain");
+      mpm::refuse_ranks("--explain");
       mpm_ros::explain_scene(options, std::cout);
       return 0;
     }

@@ -65,9 +65,9 @@ int run(const mpm_ros::ParameterSources& sources, mpm_ros::ExitWatchdog& watchdo
 
 int main(int argc, char** argv) {
   try {
-    mpm::refuse_ranks("simulator");
+    mpm::refuse_ranks("the node");
   } catch (const mpm::Error& error) {
-    std::cerr << error.what() << "\n";
+    std::cerr << "simulator: " << error.what() << "\n";
     return 2;
   }
   mpm_ros::spin_only_briefly(argv);

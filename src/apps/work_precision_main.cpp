@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    mpm::refuse_ranks("work_precision");
+    mpm::refuse_ranks("a study");
     const auto tell = [](const std::string& line) { std::cout << line << std::endl; };
     if (options.suites == std::vector<std::string>{"tool_force"}) {
       force.full = options.full;

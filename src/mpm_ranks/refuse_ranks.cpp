@@ -5,12 +5,10 @@
 
 namespace mpm {
 
-void refuse_ranks(const std::string& program) {
+void refuse_ranks(const std::string& what) {
   if (const int ranks = launched_ranks(); ranks > 1) {
-    throw RanksError(fmt::format(
-        "{}: started as one of {} ranks, but it runs in one process: start it without mpirun; run_scene runs a scene "
-        "on several ranks",
-        program, ranks));
+    throw RanksError(
+        fmt::format("started as one of {} ranks, but {} runs in one process: start it without mpirun", ranks, what));
   }
 }
 

@@ -74,6 +74,44 @@ TEST(CrackContour, MeetsACornerOnce) {
   EXPECT_NEAR((path.crossing.place - at(4.0, 4.0)).norm(), 0.0, 1e-12);
 }
 
+/// 31 x 31 nodes, cells of 1 m; a crack whose tip lies beside node (15, 15).
+ContourPath path_beside(const std::vector<Vec2>& others, int size) {
+  const GridLines lines{{0.0, 0.0}, {1.0, 1.0}, {31, 31}};
+  const std::vector<Vec2> line{{0.0, 15.4}, {15.1, 15.4}};
+  ContourPath path;
+  make_path(lines, line.data(), 2, line.back(), size, path, others);
+  return path;
+}
+
+using Node = std::array<int, 2>;
+
+// One to three cells short of the other tip, two from its own at least, on the side where the other is.
+TEST(CrackContour, KeepsAwayFromOtherTips) {
+  const auto expect = [](const std::vector<Vec2>& others, int size, const Node& low, const Node& high) {
+    const ContourPath path = path_beside(others, size);
+    ASSERT_EQ(path.status, ContourStatus::complete);
+    EXPECT_EQ(path.low, low);
+    EXPECT_EQ(path.high, high);
+    EXPECT_EQ(static_cast<int>(path.nodes.size()), 2 * (high[0] - low[0] + high[1] - low[1]));
+  };
+  expect({}, 4, {11, 11}, {19, 19});
+  expect({{20.1, 15.4}}, 4, {11, 11}, {19, 19});  // more than a cell beside it
+  expect({{15.0, 20.1}}, 4, {11, 11}, {19, 19});
+  expect({{19.9, 15.4}}, 4, {11, 11}, {17, 19});  // 2.9 cells short
+  expect({{18.0, 15.4}}, 4, {11, 11}, {17, 19});  // one cell short
+  expect({{20.5, 12.0}}, 6, {9, 9}, {18, 21});    // 2.5 cells short
+  expect({{16.0, 11.2}}, 4, {11, 13}, {19, 19});
+  expect({{11.3, 18.0}}, 4, {13, 11}, {19, 19});  // on the side on which it is farther
+  expect({{19.4, 15.4}, {15.0, 18.2}}, 4, {11, 11}, {17, 17});
+}
+
+TEST(CrackContour, HasNoRoomBetweenTipsNextToEachOther) {
+  for (const Vec2& other : {Vec2(17.9, 15.4), Vec2(15.0, 17.9), Vec2(12.1, 12.1), Vec2(15.1, 15.4)}) {
+    EXPECT_EQ(path_beside({other}, 4).status, ContourStatus::holds_other_tip);
+  }
+  EXPECT_GT(std::string(describe(ContourStatus::holds_other_tip)).size(), 10u);
+}
+
 /// A number as energy: 1 below the crack, 2 above, of which some nodes may have none.
 class TwoSides final : public ContourSource {
  public:
@@ -125,6 +163,44 @@ TEST(CrackContour, HasOnePointOnEachFace) {
     source.without_own = node;
     EXPECT_EQ(gather_contour(kLines, path, source, pieces), ContourStatus::no_material);
   }
+}
+
+/// Energy that is linear on each side, as means of material whose centres lie off the nodes beside the crack at j
+/// = 3.5.
+class OffCentre final : public ContourSource {
+ public:
+  double aside = 0.0;  ///< of the centres of material across [cells]
+  static double energy(double j, bool above) { return above ? 2.0 + 0.3 * j : 1.0 - 0.2 * j; }
+  bool find(const std::array<int, 2>& node, ContourField field, ContourValues& values) const override {
+    const bool own = field == ContourField::own, above = (node[1] >= 4) == own;
+    double off = 0.0;
+    if (!own) off = above ? 0.75 : -0.75;
+    if (own && (node[1] == 3 || node[1] == 4)) off = above ? 0.1 : -0.1;
+    values = {};
+    values.energy = energy(node[1] + off, above);
+    values.centre = at(node[0] + (own ? 0.0 : aside), node[1] + off);
+    return true;
+  }
+};
+
+// At the face and at the node beside it a linear field is exact: by values as if of the nodes it is off by the slope
+// times 0.425 and 0.1 cells. Centres that lie aside count as at their nodes.
+TEST(CrackContour, TakesMeansAtTheirCentres) {
+  const ContourPath path = path_of({at(0.2, 3.5), at(5.1, 3.5)}, 1);
+  ASSERT_EQ(path.status, ContourStatus::complete);
+  OffCentre source;
+  std::vector<ContourPiece> pieces;
+  ASSERT_EQ(gather_contour(kLines, path, source, pieces), ContourStatus::complete);
+  EXPECT_NEAR(pieces.front().first.energy, OffCentre::energy(3.5, false), 1e-12);
+  EXPECT_NEAR(pieces.front().last.energy, OffCentre::energy(3.0, false), 1e-12);
+  EXPECT_EQ(pieces[1].first.energy, pieces.front().last.energy);
+  EXPECT_NEAR(pieces.back().last.energy, OffCentre::energy(3.5, true), 1e-12);
+  EXPECT_NEAR(pieces.back().first.energy, OffCentre::energy(4.0, true), 1e-12);
+  EXPECT_EQ(pieces[pieces.size() - 2].last.energy, pieces.back().first.energy);
+  source.aside = 0.3;
+  ASSERT_EQ(gather_contour(kLines, path, source, pieces), ContourStatus::complete);
+  EXPECT_NEAR(pieces.front().first.energy, OffCentre::energy(3.5 - 0.425, false), 1e-12);
+  EXPECT_NEAR(pieces.front().last.energy, OffCentre::energy(3.0 - 0.1, false), 1e-12);
 }
 
 }  // namespace crack_contour_test

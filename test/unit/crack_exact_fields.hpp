@@ -20,6 +20,7 @@ class ExactContourSource final : public ContourSource {
   ExactContourSource(GridLines lines, CrackField field) : lines_(lines), field_(std::move(field)) {}
   bool find(const std::array<int, 2>& node, ContourField field, ContourValues& values) const override {
     values = field_(lines_.place(node), field);
+    values.centre = lines_.place(node);
     return true;
   }
 
@@ -84,6 +85,49 @@ struct WilliamsField {
   /// Opening (along, across) behind the tip [m], of the singular term.
   Vec2 opening(double radius) const {
     return Vec2(k_ii, k_i) * ((kappa + 1.0) * std::sqrt(0.5 * radius / kPi) / shear_modulus);
+  }
+};
+
+/// Two equal cracks in line, |x - middle| from b to a on y = middle, in an infinite body under `stress` in both
+/// directions (Westergaard): 2 phi' = stress (z^2 - c^2) / sqrt((z^2 - a^2) (z^2 - b^2)), psi' = -z phi'', with c such
+/// that neither crack opens in all: c^2 / a^2 = E / K of the modulus sqrt(1 - b^2 / a^2).
+struct CollinearField {
+  double shear_modulus = 1.0, kappa = 1.8, stress = 1.0;
+  double outer = 20.0, inner = 4.0;  ///< a, b
+  Vec2 middle{0.0, 0.0};
+
+  double modulus() const { return 8.0 * shear_modulus / (kappa + 1.0); }
+  double zero() const {  ///< c^2
+    const double k = std::sqrt(1.0 - inner * inner / (outer * outer));
+    return outer * outer * std::comp_ellint_2(k) / std::comp_ellint_1(k);
+  }
+  double width() const { return std::sqrt(outer * outer - inner * inner); }
+  double k_inner() const { return stress * std::sqrt(kPi / inner) * (zero() - inner * inner) / width(); }
+  double k_outer() const { return stress * std::sqrt(kPi / outer) * (outer * outer - zero()) / width(); }
+
+  ContourValues operator()(const Vec2& place, ContourField side) const {
+    using Complex = std::complex<double>;
+    const Complex i(0.0, 1.0), z(place[0] - middle[0], place[1] - middle[1]);
+    // Each root's cut runs to the left; two of them cancel outside the cracks.
+    Complex root = std::sqrt(z - outer) * std::sqrt(z - inner) * std::sqrt(z + inner) * std::sqrt(z + outer);
+    if (side != ContourField::own) root = -root;  // continued across a crack
+    const Complex over = z * z - zero(), square = root * root;
+    const Complex phi1 = 0.5 * stress * over / root;
+    const Complex phi2 =
+        0.5 * stress * (2.0 * z / root - over * z * (2.0 * z * z - outer * outer - inner * inner) / (square * root));
+    const Complex psi1 = -z * phi2;
+    const Complex dx = (kappa * phi1 - std::conj(phi1) - z * std::conj(phi2) - std::conj(psi1)) / (2.0 * shear_modulus);
+    const Complex dy =
+        i * (kappa * phi1 - std::conj(phi1) + z * std::conj(phi2) + std::conj(psi1)) / (2.0 * shear_modulus);
+    const Complex sum = 4.0 * phi1.real(), difference = 2.0 * (std::conj(z) * phi2 + psi1);
+    ContourValues values;
+    values.gradient[0][0] = dx.real(), values.gradient[0][1] = dy.real();
+    values.gradient[1][0] = dx.imag(), values.gradient[1][1] = dy.imag();
+    values.xx = 0.5 * (sum.real() - difference.real());
+    values.zz = 0.5 * (sum.real() + difference.real());
+    values.xz = 0.5 * difference.imag();
+    values.energy = 0.5 * (values.xx * dx.real() + values.zz * dy.imag() + values.xz * (dy.real() + dx.imag()));
+    return values;
   }
 };
 

@@ -314,7 +314,7 @@ TEST(CrackGrowth, GoesOnFromWhatIsKept) {
     ASSERT_TRUE(now.grows);
     growth.grown(tip, now, 1e-3);
     tip.time = growth.due();
-    tip.length += 1e-3;
+    tip.grown_area += 1e-3;
     tip.energies->potential -= 0.150 + 0.01 * i;
     tip.energies->plastic += 1e-3;
   }

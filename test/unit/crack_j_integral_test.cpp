@@ -181,6 +181,75 @@ TEST(CrackFaceTerms, TakeOffTheWorkOfTractions) {
   }
 }
 
+// Two cracks in line whose inner tips come near to each other, in the exact field: the contour that keeps away from the
+// other tip has J of its own one, K^2 / E'. One that holds both tips, whose J is of growth to the right and to the
+// left, has next to nothing.
+TEST(CrackJIntegral, KeepsTipsInLineApart) {
+  const GridLines lines{{0.0, 0.0}, {1.0, 1.0}, {129, 129}};
+  CollinearField infinite;  // far from each other cracks of half length 8 are alone
+  infinite.outer = 4016.0, infinite.inner = 4000.0;
+  EXPECT_NEAR(infinite.k_inner(), std::sqrt(kPi * 8.0), 0.002 * std::sqrt(kPi * 8.0));
+  const auto look = [&](double gap, int place, bool apart, double& error) {
+    CollinearField field;
+    field.inner = 0.5 * gap, field.outer = 16.0 + field.inner;
+    field.middle = {64.0 + 0.1 * (place % 10) + 0.03, 64.0 + 0.1 * (place / 10) + 0.04};
+    const Vec2 tip = field.middle + Vec2(field.inner, 0.0), other = field.middle - Vec2(field.inner, 0.0);
+    const std::array<Vec2, 2> line{tip, field.middle + Vec2(field.outer, 0.0)};
+    ContourPath path;
+    make_path(lines, line.data(), 2, tip, 4, path, apart ? std::vector<Vec2>{other} : std::vector<Vec2>{});
+    if (path.status != ContourStatus::complete) return path.status;
+    std::vector<ContourPiece> pieces;
+    const JResult result = integrate_j({}, lines, path, ExactContourSource(lines, field), {}, false, pieces);
+    error = result.along(Vec2(-1.0, 0.0)) * field.modulus() / (field.k_inner() * field.k_inner()) - 1.0;
+    return result.status;
+  };
+  Errors errors;
+  double error = 0.0;
+  for (const double gap : {3.5, 4.0, 4.5, 5.0, 6.0}) {
+    for (int place = 0; place < 100; ++place) {
+      ASSERT_EQ(look(gap, place, true, error), ContourStatus::complete);
+      errors.add(error);
+    }
+  }
+  // Two cells on one side and four on the others: between the errors of both (crack reference 4.2).
+  EXPECT_GT(errors.mean(), -1.4);
+  EXPECT_LT(errors.mean(), -0.34);
+  EXPECT_GT(errors.least, -2.0);
+  EXPECT_LT(errors.most, 0.0);
+  EXPECT_EQ(look(2.4, 0, true, error), ContourStatus::holds_other_tip);
+  ASSERT_EQ(look(2.4, 0, false, error), ContourStatus::complete);
+  EXPECT_NEAR(error, -1.0, 0.1);
+}
+
+// A body that turns has the J and K of one that does not, to round-off, though the trapezoidal rule does not balance
+// its tractions.
+TEST(CrackJIntegral, LeavesARotationOut) {
+  WilliamsField field;
+  field.k_i = 0.8;
+  field.k_ii = 0.6;
+  field.angle = 0.4;
+  WilliamsContour contour;
+  ASSERT_EQ(contour.gather(field, {0.1, -0.3}, 3), ContourStatus::complete);
+  constexpr double kTurn = 50.0;  // of strains of 0.3
+  const ExactContourSource turned(contour.lines, [&](const Vec2& place, ContourField side) {
+    ContourValues values = field(place, side);
+    values.gradient[0][1] += kTurn;
+    values.gradient[1][0] -= kTurn;
+    return values;
+  });
+  const ExactContourSource still(contour.lines, field);
+  std::vector<ContourPiece> pieces, of_still;
+  const JResult result = integrate_j({}, contour.lines, contour.path, turned, {}, true, pieces);
+  const Vec2 exact = integrate_j({}, contour.lines, contour.path, still, {}, true, of_still).contour;
+  EXPECT_NEAR(result.rotation, kTurn, 1.0);
+  EXPECT_NEAR((result.contour - exact).norm(), 0.0, 1e-12);
+  EXPECT_GT((contour_term({}, pieces) - exact).norm(), 0.05 * exact.norm());
+  const StressIntensity a = interaction_integral(kConstants, field.tip, field.direction(), pieces);
+  const StressIntensity b = interaction_integral(kConstants, field.tip, field.direction(), of_still);
+  EXPECT_NEAR(a.one, b.one, 1e-12);
+  EXPECT_NEAR(a.two, b.two, 1e-12);
+}
+
 // Another crack across the whole contour, between two blocks under different uniform stresses, each in balance: J is 0
 // with the term of its faces. Its line cuts the edges of cells in their middle, where the rule is exact.
 TEST(CrackFaceTerms, CountTheFacesOfAnotherCrack) {
@@ -292,7 +361,9 @@ TEST(CrackJIntegral, IsZeroInWavesByTheAreaTerm) {
       // Particles that leave gaps are scaled to the rectangle.
       std::vector<AreaSample> half = samples;
       for (AreaSample& sample : half) sample.area *= 0.5;
-      EXPECT_NEAR((area_term({}, half, path.area(lines)) - result.area).norm(), 0.0, 1e-12);
+      JForm form;
+      form.rotation = result.rotation;
+      EXPECT_NEAR((area_term(form, half, path.area(lines)) - result.area).norm(), 0.0, 1e-12);
       EXPECT_EQ(integrate_j({}, lines, path, source, samples, false, pieces).area, Vec2(0.0, 0.0));
     }
   }

@@ -162,6 +162,20 @@ TEST(PennyCrack, BothFormsGiveJOnAnyContour) {
   }
 }
 
+// The form of Broberg in a square around the tip, joined along the square's edge to that of Bergkvist and Huong. Cells
+// and errors are those above.
+TEST(PennyCrack, FormsJoinAroundTheTip) {
+  const PennyContour contour(0.4, 100, {0.0, 0.45}), square(0.2, 50, {0.0, 0.45});
+  JForm form = kBergkvistHuong;
+  form.low = square.lines.place(square.path.low);
+  form.high = square.lines.place(square.path.high);
+  const Vec2 sum = contour_term(form, contour.pieces) + contour.area(form, contour.fine_rule());
+  const Vec2 joining = joining_term(form, square.pieces);
+  EXPECT_GT(std::abs(joining[0]), 0.05 * kExact);
+  EXPECT_NEAR((sum + joining)[0], kExact, 1e-3 * kExact);
+  EXPECT_NEAR((sum + joining)[1], 0.0, 1e-3 * kExact);
+}
+
 // J_z is 0 by symmetry, also on a contour that lies aside of the crack's plane, where Broberg's form needs the term
 // that NairnMPM leaves out. The energy on the two faces is the same, so that they add nothing.
 TEST(PennyCrack, HasNoJAcrossItsPlane) {

@@ -107,6 +107,31 @@ TEST(Absorbing, LetsPulsesOut) {
   }
 }
 
+// A pulse along a crack through the whole column and its face: nothing crosses the crack in such a wave, and nothing is to
+// come back from the material beside it, which gives to nodes of both sides' fields.
+TEST(Absorbing, LetsPulsesOutBesideACrack) {
+  const double speed = std::sqrt(kYoung / kDensity);
+  const std::string shape = fmt::format("(abs(x-0.3) < 0.15 ? {0}*(1 + cos(pi*(x-0.3)/0.15)) : 0)", 0.5 * kSpeed);
+  for (const char* const z : {"0.044", "0.04"}) {
+    mpm::Simulation run = scene(fmt::format(
+        "geometry: plane_strain\ngrid: {{cell: 0.01, min: [0, -0.04], max: [0.64, 0.12]}}\ntime: {{end: 1, sync: 0.1 "
+        "ms}}\nmethod: {{shape: ugimp, update: usavg, transfer: flip}}\n"
+        "materials: [{{name: m, density: {}, law: linear_elastic, young: {}, poisson: 0}}]\n"
+        "bodies: [{{name: column, material: m, shape: {{box: {{min: [0, 0], max: [0.64, 0.08]}}}}, initial: "
+        "{{velocity: "
+        "[\"{}\", 0], stress: {{xx: \"-{}*{}\"}}}}}}]\nboundaries: {{x_max: absorbing}}\n"
+        "cracks: {{list: [{{name: slit, points: [[0.003, {}], [0.637, {}]], start: exterior, end: exterior}}]}}\n",
+        kDensity, kYoung, shape, kDensity * speed, shape, z, z));
+    const mpm::SolverState before = run.state();
+    run_until(run, std::ceil(0.58 / speed / 1e-4) * 1e-4);
+    const mpm::SolverState after = run.state();
+    const double energy = before.energy.of("kinetic") + before.energy.of("elastic");
+    EXPECT_LT(after.audit.residual, 1e-10);
+    EXPECT_NEAR(after.energy.of("load_work"), -energy, 0.01 * energy);
+    EXPECT_LT(largest(field(run, "vx")) / kSpeed, 0.02);
+  }
+}
+
 /// A column of soil with a geostatic start on an absorbing face.
 std::string ground(const char* face) {
   return fmt::format(

@@ -20,9 +20,10 @@ struct Beam {
   int cells = 6;     ///< an arm
   double crack = 5;  ///< over the height of an arm
   int size = 3;      ///< of the contour
+  double tip = 0.1;  ///< beyond a node [cells]
 
   double cell() const { return kArm / cells; }
-  double length() const { return std::round(crack * kArm / cell()) * cell() + 0.1 * cell(); }
+  double length() const { return std::round(crack * kArm / cell()) * cell() + tip * cell(); }
 };
 
 double cantilever_j(double load, double length) {
@@ -65,9 +66,14 @@ struct Opened {
 
 constexpr double kEndLoad = 0.01;  // [N]
 
-Opened open(const Beam& beam) {
+/// Of the slowest vibration of an arm [rad/s].
+double arm_rate(const Beam& beam) {
   const double clamped = beam.length() + 0.6728 * kArm;  // length of a cantilever that bends as an arm
-  const double rate = 3.516 / std::sqrt(12.0) * kBarSpeed * kArm / (clamped * clamped), period = 2 * kHalfTurn / rate;
+  return 3.516 / std::sqrt(12.0) * kBarSpeed * kArm / (clamped * clamped);
+}
+
+Opened open(const Beam& beam) {
+  const double rate = arm_rate(beam), period = 2 * kHalfTurn / rate;
   const double sync = sync_of(2.0 * period, 10), end = 10 * sync, stress = kEndLoad / (kArm * kThickness);
   std::string text = block(beam, beam.crack * kArm + 3 * kArm, end, sync, 1.8 * rate);
   text += "loads:\n" + traction("x_min", ramped(stress, 0.6 * period), half(beam, true)) +
@@ -85,21 +91,19 @@ Opened open(const Beam& beam) {
   return {tip(simulation, "end"), 1.5 * columns[0] - 0.5 * columns[1]};
 }
 
-void check(Page& page, const Beam& beam, double lowest, double highest, double deflection) {
+void check(Page& page, const Beam& beam, double tolerance, double deflection) {
   const Opened run = open(beam);
   const std::string name = fmt::format(", {} cells an arm, a = {} h", beam.cells, beam.crack);
   const double exact = cantilever_j(kEndLoad, beam.length());
-  page.report("J" + name, run.tip.j, "J/m²");
-  page.report("exact" + name, exact, "J/m²");
-  page.above("J / exact" + name, run.tip.j / exact, lowest, "");
-  page.below("J / exact" + name, run.tip.j / exact, highest, "");
+  page.near("J" + name, run.tip.j, exact, tolerance, "J/m²");
   page.near("arm's end" + name, run.deflection, cantilever_tip(kEndLoad, beam.length()), deflection, "m");
   page.below("|K_II| / K_I" + name, std::abs(run.tip.two) / run.tip.one, beam.cells > 3 ? 0.01 : 0.03, "");
 }
 
 constexpr char kArms[] =
-    "With three cells across an arm the arms bend as they should, but a contour of two cells fills the arm and J is 15 "
-    "to 22 % low. Six cells give J within 3 %, twelve within 1.5 %.";
+    "Six cells an arm give J within 3 %, twelve within 1.5 %; most of that is the tip, which acts 0.2 cells farther "
+    "than "
+    "it lies. On three cells a contour of two fills the arm, and J is 5 % low.";
 
 // About 4 s in all.
 TEST(CrackBeam, DoubleCantilever) {
@@ -113,20 +117,52 @@ TEST(CrackBeam, DoubleCantilever) {
       .exact("J = 12 P²(a + 0.6728 h)²/(E'B²h³); an end moves by 4 P(a + 0.6728 h)³/(E'Bh³).",
              "beams on the root that finite elements give (four digits)")
       .meaning(kArms);
-  // Reference 7.1: 3 cells 0.77 to 0.86, 6 cells 0.97 to 0.99, 12 cells 0.985 to 1.00; wider by 0.005 for the motion
-  // left.
-  check(page, {3, 5, 2}, 0.77, 0.865, 0.08);
-  check(page, {6, 5, 3}, 0.97, 1.0, 0.03);
-  check(page, {12, 3, 3}, 0.985, 1.005, 0.015);
+  // Asked of 6 and 12 cells. The reference's own contour, which takes means beside the crack for values at nodes, has
+  // 0.77 to 0.86 of J on 3 cells, 0.97 to 0.99 on 6 and 0.985 to 1.00 on 12.
+  check(page, {3, 5, 2}, 0.06, 0.08);
+  check(page, {6, 5, 3}, 0.03, 0.03);
+  check(page, {12, 3, 3}, 0.015, 0.015);
 }
 
 // 1 minute for 12 cells.
 TEST(CrackBeam, FullDoubleCantileverOfLongArms) {
   Page page("crack", "crack_cantilever_long", "A beam split along its middle and opened: long arms");
   page.problem("The arms above, ten times as long as high.").exact("as above", "as above").meaning(kArms);
-  check(page, {3, 10, 2}, 0.77, 0.86, 0.05);
-  check(page, {6, 10, 3}, 0.97, 0.995, 0.03);
-  check(page, {12, 10, 3}, 0.985, 1.005, 0.015);
+  check(page, {3, 10, 2}, 0.06, 0.05);
+  check(page, {6, 10, 3}, 0.03, 0.03);
+  check(page, {12, 10, 3}, 0.015, 0.015);
+}
+
+// About 4 s in all.
+TEST(CrackBeam, EndMoments) {
+  constexpr double kMoment = 2e-5;                                                                          // [N m]
+  const double exact = 12.0 * kMoment * kMoment / (kPlane * kThickness * kThickness * kArm * kArm * kArm);  // [J/m^2]
+  Page page("crack", "crack_moments", "A beam split along its middle and bent open");
+  page.problem(
+          "Two arms 3 mm high, 6 cells each, are bent apart by moments of 0.02 N mm at their ends (tractions on the "
+          "end "
+          "faces, linear in height); cracks three and five times as long. E = 2500 MPa, ν = 0.33, plane strain, 1 mm "
+          "thick.")
+      .exact("J = 12 M²/(E'B²h³), whatever the length of the crack.", "Rice (1968): the contour around the beam's ends")
+      .meaning("J does not depend on the length of the crack.");
+  Numbers found;
+  for (const double crack : {3.0, 5.0}) {
+    const Beam beam{6, crack, 3};
+    const double rate = arm_rate(beam), period = 2 * kHalfTurn / rate;
+    const double sync = sync_of(2.0 * period, 10), end = 10 * sync;
+    const double slope = 12.0 * kMoment / (kThickness * kArm * kArm * kArm);  // of the stress [Pa/m]
+    std::string text = block(beam, crack * kArm + 3 * kArm, end, sync, 1.8 * rate);
+    text += fmt::format(
+        "loads: [{{traction: {{body: plate, edge: x_min, traction: [\"{:.12g}*(abs(Z)-{:.12g})*(t < {:.12g} ? "
+        "0.5-0.5*cos(3.14159265358979*t/{:.12g}) : 1)\", 0]}}}}]\n",
+        slope, 0.5 * kArm, 0.6 * period, 0.6 * period);
+    mpm::Simulation simulation = made(text + slit(beam));
+    run_until(simulation, end);
+    found.push_back(tip(simulation, "end").j);
+    // The tip acts as if 0.2 cells farther, which changes nothing here; 2 % for a contour in an arm of 6 cells.
+    page.near(fmt::format("J, a = {} h", crack), found.back(), exact, 0.02, "J/m²");
+  }
+  page.near("J of the longer crack over that of the shorter", found[1] / found[0], 1.0, 0.005, "");
 }
 
 constexpr double kMiddleLoad = 0.1;  // [N]
@@ -162,19 +198,48 @@ TEST(CrackBeam, EndNotchedFlexure) {
           "The cracked end is borne over the whole face, or its lower arm alone, which bears the other by contact.")
       .exact("J = 9 P²(a + 0.2089 h)²/(16 E'B²h³), K_I = 0.", "beams on the root that finite elements give")
       .meaning(
-          "J is as near as in mode I, also where faces press on each other. K_II by the interaction integral is 9 % "
-          "too "
-          "high on 6 cells an arm and 3 % on 12, since arms bend within its contour: take sqrt(J E') in beams.");
-  const Beam beam{6, 3, 3};
+          "In shear along a row of cells a crack acts up to the first column of nodes that it does not divide, here "
+          "0.2 "
+          "cells beyond its tip; with the tip 0.1 cells beyond a node, the place for an opening crack, that is 0.9 "
+          "cells, "
+          "and K_II is 9 % high on 6 cells an arm. K_II is taken around the tip itself, which adds a part of that "
+          "again.");
+  const Beam beam{6, 3, 3, 0.8};
   const double exact = flexure_j(kMiddleLoad, beam.length()), k = std::sqrt(exact * kPlane);
   for (const bool lower_alone : {false, true}) {
     const Tip tip = bend(beam, lower_alone);
     const std::string name = lower_alone ? ", lower arm borne" : ", whole end borne";
     page.near("J" + name, tip.j, exact, 0.03, "J/m²");
-    // Measured beside J: 8.6 % more than sqrt(J E') on 6 cells, 3.2 % on 12 (J within 1.3 and 0.7 %).
-    page.near("|K_II|" + name, std::abs(tip.two), k, 0.10, "Pa √m");
+    // Longer by 0.3 cells, J is 3 % and K 1.5 % more, and K around a tip that lies so far off another 2 %.
+    page.near("|K_II|" + name, std::abs(tip.two), k, 0.05, "Pa √m");
     page.near_absolute("K_I / |K_II|" + name, tip.one / std::abs(tip.two), 0.0, 0.05, "");
   }
+}
+
+// 12 cells an arm, about a minute a place.
+TEST(CrackBeam, FullPlacesInShear) {
+  Page page("crack", "crack_places_shear", "Where a crack in shear lies in a cell");
+  page.problem("The beam bent by 0.1 N in its middle, with 12 cells an arm and the tip at places in a cell.")
+      .exact("J of the beam whose crack ends at the first column of nodes that the crack does not divide.",
+             "beams on the root that finite elements give; columns from the rule by which particles choose fields")
+      .meaning(
+          "In shear a crack acts up to a column of nodes, by 0.2 to 1 cells farther than its tip. The least is with "
+          "the tip 0.8 cells beyond a node.");
+  Numbers places, found, columns;
+  for (const double place : {0.1, 0.3, 0.5, 0.8, 0.95}) {
+    const Beam beam{12, 3, 3, place};
+    const double j = bend(beam, false).j, root = 0.2089 * kArm;
+    const double longer = (std::sqrt(j / flexure_j(kMiddleLoad, beam.length())) - 1.0) * (beam.length() + root);
+    // A tip divides the next column once it has passed the way from the particle beside it, 5/6 of a cell.
+    const double column = (place < 5.0 / 6.0 ? 1.0 : 2.0) - place;
+    places.push_back(place), found.push_back(longer / beam.cell()), columns.push_back(column);
+    // 1 % of J for the contour: 0.2 cells of the 39 of a and its root.
+    page.near_absolute(fmt::format("longer by, tip at {}", place), found.back(), column, 0.3, "cells");
+  }
+  page.figure()
+      .panel("A crack in shear acts longer than it is", "tip beyond a node [cells]", "longer by [cells]")
+      .exact("to the first undivided column", places, columns)
+      .points("12 cells an arm", places, found);
 }
 
 }  // namespace crack_beam_test

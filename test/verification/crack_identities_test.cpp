@@ -245,6 +245,35 @@ AtTip at_tip(const mpm::Simulation& simulation, const std::string& end) {
   return {state.number(tip + " j"), state.number(tip + " k_one"), state.number(tip + " k_two")};
 }
 
+// Two halves, whole as rigid bodies in the first step, leave each other with 1 mm/s; a force of 1 m/s^2 turns them
+// around in a step of 4 ms. With rows of particles 1/4 and 3/4 of a cell from the rows of nodes, and the crack half
+// way, the two rows of nodes beside it have 1.75 rows of particles of their own side and 0.25 of the other, whose
+// reduced mass is 1.75 x 0.25 / 2, and lose their speed of approach to each other.
+TEST(CrackIdentities, FacesThatTurnAroundMeetInThatStep) {
+  const double start = 1e-3, push = 1.0, dt = 4e-3;
+  mpm::Simulation simulation = simulation_of(
+      kPlate +
+          "cracks: {list: [{name: seam, line: {from: [0.04, 0.8125], to: [1.46, 0.8125]}, start: exterior, end: "
+          "exterior}]}\n",
+      {"time.sync=4 ms", "time.step=4 ms", "method.update=usavg",
+       fmt::format("bodies.plate.initial.velocity=[0, \"z < 0.8125 ? -{0} : {0}\"]", start),
+       fmt::format("loads=[{{body_force: {{acceleration: [0, \"Z < 0.8125 ? {0} : -{0}\"]}}}}]", push)});
+  const std::vector<double> z = field(simulation, "z");
+  simulation.advance();
+  EXPECT_EQ(simulation.state().step.steps, 1u);
+  const std::vector<double> v = field(simulation, "vz");
+  double above = 0.0, below = 0.0;
+  int rows_above = 0, rows_below = 0;
+  for (std::size_t p = 0; p < z.size(); ++p) {
+    (z[p] > 0.8125 ? above : below) += v[p];
+    ++(z[p] > 0.8125 ? rows_above : rows_below);
+  }
+  const double approach = 2.0 * (push * dt - start), row = 24.0;  // particles of a row
+  const double impulse = 2.0 * (1.75 * 0.25 / 2.0) * row * approach;
+  EXPECT_NEAR(above / rows_above, start - push * dt + impulse / rows_above, 1e-12);
+  EXPECT_NEAR(below / rows_below, push * dt - start - impulse / rows_below, 1e-12);
+}
+
 // J and K of one crack, told from its other end, or in a mirror. Waves run through the plate, in both modes.
 TEST(CrackIdentities, ReversedAndMirroredCracksHaveTheSameTip) {
   struct Case {

@@ -61,9 +61,10 @@ TEST(CrackPenny, RodOfTwiceItsRadius) {
           "radially; at this a/b = 0.505 f = 1.1635 and 1.1049.",
           "Sneddon, Proc. R. Soc. A 187 (1946) 229; f by finite elements (Sneddon and Tait: 1.149 and 1.098)")
       .meaning(
-          "Contours of 2 to 5 cells agree within 1 %, the two ways to load too. The form of Bergkvist and Huong, most "
-          "of "
-          "whose area term cancels against its contour, gives 2 % less than Broberg's.");
+          "Contours of 2 to 5 cells agree within 1 %, the two ways to load and the two forms too. The form of "
+          "Bergkvist "
+          "and Huong needs the first moment of the energy about the tip. Summed over the particles next to the tip "
+          "that is off by 0.2 cells times J, which made J 2 % low; it is taken from the edge of a square around them.");
   const double free = factor(0.1583, 3.2), held = factor(0.1018, 3.0);
   Panel& panel = page.figure().panel("J, over that in an infinite body", "size of the contour [cells]", "J / J∞");
   panel.exact("free side", {2, 5}, {free, free}).exact("held side", {2, 5}, {held, held});
@@ -71,18 +72,16 @@ TEST(CrackPenny, RodOfTwiceItsRadius) {
     for (const std::string form : {"broberg", "bergkvist_huong"}) {
       Numbers sizes, values;
       for (const int size : {2, 3, 5}) {
-        if (size == 3 && form != "broberg") continue;
+        if (size == 2 && form != "broberg") continue;  // there the form of Broberg stands for it
         sizes.push_back(size);
         values.push_back(j_of(loads, {"cracks.contour.form=" + form, fmt::format("cracks.contour.size={}", size)}) /
                          infinite());
-        // Nodal values cost up to 1.4 % at 2 cells (crack reference 4.2), a tip off by 0.15 cells 2 %; the area's term
-        // is 6 to 36 % of J by Bergkvist and Huong, and is a sum over particles.
-        page.near(fmt::format("J / J∞, {}, {}, {} cells", name, form, size), values.back(), free,
-                  form == "broberg" ? 0.02 : 0.025, "");
+        // Asked. Nodal values cost up to 1.4 % at 2 cells (crack reference 4.2), a tip off by 0.15 cells 2 %.
+        page.near(fmt::format("J / J∞, {}, {}, {} cells", name, form, size), values.back(), free, 0.02, "");
       }
       // Of contours of 2 and 5 cells: 1.2 %, the error of the trapezoid rule at 2 cells.
-      page.near(fmt::format("J at 2 over J at 5 cells, {}, {}", name, form), values.front() / values.back(), 1.0, 0.015,
-                "");
+      page.near(fmt::format("J at {} over J at 5 cells, {}, {}", sizes.front(), name, form),
+                values.front() / values.back(), 1.0, 0.015, "");
       panel.points(name + ", " + form, sizes, values);
     }
   }

@@ -21,6 +21,7 @@ struct Plate {
   int half_height = 56;          ///< [cells]
   int size = 3;                  ///< of the contour
   double ramp = 0.6, end = 2.0;  ///< periods of the plate's slowest stretching
+  double damping = 0.9;          ///< of the rate of that stretching; at 2 it is critical
   std::string split = "interaction", growth, fracture, limit;
 
   double infinite() const { return kStress * std::sqrt(kHalfTurn * half_crack * kCell); }  ///< [Pa m^0.5]
@@ -36,9 +37,9 @@ mpm::Simulation pull(const Plate& plate) {
   const double sync = sync_of(plate.end * period, 40), end = 40 * sync;
   const double along = std::cos(plate.angle * kDegree), across = std::sin(plate.angle * kDegree);
   const double a = plate.half_crack * h;
-  std::string text =
-      head(h, {-x - 4 * h, -z - 4 * h, x + 4 * h, z + 5 * h}, end, sync, 0.9 * 2 * kHalfTurn / period, plate.fracture) +
-      body(-x, -z, x, z + h);
+  std::string text = head(h, {-x - 4 * h, -z - 4 * h, x + 4 * h, z + 5 * h}, end, sync,
+                          plate.damping * 2 * kHalfTurn / period, plate.fracture) +
+                     body(-x, -z, x, z + h);
   text += "loads:\n" + traction("z_max", ramped(kStress, plate.ramp * period)) +
           traction("z_min", ramped(-kStress, plate.ramp * period));
   text += fmt::format(
@@ -83,18 +84,20 @@ TEST(CrackPlate, Inclined) {
       .exact("K_I = σ √(πa) sin²β, K_II = σ √(πa) sin β cos β; the phase atan(K_II/K_I) is 90° - β.",
              "the infinite plate; the plate's width adds 1 % to K")
       .meaning(
-          "The interaction integral finds the phase to 0.6°, and K to the part of a cell by which a tip acts longer "
-          "than it is. J of the contour is higher by up to 6 % where the crack runs askew to the grid.");
+          "The interaction integral finds the phase to 0.3°, and K to the part of a cell by which a tip acts longer "
+          "than it is. The plate has to be at rest: at 30° a stress of 1 % across the load, left of its vibration, is "
+          "3 % of K_I and 0.7° of phase. J of the contour is higher by up to 6 % where the crack runs askew to the "
+          "grid.");
   Numbers angles, exact, integral;
   for (const double angle : {75.0, 60.0, 45.0, 30.0}) {
     Plate plate;
     plate.angle = angle;
+    plate.damping = 1.8;  // of vibrations exp(-0.9 * 2 pi * 1.4), 0.04 %, are left
     const mpm::Simulation simulation = pull(plate);
     for (const std::string end : {"start", "end"}) {
       const Tip found = tip(simulation, end);
       const std::string name = fmt::format(", β = {}°, {}", angle, end);
-      // Asked: 0.5. At 30 degrees K_I, there a quarter of that across, has an error of 3 %: 0.6.
-      page.near_absolute("phase" + name, found.phase(), 90.0 - angle, angle > 40.0 ? 0.5 : 0.6, "degrees");
+      page.near_absolute("phase" + name, found.phase(), 90.0 - angle, 0.5, "degrees");  // asked
       // 1.2 % of width, and a tip's 0.41 cells at most: 2.6 % of K.
       page.near("K_I" + name, found.one, 1.012 * plate.one(), 0.03, "Pa √m");
       page.near("|K_II|" + name, std::abs(found.two), 1.012 * plate.two(), 0.03, "Pa √m");

@@ -98,14 +98,13 @@ struct Running {
   double place, asked;       // of the tip at the end, m
 };
 
-Running run_at(double rayleigh, const char* transfer) {
+Running run_at(double rayleigh, const char* transfer, const std::vector<std::string>& further = {}) {
   const double speed = 2946.75 * rayleigh;
-  mpm::Simulation simulation(
-      mpm::build(mpm::parse_scene(
-          kScene, "running_tip",
-          {fmt::format("materials.steel.fracture.speed={}", speed), "materials.steel.fracture.start_time=336.4e-6",
-           fmt::format("method={}", transfer), "cracks.growth.criterion=steady_state"})),
-      {1});
+  std::vector<std::string> overrides = {fmt::format("materials.steel.fracture.speed={}", speed),
+                                        "materials.steel.fracture.start_time=336.4e-6",
+                                        fmt::format("method={}", transfer), "cracks.growth.criterion=steady_state"};
+  overrides.insert(overrides.end(), further.begin(), further.end());
+  mpm::Simulation simulation(mpm::build(mpm::parse_scene(kScene, "running_tip", overrides)), {1});
   Running running{0.0, 1e9, 0.0, 0.0, 0.0};
   double sum = 0.0, at_rest = 0.0;
   while (seconds(simulation) < 0.82e-3) {
@@ -136,7 +135,9 @@ TEST(CrackStepLoad, RunningTip) {
       .meaning(
           "Compare means: within a cell J rises from next to nothing to its largest value, since the tip of the grid "
           "moves by whole cells. FMPM of order 2 keeps the waves that a running tip lives on; XPIC of order 2, which "
-          "scenes with growth get unasked, takes a part of them away, the more the faster the tip.");
+          "scenes with growth get unasked, takes a part of them away, the more the faster the tip. At 0.6 of the speed "
+          "of Rayleigh waves G is 7 % low with FMPM of order 2 and 19 % high with order 4, which filters less; it "
+          "falls with smaller steps, of which each filters: to 0.27 and 0.25 of that at rest at cfl 0.25 and 0.125.");
   for (const auto& [rayleigh, exact_mean] : {std::pair{0.2, 0.729}, std::pair{0.4, 0.502}}) {
     const Running kept = run_at(rayleigh, "{transfer: {fmpm: 2}}"), calm = run_at(rayleigh, "{transfer: {xpic: 2}}");
     page.near(fmt::format("mean G at {}, fmpm 2, over that at rest", rayleigh), kept.mean, exact_mean, 0.03, "");
@@ -144,6 +145,12 @@ TEST(CrackStepLoad, RunningTip) {
     page.report(fmt::format("least G at {}, fmpm 2, over that at rest", rayleigh), kept.least, "");
     page.report(fmt::format("largest G at {}, fmpm 2, over that at rest", rayleigh), kept.most, "");
     page.near_absolute(fmt::format("place of the tip at {}", rayleigh), kept.place, kept.asked, 0.06, "m");
+  }
+  // J is read in every step here: in every second one a saw of 3 teeth has 10 readings, and their mean is 0.22.
+  for (const int order : {2, 4}) {
+    const Running fast = run_at(0.6, fmt::format("{{transfer: {{fmpm: {}}}}}", order).c_str(), {"time.sync=8.41 us"});
+    page.report(fmt::format("mean G at 0.6, fmpm {}, over that at rest; exact 0.305", order), fast.mean, "");
+    page.near_absolute(fmt::format("place of the tip at 0.6, fmpm {}", order), fast.place, fast.asked, 0.06, "m");
   }
 }
 

@@ -25,6 +25,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mpm/grid/node_choice.hpp"
 #include "mpm/material/definition.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/particles/particle_set.hpp"
@@ -43,12 +44,18 @@ ElasticWaves elastic_waves(const MaterialDefinition& material, GeometryKind geom
 /// Mass of a node on a face over that of a cell, rho A h, where the body's particles fill the lattice up to the face.
 double face_mass(ShapeKind shape, int particles_per_direction);
 
+/// Particles near cracks, which give to several fields and are listed in none of them.
+struct ParticlesNearCracks {
+  const NodeChoice* choice = nullptr;       ///< null without cracks
+  std::vector<std::uint8_t> gives_to = {};  ///< of each set, whether they give to the face's field
+};
+
 class Absorbing final : public FieldStage {
  public:
   /// `face`: 2 * grid axis, + 1 for the upper one; `name` as in scenes ("x_min"). `waves`: of each set, which outlive
   /// this. `phi`: face_mass(). `hold`: the forces that the face's nodes need at the first step are held for good.
   Absorbing(int face, const std::string& name, const std::vector<ParticleSet>& sets, std::vector<ElasticWaves> waves,
-            double phi, bool hold);
+            double phi, bool hold, ParticlesNearCracks near_cracks = {});
 
   std::string name() const override { return account_.name; }
   Ranks ranks(Hook) const override { return {Rank::absorbing}; }
@@ -92,6 +99,7 @@ class Absorbing final : public FieldStage {
   std::vector<ElasticWaves> waves_;
   double phi_;
   bool hold_;
+  ParticlesNearCracks near_cracks_;
   std::vector<Node> nodes_;
   std::vector<Column> columns_;
   std::unordered_map<std::uint64_t, Vec3> held_;  ///< accelerations, by column [m/s^2]

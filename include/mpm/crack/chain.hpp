@@ -65,6 +65,8 @@ class Chain {
   /// last segment. So segment k is the chain's, and a part of a lengthened segment is not that part of the chain's.
   const std::vector<Vec2>& line() const { return line_; }
 
+  /// Of a place from the nearest of the segments, as points() has them [m].
+  double distance(const Vec2& place) const;
   /// Unit vector in which an end points out of the chain.
   Vec2 direction(int end) const;
   /// Unit vector along the chain at a point: the bisector of its segments.

@@ -1,5 +1,7 @@
 // The path around the tip of a crack on which J is taken: a rectangle of grid lines around the node nearest to the
-// tip, walked counter-clockwise (x to the right, z up), and the place where it meets the crack.
+// tip, walked counter-clockwise (x to the right, z up), and the place where it meets the crack. Where other tips lie
+// within it or less than a cell beside it, it is drawn in on their sides until it is one to three cells short of them,
+// as the values at nodes around a tip are too smooth.
 //
 // Weak: the rectangle does not turn with the crack; where the crack turns back into it, there is no J at this tip.
 // Source: crack reference 4.2, as in NairnMPM.
@@ -26,6 +28,7 @@ enum class ContourStatus {
   leaves_grid,  ///< a node of the path is none of the grid's
   meets_no_crack,
   meets_crack_again,  ///< the path meets the crack at two places, and so does that around the next nearest node
+  holds_other_tip,    ///< another tip is so near that no path of two cells keeps a cell away from it
   no_material         ///< a node of the path has no material on its own side
 };
 /// For reports: "the contour leaves the grid", ...
@@ -56,8 +59,10 @@ struct ContourPath {
 };
 
 /// Lays the path of `size` cells in each direction (1 or more) around `tip`, an end of the crack's line of `points`
-/// points [m]. What came of it is in `path.status`; the path keeps its memory from call to call.
+/// points [m], away from `others`, the places of other tips. What came of it is in `path.status`; the path keeps its
+/// memory from call to call.
 /// @throws CrackError if `size` is less than 1 or the line has less than two points.
-void make_path(const GridLines& lines, const Vec2* line, int points, const Vec2& tip, int size, ContourPath& path);
+void make_path(const GridLines& lines, const Vec2* line, int points, const Vec2& tip, int size, ContourPath& path,
+               const std::vector<Vec2>& others = {});
 
 }  // namespace mpm

@@ -3,9 +3,11 @@
 // Where two cracks divide a node, so do the four parts of it, each pair with one crack between them.
 //
 // Faces touch if they approach and lie on each other at the step's end: by the displacements of both sides since the
-// start, each carried to the node by its gradient, or by positions. Faces that a scene lets pass through each other
-// have no contact. Weak: a face is smeared over two cells, as bodies are; the four parts of a node are found with one
-// normal a crack. Source: Nairn (2003), CMES 4(6), 649-663; GIMP notes 3.2; crack reference 2.4 to 2.7.
+// start, each carried to the node by its gradient, or by positions. Whether they do is asked with the velocities of the
+// step's start and again with those of its end, so that faces which forces turn around in a step meet in that step.
+// Faces that a scene lets pass through each other have no contact. Weak: a face is smeared over two cells, as bodies
+// are; the four parts of a node are found with one normal a crack. Source: Nairn (2003), CMES 4(6), 649-663; GIMP
+// notes 3.2; crack reference 2.4 to 2.7.
 #pragma once
 
 #include <vector>
@@ -48,9 +50,12 @@ class CrackContact final : public Stage {
  private:
   void add_node(const DividedNode& node);
   void add_pair(int crack, int above, int below, const Vec2& normal);
-  void survey();
+  void survey(const std::vector<std::uint8_t>& wanted);
+  void look_at_wanted(const std::vector<std::uint8_t>& wanted, double dt);
+  void look_again(double dt);
+  double closing(const ContactNodes::Node& node, const NodePair& pair) const;
   void tell_of_heat(double dt) const;
-  void look_at(const ContactNodes::Node& node, ContactNodes::PairOfNode& pair, double dt);
+  void look_at(const ContactNodes::Node& node, int pair, double dt);
 
   const std::vector<Crack>& cracks_;
   const CrackFields& chosen_;
@@ -61,7 +66,10 @@ class CrackContact final : public Stage {
   HeatSink* heat_;
   ContactNodes nodes_;
   std::vector<NodalVolumes> volumes_;
-  std::vector<std::vector<std::uint8_t>> marks_;  ///< [field][block]: where nodes are divided
+  std::vector<std::uint8_t> looked_at_;           ///< pairs that have been looked at in this step
+  std::vector<std::uint8_t> late_;                ///< those that began to approach in it
+  std::vector<double> apart_;                     ///< distance of faces of pairs looked at, as the step began [m]
+  std::vector<std::vector<std::uint8_t>> marks_;  ///< [field][block]: where nodes of such pairs are
   std::vector<std::uint8_t> any_;                 ///< [field]: whether there are marks
   std::vector<FrictionLaw> friction_;             ///< of each crack, in this step
   std::vector<double> friction_energy_, interface_energy_;

@@ -32,8 +32,11 @@ class CrackStage final : public Stage {
     std::unique_ptr<CrackMotion> motion;
     std::unique_ptr<CrackTractions> tractions;
     std::unique_ptr<CrackTips> tips;
+    const std::vector<ParticleSet>* sets = nullptr;
     double sync = 0.0;
-    std::vector<Vec2> growing;  ///< places of tips
+    std::unique_ptr<ScalarTransfer> masses;  ///< for the limit of the first step
+    std::vector<Vec2> growing;               ///< places of tips
+    std::vector<FacesOfGrowth> faces;
   };
   /// The parts refer to each other: `parts` is where they lie.
   explicit CrackStage(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -43,8 +46,8 @@ class CrackStage final : public Stage {
 
   void before_sort() override { parts_->chosen->before_sort(); }
   bool needs_sort() const override { return parts_->chosen->needs_sort(); }
-  void run_begun(StepContext&) override { parts_->chosen->choose(); }
-  void step_begun(StepContext&) override { parts_->chosen->choose(); }
+  void run_begun(StepContext& context) override;
+  void step_begun(StepContext& context) override;
   void before_strain(StepContext& context) override;
   void forces_gathered(StepContext& context) override;
   /// @throws ModuleError

@@ -4,12 +4,13 @@
 // (j_integral.hpp) from nodal values (tip_values.hpp), with the terms of faces inside: tractions, friction, bends of
 // the crack, other cracks. It is the J of growth straight on. A tip without J says why; it keeps the crack as it is.
 // Growth is decided by tip_growth.hpp and adds points to the chain, which the next step's fields see; it ends where it
-// meets another crack or leaves the grid.
+// meets another crack, leaves the grid, or comes so near to another tip that no contour goes between them.
 // Weak: J is taken in the middle of a step, with the stress between its start and its end. J of a body that has turned
-// far is taken along the tip's present direction. Other tips inside the contour are not looked for.
+// far is taken along the tip's present direction.
 // Source: crack reference 4, 5; Nairn (2003), CMES 4(6), 649-663.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,7 @@ struct TipSettings {
   double time_factor = 0.5;  ///< time between looks, over that in which a wave crosses a cell
   std::vector<FractureMaterial> materials;
   std::vector<int> material_of_set;
+  std::function<BodyEnergies()> energies;  ///< of the run between two steps
 };
 
 /// A tip as it was last looked at.
@@ -59,6 +61,7 @@ struct CrackTip {
   double angle = 0.0;                                    ///< of the last growth from the direction before it [rad]
   double first_angle = 0.0;                              ///< of the first growth [rad]
   double released = 0.0;                                 ///< J at the last growth, with the zone [J/m^2]
+  double energy_release = 0.0;                           ///< by the balance of energy, in its last growths [J/m^2]
   double last_growth = 0.0;                              ///< time of it [s]
   double next_look = 0.0;                                ///< at growth, not before [s]
   int growths = 0;
@@ -72,10 +75,16 @@ class CrackTips {
   CrackTips(std::vector<Crack>& cracks, const CrackFields& chosen, CrackTractions& tractions, FieldJumps& jumps,
             TipParts parts, std::unique_ptr<ScalarTransfer> transfer, TipSettings settings);
 
+  /// Finds in which materials the tips lie, when particles have chosen their fields.
+  void find_materials();
   /// Whether a tip wants to be looked at at this time [s].
   bool growth_due(double time) const;
   /// Places of tips that may grow, now or later.
   void find_growing(std::vector<Vec2>& places) const;
+  /// What their next growth would add, of those that may grow with a law of tractions.
+  void find_growing(std::vector<FacesOfGrowth>& faces) const;
+  /// Finds the energies for growth at the end of the step that begins now, at `time` [s].
+  void find_energies(double time);
   /// Finds J and K of all tips at a time [s]. Fields are those of a step in which momentum has been updated.
   void find(double time);
   /// Lets tips grow that are due, after find(). Returns whether a chain has changed. @throws FractureError
@@ -88,16 +97,24 @@ class CrackTips {
   void serialise(StateArchive& archive);
 
  private:
+  static constexpr double kMet = 0.05;  ///< of a cell: a tip this near to another crack has met it
+
   void find(CrackTip& tip);
+  void lay_path(const CrackTip& tip);
+  const Vec2& end_of(int crack, int end) const;
+  bool lies_on_other_crack(int crack, const Vec2& place) const;
+  bool divide_one_body(int crack, int other) const;
   int group_of(const CrackTip& tip, const ContourPath& path) const;
   void find_material(CrackTip& tip);
-  void add_faces(const CrackTip& tip, JResult& result);
+  void add_faces(const CrackTip& tip, const JForm& form, JResult& result);
   double friction_at(const CrackTip& tip, const JForm& form);
   void split(CrackTip& tip);
   bool grow(CrackTip& tip, double time, double dt);
   bool may_grow(const CrackTip& tip) const;
+  const std::string& law_of_growth(const CrackTip& tip, const GrowthRule& rule) const;
   bool stopped(const CrackTip& tip) const;
-  JForm form_of(const Vec2& tip) const;
+  /// With the square around the tip, whose edge is in `edge_`.
+  JForm form_of(const Chain& chain, const Vec2& tip);
 
   std::vector<Crack>& cracks_;
   const CrackFields& chosen_;
@@ -109,8 +126,13 @@ class CrackTips {
   GridLines lines_;
   std::vector<CrackTip> tips_;
   TipHeating* heating_ = nullptr;
-  double time_ = 0.0;  ///< of the look at work [s]
-  ContourPath path_;
+  bool by_balance_ = false;  ///< whether a criterion asks for energies
+  std::optional<BodyEnergies> energies_;
+  double grown_area_ = 0.0;   ///< of all tips since the start [m^2]
+  double area_before_ = 0.0;  ///< the same when energies were found
+  double time_ = 0.0;         ///< of the look at work [s]
+  ContourPath path_, edge_;
+  std::vector<Vec2> others_;  ///< places of other tips [m]
   std::vector<ContourPiece> pieces_;
   std::vector<AreaSample> samples_;
   std::vector<FaceSample> faces_;

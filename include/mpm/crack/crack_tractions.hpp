@@ -4,8 +4,9 @@
 // At the end of a step every point with a law looks at the opening of its faces (crack/traction_law.hpp); in the next
 // step the force on each face goes to nodes of its side around it, in proportion to hat function and mass, so that they
 // accelerate alike. Both forces are opposite to the last bit.
-// Weak: explicit, so a stiff law limits the step; a point without nodes on one of its sides gives no force.
-// Source: crack reference 5.4; GIMP notes 3.2 (the area about an axis is at the radius of the crack's point).
+// Weak: explicit, so a stiff law limits the step; a point without nodes on one of its sides gives no force. The limit
+// of a sync period is that of the chains as it begins, and of what a tip may add next. Source: crack reference 5.4;
+// GIMP notes 3.2 (the area about an axis is at the radius of the crack's point).
 #pragma once
 
 #include <vector>
@@ -14,8 +15,15 @@
 #include "mpm/crack/traction_law.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/step/energy.hpp"
+#include "mpm/step/scalar_transfer.hpp"
 
 namespace mpm {
+
+/// What the next growth of a tip would add to its crack.
+struct FacesOfGrowth {
+  int crack, end, law;
+  double length;  ///< of chain that a point of it stands for [m]
+};
 
 class CrackTractions {
  public:
@@ -28,8 +36,10 @@ class CrackTractions {
   int law_of(const std::string& name) const;
   const TractionLaw& law(int number) const { return laws_[number]; }
 
-  /// Adds to Grid::force what the faces do to each other.
-  void add_forces();
+  /// Before the first step: what limits it. `sets` are all there are.
+  void begin(ScalarTransfer& transfer, const std::vector<ParticleSet>& sets, const std::vector<FacesOfGrowth>& growth);
+  /// Adds to Grid::force what the faces do to each other. `growth`: of tips that may grow with a law.
+  void add_forces(const std::vector<FacesOfGrowth>& growth);
   /// Finds tractions from the openings at the end of a step.
   void find(double time);
   /// Growth has added points at an end, with this law (-1: none).
@@ -61,9 +71,16 @@ class CrackTractions {
   struct Share {
     int field;
     NodeRef ref;
-    double part;
+    double mass, part;
   };
-  void find_shares(int crack, const Vec2& place, const Vec2& from, std::vector<Share>& shares) const;
+  static double mean_mass(const std::vector<Share>& shares);
+  template <class Mass>
+  void find_shares(int crack, const Vec2& place, const Vec2& from, Mass&& mass, std::vector<Share>& shares) const;
+  template <class Mass>
+  bool find_shares(int crack, int point, Mass&& mass);
+  double across(int crack, double radius) const;
+  template <class Mass>
+  double fastest_growth(const std::vector<FacesOfGrowth>& growth, Mass&& mass);
 
   std::vector<Crack>& cracks_;
   const CrackFields& chosen_;

@@ -35,8 +35,8 @@ struct FaceWork {
 };
 
 /// To take off J [J/m^2]: the work at the first place, the contour's crossing; about an axis after Bergkvist and Huong
-/// [w r + int w dr] / a, the integral along the list, which goes from the crossing to the tip. 0 for an empty list. A
-/// pressure p that opens the crack by d has w = -p d.
+/// -int (r / a) dw along the list, which goes from the crossing to the tip. 0 for an empty list. A pressure p that
+/// opens the crack by d has w = -p d.
 double traction_work(const JForm& form, const std::vector<FaceWork>& from_crossing_to_tip);
 
 /// A piece of a closed crack inside the contour.

@@ -40,6 +40,7 @@ struct TipState {
   Vec2 initial_direction = Vec2::UnitX();            ///< the same at the run's start
   double length = 0.0;                               ///< of the crack [m]
   double open_length = 0.0;                          ///< of its segments without tractions [m]
+  double grown_area = 0.0;                           ///< of all cracks, since the start [m^2]; for energy_balance only
   std::optional<BodyEnergies> energies;              ///< for energy_balance only
 };
 
@@ -59,6 +60,7 @@ struct GrowthDecision {
   Vec2 direction = Vec2::UnitX();  ///< length 1; the tip's own if it does not grow
   double angle = 0.0;              ///< from the tip's direction, counter-clockwise [rad]
   double speed = 0.0;              ///< that the criterion sets [m/s]; 0: it sets none
+  double released = 0.0;           ///< by the balance of energy [J/m^2]; 0: not known
   bool alternate = false;          ///< by the second rule
   const char* reason = "";         ///< why it grows or does not, for reports
 };
@@ -84,7 +86,7 @@ class TipGrowth {
   void judge_balance(const TipState& tip, const TipRules& rules, GrowthDecision& decision);
 
   bool first_has_grown_ = false;
-  bool started_ = false;  ///< growth at a set speed
+  bool started_ = false;  ///< steady growth
   double due_ = -kInfinity;
   EnergyBalance balance_;
 };

@@ -51,8 +51,23 @@ class TipValues final : public ContourSource {
 
  private:
   /// Numbers that are carried to the nodes, in pairs.
-  enum Number { one, energy, xx, xz, zx, zz, stress_xx, stress_zz, stress_xz, stress_hoop, kinetic, hoop_gradient };
-  static constexpr int kNumbers = 12;
+  enum Number {
+    one,
+    energy,
+    xx,
+    xz,
+    zx,
+    zz,
+    stress_xx,
+    stress_zz,
+    stress_xz,
+    stress_hoop,
+    kinetic,
+    hoop_gradient,
+    place_x,
+    place_z,
+    kNumbers
+  };
 
   template <class Get>
   static ContourValues values_of(Get&& number);

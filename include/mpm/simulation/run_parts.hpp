@@ -3,6 +3,7 @@
 // (src/mpm/simulation/shipped_modules.cpp); a caller can add more (SimulationOptions).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,6 +45,8 @@ struct RunParts {
   Modules& modules;  ///< modules are added here
   Services& services;
   std::vector<std::string>&warnings, &notes;  ///< one line each
+  /// Finds the energies of the run, between two steps; what it returns holds until they are found again.
+  std::function<const EnergyReport&()> energies;
 
   // Modules that later ones in the list need; null if the scene does not have them.
   const ToolSides* sides = nullptr;

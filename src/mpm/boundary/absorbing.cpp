@@ -66,8 +66,8 @@ double face_mass(ShapeKind shape, int particles_per_direction) {
 }
 
 Absorbing::Absorbing(int face, const std::string& name, const std::vector<ParticleSet>& sets,
-                     std::vector<ElasticWaves> waves, double phi, bool hold)
-    : face_(face), sets_(sets), waves_(std::move(waves)), phi_(phi), hold_(hold) {
+                     std::vector<ElasticWaves> waves, double phi, bool hold, ParticlesNearCracks near_cracks)
+    : face_(face), sets_(sets), waves_(std::move(waves)), phi_(phi), hold_(hold), near_cracks_(std::move(near_cracks)) {
   account_.name = "absorbing/" + name;
 }
 
@@ -117,19 +117,26 @@ void Absorbing::find_waves(const Grid& grid) {
   const int axis = face_ / 2, on_face = face_ % 2 == 0 ? 0 : layout.last_node(axis);
   std::unordered_map<std::uint64_t, Sum> sums;
   Sum all;
+  const auto add = [&](std::size_t s, std::uint32_t first, std::uint32_t last) {
+    for (std::uint32_t p = first; p < last; ++p) {
+      std::array<int, 3> node{};
+      for (int k = 0; k < layout.dim(); ++k) node[k] = GridLayout::nearest(layout.in_cells(k, sets_[s].x[k][p]));
+      if (std::abs(node[axis] - on_face) > 1) continue;
+      sums[id_on_face(layout, node)].add(sets_[s].mass_of(static_cast<int>(p)), waves_[s]);
+      all.add(sets_[s].mass_of(static_cast<int>(p)), waves_[s]);
+    }
+  };
   for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
     const int first = grid.blocks.block(grid.blocks.owner_block(owner))[axis] * kBlockEdge;
     if (on_face < first - 1 || on_face > first + kBlockEdge) continue;
     const int number = grid.first_owner + owner;
     for (std::size_t s = 0; s < sets_.size(); ++s) {
-      for (std::uint32_t p = sets_[s].begin[number]; p < sets_[s].begin[number + 1]; ++p) {
-        std::array<int, 3> node{};
-        for (int k = 0; k < layout.dim(); ++k) node[k] = GridLayout::nearest(layout.in_cells(k, sets_[s].x[k][p]));
-        if (std::abs(node[axis] - on_face) > 1) continue;
-        sums[id_on_face(layout, node)].add(sets_[s].mass_of(static_cast<int>(p)), waves_[s]);
-        all.add(sets_[s].mass_of(static_cast<int>(p)), waves_[s]);
-      }
+      add(s, sets_[s].begin[number], sets_[s].begin[number + 1]);
     }
+  }
+  for (std::size_t s = 0; s < sets_.size() && near_cracks_.choice != nullptr; ++s) {
+    if (near_cracks_.gives_to[s] == 0) continue;
+    add(s, sets_[s].begin[near_cracks_.choice->grid().first_owner], sets_[s].begin.back());
   }
   if (sums.empty()) columns_.clear();
   for (Column& column : columns_) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mpm/crack/crossing.hpp"
 
@@ -86,6 +87,17 @@ void Chain::update_line() {
   const int last = size() - 1;
   if (ends_[0] == CrackEnd::exterior) line_[0] += kExterior * (points_[0].place - points_[1].place);
   if (ends_[1] == CrackEnd::exterior) line_[last] += kExterior * (points_[last].place - points_[last - 1].place);
+}
+
+double Chain::distance(const Vec2& place) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k + 1 < size(); ++k) {
+    const Vec2 segment = points_[k + 1].place - points_[k].place, arm = place - points_[k].place;
+    const double length2 = segment.squaredNorm();
+    const double part = length2 > 0.0 ? std::clamp(arm.dot(segment) / length2, 0.0, 1.0) : 0.0;
+    nearest = std::min(nearest, (arm - part * segment).norm());
+  }
+  return nearest;
 }
 
 Vec2 Chain::direction(int end) const {

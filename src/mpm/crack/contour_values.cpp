@@ -1,5 +1,7 @@
 #include "mpm/crack/contour_values.hpp"
 
+#include <cmath>
+
 namespace mpm {
 
 ContourValues ContourValues::between(const ContourValues& a, const ContourValues& b, double part) {
@@ -15,11 +17,54 @@ ContourValues ContourValues::between(const ContourValues& a, const ContourValues
   mean.hoop = mix(a.hoop, b.hoop);
   mean.energy = mix(a.energy, b.energy);
   mean.kinetic = mix(a.kinetic, b.kinetic);
+  mean.centre = (1.0 - part) * a.centre + part * b.centre;
   return mean;
 }
 
+namespace {
+
+constexpr double kAside = 0.05;  ///< of an edge: centres nearer to it lie on it
+constexpr double kApart = 0.2;   ///< of an edge, that two centres on it are apart at least to give a slope
+
+/// One side of the crack on the edge that it meets: at its face, and at the node on this side.
+struct Side {
+  ContourValues face, node;
+};
+
+/// @param across values at the node `far` of material on this side; null: none
+/// @param part of the edge from `far` to `near` where the crack lies
+Side side_of(const ContourValues* across, const ContourValues& own, const Vec2& far, const Vec2& near, double part,
+             bool at_centres) {
+  if (across == nullptr) return {own, own};
+  const Vec2 edge = near - far;
+  const auto along = [&](const ContourValues& values) { return (values.centre - far).dot(edge) / edge.squaredNorm(); };
+  const auto aside = [&](const ContourValues& values) {
+    const Vec2 off = values.centre - far;
+    return std::abs(off[0] * edge[1] - off[1] * edge[0]) / edge.squaredNorm();
+  };
+  const double from = along(*across), to = along(own);
+  if (!at_centres || aside(*across) > kAside || aside(own) > kAside || to - from < kApart) {
+    return {ContourValues::between(*across, own, part), own};
+  }
+  return {ContourValues::between(*across, own, (part - from) / (to - from)),
+          ContourValues::between(*across, own, (1.0 - from) / (to - from))};
+}
+
+}  // namespace
+
+double mean_rotation(const std::vector<ContourPiece>& pieces) {
+  double sum = 0.0, length = 0.0;
+  for (const ContourPiece& piece : pieces) {
+    for (const ContourValues* values : {&piece.first, &piece.last}) {
+      sum += 0.5 * piece.length() * (values->gradient[0][1] - values->gradient[1][0]);
+    }
+    length += 2.0 * piece.length();
+  }
+  return length > 0.0 ? sum / length : 0.0;
+}
+
 ContourStatus gather_contour(const GridLines& lines, const ContourPath& path, const ContourSource& source,
-                             std::vector<ContourPiece>& pieces) {
+                             std::vector<ContourPiece>& pieces, bool at_centres) {
   pieces.clear();
   const int edges = static_cast<int>(path.nodes.size());
   const auto node = [&](int place) -> const std::array<int, 2>& { return path.nodes[place % edges]; };
@@ -31,25 +76,30 @@ ContourStatus gather_contour(const GridLines& lines, const ContourPath& path, co
     return ContourStatus::no_material;
   }
   // What one node has across the crack belongs to the side of the other.
+  const auto place = [&](int at) { return lines.place(node(at)); };
+  const auto side = [&](int far, int near, const ContourValues& own, double part) {
+    const bool found = source.find(node(far), ContourField::across, across);
+    return side_of(found ? &across : nullptr, own, place(far), place(near), part, at_centres);
+  };
+  const Side leaving = side(crossing.edge, crossing.edge + 1, after, crossing.along);
+  const Side coming = side(crossing.edge + 1, crossing.edge, before, 1.0 - crossing.along);
   ContourPiece piece;
   piece.from = crossing.place;
-  piece.first = source.find(node(crossing.edge), ContourField::across, across)
-                    ? ContourValues::between(across, after, crossing.along)
-                    : after;
+  piece.first = leaving.face;
   for (int k = 1; k <= edges; ++k) {
     const int at = crossing.edge + k;
-    piece.to = lines.place(node(at));
+    piece.to = place(at);
     if (!source.find(node(at), ContourField::own, piece.last)) return ContourStatus::no_material;
-    const Vec2 along = (lines.place(node(at)) - lines.place(node(at - 1))).normalized();
+    if (k == 1) piece.last = leaving.node;
+    if (k == edges) piece.last = coming.node;
+    const Vec2 along = (place(at) - place(at - 1)).normalized();
     piece.normal = Vec2(along[1], -along[0]);
     pieces.push_back(piece);
     piece.from = piece.to;
     piece.first = piece.last;
   }
   piece.to = crossing.place;
-  piece.last = source.find(node(crossing.edge + 1), ContourField::across, across)
-                   ? ContourValues::between(before, across, crossing.along)
-                   : before;
+  piece.last = coming.face;
   piece.normal = pieces.front().normal;
   pieces.push_back(piece);
   return ContourStatus::complete;

@@ -50,29 +50,82 @@ void CrackContact::momentum_gathered(StepContext& context) {
     friction_[c] = crack.faces.law.in_step(context.start, context.dt, [&] { return "crack '" + crack.name + "'"; });
   }
   for (const DividedNode& node : chosen_.nodes()) add_node(node);
-  if (found.nodes.empty()) return;
-  survey();
+  // Pairs whose sides draw apart are left out unless their law acts on what is apart.
+  looked_at_.assign(found.pairs.size(), 0);
+  apart_.resize(found.pairs.size());
   for (const ContactNodes::Node& node : found.nodes) {
-    for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) look_at(node, found.pairs[p], context.dt);
+    for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) {
+      const NodePair& state = found.pairs[p].state;
+      const bool acts_apart = cracks_[found.pairs[p].rule].definition.faces.law.kind == ContactLaw::Kind::interface ||
+                              state.friction.adhesion > 0.0 || state.hold != PairHold::none;
+      looked_at_[p] = acts_apart || closing(node, state) <= 0.0 ? 1 : 0;
+    }
+  }
+  sides_->begin_step();
+  look_at_wanted(looked_at_, context.dt);
+}
+
+// Speed at which the faces draw apart; below 0 they approach [m/s].
+double CrackContact::closing(const ContactNodes::Node& node, const NodePair& pair) const {
+  const GridLayout& layout = fields_.front()->layout;
+  const ContactNodes::Member* members = nodes_.blocks.front().members.data() + node.first_member;
+  const ContactNodes::Member &above = members[pair.a], &below = members[pair.b];
+  const Vec3 apart = nodal_vector(fields_[below.field]->velocity, layout, below.ref) -
+                     nodal_vector(fields_[above.field]->velocity, layout, above.ref);
+  return apart.dot(pair.normals.of_a);
+}
+
+void CrackContact::look_at_wanted(const std::vector<std::uint8_t>& wanted, double dt) {
+  if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end()) return;
+  survey(wanted);
+  for (const ContactNodes::Node& node : nodes_.blocks.front().nodes) {
+    for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) {
+      if (wanted[p] != 0) look_at(node, p, dt);
+    }
   }
 }
 
-// What laws ask for, on the blocks of the nodes found.
-void CrackContact::survey() {
+// Of pairs that do not touch with the velocities of the step's start, those that do with the velocities of its end.
+void CrackContact::look_again(double dt) {
+  ContactNodes::Block& found = nodes_.blocks.front();
+  const double reach = kTouch * fields_.front()->layout.smallest_cell();
+  late_.assign(found.pairs.size(), 0);
+  for (const ContactNodes::Node& node : found.nodes) {
+    for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) {
+      NodePair& state = found.pairs[p].state;
+      if (state.touching || state.interface != nullptr) continue;
+      const double speed = closing(node, state);
+      if (!(speed < 0.0)) continue;
+      late_[p] = looked_at_[p] != 0 ? 0 : 1;
+      if (late_[p] == 0) state.touching = apart_[p] + dt * speed <= reach;
+    }
+  }
+  look_at_wanted(late_, dt);
+}
+
+// What laws ask for, on the blocks of the nodes of these pairs.
+void CrackContact::survey(const std::vector<std::uint8_t>& wanted) {
   const ContactNodes::Block& found = nodes_.blocks.front();
   for (std::size_t f = 0; f < fields_.size(); ++f) marks_[f].assign(fields_[f]->blocks.size(), 0);
   std::fill(any_.begin(), any_.end(), 0);
-  for (const ContactNodes::Member& member : found.members)
-    marks_[member.field][member.ref.block] = any_[member.field] = 1;
   bool displacements = false, places = false, areas = heat_ != nullptr;
-  for (const ContactNodes::PairOfNode& pair : found.pairs) {
+  for (const ContactNodes::Node& node : found.nodes) {
+    const auto first = wanted.begin() + node.first_pair;
+    if (std::find(first, first + node.pairs, 1) == first + node.pairs) continue;
+    for (int m = node.first_member; m < node.first_member + node.members; ++m) {
+      const ContactNodes::Member& member = found.members[m];
+      marks_[member.field][member.ref.block] = any_[member.field] = 1;
+    }
+  }
+  for (std::size_t p = 0; p < found.pairs.size(); ++p) {
+    if (wanted[p] == 0) continue;
+    const ContactNodes::PairOfNode& pair = found.pairs[p];
     const CrackFaces& faces = cracks_[pair.rule].definition.faces;
     const bool interface = faces.law.kind == ContactLaw::Kind::interface;
     const bool by_position = !interface && faces.detection == CrackFaces::Detection::positions;
     (by_position ? places : displacements) = true;
     areas = areas || interface || friction_[pair.rule].adhesion > 0.0;
   }
-  sides_->begin_step();
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     if (any_[f] == 0) continue;
     sides_->survey(static_cast<int>(f), marks_[f], displacements, places);
@@ -80,8 +133,9 @@ void CrackContact::survey() {
   }
 }
 
-void CrackContact::look_at(const ContactNodes::Node& node, ContactNodes::PairOfNode& pair, double dt) {
-  const ContactNodes::Block& found = nodes_.blocks.front();
+void CrackContact::look_at(const ContactNodes::Node& node, int number, double dt) {
+  ContactNodes::Block& found = nodes_.blocks.front();
+  ContactNodes::PairOfNode& pair = found.pairs[number];
   const GridLayout& layout = fields_.front()->layout;
   const CrackFaces& faces = cracks_[pair.rule].definition.faces;
   NodePair& state = pair.state;
@@ -115,9 +169,8 @@ void CrackContact::look_at(const ContactNodes::Node& node, ContactNodes::PairOfN
   } else {
     apart = opening().dot(across);
   }
-  const Vec3 closing = nodal_vector(fields_[below.field]->velocity, layout, below.ref) -
-                       nodal_vector(fields_[above.field]->velocity, layout, above.ref);
-  state.touching = apart + dt * closing.dot(across) <= kTouch * cell;
+  apart_[number] = apart;
+  state.touching = apart + dt * closing(node, state) <= kTouch * cell;
   if (state.hold != PairHold::none || !started_) state.bond = state.friction.adhesion * state.area * dt;
 }
 
@@ -168,10 +221,8 @@ void CrackContact::add_node(const DividedNode& divided) {
   }
 }
 
-// A pair whose sides draw apart is left out unless its law acts on what is apart.
 void CrackContact::add_pair(int crack, int above, int below, const Vec2& normal) {
   ContactNodes::Block& found = nodes_.blocks.front();
-  const GridLayout& layout = fields_.front()->layout;
   const ContactNodes::Node& node = found.nodes.back();
   const ContactNodes::Member &a = found.members[node.first_member + above],
                              &b = found.members[node.first_member + below];
@@ -186,14 +237,11 @@ void CrackContact::add_pair(int crack, int above, int below, const Vec2& normal)
   state.normals.of_a = state.normals.of_b = Vec3(normal[0], 0.0, normal[1]) / length;
   state.friction = friction_[crack];
   state.hold = nodes_.held(node.id, pair.fields);
-  const Vec3 apart =
-      nodal_vector(fields_[b.field]->velocity, layout, b.ref) - nodal_vector(fields_[a.field]->velocity, layout, a.ref);
-  const bool acts_apart = cracks_[crack].definition.faces.law.kind == ContactLaw::Kind::interface ||
-                          state.friction.adhesion > 0.0 || state.hold != PairHold::none;
-  if (acts_apart || apart.dot(state.normals.of_a) <= 0.0) found.pairs.push_back(pair);
+  found.pairs.push_back(pair);
 }
 
 void CrackContact::momentum_updated(StepContext& context) {
+  look_again(context.dt);
   nodes_.update(context.dt);
   started_ = true;
   if (heat_ != nullptr) tell_of_heat(context.dt);

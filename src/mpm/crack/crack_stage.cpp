@@ -17,6 +17,7 @@ constexpr TipNumber kTipNumbers[] = {
     {"growth", "m", [](const CrackTip& tip) { return tip.grown; }},
     {"speed", "m/s", [](const CrackTip& tip) { return tip.speed; }},
     {"opening", "m", [](const CrackTip& tip) { return tip.opening.normal; }},
+    {"energy_release", "J/m^2", [](const CrackTip& tip) { return tip.energy_release; }},
 };
 constexpr const char* kEnds[] = {"start", "end"};
 
@@ -35,9 +36,25 @@ std::vector<std::pair<std::string, std::string>> crack_numbers(int number) {
   return list;
 }
 
+void CrackStage::run_begun(StepContext&) {
+  parts_->chosen->choose();
+  parts_->tips->find_materials();
+  if (!parts_->tractions->any()) return;
+  parts_->tips->find_growing(parts_->faces);
+  parts_->tractions->begin(*parts_->masses, *parts_->sets, parts_->faces);
+}
+
+// Energies of particles and of what acts on them belong together between two steps only.
+void CrackStage::step_begun(StepContext& context) {
+  parts_->tips->find_energies(context.start + context.dt);
+  parts_->chosen->choose();
+}
+
 void CrackStage::forces_gathered(StepContext& context) {
   parts_->tips->heat(context.dt);
-  if (parts_->tractions->any()) parts_->tractions->add_forces();
+  if (!parts_->tractions->any()) return;
+  parts_->tips->find_growing(parts_->faces);
+  parts_->tractions->add_forces(parts_->faces);
 }
 
 void CrackStage::before_strain(StepContext& context) {

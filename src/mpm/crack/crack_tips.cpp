@@ -12,8 +12,7 @@ namespace mpm {
 namespace {
 
 constexpr double kClosed = 1e-3;  ///< of the slip, an opening that is none
-constexpr double kMet = 0.05;     ///< of a cell: a tip this near to another crack has met it
-constexpr double kBeyond = 0.25;  ///< of a cell, that growth is lengthened by to see other cracks
+constexpr int kMoment = 2;        ///< cells around the tip where particles have the first moment of energy wrong
 
 GridLines lines_of(const GridLayout& layout) {
   GridLines lines;
@@ -37,6 +36,11 @@ CrackTips::CrackTips(std::vector<Crack>& cracks, const CrackFields& chosen, Crac
       settings_(std::move(settings)),
       values_(parts_, std::move(transfer)),
       lines_(lines_of(parts_.fields.front()->layout)) {
+  by_balance_ = settings_.growth.criterion == FractureCriterion::energy_balance;
+  for (const FractureMaterial& material : settings_.materials) {
+    const std::optional<GrowthRule>& own = material.constants.growth;
+    by_balance_ = by_balance_ || (own && own->criterion == FractureCriterion::energy_balance);
+  }
   for (std::size_t c = 0; c < cracks.size(); ++c) {
     for (int end = 0; end < 2; ++end) {
       if (cracks[c].chain.end(end) != CrackEnd::tip) continue;
@@ -49,19 +53,30 @@ CrackTips::CrackTips(std::vector<Crack>& cracks, const CrackFields& chosen, Crac
   }
 }
 
-JForm CrackTips::form_of(const Vec2& tip) const {
+JForm CrackTips::form_of(const Chain& chain, const Vec2& tip) {
   JForm form;
   form.large_strain = true;
   form.tip_radius = tip[0];
   if (axisymmetric(parts_.geometry)) {
     form.kind = settings_.contour.about_axis_by_broberg ? JForm::Kind::broberg : JForm::Kind::bergkvist_huong;
   }
+  const int size = std::min(settings_.contour.size, kMoment);
+  edge_.status = ContourStatus::no_material;
+  if (form.kind != JForm::Kind::bergkvist_huong) return form;
+  make_path(lines_, chain.line().data(), static_cast<int>(chain.line().size()), tip, size, edge_);
+  if (edge_.status != ContourStatus::complete) return form;
+  form.low = lines_.place(edge_.low);
+  form.high = lines_.place(edge_.high);
   return form;
 }
 
 void CrackTips::find(double time) {
   time_ = time;
   for (CrackTip& tip : tips_) find(tip);
+}
+
+void CrackTips::find_materials() {
+  for (CrackTip& tip : tips_) find_material(tip);
 }
 
 // The group with most of the contour's nodes.
@@ -116,7 +131,7 @@ void CrackTips::find(CrackTip& tip) {
   tip.opening = {opening[0], opening[1]};
   find_material(tip);
   const Vec2 place = chain.points()[chain.point_at(tip.end)].place;
-  make_path(lines_, chain.line().data(), static_cast<int>(chain.line().size()), place, settings_.contour.size, path_);
+  lay_path(tip);
   tip.status = path_.status;
   if (path_.status != ContourStatus::complete) return;
   const int first = group_of(tip, path_);
@@ -128,91 +143,72 @@ void CrackTips::find(CrackTip& tip) {
   const bool inertia = settings_.contour.terms == 2;
   samples_.clear();
   if (inertia || axisymmetric(parts_.geometry)) values_.find_samples(lines_, path_, samples_);
-  JResult result = integrate_j(form_of(place), lines_, path_, values_, samples_, inertia, pieces_);
+  JForm form = form_of(chain, place);
+  Vec2 joining{0.0, 0.0};
+  if (edge_.status == ContourStatus::complete) {
+    if (gather_contour(lines_, edge_, values_, pieces_, false) == ContourStatus::complete) {
+      joining = joining_term(form, pieces_);
+    } else {
+      form.low = form.high;
+    }
+  }
+  JResult result = integrate_j(form, lines_, path_, values_, samples_, inertia, pieces_);
   tip.status = result.status;
   if (result.status != ContourStatus::complete) return;
-  add_faces(tip, result);
+  result.contour += joining;
+  form.rotation = result.rotation;
+  add_faces(tip, form, result);
   tip.zone = result.faces_work;
   tip.j = result.along(chain.direction(tip.end));
   split(tip);
 }
 
-// Faces inside the contour: bends of this crack, other cracks, tractions and friction.
-void CrackTips::add_faces(const CrackTip& tip, JResult& result) {
-  const JForm form = form_of(cracks_[tip.crack].chain.points()[cracks_[tip.crack].chain.point_at(tip.end)].place);
-  for (std::size_t c = 0; c < cracks_.size(); ++c) {
-    const Chain& chain = cracks_[c].chain;
-    const bool own = static_cast<int>(c) == tip.crack;
-    faces_.clear();
-    for (int k = 0; k + 1 < chain.size(); ++k) {
-      const Vec2 &from = chain.points()[k].place, &to = chain.points()[k + 1].place;
-      FaceSample sample;
-      sample.place = 0.5 * (from + to);
-      sample.along = to - from;
-      if (!path_.contains(lines_, sample.place)) continue;
-      const Vec2 aside = 1e-6 * Vec2(-sample.along[1], sample.along[0]);
-      if (!values_.at(sample.place, sample.place + aside, sample.above)) continue;
-      if (!values_.at(sample.place, sample.place - aside, sample.below)) continue;
-      const Vec2 normal = aside.normalized();
-      if (!own && 0.5 * (chain.opening(k) + chain.opening(k + 1)).dot(normal) <= 0.0) {
-        sample.traction_above = sample.above.traction(-normal);
-        sample.traction_below = sample.below.traction(normal);
-      }
-      faces_.push_back(sample);
-    }
-    result.faces += face_term(form, faces_, own ? TractionTerms::left_out : TractionTerms::counted);
-  }
-  // Tractions on this crack, from the contour's crossing to the tip.
-  const Chain& chain = cracks_[tip.crack].chain;
-  const int step = tip.end == 1 ? 1 : -1;
-  const ContourCrossing& crossing = path_.crossing;
-  int next = tip.end == 1 ? crossing.segment + 1 : crossing.segment;
-  const int before = tip.end == 1 ? crossing.segment : crossing.segment + 1;
-  work_.clear();
-  const auto work_at = [&](int point) {
-    const int law = tractions_.any() ? tractions_.law_number(tip.crack, point) : -1;
-    return law < 0 ? 0.0 : tractions_.law(law).face_work(tractions_.state(tip.crack, point));
+// Around the tip and no other: ends of chains that are in the material and not on another crack. A crack that is too
+// short for that has one contour around both of its tips, and no J, until it has grown.
+void CrackTips::lay_path(const CrackTip& tip) {
+  const std::vector<Vec2>& line = cracks_[tip.crack].chain.line();
+  const auto lay = [&] {
+    make_path(lines_, line.data(), static_cast<int>(line.size()), end_of(tip.crack, tip.end), settings_.contour.size,
+              path_, others_);
   };
-  const double along = tip.end == 1 ? crossing.along_segment : 1.0 - crossing.along_segment;
-  const double behind = work_at(before) == 0.0 ? work_at(next) : work_at(before);  // the zone may end in between
-  work_.push_back({crossing.place, (1.0 - along) * behind + along * work_at(next)});
-  for (; next >= 0 && next < chain.size(); next += step) work_.push_back({chain.points()[next].place, work_at(next)});
-  // Where the zone ends inside the contour, its last point stands for it.
-  const auto first = std::find_if(work_.begin(), work_.end(), [](const FaceWork& one) { return one.work != 0.0; });
-  work_.erase(work_.begin(), first);
-  result.faces_work = traction_work(form, work_) + friction_at(tip, form);
+  others_.clear();
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    const int crack = static_cast<int>(c);
+    for (int end = 0; end < 2; ++end) {
+      if (crack == tip.crack || !cracks_[c].felt || !divide_one_body(tip.crack, crack)) continue;
+      if (cracks_[c].chain.end(end) == CrackEnd::exterior) continue;
+      if (!lies_on_other_crack(crack, end_of(crack, end))) others_.push_back(end_of(crack, end));
+    }
+  }
+  const int other = 1 - tip.end;
+  const bool own = cracks_[tip.crack].chain.end(other) != CrackEnd::exterior &&
+                   !lies_on_other_crack(tip.crack, end_of(tip.crack, other));
+  if (own) others_.push_back(end_of(tip.crack, other));
+  lay();
+  if (!own || path_.status != ContourStatus::holds_other_tip) return;
+  others_.pop_back();
+  lay();
 }
 
-double CrackTips::friction_at(const CrackTip& tip, const JForm& form) {
-  slips_.clear();
-  const Crack& crack = cracks_[tip.crack];
-  const ContactLaw& law = crack.definition.faces.law;
-  if (law.kind != ContactLaw::Kind::coulomb || crack.definition.faces.ignored) return 0.0;
-  const double coefficient = law.at(time_).coefficient;
-  if (!(coefficient > 0.0)) return 0.0;
-  const Chain& chain = crack.chain;
-  const ContourCrossing& crossing = path_.crossing;
-  const int step = tip.end == 1 ? 1 : -1, before = tip.end == 1 ? crossing.segment : crossing.segment + 1;
-  const double part = tip.end == 1 ? crossing.along_segment : 1.0 - crossing.along_segment;
-  Vec2 from = crossing.place, opening = (1.0 - part) * chain.opening(before) + part * chain.opening(before + step);
-  for (int k = before + step; k >= 0 && k < chain.size(); k += step) {
-    const Vec2 to = chain.points()[k].place, along = (to - from).normalized(), normal(-along[1], along[0]);
-    // Faces part at the tip, where a point's own opening is that of the cells around it.
-    const Vec2 next = k == chain.point_at(tip.end) ? Vec2(0.0, 0.0) : chain.opening(k);
-    FrictionSample sample{from, to, 0.0, (next - opening).dot(along)};
-    from = to;
-    opening = next;
-    if (along.isZero(0.0)) continue;  // the path meets the crack at this point
-    const Vec2 middle = sample.middle(), aside = 1e-6 * (sample.to - sample.from).norm() * normal;
-    ContourValues above, below;
-    if (!values_.at(middle, middle + aside, above) || !values_.at(middle, middle - aside, below)) continue;
-    const ContourValues mean = ContourValues::between(above, below, 0.5);
-    const double pressure = -mean.traction(normal).dot(normal);
-    if (!(pressure > 0.0)) continue;
-    sample.shear = coefficient * pressure;
-    slips_.push_back(sample);
+const Vec2& CrackTips::end_of(int crack, int end) const {
+  const Chain& chain = cracks_[crack].chain;
+  return chain.points()[chain.point_at(end)].place;
+}
+
+bool CrackTips::divide_one_body(int crack, int other) const {
+  const std::vector<std::uint8_t>&one = cracks_[crack].divides, &two = cracks_[other].divides;
+  for (std::size_t s = 0; s < one.size(); ++s) {
+    if (one[s] != 0 && two[s] != 0) return true;
   }
-  return friction_work(form, slips_);
+  return false;
+}
+
+bool CrackTips::lies_on_other_crack(int crack, const Vec2& place) const {
+  const double near = kMet * parts_.fields.front()->layout.smallest_cell();
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    if (static_cast<int>(c) != crack && cracks_[c].felt && cracks_[c].chain.distance(place) <= near) return true;
+  }
+  return false;
 }
 
 void CrackTips::split(CrackTip& tip) {
@@ -239,130 +235,6 @@ void CrackTips::split(CrackTip& tip) {
   if (tip.opening.normal <= kClosed * std::abs(tip.opening.shear)) tip.k.one = 0.0;
 }
 
-bool CrackTips::stopped(const CrackTip& tip) const { return cracks_[tip.crack].chain.end(tip.end) != CrackEnd::tip; }
-
-bool CrackTips::may_grow(const CrackTip& tip) const {
-  const bool known = tip.material >= 0 && settings_.materials[tip.material].constants.growth.has_value();
-  return (settings_.growth.criterion != FractureCriterion::none || known || tip.material < 0) && !stopped(tip);
-}
-
-bool CrackTips::growth_due(double time) const {
-  return std::any_of(tips_.begin(), tips_.end(),
-                     [&](const CrackTip& tip) { return may_grow(tip) && time >= tip.next_look; });
-}
-
-void CrackTips::find_growing(std::vector<Vec2>& places) const {
-  places.clear();
-  for (const CrackTip& tip : tips_) {
-    const Chain& chain = cracks_[tip.crack].chain;
-    if (may_grow(tip)) places.push_back(chain.points()[chain.point_at(tip.end)].place);
-  }
-}
-
-bool CrackTips::grow(double time, double dt) {
-  bool grown = false;
-  for (CrackTip& tip : tips_) grown = grow(tip, time, dt) || grown;
-  return grown;
-}
-
-bool CrackTips::grow(CrackTip& tip, double time, double dt) {
-  Crack& crack = cracks_[tip.crack];
-  Chain& chain = crack.chain;
-  if (stopped(tip) || time < tip.next_look || tip.material < 0) return false;
-  const FractureMaterial& material = settings_.materials[tip.material];
-  const GridLayout& layout = parts_.fields.front()->layout;
-  tip.next_look = time + look_interval(dt, settings_.time_factor, layout.smallest_cell(), material.wave_speed);
-  const TipRules rules = [&] {
-    TipRules made = tip_rules(settings_.growth, settings_.alternate, material.constants,
-                              material.elastic.value_or(ElasticConstants{}));
-    made.longest = crack.definition.longest;
-    made.longest_open = crack.definition.longest_open;
-    return made;
-  }();
-  if (rules.first.criterion == FractureCriterion::none) return false;
-  TipState state;
-  state.time = time;
-  if (tip.status == ContourStatus::complete) state.j = tip.j;
-  state.k = tip.k;
-  state.normal_opening = tip.opening.normal;
-  state.shear_opening = tip.opening.shear;
-  state.direction = chain.direction(tip.end);
-  state.initial_direction = tip.start_direction;
-  state.length = chain.length();
-  state.open_length = chain.open_length([&](int point) { return tractions_.law_at(tip.crack, point) < 0; });
-  const GrowthDecision decision = tip.growth.look(state, rules);
-  tip.why = decision.reason;
-  if (!decision.grows) {
-    const double cell = layout.smallest_cell();
-    if (tip.running > 0.0 && time - tip.last_growth > 2.0 * settings_.length * cell / tip.running) tip.running = 0.0;
-    return false;
-  }
-
-  const Vec2 place = chain.points()[chain.point_at(tip.end)].place;
-  const Vec2 cells(layout.cell(0), layout.cell(1));
-  std::vector<Vec2> points = growth_points(place, decision.direction, settings_.length, cells);
-  const Vec2 seen = points.back() + kBeyond * cell_along(decision.direction, cells) * decision.direction;
-  bool ends = false;
-  for (std::size_t c = 0; c < cracks_.size(); ++c) {
-    if (static_cast<int>(c) == tip.crack || !cracks_[c].felt) continue;
-    const std::vector<Vec2>& line = cracks_[c].chain.line();
-    std::vector<Meeting> met;
-    if (find_meetings(line.data(), static_cast<int>(line.size()), place, seen, met) == 0) continue;
-    tip.why = "it has met crack '" + cracks_[c].definition.name + "'";
-    const double left = met.front().along * (seen - place).norm();
-    if (left < kMet * layout.smallest_cell()) {
-      chain.set_end(tip.end, CrackEnd::none);
-      return true;
-    }
-    points = {place + met.front().along * (seen - place)};
-    ends = true;
-    break;
-  }
-  for (const Vec2& point : points) {
-    for (int k = 0; k < 2; ++k) {
-      const double cell = layout.in_cells(k, point[k]);
-      if (cell >= 0.0 && cell <= layout.last_node(k)) continue;
-      chain.set_end(tip.end, CrackEnd::none);
-      tip.why = "it has left the grid";
-      return true;
-    }
-  }
-  double length = 0.0;
-  Vec2 last = place;
-  for (const Vec2& point : points) {
-    length += (point - last).norm();
-    last = point;
-  }
-  const GrowthRule& rule = decision.alternate ? rules.alternate : rules.first;
-  const std::string& law =
-      crack.definition.traction_of_growth.empty() ? rule.traction : crack.definition.traction_of_growth;
-  tip.growth.grown(state, decision, length);
-  tip.speed = time > tip.last_growth ? length / (time - tip.last_growth) : 0.0;
-  tip.running = decision.speed;
-  if (decision.speed > 0.0) tip.speed = decision.speed;
-  tip.last_growth = time;
-  tip.released = tip.j + tip.zone;
-  tip.angle = decision.angle;
-  if (tip.growths == 0) tip.first_angle = decision.angle;
-  ++tip.growths;
-  tip.grown += length;
-  tip.by_alternate = decision.alternate;
-  std::vector<Vec2> line{place};
-  line.insert(line.end(), points.begin(), points.end());
-  if (tip.end == 0) std::reverse(line.begin(), line.end());
-  jumps_.add(tip.crack, std::move(line));
-  chain.grow(tip.end, points);
-  if (heating_ != nullptr && tip.j > 0.0) {
-    const double thickness = crack.definition.thickness > 0.0 ? crack.definition.thickness : parts_.across;
-    const double front = axisymmetric(parts_.geometry) ? 2.0 * kPi * points.back()[0] : thickness;
-    heating_->released(static_cast<int>(&tip - tips_.data()), tip.j, front, length,
-                       heated_steps(length, material.wave_speed, dt));
-  }
-  tractions_.grow(tip.crack, tip.end, static_cast<int>(points.size()), tractions_.law_of(law));
-  if (ends) chain.set_end(tip.end, CrackEnd::none);
-  return true;
-}
-
 void CrackTips::heat(double dt) {
   for (std::size_t t = 0; t < tips_.size() && heating_ != nullptr; ++t) {
     const Chain& chain = cracks_[tips_[t].crack].chain;
@@ -371,6 +243,7 @@ void CrackTips::heat(double dt) {
 }
 
 void CrackTips::serialise(StateArchive& archive) {
+  archive.value("grown_area", grown_area_);
   for (std::size_t t = 0; t < tips_.size(); ++t) {
     const StateArchive::Group group(archive, "tip_" + std::to_string(t));
     CrackTip& tip = tips_[t];
@@ -388,6 +261,7 @@ void CrackTips::serialise(StateArchive& archive) {
                                        {"first_angle", &tip.first_angle},
                                        {"running", &tip.running},
                                        {"released", &tip.released},
+                                       {"energy_release", &tip.energy_release},
                                        {"last_growth", &tip.last_growth},
                                        {"next_look", &tip.next_look}}) {
       archive.value(name, *number);

@@ -7,6 +7,12 @@
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
+namespace {
+
+/// Square of a circular frequency [1/s^2]: up to four points pull at a node, on both of its sides.
+double frequency_squared(double spring, double mass) { return 8.0 * spring / mass; }
+
+}  // namespace
 
 CrackTractions::CrackTractions(std::vector<Crack>& cracks, const CrackFields& chosen, Fields& fields,
                                const std::vector<TractionLawDefinition>& laws, GeometryKind geometry, double across)
@@ -31,10 +37,14 @@ int CrackTractions::law_of(const std::string& name) const {
 }
 
 double CrackTractions::area(int crack, int point) const {
-  const Crack& of = cracks_[crack];
-  const double thickness = of.definition.thickness > 0.0 ? of.definition.thickness : across_;
-  const double across = axisymmetric(geometry_) ? kTurn * of.chain.points()[point].place[0] : thickness;
-  return of.chain.tangent_area(point).norm() * across;
+  const Chain& chain = cracks_[crack].chain;
+  return chain.tangent_area(point).norm() * across(crack, chain.points()[point].place[0]);
+}
+
+// Of faces at that radius [m].
+double CrackTractions::across(int crack, double radius) const {
+  const double thickness = cracks_[crack].definition.thickness;
+  return axisymmetric(geometry_) ? kTurn * radius : thickness > 0.0 ? thickness : across_;
 }
 
 void CrackTractions::find(double time) {
@@ -53,44 +63,99 @@ void CrackTractions::find(double time) {
   }
 }
 
-void CrackTractions::find_shares(int crack, const Vec2& place, const Vec2& from, std::vector<Share>& shares) const {
+// `mass(field, ref)`: of a node [kg].
+template <class Mass>
+void CrackTractions::find_shares(int crack, const Vec2& place, const Vec2& from, Mass&& mass,
+                                 std::vector<Share>& shares) const {
   shares.clear();
   double sum = 0.0;
   for (const int first : groups_[crack]) {
     each_hat(fields_[first]->layout, place, [&](const std::array<int, 2>& node, double hat) {
       const CrackFields::NodeOfField own = chosen_.find_node(first, from, node);
-      if (own.field < 0 || own.ref.block < 0 || !fields_[own.field]->carries(own.ref.block, own.ref.node)) return;
-      const double weight = hat * fields_[own.field]->mass.at(own.ref.block, 0, own.ref.node);
-      shares.push_back({own.field, own.ref, weight});
-      sum += weight;
+      if (own.field < 0 || own.ref.block < 0) return;
+      const double of_node = mass(own.field, own.ref);
+      if (!(of_node > fields_[own.field]->least_mass)) return;
+      shares.push_back({own.field, own.ref, of_node, hat * of_node});
+      sum += hat * of_node;
     });
   }
   for (Share& share : shares) share.part /= sum;
 }
 
-void CrackTractions::add_forces() {
-  double fastest = 0.0;  // square of a circular frequency
+// Of both sides of a point; false where one of them has no nodes.
+template <class Mass>
+bool CrackTractions::find_shares(int crack, int point, Mass&& mass) {
+  const Chain& chain = cracks_[crack].chain;
+  find_shares(crack, chain.points()[point].above, chain.beside(point, true), mass, above_);
+  find_shares(crack, chain.points()[point].below, chain.beside(point, false), mass, below_);
+  return !above_.empty() && !below_.empty();
+}
+
+double CrackTractions::mean_mass(const std::vector<Share>& shares) {
+  double mass = 0.0;
+  for (const Share& share : shares) mass += share.part * share.mass;
+  return mass;
+}
+
+// The square of the circular frequency of what tips may add.
+template <class Mass>
+double CrackTractions::fastest_growth(const std::vector<FacesOfGrowth>& growth, Mass&& mass) {
+  double fastest = 0.0;
+  for (const FacesOfGrowth& faces : growth) {
+    const int tip = cracks_[faces.crack].chain.point_at(faces.end);
+    if (!find_shares(faces.crack, tip, mass)) continue;
+    const double radius = cracks_[faces.crack].chain.points()[tip].place[0];
+    const double spring = laws_[faces.law].stiffness() * faces.length * across(faces.crack, radius);
+    // Nodes ahead of the tip are whole yet: growth leaves half of one that it runs through to either side.
+    for (const auto* shares : {&above_, &below_}) {
+      fastest = std::max(fastest, frequency_squared(spring, 0.5 * mean_mass(*shares)));
+    }
+  }
+  return fastest;
+}
+
+void CrackTractions::begin(ScalarTransfer& transfer, const std::vector<ParticleSet>& sets,
+                           const std::vector<FacesOfGrowth>& growth) {
+  std::vector<PaddedArray<double>> ones;
+  ScalarTransfer::Given given;
+  for (const ParticleSet& set : sets) ones.emplace_back().assign(set.id.size(), 1.0);
+  for (const PaddedArray<double>& one : ones) given.push_back({one.data(), nullptr, nullptr});
+  std::vector<NodalField> masses;
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    masses.emplace_back(1, fields_[f]->layout.nodes_per_block());
+    transfer.spread(static_cast<int>(f), given, ScalarTransfer::Weight::mass, masses.back());
+  }
+  const auto mass = [&](int field, NodeRef ref) { return masses[field].at(ref.block, 0, ref.node); };
+  double fastest = fastest_growth(growth, mass);
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
-    const Chain& chain = cracks_[c].chain;
+    const int crack = static_cast<int>(c);
+    for (int k = 0; k < cracks_[c].chain.size(); ++k) {
+      if (law_at(crack, k) < 0 || !find_shares(crack, k, mass)) continue;
+      const double spring = laws_[points_[c].law[k]].stiffness() * area(crack, k);
+      fastest = std::max(fastest, frequency_squared(spring, std::min(mean_mass(above_), mean_mass(below_))));
+    }
+  }
+  shortest_time_ = fastest > 0.0 ? 1.0 / std::sqrt(fastest) : 0.0;
+}
+
+void CrackTractions::add_forces(const std::vector<FacesOfGrowth>& growth) {
+  const auto mass = [&](int field, NodeRef ref) { return fields_[field]->mass.at(ref.block, 0, ref.node); };
+  double fastest = fastest_growth(growth, mass);
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    const int crack = static_cast<int>(c);
     const Points& points = points_[c];
-    for (int k = 0; k < chain.size(); ++k) {
-      if (points.law[k] < 0 || points.state[k].failed) continue;
-      find_shares(static_cast<int>(c), chain.points()[k].above, chain.beside(k, true), above_);
-      find_shares(static_cast<int>(c), chain.points()[k].below, chain.beside(k, false), below_);
-      if (above_.empty() || below_.empty()) continue;
-      const double spring = laws_[points.law[k]].stiffness() * area(static_cast<int>(c), k);
+    for (int k = 0; k < cracks_[c].chain.size(); ++k) {
+      if (law_at(crack, k) < 0 || !find_shares(crack, k, mass)) continue;
+      const double spring = laws_[points.law[k]].stiffness() * area(crack, k);
       double sign = 1.0;
       for (const std::vector<Share>* shares : {&above_, &below_}) {
-        double mass = 0.0;
         for (const Share& share : *shares) {
-          Grid& grid = *fields_[share.field];
           for (int i = 0; i < 2; ++i) {
-            grid.force.at(share.ref.block, i, share.ref.node) += sign * share.part * points.force[k][i];
+            fields_[share.field]->force.at(share.ref.block, i, share.ref.node) +=
+                sign * share.part * points.force[k][i];
           }
-          mass += share.part * grid.mass.at(share.ref.block, 0, share.ref.node);
         }
-        // Up to four points pull at a node, on both of its sides.
-        fastest = std::max(fastest, 8.0 * spring / mass);
+        fastest = std::max(fastest, frequency_squared(spring, mean_mass(*shares)));
         sign = -1.0;
       }
     }

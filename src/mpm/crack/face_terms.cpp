@@ -3,6 +3,14 @@
 #include <cmath>
 
 namespace mpm {
+namespace {
+
+/// r / a where the form of Bergkvist and Huong holds.
+double moment_weight(const JForm& form, const Vec2& place) {
+  return form.kind_at(place) == JForm::Kind::bergkvist_huong ? place[0] / form.tip_radius : 1.0;
+}
+
+}  // namespace
 
 Vec2 face_term(const JForm& form, const std::vector<FaceSample>& samples, TractionTerms tractions) {
   const bool counted = tractions == TractionTerms::counted;
@@ -23,21 +31,20 @@ Vec2 face_term(const JForm& form, const std::vector<FaceSample>& samples, Tracti
 
 double traction_work(const JForm& form, const std::vector<FaceWork>& from_crossing_to_tip) {
   if (from_crossing_to_tip.empty()) return 0.0;
-  const FaceWork& crossing = from_crossing_to_tip.front();
-  if (form.kind != JForm::Kind::bergkvist_huong) return crossing.work;
-  double sum = crossing.work * crossing.place[0];
-  for (std::size_t k = 1; k < from_crossing_to_tip.size(); ++k) {
-    const FaceWork &from = from_crossing_to_tip[k - 1], &to = from_crossing_to_tip[k];
-    sum += 0.5 * (from.work + to.work) * (to.place[0] - from.place[0]);
+  const std::vector<FaceWork>& list = from_crossing_to_tip;
+  if (form.kind != JForm::Kind::bergkvist_huong) return list.front().work;
+  double sum = moment_weight(form, list.back().place) * list.back().work;
+  for (std::size_t k = 1; k < list.size(); ++k) {
+    const FaceWork &from = list[k - 1], &to = list[k];
+    sum += moment_weight(form, 0.5 * (from.place + to.place)) * (from.work - to.work);
   }
-  return sum / form.tip_radius;
+  return sum;
 }
 
 double friction_work(const JForm& form, const std::vector<FrictionSample>& samples) {
   double sum = 0.0;
   for (const FrictionSample& sample : samples) {
-    const double weight = form.kind == JForm::Kind::bergkvist_huong ? sample.middle()[0] / form.tip_radius : 1.0;
-    sum += weight * std::abs(sample.shear * sample.slip);
+    sum += moment_weight(form, sample.middle()) * std::abs(sample.shear * sample.slip);
   }
   return sum;
 }

@@ -23,6 +23,7 @@ StressIntensity interaction_integral(const ElasticConstants& constants, const Ve
   frame << direction[0], direction[1], -direction[1], direction[0];
   const CrackTipField one({1.0, 0.0}, 0.0, constants), two({0.0, 1.0}, 0.0, constants);
   StressIntensity sum;
+  const double rotation = mean_rotation(pieces);  // adds nothing but an error of quadrature (j_integral.hpp)
   double angle = -kPi;  // followed around the tip from the face on the right of `direction` to that on the left
   const auto add = [&](const Vec2& place, const ContourValues& values, const Vec2& n, double length) {
     const Vec2 arm = frame * (place - tip), normal = frame * n;
@@ -33,7 +34,8 @@ StressIntensity interaction_integral(const ElasticConstants& constants, const Ve
     const double part = 0.5 * length * (turns == 0.0 ? 1.0 : -1.0);
     Eigen::Matrix2d stress, gradient;
     stress << values.xx, values.xz, values.xz, values.zz;
-    gradient << values.gradient[0][0], values.gradient[0][1], values.gradient[1][0], values.gradient[1][1];
+    gradient << values.gradient[0][0], values.gradient[0][1] - rotation, values.gradient[1][0] + rotation,
+        values.gradient[1][1];
     stress = frame * stress * frame.transpose();
     gradient = frame * gradient * frame.transpose();
     sum.one += part * shared_flux(stress, gradient, one.at(arm), normal);

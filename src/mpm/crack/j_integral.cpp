@@ -3,6 +3,11 @@
 namespace mpm {
 namespace {
 
+/// u_i,k without the rotation of the form.
+double turned_back(const JForm& form, const double (&gradient)[2][2], int i, int k) {
+  return gradient[i][k] - (k - i) * form.rotation;
+}
+
 /// rho (a_i u_i,k - v_i v_i,k), with derivatives by undeformed coordinates at large strain.
 Vec2 inertia_density(const JForm& form, const AreaSample& sample) {
   const auto& g = sample.values.gradient;
@@ -13,7 +18,7 @@ Vec2 inertia_density(const JForm& form, const AreaSample& sample) {
       if (form.large_strain) {
         for (int j = 0; j < 2; ++j) slope += sample.velocity_gradient[i][j] * g[j][k];
       }
-      density[k] += sample.acceleration[i] * g[i][k] - sample.velocity[i] * slope;
+      density[k] += sample.acceleration[i] * turned_back(form, g, i, k) - sample.velocity[i] * slope;
     }
   }
   return sample.density * density;
@@ -41,7 +46,7 @@ void working_stress(const JForm& form, const ContourValues& values, double (&str
 Vec2 ring_density(const JForm& form, const AreaSample& sample) {
   const ContourValues& values = sample.values;
   const double stretch = form.large_strain ? 1.0 + values.hoop_gradient : 1.0;
-  if (form.kind == JForm::Kind::bergkvist_huong) {
+  if (form.kind_at(sample.place) == JForm::Kind::bergkvist_huong) {
     const double density = stretch * (values.energy + values.kinetic) - values.hoop * values.hoop_gradient;
     return {-density / form.tip_radius, 0.0};
   }
@@ -58,7 +63,7 @@ Vec2 ring_density(const JForm& form, const AreaSample& sample) {
 }  // namespace
 
 double weight_of(const JForm& form, const Vec2& place, const ContourValues& values) {
-  if (form.kind == JForm::Kind::bergkvist_huong) return place[0] / form.tip_radius;
+  if (form.kind_at(place) == JForm::Kind::bergkvist_huong) return place[0] / form.tip_radius;
   return form.about_axis() && form.large_strain ? 1.0 + values.hoop_gradient : 1.0;
 }
 
@@ -68,7 +73,7 @@ Vec2 energy_flux(const JForm& form, const ContourValues& values, const Vec2& nor
   Vec2 flux;
   for (int k = 0; k < 2; ++k) {
     const double way = normal[k] + (form.large_strain ? g[0][k] * normal[0] + g[1][k] * normal[1] : 0.0);
-    flux[k] = energy * way - traction[0] * g[0][k] - traction[1] * g[1][k];
+    flux[k] = energy * way - traction[0] * turned_back(form, g, 0, k) - traction[1] * turned_back(form, g, 1, k);
   }
   return flux;
 }
@@ -84,6 +89,13 @@ Vec2 contour_term(const JForm& form, const std::vector<ContourPiece>& pieces) {
   return sum;
 }
 
+Vec2 joining_term(const JForm& form, const std::vector<ContourPiece>& edge) {
+  JForm outside = form, inside = form;
+  outside.low = outside.high;
+  inside.kind = JForm::Kind::broberg;
+  return contour_term(inside, edge) - contour_term(outside, edge);
+}
+
 Vec2 area_term(const JForm& form, const std::vector<AreaSample>& samples, double area, bool inertia) {
   Vec2 sum{0.0, 0.0};
   double covered = 0.0;
@@ -96,15 +108,19 @@ Vec2 area_term(const JForm& form, const std::vector<AreaSample>& samples, double
   return sum * (area / covered);
 }
 
-JResult integrate_j(const JForm& form, const GridLines& lines, const ContourPath& path, const ContourSource& source,
+JResult integrate_j(JForm form, const GridLines& lines, const ContourPath& path, const ContourSource& source,
                     const std::vector<AreaSample>& samples, bool inertia, std::vector<ContourPiece>& pieces) {
   JResult result;
   result.status = path.status;
   if (path.status != ContourStatus::complete) return result;
-  result.status = gather_contour(lines, path, source, pieces);
+  result.status = gather_contour(lines, path, source, pieces, !form.about_axis());
   if (result.status != ContourStatus::complete) return result;
   result.crossing = path.crossing;
-  result.contour = contour_term(form, pieces);
+  if (inertia && !form.about_axis()) form.rotation = mean_rotation(pieces);
+  result.rotation = form.rotation;
+  JForm outside = form;  // also where the square reaches the contour
+  outside.low = outside.high;
+  result.contour = contour_term(outside, pieces);
   result.area = area_term(form, samples, path.area(lines), inertia);
   return result;
 }

@@ -121,6 +121,7 @@ GrowthDecision TipGrowth::look(const TipState& tip, const TipRules& rules) {
   decision.grows = first.grows;
   decision.reason = first.reason;
   decision.speed = first.speed;
+  decision.released = first.released;
   if (!first.grows && !first_has_grown_ && rules.alternate.criterion != FractureCriterion::none) {
     const GrowthDecision second = judge(rules.alternate, tip, rules);
     if (second.grows) {
@@ -177,14 +178,14 @@ void TipGrowth::judge_balance(const TipState& tip, const TipRules& rules, Growth
     throw FractureError(
         fmt::format("criterion 'energy_balance' was asked without the energies of the body at t = {:g} s", tip.time));
   }
-  if (!started_) started_ = tip.j && *tip.j >= rules.constants.j_ic;
-  if (!started_) {
+  if (!balance_.known() && !(tip.j && *tip.j >= rules.constants.j_ic)) {
     decision.reason = "J has not reached j_ic";
     return;
   }
   const EnergyBalance::Speed now =
-      balance_.look(tip.length, *tip.energies, rules.constants, rules.elastic.dilatational_speed());
+      balance_.look(tip.grown_area, *tip.energies, rules.constants, rules.elastic.dilatational_speed());
   decision.grows = now.grows;
+  decision.released = now.released;
   decision.speed = now.speed;
   decision.reason = now.grows ? "the balance of energy" : "less energy is released than the faces take";
 }
@@ -196,7 +197,7 @@ void TipGrowth::grown(const TipState& tip, const GrowthDecision& decision, doubl
     const double was_due = std::isfinite(due_) ? std::max(due_, tip.time - interval) : tip.time;
     due_ = was_due + interval;
   }
-  if (tip.energies && decision.speed > 0.0) balance_.grown(tip.length, *tip.energies);
+  if (tip.energies && decision.speed > 0.0) balance_.grown(tip.grown_area, *tip.energies);
 }
 
 void TipGrowth::serialise(StateArchive& archive) {

@@ -11,7 +11,7 @@
 namespace mpm {
 namespace {
 
-constexpr int kPairs = 6;
+constexpr int kPairs = 7;
 
 }  // namespace
 
@@ -95,6 +95,8 @@ void TipValues::fill(std::size_t s, std::uint32_t first, std::uint32_t last) {
             to[stress_hoop][p] = Geometry::kHoop ? present * tau.yy : 0.0;
             to[kinetic][p] = 0.5 * present * (parts_.grid_energy ? 1.0 : speed2);
             to[hoop_gradient][p] = Geometry::kHoop ? f.yy - 1.0 : 0.0;
+            to[place_x][p] = set.x[0][p];
+            to[place_z][p] = set.x[1][p];
           }
         },
         parts_.laws[s]);
@@ -116,6 +118,7 @@ ContourValues TipValues::values_of(Get&& number) {
   values.hoop = number(stress_hoop);
   values.energy = number(energy);
   values.kinetic = number(kinetic);
+  values.centre = {number(place_x), number(place_z)};
   return values;
 }
 

@@ -259,8 +259,13 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
   for (ParticleSet& set : sets) prepare(set, method.shape, method.transfer);
   bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : definition.rigid_bodies) bodies.emplace_back(body);
-  RunParts parts{definition, field_map, fields,  sets,     laws,     bodies, choice.get(),
-                 threads,    isa,       modules, services, warnings, notes};
+  RunParts parts{definition,   field_map,
+                 fields,       sets,
+                 laws,         bodies,
+                 choice.get(), threads,
+                 isa,          modules,
+                 services,     warnings,
+                 notes,        [this]() -> const EnergyReport& { return find_totals().energy; }};
   for (const ShippedModules& shipped : shipped_modules()) shipped.add(parts);
   for (const AddModules& add : of_caller) add(parts);
   for (Module* module : modules.list()) {

@@ -63,8 +63,16 @@ void add_absorbing(RunParts& parts) {
       waves.push_back(elastic_waves(material, definition.geometry));
     }
     const double phi = face_mass(definition.method.shape, definition.method.particles_per_direction);
-    parts.add_in_fields(
-        [&] { return std::make_unique<Absorbing>(face, kWallNames[name], parts.sets, waves, phi, wall.hold); });
+    for (int field = 0; field < parts.map.count(); ++field) {
+      ParticlesNearCracks near_cracks{parts.choice, {}};
+      for (std::size_t s = 0; s < parts.sets.size(); ++s) {
+        const int first = parts.sets[s].field, across = parts.map.across(static_cast<int>(s));
+        near_cracks.gives_to.push_back(across > 0 && field >= first && field <= first + across ? 1 : 0);
+      }
+      parts.modules.add_in_field(std::make_unique<Absorbing>(face, kWallNames[name], parts.sets, waves, phi, wall.hold,
+                                                             std::move(near_cracks)),
+                                 field);
+    }
   });
 }
 

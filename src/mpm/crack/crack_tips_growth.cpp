@@ -1,0 +1,185 @@
+// Growth of the tips of cracks in a run: when a tip is looked at, and what becomes of a chain that grows.
+#include <algorithm>
+
+#include "mpm/crack/chain.hpp"
+#include "mpm/crack/crack_tips.hpp"
+#include "mpm/crack/crossing.hpp"
+#include "mpm/math/constants.hpp"
+
+namespace mpm {
+namespace {
+
+constexpr double kMet = 0.05;          ///< of a cell: a tip this near to another crack has met it
+constexpr double kBeyond = 0.25;       ///< of a cell, that growth is lengthened by to see other cracks
+constexpr double kLongestPart = 0.75;  ///< of a growth, which growth_points() divides above that [cells]
+
+}  // namespace
+
+bool CrackTips::stopped(const CrackTip& tip) const { return cracks_[tip.crack].chain.end(tip.end) != CrackEnd::tip; }
+
+bool CrackTips::may_grow(const CrackTip& tip) const {
+  const bool known = tip.material >= 0 && settings_.materials[tip.material].constants.growth.has_value();
+  return (settings_.growth.criterion != FractureCriterion::none || known || tip.material < 0) && !stopped(tip);
+}
+
+bool CrackTips::growth_due(double time) const {
+  return std::any_of(tips_.begin(), tips_.end(),
+                     [&](const CrackTip& tip) { return may_grow(tip) && time >= tip.next_look; });
+}
+
+void CrackTips::find_growing(std::vector<Vec2>& places) const {
+  places.clear();
+  for (const CrackTip& tip : tips_) {
+    const Chain& chain = cracks_[tip.crack].chain;
+    if (may_grow(tip)) places.push_back(chain.points()[chain.point_at(tip.end)].place);
+  }
+}
+
+void CrackTips::find_growing(std::vector<FacesOfGrowth>& faces) const {
+  faces.clear();
+  const GridLayout& layout = parts_.fields.front()->layout;
+  const double length = std::min(settings_.length, kLongestPart) * std::max(layout.cell(0), layout.cell(1));
+  for (const CrackTip& tip : tips_) {
+    if (!may_grow(tip)) continue;
+    GrowthRule first = settings_.growth, second = settings_.alternate;
+    if (tip.material >= 0) {
+      const FractureConstants& constants = settings_.materials[tip.material].constants;
+      first = constants.growth.value_or(first);
+      second = constants.alternate.value_or(second);
+    }
+    for (const GrowthRule* rule : {&first, &second}) {
+      const int law = rule->criterion == FractureCriterion::none ? -1 : tractions_.law_of(law_of_growth(tip, *rule));
+      if (law >= 0) faces.push_back({tip.crack, tip.end, law, length});
+    }
+  }
+}
+
+const std::string& CrackTips::law_of_growth(const CrackTip& tip, const GrowthRule& rule) const {
+  const std::string& own = cracks_[tip.crack].definition.traction_of_growth;
+  return own.empty() ? rule.traction : own;
+}
+
+void CrackTips::find_energies(double time) {
+  energies_.reset();
+  const bool asked = by_balance_ && std::any_of(tips_.begin(), tips_.end(), [&](const CrackTip& tip) {
+                       return may_grow(tip) && time >= tip.next_look && time >= tip.growth.due();
+                     });
+  if (asked) energies_ = settings_.energies();
+  area_before_ = grown_area_;
+}
+
+bool CrackTips::grow(double time, double dt) {
+  bool grown = false;
+  for (CrackTip& tip : tips_) grown = grow(tip, time, dt) || grown;
+  return grown;
+}
+
+bool CrackTips::grow(CrackTip& tip, double time, double dt) {
+  Crack& crack = cracks_[tip.crack];
+  Chain& chain = crack.chain;
+  if (stopped(tip) || time < tip.next_look || tip.material < 0) return false;
+  const FractureMaterial& material = settings_.materials[tip.material];
+  const GridLayout& layout = parts_.fields.front()->layout;
+  tip.next_look = time + look_interval(dt, settings_.time_factor, layout.smallest_cell(), material.wave_speed);
+  const TipRules rules = [&] {
+    TipRules made = tip_rules(settings_.growth, settings_.alternate, material.constants,
+                              material.elastic.value_or(ElasticConstants{}));
+    made.longest = crack.definition.longest;
+    made.longest_open = crack.definition.longest_open;
+    return made;
+  }();
+  if (rules.first.criterion == FractureCriterion::none) return false;
+  if (tip.status == ContourStatus::holds_other_tip) {
+    chain.set_end(tip.end, CrackEnd::none);
+    tip.why = describe(tip.status);
+    return true;
+  }
+  TipState state;
+  state.time = time;
+  if (tip.status == ContourStatus::complete) state.j = tip.j;
+  state.k = tip.k;
+  state.normal_opening = tip.opening.normal;
+  state.shear_opening = tip.opening.shear;
+  state.direction = chain.direction(tip.end);
+  state.initial_direction = tip.start_direction;
+  state.length = chain.length();
+  state.grown_area = area_before_;
+  state.energies = energies_;
+  state.open_length = chain.open_length([&](int point) { return tractions_.law_at(tip.crack, point) < 0; });
+  const GrowthDecision decision = tip.growth.look(state, rules);
+  tip.why = decision.reason;
+  if (decision.released != 0.0) tip.energy_release = decision.released;
+  if (!decision.grows) {
+    const double cell = layout.smallest_cell();
+    if (tip.running > 0.0 && time - tip.last_growth > 2.0 * settings_.length * cell / tip.running) tip.running = 0.0;
+    return false;
+  }
+
+  const Vec2 place = chain.points()[chain.point_at(tip.end)].place;
+  const Vec2 cells(layout.cell(0), layout.cell(1));
+  std::vector<Vec2> points = growth_points(place, decision.direction, settings_.length, cells);
+  const Vec2 seen = points.back() + kBeyond * cell_along(decision.direction, cells) * decision.direction;
+  bool ends = false;
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    if (static_cast<int>(c) == tip.crack || !cracks_[c].felt) continue;
+    const std::vector<Vec2>& line = cracks_[c].chain.line();
+    std::vector<Meeting> met;
+    if (find_meetings(line.data(), static_cast<int>(line.size()), place, seen, met) == 0) continue;
+    tip.why = "it has met crack '" + cracks_[c].definition.name + "'";
+    const double left = met.front().along * (seen - place).norm();
+    if (left < kMet * layout.smallest_cell()) {
+      chain.set_end(tip.end, CrackEnd::none);
+      return true;
+    }
+    points = {place + met.front().along * (seen - place)};
+    ends = true;
+    break;
+  }
+  for (const Vec2& point : points) {
+    for (int k = 0; k < 2; ++k) {
+      const double cell = layout.in_cells(k, point[k]);
+      if (cell >= 0.0 && cell <= layout.last_node(k)) continue;
+      chain.set_end(tip.end, CrackEnd::none);
+      tip.why = "it has left the grid";
+      return true;
+    }
+  }
+  double length = 0.0, area = 0.0;
+  Vec2 last = place;
+  for (const Vec2& point : points) {
+    const double part = (point - last).norm();
+    length += part;
+    area += part * (axisymmetric(parts_.geometry) ? kPi * (last[0] + point[0]) : parts_.across);
+    last = point;
+  }
+  const GrowthRule& rule = decision.alternate ? rules.alternate : rules.first;
+  const std::string& law = law_of_growth(tip, rule);
+  tip.growth.grown(state, decision, length);
+  grown_area_ += area;
+  tip.speed = time > tip.last_growth ? length / (time - tip.last_growth) : 0.0;
+  tip.running = decision.speed;
+  if (decision.speed > 0.0) tip.speed = decision.speed;
+  tip.last_growth = time;
+  tip.released = tip.j + tip.zone;
+  tip.angle = decision.angle;
+  if (tip.growths == 0) tip.first_angle = decision.angle;
+  ++tip.growths;
+  tip.grown += length;
+  tip.by_alternate = decision.alternate;
+  std::vector<Vec2> line{place};
+  line.insert(line.end(), points.begin(), points.end());
+  if (tip.end == 0) std::reverse(line.begin(), line.end());
+  jumps_.add(tip.crack, std::move(line));
+  chain.grow(tip.end, points);
+  if (heating_ != nullptr && tip.j > 0.0) {
+    const double thickness = crack.definition.thickness > 0.0 ? crack.definition.thickness : parts_.across;
+    const double front = axisymmetric(parts_.geometry) ? 2.0 * kPi * points.back()[0] : thickness;
+    heating_->released(static_cast<int>(&tip - tips_.data()), tip.j, front, length,
+                       heated_steps(length, material.wave_speed, dt));
+  }
+  tractions_.grow(tip.crack, tip.end, static_cast<int>(points.size()), tractions_.law_of(law));
+  if (ends) chain.set_end(tip.end, CrackEnd::none);
+  return true;
+}
+
+}  // namespace mpm

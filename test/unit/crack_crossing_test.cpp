@@ -285,6 +285,28 @@ TEST(CrackCrossing, IsTheSameForAReversedAndAMirroredChain) {
   EXPECT_GT(several, 10);
 }
 
+// A line from (0, 0) to (4, 0) with points at whole numbers, and ways of length 1 near it; met at 0.05, near at 0.25.
+TEST(CrackCrossing, FindsWhatAWayComesNear) {
+  const std::vector<Vec2> line{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}};
+  const auto approach = [&](const Vec2& a, const Vec2& b) {
+    return find_approach(line.data(), static_cast<int>(line.size()), a, b, 0.05, 0.25);
+  };
+  const auto expect_met = [](const LineApproach& found, double along, const Vec2& place) {
+    ASSERT_TRUE(found.found);
+    EXPECT_NEAR(found.along, along, 1e-15);
+    EXPECT_NEAR((found.place - place).norm(), 0.0, 1e-15);
+  };
+  expect_met(approach({1.5, 0.5}, {1.5, -0.5}), 0.5, {1.5, 0});   // crosses
+  expect_met(approach({-0.5, 0}, {0.5, 0}), 0.5, {0, 0});         // head on, which crosses nothing
+  expect_met(approach({-0.5, 0.2}, {0.5, 0.2}), 0.5, {0, 0});     // past its end, aside
+  expect_met(approach({1.5, 1.2}, {1.5, 0.2}), 1.0, {1.5, 0});    // ends short of it
+  expect_met(approach({1.5, 0.04}, {1.5, 1.04}), 0.0, {1.5, 0});  // has met it when it begins
+  EXPECT_FALSE(approach({-0.5, 0.3}, {0.5, 0.3}).found);          // past it, too far aside
+  EXPECT_FALSE(approach({1.5, 1.3}, {1.5, 0.3}).found);           // ends too far from it
+  EXPECT_FALSE(approach({1.5, 0.1}, {1.5, 1.1}).found);           // begins near it and goes away
+  EXPECT_FALSE(approach({-0.1, 0}, {-1.1, 0}).found);             // the same from its end
+}
+
 TEST(CrackCrossing, GivesTheNormalFromAboveToBelow) {
   const std::vector<Vec2> line{{0, 0}, {2, 0}, {4, 1}};
   const Crossing down = find_crossing(line.data(), 3, {1, 1}, {1, -1});

@@ -73,7 +73,7 @@ TEST(SceneCrackBadInput, ChainsThatAreNone) {
   const std::string points = "cracks.list.notch.points: ";
   expect_crack_refused(19, "      points: []", points + "no point;", "two points or more");
   expect_crack_refused(19, "      points: [[0.22, 0.85]]", points + "one point;", "two points or more");
-  expect_crack_refused(19, "      points: [[0.22, 0.85], [0.22, 0.85]]", points, "two points or more");
+  expect_crack_refused(19, "      points: [[0.22, 0.85], [0.22, 0.85]]", points + "all its points lie in one place;");
   expect_crack_refused(19, "      points: [[0.5, 0.5], [1.01, 0.9], [1.01, 0.5], [0.5, 0.9]]", points, "cross");
   expect_crack_refused(19, "      points: [[0.5, 0.5, 0.5], [1, 1, 1]]",
                        points.substr(0, points.size() - 2) + ".0: ", "two components, [x, z]");
@@ -117,6 +117,9 @@ TEST(SceneCrackBadInput, FilesOfPoints) {
   EXPECT_NE(crack_refusal(text, label).find("cannot be read;"), std::string::npos);
   EXPECT_NE(refused_with("0.3, 0.85, 1\n1, 0.85, 1\n").find("3 numbers a line; write two"), std::string::npos);
   EXPECT_NE(refused_with("0.3, 0.85\n").find("one point; a crack has two or more"), std::string::npos);
+  EXPECT_NE(refused_with("").find("path.csv: it is empty; write lines of x and z"), std::string::npos);
+  const std::string directory = crack_refusal(spoilt_scene(19, "      file: ."), label);
+  EXPECT_NE(directory.find("cannot be read;"), std::string::npos) << directory;
   EXPECT_NE(refused_with("0.3, 0.85\n1, inf\n").find("not finite"), std::string::npos);
   const std::string broken = refused_with("0.3, 0.85\n1, here\n");
   EXPECT_NE(broken.find("path.csv:2: 'here' is not a number"), std::string::npos) << broken;
@@ -144,6 +147,35 @@ TEST(SceneCrackBadInput, NamesThatAreNot) {
       << crack_refusal(text);
 }
 
+// Segments of half a cell, 0.05 m; the plate begins at 0.2 m, so that an end is exterior up to 0.4 m.
+TEST(SceneCrackBadInput, ExteriorEndsInsideABody) {
+  const auto from = [](const std::string& x) {
+    std::string text = spoilt_scene(19, "      points: [[" + x + ", 0.85], [1.02, 0.85]]");
+    return crack_refusal(text.replace(text.find("start: none"), 11, "start: exterior"));
+  };
+  EXPECT_EQ(from("0.22"), "no error");
+  EXPECT_EQ(from("0.37"), "no error");
+  const std::string inside = from("0.52"),
+                    start = "bad.yaml:21: cracks.list.notch.start: an exterior end is lengthened";
+  EXPECT_EQ(inside.substr(0, start.size()), start) << inside;
+  EXPECT_NE(inside.find("'plate' is still there at (0.32, 0.85) m; put the end a quarter to half a cell inside"),
+            std::string::npos)
+      << inside;
+}
+
+TEST(SceneCrackBadInput, CracksThatLieAlongOneAnother) {
+  const auto beside = [](const std::string& points) {
+    return crack_refusal(spoilt_scene(23, "    - {name: other, points: " + points + ", end: none}\n  traction_laws:"));
+  };
+  const std::string along = "bad.yaml:23: cracks.list.other: 'other' lies along 'notch'; make one crack of both,";
+  EXPECT_EQ(beside("[[0.22, 0.85], [1.01, 0.85]]").substr(0, along.size()), along);  // the same
+  EXPECT_EQ(beside("[[0.75, 0.85], [1.6, 0.85]]").substr(0, along.size()), along);   // goes on where it ends
+  EXPECT_EQ(beside("[[0.5, 0.853], [0.8, 0.853]]").substr(0, along.size()), along);  // a thirtieth of a cell beside it
+  EXPECT_EQ(beside("[[1.01, 0.85], [1.3, 1.0]]"), "no error");                       // shares a point
+  EXPECT_EQ(beside("[[0.6, 0.5], [0.6, 1.1]]"), "no error");                         // crosses
+  EXPECT_EQ(beside("[[0.5, 0.88], [0.8, 0.88]]"), "no error");                       // three tenths of a cell beside it
+}
+
 TEST(SceneCrackBadInput, TipsThatCannotGrow) {
   const std::string end = "cracks.list.notch.end: ";
   expect_crack_refused(10, "", end + "the tip's material is 'glass', and its growth: ", "k_ic", 20);
@@ -151,6 +183,7 @@ TEST(SceneCrackBadInput, TipsThatCannotGrow) {
   expect_crack_refused(26, "  growth: {criterion: elliptical}", end, "k_iic", 20);
   expect_crack_refused(26, "  growth: {criterion: opening}", end, "opening_ic", 20);
   expect_crack_refused(26, "  growth: {criterion: steady_state}", end, "speed", 20);
+  expect_crack_refused(26, "  growth: {criterion: energy_balance}", end, "j_ic", 20);
   expect_crack_refused(27, "  alternate: {criterion: release_rate}",
                        end + "the tip's material is 'glass', and its alternate: ", "j_ic", 20);
   expect_crack_refused(27, "  alternate: {criterion: 2}", "cracks.alternate.criterion: steady_state sets when");

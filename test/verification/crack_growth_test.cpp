@@ -165,6 +165,47 @@ TEST(CrackGrowth, LeavesNoStressBehind) {
   page.near("J over that of the other run", tip(grown, "end").j / tip(whole, "end").j, 1.0, 0.02, "");
 }
 
+/// A strip 24 mm wide and 12 mm high whose cracks grow at 400 m/s from the start, whatever J is.
+mpm::Simulation running(const std::string& list) {
+  return made(
+      head(kCell, {-6e-3, -12.5e-3, 30e-3, 12.5e-3}, 6e-5, 1e-6, 6e4, ", fracture: {start_time: 0, speed: 400}") +
+      body(0.0, -kArm, 24e-3, kArm) + "cracks:\n  growth: {criterion: steady_state}\n  list:\n" + list);
+}
+
+// Two tips that run towards each other become one crack, on one line, where ways cross nothing, and a little aside.
+TEST(CrackGrowth, EndsWhereTwoTipsMeet) {
+  for (const double aside : {0.0, 0.2 * kCell}) {
+    mpm::Simulation run = running(
+        fmt::format("    - {{name: left, points: [[0.0003, 0], [0.0061, 0]], start: exterior, end: tip}}\n"
+                    "    - {{name: right, points: [[0.0237, {0}], [0.0169, {0}]], start: exterior, end: tip}}\n",
+                    aside));
+    run_until(run, 6e-5);
+    const std::vector<mpm::CrackTipReport> tips = run.crack_tips();
+    ASSERT_EQ(tips.size(), 2u);
+    EXPECT_EQ(tips[0].growth, "it has met crack 'right'");
+    EXPECT_EQ(tips[1].growth, "it has met crack 'left'");
+    for (const mpm::CrackTipReport& tip : tips) EXPECT_TRUE(tip.stopped) << tip.crack;
+    // Both together, and the step aside from the one to the other, which is shorter than the sum of its legs.
+    const double whole = number(run, "crack length 1") + number(run, "crack length 2");
+    EXPECT_GE(whole, 23.4e-3 - 1e-6) << aside;
+    EXPECT_LE(whole, 23.4e-3 + aside + 1e-6) << aside;
+    EXPECT_LT((tips[0].place - tips[1].place).norm(), 0.25 * kCell) << aside;
+  }
+}
+
+// A tip whose criterion needs no J stops where the material does, a cell beyond its face at most, not at the grid's
+// end.
+TEST(CrackGrowth, EndsWhereTheMaterialDoes) {
+  mpm::Simulation run = running("    - {name: cut, points: [[0.0003, 0], [0.0161, 0]], start: exterior, end: tip}\n");
+  run_until(run, 6e-5);
+  const mpm::CrackTipReport tip = run.crack_tips().at(0);
+  EXPECT_TRUE(tip.stopped);
+  EXPECT_EQ(tip.growth, "it has left the material");
+  EXPECT_GT(tip.place.x(), 24e-3 - 0.5 * kCell);
+  EXPECT_LT(tip.place.x(), 25e-3 + 1e-6);
+  EXPECT_FALSE(tip.has_j);
+}
+
 // A checkpoint between the step in which a crack grows and the next, which strains particles by what their new nodes
 // have opened. About 2 s.
 TEST(CrackGrowth, GoesOnFromACheckpointRightAfterIt) {

@@ -45,6 +45,9 @@ struct SurfaceMotion {
   bool pulled = false;               ///< a traction that follows from the opening acts there
 };
 
+/// By which an exterior end is lengthened for crossing tests, of its last segment.
+inline constexpr double kExteriorReach = 4.0;
+
 class Chain {
  public:
   using Move = CracksDefinition::Move;
@@ -61,9 +64,20 @@ class Chain {
   /// Number of the point at an end.
   int point_at(int end) const { return end == 0 ? 0 : size() - 1; }
 
-  /// What crossing tests see: the places of all points, where those of exterior ends lie farther out by 4 times the
-  /// last segment. So segment k is the chain's, and a part of a lengthened segment is not that part of the chain's.
+  /// What crossing tests see: the places of all points, where those of exterior ends lie farther out by
+  /// kExteriorReach times the last segment. So segment k is the chain's, and a part of a lengthened segment is not that
+  /// part of the chain's.
   const std::vector<Vec2>& line() const { return line_; }
+  /// Bounds of the line's segments from number kRun k on, kRun of them or what is left: segments far from a place are
+  /// passed by run after run.
+  struct Extent {
+    Vec2 low, high;  ///< [m]
+    bool misses(const Vec2& other_low, const Vec2& other_high) const {
+      return (low.array() > other_high.array()).any() || (high.array() < other_low.array()).any();
+    }
+  };
+  static constexpr int kRun = 8;
+  const std::vector<Extent>& extents() const { return extents_; }
 
   /// Of a place from the nearest of the segments, as points() has them [m].
   double distance(const Vec2& place) const;
@@ -116,6 +130,7 @@ class Chain {
   std::array<CrackEnd, 2> ends_;
   bool fixed_;
   std::vector<Vec2> line_;
+  std::vector<Extent> extents_;
 };
 
 /// Edge of a cell along the larger component of a direction [m].

@@ -29,4 +29,8 @@ std::vector<Vec2> joined(const std::vector<std::vector<Vec2>>& parts);
 /// `cell`: the smallest edge of a cell [m].
 std::string line_fault(const std::vector<Vec2>& points, double cell);
 
+/// Whether a chain lies along another one: two of its points in sequence nearer to it than a twentieth of `cell` [m].
+/// Cracks may cross and touch; where one lies on another, nothing is between them that their fields could hold.
+bool lies_along(const std::vector<Vec2>& points, const std::vector<Vec2>& other, double cell);
+
 }  // namespace mpm

@@ -18,6 +18,7 @@
 #include <array>
 #include <vector>
 
+#include "mpm/crack/around_point.hpp"
 #include "mpm/crack/chain.hpp"
 #include "mpm/crack/divided_node.hpp"
 #include "mpm/crack/field_jumps.hpp"
@@ -58,9 +59,16 @@ class CrackFields {
     int field = -1;  ///< none
     NodeRef ref{-1, 0};
   };
-  /// The node, given by its numbers, in the field that material at `from` has there. None: nothing at the node is on
-  /// that side of the cracks between them.
-  NodeOfField find_node(int first, const Vec2& from, const std::array<int, 2>& node) const;
+  /// visit(node, hat function) for the nodes around a place, each in the field that material at `from` has there.
+  /// Without those that have nothing on that side of the cracks between them and `from`.
+  template <class Visit>
+  void each_node_around(int first, const Vec2& place, const Vec2& from, Visit&& visit) const {
+    look_around(first, place, from);
+    each_hat(choice_.grid().layout, place, [&](const std::array<int, 2>& node, double hat) {
+      const NodeOfField own = find_node(first, from, node);
+      if (own.ref.block >= 0) visit(own, hat);
+    });
+  }
   /// visit(field, NodeRef) for the fields of a group that have the node.
   template <class Visit>
   void each_field(int first, const std::array<int, 2>& node, Visit&& visit) const {
@@ -87,17 +95,20 @@ class CrackFields {
   void serialise(StateArchive& archive);
 
  private:
-  static constexpr int kMostWanted = 36;  ///< nodes that a particle reaches
-  struct Wanted {
-    int count = 0;
-    std::array<std::uint8_t, kMostWanted> node{};  ///< of the tile
-    std::array<std::uint8_t, kMostWanted> slot{};  ///< and of pairs that jump 4 times the code
-    std::array<Vec2, kMostWanted> jump;            ///< set only where there is a code
+  /// Nodes of a tile, a bit each: the one at row i and column j is bit kEdge i + j.
+  using NodeSet = std::uint64_t;
+  static_assert(NodeChoice::kTileNodes == 64);
+  /// What has been chosen at the nodes of a tile.
+  struct Chosen {
+    NodeSet nodes = 0;                                      ///< at which a field is chosen
+    std::array<NodeSet, DividedNode::kFields> of_field{};   ///< each node in one of them
+    NodeSet jumping = 0;                                    ///< whose pairs jump, by `code`
+    std::array<std::uint8_t, NodeChoice::kTileNodes> code;  ///< set only where they jump
   };
   /// Particles of one block that choose alike.
   struct Patch {
     int number, first;
-    std::array<std::int8_t, NodeChoice::kEdge * NodeChoice::kEdge> slot;  ///< -1: not chosen yet
+    Chosen chosen;
   };
   /// Segments of a crack near a block or a particle: from the first point on, so many points; none: fewer than two.
   struct Part {
@@ -120,6 +131,9 @@ class CrackFields {
   };
   /// Whether the crack divides material of this group.
   bool divides(int crack, int first) const;
+  /// Finds the segments of cracks between `from` and the nodes around a place, for find_node().
+  void look_around(int first, const Vec2& place, const Vec2& from) const;
+  NodeOfField find_node(int first, const Vec2& from, const std::array<int, 2>& node) const;
   Place place_of_node(int first, const std::array<int, 2>& node) const;
   void find_listed();
   /// Forgets the nodes, and makes room for those of the fields' blocks.
@@ -127,11 +141,12 @@ class CrackFields {
   template <class Visit>
   void each_near_block(double margin, Visit&& visit) const;
   Part part_between(int crack, const Part& within, const Vec2& low, const Vec2& high) const;
-  Wanted find_wanted(const Tile& tile, std::size_t set, std::size_t particle);
-  int find_slot(const Tile& tile, int tile_node, std::size_t set, const Vec2& particle, const Vec2& node, Vec2& jump);
+  Part whole(int crack) const { return {0, static_cast<int>(cracks_[crack].chain.line().size()), {}, {}}; }
+  void find_wanted(const Tile& tile, std::size_t set, std::size_t particle);
+  int find_slot(const Tile& tile, int tile_node, std::size_t set, const Vec2& particle, const Vec2& node);
   int take_slot(DividedNode& node, const CracksBetween& between, const std::array<Vec2, 2>& normals);
   DividedNode& divided_node(const Tile& tile, int tile_node, int first, const Vec2& place);
-  int fit(const Tile& tile, int first, const Wanted& wanted);
+  int fit(const Tile& tile, int first);
 
   std::vector<Crack>& cracks_;
   std::vector<ParticleSet>& sets_;
@@ -144,7 +159,10 @@ class CrackFields {
   int threads_;
   std::vector<std::uint64_t> listed_;  ///< blocks whose particles choose
   Tile tile_;
-  std::vector<Part> near_;  ///< of each crack, near a particle
+  std::vector<Part> near_;                         ///< of each crack, near a particle
+  mutable std::vector<Part> around_;               ///< the same near a place and the nodes around it
+  Chosen wanted_;                                  ///< by a particle
+  std::array<Vec2, NodeChoice::kTileNodes> jump_;  ///< of wanted_, set only where pairs jump [m]
   std::vector<Patch> patches_;
   std::vector<std::vector<int>> patch_of_;  ///< [set][particle that chooses]
   std::vector<DividedNode> nodes_;

@@ -64,6 +64,7 @@ class CrackStage final : public Stage {
 
   const std::vector<Crack>& cracks() const { return parts_->cracks; }
   const std::vector<CrackTip>& tips() const { return parts_->tips->tips(); }
+  bool tip_stopped(const CrackTip& tip) const { return parts_->tips->stopped(tip); }
   const CrackTractions& tractions() const { return *parts_->tractions; }
 
  private:

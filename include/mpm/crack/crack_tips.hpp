@@ -3,8 +3,9 @@
 // When J is due, at sync points and before every look at growth, it is taken on a contour around the tip
 // (j_integral.hpp) from nodal values (tip_values.hpp), with the terms of faces inside: tractions, friction, bends of
 // the crack, other cracks. It is the J of growth straight on. A tip without J says why; it keeps the crack as it is.
-// Growth is decided by tip_growth.hpp and adds points to the chain, which the next step's fields see; it ends where it
-// meets another crack, leaves the grid, or comes so near to another tip that no contour goes between them.
+// Growth is decided by tip_growth.hpp and adds points to the chain, which the next step's fields see. It ends where the
+// tip meets a crack, its own or another, or comes within a quarter of a cell of it, where it leaves the material or the
+// grid, and where it comes so near to another tip that no contour goes between them.
 // Weak: J is taken in the middle of a step, with the stress between its start and its end. J of a body that has turned
 // far is taken along the tip's present direction.
 // Source: crack reference 4, 5; Nairn (2003), CMES 4(6), 649-663.
@@ -90,6 +91,8 @@ class CrackTips {
   /// Lets tips grow that are due, after find(). Returns whether a chain has changed. @throws FractureError
   bool grow(double time, double dt);
   const std::vector<CrackTip>& tips() const { return tips_; }
+  /// Whether a tip grows no more: it has met a crack, or has left the material or the grid.
+  bool stopped(const CrackTip& tip) const;
   /// Growth tells of its heat from now on; outlived by `heating`.
   void set_heating(TipHeating* heating) { heating_ = heating; }
   /// Heat of tips in this step, once masses are on the grid.
@@ -109,10 +112,23 @@ class CrackTips {
   void add_faces(const CrackTip& tip, const JForm& form, JResult& result);
   double friction_at(const CrackTip& tip, const JForm& form);
   void split(CrackTip& tip);
+  /// The points by which a tip grows, none to all of its way, and why it stops there for good; empty: it does not.
+  struct Way {
+    std::vector<Vec2> points;
+    std::string stop;
+  };
+  Way find_way(const CrackTip& tip, const Vec2& direction) const;
   bool grow(CrackTip& tip, double time, double dt);
+  void lengthen(CrackTip& tip, const TipState& state, const GrowthDecision& decision, const std::vector<Vec2>& points,
+                const GrowthRule& rule, double dt);
+  /// Whether a node around a place carries material that the crack divides.
+  bool has_material(int crack, const Vec2& place) const;
   bool may_grow(const CrackTip& tip) const;
   const std::string& law_of_growth(const CrackTip& tip, const GrowthRule& rule) const;
-  bool stopped(const CrackTip& tip) const;
+  Vec2 place_of(const CrackTip& tip) const {
+    const Chain& chain = cracks_[tip.crack].chain;
+    return chain.points()[chain.point_at(tip.end)].place;
+  }
   /// With the square around the tip, whose edge is in `edge_`.
   JForm form_of(const Chain& chain, const Vec2& tip);
 

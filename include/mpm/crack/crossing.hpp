@@ -71,4 +71,16 @@ struct Meeting {
 /// the way, and returns their number. The rule is that of find_crossing().
 int find_meetings(const Vec2* line, int points, const Vec2& a, const Vec2& b, std::vector<Meeting>& found);
 
+/// Where a way first comes near a line.
+struct LineApproach {
+  bool found = false;
+  double along = 0.0;         ///< part of the way that lies before it, from 0 to 1
+  Vec2 place = Vec2::Zero();  ///< on the line [m]
+};
+
+/// Where the way from `a` to `b` first meets the line of `points` points, at least two, or comes nearer to it than
+/// `within` [m] while it nears it. A way that begins nearer than `met` [m] has met it there. find_meetings() alone sees
+/// no line that the way runs along.
+LineApproach find_approach(const Vec2* line, int points, const Vec2& a, const Vec2& b, double met, double within);
+
 }  // namespace mpm

@@ -14,6 +14,7 @@
 // are chosen by pairs of particle and node.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -96,6 +97,7 @@ class NodeChoice {
 
   Fields& fields_;
   std::vector<int> chosen_;
+  std::array<Node, kTileNodes> in_tile_;  ///< of each node of a tile: its neighbour's number, and its place there
   Grid grid_;
   std::vector<std::uint64_t> block_keys_;
   std::uint64_t sorted_ = 0;

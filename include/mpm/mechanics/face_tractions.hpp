@@ -85,6 +85,7 @@ class FaceTractions : public Stage {
   std::vector<std::vector<int>> places_;  ///< of each term's particles in their set, since it was sorted
   std::vector<int> place_of_;             ///< scratch: of a set's particles, by id from the first
   std::uint64_t generation_ = 0;          ///< of the blocks that places_ were found with
+  bool any_chooses_ = false;              ///< some particle chooses its fields, and changes its place in every step
   std::vector<NodalLoad> loads_;          ///< of this step
   ImpulseAccount account_;
   double work_ = 0.0;

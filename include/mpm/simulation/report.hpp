@@ -70,6 +70,8 @@ struct CrackTipReport {
   double opening = 0.0, slip = 0.0;              ///< of the faces next to it [m]
   double grown = 0.0, speed = 0.0, angle = 0.0;  ///< since the start [m]; of the last growth [m/s], [rad]
   int growths = 0;
+  bool has_j = true;     ///< false: it was looked at, and J could not be found
+  bool stopped = false;  ///< it grows no more, as `growth` says
 };
 
 struct SolverState {

@@ -52,7 +52,8 @@ class Run {
   /// Runs to the next sync point and writes what is due. @throws mpm::PhysicsError; call fail() then. @throws BagError
   /// @throws mpm::StoppedError; finish() then ends the record with the sync point before.
   void advance();
-  /// What should be known of the run since the last call, a line each: a rigid body that has left the grid.
+  /// What should be known of the run since the last call, a line each: a rigid body that has left the grid, a crack's
+  /// tip that has lost its J or grows no more.
   std::vector<std::string> take_warnings();
   /// Forgets the wall time since the last advance(): after a pause.
   void resume_clock() { clock_ = std::chrono::steady_clock::now(); }
@@ -90,6 +91,7 @@ class Run {
   /// Whether a rigid body, with the sphere around its box, lies wholly beside the grid; one that has no end does not.
   bool outside(const mpm::RigidBody& body) const;
   void look_for_lost_bodies();
+  void look_for_lost_tips();
   /// What a checkpoint holds beside the simulation.
   void serialise(mpm::StateArchive& archive, const mpm::SerialiseMore& more);
 
@@ -106,6 +108,10 @@ class Run {
   std::int64_t from_ = 0;                       // [ns] simulated time of the checkpoint
   enum class Place : std::uint8_t { outside_yet, inside, lost };
   std::vector<Place> places_;  // of the rigid bodies
+  struct ToldOfTip {
+    bool no_j = false, stopped = false;
+  };
+  std::vector<ToldOfTip> told_of_tips_;
   std::vector<std::string> warnings_;
   bool resumed_ = false;
   bool cut_short_ = false;  // stopped between two sync points

@@ -9,7 +9,6 @@
 namespace mpm {
 namespace {
 
-constexpr double kExterior = 4.0;     ///< by which an exterior end is lengthened, of its last segment
 constexpr double kBeside = 1e-8;      ///< of a segment
 constexpr double kShallow = 1e-5;     ///< depth that is let be, of a segment
 constexpr double kPutBeside = 1e-12;  ///< of a segment
@@ -85,8 +84,17 @@ void Chain::update_line() {
   line_.resize(points_.size());
   for (std::size_t k = 0; k < points_.size(); ++k) line_[k] = points_[k].place;
   const int last = size() - 1;
-  if (ends_[0] == CrackEnd::exterior) line_[0] += kExterior * (points_[0].place - points_[1].place);
-  if (ends_[1] == CrackEnd::exterior) line_[last] += kExterior * (points_[last].place - points_[last - 1].place);
+  if (ends_[0] == CrackEnd::exterior) line_[0] += kExteriorReach * (points_[0].place - points_[1].place);
+  if (ends_[1] == CrackEnd::exterior) line_[last] += kExteriorReach * (points_[last].place - points_[last - 1].place);
+  extents_.clear();
+  for (int first = 0; first < last; first += kRun) {
+    Extent extent{line_[first], line_[first]};
+    for (int k = first + 1; k <= std::min(first + kRun, last); ++k) {
+      extent.low = extent.low.cwiseMin(line_[k]);
+      extent.high = extent.high.cwiseMax(line_[k]);
+    }
+    extents_.push_back(extent);
+  }
 }
 
 double Chain::distance(const Vec2& place) const {

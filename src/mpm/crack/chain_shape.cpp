@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kSamePlace = 1e-9;      ///< of the length at hand: rounding of what was meant to be one place
 constexpr double kLongestSegment = 2.0;  ///< [cells]
+constexpr double kAlong = 0.05;          ///< [cells] between chains of which one lies along the other
 
 std::string place_text(const Vec2& point) { return fmt::format("({:.6g}, {:.6g})", point[0], point[1]); }
 
@@ -125,6 +126,24 @@ std::string line_fault(const std::vector<Vec2>& points, double cell) {
     }
   }
   return crossing_fault(points, (points.back() - points.front()).norm() <= kSamePlace * cell);
+}
+
+bool lies_along(const std::vector<Vec2>& points, const std::vector<Vec2>& other, double cell) {
+  const auto near = [&](const Vec2& point) {
+    for (std::size_t k = 0; k + 1 < other.size(); ++k) {
+      const Vec2 way = other[k + 1] - other[k];
+      const double part = std::clamp((point - other[k]).dot(way) / way.squaredNorm(), 0.0, 1.0);
+      if ((other[k] + part * way - point).norm() < kAlong * cell) return true;
+    }
+    return false;
+  };
+  bool before = false;
+  for (const Vec2& point : points) {
+    const bool now = near(point);
+    if (before && now) return true;
+    before = now;
+  }
+  return false;
 }
 
 }  // namespace mpm

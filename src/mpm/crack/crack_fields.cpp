@@ -52,6 +52,7 @@ CrackFields::CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& s
       shape_(shape),
       threads_(threads),
       near_(cracks.size()),
+      around_(cracks.size()),
       patch_of_(sets.size()) {
   tile_.parts.resize(cracks.size());
   for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -127,8 +128,13 @@ bool CrackFields::needs_sort() const {
 // The fewest consecutive segments that hold all of `within` whose bounds meet those of the box.
 CrackFields::Part CrackFields::part_between(int crack, const Part& within, const Vec2& low, const Vec2& high) const {
   const std::vector<Vec2>& line = cracks_[crack].chain.line();
+  const std::vector<Chain::Extent>& extents = cracks_[crack].chain.extents();
   int first = -1, last = -1;
   for (int k = within.first; k + 1 < within.first + within.points; ++k) {
+    if (k % Chain::kRun == 0 && extents[k / Chain::kRun].misses(low, high)) {
+      k += Chain::kRun - 1;
+      continue;
+    }
     const Vec2 &a = line[k], &b = line[k + 1];
     if (std::min(a[0], b[0]) > high[0] || std::max(a[0], b[0]) < low[0]) continue;
     if (std::min(a[1], b[1]) > high[1] || std::max(a[1], b[1]) < low[1]) continue;
@@ -161,13 +167,13 @@ DividedNode& CrackFields::divided_node(const Tile& tile, int tile_node, int firs
   return nodes_.back();
 }
 
-int CrackFields::find_slot(const Tile& tile, int tile_node, std::size_t set, const Vec2& particle, const Vec2& node,
-                           Vec2& jump) {
+int CrackFields::find_slot(const Tile& tile, int tile_node, std::size_t set, const Vec2& particle, const Vec2& node) {
+  const Vec2 low = particle.cwiseMin(node), high = particle.cwiseMax(node);
   CracksBetween between;
   std::array<Vec2, 2> normals{Vec2::Zero(), Vec2::Zero()};
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
     const Part& part = near_[c];
-    if (part.points < 2 || cracks_[c].divides[set] == 0) continue;
+    if (cracks_[c].divides[set] == 0 || part.misses(low, high)) continue;
     const Crossing found = find_crossing(cracks_[c].chain.line().data() + part.first, part.points, particle, node);
     if (!found.crosses) continue;
     if (between.count == 2) {
@@ -181,8 +187,11 @@ int CrackFields::find_slot(const Tile& tile, int tile_node, std::size_t set, con
   if (between.count > 0) slot = take_slot(divided_node(tile, tile_node, sets_[set].field, node), between, normals);
   if (!jumps_.any()) return slot;
   const FieldJumps::Jump found = jumps_.find(sets_[set].field, particle, node, between, heeded_[set]);
-  jump = found.by;
-  return slot + DividedNode::kFields * found.code;
+  if (found.code == 0) return slot;
+  wanted_.jumping |= NodeSet{1} << tile_node;
+  wanted_.code[tile_node] = static_cast<std::uint8_t>(found.code);
+  jump_[tile_node] = found.by;
+  return slot;
 }
 
 // Of the fields of a node, that of what lies beyond these cracks; an empty one becomes it.
@@ -206,7 +215,7 @@ int CrackFields::take_slot(DividedNode& node, const CracksBetween& between, cons
   return 0;
 }
 
-CrackFields::Wanted CrackFields::find_wanted(const Tile& tile, std::size_t set, std::size_t particle) {
+void CrackFields::find_wanted(const Tile& tile, std::size_t set, std::size_t particle) {
   const GridLayout& layout = choice_.grid().layout;
   const Vec2 place = place_of(sets_[set], particle);
   std::array<int, 2> first{}, last{};
@@ -226,45 +235,55 @@ CrackFields::Wanted CrackFields::find_wanted(const Tile& tile, std::size_t set, 
     if (!tile.parts[c].misses(low, high)) near_[c] = part_between(static_cast<int>(c), tile.parts[c], low, high);
     any = any || near_[c].points >= 2;
   }
-  Wanted wanted;
+  wanted_.nodes = wanted_.jumping = 0;
+  wanted_.of_field.fill(0);
+  const int columns = last[1] - first[1] + 1;
+  if (columns <= 0) return;
   for (int i = first[0]; i <= last[0]; ++i) {
-    for (int j = first[1]; j <= last[1]; ++j) {
-      const int tile_node = (i - tile.corner[0]) * NodeChoice::kEdge + j - tile.corner[1];
-      int slot = 0;
-      if (any) {
-        const Vec2 node(layout.origin(0) + layout.cell(0) * i, layout.origin(1) + layout.cell(1) * j);
-        slot = find_slot(tile, tile_node, set, place, node, wanted.jump[wanted.count]);
-      }
-      wanted.node[wanted.count] = static_cast<std::uint8_t>(tile_node);
-      wanted.slot[wanted.count++] = static_cast<std::uint8_t>(slot);
+    const int begin = (i - tile.corner[0]) * NodeChoice::kEdge + first[1] - tile.corner[1];
+    wanted_.nodes |= ((NodeSet{1} << columns) - 1) << begin;
+    for (int j = 0; any && j < columns; ++j) {
+      const Vec2 node(layout.origin(0) + layout.cell(0) * i, layout.origin(1) + layout.cell(1) * (first[1] + j));
+      const int slot = find_slot(tile, begin + j, set, place, node);
+      if (slot > 0) wanted_.of_field[slot] |= NodeSet{1} << (begin + j);
     }
   }
-  return wanted;
+  wanted_.of_field[0] = wanted_.nodes & ~(wanted_.of_field[1] | wanted_.of_field[2] | wanted_.of_field[3]);
 }
 
 // The first patch of the block that has chosen nothing else.
-int CrackFields::fit(const Tile& tile, int first, const Wanted& wanted) {
+int CrackFields::fit(const Tile& tile, int first) {
+  const auto lowest = [](NodeSet of) { return __builtin_ctzll(of); };
   const auto fits = [&](const Patch& patch) {
     if (patch.first != first) return false;
-    for (int i = 0; i < wanted.count; ++i) {
-      const int slot = patch.slot[wanted.node[i]];
-      if (slot >= 0 && slot != wanted.slot[i]) return false;
+    const NodeSet both = wanted_.nodes & patch.chosen.nodes;
+    NodeSet differ = (wanted_.jumping ^ patch.chosen.jumping) & both;
+    for (std::size_t f = 0; f < DividedNode::kFields; ++f) {
+      differ |= (wanted_.of_field[f] ^ patch.chosen.of_field[f]) & both;
     }
-    return true;
+    for (NodeSet rest = wanted_.jumping & both; differ == 0 && rest != 0; rest &= rest - 1) {
+      if (wanted_.code[lowest(rest)] != patch.chosen.code[lowest(rest)]) return false;
+    }
+    return differ == 0;
   };
   auto patch = std::find_if(patches_.begin(), patches_.end(), fits);
   if (patch == patches_.end()) {
-    Patch made{choice_.add_patch(tile.block), first, {}};
-    made.slot.fill(-1);
-    patch = patches_.insert(patches_.end(), made);
+    patch = patches_.insert(patches_.end(), Patch{choice_.add_patch(tile.block), first, {}});
   }
-  for (int i = 0; i < wanted.count; ++i) {
-    std::int8_t& slot = patch->slot[wanted.node[i]];
-    if (slot >= 0) continue;
-    slot = static_cast<std::int8_t>(wanted.slot[i]);
-    choice_.choose(patch->number, wanted.node[i], first + slot % DividedNode::kFields);
-    if (slot >= DividedNode::kFields) choice_.jump(patch->number, wanted.node[i], wanted.jump[i]);
+  Chosen& chosen = patch->chosen;
+  for (NodeSet rest = wanted_.nodes & ~chosen.nodes; rest != 0; rest &= rest - 1) {
+    const int node = lowest(rest);
+    const NodeSet bit = rest & (~rest + 1);
+    int slot = 0;
+    while ((wanted_.of_field[slot] & bit) == 0) ++slot;
+    choice_.choose(patch->number, node, first + slot);
+    chosen.of_field[slot] |= bit;
+    if ((wanted_.jumping & bit) == 0) continue;
+    chosen.jumping |= bit;
+    chosen.code[node] = wanted_.code[node];
+    choice_.jump(patch->number, node, jump_[node]);
   }
+  chosen.nodes |= wanted_.nodes;
   return patch->number;
 }
 
@@ -303,86 +322,18 @@ void CrackFields::choose() {
     for (std::size_t c = 0; c < cracks_.size(); ++c) {
       tile_.parts[c] = {};
       if (!cracks_[c].felt) continue;
-      tile_.parts[c] =
-          part_between(static_cast<int>(c), {0, static_cast<int>(cracks_[c].chain.line().size()), {}, {}}, low, high);
+      tile_.parts[c] = part_between(static_cast<int>(c), whole(static_cast<int>(c)), low, high);
     }
     patches_.clear();
     for (std::size_t s = 0; s < sets_.size(); ++s) {
       for (std::uint32_t p = sorter_.begin(s, b); p < sorter_.begin(s, b + 1); ++p) {
-        patch_of_[s].push_back(fit(tile_, sets_[s].field, find_wanted(tile_, s, p)));
+        find_wanted(tile_, s, p);
+        patch_of_[s].push_back(fit(tile_, sets_[s].field));
       }
     }
   }
   choice_.finish(threads_);
   for (std::size_t s = 0; s < sets_.size(); ++s) sorter_.sort(s, sets_[s], choice_, patch_of_[s]);
-}
-
-CrackFields::Place CrackFields::place_of_node(int first, const std::array<int, 2>& node) const {
-  const GridLayout& layout = choice_.grid().layout;
-  std::array<int, 3> block{};
-  int local = 0;
-  for (int k = 0; k < 2; ++k) {
-    block[k] = (node[k] + kBlockEdge) / kBlockEdge - 1;
-    local = local * kBlockEdge + node[k] - block[k] * kBlockEdge;
-  }
-  const int number = choice_.field(first).blocks.find(layout.key(block));
-  return {number, local, static_cast<std::size_t>(std::max(number, 0)) * layout.nodes_per_block() + local};
-}
-
-CrackFields::NodeOfField CrackFields::find_node(int first, const Vec2& from, const std::array<int, 2>& node) const {
-  const GridLayout& layout = choice_.grid().layout;
-  const Place own = place_of_node(first, node);
-  if (own.number < 0) return {};
-  Vec2 place;
-  for (int k = 0; k < 2; ++k) place[k] = layout.origin(k) + layout.cell(k) * node[k];
-  CracksBetween between;
-  for (std::size_t c = 0; c < cracks_.size(); ++c) {
-    if (!cracks_[c].felt || !divides(static_cast<int>(c), first)) continue;
-    const std::vector<Vec2>& line = cracks_[c].chain.line();
-    const Part part = part_between(static_cast<int>(c), {0, static_cast<int>(line.size()), {}, {}},
-                                   from.cwiseMin(place), from.cwiseMax(place));
-    if (part.points < 2) continue;
-    const Crossing found = find_crossing(line.data() + part.first, part.points, from, place);
-    if (!found.crosses) continue;
-    if (between.count == 2) return {};
-    between.across[between.count++] = {static_cast<int>(c), found.above};
-  }
-  if (between.count == 0) return {first, {own.number, own.local}};
-  const int at = node_at_[first][own.index];
-  const int slot = at < 0 ? -1 : nodes_[at].field_of(between);
-  return slot < 0 ? NodeOfField{} : NodeOfField{first + slot, nodes_[at].ref[slot]};
-}
-
-NodeRef CrackFields::find_place(int field, const std::array<int, 2>& node) const {
-  const Place at = place_of_node(field, node);
-  return {at.number, at.local};
-}
-
-CrackFields::NodeOfField CrackFields::find_across(int first, int crack, const std::array<int, 2>& node) const {
-  const Place own = place_of_node(first, node);
-  if (own.number < 0 || node_at_[first][own.index] < 0) return {};
-  const DividedNode& divided = nodes_[node_at_[first][own.index]];
-  for (int f = 0; f < 2; ++f) {
-    if (divided.single[f].crack == crack) return {first + 1 + f, divided.ref[1 + f]};
-  }
-  return {};
-}
-
-bool CrackFields::divides(int crack, int first) const {
-  for (std::size_t s = 0; s < sets_.size(); ++s) {
-    if (sets_[s].field == first && cracks_[crack].divides[s] != 0) return true;
-  }
-  return false;
-}
-
-std::vector<int> CrackFields::groups(int crack) const {
-  std::vector<int> list;
-  for (std::size_t s = 0; s < sets_.size(); ++s) {
-    if (cracks_[crack].divides[s] != 0) list.push_back(sets_[s].field);
-  }
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-  return list;
 }
 
 void CrackFields::serialise(StateArchive& archive) {

@@ -23,9 +23,7 @@ SurfaceMotion CrackMotion::surface(const std::vector<int>& groups, const Vec2& p
   SurfaceMotion motion;
   double sum = 0.0;
   for (const int first : groups) {
-    each_hat(fields_[first]->layout, place, [&](const std::array<int, 2>& node, double hat) {
-      const CrackFields::NodeOfField own = chosen_.find_node(first, from, node);
-      if (own.field < 0 || own.ref.block < 0) return;
+    chosen_.each_node_around(first, place, from, [&](const CrackFields::NodeOfField& own, double hat) {
       const Grid& grid = *fields_[own.field];
       if (!grid.carries(own.ref.block, own.ref.node)) return;
       const double weight = hat * grid.mass.at(own.ref.block, 0, own.ref.node);

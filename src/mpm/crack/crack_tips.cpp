@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "mpm/crack/chain.hpp"
-#include "mpm/crack/crossing.hpp"
 #include "mpm/math/constants.hpp"
 
 namespace mpm {

@@ -1,6 +1,7 @@
-// Growth of the tips of cracks in a run: when a tip is looked at, and what becomes of a chain that grows.
+// Growth of the tips of cracks: when a tip is looked at, how far its way is free, and what changes when it grows.
 #include <algorithm>
 
+#include "mpm/crack/around_point.hpp"
 #include "mpm/crack/chain.hpp"
 #include "mpm/crack/crack_tips.hpp"
 #include "mpm/crack/crossing.hpp"
@@ -9,8 +10,7 @@
 namespace mpm {
 namespace {
 
-constexpr double kMet = 0.05;          ///< of a cell: a tip this near to another crack has met it
-constexpr double kBeyond = 0.25;       ///< of a cell, that growth is lengthened by to see other cracks
+constexpr double kBeyond = 0.25;       ///< of a cell, ahead of growth and beside it, where other cracks are seen
 constexpr double kLongestPart = 0.75;  ///< of a growth, which growth_points() divides above that [cells]
 
 }  // namespace
@@ -30,8 +30,7 @@ bool CrackTips::growth_due(double time) const {
 void CrackTips::find_growing(std::vector<Vec2>& places) const {
   places.clear();
   for (const CrackTip& tip : tips_) {
-    const Chain& chain = cracks_[tip.crack].chain;
-    if (may_grow(tip)) places.push_back(chain.points()[chain.point_at(tip.end)].place);
+    if (may_grow(tip)) places.push_back(place_of(tip));
   }
 }
 
@@ -74,13 +73,60 @@ bool CrackTips::grow(double time, double dt) {
   return grown;
 }
 
+bool CrackTips::has_material(int crack, const Vec2& place) const {
+  bool found = false;
+  for (const int first : chosen_.groups(crack)) {
+    each_hat(parts_.fields[first]->layout, place, [&](const std::array<int, 2>& node, double) {
+      chosen_.each_field(first, node, [&](int field, NodeRef ref) {
+        found = found || parts_.fields[field]->carries(ref.block, ref.node);
+      });
+    });
+  }
+  return found;
+}
+
+CrackTips::Way CrackTips::find_way(const CrackTip& tip, const Vec2& direction) const {
+  const Vec2 place = place_of(tip);
+  const GridLayout& layout = parts_.fields.front()->layout;
+  const Vec2 cells(layout.cell(0), layout.cell(1));
+  Way way;
+  way.points = growth_points(place, direction, settings_.length, cells);
+  const Vec2 seen = way.points.back() + kBeyond * cell_along(direction, cells) * direction;
+  double nearest = 2.0;  // of parts of the way
+  for (std::size_t c = 0; c < cracks_.size(); ++c) {
+    if (!cracks_[c].felt) continue;
+    const bool own = static_cast<int>(c) == tip.crack;
+    const std::vector<Vec2>& line = cracks_[c].chain.line();
+    // Of its own chain, what lies behind the last segment.
+    const Vec2* from = line.data() + (own && tip.end == 0 ? 1 : 0);
+    const int points = static_cast<int>(line.size()) - (own ? 1 : 0);
+    if (points < 2) continue;
+    const double cell = layout.smallest_cell();
+    const LineApproach met = find_approach(from, points, place, seen, kMet * cell, kBeyond * cell);
+    if (!met.found || met.along >= nearest) continue;
+    nearest = met.along;
+    way.stop = own ? "it has met its own crack" : "it has met crack '" + cracks_[c].definition.name + "'";
+    way.points.clear();
+    if ((met.place - place).norm() > kMet * cell) way.points.push_back(met.place);
+  }
+  for (const Vec2& point : way.points) {
+    for (int k = 0; k < 2; ++k) {
+      const double cell = layout.in_cells(k, point[k]);
+      if (cell >= 0.0 && cell <= layout.last_node(k)) continue;
+      return {{}, "it has left the grid"};
+    }
+  }
+  if (!way.points.empty() && !has_material(tip.crack, way.points.back())) return {{}, "it has left the material"};
+  return way;
+}
+
 bool CrackTips::grow(CrackTip& tip, double time, double dt) {
   Crack& crack = cracks_[tip.crack];
   Chain& chain = crack.chain;
   if (stopped(tip) || time < tip.next_look || tip.material < 0) return false;
   const FractureMaterial& material = settings_.materials[tip.material];
-  const GridLayout& layout = parts_.fields.front()->layout;
-  tip.next_look = time + look_interval(dt, settings_.time_factor, layout.smallest_cell(), material.wave_speed);
+  const double cell = parts_.fields.front()->layout.smallest_cell();
+  tip.next_look = time + look_interval(dt, settings_.time_factor, cell, material.wave_speed);
   const TipRules rules = [&] {
     TipRules made = tip_rules(settings_.growth, settings_.alternate, material.constants,
                               material.elastic.value_or(ElasticConstants{}));
@@ -110,52 +156,32 @@ bool CrackTips::grow(CrackTip& tip, double time, double dt) {
   tip.why = decision.reason;
   if (decision.released != 0.0) tip.energy_release = decision.released;
   if (!decision.grows) {
-    const double cell = layout.smallest_cell();
     if (tip.running > 0.0 && time - tip.last_growth > 2.0 * settings_.length * cell / tip.running) tip.running = 0.0;
     return false;
   }
+  const Way way = find_way(tip, decision.direction);
+  if (!way.stop.empty()) tip.why = way.stop;
+  if (!way.points.empty()) {
+    const GrowthRule& rule = decision.alternate ? rules.alternate : rules.first;
+    lengthen(tip, state, decision, way.points, rule, dt);
+  }
+  if (!way.stop.empty()) chain.set_end(tip.end, CrackEnd::none);
+  return true;
+}
 
-  const Vec2 place = chain.points()[chain.point_at(tip.end)].place;
-  const Vec2 cells(layout.cell(0), layout.cell(1));
-  std::vector<Vec2> points = growth_points(place, decision.direction, settings_.length, cells);
-  const Vec2 seen = points.back() + kBeyond * cell_along(decision.direction, cells) * decision.direction;
-  bool ends = false;
-  for (std::size_t c = 0; c < cracks_.size(); ++c) {
-    if (static_cast<int>(c) == tip.crack || !cracks_[c].felt) continue;
-    const std::vector<Vec2>& line = cracks_[c].chain.line();
-    std::vector<Meeting> met;
-    if (find_meetings(line.data(), static_cast<int>(line.size()), place, seen, met) == 0) continue;
-    tip.why = "it has met crack '" + cracks_[c].definition.name + "'";
-    const double left = met.front().along * (seen - place).norm();
-    if (left < kMet * layout.smallest_cell()) {
-      chain.set_end(tip.end, CrackEnd::none);
-      return true;
-    }
-    points = {place + met.front().along * (seen - place)};
-    ends = true;
-    break;
-  }
-  for (const Vec2& point : points) {
-    for (int k = 0; k < 2; ++k) {
-      const double cell = layout.in_cells(k, point[k]);
-      if (cell >= 0.0 && cell <= layout.last_node(k)) continue;
-      chain.set_end(tip.end, CrackEnd::none);
-      tip.why = "it has left the grid";
-      return true;
-    }
-  }
-  double length = 0.0, area = 0.0;
-  Vec2 last = place;
-  for (const Vec2& point : points) {
-    const double part = (point - last).norm();
+void CrackTips::lengthen(CrackTip& tip, const TipState& state, const GrowthDecision& decision,
+                         const std::vector<Vec2>& points, const GrowthRule& rule, double dt) {
+  Crack& crack = cracks_[tip.crack];
+  const double time = state.time;
+  std::vector<Vec2> line{place_of(tip)};
+  line.insert(line.end(), points.begin(), points.end());
+  double length = 0.0;
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const double part = (line[k] - line[k - 1]).norm();
     length += part;
-    area += part * (axisymmetric(parts_.geometry) ? kPi * (last[0] + point[0]) : parts_.across);
-    last = point;
+    grown_area_ += part * (axisymmetric(parts_.geometry) ? kPi * (line[k - 1][0] + line[k][0]) : parts_.across);
   }
-  const GrowthRule& rule = decision.alternate ? rules.alternate : rules.first;
-  const std::string& law = law_of_growth(tip, rule);
   tip.growth.grown(state, decision, length);
-  grown_area_ += area;
   tip.speed = time > tip.last_growth ? length / (time - tip.last_growth) : 0.0;
   tip.running = decision.speed;
   if (decision.speed > 0.0) tip.speed = decision.speed;
@@ -166,20 +192,17 @@ bool CrackTips::grow(CrackTip& tip, double time, double dt) {
   ++tip.growths;
   tip.grown += length;
   tip.by_alternate = decision.alternate;
-  std::vector<Vec2> line{place};
-  line.insert(line.end(), points.begin(), points.end());
   if (tip.end == 0) std::reverse(line.begin(), line.end());
   jumps_.add(tip.crack, std::move(line));
-  chain.grow(tip.end, points);
+  crack.chain.grow(tip.end, points);
   if (heating_ != nullptr && tip.j > 0.0) {
+    const double wave_speed = settings_.materials[tip.material].wave_speed;
     const double thickness = crack.definition.thickness > 0.0 ? crack.definition.thickness : parts_.across;
     const double front = axisymmetric(parts_.geometry) ? 2.0 * kPi * points.back()[0] : thickness;
     heating_->released(static_cast<int>(&tip - tips_.data()), tip.j, front, length,
-                       heated_steps(length, material.wave_speed, dt));
+                       heated_steps(length, wave_speed, dt));
   }
-  tractions_.grow(tip.crack, tip.end, static_cast<int>(points.size()), tractions_.law_of(law));
-  if (ends) chain.set_end(tip.end, CrackEnd::none);
-  return true;
+  tractions_.grow(tip.crack, tip.end, static_cast<int>(points.size()), tractions_.law_of(law_of_growth(tip, rule)));
 }
 
 }  // namespace mpm

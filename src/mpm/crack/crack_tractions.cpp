@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/crack/around_point.hpp"
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
@@ -70,9 +69,7 @@ void CrackTractions::find_shares(int crack, const Vec2& place, const Vec2& from,
   shares.clear();
   double sum = 0.0;
   for (const int first : groups_[crack]) {
-    each_hat(fields_[first]->layout, place, [&](const std::array<int, 2>& node, double hat) {
-      const CrackFields::NodeOfField own = chosen_.find_node(first, from, node);
-      if (own.field < 0 || own.ref.block < 0) return;
+    chosen_.each_node_around(first, place, from, [&](const CrackFields::NodeOfField& own, double hat) {
       const double of_node = mass(own.field, own.ref);
       if (!(of_node > fields_[own.field]->least_mass)) return;
       shares.push_back({own.field, own.ref, of_node, hat * of_node});

@@ -3,6 +3,17 @@
 #include <algorithm>
 
 namespace mpm {
+namespace {
+
+/// Part of the way from `a` to `b` at which it is nearest to a place, from 0 to 1.
+double nearest_part(const Vec2& a, const Vec2& b, const Vec2& place) {
+  const double length2 = (b - a).squaredNorm();
+  return length2 > 0.0 ? std::clamp((place - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
+}
+
+Vec2 place_at(const Vec2& a, const Vec2& b, double part) { return a + part * (b - a); }
+
+}  // namespace
 
 int find_meetings(const Vec2* line, int points, const Vec2& a, const Vec2& b, std::vector<Meeting>& found) {
   found.clear();
@@ -20,6 +31,30 @@ int find_meetings(const Vec2* line, int points, const Vec2& a, const Vec2& b, st
   };
   std::sort(found.begin(), found.end(), earlier);
   return static_cast<int>(found.size());
+}
+
+LineApproach find_approach(const Vec2* line, int points, const Vec2& a, const Vec2& b, double met, double within) {
+  LineApproach first;
+  const auto take = [&first](double along, const Vec2& place) {
+    if (first.found && along >= first.along) return;
+    first = {true, along, place};
+  };
+  std::vector<Meeting> meetings;
+  if (find_meetings(line, points, a, b, meetings) > 0) {
+    take(meetings.front().along, place_at(a, b, meetings.front().along));
+  }
+  for (int k = 0; k + 1 < points; ++k) {
+    const Vec2 of_a = place_at(line[k], line[k + 1], nearest_part(line[k], line[k + 1], a));
+    const Vec2 of_b = place_at(line[k], line[k + 1], nearest_part(line[k], line[k + 1], b));
+    const double from_a = (of_a - a).norm(), from_b = (of_b - b).norm();
+    if (from_a <= met) take(0.0, of_a);
+    if (from_b <= within && from_b < from_a) take(1.0, of_b);
+  }
+  for (int k = 0; k < points; ++k) {
+    const double part = nearest_part(a, b, line[k]);
+    if (part > 0.0 && (place_at(a, b, part) - line[k]).norm() <= within) take(part, line[k]);
+  }
+  return first;
 }
 
 }  // namespace mpm

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mpm/crack/around_point.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/mechanics/kernel_views.hpp"
 #include "mpm/shape/ring.hpp"
@@ -148,10 +147,9 @@ bool TipValues::find(const std::array<int, 2>& node, ContourField field, Contour
 bool TipValues::at(const Vec2& place, const Vec2& from, ContourValues& values) const {
   values = {};
   double sum = 0.0;
-  each_hat(parts_.fields.front()->layout, place, [&](const std::array<int, 2>& node, double hat) {
-    const CrackFields::NodeOfField own = parts_.chosen.find_node(first_, from, node);
+  parts_.chosen.each_node_around(first_, place, from, [&](const CrackFields::NodeOfField& own, double hat) {
     ContourValues here;
-    if (own.field < 0 || !values_at(own.field, own.ref, here)) return;
+    if (!values_at(own.field, own.ref, here)) return;
     sum += hat;
     values = ContourValues::between(values, here, hat / sum);
   });

@@ -4,8 +4,27 @@
 
 namespace mpm {
 
+namespace {
+
+/// Of a tile's node: which of the neighbours it lies in, and its place there.
+NodeChoice::Node place_in_tile(int dim, int tile_node) {
+  int neighbour = 0, local = 0, neighbour_stride = 1, local_stride = 1;
+  for (int k = dim - 1; k >= 0; --k, tile_node /= NodeChoice::kEdge) {
+    const int at = tile_node % NodeChoice::kEdge - NodeChoice::kMargin + kBlockEdge;
+    neighbour += at / kBlockEdge * neighbour_stride;
+    local += at % kBlockEdge * local_stride;
+    neighbour_stride *= 3;
+    local_stride *= kBlockEdge;
+  }
+  return {neighbour, local};
+}
+
+}  // namespace
+
 NodeChoice::NodeChoice(Fields& fields, std::vector<int> chosen)
-    : fields_(fields), chosen_(std::move(chosen)), grid_(fields.front()->layout) {}
+    : fields_(fields), chosen_(std::move(chosen)), grid_(fields.front()->layout) {
+  for (int node = 0; node < kTileNodes; ++node) in_tile_[node] = place_in_tile(grid_.layout.dim(), node);
+}
 
 void NodeChoice::set_blocks(std::vector<std::uint64_t> keys, int first_owner) {
   block_keys_.swap(keys);
@@ -42,32 +61,13 @@ int NodeChoice::add_patch(int block) {
   return patches() - 1;
 }
 
-namespace {
-
-/// Of a tile's node: which of the neighbours it lies in, and its place there.
-NodeChoice::Node place_in_tile(int dim, int tile_node) {
-  int neighbour = 0, local = 0, neighbour_stride = 1, local_stride = 1;
-  for (int k = dim - 1; k >= 0; --k, tile_node /= NodeChoice::kEdge) {
-    const int at = tile_node % NodeChoice::kEdge - NodeChoice::kMargin + kBlockEdge;
-    neighbour += at / kBlockEdge * neighbour_stride;
-    local += at % kBlockEdge * local_stride;
-    neighbour_stride *= 3;
-    local_stride *= kBlockEdge;
-  }
-  return {neighbour, local};
-}
-
-}  // namespace
-
 NodeChoice::Node NodeChoice::node_of(int block, int tile_node, int field) const {
-  const int dim = grid_.layout.dim();
-  const Node at = place_in_tile(dim, tile_node);
-  return {places_[(block * fields_.size() + field) * neighbours_of(dim) + at.block], at.node};
+  const Node& at = in_tile_[tile_node];
+  return {places_[(block * fields_.size() + field) * neighbours_of(grid_.layout.dim()) + at.block], at.node};
 }
 
 void NodeChoice::choose(int patch, int tile_node, int field) {
-  const Node own = place_in_tile(grid_.layout.dim(), tile_node);
-  const Node of = node_of(patch_blocks_[patch], tile_node, field);
+  const Node own = in_tile_[tile_node], of = node_of(patch_blocks_[patch], tile_node, field);
   entries_.push_back({patch * neighbours_of(grid_.layout.dim()) + own.block, of.block,
                       static_cast<std::uint8_t>(own.node), static_cast<std::uint8_t>(of.node),
                       static_cast<std::uint16_t>(field)});
@@ -75,7 +75,7 @@ void NodeChoice::choose(int patch, int tile_node, int field) {
 }
 
 void NodeChoice::jump(int patch, int tile_node, const Vec2& by) {
-  const Node own = place_in_tile(grid_.layout.dim(), tile_node);
+  const Node& own = in_tile_[tile_node];
   jumps_.push_back({patch * neighbours_of(grid_.layout.dim()) + own.block, static_cast<std::uint8_t>(own.node), by});
 }
 
@@ -124,21 +124,21 @@ void NodeChoice::clear(NodalField& own) const {
 
 void NodeChoice::give(NodalField Grid::*what) {
   const NodalField& own = grid_.*what;
+  const int components = own.components(), nodes = grid_.layout.nodes_per_block();
   for (const Entry& entry : entries_) {
-    NodalField& to = (*fields_[entry.field]).*what;
-    for (int c = 0; c < own.components(); ++c) {
-      to.at(entry.block, c, entry.node) += own.at(entry.own_block, c, entry.own_node);
-    }
+    double* to = ((*fields_[entry.field]).*what).block(entry.block) + entry.node;
+    const double* from = own.block(entry.own_block) + entry.own_node;
+    for (int c = 0; c < components; ++c) to[c * nodes] += from[c * nodes];
   }
 }
 
 void NodeChoice::take(NodalField Grid::*what) {
   NodalField& own = grid_.*what;
+  const int components = own.components(), nodes = grid_.layout.nodes_per_block();
   for (const Entry& entry : entries_) {
-    const NodalField& from = (*fields_[entry.field]).*what;
-    for (int c = 0; c < own.components(); ++c) {
-      own.at(entry.own_block, c, entry.own_node) = from.at(entry.block, c, entry.node);
-    }
+    double* to = own.block(entry.own_block) + entry.own_node;
+    const double* from = ((*fields_[entry.field]).*what).block(entry.block) + entry.node;
+    for (int c = 0; c < components; ++c) to[c * nodes] = from[c * nodes];
   }
 }
 

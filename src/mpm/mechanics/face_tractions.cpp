@@ -22,13 +22,17 @@ FaceTractions::FaceTractions(const FaceSettings& settings, Fields& fields, const
 
 void FaceTractions::look_for_particles() {
   int found = -1;  // the set that place_of_ is of
+  any_chooses_ = false;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const ParticleSet& set = sets_[terms_[i].set];
     if (terms_[i].set != found) {
       find_places(set, place_of_);
       found = terms_[i].set;
     }
-    for (std::size_t n = 0; n < places_[i].size(); ++n) places_[i][n] = place_of_[terms_[i].particles[n]];
+    for (std::size_t n = 0; n < places_[i].size(); ++n) {
+      places_[i][n] = place_of_[terms_[i].particles[n]];
+      any_chooses_ = any_chooses_ || (set.chooses && set.side[places_[i][n]] != 0);
+    }
   }
 }
 
@@ -77,9 +81,8 @@ void FaceTractions::spread(int set, int p, const PlacedDomain::Vector& at, const
 
 void FaceTractions::forces_gathered(StepContext& context) {
   const std::uint64_t generation =
-      context.fields.front()->blocks.generation();                          // of all fields: they are rebuilt together
-  const auto chooses = [](const ParticleSet& set) { return set.chooses; };  // these change places in every step
-  if (generation_ != generation || std::any_of(sets_.begin(), sets_.end(), chooses)) {
+      context.fields.front()->blocks.generation();  // of all fields: they are rebuilt together
+  if (generation_ != generation || any_chooses_) {
     look_for_particles();
     generation_ = generation;
   }

@@ -34,6 +34,9 @@ void check_length(const Value& value, double length, double segment) {
 std::vector<Vec2> cut(const Value& value, const std::vector<Vec2>& corners, double segment) {
   double length = 0.0;
   for (std::size_t i = 1; i < corners.size(); ++i) length += (corners[i] - corners[i - 1]).norm();
+  if (!(length > 0.0)) {
+    value.fail("all its points lie in one place; a crack has a length, such as [[0, 0.5], [0.2, 0.5]]");
+  }
   check_length(value, length, segment);
   return subdivided(corners, segment);
 }
@@ -68,14 +71,17 @@ std::vector<Vec2> read_point_file(const Value& value) {
   }
   std::ifstream stream;
   HeightTable table;
+  bool empty = false;
   try {
     path = resolve_resource(path);
-    stream.open(path);
-    if (stream) table = read_height_text(stream, path);
+    if (!std::filesystem::is_directory(path)) stream.open(path);
+    empty = stream.is_open() && stream.peek() == std::ifstream::traits_type::eof();
+    if (stream.is_open() && !empty) table = read_height_text(stream, path);
   } catch (const Error& error) {
     value.fail(error.what());
   }
   if (!stream.is_open()) value.fail(fmt::format("{}: cannot be read; check the path and its permissions", path));
+  if (empty) value.fail(fmt::format("{}: it is empty; write lines of x and z, two or more", path));
   if (table.columns != 2) value.fail(fmt::format("{}: {} numbers a line; write two, x and z", path, table.columns));
   if (table.rows < 2) value.fail(fmt::format("{}: one point; a crack has two or more", path));
   const double unit = value.context().units.factor(kLength);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mpm/contact/thin_tool.hpp"
+#include "mpm/crack/chain_shape.hpp"
 #include "mpm/scene/sections.hpp"
 
 namespace mpm {
@@ -165,12 +166,19 @@ void read_cracks(const Map& root, Scene& scene) {
   for (const Value& material : root.at("materials").elements()) {
     cracks.materials.push_back(read_fracture_constants(material_map(material, root), cracks));
   }
+  double cell = definition.grid.cell[0];
+  for (const int axis : axes_of(scene)) cell = std::min(cell, definition.grid.cell[axis]);
   const std::vector<Value> list = map.at("list").elements();
   if (list.empty()) map.at("list").fail("names no crack; write one, or leave out cracks");
   for (const Value& value : list) {
     CrackDefinition crack = read_crack(value, scene);
     for (const CrackDefinition& other : cracks.list) {
       if (other.name == crack.name) value.fail(fmt::format("a second crack '{}'; give each its own name", crack.name));
+      const bool apart = !crack.body.empty() && !other.body.empty() && crack.body != other.body;
+      if (!apart && (lies_along(crack.points, other.points, cell) || lies_along(other.points, crack.points, cell))) {
+        value.fail(fmt::format("'{}' lies along '{}'; make one crack of both, or let them meet at a point", crack.name,
+                               other.name));
+      }
     }
     check_crack_tips(value, crack, scene);
     cracks.list.push_back(std::move(crack));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/crack/chain.hpp"
 #include "mpm/crack/fracture_criterion.hpp"
 #include "mpm/scene/sections.hpp"
 
@@ -93,6 +94,22 @@ void check_growth(const Value& end, const CrackDefinition& crack, std::size_t ma
   }
 }
 
+/// Refuses an exterior end with material beyond it, which its lengthened last segment would cut.
+void check_exterior(const Value& end, const char* key, const CrackDefinition& crack, std::size_t side,
+                    const std::vector<const BodyDefinition*>& bodies) {
+  const std::size_t last = crack.points.size() - 1;
+  const Vec2 &place = side == 0 ? crack.points[0] : crack.points[last],
+             &before = side == 0 ? crack.points[1] : crack.points[last - 1];
+  const Vec2 beyond = place + kExteriorReach * (place - before);
+  for (const BodyDefinition* body : bodies) {
+    if (!body->region.contains({beyond.x(), 0.0, beyond.y()})) continue;
+    end.fail(fmt::format(
+        "an exterior end is lengthened by {:g} segments, and '{}' is still there at ({:g}, {:g}) m; put the end a "
+        "quarter to half a cell inside the surface, or write {}: none",
+        kExteriorReach, body->name, beyond.x(), beyond.y(), key));
+  }
+}
+
 /// Refuses a contour that leaves the bodies, as far as a box around them shows.
 void check_room(const Value& end, const Vec2& tip, const std::vector<const BodyDefinition*>& bodies,
                 const Scene& scene) {
@@ -121,10 +138,11 @@ void check_crack_tips(const Value& value, const CrackDefinition& crack, const Sc
   const std::vector<const BodyDefinition*> bodies = cracked_bodies(crack, scene);
   if (bodies.empty()) value.fail("cracks.ignored_by names every body; leave one out");
   for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-    if (crack.ends[side] != CrackEnd::tip) continue;
     const char* key = side == 0 ? "start" : "end";
     const YAML::Node node = value.node()[key];
     const Value end = node ? value.child(node, key) : value;
+    if (crack.ends[side] == CrackEnd::exterior) check_exterior(end, key, crack, side, bodies);
+    if (crack.ends[side] != CrackEnd::tip) continue;
     if (crack.faces.law.kind == ContactLaw::Kind::interface) {
       end.fail(fmt::format("an interface has no J, for its faces carry load; write {}: none", key));
     }

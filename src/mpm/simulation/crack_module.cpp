@@ -144,6 +144,8 @@ std::vector<CrackTipReport> Simulation::crack_tips() const {
     report.speed = tip.speed;
     report.angle = tip.angle;
     report.growths = tip.growths;
+    report.has_j = !tip.looked || tip.status == ContourStatus::complete;
+    report.stopped = stage->tip_stopped(tip);
     reports.push_back(std::move(report));
   }
   return reports;

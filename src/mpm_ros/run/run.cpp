@@ -104,6 +104,7 @@ void Run::advance() {
     throw;
   }
   look_for_lost_bodies();
+  look_for_lost_tips();
   const auto now = std::chrono::steady_clock::now();
   wall_ += now - clock_;
   clock_ = now;
@@ -144,6 +145,28 @@ void Run::look_for_lost_bodies() {
           fmt::format("rigid body '{}' has left the grid at t = {:.6g} s: it is at ({:.3g}, {:.3g}, {:.3g}) m, where "
                       "nothing touches it; end the run before, or enlarge grid.min/grid.max and what it rests on",
                       body.name(), static_cast<double>(simulation_.time()) * 1e-9, at.x(), at.y(), at.z()));
+    }
+  }
+}
+
+// Each told once.
+void Run::look_for_lost_tips() {
+  if (!simulation_.definition().cracks.any()) return;
+  const std::vector<mpm::CrackTipReport> tips = simulation_.crack_tips();
+  told_of_tips_.resize(tips.size());
+  const double time = static_cast<double>(simulation_.time()) * 1e-9;
+  for (std::size_t t = 0; t < tips.size(); ++t) {
+    const mpm::CrackTipReport& tip = tips[t];
+    ToldOfTip& told = told_of_tips_[t];
+    const std::string which = fmt::format("crack '{}', {}: ", tip.crack, tip.end);
+    if (tip.stopped && !std::exchange(told.stopped, true)) {
+      warnings_.push_back(fmt::format("{}grows no more from t = {:.6g} s on, for {}", which, time, tip.growth));
+    }
+    if (!tip.stopped && !tip.has_j && !std::exchange(told.no_j, true)) {
+      warnings_.push_back(fmt::format(
+          "{}J cannot be found at t = {:.6g} s, for {}; what needs J does not grow until it is found again: "
+          "write a smaller cracks.contour: {{size}}, a finer grid, or cracks.list.{}.longest",
+          which, time, tip.state, tip.crack));
     }
   }
 }

@@ -98,19 +98,18 @@ struct Running {
   double place, asked;       // of the tip at the end, m
 };
 
-Running run_at(double rayleigh, const char* transfer, const std::vector<std::string>& further = {}) {
+Running run_at(double rayleigh, const char* transfer) {
   const double speed = 2946.75 * rayleigh;
-  std::vector<std::string> overrides = {fmt::format("materials.steel.fracture.speed={}", speed),
-                                        "materials.steel.fracture.start_time=336.4e-6",
-                                        fmt::format("method={}", transfer), "cracks.growth.criterion=steady_state"};
-  overrides.insert(overrides.end(), further.begin(), further.end());
+  std::vector<std::string> overrides = {
+      fmt::format("materials.steel.fracture.speed={}", speed), "materials.steel.fracture.start_time=336.4e-6",
+      fmt::format("method={}", transfer), "cracks.growth.criterion=steady_state", "time.sync=8.41 us"};  // every step
   mpm::Simulation simulation(mpm::build(mpm::parse_scene(kScene, "running_tip", overrides)), {1});
   Running running{0.0, 1e9, 0.0, 0.0, 0.0};
   double sum = 0.0, at_rest = 0.0;
   while (seconds(simulation) < 0.82e-3) {
     simulation.advance();
     const double t = seconds(simulation);
-    // Ten sync points, 168 us: the tip runs through 0.99 cells at 0.2 of the speed, through 1.98 at 0.4.
+    // 168 us: the tip runs through 0.99 cells at 0.2 of the speed, through 1.98 at 0.4, through 2.97 at 0.6.
     if (t < 0.6475e-3 || t > 0.8158e-3) continue;
     const double j = number(simulation, "crack 1 end j"), k = 2.0 * kLoad * std::sqrt(kHalf) * exact(t / arrival());
     const double still = k * k * (1.0 - kPoisson * kPoisson) / kYoung;
@@ -128,29 +127,31 @@ Running run_at(double rayleigh, const char* transfer, const std::vector<std::str
 TEST(CrackStepLoad, RunningTip) {
   Page page("crack", "crack_running_tip", "A crack that runs at a given speed");
   page.problem(
-          "The plate above; from t_c on the tip runs at 0.2 or 0.4 of the speed of Rayleigh waves, by half a cell at a "
-          "time. J is the mean while it runs through one or two whole cells, about 2.2 t_c.")
-      .exact("G = 0.729 and 0.502 of that of a tip at rest.",
+          "The plate above; from t_c on the tip runs at 0.2, 0.4 or 0.6 of the speed of Rayleigh waves, by half a cell "
+          "at a "
+          "time. J is the mean while it runs through one, two or three whole cells, about 2.2 t_c.")
+      .exact("G = 0.729, 0.502 and 0.305 of that of a tip at rest.",
              "Freund, Dynamic Fracture Mechanics (1990), sections 5.3 and 6.4")
       .meaning(
-          "Compare means: within a cell J rises from next to nothing to its largest value, since the tip of the grid "
-          "moves by whole cells. FMPM of order 2 keeps the waves that a running tip lives on; XPIC of order 2, which "
-          "scenes with growth get unasked, takes a part of them away, the more the faster the tip. At 0.6 of the speed "
-          "of Rayleigh waves G is 7 % low with FMPM of order 2 and 19 % high with order 4, which filters less; it "
-          "falls with smaller steps, of which each filters: to 0.27 and 0.25 of that at rest at cfl 0.25 and 0.125.");
+          "Compare means over whole cells, read in every step: within a cell J rises from next to nothing to its "
+          "largest "
+          "value, since the tip of the grid moves by whole cells. XPIC of order 2, which scenes with growth get "
+          "unasked, "
+          "damps the waves that each of these jumps sends; FMPM keeps them, and its mean is too high from 0.4 of the "
+          "speed of Rayleigh waves on. At 0.6 no setting is good: the mean depends on the transfer, and with FMPM of "
+          "order 2 it falls to 0.27 and 0.25 of that at rest at cfl 0.25 and 0.125. The cause is not known.");
   for (const auto& [rayleigh, exact_mean] : {std::pair{0.2, 0.729}, std::pair{0.4, 0.502}}) {
-    const Running kept = run_at(rayleigh, "{transfer: {fmpm: 2}}"), calm = run_at(rayleigh, "{transfer: {xpic: 2}}");
-    page.near(fmt::format("mean G at {}, fmpm 2, over that at rest", rayleigh), kept.mean, exact_mean, 0.03, "");
-    page.near(fmt::format("mean G at {}, xpic 2, over that at rest", rayleigh), calm.mean, exact_mean, 0.15, "");
-    page.report(fmt::format("least G at {}, fmpm 2, over that at rest", rayleigh), kept.least, "");
-    page.report(fmt::format("largest G at {}, fmpm 2, over that at rest", rayleigh), kept.most, "");
-    page.near_absolute(fmt::format("place of the tip at {}", rayleigh), kept.place, kept.asked, 0.06, "m");
+    const Running calm = run_at(rayleigh, "{transfer: {xpic: 2}}"), kept = run_at(rayleigh, "{transfer: {fmpm: 2}}");
+    page.near(fmt::format("mean G at {}, xpic 2, over that at rest", rayleigh), calm.mean, exact_mean, 0.03, "");
+    page.near(fmt::format("mean G at {}, fmpm 2, over that at rest", rayleigh), kept.mean, exact_mean, 0.15, "");
+    page.report(fmt::format("least G at {}, xpic 2, over that at rest", rayleigh), calm.least, "");
+    page.report(fmt::format("largest G at {}, xpic 2, over that at rest", rayleigh), calm.most, "");
+    page.near_absolute(fmt::format("place of the tip at {}", rayleigh), calm.place, calm.asked, 0.06, "m");
   }
-  // J is read in every step here: in every second one a saw of 3 teeth has 10 readings, and their mean is 0.22.
-  for (const int order : {2, 4}) {
-    const Running fast = run_at(0.6, fmt::format("{{transfer: {{fmpm: {}}}}}", order).c_str(), {"time.sync=8.41 us"});
-    page.report(fmt::format("mean G at 0.6, fmpm {}, over that at rest; exact 0.305", order), fast.mean, "");
-    page.near_absolute(fmt::format("place of the tip at 0.6, fmpm {}", order), fast.place, fast.asked, 0.06, "m");
+  for (const char* transfer : {"xpic: 2", "fmpm: 2", "fmpm: 4"}) {
+    const Running fast = run_at(0.6, fmt::format("{{transfer: {{{}}}}}", transfer).c_str());
+    page.report(fmt::format("mean G at 0.6, {}, over that at rest; exact 0.305", transfer), fast.mean, "");
+    page.near_absolute(fmt::format("place of the tip at 0.6, {}", transfer), fast.place, fast.asked, 0.06, "m");
   }
 }
 

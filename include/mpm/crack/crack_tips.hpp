@@ -5,7 +5,7 @@
 // the crack, other cracks. It is the J of growth straight on. A tip without J says why; it keeps the crack as it is.
 // Growth is decided by tip_growth.hpp and adds points to the chain, which the next step's fields see. It ends where the
 // tip meets a crack, its own or another, or comes within a quarter of a cell of it, where it leaves the material or the
-// grid, and where it comes so near to another tip that no contour goes between them.
+// grid, and, for want of J, so near to another tip that no contour goes between them.
 // Weak: J is taken in the middle of a step, with the stress between its start and its end. J of a body that has turned
 // far is taken along the tip's present direction.
 // Source: crack reference 4, 5; Nairn (2003), CMES 4(6), 649-663.

@@ -62,6 +62,7 @@ struct GrowthDecision {
   double speed = 0.0;              ///< that the criterion sets [m/s]; 0: it sets none
   double released = 0.0;           ///< by the balance of energy [J/m^2]; 0: not known
   bool alternate = false;          ///< by the second rule
+  bool lacks_j = false;            ///< it does not grow for want of J
   const char* reason = "";         ///< why it grows or does not, for reports
 };
 

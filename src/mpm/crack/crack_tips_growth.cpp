@@ -135,11 +135,6 @@ bool CrackTips::grow(CrackTip& tip, double time, double dt) {
     return made;
   }();
   if (rules.first.criterion == FractureCriterion::none) return false;
-  if (tip.status == ContourStatus::holds_other_tip) {
-    chain.set_end(tip.end, CrackEnd::none);
-    tip.why = describe(tip.status);
-    return true;
-  }
   TipState state;
   state.time = time;
   if (tip.status == ContourStatus::complete) state.j = tip.j;
@@ -155,6 +150,11 @@ bool CrackTips::grow(CrackTip& tip, double time, double dt) {
   const GrowthDecision decision = tip.growth.look(state, rules);
   tip.why = decision.reason;
   if (decision.released != 0.0) tip.energy_release = decision.released;
+  if (decision.lacks_j && tip.status == ContourStatus::holds_other_tip) {
+    chain.set_end(tip.end, CrackEnd::none);
+    tip.why = describe(tip.status);
+    return true;
+  }
   if (!decision.grows) {
     if (tip.running > 0.0 && time - tip.last_growth > 2.0 * settings_.length * cell / tip.running) tip.running = 0.0;
     return false;

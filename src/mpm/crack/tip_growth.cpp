@@ -122,8 +122,10 @@ GrowthDecision TipGrowth::look(const TipState& tip, const TipRules& rules) {
   decision.reason = first.reason;
   decision.speed = first.speed;
   decision.released = first.released;
+  decision.lacks_j = first.lacks_j;
   if (!first.grows && !first_has_grown_ && rules.alternate.criterion != FractureCriterion::none) {
     const GrowthDecision second = judge(rules.alternate, tip, rules);
+    decision.lacks_j = first.lacks_j && second.lacks_j;
     if (second.grows) {
       decision.grows = decision.alternate = true;
       decision.reason = second.reason;
@@ -153,6 +155,7 @@ GrowthDecision TipGrowth::judge(const GrowthRule& rule, const TipState& tip, con
     }
     if (!decision.grows) due_ = -kInfinity;  // what was missed while it rested is not made good
   } else if (rule.criterion != FractureCriterion::opening && !tip.j) {
+    decision.lacks_j = true;
     decision.reason = "J could not be found";
   } else {
     decision.grows = criterion_exceeded(rule.criterion, tip, rules);
@@ -169,6 +172,7 @@ void TipGrowth::judge_steady(const TipState& tip, const FractureConstants& const
   const bool by_time = constants.start_time >= 0.0;
   if (!started_) started_ = by_time ? tip.time >= constants.start_time : tip.j && *tip.j >= constants.j_ic;
   decision.grows = started_;
+  decision.lacks_j = !started_ && !by_time && !tip.j;
   decision.speed = started_ ? constants.speed : 0.0;
   decision.reason = started_ ? "steady growth" : (by_time ? "before the start of growth" : "J has not reached j_ic");
 }
@@ -179,6 +183,7 @@ void TipGrowth::judge_balance(const TipState& tip, const TipRules& rules, Growth
         fmt::format("criterion 'energy_balance' was asked without the energies of the body at t = {:g} s", tip.time));
   }
   if (!balance_.known() && !(tip.j && *tip.j >= rules.constants.j_ic)) {
+    decision.lacks_j = !tip.j;
     decision.reason = "J has not reached j_ic";
     return;
   }

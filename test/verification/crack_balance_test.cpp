@@ -47,14 +47,17 @@ double mean_release(const std::string& text, double end, const std::vector<std::
     if (now == release) continue;
     if (release != 0.0) {  // the first one began while the ends moved
       const std::size_t n = js.size();
-      EXPECT_GE(n, 4u);
+      if (n < 4) {
+        ADD_FAILURE() << "only " << n << " lengths";
+        return 0.0;
+      }
       sum += now / ((js[n - 3] + 4.0 * js[n - 2] + js[n - 1]) / 6.0);
       ++count;
     }
     release = now;
   }
   EXPECT_GE(count, 3);
-  return sum / count;
+  return count > 0 ? sum / count : 0.0;
 }
 
 // About 30 s.

@@ -329,10 +329,13 @@ TEST(CrackCohesive, SeamPartsAtTheMomentOfItsToughness) {
       if (simulation.state().number("debonded crack length 2") > 0.0) parted = seconds(simulation) / 1.5e-3;
     }
     EXPECT_GT(parted, 0.0) << name;
-    page.report("moment at which the seam begins to part over the critical one, " + name, parted, "");
-    if (first == 0.0) first = parted;
-    // Looks are 1.3 % of the load apart, at either law.
-    page.near("that moment over the one of the triangular law, " + name, parted / first, 1.0, 0.03, "");
+    // 12 to 15 % high, as the page says; looks are 1.3 % of the load apart.
+    page.near("moment at which the seam begins to part over the critical one, " + name, parted, 1.0, 0.17, "");
+    if (first == 0.0) {
+      first = parted;
+    } else {
+      page.near("that moment over the one of the triangular law, " + name, parted / first, 1.0, 0.03, "");
+    }
   }
 }
 

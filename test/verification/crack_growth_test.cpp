@@ -166,11 +166,12 @@ TEST(CrackGrowth, LeavesNoStressBehind) {
 }
 
 /// A strip 24 mm wide and 12 mm high whose cracks grow at 400 m/s from the start, whatever J is.
-mpm::Simulation running(const std::string& list) {
-  return made(
-      head(kCell, {-6e-3, -12.5e-3, 30e-3, 12.5e-3}, 6e-5, 1e-6, 6e4, ", fracture: {start_time: 0, speed: 400}") +
-      body(0.0, -kArm, 24e-3, kArm) + "cracks:\n  growth: {criterion: steady_state}\n  list:\n" + list);
+std::string strip(const std::string& list) {
+  return head(kCell, {-6e-3, -12.5e-3, 30e-3, 12.5e-3}, 6e-5, 1e-6, 6e4, ", fracture: {start_time: 0, speed: 400}") +
+         body(0.0, -kArm, 24e-3, kArm) + "cracks:\n  growth: {criterion: steady_state}\n  list:\n" + list;
 }
+
+mpm::Simulation running(const std::string& list) { return made(strip(list)); }
 
 // Two tips that run towards each other become one crack, on one line, where ways cross nothing, and a little aside.
 TEST(CrackGrowth, EndsWhereTwoTipsMeet) {
@@ -204,6 +205,35 @@ TEST(CrackGrowth, EndsWhereTheMaterialDoes) {
   EXPECT_GT(tip.place.x(), 24e-3 - 0.5 * kCell);
   EXPECT_LT(tip.place.x(), 25e-3 + 1e-6);
   EXPECT_FALSE(tip.has_j);
+}
+
+// The material that is named holds before growth: that of the strip grows from the start, this one never.
+TEST(CrackGrowth, IsByTheMaterialThatIsNamed) {
+  for (const bool named : {false, true}) {
+    std::string text =
+        strip(fmt::format("    - {{name: cut, points: [[0.0003, 0], [0.0061, 0]], start: exterior, end: {}}}\n",
+                          named ? "{tip: calm}" : "tip"));
+    text.insert(text.find("materials: [") + 12,
+                "{name: calm, law: linear_elastic, density: 1000, young: 2.5e9, poisson: 0.33, fracture: {start_time: "
+                "1, speed: "
+                "400}}, ");
+    mpm::Simulation run = made(text);
+    run_until(run, 1e-5);
+    const mpm::CrackTipReport tip = run.crack_tips().at(0);
+    EXPECT_EQ(tip.material, named ? "calm" : "polymer");
+    EXPECT_EQ(tip.growths > 0, !named);
+  }
+}
+
+// Growth by less than the distance at which a tip has met a crack does not meet what it has just grown.
+TEST(CrackGrowth, GoesOnBySmallLengths) {
+  mpm::Simulation run =
+      made(strip("    - {name: cut, points: [[0.0003, 0], [0.0061, 0]], start: exterior, end: tip}\n"
+                 "  length: 0.04\n  time_factor: 0.02\n"));
+  run_until(run, 2e-5);
+  const mpm::CrackTipReport tip = run.crack_tips().at(0);
+  EXPECT_FALSE(tip.stopped) << tip.growth;
+  EXPECT_GT(tip.growths, 20);
 }
 
 // A checkpoint between the step in which a crack grows and the next, which strains particles by what their new nodes

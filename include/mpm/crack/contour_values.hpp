@@ -55,7 +55,7 @@ struct ContourPiece {
   double length() const { return (to - from).norm(); }
 };
 
-/// Mean of (u_x,z - u_z,x) / 2 along the contour.
+/// Mean of (u_x,z - u_z,x) / 2 along the contour [1].
 double mean_rotation(const std::vector<ContourPiece>& pieces);
 
 /// Lists the pieces of a complete path counter-clockwise, from the face where the path leaves the crack to the face

@@ -6,8 +6,8 @@
 // start, each carried to the node by its gradient, or by positions. Whether they do is asked with the velocities of the
 // step's start and again with those of its end, so that faces which forces turn around in a step meet in that step.
 // Faces that a scene lets pass through each other have no contact. Weak: a face is smeared over two cells, as bodies
-// are; the four parts of a node are found with one normal a crack. Source: Nairn (2003), CMES 4(6), 649-663; GIMP
-// notes 3.2; crack reference 2.4 to 2.7.
+// are; the four parts of a node are found with one normal a crack; pairs found late in a step may know later strains
+// than the others. Source: Nairn (2003), CMES 4(6), 649-663; GIMP notes 3.2; crack reference 2.4 to 2.7.
 #pragma once
 
 #include <vector>

@@ -88,10 +88,11 @@ class CrackTips {
   void find_energies(double time);
   /// Finds J and K of all tips at a time [s]. Fields are those of a step in which momentum has been updated.
   void find(double time);
-  /// Lets tips grow that are due, after find(). Returns whether a chain has changed. @throws FractureError
-  bool grow(double time, double dt);
+  /// Lets tips grow that are due, after find(). @throws FractureError
+  void grow(double time, double dt);
   const std::vector<CrackTip>& tips() const { return tips_; }
-  /// Whether a tip grows no more: it has met a crack, or has left the material or the grid.
+  /// Whether a tip grows no more: it has met a crack, has left the material or the grid, or is, for want of J, too near
+  /// to another tip.
   bool stopped(const CrackTip& tip) const;
   /// Growth tells of its heat from now on; outlived by `heating`.
   void set_heating(TipHeating* heating) { heating_ = heating; }
@@ -118,7 +119,7 @@ class CrackTips {
     std::string stop;
   };
   Way find_way(const CrackTip& tip, const Vec2& direction) const;
-  bool grow(CrackTip& tip, double time, double dt);
+  void grow(CrackTip& tip, double time, double dt);
   void lengthen(CrackTip& tip, const TipState& state, const GrowthDecision& decision, const std::vector<Vec2>& points,
                 const GrowthRule& rule, double dt);
   /// Whether a node around a place carries material that the crack divides.

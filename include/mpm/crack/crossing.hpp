@@ -71,6 +71,9 @@ struct Meeting {
 /// the way, and returns their number. The rule is that of find_crossing().
 int find_meetings(const Vec2* line, int points, const Vec2& a, const Vec2& b, std::vector<Meeting>& found);
 
+/// Part of the way from `a` to `b` at which it is nearest to a place, from 0 to 1.
+double nearest_part(const Vec2& a, const Vec2& b, const Vec2& place);
+
 /// Where a way first comes near a line.
 struct LineApproach {
   bool found = false;

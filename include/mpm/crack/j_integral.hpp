@@ -37,7 +37,7 @@ struct JForm {
   Kind kind = Kind::planar;
   double tip_radius = 0.0;    ///< of bergkvist_huong [m]; at large strain that of the undeformed body
   bool large_strain = false;  ///< gradients are F - I, energies are by present volume
-  double rotation = 0.0;      ///< taken off (u_x,z - u_z,x) / 2 of what tractions and inertia work on
+  double rotation = 0.0;      ///< [1] taken off (u_x,z - u_z,x) / 2 of what tractions and inertia work on
   Vec2 low{0.0, 0.0};         ///< of bergkvist_huong: corners of a square where the form of Broberg holds [m]
   Vec2 high{0.0, 0.0};
 

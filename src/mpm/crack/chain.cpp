@@ -100,10 +100,8 @@ void Chain::update_line() {
 double Chain::distance(const Vec2& place) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (int k = 0; k + 1 < size(); ++k) {
-    const Vec2 segment = points_[k + 1].place - points_[k].place, arm = place - points_[k].place;
-    const double length2 = segment.squaredNorm();
-    const double part = length2 > 0.0 ? std::clamp(arm.dot(segment) / length2, 0.0, 1.0) : 0.0;
-    nearest = std::min(nearest, (arm - part * segment).norm());
+    const Vec2 &from = points_[k].place, &to = points_[k + 1].place;
+    nearest = std::min(nearest, (from + nearest_part(from, to, place) * (to - from) - place).norm());
   }
   return nearest;
 }

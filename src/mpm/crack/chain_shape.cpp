@@ -131,16 +131,17 @@ std::string line_fault(const std::vector<Vec2>& points, double cell) {
 bool lies_along(const std::vector<Vec2>& points, const std::vector<Vec2>& other, double cell) {
   const auto near = [&](const Vec2& point) {
     for (std::size_t k = 0; k + 1 < other.size(); ++k) {
-      const Vec2 way = other[k + 1] - other[k];
-      const double part = std::clamp((point - other[k]).dot(way) / way.squaredNorm(), 0.0, 1.0);
-      if ((other[k] + part * way - point).norm() < kAlong * cell) return true;
+      const double part = nearest_part(other[k], other[k + 1], point);
+      if ((other[k] + part * (other[k + 1] - other[k]) - point).norm() < kAlong * cell) return true;
     }
     return false;
   };
-  bool before = false;
-  for (const Vec2& point : points) {
-    const bool now = near(point);
-    if (before && now) return true;
+  double along = 0.0;  // of consecutive points that are near; a line that only crosses is near for twice kAlong
+  bool before = near(points.front());
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const bool now = near(points[k]);
+    along = before && now ? along + (points[k] - points[k - 1]).norm() : 0.0;
+    if (along > 4.0 * kAlong * cell) return true;
     before = now;
   }
   return false;

@@ -100,6 +100,7 @@ void CrackContact::look_again(double dt) {
       if (late_[p] == 0) state.touching = apart_[p] + dt * speed <= reach;
     }
   }
+  sides_->begin_step();  // strains may have changed since the first look
   look_at_wanted(late_, dt);
 }
 

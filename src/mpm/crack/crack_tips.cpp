@@ -100,7 +100,7 @@ void CrackTips::find_material(CrackTip& tip) {
   const std::string& named = cracks_[tip.crack].definition.tip_materials[tip.end];
   const bool kept = tip.material >= 0 && settings_.materials[tip.material].constants.keeps_tips;
   if (kept) return;
-  if (tip.material < 0 && !named.empty()) {
+  if (!named.empty() && tip.growths == 0) {
     for (std::size_t m = 0; m < settings_.materials.size(); ++m) {
       if (settings_.materials[m].name == named) tip.material = static_cast<int>(m);
     }
@@ -162,7 +162,7 @@ void CrackTips::find(CrackTip& tip) {
   split(tip);
 }
 
-// Around the tip and no other: ends of chains that are in the material and not on another crack. A crack that is too
+// Around the tip and no other: ends of chains that are not exterior and not on another crack. A crack that is too
 // short for that has one contour around both of its tips, and no J, until it has grown.
 void CrackTips::lay_path(const CrackTip& tip) {
   const std::vector<Vec2>& line = cracks_[tip.crack].chain.line();
@@ -205,7 +205,9 @@ bool CrackTips::divide_one_body(int crack, int other) const {
 bool CrackTips::lies_on_other_crack(int crack, const Vec2& place) const {
   const double near = kMet * parts_.fields.front()->layout.smallest_cell();
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
-    if (static_cast<int>(c) != crack && cracks_[c].felt && cracks_[c].chain.distance(place) <= near) return true;
+    const int other = static_cast<int>(c);
+    if (other == crack || !cracks_[c].felt || !divide_one_body(crack, other)) continue;
+    if (cracks_[c].chain.distance(place) <= near) return true;
   }
   return false;
 }

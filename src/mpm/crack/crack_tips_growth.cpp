@@ -13,6 +13,17 @@ namespace {
 constexpr double kBeyond = 0.25;       ///< of a cell, ahead of growth and beside it, where other cracks are seen
 constexpr double kLongestPart = 0.75;  ///< of a growth, which growth_points() divides above that [cells]
 
+/// Segments at an end of a line that are `length` long together.
+int segments_at_end(const std::vector<Vec2>& line, int end, double length) {
+  const int all = static_cast<int>(line.size()) - 1;
+  int count = 0;
+  for (double sum = 0.0; count < all && sum < length; ++count) {
+    const int k = end == 0 ? count : all - 1 - count;
+    sum += (line[k + 1] - line[k]).norm();
+  }
+  return count;
+}
+
 }  // namespace
 
 bool CrackTips::stopped(const CrackTip& tip) const { return cracks_[tip.crack].chain.end(tip.end) != CrackEnd::tip; }
@@ -40,13 +51,13 @@ void CrackTips::find_growing(std::vector<FacesOfGrowth>& faces) const {
   const double length = std::min(settings_.length, kLongestPart) * std::max(layout.cell(0), layout.cell(1));
   for (const CrackTip& tip : tips_) {
     if (!may_grow(tip)) continue;
-    GrowthRule first = settings_.growth, second = settings_.alternate;
+    const GrowthRule *first = &settings_.growth, *second = &settings_.alternate;
     if (tip.material >= 0) {
       const FractureConstants& constants = settings_.materials[tip.material].constants;
-      first = constants.growth.value_or(first);
-      second = constants.alternate.value_or(second);
+      if (constants.growth) first = &*constants.growth;
+      if (constants.alternate) second = &*constants.alternate;
     }
-    for (const GrowthRule* rule : {&first, &second}) {
+    for (const GrowthRule* rule : {first, second}) {
       const int law = rule->criterion == FractureCriterion::none ? -1 : tractions_.law_of(law_of_growth(tip, *rule));
       if (law >= 0) faces.push_back({tip.crack, tip.end, law, length});
     }
@@ -67,10 +78,8 @@ void CrackTips::find_energies(double time) {
   area_before_ = grown_area_;
 }
 
-bool CrackTips::grow(double time, double dt) {
-  bool grown = false;
-  for (CrackTip& tip : tips_) grown = grow(tip, time, dt) || grown;
-  return grown;
+void CrackTips::grow(double time, double dt) {
+  for (CrackTip& tip : tips_) grow(tip, time, dt);
 }
 
 bool CrackTips::has_material(int crack, const Vec2& place) const {
@@ -94,14 +103,14 @@ CrackTips::Way CrackTips::find_way(const CrackTip& tip, const Vec2& direction) c
   const Vec2 seen = way.points.back() + kBeyond * cell_along(direction, cells) * direction;
   double nearest = 2.0;  // of parts of the way
   for (std::size_t c = 0; c < cracks_.size(); ++c) {
-    if (!cracks_[c].felt) continue;
+    if (!cracks_[c].felt || !divide_one_body(tip.crack, static_cast<int>(c))) continue;
     const bool own = static_cast<int>(c) == tip.crack;
     const std::vector<Vec2>& line = cracks_[c].chain.line();
-    // Of its own chain, what lies behind the last segment.
-    const Vec2* from = line.data() + (own && tip.end == 0 ? 1 : 0);
-    const int points = static_cast<int>(line.size()) - (own ? 1 : 0);
-    if (points < 2) continue;
     const double cell = layout.smallest_cell();
+    const int left_out = own ? segments_at_end(line, tip.end, 2.0 * kBeyond * cell) : 0;
+    const Vec2* from = line.data() + (tip.end == 0 ? left_out : 0);
+    const int points = static_cast<int>(line.size()) - left_out;
+    if (points < 2) continue;
     const LineApproach met = find_approach(from, points, place, seen, kMet * cell, kBeyond * cell);
     if (!met.found || met.along >= nearest) continue;
     nearest = met.along;
@@ -120,10 +129,10 @@ CrackTips::Way CrackTips::find_way(const CrackTip& tip, const Vec2& direction) c
   return way;
 }
 
-bool CrackTips::grow(CrackTip& tip, double time, double dt) {
+void CrackTips::grow(CrackTip& tip, double time, double dt) {
   Crack& crack = cracks_[tip.crack];
   Chain& chain = crack.chain;
-  if (stopped(tip) || time < tip.next_look || tip.material < 0) return false;
+  if (stopped(tip) || time < tip.next_look || tip.material < 0) return;
   const FractureMaterial& material = settings_.materials[tip.material];
   const double cell = parts_.fields.front()->layout.smallest_cell();
   tip.next_look = time + look_interval(dt, settings_.time_factor, cell, material.wave_speed);
@@ -134,7 +143,7 @@ bool CrackTips::grow(CrackTip& tip, double time, double dt) {
     made.longest_open = crack.definition.longest_open;
     return made;
   }();
-  if (rules.first.criterion == FractureCriterion::none) return false;
+  if (rules.first.criterion == FractureCriterion::none) return;
   TipState state;
   state.time = time;
   if (tip.status == ContourStatus::complete) state.j = tip.j;
@@ -153,11 +162,11 @@ bool CrackTips::grow(CrackTip& tip, double time, double dt) {
   if (decision.lacks_j && tip.status == ContourStatus::holds_other_tip) {
     chain.set_end(tip.end, CrackEnd::none);
     tip.why = describe(tip.status);
-    return true;
+    return;
   }
   if (!decision.grows) {
     if (tip.running > 0.0 && time - tip.last_growth > 2.0 * settings_.length * cell / tip.running) tip.running = 0.0;
-    return false;
+    return;
   }
   const Way way = find_way(tip, decision.direction);
   if (!way.stop.empty()) tip.why = way.stop;
@@ -166,7 +175,6 @@ bool CrackTips::grow(CrackTip& tip, double time, double dt) {
     lengthen(tip, state, decision, way.points, rule, dt);
   }
   if (!way.stop.empty()) chain.set_end(tip.end, CrackEnd::none);
-  return true;
 }
 
 void CrackTips::lengthen(CrackTip& tip, const TipState& state, const GrowthDecision& decision,

@@ -5,15 +5,14 @@
 namespace mpm {
 namespace {
 
-/// Part of the way from `a` to `b` at which it is nearest to a place, from 0 to 1.
+Vec2 place_at(const Vec2& a, const Vec2& b, double part) { return a + part * (b - a); }
+
+}  // namespace
+
 double nearest_part(const Vec2& a, const Vec2& b, const Vec2& place) {
   const double length2 = (b - a).squaredNorm();
   return length2 > 0.0 ? std::clamp((place - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
 }
-
-Vec2 place_at(const Vec2& a, const Vec2& b, double part) { return a + part * (b - a); }
-
-}  // namespace
 
 int find_meetings(const Vec2* line, int points, const Vec2& a, const Vec2& b, std::vector<Meeting>& found) {
   found.clear();

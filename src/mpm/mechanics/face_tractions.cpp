@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 namespace mpm {
 
 FaceTractions::FaceTractions(const FaceSettings& settings, Fields& fields, const std::vector<ParticleSet>& sets,

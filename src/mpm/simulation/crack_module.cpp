@@ -1,9 +1,6 @@
 // The explicit cracks of a definition as modules.
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "mpm/crack/crack_stage.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/mechanics/continuum.hpp"

@@ -36,6 +36,7 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
     const mpm::SerialiseMore both = [&](mpm::StateArchive& archive) { serialise(archive, options.more); };
     from_ = mpm::load_checkpoint(options.resume, simulation_, scene.text, both).time;
     resumed_ = true;
+    for (const mpm::CrackTipReport& tip : simulation_.crack_tips()) told_of_tips_.push_back({!tip.has_j, tip.stopped});
   }
   // After it: a checkpoint that does not fit leaves no bag behind.
   if (!options.bag.empty()) recorder_ = std::make_unique<BagRecorder>(options.bag, options.bag_options);
@@ -164,9 +165,9 @@ void Run::look_for_lost_tips() {
     }
     if (!tip.stopped && !tip.has_j && !std::exchange(told.no_j, true)) {
       warnings_.push_back(fmt::format(
-          "{}J cannot be found at t = {:.6g} s, for {}; what needs J does not grow until it is found again: "
-          "write a smaller cracks.contour: {{size}}, a finer grid, or cracks.list.{}.longest",
-          which, time, tip.state, tip.crack));
+          "{}J cannot be found at t = {:.6g} s, for {}; a tip whose criterion needs J rests until it is found again: "
+          "write a smaller cracks.contour: {{size}} or a finer grid",
+          which, time, tip.state));
     }
   }
 }

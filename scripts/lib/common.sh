@@ -2,6 +2,7 @@
 # shellcheck shell=bash
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build="$root/build"
+build_mpi="$root/build_mpi"
 export PATH="/usr/bin:$PATH" # ROS belongs to the system's Python
 
 # configure FOLDER [cmake options]: runs cmake, quiet unless it fails. A configured folder keeps its generator, and whether

@@ -3,6 +3,7 @@
 //
 // Exit codes: 0 done (or stopped on request), 1 the machine failed (a full disk), 2 bad input, 3 the physics failed, or
 // a recording that was run again ended in another state.
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -11,10 +12,28 @@
 #include <new>
 
 #include "mpm/simulation/simulation.hpp"
+#include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 #include "mpm_ros/run/run_sweep.hpp"
 #include "mpm_ros/run/shared_cores.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
+
+namespace {
+
+/// Runs the scene on all ranks that the program was started as.
+int run(mpm_ros::RunSceneOptions options) {
+  options.ranks = mpm::make_ranks();
+  if (options.ranks && options.threads == 0) options.threads = mpm::threads_of_rank(*options.ranks);
+  try {
+    return static_cast<int>(
+        mpm_ros::run_scene(options, std::cout, std::cerr, isatty(STDERR_FILENO) != 0, mpm_ros::stop_requested));
+  } catch (const std::exception& error) {
+    if (!options.ranks) throw;
+    return mpm::end_all(*options.ranks, fmt::format("rank {}: run_scene: {}", options.ranks->rank(), error.what()), 1);
+  }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   mpm_ros::spin_only_briefly(argv);
@@ -89,11 +108,11 @@ int main(int argc, char** argv) {
           mpm_ros::run_sweep(sweep, std::cout, std::cerr, isatty(STDERR_FILENO) != 0, mpm_ros::stop_requested));
     }
     if (explain) {
+      mpm::refuse_ranks("--explain");
       mpm_ros::explain_scene(options, std::cout);
       return 0;
     }
-    return static_cast<int>(
-        mpm_ros::run_scene(options, std::cout, std::cerr, isatty(STDERR_FILENO) != 0, mpm_ros::stop_requested));
+    return run(options);
   } catch (const mpm::StoppedError& error) {
     std::cerr << error.what() << "\n";
     return 0;

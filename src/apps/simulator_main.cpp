@@ -7,10 +7,12 @@
 #include <ros/master.h>
 
 #include <chrono>
+#include <iostream>
 #include <memory>
 #include <new>
 #include <thread>
 
+#include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/node/exit_watchdog.hpp"
 #include "mpm_ros/node/master.hpp"
 #include "mpm_ros/node/parameter_sources.hpp"
@@ -62,6 +64,12 @@ int run(const mpm_ros::ParameterSources& sources, mpm_ros::ExitWatchdog& watchdo
 }  // namespace
 
 int main(int argc, char** argv) {
+  try {
+    mpm::refuse_ranks("the node");
+  } catch (const mpm::Error& error) {
+    std::cerr << "simulator: " << error.what() << "\n";
+    return 2;
+  }
   mpm_ros::spin_only_briefly(argv);
   const mpm_ros::ParameterSources sources(argc, argv);
   mpm_ros::catch_stop_signals();

@@ -8,6 +8,7 @@
 
 #include "mpm/study/tool_force/run.hpp"
 #include "mpm/study/work_precision.hpp"
+#include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/report/report_plots.hpp"
 
 int main(int argc, char** argv) {
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
+    mpm::refuse_ranks("a study");
     const auto tell = [](const std::string& line) { std::cout << line << std::endl; };
     if (options.suites == std::vector<std::string>{"tool_force"}) {
       force.full = options.full;

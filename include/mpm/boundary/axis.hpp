@@ -32,7 +32,7 @@ class Axis final : public FieldStage {
                                            int particle) const override;
   void serialise(StateArchive& archive) override {
     account_.serialise(archive);
-    archive.value("given", given_);
+    archive.sum("given", given_);
   }
 
  private:

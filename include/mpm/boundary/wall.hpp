@@ -49,11 +49,12 @@ class Wall final : public FieldStage {
     }
     report.add("wall_loss", NamedEnergy::Kind::dissipated, loss_.held);
   }
+  void share_memory(Communicator& ranks) override { held_.share(ranks); }
   void serialise(StateArchive& archive) override {
     account_.serialise(archive);
-    archive.value("given", given_);
-    archive.value("friction_energy", loss_.friction);
-    archive.value("held_energy", loss_.held);
+    archive.sum("given", given_);
+    archive.sum("friction_energy", loss_.friction);
+    archive.sum("held_energy", loss_.held);
     held_.serialise(archive);
   }
 
@@ -61,7 +62,8 @@ class Wall final : public FieldStage {
   struct Node {
     NodeRef ref;
     std::uint64_t id;
-    Hold hold;  ///< in the step before, then in this one
+    Hold hold;    ///< in the step before, then in this one
+    bool counts;  ///< to sums, which over several ranks it does on one
     // Of a wall that always holds, along the grid's axes:
     Vec3 removed = Vec3::Zero();  ///< velocity for strain at the start of the step; 0 after another wall [m/s]
     Vec3 at_end = Vec3::Zero();   ///< factor of c1 in what it takes [N s]
@@ -90,8 +92,10 @@ class Wall final : public FieldStage {
   /// Visits the nodes with material on several threads, and books the sums.
   template <class Visit>
   void each_node(Visit&& visit) {
-    const Deeds all =
-        deeds_.over(carrying_.size(), threads_, [&](std::size_t i, Deeds& deeds) { visit(carrying_[i], deeds); });
+    const Deeds all = deeds_.over(carrying_.size(), threads_, [&](std::size_t i, Deeds& deeds) {
+      Deeds of_other_rank;
+      visit(carrying_[i], nodes_[carrying_[i]].counts ? deeds : of_other_rank);
+    });
     given_ += all.given;
     loss_ += all.loss;
   }

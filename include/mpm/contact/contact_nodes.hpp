@@ -11,6 +11,7 @@
 #include "mpm/contact/node_contact.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/math/state_archive.hpp"
+#include "mpm/ranks/communicator.hpp"
 #include "mpm/step/step_context.hpp"
 
 namespace mpm {
@@ -65,6 +66,8 @@ class ContactNodes {
   void update(double dt);
   /// XPIC and FMPM: of Grid::increment.
   void filter(double dt);
+  /// Module::share_memory
+  void share_memory(Communicator& ranks);
   void serialise(StateArchive& archive);
 
  private:
@@ -92,6 +95,8 @@ class ContactNodes {
   void hold_nodes(Pass pass, double dt, FieldOf&& velocity);
   void update_node(Block& block, const Node& node, double dt, Scratch& scratch);
   void keep_held();
+  /// Of held_, without what is there twice.
+  void put_in_order();
 
   Fields& fields_;
   int threads_;

@@ -44,7 +44,8 @@ struct MaterialContactSettings {
   double cell_volume =
       0.0;  ///< to which minimum volumes are relative [m^3]; about an axis the area of a cell's section
   int threads = 1;
-  HeatSink* heat = nullptr;  ///< what is told of friction and touch, if there is heat
+  HeatSink* heat = nullptr;       ///< what is told of friction and touch, if there is heat
+  Communicator* ranks = nullptr;  ///< where the run is over several
   const ToolSides* sides =
       nullptr;  ///< sides of thin tools, which may lie between two bodies at a node; null without such tools
 };
@@ -65,6 +66,7 @@ class MaterialContact final : public Stage, public ContactReporter {
   void increment_found(StepContext& context) override;
   void grid_advanced(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override;
+  void share_memory(Communicator& ranks) override { nodes_.share_memory(ranks); }
   void serialise(StateArchive& archive) override;
 
   void energies(EnergyReport& report) const override;
@@ -91,6 +93,8 @@ class MaterialContact final : public Stage, public ContactReporter {
     double time = 0.0;  ///< of its last call [s]
     std::vector<Sums> seen;
   };
+  /// What has been added to sums since `seen`, with area, interface energy and nodes of the last step; over all ranks.
+  Sums since(const Sums& seen, std::size_t pair) const;
   static void serialise_sums(StateArchive& archive, std::vector<Sums>& sums);
 
   /// The pair whose law holds between two fields (-1: none), and whether the first field belongs to its second body.
@@ -103,11 +107,14 @@ class MaterialContact final : public Stage, public ContactReporter {
   Rule rule(int a, int b) const { return rules_[a * static_cast<int>(fields_.size()) + b]; }
 
   // Finding the nodes (material_nodes.cpp).
+  void find_surveyed();
   void find_nodes(const SharedBlock& block, double dt, BlockNodes& found) const;
   /// Makes one group of the fields that share one velocity. Returns the number of groups.
   int group(Member* members, int count) const;
   NodeMaterial material_at(const Member& member, const Vec3& position) const;
   void add_pairs(Node& node, const std::array<bool, 3>& mirrored, double dt, BlockNodes& found) const;
+  /// Whether the block's nodes count to sums here.
+  bool counts(const BlockNodes& block) const;
   void book(const BlockNodes& block, bool updated, double dt);
   void tell_of_heat(const BlockNodes& block, const Node& node, const NodePair& pair, double dt);
 
@@ -119,7 +126,8 @@ class MaterialContact final : public Stage, public ContactReporter {
   std::vector<NodalVolumes> volumes_;
   std::vector<FrictionLaw> friction_;  ///< of each pair, in this step
   SharedBlocks shared_;
-  ContactNodes nodes_;  ///< a block of each shared block
+  std::vector<double> surveyed_;  ///< of each field, 1 where a block of it is shared, else 0
+  ContactNodes nodes_;            ///< a block of each shared block
   bool started_ = false;
   std::vector<Sums> last_, total_;  ///< of each pair, in the last step and since the start
   std::vector<Reader> readers_;

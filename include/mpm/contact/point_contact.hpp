@@ -65,10 +65,11 @@ struct PointContactSettings {
   ShapeKind shape = ShapeKind::ugimp;
   double across = 1.0;  ///< thickness [m] of a plane, area [m^2] of a line
   int threads = 1;
-  Vec3 gravity = Vec3::Zero();  ///< acts on free bodies [m/s^2]
-  bool with_pairs = false;      ///< whether deformable bodies have laws with each other
-  HeatSink* heat = nullptr;     ///< what is told of friction and touch, if there is heat
-  bool sharp_edges = true;      ///< whether points see that faces end (contact/edge_cover.hpp)
+  Vec3 gravity = Vec3::Zero();    ///< acts on free bodies [m/s^2]
+  bool with_pairs = false;        ///< whether deformable bodies have laws with each other
+  HeatSink* heat = nullptr;       ///< what is told of friction and touch, if there is heat
+  bool sharp_edges = true;        ///< whether points see that faces end (contact/edge_cover.hpp)
+  Communicator* ranks = nullptr;  ///< where the run is over several
 };
 
 class PointContact final : public Stage, public ContactReporter {
@@ -79,6 +80,7 @@ class PointContact final : public Stage, public ContactReporter {
 
   std::string name() const override { return "point_contact"; }
   Ranks ranks(Hook) const override { return {Rank::rigid_body}; }
+  bool same_on_all_ranks() const override { return true; }
 
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;

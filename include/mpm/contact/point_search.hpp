@@ -14,6 +14,7 @@
 #include "mpm/grid/fields.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/ranks/communicator.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 
 namespace mpm {
@@ -21,12 +22,20 @@ namespace mpm {
 class PointSearch {
  public:
   /// Bodies, sets and fields must outlive this object. `across`: thickness [m] of a plane, area [m^2] of a line.
+  /// `ranks`: where the run is over several, else null.
   PointSearch(const std::vector<const RigidBody*>& bodies, const std::vector<ParticleSet>& sets, const Fields& fields,
-              GeometryKind geometry, double across, int threads)
-      : bodies_(bodies), sets_(sets), fields_(fields), geometry_(geometry), across_(across), threads_(threads) {}
+              GeometryKind geometry, double across, int threads, Communicator* ranks = nullptr)
+      : bodies_(bodies),
+        sets_(sets),
+        fields_(fields),
+        geometry_(geometry),
+        across_(across),
+        threads_(threads),
+        ranks_(ranks) {}
 
   /// Points that are near a body, or come near to it within `dt` [s]. The law of a body against a set is the one at
   /// (place of the body) * (number of sets) + (place of the set). The order does not depend on the number of threads.
+  /// Over several ranks they are those of all, on each of them.
   const std::vector<ContactPoint>& find(double dt);
 
  private:
@@ -40,6 +49,8 @@ class PointSearch {
   /// `farthest`: the largest reach of a particle from its centre [m].
   template <class Geometry>
   void search(const Job& job, double dt, double farthest, std::vector<ContactPoint>& found) const;
+  /// Takes the points that other ranks have found, too.
+  void gather();
   /// Whether the surface may be at most `band` from one of the particles [begin, end) of a set.
   bool near(const RigidBody& body, const ParticleSet& set, int begin, int end, double band) const;
 
@@ -49,6 +60,7 @@ class PointSearch {
   GeometryKind geometry_;
   double across_;
   int threads_;
+  Communicator* ranks_;
   std::vector<Job> jobs_;
   std::vector<std::vector<ContactPoint>> of_job_;
   std::vector<ContactPoint> points_;

@@ -50,6 +50,7 @@ class RigidContact final : public Stage, public ContactReporter {
 
   std::string name() const override { return ledger_.account().name; }
   Ranks ranks(Hook) const override { return {Rank::rigid_body}; }
+  bool same_on_all_ranks() const override { return true; }
 
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override;

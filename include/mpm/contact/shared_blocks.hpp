@@ -20,10 +20,11 @@ struct SharedBlock {
 
 class SharedBlocks {
  public:
-  /// Looks again if a field's blocks have changed. `meet(a, b)`: whether fields a < b act on each other.
+  /// Looks again if a field's blocks have changed; returns whether it did. `meet(a, b)`: whether fields a < b act on
+  /// each other.
   template <class Meet>
-  void update(const Fields& fields, Meet&& meet) {
-    if (!changed(fields)) return;
+  bool update(const Fields& fields, Meet&& meet) {
+    if (!changed(fields)) return false;
     std::vector<std::size_t> next(fields.size(), 0);
     list_.clear();
     for (;;) {
@@ -43,6 +44,7 @@ class SharedBlocks {
       if (any_meet(block, meet)) list_.push_back(std::move(block));
     }
     mark(fields);
+    return true;
   }
 
   /// In ascending order of key.

@@ -22,6 +22,10 @@ class BlockTable {
   /// `owner_keys`: ascending and unique. Takes time linear in the number of blocks in use.
   void rebuild(const std::vector<std::uint64_t>& owner_keys, int threads = 1);
 
+  /// Takes more blocks into use, without owners: keys ascending and unique, none of them in use yet. Indices of blocks
+  /// change; the generation does not.
+  void admit(const std::vector<std::uint64_t>& keys);
+
   /// Gives every owner 3^dim blocks that it shares with no other (grid/node_choice.hpp). Keys may be there more than
   /// once, in any order; find() is not to be used.
   void rebuild_apart(const std::vector<std::uint64_t>& owner_keys);

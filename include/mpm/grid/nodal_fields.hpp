@@ -17,6 +17,7 @@ class NodalField {
   NodalField(int components, int nodes_per_block) : components_(components), nodes_(nodes_per_block) {}
 
   int components() const { return components_; }
+  int nodes_per_block() const { return nodes_; }
   /// Does not preserve the contents. When there is too little room it allocates a few blocks more than needed, since
   /// moving material takes new blocks a few at a time.
   void resize(int blocks) {
@@ -27,6 +28,7 @@ class NodalField {
     }
     data_.resize(size);
   }
+  std::size_t size() const { return data_.size(); }
   double* data() { return data_.data(); }
   double* block(int b) { return data_.data() + static_cast<std::size_t>(b) * components_ * nodes_; }
   const double* block(int b) const { return data_.data() + static_cast<std::size_t>(b) * components_ * nodes_; }
@@ -60,7 +62,17 @@ struct Grid {
     shares.rebuild(blocks, particles, threads);
     for (NodalField* field : {&mass, &momentum, &velocity, &force}) field->resize(blocks.size());
     loose.assign(blocks.owners(), 0);
+    elsewhere.clear();
   }
+
+  /// Adds blocks that other ranks give to (ranks/halo.hpp), ascending and unique, after rebuild().
+  void admit(const std::vector<std::uint64_t>& guests) {
+    blocks.admit(guests);
+    for (NodalField* field : {&mass, &momentum, &velocity, &force}) field->resize(blocks.size());
+  }
+
+  /// Whether sums over nodes count those of this block here: over several ranks each node counts on one of them.
+  bool counts(int block) const { return elsewhere.empty() || elsewhere[block] == 0; }
 
   /// Whether the node takes part in the step. Nodes lighter than least_mass are left out: a particle that reaches a
   /// node with 1e-30 of its mass reaches it with 1e-15 of its force, the order of the last bit.
@@ -87,6 +99,8 @@ struct Grid {
   int first_owner = 0;  ///< number of its first owner among the owners of all fields
   /// Per owner: whether some of its particles have moved beyond the block since they were sorted.
   std::vector<std::uint8_t> loose;
+  /// Per block: whether it counts on another rank; empty where there is none.
+  std::vector<std::uint8_t> elsewhere;
   NodalField mass;       ///< m_i [kg]
   NodalField momentum;   ///< p_i as gathered, before conditions; valid until XPIC or the next gathering uses it [N s]
   NodalField velocity;   ///< with conditions: v_i^n while strain is updated, then v_i^{n+1} [m/s]

@@ -8,6 +8,10 @@
 //     archive.column("held/node", held_, &Held::node);
 //   }
 //
+// A run over several ranks (ranks/communicator.hpp) stores what each of them has. When it goes on with as many, each
+// reads its own; with another number of them, Merge says what becomes of it: what is the same on all is a value, parts
+// of a sum are stored by sum() and sum_column(), and lists are joined.
+//
 // Numbers are stored to the last bit. A derived class decides where they go (simulation/hdf5_archive.hpp). Weak:
 // reading trusts the names; a class that stores other numbers than before needs a new version of the file.
 #pragma once
@@ -27,6 +31,13 @@ namespace mpm {
 class StateArchive {
  public:
   enum class Number : std::uint8_t { float32, float64, int32, int64, uint8, uint32, uint64 };
+  /// What becomes of the numbers of several ranks where another number of ranks reads them.
+  enum class Merge : std::uint8_t {
+    same,   ///< all ranks have the same
+    part,   ///< parts of sums: the first rank gets the sums, the others 0
+    join,   ///< all get all, one after another
+    count,  ///< of what is joined: all get the sum
+  };
 
   StateArchive() = default;
   StateArchive(const StateArchive&) = delete;
@@ -35,6 +46,8 @@ class StateArchive {
 
   /// True while values are read from the archive, false while they are written to it.
   virtual bool reading() const = 0;
+  /// True while what other ranks have written is merged: what says where numbers lie does not hold then.
+  virtual bool merging() const { return false; }
 
   /// While a Group exists, all names are prefixed with "name/".
   class Group {
@@ -51,12 +64,33 @@ class StateArchive {
     std::size_t length_;
   };
 
+  /// While a Same exists, all that is serialised is the same on all ranks.
+  class Same {
+   public:
+    explicit Same(StateArchive& archive, bool same = true) : archive_(archive), before_(archive.same_) {
+      archive.same_ = before_ || same;
+    }
+    Same(const Same&) = delete;
+    Same& operator=(const Same&) = delete;
+    ~Same() { archive_.same_ = before_; }
+
+   private:
+    StateArchive& archive_;
+    bool before_;
+  };
+
   /// Serialises a number, bool, enumeration, vector or quaternion.
   template <class T>
   void value(const std::string& name, T& value) {
-    column_of(name, 1, [&value](std::size_t) -> T& { return value; });
+    column_of(name, 1, Merge::same, [&value](std::size_t) -> T& { return value; });
+  }
+  /// The same of a sum, of which every rank has a part.
+  template <class T>
+  void sum(const std::string& name, T& value) {
+    column_of(name, 1, Merge::part, [&value](std::size_t) -> T& { return value; });
   }
   void value(const std::string& name, std::string& text) {
+    merge_ = Merge::same;
     if (reading()) text.resize(stored(prefix_ + name));
     values(prefix_ + name, Number::uint8, text.data(), text.size());
   }
@@ -65,6 +99,7 @@ class StateArchive {
   template <class List>
   void list(const std::string& name, List& list) {
     using Value = typename List::value_type;
+    merge_ = Merge::join;
     if (reading()) {
       const std::size_t size = stored(prefix_ + name) / Packed<Value>::kCount;
       if (list.size() != size) list.resize(size);
@@ -72,21 +107,28 @@ class StateArchive {
     if constexpr (std::is_arithmetic_v<Value>) {
       values(prefix_ + name, number<Value>(), list.data(), list.size());
     } else {
-      column_of(name, list.size(), [&list](std::size_t i) -> Value& { return list[i]; });
+      column_of(name, list.size(), Merge::join, [&list](std::size_t i) -> Value& { return list[i]; });
     }
   }
   /// Serialises the number of entries of a list of structures; reading resizes the list to it.
   template <class List>
   void rows(const std::string& name, List& list) {
     std::uint64_t size = list.size();
-    value(name + "/rows", size);
+    column_of(name + "/rows", 1, Merge::count, [&size](std::size_t) -> std::uint64_t& { return size; });
     if (reading()) list.resize(size);
   }
   /// Serialises one member of every entry of a list; `member` is a pointer to it or a function that returns a reference
   /// to it.
   template <class List, class Member>
   void column(const std::string& name, List& list, Member member) {
-    column_of(name, list.size(), [&](std::size_t i) -> decltype(auto) { return std::invoke(member, list[i]); });
+    column_of(name, list.size(), Merge::join,
+              [&](std::size_t i) -> decltype(auto) { return std::invoke(member, list[i]); });
+  }
+  /// The same of sums, of which every rank has parts, in lists of one length.
+  template <class List, class Member>
+  void sum_column(const std::string& name, List& list, Member member) {
+    column_of(name, list.size(), Merge::part,
+              [&](std::size_t i) -> decltype(auto) { return std::invoke(member, list[i]); });
   }
   /// Serialises the generation (BlockTable::generation()) at which something was found, as the number of sorts since
   /// then.
@@ -103,6 +145,8 @@ class StateArchive {
   virtual void values(const std::string& name, Number number, void* data, std::size_t count) = 0;
   /// When reading: how many numbers are stored under that name. @throws Error of the derived class
   virtual std::size_t stored(const std::string& name) = 0;
+  /// Of the numbers in question in values() and stored().
+  Merge merge() const { return same_ ? Merge::same : merge_; }
 
  private:
   /// How a value is stored: as kCount numbers of type Scalar.
@@ -154,7 +198,8 @@ class StateArchive {
   }
 
   template <class At>
-  void column_of(const std::string& name, std::size_t size, At&& at) {
+  void column_of(const std::string& name, std::size_t size, Merge merge, At&& at) {
+    merge_ = merge;
     using Pack = Packed<std::decay_t<decltype(at(0))>>;
     using Scalar = typename Pack::Scalar;
     static_assert(sizeof(Scalar) == 1 || sizeof(Scalar) == 4 || sizeof(Scalar) == 8);
@@ -169,6 +214,8 @@ class StateArchive {
 
   std::string prefix_;
   std::uint64_t generation_ = 0;
+  Merge merge_ = Merge::same;
+  bool same_ = false;
 };
 
 }  // namespace mpm

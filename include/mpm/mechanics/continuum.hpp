@@ -11,6 +11,7 @@
 #include "mpm/material/law.hpp"
 #include "mpm/mechanics/damping.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/ranks/halo.hpp"
 #include "mpm/shape/axis_rules.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/step/mechanics.hpp"
@@ -28,6 +29,7 @@ struct ContinuumSettings {
   int threads = 1;
   DampingControl* damping = nullptr;  ///< of a scene that has any; outlives the mechanics
   NodeChoice* choice = nullptr;       ///< where particles choose a field at every node; outlives the mechanics
+  Halo* halo = nullptr;               ///< where other ranks give to the same nodes; outlives the mechanics
 };
 
 /// `kernels`: of the sets' precision, T double or float. `laws`: of each set; `fields`, sets and laws outlive the

@@ -59,7 +59,7 @@ class FaceTractions : public Stage {
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void energies(EnergyReport& report) const override { report.add("load_work", NamedEnergy::Kind::work, work_); }
   void serialise(StateArchive& archive) override {
-    archive.value("work", work_);
+    archive.sum("work", work_);
     account_.serialise(archive);
   }
   /// Work on the material since the start [J]: nodal load times the displacement of its node in the step.
@@ -77,6 +77,8 @@ class FaceTractions : public Stage {
   Vec3 value_at(const TractionTerm& term, const FaceParts& parts, int p, const StepContext& context) const;
   /// A force on the nodes of the cell that a place is in, in the particle's field.
   void spread(int set, int p, const PlacedDomain::Vector& at, const Vec3& force);
+  /// Adds the loads of a field on all ranks to its forces.
+  void add_over_ranks(int field);
 
   Fields& fields_;
   const std::vector<ParticleSet>& sets_;
@@ -87,6 +89,8 @@ class FaceTractions : public Stage {
   std::uint64_t generation_ = 0;          ///< of the blocks that places_ were found with
   bool any_chooses_ = false;              ///< some particle chooses its fields, and changes its place in every step
   std::vector<NodalLoad> loads_;          ///< of this step
+  Halo* halo_;
+  NodalField nodal_;  ///< of a field's loads, where there is a halo [N]
   ImpulseAccount account_;
   double work_ = 0.0;
 };

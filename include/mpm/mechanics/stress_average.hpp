@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "mpm/math/geometry_kind.hpp"
+#include "mpm/ranks/halo.hpp"
 #include "mpm/step/stage.hpp"
 
 namespace mpm {
@@ -42,8 +43,9 @@ struct AveragedSet {
 
 class StressAverage final : public Stage {
  public:
-  /// The sets outlive the stage, and are not sorted yet: each gets a number more for its particles.
-  StressAverage(std::vector<AveragedSet> sets, GeometryKind geometry, int threads);
+  /// The sets outlive the stage, and are not sorted yet: each gets a number more for its particles. `halo`: where
+  /// other ranks have particles in the same cells, else null.
+  StressAverage(std::vector<AveragedSet> sets, GeometryKind geometry, int threads, Halo* halo = nullptr);
 
   std::string name() const override { return "stress_average"; }
   Ranks ranks(Hook) const override { return {Rank::particle_stress}; }
@@ -52,7 +54,7 @@ class StressAverage final : public Stage {
   /// "stress averaging", dissipated.
   void energies(EnergyReport& report) const override;
   void serialise(StateArchive& archive) override {
-    archive.value("taken", taken_);
+    archive.sum("taken", taken_);
     archive.value("begun", begun_);
   }
 
@@ -84,7 +86,8 @@ class StressAverage final : public Stage {
   template <class Geometry, class T>
   double share(std::size_t set, double* before, const Grid& grid, int owner, Cells& cells);
   template <class Geometry>
-  void average(const Grid& grid, Cells& cells);
+  void average(const Grid& grid, int field, Cells& cells);
+  void exchange(const Grid& grid, int field, Cells& cells);
   /// The cell with this number along each axis, from -1, counted from the first of an owner's block.
   static Cell& cell_at(const Grid& grid, int owner, const std::array<int, 3>& cell, const int* of_block, Cells& cells);
 
@@ -92,6 +95,7 @@ class StressAverage final : public Stage {
   std::vector<std::size_t> places_;  ///< of each set, the number that it was given
   GeometryKind geometry_;
   int threads_;
+  Halo* halo_;
   std::vector<Cells> cells_;      ///< of each field
   std::uint32_t step_ = 0;        ///< counts, so that what an earlier step left in a cell is known as that
   std::vector<double> of_owner_;  ///< energy that the particles of a block lose in this step [J]

@@ -84,6 +84,15 @@ struct ParticleSet {
     for (int p = 1; p < size() && !masses.empty(); ++p) least = std::min(least, mass_of(p));
     return least;
   }
+  /// Makes as much room as there are particles for what a step writes before it reads it.
+  void fit_scratch() {
+    for (PaddedArray<double>& scalar : next_x) {
+      if (scalar.size() != id.size()) scalar = PaddedArray<double>(id.size());
+    }
+    for (ParticleScalar& scalar : domain) {
+      if (scalar.size() != id.size()) scalar = ParticleScalar(precision, id.size());
+    }
+  }
   /// Gives the particles a number of this name, 0 to begin with. Sorting carries it, checkpoints hold it, and it is a
   /// particle field. Returns its place in `brought`.
   std::size_t bring(const std::string& number_name, const std::string& unit) {

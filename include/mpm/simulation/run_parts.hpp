@@ -12,6 +12,7 @@
 #include "mpm/grid/node_choice.hpp"
 #include "mpm/kernel/isa.hpp"
 #include "mpm/material/law.hpp"
+#include "mpm/ranks/halo.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/simulation/definition.hpp"
 #include "mpm/step/block_probe.hpp"
@@ -40,6 +41,8 @@ struct RunParts {
   const std::vector<Law>& laws;    ///< one for each set
   std::vector<RigidBody>& bodies;  ///< one for each rigid body of the definition
   NodeChoice* choice;              ///< of particles near cracks; null without cracks
+  Communicator* ranks;             ///< where the run is over several; else null, and `halo` too
+  Halo* halo;
   int threads;
   Isa isa;
   Modules& modules;  ///< modules are added here

@@ -17,6 +17,7 @@
 #include "mpm/kernel/isa.hpp"
 #include "mpm/math/error.hpp"
 #include "mpm/math/state_archive.hpp"
+#include "mpm/ranks/communicator.hpp"
 #include "mpm/simulation/definition.hpp"
 #include "mpm/simulation/particle_choice.hpp"
 #include "mpm/simulation/report.hpp"
@@ -62,6 +63,9 @@ struct SimulationOptions {
   std::vector<AddModules> modules = {};  ///< added after the shipped ones
   std::function<bool()> stop = {};       ///< asked after every step; true: the step was the last, see StoppedError
   std::function<void(const Settling&)> settling = {};  ///< told after every step of settling
+  /// The ranks that compute the run together; null: this process alone. Then every function of the simulation whose
+  /// result depends on particles is collective, and particle fields are given to the first rank alone.
+  std::shared_ptr<Communicator> ranks = {};
 };
 
 class Simulation {
@@ -80,6 +84,10 @@ class Simulation {
 
   const SimulationDefinition& definition() const;  ///< particle positions left out
   int threads() const;
+  /// Over several ranks, else null.
+  Communicator* ranks() const;
+  /// Whether it holds on any rank.
+  bool on_any_rank(bool own) const;
   std::string isa() const;                    ///< instruction set of the kernels
   std::vector<std::string> warnings() const;  ///< one line each, found when the run was put together
   std::vector<std::string> notes() const;     ///< one line each, on choices made when the run was put together

@@ -17,6 +17,7 @@
 
 #include "mpm/math/geometry.hpp"
 #include "mpm/math/state_archive.hpp"
+#include "mpm/ranks/lists.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 
 namespace mpm {
@@ -66,10 +67,16 @@ class HeldNodes {
   void reserve(std::size_t nodes) { held_.reserve(nodes); }
   /// Nodes have to be added in ascending order of id.
   void add(std::uint64_t id, Hold hold) { held_.push_back({id, hold}); }
+  /// Of all ranks, each of which knows some.
+  void share(Communicator& ranks) {
+    held_ = gather_list(ranks, held_);
+    put_in_order();
+  }
   void serialise(StateArchive& archive) {
     archive.rows("held", held_);
     archive.column("held/node", held_, &Entry::id);
     archive.column("held/hold", held_, &Entry::hold);
+    if (archive.merging()) put_in_order();
   }
   Hold find(std::uint64_t id) const {
     const auto it = std::lower_bound(held_.begin(), held_.end(), id,
@@ -82,6 +89,12 @@ class HeldNodes {
     std::uint64_t id;
     Hold hold;
   };
+  void put_in_order() {
+    const auto before = [](const Entry& a, const Entry& b) { return a.id < b.id; };
+    const auto same = [](const Entry& a, const Entry& b) { return a.id == b.id; };
+    std::sort(held_.begin(), held_.end(), before);
+    held_.erase(std::unique(held_.begin(), held_.end(), same), held_.end());
+  }
   std::vector<Entry> held_;
 };
 

@@ -15,6 +15,7 @@
 #include "mpm/grid/fields.hpp"
 #include "mpm/grid/node_choice.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/ranks/halo.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/shape/traction.hpp"
 #include "mpm/step/step_context.hpp"
@@ -27,6 +28,7 @@ struct FaceSettings {
   ShapeKind shape = ShapeKind::ugimp;
   double across = 1.0;                 ///< thickness of a plane [m], area of a line [m^2]
   const NodeChoice* choice = nullptr;  ///< where particles choose a field at every node
+  Halo* halo = nullptr;                ///< where other ranks give to the same nodes
 };
 
 /// The nodes of the cell that a place is in, with shares that sum to 1.
@@ -61,7 +63,7 @@ class DomainFaces {
   const std::vector<ParticleSet>& sets_;
 };
 
-/// Where particles of a set are, by id from the set's first.
+/// Where particles of a set are, by id from the set's first up to the last that is here; -1 for those on other ranks.
 void find_places(const ParticleSet& set, std::vector<int>& place_of);
 
 /// Of a set that is not sorted yet, the particles that no other lies beyond in their row along the face's axis, by

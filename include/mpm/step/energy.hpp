@@ -30,12 +30,19 @@ class EnergyReport {
   }
   /// Adds an energy [J]; values of one name are summed.
   void add(std::string_view name, Kind kind, double value) {
+    const double counted = weight_ * value;
     const auto same = std::find_if(list_.begin(), list_.end(), [&](const NamedEnergy& e) { return e.name == name; });
     if (same == list_.end()) {
-      list_.push_back({std::string(name), kind, value});
+      list_.push_back({std::string(name), kind, counted});
     } else {
-      same->value += value;
+      same->value += counted;
     }
+  }
+  /// What is added from here on counts so many times: 0 on ranks that know what another one reports.
+  void weigh(double weight) { weight_ = weight; }
+  /// Replaces the values, in the order of list(), by sums over ranks.
+  void replace(const std::vector<double>& values) {
+    for (std::size_t i = 0; i < list_.size(); ++i) list_[i].value = values[i];
   }
   /// The energy of this name [J]; 0 if there is none.
   double of(std::string_view name) const {
@@ -64,6 +71,7 @@ class EnergyReport {
 
  private:
   std::vector<NamedEnergy> list_;
+  double weight_ = 1.0;
   bool closed_ = true;
 };
 

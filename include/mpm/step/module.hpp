@@ -13,6 +13,7 @@
 #include "mpm/math/geometry.hpp"
 #include "mpm/math/state_archive.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/ranks/communicator.hpp"
 #include "mpm/step/energy.hpp"
 #include "mpm/step/step_limit.hpp"
 
@@ -29,8 +30,8 @@ struct ImpulseAccount {
     exchanged += step_impulse.norm();
   }
   void serialise(StateArchive& archive) {
-    archive.value("impulse", impulse);
-    archive.value("exchanged", exchanged);
+    archive.sum("impulse", impulse);
+    archive.sum("exchanged", exchanged);
   }
 };
 
@@ -59,6 +60,14 @@ class Module {
   virtual std::string name() const = 0;
 
   // Reports, which are computed when asked for, between two steps.
+
+  /// Over several ranks: whether what the module reports is the whole run's on each of them, so that one alone counts.
+  /// Else it is this rank's part.
+  virtual bool same_on_all_ranks() const { return false; }
+
+  /// Over several ranks: called when particles have been sorted and blocks may have come to ranks which did not have
+  /// them. What the module remembers of nodes from the step before has to be known there. Collective.
+  virtual void share_memory(Communicator&) {}
 
   /// Adds the module's impulse accounts to the list.
   virtual void accounts(std::vector<ImpulseAccount>&) const {}

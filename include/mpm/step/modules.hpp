@@ -39,6 +39,8 @@ class Modules {
   /// Calls the stages at a hook, in the order of their ranks.
   void act(Hook hook, StepContext& context) const;
 
+  /// For ranks other than the first: what all ranks know counts as 0 here in accounts, energies and numbers.
+  void leave_shared_to_first() { leaves_shared_ = true; }
   /// In the order in which they were added.
   const std::vector<Module*>& list() const { return list_; }
   /// Adds the accounts of all modules. Accounts of one name are summed, and so is the momentum that they exchanged.
@@ -66,11 +68,14 @@ class Modules {
     int field;
   };
   void add_entry(Entry entry);
+  /// Whether what a module reports counts here.
+  bool counts(const Module& module) const { return !(leaves_shared_ && module.same_on_all_ranks()); }
   void put_in_order();
 
   std::vector<Entry> entries_;
   std::vector<Module*> list_;
   std::array<std::vector<Call>, kHooks> calls_;
+  bool leaves_shared_ = false;
 };
 
 }  // namespace mpm

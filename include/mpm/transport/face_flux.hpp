@@ -32,11 +32,18 @@ class FaceFlux final : public NodalSource {
   void serialise(StateArchive& archive) override;
 
  private:
+  NodalField& source_of(int field, std::vector<NodalQuantity>& nodes);
+  void begin_own();
+  void add_own(std::vector<NodalQuantity>& nodes);
+
   DomainFaces faces_;
+  const Fields& fields_;
   const std::vector<ParticleSet>& sets_;
   std::vector<FluxTerm> terms_;
   std::vector<ContentAccount> accounts_;
   std::vector<int> place_of_;
+  Halo* halo_;
+  std::vector<NodalField> own_;  ///< of each field, where there is a halo [content/s]
 };
 
 }  // namespace mpm

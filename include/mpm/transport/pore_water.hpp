@@ -52,6 +52,7 @@ class PoreWater {
   void serialise(StateArchive& archive);
 
  private:
+  void fit_scratch();
   double stiffness(int set) const;
   /// What pushes along a grid axis, by mass: row `axis` of alpha times p J / rho0.
   void push_rows(int set, int axis);

@@ -9,12 +9,16 @@
 // goes to the material and the rest to the tool; between two bodies it is shared in proportion to their effusivity,
 // sqrt(K rho C), as at two half spaces that meet (H. S. Carslaw, J. C. Jaeger (1959), Conduction of Heat in
 // Solids, 2.15).
+//
+// Weak: over several ranks, friction at a wall or between two bodies whose place no longer has material when it is to
+// be given is lost; one process gives it at the next place.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "mpm/math/geometry.hpp"
+#include "mpm/ranks/communicator.hpp"
 #include "mpm/step/heat_sink.hpp"
 #include "mpm/transport/definition.hpp"
 #include "mpm/transport/nodal_source.hpp"
@@ -34,7 +38,7 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
   /// `effusivities`: of each velocity field [W s^0.5/(m^2 K)]. `tools`: of each of `bodies`, in their order; those
   /// without heat have no conductance. `pairs`: conductance of each pair of fields [W/(m^2 K)], fields x fields.
   SurfaceHeat(const Fields& fields, const std::vector<RigidBody>& bodies, std::vector<double> effusivities,
-              std::vector<ToolHeat> tools, std::vector<double> pairs);
+              std::vector<ToolHeat> tools, std::vector<double> pairs, const Communicator* ranks = nullptr);
 
   void touch(const RigidBody& tool, const Grid& grid, const Vec3& place, double area, double friction,
              double dt) override;
@@ -60,6 +64,7 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
   struct Touch {
     int tool, field, first, count;  ///< of shares_; tool negative: none with heat
     double area, friction, dt;
+    bool by_tool;  ///< which over several ranks all of them know of
   };
   struct Meeting {
     int field, other_field;
@@ -70,6 +75,9 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
   int tool_of(const RigidBody* body) const;
   /// A block of -1: no material is there any more.
   NodeRef find(int field, std::uint64_t node) const;
+  /// Whether a touch, or a meeting at this node, counts to sums here.
+  bool counts(const Touch& touch) const;
+  bool counts(int field, NodeRef node) const { return fields_[field]->counts(node.block); }
   void give(const Touch& touch, std::vector<NodalQuantity>& nodes, double start, double dt);
   void give(const Meeting& meeting, std::vector<NodalQuantity>& nodes, double dt);
 
@@ -78,6 +86,7 @@ class SurfaceHeat final : public NodalSource, public HeatSink {
   std::vector<double> effusivities_;
   std::vector<ToolHeat> tools_;
   std::vector<double> pairs_;
+  const Communicator* ranks_;  ///< where the run is over several
   std::vector<Share> shares_;
   std::vector<Touch> touches_;
   std::vector<Meeting> meetings_;

@@ -63,6 +63,7 @@ struct TransportParts {
   std::vector<double> densities;  ///< of each set, initial [kg/m^3]
   Vec3 gravity;                   ///< [m/s^2]
   bool cracked = false;           ///< particles near cracks choose a field at every node
+  Communicator* ranks = nullptr;  ///< where the run is over several
 };
 
 class TransportedField {
@@ -120,6 +121,8 @@ class TransportedField {
   };
 
   void make_room();
+  /// Particles may have come from other ranks and gone there.
+  void fit_scratch();
   void start_values();
   void find_limit();
   /// Capacities over mass of particles [first, last).

@@ -30,6 +30,9 @@ struct RunOptions {
   mpm::SerialiseMore more;     ///< what the caller keeps beside, in that checkpoint
   std::function<bool()> stop;  ///< as mpm::SimulationOptions has it
   std::function<void(const mpm::Settling&)> settling;
+  /// That compute the run together; null: this process alone. Each has a Run; the first one has all bags and sinks, and
+  /// every function of them all is called on all of them.
+  std::shared_ptr<mpm::Communicator> ranks;
 };
 
 class Run {
@@ -87,6 +90,8 @@ class Run {
   std::string bag() const;
 
  private:
+  /// Lets the bag begin another part where one is due.
+  void close_part();
   void close(const std::string& failure);
   /// Whether a rigid body, with the sphere around its box, lies wholly beside the grid; one that has no end does not.
   bool outside(const mpm::RigidBody& body) const;

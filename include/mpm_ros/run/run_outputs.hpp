@@ -6,9 +6,13 @@
 //   outputs.begin(run_info);
 //   while (…) { apply(command, simulation); outputs.command(command); simulation.advance(); outputs.sync(false, 1.0); }
 //   outputs.finish(1.0);
+//
+// Over several ranks every one of them has its outputs, of which those of the first have sinks: what has to be read
+// from all is read on all. A sink that fails ends the message that it gets, and the call is over on all ranks together.
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -83,7 +87,12 @@ class RunOutputs {
  private:
   template <typename Message>
   void put(const std::string& topic, const Message& message);
+  /// Whether a sink of this rank wants it.
   bool wanted(const std::string& topic) const;
+  /// The same of any rank: where all ranks have to read what is written.
+  bool wanted_anywhere(const std::string& topic) const { return simulation_.on_any_rank(wanted(topic)); }
+  /// Throws on all ranks if a sink has failed on one. @throws BagError on the others
+  void end_writing();
   void read_contacts();
   void write_contacts();
   void write_bodies();
@@ -124,6 +133,7 @@ class RunOutputs {
   std::int64_t global_at_ = -1;     // [ns] the same
   std::int64_t cracks_at_ = -1;     // [ns] the same
   bool finished_ = false;
+  std::exception_ptr failed_sink_;  // over several ranks: why, until all know
 };
 
 }  // namespace mpm_ros

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <ostream>
 #include <string>
 #include <vector>
+
+#include "mpm/ranks/communicator.hpp"
 
 namespace mpm_ros {
 
@@ -25,6 +28,9 @@ struct RunSceneOptions {
   std::string resume;      ///< checkpoint to go on from; the scene may then be empty
   std::string checkpoint;  ///< file to save the run to at its end, or when it is stopped; empty: none
   std::string checkpoint_every;  ///< a simulated time with or without unit, after which it is saved each time
+  /// That run the scene together, each with the same options; null: this process alone. The first one alone writes
+  /// files and lines. One of them that cannot go on ends all (mpm::end_all).
+  std::shared_ptr<mpm::Communicator> ranks;
 };
 
 /// What a run ended with, as an exit code.

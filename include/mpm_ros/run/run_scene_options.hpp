@@ -14,6 +14,11 @@
 
 namespace mpm_ros {
 
+/// What of the options is this rank's: on others than the first there is nothing to write. @throws mpm::SceneError for
+/// what several ranks cannot do
+RunSceneOptions own_part(const RunSceneOptions& options);
+/// @throws mpm::SceneError on all ranks if one has read another scene than the first, or computes otherwise
+void check_alike(const RunSceneOptions& options, const mpm::Scene& scene);
 /// @throws mpm::SceneError that names the option
 mpm::Isa instruction_set(const RunSceneOptions& options);
 /// The scene, or that of the recording, to the end that was asked for. Call it before the summary is opened: what is

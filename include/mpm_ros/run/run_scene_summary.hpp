@@ -9,13 +9,14 @@
 
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/message/contact_average.hpp"
 
 namespace mpm_ros {
 
 struct RunSummary {
   /// Reads the simulation where it stands. `start`: where the run began. `contacts`: the last reports. `cut_short`: it
-  /// stands between two sync points, and its state is none that a run has.
+  /// stands between two sync points, and its state is none that a run has. Collective over several ranks.
   RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulation, const mpm::SolverState& start,
              const Contacts& contacts, bool cut_short = false);
 
@@ -28,13 +29,15 @@ struct RunSummary {
   std::optional<mpm::pace::Target> target;  ///< with what was chosen for it
   mpm::SimulationDefinition definition;     ///< particle positions left out
   std::string isa;
-  int threads = 0;
+  int ranks = 1;
+  int threads = 0;    ///< of each rank
+  mpm::Traffic sent;  ///< by all ranks since the start
   mpm::SolverState state;
   mpm::SolverState start;  ///< at time zero
   std::int64_t end = 0;    ///< of the run as it was asked for [ns]
   bool cut_short = false;
   std::uint64_t state_hash = 0;   ///< none when it was cut short
-  std::uint64_t peak_memory = 0;  ///< [byte] of the whole process
+  std::uint64_t peak_memory = 0;  ///< [byte] of the whole process; over several ranks of the largest
   Contacts contacts;              ///< impulses and energies since the start
   std::vector<std::pair<std::string, double>> metrics;
 

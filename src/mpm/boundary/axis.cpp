@@ -41,7 +41,7 @@ void Axis::momentum_updated(FieldContext& context) {
     const double change = wanted(grid.velocity, node) - velocity;
     velocity += change;
     grid.force.at(node.ref.block, 0, node.ref.node) += change / context.dt;
-    given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
+    if (grid.counts(node.ref.block)) given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
   }
 }
 
@@ -59,7 +59,7 @@ void Axis::increment_found(FieldContext& context) {
     double& value = increment.at(node.ref.block, 0, node.ref.node);
     const double change = wanted(increment, node) - value;
     value += change;
-    given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
+    if (grid.counts(node.ref.block)) given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
   }
 }
 
@@ -80,6 +80,7 @@ void HoopForce::forces_gathered(FieldContext& context) {
   const Grid& grid = context.grid;
   double sum = 0.0;
   for (int b = 0; b < grid.blocks.size(); ++b) {
+    if (!grid.counts(b)) continue;
     const double* force = grid.force.block(b);
     for (int n = 0; n < grid.layout.nodes_per_block(); ++n) sum += force[n];
   }
@@ -91,7 +92,7 @@ void MasslessNodes::forces_gathered(FieldContext& context) {
   Vec3 lost = Vec3::Zero();
   for (int b = 0; b < grid.blocks.size(); ++b) {
     for (int n = 0; n < grid.layout.nodes_per_block(); ++n) {
-      if (grid.carries(b, n)) continue;
+      if (grid.carries(b, n) || !grid.counts(b)) continue;
       lost += nodal_vector(grid.force, grid.layout, {b, n}) + grid.mass.at(b, 0, n) * gravity_;
     }
   }

@@ -197,7 +197,7 @@ void VelocityConditions::momentum_updated(FieldContext& context) {
     const Vec3 change = (held.end - along(grid.velocity, grid.layout, held.ref, held.direction)) * held.direction;
     add_nodal_vector(grid.velocity, grid.layout, held.ref, change);
     add_nodal_vector(grid.force, grid.layout, held.ref, change / context.dt);
-    give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change);
+    if (grid.counts(held.ref.block)) give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change);
   }
 }
 
@@ -217,7 +217,7 @@ void VelocityConditions::increment_found(FieldContext& context) {
     if (!grid.carries(held.ref.block, held.ref.node)) continue;
     const Vec3 change = -along(increment, grid.layout, held.ref, held.direction) * held.direction;
     add_nodal_vector(increment, grid.layout, held.ref, change);
-    give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change);
+    if (grid.counts(held.ref.block)) give(held, grid.mass.at(held.ref.block, 0, held.ref.node) * change);
   }
 }
 
@@ -246,7 +246,7 @@ void VelocityConditions::serialise(StateArchive& archive) {
     const StateArchive::Group group(archive, "condition_" + std::to_string(c));
     conditions_[c].region.serialise(archive);
     conditions_[c].account.serialise(archive);
-    archive.value("given", conditions_[c].given);
+    archive.sum("given", conditions_[c].given);
   }
   archive.rows("held", held_);
   archive.column("held/block", held_, [](Held& held) -> int& { return held.ref.block; });
@@ -257,12 +257,19 @@ void VelocityConditions::serialise(StateArchive& archive) {
   archive.column("held/count", held_, &Held::count);
   archive.column("held/start", held_, &Held::start);
   archive.column("held/end", held_, &Held::end);
+  if (archive.merging()) {  // parts follow each other, held by held
+    int first = 0;
+    for (Held& held : held_) {
+      held.first = first;
+      first += held.count;
+    }
+  }
   archive.rows("parts", parts_);
   archive.column("parts/condition", parts_, &Part::condition);
   archive.column("parts/sign", parts_, &Part::sign);
   archive.value("ended", ended_);
   archive.generation("sorts_since", generation_);
-  archive.value("work", work_);
+  archive.sum("work", work_);
 }
 
 }  // namespace mpm

@@ -61,7 +61,7 @@ void Wall::find_nodes(const Grid& grid) {
       const int beyond = upper ? node - layout.last_node(axis) : -node;
       if (beyond >= 0 && beyond <= grid.wall_layers) {
         const std::uint64_t id = HeldNodes::id(blocks.key(b), n);
-        nodes_.push_back({{b, n}, id, held_.find(id)});
+        nodes_.push_back({{b, n}, id, held_.find(id), grid.counts(b)});
       }
     }
   }
@@ -187,7 +187,7 @@ void Wall::increment_found(FieldContext& context) {
     const Node& node = nodes_[i];
     const Vec3 change = held_part(nodal_vector(grid.increment, grid.layout, node.ref), n, node.hold);
     add_nodal_vector(grid.increment, grid.layout, node.ref, change);
-    given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
+    if (node.counts) given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
   }
 }
 

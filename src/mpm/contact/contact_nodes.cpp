@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "mpm/ranks/lists.hpp"
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
@@ -144,6 +145,20 @@ void ContactNodes::filter(double dt) {
   hold_nodes(Pass::filter, dt, [](Grid& grid) -> NodalField& { return grid.increment; });
 }
 
+void ContactNodes::share_memory(Communicator& ranks) {
+  held_ = gather_list(ranks, held_);
+  put_in_order();
+}
+
+void ContactNodes::put_in_order() {
+  const auto before = [](const Held& a, const Held& b) {
+    return std::tie(a.node, a.fields) < std::tie(b.node, b.fields);
+  };
+  const auto same = [](const Held& a, const Held& b) { return a.node == b.node && a.fields == b.fields; };
+  std::sort(held_.begin(), held_.end(), before);
+  held_.erase(std::unique(held_.begin(), held_.end(), same), held_.end());
+}
+
 void ContactNodes::keep_held() {
   held_.clear();
   for (const Block& block : blocks) {
@@ -173,6 +188,7 @@ void ContactNodes::serialise(StateArchive& archive) {
   archive.column("held/node", held_, &Held::node);
   archive.column("held/fields", held_, &Held::fields);
   archive.column("held/hold", held_, &Held::hold);
+  if (archive.merging()) put_in_order();
 }
 
 }  // namespace mpm

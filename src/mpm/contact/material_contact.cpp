@@ -27,6 +27,7 @@ MaterialContact::MaterialContact(MaterialContactSettings settings, Fields& field
       rules_(fields.size() * fields.size()),
       volumes_(fields.size(), NodalVolumes(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())),
       friction_(settings_.pairs.size()),
+      surveyed_(fields.size(), 0.0),
       nodes_(fields, settings_.threads),
       last_(settings_.pairs.size()),
       total_(settings_.pairs.size()),
@@ -68,10 +69,19 @@ MaterialContact::Sums& MaterialContact::Sums::operator+=(const Sums& other) {
   return *this;
 }
 
+bool MaterialContact::counts(const BlockNodes& block) const {
+  if (block.members.empty()) return false;
+  const Member& any = block.members.front();
+  return fields_[any.field]->counts(any.ref.block);
+}
+
 void MaterialContact::book(const BlockNodes& block, bool updated, double dt) {
+  const bool counted = counts(block);
   for (const Node& node : block.nodes) {
     for (int p = node.first_pair; p < node.first_pair + node.pairs; ++p) {
       const NodePair& pair = block.pairs[p].state;
+      if (updated && settings_.heat != nullptr && !pair.on_a.isZero(0.0)) tell_of_heat(block, node, pair, dt);
+      if (!counted) continue;
       Sums& sums = last_[block.pairs[p].rule];
       const Vec3 on_second = block.pairs[p].turned ? pair.on_a : pair.on_b;
       const double normal = pair.on_a.dot(pair.normals.of_a);
@@ -85,7 +95,6 @@ void MaterialContact::book(const BlockNodes& block, bool updated, double dt) {
       }
       if (!updated) continue;
       sums.friction_energy += pair.friction_energy;
-      if (settings_.heat != nullptr && !pair.on_a.isZero(0.0)) tell_of_heat(block, node, pair, dt);
       if (pair.interface != nullptr) {
         sums.interface_energy +=
             mpm::interface_energy(*pair.interface, {pair.opening, pair.area, 0.0}, pair.on_a, pair.normals.of_a, dt);
@@ -123,28 +132,46 @@ int MaterialContact::add_reader(double now) {
   return static_cast<int>(readers_.size()) - 1;
 }
 
+MaterialContact::Sums MaterialContact::since(const Sums& seen, std::size_t pair) const {
+  Sums sums = total_[pair];
+  sums.impulse -= seen.impulse;
+  sums.friction -= seen.friction;
+  sums.moment -= seen.moment;
+  sums.pressed -= seen.pressed;
+  sums.area = last_[pair].area;
+  sums.interface_energy = last_[pair].interface_energy;
+  sums.nodes = last_[pair].nodes;
+  if (settings_.ranks == nullptr) return sums;
+  double nodes = sums.nodes;
+  for (Vec3* vector : {&sums.impulse, &sums.friction, &sums.moment}) settings_.ranks->sum(vector->data(), 3);
+  for (double* number : {&sums.pressed, &sums.area, &sums.friction_energy, &sums.interface_energy, &nodes}) {
+    settings_.ranks->sum(number, 1);
+  }
+  sums.nodes = static_cast<int>(nodes);
+  return sums;
+}
+
 void MaterialContact::read_pairs(double now, std::vector<PairReport>& reports, int reader) {
   const bool about_axis = axisymmetric(settings_.geometry);
   const auto whole = [about_axis](const Vec3& sum) { return about_axis ? Vec3(0.0, 0.0, sum.z()) : sum; };
   Reader& own = readers_[reader];
   const double interval = now - own.time;
   for (std::size_t i = 0; i < settings_.pairs.size(); ++i) {
-    const Sums &seen = own.seen[i], &total = total_[i];
-    const double pressed = total.pressed - seen.pressed;
+    const Sums since_seen = since(own.seen[i], i), all = since({}, i);
     PairReport report;
     report.name = settings_.pairs[i].name;
     report.interval = interval;
     if (interval > 0.0) {
-      report.force = whole((total.impulse - seen.impulse) / interval);
-      report.friction = whole((total.friction - seen.friction) / interval);
-      report.pressing = pressed / interval;
+      report.force = whole(since_seen.impulse / interval);
+      report.friction = whole(since_seen.friction / interval);
+      report.pressing = since_seen.pressed / interval;
     }
-    if (pressed > 0.0) report.centre = whole((total.moment - seen.moment) / pressed);
-    report.area = last_[i].area;
-    report.nodes = last_[i].nodes;
-    report.impulse = whole(total.impulse);
-    report.friction_energy = total.friction_energy;
-    report.interface_energy = last_[i].interface_energy;
+    if (since_seen.pressed > 0.0) report.centre = whole(since_seen.moment / since_seen.pressed);
+    report.area = all.area;
+    report.nodes = all.nodes;
+    report.impulse = whole(all.impulse);
+    report.friction_energy = all.friction_energy;
+    report.interface_energy = all.interface_energy;
     reports.push_back(report);
   }
   own = {now, total_};
@@ -159,14 +186,14 @@ void MaterialContact::energies(EnergyReport& report) const {
 }
 
 void MaterialContact::serialise_sums(StateArchive& archive, std::vector<Sums>& sums) {
-  archive.column("impulse", sums, &Sums::impulse);
-  archive.column("friction", sums, &Sums::friction);
-  archive.column("moment", sums, &Sums::moment);
-  archive.column("pressed", sums, &Sums::pressed);
-  archive.column("area", sums, &Sums::area);
-  archive.column("friction_energy", sums, &Sums::friction_energy);
-  archive.column("interface_energy", sums, &Sums::interface_energy);
-  archive.column("nodes", sums, &Sums::nodes);
+  archive.sum_column("impulse", sums, &Sums::impulse);
+  archive.sum_column("friction", sums, &Sums::friction);
+  archive.sum_column("moment", sums, &Sums::moment);
+  archive.sum_column("pressed", sums, &Sums::pressed);
+  archive.sum_column("area", sums, &Sums::area);
+  archive.sum_column("friction_energy", sums, &Sums::friction_energy);
+  archive.sum_column("interface_energy", sums, &Sums::interface_energy);
+  archive.sum_column("nodes", sums, &Sums::nodes);
 }
 
 void MaterialContact::serialise(StateArchive& archive) {
@@ -183,7 +210,7 @@ void MaterialContact::serialise(StateArchive& archive) {
     serialise_sums(archive, readers_[r].seen);
   }
   account_.serialise(archive);
-  archive.value("left_over", left_over_);
+  archive.sum("left_over", left_over_);
 }
 
 }  // namespace mpm

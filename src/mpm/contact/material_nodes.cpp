@@ -18,14 +18,20 @@ void MaterialContact::momentum_gathered(StepContext& context) {
     const MaterialPair& pair = settings_.pairs[i];
     friction_[i] = pair.law.in_step(context.start, context.dt, [&] { return "'" + pair.name + "'"; });
   }
-  shared_.update(fields_, [this](int a, int b) { return rule(a, b).pair >= 0; });
+  if (shared_.update(fields_, [this](int a, int b) { return rule(a, b).pair >= 0; })) find_surveyed();
   for (int f = 0; f < static_cast<int>(fields_.size()); ++f) {
-    if (shared_.any(f)) survey_.survey(f, shared_.marks(f), wants_, volumes_[f]);
+    if (surveyed_[f] != 0.0) survey_.survey(f, shared_.marks(f), wants_, volumes_[f]);
   }
   const int count = static_cast<int>(shared_.list().size());
   nodes_.blocks.resize(count);
 #pragma omp parallel for schedule(static) num_threads(settings_.threads)
   for (int i = 0; i < count; ++i) find_nodes(shared_.list()[i], context.dt, nodes_.blocks[i]);
+}
+
+// Ranks survey a field together.
+void MaterialContact::find_surveyed() {
+  for (std::size_t f = 0; f < fields_.size(); ++f) surveyed_[f] = shared_.any(static_cast<int>(f)) ? 1.0 : 0.0;
+  if (settings_.ranks != nullptr) settings_.ranks->largest(surveyed_.data(), static_cast<int>(surveyed_.size()));
 }
 
 void MaterialContact::find_nodes(const SharedBlock& block, double dt, BlockNodes& found) const {

@@ -1,5 +1,8 @@
-// Which nodes the points of contact have, and in which order the points are solved.
+// Which nodes the points of contact have, and in which order the points are solved. The order is that of bodies and
+// particles' ids in a block, and of blocks by their place: sweeps end at a tolerance, so the order is seen in their
+// result, which depends neither on how particles lie in memory nor on when they were sorted.
 #include <algorithm>
+#include <tuple>
 
 #include "mpm/contact/point_solver.hpp"
 #include "mpm/step/point_weights.hpp"
@@ -61,23 +64,32 @@ void PointSolver::cluster(const std::vector<ContactPoint>& found) {
     of_point_[i] = place;
     ++unsorted_[place].end;  // counts, so far
   }
-  clusters_.clear();
+  clusters_ = unsorted_;
+  std::sort(clusters_.begin(), clusters_.end(), [](const Cluster& a, const Cluster& b) {
+    return std::tie(a.colour, a.field, a.block) < std::tie(b.colour, b.field, b.block);
+  });
   int points = 0;
-  for (int colour = 0; colour < 8; ++colour) {
-    colour_begin_[colour] = static_cast<int>(clusters_.size());
-    for (Cluster& one : unsorted_) {
-      if (one.colour != colour) continue;
-      cluster_of_[one.field][one.block] = -1;
-      one.first = points;
-      points += one.end;
-      one.end = one.first;
-      clusters_.push_back({one.field, one.block, colour, one.first, points});
-    }
+  colour_begin_.fill(static_cast<int>(clusters_.size()));
+  for (std::size_t i = clusters_.size(); i-- > 0;) colour_begin_[clusters_[i].colour] = static_cast<int>(i);
+  for (int colour = 7; colour >= 0; --colour) {  // those that have none
+    colour_begin_[colour] = std::min(colour_begin_[colour], colour_begin_[colour + 1]);
   }
-  colour_begin_[8] = static_cast<int>(clusters_.size());
+  for (Cluster& one : clusters_) {
+    one.first = points;
+    points += one.end;
+    int& place = cluster_of_[one.field][one.block];
+    unsorted_[place].end = one.first;
+    one.end = points;
+    place = -1;
+  }
   order_.resize(points);
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (of_point_[i] >= 0) order_[unsorted_[of_point_[i]].end++] = static_cast<int>(i);
+  }
+  for (const Cluster& one : clusters_) {
+    std::sort(order_.begin() + one.first, order_.begin() + one.end, [&](int a, int b) {
+      return std::tie(found[a].body, found[a].particle) < std::tie(found[b].body, found[b].particle);
+    });
   }
 }
 

@@ -1,9 +1,11 @@
 #include "mpm/contact/point_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mpm/contact/particle_reach.hpp"
+#include "mpm/ranks/lists.hpp"
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
@@ -31,6 +33,41 @@ double edge_part(const RigidBody& body, GeometryKind geometry, const Vec3& centr
   double most = turned(across.cross(at.normal).normalized());
   if (dimensions(geometry) == 3) most = std::max(most, turned(across));
   return std::min(most * at.distance / step, 1.0);
+}
+
+/// A point as ranks send it.
+struct SentPoint {
+  std::int32_t body, field, law;
+  std::uint32_t particle;
+  std::array<double, 3> place, normal, velocity;
+  double gap, area;
+};
+
+std::array<double, 3> numbers_of(const Vec3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+Vec3 vector_of(const std::array<double, 3>& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
+
+SentPoint sent(const ContactPoint& point) {
+  return {point.body,
+          point.field,
+          point.law,
+          point.particle,
+          numbers_of(point.place),
+          numbers_of(point.normal),
+          numbers_of(point.velocity),
+          point.gap,
+          point.area};
+}
+
+ContactPoint received(const SentPoint& sent) {
+  return {sent.body,
+          sent.field,
+          sent.law,
+          sent.particle,
+          vector_of(sent.place),
+          vector_of(sent.normal),
+          vector_of(sent.velocity),
+          sent.gap,
+          sent.area};
 }
 
 }  // namespace
@@ -158,6 +195,14 @@ void PointSearch::find_in(double dt) {
   }
   points_.clear();
   for (int i = 0; i < count; ++i) points_.insert(points_.end(), of_job_[i].begin(), of_job_[i].end());
+  if (ranks_ != nullptr) gather();
+}
+
+void PointSearch::gather() {
+  std::vector<SentPoint> own;
+  for (const ContactPoint& point : points_) own.push_back(sent(point));
+  points_.clear();
+  for (const SentPoint& one : gather_list(*ranks_, own)) points_.push_back(received(one));
 }
 
 const std::vector<ContactPoint>& PointSearch::find(double dt) {

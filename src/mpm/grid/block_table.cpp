@@ -1,6 +1,7 @@
 #include "mpm/grid/block_table.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace mpm {
 
@@ -102,6 +103,23 @@ void BlockTable::rebuild(const std::vector<std::uint64_t>& owner_keys, int threa
     colours_[colour].push_back(static_cast<int>(o));
   }
   ++generation_;
+}
+
+void BlockTable::admit(const std::vector<std::uint64_t>& keys) {
+  if (keys.empty()) return;
+  wider_.clear();
+  std::merge(keys_.begin(), keys_.end(), keys.begin(), keys.end(), std::back_inserter(wider_));
+  std::vector<int> moved(keys_.size());
+  std::size_t to = 0;
+  for (std::size_t from = 0; from < keys_.size(); ++from, ++to) {
+    while (wider_[to] != keys_[from]) ++to;
+    moved[from] = static_cast<int>(to);
+  }
+  keys_.swap(wider_);
+  for (int& block : owner_block_) block = moved[block];
+  for (int& block : neighbours_) block = moved[block];
+  coordinates_.resize(keys_.size());
+  for (std::size_t i = 0; i < keys_.size(); ++i) coordinates_[i] = layout_->block(keys_[i]);
 }
 
 void BlockTable::rebuild_apart(const std::vector<std::uint64_t>& owner_keys) {

@@ -188,9 +188,9 @@ class Continuum final : public Mechanics {
   }
   void serialise(StateArchive& archive) override {
     archive.generation("sorts_since", generation_);
-    archive.value("parts_when_sorted", parts_when_sorted_);
-    archive.value("slip_energy", slip_energy_);
-    archive.value("drag_energy", drag_energy_);
+    archive.sum("parts_when_sorted", parts_when_sorted_);
+    archive.sum("slip_energy", slip_energy_);
+    archive.sum("drag_energy", drag_energy_);
   }
 
  private:
@@ -215,8 +215,12 @@ class Continuum final : public Mechanics {
     for (Field& field : fields_) act(field);
     if (patches_) act(*patches_);
   }
+  // Ends a pass that spreads: what is beside the fields' own nodes goes there.
   void give(NodalField Grid::*what) {
     if (settings_.choice != nullptr) settings_.choice->give(what);
+    for (std::size_t f = 0; settings_.halo != nullptr && f < fields_.size(); ++f) {
+      settings_.halo->add(static_cast<int>(f), fields_[f].grid.*what);
+    }
   }
   void take_for_strain(double step) {
     if (settings_.choice != nullptr) settings_.choice->take_for_strain(step);
@@ -371,6 +375,7 @@ class Continuum final : public Mechanics {
     for (std::size_t f = 0; f < fields_.size(); ++f) {
       Field& field = fields_[f];
       if (patches_) settings_.choice->give(patches_->mean, static_cast<int>(f), field.mean);
+      if (settings_.halo != nullptr) settings_.halo->add(static_cast<int>(f), field.mean);
       each_carrying(field.grid, [&](int b, int n, double inverse_mass) { field.mean.block(b)[n] *= inverse_mass; });
       if (patches_) settings_.choice->take(field.mean, static_cast<int>(f), patches_->mean);
     }

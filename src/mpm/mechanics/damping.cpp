@@ -120,6 +120,10 @@ void DampingControl::begin_step(const StepContext& context) {
   });
   if (!of_place_) return;
   const bool exchanges = definition().pic.uses_place();
+  for (std::size_t s = 0; s < sets_.size(); ++s) {  // particles may have come from other ranks and gone there
+    grid_values_[s].resize(sets_[s].id.size());
+    particle_values_[s].resize(sets_[s].id.size());
+  }
   each_particle(t, alpha_, context.layout(), [&](int, std::size_t s, int p, const Sample& sample) {
     check(sample);
     const double pic = exchanges ? sample.pic / dt : 0.0;
@@ -159,7 +163,7 @@ Vec3 DampingControl::damp_nodes(Grid& grid, double dt) {
         force[n] += f;
         total += f;
       }
-      block_sums_[b][grid.layout.axis(k)] = total;
+      block_sums_[b][grid.layout.axis(k)] = grid.counts(b) ? total : 0.0;
     }
   }
   Vec3 given = Vec3::Zero();

@@ -6,7 +6,12 @@ namespace mpm {
 
 FaceTractions::FaceTractions(const FaceSettings& settings, Fields& fields, const std::vector<ParticleSet>& sets,
                              std::vector<TractionTerm> terms)
-    : fields_(fields), sets_(sets), faces_(settings, fields, sets), terms_(std::move(terms)) {
+    : fields_(fields),
+      sets_(sets),
+      faces_(settings, fields, sets),
+      terms_(std::move(terms)),
+      halo_(settings.halo),
+      nodal_(faces_.layout().dim(), faces_.layout().nodes_per_block()) {
   const int dim = dimensions(settings.geometry);
   std::size_t corners = 0;
   places_.resize(terms_.size());
@@ -28,8 +33,9 @@ void FaceTractions::look_for_particles() {
       found = terms_[i].set;
     }
     for (std::size_t n = 0; n < places_[i].size(); ++n) {
-      places_[i][n] = place_of_[terms_[i].particles[n]];
-      any_chooses_ = any_chooses_ || (set.chooses && set.side[places_[i][n]] != 0);
+        const std::uint32_t id = terms_[i].particles[n];
+        places_[i][n] = id < place_of_.size() ? place_of_[id] : -1;
+        any_chooses_ = any_chooses_ || (places_[i][n] >= 0 && set.chooses && set.side[places_[i][n]] != 0);
     }
   }
 }
@@ -89,6 +95,7 @@ void FaceTractions::forces_gathered(StepContext& context) {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const TractionTerm& term = terms_[i];
     for (const int p : places_[i]) {
+      if (p < 0) continue;
       const FaceParts parts = faces_.parts(term.set, p, term.face);
       const Vec3 traction = value_at(term, parts, p, context);
       impulse += traction * (parts.area * context.dt);
@@ -97,11 +104,26 @@ void FaceTractions::forces_gathered(StepContext& context) {
       }
     }
   }
-  for (const NodalLoad& load : loads_) {
-    Grid& grid = *fields_[load.field];
-    add_nodal_vector(grid.force, grid.layout, load.node, load.force);
+  if (halo_ == nullptr) {
+    for (const NodalLoad& load : loads_) {
+      Grid& grid = *fields_[load.field];
+      add_nodal_vector(grid.force, grid.layout, load.node, load.force);
+    }
+  } else {
+    for (std::size_t f = 0; f < fields_.size(); ++f) add_over_ranks(static_cast<int>(f));
   }
   account_.add(impulse);
+}
+
+void FaceTractions::add_over_ranks(int field) {
+  Grid& grid = *fields_[field];
+  nodal_.resize(grid.blocks.size());
+  std::fill_n(nodal_.data(), nodal_.size(), 0.0);
+  for (const NodalLoad& load : loads_) {
+    if (load.field == field) add_nodal_vector(nodal_, grid.layout, load.node, load.force);
+  }
+  halo_->add(field, nodal_);
+  for (std::size_t i = 0; i < nodal_.size(); ++i) grid.force.data()[i] += nodal_.data()[i];
 }
 
 void FaceTractions::momentum_updated(StepContext& context) {

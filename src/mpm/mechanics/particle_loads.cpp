@@ -59,6 +59,7 @@ class ParticleLoads final : public Stage {
       const Grid& grid = *fields_[f];
       const int count = dim_ * grid.layout.nodes_per_block();
       for (int b = 0; b < grid.blocks.size(); ++b) {
+        if (!grid.counts(b)) continue;
         const double *load = nodal_[f].block(b), *v = grid.velocity.block(b), *a = grid.force.block(b);
         // The displacement of a particle in the step: v^{n+1} dt - a dt^2 / 2, GIMP notes (2.16).
         for (int n = 0; n < count; ++n) power += load[n] * (v[n] - 0.5 * context.dt * a[n]);
@@ -74,7 +75,7 @@ class ParticleLoads final : public Stage {
   }
   void energies(EnergyReport& report) const override { report.add("load_work", NamedEnergy::Kind::work, work_); }
   void serialise(StateArchive& archive) override {
-    archive.value("work", work_);
+    archive.sum("work", work_);
     for (int kind = 0; kind < kKinds; ++kind) {
       const StateArchive::Group group(archive, kKindNames[kind]);
       accounts_[kind].serialise(archive);
@@ -107,6 +108,7 @@ class ParticleLoads final : public Stage {
       if (values_[s][0].empty() && values_[s][1].empty()) continue;
       const ParticleSet& set = sets_[s];
       const int groups = (set.size() + kGroup - 1) / kGroup;
+      make_room(s, groups);
 #pragma omp parallel num_threads(threads_)
       {
         const int thread = omp_get_thread_num();
@@ -123,6 +125,17 @@ class ParticleLoads final : public Stage {
     }
     fault_.check<LoadError>();
     for (int kind = 0; kind < kKinds; ++kind) accounts_[kind].add(impulse[kind]);
+  }
+
+  // A set's particles may have come from other ranks and gone there.
+  void make_room(std::size_t s, int groups) {
+    const std::size_t size = sets_[s].id.size();
+    for (auto& of_spread : values_[s]) {
+      for (PaddedArray<double>& values : of_spread) {
+        if (values.size() != size) values.assign(size, 0.0);
+      }
+    }
+    if (static_cast<std::size_t>(groups) > sums_.size()) sums_.resize(groups);
   }
 
   // The accelerations of one particle; its forces are added to `sum`.

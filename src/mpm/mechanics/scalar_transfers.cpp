@@ -12,12 +12,13 @@ template <class T>
 class ScalarTransferOf final : public ScalarTransfer {
  public:
   ScalarTransferOf(const mpm_kernel::KernelTable<T>& kernels, Fields& fields, std::vector<ParticleSet>& sets,
-                   int threads, NodeChoice* choice)
+                   int threads, NodeChoice* choice, Halo* halo)
       : kernels_(kernels),
         fields_(fields),
         sets_(sets),
         threads_(threads),
         choice_(choice),
+        halo_(halo),
         own_{NodalField(1, fields.front()->layout.nodes_per_block()),
              NodalField(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())},
         flow_(1, fields.front()->layout.nodes_per_block()) {}
@@ -53,6 +54,7 @@ class ScalarTransferOf final : public ScalarTransfer {
     give_own(field, conducts, to, nullptr, [&](const mpm_kernel::BlockView& block, NodalField& sink) {
       kernels_.diffuse(view_, block, views_.data(), arrays_.data(), count(), from.block(0), sink.data());
     });
+    if (halo_ != nullptr) halo_->add(field, to);
   }
 
   void diffuse_chosen(const Given& conducts, const std::vector<NodalField>& from,
@@ -163,8 +165,12 @@ class ScalarTransferOf final : public ScalarTransfer {
   template <class Pass>
   void each_giving(int field, const Given& of, NodalField& to, const Marks* only, Pass&& pass) {
     give_own(field, of, to, only, pass);
-    if (!chosen(field)) return;
+    if (chosen(field)) give_of_patches(field, of, to, only, pass);
+    if (halo_ != nullptr) halo_->add(field, to);
+  }
 
+  template <class Pass>
+  void give_of_patches(int field, const Given& of, NodalField& to, const Marks* only, Pass&& pass) {
     Grid& patches = choice_->grid();
     NodalField& own = own_[to.components() > 1];
     own.resize(patches.blocks.size());
@@ -194,6 +200,7 @@ class ScalarTransferOf final : public ScalarTransfer {
   std::vector<ParticleSet>& sets_;
   int threads_;
   NodeChoice* choice_;
+  Halo* halo_;
   std::array<NodalField, 2> own_;  ///< of the patches, of one component and of one along each axis
   NodalField flow_;                ///< of the patches
   std::vector<std::array<PaddedArray<double>, 3>> beside_;
@@ -207,13 +214,14 @@ class ScalarTransferOf final : public ScalarTransfer {
 
 template <class T>
 std::unique_ptr<ScalarTransfer> make_scalar_transfer(const mpm_kernel::KernelTable<T>& kernels, Fields& fields,
-                                                     std::vector<ParticleSet>& sets, int threads, NodeChoice* choice) {
-  return std::make_unique<ScalarTransferOf<T>>(kernels, fields, sets, threads, choice);
+                                                     std::vector<ParticleSet>& sets, int threads, NodeChoice* choice,
+                                                     Halo* halo) {
+  return std::make_unique<ScalarTransferOf<T>>(kernels, fields, sets, threads, choice, halo);
 }
 
 template std::unique_ptr<ScalarTransfer> make_scalar_transfer(const mpm_kernel::KernelTable<double>&, Fields&,
-                                                              std::vector<ParticleSet>&, int, NodeChoice*);
+                                                              std::vector<ParticleSet>&, int, NodeChoice*, Halo*);
 template std::unique_ptr<ScalarTransfer> make_scalar_transfer(const mpm_kernel::KernelTable<float>&, Fields&,
-                                                              std::vector<ParticleSet>&, int, NodeChoice*);
+                                                              std::vector<ParticleSet>&, int, NodeChoice*, Halo*);
 
 }  // namespace mpm

@@ -95,8 +95,8 @@ class Particles {
 
 }  // namespace
 
-StressAverage::StressAverage(std::vector<AveragedSet> sets, GeometryKind geometry, int threads)
-    : sets_(std::move(sets)), geometry_(geometry), threads_(threads) {
+StressAverage::StressAverage(std::vector<AveragedSet> sets, GeometryKind geometry, int threads, Halo* halo)
+    : sets_(std::move(sets)), geometry_(geometry), threads_(threads), halo_(halo) {
   for (const AveragedSet& one : sets_) places_.push_back(one.set->bring("plastic_strain_before", "1"));
 }
 
@@ -198,8 +198,43 @@ double StressAverage::share(std::size_t set, double* before, const Grid& grid, i
   return lost;
 }
 
+// Each cell's sums over all ranks, where several have particles in it.
+void StressAverage::exchange(const Grid& grid, int field, Cells& cells) {
+  constexpr int kMass = 0, kVolume = 1, kParticles = 2, kStress = 3;
+  const int nodes = grid.layout.nodes_per_block(), blocks = grid.blocks.size();
+  NodalField sums(kStress + static_cast<int>(Cell().stress.size()), nodes);
+  sums.resize(blocks);
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    const int* of_block = &cells.of_set_block[s * blocks];
+    std::fill_n(sums.data(), sums.size(), 0.0);
+    const auto each_cell = [&](auto&& visit) {
+      for (int b = 0; b < blocks; ++b) {
+        for (int n = 0; n < nodes && of_block[b] >= 0; ++n) visit(cells.all[of_block[b] + n], b, n);
+      }
+    };
+    each_cell([&](const Cell& cell, int b, int n) {
+      if (cell.step != step_) return;
+      sums.at(b, kMass, n) = cell.mass;
+      sums.at(b, kVolume, n) = cell.volume;
+      sums.at(b, kParticles, n) = cell.particles;
+      for (std::size_t i = 0; i < cell.stress.size(); ++i)
+        sums.at(b, kStress + static_cast<int>(i), n) = cell.stress[i];
+    });
+    halo_->add(field, sums);
+    each_cell([&](Cell& cell, int b, int n) {
+      if (sums.at(b, kParticles, n) == 0.0) return;
+      cell.step = step_;
+      cell.mass = sums.at(b, kMass, n);
+      cell.volume = sums.at(b, kVolume, n);
+      cell.particles = static_cast<std::uint32_t>(sums.at(b, kParticles, n));
+      for (std::size_t i = 0; i < cell.stress.size(); ++i)
+        cell.stress[i] = sums.at(b, kStress + static_cast<int>(i), n);
+    });
+  }
+}
+
 template <class Geometry>
-void StressAverage::average(const Grid& grid, Cells& cells) {
+void StressAverage::average(const Grid& grid, int field, Cells& cells) {
   find_cells(grid, cells);
   of_owner_.assign(grid.blocks.owners(), 0.0);
   // A block adds to its own cells and to the last ones of those before it, so blocks of one colour share no cell.
@@ -208,6 +243,7 @@ void StressAverage::average(const Grid& grid, Cells& cells) {
       gather<Geometry, decltype(scalar)>(s, before, grid, owner, cells);
     });
   });
+  if (halo_ != nullptr) exchange(grid, field, cells);
   grid.shares.at_once(threads_, [&](int owner) {
     each_set([&](std::size_t s, double* before, auto scalar) {
       of_owner_[owner] += share<Geometry, decltype(scalar)>(s, before, grid, owner, cells);
@@ -222,7 +258,8 @@ void StressAverage::momentum_gathered(StepContext& context) {
   with_geometry(geometry_, [&](auto kind) {
     using Geometry = decltype(kind);
     if (begun_ != 0) {
-      for (std::size_t f = 0; f < context.fields.size(); ++f) average<Geometry>(*context.fields[f], cells_[f]);
+      for (std::size_t f = 0; f < context.fields.size(); ++f)
+        average<Geometry>(*context.fields[f], static_cast<int>(f), cells_[f]);
       return;
     }
     // As ground has that was settled: the plastic strains of the start are not of this run.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "mpm/math/byte_hash.hpp"
 #include "mpm/math/dimension.hpp"
@@ -89,15 +90,44 @@ ParticleTensors without_free_strain(const ParticleSet& set, int p, ParticleTenso
   return t;
 }
 
+namespace {
+
+/// Places of a set's particles, in the order of their ids. `whole`: all of the set's particles are here.
+std::vector<int> places_by_id(const ParticleSet& set, bool whole) {
+  std::vector<int> places(set.size());
+  if (whole) {
+    for (int p = 0; p < set.size(); ++p) places[set.id[p] - set.first_id] = p;
+  } else {
+    std::iota(places.begin(), places.end(), 0);
+    std::sort(places.begin(), places.end(), [&](int a, int b) { return set.id[a] < set.id[b]; });
+  }
+  return places;
+}
+
+}  // namespace
+
 Vec3 Simulation::State::momentum() const {
-  return sum_particles(sets, threads, Vec3(Vec3::Zero()), [&](const ParticleSet& set, int p) {
+  Vec3 total = sum_particles(sets, threads, Vec3(Vec3::Zero()), [&](const ParticleSet& set, int p) {
     return Vec3(set.mass_of(p) * particle_vector(set.v, layout(), p));
   });
+  if (over) over->add_up(total);
+  return total;
+}
+
+std::vector<NamedNumber> Simulation::State::numbers() const {
+  std::vector<NamedNumber> list = modules.numbers();
+  if (over) over->add_up(list);
+  return list;
+}
+
+double Simulation::State::from_first(double value) const {
+  return !over ? value : over->ranks().sum(over->ranks().first() ? value : 0.0);
 }
 
 Vec3 Simulation::State::impulse(const std::string& account) const {
   std::vector<ImpulseAccount> accounts;
   modules.accounts(accounts);
+  if (over) over->add_up(accounts);
   const auto own = [&](const ImpulseAccount& one) { return one.name == account; };
   const auto found = std::find_if(accounts.begin(), accounts.end(), own);
   return found == accounts.end() ? Vec3(Vec3::Zero()) : found->impulse;
@@ -131,6 +161,13 @@ const RunTotals& Simulation::State::find_totals() {
   totals.energy.add("potential", NamedEnergy::Kind::stored, of_all.potential);
   mechanics->energies(totals.energy);
   modules.energies(totals.energy);
+  if (over) {
+    over->add_up(totals.energy);
+    over->ranks().sum(&of_all.carried, 1);
+    double least = -of_all.min_j;
+    over->ranks().largest(&least, 1);
+    of_all.min_j = -least;
+  }
   return totals;
 }
 
@@ -146,13 +183,15 @@ SolverState Simulation::state() const {
   const RunTotals& totals = s.find_totals();
   report.energy = totals.energy;
   report.min_j = totals.material.min_j;
-  report.numbers = s.modules.numbers();
+  report.numbers = s.numbers();
 
   AuditReport& audit = report.audit;
   audit.momentum = s.momentum();
   audit.initial_momentum = s.initial_momentum;
-  std::vector<ImpulseAccount> accounts{s.gravity};
+  std::vector<ImpulseAccount> accounts;
   s.modules.accounts(accounts);
+  if (s.over) s.over->add_up(accounts);
+  accounts.insert(accounts.begin(), s.gravity);
   Vec3 given = Vec3::Zero();
   for (const ImpulseAccount& account : accounts) {
     audit.impulses.push_back({account.name, account.impulse});
@@ -171,8 +210,7 @@ std::uint64_t Simulation::state_hash() const {
   ByteHash hash;
   hash.add(s.time);
   for (const ParticleSet& set : s.sets) {
-    std::vector<int> place(set.size());
-    for (int p = 0; p < set.size(); ++p) place[set.id[p] - set.first_id] = p;
+    const std::vector<int> place = places_by_id(set, !s.over);
     const auto add = [&](const auto& values) {
       for (const int p : place) hash.add(values[p]);
     };
@@ -185,7 +223,7 @@ std::uint64_t Simulation::state_hash() const {
   std::vector<double> numbers;
   for (const Module* module : s.modules.list()) module->hashed(numbers);
   for (const double number : numbers) hash.add(number);
-  return hash.value();
+  return s.over ? s.over->hash_of_all(hash.value()) : hash.value();
 }
 
 }  // namespace mpm

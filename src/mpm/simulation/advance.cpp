@@ -63,13 +63,20 @@ void Simulation::State::step(double start, double dt) {
   steps.dt_last = dt;
   steps.dt_min = steps.steps == 1 ? dt : std::min(steps.dt_min, dt);
   steps.dt_max = std::max(steps.dt_max, dt);
-  if (const auto particle = mechanics->failed()) {
-    fail("the volume ratio J is not positive", *particle, start + dt,
-         "lower time.cfl, use a finer grid.cell or slower tools, or stiffen what is crushed");
-  }
   const auto asks = [](const Module* module) { return module->needs_sort(); };
   const std::vector<Module*>& list = modules.list();
-  if (mechanics->needs_sort() || std::any_of(list.begin(), list.end(), asks)) sort(start + dt);
+  bool failed_now = mechanics->failed().has_value();
+  bool sorts = mechanics->needs_sort() || std::any_of(list.begin(), list.end(), asks);
+  if (over) over->share_flags(failed_now, sorts);
+  if (failed_now) {
+    check_together([&] {
+      const auto particle = mechanics->failed();
+      if (!particle) return;
+      fail("the volume ratio J is not positive", *particle, start + dt,
+           "lower time.cfl, use a finer grid.cell or slower tools, or stiffen what is crushed");
+    });
+  }
+  if (sorts) sort(start + dt);
 }
 
 void Simulation::State::run_period() {
@@ -86,7 +93,7 @@ void Simulation::State::run_period() {
   for (int k = 0; k < steps_ahead.number; ++k) {
     step(part_begin + k * steps_ahead.dt, steps_ahead.dt);
     if (k + 1 == steps_ahead.number) break;
-    if (asked_to_stop && asked_to_stop()) {
+    if (asked_to_stop && (over ? over->ranks().any(asked_to_stop()) : asked_to_stop())) {
       throw StoppedError(fmt::format("stopped within a sync period, {} of {} steps after t = {:.6g} s", k + 1,
                                      steps_ahead.number, part_begin));
     }

@@ -234,7 +234,7 @@ std::string step_warning(const SimulationDefinition& definition) {
 std::unique_ptr<ScalarTransfer> RunParts::make_transfer(ShapeKind shape) {
   return with_precision(definition.method.precision, [&](auto zero) {
     return make_scalar_transfer(kernel_table<decltype(zero)>(shape, definition.geometry, isa), fields, sets, threads,
-                                choice);
+                                choice, halo);
   });
 }
 
@@ -259,13 +259,16 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
   for (ParticleSet& set : sets) prepare(set, method.shape, method.transfer);
   bodies.reserve(definition.rigid_bodies.size());
   for (const RigidBodyDefinition& body : definition.rigid_bodies) bodies.emplace_back(body);
-  RunParts parts{definition,   field_map,
-                 fields,       sets,
-                 laws,         bodies,
-                 choice.get(), threads,
-                 isa,          modules,
-                 services,     warnings,
-                 notes,        [this]() -> const EnergyReport& { return find_totals().energy; }};
+  if (ranks) {
+    over = std::make_unique<OverRanks>(*ranks, layout(), bodies);
+    if (!ranks->first()) modules.leave_shared_to_first();
+  }
+  RunParts parts{definition,   field_map,   fields,
+                 sets,         laws,        bodies,
+                 choice.get(), ranks.get(), over ? &over->halo() : nullptr,
+                 threads,      isa,         modules,
+                 services,     warnings,    notes,
+                 [this]() -> const EnergyReport& { return find_totals().energy; }};
   for (const ShippedModules& shipped : shipped_modules()) shipped.add(parts);
   for (const AddModules& add : of_caller) add(parts);
   for (Module* module : modules.list()) {
@@ -281,6 +284,7 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
   settings.threads = threads;
   settings.damping = parts.damping;
   settings.choice = choice.get();
+  settings.halo = parts.halo;
   with_precision(method.precision, [&](auto zero) {
     const auto kernels = kernel_table<decltype(zero)>(method.shape, definition.geometry, isa);
     mechanics = make_mechanics(kernels, fields, sets, laws, settings);
@@ -299,6 +303,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   }
   s.asked_to_stop = std::move(options.stop);
   s.settling = std::move(options.settling);
+  if (options.ranks && options.ranks->size() > 1) s.ranks = std::move(options.ranks);
   s.definition = std::move(given);
   Transfer& transfer = s.definition.method.transfer;
   const bool filters = transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm;
@@ -312,6 +317,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {
     const std::string fault = rigid_fault(definition, body);
     if (!fault.empty()) throw DefinitionError(fmt::format("rigid body '{}': {}", body.name, fault));
+  }
+  if (const std::string fault = s.ranks ? ranks_fault(definition) : std::string(); !fault.empty()) {
+    throw DefinitionError(fault);
   }
   s.field_map = field_map(definition);
   s.fields = make_fields(definition, s.field_map.count());
@@ -334,8 +342,15 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     set.chooses = s.field_map.across(number) > 0;
     if (set.chooses) set.far_field = s.choice->number();
     if (set.far_field != set.field) set.side.assign(set.id.size(), 0);
+    if (s.ranks && set.far_field != set.field) {
+      throw DefinitionError(
+          fmt::format("body '{}': a thin tool divides it in two velocity fields, which does not work over several "
+                      "ranks yet; start the run as one process, or write sides: one for that tool",
+                      set.name));
+    }
     set.first_id = next_id;
     for (std::uint32_t& id : set.id) id = next_id++;
+    s.sizes.push_back(set.id.size());
     s.total_mass += set.total_mass();
     if (!geostatic) forget_particles(body);
   }
@@ -355,6 +370,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.least_mass());
   for (auto& grid : s.fields) grid->least_mass = 1e-30 * lightest;
   s.gravity.name = "gravity";
+  if (s.over) s.over->keep_own(s.sets);
   s.sort(0.0);
   StepContext start{s.fields, 0.0};
   s.modules.act(Hook::run_begun, start);

@@ -8,11 +8,12 @@
 #include <filesystem>
 #include <sstream>
 
-#include "hdf5_archive.hpp"
 #include "mpm/math/build_info.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/math/output_file.hpp"
+#include "mpm/ranks/lists.hpp"
 #include "mpm/simulation/method_text.hpp"
+#include "ranks_archive.hpp"
 
 namespace mpm {
 namespace {
@@ -44,6 +45,7 @@ void serialise_run(StateArchive& archive, Simulation& simulation, const Serialis
   }
   if (!more) return;
   const StateArchive::Group group(archive, "run");
+  const StateArchive::Same same(archive);
   more(archive);
 }
 
@@ -105,6 +107,15 @@ CheckpointAbout read_about(StateArchive& archive, const std::string& path) {
   return about;
 }
 
+/// What the lowest rank that says something says; empty if none does. Collective.
+std::string first_of(Communicator& ranks, const std::string& own) {
+  for (const Communicator::Bytes& bytes : ranks.gather(bytes_of(std::vector<char>(own.begin(), own.end())))) {
+    const std::vector<char> text = list_of<char>(bytes);
+    if (!text.empty()) return {text.begin(), text.end()};
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string text_difference(const std::string& here, const std::string& there) {
@@ -121,29 +132,37 @@ std::string text_difference(const std::string& here, const std::string& there) {
 
 CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation, const CheckpointLabel& label,
                                 const SerialiseMore& more) {
-  if (const std::string refused = refused_output(path); !refused.empty()) {
-    throw CheckpointError(fmt::format("checkpoint {}: cannot be written: {}", path, refused));
-  }
+  Communicator* ranks = simulation.ranks();
+  const bool writes = ranks == nullptr || ranks->first();
+  const auto check = [&](std::string problem) {
+    if (ranks != nullptr) problem = first_of(*ranks, problem);
+    if (!problem.empty()) throw CheckpointError(fmt::format("checkpoint {}: cannot be written: {}", path, problem));
+  };
+  check(writes ? refused_output(path) : std::string());
   CheckpointAbout about = about_of(simulation);
   about.label = label;
   about.state_hash = simulation.state_hash();
   about.checksum = simulation.memory_hash();
   const std::string part = path + ".part";
-  try {
-    Hdf5Writer file(part);
+  const auto write = [&](auto&& file) {
     serialise(file, about);
     serialise_run(file, simulation, more);
     file.close();
+  };
+  try {
+    if (ranks == nullptr) {
+      write(Hdf5Writer(part));
+    } else {
+      write(RanksWriter(*ranks, part));
+    }
   } catch (...) {
-    std::remove(part.c_str());
+    if (writes) std::remove(part.c_str());
     throw;
   }
   std::error_code error;
-  std::filesystem::rename(part, path, error);
-  if (error) {
-    std::remove(part.c_str());
-    throw CheckpointError(fmt::format("checkpoint {}: cannot be written: {}", path, error.message()));
-  }
+  if (writes) std::filesystem::rename(part, path, error);
+  if (error) std::remove(part.c_str());
+  check(error ? error.message() : std::string());
   return about;
 }
 
@@ -154,10 +173,11 @@ CheckpointAbout read_checkpoint(const std::string& path) {
 
 CheckpointAbout load_checkpoint(const std::string& path, Simulation& simulation, const std::string& scene_text,
                                 const SerialiseMore& more) {
-  Hdf5Reader file(path);
+  RanksReader file(simulation.ranks(), path);
   const CheckpointAbout about = read_about(file, path);
   check(path, about, about_of(simulation), scene_text);
   serialise_run(file, simulation, more);
+  if (file.merging()) return about;  // in another order, which has other hashes
   if (simulation.memory_hash() != about.checksum || simulation.state_hash() != about.state_hash) {
     throw CheckpointError(
         fmt::format("checkpoint {}: what it holds is not what was saved: the file is damaged; take "

@@ -67,6 +67,7 @@ MaterialContactSettings pair_settings(RunParts& parts) {
   settings.threads = parts.threads;
   settings.sides = parts.sides;
   settings.heat = parts.heat;
+  settings.ranks = parts.ranks;
   settings.cell_volume = definition.across();
   for (int k = 0; k < layout.dim(); ++k) settings.cell_volume *= layout.cell(k);
   bool starts = needs_starts(definition);
@@ -116,7 +117,8 @@ void add_point_contact(RunParts& parts, const std::vector<RigidBody*>& bodies, s
   const SimulationDefinition& definition = parts.definition;
   PointContactSettings settings{
       definition.geometry, definition.method.shape, definition.across(), parts.threads,
-      definition.gravity,  has_pairs(definition),   parts.heat,          definition.contact.sharp_edges};
+      definition.gravity,  has_pairs(definition),   parts.heat,          definition.contact.sharp_edges,
+      parts.ranks};
   parts.modules.add(std::make_unique<PointContact>(bodies, parts.sets, parts.fields, std::move(laws), settings));
 }
 

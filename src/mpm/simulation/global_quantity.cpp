@@ -156,8 +156,7 @@ GlobalQuantities::GlobalQuantities(Simulation& simulation, const std::vector<Glo
     : simulation_(simulation) {
   for (const GlobalQuantity& wanted : chosen) {
     Term term{find(wanted.name), {}, 0, static_cast<std::size_t>(simulation.particles()), {}, 0.0};
-    const std::string unit =
-        wanted.body.empty() ? unit_of_number(simulation.state_->modules.numbers(), wanted.name) : "";
+    const std::string unit = wanted.body.empty() ? unit_of_number(simulation.numbers(), wanted.name) : "";
     if (term.quantity < 0 && !unit.empty()) {  // of a module that is not shipped
       names_.push_back(wanted.name);
       units_.push_back(unit);
@@ -192,12 +191,14 @@ GlobalQuantities::GlobalQuantities(Simulation& simulation, const std::vector<Glo
 double GlobalQuantities::sum(const Term& term) const {
   double total = 0.0;
   for (const int field : term.fields) {
-    for (std::size_t id = term.first; id < term.last; ++id) total += columns_[field][id];
+    const std::vector<double>& column = columns_[field];  // over several ranks only the first has it
+    for (std::size_t id = term.first; id < term.last && !column.empty(); ++id) total += column[id];
   }
   const Quantity& quantity = table()[term.quantity];
   if (quantity.energies.empty()) return total;
   EnergyReport energy;
   simulation_.state_->modules.energies(energy);
+  if (simulation_.state_->over) simulation_.state_->over->add_up(energy);
   double less = 0.0;
   for (const std::string& name : quantity.energies) total += energy.of(name);
   for (const std::string& name : quantity.less) less += energy.of(name);
@@ -206,8 +207,7 @@ double GlobalQuantities::sum(const Term& term) const {
 
 double GlobalQuantities::number(const std::string& name) const {
   double sum = 0.0;
-  for (const NamedNumber& number : simulation_.state_->modules.numbers())
-    sum += number.name == name ? number.value : 0.0;
+  for (const NamedNumber& number : simulation_.numbers()) sum += number.name == name ? number.value : 0.0;
   return sum;
 }
 
@@ -220,9 +220,11 @@ double GlobalQuantities::mean(const Term& term) const {
   for (std::size_t s = 0; s < state.sets.size(); ++s) {
     const ParticleSet& set = state.sets[s];
     if (!(all || has_temperature(state.laws[s])) || set.first_id < term.first || set.first_id >= term.last) continue;
-    const auto begin = columns_[term.fields.front()].begin() + set.first_id;
-    for (auto value = begin; value != begin + set.size(); ++value) total += *value;
-    count += set.size();
+    count += static_cast<double>(state.sizes[s]);
+    const std::vector<double>& column = columns_[term.fields.front()];
+    if (column.empty()) continue;
+    const auto begin = column.begin() + set.first_id;
+    for (auto value = begin; value != begin + static_cast<std::ptrdiff_t>(state.sizes[s]); ++value) total += *value;
   }
   return count > 0.0 ? total / count : 0.0;  // as of a particle
 }
@@ -270,7 +272,10 @@ const std::vector<double>& GlobalQuantities::read() {
   if (!fields_.empty()) simulation_.read_fields(fields_, columns_);
   const double now = static_cast<double>(simulation_.time()) * 1e-9;
   const double interval = last_ < 0.0 ? 0.0 : now - last_;
-  for (std::size_t k = 0; k < terms_.size(); ++k) values_[k] = value_of(terms_[k], names_[k], interval);
+  const Simulation::State& state = *simulation_.state_;
+  for (std::size_t k = 0; k < terms_.size(); ++k) {
+    values_[k] = state.from_first(value_of(terms_[k], names_[k], interval));
+  }
   last_ = now;
   return values_;
 }

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
 #include <utility>
 
 #include "mpm/math/output_file.hpp"
@@ -33,6 +34,10 @@ hid_t type_of(StateArchive::Number number) {
   return -1;
 }
 
+/// HDF5 as Debian packages it serves one thread at a time, and several runs of one program may read or write at once.
+/// Recursive: an Hdf5Id closes within calls that hold it.
+std::recursive_mutex one_at_a_time;
+
 constexpr hsize_t kChunk = hsize_t{1} << 20;  ///< numbers that have one checksum
 
 /// Why a file of that name cannot be opened so; empty if it can.
@@ -48,17 +53,23 @@ std::string problem_with(const std::string& path, const char* mode) {
 
 bool Hdf5Id::close() {
   if (id_ < 0) return false;
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
   return close_(std::exchange(id_, -1)) >= 0;
 }
 
 Hdf5Silence::Hdf5Silence() {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
   H5Eget_auto2(H5E_DEFAULT, &print_, &to_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-Hdf5Silence::~Hdf5Silence() { H5Eset_auto2(H5E_DEFAULT, print_, to_); }
+Hdf5Silence::~Hdf5Silence() {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
+  H5Eset_auto2(H5E_DEFAULT, print_, to_);
+}
 
 Hdf5Writer::Hdf5Writer(const std::string& path) : path_(path) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
   if (const std::string problem = problem_with(path, "wb"); !problem.empty()) {
     throw CheckpointError(
         fmt::format("checkpoint {}: cannot be written: {}; check its folder and the space on its disk", path, problem));
@@ -74,6 +85,7 @@ Hdf5Writer::Hdf5Writer(const std::string& path) : path_(path) {
 }
 
 void Hdf5Writer::values(const std::string& name, Number number, void* data, std::size_t count) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
   const hsize_t size = count;
   const Hdf5Id space(count == 0 ? H5Screate(H5S_NULL) : H5Screate_simple(1, &size, nullptr), H5Sclose);
   if (!space) fail();
@@ -87,6 +99,7 @@ void Hdf5Writer::values(const std::string& name, Number number, void* data, std:
 }
 
 void Hdf5Writer::close() {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
   if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0 || !file_.close() || error_.code != 0) fail();
 }
 
@@ -97,6 +110,7 @@ void Hdf5Writer::fail() const {
 }
 
 Hdf5Reader::Hdf5Reader(const std::string& path) : path_(path) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
   if (const std::string problem = problem_with(path, "rb"); !problem.empty()) {
     throw CheckpointError(fmt::format("checkpoint {}: cannot be read: {}", path, problem));
   }
@@ -120,7 +134,26 @@ Hdf5Id Hdf5Reader::open(const std::string& name) const {
   return set;
 }
 
+bool Hdf5Reader::has(const std::string& name) const {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
+  return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
+}
+
+void Hdf5Reader::part(const std::string& name, Number number, void* data, std::size_t first, std::size_t count) {
+  if (count == 0) return;
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
+  const Hdf5Id set = open(name);
+  const hsize_t begin = first, size = count;
+  const Hdf5Id there(H5Dget_space(set), H5Sclose), here(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  if (!there || !here || H5Sselect_hyperslab(there, H5S_SELECT_SET, &begin, nullptr, &size, nullptr) < 0 ||
+      H5Dread(set, type_of(number), here, there, H5P_DEFAULT, data) < 0) {
+    throw CheckpointError(
+        fmt::format("checkpoint {}: '{}' cannot be read: the file is cut off or damaged", path_, name));
+  }
+}
+
 std::size_t Hdf5Reader::stored(const std::string& name) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
   const Hdf5Id set = open(name);
   const Hdf5Id space(H5Dget_space(set), H5Sclose);
   const hssize_t count = space ? H5Sget_simple_extent_npoints(space) : -1;
@@ -129,6 +162,7 @@ std::size_t Hdf5Reader::stored(const std::string& name) {
 }
 
 void Hdf5Reader::values(const std::string& name, Number number, void* data, std::size_t count) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
   if (const std::size_t there = stored(name); there != count) {
     throw CheckpointError(
         fmt::format("checkpoint {}: '{}' has {} numbers where {} belong: it is of another scene, or "

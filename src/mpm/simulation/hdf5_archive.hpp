@@ -58,6 +58,10 @@ class Hdf5Writer final : public StateArchive {
   bool reading() const override { return false; }
   /// All is with the system then. @throws CheckpointError
   void close();
+  /// An array under its whole name. @throws CheckpointError
+  void array(const std::string& name, Number number, void* data, std::size_t count) {
+    values(name, number, data, count);
+  }
 
  protected:
   void values(const std::string& name, Number number, void* data, std::size_t count) override;
@@ -76,6 +80,14 @@ class Hdf5Reader final : public StateArchive {
   /// @throws CheckpointError for a file that cannot be read or is not HDF5
   explicit Hdf5Reader(const std::string& path);
   bool reading() const override { return true; }
+  bool has(const std::string& name) const;
+  // Of arrays by their whole names. @throws CheckpointError
+  std::size_t count(const std::string& name) { return stored(name); }
+  void array(const std::string& name, Number number, void* data, std::size_t count) {
+    values(name, number, data, count);
+  }
+  /// So many numbers from number `first` on.
+  void part(const std::string& name, Number number, void* data, std::size_t first, std::size_t count);
 
  protected:
   void values(const std::string& name, Number number, void* data, std::size_t count) override;

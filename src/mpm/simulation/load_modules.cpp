@@ -126,7 +126,8 @@ void add_tractions(RunParts& parts) {
     terms.push_back(make_term(load, parts));
   }
   if (terms.empty()) return;
-  const FaceSettings settings{definition.geometry, definition.method.shape, definition.across(), parts.choice};
+  const FaceSettings settings{definition.geometry, definition.method.shape, definition.across(), parts.choice,
+                              parts.halo};
   parts.modules.add(std::make_unique<FaceTractions>(settings, parts.fields, parts.sets, std::move(terms)));
 }
 

@@ -21,6 +21,7 @@ void keep_inside(const Simulation& simulation, const Box& region, std::uint64_t 
     static constexpr std::array<const char*, 3> kPlaces = {"x", "y", "z"};
     simulation.particle_field(kPlaces.at(axis), places.at(axis));
   }
+  if (values.empty()) return;  // on another rank than the first
   std::size_t kept = 0;
   for (std::uint64_t p = first; p < last; ++p) {
     if (region.contains({places[0][p], places[1][p], places[2][p]})) values[kept++] = values[p];
@@ -36,6 +37,7 @@ double reported(const Simulation& simulation, const MetricDefinition& metric) {
                                     metric.name, metric.number));
 }
 
+/// Over several ranks it is known on the first alone.
 double statistic_of(const Simulation& simulation, const MetricDefinition& metric, std::vector<double>& values) {
   if (!metric.number.empty()) return reported(simulation, metric);
   if (const int body = simulation.find_body(metric.body); body >= 0) return simulation.body_value(body, metric.field);
@@ -43,6 +45,7 @@ double statistic_of(const Simulation& simulation, const MetricDefinition& metric
   const auto [first, last] = metric.body.empty() ? std::pair<std::uint64_t, std::uint64_t>{0, values.size()}
                                                  : simulation.body_ids(metric.body);
   if (metric.region) keep_inside(simulation, *metric.region, first, last, values);
+  if (simulation.ranks() != nullptr && !simulation.ranks()->first()) return 0.0;
   const auto begin = metric.region ? values.begin() : values.begin() + first;
   const auto end = metric.region ? values.end() : values.begin() + last;
   if (begin == end) return std::numeric_limits<double>::quiet_NaN();
@@ -92,7 +95,7 @@ double Simulation::body_value(int body, const std::string& name) const {
   return (*vectors[place / 3])[place % 3];
 }
 
-std::vector<NamedNumber> Simulation::numbers() const { return state_->modules.numbers(); }
+std::vector<NamedNumber> Simulation::numbers() const { return state_->numbers(); }
 
 void Simulation::sample_metrics() {
   State& s = *state_;
@@ -101,11 +104,11 @@ void Simulation::sample_metrics() {
   for (std::size_t m = 0; m < s.definition.metrics.size(); ++m) {
     const MetricDefinition& metric = s.definition.metrics[m];
     if (metric.at && s.rates[m].count() == 0 && now >= *metric.at - 1e-12) {
-      s.rates[m].add(now, statistic_of(*this, metric, values));
+      s.rates[m].add(now, s.from_first(statistic_of(*this, metric, values)));
     }
     // A sync point on the edge of the window is in it, round-off or not.
     if (!metric.rate || now < metric.rate->from - 1e-12 || now > metric.rate->to + 1e-12) continue;
-    s.rates[m].add(now, statistic_of(*this, metric, values));
+    s.rates[m].add(now, s.from_first(statistic_of(*this, metric, values)));
   }
 }
 
@@ -121,7 +124,7 @@ std::vector<std::pair<std::string, double>> Simulation::metrics() const {
     } else if (metric.at && over_time.count() > 0) {
       value = over_time.mean();
     } else {
-      value = statistic_of(*this, metric, values);
+      value = state_->from_first(statistic_of(*this, metric, values));
     }
     list.emplace_back(metric.name, value);
   }

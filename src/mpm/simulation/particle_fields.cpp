@@ -138,29 +138,38 @@ const double* brought_values(const ParticleSet& set, const std::string& name) {
   return nullptr;
 }
 
+bool chosen(const SetView& view, int p, const ParticleChoice& choice) {
+  const ParticleSet& set = view.set;
+  if (set.id[p] % static_cast<std::uint32_t>(choice.stride) != 0) return false;
+  Vec3 place = choice.region ? choice.region->min : Vec3(Vec3::Zero());  // inside along what the grid has not
+  for (int axis = 0; axis < 3; ++axis) {
+    if (view.slot[axis] >= 0) place[axis] = set.x[view.slot[axis]][p];
+  }
+  return !choice.region || choice.region->contains(place);
+}
+
+/// Numbers those that are not negative.
+void number_rows(std::vector<std::int64_t>& rows) {
+  std::int64_t next = 0;
+  for (std::int64_t& row : rows) {
+    if (row >= 0) row = next++;
+  }
+}
+
 // Where each particle is written: its number among the chosen ones in order of id, by id; -1: not chosen.
 std::vector<std::int64_t> rows_of(const std::vector<SetView>& sets, std::size_t particles,
                                   const ParticleChoice& choice) {
   std::vector<std::int64_t> rows(particles, -1);
   for (const SetView& view : sets) {
-    const ParticleSet& set = view.set;
-    for (int p = 0; p < set.size(); ++p) {
-      if (set.id[p] % static_cast<std::uint32_t>(choice.stride) != 0) continue;
-      Vec3 place = choice.region ? choice.region->min : Vec3(Vec3::Zero());  // inside along what the grid has not
-      for (int axis = 0; axis < 3; ++axis) {
-        if (view.slot[axis] >= 0) place[axis] = set.x[view.slot[axis]][p];
-      }
-      if (!choice.region || choice.region->contains(place)) rows[set.id[p]] = 0;
+    for (int p = 0; p < view.set.size(); ++p) {
+      if (chosen(view, p, choice)) rows[view.set.id[p]] = 0;
     }
   }
-  std::int64_t next = 0;
-  for (std::int64_t& row : rows) {
-    if (row == 0) row = next++;
-  }
+  number_rows(rows);
   return rows;
 }
 
-/// `row(id)`: where a particle goes in each column, or a negative number.
+/// `row(view, p)`: where a particle of a set goes in each column, or a negative number.
 template <class T, class Row>
 void fill(const std::vector<SetView>& sets, const std::vector<Chosen>& fields, int threads, const Row& row,
           std::vector<std::vector<T>>& columns) {
@@ -180,7 +189,7 @@ void fill(const std::vector<SetView>& sets, const std::vector<Chosen>& fields, i
       View particle{view};
 #pragma omp for schedule(static)
       for (int p = 0; p < view.set.size(); ++p) {
-        const std::int64_t at = row(view.set.id[p]);
+        const std::int64_t at = row(view, p);
         if (at < 0) continue;
         particle.look(p, needs);
         for (std::size_t k = 0; k < fields.size(); ++k) out[k][at] = static_cast<T>(value(k, particle));
@@ -235,7 +244,45 @@ std::vector<Chosen> find_fields(const std::vector<std::string>& names, const std
   return fields;
 }
 
-std::int64_t by_id(std::uint32_t id) { return id; }
+std::int64_t by_id(const SetView& view, int p) { return view.set.id[p]; }
+
+/// Columns of this rank's own particles, which come to the first rank by id.
+std::vector<std::vector<double>> gather_columns(Communicator& ranks, const std::vector<SetView>& sets,
+                                                const std::vector<Chosen>& fields, int threads, std::size_t particles) {
+  std::vector<std::uint64_t> ids;
+  std::vector<std::int64_t> first;  // of each set
+  for (const SetView& view : sets) {
+    first.push_back(static_cast<std::int64_t>(ids.size()));
+    ids.insert(ids.end(), view.set.id.begin(), view.set.id.end());
+  }
+  std::vector<std::vector<double>> own(fields.size(), std::vector<double>(ids.size()));
+  const auto in_order = [&](const SetView& view, int p) { return first[view.index] + p; };
+  fill(sets, fields, threads, in_order, own);
+  std::vector<std::vector<double>> columns(fields.size());
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if (ranks.first()) columns[k].resize(particles);
+    ranks.place(own[k], ids, columns[k].data(), columns[k].size());
+  }
+  return columns;
+}
+
+/// As rows_of(), on the first rank; none on the others.
+std::vector<std::int64_t> gather_rows(Communicator& ranks, const std::vector<SetView>& sets, std::size_t particles,
+                                      const ParticleChoice& choice) {
+  std::vector<std::uint64_t> ids;
+  std::vector<double> own;
+  for (const SetView& view : sets) {
+    for (int p = 0; p < view.set.size(); ++p) {
+      ids.push_back(view.set.id[p]);
+      own.push_back(chosen(view, p, choice) ? 0.0 : -1.0);
+    }
+  }
+  std::vector<double> all(ranks.first() ? particles : 0);
+  ranks.place(own, ids, all.data(), all.size());
+  std::vector<std::int64_t> rows(all.begin(), all.end());
+  number_rows(rows);
+  return rows;
+}
 
 }  // namespace
 
@@ -279,6 +326,10 @@ void Simulation::particle_field(const std::string& name, std::vector<double>& va
 void Simulation::read_fields(const std::vector<std::string>& names, std::vector<std::vector<double>>& columns) const {
   const std::vector<SetView> sets = state_->views();
   const std::vector<Chosen> fields = find_fields(names, sets);
+  if (state_->over) {
+    columns = gather_columns(*state_->ranks, sets, fields, state_->threads, particles());
+    return;
+  }
   columns.resize(fields.size());
   for (std::vector<double>& column : columns) column.resize(particles());
   fill(sets, fields, state_->threads, by_id, columns);
@@ -290,8 +341,20 @@ void Simulation::read_particles(const std::vector<std::string>& names, const Par
   const std::vector<Chosen> fields = find_fields(names, sets);
   const bool whole = choice.stride == 1 && !choice.region;
   std::vector<std::int64_t> rows;
-  if (!whole) rows = rows_of(sets, particles(), choice);
   columns.ids.clear();
+  if (state_->over) {
+    const std::vector<std::vector<double>> all =
+        gather_columns(*state_->ranks, sets, fields, state_->threads, particles());
+    rows = gather_rows(*state_->ranks, sets, particles(), choice);
+    columns.values.assign(fields.size(), {});
+    for (std::size_t id = 0; id < rows.size(); ++id) {
+      if (rows[id] < 0) continue;
+      columns.ids.push_back(static_cast<std::uint32_t>(id));
+      for (std::size_t k = 0; k < fields.size(); ++k) columns.values[k].push_back(static_cast<float>(all[k][id]));
+    }
+    return;
+  }
+  if (!whole) rows = rows_of(sets, particles(), choice);
   for (std::uint32_t id = 0; id < particles(); ++id) {
     if (whole || rows[id] >= 0) columns.ids.push_back(id);
   }
@@ -301,7 +364,8 @@ void Simulation::read_particles(const std::vector<std::string>& names, const Par
     fill(sets, fields, state_->threads, by_id, columns.values);
   } else {
     fill(
-        sets, fields, state_->threads, [&rows](std::uint32_t id) { return rows[id]; }, columns.values);
+        sets, fields, state_->threads, [&rows](const SetView& view, int p) { return rows[view.set.id[p]]; },
+        columns.values);
   }
 }
 

@@ -20,6 +20,7 @@ class RigidMotion final : public Module {
     for (const RigidBody& body : bodies_) check_periodic(body);
   }
   std::string name() const override { return "rigid_bodies"; }
+  bool same_on_all_ranks() const override { return true; }
 
   void energies(EnergyReport& report) const override {
     for (const RigidBody& body : bodies_) {

@@ -43,10 +43,14 @@ void Simulation::State::serialise_particles(StateArchive& archive) {
     serialise_scalars(archive, "history", set.history);
     serialise_scalars(archive, "mass", set.masses);
     serialise_scalars(archive, "affine", set.affine);
-    archive.rows("start_x", set.start_x);  // whoever resumes may ask for other outputs
+    std::uint64_t starts = set.start_x.size();  // whoever resumes may ask for other outputs
+    archive.value("start_x/rows", starts);
+    set.start_x.resize(starts);
     serialise_arrays(archive, "start_x", set.start_x);
     for (NamedScalar& scalar : set.brought) archive.list("brought/" + scalar.name, scalar.values);
     archive.list("side", set.side);
+    if (archive.reading()) set.fit_scratch();
+    if (archive.merging()) continue;  // sorted anew
     archive.list("begin", set.begin);
     archive.list("group", set.group);
     archive.list("group_begin", set.group_begin);
@@ -54,7 +58,8 @@ void Simulation::State::serialise_particles(StateArchive& archive) {
 }
 
 void Simulation::State::serialise_grid(StateArchive& archive) {
-  for (std::size_t f = 0; f < fields.size(); ++f) {
+  int first_owner = 0;
+  for (std::size_t f = 0; f < fields.size() && !archive.merging(); ++f) {
     const StateArchive::Group group(archive, "field_" + std::to_string(f));
     Grid& grid = *fields[f];
     std::vector<std::uint64_t> owners;
@@ -63,7 +68,11 @@ void Simulation::State::serialise_grid(StateArchive& archive) {
     }
     archive.list("owners", owners);
     archive.value("first_owner", grid.first_owner);
-    if (archive.reading()) grid.rebuild(owners, threads);
+    if (archive.reading()) {
+      grid.first_owner = first_owner;  // each rank has its own
+      grid.rebuild(owners, threads);
+    }
+    first_owner += grid.blocks.owners();
     archive.list("loose", grid.loose);
   }
 }
@@ -93,6 +102,7 @@ void Simulation::State::serialise(StateArchive& archive) {
   archive.value("total_mass", total_mass);
   serialise_particles(archive);
   serialise_grid(archive);
+  if (over && !archive.merging()) over->serialise(archive);
   archive.set_generation(fields.front()->blocks.generation());  // of all: they are rebuilt together
   {
     const StateArchive::Group group(archive, "mechanics");
@@ -104,6 +114,7 @@ void Simulation::State::serialise(StateArchive& archive) {
   }
   {
     const StateArchive::Group group(archive, "gravity");
+    const StateArchive::Same same(archive);
     gravity.serialise(archive);
   }
   serialise_limit(archive, "material_limit", material_limit);
@@ -115,7 +126,13 @@ void Simulation::State::serialise(StateArchive& archive) {
   }
   {
     const StateArchive::Group group(archive, "rates");
+    const StateArchive::Same same(archive);
     LineFit::serialise(archive, rates);
+  }
+  if (archive.reading() && over && !archive.merging()) over->meet_again(fields);
+  if (archive.merging()) {
+    if (over) over->keep_own(sets);
+    sort(1e-9 * static_cast<double>(time));
   }
   if (archive.reading()) failed = false;
 }
@@ -130,7 +147,7 @@ void Simulation::serialise(StateArchive& archive) {
 std::uint64_t Simulation::memory_hash() {
   StateHash hash;
   state_->serialise(hash);
-  return hash.value();
+  return state_->over ? state_->over->hash_of_all(hash.value()) : hash.value();
 }
 
 }  // namespace mpm

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "state.hpp"
 
@@ -53,6 +54,8 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 const SimulationDefinition& Simulation::definition() const { return state_->definition; }
 int Simulation::threads() const { return state_->threads; }
+Communicator* Simulation::ranks() const { return state_->ranks.get(); }
+bool Simulation::on_any_rank(bool own) const { return state_->over ? state_->over->ranks().any(own) : own; }
 std::string Simulation::isa() const { return isa_name(state_->isa); }
 std::vector<std::string> Simulation::warnings() const { return state_->warnings; }
 std::vector<std::string> Simulation::notes() const { return state_->notes; }
@@ -71,21 +74,46 @@ void Simulation::State::fail(const std::string& what, ParticleRef particle, doub
                   tool, known_to_fail(definition), remedy));
 }
 
+std::optional<ParticleRef> Simulation::State::sort_particles() {
+  if (over) over->hand_over(sets);
+  return sorter->sort(sets, fields);
+}
+
+void Simulation::State::check_together(const std::function<void()>& check) {
+  if (!over) return check();
+  std::string reason;
+  try {
+    check();
+  } catch (const PhysicsError& error) {
+    reason = error.what();
+  }
+  reason = over->first_reason(reason);
+  if (!reason.empty()) throw PhysicsError(reason);
+}
+
 void Simulation::State::sort(double now) {
   const std::vector<Module*>& list = modules.list();
   for (Module* module : list) module->before_sort();
-  auto outside = sorter->sort(sets, fields);
-  if (!outside) return;
-  if (std::any_of(list.begin(), list.end(), [](Module* module) { return module->put_back(); })) {
-    outside = sorter->sort(sets, fields);
-    if (!outside) return;
+  const auto anywhere = [this](bool own) { return over ? over->ranks().any(own) : own; };
+  auto outside = sort_particles();
+  if (anywhere(outside.has_value())) {
+    const auto put_back = [](Module* module) { return module->put_back(); };
+    const bool back = outside && std::any_of(list.begin(), list.end(), put_back);
+    if (!anywhere(outside && !back)) outside = sort_particles();
+    check_together([&] {
+      if (!outside) return;
+      for (const Module* module : list) {
+        const auto fault = module->why_outside(layout(), sets[outside->set], outside->index);
+        if (fault) fail(fault->what, *outside, now, fault->remedy);
+      }
+      fail("a particle is outside the domain or not finite", *outside, now,
+           "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', or lower time.cfl if the run blew "
+           "up");
+    });
   }
-  for (const Module* module : list) {
-    const auto fault = module->why_outside(layout(), sets[outside->set], outside->index);
-    if (fault) fail(fault->what, *outside, now, fault->remedy);
-  }
-  fail("a particle is outside the domain or not finite", *outside, now,
-       "enlarge grid.min/grid.max, close that face with a wall in 'boundaries', or lower time.cfl if the run blew up");
+  if (!over) return;
+  over->meet(fields);
+  for (Module* module : list) module->share_memory(*ranks);
 }
 
 int Simulation::find_body(const std::string& name) const {
@@ -153,14 +181,13 @@ std::vector<PairReport> Simulation::take_pairs() {
 }
 
 std::uint64_t Simulation::particles() const {
-  std::uint64_t count = 0;
-  for (const ParticleSet& set : state_->sets) count += set.size();
-  return count;
+  return std::accumulate(state_->sizes.begin(), state_->sizes.end(), std::uint64_t{0});
 }
 
 std::pair<std::uint64_t, std::uint64_t> Simulation::body_ids(const std::string& body) const {
-  for (const ParticleSet& set : state_->sets) {
-    if (set.name == body) return {set.first_id, set.first_id + set.size()};
+  for (std::size_t s = 0; s < state_->sets.size(); ++s) {
+    const ParticleSet& set = state_->sets[s];
+    if (set.name == body) return {set.first_id, set.first_id + state_->sizes[s]};
   }
   throw DefinitionError(fmt::format("no deformable body is called '{}'", body));
 }

@@ -12,6 +12,7 @@
 #include "mpm/simulation/run_parts.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/step/schedule.hpp"
+#include "over_ranks.hpp"
 
 namespace mpm {
 
@@ -63,10 +64,13 @@ struct Simulation::State {
   Isa isa = Isa::plain;
   std::vector<std::string> warnings, notes;
   std::function<bool()> asked_to_stop;  ///< may be empty
+  std::shared_ptr<Communicator> ranks;
+  std::unique_ptr<OverRanks> over;  ///< over several ranks, else null
   std::function<void(const Settling&)> settling;
 
   std::vector<ParticleSet> sets;
-  std::vector<Law> laws;  ///< of each set
+  std::vector<std::uint64_t> sizes;  ///< of each set, on all ranks
+  std::vector<Law> laws;             ///< of each set
   FieldMap field_map;
   Fields fields;
   std::unique_ptr<NodeChoice> choice;  ///< of particles near cracks
@@ -102,6 +106,10 @@ struct Simulation::State {
   void check_field(const std::string& name) const;
   /// What the account of that name says that the material was given since the start; zero without one [N s].
   Vec3 impulse(const std::string& account) const;
+  /// Of all modules.
+  std::vector<NamedNumber> numbers() const;
+  /// The value that the first rank found.
+  double from_first(double value) const;
   /// Of all particles [N s].
   Vec3 momentum() const;
   /// What the material allows now.
@@ -120,6 +128,10 @@ struct Simulation::State {
   void step(double start, double dt);
   /// @throws PhysicsError for a particle that is not where it may be
   void sort(double now);
+  /// The same as the sorter: after particles have gone to their ranks, and before these meet.
+  std::optional<ParticleRef> sort_particles();
+  /// Ends the run on all ranks if check() throws on one of them, with its reason. @throws PhysicsError
+  void check_together(const std::function<void()>& check);
   /// All that the run remembers (serialise_state.cpp).
   void serialise(StateArchive& archive);
   void serialise_particles(StateArchive& archive);

@@ -52,6 +52,7 @@ StepLimit Simulation::State::survey_material() const {
     for (int k = 0; k < dim; ++k) material.place[layout().axis(k)] = sets[s].x[k][found.index];
     limit.tighten(material);
   }
+  if (over) over->share(limit, modules, mechanics.get());
   return limit;
 }
 
@@ -64,6 +65,7 @@ StepLimit Simulation::State::step_limit(const StepLimit& before, const StepLimit
   limit.dt *= trend;
   limit.foreseen = trend < kWorthTelling;
   for (const Module* module : modules.list()) module->limit_step(period, limit);
+  if (over) over->share(limit, modules, mechanics.get());
   if (limit.dt > period.length) limit.by = nullptr;
   return limit;
 }

@@ -32,7 +32,7 @@ void add_stress_average(RunParts& parts) {
         "method.average_stress: no body is of drucker_prager, mohr_coulomb or mu_i, whose stresses it averages; leave "
         "it out");
   }
-  parts.modules.add(std::make_unique<StressAverage>(std::move(sets), definition.geometry, parts.threads));
+  parts.modules.add(std::make_unique<StressAverage>(std::move(sets), definition.geometry, parts.threads, parts.halo));
 }
 
 }  // namespace mpm

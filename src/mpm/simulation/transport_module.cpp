@@ -78,7 +78,7 @@ SurfaceHeat* add_surface_heat(TransportedField& temperature, RunParts& parts) {
     }
   }
   auto heat = std::make_unique<SurfaceHeat>(parts.fields, parts.bodies, std::move(effusivities), std::move(tools),
-                                            std::move(pairs));
+                                            std::move(pairs), parts.ranks);
   SurfaceHeat* told = heat.get();
   temperature.add(std::move(heat));
   return told;
@@ -126,7 +126,7 @@ void add_transport(RunParts& parts) {
   const TransportDefinition& asked = definition.transport;
   if (asked.quantities.empty()) return;
   TransportParts shared{parts.fields, parts.sets, definition.geometry, definition.method.shape, parts.threads,
-                        {},           {},         definition.gravity,  parts.choice != nullptr};
+                        {},           {},         definition.gravity,  parts.choice != nullptr, parts.ranks};
   std::vector<double> speeds;
   for (std::size_t s = 0; s < parts.sets.size(); ++s) {
     const MaterialDefinition& material = find_material(parts.definition, parts.definition.bodies[s]);
@@ -139,7 +139,7 @@ void add_transport(RunParts& parts) {
   for (const QuantityDefinition& quantity : asked.quantities) {
     auto field = make_field(quantity, shared, parts);
     if (!quantity.fluxes.empty()) {
-      const FaceSettings faces{definition.geometry, shape, definition.across(), parts.choice};
+      const FaceSettings faces{definition.geometry, shape, definition.across(), parts.choice, parts.halo};
       field->add(std::make_unique<FaceFlux>(faces, parts.fields, parts.sets, flux_terms(quantity, parts)));
     }
     if (quantity.quantity == Transported::temperature) {

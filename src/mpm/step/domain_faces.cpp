@@ -133,7 +133,8 @@ NodeShares node_shares(const Grid& grid, const PlacedDomain::Vector& at, int fie
 }
 
 void find_places(const ParticleSet& set, std::vector<int>& place_of) {
-  place_of.resize(set.size());
+  const auto last = std::max_element(set.id.begin(), set.id.end());
+  place_of.assign(last == set.id.end() ? 0 : *last + 1 - set.first_id, -1);
   for (int p = 0; p < set.size(); ++p) place_of[set.id[p] - set.first_id] = p;
 }
 

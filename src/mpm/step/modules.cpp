@@ -73,7 +73,11 @@ void Modules::act(Hook hook, StepContext& context) const {
 
 void Modules::accounts(std::vector<ImpulseAccount>& list) const {
   std::vector<ImpulseAccount> all;
-  for (const Module* module : list_) module->accounts(all);
+  for (const Module* module : list_) {
+    const std::size_t first = all.size();
+    module->accounts(all);
+    for (std::size_t i = first; i < all.size() && !counts(*module); ++i) all[i] = {all[i].name};
+  }
   for (ImpulseAccount& account : all) {
     const auto same = std::find_if(list.begin(), list.end(), [&](const auto& a) { return a.name == account.name; });
     if (same == list.end()) {
@@ -86,12 +90,20 @@ void Modules::accounts(std::vector<ImpulseAccount>& list) const {
 }
 
 void Modules::energies(EnergyReport& report) const {
-  for (const Module* module : list_) module->energies(report);
+  for (const Module* module : list_) {
+    report.weigh(counts(*module) ? 1.0 : 0.0);
+    module->energies(report);
+  }
+  report.weigh(1.0);
 }
 
 std::vector<NamedNumber> Modules::numbers() const {
   std::vector<NamedNumber> list;
-  for (const Module* module : list_) module->numbers(list);
+  for (const Module* module : list_) {
+    const std::size_t first = list.size();
+    module->numbers(list);
+    for (std::size_t i = first; i < list.size() && !counts(*module); ++i) list[i].value = 0.0;
+  }
   return list;
 }
 
@@ -113,6 +125,7 @@ void Modules::serialise(StateArchive& archive) {
     std::string unique = name;
     for (int copy = 2; !taken.insert(unique).second; ++copy) unique = name + "_" + std::to_string(copy);
     const StateArchive::Group group(archive, unique);
+    const StateArchive::Same same(archive, module->same_on_all_ranks());
     module->serialise(archive);
   }
 }

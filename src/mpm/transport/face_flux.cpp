@@ -21,11 +21,32 @@ double flux(const FluxDefinition& of, double given, double there) {
 
 FaceFlux::FaceFlux(const FaceSettings& settings, const Fields& fields, const std::vector<ParticleSet>& sets,
                    std::vector<FluxTerm> terms)
-    : faces_(settings, fields, sets), sets_(sets), terms_(std::move(terms)) {
+    : faces_(settings, fields, sets), fields_(fields), sets_(sets), terms_(std::move(terms)), halo_(settings.halo) {
   for (const FluxTerm& term : terms_) accounts_.push_back({term.definition.name, 0.0, 0.0});
+  if (halo_ != nullptr) own_.assign(fields.size(), NodalField(1, faces_.layout().nodes_per_block()));
+}
+
+// Over several ranks the sources of this one are kept apart until all have theirs.
+NodalField& FaceFlux::source_of(int field, std::vector<NodalQuantity>& nodes) {
+  return halo_ == nullptr ? nodes[field].source : own_[field];
+}
+
+void FaceFlux::begin_own() {
+  for (std::size_t f = 0; f < own_.size(); ++f) {
+    own_[f].resize(fields_[f]->blocks.size());
+    std::fill_n(own_[f].data(), own_[f].size(), 0.0);
+  }
+}
+
+void FaceFlux::add_own(std::vector<NodalQuantity>& nodes) {
+  for (std::size_t f = 0; f < own_.size(); ++f) {
+    halo_->add(static_cast<int>(f), own_[f]);
+    for (std::size_t i = 0; i < own_[f].size(); ++i) nodes[f].source.data()[i] += own_[f].data()[i];
+  }
 }
 
 void FaceFlux::give(std::vector<NodalQuantity>& nodes, double start, double dt) {
+  begin_own();
   int found = -1;  // the set that place_of_ is of
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const FluxTerm& term = terms_[i];
@@ -34,7 +55,8 @@ void FaceFlux::give(std::vector<NodalQuantity>& nodes, double start, double dt) 
     found = term.set;
     double content = 0.0;
     for (const std::uint32_t id : term.particles) {
-      const int p = place_of_[id];
+      const int p = id < place_of_.size() ? place_of_[id] : -1;
+      if (p < 0) continue;  // on another rank
       const FaceParts parts = faces_.parts(term.set, p, term.face);
       Vec3 middle = Vec3::Zero();
       for (int k = 0; k < faces_.layout().dim(); ++k) middle[faces_.layout().axis(k)] = parts.middle[k];
@@ -59,13 +81,14 @@ void FaceFlux::give(std::vector<NodalQuantity>& nodes, double start, double dt) 
         }
         const double rate = parts.corner[a].area * flux(term.definition, given, there);
         for (int n = 0; n < shares.count; ++n) {
-          nodes[shares.field[n]].source.at(shares.node[n].block, 0, shares.node[n].node) += shares.share[n] * rate;
+          source_of(shares.field[n], nodes).at(shares.node[n].block, 0, shares.node[n].node) += shares.share[n] * rate;
         }
         content += rate * dt;
       }
     }
     accounts_[i].add(content);
   }
+  add_own(nodes);
 }
 
 double FaceFlux::conductance(double most) const {
@@ -86,8 +109,8 @@ void FaceFlux::accounts(std::vector<ContentAccount>& list) const {
 
 void FaceFlux::serialise(StateArchive& archive) {
   for (std::size_t i = 0; i < accounts_.size(); ++i) {
-    archive.value("given_" + std::to_string(i), accounts_[i].given);
-    archive.value("exchanged_" + std::to_string(i), accounts_[i].exchanged);
+    archive.sum("given_" + std::to_string(i), accounts_[i].given);
+    archive.sum("exchanged_" + std::to_string(i), accounts_[i].exchanged);
   }
 }
 

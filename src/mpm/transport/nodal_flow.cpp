@@ -346,7 +346,7 @@ void TransportedField::end_conduction(int field, double start, double dt, const 
     if (!(capacity > 0.0)) continue;
     double& own = content.at(held.ref.block, 0, held.ref.node);
     const double wanted = capacity * (prescribed(held, start + dt) - held.raw);
-    prescribed_.add(wanted - own);
+    if (parts_.fields[field]->counts(held.ref.block)) prescribed_.add(wanted - own);
     own = wanted;
   }
 }

@@ -159,9 +159,21 @@ void PoreWater::push_hoop(int set) {
   by_axis_[set] = {push[1].data(), push[1].data(), push[2].data()};
 }
 
+// Particles may have come from other ranks and gone there.
+void PoreWater::fit_scratch() {
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    const std::size_t size = parts_.sets[s].id.size();
+    for (PaddedArray<double>& values : push_[s]) {
+      if (values.data() != nullptr && values.size() != size) values.resize(size);
+    }
+    if (averaged_ && mean_[s].size() != size) mean_[s].resize(size);
+  }
+}
+
 void PoreWater::add_force(StepContext& context) {
   const int dim = context.layout().dim();
   const bool rings = axisymmetric(parts_.geometry);
+  fit_scratch();
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
     const ParticleSet& set = parts_.sets[s];
     const TransportMaterial& own = pressure_.material(static_cast<int>(s));
@@ -214,7 +226,7 @@ void PoreWater::add_force(StepContext& context) {
     transfer_->spread_gradient(static_cast<int>(f), by_axis_, ScalarTransfer::Weight::mass, part_);
     add(part_, 1, 0);
     for (int b = 0; b < grid.blocks.size(); ++b) {
-      for (int n = 0; n < nodes; ++n) radial_ += part_.at(b, 0, n) * context.dt;
+      for (int n = 0; n < nodes && grid.counts(b); ++n) radial_ += part_.at(b, 0, n) * context.dt;
     }
   }
 }
@@ -230,6 +242,6 @@ double PoreWater::undrained_speed(int set, double drained) const {
   return std::sqrt(drained * drained + stiffness(set) / parts_.densities[set]);
 }
 
-void PoreWater::serialise(StateArchive& archive) { archive.value("work", work_); }
+void PoreWater::serialise(StateArchive& archive) { archive.sum("work", work_); }
 
 }  // namespace mpm

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <utility>
+
 #include "mpm/step/coulomb.hpp"
 #include "mpm/step/domain_faces.hpp"
 #include "mpm/transport/transported_field.hpp"
@@ -15,12 +17,13 @@ constexpr std::size_t kSharesOfATouch = 8;
 }  // namespace
 
 SurfaceHeat::SurfaceHeat(const Fields& fields, const std::vector<RigidBody>& bodies, std::vector<double> effusivities,
-                         std::vector<ToolHeat> tools, std::vector<double> pairs)
+                         std::vector<ToolHeat> tools, std::vector<double> pairs, const Communicator* ranks)
     : fields_(fields),
       bodies_(bodies),
       effusivities_(std::move(effusivities)),
       tools_(std::move(tools)),
-      pairs_(std::move(pairs)) {
+      pairs_(std::move(pairs)),
+      ranks_(ranks) {
   friction_.name = "friction";
   conducted_.name = "tools";
   touches_.reserve(kTouches);
@@ -70,12 +73,13 @@ void SurfaceHeat::touch(const RigidBody& tool, const Grid& grid, const Vec3& pla
   for (int i = 0; i < found.count; ++i) {
     shares_.push_back({HeldNodes::id(grid.blocks.key(found.node[i].block), found.node[i].node), found.share[i]});
   }
-  touches_.push_back({heated, field_of(grid), first, found.count, area, friction, dt});
+  touches_.push_back({heated, field_of(grid), first, found.count, area, friction, dt, true});
 }
 
 void SurfaceHeat::rub(const RigidBody* tool, const Grid& grid, std::uint64_t node, double friction, double dt) {
   if (friction == 0.0) return;
-  touches_.push_back({tool_of(tool), field_of(grid), static_cast<int>(shares_.size()), 1, 0.0, friction, dt});
+  touches_.push_back(
+      {tool_of(tool), field_of(grid), static_cast<int>(shares_.size()), 1, 0.0, friction, dt, tool != nullptr});
   shares_.push_back({node, 1.0});
 }
 
@@ -93,12 +97,12 @@ void SurfaceHeat::give(const Touch& touch, std::vector<NodalQuantity>& nodes, do
     whole += shares_[i].share;
     there += shares_[i].share * of.value.at(ref.block, 0, ref.node);
   }
+  const bool keeps = ranks_ == nullptr || touch.by_tool;  // what all ranks keep and give alike
   if (!(whole > 0.0)) {
-    kept_ += touch.friction;
+    if (keeps) kept_ += touch.friction;
     return;
   }
-  double conducted = 0.0, warms = touch.friction + kept_;
-  kept_ = 0.0;
+  double conducted = 0.0, warms = touch.friction + (keeps ? std::exchange(kept_, 0.0) : 0.0);
   if (touch.tool >= 0) {
     ToolHeat& tool = tools_[touch.tool];
     const double friction = warms;
@@ -109,8 +113,10 @@ void SurfaceHeat::give(const Touch& touch, std::vector<NodalQuantity>& nodes, do
     tool.from_friction += friction - warms;
     if (tool.definition.capacity > 0.0) tool.temperature += (friction - warms - conducted) / tool.definition.capacity;
   }
-  rubbed_ += warms;
-  given_ += conducted;
+  if (counts(touch)) {
+    rubbed_ += warms;
+    given_ += conducted;
+  }
   for (int i = touch.first; i < touch.first + touch.count; ++i) {
     const NodeRef ref = find(touch.field, shares_[i].node);
     if (ref.block >= 0) of.source.at(ref.block, 0, ref.node) += shares_[i].share / whole * (conducted + warms) / dt;
@@ -119,8 +125,9 @@ void SurfaceHeat::give(const Touch& touch, std::vector<NodalQuantity>& nodes, do
 
 void SurfaceHeat::give(const Meeting& meeting, std::vector<NodalQuantity>& nodes, double dt) {
   const NodeRef one = find(meeting.field, meeting.node), other = find(meeting.other_field, meeting.node);
+  const bool keeps = ranks_ == nullptr;
   if (one.block < 0 || other.block < 0) {
-    kept_ += meeting.friction;
+    if (keeps) kept_ += meeting.friction;
     return;
   }
   NodalQuantity &a = nodes[meeting.field], &b = nodes[meeting.other_field];
@@ -129,9 +136,8 @@ void SurfaceHeat::give(const Meeting& meeting, std::vector<NodalQuantity>& nodes
   const double heat = conductance * meeting.area * difference * meeting.dt / dt;
   const double sum = effusivities_[meeting.field] + effusivities_[meeting.other_field];
   const double part = sum > 0.0 ? effusivities_[meeting.field] / sum : 0.5;
-  const double friction = (meeting.friction + kept_) / dt;
-  kept_ = 0.0;
-  rubbed_ += friction * dt;
+  const double friction = (meeting.friction + (keeps ? std::exchange(kept_, 0.0) : 0.0)) / dt;
+  if (counts(meeting.field, one)) rubbed_ += friction * dt;
   a.source.at(one.block, 0, one.node) += heat + part * friction;
   b.source.at(other.block, 0, other.node) += (1.0 - part) * friction - heat;
 }
@@ -147,10 +153,20 @@ void SurfaceHeat::give(std::vector<NodalQuantity>& nodes, double start, double d
   meetings_.clear();
 }
 
+bool SurfaceHeat::counts(const Touch& touch) const {
+  if (ranks_ == nullptr) return true;
+  if (touch.by_tool) return ranks_->first();
+  const NodeRef node = find(touch.field, shares_[touch.first].node);
+  return node.block >= 0 && counts(touch.field, node);
+}
+
 double SurfaceHeat::waiting() const {
-  double sum = kept_;
-  for (const Touch& touch : touches_) sum += touch.friction;
-  for (const Meeting& meeting : meetings_) sum += meeting.friction;
+  double sum = ranks_ == nullptr || ranks_->first() ? kept_ : 0.0;
+  for (const Touch& touch : touches_) sum += counts(touch) ? touch.friction : 0.0;
+  for (const Meeting& meeting : meetings_) {
+    const NodeRef node = find(meeting.field, meeting.node);
+    if (ranks_ == nullptr || (node.block >= 0 && counts(meeting.field, node))) sum += meeting.friction;
+  }
   return sum;
 }
 
@@ -161,10 +177,10 @@ void SurfaceHeat::accounts(std::vector<ContentAccount>& list) const {
 
 void SurfaceHeat::serialise(StateArchive& archive) {
   archive.value("kept", kept_);
-  archive.value("friction", friction_.given);
-  archive.value("friction_exchanged", friction_.exchanged);
-  archive.value("conducted", conducted_.given);
-  archive.value("conducted_exchanged", conducted_.exchanged);
+  archive.sum("friction", friction_.given);
+  archive.sum("friction_exchanged", friction_.exchanged);
+  archive.sum("conducted", conducted_.given);
+  archive.sum("conducted_exchanged", conducted_.exchanged);
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     const StateArchive::Group group(archive, "tool_" + std::to_string(i));
     archive.value("temperature", tools_[i].temperature);
@@ -182,6 +198,13 @@ void SurfaceHeat::serialise(StateArchive& archive) {
   archive.column("touches/area", touches_, &Touch::area);
   archive.column("touches/friction", touches_, &Touch::friction);
   archive.column("touches/dt", touches_, &Touch::dt);
+  archive.column("touches/by_tool", touches_, &Touch::by_tool);
+  if (archive.merging() && !touches_.empty()) {
+    throw TransportError(
+        "heat of friction waits in this checkpoint for places that several ranks know: only as many ranks as have "
+        "written "
+        "it can take it on");
+  }
 }
 
 }  // namespace mpm

@@ -111,16 +111,20 @@ void Transport::energies(EnergyReport& report) const {
 }
 
 double Transport::budget_error(const TransportedField& field) const {
-  double given = 0.0, exchanged = 0.0;
+  double gained = field.gained(), given = 0.0, exchanged = 0.0;
   for (const ContentAccount& account : field.accounts()) {
     given += account.given;
     exchanged += account.exchanged;
   }
-  const double error = std::abs(field.gained() - given);
+  if (parts_.ranks != nullptr) {
+    for (double* sum : {&gained, &given, &exchanged}) parts_.ranks->sum(sum, 1);
+  }
+  const double error = std::abs(gained - given);
   return exchanged > 0.0 ? error / exchanged : error;
 }
 
 void Transport::numbers(std::vector<NamedNumber>& list) const {
+  const double once = parts_.ranks == nullptr || parts_.ranks->first() ? 1.0 : 0.0;  // of what all ranks know
   for (const auto& field : fields_) {
     const auto kind = static_cast<int>(field->quantity());
     const std::string name = kQuantityNames[kind], unit = kContentUnits[kind];
@@ -128,15 +132,15 @@ void Transport::numbers(std::vector<NamedNumber>& list) const {
     for (const ContentAccount& account : field->accounts()) {
       list.push_back({name + " by " + account.name, unit, account.given});
     }
-    list.push_back({name + " budget error", "1", budget_error(*field)});
+    list.push_back({name + " budget error", "1", once * budget_error(*field)});
   }
   if (surface_ == nullptr) return;
   list.push_back({"heat of friction in the next step", "J", surface_->waiting()});
   for (const ToolHeat& tool : surface_->tools()) {
     if (!(tool.definition.conductance > 0.0)) continue;
-    list.push_back({"heat from " + tool.definition.body, "J", tool.to_material});
+    list.push_back({"heat from " + tool.definition.body, "J", once * tool.to_material});
     if (tool.definition.capacity > 0.0)
-      list.push_back({"temperature of " + tool.definition.body, "K", tool.temperature});
+      list.push_back({"temperature of " + tool.definition.body, "K", once * tool.temperature});
   }
 }
 
@@ -167,7 +171,7 @@ void Transport::hashed(std::vector<double>& numbers) const {
 
 void Transport::serialise(StateArchive& archive) {
   archive.value("sync_end", sync_end_);
-  archive.value("expansion_work", expansion_work_);
+  archive.sum("expansion_work", expansion_work_);
   archive.value("expands_for", expands_for_);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const StateArchive::Group group(archive, kQuantityNames[static_cast<int>(fields_[i]->quantity())]);

@@ -94,6 +94,15 @@ void TransportedField::make_room() {
   rooms_.assign(parts_.fields.size(), NodalField(1, nodes));
 }
 
+void TransportedField::fit_scratch() {
+  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
+    for (PaddedArray<double>& values : scratch_[s]) {
+      if (values.data() != nullptr && values.size() != parts_.sets[s].id.size())
+        values.resize(parts_.sets[s].id.size());
+    }
+  }
+}
+
 void TransportedField::add(std::unique_ptr<NodalSource> source) {
   if (scratch_[0][0].empty()) make_room();
   // A surface that takes h (T_a - T), h as at the start, is read once an update: that must not overshoot.
@@ -165,6 +174,7 @@ void TransportedField::collect() {
 
 void TransportedField::update(double start, double dt, bool reported) {
   if (flows_ || pending()) {
+    fit_scratch();
     find_nodal_values();
     find_held();
     add_volume_sources(start, dt);
@@ -211,7 +221,8 @@ void TransportedField::check_range() const {
 }
 
 bool TransportedField::pending() const {
-  return std::any_of(sources_.begin(), sources_.end(), [](const auto& source) { return source->pending(); });
+  const bool own = std::any_of(sources_.begin(), sources_.end(), [](const auto& source) { return source->pending(); });
+  return parts_.ranks == nullptr || sources_.empty() ? own : parts_.ranks->any(own);
 }
 
 std::vector<ContentAccount> TransportedField::accounts() const {
@@ -223,10 +234,10 @@ std::vector<ContentAccount> TransportedField::accounts() const {
 }
 
 void TransportedField::serialise(StateArchive& archive) {
-  archive.value("gained", gained_);
+  archive.sum("gained", gained_);
   const auto account = [&](const std::string& name, ContentAccount& one) {
-    archive.value(name + "/given", one.given);
-    archive.value(name + "/exchanged", one.exchanged);
+    archive.sum(name + "/given", one.given);
+    archive.sum(name + "/exchanged", one.exchanged);
   };
   account("prescribed", prescribed_);
   account("sources", volume_sources_);

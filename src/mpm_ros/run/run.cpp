@@ -10,6 +10,7 @@
 #include "mpm/scene/feasible.hpp"
 #include "mpm_ros/run/expected_pace.hpp"
 #include "mpm_ros/run/output_names.hpp"
+#include "mpm_ros/run/together.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -28,7 +29,8 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
                                                             options.resume.empty(),
                                                             {},
                                                             options.stop,
-                                                            options.settling}),
+                                                            options.settling,
+                                                            options.ranks}),
       end_(std::llround(scene.definition.time.end * 1e9)),
       outputs_(simulation_, stamps_, options.output),
       places_(scene.definition.rigid_bodies.size(), Place::outside_yet) {
@@ -39,7 +41,9 @@ Run::Run(const mpm::Scene& scene, const RunOptions& options, const Stamps& stamp
     for (const mpm::CrackTipReport& tip : simulation_.crack_tips()) told_of_tips_.push_back({!tip.has_j, tip.stopped});
   }
   // After it: a checkpoint that does not fit leaves no bag behind.
-  if (!options.bag.empty()) recorder_ = std::make_unique<BagRecorder>(options.bag, options.bag_options);
+  together<BagError>(options.ranks.get(), [&] {
+    if (!options.bag.empty()) recorder_ = std::make_unique<BagRecorder>(options.bag, options.bag_options);
+  });
   if (recorder_) outputs_.add(*recorder_);
   if (live != nullptr) outputs_.add(*live);
 } catch (const std::bad_alloc&) {
@@ -53,7 +57,7 @@ void Run::begin() {
   } else {
     outputs_.begin(info);
   }
-  if (recorder_) recorder_->sync_point();
+  close_part();
   resume_clock();
 }
 
@@ -110,7 +114,13 @@ void Run::advance() {
   wall_ += now - clock_;
   clock_ = now;
   outputs_.sync(ended(), real_time_factor());
-  if (recorder_) recorder_->sync_point();
+  close_part();
+}
+
+void Run::close_part() {
+  together<BagError>(simulation_.ranks(), [this] {
+    if (recorder_) recorder_->sync_point();
+  });
 }
 
 bool Run::outside(const mpm::RigidBody& body) const {
@@ -194,8 +204,10 @@ void Run::close(const std::string& failure) {
   closed_ = true;
   // Between two sync points there is no state that could be written.
   if (!cut_short_) outputs_.finish(real_time_factor(), failure);
-  if (recorder_) recorder_->close();
-  const bool whole = !resumed_ && !cut_short_ && failure.empty();
+  together<BagError>(simulation_.ranks(), [this] {
+    if (recorder_) recorder_->close();
+  });
+  const bool whole = !resumed_ && !cut_short_ && failure.empty() && simulation_.ranks() == nullptr;
   if (whole && wall_seconds() >= kWorthKeeping) keep_reached_pace(scene_, threads_asked_, simulation_);
 }
 

@@ -7,10 +7,12 @@
 #include <utility>
 
 #include "mpm/math/build_info.hpp"
+#include "mpm_ros/message/bag_error.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/topics.hpp"
 #include "mpm_ros/run/output_names.hpp"
 #include "mpm_ros/run/scene_files.hpp"
+#include "mpm_ros/run/together.hpp"
 
 namespace mpm_ros {
 
@@ -103,9 +105,20 @@ std_msgs::Header RunOutputs::header(const std::string& frame) const {
 
 template <typename Message>
 void RunOutputs::put(const std::string& topic, const Message& message) {
-  for (MessageSink* sink : sinks_) {
-    if (sink->wants(topic)) sink->put(topic, stamp(), message);
+  try {
+    for (MessageSink* sink : sinks_) {
+      if (sink->wants(topic)) sink->put(topic, stamp(), message);
+    }
+  } catch (...) {
+    if (simulation_.ranks() == nullptr) throw;
+    failed_sink_ = std::current_exception();  // others go on reading for what comes next
   }
+}
+
+void RunOutputs::end_writing() {
+  together<BagError>(simulation_.ranks(), [this] {
+    if (failed_sink_) std::rethrow_exception(std::exchange(failed_sink_, nullptr));
+  });
 }
 
 bool RunOutputs::wanted(const std::string& topic) const {
@@ -122,6 +135,7 @@ void RunOutputs::begin(const RunInfo& info) {
   write_cracks();
   write_particles();
   write_global();
+  end_writing();
 }
 
 void RunOutputs::begin_again(const RunInfo& info) {
@@ -132,6 +146,7 @@ void RunOutputs::begin_again(const RunInfo& info) {
   write_cracks();
   write_particles();
   if (!global_.empty() && !global_kept_) global_.read();  // contact forces are means from here
+  end_writing();
 }
 
 void RunOutputs::serialise(mpm::StateArchive& archive) {
@@ -170,6 +185,7 @@ void RunOutputs::command(const AppliedCommand& command) {
   ++applied_;
   put(topics::kCommands,
       to_message(command, simulation_.rigid_body(command.body).name(), options_.world_frame, stamps_));
+  end_writing();
 }
 
 void RunOutputs::sync(bool last, double real_time_factor) {
@@ -184,6 +200,7 @@ void RunOutputs::sync(bool last, double real_time_factor) {
   if (last || time % global_period_ == 0) write_global();
   if (last || particles_due()) write_particles();
   finished_ = last;
+  end_writing();
 }
 
 bool RunOutputs::particles_due() const {
@@ -206,6 +223,7 @@ void RunOutputs::finish(double real_time_factor, const std::string& failure) {
   if (failed || cracks_at_ != simulation_.time()) write_cracks();
   if (failed || particles_at_ != simulation_.time()) write_particles();
   if (failed || global_at_ != simulation_.time()) write_global();
+  end_writing();
 }
 
 void RunOutputs::count_commands(std::uint64_t late, std::uint64_t refused) {
@@ -281,7 +299,7 @@ void RunOutputs::write_bodies() {
 }
 
 void RunOutputs::write_state(bool with_hash, double real_time_factor) {
-  if (!wanted(topics::kSolverState)) return;
+  if (!wanted_anywhere(topics::kSolverState)) return;
   SolverState message = to_message(simulation_.state());
   message.header = header(options_.world_frame);
   message.real_time_factor = real_time_factor;
@@ -298,7 +316,7 @@ void RunOutputs::write_state(bool with_hash, double real_time_factor) {
 
 void RunOutputs::write_particles() {
   particles_at_ = simulation_.time();
-  if (!wanted(topics::kParticles)) return;
+  if (!wanted_anywhere(topics::kParticles)) return;
   cloud_.read(simulation_);
   cloud_.message().header = header(options_.world_frame);
   put(topics::kParticles, cloud_.message());
@@ -307,7 +325,7 @@ void RunOutputs::write_particles() {
 void RunOutputs::write_cracks() {
   cracks_at_ = simulation_.time();
   if (!simulation_.definition().cracks.any()) return;  // then nobody has a place for them
-  if (!wanted(topics::kCracks) && !wanted(topics::kCrackMarkers)) return;
+  if (!wanted_anywhere(topics::kCracks) && !wanted_anywhere(topics::kCrackMarkers)) return;
   const std::vector<mpm::CrackReport> cracks = simulation_.cracks();
   if (wanted(topics::kCracks)) {
     Cracks message = to_message(cracks, simulation_.crack_tips());
@@ -319,7 +337,7 @@ void RunOutputs::write_cracks() {
 
 void RunOutputs::write_global() {
   global_at_ = simulation_.time();
-  if (global_.empty() || !wanted(topics::kGlobalQuantities)) return;
+  if (global_.empty() || !wanted_anywhere(topics::kGlobalQuantities)) return;
   global_message_.header = header(options_.world_frame);
   global_message_.values = global_.read();
   put(topics::kGlobalQuantities, global_message_);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "mpm/scene/scene.hpp"
+#include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/command/command_log.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
 #include "mpm_ros/message/progress_bar.hpp"
@@ -26,6 +27,7 @@
 #include "mpm_ros/run/scene_files.hpp"
 #include "mpm_ros/run/settling_news.hpp"
 #include "mpm_ros/run/stop_signals.hpp"
+#include "mpm_ros/run/together.hpp"
 
 namespace mpm_ros {
 namespace {
@@ -47,7 +49,7 @@ class Leavable : public Sink {
 class OfflineRun {
  public:
   OfflineRun(const RunSceneOptions& options, std::ostream& err)
-      : options_(options),
+      : options_(own_part(options)),
         rerun_(read(options)),
         aim_(aim(scene_to_run(options_, rerun_), options.threads, instruction_set(options), stop_overdue)),
         scene_(aim_.scene),
@@ -56,8 +58,10 @@ class OfflineRun {
       throw mpm::SceneError(
           fmt::format("{}: time.end: the scene has no end; give one with --end, or --set time.end=2", scene_.path));
     }
+    check_alike(options_, scene_);
     RunOptions run_options;
     run_options.threads = options_.threads;
+    run_options.ranks = options_.ranks;
     run_options.isa = options_.isa;
     run_options.output = output_options(scene_);
     check_fields(run_options.output);
@@ -67,14 +71,10 @@ class OfflineRun {
     read_split(options_.bag_split, run_options.bag_options);
     if (rerun_) choose_as_recorded(run_options);
     if (!options_.resume.empty()) check_not_there(options_);
-    if (!options_.out.empty()) choose_folder();
-    summary_ = open_summary(options_.summary);
+    together<mpm::SceneError>(options_.ranks.get(), [this] { open_outputs(); });
     if (!options_.bag.empty()) run_options.bag = bag_path(options_.bag, scene_.definition.name, 1);
     if (!options_.end.empty()) run_options.parameters += fmt::format("end: {:.17g}\n", scene_.definition.time.end);
     if (!options_.resume.empty()) resume_from(options_.resume, run_options);
-    if (!options_.csv.empty())
-      csv_ = std::make_unique<Leavable<CsvSink>>(options_.csv, stamps_, mpm::axisymmetric(scene_.definition.geometry));
-    if (!options_.vtk.empty()) vtk_ = std::make_unique<Leavable<VtkSink>>(options_.vtk, stamps_);
     run_ = std::make_unique<Run>(scene_, run_options, stamps_, csv_.get());
     if (vtk_) run_->add(*vtk_);
     if (!options_.resume.empty() && !options_.end.empty() && run_->simulation().time() > run_->end()) {
@@ -134,7 +134,7 @@ class OfflineRun {
       try {
         if (check_) check_->look(simulation);
         run_->begin();
-        while (!run_->ended() && !stop_requested()) {
+        while (!run_->ended() && !simulation.on_any_rank(stop_requested())) {
           for (const AppliedCommand& command : commands_.take(simulation)) run_->apply(command);
           run_->advance();
           for (const std::string& warning : run_->take_warnings()) {
@@ -220,6 +220,15 @@ class OfflineRun {
     if (isa != info.isa) check_->differs(fmt::format("instruction set {} in place of {}", isa, info.isa));
   }
 
+  /// What is written beside the bag, so that what cannot be is told before the run.
+  void open_outputs() {
+    if (!options_.out.empty()) choose_folder();
+    summary_ = open_summary(options_.summary);
+    if (!options_.csv.empty())
+      csv_ = std::make_unique<Leavable<CsvSink>>(options_.csv, stamps_, mpm::axisymmetric(scene_.definition.geometry));
+    if (!options_.vtk.empty()) vtk_ = std::make_unique<Leavable<VtkSink>>(options_.vtk, stamps_);
+  }
+
   /// A folder of its own, and in it all that was not given a place.
   void choose_folder() {
     options_.out = make_run_folder(options_.out, scene_.definition.name);
@@ -276,27 +285,41 @@ void list_scenes(std::ostream& out) {
 
 RunSceneResult run_scene(const RunSceneOptions& options, std::ostream& out, std::ostream& err, bool bar,
                          const std::function<bool()>& stop_requested) {
+  // Lines are those of the first rank, but for why another one cannot go on.
+  std::ostream nowhere(nullptr);
+  const bool tells = !options.ranks || options.ranks->first();
+  std::ostream& own_out = tells ? out : nowhere;
+  std::ostream& own_err = tells ? err : nowhere;
+  std::string reason;
+  RunSceneResult result = RunSceneResult::bad_input;
   try {
-    return OfflineRun(options, err).go(out, err, bar, stop_requested);
+    return OfflineRun(options, own_err).go(own_out, own_err, bar && tells, stop_requested);
   } catch (const mpm::StoppedError& error) {
-    err << error.what() << "; nothing was recorded\n";
+    own_err << error.what() << "; nothing was recorded\n";
     return RunSceneResult::done;
   } catch (const mpm::PhysicsError& error) {
-    err << "run_scene: " << error.what() << "\n";
-    return RunSceneResult::physics_failed;
+    reason = error.what();
+    result = RunSceneResult::physics_failed;
   } catch (const std::bad_alloc&) {
-    err << "run_scene: there is not enough memory for this scene; use a larger grid.cell or a smaller scene\n";
-    return RunSceneResult::machine_failed;
+    reason = "there is not enough memory for this scene; use a larger grid.cell or a smaller scene";
+    result = RunSceneResult::machine_failed;
   } catch (const mpm::Error& error) {
-    err << "run_scene: " << error.what() << "\n";
+    reason = error.what();
   } catch (const BagError& error) {
-    err << "run_scene: " << error.what() << "\n";
+    reason = error.what();
   } catch (const CsvError& error) {
-    err << "run_scene: " << error.what() << "\n";
+    reason = error.what();
   } catch (const VtkError& error) {
-    err << "run_scene: " << error.what() << "\n";
+    reason = error.what();
   }
-  return RunSceneResult::bad_input;
+  reason = "run_scene: " + reason;
+  if (options.ranks) {
+    if (!tells) reason = fmt::format("rank {}: {}", options.ranks->rank(), reason);
+    mpm::end_all(*options.ranks, reason, static_cast<int>(result));
+  } else {
+    err << reason << "\n";
+  }
+  return result;
 }
 
 }  // namespace mpm_ros

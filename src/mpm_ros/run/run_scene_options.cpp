@@ -2,16 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include "mpm/math/output_file.hpp"
+#include "mpm/ranks/lists.hpp"
 #include "mpm/scene/units.hpp"
 #include "mpm_ros/run/run_scene_checkpoint.hpp"
 
 namespace mpm_ros {
 namespace {
+
+constexpr const char* kAsOne = "; start the run as one process, or leave that out";
 
 /// The recorded scene, to where the recording ends.
 mpm::Scene recorded_scene(const RunSceneOptions& options, const Rerun& rerun) {
@@ -24,6 +28,42 @@ mpm::Scene recorded_scene(const RunSceneOptions& options, const Rerun& rerun) {
 
 }  // namespace
 
+RunSceneOptions own_part(const RunSceneOptions& options) {
+  RunSceneOptions own = options;
+  if (!options.ranks) return own;
+  const std::pair<const char*, const std::string*> alone[] = {{"--from-bag", &options.from_bag},
+                                                              {"--resume", &options.resume},
+                                                              {"--checkpoint", &options.checkpoint},
+                                                              {"--checkpoint-every", &options.checkpoint_every}};
+  for (const auto& [name, value] : alone) {
+    if (!value->empty()) throw mpm::SceneError(fmt::format("{}: does not work over several ranks yet{}", name, kAsOne));
+  }
+  if (!options.ranks->first()) {
+    for (std::string* written : {&own.bag, &own.csv, &own.vtk, &own.summary, &own.out}) written->clear();
+  }
+  return own;
+}
+
+void check_alike(const RunSceneOptions& options, const mpm::Scene& scene) {
+  if (!options.ranks) return;
+  const auto differs = [&](const std::string& text) {
+    const std::vector<mpm::Communicator::Bytes> all =
+        options.ranks->gather(mpm::bytes_of(std::vector<char>(text.begin(), text.end())));
+    return std::find_if(all.begin(), all.end(), [&](const auto& other) { return other != all.front(); }) - all.begin();
+  };
+  const auto isa = differs(mpm::isa_name(instruction_set(options))), text = differs(scene.text);
+  if (isa < options.ranks->size()) {
+    throw mpm::SceneError(
+        fmt::format("--isa: rank {} has another instruction set than the first, which rounds otherwise: write --isa "
+                    "avx2, or another one that all machines have",
+                    isa));
+  }
+  if (text < options.ranks->size()) {
+    throw mpm::SceneError(fmt::format(
+        "{}: rank {} reads another scene than the first: have the same files on all machines", scene.path, text));
+  }
+}
+
 mpm::Isa instruction_set(const RunSceneOptions& options) {
   try {
     return mpm::choose_isa(options.isa);
@@ -35,6 +75,9 @@ mpm::Isa instruction_set(const RunSceneOptions& options) {
 mpm::Scene scene_to_run(const RunSceneOptions& options, const std::optional<Rerun>& rerun) {
   instruction_set(options);
   mpm::Scene scene = rerun ? recorded_scene(options, *rerun) : scene_of(options);
+  if (options.ranks && scene.target && !scene.target->chosen) {
+    throw mpm::SceneError(fmt::format("{}: target: ranks would choose each for itself{}", scene.path, kAsOne));
+  }
   if (options.end.empty()) return scene;
   // The sync and output periods stay the scene's: a shorter run is the beginning of the longer one, bit for bit.
   double end = 0.0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -13,10 +14,22 @@
 namespace mpm_ros {
 namespace {
 
-std::uint64_t peak_memory_bytes() {
+std::uint64_t peak_memory_bytes(mpm::Communicator* ranks) {
   rusage usage{};
-  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;  // Linux counts kibibytes
+  double bytes = 0.0;
+  if (getrusage(RUSAGE_SELF, &usage) == 0) bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux: kibibytes
+  if (ranks != nullptr) ranks->largest(&bytes, 1);
+  return static_cast<std::uint64_t>(bytes);
+}
+
+mpm::Traffic sent_by_all(mpm::Communicator* ranks) {
+  if (ranks == nullptr) return {};
+  const mpm::Traffic own = mpm::sent(*ranks);
+  std::array<double, 4> all = {static_cast<double>(own.messages), static_cast<double>(own.bytes),
+                               static_cast<double>(own.collectives), static_cast<double>(own.shared)};
+  ranks->sum(all.data(), static_cast<int>(all.size()));
+  const auto count = [](double number) { return static_cast<std::uint64_t>(number); };
+  return {count(all[0]), count(all[1]), count(all[2]), count(all[3])};
 }
 
 nlohmann::ordered_json array(const mpm::Vec3& v) { return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; }  // no -0
@@ -69,13 +82,15 @@ RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulatio
       target(scene.target),
       definition(simulation.definition()),
       isa(simulation.isa()),
+      ranks(simulation.ranks() == nullptr ? 1 : simulation.ranks()->size()),
       threads(simulation.threads()),
+      sent(sent_by_all(simulation.ranks())),
       state(simulation.state()),
       start(start),
       end(std::llround(scene.definition.time.end * 1e9)),
       cut_short(cut_short),
       state_hash(cut_short ? 0 : simulation.state_hash()),
-      peak_memory(peak_memory_bytes()),
+      peak_memory(peak_memory_bytes(simulation.ranks())),
       contacts(contacts),
       metrics(simulation.metrics()) {}
 
@@ -109,7 +124,14 @@ nlohmann::ordered_json RunSummary::json() const {
   root["real_time_factor"] = real_time_factor();
   if (target) root["target"] = target_json(*target, real_time_factor());
   root["peak_memory_bytes"] = peak_memory;
+  root["ranks"] = ranks;
   root["threads"] = threads;
+  if (ranks > 1) {
+    root["communication"] = {{"messages", sent.messages},
+                             {"bytes", sent.bytes},
+                             {"collectives", sent.collectives},
+                             {"collective_bytes", sent.shared}};
+  }
   root["cut_short"] = cut_short;
   root["ended"] = !cut_short && state.time >= end;
   if (!cut_short) root["state_hash"] = hash_text(state_hash);
@@ -136,9 +158,10 @@ std::string RunSummary::text() const {
   std::string text = fmt::format("{}: {:g} s simulated in {:.3g} s ({:.3g} times real time), {} steps\n", scene,
                                  seconds(), state.wall_seconds, real_time_factor(), state.step.steps);
   text += fmt::format(
-      "  particles {}, {:.3g} million particle-steps a second on {} thread{} ({}, {} precision), {:.0f} MB\n",
-      state.particles, 1e-6 * particle_steps_per_second(), threads, threads == 1 ? "" : "s", isa,
-      mpm::precision_name(definition.method.precision), 1e-6 * static_cast<double>(peak_memory));
+      "  particles {}, {:.3g} million particle-steps a second on {}{} thread{} ({}, {} precision), {:.0f} MB{}\n",
+      state.particles, 1e-6 * particle_steps_per_second(), ranks == 1 ? "" : fmt::format("{} ranks of ", ranks),
+      threads, threads == 1 ? "" : "s", isa, mpm::precision_name(definition.method.precision),
+      1e-6 * static_cast<double>(peak_memory), ranks == 1 ? "" : " at most on a rank");
   if (target) {
     text += fmt::format(
         "  target {}: reached {:.2g} of real time, {:.2g} was expected, with an error of the force of {:.2g} %\n",

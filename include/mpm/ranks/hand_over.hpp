@@ -1,0 +1,51 @@
+// Particles go to the rank whose block they have come to, with all that they carry: before every sort, since between
+// sorts they are within reach of the block that they were sorted into. Where ranks have come to have unequal numbers of
+// particles the grid is divided anew first.
+#pragma once
+
+#include <vector>
+
+#include "mpm/particles/particle_set.hpp"
+#include "mpm/ranks/communicator.hpp"
+#include "mpm/ranks/territory.hpp"
+
+namespace mpm {
+
+class HandOver {
+ public:
+  /// All must outlive this object.
+  HandOver(Communicator& ranks, Territory& territory, const GridLayout& layout)
+      : ranks_(ranks), territory_(territory), layout_(layout) {}
+
+  /// At the start, when every rank has all particles: divides the grid, and leaves each rank its own.
+  void keep_own(std::vector<ParticleSet>& sets);
+  /// Hands over what has come to others, and takes what has come here. A particle outside its set's bounds stays, for
+  /// the sort to find. The order of particles changes.
+  void hand_over(std::vector<ParticleSet>& sets);
+
+  /// Particles of the fullest rank over the mean of all, at the last call of hand_over().
+  double imbalance() const { return imbalance_; }
+  std::uint64_t handed_over() const { return handed_over_; }  ///< particles of this rank, since the start
+  std::uint64_t divisions() const { return divisions_; }      ///< how often the grid was divided anew
+  /// For checkpoints.
+  void serialise(StateArchive& archive) { archive.value("after_cut", after_cut_); }
+
+ private:
+  /// Particles of a set by where they go.
+  struct Leaving {
+    std::vector<int> staying;
+    std::vector<std::vector<int>> to;  ///< [rank]
+  };
+  /// Of each block of this rank, the number of its particles.
+  Territory::Load load(const std::vector<ParticleSet>& sets) const;
+  void find_leaving(const ParticleSet& set, Leaving& leaving) const;
+  void divide_anew_if_due(const std::vector<ParticleSet>& sets);
+
+  Communicator& ranks_;
+  Territory& territory_;
+  const GridLayout& layout_;
+  double imbalance_ = 1.0, after_cut_ = 1.0;
+  std::uint64_t handed_over_ = 0, divisions_ = 0;
+};
+
+}  // namespace mpm

@@ -1,0 +1,75 @@
+// A run over several ranks (ranks/ranks.hpp): which blocks are this rank's, what crosses its border, and sums over all.
+// A run on one process has none of this. Private to this folder.
+//
+// What is the same on all ranks: time, steps, rigid bodies and contact with them, the sums of modules that say so
+// (Module::same_on_all_ranks). What each rank has of its own: particles, nodes around them, sums of other modules,
+// which are parts that are added up when they are asked for.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mpm/ranks/halo.hpp"
+#include "mpm/ranks/hand_over.hpp"
+#include "mpm/rigid/rigid_body.hpp"
+#include "mpm/step/energy.hpp"
+#include "mpm/step/modules.hpp"
+#include "mpm/step/step_limit.hpp"
+
+namespace mpm {
+
+struct SimulationDefinition;
+
+/// Why a definition cannot run on several ranks, with what to do; empty if it can.
+std::string ranks_fault(const SimulationDefinition& definition);
+
+class OverRanks {
+ public:
+  /// All outlive this object.
+  OverRanks(Communicator& ranks, const GridLayout& layout, const std::vector<RigidBody>& bodies);
+
+  Communicator& ranks() { return ranks_; }
+  Halo& halo() { return halo_; }
+  const Halo& halo() const { return halo_; }
+  const HandOver& hand_over() const { return hand_over_; }
+
+  void keep_own(std::vector<ParticleSet>& sets) { hand_over_.keep_own(sets); }
+  void hand_over(std::vector<ParticleSet>& sets) { hand_over_.hand_over(sets); }
+  /// After particles have been sorted.
+  void meet(Fields& fields);
+  /// After a step: whether it failed on any rank, and whether particles have to be sorted on all of them; also because
+  /// a tool has come near to blocks that not all ranks have.
+  void share_flags(bool& failed, bool& sorts);
+
+  /// The reason of the first rank that has one; empty if none has.
+  std::string first_reason(const std::string& own);
+  /// The smallest of all ranks' limits, of the first rank that has it. `modules` number the module that sets it.
+  void share(StepLimit& limit, const Modules& modules, const Module* mechanics);
+  void add_up(EnergyReport& report);
+  void add_up(std::vector<ImpulseAccount>& accounts);
+  void add_up(std::vector<NamedNumber>& numbers);
+  void add_up(Vec3& vector);
+  /// One hash of all ranks' hashes, in their order.
+  std::uint64_t hash_of_all(std::uint64_t own);
+
+  /// For checkpoints that as many ranks read.
+  void serialise(StateArchive& archive);
+  /// After the blocks have been read from such a checkpoint.
+  void meet_again(Fields& fields);
+
+ private:
+  bool tools_have_moved() const;
+  /// Whether a block is near a tool, so that all ranks have to have it.
+  Halo::Everywhere near_tool() const;
+
+  Communicator& ranks_;
+  const GridLayout& layout_;
+  const std::vector<RigidBody>& bodies_;
+  Territory territory_;
+  HandOver hand_over_;
+  Halo halo_;
+  std::vector<Pose> met_at_;  ///< poses of the bodies when ranks last met
+};
+
+}  // namespace mpm

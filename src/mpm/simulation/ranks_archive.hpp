@@ -1,0 +1,61 @@
+// The checkpoint of a run over several ranks: one file, in which an array is that of all ranks, one after another, and
+// "parts/<name>" says how much of it each has. As many ranks read their own again and go on to the bit; any other
+// number, one process too, merges them (StateArchive::Merge). A file that one process wrote is one of one rank.
+//
+// Weak: the first rank writes what the others send it, array by array, and so holds one array of all ranks at a time;
+// where numbers are merged, every rank reads all particles before it leaves those of others.
+// Private to this folder.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hdf5_archive.hpp"
+#include "mpm/ranks/communicator.hpp"
+
+namespace mpm {
+
+/// Collective.
+class RanksWriter final : public StateArchive {
+ public:
+  RanksWriter(Communicator& ranks, const std::string& path);
+  bool reading() const override { return false; }
+  /// All is with the system then. @throws CheckpointError on all ranks
+  void close();
+
+ protected:
+  void values(const std::string& name, Number number, void* data, std::size_t count) override;
+  std::size_t stored(const std::string&) override { return 0; }
+
+ private:
+  /// On the first rank: does it unless something has failed before.
+  template <class Do>
+  void attempt(Do&& act);
+
+  Communicator& ranks_;
+  std::unique_ptr<Hdf5Writer> file_;  ///< of the first rank
+  std::string failure_;               ///< of the first rank
+  std::vector<std::byte> all_;        ///< kept from array to array
+};
+
+class RanksReader final : public StateArchive {
+ public:
+  /// `ranks`: null for one process. @throws CheckpointError as Hdf5Reader
+  RanksReader(const Communicator* ranks, const std::string& path);
+  bool reading() const override { return true; }
+  bool merging() const override { return there_ != here_; }
+
+ protected:
+  void values(const std::string& name, Number number, void* data, std::size_t count) override;
+  std::size_t stored(const std::string& name) override;
+
+ private:
+  /// How much of an array each rank has.
+  std::vector<std::uint64_t> parts_of(const std::string& name);
+
+  Hdf5Reader file_;
+  int rank_, here_, there_;  ///< `here_` ranks read what `there_` have written
+};
+
+}  // namespace mpm

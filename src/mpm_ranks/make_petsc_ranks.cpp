@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "launcher.hpp"
+#include "mpm/simulation/threads.hpp"
+#include "mpm_ranks/petsc_communicator.hpp"
+#include "petsc_call.hpp"
+
+namespace mpm {
+
+std::shared_ptr<Communicator> make_ranks() {
+  // MPI takes half a second, and a process beside this one, to find out that there is nobody else.
+  const int launched = launched_ranks();
+  if (launched == 1) return nullptr;
+  auto ranks = std::make_shared<PetscCommunicator>();
+  if (ranks->size() != launched) {
+    throw RanksError(fmt::format(
+        "started as one of {} ranks, of which MPI knows {}: start it with the mpirun of the MPI that it was "
+        "built with, or with srun --mpi=pmix",
+        launched, ranks->size()));
+  }
+  return ranks;
+}
+
+int end_all(const Communicator& ranks, const std::string& reason, int code) {
+  const auto* petsc = dynamic_cast<const PetscCommunicator*>(&ranks);
+  if (petsc == nullptr) throw RanksError(reason);
+  constexpr double kGrace = 1.0;  ///< [s] in which ranks that fail alike come together
+  const bool all = petsc->all_come(kGrace);
+  if (!all || ranks.first()) std::fprintf(stderr, "%s\n", reason.c_str());
+  if (all) return code;
+  std::fflush(nullptr);
+  MPI_Abort(MPI_COMM_WORLD, code);
+  std::abort();  // MPI_Abort does not return
+}
+
+int threads_of_rank(const Communicator& ranks) {
+  const auto* petsc = dynamic_cast<const PetscCommunicator*>(&ranks);
+  // Those that a launcher has bound to processors of their own may take all of these.
+  const int machine = machine_threads();
+  const auto processors = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+  return petsc == nullptr ? machine : std::max(1, std::min(machine, processors / petsc->on_this_machine()));
+}
+
+Traffic sent(const Communicator& ranks) {
+  const auto* petsc = dynamic_cast<const PetscCommunicator*>(&ranks);
+  return petsc == nullptr ? Traffic{} : petsc->sent();
+}
+
+}  // namespace mpm

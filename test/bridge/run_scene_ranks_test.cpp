@@ -1,0 +1,175 @@
+// run_scene over several ranks, here threads: one set of files and lines, the forces of one process, and no rank that
+// waits for ever when another one cannot go on.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "full_disk.hpp"
+#include "mpm_ros/run/run_scene.hpp"
+#include "test_files.hpp"
+#include "thread_communicator.hpp"
+
+namespace mpm_ros {
+namespace run_scene_ranks_test {
+
+namespace fs = std::filesystem;
+
+/// What a rank has said, and its result.
+struct Said {
+  std::string out, err;
+  RunSceneResult result = RunSceneResult::done;
+};
+
+std::size_t lines(const fs::path& path) {
+  std::ifstream file(path);
+  std::size_t count = 0;
+  for (std::string line; std::getline(file, line);) ++count;
+  return count;
+}
+
+class RunSceneOverRanks : public ::testing::Test {
+ protected:
+  RunSceneOverRanks() : folder_(fs::temp_directory_path() / ("mpm_run_scene_ranks_test_" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+    options_.scene = source_file("test/data/press.yaml");
+    options_.set = {"rigid_bodies.plate.motion={velocity: [0, -0.5]}"};
+    options_.threads = 1;
+    options_.end = "30 ms";
+  }
+  ~RunSceneOverRanks() override { fs::remove_all(folder_); }
+
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::vector<Said> run(
+      int count, const std::function<bool(int)>& stop = [](int) { return false; }) const {
+    std::vector<Said> said(count);
+    mpm::run_ranks(count, [&](mpm::Communicator& ranks) {
+      RunSceneOptions own = options_;
+      own.ranks = {&ranks, [](mpm::Communicator*) {}};
+      std::ostringstream out, err;
+      Said& told = said[ranks.rank()];
+      told.result = run_scene(own, out, err, false, [&] { return stop(ranks.rank()); });
+      told.out = out.str();
+      told.err = err.str();
+    });
+    return said;
+  }
+  /// What ends all ranks.
+  std::string reason(int count) const {
+    try {
+      run(count);
+    } catch (const mpm::RanksError& error) {
+      return error.what();
+    }
+    return "nothing";
+  }
+
+  nlohmann::json summary() const {
+    std::ifstream file(options_.summary);
+    return nlohmann::json::parse(file);
+  }
+
+  fs::path folder_;
+  RunSceneOptions options_;
+};
+
+TEST_F(RunSceneOverRanks, WritesOnceWhatOneProcessWrites) {
+  options_.summary = file("alone.json");
+  options_.csv = file("alone");
+  std::ostringstream out, err;
+  ASSERT_EQ(run_scene(options_, out, err, false, [] { return false; }), RunSceneResult::done) << err.str();
+  const nlohmann::json alone = summary();
+  EXPECT_EQ(alone["ranks"], 1);
+  EXPECT_FALSE(alone.contains("communication"));
+  const double impulse = alone["contact_impulse"]["plate"][2];
+  ASSERT_GT(impulse, 0.0);
+  for (const int count : {2, 3}) {
+    options_.summary = file(std::to_string(count) + ".json");
+    options_.csv = file(std::to_string(count));
+    options_.bag = file(std::to_string(count) + ".bag");
+    const std::vector<Said> said = run(count);
+    EXPECT_NE(said[0].out.find(std::to_string(count) + " ranks of 1 thread"), std::string::npos) << said[0].out;
+    for (int rank = 0; rank < count; ++rank) {
+      EXPECT_EQ(said[rank].result, RunSceneResult::done) << said[rank].err;
+      if (rank > 0) {
+        EXPECT_EQ(said[rank].out + said[rank].err, "");
+      }
+    }
+    const nlohmann::json over = summary();
+    EXPECT_EQ(over["ranks"], count);
+    EXPECT_TRUE(over.contains("communication"));
+    EXPECT_EQ(over["particles"], alone["particles"]);
+    EXPECT_EQ(over["steps"], alone["steps"]);
+    // Sums in another order over eighty steps, the bound for a hundred.
+    EXPECT_NEAR(over["contact_impulse"]["plate"][2], impulse, 1e-10 * impulse);
+    EXPECT_NEAR(over["energy"]["end"]["elastic"], alone["energy"]["end"]["elastic"],
+                1e-9 * alone["energy"]["end"]["elastic"].get<double>());
+    EXPECT_LT(over["momentum_error"], 1e-10);
+    EXPECT_TRUE(fs::exists(options_.bag));
+    for (const auto& entry : fs::directory_iterator(file("alone"))) {
+      const fs::path same = fs::path(options_.csv) / entry.path().filename();
+      ASSERT_TRUE(fs::exists(same)) << same;
+      EXPECT_EQ(lines(same), lines(entry.path())) << same;
+    }
+  }
+}
+
+TEST_F(RunSceneOverRanks, StopsOnAllWhenOneIsAskedTo) {
+  std::atomic<int> asked{0};
+  options_.summary = file("summary.json");
+  const std::vector<Said> said = run(3, [&](int rank) { return rank == 2 && ++asked > 4; });
+  for (const Said& told : said) EXPECT_EQ(told.result, RunSceneResult::done);
+  EXPECT_NE(said[0].err.find("stopped at"), std::string::npos) << said[0].err;
+  EXPECT_FALSE(summary()["ended"]);
+}
+
+TEST_F(RunSceneOverRanks, EndsOnAllWhenTheFirstHasNoRoom) {
+  options_.summary = file("summary.json");
+  options_.bag = file("run.bag");
+  const test::FullDisk full(20'000);
+  const std::vector<Said> said = run(2);
+  EXPECT_EQ(said[0].result, RunSceneResult::machine_failed);
+  EXPECT_NE(said[0].err.find("run.bag"), std::string::npos) << said[0].err;
+  EXPECT_EQ(said[1].out + said[1].err, "");
+}
+
+TEST_F(RunSceneOverRanks, RefusesByNameWhatOneProcessAloneCan) {
+  options_.checkpoint = file("run.h5");
+  EXPECT_NE(reason(2).find("--checkpoint"), std::string::npos) << reason(2);
+  EXPECT_FALSE(fs::exists(options_.checkpoint));
+  options_.checkpoint.clear();
+  options_.set = {"target={real_time: 1}"};
+  EXPECT_NE(reason(2).find("target"), std::string::npos) << reason(2);
+}
+
+TEST_F(RunSceneOverRanks, EndsAllWithTheReasonOfOne) {
+  options_.bag = file("no/such/folder/run.bag");  // the first alone opens it
+  EXPECT_NE(reason(3).find("run.bag"), std::string::npos) << reason(3);
+  options_.bag.clear();
+  options_.set = {"rigid_bodies.plate.motion={velocity: [0, -0.5]}", "materials.foam.young=1e99"};
+  EXPECT_NE(reason(3).find("run_scene: "), std::string::npos) << reason(3);
+}
+
+TEST_F(RunSceneOverRanks, RefusesRanksThatReadDifferentScenes) {
+  try {
+    mpm::run_ranks(2, [&](mpm::Communicator& ranks) {
+      RunSceneOptions own = options_;
+      own.ranks = {&ranks, [](mpm::Communicator*) {}};
+      if (!ranks.first()) own.set.push_back("contact.friction=0.3");
+      std::ostringstream out, err;
+      run_scene(own, out, err, false, [] { return false; });
+    });
+    FAIL() << "both run";
+  } catch (const mpm::RanksError& error) {
+    EXPECT_NE(std::string(error.what()).find("rank 1 reads another scene"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace run_scene_ranks_test
+}  // namespace mpm_ros

@@ -2,6 +2,7 @@
 # shellcheck shell=bash
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build="$root/build"
+# shellcheck disable=SC2034 # of those who source this
 build_mpi="$root/build_mpi"
 export PATH="/usr/bin:$PATH" # ROS belongs to the system's Python
 

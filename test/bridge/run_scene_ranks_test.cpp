@@ -140,12 +140,44 @@ TEST_F(RunSceneOverRanks, EndsOnAllWhenTheFirstHasNoRoom) {
 }
 
 TEST_F(RunSceneOverRanks, RefusesByNameWhatOneProcessAloneCan) {
-  options_.checkpoint = file("run.h5");
-  EXPECT_NE(reason(2).find("--checkpoint"), std::string::npos) << reason(2);
-  EXPECT_FALSE(fs::exists(options_.checkpoint));
-  options_.checkpoint.clear();
+  options_.from_bag = file("run.bag");
+  EXPECT_NE(reason(2).find("--from-bag"), std::string::npos) << reason(2);
+  options_.from_bag.clear();
   options_.set = {"target={real_time: 1}"};
   EXPECT_NE(reason(2).find("target"), std::string::npos) << reason(2);
+}
+
+// To the bit on as many ranks, to round-off on others.
+TEST_F(RunSceneOverRanks, GoesOnFromItsCheckpoint) {
+  const auto hash_and_impulse = [&](int count) {
+    options_.summary = file("summary.json");
+    for (const Said& told : run(count)) EXPECT_EQ(told.result, RunSceneResult::done) << told.err;
+    const nlohmann::json found = summary();
+    return std::pair(found["state_hash"].dump(), found["contact_impulse"]["plate"][2].get<double>());
+  };
+  options_.checkpoint = file("end.h5");
+  const auto [hash, impulse] = hash_and_impulse(3);
+  EXPECT_TRUE(fs::exists(options_.checkpoint));
+  options_.end = "15 ms";
+  options_.checkpoint = file("half.h5");
+  options_.checkpoint_every = "5 ms";
+  const double first = hash_and_impulse(3).second;
+  options_.resume = options_.checkpoint;
+  options_.checkpoint.clear();
+  options_.checkpoint_every.clear();
+  options_.scene.clear();
+  options_.set.clear();
+  options_.end = "30 ms";
+  for (const int count : {3, 2}) {
+    const auto [of_rest, rest] = hash_and_impulse(count);
+    EXPECT_EQ(of_rest == hash, count == 3) << count;
+    EXPECT_NEAR(rest, impulse, 1e-10 * impulse) << first;
+  }
+}
+
+TEST_F(RunSceneOverRanks, RefusesACheckpointThatCannotBeWritten) {
+  options_.checkpoint = file("no/such/folder/run.h5");
+  EXPECT_NE(reason(2).find("--checkpoint"), std::string::npos) << reason(2);
 }
 
 TEST_F(RunSceneOverRanks, EndsAllWithTheReasonOfOne) {

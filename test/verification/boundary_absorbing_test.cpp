@@ -107,8 +107,8 @@ TEST(Absorbing, LetsPulsesOut) {
   }
 }
 
-// A pulse along a crack through the whole column and its face: nothing crosses the crack in such a wave, and nothing is to
-// come back from the material beside it, which gives to nodes of both sides' fields.
+// A pulse along a crack through the whole column and its face: nothing crosses the crack in such a wave, and nothing is
+// to come back from the material beside it, which gives to nodes of both sides' fields.
 TEST(Absorbing, LetsPulsesOutBesideACrack) {
   const double speed = std::sqrt(kYoung / kDensity);
   const std::string shape = fmt::format("(abs(x-0.3) < 0.15 ? {0}*(1 + cos(pi*(x-0.3)/0.15)) : 0)", 0.5 * kSpeed);

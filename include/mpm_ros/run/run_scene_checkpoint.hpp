@@ -24,6 +24,7 @@ void resume_from(const std::string& path, RunOptions& options);
 
 class RunSceneCheckpoints {
  public:
+  /// Over several ranks all have one, and its calls are collective.
   /// @throws mpm::SceneError for options that make no sense, or a file that cannot be written
   RunSceneCheckpoints(const RunSceneOptions& options, std::int64_t sync_period);
 
@@ -31,11 +32,15 @@ class RunSceneCheckpoints {
   void at_sync(Run& run, std::ostream& err);
   /// Call when the run has ended or was stopped. @throws mpm::CheckpointError
   void at_end(Run& run, std::ostream& out);
-  /// The run has failed. The file of the last good state stays; that of the failure has _failed in its name.
+  /// The run has failed. The file of the last good state stays; that of the failure has _failed in its name. Over
+  /// several ranks there is none: the others may not know of the failure.
   void at_failure(Run& run, const std::string& reason, std::ostream& err);
 
  private:
+  /// @throws mpm::SceneError where the file cannot be written
+  void try_path() const;
   std::string path_;
+  bool over_ranks_ = false;
   std::int64_t period_ = 0;  ///< [ns]; 0: at the end alone
 };
 

@@ -33,9 +33,9 @@ void FaceTractions::look_for_particles() {
       found = terms_[i].set;
     }
     for (std::size_t n = 0; n < places_[i].size(); ++n) {
-        const std::uint32_t id = terms_[i].particles[n];
-        places_[i][n] = id < place_of_.size() ? place_of_[id] : -1;
-        any_chooses_ = any_chooses_ || (places_[i][n] >= 0 && set.chooses && set.side[places_[i][n]] != 0);
+      const std::uint32_t id = terms_[i].particles[n];
+      places_[i][n] = id < place_of_.size() ? place_of_[id] : -1;
+      any_chooses_ = any_chooses_ || (places_[i][n] >= 0 && set.chooses && set.side[places_[i][n]] != 0);
     }
   }
 }

@@ -263,11 +263,21 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
     over = std::make_unique<OverRanks>(*ranks, layout(), bodies);
     if (!ranks->first()) modules.leave_shared_to_first();
   }
-  RunParts parts{definition,   field_map,   fields,
-                 sets,         laws,        bodies,
-                 choice.get(), ranks.get(), over ? &over->halo() : nullptr,
-                 threads,      isa,         modules,
-                 services,     warnings,    notes,
+  RunParts parts{definition,
+                 field_map,
+                 fields,
+                 sets,
+                 laws,
+                 bodies,
+                 choice.get(),
+                 ranks.get(),
+                 over ? &over->halo() : nullptr,
+                 threads,
+                 isa,
+                 modules,
+                 services,
+                 warnings,
+                 notes,
                  [this]() -> const EnergyReport& { return find_totals().energy; }};
   for (const ShippedModules& shipped : shipped_modules()) shipped.add(parts);
   for (const AddModules& add : of_caller) add(parts);

@@ -70,8 +70,10 @@ class OfflineRun {
     run_options.bag_options.compression = options_.bag_compression;
     read_split(options_.bag_split, run_options.bag_options);
     if (rerun_) choose_as_recorded(run_options);
-    if (!options_.resume.empty()) check_not_there(options_);
-    together<mpm::SceneError>(options_.ranks.get(), [this] { open_outputs(); });
+    together<mpm::SceneError>(options_.ranks.get(), [this] {
+      if (!options_.resume.empty()) check_not_there(options_);
+      open_outputs();
+    });
     if (!options_.bag.empty()) run_options.bag = bag_path(options_.bag, scene_.definition.name, 1);
     if (!options_.end.empty()) run_options.parameters += fmt::format("end: {:.17g}\n", scene_.definition.time.end);
     if (!options_.resume.empty()) resume_from(options_.resume, run_options);

@@ -15,6 +15,7 @@
 #include "mpm/scene/target_record.hpp"
 #include "mpm/scene/units.hpp"
 #include "mpm/simulation/checkpoint.hpp"
+#include "mpm_ros/run/together.hpp"
 
 namespace mpm_ros {
 
@@ -44,7 +45,7 @@ void resume_from(const std::string& path, RunOptions& options) {
 }
 
 RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::int64_t sync_period)
-    : path_(options.checkpoint) {
+    : path_(options.checkpoint), over_ranks_(options.ranks != nullptr) {
   if (!options.checkpoint_every.empty()) {
     if (path_.empty()) throw mpm::SceneError("--checkpoint-every: name the file too, with --checkpoint run.h5");
     double period = 0.0;
@@ -60,8 +61,13 @@ RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::in
     const double periods = std::round(period * 1e9 / static_cast<double>(sync_period));
     period_ = sync_period * std::max<std::int64_t>(1, static_cast<std::int64_t>(periods));
   }
-  if (path_.empty()) return;
   // Told before hours of work.
+  together<mpm::SceneError>(options.ranks.get(), [&] {
+    if (!path_.empty() && (!options.ranks || options.ranks->first())) try_path();
+  });
+}
+
+void RunSceneCheckpoints::try_path() const {
   const std::string part = path_ + ".part";
   for (const std::string& name : {path_, part}) {
     if (const std::string refused = mpm::refused_output(name); !refused.empty())
@@ -93,7 +99,7 @@ void RunSceneCheckpoints::at_end(Run& run, std::ostream& out) {
 }
 
 void RunSceneCheckpoints::at_failure(Run& run, const std::string& reason, std::ostream& err) {
-  if (path_.empty()) return;
+  if (path_.empty() || over_ranks_) return;
   std::filesystem::path failed(path_);
   failed.replace_filename(failed.stem().string() + "_failed" + failed.extension().string());
   try {

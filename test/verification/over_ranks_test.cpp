@@ -127,7 +127,6 @@ void expect_equal(const Outcome& over, const Outcome& alone, double part) {
     const mpm::Vec3 there = over.contacts[b].mean.force, here = alone.contacts[b].mean.force;
     EXPECT_LE((there - here).norm(), 10.0 * part * std::max(here.norm(), alone.contacts[b].pressing))
         << alone.contacts[b].body;
-    EXPECT_EQ(over.contacts[b].nodes, alone.contacts[b].nodes) << alone.contacts[b].body;
   }
   ASSERT_EQ(over.energies.size(), alone.energies.size());
   double total = 0.0;
@@ -145,7 +144,12 @@ TEST_P(OverRanks, MovesAsOnOneProcess) {
   ASSERT_GT(alone.exchanged + alone.carried, 0.0);
   for (const int count : {2, 3, 8}) {
     SCOPED_TRACE(count);
-    expect_equal(run_over(GetParam(), count), alone, 1e-10);
+    const Outcome over = run_over(GetParam(), count);
+    expect_equal(over, alone, 1e-10);
+    // Not of every scene: whether a node that neither nears nor leaves a tool touches it is a matter of round-off.
+    for (std::size_t b = 0; b < alone.contacts.size(); ++b) {
+      EXPECT_EQ(over.contacts[b].nodes, alone.contacts[b].nodes) << alone.contacts[b].body;
+    }
   }
 }
 
@@ -160,6 +164,42 @@ const Case kCases[] = {
 };
 
 INSTANTIATE_TEST_SUITE_P(Of, OverRanks, testing::ValuesIn(kCases), [](const auto& run) { return run.param.scene; });
+
+// Every shipped scene: refused by name, or as on one process over a hundred steps. Takes long.
+TEST(FullOverRanks, ShippedScenesMoveAsOnOneProcess) {
+  int moved = 0;
+  for (const auto& [name, line] : mpm::shipped_scenes()) {
+    SCOPED_TRACE(name);
+    Case run{name, {}};
+    const auto definition = scene_of(run).definition;
+    if (!(definition.time.end > 0.0)) run.overrides.push_back("time.end=1");
+    std::string refusal;
+    Outcome over;
+    const auto refused_over = [&](int count) {
+      try {
+        over = run_over(run, count);
+        return false;
+      } catch (const mpm::Error& error) {
+        refusal = error.what();
+        return true;
+      }
+    };
+    if (refused_over(2)) {
+      EXPECT_NE(refusal.find("does not work over several ranks yet"), std::string::npos) << refusal;
+      RecordProperty(name, refusal);
+      continue;
+    }
+    const Outcome alone = run_alone(run);
+    // The sweeps that find the forces on free bodies end at 1e-5 of them.
+    const bool free = std::any_of(definition.rigid_bodies.begin(), definition.rigid_bodies.end(),
+                                  [](const mpm::RigidBodyDefinition& body) { return body.free.has_value(); });
+    const double part = free ? 1e-6 : 1e-10;
+    expect_equal(over, alone, part);
+    for (const int count : {3, 8}) expect_equal(run_over(run, count), alone, part);
+    ++moved;
+  }
+  EXPECT_GT(moved, 10);
+}
 
 TEST(OverRanksRepeated, HasTheSameBits) {
   const Case run{"column_collapse", {}};

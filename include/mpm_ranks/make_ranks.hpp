@@ -26,6 +26,9 @@ struct Traffic {
 /// of as many ranks as the launcher does
 std::shared_ptr<Communicator> make_ranks();
 
+/// Processes that this one starts from now on are alone, whatever launcher has started this one.
+void forget_launcher();
+
 /// Of what runs in one process only, by its name. @throws RanksError where a launcher has started several
 void refuse_ranks(const std::string& what);
 

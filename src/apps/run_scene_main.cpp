@@ -100,6 +100,7 @@ int main(int argc, char** argv) {
       return 0;
     }
     if (!sweep.plan.empty()) {
+      mpm::forget_launcher();  // several sweeps may share a plan, as tasks of Slurm
       sweep.program = std::filesystem::read_symlink("/proc/self/exe").string();
       sweep.out = options.out;
       sweep.isa = options.isa;

@@ -47,7 +47,7 @@ class PeriodicAxes final : public Module {
       }
     }
   }
-  void serialise(StateArchive& archive) override { archive.value("work", work_); }
+  void serialise(StateArchive& archive) override { archive.sum("work", work_); }
 
  private:
   std::vector<ParticleSet>& sets_;

@@ -3,7 +3,7 @@
 //
 // Every function is collective: all ranks call it, in the same order. What is summed is summed in the order of ranks,
 // so all ranks get the same bits, and a run on as many ranks as before repeats to the bit. The library knows this
-// interface alone; mpm_ranks/petsc_ranks.hpp, which only a build with MPI has, implements it on PETSc.
+// interface alone; mpm_ranks/petsc_communicator.hpp, which only a build with MPI has, implements it on PETSc.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
-// Which nodes the points of contact have, and in which order the points are solved. The order is that of scattered ids
-// of particles in a block, and of blocks by their place: sweeps end at a tolerance, so the order is seen in their
-// result, which depends neither on how particles lie in memory nor on when they were sorted.
+// Which nodes the points of contact have, and in which order the points are solved. Sweeps end at a tolerance, so the
+// order is seen in their result. In one process it is that in which particles lie in memory. Over several ranks it
+// depends neither on that nor on which rank has a particle: that of scattered ids in a block, and of blocks by their
+// place.
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -14,7 +15,8 @@ namespace {
 constexpr int kPointsPerThread = 32;  ///< fewer do not pay for the start of a thread
 
 /// An order of ids in which neighbours are far apart (Knuth, multiplicative hashing): sweeps that ran along a surface
-/// would pull on it one way, since friction depends on the way; a belt round a drum lost 5 % of its tension to that.
+/// would pull on it one way, since friction depends on the way: with ids in order a belt round a drum lost 5 % of the
+/// ratio of its tensions, with these 2.4 %.
 std::uint32_t scattered(std::uint32_t id) { return id * 2654435769u; }
 
 }  // namespace
@@ -64,14 +66,14 @@ void PointSolver::cluster(const std::vector<ContactPoint>& found) {
       place = static_cast<int>(unsorted_.size());
       const std::array<int, 3>& block = fields_[found[i].field]->blocks.block(found_block_[i]);
       const int colour = (block[0] & 1) | (block[1] & 1) << 1 | (block[2] & 1) << 2;
-      unsorted_.push_back({found[i].field, found_block_[i], colour, 0, 0});
+      unsorted_.push_back({found[i].field, found_block_[i], colour, over_ranks_ ? 0 : place, 0});
     }
     of_point_[i] = place;
     ++unsorted_[place].end;  // counts, so far
   }
   clusters_ = unsorted_;
   std::sort(clusters_.begin(), clusters_.end(), [](const Cluster& a, const Cluster& b) {
-    return std::tie(a.colour, a.field, a.block) < std::tie(b.colour, b.field, b.block);
+    return std::tie(a.colour, a.first, a.field, a.block) < std::tie(b.colour, b.first, b.field, b.block);
   });
   int points = 0;
   colour_begin_.fill(static_cast<int>(clusters_.size()));
@@ -91,6 +93,7 @@ void PointSolver::cluster(const std::vector<ContactPoint>& found) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (of_point_[i] >= 0) order_[unsorted_[of_point_[i]].end++] = static_cast<int>(i);
   }
+  if (!over_ranks_) return;
   for (const Cluster& one : clusters_) {
     std::sort(order_.begin() + one.first, order_.begin() + one.end, [&](int a, int b) {
       const auto key = [&](int i) { return std::pair(scattered(found[i].particle), found[i].body); };

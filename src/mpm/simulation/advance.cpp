@@ -125,6 +125,13 @@ void Simulation::State::run_period() {
   if (energy_watch.due(steps.steps)) watch_energy(end, material_limit);
 }
 
+// What is wrong with the particles or nodes of one rank the others do not know of: it ends them, and nothing is
+// written.
+void Simulation::State::end_run(const std::string& reason) const {
+  if (over) throw RanksError(reason);
+  throw PhysicsError(reason);
+}
+
 void Simulation::advance() {
   State& s = *state_;
   if (s.failed) throw PhysicsError("the run has failed and cannot go on; start it again");
@@ -133,12 +140,12 @@ void Simulation::advance() {
   try {
     s.run_period();
   } catch (const ModuleError& error) {
-    throw PhysicsError(error.what());
+    s.end_run(error.what());
   } catch (const RigidError& error) {
-    throw PhysicsError(fmt::format("{} (in the sync period from t = {:.6g} s)", error.what(), s.time * kNanosecond));
+    s.end_run(fmt::format("{} (in the sync period from t = {:.6g} s)", error.what(), s.time * kNanosecond));
   } catch (const FunctionError& error) {
-    throw PhysicsError(fmt::format("motion of a rigid body, or a law of contact, at t = {:.6g} s: {}",
-                                   s.time * kNanosecond, error.what()));
+    s.end_run(fmt::format("motion of a rigid body, or a law of contact, at t = {:.6g} s: {}", s.time * kNanosecond,
+                          error.what()));
   }
   s.failed = false;
   s.wall += std::chrono::steady_clock::now() - started;

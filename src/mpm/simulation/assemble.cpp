@@ -313,7 +313,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   }
   s.asked_to_stop = std::move(options.stop);
   s.settling = std::move(options.settling);
-  if (options.ranks && options.ranks->size() > 1) s.ranks = std::move(options.ranks);
+  s.ranks = std::move(options.ranks);
   s.definition = std::move(given);
   Transfer& transfer = s.definition.method.transfer;
   const bool filters = transfer.kind == TransferKind::xpic || transfer.kind == TransferKind::fmpm;

@@ -1,5 +1,5 @@
-// A run over several ranks (ranks/ranks.hpp): which blocks are this rank's, what crosses its border, and sums over all.
-// A run on one process has none of this. Private to this folder.
+// A run over several ranks (ranks/communicator.hpp): which blocks are this rank's, what crosses its border, and sums
+// over all. A run on one process has none of this. Private to this folder.
 //
 // What is the same on all ranks: time, steps, rigid bodies and contact with them, the sums of modules that say so
 // (Module::same_on_all_ranks). What each rank has of its own: particles, nodes around them, sums of other modules,

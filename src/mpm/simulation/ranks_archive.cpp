@@ -107,6 +107,10 @@ RanksReader::RanksReader(const Communicator* ranks, const std::string& path)
   if (!file_.has(kRanks)) return;
   std::uint64_t size = 1;
   file_.value(kRanks, size);
+  if (size < 1 || size > 1'000'000) {
+    throw CheckpointError(
+        fmt::format("checkpoint {}: the file is damaged: it says that {} ranks wrote it", path, size));
+  }
   there_ = static_cast<int>(size);
 }
 

@@ -140,6 +140,8 @@ struct Simulation::State {
   /// Lets the bodies that start geostatic, already under their weight's stress, come to rest. Before anything is
   /// sorted. @throws PhysicsError, StoppedError
   void settle();
+  /// @throws PhysicsError; over several ranks RanksError, which ends those that know of nothing
+  [[noreturn]] void end_run(const std::string& reason) const;
   [[noreturn]] void fail(const std::string& what, ParticleRef particle, double now, const std::string& remedy) const;
 };
 

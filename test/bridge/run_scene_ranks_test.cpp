@@ -94,6 +94,7 @@ TEST_F(RunSceneOverRanks, WritesOnceWhatOneProcessWrites) {
   const nlohmann::json one = summary();
   const double impulse = one["contact_impulse"]["plate"][2];
   ASSERT_GT(impulse, 0.0);
+  // By their order, 5e-4 of it here.
   EXPECT_NEAR(alone["contact_impulse"]["plate"][2], impulse, 1e-3 * impulse);
   for (const int count : {2, 3}) {
     options_.summary = file(std::to_string(count) + ".json");

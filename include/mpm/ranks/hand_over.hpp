@@ -28,7 +28,10 @@ class HandOver {
   std::uint64_t handed_over() const { return handed_over_; }  ///< particles of this rank, since the start
   std::uint64_t divisions() const { return divisions_; }      ///< how often the grid was divided anew
   /// For checkpoints.
-  void serialise(StateArchive& archive) { archive.value("after_cut", after_cut_); }
+  void serialise(StateArchive& archive) {
+    archive.value("after_cut", after_cut_);
+    archive.value("just_divided", just_divided_);
+  }
 
  private:
   /// Particles of a set by where they go.
@@ -44,7 +47,9 @@ class HandOver {
   Communicator& ranks_;
   Territory& territory_;
   const GridLayout& layout_;
-  double imbalance_ = 1.0, after_cut_ = 1.0;
+  double imbalance_ = 1.0;
+  double after_cut_ = 1.0;     ///< what the last division left, as the call after it finds it
+  bool just_divided_ = false;  ///< whether that is to be found
   std::uint64_t handed_over_ = 0, divisions_ = 0;
 };
 

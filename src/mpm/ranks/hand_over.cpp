@@ -126,10 +126,12 @@ void HandOver::divide_anew_if_due(const std::vector<ParticleSet>& sets) {
   ranks_.largest(&most, 1);
   const double all = ranks_.sum(own);
   imbalance_ = all > 0.0 ? most * ranks_.size() / all : 1.0;
+  if (just_divided_) after_cut_ = imbalance_;
+  just_divided_ = false;
   if (imbalance_ <= kUneven || imbalance_ <= kWorse * after_cut_) return;
   territory_.cut(load(sets), [this](double* numbers, int count) { ranks_.sum(numbers, count); });
   ++divisions_;
-  after_cut_ = imbalance_;
+  just_divided_ = true;
 }
 
 void HandOver::hand_over(std::vector<ParticleSet>& sets) {

@@ -23,6 +23,8 @@ class BlockShares {
   /// Cuts the owners of `blocks` into `parts` parts, some of them empty where owners are few. `particles`: of each
   /// owner; when empty, all owners count alike. by_colour() leaves out owners without particles.
   void rebuild(const BlockTable& blocks, const std::vector<std::uint32_t>& particles, int parts);
+  /// Of those that `all` visits by colour, the owners with a mark (one an owner), in parts of their own.
+  void rebuild_of(const BlockShares& all, const BlockTable& blocks, const std::vector<std::uint8_t>& marked);
 
   int parts() const { return static_cast<int>(begin_.size()) - 1; }
   /// First owner of a part; of part parts() one past the last.
@@ -44,7 +46,8 @@ class BlockShares {
 
   /// Until the parts beside this one have done with all colours before this one.
   void wait_for_others(int part, int colour) const;
-  void cut(const BlockTable& blocks, const std::vector<std::uint32_t>& particles, int parts);
+  void cut(int owners, int parts);
+  void rebuild(const BlockTable& blocks, int parts);
 
   int colours_ = 0;
   std::vector<int> begin_ = {0};  ///< of each part, its first owner; and one past the last
@@ -57,6 +60,7 @@ class BlockShares {
   int room_ = 0;                                  ///< parts in done_
 
   // Kept so that a sort allocates nothing.
+  std::vector<std::uint32_t> particles_;  ///< of each owner; empty where all count alike
   std::vector<int> part_of_, owner_of_block_;
   std::vector<std::uint8_t> at_edge_, touches_;
 };

@@ -34,12 +34,13 @@ class Communicator {
     int rank;
     int row;  ///< in that rank's array
   };
-  /// Copies of rows of other ranks, made again and again by one plan.
+  /// Copies of rows of other ranks, made again and again by one plan. Several may be under way at once, each into an
+  /// array of its own; they end in the order in which they began.
   class Copies {
    public:
     virtual ~Copies() = default;
     /// Begins to copy rows of `numbers` doubles: the sources' rows of each rank's `from` into `to`, one after another.
-    /// Neither may be changed before end(), which gets the same arguments.
+    /// Neither these rows nor `to` may be changed before end(), which gets the same arguments.
     virtual void begin(const double* from, double* to, int numbers) = 0;
     virtual void end(const double* from, double* to, int numbers) = 0;
   };

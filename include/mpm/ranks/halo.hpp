@@ -4,7 +4,10 @@
 // does to nodes (motion, walls, contact) each for itself, and gather from it without asking again.
 //
 //   sort:   halo.meet(fields, near tools?)      who gives to what; blocks that only others give to join the grid
-//   spread: halo.add(field, nodal field)
+//   spread: owners of halo.at_border(field) give to their nodes
+//           halo.begin(field, nodal field)      sends what they gave to nodes that others know
+//           owners of halo.inside(field) give to theirs, while that travels
+//           halo.end(field, nodal field)
 //
 // Ranks that meet at a block have it in all velocity fields that any of them has it in, since contact looks at nodes of
 // several. Blocks near tools are on all ranks: contact at points couples everything that touches one tool, and each
@@ -34,8 +37,15 @@ class Halo {
   Communicator& ranks() const { return ranks_; }
   /// After the blocks of `fields` have been made anew from the particles of this rank.
   void meet(Fields& fields, const Everywhere& everywhere);
-  /// Adds what others have spread to the nodes of a velocity field; `values` have its blocks.
+  /// Adds what others have spread to the nodes of a velocity field; `values` have its blocks. It is begin() and end().
   void add(int field, NodalField& values);
+  /// Owners at_border() have given to `values`, those inside() may until end(). Several may be under way at once; they
+  /// end in the order in which they began.
+  void begin(int field, NodalField& values);
+  void end(int field, NodalField& values);
+  /// Owners of a velocity field that may give to a node that another rank knows, and all others.
+  const BlockShares& at_border(int field) const { return fields_[field].at_border; }
+  const BlockShares& inside(int field) const { return fields_[field].inside; }
 
   /// Blocks whose nodes come from other ranks in every pass, over all fields.
   std::uint64_t blocks_received() const;
@@ -62,11 +72,17 @@ class Halo {
     int first, count, before;
     bool own;  ///< whether this rank gives to it
   };
+  /// What is under way, or room for it.
+  struct Flight {
+    const double* values = nullptr;
+    std::vector<double> received;
+  };
   struct OfField {
     std::vector<Sum> sums;
     std::unique_ptr<Communicator::Copies> copies;
-    std::vector<double> received;
+    std::vector<Flight> flights;
     int rows = 0;
+    BlockShares at_border, inside;
   };
 
   std::vector<int> ranks_around(const GridLayout& layout, std::uint64_t key) const;
@@ -78,7 +94,9 @@ class Halo {
   void find_rows(const Fields& fields, std::vector<Given>& given);
   /// Leaves what was met, in the order of fields, blocks and ranks.
   void plan(const Fields& fields, std::vector<Given>& given);
-  void find_counted(Fields& fields, const std::vector<Given>& given) const;
+  void find_counted(Fields& fields, const std::vector<Given>& given);
+  /// `shared`: of each block of a field, whether another rank knows it.
+  void divide(int field, const Grid& grid, const std::vector<std::uint8_t>& shared);
 
   Communicator& ranks_;
   const Territory& territory_;

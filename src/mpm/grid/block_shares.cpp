@@ -17,11 +17,14 @@ constexpr std::chrono::microseconds kNap{50};
 
 }  // namespace
 
-void BlockShares::cut(const BlockTable& blocks, const std::vector<std::uint32_t>& particles, int parts) {
-  const int owners = blocks.owners();
-  const auto work_of = [&](int owner) { return particles.empty() ? 1 : kBlockWork + particles[owner]; };
+void BlockShares::cut(int owners, int parts) {
+  const auto work_of = [&](int owner) -> std::uint64_t {
+    if (particles_.empty()) return 1;
+    return particles_[owner] == 0 ? 0 : kBlockWork + particles_[owner];
+  };
   std::uint64_t all = 0, work = 0;
   for (int owner = 0; owner < owners; ++owner) all += work_of(owner);
+  all = std::max<std::uint64_t>(all, 1);
   begin_.assign(parts + 1, owners);
   part_of_.resize(owners);
   int part = -1;
@@ -36,7 +39,22 @@ void BlockShares::cut(const BlockTable& blocks, const std::vector<std::uint32_t>
 }
 
 void BlockShares::rebuild(const BlockTable& blocks, const std::vector<std::uint32_t>& particles, int parts) {
-  cut(blocks, particles, parts);
+  particles_ = particles;
+  rebuild(blocks, parts);
+}
+
+void BlockShares::rebuild_of(const BlockShares& all, const BlockTable& blocks,
+                             const std::vector<std::uint8_t>& marked) {
+  particles_.resize(blocks.owners());
+  for (int owner = 0; owner < blocks.owners(); ++owner) {
+    const std::uint32_t particles = all.particles_.empty() ? 1 : all.particles_[owner];
+    particles_[owner] = marked[owner] != 0 ? particles : 0;
+  }
+  rebuild(blocks, all.parts());
+}
+
+void BlockShares::rebuild(const BlockTable& blocks, int parts) {
+  cut(blocks.owners(), parts);
   const int owners = blocks.owners(), span = blocks.neighbour_count();
   if (room_ < parts) {
     done_ = std::make_unique<Done[]>(parts);
@@ -74,7 +92,7 @@ void BlockShares::rebuild(const BlockTable& blocks, const std::vector<std::uint3
       for (const bool edge : {true, false}) {
         runs_.push_back(static_cast<int>(order_.size()));
         std::copy_if(first, end, std::back_inserter(order_), [&](int owner) {
-          const bool holds_any = particles.empty() || particles[owner] > 0;
+          const bool holds_any = particles_.empty() || particles_[owner] > 0;
           return holds_any && (at_edge_[owner] != 0) == edge;
         });
       }

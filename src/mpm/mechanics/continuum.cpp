@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "mpm/mechanics/kernel_views.hpp"
+#include "field_passes.hpp"
 
 namespace mpm {
 namespace {
@@ -15,6 +15,8 @@ namespace {
 template <class T>
 class Continuum final : public Mechanics {
   using Kernels = mpm_kernel::KernelTable<T>;
+  using Field = FieldAtWork<T>;
+  using Block = mpm_kernel::BlockView;
 
  public:
   Continuum(Kernels kernels, Fields& fields, std::vector<ParticleSet>& sets, const std::vector<Law>& laws,
@@ -26,23 +28,16 @@ class Continuum final : public Mechanics {
         settings_(settings),
         motion_(settings.transfer.kind == TransferKind::apic   ? mpm_kernel::kAffine
                 : settings.transfer.kind == TransferKind::flip ? mpm_kernel::kIncrement
-                                                               : mpm_kernel::kAdopt) {
-    for (auto& grid : fields) fields_.emplace_back(*grid);
-    if (settings.choice != nullptr) patches_.emplace(settings.choice->grid());
-  }
+                                                               : mpm_kernel::kAdopt),
+        passes_(fields, settings.threads, settings.choice, settings.halo) {}
 
   void scatter_momentum(StepContext&) override {
     failed_.reset();
-    each_field([&](Field& field) {
-      look_at(field);
-      clear(field.grid, field.grid.mass, field.grid.momentum);
-      each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
-        kernels_.scatter_momentum[motion_ == mpm_kernel::kAffine](field.view, block, field.sets(), field.count());
-      });
+    passes_.each_field([&](Field& field) { look_at(field); });
+    passes_.spread({&Grid::mass, &Grid::momentum}, [&](Field& field, const Block& block) {
+      kernels_.scatter_momentum[motion_ == mpm_kernel::kAffine](field.view, block, field.sets(), field.count());
     });
-    give(&Grid::mass);
-    give(&Grid::momentum);
-    for (Field& field : fields_) velocity_from_momentum(field);
+    find_velocities();
   }
 
   void strain_and_force(StepContext& context, double dt) override {
@@ -51,31 +46,25 @@ class Continuum final : public Mechanics {
       internal_force(context);
       return;
     }
-    take_for_strain(context.dt);
-    each_field([&](Field& field) {
-      clear(field.grid, field.grid.force);
-      strain(field, {dt, settings_.gradient_terms, true});
+    passes_.take_for_strain(context.dt);
+    passes_.spread({&Grid::force}, [&](Field& field, const Block& block) {
+      strain(field, block, {dt, settings_.gradient_terms, true});
     });
-    give(&Grid::force);
   }
 
   void internal_force(StepContext&) override {
     if (settings_.average_dilatation) find_means(true);
-    each_field([&](Field& field) {
+    passes_.spread({&Grid::force}, [&](Field& field, const Block& block) {
       const double* pressure = settings_.average_dilatation ? field.mean.data() : nullptr;
-      clear(field.grid, field.grid.force);
-      each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
-        kernels_.force(field.view, block, field.sets(), field.count(), pressure);
-      });
+      kernels_.force(field.view, block, field.sets(), field.count(), pressure);
     });
-    give(&Grid::force);
   }
 
   void update_momentum(StepContext& context) override {
     double gravity[3] = {};
     for (int k = 0; k < layout_.dim(); ++k) gravity[k] = settings_.gravity[layout_.axis(k)];
-    for (Field& field : fields_) {
-      each_node_range(field.grid, [&](int first, int last) {
+    for (Field& field : passes_.fields()) {
+      passes_.each_node_range(field.grid, [&](int first, int last) {
         kernels_.nodal_update(field.view, first, last, context.dt, gravity);
       });
     }
@@ -88,11 +77,11 @@ class Continuum final : public Mechanics {
   // velocity of the step's start, FMPM with that of its end, in which conditions hold.
   void begin_increments(StepContext&) override {
     const bool from_start = settings_.transfer.kind == TransferKind::xpic;
-    for (Field& field : fields_) {
+    for (Field& field : passes_.fields()) {
       Grid& grid = field.grid;
       grid.increment.resize(grid.blocks.size());
       const int nodes = layout_.nodes_per_block();
-      each_carrying(grid, [&](int b, int n, double inverse_mass) {
+      passes_.each_carrying(grid, [&](int b, int n, double inverse_mass) {
         for (int k = 0; k < layout_.dim(); ++k) {
           const double start = grid.momentum.block(b)[k * nodes + n] * inverse_mass;
           grid.increment.block(b)[k * nodes + n] = from_start ? start : grid.velocity.block(b)[k * nodes + n];
@@ -102,19 +91,15 @@ class Continuum final : public Mechanics {
   }
 
   void find_increment(StepContext&) override {
-    if (patches_) patches_->grid.increment.resize(patches_->grid.blocks.size());
-    take(&Grid::increment);
-    each_field([&](Field& field) {
+    if (auto& patches = passes_.patches()) patches->grid.increment.resize(patches->grid.blocks.size());
+    passes_.take(&Grid::increment);
+    passes_.spread({&Grid::momentum}, [&](Field& field, const Block& block) {
       Grid& grid = field.grid;
-      clear(grid, grid.momentum);
-      each_block(grid, true, [&](const mpm_kernel::BlockView& block) {
-        kernels_.project(field.view, block, field.sets(), field.count(), grid.increment.data(), grid.momentum.data());
-      });
+      kernels_.project(field.view, block, field.sets(), field.count(), grid.increment.data(), grid.momentum.data());
     });
-    give(&Grid::momentum);
-    for (Field& field : fields_) {
+    for (Field& field : passes_.fields()) {
       Grid& grid = field.grid;
-      each_carrying(grid, [&](int b, int n, double inverse_mass) {
+      passes_.each_carrying(grid, [&](int b, int n, double inverse_mass) {
         for (int k = 0; k < layout_.dim(); ++k) {
           const int i = k * layout_.nodes_per_block() + n;
           grid.increment.block(b)[i] -= grid.momentum.block(b)[i] * inverse_mass;
@@ -124,10 +109,10 @@ class Continuum final : public Mechanics {
   }
 
   void add_increment(StepContext&) override {
-    for (Field& field : fields_) {
+    for (Field& field : passes_.fields()) {
       Grid& grid = field.grid;
       const std::ptrdiff_t count = layout_.dim() * layout_.nodes_per_block();
-      each_node_range(grid, [&](int first, int last) {
+      passes_.each_node_range(grid, [&](int first, int last) {
         const double* from = grid.increment.block(first);
         double* to = grid.velocity.block(first);
         for (std::ptrdiff_t i = 0; i < (last - first) * count; ++i) to[i] += from[i];
@@ -141,18 +126,18 @@ class Continuum final : public Mechanics {
   }
 
   void move_and_regather(StepContext& context) override {
-    each_field([&](Field& field) { clear(field.grid, field.grid.momentum); });
     move(context, true);
-    give(&Grid::momentum);
-    for (Field& field : fields_) velocity_from_momentum(field);
+    find_velocities();
   }
 
   void strain_and_place(StepContext& context, double dt) override {
     if (settings_.average_dilatation) {
       strain_by_mean(context.dt, dt);
     } else {
-      take_for_strain(context.dt);
-      each_field([&](Field& field) { strain(field, {dt, settings_.gradient_terms, false, nullptr}); });
+      passes_.take_for_strain(context.dt);
+      passes_.each_block([&](Field& field, const Block& block) {
+        strain(field, block, {dt, settings_.gradient_terms, false, nullptr});
+      });
     }
     for (ParticleSet& set : sets_) set.x.swap(set.next_x);
     end_step();
@@ -194,41 +179,6 @@ class Continuum final : public Mechanics {
   }
 
  private:
-  /// A velocity field at work: its grid, and the sets that have particles in it.
-  struct Field {
-    explicit Field(Grid& grid) : grid(grid), mean(1, grid.layout.nodes_per_block()) {}
-    int count() const { return static_cast<int>(views.size()); }
-    const mpm_kernel::SetView<T>* sets() const { return views.data(); }
-
-    Grid& grid;
-    mpm_kernel::GridView view{};
-    std::vector<mpm_kernel::SetView<T>> views;
-    std::vector<int> set;                  ///< index of each
-    std::vector<std::uint8_t> loose;       ///< of each owner, after the motion
-    std::vector<mpm_kernel::Moved> taken;  ///< by damping and PIC, of each owner
-    NodalField mean;                       ///< of dilatation or mean stress, where these are averaged
-  };
-
-  // Particles that choose a field at every node have nodes of their own, as if they were a field.
-  template <class Act>
-  void each_field(Act&& act) {
-    for (Field& field : fields_) act(field);
-    if (patches_) act(*patches_);
-  }
-  // Ends a pass that spreads: what is beside the fields' own nodes goes there.
-  void give(NodalField Grid::*what) {
-    if (settings_.choice != nullptr) settings_.choice->give(what);
-    for (std::size_t f = 0; settings_.halo != nullptr && f < fields_.size(); ++f) {
-      settings_.halo->add(static_cast<int>(f), fields_[f].grid.*what);
-    }
-  }
-  void take_for_strain(double step) {
-    if (settings_.choice != nullptr) settings_.choice->take_for_strain(step);
-  }
-  void take(NodalField Grid::*what) {
-    if (settings_.choice != nullptr) settings_.choice->take(what);
-  }
-
   // Fields and particles may have been sorted or swapped since the last step.
   void look_at(Field& field) {
     const Grid& grid = field.grid;
@@ -243,45 +193,16 @@ class Continuum final : public Mechanics {
     }
   }
 
-  // Colours are for what scatters to nodes.
-  template <class Pass>
-  void each_block(const Grid& grid, bool scatters, Pass&& pass) {
-    if (scatters) {
-      each_owner(grid, settings_.threads, pass);
-    } else {
-      each_owner_at_once(grid, settings_.threads, pass);
+  void find_velocities() {
+    for (Field& field : passes_.fields()) {
+      passes_.each_node_range(field.grid,
+                              [&](int first, int last) { kernels_.nodal_velocity(field.view, first, last); });
     }
   }
 
-  // pass(first block, last block), the blocks in use shared out among the threads.
-  template <class Pass>
-  void each_node_range(const Grid& grid, Pass&& pass) {
-    constexpr int kBlocks = 16;           // a range
-    constexpr int kRangesPerThread = 64;  // fewer do not pay for the start of a thread
-    const int blocks = grid.blocks.size(), ranges = (blocks + kBlocks - 1) / kBlocks;
-    const int threads = std::clamp(ranges / kRangesPerThread, 1, settings_.threads);
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int r = 0; r < ranges; ++r) pass(r * kBlocks, std::min(blocks, (r + 1) * kBlocks));
-  }
-
-  template <class... Nodal>
-  void clear(const Grid& grid, Nodal&... fields) {
-    const int nodes = grid.layout.nodes_per_block();
-    each_node_range(grid, [&](int first, int last) {
-      (std::fill_n(fields.block(first), static_cast<std::ptrdiff_t>(last - first) * fields.components() * nodes, 0.0),
-       ...);
-    });
-  }
-
-  void velocity_from_momentum(Field& field) {
-    each_node_range(field.grid, [&](int first, int last) { kernels_.nodal_velocity(field.view, first, last); });
-  }
-
-  void strain(const Field& field, const mpm_kernel::StrainSettings& settings) {
-    each_block(field.grid, settings.and_force, [&](const mpm_kernel::BlockView& block) {
-      const mpm_kernel::Failure failure = kernels_.strain(field.view, block, field.sets(), field.count(), settings);
-      if (failure.set >= 0) note_failure({field.set[failure.set], failure.particle});
-    });
+  void strain(const Field& field, const Block& block, const mpm_kernel::StrainSettings& settings) {
+    const mpm_kernel::Failure failure = kernels_.strain(field.view, block, field.sets(), field.count(), settings);
+    if (failure.set >= 0) note_failure({field.set[failure.set], failure.particle});
   }
 
   void move(StepContext& context, bool regather) {
@@ -292,22 +213,27 @@ class Continuum final : public Mechanics {
     const bool counts = settings.counted || settings.damped;
     std::atomic<bool> gone{false};
     std::atomic<int> groups{0}, parts{0};
-    take(&Grid::velocity);
-    take(&Grid::force);
-    each_field([&](Field& field) {
+    passes_.take(&Grid::velocity);
+    passes_.take(&Grid::force);
+    passes_.each_field([&](Field& field) {
       if (counts) field.taken.assign(field.grid.blocks.owners(), {});
       field.loose.resize(field.grid.blocks.owners());
-      each_block(field.grid, regather, [&](const mpm_kernel::BlockView& block) {
-        const mpm_kernel::Moved moved =
-            kernels_.move[motion_](field.view, block, field.sets(), field.count(), settings);
-        field.loose[block.owner] = moved.loose;
-        if (moved.gone) gone.store(true, std::memory_order_relaxed);
-        if (counts) field.taken[block.owner] = moved;
-        groups.fetch_add(moved.groups, std::memory_order_relaxed);
-        parts.fetch_add(moved.parts, std::memory_order_relaxed);
-      });
     });
-    const std::uint64_t generation = fields_.front().grid.blocks.generation();  // of all: they are rebuilt together
+    const auto move_block = [&](Field& field, const Block& block) {
+      const mpm_kernel::Moved moved = kernels_.move[motion_](field.view, block, field.sets(), field.count(), settings);
+      field.loose[block.owner] = moved.loose;
+      if (moved.gone) gone.store(true, std::memory_order_relaxed);
+      if (counts) field.taken[block.owner] = moved;
+      groups.fetch_add(moved.groups, std::memory_order_relaxed);
+      parts.fetch_add(moved.parts, std::memory_order_relaxed);
+    };
+    if (regather) {
+      passes_.spread({&Grid::momentum}, move_block);
+    } else {
+      passes_.each_block(move_block);
+    }
+    const std::uint64_t generation =
+        passes_.fields().front().grid.blocks.generation();  // of all: they are rebuilt together
     if (generation_ != generation) {
       generation_ = generation;
       parts_when_sorted_ = parts;
@@ -323,7 +249,7 @@ class Continuum final : public Mechanics {
     if (damping == nullptr) return false;
     settings.flip = damping->flip();
     if (!damping->in_update() && !damping->needs_energy()) return false;
-    each_field([&](Field& field) {
+    passes_.each_field([&](Field& field) {
       for (int i = 0; i < field.count(); ++i) {
         const DampingRates rates = damping->rates(field.set[i]);
         settings.grid_damping = rates.grid;
@@ -337,7 +263,7 @@ class Continuum final : public Mechanics {
 
   // Sums over blocks in their order: the same bits for any number of threads.
   void book_taken() {
-    each_field([&](Field& field) {
+    passes_.each_field([&](Field& field) {
       for (const mpm_kernel::Moved& moved : field.taken) {
         slip_energy_ += moved.slip_energy;
         drag_energy_ += moved.drag_energy;
@@ -347,7 +273,7 @@ class Continuum final : public Mechanics {
 
   void close_damping(const StepContext& context) {
     Damped sum;
-    each_field([&](Field& field) {
+    passes_.each_field([&](Field& field) {
       for (const mpm_kernel::Moved& moved : field.taken) {
         for (int k = 0; k < layout_.dim(); ++k) sum.momentum[layout_.axis(k)] += moved.drag[k];
         sum.grid_energy += moved.grid_kinetic;
@@ -358,52 +284,42 @@ class Continuum final : public Mechanics {
   }
 
   void strain_by_mean(double step, double dt) {
-    take_for_strain(step);
+    passes_.take_for_strain(step);
     find_means(false);
-    each_field([&](Field& field) { strain(field, {dt, settings_.gradient_terms, false, field.mean.data()}); });
+    passes_.each_block([&](Field& field, const Block& block) {
+      strain(field, block, {dt, settings_.gradient_terms, false, field.mean.data()});
+    });
   }
 
   // Of the particles' dilatation or mean stress, the mass-weighted mean at the nodes of every field.
   void find_means(bool of_stress) {
-    each_field([&](Field& field) {
+    passes_.each_field([&](Field& field) {
       field.mean.resize(field.grid.blocks.size());
-      clear(field.grid, field.mean);
-      each_block(field.grid, true, [&](const mpm_kernel::BlockView& block) {
+      passes_.clear(field.grid, field.mean);
+      each_owner(field.grid, settings_.threads, [&](const Block& block) {
         kernels_.spread_mean[of_stress](field.view, block, field.sets(), field.count(), field.mean.data());
       });
     });
-    for (std::size_t f = 0; f < fields_.size(); ++f) {
-      Field& field = fields_[f];
-      if (patches_) settings_.choice->give(patches_->mean, static_cast<int>(f), field.mean);
+    auto& patches = passes_.patches();
+    for (std::size_t f = 0; f < passes_.fields().size(); ++f) {
+      Field& field = passes_.fields()[f];
+      if (patches) settings_.choice->give(patches->mean, static_cast<int>(f), field.mean);
       if (settings_.halo != nullptr) settings_.halo->add(static_cast<int>(f), field.mean);
-      each_carrying(field.grid, [&](int b, int n, double inverse_mass) { field.mean.block(b)[n] *= inverse_mass; });
-      if (patches_) settings_.choice->take(field.mean, static_cast<int>(f), patches_->mean);
+      passes_.each_carrying(field.grid,
+                            [&](int b, int n, double inverse_mass) { field.mean.block(b)[n] *= inverse_mass; });
+      if (patches) settings_.choice->take(field.mean, static_cast<int>(f), patches->mean);
     }
-  }
-
-  // visit(block, node, 1 / mass): zero where no particle is.
-  template <class Visit>
-  void each_carrying(const Grid& grid, Visit&& visit) {
-    each_node_range(grid, [&](int first, int last) {
-      for (int b = first; b < last; ++b) {
-        for (int n = 0; n < grid.layout.nodes_per_block(); ++n) {
-          visit(b, n, grid.carries(b, n) ? 1.0 / grid.mass.at(b, 0, n) : 0.0);
-        }
-      }
-    });
   }
 
   // Domains have grown, and particles with them moved: will the next step's tiles hold them?
   void end_step() {
-    for (Field& field : fields_) field.grid.loose.swap(field.loose);  // of patches all are
+    for (Field& field : passes_.fields()) field.grid.loose.swap(field.loose);  // of patches all are
     if (kernels_.outgrown == nullptr || needs_sort_) return;
     std::atomic<bool> outgrown{false};
-    each_field([&](Field& field) {
-      look_at(field);
-      each_block(field.grid, false, [&](const mpm_kernel::BlockView& block) {
-        const bool one = kernels_.outgrown(field.view, block, field.sets(), field.count());
-        if (one) outgrown.store(true, std::memory_order_relaxed);
-      });
+    passes_.each_field([&](Field& field) { look_at(field); });
+    passes_.each_block([&](Field& field, const Block& block) {
+      const bool one = kernels_.outgrown(field.view, block, field.sets(), field.count());
+      if (one) outgrown.store(true, std::memory_order_relaxed);
     });
     needs_sort_ = outgrown;
   }
@@ -426,8 +342,7 @@ class Continuum final : public Mechanics {
   const std::vector<Law>& laws_;
   ContinuumSettings settings_;
   mpm_kernel::Motion motion_;
-  std::vector<Field> fields_;
-  std::optional<Field> patches_;  ///< where particles choose a field at every node
+  FieldPasses<T> passes_;
   std::optional<ParticleRef> failed_;
   bool needs_sort_ = false;
   double slip_energy_ = 0.0, drag_energy_ = 0.0;  ///< taken by PIC and by damping of the particles [J]

@@ -131,31 +131,64 @@ void Halo::plan(const Fields& fields, std::vector<Given>& given) {
   }
 }
 
-void Halo::find_counted(Fields& fields, const std::vector<Given>& given) const {
+void Halo::find_counted(Fields& fields, const std::vector<Given>& given) {
   std::vector<std::pair<std::uint64_t, int>> lowest;  // of each block that others give to, the lowest rank that does
   for (const Given& one : given) lowest.emplace_back(one.use.key, one.rank);
   std::sort(lowest.begin(), lowest.end());
-  for (auto& grid : fields) {
+  std::vector<std::uint8_t> shared;
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    Grid* grid = fields[f].get();
     grid->elsewhere.assign(grid->blocks.size(), 0);
+    shared.assign(grid->blocks.size(), 0);
     for (int b = 0; b < grid->blocks.size(); ++b) {
       const std::uint64_t key = grid->blocks.key(b);
       const auto found = std::lower_bound(lowest.begin(), lowest.end(), std::pair{key, 0});
       if (found == lowest.end() || found->first != key) continue;
+      shared[b] = 1;
       const bool mine = std::binary_search(own_keys_.begin(), own_keys_.end(), key) && ranks_.rank() < found->second;
       grid->elsewhere[b] = mine ? 0 : 1;
     }
+    divide(static_cast<int>(f), *grid, shared);
   }
 }
 
+void Halo::divide(int number, const Grid& grid, const std::vector<std::uint8_t>& shared) {
+  const BlockTable& blocks = grid.blocks;
+  std::vector<std::uint8_t> border(blocks.owners()), inner(blocks.owners());
+  for (int owner = 0; owner < blocks.owners(); ++owner) {
+    const int* around = blocks.neighbours(owner);
+    border[owner] = std::any_of(around, around + blocks.neighbour_count(), [&](int b) { return shared[b] != 0; });
+    inner[owner] = border[owner] == 0;
+  }
+  fields_[number].at_border.rebuild_of(grid.shares, blocks, border);
+  fields_[number].inside.rebuild_of(grid.shares, blocks, inner);
+}
+
 void Halo::add(int number, NodalField& values) {
+  begin(number, values);
+  end(number, values);
+}
+
+void Halo::begin(int number, NodalField& values) {
   OfField& field = fields_[number];
+  auto flight =
+      std::find_if(field.flights.begin(), field.flights.end(), [](const Flight& one) { return one.values == nullptr; });
+  if (flight == field.flights.end()) flight = field.flights.emplace(flight);
   const int numbers = values.components() * values.nodes_per_block();
-  field.received.resize(static_cast<std::size_t>(field.rows) * numbers);
-  field.copies->begin(values.data(), field.received.data(), numbers);
-  field.copies->end(values.data(), field.received.data(), numbers);
+  flight->values = values.data();
+  flight->received.resize(static_cast<std::size_t>(field.rows) * numbers);
+  field.copies->begin(values.data(), flight->received.data(), numbers);
+}
+
+void Halo::end(int number, NodalField& values) {
+  OfField& field = fields_[number];
+  const auto flight = std::find_if(field.flights.begin(), field.flights.end(),
+                                   [&](const Flight& one) { return one.values == values.data(); });
+  const int numbers = values.components() * values.nodes_per_block();
+  field.copies->end(values.data(), flight->received.data(), numbers);
   for (const Sum& sum : field.sums) {
     double* own = values.block(sum.block);
-    const double* received = field.received.data() + static_cast<std::size_t>(sum.first) * numbers;
+    const double* received = flight->received.data() + static_cast<std::size_t>(sum.first) * numbers;
     for (int n = 0; n < numbers; ++n) {
       double total = 0.0;
       for (int i = 0; i < sum.before; ++i) total += received[i * numbers + n];
@@ -164,7 +197,8 @@ void Halo::add(int number, NodalField& values) {
       own[n] = total;
     }
   }
-  numbers_received_ += field.received.size();
+  flight->values = nullptr;
+  numbers_received_ += flight->received.size();
   ++exchanges_;
 }
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <tuple>
 
+#include "mpm/grid/each_share.hpp"
 #include "mpm/ranks/halo.hpp"
 #include "mpm/ranks/lists.hpp"
 #include "ranks_promises.hpp"
@@ -136,20 +137,19 @@ class Part {
                     0.0);
       }
     }
-    for (const Point& point : own_) {
-      Grid& grid = *fields_[point.field];
-      each_weight(layout_, point, [&](std::uint64_t key, int node, double weight) {
-        const int block = grid.blocks.find(key);
-        grid.mass.at(block, 0, node) += weight * point.mass;
-        for (int k = 0; k < layout_.dim(); ++k) {
-          grid.momentum.at(block, k, node) += weight * point.mass * point.velocity(k);
-        }
-      });
+    std::size_t given = 0;
+    const auto give = [&](int field, const BlockShares& owners) {
+      owners.by_colour(1, [&](int owner) { given += give_of(field, owner); });
+    };
+    for (int f = 0; f < kFields; ++f) {
+      give(f, halo_.at_border(f));
+      halo_.begin(f, {&fields_[f]->mass, &fields_[f]->momentum});
     }
     for (int f = 0; f < kFields; ++f) {
-      halo_.add(f, fields_[f]->mass);
-      halo_.add(f, fields_[f]->momentum);
+      give(f, halo_.inside(f));
+      halo_.end(f, {&fields_[f]->mass, &fields_[f]->momentum});
     }
+    EXPECT_EQ(given, own_.size()) << "owners are not either at the border or inside";
   }
 
   /// All nodes that this rank has hold the sums of one process, and all ranks have the same bits.
@@ -193,6 +193,25 @@ class Part {
   const Halo& halo() const { return halo_; }
 
  private:
+  /// What the particles of an owner give to nodes. Returns their number.
+  std::size_t give_of(int field, int owner) {
+    Grid& grid = *fields_[field];
+    const std::array<int, 3>& place = grid.blocks.block(grid.blocks.owner_block(owner));
+    std::size_t given = 0;
+    for (const Point& point : own_) {
+      if (point.field != field || block_of(layout_, point) != place) continue;
+      ++given;
+      each_weight(layout_, point, [&](std::uint64_t key, int node, double weight) {
+        const int block = grid.blocks.find(key);
+        grid.mass.at(block, 0, node) += weight * point.mass;
+        for (int k = 0; k < layout_.dim(); ++k) {
+          grid.momentum.at(block, k, node) += weight * point.mass * point.velocity(k);
+        }
+      });
+    }
+    return given;
+  }
+
   /// A rank has the blocks that its particles reach in all fields that any rank has them in, and those of tools; each
   /// counts on one rank.
   void check_blocks(const Halo::Everywhere& everywhere) const {

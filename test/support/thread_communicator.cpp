@@ -4,7 +4,6 @@
 #include <cmath>
 #include <condition_variable>
 #include <cstring>
-#include <deque>
 #include <exception>
 #include <limits>
 #include <mutex>
@@ -76,17 +75,19 @@ class ThreadCopies final : public Communicator::Copies {
       : meeting_(meeting), rank_(rank), plan_(plan), sources_(std::move(sources)) {}
 
   void begin(const double* from, double* to, int numbers) override {
-    const auto into = [to](const Begun& one) { return one.to == to; };
-    if (std::any_of(begun_.begin(), begun_.end(), into)) throw RanksError("copies begin again before they have ended");
-    begun_.push_back({from, to, numbers});
+    if (begun_) throw RanksError("copies begin again before they have ended");
+    begun_ = true;
+    from_ = from;
+    to_ = to;
+    numbers_ = numbers;
     // Whoever reads them before end() sees it.
     std::fill_n(to, sources_.size() * numbers, std::numeric_limits<double>::quiet_NaN());
   }
   void end(const double* from, double* to, int numbers) override {
-    if (begun_.empty() || from != begun_.front().from || to != begun_.front().to || numbers != begun_.front().numbers) {
+    if (!begun_ || from != from_ || to != to_ || numbers != numbers_) {
       throw RanksError("copies end with other arguments than they began with");
     }
-    begun_.pop_front();
+    begun_ = false;
     const std::string call = "copies " + std::to_string(plan_) + " of " + std::to_string(numbers);
     meeting_.show(rank_, call, from, [&](int rank, const void* data) {
       const auto* rows = static_cast<const double*>(data);
@@ -100,12 +101,10 @@ class ThreadCopies final : public Communicator::Copies {
   Meeting& meeting_;
   const int rank_, plan_;
   const std::vector<Communicator::Source> sources_;
-  struct Begun {
-    const double* from;
-    const double* to;
-    int numbers;
-  };
-  std::deque<Begun> begun_;  ///< those under way
+  bool begun_ = false;
+  const double* from_ = nullptr;
+  const double* to_ = nullptr;
+  int numbers_ = 0;
 };
 
 class ThreadCommunicator final : public Communicator {

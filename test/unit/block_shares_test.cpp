@@ -118,4 +118,31 @@ TEST(BlockShares, TakeNeighboursInTheOrderOfTheirColours) {
   }
 }
 
+// Every owner is visited by one of the two, and its part of the work counts there alone.
+TEST(BlockShares, OfMarkedOwnersDivideTheOwners) {
+  const Bed bed(3);
+  const int owners = bed.table.owners();
+  BlockShares all, marked, others;
+  all.rebuild(bed.table, bed.particles, 2);
+  std::vector<std::uint8_t> marks(owners), rest(owners);
+  double work = 0.0;
+  for (int o = 0; o < owners; ++o) {
+    marks[o] = o > owners / 2 && o % 7 != 0;
+    rest[o] = marks[o] == 0;
+    work += marks[o] != 0 ? bed.particles[o] : 0.0;
+  }
+  marked.rebuild_of(all, bed.table, marks);
+  others.rebuild_of(all, bed.table, rest);
+  std::vector<int> by_marked(owners, 0), by_others(owners, 0);
+  marked.by_colour(2, [&](int owner) { ++by_marked[owner]; });
+  others.by_colour(2, [&](int owner) { ++by_others[owner]; });
+  for (int o = 0; o < owners; ++o) {
+    EXPECT_EQ(by_marked[o], marks[o]) << o;
+    EXPECT_EQ(by_others[o], rest[o]) << o;
+  }
+  double first = 0.0;
+  for (int o = 0; o < marked.begin(1); ++o) first += marks[o] != 0 ? bed.particles[o] : 0.0;
+  EXPECT_NEAR(first, work / 2, 512.0);
+}
+
 }  // namespace block_shares_test

@@ -34,8 +34,7 @@ class Communicator {
     int rank;
     int row;  ///< in that rank's array
   };
-  /// Copies of rows of other ranks, made again and again by one plan. Several may be under way at once, each into an
-  /// array of its own; they end in the order in which they began.
+  /// Copies of rows of other ranks, made again and again by one plan.
   class Copies {
    public:
     virtual ~Copies() = default;

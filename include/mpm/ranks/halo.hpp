@@ -11,10 +11,12 @@
 //
 // Ranks that meet at a block have it in all velocity fields that any of them has it in, since contact looks at nodes of
 // several. Blocks near tools are on all ranks: contact at points couples everything that touches one tool, and each
-// rank solves it for itself. Weak: whole blocks are sent, the nodes beyond two from the border too; what is near tools
-// is sent to all ranks.
+// rank solves it for itself. Of a block a rank sends the nodes that its particles can reach. Weak: it receives nodes
+// that its own particles do not reach, so that all who have a block hold the same; what is near tools is sent to all
+// ranks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -39,10 +41,11 @@ class Halo {
   void meet(Fields& fields, const Everywhere& everywhere);
   /// Adds what others have spread to the nodes of a velocity field; `values` have its blocks. It is begin() and end().
   void add(int field, NodalField& values);
-  /// Owners at_border() have given to `values`, those inside() may until end(). Several may be under way at once; they
-  /// end in the order in which they began.
-  void begin(int field, NodalField& values);
-  void end(int field, NodalField& values);
+  /// The same of two fields of nodes at once, of which the second may be null. Owners at_border() have given to them,
+  /// those inside() may until end() of the same fields.
+  using Values = std::array<NodalField*, 2>;
+  void begin(int field, const Values& values);
+  void end(int field, const Values& values);
   /// Owners of a velocity field that may give to a node that another rank knows, and all others.
   const BlockShares& at_border(int field) const { return fields_[field].at_border; }
   const BlockShares& inside(int field) const { return fields_[field].inside; }
@@ -54,46 +57,59 @@ class Halo {
   std::uint64_t exchanges() const { return exchanges_; }
 
  private:
+  /// The nodes of a block, one bit each.
+  using Nodes = std::uint64_t;
   /// A block of a velocity field that a rank gives to.
   struct Use {
     std::uint64_t field, key;
+    Nodes nodes;  ///< those that it may give to
     bool operator<(const Use& other) const { return field != other.field ? field < other.field : key < other.key; }
   };
   /// A use by another rank.
   struct Given {
     Use use;
-    int rank, row;  ///< by whom, and which of the blocks it is there
-    bool met;       ///< whether this rank has the block, too, in some field
+    int rank;     ///< by whom
+    bool met;     ///< whether this rank has the block, too, in some field
+    bool to_all;  ///< whether all ranks are sent it
   };
-  /// A block to add to: its copies from other ranks are rows [first, first + count) of what is received, in the order
-  /// of ranks; the first `before` of them are of lower ranks than this one.
+  /// Nodes of a block as they are sent, in a buffer of nodes.
+  struct Piece {
+    int block;
+    Nodes nodes;
+    int at, count;  ///< place and number of these nodes there
+    int rank;       ///< from whom
+  };
+  /// A block to add to: pieces [first, first + count) of what is received, in the order of ranks; the first `before` of
+  /// them are of lower ranks than this one.
   struct Sum {
     int block;
     int first, count, before;
     bool own;  ///< whether this rank gives to it
   };
-  /// What is under way, or room for it.
-  struct Flight {
-    const double* values = nullptr;
-    std::vector<double> received;
-  };
   struct OfField {
+    std::vector<Piece> out, in;
+    int out_rows = 0, in_rows = 0;  ///< of kRow nodes each
     std::vector<Sum> sums;
     std::unique_ptr<Communicator::Copies> copies;
-    std::vector<Flight> flights;
-    int rows = 0;
+    std::vector<double> sent, received;
     BlockShares at_border, inside;
   };
 
   std::vector<int> ranks_around(const GridLayout& layout, std::uint64_t key) const;
   bool owns(const Use& use) const;
+  /// Of each block of a grid, the nodes that its owners may give to.
+  std::vector<Nodes> reach(const BlockTable& blocks) const;
   void find_own(const Fields& fields, const Everywhere& everywhere);
   /// Tells others what this rank gives to, and hears what they do.
   std::vector<Given> hear();
   void admit(Fields& fields, const std::vector<Given>& given);
-  void find_rows(const Fields& fields, std::vector<Given>& given);
-  /// Leaves what was met, in the order of fields, blocks and ranks.
-  void plan(const Fields& fields, std::vector<Given>& given);
+  /// [rank][field]: the row at which that rank's part begins.
+  using Begins = std::vector<std::vector<std::int32_t>>;
+  /// Lays out what this rank sends: what all get, then a part for each rank.
+  Begins plan_sending(const Fields& fields, const std::vector<Given>& given);
+  /// Tells others where their parts begin, and hears where this rank's do.
+  Begins exchange(const Begins& begins);
+  void plan_receiving(const Fields& fields, const std::vector<Given>& given, const Begins& begins);
   void find_counted(Fields& fields, const std::vector<Given>& given);
   /// `shared`: of each block of a field, whether another rank knows it.
   void divide(int field, const Grid& grid, const std::vector<std::uint8_t>& shared);

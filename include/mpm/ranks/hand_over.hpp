@@ -34,9 +34,9 @@ class HandOver {
   }
 
  private:
-  /// Particles of a set by where they go.
+  /// Particles of a set that go, ascending.
   struct Leaving {
-    std::vector<int> staying;
+    std::vector<int> all;
     std::vector<std::vector<int>> to;  ///< [rank]
   };
   /// Of each block of this rank, the number of its particles.

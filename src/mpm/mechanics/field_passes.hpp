@@ -64,7 +64,7 @@ class FieldPasses {
     });
   }
 
-  /// visit(field, block), at a node a colour after the other: for what adds to these fields of nodes.
+  /// visit(field, block), at a node a colour after the other: for what adds to these fields of nodes, two at most.
   template <class Visit>
   void spread(std::initializer_list<NodalField Grid::*> to, Visit&& visit) {
     const auto by_colour = [&](Field& field, const BlockShares& owners) {
@@ -84,13 +84,14 @@ class FieldPasses {
       }
     }
     if (halo_ == nullptr) return;
-    for (int f = 0; f < fields; ++f) {
-      for (NodalField Grid::*const nodes : to) halo_->begin(f, fields_[f].grid.*nodes);
-    }
+    const auto values = [&](int f) {
+      Halo::Values list{};
+      std::transform(to.begin(), to.end(), list.begin(), [&](auto nodes) { return &(fields_[f].grid.*nodes); });
+      return list;
+    };
+    for (int f = 0; f < fields; ++f) halo_->begin(f, values(f));
     for (int f = 0; f < fields && overlaps; ++f) by_colour(fields_[f], halo_->inside(f));
-    for (int f = 0; f < fields; ++f) {
-      for (NodalField Grid::*const nodes : to) halo_->end(f, fields_[f].grid.*nodes);
-    }
+    for (int f = 0; f < fields; ++f) halo_->end(f, values(f));
   }
 
   // Of the fields' nodes, those that particles which choose a field read.

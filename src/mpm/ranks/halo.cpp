@@ -1,11 +1,42 @@
 #include "mpm/ranks/halo.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bitset>
 #include <tuple>
 
 #include "mpm/ranks/lists.hpp"
 
 namespace mpm {
+namespace {
+
+constexpr int kReach = 2;  ///< nodes beyond its block that an owner's particles may give to (grid/block_table.hpp)
+constexpr int kRow = 64;   ///< nodes that travel as one; a part for a rank is filled up to whole rows
+
+int whole_rows(int nodes) { return (nodes + kRow - 1) / kRow; }
+int number_of(std::uint64_t nodes) { return static_cast<int>(std::bitset<64>(nodes).count()); }
+
+/// visit(first, count) for every run of nodes.
+template <class Visit>
+void each_run(std::uint64_t nodes, Visit&& visit) {
+  int first = 0;
+  while (nodes != 0) {
+    for (; (nodes & 1) == 0; nodes >>= 1) ++first;
+    int count = 0;
+    for (; (nodes & 1) != 0; nodes >>= 1) ++count;
+    visit(first, count);
+    first += count;
+  }
+}
+
+int components_of(const Halo::Values& values) {
+  int components = 0;
+  for (const NodalField* field : values) components += field == nullptr ? 0 : field->components();
+  return components;
+}
+
+}  // namespace
+
 // The ranks whose particles may reach a block: those of the blocks around it, and its own.
 std::vector<int> Halo::ranks_around(const GridLayout& layout, std::uint64_t key) const {
   std::vector<int> list;
@@ -25,9 +56,32 @@ void Halo::meet(Fields& fields, const Everywhere& everywhere) {
   find_own(fields, everywhere);
   std::vector<Given> given = hear();
   admit(fields, given);
-  find_rows(fields, given);
-  plan(fields, given);
+  given.erase(std::remove_if(given.begin(), given.end(), [](const Given& one) { return !one.met; }), given.end());
+  fields_.resize(fields.size());
+  plan_receiving(fields, given, exchange(plan_sending(fields, given)));
   find_counted(fields, given);
+}
+
+std::vector<Halo::Nodes> Halo::reach(const BlockTable& blocks) const {
+  const GridLayout& layout = blocks.layout();
+  const int span = neighbours_of(layout.dim());
+  std::vector<Nodes> of_neighbour(span, 0), nodes(blocks.size(), 0);
+  for (int s = 0; s < span; ++s) {
+    for (int n = 0; n < layout.nodes_per_block(); ++n) {
+      const std::array<int, 3> node = layout.node({}, n);
+      bool within = true;
+      int rest = s;
+      for (int k = layout.dim() - 1; k >= 0; --k, rest /= 3) {
+        const int at = node[k] + (rest % 3 - 1) * kBlockEdge;  // from the owner's first node
+        within = within && at >= -kReach && at < kBlockEdge + kReach;
+      }
+      if (within) of_neighbour[s] |= Nodes{1} << n;
+    }
+  }
+  for (int owner = 0; owner < blocks.owners(); ++owner) {
+    for (int s = 0; s < span; ++s) nodes[blocks.neighbours(owner)[s]] |= of_neighbour[s];
+  }
+  return nodes;
 }
 
 void Halo::find_own(const Fields& fields, const Everywhere& everywhere) {
@@ -37,8 +91,9 @@ void Halo::find_own(const Fields& fields, const Everywhere& everywhere) {
   told_all_.clear();
   for (std::size_t f = 0; f < fields.size(); ++f) {
     const BlockTable& blocks = fields[f]->blocks;
+    const std::vector<Nodes> nodes = reach(blocks);
     for (int b = 0; b < blocks.size(); ++b) {
-      const Use use{f, blocks.key(b)};
+      const Use use{f, blocks.key(b), nodes[b]};
       own_.push_back(use);  // in ascending order
       own_keys_.push_back(use.key);
       if (everywhere(blocks.block(b))) {
@@ -61,12 +116,12 @@ std::vector<Halo::Given> Halo::hear() {
   for (const Communicator::Parcel& parcel : ranks_.deliver(parcels)) {
     for (const Use& use : list_of<Use>(parcel.bytes)) {
       const bool met = std::binary_search(own_keys_.begin(), own_keys_.end(), use.key);
-      given.push_back({use, parcel.rank, -1, met});
+      given.push_back({use, parcel.rank, met, false});
     }
   }
   const std::vector<Communicator::Bytes> all = ranks_.gather(bytes_of(told_all_));
   for (int rank = 0; rank < ranks_.size(); ++rank) {
-    for (const Use& use : list_of<Use>(all[rank])) given.push_back({use, rank, -1, rank != ranks_.rank()});
+    for (const Use& use : list_of<Use>(all[rank])) given.push_back({use, rank, rank != ranks_.rank(), true});
   }
   return given;
 }
@@ -85,49 +140,86 @@ void Halo::admit(Fields& fields, const std::vector<Given>& given) {
 
 bool Halo::owns(const Use& use) const { return std::binary_search(own_.begin(), own_.end(), use); }
 
-void Halo::find_rows(const Fields& fields, std::vector<Given>& given) {
-  const auto rows = [&](const std::vector<Use>& uses) {
-    std::vector<std::int32_t> list;
-    list.reserve(uses.size());
-    for (const Use& use : uses) list.push_back(fields[use.field]->blocks.find(use.key));
-    return bytes_of(list);
-  };
-  std::vector<Communicator::Parcel> parcels;
+Halo::Begins Halo::plan_sending(const Fields& fields, const std::vector<Given>& given) {
+  std::vector<std::vector<std::uint64_t>> met(ranks_.size());  // blocks that this rank and another give to
+  for (const Given& one : given) {
+    if (!one.to_all) met[one.rank].push_back(one.use.key);
+  }
+  Begins begins(ranks_.size());
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    OfField& field = fields_[f];
+    field.out.clear();
+    int at = 0;
+    const auto add = [&](const Use& use) {
+      if (use.field != f) return;
+      field.out.push_back({fields[f]->blocks.find(use.key), use.nodes, at, number_of(use.nodes), ranks_.rank()});
+      at += field.out.back().count;
+    };
+    if (ranks_.size() > 1) std::for_each(told_all_.begin(), told_all_.end(), add);
+    for (int rank = 0; rank < ranks_.size(); ++rank) {
+      if (f == 0) std::sort(met[rank].begin(), met[rank].end());
+      at = whole_rows(at) * kRow;
+      begins[rank].push_back(at / kRow);
+      for (const Use& use : told_[rank]) {
+        if (std::binary_search(met[rank].begin(), met[rank].end(), use.key)) add(use);
+      }
+    }
+    field.out_rows = whole_rows(at);
+  }
   for (int rank = 0; rank < ranks_.size(); ++rank) {
-    if (!told_[rank].empty()) parcels.push_back({rank, rows(told_[rank])});
+    if (met[rank].empty()) begins[rank].clear();
   }
-  auto next = given.begin();  // they come in the order in which the uses came
-  for (const Communicator::Parcel& parcel : ranks_.deliver(parcels)) {
-    for (const std::int32_t row : list_of<std::int32_t>(parcel.bytes)) next++->row = row;
-  }
-  for (const Communicator::Bytes& bytes : ranks_.gather(rows(told_all_))) {
-    for (const std::int32_t row : list_of<std::int32_t>(bytes)) next++->row = row;
-  }
+  return begins;
 }
 
-void Halo::plan(const Fields& fields, std::vector<Given>& given) {
-  given.erase(std::remove_if(given.begin(), given.end(), [](const Given& one) { return !one.met; }), given.end());
-  std::sort(given.begin(), given.end(), [](const Given& a, const Given& b) {
-    return std::tie(a.use.field, a.use.key, a.rank) < std::tie(b.use.field, b.use.key, b.rank);
-  });
-  fields_.resize(fields.size());
-  auto next = given.begin();
+Halo::Begins Halo::exchange(const Begins& begins) {
+  std::vector<Communicator::Parcel> parcels;
+  for (int rank = 0; rank < ranks_.size(); ++rank) {
+    if (!begins[rank].empty()) parcels.push_back({rank, bytes_of(begins[rank])});
+  }
+  Begins heard(ranks_.size());
+  for (const Communicator::Parcel& parcel : ranks_.deliver(parcels)) {
+    heard[parcel.rank] = list_of<std::int32_t>(parcel.bytes);
+  }
+  return heard;
+}
+
+void Halo::plan_receiving(const Fields& fields, const std::vector<Given>& given, const Begins& begins) {
   for (std::size_t f = 0; f < fields.size(); ++f) {
     OfField& field = fields_[f];
     std::vector<Communicator::Source> sources;
-    field.sums.clear();
-    while (next != given.end() && next->use.field == f) {
-      const Use use = next->use;
-      Sum sum{fields[f]->blocks.find(use.key), static_cast<int>(sources.size()), 0, 0, owns(use)};
-      for (; next != given.end() && !(use < next->use); ++next) {
-        sources.push_back({next->rank, next->row});
-        ++sum.count;
-        sum.before += next->rank < ranks_.rank();
+    field.in.clear();
+    // One rank after the other: what it sends to all, and its part for this rank. Both come in the order of blocks.
+    const auto take = [&](int rank, bool to_all, int row) {
+      int at = static_cast<int>(sources.size()) * kRow;
+      const int first = at;
+      for (const Given& one : given) {
+        if (one.rank != rank || one.to_all != to_all || one.use.field != f) continue;
+        const int count = number_of(one.use.nodes);
+        field.in.push_back({fields[f]->blocks.find(one.use.key), one.use.nodes, at, count, rank});
+        at += count;
       }
-      field.sums.push_back(sum);
+      for (int i = 0; i < whole_rows(at - first); ++i) sources.push_back({rank, row + i});
+    };
+    for (int rank = 0; rank < ranks_.size(); ++rank) {
+      take(rank, true, 0);
+      if (!begins[rank].empty()) take(rank, false, begins[rank][f]);
     }
-    field.rows = static_cast<int>(sources.size());
-    field.copies = ranks_.make_copies(fields[f]->blocks.size(), sources);
+    field.in_rows = static_cast<int>(sources.size());
+    field.copies = ranks_.make_copies(field.out_rows, sources);
+
+    std::sort(field.in.begin(), field.in.end(),
+              [](const Piece& a, const Piece& b) { return std::tie(a.block, a.rank) < std::tie(b.block, b.rank); });
+    field.sums.clear();
+    for (std::size_t i = 0; i < field.in.size(); ++i) {
+      const Piece& piece = field.in[i];
+      if (i == 0 || field.in[i - 1].block != piece.block) {
+        const bool own = owns({f, fields[f]->blocks.key(piece.block), 0});
+        field.sums.push_back({piece.block, static_cast<int>(i), 0, 0, own});
+      }
+      ++field.sums.back().count;
+      field.sums.back().before += piece.rank < ranks_.rank();
+    }
   }
 }
 
@@ -135,6 +227,9 @@ void Halo::find_counted(Fields& fields, const std::vector<Given>& given) {
   std::vector<std::pair<std::uint64_t, int>> lowest;  // of each block that others give to, the lowest rank that does
   for (const Given& one : given) lowest.emplace_back(one.use.key, one.rank);
   std::sort(lowest.begin(), lowest.end());
+  std::vector<std::uint64_t> to_all;  // also where nobody else gives
+  for (const Use& use : told_all_) to_all.push_back(use.key);
+  std::sort(to_all.begin(), to_all.end());
   std::vector<std::uint8_t> shared;
   for (std::size_t f = 0; f < fields.size(); ++f) {
     Grid* grid = fields[f].get();
@@ -142,6 +237,7 @@ void Halo::find_counted(Fields& fields, const std::vector<Given>& given) {
     shared.assign(grid->blocks.size(), 0);
     for (int b = 0; b < grid->blocks.size(); ++b) {
       const std::uint64_t key = grid->blocks.key(b);
+      if (std::binary_search(to_all.begin(), to_all.end(), key)) shared[b] = 1;
       const auto found = std::lower_bound(lowest.begin(), lowest.end(), std::pair{key, 0});
       if (found == lowest.end() || found->first != key) continue;
       shared[b] = 1;
@@ -165,46 +261,64 @@ void Halo::divide(int number, const Grid& grid, const std::vector<std::uint8_t>&
 }
 
 void Halo::add(int number, NodalField& values) {
-  begin(number, values);
-  end(number, values);
+  begin(number, {&values});
+  end(number, {&values});
 }
 
-void Halo::begin(int number, NodalField& values) {
+void Halo::begin(int number, const Values& values) {
   OfField& field = fields_[number];
-  auto flight =
-      std::find_if(field.flights.begin(), field.flights.end(), [](const Flight& one) { return one.values == nullptr; });
-  if (flight == field.flights.end()) flight = field.flights.emplace(flight);
-  const int numbers = values.components() * values.nodes_per_block();
-  flight->values = values.data();
-  flight->received.resize(static_cast<std::size_t>(field.rows) * numbers);
-  field.copies->begin(values.data(), flight->received.data(), numbers);
-}
-
-void Halo::end(int number, NodalField& values) {
-  OfField& field = fields_[number];
-  const auto flight = std::find_if(field.flights.begin(), field.flights.end(),
-                                   [&](const Flight& one) { return one.values == values.data(); });
-  const int numbers = values.components() * values.nodes_per_block();
-  field.copies->end(values.data(), flight->received.data(), numbers);
-  for (const Sum& sum : field.sums) {
-    double* own = values.block(sum.block);
-    const double* received = flight->received.data() + static_cast<std::size_t>(sum.first) * numbers;
-    for (int n = 0; n < numbers; ++n) {
-      double total = 0.0;
-      for (int i = 0; i < sum.before; ++i) total += received[i * numbers + n];
-      if (sum.own) total += own[n];
-      for (int i = sum.before; i < sum.count; ++i) total += received[i * numbers + n];
-      own[n] = total;
+  const int components = components_of(values);
+  field.sent.resize(static_cast<std::size_t>(field.out_rows) * kRow * components);
+  field.received.resize(static_cast<std::size_t>(field.in_rows) * kRow * components);
+  for (const Piece& piece : field.out) {
+    double* to = field.sent.data() + static_cast<std::size_t>(piece.at) * components;
+    for (const NodalField* nodal : values) {
+      if (nodal == nullptr) continue;
+      const double* from = nodal->block(piece.block);
+      for (int k = 0; k < nodal->components(); ++k, from += nodal->nodes_per_block()) {
+        each_run(piece.nodes, [&](int first, int count) { to = std::copy_n(from + first, count, to); });
+      }
     }
   }
-  flight->values = nullptr;
-  numbers_received_ += flight->received.size();
+  field.copies->begin(field.sent.data(), field.received.data(), kRow * components);
+}
+
+void Halo::end(int number, const Values& values) {
+  OfField& field = fields_[number];
+  const int components = components_of(values);
+  field.copies->end(field.sent.data(), field.received.data(), kRow * components);
+  for (const Sum& sum : field.sums) {
+    int component = 0;
+    for (NodalField* nodal : values) {
+      if (nodal == nullptr) continue;
+      const int nodes = nodal->nodes_per_block();
+      for (int k = 0; k < nodal->components(); ++k, ++component) {
+        double* own = nodal->block(sum.block) + k * nodes;
+        std::array<double, kRow> total{};
+        const auto add = [&](int begin, int end) {
+          for (int i = begin; i < end; ++i) {
+            const Piece& piece = field.in[sum.first + i];
+            const double* from = field.received.data() + static_cast<std::size_t>(piece.at) * components;
+            from += component * piece.count;
+            each_run(piece.nodes, [&](int first, int count) {
+              for (int n = first; n < first + count; ++n) total[n] += *from++;
+            });
+          }
+        };
+        add(0, sum.before);
+        for (int n = 0; n < nodes && sum.own; ++n) total[n] += own[n];
+        add(sum.before, sum.count);
+        std::copy_n(total.begin(), nodes, own);
+      }
+    }
+  }
+  numbers_received_ += field.received.size();
   ++exchanges_;
 }
 
 std::uint64_t Halo::blocks_received() const {
   std::uint64_t blocks = 0;
-  for (const OfField& field : fields_) blocks += field.rows;
+  for (const OfField& field : fields_) blocks += field.in.size();
   return blocks;
 }
 

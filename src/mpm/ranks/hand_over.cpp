@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 
@@ -49,6 +51,7 @@ void pack(ParticleSet& set, const std::vector<int>& leaving, Communicator::Bytes
 struct Unpacking {
   const Communicator::Bytes& bytes;
   std::size_t at = 0;
+  std::uint64_t count = 0;  ///< of the particles of the set at hand
 
   template <class T>
   void take(T* values, std::size_t count) {
@@ -58,23 +61,42 @@ struct Unpacking {
   }
 };
 
-/// Leaves those that stay, in their order, and adds those that come, parcel by parcel.
-void replace(ParticleSet& set, const std::vector<int>& staying, std::vector<Unpacking>& coming) {
-  std::vector<std::uint64_t> counts(coming.size());
-  std::size_t size = staying.size();
-  for (std::size_t i = 0; i < coming.size(); ++i) {
-    coming[i].take(&counts[i], 1);
-    size += counts[i];
-  }
+/// Leaves those that stay alone, in arrays that have no room for others.
+void keep(ParticleSet& set, const std::vector<int>& staying) {
   each_column(set, [&](auto& values) {
-    std::decay_t<decltype(values)> kept(size);
+    std::decay_t<decltype(values)> kept(staying.size());
     auto* to = kept.data();
     for (const int p : staying) *to++ = values[p];
-    for (std::size_t i = 0; i < coming.size(); ++i) {
-      coming[i].take(to, counts[i]);
-      to += counts[i];
-    }
     values.swap(kept);
+  });
+  set.fit_scratch();
+}
+
+/// Those that come, parcel by parcel, take the places of those that leave; others at the end move into what is left of
+/// these, or are followed by what has no place yet. So what stays is not moved, where nearly all stay. `places`: of
+/// those that leave, ascending.
+void replace(ParticleSet& set, const std::vector<int>& places, std::vector<Unpacking>& coming) {
+  std::size_t arriving = 0;
+  for (Unpacking& parcel : coming) {
+    parcel.take(&parcel.count, 1);
+    arriving += parcel.count;
+  }
+  const std::size_t before = set.id.size(), leaving = places.size(), size = before - leaving + arriving;
+  std::vector<std::size_t> moved;  // what stays, from beyond the end that will be
+  for (std::size_t p = size; p < before; ++p) {
+    if (!std::binary_search(places.begin(), places.end(), static_cast<int>(p))) moved.push_back(p);
+  }
+  each_column(set, [&](auto& values) {
+    values.extend(std::max(size, before));
+    auto place = places.begin();
+    std::size_t end = before;
+    for (Unpacking& parcel : coming) {
+      for (std::uint64_t i = 0; i < parcel.count; ++i) {
+        parcel.take(values.data() + (place != places.end() ? static_cast<std::size_t>(*place++) : end++), 1);
+      }
+    }
+    for (const std::size_t p : moved) values[static_cast<std::size_t>(*place++)] = values[p];
+    values.extend(size);
   });
   set.fit_scratch();
 }
@@ -94,28 +116,35 @@ Territory::Load HandOver::load(const std::vector<ParticleSet>& sets) const {
 }
 
 void HandOver::find_leaving(const ParticleSet& set, Leaving& leaving) const {
-  leaving.staying.clear();
+  leaving.all.clear();
   leaving.to.assign(ranks_.size(), {});
   std::uint64_t last = ~std::uint64_t{0};
   int owner = ranks_.rank();  // of the last one; neighbours are in the same block mostly
   for (int p = 0; p < set.size(); ++p) {
     const auto key = block_of(set, layout_, p);
-    if (key && *key != last) {
+    if (!key) continue;
+    if (*key != last) {
       last = *key;
       owner = territory_.owner(*key);
     }
-    (!key || owner == ranks_.rank() ? leaving.staying : leaving.to[owner]).push_back(p);
+    if (owner == ranks_.rank()) continue;
+    leaving.all.push_back(p);
+    leaving.to[owner].push_back(p);
   }
 }
 
 void HandOver::keep_own(std::vector<ParticleSet>& sets) {
   territory_.cut(load(sets), [](double*, int) {});
   ++divisions_;
-  std::vector<Unpacking> nothing;
   Leaving leaving;
+  std::vector<int> staying;
   for (ParticleSet& set : sets) {
     find_leaving(set, leaving);
-    replace(set, leaving.staying, nothing);
+    std::vector<int> all(set.size());
+    std::iota(all.begin(), all.end(), 0);
+    staying.clear();
+    std::set_difference(all.begin(), all.end(), leaving.all.begin(), leaving.all.end(), std::back_inserter(staying));
+    keep(set, staying);
   }
 }
 
@@ -151,7 +180,7 @@ void HandOver::hand_over(std::vector<ParticleSet>& sets) {
   if (parcels.empty() && arrived.empty()) return;
   std::vector<Unpacking> coming;
   for (const Communicator::Parcel& parcel : arrived) coming.push_back({parcel.bytes});
-  for (std::size_t s = 0; s < sets.size(); ++s) replace(sets[s], leaving[s].staying, coming);
+  for (std::size_t s = 0; s < sets.size(); ++s) replace(sets[s], leaving[s].all, coming);
 }
 
 }  // namespace mpm

@@ -108,15 +108,14 @@ void HandOver::find_leaving(const ParticleSet& set, Leaving& leaving) const {
   }
 }
 
-void HandOver::keep_own(std::vector<ParticleSet>& sets) {
-  territory_.cut(load(sets), [](double*, int) {});
+void HandOver::cut(const std::vector<ParticleSet>& sets) {
+  territory_.cut(load(sets), [this](double* numbers, int count) { ranks_.sum(numbers, count); });
   ++divisions_;
-  std::vector<Unpacking> nothing;
-  Leaving leaving;
-  for (ParticleSet& set : sets) {
-    find_leaving(set, leaving);
-    replace(set, leaving.staying, nothing);
-  }
+}
+
+void HandOver::divide(std::vector<ParticleSet>& sets) {
+  cut(sets);
+  send(sets);
 }
 
 void HandOver::divide_anew_if_due(const std::vector<ParticleSet>& sets) {
@@ -129,13 +128,16 @@ void HandOver::divide_anew_if_due(const std::vector<ParticleSet>& sets) {
   if (just_divided_) after_cut_ = imbalance_;
   just_divided_ = false;
   if (imbalance_ <= kUneven || imbalance_ <= kWorse * after_cut_) return;
-  territory_.cut(load(sets), [this](double* numbers, int count) { ranks_.sum(numbers, count); });
-  ++divisions_;
+  cut(sets);
   just_divided_ = true;
 }
 
 void HandOver::hand_over(std::vector<ParticleSet>& sets) {
   divide_anew_if_due(sets);
+  send(sets);
+}
+
+void HandOver::send(std::vector<ParticleSet>& sets) {
   std::vector<Leaving> leaving(sets.size());
   for (std::size_t s = 0; s < sets.size(); ++s) find_leaving(sets[s], leaving[s]);
   std::vector<Communicator::Parcel> parcels;

@@ -54,7 +54,7 @@ mpm::Simulation start_on(const Case& run, mpm::Communicator* ranks) {
   mpm::SimulationOptions options;
   options.threads = 1;
   if (ranks != nullptr) options.ranks = {ranks, [](mpm::Communicator*) {}};
-  return mpm::Simulation(mpm::build(scene), options);
+  return mpm::Simulation(mpm::build(scene, ranks), options);
 }
 
 Outcome outcome_of(mpm::Simulation& simulation) {

@@ -10,7 +10,7 @@
 //
 // A run over several ranks (ranks/communicator.hpp) stores what each of them has. When it goes on with as many, each
 // reads its own; with another number of them, Merge says what becomes of it: what is the same on all is a value, parts
-// of a sum are stored by sum() and sum_column(), and lists are joined.
+// of a sum are stored by sum() and sum_column(), and lists are joined, or shared out (Share).
 //
 // Numbers are stored to the last bit. A derived class decides where they go (simulation/hdf5_archive.hpp). Weak:
 // reading trusts the names; a class that stores other numbers than before needs a new version of the file.
@@ -37,6 +37,7 @@ class StateArchive {
     part,   ///< parts of sums: the first rank gets the sums, the others 0
     join,   ///< all get all, one after another
     count,  ///< of what is joined: all get the sum
+    share,  ///< each gets about as much as any other, in the order in which it is stored
   };
 
   StateArchive() = default;
@@ -77,6 +78,18 @@ class StateArchive {
    private:
     StateArchive& archive_;
     bool before_;
+  };
+
+  /// While a Share exists, lists are shared out among the ranks that read them, instead of being joined.
+  class Share {
+   public:
+    explicit Share(StateArchive& archive) : archive_(archive) { archive.shares_ = true; }
+    Share(const Share&) = delete;
+    Share& operator=(const Share&) = delete;
+    ~Share() { archive_.shares_ = false; }
+
+   private:
+    StateArchive& archive_;
   };
 
   /// Serialises a number, bool, enumeration, vector or quaternion.
@@ -146,7 +159,10 @@ class StateArchive {
   /// When reading: how many numbers are stored under that name. @throws Error of the derived class
   virtual std::size_t stored(const std::string& name) = 0;
   /// Of the numbers in question in values() and stored().
-  Merge merge() const { return same_ ? Merge::same : merge_; }
+  Merge merge() const {
+    if (same_) return Merge::same;
+    return shares_ && merge_ == Merge::join ? Merge::share : merge_;
+  }
 
  private:
   /// How a value is stored: as kCount numbers of type Scalar.
@@ -215,7 +231,7 @@ class StateArchive {
   std::string prefix_;
   std::uint64_t generation_ = 0;
   Merge merge_ = Merge::same;
-  bool same_ = false;
+  bool same_ = false, shares_ = false;
 };
 
 }  // namespace mpm

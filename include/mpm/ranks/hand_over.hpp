@@ -17,8 +17,8 @@ class HandOver {
   HandOver(Communicator& ranks, Territory& territory, const GridLayout& layout)
       : ranks_(ranks), territory_(territory), layout_(layout) {}
 
-  /// At the start, when every rank has all particles: divides the grid, and leaves each rank its own.
-  void keep_own(std::vector<ParticleSet>& sets);
+  /// At the start, wherever particles are: divides the grid, and hands over.
+  void divide(std::vector<ParticleSet>& sets);
   /// Hands over what has come to others, and takes what has come here. A particle outside its set's bounds stays, for
   /// the sort to find. The order of particles changes.
   void hand_over(std::vector<ParticleSet>& sets);
@@ -42,7 +42,9 @@ class HandOver {
   /// Of each block of this rank, the number of its particles.
   Territory::Load load(const std::vector<ParticleSet>& sets) const;
   void find_leaving(const ParticleSet& set, Leaving& leaving) const;
+  void cut(const std::vector<ParticleSet>& sets);
   void divide_anew_if_due(const std::vector<ParticleSet>& sets);
+  void send(std::vector<ParticleSet>& sets);
 
   Communicator& ranks_;
   Territory& territory_;

@@ -36,4 +36,18 @@ std::vector<T> gather_list(Communicator& ranks, const std::vector<T>& own) {
   return all;
 }
 
+/// What each rank has for each other one, by rank; what is for itself stays. Returns what has come, by rank.
+/// Collective.
+template <class T>
+std::vector<std::vector<T>> exchange(Communicator& ranks, std::vector<std::vector<T>> by_rank) {
+  std::vector<Communicator::Parcel> parcels;
+  for (int rank = 0; rank < ranks.size(); ++rank) {
+    if (rank == ranks.rank() || by_rank[rank].empty()) continue;
+    parcels.push_back({rank, bytes_of(by_rank[rank])});
+    by_rank[rank] = {};
+  }
+  for (const Communicator::Parcel& parcel : ranks.deliver(parcels)) by_rank[parcel.rank] = list_of<T>(parcel.bytes);
+  return by_rank;
+}
+
 }  // namespace mpm

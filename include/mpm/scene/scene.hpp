@@ -11,6 +11,7 @@
 
 #include "mpm/math/error.hpp"
 #include "mpm/pace/target.hpp"
+#include "mpm/ranks/communicator.hpp"
 #include "mpm/rigid/motion_limits.hpp"
 #include "mpm/simulation/definition.hpp"
 #include "mpm/simulation/global_quantity.hpp"
@@ -106,7 +107,8 @@ Scene load_scene(const std::string& name_or_path, const std::vector<std::string>
 Scene parse_scene(const std::string& text, const std::string& label, const std::vector<std::string>& overrides = {});
 /// Names and first comment lines of the shipped scenes.
 std::vector<std::pair<std::string, std::string>> shipped_scenes();
-/// Fills the bodies with particles and checks them against the grid and each other. @throws SceneError
-SimulationDefinition build(const Scene& scene);
+/// Fills the bodies with particles and checks them against the grid and each other. `ranks`: where the run is over
+/// several; then each gets its own particles alone, and the call is collective. @throws SceneError
+SimulationDefinition build(const Scene& scene, Communicator* ranks = nullptr);
 
 }  // namespace mpm

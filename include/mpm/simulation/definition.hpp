@@ -68,6 +68,12 @@ struct GeostaticDefinition {
   double residual = 1e-3;    ///< unbalanced force over weight at which it counts as settled
 };
 
+/// Which of a body's particles are here, where other ranks have the rest.
+struct BodyPart {
+  std::vector<std::uint32_t> numbers;  ///< among all particles of the body, ascending; one for each position here
+  std::uint64_t whole = 0;             ///< particles of the body on all ranks
+};
+
 struct DeformableBody {
   std::string name;
   std::string material;                      ///< name in SimulationDefinition::materials
@@ -81,6 +87,7 @@ struct DeformableBody {
   std::vector<double> temperatures;  ///< at the start, one each, or empty for that of the material [K]
   std::optional<GeostaticDefinition> geostatic;
   double particle_volume = 0.0;  ///< of one particle at the start [m^3]; for rings the area of their section [m^2]
+  std::optional<BodyPart> part;  ///< without it all particles of the body are here
 };
 
 /// An acceleration of the material as a function of time, place and place at the start (mechanics/particle_loads.hpp).
@@ -93,7 +100,7 @@ struct BodyForceDefinition {
 /// A force on particles of a body, as a function of time, place and place at the start (mechanics/particle_loads.hpp).
 struct ParticleForceDefinition {
   std::string body;                      ///< deformable body that it acts on
-  std::vector<std::uint32_t> particles;  ///< which of its positions; all when empty
+  std::vector<std::uint32_t> particles;  ///< by number among all of the body's, on all ranks; all when empty
   std::array<Function, 3> force;         ///< [N]
   bool shared = true;  ///< whether the force is shared by all of them in proportion to mass, or acts on each
   LoadSpread spread = LoadSpread::domain;
@@ -102,10 +109,11 @@ struct ParticleForceDefinition {
 /// A traction on a face of each of some particles of a body, a force over its current area
 /// (mechanics/face_tractions.hpp), as functions of time, place and place at the start.
 struct TractionDefinition {
-  std::string body;                      ///< deformable body that it acts on
-  int face = 0;                          ///< of the particles' domains, in the order of kWallNames
-  std::vector<std::uint32_t> particles;  ///< which of its positions; the outermost of each row when empty
-  bool follows = false;                  ///< whether its axes turn with the face's normal and edges
+  std::string body;  ///< deformable body that it acts on
+  int face = 0;      ///< of the particles' domains, in the order of kWallNames
+  /// By number among all of the body's, on all ranks; the outermost of each row when empty.
+  std::vector<std::uint32_t> particles;
+  bool follows = false;  ///< whether its axes turn with the face's normal and edges
   /// Components along world axes [Pa]; if it follows the face, pressure (compression is positive), then shear along the
   /// edges that span the face, in the order of axes.
   std::array<Function, 3> value;

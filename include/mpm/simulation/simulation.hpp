@@ -64,7 +64,8 @@ struct SimulationOptions {
   std::function<bool()> stop = {};       ///< asked after every step; true: the step was the last, see StoppedError
   std::function<void(const Settling&)> settling = {};  ///< told after every step of settling
   /// The ranks that compute the run together; null: this process alone. Then every function of the simulation whose
-  /// result depends on particles is collective, and particle fields are given to the first rank alone.
+  /// result depends on particles is collective, and particle fields are given to the first rank alone. A definition
+  /// that has been built for ranks has each rank's own particles; of any other every rank has all, and leaves its own.
   std::shared_ptr<Communicator> ranks = {};
 };
 
@@ -77,7 +78,7 @@ class Simulation {
   /// @throws SceneError, and what the other constructor throws
   template <class AnyScene, class Built = decltype(build(std::declval<const AnyScene&>()))>
   explicit Simulation(const AnyScene& scene, SimulationOptions options = {})
-      : Simulation(Built(build(scene)), std::move(options)) {}
+      : Simulation(Built(build(scene, options.ranks.get())), options) {}
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -143,6 +144,9 @@ class Simulation {
   /// Several fields of the chosen particles in one pass; keeps the memory of `columns`. @throws DefinitionError
   void read_particles(const std::vector<std::string>& fields, const ParticleChoice& choice,
                       ParticleColumns& columns) const;
+  /// The same of this rank's own particles, as they lie in memory; in one process, of all.
+  void read_own_particles(const std::vector<std::string>& fields, const ParticleChoice& choice,
+                          ParticleColumns& columns) const;
   /// Whether one of the fields needs the particles' positions at the start ("ux", "x0", …).
   static bool needs_start(const std::vector<std::string>& fields);
   /// Stores the particles' present positions for those fields, unless they are stored already. This costs memory (24
@@ -167,9 +171,12 @@ class Simulation {
   void serialise(StateArchive& archive);
 
  private:
+  /// What a metric says now. `values`: memory to use.
+  double statistic_of(const MetricDefinition& metric, std::vector<double>& values) const;
   /// Adds a value, at a sync point, to the metrics that are rates.
   void sample_metrics();
-  /// Reads fields of all particles, in order of id. @throws DefinitionError
+  /// Reads fields of all particles, in order of id; over several ranks of this rank's own, one body after another.
+  /// @throws DefinitionError
   void read_fields(const std::vector<std::string>& fields, std::vector<std::vector<double>>& columns) const;
   friend class GlobalQuantities;
   friend class SimulationProbe;  // of tests: single steps, of any size

@@ -67,7 +67,9 @@ class DomainFaces {
 void find_places(const ParticleSet& set, std::vector<int>& place_of);
 
 /// Of a set that is not sorted yet, the particles that no other lies beyond in their row along the face's axis, by
-/// place in the set. Rows are those of the lattice that boxes of the set's size make on the grid.
-std::vector<std::uint32_t> outermost_particles(const ParticleSet& set, const GridLayout& layout, DomainFace face);
+/// place in the set; over several ranks, which have parts of it, by id from the set's first. Rows are those of the
+/// lattice that boxes of the set's size make on the grid. `ranks`: null for a process that is alone. Collective.
+std::vector<std::uint32_t> outermost_particles(const ParticleSet& set, const GridLayout& layout, DomainFace face,
+                                               Communicator* ranks = nullptr);
 
 }  // namespace mpm

@@ -23,6 +23,9 @@ class MessageSink {
   virtual ~MessageSink() = default;
   /// Whether a message on this topic (a name of topics.hpp) is worth making.
   virtual bool wants(const std::string& topic) const = 0;
+  /// Whether it takes a cloud of the particles of its own rank, instead of one of all on the first. Then there is one
+  /// on each rank, and they want clouds together.
+  virtual bool takes_own_particles() const { return false; }
 
   virtual void put(const std::string& topic, const ros::Time& stamp, const RunInfo& message) = 0;
   virtual void put(const std::string& topic, const ros::Time& stamp,

@@ -31,6 +31,8 @@ class ParticleCloud {
   explicit ParticleCloud(ParticleSelection selection);
   /// The header is left to the caller.
   const sensor_msgs::PointCloud2& read(const mpm::Simulation& simulation);
+  /// The same of this rank's own particles, as they lie in memory.
+  const sensor_msgs::PointCloud2& read_own(const mpm::Simulation& simulation);
   sensor_msgs::PointCloud2& message() { return cloud_; }
 
  private:

@@ -7,8 +7,9 @@
 //   while (…) { apply(command, simulation); outputs.command(command); simulation.advance(); outputs.sync(false, 1.0); }
 //   outputs.finish(1.0);
 //
-// Over several ranks every one of them has its outputs, of which those of the first have sinks: what has to be read
-// from all is read on all. A sink that fails ends the message that it gets, and the call is over on all ranks together.
+// Over several ranks every one of them has its outputs. Most sinks are the first rank's, and what has to be read from
+// all is read on all; those that take each rank's own particles are on every one. A sink that fails ends the message
+// that it gets, and the call is over on all ranks together.
 #pragma once
 
 #include <cstdint>
@@ -87,6 +88,11 @@ class RunOutputs {
  private:
   template <typename Message>
   void put(const std::string& topic, const Message& message);
+  /// To those sinks alone that want it, and are `meant`.
+  template <typename Message, typename Meant>
+  void put_to(const std::string& topic, const Message& message, const Meant& meant);
+  /// To the sinks that take those of their own rank, or to the others.
+  void write_particles(bool own);
   /// Whether a sink of this rank wants it.
   bool wanted(const std::string& topic) const;
   /// The same of any rank: where all ranks have to read what is written.

@@ -1,6 +1,6 @@
-// One .vtp file: points, lines, or a surface of triangles, with values at each, as VTK's XML format of surfaces
-// (PolyData). The numbers stand behind the XML as raw bytes, so that a file is written, and read by ParaView, at the
-// speed of the disk.
+// One .vtp file, or a .pvtp that names pieces: points, lines, or a surface of triangles, with values at each, as VTK's
+// XML format of surfaces (PolyData). The numbers stand behind the XML as raw bytes, so that a file is written, and read
+// by ParaView, at the speed of the disk.
 //
 // Weak: at most 2^31 points; uncompressed, and always of the byte order of this machine (which the file names).
 #pragma once
@@ -36,6 +36,9 @@ class VtkFile {
 
   /// @throws VtkError
   void write(const std::string& path) const;
+  /// A .pvtp file that names other files, in its folder, as pieces of one: they have the arrays that this one has.
+  /// @throws VtkError
+  void write_whole(const std::string& path, const std::vector<std::string>& pieces) const;
 
  private:
   struct Array {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <iterator>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 
@@ -60,17 +58,6 @@ struct Unpacking {
     at += count * sizeof(T);
   }
 };
-
-/// Leaves those that stay alone, in arrays that have no room for others.
-void keep(ParticleSet& set, const std::vector<int>& staying) {
-  each_column(set, [&](auto& values) {
-    std::decay_t<decltype(values)> kept(staying.size());
-    auto* to = kept.data();
-    for (const int p : staying) *to++ = values[p];
-    values.swap(kept);
-  });
-  set.fit_scratch();
-}
 
 /// Those that come, parcel by parcel, take the places of those that leave; others at the end move into what is left of
 /// these, or are followed by what has no place yet. So what stays is not moved, where nearly all stay. `places`: of
@@ -133,19 +120,14 @@ void HandOver::find_leaving(const ParticleSet& set, Leaving& leaving) const {
   }
 }
 
-void HandOver::keep_own(std::vector<ParticleSet>& sets) {
-  territory_.cut(load(sets), [](double*, int) {});
+void HandOver::cut(const std::vector<ParticleSet>& sets) {
+  territory_.cut(load(sets), [this](double* numbers, int count) { ranks_.sum(numbers, count); });
   ++divisions_;
-  Leaving leaving;
-  std::vector<int> staying;
-  for (ParticleSet& set : sets) {
-    find_leaving(set, leaving);
-    std::vector<int> all(set.size());
-    std::iota(all.begin(), all.end(), 0);
-    staying.clear();
-    std::set_difference(all.begin(), all.end(), leaving.all.begin(), leaving.all.end(), std::back_inserter(staying));
-    keep(set, staying);
-  }
+}
+
+void HandOver::divide(std::vector<ParticleSet>& sets) {
+  cut(sets);
+  send(sets);
 }
 
 void HandOver::divide_anew_if_due(const std::vector<ParticleSet>& sets) {
@@ -158,13 +140,16 @@ void HandOver::divide_anew_if_due(const std::vector<ParticleSet>& sets) {
   if (just_divided_) after_cut_ = imbalance_;
   just_divided_ = false;
   if (imbalance_ <= kUneven || imbalance_ <= kWorse * after_cut_) return;
-  territory_.cut(load(sets), [this](double* numbers, int count) { ranks_.sum(numbers, count); });
-  ++divisions_;
+  cut(sets);
   just_divided_ = true;
 }
 
 void HandOver::hand_over(std::vector<ParticleSet>& sets) {
   divide_anew_if_due(sets);
+  send(sets);
+}
+
+void HandOver::send(std::vector<ParticleSet>& sets) {
   std::vector<Leaving> leaving(sets.size());
   for (std::size_t s = 0; s < sets.size(); ++s) find_leaving(sets[s], leaving[s]);
   std::vector<Communicator::Parcel> parcels;

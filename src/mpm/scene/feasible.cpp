@@ -71,8 +71,8 @@ double expected_particles(const Scene& scene) {
   return total;
 }
 
-void check_particles(const Scene& scene) {
-  const double memory = usable_memory(), bytes = least_bytes(scene);
+void check_particles(const Scene& scene, int ranks) {
+  const double memory = usable_memory(), bytes = least_bytes(scene) / ranks;
   double total = 0.0;
   for (const BodyDefinition& body : scene.bodies) {
     total += particles_of(body, scene);

@@ -120,6 +120,17 @@ std::vector<NamedNumber> Simulation::State::numbers() const {
   return list;
 }
 
+std::pair<std::size_t, std::size_t> Simulation::State::rows_of(std::uint64_t first, std::uint64_t last) const {
+  if (!over) return {first, last};
+  std::size_t begin = 0, end = 0;
+  for (const ParticleSet& set : sets) {
+    const auto size = static_cast<std::size_t>(set.size());
+    if (set.first_id < first) begin += size;
+    if (set.first_id < last) end += size;
+  }
+  return {begin, end};
+}
+
 double Simulation::State::from_first(double value) const {
   return !over ? value : over->ranks().sum(over->ranks().first() ? value : 0.0);
 }

@@ -1,4 +1,5 @@
-// From a definition to a run: checks it, makes the particles, and puts the list of modules together.
+// From a definition to a run: checks it, has the particles made (particle_start.hpp), and puts the list of modules
+// together.
 #include <fmt/core.h>
 #include <omp.h>
 
@@ -7,18 +8,18 @@
 
 #include "axial_motion.hpp"
 #include "initial.hpp"
-#include "mpm/boundary/periodic.hpp"
 #include "mpm/boundary/wall.hpp"
 #include "mpm/kernel/select.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/mechanics/block_probe.hpp"
 #include "mpm/mechanics/nodal_volumes.hpp"
 #include "mpm/mechanics/scalar_transfers.hpp"
-#include "mpm/shape/ring.hpp"
+#include "mpm/ranks/agree.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
 #include "mpm/simulation/method_rules.hpp"
 #include "mpm/simulation/rigid_rules.hpp"
 #include "mpm/simulation/threads.hpp"
+#include "particle_start.hpp"
 #include "shipped_modules.hpp"
 #include "state.hpp"
 #include "velocity_fields.hpp"
@@ -31,90 +32,6 @@ const std::array<const char*, 6> kWallNames = {"x_min", "x_max", "y_min", "y_max
 namespace {
 
 constexpr int kMostThreads = 1024;
-
-std::vector<ParticleScalar> zeros(int components, Precision precision, std::size_t particles) {
-  std::vector<ParticleScalar> field;
-  field.reserve(components);
-  for (int c = 0; c < components; ++c) field.emplace_back(precision, particles);
-  return field;
-}
-
-/// How far a centre may be beyond a face [cells]. Pressed against a wall, a particle comes to rest only when its box
-/// (`half` of it) is half beyond it; an absorbing face gives way by as much.
-double beyond(WallKind kind, double half) {
-  if (kind == WallKind::periodic) return kPeriodicReach;
-  return kind == WallKind::none ? 0.0 : half;
-}
-
-/// Masses of rings, and where their functions end. `per_area`: density times the area of a section [kg/m].
-void make_rings(const SimulationDefinition& definition, double per_area, const GridLayout& layout, ParticleSet& set) {
-  constexpr double kOffAxis = 1e-6;  // of a cell; on the axis itself v_r / r is no number
-  const AxisRules& rules = definition.method.axis;
-  set.whole_domains = rules.domains == AxisDomains::whole;
-  set.planar_functions = rules.functions == AxisFunctions::planar;
-  if (definition.grid.min.x() == 0.0) set.lowest[0] = kOffAxis;
-  set.masses = zeros(1, set.precision, set.id.size());
-  const double half = set.half[0] * layout.cell(0);
-  for (int p = 0; p < set.size(); ++p) {
-    set.masses[0].set(p, per_area * ring_length(set.x[0][p], half, set.whole_domains));
-  }
-}
-
-ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body,
-                     const MaterialDefinition& material, const Law& law, const GridLayout& layout,
-                     std::vector<std::string>& warnings) {
-  const std::size_t n = body.positions.size();
-  const std::string start = fmt::format("body '{}': ", body.name);
-  if (n == 0) throw DefinitionError(start + "it has no particle");
-  if (const std::string reason = refused_material(definition.geometry, material); !reason.empty()) {
-    throw DefinitionError(start + reason);
-  }
-  if (!body.velocities.empty() && body.velocities.size() != n) {
-    throw DefinitionError(fmt::format("{}{} velocities for {} particles", start, body.velocities.size(), n));
-  }
-  if (!(body.particle_volume > 0.0) || !std::isfinite(body.particle_volume)) {
-    throw DefinitionError(fmt::format("{}particle volume {} must be positive", start, body.particle_volume));
-  }
-  ParticleSet set;
-  set.name = body.name;
-  const int dim = layout.dim();
-  for (int k = 0; k < dim; ++k) {
-    set.half[k] = 0.5 / definition.method.particles_per_direction;
-    const int face = 2 * layout.axis(k);
-    set.lowest[k] = -beyond(definition.walls[face].kind, set.half[k]);
-    set.highest[k] = layout.last_node(k) + beyond(definition.walls[face + 1].kind, set.half[k]);
-  }
-  set.id.resize(n);
-  set.precision = definition.method.precision;
-  set.x.resize(dim);
-  for (PaddedArray<double>& x : set.x) x.resize(n);
-  set.v = zeros(dim, set.precision, n);
-  for (std::size_t p = 0; p < n; ++p) {
-    for (int k = 0; k < dim; ++k) {
-      const int axis = layout.axis(k);
-      set.x[k][p] = body.positions[p][axis];
-      set.v[k].set(p, body.velocities.empty() ? 0.0 : body.velocities[p][axis]);
-      const double cells = layout.in_cells(k, set.x[k][p]);
-      if (!(cells >= 0.0 && cells <= layout.last_node(k)) || !std::isfinite(set.v[k][p])) {
-        throw DefinitionError(fmt::format("{}particle {} is outside the grid or not finite: {} = {} m, velocity {} m/s",
-                                          start, p, "xyz"[axis], set.x[k][p], set.v[k][p]));
-      }
-    }
-  }
-  with_geometry(definition.geometry, [&](auto geometry) {
-    set.f = zeros(geometry.kMatrix, set.precision, n);
-    set.tau = zeros(geometry.kSymmetric, set.precision, n);
-  });
-  set.history = zeros(history_size(law), set.precision, n);
-  if (axisymmetric(definition.geometry)) {
-    make_rings(definition, material.density * body.particle_volume, layout, set);
-  } else {
-    set.mass = material.density * body.particle_volume;
-  }
-  start_particles(set, body, material, definition.geometry, warnings);
-  if (definition.method.update != UpdateScheme::usf) set.next_x = set.x;
-  return set;
-}
 
 void check(const SimulationDefinition& d) {
   if (d.time.sync <= 0) throw DefinitionError("time.sync must be a positive number of nanoseconds");
@@ -178,14 +95,6 @@ void project(SimulationDefinition& definition) {
     }
     if (body.free) project(*body.free, geometry);
   }
-}
-
-// Not "= {}", which would keep the memory.
-void forget_particles(DeformableBody& body) {
-  body.positions = std::vector<Vec3>();
-  body.velocities = std::vector<Vec3>();
-  body.stresses = std::vector<Symmetric3<double>>();
-  body.temperatures = std::vector<double>();
 }
 
 }  // namespace
@@ -304,7 +213,7 @@ void Simulation::State::add_modules(const std::vector<AddModules>& of_caller) {
 
 Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : state_(std::make_unique<State>()) {
   State& s = *state_;
-  check(given);
+  agree<DefinitionError>(options.ranks.get(), [&] { check(given); });
   if (options.threads > kMostThreads) {
     throw DefinitionError(
         fmt::format("{} threads are asked for; at most {} can be had, and more than the machine's {} "
@@ -320,7 +229,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   if (filters && transfer.order == 1) transfer = {TransferKind::flip, 0.0, 1};  // the first order is PIC
   const SimulationDefinition& definition = s.definition;
   std::size_t count = 0;
-  for (const DeformableBody& body : definition.bodies) count += body.positions.size();
+  for (const DeformableBody& body : definition.bodies) count += whole_of(body);
   s.threads = options.threads > 0 ? options.threads : useful_threads(count);
   s.isa = choose_isa(options.isa ? isa_name(*options.isa) : "");
   project(s.definition);
@@ -335,16 +244,17 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.fields = make_fields(definition, s.field_map.count());
   s.choice = make_choice(s.field_map, s.fields);
   const GridLayout& layout = s.layout();
+  if (s.ranks) leave_own(s.definition, *s.ranks, layout);
 
   const bool geostatic = std::any_of(definition.bodies.begin(), definition.bodies.end(),
                                      [](const DeformableBody& body) { return body.geostatic.has_value(); });
-  if (geostatic) add_geostatic_stress(s.definition);
+  if (geostatic) add_geostatic_stress(s.definition, s.ranks.get());
   std::uint32_t next_id = 0;
   s.sets.reserve(definition.bodies.size());
   for (DeformableBody& body : s.definition.bodies) {
     const MaterialDefinition& material = find_material(definition, body);
     s.laws.push_back(make_law(material));
-    s.sets.push_back(make_set(definition, body, material, s.laws.back(), layout, s.warnings));
+    s.sets.push_back(make_set(definition, body, material, s.laws.back(), layout, next_id, s.ranks.get(), s.warnings));
     ParticleSet& set = s.sets.back();
     const int number = static_cast<int>(s.sets.size()) - 1;
     set.field = s.field_map.field(number, 0);
@@ -358,10 +268,9 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
                       "ranks yet; start the run as one process, or write sides: one for that tool",
                       set.name));
     }
-    set.first_id = next_id;
-    for (std::uint32_t& id : set.id) id = next_id++;
-    s.sizes.push_back(set.id.size());
-    s.total_mass += set.total_mass();
+    s.sizes.push_back(whole_of(body));
+    next_id += static_cast<std::uint32_t>(s.sizes.back());
+    s.total_mass += total_mass(set, body, s.ranks.get());
     if (!geostatic) forget_particles(body);
   }
   if (s.sets.empty()) throw DefinitionError("there is no deformable body, so nothing to simulate; add one to 'bodies'");
@@ -376,11 +285,10 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   }
   s.add_modules(options.modules);
 
-  double lightest = s.sets.front().least_mass();
-  for (const ParticleSet& set : s.sets) lightest = std::min(lightest, set.least_mass());
+  const double lightest = least_mass(s.sets, s.ranks.get());
   for (auto& grid : s.fields) grid->least_mass = 1e-30 * lightest;
   s.gravity.name = "gravity";
-  if (s.over) s.over->keep_own(s.sets);
+  if (s.over) s.over->divide(s.sets);
   s.sort(0.0);
   StepContext start{s.fields, 0.0};
   s.modules.act(Hook::run_begun, start);

@@ -11,7 +11,7 @@
 #include "mpm/math/build_info.hpp"
 #include "mpm/math/geometry_kind.hpp"
 #include "mpm/math/output_file.hpp"
-#include "mpm/ranks/lists.hpp"
+#include "mpm/ranks/agree.hpp"
 #include "mpm/simulation/method_text.hpp"
 #include "ranks_archive.hpp"
 
@@ -107,15 +107,6 @@ CheckpointAbout read_about(StateArchive& archive, const std::string& path) {
   return about;
 }
 
-/// What the lowest rank that says something says; empty if none does. Collective.
-std::string first_of(Communicator& ranks, const std::string& own) {
-  for (const Communicator::Bytes& bytes : ranks.gather(bytes_of(std::vector<char>(own.begin(), own.end())))) {
-    const std::vector<char> text = list_of<char>(bytes);
-    if (!text.empty()) return {text.begin(), text.end()};
-  }
-  return {};
-}
-
 }  // namespace
 
 std::string text_difference(const std::string& here, const std::string& there) {
@@ -135,7 +126,7 @@ CheckpointAbout save_checkpoint(const std::string& path, Simulation& simulation,
   Communicator* ranks = simulation.ranks();
   const bool writes = ranks == nullptr || ranks->first();
   const auto check = [&](std::string problem) {
-    if (ranks != nullptr) problem = first_of(*ranks, problem);
+    if (ranks != nullptr) problem = first_text(*ranks, problem);
     if (!problem.empty()) throw CheckpointError(fmt::format("checkpoint {}: cannot be written: {}", path, problem));
   };
   check(writes ? refused_output(path) : std::string());

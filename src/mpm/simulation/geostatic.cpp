@@ -1,5 +1,5 @@
-// Soil at rest: the stress of the weight above it, less what water in its pores carries, and settling to rest before
-// the run begins.
+// Soil at rest: settling under the stress of its weight (geostatic_stress.cpp), before the run begins. Over several
+// ranks they settle it together; particles that have gone to another rank come back with what they have settled to.
 //
 // The settling is done by the solver itself, in a run of its own with the geostatic bodies alone, every tool held where
 // it stands and every load as at t = 0, and with kinetic damping: all velocities are set to zero whenever the kinetic
@@ -15,58 +15,18 @@
 #include <functional>
 
 #include "initial.hpp"
-#include "mpm/simulation/geometry_rules.hpp"
+#include "mpm/ranks/lists.hpp"
+#include "mpm/simulation/run_parts.hpp"
+#include "particle_start.hpp"
 #include "state.hpp"
 
 namespace mpm {
 namespace {
 
-constexpr double kGap = 1.5;                          ///< particle spacings from centre to centre that part a column
 constexpr std::uint64_t kMostSettlingSteps = 10'000;  ///< of settling
 constexpr double kNoChange = 1e30;                    ///< storage at which a pressure stays as it is [1/Pa]
 constexpr std::uint64_t kSurveyEvery = 10;            ///< steps between looks at the wave speed
-
-struct Part {
-  std::int64_t column;  ///< which column of the lattice
-  double depth;         ///< along gravity [m]
-  double weight;        ///< [N]
-  std::size_t body, particle;
-};
-
-int axis_of(const Vec3& gravity) {
-  int axis = 0;
-  if (!(gravity.norm() > 0.0)) {
-    throw DefinitionError("a geostatic start needs gravity; write it, such as gravity: [0, 0, -9.81]");
-  }
-  gravity.cwiseAbs().maxCoeff(&axis);
-  if (std::abs(gravity[axis]) < (1.0 - 1e-12) * gravity.norm()) {
-    throw DefinitionError(fmt::format(
-        "a geostatic start needs gravity along an axis of the grid, not ({:g}, {:g}, {:g}) m/s^2; turn the scene, "
-        "or let the soil settle in the run",
-        gravity.x(), gravity.y(), gravity.z()));
-  }
-  return axis;
-}
-
-/// Ratio of horizontal to vertical stress: as asked, or the material's own, raised to what it can carry.
-double ratio_at_rest(const DeformableBody& body, const MaterialDefinition& material, const InitialStates& states,
-                     double deepest, const std::function<Symmetric3<double>(double, double)>& stress) {
-  if (body.geostatic->k0) return *body.geostatic->k0;
-  const std::optional<double> own = pressure_at_rest(material.law);
-  if (!own) {
-    throw DefinitionError(
-        fmt::format("body '{}': material '{}' ({}) cannot start geostatic; give it initial stress or "
-                    "temperature",
-                    body.name, material.name, law_name(material.law)));
-  }
-  double low = *own, high = 1.0;
-  if (states.carries(stress(deepest, low)) || !(low < high)) return low;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (low + high);
-    (states.carries(stress(deepest, middle)) ? high : low) = middle;
-  }
-  return high;
-}
+constexpr int kRows = 4096;                           ///< particles taken over at once
 
 /// What is out of balance after a step from rest.
 struct Unbalanced {
@@ -76,6 +36,7 @@ struct Unbalanced {
 
 void add_unbalanced(const Grid& grid, double weight, double g, double half_particle, Unbalanced& found) {
   for (int b = 0; b < grid.blocks.size(); ++b) {
+    if (!grid.counts(b)) continue;
     for (int n = 0; n < grid.layout.nodes_per_block(); ++n) {
       if (!grid.carries(b, n)) continue;
       const double mass = grid.mass.at(b, 0, n), a = nodal_vector(grid.force, grid.layout, {b, n}).norm();
@@ -153,83 +114,54 @@ SimulationDefinition resting_part(const SimulationDefinition& definition) {
   return part;
 }
 
-}  // namespace
+/// Notes on every particle which rank has it, before any is handed over.
+constexpr const char* kHome = "home";
 
-void add_geostatic_stress(SimulationDefinition& definition) {
-  if (const std::string reason = refused_geostatic(definition.geometry); !reason.empty()) {
-    throw DefinitionError("a geostatic start is not possible: " + reason);
-  }
-  const int up = axis_of(definition.gravity);
-  const double g = definition.gravity.norm(), down = definition.gravity[up] > 0.0 ? 1.0 : -1.0;
-  const bool plane = planar(definition.geometry), flat = dimensions(definition.geometry) == 2;
-  Vec3 spacing = definition.grid.cell / definition.method.particles_per_direction;
-  // Rings: weight and area are those of their section, a column is as heavy at any radius.
-  if (flat) spacing.y() = plane ? definition.thickness : 1.0;
-  const double area = spacing.prod() / spacing[up];
-
-  std::vector<Part> parts;
-  for (std::size_t b = 0; b < definition.bodies.size(); ++b) {
-    const DeformableBody& body = definition.bodies[b];
-    if (!body.geostatic) continue;
-    const double weight = find_material(definition, body).density * body.particle_volume * g;
-    for (std::size_t p = 0; p < body.positions.size(); ++p) {
-      const Vec3 cells = (body.positions[p] - definition.grid.min).cwiseQuotient(spacing);
-      std::int64_t column = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        if (axis != up && !(flat && axis == 1))
-          column = column * (std::int64_t{1} << 31) + std::llround(std::floor(cells[axis]));
-      }
-      parts.push_back({column, down * body.positions[p][up], weight, b, p});
-    }
-  }
-  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
-    return a.column != b.column ? a.column < b.column : a.depth < b.depth;
-  });
-  std::vector<std::vector<double>> vertical(definition.bodies.size());
-  for (const Part& part : parts) vertical[part.body].resize(definition.bodies[part.body].positions.size());
-  double above = 0.0;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Part& part = parts[i];
-    const bool on_other =
-        i > 0 && parts[i - 1].column == part.column && part.depth - parts[i - 1].depth < kGap * spacing[up];
-    if (!on_other) above = 0.0;
-    vertical[part.body][part.particle] = -(above + 0.5 * part.weight) / area;
-    above += part.weight;
-  }
-  // Laws see effective stress: the weight less what the water carries.
-  const QuantityDefinition* water = definition.transport.find(Transported::pore_pressure);
-  for (std::size_t b = 0; b < definition.bodies.size() && water != nullptr; ++b) {
-    const DeformableBody& body = definition.bodies[b];
-    const auto material = &find_material(definition, body) - definition.materials.data();
-    const Symmetric3<double>& biot = water->materials[material].biot;
-    const double part = up == 0 ? biot.xx : up == 1 ? biot.yy : biot.zz;
-    for (std::size_t p = 0; p < vertical[b].size(); ++p) {
-      const Vec3& place = body.positions[p];
-      vertical[b][p] += part * initial_value(*water, body.name, place);
-      if (!(vertical[b][p] > 0.0)) continue;
-      throw DefinitionError(
-          fmt::format("body '{}': at ({:.6g}, {:.6g}, {:.6g}) m the water in the pores carries more than the weight "
-                      "above, by {:.4g} "
-                      "Pa, so that the soil would be pulled apart; lower the water table to its surface, or load it",
-                      body.name, place.x(), place.y(), place.z(), vertical[b][p]));
-    }
-  }
-  const auto stress = [up](double along, double ratio) {
-    const double across = ratio * along;
-    return Symmetric3<double>{up == 0 ? along : across, up == 1 ? along : across, up == 2 ? along : across, 0, 0, 0};
-  };
-  for (std::size_t b = 0; b < definition.bodies.size(); ++b) {
-    DeformableBody& body = definition.bodies[b];
-    if (!body.geostatic || vertical[b].empty()) continue;
-    const MaterialDefinition& material = find_material(definition, body);
-    const InitialStates states(material, definition.geometry);
-    const double deepest = *std::min_element(vertical[b].begin(), vertical[b].end());
-    const double ratio = ratio_at_rest(body, material, states, deepest, stress);
-    body.yy_follows = plane && states.yy_is_bound();
-    body.stresses.clear();
-    for (const double along : vertical[b]) body.stresses.push_back(stress(along, ratio));
+void note_home(RunParts& parts) {
+  for (ParticleSet& set : parts.sets) {
+    NamedScalar& home = set.brought[set.bring(kHome, "1")];
+    home.values.assign(home.values.size(), parts.ranks->rank());
   }
 }
+
+/// Calls visit(array) for each array of numbers that settling changes.
+template <class Set, class Visit>
+void each_settled(Set& set, Visit&& visit) {
+  for (auto& values : set.x) visit(values);
+  for (auto* fields : {&set.f, &set.tau, &set.history}) {
+    for (auto& scalar : *fields) scalar.visit(visit);
+  }
+}
+
+/// Particles [begin, end) of `settled` as rows of numbers, id and what has changed, for the ranks that they belong to.
+std::vector<std::vector<double>> settled_rows(const ParticleSet& settled, int begin, int end, int ranks) {
+  std::vector<std::vector<double>> rows(static_cast<std::size_t>(ranks));
+  const auto home = std::find_if(settled.brought.begin(), settled.brought.end(),
+                                 [](const NamedScalar& scalar) { return scalar.name == kHome; });
+  for (int p = begin; p < end; ++p) {
+    const bool here = home == settled.brought.end();
+    std::vector<double>& row = rows[here ? 0 : static_cast<std::size_t>(home->values[p])];
+    row.push_back(settled.id[p] - settled.first_id);
+    each_settled(settled, [&](const auto& values) { row.push_back(static_cast<double>(values[p])); });
+  }
+  return rows;
+}
+
+/// Takes what particles of `set`, in the order of their ids, have settled to. Returns how far one moved at most [m].
+double take(const std::vector<double>& rows, ParticleSet& set) {
+  double farthest = 0.0;
+  for (auto next = rows.begin(); next != rows.end();) {
+    const auto id = static_cast<std::uint32_t>(*next++) + set.first_id;
+    const auto i = static_cast<std::size_t>(std::lower_bound(set.id.begin(), set.id.end(), id) - set.id.begin());
+    double moved = 0.0;
+    for (std::size_t k = 0; k < set.x.size(); ++k) moved += std::pow(*(next + k) - set.x[k][i], 2);
+    farthest = std::max(farthest, std::sqrt(moved));
+    each_settled(set, [&](auto& values) { values[i] = static_cast<std::decay_t<decltype(values[i])>>(*next++); });
+  }
+  return farthest;
+}
+
+}  // namespace
 
 void Simulation::State::settle() {
   SimulationDefinition part = resting_part(definition);
@@ -240,11 +172,14 @@ void Simulation::State::settle() {
     wanted = std::min(wanted, body.geostatic->residual);
     names += (names.empty() ? "'" : ", '") + body.name + "'";
   }
-  Simulation run(std::move(part), {threads, isa});
+  SimulationOptions options;
+  options.threads = threads;
+  options.isa = isa;
+  options.ranks = ranks;
+  if (ranks) options.modules = {note_home};
+  Simulation run(std::move(part), std::move(options));
   State& r = *run.state_;
-  const double g = definition.gravity.norm();
-  double lightest = r.sets.front().least_mass();
-  for (const ParticleSet& set : r.sets) lightest = std::min(lightest, set.least_mass());
+  const double g = definition.gravity.norm(), lightest = mpm::least_mass(r.sets, ranks.get());
   const double period = static_cast<double>(definition.time.sync) * 1e-9;
   Unbalanced residual;
   double before = 0.0;
@@ -256,13 +191,18 @@ void Simulation::State::settle() {
       if (at_rest) {
         residual = {0.0, 0.0};
         for (const auto& grid : r.fields) add_unbalanced(*grid, r.total_mass * g, g, 0.5 * lightest, residual);
+        if (ranks) {
+          ranks->sum(&residual.mean, 1);
+          ranks->largest(&residual.most, 1);
+        }
       }
-      const double now = kinetic_energy(r.sets, r.threads);
+      double now = kinetic_energy(r.sets, r.threads);
+      if (ranks) ranks->sum(&now, 1);
       at_rest = now < before;
       if (at_rest) stop(r.sets);
       before = at_rest ? 0.0 : now;
       if (settling) settling({count + 1, residual.mean, wanted});
-      if (asked_to_stop && asked_to_stop()) {
+      if (asked_to_stop && (ranks ? ranks->any(asked_to_stop()) : asked_to_stop())) {
         throw StoppedError(fmt::format("stopped while {} settled, after {} steps", names, count + 1));
       }
     }
@@ -276,19 +216,19 @@ void Simulation::State::settle() {
   for (ParticleSet& set : sets) {
     const auto other = std::find_if(r.sets.begin(), r.sets.end(), [&](const auto& o) { return o.name == set.name; });
     if (other == r.sets.end()) continue;
-    const int work = std::visit([](const auto& law) { return law.kPlasticWork; }, laws[&set - sets.data()]);
-    for (int p = 0; p < set.size(); ++p) {
-      const std::size_t i = other->id[p] - other->first_id;
-      double moved = 0.0;
-      for (std::size_t k = 0; k < set.x.size(); ++k) moved += std::pow(other->x[k][p] - set.x[k][i], 2);
-      farthest = std::max(farthest, std::sqrt(moved));
-      for (std::size_t k = 0; k < set.x.size(); ++k) set.x[k][i] = other->x[k][p];
-      for (std::size_t k = 0; k < set.f.size(); ++k) set.f[k].set(i, other->f[k][p]);
-      for (std::size_t k = 0; k < set.tau.size(); ++k) set.tau[k].set(i, other->tau[k][p]);
-      for (std::size_t k = 0; k < set.history.size(); ++k) set.history[k].set(i, other->history[k][p]);
-      if (work >= 0) set.history[work].set(i, 0.0);  // dissipated since the start
+    if (ranks) {
+      for (const auto& rows : exchange(*ranks, settled_rows(*other, 0, other->size(), ranks->size()))) {
+        farthest = std::max(farthest, take(rows, set));
+      }
     }
+    for (int p = 0; p < other->size() && !ranks; p += kRows) {
+      const int end = std::min(other->size(), p + kRows);
+      farthest = std::max(farthest, take(settled_rows(*other, p, end, 1).front(), set));
+    }
+    const int work = std::visit([](const auto& law) { return law.kPlasticWork; }, laws[&set - sets.data()]);
+    if (work >= 0) set.history[work].assign(set.history[work].size(), 0.0);  // dissipated since the start
   }
+  if (ranks) ranks->largest(&farthest, 1);
   const std::string text = fmt::format(
       "geostatic start of {}: unbalanced force {:.2g} of the weight (asked: {:.2g}), at a node {:.2g} g at most, "
       "after {} steps of settling, moved by at most {:.3g} m",

@@ -190,10 +190,12 @@ GlobalQuantities::GlobalQuantities(Simulation& simulation, const std::vector<Glo
 
 double GlobalQuantities::sum(const Term& term) const {
   double total = 0.0;
+  const auto [begin, end] = simulation_.state_->rows_of(term.first, term.last);
   for (const int field : term.fields) {
-    const std::vector<double>& column = columns_[field];  // over several ranks only the first has it
-    for (std::size_t id = term.first; id < term.last && !column.empty(); ++id) total += column[id];
+    const std::vector<double>& column = columns_[field];
+    for (std::size_t row = begin; row < end; ++row) total += column[row];
   }
+  if (simulation_.state_->over) total = simulation_.state_->ranks->sum(total);
   const Quantity& quantity = table()[term.quantity];
   if (quantity.energies.empty()) return total;
   EnergyReport energy;
@@ -222,10 +224,10 @@ double GlobalQuantities::mean(const Term& term) const {
     if (!(all || has_temperature(state.laws[s])) || set.first_id < term.first || set.first_id >= term.last) continue;
     count += static_cast<double>(state.sizes[s]);
     const std::vector<double>& column = columns_[term.fields.front()];
-    if (column.empty()) continue;
-    const auto begin = column.begin() + set.first_id;
-    for (auto value = begin; value != begin + static_cast<std::ptrdiff_t>(state.sizes[s]); ++value) total += *value;
+    const auto [begin, end] = state.rows_of(set.first_id, set.first_id + state.sizes[s]);
+    for (std::size_t row = begin; row < end; ++row) total += column[row];
   }
+  if (state.over) total = state.ranks->sum(total);
   return count > 0.0 ? total / count : 0.0;  // as of a particle
 }
 

@@ -38,8 +38,6 @@ hid_t type_of(StateArchive::Number number) {
 /// Recursive: an Hdf5Id closes within calls that hold it.
 std::recursive_mutex one_at_a_time;
 
-constexpr hsize_t kChunk = hsize_t{1} << 20;  ///< numbers that have one checksum
-
 /// Why a file of that name cannot be opened so; empty if it can.
 std::string problem_with(const std::string& path, const char* mode) {
   if (std::string refused = refused_output(path); !refused.empty()) return refused;  // a pipe would wait to be opened
@@ -84,18 +82,36 @@ Hdf5Writer::Hdf5Writer(const std::string& path) : path_(path) {
   if (!file_ || !make_groups_ || H5Pset_create_intermediate_group(make_groups_, 1) < 0) fail();
 }
 
-void Hdf5Writer::values(const std::string& name, Number number, void* data, std::size_t count) {
+Hdf5Id Hdf5Writer::make(const std::string& name, Number number, std::size_t count) {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
   const hsize_t size = count;
   const Hdf5Id space(count == 0 ? H5Screate(H5S_NULL) : H5Screate_simple(1, &size, nullptr), H5Sclose);
   if (!space) fail();
   const Hdf5Id layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  const hsize_t chunk = std::min(size, kChunk);
+  const hsize_t chunk = std::min<hsize_t>(size, kHdf5Chunk);
   if (!layout || (count > 0 && (H5Pset_chunk(layout, 1, &chunk) < 0 || H5Pset_fletcher32(layout) < 0))) fail();
-  const Hdf5Id set(H5Dcreate2(file_, name.c_str(), type_of(number), space, make_groups_, layout, H5P_DEFAULT),
-                   H5Dclose);
-  if (!set || (count > 0 && H5Dwrite(set, type_of(number), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)) fail();
+  Hdf5Id set(H5Dcreate2(file_, name.c_str(), type_of(number), space, make_groups_, layout, H5P_DEFAULT), H5Dclose);
+  if (!set || error_.code != 0) fail();
+  return set;
+}
+
+void Hdf5Writer::values(const std::string& name, Number number, void* data, std::size_t count) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
+  const Hdf5Id set = make(name, number, count);
+  if (count > 0 && H5Dwrite(set, type_of(number), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail();
   if (error_.code != 0) fail();  // the rest would be of no use
+}
+
+void Hdf5Writer::piece(const std::string& name, Number number, const void* data, std::size_t first, std::size_t count) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
+  const Hdf5Id set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set) fail();
+  const hsize_t begin = first, size = count;
+  const Hdf5Id there(H5Dget_space(set), H5Sclose), here(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  if (!there || !here || H5Sselect_hyperslab(there, H5S_SELECT_SET, &begin, nullptr, &size, nullptr) < 0 ||
+      H5Dwrite(set, type_of(number), here, there, H5P_DEFAULT, data) < 0 || error_.code != 0) {
+    fail();
+  }
 }
 
 void Hdf5Writer::close() {

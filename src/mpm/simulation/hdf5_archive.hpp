@@ -51,6 +51,8 @@ class Hdf5Silence {
   void* to_ = nullptr;
 };
 
+inline constexpr std::size_t kHdf5Chunk = std::size_t{1} << 20;  ///< numbers that have one checksum
+
 class Hdf5Writer final : public StateArchive {
  public:
   /// Makes the file anew. @throws CheckpointError
@@ -62,12 +64,16 @@ class Hdf5Writer final : public StateArchive {
   void array(const std::string& name, Number number, void* data, std::size_t count) {
     values(name, number, data, count);
   }
+  /// The same in pieces: one after another, each but the last of kHdf5Chunk numbers. @throws CheckpointError
+  void begin(const std::string& name, Number number, std::size_t count) { make(name, number, count); }
+  void piece(const std::string& name, Number number, const void* data, std::size_t first, std::size_t count);
 
  protected:
   void values(const std::string& name, Number number, void* data, std::size_t count) override;
   std::size_t stored(const std::string&) override { return 0; }
 
  private:
+  Hdf5Id make(const std::string& name, Number number, std::size_t count);
   [[noreturn]] void fail() const;
   std::string path_;
   Hdf5Silence silence_;  // first, so that closing is silent too

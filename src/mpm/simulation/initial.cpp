@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mpm/math/dimension.hpp"
+#include "mpm/ranks/agree.hpp"
 #include "mpm/simulation/simulation.hpp"
+#include "particle_start.hpp"
 
 namespace mpm {
 namespace {
@@ -47,6 +50,25 @@ void store(const InitialState& state, GeometryKind geometry, ParticleSet& set, s
   for (std::size_t c = 0; c < set.tau.size(); ++c) set.tau[c].set(p, values.tau[c]);
 }
 
+/// J over particles of a body.
+struct Spread {
+  double least = 1.0, most = 1.0;
+  double inverse = 0.0;  ///< sum of 1 / J
+};
+
+/// The same over all ranks, of `whole` particles.
+void add_up(Communicator& ranks, std::uint64_t here, std::uint64_t whole, Spread& spread) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  double ends[] = {here > 0 ? -spread.least : kNone, here > 0 ? spread.most : kNone};
+  ranks.largest(ends, 2);
+  spread.least = -ends[0];
+  spread.most = ends[1];
+  spread.inverse = ranks.sum(spread.inverse);
+  if (spread.least != spread.most) return;
+  spread.inverse = 0.0;  // to the bit as one process adds what is the same everywhere
+  for (std::uint64_t p = 0; p < whole; ++p) spread.inverse += 1.0 / spread.least;
+}
+
 void store_everywhere(const InitialState& state, GeometryKind geometry, ParticleSet& set) {
   const Components values(state, geometry);
   for (std::size_t c = 0; c < set.f.size(); ++c) set.f[c].assign(set.f[c].size(), values.f[c]);
@@ -56,47 +78,52 @@ void store_everywhere(const InitialState& state, GeometryKind geometry, Particle
 }  // namespace
 
 void start_particles(ParticleSet& set, const DeformableBody& body, const MaterialDefinition& material,
-                     GeometryKind geometry, std::vector<std::string>& warnings) {
-  check_count(body, body.stresses.size(), "stresses");
-  check_count(body, body.temperatures.size(), "temperatures");
+                     GeometryKind geometry, Communicator* ranks, std::vector<std::string>& warnings) {
   const std::size_t n = body.positions.size();
   const InitialStates states(material, geometry);
   const bool asked = !body.stresses.empty() || !body.temperatures.empty();
   InitialState state = states.find({});
-  double least_j = 1.0, most_j = 1.0, inverse_j = 0.0;
+  Spread spread;
   if (!asked) store_everywhere(state, geometry, set);
-  for (std::size_t p = 0; p < n; ++p) {
-    if (asked) {
-      InitialRequest request;
-      if (!body.stresses.empty()) request.cauchy = body.stresses[p];
-      request.yy_follows = body.yy_follows;
-      if (!body.temperatures.empty()) request.temperature = body.temperatures[p];
-      try {
-        state = states.find(request);
-      } catch (const InitialStateError& error) {
-        const Vec3& place = body.positions[p];
-        throw DefinitionError(fmt::format("body '{}', initial state at ({:.6g}, {:.6g}, {:.6g}) m: {}", body.name,
-                                          place.x(), place.y(), place.z(), error.what()));
+  agree<DefinitionError>(ranks, [&] {
+    check_count(body, body.stresses.size(), "stresses");
+    check_count(body, body.temperatures.size(), "temperatures");
+    for (std::size_t p = 0; p < n; ++p) {
+      if (asked) {
+        InitialRequest request;
+        if (!body.stresses.empty()) request.cauchy = body.stresses[p];
+        request.yy_follows = body.yy_follows;
+        if (!body.temperatures.empty()) request.temperature = body.temperatures[p];
+        try {
+          state = states.find(request);
+        } catch (const InitialStateError& error) {
+          const Vec3& place = body.positions[p];
+          throw DefinitionError(fmt::format("body '{}', initial state at ({:.6g}, {:.6g}, {:.6g}) m: {}", body.name,
+                                            place.x(), place.y(), place.z(), error.what()));
+        }
+        if (const int index = states.temperature_index(); index >= 0)
+          set.history[index].set(p, state.temperature_excess);
+        if (const int index = states.hardening_index(); index >= 0) set.history[index].set(p, state.hardening);
+        store(state, geometry, set, p);
       }
-      if (const int index = states.temperature_index(); index >= 0) set.history[index].set(p, state.temperature_excess);
-      if (const int index = states.hardening_index(); index >= 0) set.history[index].set(p, state.hardening);
-      store(state, geometry, set, p);
+      const double j = state.j();
+      if (!set.masses.empty()) set.masses[0].set(p, set.masses[0][p] / j);
+      spread.least = p == 0 ? j : std::min(spread.least, j);
+      spread.most = p == 0 ? j : std::max(spread.most, j);
+      spread.inverse += 1.0 / j;
     }
-    const double j = state.j();
-    if (!set.masses.empty()) set.masses[0].set(p, set.masses[0][p] / j);
-    least_j = p == 0 ? j : std::min(least_j, j);
-    most_j = p == 0 ? j : std::max(most_j, j);
-    inverse_j += 1.0 / j;
-  }
+  });
   if (!set.masses.empty()) return;
+  const std::uint64_t whole = whole_of(body);
+  if (ranks != nullptr) add_up(*ranks, n, whole, spread);
   // The particles of a body have one mass, so where J varies it is their mean mass that is right.
-  if (least_j != most_j || least_j != 1.0) set.mass *= inverse_j / static_cast<double>(n);
-  if (most_j > (1.0 + kEvenVolume) * least_j) {
+  if (spread.least != spread.most || spread.least != 1.0) set.mass *= spread.inverse / static_cast<double>(whole);
+  if (spread.most > (1.0 + kEvenVolume) * spread.least) {
     warnings.push_back(
         fmt::format("body '{}': its initial stress strains it unevenly, J from {:.4g} to {:.4g}, but its particles "
                     "have one mass: its "
                     "density is off by as much; a stiffer material or several bodies would be closer",
-                    body.name, least_j, most_j));
+                    body.name, spread.least, spread.most));
   }
 }
 

@@ -6,18 +6,20 @@
 
 #include "mpm/material/initial_state.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/ranks/communicator.hpp"
 #include "mpm/simulation/definition.hpp"
 
 namespace mpm {
 
 /// Deformation gradient, stress, history and mass of a set whose places are known, as its body asks for. Adds to
-/// `warnings`. @throws DefinitionError naming the body and the particle's place.
+/// `warnings`. `ranks`: null for a process that is alone. Collective. @throws DefinitionError naming the body and the
+/// particle's place.
 void start_particles(ParticleSet& set, const DeformableBody& body, const MaterialDefinition& material,
-                     GeometryKind geometry, std::vector<std::string>& warnings);
+                     GeometryKind geometry, Communicator* ranks, std::vector<std::string>& warnings);
 
 /// Gives the bodies that start geostatic the stress of the weight above them: vertical from the columns of particles
 /// over each particle down to its centre, whatever geostatic bodies they belong to, horizontal by k0. A gap in a column
-/// carries nothing. @throws DefinitionError
-void add_geostatic_stress(SimulationDefinition& definition);
+/// carries nothing. `ranks`: null for a process that is alone. Collective. @throws DefinitionError
+void add_geostatic_stress(SimulationDefinition& definition, Communicator* ranks);
 
 }  // namespace mpm

@@ -19,23 +19,32 @@ int find_set(const std::vector<ParticleSet>& sets, const std::string& body, cons
   throw DefinitionError(fmt::format("{}: no deformable body is called '{}'; name one of 'bodies'", load, body));
 }
 
-void check_particles(const std::vector<std::uint32_t>& particles, const ParticleSet& set, const char* load) {
+/// Particles of a set on all ranks.
+std::uint64_t whole_of(int set, const RunParts& parts) {
+  const std::optional<BodyPart>& part = parts.definition.bodies[set].part;
+  return part ? part->whole : parts.sets[set].id.size();
+}
+
+void check_particles(const std::vector<std::uint32_t>& particles, int set, const RunParts& parts, const char* load) {
+  const std::uint64_t whole = whole_of(set, parts);
   for (const std::uint32_t p : particles) {
-    if (p < static_cast<std::uint32_t>(set.size())) continue;
-    throw DefinitionError(fmt::format("{} on '{}': it has no particle {}, but {}", load, set.name, p, set.size()));
+    if (p < whole) continue;
+    throw DefinitionError(
+        fmt::format("{} on '{}': it has no particle {}, but {}", load, parts.sets[set].name, p, whole));
   }
 }
 
-ParticleLoadTerm make_term(const ParticleForceDefinition& load, const std::vector<ParticleSet>& sets) {
+ParticleLoadTerm make_term(const ParticleForceDefinition& load, const RunParts& parts) {
+  const std::vector<ParticleSet>& sets = parts.sets;
   ParticleLoadTerm term;
   term.kind = ParticleLoadTerm::Kind::particle_force;
   term.set = find_set(sets, load.body, "particle force");
   term.value = load.force;
   term.spread = load.spread;
   const ParticleSet& set = sets[*term.set];
-  check_particles(load.particles, set, "particle force");
+  check_particles(load.particles, *term.set, parts, "particle force");
   if (!load.particles.empty()) {
-    term.chosen.assign(set.size(), 0);
+    term.chosen.assign(whole_of(*term.set, parts), 0);
     for (const std::uint32_t p : load.particles) term.chosen[p] = 1;
   }
   if (!load.shared) {
@@ -44,9 +53,13 @@ ParticleLoadTerm make_term(const ParticleForceDefinition& load, const std::vecto
   }
   double mass = 0.0, count = 0.0;
   for (int p = 0; p < set.size(); ++p) {
-    if (!term.chosen.empty() && term.chosen[p] == 0) continue;
+    if (!term.chosen.empty() && term.chosen[set.id[p] - set.first_id] == 0) continue;
     count += 1.0;
     mass += set.mass_of(p);
+  }
+  if (parts.ranks != nullptr) {
+    parts.ranks->sum(&count, 1);
+    parts.ranks->sum(&mass, 1);
   }
   if (set.masses.empty()) mass = set.mass * count;
   term.factor = 1.0 / mass;
@@ -72,6 +85,21 @@ TractionTerm make_term(const TractionDefinition& load, RunParts& parts) {
 
 }  // namespace
 
+namespace {
+
+/// Whether all of these particles of a set reach to r = 0.
+bool all_on_axis(const std::vector<std::uint32_t>& particles, const ParticleSet& set, const RunParts& parts) {
+  const double touching = set.half[0] * parts.layout().cell(0) * (1.0 + 1e-9);
+  std::vector<int> places;
+  find_places(set, places);
+  const bool beside = std::any_of(particles.begin(), particles.end(), [&](std::uint32_t p) {
+    return p < places.size() && places[p] >= 0 && set.x[0][places[p]] > touching;
+  });
+  return !(parts.ranks == nullptr ? beside : parts.ranks->any(beside));
+}
+
+}  // namespace
+
 ChosenFaces choose_faces(const std::string& body, int face, const std::vector<std::uint32_t>& particles,
                          const char* what, const RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
@@ -85,12 +113,10 @@ ChosenFaces choose_faces(const std::string& body, int face, const std::vector<st
                                       kWallNames.at(face), geometry_name(definition.geometry)));
   }
   chosen.face = {static_cast<int>(axis - axes.begin()), face % 2 == 1};
-  chosen.particles = particles.empty() ? outermost_particles(set, parts.layout(), chosen.face) : particles;
-  check_particles(chosen.particles, set, what);
-  const double touching = set.half[0] * parts.layout().cell(0) * (1.0 + 1e-9);
+  chosen.particles = particles.empty() ? outermost_particles(set, parts.layout(), chosen.face, parts.ranks) : particles;
+  check_particles(chosen.particles, chosen.set, parts, what);
   if (axisymmetric(definition.geometry) && chosen.face.axis == 0 && !chosen.face.upper &&
-      std::all_of(chosen.particles.begin(), chosen.particles.end(),
-                  [&](std::uint32_t p) { return set.x[0][p] <= touching; })) {
+      all_on_axis(chosen.particles, set, parts)) {
     throw DefinitionError(
         fmt::format("{} on '{}': its x_min lies on the axis r = 0 and has no area; use another face", what, body));
   }
@@ -108,7 +134,7 @@ void add_particle_loads(RunParts& parts) {
     if (!load.body.empty()) term.set = find_set(sets, load.body, "body force");
     terms.push_back(std::move(term));
   }
-  for (const ParticleForceDefinition& load : definition.particle_forces) terms.push_back(make_term(load, sets));
+  for (const ParticleForceDefinition& load : definition.particle_forces) terms.push_back(make_term(load, parts));
   for (const ParticleLoadTerm& term : terms) {
     for (std::size_t s = 0; s < sets.size(); ++s) {
       if (!term.set || *term.set == static_cast<int>(s)) remember_start(term.value, sets[s]);

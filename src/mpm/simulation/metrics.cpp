@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "mpm/math/nearest.hpp"
@@ -13,17 +14,16 @@
 namespace mpm {
 namespace {
 
-/// Leaves the values of particles [first, last) whose centres are in the region.
-void keep_inside(const Simulation& simulation, const Box& region, std::uint64_t first, std::uint64_t last,
+/// Reads fields of particles as Simulation::read_fields().
+using Read = std::function<void(const std::vector<std::string>&, std::vector<std::vector<double>>&)>;
+
+/// Leaves the values of rows [first, last) whose particles' centres are in the region.
+void keep_inside(const Read& read, const Box& region, std::size_t first, std::size_t last,
                  std::vector<double>& values) {
-  std::array<std::vector<double>, 3> places;
-  for (int axis = 0; axis < 3; ++axis) {
-    static constexpr std::array<const char*, 3> kPlaces = {"x", "y", "z"};
-    simulation.particle_field(kPlaces.at(axis), places.at(axis));
-  }
-  if (values.empty()) return;  // on another rank than the first
+  std::vector<std::vector<double>> places;
+  read({"x", "y", "z"}, places);
   std::size_t kept = 0;
-  for (std::uint64_t p = first; p < last; ++p) {
+  for (std::size_t p = first; p < last; ++p) {
     if (region.contains({places[0][p], places[1][p], places[2][p]})) values[kept++] = values[p];
   }
   values.resize(kept);
@@ -37,31 +37,49 @@ double reported(const Simulation& simulation, const MetricDefinition& metric) {
                                     metric.name, metric.number));
 }
 
-/// Over several ranks it is known on the first alone.
-double statistic_of(const Simulation& simulation, const MetricDefinition& metric, std::vector<double>& values) {
-  if (!metric.number.empty()) return reported(simulation, metric);
-  if (const int body = simulation.find_body(metric.body); body >= 0) return simulation.body_value(body, metric.field);
-  simulation.particle_field(metric.field, values);
-  const auto [first, last] = metric.body.empty() ? std::pair<std::uint64_t, std::uint64_t>{0, values.size()}
-                                                 : simulation.body_ids(metric.body);
-  if (metric.region) keep_inside(simulation, *metric.region, first, last, values);
-  if (simulation.ranks() != nullptr && !simulation.ranks()->first()) return 0.0;
-  const auto begin = metric.region ? values.begin() : values.begin() + first;
-  const auto end = metric.region ? values.end() : values.begin() + last;
-  if (begin == end) return std::numeric_limits<double>::quiet_NaN();
-  const auto count = static_cast<double>(end - begin);
-  if (metric.statistic == Statistic::min) return *std::min_element(begin, end);
-  if (metric.statistic == Statistic::max) return *std::max_element(begin, end);
+/// Of numbers of which each rank has some. `ranks`: null for a process that is alone. Not a number of none.
+double statistic(Statistic which, const double* begin, const double* end, Communicator* ranks) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  const auto sum_of_all = [&](double own) { return ranks == nullptr ? own : ranks->sum(own); };
+  const auto most_of_all = [&](double own) {
+    if (ranks != nullptr) ranks->largest(&own, 1);
+    return own;
+  };
+  const double count = sum_of_all(static_cast<double>(end - begin));
+  if (count == 0.0) return std::numeric_limits<double>::quiet_NaN();
+  if (which == Statistic::min) return -most_of_all(begin == end ? kNone : -*std::min_element(begin, end));
+  if (which == Statistic::max) return most_of_all(begin == end ? kNone : *std::max_element(begin, end));
   double mean = 0.0;
-  for (auto it = begin; it != end; ++it) mean += *it;
-  mean /= count;
-  if (metric.statistic == Statistic::mean) return mean;
+  for (const double* it = begin; it != end; ++it) mean += *it;
+  mean = sum_of_all(mean) / count;
+  if (which == Statistic::mean) return mean;
   double squares = 0.0;
-  for (auto it = begin; it != end; ++it) squares += (*it - mean) * (*it - mean);
-  return std::sqrt(squares / count);
+  for (const double* it = begin; it != end; ++it) squares += (*it - mean) * (*it - mean);
+  return std::sqrt(sum_of_all(squares) / count);
 }
 
 }  // namespace
+
+double Simulation::statistic_of(const MetricDefinition& metric, std::vector<double>& values) const {
+  if (!metric.number.empty()) return reported(*this, metric);
+  if (const int body = find_body(metric.body); body >= 0) return body_value(body, metric.field);
+  const Read read = [this](const std::vector<std::string>& names, std::vector<std::vector<double>>& columns) {
+    read_fields(names, columns);
+  };
+  std::vector<std::vector<double>> columns(1);
+  columns.front().swap(values);
+  read({metric.field}, columns);
+  values.swap(columns.front());
+  const auto ids =
+      metric.body.empty() ? std::pair<std::uint64_t, std::uint64_t>{0, particles()} : body_ids(metric.body);
+  auto [first, last] = state_->rows_of(ids.first, ids.second);
+  if (metric.region) {
+    keep_inside(read, *metric.region, first, last, values);
+    first = 0;
+    last = values.size();
+  }
+  return statistic(metric.statistic, values.data() + first, values.data() + last, state_->ranks.get());
+}
 
 void LineFit::add(double t, double y) {
   // Updated means (Welford): no difference of large sums.
@@ -104,11 +122,11 @@ void Simulation::sample_metrics() {
   for (std::size_t m = 0; m < s.definition.metrics.size(); ++m) {
     const MetricDefinition& metric = s.definition.metrics[m];
     if (metric.at && s.rates[m].count() == 0 && now >= *metric.at - 1e-12) {
-      s.rates[m].add(now, s.from_first(statistic_of(*this, metric, values)));
+      s.rates[m].add(now, s.from_first(statistic_of(metric, values)));
     }
     // A sync point on the edge of the window is in it, round-off or not.
     if (!metric.rate || now < metric.rate->from - 1e-12 || now > metric.rate->to + 1e-12) continue;
-    s.rates[m].add(now, s.from_first(statistic_of(*this, metric, values)));
+    s.rates[m].add(now, s.from_first(statistic_of(metric, values)));
   }
 }
 
@@ -124,7 +142,7 @@ std::vector<std::pair<std::string, double>> Simulation::metrics() const {
     } else if (metric.at && over_time.count() > 0) {
       value = over_time.mean();
     } else {
-      value = state_->from_first(statistic_of(*this, metric, values));
+      value = state_->from_first(statistic_of(metric, values));
     }
     list.emplace_back(metric.name, value);
   }

@@ -72,15 +72,6 @@ void OverRanks::share_flags(bool& failed, bool& sorts) {
   sorts = flags[1] > 0.0;
 }
 
-std::string OverRanks::first_reason(const std::string& own) {
-  Communicator::Bytes bytes(own.size());
-  if (!own.empty()) std::memcpy(bytes.data(), own.data(), own.size());
-  for (const Communicator::Bytes& reason : ranks_.gather(bytes)) {
-    if (!reason.empty()) return {reinterpret_cast<const char*>(reason.data()), reason.size()};
-  }
-  return {};
-}
-
 void OverRanks::share(StepLimit& limit, const Modules& modules, const Module* mechanics) {
   struct Told {
     double dt, speed, place[3];

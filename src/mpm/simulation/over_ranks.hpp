@@ -34,7 +34,7 @@ class OverRanks {
   const Halo& halo() const { return halo_; }
   const HandOver& hand_over() const { return hand_over_; }
 
-  void keep_own(std::vector<ParticleSet>& sets) { hand_over_.keep_own(sets); }
+  void divide(std::vector<ParticleSet>& sets) { hand_over_.divide(sets); }
   void hand_over(std::vector<ParticleSet>& sets) { hand_over_.hand_over(sets); }
   /// After particles have been sorted.
   void meet(Fields& fields);
@@ -42,8 +42,6 @@ class OverRanks {
   /// a tool has come near to blocks that not all ranks have.
   void share_flags(bool& failed, bool& sorts);
 
-  /// The reason of the first rank that has one; empty if none has.
-  std::string first_reason(const std::string& own);
   /// The smallest of all ranks' limits, of the first rank that has it. `modules` number the module that sets it.
   void share(StepLimit& limit, const Modules& modules, const Module* mechanics);
   void add_up(EnergyReport& report);

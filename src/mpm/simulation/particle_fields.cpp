@@ -246,24 +246,36 @@ std::vector<Chosen> find_fields(const std::vector<std::string>& names, const std
 
 std::int64_t by_id(const SetView& view, int p) { return view.set.id[p]; }
 
-/// Columns of this rank's own particles, which come to the first rank by id.
-std::vector<std::vector<double>> gather_columns(Communicator& ranks, const std::vector<SetView>& sets,
-                                                const std::vector<Chosen>& fields, int threads, std::size_t particles) {
-  std::vector<std::uint64_t> ids;
+/// A field of this rank's own particles, one set after another.
+template <class T>
+void fill_own(const std::vector<SetView>& sets, const std::vector<Chosen>& fields, int threads,
+              std::vector<std::vector<T>>& columns) {
   std::vector<std::int64_t> first;  // of each set
+  std::int64_t size = 0;
   for (const SetView& view : sets) {
-    first.push_back(static_cast<std::int64_t>(ids.size()));
-    ids.insert(ids.end(), view.set.id.begin(), view.set.id.end());
+    first.push_back(size);
+    size += view.set.size();
   }
-  std::vector<std::vector<double>> own(fields.size(), std::vector<double>(ids.size()));
-  const auto in_order = [&](const SetView& view, int p) { return first[view.index] + p; };
-  fill(sets, fields, threads, in_order, own);
-  std::vector<std::vector<double>> columns(fields.size());
-  for (std::size_t k = 0; k < fields.size(); ++k) {
-    if (ranks.first()) columns[k].resize(particles);
-    ranks.place(own[k], ids, columns[k].data(), columns[k].size());
-  }
-  return columns;
+  columns.resize(fields.size());
+  for (std::vector<T>& column : columns) column.resize(static_cast<std::size_t>(size));
+  fill(
+      sets, fields, threads, [&](const SetView& view, int p) { return first[view.index] + p; }, columns);
+}
+
+std::vector<std::uint64_t> own_ids(const std::vector<SetView>& sets) {
+  std::vector<std::uint64_t> ids;
+  for (const SetView& view : sets) ids.insert(ids.end(), view.set.id.begin(), view.set.id.end());
+  return ids;
+}
+
+/// A field of all particles by id, on the first rank; empty on the others.
+std::vector<double> gather_column(Communicator& ranks, const std::vector<SetView>& sets, const Chosen& field,
+                                  int threads, const std::vector<std::uint64_t>& ids, std::size_t particles) {
+  std::vector<std::vector<double>> own;
+  fill_own(sets, {field}, threads, own);
+  std::vector<double> column(ranks.first() ? particles : 0);
+  ranks.place(own.front(), ids, column.data(), column.size());
+  return column;
 }
 
 /// As rows_of(), on the first rank; none on the others.
@@ -317,6 +329,12 @@ void Simulation::particle_field(const std::string& name, std::vector<float>& val
 }
 
 void Simulation::particle_field(const std::string& name, std::vector<double>& values) const {
+  if (state_->over) {
+    const std::vector<SetView> sets = state_->views();
+    values = gather_column(*state_->ranks, sets, find_fields({name}, sets).front(), state_->threads, own_ids(sets),
+                           particles());
+    return;
+  }
   std::vector<std::vector<double>> columns;
   columns.emplace_back(std::move(values));
   read_fields({name}, columns);
@@ -326,10 +344,7 @@ void Simulation::particle_field(const std::string& name, std::vector<double>& va
 void Simulation::read_fields(const std::vector<std::string>& names, std::vector<std::vector<double>>& columns) const {
   const std::vector<SetView> sets = state_->views();
   const std::vector<Chosen> fields = find_fields(names, sets);
-  if (state_->over) {
-    columns = gather_columns(*state_->ranks, sets, fields, state_->threads, particles());
-    return;
-  }
+  if (state_->over) return fill_own(sets, fields, state_->threads, columns);
   columns.resize(fields.size());
   for (std::vector<double>& column : columns) column.resize(particles());
   fill(sets, fields, state_->threads, by_id, columns);
@@ -343,14 +358,15 @@ void Simulation::read_particles(const std::vector<std::string>& names, const Par
   std::vector<std::int64_t> rows;
   columns.ids.clear();
   if (state_->over) {
-    const std::vector<std::vector<double>> all =
-        gather_columns(*state_->ranks, sets, fields, state_->threads, particles());
     rows = gather_rows(*state_->ranks, sets, particles(), choice);
-    columns.values.assign(fields.size(), {});
     for (std::size_t id = 0; id < rows.size(); ++id) {
-      if (rows[id] < 0) continue;
-      columns.ids.push_back(static_cast<std::uint32_t>(id));
-      for (std::size_t k = 0; k < fields.size(); ++k) columns.values[k].push_back(static_cast<float>(all[k][id]));
+      if (rows[id] >= 0) columns.ids.push_back(static_cast<std::uint32_t>(id));
+    }
+    const std::vector<std::uint64_t> ids = own_ids(sets);
+    columns.values.assign(fields.size(), {});
+    for (std::size_t k = 0; k < fields.size(); ++k) {  // the first rank never has more than one in double
+      const std::vector<double> all = gather_column(*state_->ranks, sets, fields[k], state_->threads, ids, particles());
+      for (const std::uint32_t id : columns.ids) columns.values[k].push_back(static_cast<float>(all[id]));
     }
     return;
   }
@@ -367,6 +383,27 @@ void Simulation::read_particles(const std::vector<std::string>& names, const Par
         sets, fields, state_->threads, [&rows](const SetView& view, int p) { return rows[view.set.id[p]]; },
         columns.values);
   }
+}
+
+void Simulation::read_own_particles(const std::vector<std::string>& names, const ParticleChoice& choice,
+                                    ParticleColumns& columns) const {
+  const std::vector<SetView> sets = state_->views();
+  const std::vector<Chosen> fields = find_fields(names, sets);
+  std::vector<std::vector<std::int64_t>> rows(sets.size());
+  columns.ids.clear();
+  for (const SetView& view : sets) {
+    std::vector<std::int64_t>& of_set = rows[view.index];
+    of_set.assign(view.set.id.size(), -1);
+    for (int p = 0; p < view.set.size(); ++p) {
+      if (!chosen(view, p, choice)) continue;
+      of_set[p] = static_cast<std::int64_t>(columns.ids.size());
+      columns.ids.push_back(view.set.id[p]);
+    }
+  }
+  columns.values.resize(fields.size());
+  for (std::vector<float>& column : columns.values) column.resize(columns.ids.size());
+  fill(
+      sets, fields, state_->threads, [&](const SetView& view, int p) { return rows[view.index][p]; }, columns.values);
 }
 
 }  // namespace mpm

@@ -75,24 +75,29 @@ void RanksWriter::values(const std::string& name, Number number, void* data, std
     attempt([&] { file_->array(name, number, data, count); });
     return;
   }
-  const std::size_t bytes = count * size_of(number);
   std::vector<std::uint64_t> parts = gather_list(ranks_, std::vector<std::uint64_t>{count});
-  std::vector<Communicator::Parcel> parcels;
-  if (!ranks_.first() && bytes > 0) {
-    parcels.push_back({0, Communicator::Bytes(bytes)});
-    std::memcpy(parcels.back().bytes.data(), data, bytes);
-  }
-  const std::vector<Communicator::Parcel> arrived = ranks_.deliver(parcels);
-  if (!ranks_.first()) return;
-  all_.resize(bytes);
-  if (bytes > 0) std::memcpy(all_.data(), data, bytes);
-  for (const Communicator::Parcel& parcel : arrived) {  // in the order of ranks
-    all_.insert(all_.end(), parcel.bytes.begin(), parcel.bytes.end());
-  }
+  const std::uint64_t all = std::accumulate(parts.begin(), parts.end(), std::uint64_t{0});
+  const std::uint64_t before = std::accumulate(parts.begin(), parts.begin() + ranks_.rank(), std::uint64_t{0});
+  const std::size_t size = size_of(number);
   attempt([&] {
-    file_->array(name, number, all_.data(), all_.size() / size_of(number));
+    file_->begin(name, number, all);
     file_->array(kParts + name, Number::uint64, parts.data(), parts.size());
   });
+  // Piece by piece, each from all ranks that have some of it.
+  for (std::uint64_t first = 0; first < all; first += kHdf5Chunk) {
+    const std::uint64_t last = std::min<std::uint64_t>(all, first + kHdf5Chunk);
+    const std::uint64_t from = std::clamp(first, before, before + count), to = std::clamp(last, before, before + count);
+    const auto* own = static_cast<const std::byte*>(data) + (from - before) * size;
+    std::vector<Communicator::Parcel> parcels;
+    if (!ranks_.first() && from < to) parcels.push_back({0, Communicator::Bytes(own, own + (to - from) * size)});
+    const std::vector<Communicator::Parcel> arrived = ranks_.deliver(parcels);
+    if (!ranks_.first()) continue;
+    piece_.assign(own, own + (to - from) * size);
+    for (const Communicator::Parcel& parcel : arrived) {  // in the order of ranks
+      piece_.insert(piece_.end(), parcel.bytes.begin(), parcel.bytes.end());
+    }
+    attempt([&] { file_->piece(name, number, piece_.data(), first, last - first); });
+  }
 }
 
 void RanksWriter::close() {
@@ -125,10 +130,17 @@ std::vector<std::uint64_t> RanksReader::parts_of(const std::string& name) {
   return parts;
 }
 
+std::pair<std::uint64_t, std::uint64_t> RanksReader::share_of(const std::vector<std::uint64_t>& parts) const {
+  const std::uint64_t all = std::accumulate(parts.begin(), parts.end(), std::uint64_t{0});
+  const std::uint64_t begin = all * rank_ / here_, end = all * (rank_ + 1) / here_;
+  return {begin, end - begin};
+}
+
 std::size_t RanksReader::stored(const std::string& name) {
   if (merge() == Merge::same) return file_.count(name);
   const std::vector<std::uint64_t> parts = parts_of(name);
   if (!merging()) return parts[rank_];
+  if (merge() == Merge::share) return share_of(parts).second;
   return merge() == Merge::join ? std::accumulate(parts.begin(), parts.end(), std::uint64_t{0}) : parts.front();
 }
 
@@ -142,6 +154,10 @@ void RanksReader::values(const std::string& name, Number number, void* data, std
   if (!merging()) {
     const std::uint64_t first = std::accumulate(parts.begin(), parts.begin() + rank_, std::uint64_t{0});
     file_.part(name, number, data, first, count);
+    return;
+  }
+  if (merge() == Merge::share) {
+    file_.part(name, number, data, share_of(parts).first, count);
     return;
   }
   // Sums: as many numbers of each rank.

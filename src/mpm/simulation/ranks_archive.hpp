@@ -2,13 +2,14 @@
 // "parts/<name>" says how much of it each has. As many ranks read their own again and go on to the bit; any other
 // number, one process too, merges them (StateArchive::Merge). A file that one process wrote is one of one rank.
 //
-// Weak: the first rank writes what the others send it, array by array, and so holds one array of all ranks at a time;
-// where numbers are merged, every rank reads all particles before it leaves those of others.
+// The first rank writes what the others send it, in pieces of an array that take 8 MB at most. Weak: so the disk is as
+// fast as one rank writes to it.
 // Private to this folder.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hdf5_archive.hpp"
@@ -36,7 +37,7 @@ class RanksWriter final : public StateArchive {
   Communicator& ranks_;
   std::unique_ptr<Hdf5Writer> file_;  ///< of the first rank
   std::string failure_;               ///< of the first rank
-  std::vector<std::byte> all_;        ///< kept from array to array
+  std::vector<std::byte> piece_;      ///< of an array
 };
 
 class RanksReader final : public StateArchive {
@@ -53,6 +54,8 @@ class RanksReader final : public StateArchive {
  private:
   /// How much of an array each rank has.
   std::vector<std::uint64_t> parts_of(const std::string& name);
+  /// Of what is shared out: the first number of this rank, and how many it gets.
+  std::pair<std::uint64_t, std::uint64_t> share_of(const std::vector<std::uint64_t>& parts) const;
 
   Hdf5Reader file_;
   int rank_, here_, there_;  ///< `here_` ranks read what `there_` have written

@@ -34,6 +34,7 @@ void LineFit::serialise(StateArchive& archive, std::vector<LineFit>& fits) {
 void Simulation::State::serialise_particles(StateArchive& archive) {
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const StateArchive::Group group(archive, "particles_" + std::to_string(s));
+    const StateArchive::Share share(archive);
     ParticleSet& set = sets[s];
     archive.list("id", set.id);
     serialise_arrays(archive, "x", set.x);
@@ -131,7 +132,7 @@ void Simulation::State::serialise(StateArchive& archive) {
   }
   if (archive.reading() && over && !archive.merging()) over->meet_again(fields);
   if (archive.merging()) {
-    if (over) over->keep_own(sets);
+    if (over) over->divide(sets);
     sort(1e-9 * static_cast<double>(time));
   }
   if (archive.reading()) failed = false;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mpm/ranks/agree.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -79,17 +80,7 @@ std::optional<ParticleRef> Simulation::State::sort_particles() {
   return sorter->sort(sets, fields);
 }
 
-void Simulation::State::check_together(const std::function<void()>& check) {
-  if (!over) return check();
-  std::string reason;
-  try {
-    check();
-  } catch (const PhysicsError& error) {
-    reason = error.what();
-  }
-  reason = over->first_reason(reason);
-  if (!reason.empty()) throw PhysicsError(reason);
-}
+void Simulation::State::check_together(const std::function<void()>& check) { agree<PhysicsError>(ranks.get(), check); }
 
 void Simulation::State::sort(double now) {
   const std::vector<Module*>& list = modules.list();

@@ -108,6 +108,8 @@ struct Simulation::State {
   Vec3 impulse(const std::string& account) const;
   /// Of all modules.
   std::vector<NamedNumber> numbers() const;
+  /// Where the particles with ids [first, last), those of some bodies, are in what read_fields() gives.
+  std::pair<std::size_t, std::size_t> rows_of(std::uint64_t first, std::uint64_t last) const;
   /// The value that the first rank found.
   double from_first(double value) const;
   /// Of all particles [N s].

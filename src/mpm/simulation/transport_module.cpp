@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/ranks/agree.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/transport/face_flux.hpp"
 #include "mpm/transport/heat_gains.hpp"
@@ -137,7 +138,8 @@ void add_transport(RunParts& parts) {
   auto transport = std::make_unique<Transport>(shared, definition.time.sync, std::move(speeds));
   const ShapeKind shape = definition.method.shape;
   for (const QuantityDefinition& quantity : asked.quantities) {
-    auto field = make_field(quantity, shared, parts);
+    std::unique_ptr<TransportedField> field;
+    agree<DefinitionError>(parts.ranks, [&] { field = make_field(quantity, shared, parts); });
     if (!quantity.fluxes.empty()) {
       const FaceSettings faces{definition.geometry, shape, definition.across(), parts.choice, parts.halo};
       field->add(std::make_unique<FaceFlux>(faces, parts.fields, parts.sets, flux_terms(quantity, parts)));

@@ -6,18 +6,11 @@
 
 #include "mpm/contact/thin_tool.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/simulation/layout.hpp"
 #include "mpm/simulation/simulation.hpp"
 
 namespace mpm {
 namespace {
-
-GridLayout layout_of(const SimulationDefinition& definition) {
-  GridLayout layout(dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max);
-  for (int k = 0; k < layout.dim(); ++k) {
-    if (definition.walls[2 * layout.axis(k)].kind == WallKind::periodic) layout.make_periodic(k);
-  }
-  return layout;
-}
 
 // Of each body: one where one crack divides it; three where several may meet at a node.
 std::vector<int> fields_across_cracks(const SimulationDefinition& definition) {
@@ -33,6 +26,14 @@ std::vector<int> fields_across_cracks(const SimulationDefinition& definition) {
 }
 
 }  // namespace
+
+GridLayout layout_of(const SimulationDefinition& definition) {
+  GridLayout layout(dimensions(definition.geometry), definition.grid.cell, definition.grid.min, definition.grid.max);
+  for (int k = 0; k < layout.dim(); ++k) {
+    if (definition.walls[2 * layout.axis(k)].kind == WallKind::periodic) layout.make_periodic(k);
+  }
+  return layout;
+}
 
 // A tool may come to any body, so a thin one divides all of them unless it names those that it divides.
 FieldMap field_map(const SimulationDefinition& definition) {

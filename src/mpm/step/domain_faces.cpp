@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mpm/math/dimension.hpp"
+#include "mpm/ranks/lists.hpp"
 #include "mpm/shape/particle_domain.hpp"
 #include "mpm/shape/ugimp_stretch.hpp"
 
@@ -138,7 +139,35 @@ void find_places(const ParticleSet& set, std::vector<int>& place_of) {
   for (int p = 0; p < set.size(); ++p) place_of[set.id[p] - set.first_id] = p;
 }
 
-std::vector<std::uint32_t> outermost_particles(const ParticleSet& set, const GridLayout& layout, DomainFace face) {
+namespace {
+
+/// The particle of a row that lies farthest out.
+struct Outermost {
+  std::array<int, 3> row;
+  double place;
+  std::uint32_t number;
+};
+
+/// Leaves one of each row. Where two lie as far out it is the one with the lower number.
+void keep_outermost(std::vector<Outermost>& list, bool upper) {
+  std::sort(list.begin(), list.end(), [](const Outermost& a, const Outermost& b) {
+    return a.row != b.row ? a.row < b.row : a.number < b.number;
+  });
+  std::vector<Outermost> kept;
+  for (const Outermost& one : list) {
+    if (kept.empty() || kept.back().row != one.row) {
+      kept.push_back(one);
+    } else if (upper ? one.place > kept.back().place : one.place < kept.back().place) {
+      kept.back() = one;
+    }
+  }
+  list = std::move(kept);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> outermost_particles(const ParticleSet& set, const GridLayout& layout, DomainFace face,
+                                               Communicator* ranks) {
   std::map<std::array<int, 3>, std::uint32_t> outermost;
   const auto& along = set.x[face.axis];
   for (std::uint32_t p = 0; p < static_cast<std::uint32_t>(set.size()); ++p) {
@@ -151,7 +180,15 @@ std::vector<std::uint32_t> outermost_particles(const ParticleSet& set, const Gri
     if (!added && (face.upper ? along[p] > along[first->second] : along[p] < along[first->second])) first->second = p;
   }
   std::vector<std::uint32_t> particles;
-  for (const auto& [row, p] : outermost) particles.push_back(p);
+  if (ranks == nullptr) {
+    for (const auto& [row, p] : outermost) particles.push_back(p);
+  } else {
+    std::vector<Outermost> list;
+    for (const auto& [row, p] : outermost) list.push_back({row, along[p], set.id[p] - set.first_id});
+    list = gather_list(*ranks, list);
+    keep_outermost(list, face.upper);
+    for (const Outermost& one : list) particles.push_back(one.number);
+  }
   std::sort(particles.begin(), particles.end());
   return particles;
 }

@@ -88,4 +88,10 @@ const sensor_msgs::PointCloud2& ParticleCloud::read(const mpm::Simulation& simul
   return cloud_;
 }
 
+const sensor_msgs::PointCloud2& ParticleCloud::read_own(const mpm::Simulation& simulation) {
+  simulation.read_own_particles(names_, selection_.choice, columns_);
+  fill_cloud(selection_.fields, columns_, cloud_);
+  return cloud_;
+}
+
 }  // namespace mpm_ros

@@ -105,9 +105,14 @@ std_msgs::Header RunOutputs::header(const std::string& frame) const {
 
 template <typename Message>
 void RunOutputs::put(const std::string& topic, const Message& message) {
+  put_to(topic, message, [](const MessageSink*) { return true; });
+}
+
+template <typename Message, typename Meant>
+void RunOutputs::put_to(const std::string& topic, const Message& message, const Meant& meant) {
   try {
     for (MessageSink* sink : sinks_) {
-      if (sink->wants(topic)) sink->put(topic, stamp(), message);
+      if (sink->wants(topic) && meant(sink)) sink->put(topic, stamp(), message);
     }
   } catch (...) {
     if (simulation_.ranks() == nullptr) throw;
@@ -316,10 +321,19 @@ void RunOutputs::write_state(bool with_hash, double real_time_factor) {
 
 void RunOutputs::write_particles() {
   particles_at_ = simulation_.time();
-  if (!wanted_anywhere(topics::kParticles)) return;
-  cloud_.read(simulation_);
+  write_particles(false);
+  if (simulation_.ranks() != nullptr) write_particles(true);
+}
+
+void RunOutputs::write_particles(bool own) {
+  const auto meant = [own](const MessageSink* sink) { return sink->takes_own_particles() == own; };
+  const bool wanted_here = std::any_of(sinks_.begin(), sinks_.end(), [&](const MessageSink* sink) {
+    return meant(sink) && sink->wants(topics::kParticles);
+  });
+  if (!simulation_.on_any_rank(wanted_here)) return;
+  own ? cloud_.read_own(simulation_) : cloud_.read(simulation_);
   cloud_.message().header = header(options_.world_frame);
-  put(topics::kParticles, cloud_.message());
+  put_to(topics::kParticles, cloud_.message(), meant);
 }
 
 void RunOutputs::write_cracks() {

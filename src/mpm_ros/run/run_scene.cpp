@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "mpm/ranks/agree.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/command/command_log.hpp"
@@ -74,6 +75,7 @@ class OfflineRun {
       if (!options_.resume.empty()) check_not_there(options_);
       open_outputs();
     });
+    open_vtk();
     if (!options_.bag.empty()) run_options.bag = bag_path(options_.bag, scene_.definition.name, 1);
     if (!options_.end.empty()) run_options.parameters += fmt::format("end: {:.17g}\n", scene_.definition.time.end);
     if (!options_.resume.empty()) resume_from(options_.resume, run_options);
@@ -228,7 +230,14 @@ class OfflineRun {
     summary_ = open_summary(options_.summary);
     if (!options_.csv.empty())
       csv_ = std::make_unique<Leavable<CsvSink>>(options_.csv, stamps_, mpm::axisymmetric(scene_.definition.geometry));
-    if (!options_.vtk.empty()) vtk_ = std::make_unique<Leavable<VtkSink>>(options_.vtk, stamps_);
+  }
+
+  /// On all ranks, in the folder that the first one has.
+  void open_vtk() {
+    mpm::Communicator* ranks = options_.ranks.get();
+    if (ranks != nullptr) options_.vtk = mpm::first_text(*ranks, options_.vtk);
+    if (options_.vtk.empty()) return;
+    together<mpm::SceneError>(ranks, [&] { vtk_ = std::make_unique<Leavable<VtkSink>>(options_.vtk, stamps_, ranks); });
   }
 
   /// A folder of its own, and in it all that was not given a place.

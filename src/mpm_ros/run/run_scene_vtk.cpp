@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "mpm/math/output_file.hpp"
+#include "mpm/ranks/agree.hpp"
 #include "mpm_ros/csv/csv_writer.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/topics.hpp"
@@ -14,6 +15,7 @@
 namespace mpm_ros {
 namespace {
 
+constexpr const char* kParticleFiles = "particles";
 constexpr const char* kListEnd = "</Collection>\n</VTKFile>\n";
 
 template <typename Value>
@@ -26,47 +28,7 @@ std::vector<Value> column(const sensor_msgs::PointCloud2& cloud, const std::stri
   return values;
 }
 
-}  // namespace
-
-VtkSink::VtkSink(const std::string& folder, const Stamps& stamps) : folder_(folder), stamps_(stamps) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw VtkError(
-        fmt::format("{}: the folder for ParaView cannot be made: {}; choose another", folder, error.message()));
-  }
-  if (const std::string problem = mpm::open_output(list_, folder + "/run.pvd"); !problem.empty())
-    throw VtkError(fmt::format("{}/run.pvd: cannot be written: {}", folder, problem));
-  list_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n" << kListEnd;
-}
-
-void VtkSink::close() {
-  list_.close();
-  if (!list_) throw VtkError(folder_ + "/run.pvd: cannot be written; check the space on its disk");
-}
-
-bool VtkSink::wants(const std::string& topic) const {
-  return topic == topics::kParticles || topic == topics::kBodies || topic == topics::kMarkers ||
-         topic == topics::kCracks;
-}
-
-void VtkSink::put(const std::string&, const ros::Time&, const visualization_msgs::MarkerArray& message) {
-  shapes_ = message;
-}
-
-void VtkSink::put(const std::string&, const ros::Time&, const BodyStates& message) { bodies_ = message; }
-
-void VtkSink::put(const std::string&, const ros::Time&, const Cracks& message) { cracks_ = message; }
-
-void VtkSink::put(const std::string&, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) {
-  const double time = static_cast<double>(stamps_.time_of(stamp)) * 1e-9;
-  write_particles(time, message);
-  write_bodies(time);
-  write_cracks(time);
-  ++count_;
-}
-
-void VtkSink::write_particles(double time, const sensor_msgs::PointCloud2& cloud) {
+VtkFile particle_file(double time, const sensor_msgs::PointCloud2& cloud) {
   std::vector<float> points;
   points.reserve(3UL * cloud.width * cloud.height);
   sensor_msgs::PointCloud2ConstIterator<float> x(cloud, "x"), y(cloud, "y"), z(cloud, "z");
@@ -81,7 +43,69 @@ void VtkSink::write_particles(double time, const sensor_msgs::PointCloud2& cloud
       file.add(field.name, column<float>(cloud, field.name));
     }
   }
-  write(file, "particles", 0, time);
+  return file;
+}
+
+std::string piece_name(int count, int rank) { return fmt::format("{}_{:04}_{}.vtp", kParticleFiles, count, rank); }
+
+}  // namespace
+
+VtkSink::VtkSink(const std::string& folder, const Stamps& stamps, mpm::Communicator* ranks)
+    : folder_(folder), stamps_(stamps), ranks_(ranks) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw VtkError(
+        fmt::format("{}: the folder for ParaView cannot be made: {}; choose another", folder, error.message()));
+  }
+  if (!first()) return;
+  if (const std::string problem = mpm::open_output(list_, folder + "/run.pvd"); !problem.empty())
+    throw VtkError(fmt::format("{}/run.pvd: cannot be written: {}", folder, problem));
+  list_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n" << kListEnd;
+}
+
+void VtkSink::close() {
+  if (!first()) return;
+  list_.close();
+  if (!list_) throw VtkError(folder_ + "/run.pvd: cannot be written; check the space on its disk");
+}
+
+bool VtkSink::wants(const std::string& topic) const {
+  if (!first()) return topic == topics::kParticles;
+  return topic == topics::kParticles || topic == topics::kBodies || topic == topics::kMarkers ||
+         topic == topics::kCracks;
+}
+
+void VtkSink::put(const std::string&, const ros::Time&, const visualization_msgs::MarkerArray& message) {
+  shapes_ = message;
+}
+
+void VtkSink::put(const std::string&, const ros::Time&, const BodyStates& message) { bodies_ = message; }
+
+void VtkSink::put(const std::string&, const ros::Time&, const Cracks& message) { cracks_ = message; }
+
+void VtkSink::put(const std::string&, const ros::Time& stamp, const sensor_msgs::PointCloud2& message) {
+  const double time = static_cast<double>(stamps_.time_of(stamp)) * 1e-9;
+  const VtkFile file = particle_file(time, message);
+  if (ranks_ != nullptr) mpm::agree<VtkError>(ranks_, [&] { write_piece(file); });
+  mpm::agree<VtkError>(ranks_, [&] {
+    if (!first()) return;
+    write_whole(file, time);
+    write_bodies(time);
+    write_cracks(time);
+  });
+  ++count_;
+}
+
+void VtkSink::write_piece(const VtkFile& file) const { file.write(folder_ + "/" + piece_name(count_, ranks_->rank())); }
+
+void VtkSink::write_whole(const VtkFile& file, double time) {
+  if (ranks_ == nullptr) return write(file, kParticleFiles, 0, time);
+  std::vector<std::string> pieces;
+  for (int rank = 0; rank < ranks_->size(); ++rank) pieces.push_back(piece_name(count_, rank));
+  const std::string name = fmt::format("{}_{:04}.pvtp", kParticleFiles, count_);
+  file.write_whole(folder_ + "/" + name, pieces);
+  list(kParticleFiles, name, 0, time);
 }
 
 void VtkSink::write_bodies(double time) {
@@ -112,6 +136,10 @@ void VtkSink::write_cracks(double time) {
 void VtkSink::write(const VtkFile& file, const std::string& stem, int part, double time) {
   const std::string name = fmt::format("{}_{:04}.vtp", stem, count_);
   file.write(folder_ + "/" + name);
+  list(stem, name, part, time);
+}
+
+void VtkSink::list(const std::string& stem, const std::string& name, int part, double time) {
   list_.seekp(-static_cast<std::streamoff>(std::string(kListEnd).size()), std::ios::end);
   list_ << fmt::format("<DataSet timestep=\"{:.12g}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", time, part,
                        xml_text(stem), xml_text(name))

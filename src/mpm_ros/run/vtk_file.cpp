@@ -10,6 +10,11 @@
 #include "mpm/math/output_file.hpp"
 
 namespace mpm_ros {
+namespace {
+
+constexpr const char* kByteOrder = BOOST_ENDIAN_LITTLE_BYTE ? "LittleEndian" : "BigEndian";
+
+}  // namespace
 
 VtkFile::VtkFile(double time, const std::vector<float>& points) : time_(time), points_(points.size() / 3) {
   place_.push_back(array("Points", "Float32", 3, points));
@@ -73,8 +78,7 @@ void VtkFile::write(const std::string& path) const {
       "</DataArray></FieldData>\n"
       "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
       "NumberOfPolys=\"{}\">\n",
-      BOOST_ENDIAN_LITTLE_BYTE ? "LittleEndian" : "BigEndian", time_, points_, drawn("Verts"), drawn("Lines"),
-      drawn("Polys"));
+      kByteOrder, time_, points_, drawn("Verts"), drawn("Lines"), drawn("Polys"));
   text += "<Points>\n" + describe(place_) + "</Points>\n";
   if (!kind.empty()) text += fmt::format("<{0}>\n{1}</{0}>\n", kind, describe(cells));
   text +=
@@ -95,6 +99,31 @@ void VtkFile::write(const std::string& path) const {
   append(cells);
   append(values_);
   file << "\n</AppendedData>\n</VTKFile>\n";
+  file.close();
+  if (!file) throw VtkError(fmt::format("{}: cannot be written; check the space on its disk", path));
+}
+
+void VtkFile::write_whole(const std::string& path, const std::vector<std::string>& pieces) const {
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"1.0\" byte_order=\"{}\" "
+      "header_type=\"UInt64\">\n<PPolyData GhostLevel=\"0\">\n",
+      kByteOrder);
+  const auto describe = [&text](const char* what, const std::vector<Array>& arrays) {
+    text += fmt::format("<{}>\n", what);
+    for (const Array& entry : arrays) {
+      text += fmt::format("<PDataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"/>\n", entry.type,
+                          xml_text(entry.name), entry.components);
+    }
+    text += fmt::format("</{}>\n", what);
+  };
+  describe("PPoints", place_);
+  describe("PPointData", values_);
+  for (const std::string& piece : pieces) text += fmt::format("<Piece Source=\"{}\"/>\n", xml_text(piece));
+  text += "</PPolyData>\n</VTKFile>\n";
+  std::ofstream file;
+  if (const std::string problem = mpm::open_output(file, path); !problem.empty())
+    throw VtkError(fmt::format("{}: cannot be written: {}", path, problem));
+  file << text;
   file.close();
   if (!file) throw VtkError(fmt::format("{}: cannot be written; check the space on its disk", path));
 }

@@ -1,0 +1,35 @@
+// What is wrong on one rank alone, told on all: so that all end together, with one reason.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "mpm/ranks/lists.hpp"
+
+namespace mpm {
+
+/// What the lowest rank that says something says; empty if none does. Collective.
+inline std::string first_text(Communicator& ranks, const std::string& own) {
+  for (const Communicator::Bytes& bytes : ranks.gather(bytes_of(std::vector<char>(own.begin(), own.end())))) {
+    const std::vector<char> text = list_of<char>(bytes);
+    if (!text.empty()) return {text.begin(), text.end()};
+  }
+  return {};
+}
+
+/// Calls work(), in which ranks do not speak to each other. Where it throws a Failure on one rank it throws one on all,
+/// with the reason of the lowest that has one. `ranks`: null for a process that is alone. Collective.
+template <class Failure, class Work>
+void agree(Communicator* ranks, Work&& work) {
+  if (ranks == nullptr) return work();
+  std::string reason;
+  try {
+    work();
+  } catch (const Failure& failure) {
+    reason = failure.what();
+  }
+  reason = first_text(*ranks, reason);
+  if (!reason.empty()) throw Failure(reason);
+}
+
+}  // namespace mpm

@@ -1,0 +1,113 @@
+// The particles of a body, one after another: places of the grid's lattice in its region, moved by jitter, without
+// those that are cut out. A walk over them finds them anew, the same on each, so that nobody has to hold all of them.
+// Private to this folder.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "mpm/scene/scene.hpp"
+
+namespace mpm {
+
+/// Lattice positions along an axis whose centres can lie between two bounds: centre i is at origin + (i + 1/2) spacing.
+struct Lattice {
+  double origin;
+  double spacing;
+  std::int64_t first;
+  std::int64_t last;
+  double center(std::int64_t i) const { return origin + (static_cast<double>(i) + 0.5) * spacing; }
+  double count() const { return static_cast<double>(std::max<std::int64_t>(0, last - first + 1)); }
+};
+
+/// A rigid body as it stands at the start, asked about many places.
+class StandingTool {
+ public:
+  explicit StandingTool(const RigidBodyDefinition& rigid);
+  const std::string& name() const { return rigid_->name; }
+  /// Whether a place lies in it by more than `depth` [m], and how deep.
+  bool holds(const Vec3& place, double depth, double& deep) const;
+
+ private:
+  const RigidBodyDefinition* rigid_;
+  Box bounds_;
+};
+
+class Filling {
+ public:
+  /// Both outlive it. @throws SceneError for a body without a place, or one that something is cut out of that is not
+  /// there
+  Filling(const BodyDefinition& body, const Scene& scene);
+
+  double particle_volume() const { return volume_; }  ///< [m^3], as DeformableBody::particle_volume
+  std::size_t places() const { return places_; }      ///< before any is cut out
+  /// Refuses a body of which nothing is left. @throws SceneError
+  void check_left(std::uint64_t particles) const;
+  /// visit(place) for every particle, in the order of their numbers.
+  template <class Visit>
+  void each(Visit&& visit) const {
+    std::mt19937_64 random;
+    each_place([&](const Vec3& point) {
+      const Vec3 place = body_->jitter > 0.0 ? jittered(point, random) : point;
+      if (!is_cut_out(place)) visit(place);
+    });
+  }
+  /// Of a body without jitter: whether it has a particle beside that at `place` along an axis.
+  bool has_neighbour(const Vec3& place, int axis, bool above) const;
+
+ private:
+  // x runs fastest, as in the numbering of grid blocks.
+  template <class Visit>
+  void each_place(Visit&& visit) const {
+    const Lattice &x = lattices_[0], &y = lattices_[1], &z = lattices_[2];
+    for (std::int64_t k = z.first; k <= z.last; ++k) {
+      for (std::int64_t j = y.first; j <= y.last; ++j) {
+        for (std::int64_t i = x.first; i <= x.last; ++i) {
+          const Vec3 point(x.center(i), y.center(j), z.center(k));
+          if (body_->region.contains(point)) visit(point);
+        }
+      }
+    }
+  }
+  Vec3 jittered(const Vec3& point, std::mt19937_64& random) const;
+  bool is_cut_out(const Vec3& place) const;
+
+  const BodyDefinition* body_;
+  const Scene* scene_;
+  std::vector<int> axes_;
+  std::array<Lattice, 3> lattices_;
+  std::vector<StandingTool> cut_out_;
+  double volume_ = 1.0;
+  std::size_t places_ = 0;
+};
+
+/// Whether a body's particles lie in other bodies.
+class FillingChecks {
+ public:
+  /// `half_spacing` of particles [m]: so deep they may lie in rigid bodies.
+  FillingChecks(const BodyDefinition& body, const Scene& scene, double half_spacing);
+  /// For every particle.
+  void look(const Vec3& place);
+  /// @throws SceneError
+  void end() const;
+
+ private:
+  struct Overlap {
+    const BodyDefinition* other;
+    std::size_t count = 0;
+    Vec3 place = Vec3::Zero();  ///< the first
+  };
+  struct Inside {
+    StandingTool tool;
+    std::size_t count = 0;
+    double deepest = 0.0;
+  };
+  const BodyDefinition* body_;
+  double half_spacing_;
+  std::vector<Overlap> overlaps_;
+  std::vector<Inside> inside_;
+};
+
+}  // namespace mpm

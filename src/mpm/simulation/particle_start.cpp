@@ -1,0 +1,179 @@
+#include "particle_start.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "initial.hpp"
+#include "mpm/boundary/periodic.hpp"
+#include "mpm/math/dimension.hpp"
+#include "mpm/ranks/agree.hpp"
+#include "mpm/ranks/own_part.hpp"
+#include "mpm/shape/ring.hpp"
+#include "mpm/simulation/geometry_rules.hpp"
+#include "mpm/simulation/simulation.hpp"
+
+namespace mpm {
+namespace {
+
+std::uint32_t number_of(const DeformableBody& body, std::size_t p) {
+  return body.part ? body.part->numbers[p] : static_cast<std::uint32_t>(p);
+}
+
+std::vector<ParticleScalar> zeros(int components, Precision precision, std::size_t particles) {
+  std::vector<ParticleScalar> field;
+  field.reserve(components);
+  for (int c = 0; c < components; ++c) field.emplace_back(precision, particles);
+  return field;
+}
+
+/// How far a centre may be beyond a face [cells]. Pressed against a wall, a particle comes to rest only when its box
+/// (`half` of it) is half beyond it; an absorbing face gives way by as much.
+double beyond(WallKind kind, double half) {
+  if (kind == WallKind::periodic) return kPeriodicReach;
+  return kind == WallKind::none ? 0.0 : half;
+}
+
+/// Masses of rings, and where their functions end. `per_area`: density times the area of a section [kg/m].
+void make_rings(const SimulationDefinition& definition, double per_area, const GridLayout& layout, ParticleSet& set) {
+  constexpr double kOffAxis = 1e-6;  // of a cell; on the axis itself v_r / r is no number
+  const AxisRules& rules = definition.method.axis;
+  set.whole_domains = rules.domains == AxisDomains::whole;
+  set.planar_functions = rules.functions == AxisFunctions::planar;
+  if (definition.grid.min.x() == 0.0) set.lowest[0] = kOffAxis;
+  set.masses = zeros(1, set.precision, set.id.size());
+  const double half = set.half[0] * layout.cell(0);
+  for (int p = 0; p < set.size(); ++p) {
+    set.masses[0].set(p, per_area * ring_length(set.x[0][p], half, set.whole_domains));
+  }
+}
+
+ParticleSet place_particles(const SimulationDefinition& definition, const DeformableBody& body,
+                            const MaterialDefinition& material, const Law& law, const GridLayout& layout) {
+  const std::size_t n = body.positions.size();
+  const std::string start = fmt::format("body '{}': ", body.name);
+  if (whole_of(body) == 0) throw DefinitionError(start + "it has no particle");
+  if (const std::string reason = refused_material(definition.geometry, material); !reason.empty()) {
+    throw DefinitionError(start + reason);
+  }
+  if (!body.velocities.empty() && body.velocities.size() != n) {
+    throw DefinitionError(fmt::format("{}{} velocities for {} particles", start, body.velocities.size(), n));
+  }
+  if (!(body.particle_volume > 0.0) || !std::isfinite(body.particle_volume)) {
+    throw DefinitionError(fmt::format("{}particle volume {} must be positive", start, body.particle_volume));
+  }
+  ParticleSet set;
+  set.name = body.name;
+  const int dim = layout.dim();
+  for (int k = 0; k < dim; ++k) {
+    set.half[k] = 0.5 / definition.method.particles_per_direction;
+    const int face = 2 * layout.axis(k);
+    set.lowest[k] = -beyond(definition.walls[face].kind, set.half[k]);
+    set.highest[k] = layout.last_node(k) + beyond(definition.walls[face + 1].kind, set.half[k]);
+  }
+  set.id.resize(n);
+  set.precision = definition.method.precision;
+  set.x.resize(dim);
+  for (PaddedArray<double>& x : set.x) x.resize(n);
+  set.v = zeros(dim, set.precision, n);
+  for (std::size_t p = 0; p < n; ++p) {
+    for (int k = 0; k < dim; ++k) {
+      const int axis = layout.axis(k);
+      set.x[k][p] = body.positions[p][axis];
+      set.v[k].set(p, body.velocities.empty() ? 0.0 : body.velocities[p][axis]);
+      const double cells = layout.in_cells(k, set.x[k][p]);
+      if (!(cells >= 0.0 && cells <= layout.last_node(k)) || !std::isfinite(set.v[k][p])) {
+        throw DefinitionError(fmt::format("{}particle {} is outside the grid or not finite: {} = {} m, velocity {} m/s",
+                                          start, number_of(body, p), "xyz"[axis], set.x[k][p], set.v[k][p]));
+      }
+    }
+  }
+  with_geometry(definition.geometry, [&](auto geometry) {
+    set.f = zeros(geometry.kMatrix, set.precision, n);
+    set.tau = zeros(geometry.kSymmetric, set.precision, n);
+  });
+  set.history = zeros(history_size(law), set.precision, n);
+  if (axisymmetric(definition.geometry)) {
+    make_rings(definition, material.density * body.particle_volume, layout, set);
+  } else {
+    set.mass = material.density * body.particle_volume;
+  }
+  if (definition.method.update != UpdateScheme::usf) set.next_x = set.x;
+  return set;
+}
+
+/// Of a body whose particles are all here, those that this rank keeps.
+template <class T>
+void leave(std::vector<T>& values, const std::vector<std::uint32_t>& kept) {
+  if (values.empty()) return;
+  std::vector<T> own;
+  own.reserve(kept.size());
+  for (const std::uint32_t p : kept) own.push_back(values.at(p));
+  values = std::move(own);
+}
+
+}  // namespace
+
+std::uint64_t whole_of(const DeformableBody& body) { return body.part ? body.part->whole : body.positions.size(); }
+
+void leave_own(SimulationDefinition& definition, const Communicator& ranks, const GridLayout& layout) {
+  OwnPart part(ranks, layout);
+  for (const DeformableBody& body : definition.bodies) {
+    if (body.part) return;  // built for ranks
+    part.begin_body();
+    for (const Vec3& place : body.positions) part.count(place);
+  }
+  part.divide();
+  for (DeformableBody& body : definition.bodies) {
+    BodyPart own;
+    own.whole = body.positions.size();
+    for (std::uint32_t p = 0; p < own.whole; ++p) {
+      if (part.keeps(body.positions[p])) own.numbers.push_back(p);
+    }
+    leave(body.positions, own.numbers);
+    leave(body.velocities, own.numbers);
+    leave(body.stresses, own.numbers);
+    leave(body.temperatures, own.numbers);
+    body.part = std::move(own);
+  }
+}
+
+ParticleSet make_set(const SimulationDefinition& definition, const DeformableBody& body,
+                     const MaterialDefinition& material, const Law& law, const GridLayout& layout, std::uint32_t first,
+                     Communicator* ranks, std::vector<std::string>& warnings) {
+  ParticleSet set;
+  agree<DefinitionError>(ranks, [&] { set = place_particles(definition, body, material, law, layout); });
+  start_particles(set, body, material, definition.geometry, ranks, warnings);
+  set.first_id = first;
+  for (std::size_t p = 0; p < set.id.size(); ++p) set.id[p] = first + number_of(body, p);
+  return set;
+}
+
+double total_mass(const ParticleSet& set, const DeformableBody& body, Communicator* ranks) {
+  if (ranks == nullptr) return set.total_mass();
+  return set.masses.empty() ? set.mass * static_cast<double>(whole_of(body)) : ranks->sum(set.total_mass());
+}
+
+double least_mass(const std::vector<ParticleSet>& sets, Communicator* ranks) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ParticleSet& set : sets) {
+    if (set.size() > 0) least = std::min(least, set.least_mass());
+  }
+  if (ranks == nullptr) return least;
+  least = -least;
+  ranks->largest(&least, 1);
+  return -least;
+}
+
+// Not "= {}", which would keep the memory.
+void forget_particles(DeformableBody& body) {
+  body.positions = std::vector<Vec3>();
+  body.velocities = std::vector<Vec3>();
+  body.stresses = std::vector<Symmetric3<double>>();
+  body.temperatures = std::vector<double>();
+  if (body.part) body.part->numbers = std::vector<std::uint32_t>();
+}
+
+}  // namespace mpm

@@ -1,15 +1,23 @@
 // Particles go to the rank whose block they have come to, with all that they carry: before every sort, since between
 // sorts they are within reach of the block that they were sorted into. Where ranks have come to have unequal numbers of
 // particles the grid is divided anew first.
+//
+// Particles keep the order that they have in one process, which is that of the blocks they were sorted into last, and
+// of the sorts before inside a block: so particles are computed in the same groups, and sorted again when one process
+// would (step/mechanics.hpp, Mixed).
 #pragma once
 
 #include <vector>
 
+#include "mpm/grid/fields.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/ranks/communicator.hpp"
 #include "mpm/ranks/territory.hpp"
 
 namespace mpm {
+
+/// Keys of the blocks that ParticleSet::begin is of, with the velocity field counted in.
+std::vector<std::uint64_t> owner_keys(const Fields& fields);
 
 class HandOver {
  public:
@@ -20,8 +28,9 @@ class HandOver {
   /// At the start, when every rank has all particles: divides the grid, and leaves each rank its own.
   void keep_own(std::vector<ParticleSet>& sets);
   /// Hands over what has come to others, and takes what has come here. A particle outside its set's bounds stays, for
-  /// the sort to find. The order of particles changes.
-  void hand_over(std::vector<ParticleSet>& sets);
+  /// the sort to find. `owners`: owner_keys(), or empty before the first sort. Where particles come or go,
+  /// ParticleSet::begin is no more.
+  void hand_over(std::vector<ParticleSet>& sets, const std::vector<std::uint64_t>& owners = {});
 
   /// Particles of the fullest rank over the mean of all, at the last call of hand_over().
   double imbalance() const { return imbalance_; }
@@ -34,14 +43,27 @@ class HandOver {
   }
 
  private:
+  /// Particles of a set that were sorted into one block, one after another.
+  struct Run {
+    std::uint64_t key, count;
+  };
+  /// Particles in the order that they have.
+  struct Part {
+    std::vector<int> particles;
+    std::vector<Run> runs;
+  };
   /// Particles of a set by where they go.
   struct Leaving {
-    std::vector<int> staying;
-    std::vector<std::vector<int>> to;  ///< [rank]
+    Part staying;
+    std::vector<Part> to;  ///< [rank]
   };
+  struct Unpacking;
+  static void pack(ParticleSet& set, const Part& leaving, Communicator::Bytes& bytes);
+  /// Leaves those that stay, and puts those that come between them, by the blocks that they were sorted into.
+  static void replace(ParticleSet& set, const Part& staying, std::vector<Unpacking>& coming);
   /// Of each block of this rank, the number of its particles.
   Territory::Load load(const std::vector<ParticleSet>& sets) const;
-  void find_leaving(const ParticleSet& set, Leaving& leaving) const;
+  void find_leaving(const ParticleSet& set, const std::vector<std::uint64_t>& owners, Leaving& leaving) const;
   void divide_anew_if_due(const std::vector<ParticleSet>& sets);
 
   Communicator& ranks_;

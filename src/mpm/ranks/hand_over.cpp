@@ -37,16 +37,10 @@ void put(Communicator::Bytes& bytes, const T* values, std::size_t count) {
   bytes.insert(bytes.end(), from, from + count * sizeof(T));
 }
 
-void pack(ParticleSet& set, const std::vector<int>& leaving, Communicator::Bytes& bytes) {
-  const std::uint64_t count = leaving.size();
-  put(bytes, &count, 1);
-  each_column(set, [&](auto& values) {
-    for (const int p : leaving) put(bytes, values.data() + p, 1);
-  });
-}
+}  // namespace
 
 /// A parcel that is read from its beginning to its end.
-struct Unpacking {
+struct HandOver::Unpacking {
   const Communicator::Bytes& bytes;
   std::size_t at = 0;
 
@@ -58,28 +52,63 @@ struct Unpacking {
   }
 };
 
-/// Leaves those that stay, in their order, and adds those that come, parcel by parcel.
-void replace(ParticleSet& set, const std::vector<int>& staying, std::vector<Unpacking>& coming) {
-  std::vector<std::uint64_t> counts(coming.size());
-  std::size_t size = staying.size();
+void HandOver::pack(ParticleSet& set, const Part& leaving, Communicator::Bytes& bytes) {
+  const std::uint64_t runs = leaving.runs.size();
+  put(bytes, &runs, 1);
+  put(bytes, leaving.runs.data(), leaving.runs.size());
+  each_column(set, [&](auto& values) {
+    for (const int p : leaving.particles) put(bytes, values.data() + p, 1);
+  });
+}
+
+void HandOver::replace(ParticleSet& set, const Part& staying, std::vector<Unpacking>& coming) {
+  constexpr std::size_t kHere = 0;  // others by the number of the parcel, and one
+  struct Piece {
+    std::uint64_t key;
+    std::size_t from, count;
+  };
+  std::vector<Piece> pieces;
+  std::size_t size = staying.particles.size();
+  for (const Run& run : staying.runs) pieces.push_back({run.key, kHere, run.count});
   for (std::size_t i = 0; i < coming.size(); ++i) {
-    coming[i].take(&counts[i], 1);
-    size += counts[i];
+    std::uint64_t count = 0;
+    coming[i].take(&count, 1);
+    std::vector<Run> runs(count);
+    coming[i].take(runs.data(), runs.size());
+    for (const Run& run : runs) {
+      pieces.push_back({run.key, i + 1, run.count});
+      size += run.count;
+    }
   }
+  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.key < b.key; });
   each_column(set, [&](auto& values) {
     std::decay_t<decltype(values)> kept(size);
     auto* to = kept.data();
-    for (const int p : staying) *to++ = values[p];
-    for (std::size_t i = 0; i < coming.size(); ++i) {
-      coming[i].take(to, counts[i]);
-      to += counts[i];
+    auto next = staying.particles.begin();
+    for (const Piece& piece : pieces) {
+      if (piece.from != kHere) {
+        coming[piece.from - 1].take(to, piece.count);
+        to += piece.count;
+        continue;
+      }
+      for (const auto end = next + static_cast<std::ptrdiff_t>(piece.count); next != end; ++next) *to++ = values[*next];
     }
     values.swap(kept);
   });
+  set.begin.clear();
   set.fit_scratch();
 }
 
-}  // namespace
+std::vector<std::uint64_t> owner_keys(const Fields& fields) {
+  std::vector<std::uint64_t> keys;
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    const BlockTable& blocks = fields[f]->blocks;
+    for (int owner = 0; owner < blocks.owners(); ++owner) {
+      keys.push_back(f * blocks.layout().keys() + blocks.key(blocks.owner_block(owner)));
+    }
+  }
+  return keys;
+}
 
 Territory::Load HandOver::load(const std::vector<ParticleSet>& sets) const {
   std::unordered_map<std::uint64_t, std::uint64_t> particles;
@@ -93,18 +122,25 @@ Territory::Load HandOver::load(const std::vector<ParticleSet>& sets) const {
   return list;
 }
 
-void HandOver::find_leaving(const ParticleSet& set, Leaving& leaving) const {
-  leaving.staying.clear();
+void HandOver::find_leaving(const ParticleSet& set, const std::vector<std::uint64_t>& owners, Leaving& leaving) const {
+  leaving.staying = {};
   leaving.to.assign(ranks_.size(), {});
   std::uint64_t last = ~std::uint64_t{0};
   int owner = ranks_.rank();  // of the last one; neighbours are in the same block mostly
+  std::size_t sorted = 0;     // into which block, by its number
+  const std::size_t blocks = set.begin.empty() ? 0 : std::min(owners.size(), set.begin.size() - 1);
   for (int p = 0; p < set.size(); ++p) {
+    while (sorted < blocks && static_cast<std::uint32_t>(p) >= set.begin[sorted + 1]) ++sorted;
     const auto key = block_of(set, layout_, p);
     if (key && *key != last) {
       last = *key;
       owner = territory_.owner(*key);
     }
-    (!key || owner == ranks_.rank() ? leaving.staying : leaving.to[owner]).push_back(p);
+    Part& part = !key || owner == ranks_.rank() ? leaving.staying : leaving.to[owner];
+    const std::uint64_t was = sorted < blocks ? owners[sorted] : ~std::uint64_t{0};
+    part.particles.push_back(p);
+    if (part.runs.empty() || part.runs.back().key != was) part.runs.push_back({was, 0});
+    ++part.runs.back().count;
   }
 }
 
@@ -114,7 +150,7 @@ void HandOver::keep_own(std::vector<ParticleSet>& sets) {
   std::vector<Unpacking> nothing;
   Leaving leaving;
   for (ParticleSet& set : sets) {
-    find_leaving(set, leaving);
+    find_leaving(set, {}, leaving);
     replace(set, leaving.staying, nothing);
   }
 }
@@ -134,14 +170,14 @@ void HandOver::divide_anew_if_due(const std::vector<ParticleSet>& sets) {
   just_divided_ = true;
 }
 
-void HandOver::hand_over(std::vector<ParticleSet>& sets) {
+void HandOver::hand_over(std::vector<ParticleSet>& sets, const std::vector<std::uint64_t>& owners) {
   divide_anew_if_due(sets);
   std::vector<Leaving> leaving(sets.size());
-  for (std::size_t s = 0; s < sets.size(); ++s) find_leaving(sets[s], leaving[s]);
+  for (std::size_t s = 0; s < sets.size(); ++s) find_leaving(sets[s], owners, leaving[s]);
   std::vector<Communicator::Parcel> parcels;
   for (int rank = 0; rank < ranks_.size(); ++rank) {
     std::size_t count = 0;
-    for (const Leaving& one : leaving) count += one.to[rank].size();
+    for (const Leaving& one : leaving) count += one.to[rank].particles.size();
     if (count == 0) continue;
     parcels.push_back({rank, {}});
     for (std::size_t s = 0; s < sets.size(); ++s) pack(sets[s], leaving[s].to[rank], parcels.back().bytes);

@@ -262,7 +262,9 @@ void Simulation::State::settle() {
       if (at_rest) stop(r.sets);
       before = at_rest ? 0.0 : now;
       if (settling) settling({count + 1, residual.mean, wanted});
-      if (asked_to_stop && asked_to_stop()) {
+      const bool stops = asked_to_stop && asked_to_stop();
+      // Each rank settles all by itself, to the same bits, but one alone may be asked.
+      if (ranks ? ranks->any(stops) : stops) {
         throw StoppedError(fmt::format("stopped while {} settled, after {} steps", names, count + 1));
       }
     }

@@ -1,5 +1,7 @@
 #include "over_ranks.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -48,6 +50,10 @@ Halo::Everywhere OverRanks::near_tool() const {
   };
 }
 
+void OverRanks::hand_over(std::vector<ParticleSet>& sets, const Fields& fields) {
+  hand_over_.hand_over(sets, owner_keys(fields));
+}
+
 void OverRanks::meet(Fields& fields) {
   met_at_.clear();
   for (const RigidBody& body : bodies_) met_at_.push_back(body.pose());
@@ -65,11 +71,24 @@ bool OverRanks::tools_have_moved() const {
   return false;
 }
 
-void OverRanks::share_flags(bool& failed, bool& sorts) {
-  double flags[] = {failed ? 1.0 : 0.0, sorts || tools_have_moved() ? 1.0 : 0.0};
-  ranks_.largest(flags, 2);
-  failed = flags[0] > 0.0;
-  sorts = flags[1] > 0.0;
+StepFlags OverRanks::shared(const StepFlags& own, const Mechanics& mechanics) {
+  const bool sorts = own.sorts || mechanics.must_sort() || tools_have_moved();
+  Mechanics::Mixed mixed = mechanics.mixed();
+  // In one exchange: counts of ranks on which it is so, and the sums.
+  double sums[] = {own.failed ? 1.0 : 0.0, sorts ? 1.0 : 0.0, own.stops ? 1.0 : 0.0, mixed.groups, mixed.parts};
+  ranks_.sum(sums, 5);
+  mixed = {sums[3], sums[4]};
+  return {sums[0] > 0.0, sums[1] > 0.0 || mixed.too_much(), sums[2] > 0.0};
+}
+
+void OverRanks::warn_of_idle(const std::vector<ParticleSet>& sets, std::vector<std::string>& warnings) {
+  const bool idle = std::all_of(sets.begin(), sets.end(), [](const ParticleSet& set) { return set.size() == 0; });
+  const double count = ranks_.sum(idle ? 1.0 : 0.0);
+  if (!(count > 0.0)) return;
+  warnings.push_back(fmt::format(
+      "{:.0f} of {} ranks have no particle: particles are shared out by blocks of {} cells along each axis, "
+      "of which this scene has too few; start fewer ranks",
+      count, ranks_.size(), kBlockEdge));
 }
 
 std::string OverRanks::first_reason(const std::string& own) {

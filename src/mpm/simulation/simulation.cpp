@@ -75,7 +75,7 @@ void Simulation::State::fail(const std::string& what, ParticleRef particle, doub
 }
 
 std::optional<ParticleRef> Simulation::State::sort_particles() {
-  if (over) over->hand_over(sets);
+  if (over) over->hand_over(sets, fields);
   return sorter->sort(sets, fields);
 }
 

@@ -48,12 +48,13 @@ const Case kCases[] = {
     {"compressed_block", {}, 100, true},                                               // tools and damping
     {"speed_block_3d", {"grid.cell=0.04", "time.sync=0.005"}},                         // free flight
     {"wheel_in_sand", {"method.precision=double"}, 100, true},                         // a free body in the plane
-    {"ranks_free", {}, 100, true},   // a free body in space, heat between it and the material
-    {"ranks_pair", {}},              // bodies that meet, loads on particles
-    {"ranks_chute", {}},             // a periodic axis
-    {"swelling_strip", {}},          // a solvent that flows in, velocity conditions
-    {"consolidating_cylinder", {}},  // water in pores
-    {"terzaghi_column", {}},         // the same on a line, which has fewer blocks than ranks
+    {"ranks_free", {}, 100, true},                    // a free body in space, heat between it and the material
+    {"ranks_plough", {"contact.method=nodes"}, 300},  // a tool in soil, met at nodes
+    {"ranks_pair", {}},                               // bodies that meet, loads on particles
+    {"ranks_chute", {}},                              // a periodic axis
+    {"swelling_strip", {}},                           // a solvent that flows in, velocity conditions
+    {"consolidating_cylinder", {}},                   // water in pores
+    {"terzaghi_column", {}},                          // the same on a line, which has fewer blocks than ranks
     {"plate_in_sleeping_sand",
      {"grid.max=[1.6, 0.5]", "bodies.bed.shape.box.max=[1.6, 0.2]", "rigid_bodies.plate.pose.position=[0.3, 0.2502]",
       "rigid_bodies.plate.motion={velocity: [0, -0.3]}"},

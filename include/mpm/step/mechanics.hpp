@@ -58,6 +58,8 @@ class Mechanics : public Module {
   virtual Mixed mixed() const = 0;
   /// Particles have left the reach of their block.
   virtual bool must_sort() const = 0;
+  /// After the blocks have been made anew while particles lie as they have been sorted before.
+  virtual void blocks_renewed() = 0;
   /// Over several ranks it is said by sums over all: what depends on when particles are sorted
   /// (mechanics/stress_average.hpp) does not depend on the number of ranks.
   bool needs_sort() const final { return must_sort() || mixed().too_much(); }

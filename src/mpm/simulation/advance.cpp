@@ -67,7 +67,7 @@ bool Simulation::State::step(double start, double dt) {
   const auto asks = [](const Module* module) { return module->needs_sort(); };
   const std::vector<Module*>& list = modules.list();
   StepFlags now{mechanics->failed().has_value(), std::any_of(list.begin(), list.end(), asks),
-                asked_to_stop && asked_to_stop()};
+                asked_to_stop && asked_to_stop(), false};
   if (over) {
     now = over->shared(now, *mechanics);
   } else {
@@ -81,7 +81,11 @@ bool Simulation::State::step(double start, double dt) {
            "lower time.cfl, use a finer grid.cell or slower tools, or stiffen what is crushed");
     });
   }
-  if (now.sorts) sort(start + dt);
+  if (now.sorts) {
+    sort(start + dt);
+  } else if (now.meets) {
+    meet_again();
+  }
   return now.stops;
 }
 

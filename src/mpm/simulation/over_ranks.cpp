@@ -72,13 +72,15 @@ bool OverRanks::tools_have_moved() const {
 }
 
 StepFlags OverRanks::shared(const StepFlags& own, const Mechanics& mechanics) {
-  const bool sorts = own.sorts || mechanics.must_sort() || tools_have_moved();
-  Mechanics::Mixed mixed = mechanics.mixed();
-  // In one exchange: counts of ranks on which it is so, and the sums.
-  double sums[] = {own.failed ? 1.0 : 0.0, sorts ? 1.0 : 0.0, own.stops ? 1.0 : 0.0, mixed.groups, mixed.parts};
-  ranks_.sum(sums, 5);
-  mixed = {sums[3], sums[4]};
-  return {sums[0] > 0.0, sums[1] > 0.0 || mixed.too_much(), sums[2] > 0.0};
+  const Mechanics::Mixed mixed = mechanics.mixed();
+  const auto flag = [](bool is_so) { return is_so ? 1.0 : 0.0; };
+  // In one exchange: on how many ranks it is so, and the sums.
+  double sums[] = {flag(own.failed), flag(own.sorts || mechanics.must_sort()),
+                   flag(own.stops),  flag(tools_have_moved()),
+                   mixed.groups,     mixed.parts};
+  ranks_.sum(sums, 6);
+  const Mechanics::Mixed of_all{sums[4], sums[5]};
+  return {sums[0] > 0.0, sums[1] > 0.0 || of_all.too_much(), sums[2] > 0.0, sums[3] > 0.0};
 }
 
 void OverRanks::warn_of_idle(const std::vector<ParticleSet>& sets, std::vector<std::string>& warnings) {

@@ -30,6 +30,7 @@ struct StepFlags {
   bool failed;  ///< a particle has
   bool sorts;   ///< particles have to be sorted
   bool stops;   ///< the run is asked to stop
+  bool meets;   ///< ranks have to meet, since a tool has come near to blocks that not all of them have
 };
 
 class OverRanks {
@@ -48,7 +49,7 @@ class OverRanks {
   /// After particles have been sorted.
   void meet(Fields& fields);
   /// After a step: what is true on any rank. Particles are sorted, too, where the mechanics of all ranks together say
-  /// so, and because a tool has come near to blocks that not all ranks have.
+  /// so. Not because of tools, for which one process does not sort.
   StepFlags shared(const StepFlags& own, const Mechanics& mechanics);
   /// Says how many ranks have nothing to do, if any; after particles have been sorted.
   void warn_of_idle(const std::vector<ParticleSet>& sets, std::vector<std::string>& warnings);

@@ -129,6 +129,8 @@ struct Simulation::State {
   bool step(double start, double dt);
   /// @throws PhysicsError for a particle that is not where it may be
   void sort(double now);
+  /// Lets ranks meet where tools have come to, with particles as they lie.
+  void meet_again();
   /// The same as the sorter: after particles have gone to their ranks, and before these meet.
   std::optional<ParticleRef> sort_particles();
   /// Ends the run on all ranks if check() throws on one of them, with its reason. @throws PhysicsError

@@ -21,6 +21,16 @@ struct Traffic {
   std::uint64_t shared = 0;       ///< bytes that this rank gave to those
 };
 
+/// How ranks of a test end, which are no processes.
+class RanksEnded : public RanksError {
+ public:
+  RanksEnded(const std::string& reason, int code) : RanksError(reason), code_(code) {}
+  int code() const { return code_; }
+
+ private:
+  int code_;
+};
+
 /// To be called once. Null when the process was started alone: by no launcher of MPI, or as the only rank.
 /// @throws RanksError in a build without MPI that a launcher started as one of several ranks; or when MPI does not know
 /// of as many ranks as the launcher does
@@ -35,7 +45,7 @@ void refuse_ranks(const std::string& what);
 /// For a rank that cannot go on, while others may wait for it. `reason`: a line for stderr. Where all ranks come here
 /// within a second, as they do when what they were given is at fault, the first one tells it and all return `code`;
 /// else this one tells it, and the processes of all ranks end with `code`.
-/// @throws RanksError with the reason, if the ranks are not those of make_ranks() but a test's
+/// @throws RanksEnded if the ranks are not those of make_ranks() but a test's
 int end_all(const Communicator& ranks, const std::string& reason, int code);
 
 /// How many threads a rank may take so that those of the same machine do not stand in each other's way.

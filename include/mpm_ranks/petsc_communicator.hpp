@@ -32,8 +32,8 @@ class PetscCommunicator final : public Communicator {
   const Traffic& sent() const;
   /// Whether all ranks call this within so long [s]; whatever else they do in the meantime.
   bool all_come(double seconds) const;
-  /// How many ranks there are on this machine, this one with them.
-  int on_this_machine() const;
+  /// How many threads it may take beside the ranks on the same machine.
+  int threads() const;
 
  private:
   struct State;

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -28,7 +26,7 @@ std::shared_ptr<Communicator> make_ranks() {
 
 int end_all(const Communicator& ranks, const std::string& reason, int code) {
   const auto* petsc = dynamic_cast<const PetscCommunicator*>(&ranks);
-  if (petsc == nullptr) throw RanksError(reason);
+  if (petsc == nullptr) throw RanksEnded(reason, code);
   constexpr double kGrace = 1.0;  ///< [s] in which ranks that fail alike come together
   const bool all = petsc->all_come(kGrace);
   if (!all || ranks.first()) std::fprintf(stderr, "%s\n", reason.c_str());
@@ -40,10 +38,7 @@ int end_all(const Communicator& ranks, const std::string& reason, int code) {
 
 int threads_of_rank(const Communicator& ranks) {
   const auto* petsc = dynamic_cast<const PetscCommunicator*>(&ranks);
-  // Those that a launcher has bound to processors of their own may take all of these.
-  const int machine = machine_threads();
-  const auto processors = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
-  return petsc == nullptr ? machine : std::max(1, std::min(machine, processors / petsc->on_this_machine()));
+  return petsc == nullptr ? machine_threads() : petsc->threads();
 }
 
 Traffic sent(const Communicator& ranks) {

@@ -17,7 +17,7 @@ std::shared_ptr<Communicator> make_ranks() {
   return nullptr;
 }
 
-int end_all(const Communicator&, const std::string& reason, int) { throw RanksError(reason); }
+int end_all(const Communicator&, const std::string& reason, int code) { throw RanksEnded(reason, code); }
 
 int threads_of_rank(const Communicator&) { return machine_threads(); }
 

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "full_disk.hpp"
+#include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/run/run_scene.hpp"
 #include "test_files.hpp"
 #include "thread_communicator.hpp"
@@ -60,11 +61,12 @@ class RunSceneOverRanks : public ::testing::Test {
     });
     return said;
   }
-  /// What ends all ranks.
-  std::string reason(int count) const {
+  /// What ends all ranks. `code`: with which exit code.
+  std::string reason(int count, int* code = nullptr) const {
     try {
       run(count);
-    } catch (const mpm::RanksError& error) {
+    } catch (const mpm::RanksEnded& error) {
+      if (code != nullptr) *code = error.code();
       return error.what();
     }
     return "nothing";
@@ -193,6 +195,87 @@ TEST_F(RunSceneOverRanks, EndsAllWithTheReasonOfOne) {
   options_.bag.clear();
   options_.set = {"rigid_bodies.plate.motion={velocity: [0, -0.5]}", "materials.foam.young=1e99"};
   EXPECT_NE(reason(3).find("run_scene: "), std::string::npos) << reason(3);
+}
+
+// A particle leaves the grid on one rank; all know, and the checkpoint from before it can be gone on with.
+TEST_F(RunSceneOverRanks, FailsOnAllWithTheParticleOfOneAndLeavesACheckpoint) {
+  options_.scene = source_file("test/data/leaves_domain.yaml");
+  options_.set = {"time.sync=1 ms"};
+  options_.end = "200 ms";
+  options_.checkpoint = file("run.h5");
+  options_.checkpoint_every = "40 ms";
+  options_.csv = file("csv");
+  const std::vector<Said> said = run(3);
+  for (const Said& told : said) EXPECT_EQ(told.result, RunSceneResult::physics_failed);
+  EXPECT_NE(said[0].err.find("outside the domain"), std::string::npos) << said[0].err;
+  EXPECT_NE(said[0].err.find("particle "), std::string::npos) << said[0].err;
+  EXPECT_EQ(said[1].err + said[2].err, "");
+  ASSERT_TRUE(fs::exists(options_.checkpoint));
+  options_.resume = options_.checkpoint;
+  options_.scene.clear();
+  options_.set.clear();
+  options_.checkpoint.clear();
+  options_.checkpoint_every.clear();
+  options_.csv.clear();
+  options_.summary = file("summary.json");
+  options_.end = "42 ms";
+  for (const Said& told : run(2)) EXPECT_EQ(told.result, RunSceneResult::done) << told.err;
+  EXPECT_LT(summary()["momentum_error"], 1e-10);
+  options_.end = "200 ms";
+  for (const Said& told : run(2)) EXPECT_EQ(told.result, RunSceneResult::physics_failed);
+}
+
+// What is not a number in the middle of a step is found on one rank, while others wait: the physics failed all the
+// same.
+TEST_F(RunSceneOverRanks, EndsAllWhereTheStepOfOneFails) {
+  options_.set = {"loads=[{body_force: {acceleration: [\"x > 0.12 && t > 0.01 ? log(0 - 1) : 0\", 0]}}]"};
+  int code = 0;
+  EXPECT_NE(reason(3, &code).find("body force on 'strip'"), std::string::npos) << reason(3);
+  EXPECT_EQ(code, static_cast<int>(RunSceneResult::physics_failed));
+}
+
+TEST_F(RunSceneOverRanks, LetsRanksWithoutParticlesBe) {
+  options_.summary = file("summary.json");
+  run(1);
+  const double impulse = summary()["contact_impulse"]["plate"][2];
+  const std::vector<Said> said = run(24);
+  for (const Said& told : said) EXPECT_EQ(told.result, RunSceneResult::done) << told.err;
+  EXPECT_NE(said[0].err.find("of 24 ranks have no particle"), std::string::npos) << said[0].err;
+  EXPECT_NEAR(summary()["contact_impulse"]["plate"][2], impulse, 1e-10 * impulse);
+  EXPECT_EQ(run(2)[0].err.find("no particle"), std::string::npos);
+}
+
+TEST_F(RunSceneOverRanks, RefusesTheCheckpointOfAnotherScene) {
+  options_.checkpoint = file("press.h5");
+  options_.end = "5 ms";
+  run(2);
+  options_.resume = options_.checkpoint;
+  options_.checkpoint.clear();
+  options_.scene = source_file("test/data/leaves_domain.yaml");
+  options_.set.clear();
+  int code = 0;
+  const std::string told = reason(3, &code);
+  EXPECT_NE(told.find("press.h5"), std::string::npos) << told;
+  EXPECT_EQ(told.find('\n'), std::string::npos) << told;
+  EXPECT_EQ(code, static_cast<int>(RunSceneResult::bad_input));
+}
+
+TEST_F(RunSceneOverRanks, RefusesBadInputWithOneSentence) {
+  const auto refused = [&] {
+    int code = 0;
+    const std::string told = reason(3, &code);
+    EXPECT_EQ(told.find('\n'), std::string::npos) << told;
+    EXPECT_EQ(code, static_cast<int>(RunSceneResult::bad_input)) << told;
+    return told;
+  };
+  options_.set = {"grid.cell=-1"};
+  EXPECT_NE(refused().find("grid.cell"), std::string::npos);
+  options_.set.clear();
+  options_.scene = file("none.yaml");
+  EXPECT_NE(refused().find("no such scene file"), std::string::npos);
+  options_.scene.clear();
+  options_.resume = file("none.h5");
+  EXPECT_NE(refused().find("none.h5"), std::string::npos);
 }
 
 TEST_F(RunSceneOverRanks, RefusesRanksThatReadDifferentScenes) {

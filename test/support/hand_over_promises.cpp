@@ -9,6 +9,7 @@
 
 #include "mpm/ranks/hand_over.hpp"
 #include "mpm/ranks/lists.hpp"
+#include "mpm/step/sorter.hpp"
 #include "ranks_promises.hpp"
 
 namespace mpm {
@@ -248,12 +249,68 @@ void particles_go_to_the_rank_of_their_block(Communicator& ranks) {
   }
 }
 
+void put_in_order_of_ids(ParticleSet& set) {
+  std::vector<int> order(set.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return set.id[a] < set.id[b]; });
+  const auto permute = [&](auto& values) {
+    const auto before = values;
+    for (std::size_t p = 0; p < order.size(); ++p) values[p] = before[order[p]];
+  };
+  set.each_scalar(permute);
+  if (!set.side.empty()) permute(set.side);
+  permute(set.id);
+}
+
+/// Ids of the particles of each set's blocks, in their order.
+using Order = std::map<std::pair<std::size_t, std::uint64_t>, std::vector<std::uint32_t>>;
+Order order_of(const std::vector<ParticleSet>& sets, const Fields& fields) {
+  const std::vector<std::uint64_t> keys = owner_keys(fields);
+  Order order;
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    for (std::size_t owner = 0; owner < keys.size(); ++owner) {
+      const auto first = sets[s].id.begin();
+      if (sets[s].begin[owner] == sets[s].begin[owner + 1]) continue;
+      order[{s, keys[owner]}].assign(first + sets[s].begin[owner], first + sets[s].begin[owner + 1]);
+    }
+  }
+  return order;
+}
+
+// So that they are computed in the same groups, whatever the number of ranks.
+void particles_keep_the_order_of_one_process(Communicator& ranks) {
+  const GridLayout layout = layout_of(2);
+  Territory territory(layout, ranks.size());
+  HandOver hand_over(ranks, territory, layout);
+  std::vector<ParticleSet> all = whole(layout), own = dealt(ranks, layout);
+  Fields of_all = make_fields(layout, 2), of_own = make_fields(layout, 2);
+  Sorter sorter_of_all(1), sorter_of_own(1);
+  hand_over.divide(own);
+  for (ParticleSet& set : own) put_in_order_of_ids(set);  // as a run begins
+  std::uint64_t blocks = 0;
+  for (int round = 0; round < kRounds - 1; ++round) {  // in the last one a particle leaves
+    for (auto* sets : {&all, &own}) {
+      for (ParticleSet& set : *sets) put_in_place(set, round);
+    }
+    EXPECT_FALSE(sorter_of_all.sort(all, of_all));
+    hand_over.hand_over(own, round == 0 ? std::vector<std::uint64_t>() : owner_keys(of_own));
+    EXPECT_FALSE(sorter_of_own.sort(own, of_own));
+    Order expected = order_of(all, of_all);
+    for (const auto& [block, ids] : order_of(own, of_own)) {
+      EXPECT_EQ(ids, expected[block]) << "round " << round;
+      ++blocks;
+    }
+  }
+  EXPECT_GT(blocks, 0U);
+}
+
 }  // namespace
 
 std::vector<RanksPromise> hand_over_promises() {
   return {{"SharesAreWithinABlockOfEven", shares_are_within_a_block_of_even},
           {"FewerBlocksThanRanksHaveAnOwnerEach", fewer_blocks_than_ranks_have_an_owner_each},
-          {"ParticlesGoToTheRankOfTheirBlock", particles_go_to_the_rank_of_their_block}};
+          {"ParticlesGoToTheRankOfTheirBlock", particles_go_to_the_rank_of_their_block},
+          {"ParticlesKeepTheOrderOfOneProcess", particles_keep_the_order_of_one_process}};
 }
 
 }  // namespace mpm

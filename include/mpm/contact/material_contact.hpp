@@ -93,8 +93,10 @@ class MaterialContact final : public Stage, public ContactReporter {
     double time = 0.0;  ///< of its last call [s]
     std::vector<Sums> seen;
   };
-  /// What has been added to sums since `seen`, with area, interface energy and nodes of the last step; over all ranks.
+  /// What has been added to sums since `seen`, with area, interface energy and nodes of the last step.
   Sums since(const Sums& seen, std::size_t pair) const;
+  /// Replaces each by its sum over all ranks.
+  void add_up(std::vector<Sums>& sums) const;
   static void serialise_sums(StateArchive& archive, std::vector<Sums>& sums);
 
   /// The pair whose law holds between two fields (-1: none), and whether the first field belongs to its second body.

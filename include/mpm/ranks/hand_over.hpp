@@ -1,15 +1,24 @@
 // Particles go to the rank whose block they have come to, with all that they carry: before every sort, since between
 // sorts they are within reach of the block that they were sorted into. Where ranks have come to have unequal numbers of
 // particles the grid is divided anew first.
+//
+// Particles keep the order that they have in one process, which is that of the blocks they were sorted into last, and
+// of the sorts before inside a block: so particles are computed in the same groups, and sorted again when one process
+// would (step/mechanics.hpp, Mixed).
 #pragma once
 
+#include <tuple>
 #include <vector>
 
+#include "mpm/grid/fields.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/ranks/communicator.hpp"
 #include "mpm/ranks/territory.hpp"
 
 namespace mpm {
+
+/// Keys of the blocks that ParticleSet::begin is of, with the velocity field counted in.
+std::vector<std::uint64_t> owner_keys(const Fields& fields);
 
 class HandOver {
  public:
@@ -20,8 +29,9 @@ class HandOver {
   /// At the start, wherever particles are: divides the grid, and hands over.
   void divide(std::vector<ParticleSet>& sets);
   /// Hands over what has come to others, and takes what has come here. A particle outside its set's bounds stays, for
-  /// the sort to find. The order of particles changes.
-  void hand_over(std::vector<ParticleSet>& sets);
+  /// the sort to find. `owners`: owner_keys(), or empty before the first sort. Where particles come or go,
+  /// ParticleSet::begin is no more.
+  void hand_over(std::vector<ParticleSet>& sets, const std::vector<std::uint64_t>& owners = {});
 
   /// Particles of the fullest rank over the mean of all, at the last call of hand_over().
   double imbalance() const { return imbalance_; }
@@ -34,21 +44,36 @@ class HandOver {
   }
 
  private:
-  /// Particles of a set that go, ascending.
-  struct Leaving {
-    std::vector<int> all;
-    std::vector<std::vector<int>> to;  ///< [rank]
+  /// Particles of a set that were sorted into one block, one after another.
+  struct Run {
+    std::uint64_t key, count;
   };
+  /// Particles in the order that they have.
+  struct Part {
+    std::vector<int> particles;
+    std::vector<Run> runs;
+  };
+  /// Particles of a set by where they go.
+  struct Leaving {
+    Part staying;
+    std::vector<Part> to;  ///< [rank]
+  };
+  struct Unpacking;
+  static void pack(ParticleSet& set, const Part& leaving, Communicator::Bytes& bytes);
+  /// Leaves those that stay, and puts those that come between them, by the blocks that they were sorted into.
+  void replace(ParticleSet& set, const Part& staying, std::vector<Unpacking>& coming);
   /// Of each block of this rank, the number of its particles.
   Territory::Load load(const std::vector<ParticleSet>& sets) const;
-  void find_leaving(const ParticleSet& set, Leaving& leaving) const;
+  void find_leaving(const ParticleSet& set, const std::vector<std::uint64_t>& owners, Leaving& leaving) const;
   void cut(const std::vector<ParticleSet>& sets);
   void divide_anew_if_due(const std::vector<ParticleSet>& sets);
-  void send(std::vector<ParticleSet>& sets);
+  void send(std::vector<ParticleSet>& sets, const std::vector<std::uint64_t>& owners);
 
   Communicator& ranks_;
   Territory& territory_;
   const GridLayout& layout_;
+  /// Arrays that particles are put in order in; each then becomes one of theirs.
+  std::tuple<PaddedArray<double>, PaddedArray<float>, PaddedArray<std::uint32_t>, PaddedArray<std::uint8_t>> spare_;
   double imbalance_ = 1.0;
   double after_cut_ = 1.0;     ///< what the last division left, as the call after it finds it
   bool just_divided_ = false;  ///< whether that is to be found

@@ -1,7 +1,9 @@
 // How many threads a run takes when it is not told. The result does not depend on them.
 #pragma once
 
+#include <bitset>
 #include <cstdint>
+#include <vector>
 
 namespace mpm {
 
@@ -11,5 +13,13 @@ int machine_threads();
 /// The most that are of use for so many particles: at least 4,000 each, for fewer do not pay for the waiting at the end
 /// of every pass.
 int useful_threads(std::uint64_t particles);
+
+/// Processors of a machine, by number.
+using ProcessorSet = std::bitset<1024>;
+/// Those that this process may run on.
+ProcessorSet own_processors();
+/// Threads for one of several processes of a machine: all processors that it alone may use, a share of those that
+/// others may use, too, and of the time that their control group is given. `all`: processors of each process.
+int threads_beside(const std::vector<ProcessorSet>& all, std::size_t own);
 
 }  // namespace mpm

@@ -48,8 +48,21 @@ class Mechanics : public Module {
   virtual std::optional<ParticleRef> failed() const = 0;
   /// The fastest particle of a set in its present state; of equal rates the first one. `cell`: the smallest edge [m].
   virtual FastestParticle fastest(int set, double cell) const = 0;
-  /// True also when so many particles have left their groups that a sort pays.
-  bool needs_sort() const override = 0;
+  /// Groups of particles, and parts that are gathered one by one, more than after the last sort.
+  struct Mixed {
+    double groups = 0.0, parts = 0.0;
+    /// So many particles have left their groups that a sort pays.
+    bool too_much() const { return parts > kMixed * groups; }
+    static constexpr double kMixed = 0.2;  ///< part of the groups that may be gathered twice before
+  };
+  virtual Mixed mixed() const = 0;
+  /// Particles have left the reach of their block.
+  virtual bool must_sort() const = 0;
+  /// After the blocks have been made anew while particles lie as they have been sorted before.
+  virtual void blocks_renewed() = 0;
+  /// Over several ranks it is said by sums over all: what depends on when particles are sorted
+  /// (mechanics/stress_average.hpp) does not depend on the number of ranks.
+  bool needs_sort() const final { return must_sort() || mixed().too_much(); }
 };
 
 }  // namespace mpm

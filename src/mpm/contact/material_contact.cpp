@@ -141,14 +141,31 @@ MaterialContact::Sums MaterialContact::since(const Sums& seen, std::size_t pair)
   sums.area = last_[pair].area;
   sums.interface_energy = last_[pair].interface_energy;
   sums.nodes = last_[pair].nodes;
-  if (settings_.ranks == nullptr) return sums;
-  double nodes = sums.nodes;
-  for (Vec3* vector : {&sums.impulse, &sums.friction, &sums.moment}) settings_.ranks->sum(vector->data(), 3);
-  for (double* number : {&sums.pressed, &sums.area, &sums.friction_energy, &sums.interface_energy, &nodes}) {
-    settings_.ranks->sum(number, 1);
-  }
-  sums.nodes = static_cast<int>(nodes);
   return sums;
+}
+
+void MaterialContact::add_up(std::vector<Sums>& sums) const {
+  if (settings_.ranks == nullptr) return;
+  std::vector<double> numbers;
+  for (const Sums& one : sums) {
+    for (const Vec3& vector : {one.impulse, one.friction, one.moment}) {
+      numbers.insert(numbers.end(), vector.data(), vector.data() + 3);
+    }
+    for (const double number : {one.pressed, one.area, one.friction_energy, one.interface_energy}) {
+      numbers.push_back(number);
+    }
+    numbers.push_back(one.nodes);
+  }
+  settings_.ranks->sum(numbers.data(), static_cast<int>(numbers.size()));
+  const double* next = numbers.data();
+  for (Sums& one : sums) {
+    for (Vec3* vector : {&one.impulse, &one.friction, &one.moment}) {
+      *vector = {next[0], next[1], next[2]};
+      next += 3;
+    }
+    for (double* number : {&one.pressed, &one.area, &one.friction_energy, &one.interface_energy}) *number = *next++;
+    one.nodes = static_cast<int>(*next++);
+  }
 }
 
 void MaterialContact::read_pairs(double now, std::vector<PairReport>& reports, int reader) {
@@ -156,8 +173,14 @@ void MaterialContact::read_pairs(double now, std::vector<PairReport>& reports, i
   const auto whole = [about_axis](const Vec3& sum) { return about_axis ? Vec3(0.0, 0.0, sum.z()) : sum; };
   Reader& own = readers_[reader];
   const double interval = now - own.time;
+  std::vector<Sums> sums;
   for (std::size_t i = 0; i < settings_.pairs.size(); ++i) {
-    const Sums since_seen = since(own.seen[i], i), all = since({}, i);
+    sums.push_back(since(own.seen[i], i));
+    sums.push_back(since({}, i));
+  }
+  add_up(sums);
+  for (std::size_t i = 0; i < settings_.pairs.size(); ++i) {
+    const Sums &since_seen = sums[2 * i], &all = sums[2 * i + 1];
     PairReport report;
     report.name = settings_.pairs[i].name;
     report.interval = interval;

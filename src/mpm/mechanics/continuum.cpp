@@ -163,7 +163,9 @@ class Continuum final : public Mechanics {
                        sets_[limit.part].name, limit.speed, limit.foreseen ? ", and growing" : "", limit.place.x(),
                        limit.place.y(), limit.place.z());
   }
-  bool needs_sort() const override { return needs_sort_; }
+  Mixed mixed() const override { return mixed_; }
+  bool must_sort() const override { return must_sort_; }
+  void blocks_renewed() override { generation_ = fields_.front().grid.blocks.generation(); }
   void energies(EnergyReport& report) const override {
     if (motion_ != mpm_kernel::kIncrement) report.leave_open();  // what XPIC, FMPM and APIC take is not counted
     if (motion_ == mpm_kernel::kIncrement && (settings_.transfer.flip != 1.0 || settings_.damping != nullptr)) {
@@ -238,7 +240,8 @@ class Continuum final : public Mechanics {
       generation_ = generation;
       parts_when_sorted_ = parts;
     }
-    needs_sort_ = gone || parts - parts_when_sorted_ > kMixed * groups;
+    must_sort_ = gone;
+    mixed_ = {static_cast<double>(groups), static_cast<double>(parts - parts_when_sorted_)};
     if (counts) book_taken();
     if (settings.damped) close_damping(context);
   }
@@ -314,14 +317,15 @@ class Continuum final : public Mechanics {
   // Domains have grown, and particles with them moved: will the next step's tiles hold them?
   void end_step() {
     for (Field& field : passes_.fields()) field.grid.loose.swap(field.loose);  // of patches all are
-    if (kernels_.outgrown == nullptr || needs_sort_) return;
+    const bool sorts = must_sort_ || (mixed_.too_much() && settings_.halo == nullptr);
+    if (kernels_.outgrown == nullptr || sorts) return;
     std::atomic<bool> outgrown{false};
     passes_.each_field([&](Field& field) { look_at(field); });
     passes_.each_block([&](Field& field, const Block& block) {
       const bool one = kernels_.outgrown(field.view, block, field.sets(), field.count());
       if (one) outgrown.store(true, std::memory_order_relaxed);
     });
-    needs_sort_ = outgrown;
+    must_sort_ = outgrown;
   }
 
   void note_failure(ParticleRef particle) {
@@ -332,8 +336,6 @@ class Continuum final : public Mechanics {
     }
   }
 
-  /// Part of the groups that may be gathered twice before it pays to sort.
-  static constexpr double kMixed = 0.2;
   static constexpr int kSurveyed = 4096;  ///< particles that a thread surveys in one go
 
   Kernels kernels_;
@@ -344,7 +346,8 @@ class Continuum final : public Mechanics {
   mpm_kernel::Motion motion_;
   FieldPasses<T> passes_;
   std::optional<ParticleRef> failed_;
-  bool needs_sort_ = false;
+  bool must_sort_ = false;
+  Mixed mixed_;
   double slip_energy_ = 0.0, drag_energy_ = 0.0;  ///< taken by PIC and by damping of the particles [J]
   std::uint64_t generation_ = 0;                  ///< of the blocks that parts_when_sorted_ was counted with
   int parts_when_sorted_ = 0;

@@ -37,19 +37,12 @@ void put(Communicator::Bytes& bytes, const T* values, std::size_t count) {
   bytes.insert(bytes.end(), from, from + count * sizeof(T));
 }
 
-void pack(ParticleSet& set, const std::vector<int>& leaving, Communicator::Bytes& bytes) {
-  const std::uint64_t count = leaving.size();
-  put(bytes, &count, 1);
-  each_column(set, [&](auto& values) {
-    for (const int p : leaving) put(bytes, values.data() + p, 1);
-  });
-}
+}  // namespace
 
 /// A parcel that is read from its beginning to its end.
-struct Unpacking {
+struct HandOver::Unpacking {
   const Communicator::Bytes& bytes;
   std::size_t at = 0;
-  std::uint64_t count = 0;  ///< of the particles of the set at hand
 
   template <class T>
   void take(T* values, std::size_t count) {
@@ -59,36 +52,69 @@ struct Unpacking {
   }
 };
 
-/// Those that come, parcel by parcel, take the places of those that leave; others at the end move into what is left of
-/// these, or are followed by what has no place yet. So what stays is not moved, where nearly all stay. `places`: of
-/// those that leave, ascending.
-void replace(ParticleSet& set, const std::vector<int>& places, std::vector<Unpacking>& coming) {
-  std::size_t arriving = 0;
-  for (Unpacking& parcel : coming) {
-    parcel.take(&parcel.count, 1);
-    arriving += parcel.count;
-  }
-  const std::size_t before = set.id.size(), leaving = places.size(), size = before - leaving + arriving;
-  std::vector<std::size_t> moved;  // what stays, from beyond the end that will be
-  for (std::size_t p = size; p < before; ++p) {
-    if (!std::binary_search(places.begin(), places.end(), static_cast<int>(p))) moved.push_back(p);
-  }
+void HandOver::pack(ParticleSet& set, const Part& leaving, Communicator::Bytes& bytes) {
+  const std::uint64_t runs = leaving.runs.size();
+  put(bytes, &runs, 1);
+  put(bytes, leaving.runs.data(), leaving.runs.size());
   each_column(set, [&](auto& values) {
-    values.extend(std::max(size, before));
-    auto place = places.begin();
-    std::size_t end = before;
-    for (Unpacking& parcel : coming) {
-      for (std::uint64_t i = 0; i < parcel.count; ++i) {
-        parcel.take(values.data() + (place != places.end() ? static_cast<std::size_t>(*place++) : end++), 1);
-      }
-    }
-    for (const std::size_t p : moved) values[static_cast<std::size_t>(*place++)] = values[p];
-    values.extend(size);
+    for (const int p : leaving.particles) put(bytes, values.data() + p, 1);
   });
+}
+
+void HandOver::replace(ParticleSet& set, const Part& staying, std::vector<Unpacking>& coming) {
+  constexpr std::size_t kHere = 0;  // others by the number of the parcel, and one
+  struct Piece {
+    std::uint64_t key;
+    std::size_t from, count;
+  };
+  std::vector<Piece> pieces;
+  std::size_t size = staying.particles.size();
+  for (const Run& run : staying.runs) pieces.push_back({run.key, kHere, run.count});
+  for (std::size_t i = 0; i < coming.size(); ++i) {
+    std::uint64_t count = 0;
+    coming[i].take(&count, 1);
+    std::vector<Run> runs(count);
+    coming[i].take(runs.data(), runs.size());
+    for (const Run& run : runs) {
+      pieces.push_back({run.key, i + 1, run.count});
+      size += run.count;
+    }
+  }
+  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.key < b.key; });
+  each_column(set, [&](auto& values) {
+    auto& merged = std::get<std::decay_t<decltype(values)>>(spare_);
+    merged.fit(size);
+    auto* to = merged.data();
+    auto next = staying.particles.begin();
+    for (const Piece& piece : pieces) {
+      if (piece.from != kHere) {
+        coming[piece.from - 1].take(to, piece.count);
+        to += piece.count;
+        continue;
+      }
+      const auto end = next + static_cast<std::ptrdiff_t>(piece.count);
+      if (static_cast<std::uint64_t>(end[-1] - *next) + 1 == piece.count) {  // none of them has left
+        to = std::copy_n(values.data() + *next, piece.count, to);
+        next = end;
+      }
+      while (next != end) *to++ = values[*next++];
+    }
+    values.swap(merged);
+  });
+  set.begin.clear();
   set.fit_scratch();
 }
 
-}  // namespace
+std::vector<std::uint64_t> owner_keys(const Fields& fields) {
+  std::vector<std::uint64_t> keys;
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    const BlockTable& blocks = fields[f]->blocks;
+    for (int owner = 0; owner < blocks.owners(); ++owner) {
+      keys.push_back(f * blocks.layout().keys() + blocks.key(blocks.owner_block(owner)));
+    }
+  }
+  return keys;
+}
 
 Territory::Load HandOver::load(const std::vector<ParticleSet>& sets) const {
   std::unordered_map<std::uint64_t, std::uint64_t> particles;
@@ -102,21 +128,25 @@ Territory::Load HandOver::load(const std::vector<ParticleSet>& sets) const {
   return list;
 }
 
-void HandOver::find_leaving(const ParticleSet& set, Leaving& leaving) const {
-  leaving.all.clear();
+void HandOver::find_leaving(const ParticleSet& set, const std::vector<std::uint64_t>& owners, Leaving& leaving) const {
+  leaving.staying = {};
   leaving.to.assign(ranks_.size(), {});
   std::uint64_t last = ~std::uint64_t{0};
   int owner = ranks_.rank();  // of the last one; neighbours are in the same block mostly
+  std::size_t sorted = 0;     // into which block, by its number
+  const std::size_t blocks = set.begin.empty() ? 0 : std::min(owners.size(), set.begin.size() - 1);
   for (int p = 0; p < set.size(); ++p) {
+    while (sorted < blocks && static_cast<std::uint32_t>(p) >= set.begin[sorted + 1]) ++sorted;
     const auto key = block_of(set, layout_, p);
-    if (!key) continue;
-    if (*key != last) {
+    if (key && *key != last) {
       last = *key;
       owner = territory_.owner(*key);
     }
-    if (owner == ranks_.rank()) continue;
-    leaving.all.push_back(p);
-    leaving.to[owner].push_back(p);
+    Part& part = !key || owner == ranks_.rank() ? leaving.staying : leaving.to[owner];
+    const std::uint64_t was = sorted < blocks ? owners[sorted] : ~std::uint64_t{0};
+    part.particles.push_back(p);
+    if (part.runs.empty() || part.runs.back().key != was) part.runs.push_back({was, 0});
+    ++part.runs.back().count;
   }
 }
 
@@ -127,7 +157,7 @@ void HandOver::cut(const std::vector<ParticleSet>& sets) {
 
 void HandOver::divide(std::vector<ParticleSet>& sets) {
   cut(sets);
-  send(sets);
+  send(sets, {});
 }
 
 void HandOver::divide_anew_if_due(const std::vector<ParticleSet>& sets) {
@@ -144,18 +174,18 @@ void HandOver::divide_anew_if_due(const std::vector<ParticleSet>& sets) {
   just_divided_ = true;
 }
 
-void HandOver::hand_over(std::vector<ParticleSet>& sets) {
+void HandOver::hand_over(std::vector<ParticleSet>& sets, const std::vector<std::uint64_t>& owners) {
   divide_anew_if_due(sets);
-  send(sets);
+  send(sets, owners);
 }
 
-void HandOver::send(std::vector<ParticleSet>& sets) {
+void HandOver::send(std::vector<ParticleSet>& sets, const std::vector<std::uint64_t>& owners) {
   std::vector<Leaving> leaving(sets.size());
-  for (std::size_t s = 0; s < sets.size(); ++s) find_leaving(sets[s], leaving[s]);
+  for (std::size_t s = 0; s < sets.size(); ++s) find_leaving(sets[s], owners, leaving[s]);
   std::vector<Communicator::Parcel> parcels;
   for (int rank = 0; rank < ranks_.size(); ++rank) {
     std::size_t count = 0;
-    for (const Leaving& one : leaving) count += one.to[rank].size();
+    for (const Leaving& one : leaving) count += one.to[rank].particles.size();
     if (count == 0) continue;
     parcels.push_back({rank, {}});
     for (std::size_t s = 0; s < sets.size(); ++s) pack(sets[s], leaving[s].to[rank], parcels.back().bytes);

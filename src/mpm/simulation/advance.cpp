@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "mpm/simulation/rank_failure.hpp"
 #include "state.hpp"
 
 namespace mpm {
@@ -52,7 +53,7 @@ void Simulation::State::see_courant(double dt, const StepLimit& found) {
   steps.courant = std::max(steps.courant, dt * definition.time.cfl / found.dt);
 }
 
-void Simulation::State::step(double start, double dt) {
+bool Simulation::State::step(double start, double dt) {
   for (RigidBody& body : bodies) body.begin_step(start, dt);
   StepContext context{fields, dt, start};
   constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg};  // in the order of UpdateScheme
@@ -65,10 +66,14 @@ void Simulation::State::step(double start, double dt) {
   steps.dt_max = std::max(steps.dt_max, dt);
   const auto asks = [](const Module* module) { return module->needs_sort(); };
   const std::vector<Module*>& list = modules.list();
-  bool failed_now = mechanics->failed().has_value();
-  bool sorts = mechanics->needs_sort() || std::any_of(list.begin(), list.end(), asks);
-  if (over) over->share_flags(failed_now, sorts);
-  if (failed_now) {
+  StepFlags now{mechanics->failed().has_value(), std::any_of(list.begin(), list.end(), asks),
+                asked_to_stop && asked_to_stop(), false};
+  if (over) {
+    now = over->shared(now, *mechanics);
+  } else {
+    now.sorts = now.sorts || mechanics->needs_sort();
+  }
+  if (now.failed) {
     check_together([&] {
       const auto particle = mechanics->failed();
       if (!particle) return;
@@ -76,7 +81,12 @@ void Simulation::State::step(double start, double dt) {
            "lower time.cfl, use a finer grid.cell or slower tools, or stiffen what is crushed");
     });
   }
-  if (sorts) sort(start + dt);
+  if (now.sorts) {
+    sort(start + dt);
+  } else if (now.meets) {
+    meet_again();
+  }
+  return now.stops;
 }
 
 void Simulation::State::run_period() {
@@ -91,9 +101,9 @@ void Simulation::State::run_period() {
   double part_begin = begin;  // of those steps
   bool divided = false;
   for (int k = 0; k < steps_ahead.number; ++k) {
-    step(part_begin + k * steps_ahead.dt, steps_ahead.dt);
+    const bool stops = step(part_begin + k * steps_ahead.dt, steps_ahead.dt);
     if (k + 1 == steps_ahead.number) break;
-    if (asked_to_stop && (over ? over->ranks().any(asked_to_stop()) : asked_to_stop())) {
+    if (stops) {
       throw StoppedError(fmt::format("stopped within a sync period, {} of {} steps after t = {:.6g} s", k + 1,
                                      steps_ahead.number, part_begin));
     }
@@ -128,7 +138,7 @@ void Simulation::State::run_period() {
 // What is wrong with the particles or nodes of one rank the others do not know of: it ends them, and nothing is
 // written.
 void Simulation::State::end_run(const std::string& reason) const {
-  if (over) throw RanksError(reason);
+  if (over) throw RankFailure(reason);
   throw PhysicsError(reason);
 }
 

@@ -290,6 +290,7 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
   s.gravity.name = "gravity";
   if (s.over) s.over->divide(s.sets);
   s.sort(0.0);
+  if (s.over) s.over->warn_of_idle(s.sets, s.warnings);
   StepContext start{s.fields, 0.0};
   s.modules.act(Hook::run_begun, start);
   s.material_limit = s.previous_limit = s.survey_material();

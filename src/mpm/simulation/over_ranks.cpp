@@ -1,5 +1,7 @@
 #include "over_ranks.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -48,6 +50,10 @@ Halo::Everywhere OverRanks::near_tool() const {
   };
 }
 
+void OverRanks::hand_over(std::vector<ParticleSet>& sets, const Fields& fields) {
+  hand_over_.hand_over(sets, owner_keys(fields));
+}
+
 void OverRanks::meet(Fields& fields) {
   met_at_.clear();
   for (const RigidBody& body : bodies_) met_at_.push_back(body.pose());
@@ -65,11 +71,26 @@ bool OverRanks::tools_have_moved() const {
   return false;
 }
 
-void OverRanks::share_flags(bool& failed, bool& sorts) {
-  double flags[] = {failed ? 1.0 : 0.0, sorts || tools_have_moved() ? 1.0 : 0.0};
-  ranks_.largest(flags, 2);
-  failed = flags[0] > 0.0;
-  sorts = flags[1] > 0.0;
+StepFlags OverRanks::shared(const StepFlags& own, const Mechanics& mechanics) {
+  const Mechanics::Mixed mixed = mechanics.mixed();
+  const auto flag = [](bool is_so) { return is_so ? 1.0 : 0.0; };
+  // In one exchange: on how many ranks it is so, and the sums.
+  double sums[] = {flag(own.failed), flag(own.sorts || mechanics.must_sort()),
+                   flag(own.stops),  flag(tools_have_moved()),
+                   mixed.groups,     mixed.parts};
+  ranks_.sum(sums, 6);
+  const Mechanics::Mixed of_all{sums[4], sums[5]};
+  return {sums[0] > 0.0, sums[1] > 0.0 || of_all.too_much(), sums[2] > 0.0, sums[3] > 0.0};
+}
+
+void OverRanks::warn_of_idle(const std::vector<ParticleSet>& sets, std::vector<std::string>& warnings) {
+  const bool idle = std::all_of(sets.begin(), sets.end(), [](const ParticleSet& set) { return set.size() == 0; });
+  const double count = ranks_.sum(idle ? 1.0 : 0.0);
+  if (!(count > 0.0)) return;
+  warnings.push_back(fmt::format(
+      "{:.0f} of {} ranks have no particle: particles are shared out by blocks of {} cells along each axis, "
+      "of which this scene has too few; start fewer ranks",
+      count, ranks_.size(), kBlockEdge));
 }
 
 void OverRanks::share(StepLimit& limit, const Modules& modules, const Module* mechanics) {

@@ -14,6 +14,7 @@
 #include "mpm/ranks/hand_over.hpp"
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/step/energy.hpp"
+#include "mpm/step/mechanics.hpp"
 #include "mpm/step/modules.hpp"
 #include "mpm/step/step_limit.hpp"
 
@@ -23,6 +24,14 @@ struct SimulationDefinition;
 
 /// Why a definition cannot run on several ranks, with what to do; empty if it can.
 std::string ranks_fault(const SimulationDefinition& definition);
+
+/// What comes after a step.
+struct StepFlags {
+  bool failed;  ///< a particle has
+  bool sorts;   ///< particles have to be sorted
+  bool stops;   ///< the run is asked to stop
+  bool meets;   ///< ranks have to meet, since a tool has come near to blocks that not all of them have
+};
 
 class OverRanks {
  public:
@@ -35,12 +44,15 @@ class OverRanks {
   const HandOver& hand_over() const { return hand_over_; }
 
   void divide(std::vector<ParticleSet>& sets) { hand_over_.divide(sets); }
-  void hand_over(std::vector<ParticleSet>& sets) { hand_over_.hand_over(sets); }
+  /// `fields`: as particles have been sorted into them last.
+  void hand_over(std::vector<ParticleSet>& sets, const Fields& fields);
   /// After particles have been sorted.
   void meet(Fields& fields);
-  /// After a step: whether it failed on any rank, and whether particles have to be sorted on all of them; also because
-  /// a tool has come near to blocks that not all ranks have.
-  void share_flags(bool& failed, bool& sorts);
+  /// After a step: what is true on any rank. Particles are sorted, too, where the mechanics of all ranks together say
+  /// so. Not because of tools, for which one process does not sort.
+  StepFlags shared(const StepFlags& own, const Mechanics& mechanics);
+  /// Says how many ranks have nothing to do, if any; after particles have been sorted.
+  void warn_of_idle(const std::vector<ParticleSet>& sets, std::vector<std::string>& warnings);
 
   /// The smallest of all ranks' limits, of the first rank that has it. `modules` number the module that sets it.
   void share(StepLimit& limit, const Modules& modules, const Module* mechanics);

@@ -76,7 +76,7 @@ void Simulation::State::fail(const std::string& what, ParticleRef particle, doub
 }
 
 std::optional<ParticleRef> Simulation::State::sort_particles() {
-  if (over) over->hand_over(sets);
+  if (over) over->hand_over(sets, fields);
   return sorter->sort(sets, fields);
 }
 
@@ -105,6 +105,27 @@ void Simulation::State::sort(double now) {
   if (!over) return;
   over->meet(fields);
   for (Module* module : list) module->share_memory(*ranks);
+}
+
+void Simulation::State::meet_again() {
+  for (auto& grid : fields) {
+    std::vector<std::uint64_t> owners;
+    std::vector<std::uint32_t> particles;
+    for (int owner = 0; owner < grid->blocks.owners(); ++owner) {
+      owners.push_back(grid->blocks.key(grid->blocks.owner_block(owner)));
+      particles.push_back(0);
+      for (const ParticleSet& set : sets) {
+        const auto begin = set.begin.begin() + grid->first_owner + owner;
+        particles.back() += begin[1] - begin[0];
+      }
+    }
+    const std::vector<std::uint8_t> loose = std::move(grid->loose);
+    grid->rebuild(owners, threads, particles);  // without the blocks that others gave to
+    grid->loose = loose;
+  }
+  mechanics->blocks_renewed();
+  over->meet(fields);
+  for (Module* module : modules.list()) module->share_memory(*ranks);
 }
 
 int Simulation::find_body(const std::string& name) const {

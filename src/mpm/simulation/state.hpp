@@ -126,10 +126,13 @@ struct Simulation::State {
   const RunTotals& find_totals();
   /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError, StoppedError
   void run_period();
-  /// One step of the schedule, with the checks after it; it begins at `start` [s].
-  void step(double start, double dt);
+  /// One step of the schedule, with the checks after it; it begins at `start` [s]. Returns whether the run, on any
+  /// rank, is asked to stop.
+  bool step(double start, double dt);
   /// @throws PhysicsError for a particle that is not where it may be
   void sort(double now);
+  /// Lets ranks meet where tools have come to, with particles as they lie.
+  void meet_again();
   /// The same as the sorter: after particles have gone to their ranks, and before these meet.
   std::optional<ParticleRef> sort_particles();
   /// Ends the run on all ranks if check() throws on one of them, with its reason. @throws PhysicsError
@@ -142,7 +145,7 @@ struct Simulation::State {
   /// Lets the bodies that start geostatic, already under their weight's stress, come to rest. Before anything is
   /// sorted. @throws PhysicsError, StoppedError
   void settle();
-  /// @throws PhysicsError; over several ranks RanksError, which ends those that know of nothing
+  /// @throws PhysicsError; over several ranks RankFailure, which ends those that know of nothing
   [[noreturn]] void end_run(const std::string& reason) const;
   [[noreturn]] void fail(const std::string& what, ParticleRef particle, double now, const std::string& remedy) const;
 };

@@ -1,6 +1,7 @@
 #include "mpm/simulation/threads.hpp"
 
 #include <omp.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,30 @@ int machine_threads() {
 int useful_threads(std::uint64_t particles) {
   return static_cast<int>(
       std::clamp<std::uint64_t>(particles / kParticlesPerThread, 1, static_cast<std::uint64_t>(machine_threads())));
+}
+
+ProcessorSet own_processors() {
+  ProcessorSet set;
+  cpu_set_t allowed;
+  static_assert(CPU_SETSIZE == 1024);
+  if (sched_getaffinity(0, sizeof(allowed), &allowed) == 0) {
+    for (int i = 0; i < CPU_SETSIZE; ++i) set[i] = CPU_ISSET(i, &allowed) != 0;
+  } else {  // the machine has more than a set can name
+    set.set();
+  }
+  return set;
+}
+
+int threads_beside(const std::vector<ProcessorSet>& all, std::size_t own) {
+  constexpr double kRoundOff = 1e-9;
+  double share = 0.0;
+  for (std::size_t i = 0; i < all[own].size(); ++i) {
+    if (!all[own][i]) continue;
+    const auto users = std::count_if(all.begin(), all.end(), [i](const ProcessorSet& set) { return set[i]; });
+    share += 1.0 / static_cast<double>(users);
+  }
+  share = std::min(share, granted_processors() / static_cast<double>(all.size()));
+  return static_cast<int>(std::clamp(std::floor(share + kRoundOff), 1.0, static_cast<double>(omp_get_max_threads())));
 }
 
 }  // namespace mpm

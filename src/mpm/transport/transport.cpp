@@ -111,14 +111,13 @@ void Transport::energies(EnergyReport& report) const {
 }
 
 double Transport::budget_error(const TransportedField& field) const {
-  double gained = field.gained(), given = 0.0, exchanged = 0.0;
+  double sums[] = {field.gained(), 0.0, 0.0};
+  auto& [gained, given, exchanged] = sums;
   for (const ContentAccount& account : field.accounts()) {
     given += account.given;
     exchanged += account.exchanged;
   }
-  if (parts_.ranks != nullptr) {
-    for (double* sum : {&gained, &given, &exchanged}) parts_.ranks->sum(sum, 1);
-  }
+  if (parts_.ranks != nullptr) parts_.ranks->sum(sums, 3);
   const double error = std::abs(gained - given);
   return exchanged > 0.0 ? error / exchanged : error;
 }

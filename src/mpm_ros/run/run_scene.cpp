@@ -12,6 +12,7 @@
 
 #include "mpm/ranks/agree.hpp"
 #include "mpm/scene/scene.hpp"
+#include "mpm/simulation/rank_failure.hpp"
 #include "mpm_ranks/make_ranks.hpp"
 #include "mpm_ros/command/command_log.hpp"
 #include "mpm_ros/message/bag_parts.hpp"
@@ -309,6 +310,9 @@ RunSceneResult run_scene(const RunSceneOptions& options, std::ostream& out, std:
     own_err << error.what() << "; nothing was recorded\n";
     return RunSceneResult::done;
   } catch (const mpm::PhysicsError& error) {
+    reason = error.what();
+    result = RunSceneResult::physics_failed;
+  } catch (const mpm::RankFailure& error) {
     reason = error.what();
     result = RunSceneResult::physics_failed;
   } catch (const std::bad_alloc&) {

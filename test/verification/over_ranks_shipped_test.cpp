@@ -1,0 +1,82 @@
+// Every shipped scene over 1, 2, 3 and 8 ranks: refused by name, or as on one process over a hundred steps or more.
+//
+// Scenes run as they are shipped, but for: cells of the scene of a million particles, which are coarser; tools that
+// stand away from the material, or wait for commands, which press into it; and blades, which have one side. What is
+// computed in single precision is asked to agree to its last places, and to 1e-10 in double precision.
+// Cost: 90 s on two processors, of which scenes that measure speed take 60.
+#include <gtest/gtest.h>
+
+#include "over_ranks_run.hpp"
+
+namespace verification {
+namespace over_ranks {
+namespace over_ranks_shipped_test {
+
+const std::vector<std::string> kOneSide = {"rigid_bodies.blade.sides=one"};
+const std::vector<std::string> kTouching = {"rigid_bodies.probe.pose.position=[0, 120.5 mm]",
+                                            R"(rigid_bodies.probe.motion={velocity: [0, "-0.5"]})"};
+
+/// What is changed in a scene.
+std::vector<Case> cases_of(const std::string& name) {
+  if (name == "speed_block_3d_million") return {{name, {"grid.cell=0.04"}}};
+  if (name == "foam_probe") return {{name, kTouching}};
+  if (name == "blade_in_soil") return {{name, {}}, {name, kOneSide, 250}};
+  if (name == "column_collapse") return {{name, {}, 1000}};  // to its end
+  return {{name, {}}};
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> list;
+  for (const auto& [name, line] : mpm::shipped_scenes()) list.push_back(name);
+  return list;
+}
+
+/// Why the scene does not run over ranks; empty if it does.
+std::string refusal_of(const Case& run) {
+  try {
+    mpm::run_ranks(2, [&](mpm::Communicator& ranks) { start_on(run, &ranks); });
+  } catch (const mpm::DefinitionError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void expect_same_on_all(const Case& run, double part) {
+  const mpm::SimulationDefinition definition = scene_of(run).definition;
+  const Outcome one = run_over(run, 1);
+  for (const int count : {2, 3, 8}) {
+    SCOPED_TRACE(count);
+    expect_equal(run_over(run, count), one, part);
+  }
+  SCOPED_TRACE("one process");
+  const Outcome process = run_alone(run);
+  if (definition.rigid_bodies.empty() || definition.contact.method == mpm::ContactMethod::nodes) {
+    expect_equal(process, one, part);
+  } else {
+    expect_alike(process, one);
+  }
+}
+
+class ShippedScene : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedScene, MovesAsOnOneProcess) {
+  for (Case run : cases_of(GetParam())) {
+    if (const std::string refusal = refusal_of(run); !refusal.empty()) {
+      EXPECT_NE(refusal.find("over several ranks"), std::string::npos) << refusal;
+      RecordProperty("refused", refusal);
+      continue;
+    }
+    if (scene_of(run).definition.method.precision == mpm::Precision::float32) {
+      // A sum that differs in the last place of a double moves a float by its last place, 6e-8 of a velocity.
+      expect_same_on_all(run, 1e-6);
+      run.overrides.push_back("method.precision=double");
+    }
+    expect_same_on_all(run, 1e-10);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Full, ShippedScene, testing::ValuesIn(names()), [](const auto& scene) { return scene.param; });
+
+}  // namespace over_ranks_shipped_test
+}  // namespace over_ranks
+}  // namespace verification

@@ -71,7 +71,7 @@ int ranks_that_throw(const Case& run, int asked_after = -1) {
     options.stop = [&] { return ranks.rank() == 2 && asked_after >= 0 && ++asked > asked_after; };
     const mpm::Scene scene = scene_of(run);
     try {
-      mpm::Simulation simulation(mpm::build(scene), options);
+      mpm::Simulation simulation(mpm::build(scene, &ranks), options);
       run_steps(simulation, run.steps);
     } catch (const Error&) {
       ++thrown;

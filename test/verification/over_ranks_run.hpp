@@ -32,6 +32,7 @@ struct Outcome {
   std::vector<std::vector<double>> transported;      ///< [quantity][id]
   std::vector<mpm::ContactReport> contacts;
   std::vector<mpm::PairReport> pairs;
+  std::vector<mpm::NamedImpulse> impulses;
   std::vector<mpm::NamedNumber> numbers;
   std::vector<mpm::NamedEnergy> energies;
   std::vector<std::pair<std::string, double>> metrics;
@@ -41,7 +42,6 @@ struct Case {
   std::string scene;
   std::vector<std::string> overrides;
   std::uint64_t steps = 100;
-  bool points = false;  ///< whether it meets tools at points
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Case& run) { return out << run.scene; }
@@ -60,7 +60,7 @@ inline mpm::Simulation start_on(const Case& run, mpm::Communicator* ranks) {
   mpm::SimulationOptions options;
   options.threads = 1;
   if (ranks != nullptr) options.ranks = {ranks, [](mpm::Communicator*) {}};
-  return mpm::Simulation(mpm::build(scene), options);
+  return mpm::Simulation(mpm::build(scene, ranks), options);
 }
 
 inline Outcome outcome_of(mpm::Simulation& simulation) {
@@ -70,6 +70,7 @@ inline Outcome outcome_of(mpm::Simulation& simulation) {
   outcome.seconds = seconds(simulation);
   outcome.exchanged = state.audit.exchanged;
   outcome.residual = state.audit.residual;
+  outcome.impulses = state.audit.impulses;
   outcome.energies = state.energy.list();
   outcome.balance = state.energy.balance();
   for (const char* name : {"vx", "vy", "vz"}) outcome.velocity.push_back(field(simulation, name));
@@ -208,15 +209,6 @@ inline void expect_equal(const Outcome& over, const Outcome& alone, double part)
   }
   EXPECT_NEAR(over.balance, alone.balance, 100.0 * part * total);
   expect_equal_reports(over, alone, part);
-}
-
-/// Of a run on one process whose tools are met at points, and one over ranks: their sweeps over the points have another
-/// order and end elsewhere, by which forces are seen to differ by up to 0.4 % of what presses.
-inline void expect_alike(const Outcome& process, const Outcome& over) {
-  for (std::size_t b = 0; b < over.contacts.size(); ++b) {
-    const mpm::Vec3 there = process.contacts[b].mean.force, here = over.contacts[b].mean.force;
-    EXPECT_LE((there - here).norm(), 0.01 * std::max(here.norm(), over.contacts[b].pressing)) << over.contacts[b].body;
-  }
 }
 
 }  // namespace over_ranks

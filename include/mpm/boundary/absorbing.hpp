@@ -14,6 +14,11 @@
 // Of a wave with the wave number k a lattice of such masses and springs sends back tan^2(k h / 4): 0.6 % of one of 20
 // cells, 2.5 % of one of 10.
 //
+// Over several ranks a node of the face and those beyond it may lie in blocks of which a rank has some alone. It has
+// the face's then for its neighbours only, and gathers from none of its nodes; what it does to them does not count.
+// Speeds are means over the particles of all ranks, and held forces are told to all once. Weak: a mean of several
+// materials is that of the last sort, which other numbers of ranks have at other steps.
+//
 // Weak: speeds are those of the undeformed material and do not follow what stiffens; material that flows or shears
 // plastically absorbs by its elastic constants. Dashpots give way to a load that stays: the body creeps through the
 // face at the speed sigma / (rho c). `hold` keeps the forces of the start as they are, for ground that stands under its
@@ -54,11 +59,13 @@ class Absorbing final : public FieldStage {
  public:
   /// `face`: 2 * grid axis, + 1 for the upper one; `name` as in scenes ("x_min"). `waves`: of each set, which outlive
   /// this. `phi`: face_mass(). `hold`: the forces that the face's nodes need at the first step are held for good.
+  /// `ranks`: null on one process.
   Absorbing(int face, const std::string& name, const std::vector<ParticleSet>& sets, std::vector<ElasticWaves> waves,
-            double phi, bool hold, ParticlesNearCracks near_cracks = {});
+            double phi, bool hold, Communicator* ranks, ParticlesNearCracks near_cracks);
 
   std::string name() const override { return account_.name; }
   Ranks ranks(Hook) const override { return {Rank::absorbing}; }
+  void share_memory(Communicator& ranks) override;
 
   void momentum_gathered(FieldContext& context) override;
   void before_strain(FieldContext& context) override;
@@ -80,7 +87,21 @@ class Absorbing final : public FieldStage {
   struct Column {
     int first, count;
     ElasticWaves waves;  ///< of the material there
+    bool whole = true;   ///< whether this rank has all of its nodes that may carry material
+    bool counts = true;  ///< whether sums count it here
   };
+  /// Of particles at the face, by mass.
+  struct WaveSum {
+    std::uint64_t column = 0;
+    double mass = 0.0, pressure = 0.0, shear = 0.0;
+    WaveSum& operator+=(const WaveSum& other) {
+      mass += other.mass;
+      pressure += other.pressure;
+      shear += other.shear;
+      return *this;
+    }
+  };
+  static constexpr std::uint64_t kAllColumns = ~std::uint64_t{0};
   /// What a column carries.
   struct Load {
     double mass = 0.0, beyond = 0.0;  ///< in all; of it beyond the face [kg]
@@ -92,6 +113,9 @@ class Absorbing final : public FieldStage {
   void tie(const Grid& grid, NodalField& velocity) const;
   void find_nodes(const Grid& grid);
   void find_waves(const Grid& grid);
+  void find_counted(const Grid& grid);
+  /// Of this rank's particles at the face.
+  std::vector<WaveSum> sum_waves(const Grid& grid) const;
   std::uint64_t id_on_face(const GridLayout& layout, std::array<int, 3> node) const;
 
   int face_;
@@ -99,11 +123,13 @@ class Absorbing final : public FieldStage {
   std::vector<ElasticWaves> waves_;
   double phi_;
   bool hold_;
+  Communicator* ranks_;
   ParticlesNearCracks near_cracks_;
   std::vector<Node> nodes_;
   std::vector<Column> columns_;
   std::unordered_map<std::uint64_t, Vec3> held_;  ///< accelerations, by column [m/s^2]
-  bool started_ = false;
+  bool started_ = false, held_by_all_ = false;
+  bool counted_ = false;          ///< whether columns_ say what counts here
   std::uint64_t generation_ = 0;  ///< of the block table that nodes_ was made from
   ImpulseAccount account_;
   Vec3 given_ = Vec3::Zero();  ///< in this step [N s]

@@ -2,6 +2,9 @@
 // counted. A few that spray off do not end a long run then; many are a run that went wrong, or a grid that is too
 // small.
 //
+// Over several ranks each puts back its own, and then hears of those of the others: count, sums and who has left are
+// the whole run's on each of them, since a particle that comes back to the edge may do so on another rank.
+//
 // Weak: what is put back has been moved by up to the way that it was outside, without any work being booked.
 // Source: NairnMPM, MPMHeader, LeaveLimit.
 #pragma once
@@ -18,13 +21,14 @@ namespace mpm {
 class Leaving final : public Module {
  public:
   /// `limit`: how many particles may leave; each counts once, however often it comes back to the edge.
-  /// `sets` and `layout` outlive this.
-  Leaving(std::uint64_t limit, std::vector<ParticleSet>& sets, const GridLayout& layout)
-      : limit_(limit), sets_(sets), layout_(layout) {
+  /// `sets`, `layout` and `ranks`, which is null on one process, outlive this.
+  Leaving(std::uint64_t limit, std::vector<ParticleSet>& sets, const GridLayout& layout, Communicator* ranks)
+      : limit_(limit), sets_(sets), layout_(layout), ranks_(ranks) {
     account_.name = "returned";
   }
 
   std::string name() const override { return "leaving"; }
+  bool same_on_all_ranks() const override { return true; }
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   /// "leaving", dissipated: the kinetic energy of the motion that led out.
   void energies(EnergyReport& report) const override { report.add("leaving", NamedEnergy::Kind::dissipated, taken_); }
@@ -45,9 +49,23 @@ class Leaving final : public Module {
   }
 
  private:
+  /// What one call of put_back() did.
+  struct Returned {
+    bool all = true;  ///< whether every particle could be put back
+    Vec3 given = Vec3::Zero();
+    double taken = 0.0;
+    std::vector<std::uint32_t> first;  ///< ids of those that have not left before
+  };
+  bool has_left(std::uint32_t id) const { return id < left_.size() && left_[id] != 0; }
+  /// Of this rank's particles.
+  Returned put_back_own();
+  /// Makes what each rank did what all of them did.
+  void share(Returned& returned);
+
   std::uint64_t limit_;
   std::vector<ParticleSet>& sets_;
   const GridLayout& layout_;
+  Communicator* ranks_;
   std::uint64_t count_ = 0;
   std::vector<std::uint8_t> left_;  ///< by id
   ImpulseAccount account_;

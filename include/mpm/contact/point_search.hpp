@@ -35,7 +35,7 @@ class PointSearch {
 
   /// Points that are near a body, or come near to it within `dt` [s]. The law of a body against a set is the one at
   /// (place of the body) * (number of sets) + (place of the set). The order does not depend on the number of threads.
-  /// Over several ranks they are those of all, on each of them.
+  /// Over several ranks they are those of all, on each of them, in the order that they have in one process.
   const std::vector<ContactPoint>& find(double dt);
 
  private:

@@ -67,15 +67,13 @@ class PointSolver {
   using Member = NodalField Grid::*;
 
   /// `fields` and `bodies` must outlive this object. `sharp`: whether points see that faces end (edge_cover.hpp).
-  PointSolver(Fields& fields, const std::vector<const RigidBody*>& bodies, ShapeKind shape, bool sharp, int threads,
-              bool over_ranks = false)
+  PointSolver(Fields& fields, const std::vector<const RigidBody*>& bodies, ShapeKind shape, bool sharp, int threads)
       : fields_(fields),
         bodies_(bodies),
         edges_(bodies),
         sharp_(sharp),
         shape_(shape),
         threads_(threads),
-        over_ranks_(over_ranks),
         on_bodies_(bodies.size()) {}
 
   /// Takes over the points found, in the order of solution and without those that have no node with mass around them.
@@ -162,7 +160,6 @@ class PointSolver {
   bool sharp_;
   ShapeKind shape_;
   int threads_;
-  bool over_ranks_;
   int solving_threads_ = 0;
   bool any_at_edge_ = false;  ///< whether a point lies near an edge
   std::vector<Point> points_;

@@ -144,10 +144,10 @@ class StateArchive {
               [&](std::size_t i) -> decltype(auto) { return std::invoke(member, list[i]); });
   }
   /// Serialises the generation (BlockTable::generation()) at which something was found, as the number of sorts since
-  /// then.
+  /// then; a rank that has to sort again since another could not may have one more than that.
   void generation(const std::string& name, std::uint64_t& generation) {
     std::uint64_t since = generation_ - generation;
-    value(name, since);
+    sum(name, since);
     if (reading()) generation = generation_ - since;
   }
   /// Sets the present generation; call it before generation().

@@ -11,7 +11,8 @@
 // Feedback is integrated once a step, alpha += dt d alpha/dt, with the energy at the start of the step: first order.
 // PIC of time alone is a FLIP fraction; as a function of place it becomes rates, -(1-beta)/dt of the grid and
 // +(1-beta)/dt of the particle (method reference 6.2), which then exchange momentum with the outside: it is in the
-// account. A rate below 0, or one that would turn a velocity round in a step, ends the run.
+// account. Over several ranks alpha is the same on all: it grows with the energy of all of them.
+// A rate below 0, or one that would turn a velocity round in a step, ends the run.
 // Source: Nairn, GIMP notes (2.15)-(2.45).
 #pragma once
 
@@ -49,9 +50,10 @@ struct Damped {
 /// Audit: "damping", on the nodes and on the particles together.
 class DampingControl final : public Stage {
  public:
-  /// `flip`: the transfer's fraction, for a scene without a part of PIC of its own. `fields` and `sets` outlive it.
+  /// `flip`: the transfer's fraction, for a scene without a part of PIC of its own. `fields`, `sets` and `ranks`, which
+  /// is null on one process, outlive it.
   DampingControl(const DampingDefinition& definition, double flip, Fields& fields, const std::vector<ParticleSet>& sets,
-                 int threads);
+                 int threads, Communicator* ranks = nullptr);
 
   /// Whether move has to damp, and whether it has to find the energies; end_step() goes with either.
   bool in_update() const { return definition().in_update(); }
@@ -67,11 +69,16 @@ class DampingControl final : public Stage {
   std::string name() const override { return account_.name; }
   Ranks ranks(Hook) const override { return {Rank::damping}; }
 
+  void run_begun(StepContext&) override {
+    if (ranks_ != nullptr) total_mass_ = ranks_->sum(mass());
+  }
   void momentum_gathered(StepContext& context) override { begin_step(context); }
   void forces_gathered(StepContext& context) override;
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   /// "alpha", of the feedback.
-  void numbers(std::vector<NamedNumber>& list) const override { list.push_back({"alpha", "1/s", alpha_}); }
+  void numbers(std::vector<NamedNumber>& list) const override {
+    list.push_back({"alpha", "1/s", ranks_ == nullptr || ranks_->first() ? alpha_ : 0.0});
+  }
   /// @throws DampingError
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
   std::string limit_text(const StepLimit&) const override { return "method.damping"; }
@@ -107,6 +114,9 @@ class DampingControl final : public Stage {
   void each_particle(double t, double alpha, const GridLayout& layout, Visit&& visit) const;
   /// Adds the force of this step to the nodes of a field; returns its impulse [N s].
   Vec3 damp_nodes(Grid& grid, double dt);
+  /// Of this rank's particles [kg].
+  double mass() const;
+  double of_all_ranks(double own) const { return ranks_ == nullptr ? own : ranks_->sum(own); }
   /// d alpha/dt [1/s^2]. @throws DampingError
   double growth(double energy, double t) const;
 
@@ -114,6 +124,7 @@ class DampingControl final : public Stage {
   Fields& fields_;
   const std::vector<ParticleSet>& sets_;
   int threads_;
+  Communicator* ranks_;
   double total_mass_ = 0.0;
   bool of_place_;
 

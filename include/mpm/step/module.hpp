@@ -94,7 +94,8 @@ class Module {
   /// Whether particles have to be sorted after this step.
   virtual bool needs_sort() const { return false; }
   /// Called when a particle is outside the grid. Returns whether the module has put all such particles back, so that
-  /// the sort can be tried again.
+  /// the sort can be tried again. Over several ranks it is called on all when one has such a particle, and returns the
+  /// same on all.
   virtual bool put_back() { return false; }
   /// The reason why a particle is outside the grid, if this module knows it.
   virtual std::optional<OutsideReason> why_outside(const GridLayout&, const ParticleSet&, int /*particle*/) const {

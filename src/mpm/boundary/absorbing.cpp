@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/ranks/lists.hpp"
 #include "mpm/shape/bspline.hpp"
 
 namespace mpm {
@@ -66,8 +67,15 @@ double face_mass(ShapeKind shape, int particles_per_direction) {
 }
 
 Absorbing::Absorbing(int face, const std::string& name, const std::vector<ParticleSet>& sets,
-                     std::vector<ElasticWaves> waves, double phi, bool hold, ParticlesNearCracks near_cracks)
-    : face_(face), sets_(sets), waves_(std::move(waves)), phi_(phi), hold_(hold), near_cracks_(std::move(near_cracks)) {
+                     std::vector<ElasticWaves> waves, double phi, bool hold, Communicator* ranks,
+                     ParticlesNearCracks near_cracks)
+    : face_(face),
+      sets_(sets),
+      waves_(std::move(waves)),
+      phi_(phi),
+      hold_(hold),
+      ranks_(ranks),
+      near_cracks_(std::move(near_cracks)) {
   account_.name = "absorbing/" + name;
 }
 
@@ -101,29 +109,21 @@ void Absorbing::find_nodes(const Grid& grid) {
   }
 }
 
-// The mean of the particles whose nearest node along the face this is, within a cell and a half of the face; where
-// there is none, of all of them.
-void Absorbing::find_waves(const Grid& grid) {
-  struct Sum {
-    double mass = 0.0, pressure = 0.0, shear = 0.0;
-    void add(double m, const ElasticWaves& waves) {
-      mass += m;
-      pressure += m * waves.pressure;
-      shear += m * waves.shear;
-    }
-    ElasticWaves mean() const { return {pressure / mass, shear / mass}; }
-  };
+// Of all together first, then of each column.
+std::vector<Absorbing::WaveSum> Absorbing::sum_waves(const Grid& grid) const {
   const GridLayout& layout = grid.layout;
   const int axis = face_ / 2, on_face = face_ % 2 == 0 ? 0 : layout.last_node(axis);
-  std::unordered_map<std::uint64_t, Sum> sums;
-  Sum all;
+  std::unordered_map<std::uint64_t, WaveSum> sums;
+  WaveSum all;
   const auto add = [&](std::size_t s, std::uint32_t first, std::uint32_t last) {
     for (std::uint32_t p = first; p < last; ++p) {
       std::array<int, 3> node{};
       for (int k = 0; k < layout.dim(); ++k) node[k] = GridLayout::nearest(layout.in_cells(k, sets_[s].x[k][p]));
       if (std::abs(node[axis] - on_face) > 1) continue;
-      sums[id_on_face(layout, node)].add(sets_[s].mass_of(static_cast<int>(p)), waves_[s]);
-      all.add(sets_[s].mass_of(static_cast<int>(p)), waves_[s]);
+      const double mass = sets_[s].mass_of(static_cast<int>(p));
+      const WaveSum own{id_on_face(layout, node), mass, mass * waves_[s].pressure, mass * waves_[s].shear};
+      sums[own.column] += own;
+      all += own;
     }
   };
   for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
@@ -138,18 +138,67 @@ void Absorbing::find_waves(const Grid& grid) {
     if (near_cracks_.gives_to[s] == 0) continue;
     add(s, sets_[s].begin[near_cracks_.choice->grid().first_owner], sets_[s].begin.back());
   }
-  if (sums.empty()) columns_.clear();
+  all.column = kAllColumns;
+  std::vector<WaveSum> list{all};
+  for (const auto& [column, sum] : sums) list.push_back({column, sum.mass, sum.pressure, sum.shear});
+  return list;
+}
+
+// The mean of the particles whose nearest node along the face this is, within a cell and a half of the face; where
+// there is none, of all of them.
+void Absorbing::find_waves(const Grid& grid) {
+  std::vector<WaveSum> list = sum_waves(grid);
+  if (ranks_ != nullptr) list = gather_list(*ranks_, list);
+  std::unordered_map<std::uint64_t, WaveSum> sums;
+  for (const WaveSum& sum : list) sums[sum.column] += sum;
+  const WaveSum& all = sums[kAllColumns];
+  if (!(all.mass > 0.0)) columns_.clear();
   for (Column& column : columns_) {
     const auto found = sums.find(nodes_[column.first].column);
-    column.waves = (found == sums.end() ? all : found->second).mean();
+    const WaveSum& of = found == sums.end() ? all : found->second;
+    column.waves = {of.pressure / of.mass, of.shear / of.mass};
+  }
+}
+
+// Those that may carry material lie up to two nodes beyond the face. Only a rank that has that node's block, too, has
+// all of the column; where it is the one on which that block counts, the column does.
+void Absorbing::find_counted(const Grid& grid) {
+  constexpr int kBeyond = 2;
+  const int axis = face_ / 2;
+  for (Column& column : columns_) {
+    column.whole = column.counts = false;
+    for (int i = column.first; i < column.first + column.count; ++i) {
+      const NodeRef ref = nodes_[i].ref;
+      const int node = grid.layout.node(grid.blocks.block(ref.block), ref.node)[axis];
+      if ((face_ % 2 == 0 ? -node : node - grid.layout.last_node(axis)) != kBeyond) continue;
+      column.whole = true;
+      column.counts = grid.counts(ref.block);
+    }
   }
 }
 
 void Absorbing::momentum_gathered(FieldContext& context) {
-  if (generation_ == context.grid.blocks.generation()) return;
-  generation_ = context.grid.blocks.generation();
-  find_nodes(context.grid);
-  find_waves(context.grid);
+  if (generation_ != context.grid.blocks.generation()) {
+    generation_ = context.grid.blocks.generation();
+    find_nodes(context.grid);
+    find_waves(context.grid);
+    counted_ = false;
+  }
+  if (!counted_ && ranks_ != nullptr) find_counted(context.grid);
+  counted_ = true;
+}
+
+// They do not change after the first step.
+void Absorbing::share_memory(Communicator& ranks) {
+  if (!hold_ || !started_ || held_by_all_) return;
+  struct Held {
+    std::uint64_t column;
+    double acceleration[3];
+  };
+  std::vector<Held> own;
+  for (const auto& [column, of] : held_) own.push_back({column, {of.x(), of.y(), of.z()}});
+  for (const Held& one : gather_list(ranks, own)) held_[one.column] = Vec3(one.acceleration);
+  held_by_all_ = true;
 }
 
 Absorbing::Load Absorbing::load_of(const Grid& grid, const Column& column, const NodalField& velocity) const {
@@ -192,7 +241,7 @@ void Absorbing::momentum_updated(FieldContext& context) {
     const Load load = load_of(grid, column, grid.velocity);
     if (!(load.mass > 0.0)) continue;
     const std::uint64_t id = nodes_[column.first].column;
-    if (hold_ && !started_) held_[id] = -load.acceleration;
+    if (hold_ && !started_ && column.whole) held_[id] = -load.acceleration;
     const auto found = held_.find(id);
     const Vec3 held = found == held_.end() ? Vec3(Vec3::Zero()) : found->second;
     const Vec3 after = load.velocity + held * dt, before = load.velocity - load.acceleration * dt;
@@ -204,14 +253,14 @@ void Absorbing::momentum_updated(FieldContext& context) {
       const double half = per_speed * (k == axis ? column.waves.pressure : column.waves.shear);
       wanted[a] -= half * (before[a] + after[a]) / (1.0 + half);
     }
-    work_ += load.mass * (wanted - load.velocity).dot(0.5 * (before + wanted));
+    if (column.counts) work_ += load.mass * (wanted - load.velocity).dot(0.5 * (before + wanted));
     for (int i = column.first; i < column.first + column.count; ++i) {
       const NodeRef ref = nodes_[i].ref;
       if (!grid.carries(ref.block, ref.node)) continue;
       const Vec3 change = wanted - nodal_vector(grid.velocity, layout, ref);
       add_nodal_vector(grid.velocity, layout, ref, change);
       add_nodal_vector(grid.force, layout, ref, change / dt);
-      given_ += grid.mass.at(ref.block, 0, ref.node) * change;
+      if (column.counts) given_ += grid.mass.at(ref.block, 0, ref.node) * change;
     }
   }
   started_ = true;
@@ -242,12 +291,13 @@ void Absorbing::serialise(StateArchive& archive) {
   if (archive.reading()) {
     held_.clear();
     held_.insert(held.begin(), held.end());
+    held_by_all_ = counted_ = false;
   }
   archive.value("started", started_);
   archive.generation("sorts_since", generation_);
   account_.serialise(archive);
-  archive.value("given", given_);
-  archive.value("work", work_);
+  archive.sum("given", given_);
+  archive.sum("work", work_);
 }
 
 }  // namespace mpm

@@ -4,21 +4,22 @@
 
 #include <cmath>
 
+#include "mpm/ranks/lists.hpp"
+
 namespace mpm {
 
-bool Leaving::put_back() {
+Leaving::Returned Leaving::put_back_own() {
   constexpr double kInside = 1e-3;  // of a cell, by which a particle is put inside the edge
-  Vec3 given = Vec3::Zero();
-  bool all = true;
+  Returned returned;
   for (ParticleSet& set : sets_) {
-    for (int p = 0; all && p < set.size(); ++p) {
+    for (int p = 0; p < set.size(); ++p) {
       bool outside = false;
       for (int k = 0; k < layout_.dim(); ++k) {
         const double cells = layout_.in_cells(k, set.x[k][p]);
         if (cells >= set.lowest[k] && cells <= set.highest[k]) continue;
         if (!std::isfinite(cells) || !std::isfinite(set.v[k][p])) {
-          all = false;
-          break;
+          returned.all = false;
+          return returned;
         }
         outside = true;
         const double side = cells < set.lowest[k] ? -1.0 : 1.0;
@@ -26,21 +27,37 @@ bool Leaving::put_back() {
         set.x[k][p] = layout_.origin(k) + inside * layout_.cell(k);
         const double outward = side * set.v[k][p];
         if (!(outward > 0.0)) continue;
-        given[layout_.axis(k)] -= side * outward * set.mass_of(p);
+        returned.given[layout_.axis(k)] -= side * outward * set.mass_of(p);
         set.v[k].set(p, 0.0);
-        taken_ += 0.5 * set.mass_of(p) * outward * outward;
+        returned.taken += 0.5 * set.mass_of(p) * outward * outward;
       }
-      if (!outside) continue;
-      const std::uint32_t id = set.id[p];
-      if (left_.size() <= id) left_.resize(id + 1, 0);
-      if (left_[id] == 0 && count_ == limit_) all = false;
-      count_ += left_[id] == 0 ? 1 : 0;
-      left_[id] = 1;
+      if (!outside || has_left(set.id[p])) continue;
+      returned.first.push_back(set.id[p]);
+      returned.all = count_ + returned.first.size() <= limit_;
+      if (!returned.all) return returned;
     }
-    if (!all) break;
   }
-  account_.add(given);
-  return all;
+  return returned;
+}
+
+void Leaving::share(Returned& returned) {
+  returned.first = gather_list(*ranks_, returned.first);
+  returned.all = !ranks_->any(!returned.all) && count_ + returned.first.size() <= limit_;
+  ranks_->sum(returned.given.data(), 3);
+  returned.taken = ranks_->sum(returned.taken);
+}
+
+bool Leaving::put_back() {
+  Returned returned = put_back_own();
+  if (ranks_ != nullptr) share(returned);
+  for (const std::uint32_t id : returned.first) {
+    if (left_.size() <= id) left_.resize(id + 1, 0);
+    left_[id] = 1;
+  }
+  count_ += returned.first.size();
+  account_.add(returned.given);
+  taken_ += returned.taken;
+  return returned.all;
 }
 
 std::optional<OutsideReason> Leaving::why_outside(const GridLayout&, const ParticleSet&, int) const {

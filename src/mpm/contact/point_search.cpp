@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "mpm/contact/particle_reach.hpp"
 #include "mpm/ranks/lists.hpp"
@@ -37,6 +38,7 @@ double edge_part(const RigidBody& body, GeometryKind geometry, const Vec3& centr
 
 /// A point as ranks send it.
 struct SentPoint {
+  std::uint64_t block;  ///< key of the one that the particle was sorted into
   std::int32_t body, field, law;
   std::uint32_t particle;
   std::array<double, 3> place, normal, velocity;
@@ -46,8 +48,9 @@ struct SentPoint {
 std::array<double, 3> numbers_of(const Vec3& vector) { return {vector.x(), vector.y(), vector.z()}; }
 Vec3 vector_of(const std::array<double, 3>& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
 
-SentPoint sent(const ContactPoint& point) {
-  return {point.body,
+SentPoint sent(const ContactPoint& point, std::uint64_t block) {
+  return {block,
+          point.body,
           point.field,
           point.law,
           point.particle,
@@ -194,15 +197,23 @@ void PointSearch::find_in(double dt) {
     search<Geometry>(jobs_[i], dt, farthest, of_job_[i]);
   }
   points_.clear();
+  if (ranks_ != nullptr) return gather();
   for (int i = 0; i < count; ++i) points_.insert(points_.end(), of_job_[i].begin(), of_job_[i].end());
-  if (ranks_ != nullptr) gather();
 }
 
+// A block's particles are on one rank and in the order of one process, so points are in its order, too.
 void PointSearch::gather() {
   std::vector<SentPoint> own;
-  for (const ContactPoint& point : points_) own.push_back(sent(point));
-  points_.clear();
-  for (const SentPoint& one : gather_list(*ranks_, own)) points_.push_back(received(one));
+  for (std::size_t i = 0; i < jobs_.size(); ++i) {
+    const BlockTable& blocks = fields_[jobs_[i].field]->blocks;
+    const std::uint64_t block = blocks.key(blocks.owner_block(jobs_[i].owner));
+    for (const ContactPoint& point : of_job_[i]) own.push_back(sent(point, block));
+  }
+  std::vector<SentPoint> all = gather_list(*ranks_, own);
+  std::stable_sort(all.begin(), all.end(), [](const SentPoint& a, const SentPoint& b) {
+    return std::tie(a.body, a.field, a.block) < std::tie(b.body, b.field, b.block);
+  });
+  for (const SentPoint& one : all) points_.push_back(received(one));
 }
 
 const std::vector<ContactPoint>& PointSearch::find(double dt) {

@@ -40,22 +40,29 @@ double part_of_pic(const Function& function, double t, const Vec3* place) {
 }  // namespace
 
 DampingControl::DampingControl(const DampingDefinition& definition, double flip, Fields& fields,
-                               const std::vector<ParticleSet>& sets, int threads)
+                               const std::vector<ParticleSet>& sets, int threads, Communicator* ranks)
     : of_thread_(copies_of(definition, threads)),
       fields_(fields),
       sets_(sets),
       threads_(threads),
+      ranks_(ranks),
       of_place_(definition.grid.uses_place() || definition.particle.uses_place() || definition.pic.uses_place()),
       given_flip_(flip),
       flip_(flip),
       fault_(threads) {
   account_.name = "damping";
-  for (const ParticleSet& set : sets) total_mass_ += set.total_mass();
+  total_mass_ = mass();
   if (!of_place_) return;
   for (const ParticleSet& set : sets) {
     grid_values_.emplace_back(set.size(), 0.0);
     particle_values_.emplace_back(set.size(), 0.0);
   }
+}
+
+double DampingControl::mass() const {
+  double mass = 0.0;
+  for (const ParticleSet& set : sets_) mass += set.total_mass();
+  return mass;
 }
 
 DampingControl::Sample DampingControl::sample(int thread, double t, double alpha, const Vec3* place) const {
@@ -176,7 +183,7 @@ void DampingControl::end_step(const StepContext& context, const Damped& damped) 
   if (!definition().feedback) return;
   const FeedbackDefinition& feedback = *definition().feedback;
   const double energy = feedback.of == FeedbackDefinition::Of::grid ? damped.grid_energy : damped.particle_energy;
-  alpha_ = std::min(alpha_ + context.dt * growth(energy, context.start), feedback.limit);
+  alpha_ = std::min(alpha_ + context.dt * growth(of_all_ranks(energy), context.start), feedback.limit);
 }
 
 double DampingControl::growth(double energy, double t) const {
@@ -188,7 +195,7 @@ double DampingControl::growth(double energy, double t) const {
 }
 
 void DampingControl::limit_step(const PeriodAhead& period, StepLimit& limit) const {
-  const double energy = needs_energy() ? kinetic_energy(sets_, threads_) : 0.0;
+  const double energy = needs_energy() ? of_all_ranks(kinetic_energy(sets_, threads_)) : 0.0;
   const double rate = largest_rate(period.start, period.length, energy, fields_.front()->layout);
   StepLimit own;
   own.by = this;

@@ -29,7 +29,7 @@ void add_periodic(RunParts& parts) {
 
 void add_leaving(RunParts& parts) {
   const std::uint64_t limit = parts.definition.grid.leave_limit;
-  if (limit > 0) parts.modules.add(std::make_unique<Leaving>(limit, parts.sets, parts.layout()));
+  if (limit > 0) parts.modules.add(std::make_unique<Leaving>(limit, parts.sets, parts.layout(), parts.ranks));
 }
 
 void add_axis(RunParts& parts) {
@@ -70,7 +70,7 @@ void add_absorbing(RunParts& parts) {
         near_cracks.gives_to.push_back(across > 0 && field >= first && field <= first + across ? 1 : 0);
       }
       parts.modules.add_in_field(std::make_unique<Absorbing>(face, kWallNames[name], parts.sets, waves, phi, wall.hold,
-                                                             std::move(near_cracks)),
+                                                             parts.ranks, std::move(near_cracks)),
                                  field);
     }
   });

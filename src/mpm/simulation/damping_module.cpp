@@ -7,8 +7,8 @@ namespace mpm {
 void add_damping(RunParts& parts) {
   const MethodDefinition& method = parts.definition.method;
   if (!method.damping.any()) return;
-  parts.damping = &parts.modules.add(
-      std::make_unique<DampingControl>(method.damping, method.transfer.flip, parts.fields, parts.sets, parts.threads));
+  parts.damping = &parts.modules.add(std::make_unique<DampingControl>(
+      method.damping, method.transfer.flip, parts.fields, parts.sets, parts.threads, parts.ranks));
 }
 
 }  // namespace mpm

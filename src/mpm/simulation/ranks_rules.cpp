@@ -17,11 +17,6 @@ std::string ranks_fault(const SimulationDefinition& definition) {
   };
   if (!definition.cracks.list.empty()) return refused("a crack ('cracks')");
   if (definition.sleep) return refused("'sleep'");
-  if (definition.grid.leave_limit > 0) return refused("particles that leave the domain ('grid.leave_limit')");
-  if (definition.method.damping.feedback) return refused("damping by feedback ('method.damping.feedback')");
-  for (const WallDefinition& wall : definition.walls) {
-    if (wall.kind == WallKind::absorbing) return refused("an absorbing face ('boundaries')");
-  }
   for (const RigidBodyDefinition& body : definition.rigid_bodies) {
     if (body.particles) return refused(fmt::format("rigid body '{}', which is made of particles,", body.name));
   }

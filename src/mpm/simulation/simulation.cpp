@@ -89,7 +89,7 @@ void Simulation::State::sort(double now) {
   auto outside = sort_particles();
   if (anywhere(outside.has_value())) {
     const auto put_back = [](Module* module) { return module->put_back(); };
-    const bool back = outside && std::any_of(list.begin(), list.end(), put_back);
+    const bool back = (outside || over) && std::any_of(list.begin(), list.end(), put_back);
     if (!anywhere(outside && !back)) outside = sort_particles();
     check_together([&] {
       if (!outside) return;

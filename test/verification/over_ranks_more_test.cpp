@@ -1,0 +1,148 @@
+// What single parts of a scene do over several ranks, each in a scene that needs it: motion, energies, impulses and
+// numbers as on one process, and checkpoints. Ranks are threads (over_ranks_run.hpp).
+//
+// Runs are asked to be equal to 1e-10 of the momentum that was exchanged in a hundred steps, as in over_ranks_test.cpp.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "mpm/simulation/checkpoint.hpp"
+#include "over_ranks_run.hpp"
+
+namespace verification {
+namespace over_ranks_more_test {
+
+using namespace over_ranks;
+using over_ranks::Case;
+using over_ranks::Outcome;
+
+constexpr double kPart = 1e-10;
+
+double number_of(const Outcome& outcome, const std::string& name) {
+  for (const mpm::NamedNumber& number : outcome.numbers) {
+    if (number.name == name) return number.value;
+  }
+  ADD_FAILURE() << "no number '" << name << "'";
+  return 0.0;
+}
+
+/// A scene, and what it is there for: numbers, each with the value that it has to pass.
+struct Part {
+  const char* name;
+  Case run;
+  std::vector<std::pair<std::string, double>> passes;
+};
+
+std::ostream& operator<<(std::ostream& out, const Part& part) { return out << part.name; }
+
+/// As expect_equal(), with each account of impulses, the numbers of modules and metrics.
+void expect_alike(const Outcome& over, const Outcome& alone) {
+  expect_equal(over, alone, kPart);
+  const double scale = std::max(alone.exchanged, alone.carried);
+  ASSERT_EQ(over.impulses.size(), alone.impulses.size());
+  for (std::size_t i = 0; i < alone.impulses.size(); ++i) {
+    EXPECT_LE((over.impulses[i].impulse - alone.impulses[i].impulse).norm(), kPart * scale) << alone.impulses[i].name;
+  }
+  ASSERT_EQ(over.numbers.size(), alone.numbers.size());
+  for (std::size_t i = 0; i < alone.numbers.size(); ++i) {
+    EXPECT_NEAR(over.numbers[i].value, alone.numbers[i].value, 1e-8 * std::abs(alone.numbers[i].value))
+        << alone.numbers[i].name;
+  }
+}
+
+class OverRanksPart : public testing::TestWithParam<Part> {
+ protected:
+  OverRanksPart()
+      : path_((std::filesystem::temp_directory_path() / ("mpm_over_ranks_part_" + std::to_string(getpid()) + ".h5"))
+                  .string()) {}
+  ~OverRanksPart() override { std::filesystem::remove(path_); }
+
+  /// Does the work on `count` ranks, or on one process for 1, and returns what has come of it.
+  template <class Work>
+  static Outcome on(int count, const Case& run, Work&& work) {
+    Outcome of_first;
+    if (count == 1) {
+      mpm::Simulation simulation = start_on(run, nullptr);
+      work(simulation);
+      return outcome_of(simulation);
+    }
+    mpm::run_ranks(count, [&](mpm::Communicator& ranks) {
+      mpm::Simulation simulation = start_on(run, &ranks);
+      work(simulation);
+      Outcome own = outcome_of(simulation);
+      if (ranks.first()) of_first = std::move(own);
+    });
+    return of_first;
+  }
+  /// Runs half of the steps, writes the checkpoint, and the rest.
+  Outcome write(int count) const {
+    const Case& run = GetParam().run;
+    return on(count, run, [&](mpm::Simulation& simulation) {
+      run_steps(simulation, run.steps / 2);
+      mpm::save_checkpoint(path_, simulation, {});
+      run_steps(simulation, run.steps);
+    });
+  }
+  Outcome go_on(int count) const {
+    const Case& run = GetParam().run;
+    return on(count, run, [&](mpm::Simulation& simulation) {
+      mpm::load_checkpoint(path_, simulation, "");
+      run_steps(simulation, run.steps);
+    });
+  }
+
+  std::string path_;
+};
+
+TEST_P(OverRanksPart, IsAsOnOneProcess) {
+  const Outcome alone = run_alone(GetParam().run);
+  for (const auto& [name, least] : GetParam().passes) EXPECT_GT(number_of(alone, name), least) << name;
+  for (const int count : {1, 2, 3, 8}) {
+    SCOPED_TRACE(count);
+    expect_alike(run_over(GetParam().run, count), alone);
+  }
+}
+
+TEST_P(OverRanksPart, GoesOnFromACheckpoint) {
+  const Outcome whole = write(3), resumed = go_on(3);
+  EXPECT_EQ(resumed.state_hash, whole.state_hash);
+  EXPECT_EQ(resumed.memory_hash, whole.memory_hash);
+  for (const int count : {1, 2, 5}) {
+    SCOPED_TRACE(count);
+    expect_alike(go_on(count), whole);
+  }
+  const Outcome alone = write(1);
+  SCOPED_TRACE("written by one process");
+  expect_alike(go_on(4), alone);
+}
+
+const Part kParts[] = {
+    {"Leaving", {"spray", {}}, {{"returned", 100.0}}},
+    {"FeedbackDamping", {"calming_block", {}}, {{"alpha", 5.0}}},
+    {"AbsorbingFaces", {"waves_out", {}}, {}},
+    {"AbsorbingFacesByXpic", {"waves_out", {"method.transfer={xpic: 2}"}}, {}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Of, OverRanksPart, testing::ValuesIn(kParts), [](const auto& of) { return of.param.name; });
+
+// One particle more than may leave, on whichever rank, ends the run on all of them, with one message.
+TEST(OverRanksLeaving, IsLimitedOverAllRanks) {
+  const auto left = static_cast<int>(number_of(run_alone({"spray", {}}), "returned"));
+  const auto run_with = [](int limit) { return run_over({"spray", {"grid.leave.limit=" + std::to_string(limit)}}, 3); };
+  EXPECT_EQ(number_of(run_with(left), "returned"), left);
+  try {
+    run_with(left - 1);
+    FAIL() << "nothing was said";
+  } catch (const mpm::PhysicsError& error) {
+    EXPECT_EQ(std::string(error.what())
+                  .find("more than " + std::to_string(left - 1) +
+                        " particles have left the grid (grid.leave.limit): particle "),
+              0u)
+        << error.what();
+  }
+}
+
+}  // namespace over_ranks_more_test
+}  // namespace verification

@@ -123,15 +123,15 @@ void put_in_place(ParticleSet& set, int round) {
   }
 }
 
-/// The particles that a rank begins with, dealt out by id: one set with all that a set can have, and a plain one.
-std::vector<ParticleSet> dealt(const Communicator& ranks, const GridLayout& layout) {
+/// The particles that one of so many ranks begins with, dealt out by id: one set with all that a set can have, and a plain one.
+std::vector<ParticleSet> dealt(int rank, int ranks, const GridLayout& layout) {
   std::vector<ParticleSet> sets(2);
   std::uint32_t first = 0;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     ParticleSet& set = sets[s];
     std::vector<std::uint32_t> ids;
     for (std::uint32_t id = first; id < first + kCounts[s]; ++id) {
-      if (static_cast<int>(id) % ranks.size() == ranks.rank()) ids.push_back(id);
+      if (static_cast<int>(id) % ranks == rank) ids.push_back(id);
     }
     const auto count = static_cast<std::uint32_t>(ids.size());
     set.precision = s == 0 ? Precision::float32 : Precision::float64;
@@ -215,7 +215,7 @@ void particles_go_to_the_rank_of_their_block(Communicator& ranks) {
     const GridLayout layout = layout_of(dim);
     Territory territory(layout, ranks.size());
     HandOver hand_over(ranks, territory, layout);
-    std::vector<ParticleSet> sets = dealt(ranks, layout);
+    std::vector<ParticleSet> sets = dealt(ranks.rank(), ranks.size(), layout);
     hand_over.divide(sets);
     const std::uint64_t dealt_out = hand_over.handed_over();
     expect_in_place(ranks, territory, layout, sets, false);
@@ -282,7 +282,7 @@ void particles_keep_the_order_of_one_process(Communicator& ranks) {
   const GridLayout layout = layout_of(2);
   Territory territory(layout, ranks.size());
   HandOver hand_over(ranks, territory, layout);
-  std::vector<ParticleSet> all = whole(layout), own = dealt(ranks, layout);
+  std::vector<ParticleSet> all = dealt(0, 1, layout), own = dealt(ranks.rank(), ranks.size(), layout);
   Fields of_all = make_fields(layout, 2), of_own = make_fields(layout, 2);
   Sorter sorter_of_all(1), sorter_of_own(1);
   hand_over.divide(own);

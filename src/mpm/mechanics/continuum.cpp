@@ -165,7 +165,7 @@ class Continuum final : public Mechanics {
   }
   Mixed mixed() const override { return mixed_; }
   bool must_sort() const override { return must_sort_; }
-  void blocks_renewed() override { generation_ = fields_.front().grid.blocks.generation(); }
+  void blocks_renewed() override { generation_ = passes_.fields().front().grid.blocks.generation(); }
   void energies(EnergyReport& report) const override {
     if (motion_ != mpm_kernel::kIncrement) report.leave_open();  // what XPIC, FMPM and APIC take is not counted
     if (motion_ == mpm_kernel::kIncrement && (settings_.transfer.flip != 1.0 || settings_.damping != nullptr)) {

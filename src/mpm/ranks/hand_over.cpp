@@ -195,7 +195,7 @@ void HandOver::send(std::vector<ParticleSet>& sets, const std::vector<std::uint6
   if (parcels.empty() && arrived.empty()) return;
   std::vector<Unpacking> coming;
   for (const Communicator::Parcel& parcel : arrived) coming.push_back({parcel.bytes});
-  for (std::size_t s = 0; s < sets.size(); ++s) replace(sets[s], leaving[s].all, coming);
+  for (std::size_t s = 0; s < sets.size(); ++s) replace(sets[s], leaving[s].staying, coming);
 }
 
 }  // namespace mpm

@@ -56,7 +56,7 @@ int threads_beside(const std::vector<ProcessorSet>& all, std::size_t own) {
     const auto users = std::count_if(all.begin(), all.end(), [i](const ProcessorSet& set) { return set[i]; });
     share += 1.0 / static_cast<double>(users);
   }
-  share = std::min(share, granted_processors() / static_cast<double>(all.size()));
+  share = std::min(share, std::ceil(granted_processors()) / static_cast<double>(all.size()));
   return static_cast<int>(std::clamp(std::floor(share + kRoundOff), 1.0, static_cast<double>(omp_get_max_threads())));
 }
 

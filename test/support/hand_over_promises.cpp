@@ -123,7 +123,8 @@ void put_in_place(ParticleSet& set, int round) {
   }
 }
 
-/// The particles that one of so many ranks begins with, dealt out by id: one set with all that a set can have, and a plain one.
+/// The particles that one of so many ranks begins with, dealt out by id: one set with all that a set can have, and a
+/// plain one.
 std::vector<ParticleSet> dealt(int rank, int ranks, const GridLayout& layout) {
   std::vector<ParticleSet> sets(2);
   std::uint32_t first = 0;

@@ -74,6 +74,13 @@ struct CrackTipReport {
   bool stopped = false;  ///< it grows no more, as `growth` says
 };
 
+/// How ranks have shared the particles.
+struct SharingReport {
+  std::uint64_t handed_over = 0;  ///< particles from rank to rank, since the start
+  std::uint64_t divisions = 0;    ///< how often the grid was divided
+  double imbalance = 1.0;         ///< particles of the fullest rank over the mean of all, when they last met
+};
+
 struct SolverState {
   std::int64_t time = 0;  ///< [ns]
   StepReport step;

@@ -134,6 +134,8 @@ class Simulation {
   std::vector<std::pair<std::string, double>> metrics() const;
 
   std::uint64_t particles() const;
+  /// Over several ranks; collective.
+  SharingReport sharing() const;
   /// Names that particle_field() knows in every run, with their units: {"vx", "m/s"}, … In a run it also knows those
   /// that its modules add (ParticleSet::brought).
   static std::vector<std::pair<std::string, std::string>> particle_fields();

@@ -32,6 +32,7 @@ struct RunSummary {
   int ranks = 1;
   int threads = 0;    ///< of each rank
   mpm::Traffic sent;  ///< by all ranks since the start
+  mpm::SharingReport sharing;
   mpm::SolverState state;
   mpm::SolverState start;  ///< at time zero
   std::int64_t end = 0;    ///< of the run as it was asked for [ns]

@@ -216,6 +216,16 @@ SolverState Simulation::state() const {
   return report;
 }
 
+SharingReport Simulation::sharing() const {
+  SharingReport report;
+  if (!state_->over) return report;
+  const HandOver& hand_over = state_->over->hand_over();
+  report.handed_over = static_cast<std::uint64_t>(state_->ranks->sum(static_cast<double>(hand_over.handed_over())));
+  report.divisions = hand_over.divisions();
+  report.imbalance = hand_over.imbalance();
+  return report;
+}
+
 std::uint64_t Simulation::state_hash() const {
   const State& s = *state_;
   ByteHash hash;

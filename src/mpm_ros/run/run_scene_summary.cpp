@@ -85,6 +85,7 @@ RunSummary::RunSummary(const mpm::Scene& scene, const mpm::Simulation& simulatio
       ranks(simulation.ranks() == nullptr ? 1 : simulation.ranks()->size()),
       threads(simulation.threads()),
       sent(sent_by_all(simulation.ranks())),
+      sharing(simulation.sharing()),
       state(simulation.state()),
       start(start),
       end(std::llround(scene.definition.time.end * 1e9)),
@@ -131,6 +132,8 @@ nlohmann::ordered_json RunSummary::json() const {
                              {"bytes", sent.bytes},
                              {"collectives", sent.collectives},
                              {"collective_bytes", sent.shared}};
+    root["sharing"] = {
+        {"handed_over", sharing.handed_over}, {"divisions", sharing.divisions}, {"imbalance", sharing.imbalance}};
   }
   root["cut_short"] = cut_short;
   root["ended"] = !cut_short && state.time >= end;

@@ -3,7 +3,8 @@
 // Scenes run as they are shipped, but for: cells of the scene of a million particles, which are coarser; and a probe
 // that waits for commands, which presses. Those in which soil sleeps run a second time awake, on coarser cells, a blade
 // with one side. What is computed in single precision is asked to agree to its last places, and to 1e-10 in double
-// precision. Cost: 90 s on two processors, of which scenes that measure speed take 60.
+// precision.
+// Cost: 2 min on two processors, of which scenes that measure speed take 60 s.
 #include <gtest/gtest.h>
 
 #include "over_ranks_run.hpp"

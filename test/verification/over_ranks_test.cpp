@@ -45,7 +45,7 @@ const Case kCases[] = {
     {"wheel_in_sand", {"method.precision=double"}},                         // a free body in the plane
     {"ranks_free", {}},                               // a free body in space, heat between it and the material
     {"ranks_plough", {"contact.method=nodes"}, 300},  // a tool in soil, met at nodes
-    {"ranks_pair", {}},                               // bodies that meet, loads on particles
+    {"ranks_pair", {}},                               // bodies that meet and warm each other, loads on particles
     {"ranks_chute", {}},                              // a periodic axis
     {"swelling_strip", {}},                           // a solvent that flows in, velocity conditions
     {"consolidating_cylinder", {}},                   // water in pores

@@ -93,6 +93,8 @@ class TransportedField {
   /// No update may be longer [s]; infinite where only conduction limits it.
   double longest_update() const { return longest_update_; }
   Transported quantity() const { return definition_.quantity; }
+  /// Over several ranks, after it was made on each: what depends on all particles.
+  void share_limits(Communicator& ranks);
   const QuantityDefinition& definition() const { return definition_; }
   const TransportMaterial& material(int set) const { return definition_.materials[parts_.materials[set]]; }
   /// What the particles of a set carry, in its order.

@@ -140,6 +140,7 @@ void add_transport(RunParts& parts) {
   for (const QuantityDefinition& quantity : asked.quantities) {
     std::unique_ptr<TransportedField> field;
     agree<DefinitionError>(parts.ranks, [&] { field = make_field(quantity, shared, parts); });
+    if (parts.ranks != nullptr) field->share_limits(*parts.ranks);
     if (!quantity.fluxes.empty()) {
       const FaceSettings faces{definition.geometry, shape, definition.across(), parts.choice, parts.halo};
       field->add(std::make_unique<FaceFlux>(faces, parts.fields, parts.sets, flux_terms(quantity, parts)));

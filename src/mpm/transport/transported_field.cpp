@@ -139,12 +139,21 @@ void TransportedField::find_limit() {
         own.capacity.least() * (definition_.quantity == Transported::temperature ? parts_.densities[s] : 1.0);
     fastest = std::max(fastest, own.conductivity.most() * turn / capacity);
     least_of_volume_ = std::min(least_of_volume_, capacity);
+    if (parts_.sets[s].size() == 0) continue;  // they are on other ranks
     least_capacity_ = std::min(least_capacity_, capacity * parts_.sets[s].least_mass() / parts_.densities[s]);
   }
   const double cell = parts_.fields.front()->layout.smallest_cell();
   stable_step_ = fastest > 0.0 ? cell * cell / (4.0 * fastest) : std::numeric_limits<double>::infinity();
   longest_update_ = std::numeric_limits<double>::infinity();
   if (parts_.shape == ShapeKind::dirac) longest_update_ = kOfPoints * stable_step_;
+}
+
+void TransportedField::share_limits(Communicator& ranks) {
+  double limits[] = {-lowest_, highest_, -least_capacity_};
+  ranks.largest(limits, 3);
+  lowest_ = -limits[0];
+  highest_ = limits[1];
+  least_capacity_ = -limits[2];
 }
 
 void TransportedField::collect() {

@@ -296,7 +296,7 @@ class Continuum final : public Mechanics {
     take(&Grid::force);
     each_field([&](Field& field) {
       if (counts) field.taken.assign(field.grid.blocks.owners(), {});
-      field.loose.resize(field.grid.blocks.owners());
+      field.loose.assign(field.grid.blocks.owners(), 0);  // some owners have no particle
       each_block(field.grid, regather, [&](const mpm_kernel::BlockView& block) {
         const mpm_kernel::Moved moved =
             kernels_.move[motion_](field.view, block, field.sets(), field.count(), settings);

@@ -113,6 +113,7 @@ void Simulation::State::sort(double now) {
   }
   if (!over) return;
   over->meet(fields);
+  if (choice) choice->find_places();
   for (Module* module : list) module->share_memory(*ranks);
 }
 

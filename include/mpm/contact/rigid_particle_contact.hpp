@@ -4,7 +4,8 @@
 //
 // For comparison with the sources and for bodies whose surface is not smooth enough to give normals. Where a surface
 // has exact normals, contact/rigid_contact.hpp and contact/point_contact.hpp are better. What is reported is what was
-// applied, as there. Weak: a staircase of particles, and contact a tenth of a cell early or late.
+// applied, as there. Over several ranks all have the nodes where the body has volume, and each solves them for itself.
+// Weak: a staircase of particles, and contact a tenth of a cell early or late.
 // Source: Nairn, GIMP notes 3.2, (3.12)-(3.20); manual, rigid materials with SetDirection 8; method reference 5.3, 8.
 #pragma once
 
@@ -25,8 +26,9 @@ struct RigidParticleSettings {
   DetectionRule detection;
   std::vector<ContactLaw> laws;  ///< of each velocity field against the body
   GeometryKind geometry = GeometryKind::solid;
-  int per_cell = 2;     ///< particles along a cell's edge
-  double across = 1.0;  ///< thickness or area beside the grid's axes [m, m^2]
+  int per_cell = 2;               ///< particles along a cell's edge
+  double across = 1.0;            ///< thickness or area beside the grid's axes [m, m^2]
+  Communicator* ranks = nullptr;  ///< where the run is over several
 };
 
 class RigidParticleContact final : public Stage, public ContactReporter {
@@ -36,6 +38,7 @@ class RigidParticleContact final : public Stage, public ContactReporter {
 
   std::string name() const override { return ledger_.account().name; }
   Ranks ranks(Hook) const override { return {Rank::rigid_body}; }
+  bool same_on_all_ranks() const override { return true; }
 
   /// @throws FunctionError as ContactLaw::in_step().
   void momentum_gathered(StepContext& context) override;
@@ -71,6 +74,7 @@ class RigidParticleContact final : public Stage, public ContactReporter {
     PairHold hold;
   };
   void find_blocks();
+  void find_surveyed();
   void add_nodes(int field, double dt);
   PairHold held(int field, std::uint64_t node) const;
   /// Applies the law's impulse to the `velocity` of a node's material.
@@ -87,6 +91,7 @@ class RigidParticleContact final : public Stage, public ContactReporter {
   std::vector<FrictionLaw> friction_;            ///< of each field, in this step
   std::vector<std::uint64_t> keys_;              ///< of blocks near the body, ascending
   std::vector<std::vector<std::uint8_t>> near_;  ///< marks of these in each field
+  std::vector<double> surveyed_;                 ///< of each field, not 0: some rank has any of them there
   std::vector<Node> nodes_;                      ///< by field, then key, then node
   std::vector<Held> held_;
   std::vector<NodeMaterial> two_;

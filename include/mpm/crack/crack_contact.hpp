@@ -34,6 +34,8 @@ class CrackContact final : public Stage {
   Ranks ranks(Hook) const override { return {Rank::pair}; }
 
   /// @throws FunctionError as ContactLaw::in_step().
+  /// Every rank has all nodes near cracks, and solves them for itself.
+  bool same_on_all_ranks() const override { return true; }
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override { nodes_.strain(context.dt); }
   void momentum_updated(StepContext& context) override;
@@ -49,7 +51,9 @@ class CrackContact final : public Stage {
 
  private:
   void add_node(const DividedNode& node);
-  void add_pair(int crack, int above, int below, const Vec2& normal);
+  /// What tells a pair of fields, of 0 to 3, from others at its node from step to step.
+  int identity(const DividedNode& node, int above, int below) const;
+  void add_pair(int crack, int above, int below, const Vec2& normal, int identity);
   void survey(const std::vector<std::uint8_t>& wanted);
   void look_at_wanted(const std::vector<std::uint8_t>& wanted, double dt);
   void look_again(double dt);

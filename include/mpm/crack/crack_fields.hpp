@@ -11,6 +11,9 @@
 //
 // Particles choose where they lie in blocks whose tile a chain reaches; these are found at a sort, with room for the
 // chain to move, and a sort is asked for when it has used that up. All others spread to one field as ever.
+// Over several ranks each finds the pairs of its own particles; then all agree on what the fields of a node hold, and
+// know all nodes with the same bits (crack_fields_ranks.cpp).
+//
 // Weak: the way begins at the particle's centre, so a domain that reaches over a crack is not cut.
 // Source: Nairn (2003), CMES 4(6), 649-663; crack reference 1.2, 2.1, 2.2, 2.5.
 #pragma once
@@ -24,6 +27,7 @@
 #include "mpm/crack/field_jumps.hpp"
 #include "mpm/grid/field_map.hpp"
 #include "mpm/grid/node_choice.hpp"
+#include "mpm/ranks/communicator.hpp"
 #include "mpm/shape/kind.hpp"
 #include "mpm/step/patch_sorter.hpp"
 #include "mpm/step/step_context.hpp"
@@ -41,18 +45,21 @@ struct Crack {
 class CrackFields {
  public:
   /// All outlive this object; `choice` chooses from the fields of the sets that a crack divides. `jumps`: of pairs
-  /// that growth has put into another field since the last step.
+  /// that growth has put into another field since the last step. `ranks`: null on one process.
   CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& sets, NodeChoice& choice, const FieldJumps& jumps,
-              const FieldMap& map, Grouping grouping, ShapeKind shape, int threads);
+              const FieldMap& map, Grouping grouping, ShapeKind shape, int threads, Communicator* ranks);
 
   /// Says which particles choose, before a sort.
   void before_sort();
   /// Whether a chain has come near particles that do not choose.
   bool needs_sort() const;
-  /// Finds the fields of all pairs, and sorts particles into patches.
+  /// Finds the fields of all pairs, and sorts particles into patches. Collective.
   void choose();
+  /// Whether nodes of the block may lie within so many cells of a chain, until the next sort.
+  bool near(const std::array<int, 3>& block, double cells) const;
 
-  /// Nodes at which something has been found across a crack, in the order of their finding.
+  /// Nodes at which something has been found across a crack, in the order of their finding; over several ranks in that
+  /// of their places.
   const std::vector<DividedNode>& nodes() const { return nodes_; }
   /// A node of one of the fields of a group of bodies, by their field 0.
   struct NodeOfField {
@@ -90,7 +97,7 @@ class CrackFields {
   /// The field 0 of every set that the crack divides, each once.
   std::vector<int> groups(int crack) const;
 
-  /// Pairs, since the start, that fitted into none of the fields.
+  /// Pairs, since the start, that fitted into none of the fields; over several ranks those of this one's particles.
   long misfits() const { return misfits_; }
   void serialise(StateArchive& archive);
 
@@ -138,6 +145,15 @@ class CrackFields {
   void find_listed();
   /// Forgets the nodes, and makes room for those of the fields' blocks.
   void clear_nodes();
+  bool has_room() const;
+  void forget_nodes();
+  /// Makes patches of this rank's particles, and adds what it finds to the nodes.
+  void find_patches();
+  /// Makes the nodes those of all ranks. Whether the fields of this rank's pairs are others then.
+  bool share_nodes();
+  int& node_at(int first, NodeRef ref) {
+    return node_at_[first][static_cast<std::size_t>(ref.block) * choice_.grid().layout.nodes_per_block() + ref.node];
+  }
   template <class Visit>
   void each_near_block(double margin, Visit&& visit) const;
   Part part_between(int crack, const Part& within, const Vec2& low, const Vec2& high) const;
@@ -145,6 +161,8 @@ class CrackFields {
   void find_wanted(const Tile& tile, std::size_t set, std::size_t particle);
   int find_slot(const Tile& tile, int tile_node, std::size_t set, const Vec2& particle, const Vec2& node);
   int take_slot(DividedNode& node, const CracksBetween& between, const std::array<Vec2, 2>& normals);
+  /// Over several ranks: notes where the first to have this field of the node lies.
+  void note_found(const DividedNode& node, int slot);
   DividedNode& divided_node(const Tile& tile, int tile_node, int first, const Vec2& place);
   int fit(const Tile& tile, int first);
 
@@ -157,6 +175,7 @@ class CrackFields {
   std::vector<std::vector<std::uint8_t>> heeded_;  ///< [set][crack]
   ShapeKind shape_;
   int threads_;
+  Communicator* ranks_;
   std::vector<std::uint64_t> listed_;  ///< blocks whose particles choose
   Tile tile_;
   std::vector<Part> near_;                         ///< of each crack, near a particle
@@ -167,6 +186,8 @@ class CrackFields {
   std::vector<std::vector<int>> patch_of_;  ///< [set][particle that chooses]
   std::vector<DividedNode> nodes_;
   std::vector<std::vector<int>> node_at_;  ///< [field 0][node]: place in nodes_, or -1
+  /// Over several ranks, of each of nodes_: the block of the particle that was the first to have field 1, 2 and 3.
+  std::vector<std::array<std::uint64_t, 3>> found_in_;
   long misfits_ = 0;
 };
 

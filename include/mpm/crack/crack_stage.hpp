@@ -6,6 +6,10 @@
 //                     tractions of the next step follow from the new openings
 //
 // Contact between faces is a stage of its own (crack_contact.hpp).
+//
+// Over several ranks all have the same chains, tips and laws, and move them alike, since they have all nodes near them
+// with the same bits (ranks/halo.hpp). What is asked of particles is gathered: which fields are in use at a node, the
+// material at a tip, the area inside a contour, the energies of the run. Weak: nothing of this is shared out.
 // Source: Nairn (2003), CMES 4(6), 649-663; crack reference 3.6, with J taken before the chain moves, in the middle of
 // the step.
 #pragma once
@@ -34,6 +38,7 @@ class CrackStage final : public Stage {
     std::unique_ptr<CrackTips> tips;
     const std::vector<ParticleSet>* sets = nullptr;
     double sync = 0.0;
+    bool counts = true;  ///< over several ranks, which all have the same cracks: whether these are reported here
     std::unique_ptr<ScalarTransfer> masses;  ///< for the limit of the first step
     std::vector<Vec2> growing;               ///< places of tips
     std::vector<FacesOfGrowth> faces;
@@ -55,7 +60,10 @@ class CrackStage final : public Stage {
 
   void limit_step(const PeriodAhead& period, StepLimit& limit) const override;
   std::string limit_text(const StepLimit&) const override { return "stiffest law of tractions on a crack"; }
-  void energies(EnergyReport& report) const override { parts_->tractions->energies(report); }
+  void energies(EnergyReport& report) const override {
+    report.weigh(parts_->counts ? 1.0 : 0.0);
+    parts_->tractions->energies(report);
+  }
   /// "crack length 1", "crack 1 end j", ...: cracks counted from 1; "crack misfits", pairs of particle and node that
   /// fitted into no field; "crack moves stopped", of surfaces by more than half a cell in a step.
   void numbers(std::vector<NamedNumber>& list) const override;

@@ -18,7 +18,8 @@ namespace mpm {
 class TipHeating final : public NodalSource {
  public:
   /// `part`: of the energy that becomes heat. `cracks`: of each tip, its crack. `chosen` and `fields` outlive this.
-  TipHeating(double part, const std::vector<int>& cracks, const CrackFields& chosen, const Fields& fields);
+  /// `counts`: over several ranks, which all give the same heat, whether this one books it.
+  TipHeating(double part, const std::vector<int>& cracks, const CrackFields& chosen, const Fields& fields, bool counts);
 
   /// A tip has grown, as TipHeat::add().
   void released(int tip, double release_rate, double front, double growth, int steps) {
@@ -42,6 +43,7 @@ class TipHeating final : public NodalSource {
   double part_;
   const CrackFields& chosen_;
   const Fields& fields_;
+  bool counts_;
   std::vector<TipHeat> heats_;
   std::vector<double> kept_;              ///< of each tip, for the next step [J]
   std::vector<std::vector<int>> groups_;  ///< of each tip, field 0 of the bodies that its crack divides

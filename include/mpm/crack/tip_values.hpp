@@ -17,6 +17,7 @@
 #include "mpm/crack/j_integral.hpp"
 #include "mpm/material/law.hpp"
 #include "mpm/math/geometry_kind.hpp"
+#include "mpm/ranks/communicator.hpp"
 #include "mpm/step/scalar_transfer.hpp"
 
 namespace mpm {
@@ -34,6 +35,7 @@ struct TipParts {
   /// Energies at nodes follow from stress, strain and velocity there, as in linear elasticity; else they are means of
   /// those of particles.
   bool grid_energy = false;
+  Communicator* ranks = nullptr;  ///< where the run is over several
 };
 
 class TipValues final : public ContourSource {
@@ -46,7 +48,8 @@ class TipValues final : public ContourSource {
   bool find(const std::array<int, 2>& node, ContourField field, ContourValues& values) const override;
   /// At any place near gathered nodes, of the material on the side on which `from` lies.
   bool at(const Vec2& place, const Vec2& from, ContourValues& values) const;
-  /// The particles inside the path, with their motion; Grid::velocity and Grid::force are of the step's end.
+  /// The particles inside the path, of all ranks, with their motion; Grid::velocity and Grid::force are of the step's
+  /// end.
   void find_samples(const GridLines& lines, const ContourPath& path, std::vector<AreaSample>& samples);
 
  private:

@@ -45,6 +45,8 @@ class NodeChoice {
   /// The blocks that hold particles which choose: keys ascending; `first_owner`: number of the first among all owners.
   /// The fields chosen from have these blocks and their neighbours.
   void set_blocks(std::vector<std::uint64_t> keys, int first_owner);
+  /// Finds these blocks in the fields again, when their indices have changed (BlockTable::admit).
+  void find_places();
   const std::vector<std::uint64_t>& blocks() const { return block_keys_; }
   /// Number of calls of set_blocks().
   std::uint64_t sorted() const { return sorted_; }

@@ -11,15 +11,16 @@
 //
 // Ranks that meet at a block have it in all velocity fields that any of them has it in, since contact looks at nodes of
 // several. Blocks near tools are on all ranks: contact at points couples everything that touches one tool, and each
-// rank solves it for itself. Of a block a rank sends the nodes that its particles can reach. Weak: it receives nodes
-// that its own particles do not reach, so that all who have a block hold the same; what is near tools is sent to all
-// ranks.
+// rank solves it for itself. So are blocks near cracks, whose faces, chains and tips each rank moves for itself. Of a
+// block a rank sends the nodes that its particles can reach. Weak: it receives nodes that its own particles do not
+// reach, so that all who have a block hold the same; what is near tools and cracks is sent to all ranks.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "mpm/grid/fields.hpp"
@@ -37,6 +38,8 @@ class Halo {
   Halo(Communicator& ranks, const Territory& territory) : ranks_(ranks), territory_(territory) {}
 
   Communicator& ranks() const { return ranks_; }
+  /// Says of more blocks that all ranks have to have them; the answer is the same on all ranks whenever these meet.
+  void add_everywhere(Everywhere everywhere) { everywhere_.push_back(std::move(everywhere)); }
   /// After the blocks of `fields` have been made anew from the particles of this rank.
   void meet(Fields& fields, const Everywhere& everywhere);
   /// Adds what others have spread to the nodes of a velocity field; `values` have its blocks. It is begin() and end().
@@ -116,6 +119,7 @@ class Halo {
 
   Communicator& ranks_;
   const Territory& territory_;
+  std::vector<Everywhere> everywhere_;
   std::vector<OfField> fields_;
   std::uint64_t numbers_received_ = 0, exchanges_ = 0;
 

@@ -21,6 +21,7 @@ RigidParticleContact::RigidParticleContact(const RigidBody& body, RigidParticleS
       volumes_(fields.size(), NodalVolumes(fields.front()->layout.dim(), fields.front()->layout.nodes_per_block())),
       friction_(fields.size()),
       near_(fields.size()),
+      surveyed_(fields.size(), 0.0),
       two_(2),
       one_(1) {
   for (int k = 0; k < fields.front()->layout.dim(); ++k) cell_volume_ *= fields.front()->layout.cell(k);
@@ -32,9 +33,19 @@ void RigidParticleContact::momentum_gathered(StepContext& context) {
   }
   nodes_.clear();
   find_blocks();
-  if (keys_.empty()) return;
-  particles_.gather(keys_);
-  for (int f = 0; f < static_cast<int>(fields_.size()); ++f) add_nodes(f, context.dt);
+  find_surveyed();
+  if (!keys_.empty()) particles_.gather(keys_);
+  for (int f = 0; f < static_cast<int>(fields_.size()); ++f) {
+    if (surveyed_[f] != 0.0) add_nodes(f, context.dt);
+  }
+}
+
+// Ranks survey a field together.
+void RigidParticleContact::find_surveyed() {
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    surveyed_[f] = std::find(near_[f].begin(), near_[f].end(), 1) == near_[f].end() ? 0.0 : 1.0;
+  }
+  if (settings_.ranks != nullptr) settings_.ranks->largest(surveyed_.data(), static_cast<int>(surveyed_.size()));
 }
 
 void RigidParticleContact::find_blocks() {
@@ -71,7 +82,6 @@ void RigidParticleContact::add_nodes(int field, double dt) {
   wants.position = rule.kind == Detection::positions;
   wants.displacement = rule.kind == Detection::displacements;
   wants.start_volume = rule.minimum_volume > 0.0;
-  if (std::find(near_[field].begin(), near_[field].end(), 1) == near_[field].end()) return;
   NodalVolumes& volumes = volumes_[field];
   survey_.survey(field, near_[field], wants, volumes);
   const bool about_axis = axisymmetric(settings_.geometry);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace mpm {
 namespace {
@@ -28,6 +29,8 @@ Vec3 middle_of(const GridLayout& layout, const std::array<int, 3>& block) {
 }  // namespace
 
 void ToolSides::before_sort() {
+  const bool keeps = labelled_ && (std::exchange(kept_, false) || (over_ranks_ && !needs_sort()));
+  if (keeps) return;
   travelled_ = 0.0;
   for (ThinTool& tool : tools_) tool.aim();
   const double largest = layout_.largest_cell();
@@ -169,6 +172,7 @@ void SideGlue::part(NodalField Grid::*field) {
 void ToolSides::serialise(StateArchive& archive) {
   archive.value("labelled", labelled_);
   archive.value("travelled", travelled_);
+  kept_ = archive.merging();  // then particles are sorted though nothing has moved
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     const StateArchive::Group group(archive, "tool_" + std::to_string(t));
     tools_[t].serialise(archive);

@@ -205,7 +205,7 @@ void CrackContact::add_node(const DividedNode& divided) {
   const auto add = [&](int of, int own, int across, bool across_is_above) {
     if (group[own] < 0 || group[across] < 0 || single[of].crack < 0 || !meets(cracks_[single[of].crack])) return;
     const int above = across_is_above ? across : own, below = across_is_above ? own : across;
-    add_pair(single[of].crack, group[above], group[below], divided.normal[of]);
+    add_pair(single[of].crack, group[above], group[below], divided.normal[of], identity(divided, above, below));
   };
   for (int of = 0; of < 2; ++of) {
     add(of, 0, 1 + of, single[of].above);
@@ -222,16 +222,27 @@ void CrackContact::add_node(const DividedNode& divided) {
   }
 }
 
-void CrackContact::add_pair(int crack, int above, int below, const Vec2& normal) {
+// By what lies in its fields: which of 1 and 2 holds the material across which crack depends on the order in which it
+// is found, and may change when particles are sorted.
+int CrackContact::identity(const DividedNode& node, int above, int below) const {
+  const auto label = [&](int field) {
+    if (field == 0 || field == 3) return field;
+    const int crack = node.single[field - 1].crack;
+    return crack < 2 ? 1 + crack : 2 + crack;
+  };
+  const int fields = static_cast<int>(fields_.size()), cracks = static_cast<int>(cracks_.size());
+  const int labels = cracks > 2 ? std::max(fields, cracks + 2) : fields;
+  return (node.first + label(above)) * labels + node.first + label(below);
+}
+
+void CrackContact::add_pair(int crack, int above, int below, const Vec2& normal, int identity) {
   ContactNodes::Block& found = nodes_.blocks.front();
   const ContactNodes::Node& node = found.nodes.back();
-  const ContactNodes::Member &a = found.members[node.first_member + above],
-                             &b = found.members[node.first_member + below];
   const double length = normal.norm();
   if (!(length > 0.0)) return;
   ContactNodes::PairOfNode pair{};
   pair.rule = crack;
-  pair.fields = a.field * static_cast<int>(fields_.size()) + b.field;
+  pair.fields = identity;
   NodePair& state = pair.state;
   state.a = above;
   state.b = below;

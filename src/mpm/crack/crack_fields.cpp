@@ -43,7 +43,8 @@ Vec2 place_of(const ParticleSet& set, std::size_t p) { return {set.x[0][p], set.
 }  // namespace
 
 CrackFields::CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& sets, NodeChoice& choice,
-                         const FieldJumps& jumps, const FieldMap& map, Grouping grouping, ShapeKind shape, int threads)
+                         const FieldJumps& jumps, const FieldMap& map, Grouping grouping, ShapeKind shape, int threads,
+                         Communicator* ranks)
     : cracks_(cracks),
       sets_(sets),
       choice_(choice),
@@ -51,6 +52,7 @@ CrackFields::CrackFields(std::vector<Crack>& cracks, std::vector<ParticleSet>& s
       sorter_(grouping),
       shape_(shape),
       threads_(threads),
+      ranks_(ranks),
       near_(cracks.size()),
       around_(cracks.size()),
       patch_of_(sets.size()) {
@@ -198,6 +200,7 @@ int CrackFields::find_slot(const Tile& tile, int tile_node, std::size_t set, con
 int CrackFields::take_slot(DividedNode& node, const CracksBetween& between, const std::array<Vec2, 2>& normals) {
   if (between.count == 2) {
     if (node.ref[3].block >= 0 && (node.both[0].crack < 0 || node.both == between.across)) {
+      if (node.both[0].crack < 0) note_found(node, 3);
       node.both = between.across;
       return 3;
     }
@@ -207,6 +210,7 @@ int CrackFields::take_slot(DividedNode& node, const CracksBetween& between, cons
   for (int f = 0; f < 2; ++f) {
     if (node.ref[1 + f].block < 0) break;
     if (node.single[f].crack >= 0 && !(node.single[f] == between.across[0])) continue;
+    if (node.single[f].crack < 0) note_found(node, 1 + f);
     node.single[f] = between.across[0];
     node.normal[f] += normals[0];
     return 1 + f;
@@ -291,23 +295,48 @@ void CrackFields::clear_nodes() {
   nodes_.clear();
   node_at_.resize(choice_.number());
   for (const ParticleSet& set : sets_) {
-    if (set.side.empty()) continue;
+    if (!set.chooses) continue;
     const Grid& grid = choice_.field(set.field);
     node_at_[set.field].assign(static_cast<std::size_t>(grid.blocks.size()) * grid.layout.nodes_per_block(), -1);
   }
 }
 
+// A checkpoint is read before blocks of other ranks have joined.
+bool CrackFields::has_room() const {
+  return std::all_of(sets_.begin(), sets_.end(), [this](const ParticleSet& set) {
+    const Grid& grid = choice_.field(set.chooses ? set.field : choice_.chosen().front());
+    const auto room = static_cast<std::size_t>(grid.blocks.size()) * grid.layout.nodes_per_block();
+    return !set.chooses || node_at_[set.field].size() == room;
+  });
+}
+
+void CrackFields::forget_nodes() {
+  for (const DividedNode& node : nodes_) node_at(node.first, node.ref[0]) = -1;
+  nodes_.clear();
+}
+
 void CrackFields::choose() {
-  const GridLayout& layout = choice_.grid().layout;
   if (sorter_.outdated(choice_)) {
     sorter_.look_at(sets_, choice_);
     clear_nodes();
+  } else if (ranks_ != nullptr && !has_room()) {
+    clear_nodes();
   }
-  for (const DividedNode& node : nodes_) {
-    node_at_[node.first][static_cast<std::size_t>(node.ref[0].block) * layout.nodes_per_block() + node.ref[0].node] =
-        -1;
+  forget_nodes();
+  const long misfits = misfits_;
+  find_patches();
+  if (ranks_ != nullptr && share_nodes()) {
+    misfits_ = misfits;
+    const std::vector<DividedNode> of_all = nodes_;
+    find_patches();
+    nodes_ = of_all;
   }
-  nodes_.clear();
+  choice_.finish(threads_);
+  for (std::size_t s = 0; s < sets_.size(); ++s) sorter_.sort(s, sets_[s], choice_, patch_of_[s]);
+}
+
+void CrackFields::find_patches() {
+  const GridLayout& layout = choice_.grid().layout;
   choice_.clear_patches();
   for (std::vector<int>& of_set : patch_of_) of_set.clear();
   for (std::size_t b = 0; b < choice_.blocks().size(); ++b) {
@@ -332,14 +361,15 @@ void CrackFields::choose() {
       }
     }
   }
-  choice_.finish(threads_);
-  for (std::size_t s = 0; s < sets_.size(); ++s) sorter_.sort(s, sets_[s], choice_, patch_of_[s]);
 }
 
 void CrackFields::serialise(StateArchive& archive) {
   sorter_.serialise(archive, choice_);
-  archive.list("listed", listed_);
-  archive.value("misfits", misfits_);
+  {
+    const StateArchive::Same same(archive);
+    archive.list("listed", listed_);
+  }
+  archive.sum("misfits", misfits_);
   if (archive.reading()) clear_nodes();
 }
 

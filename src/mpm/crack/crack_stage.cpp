@@ -91,28 +91,31 @@ void CrackStage::limit_step(const PeriodAhead& period, StepLimit& limit) const {
 }
 
 void CrackStage::numbers(std::vector<NamedNumber>& list) const {
+  const auto once = [this](double value) { return parts_->counts ? value : 0.0; };
   for (std::size_t c = 0; c < parts_->cracks.size(); ++c) {
     const Chain& chain = parts_->cracks[c].chain;
     const int crack = static_cast<int>(c), number = crack + 1;
-    list.push_back({"crack length " + std::to_string(number), "m", chain.length()});
+    list.push_back({"crack length " + std::to_string(number), "m", once(chain.length())});
     list.push_back({"debonded crack length " + std::to_string(number), "m",
-                    chain.open_length([&](int point) { return parts_->tractions->law_at(crack, point) < 0; })});
+                    once(chain.open_length([&](int point) { return parts_->tractions->law_at(crack, point) < 0; }))});
   }
   list.push_back({"crack misfits", "1", static_cast<double>(parts_->chosen->misfits())});
-  list.push_back({"crack moves stopped", "1", static_cast<double>(parts_->motion->stopped())});
+  list.push_back({"crack moves stopped", "1", once(static_cast<double>(parts_->motion->stopped()))});
   for (const CrackTip& tip : tips()) {
     for (const TipNumber& of : kTipNumbers) {
-      list.push_back({tip_number(tip.crack + 1, tip.end, of), of.unit, of.value(tip)});
+      list.push_back({tip_number(tip.crack + 1, tip.end, of), of.unit, once(of.value(tip))});
     }
   }
 }
 
 void CrackStage::serialise(StateArchive& archive) {
   for (std::size_t c = 0; c < parts_->cracks.size(); ++c) {
+    const StateArchive::Same same(archive);
     const StateArchive::Group group(archive, "crack_" + std::to_string(c));
     parts_->cracks[c].chain.serialise(archive);
   }
   parts_->chosen->serialise(archive);
+  const StateArchive::Same same(archive);
   parts_->jumps->serialise(archive);
   parts_->motion->serialise(archive);
   parts_->tractions->serialise(archive);

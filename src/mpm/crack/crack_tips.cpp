@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "mpm/crack/chain.hpp"
 #include "mpm/math/constants.hpp"
+#include "mpm/ranks/lists.hpp"
 
 namespace mpm {
 namespace {
@@ -106,19 +108,27 @@ void CrackTips::find_material(CrackTip& tip) {
     }
     return;
   }
-  // That of the particle nearest to the tip.
+  // That of the particle nearest to the tip, and of the first body of several.
   const Vec2 place = chain.points()[chain.point_at(tip.end)].place;
-  double nearest = std::numeric_limits<double>::infinity();
+  struct Nearest {
+    double distance;
+    std::int64_t set;
+  };
+  Nearest nearest{std::numeric_limits<double>::infinity(), -1};
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
     const ParticleSet& set = parts_.sets[s];
     if (cracks_[tip.crack].divides[s] == 0) continue;
     for (std::uint32_t p = set.begin[chosen_.patches().first_owner]; p < set.begin.back(); ++p) {
       const double distance = (Vec2(set.x[0][p], set.x[1][p]) - place).squaredNorm();
-      if (!(distance < nearest)) continue;
-      nearest = distance;
-      tip.material = settings_.material_of_set[s];
+      if (distance < nearest.distance) nearest = {distance, static_cast<std::int64_t>(s)};
     }
   }
+  if (parts_.ranks != nullptr) {
+    for (const Nearest& one : gather_list(*parts_.ranks, std::vector<Nearest>{nearest})) {
+      if (std::tie(one.distance, one.set) < std::tie(nearest.distance, nearest.set)) nearest = one;
+    }
+  }
+  if (nearest.set >= 0) tip.material = settings_.material_of_set[nearest.set];
 }
 
 void CrackTips::find(CrackTip& tip) {

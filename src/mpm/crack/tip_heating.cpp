@@ -4,8 +4,9 @@
 
 namespace mpm {
 
-TipHeating::TipHeating(double part, const std::vector<int>& cracks, const CrackFields& chosen, const Fields& fields)
-    : part_(part), chosen_(chosen), fields_(fields), heats_(cracks.size()), kept_(cracks.size(), 0.0) {
+TipHeating::TipHeating(double part, const std::vector<int>& cracks, const CrackFields& chosen, const Fields& fields,
+                       bool counts)
+    : part_(part), chosen_(chosen), fields_(fields), counts_(counts), heats_(cracks.size()), kept_(cracks.size(), 0.0) {
   std::size_t most = 0;
   for (const int crack : cracks) {
     groups_.push_back(chosen_.groups(crack));
@@ -51,7 +52,7 @@ void TipHeating::heat(int tip, const Vec2& place, double dt) {
     return;
   }
   for (std::size_t s = first; s < shares_.size(); ++s) shares_[s].heat *= heat / sum;
-  account_.add(heat);
+  if (counts_) account_.add(heat);
 }
 
 void TipHeating::give(std::vector<NodalQuantity>& nodes, double, double dt) {
@@ -67,8 +68,8 @@ void TipHeating::serialise(StateArchive& archive) {
     heats_[t].serialise(archive);
     archive.value("kept", kept_[t]);
   }
-  archive.value("given", account_.given);
-  archive.value("exchanged", account_.exchanged);
+  archive.sum("given", account_.given);
+  archive.sum("exchanged", account_.exchanged);
 }
 
 }  // namespace mpm

@@ -5,12 +5,44 @@
 
 #include "mpm/math/dimension.hpp"
 #include "mpm/mechanics/kernel_views.hpp"
+#include "mpm/ranks/lists.hpp"
 #include "mpm/shape/ring.hpp"
 
 namespace mpm {
 namespace {
 
 constexpr int kPairs = 7;
+
+/// visit(double&) for all numbers of a sample.
+template <class Visit>
+void each_number(AreaSample& sample, Visit&& visit) {
+  ContourValues& values = sample.values;
+  for (Vec2* vector : {&sample.place, &sample.acceleration, &sample.velocity, &values.centre}) {
+    for (int k = 0; k < 2; ++k) visit((*vector)[k]);
+  }
+  for (auto* gradient : {&sample.velocity_gradient, &values.gradient}) {
+    for (auto& row : *gradient) {
+      for (double& number : row) visit(number);
+    }
+  }
+  for (double* number : {&sample.area, &sample.density, &values.hoop_gradient, &values.xx, &values.zz, &values.xz,
+                         &values.hoop, &values.energy, &values.kinetic}) {
+    visit(*number);
+  }
+}
+
+/// Those of all ranks, in their order.
+void gather_samples(Communicator& ranks, std::vector<AreaSample>& samples) {
+  std::vector<double> numbers;
+  AreaSample sample;
+  std::size_t of_one = 0;
+  each_number(sample, [&](double&) { ++of_one; });
+  for (AreaSample& own : samples) each_number(own, [&](double& number) { numbers.push_back(number); });
+  numbers = gather_list(ranks, numbers);
+  samples.resize(numbers.size() / of_one);
+  auto next = numbers.begin();
+  for (AreaSample& one : samples) each_number(one, [&](double& number) { number = *next++; });
+}
 
 }  // namespace
 
@@ -219,6 +251,7 @@ void TipValues::find_samples(const GridLines& lines, const ContourPath& path, st
     }
     look(set.begin[parts_.chosen.patches().first_owner], set.begin.back());
   }
+  if (parts_.ranks != nullptr) gather_samples(*parts_.ranks, samples);
 }
 
 }  // namespace mpm

@@ -29,6 +29,12 @@ NodeChoice::NodeChoice(Fields& fields, std::vector<int> chosen)
 void NodeChoice::set_blocks(std::vector<std::uint64_t> keys, int first_owner) {
   block_keys_.swap(keys);
   grid_.first_owner = first_owner;
+  find_places();
+  clear_patches();
+  ++sorted_;
+}
+
+void NodeChoice::find_places() {
   const GridLayout& layout = grid_.layout;
   const int span = neighbours_of(layout.dim());
   places_.assign(block_keys_.size() * fields_.size() * span, -1);
@@ -42,8 +48,6 @@ void NodeChoice::set_blocks(std::vector<std::uint64_t> keys, int first_owner) {
       for (const int f : chosen_) places_[(b * fields_.size() + f) * span + s] = fields_[f]->blocks.find(key);
     }
   }
-  clear_patches();
-  ++sorted_;
 }
 
 void NodeChoice::clear_patches() {

@@ -219,7 +219,7 @@ class Continuum final : public Mechanics {
     passes_.take(&Grid::force);
     passes_.each_field([&](Field& field) {
       if (counts) field.taken.assign(field.grid.blocks.owners(), {});
-      field.loose.resize(field.grid.blocks.owners());
+      field.loose.assign(field.grid.blocks.owners(), 0);  // some owners have no particle
     });
     const auto move_block = [&](Field& field, const Block& block) {
       const mpm_kernel::Moved moved = kernels_.move[motion_](field.view, block, field.sets(), field.count(), settings);

@@ -54,12 +54,20 @@ class ScalarTransferOf final : public ScalarTransfer {
     give_own(field, conducts, to, nullptr, [&](const mpm_kernel::BlockView& block, NodalField& sink) {
       kernels_.diffuse(view_, block, views_.data(), arrays_.data(), count(), from.block(0), sink.data());
     });
-    if (halo_ != nullptr) halo_->add(field, to);
+    if (halo_ != nullptr && !chosen_from(field)) halo_->add(field, to);  // else diffuse_chosen() has more to give
   }
 
   void diffuse_chosen(const Given& conducts, const std::vector<NodalField>& from,
                       std::vector<NodalField>& to) override {
-    if (choice_ == nullptr || choice_->patches() == 0) return;
+    if (choice_ == nullptr) return;
+    if (choice_->patches() > 0) diffuse_in_patches(conducts, from, to);
+    for (const int field : choice_->chosen()) {
+      if (halo_ != nullptr) halo_->add(field, to[field]);
+    }
+  }
+
+ private:
+  void diffuse_in_patches(const Given& conducts, const std::vector<NodalField>& from, std::vector<NodalField>& to) {
     Grid& patches = choice_->grid();
     NodalField &source = own_[0], &sink = flow_;
     source.resize(patches.blocks.size());
@@ -78,12 +86,12 @@ class ScalarTransferOf final : public ScalarTransfer {
     for (const int field : choice_->chosen()) choice_->give(sink, field, to[field]);
   }
 
- private:
   int count() const { return static_cast<int>(views_.size()); }
-  bool chosen(int field) const {
-    return choice_ != nullptr && choice_->patches() > 0 &&
+  bool chosen_from(int field) const {
+    return choice_ != nullptr &&
            std::find(choice_->chosen().begin(), choice_->chosen().end(), field) != choice_->chosen().end();
   }
+  bool chosen(int field) const { return choice_ != nullptr && choice_->patches() > 0 && chosen_from(field); }
 
   // Fields and particles may have been sorted or swapped since the last call.
   void look_at(Grid& grid) {

@@ -89,6 +89,10 @@ void Halo::find_own(const Fields& fields, const Everywhere& everywhere) {
   own_keys_.clear();
   told_.assign(ranks_.size(), {});
   told_all_.clear();
+  const auto by_all = [&](const std::array<int, 3>& block) {
+    const auto says_so = [&](const Everywhere& also) { return also(block); };
+    return everywhere(block) || std::any_of(everywhere_.begin(), everywhere_.end(), says_so);
+  };
   for (std::size_t f = 0; f < fields.size(); ++f) {
     const BlockTable& blocks = fields[f]->blocks;
     const std::vector<Nodes> nodes = reach(blocks);
@@ -96,7 +100,7 @@ void Halo::find_own(const Fields& fields, const Everywhere& everywhere) {
       const Use use{f, blocks.key(b), nodes[b]};
       own_.push_back(use);  // in ascending order
       own_keys_.push_back(use.key);
-      if (everywhere(blocks.block(b))) {
+      if (by_all(blocks.block(b))) {
         told_all_.push_back(use);
       } else {
         for (const int rank : ranks_around(blocks.layout(), use.key)) told_[rank].push_back(use);

@@ -262,12 +262,6 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     set.chooses = s.field_map.across(number) > 0;
     if (set.chooses) set.far_field = s.choice->number();
     if (set.far_field != set.field) set.side.assign(set.id.size(), 0);
-    if (s.ranks && set.far_field != set.field) {
-      throw DefinitionError(
-          fmt::format("body '{}': a thin tool divides it in two velocity fields, which does not work over several "
-                      "ranks yet; start the run as one process, or write sides: one for that tool",
-                      set.name));
-    }
     s.sizes.push_back(whole_of(body));
     next_id += static_cast<std::uint32_t>(s.sizes.back());
     s.total_mass += total_mass(set, body, s.ranks.get());

@@ -104,6 +104,7 @@ RigidParticleSettings particle_settings(RunParts& parts, const std::vector<Conta
   settings.detection = definition.contact.detection;
   settings.geometry = definition.geometry;
   settings.per_cell = definition.method.particles_per_direction;
+  settings.ranks = parts.ranks;
   settings.across = definition.across();
   settings.laws.resize(parts.fields.size());
   for (std::size_t s = 0; s < parts.sets.size(); ++s) {

@@ -176,7 +176,14 @@ void add_cracks(RunParts& parts) {
   };
   made->jumps = std::make_unique<FieldJumps>(parts.fields, asked.length);
   made->chosen = std::make_unique<CrackFields>(made->cracks, parts.sets, *parts.choice, *made->jumps, parts.map,
-                                               grouping, definition.method.shape, parts.threads);
+                                               grouping, definition.method.shape, parts.threads, parts.ranks);
+  if (parts.halo != nullptr) {
+    // Contours and what lies ahead of tips, with the nodes around them.
+    const double reach = 2.0 + std::max(static_cast<double>(asked.contour.size), asked.length);
+    parts.halo->add_everywhere(
+        [chosen = made->chosen.get(), reach](const std::array<int, 3>& block) { return chosen->near(block, reach); });
+  }
+  made->counts = parts.ranks == nullptr || parts.ranks->first();
   made->motion = std::make_unique<CrackMotion>(made->cracks, *made->chosen, parts.fields, asked.move, asked.prevent);
   try {
     made->tractions = std::make_unique<CrackTractions>(made->cracks, *made->chosen, parts.fields, asked.laws,
@@ -187,6 +194,7 @@ void add_cracks(RunParts& parts) {
   TipParts tip_parts{made->cracks, *made->chosen,       parts.fields, parts.sets, parts.laws,
                      {},           definition.geometry, across};
   tip_parts.grid_energy = asked.contour.energy == ContourDefinition::Energy::grid;
+  tip_parts.ranks = parts.ranks;
   for (const DeformableBody& body : definition.bodies) {
     tip_parts.densities.push_back(find_material(definition, body).density);
   }
@@ -196,7 +204,7 @@ void add_cracks(RunParts& parts) {
   if (asked.heating > 0.0) {
     std::vector<int> crack_of_tip;
     for (const CrackTip& tip : made->tips->tips()) crack_of_tip.push_back(tip.crack);
-    auto heating = std::make_unique<TipHeating>(asked.heating, crack_of_tip, *made->chosen, parts.fields);
+    auto heating = std::make_unique<TipHeating>(asked.heating, crack_of_tip, *made->chosen, parts.fields, made->counts);
     made->tips->set_heating(heating.get());
     parts.temperature->add(std::move(heating));
   }

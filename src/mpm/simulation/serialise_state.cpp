@@ -130,7 +130,10 @@ void Simulation::State::serialise(StateArchive& archive) {
     const StateArchive::Same same(archive);
     LineFit::serialise(archive, rates);
   }
-  if (archive.reading() && over && !archive.merging()) over->meet_again(fields);
+  if (archive.reading() && over && !archive.merging()) {
+    over->meet_again(fields);
+    if (choice) choice->find_places();
+  }
   if (archive.merging()) {
     if (over) over->divide(sets);
     sort(1e-9 * static_cast<double>(time));

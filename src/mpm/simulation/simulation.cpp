@@ -104,6 +104,7 @@ void Simulation::State::sort(double now) {
   }
   if (!over) return;
   over->meet(fields);
+  if (choice) choice->find_places();
   for (Module* module : list) module->share_memory(*ranks);
 }
 
@@ -125,6 +126,7 @@ void Simulation::State::meet_again() {
   }
   mechanics->blocks_renewed();
   over->meet(fields);
+  if (choice) choice->find_places();
   for (Module* module : modules.list()) module->share_memory(*ranks);
 }
 

@@ -94,7 +94,8 @@ void PatchSorter::serialise(StateArchive& archive, NodeChoice& choice) {
   std::vector<std::uint64_t> keys = choice.blocks();
   int first_owner = choice.grid().first_owner;
   archive.list("blocks", keys);
-  archive.value("first_owner", first_owner);
+  archive.sum("first_owner", first_owner);  // each rank has its own
+  if (archive.merging()) return;            // sorted anew
   if (archive.reading()) choice.set_blocks(std::move(keys), first_owner);
   for (std::size_t s = 0; s < begin_.size(); ++s) archive.list("begin_" + std::to_string(s), begin_[s]);
   generation_ = choice.sorted();

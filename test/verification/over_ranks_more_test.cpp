@@ -34,10 +34,6 @@ struct Part {
   const char* name;
   Case run;
   std::vector<std::pair<std::string, double>> passes;
-  /// Whether one process differs by more than round-off, so that one rank is what others are compared with: it solves
-  /// points of contact in another order (over_ranks_test.cpp), and finds the sides of thin tools at other times
-  /// (contact/tool_sides.hpp).
-  bool as_one_rank = false;
 };
 
 std::ostream& operator<<(std::ostream& out, const Part& part) { return out << part.name; }
@@ -106,7 +102,7 @@ class OverRanksPart : public testing::TestWithParam<Part> {
 };
 
 TEST_P(OverRanksPart, IsAsOnOneProcess) {
-  const Outcome alone = GetParam().as_one_rank ? run_over(GetParam().run, 1) : run_alone(GetParam().run);
+  const Outcome alone = run_alone(GetParam().run);
   for (const auto& [name, least] : GetParam().passes) EXPECT_GT(number_of(alone, name), least) << name;
   for (const int count : {2, 3, 8}) {
     SCOPED_TRACE(count);
@@ -118,11 +114,10 @@ TEST_P(OverRanksPart, GoesOnFromACheckpoint) {
   const Outcome whole = write(3), resumed = go_on(3);
   EXPECT_EQ(resumed.state_hash, whole.state_hash);
   EXPECT_EQ(resumed.memory_hash, whole.memory_hash);
-  for (const int count : {GetParam().as_one_rank ? 4 : 1, 2, 5}) {
+  for (const int count : {1, 2, 5}) {
     SCOPED_TRACE(count);
     expect_alike(go_on(count), whole);
   }
-  if (GetParam().as_one_rank) return;
   const Outcome alone = write(1);
   SCOPED_TRACE("written by one process");
   expect_alike(go_on(4), alone);
@@ -144,10 +139,10 @@ const Part kParts[] = {
     {"WedgeInACrack",
      {"wedge_block", {"rigid_bodies.wedge.motion.velocity=[0, -15]", "materials.foam.fracture.j_ic=30"}, 150},
      {{"crack 1 end growth", 0.0}}},
-    {"ThinTool", {"ploughed_bed", {}}, {}, true},
+    {"ThinTool", {"ploughed_bed", {}}, {}},
     // Averages of stress depend on when particles are sorted (mechanics/stress_average.hpp).
     {"ToolOfParticles", {"ploughed_bed", {"rigid_bodies.blade.sides=one", "method.average_stress=false"}}, {}},
-    {"ThinToolMetAtPoints", {"speed_tool_3d", {"grid.cell=0.04"}}, {}, true},
+    {"ThinToolMetAtPoints", {"speed_tool_3d", {"grid.cell=0.04"}}, {}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Of, OverRanksPart, testing::ValuesIn(kParts), [](const auto& of) { return of.param.name; });

@@ -11,9 +11,7 @@
 // pressed against the tool and has not passed it.
 //
 // Over several ranks each labels its own particles, which keep their side when they go to another rank, and joins the
-// nodes that it has: where ranks share a node they have both fields there, with the same bits. They do so when they
-// have asked for it alone, since what else makes them sort depends on their number; one process does so in every sort,
-// so that its sides may change a few steps before those of ranks.
+// nodes that it has: where ranks share a node they have both fields there, with the same bits.
 //
 // Weak: with several thin tools the nearest one decides on which side a particle lies, whether or not it names the body
 // (RigidBodyDefinition::divides says which bodies are divided at all); between two tools nearer to each other than
@@ -36,8 +34,8 @@ class ToolSides final : public Module {
  public:
   /// `layout`, `map` and `sets` must outlive this object. `map` says which bodies are divided, and the fields of their
   /// sides.
-  ToolSides(const GridLayout& layout, const FieldMap& map, std::vector<ParticleSet>& sets, int threads, bool over_ranks)
-      : layout_(layout), map_(map), sets_(sets), threads_(threads), over_ranks_(over_ranks) {}
+  ToolSides(const GridLayout& layout, const FieldMap& map, std::vector<ParticleSet>& sets, int threads)
+      : layout_(layout), map_(map), sets_(sets), threads_(threads) {}
 
   std::string name() const override { return "tool_sides"; }
 
@@ -66,7 +64,6 @@ class ToolSides final : public Module {
   const FieldMap& map_;
   std::vector<ParticleSet>& sets_;
   int threads_;
-  bool over_ranks_;
   std::deque<ThinTool> tools_;
   bool labelled_ = false;
   bool kept_ = false;       ///< sides are those of a checkpoint until the sort after it

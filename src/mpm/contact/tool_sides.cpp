@@ -29,8 +29,7 @@ Vec3 middle_of(const GridLayout& layout, const std::array<int, 3>& block) {
 }  // namespace
 
 void ToolSides::before_sort() {
-  const bool keeps = labelled_ && (std::exchange(kept_, false) || (over_ranks_ && !needs_sort()));
-  if (keeps) return;
+  if (std::exchange(kept_, false) && labelled_) return;
   travelled_ = 0.0;
   for (ThinTool& tool : tools_) tool.aim();
   const double largest = layout_.largest_cell();

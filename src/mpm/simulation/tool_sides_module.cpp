@@ -38,8 +38,7 @@ void add_tool_sides(RunParts& parts) {
   const SimulationDefinition& definition = parts.definition;
   ToolSides* sides = nullptr;
   if (!parts.map.divisions().empty()) {
-    sides = &parts.modules.add(
-        std::make_unique<ToolSides>(parts.layout(), parts.map, parts.sets, parts.threads, parts.ranks != nullptr));
+    sides = &parts.modules.add(std::make_unique<ToolSides>(parts.layout(), parts.map, parts.sets, parts.threads));
   }
   for (const RigidBody& body : parts.bodies) look_at(body, parts, sides);
   if (sides == nullptr) return;

@@ -170,7 +170,7 @@ const Case kCases[] = {
     {"speed_tool_3d", {"grid.cell=0.04", "rigid_bodies.blade.sides=one"}, 100, true},  // a tool met at points
     {"sphere_indentation", {"time.end=0.01"}, 300},                                    // about an axis
     {"end_loaded_cylinder", {}},                                                       // tractions
-    {"cone_penetrometer", {"grid.cell=12 mm"}, 100, true},                             // soil that settles first
+    {"cone_penetrometer", {"grid.cell=8 mm"}, 100, true},                              // soil that settles first
     {"compressed_block", {}, 100, true},                                               // tools and damping
     {"speed_block_3d", {"grid.cell=0.04", "time.sync=0.005"}},                         // free flight
 };

@@ -11,6 +11,11 @@
 
 namespace mpm {
 
+/// The room that an array of so many particles gets where they come and go. It grows in steps, so that sets that grow
+/// by a few particles keep their arrays: a heap that gets arrays of ever other lengths keeps what it cannot use, up to
+/// the size of all.
+std::size_t room_for_particles(std::size_t particles);
+
 class HandOver {
  public:
   /// All must outlive this object.
@@ -39,6 +44,21 @@ class HandOver {
     std::vector<int> staying;
     std::vector<std::vector<int>> to;  ///< [rank]
   };
+  /// Room for one array of each type, kept: what is written anew takes it, and leaves its own for the next.
+  struct Room {
+    PaddedArray<double> doubles;
+    PaddedArray<float> floats;
+    PaddedArray<std::uint32_t> ids;
+    PaddedArray<std::uint8_t> sides;
+    PaddedArray<double>& of(const PaddedArray<double>&) { return doubles; }
+    PaddedArray<float>& of(const PaddedArray<float>&) { return floats; }
+    PaddedArray<std::uint32_t>& of(const PaddedArray<std::uint32_t>&) { return ids; }
+    PaddedArray<std::uint8_t>& of(const PaddedArray<std::uint8_t>&) { return sides; }
+  };
+  /// A parcel that is read from its beginning to its end.
+  struct Unpacking;
+  /// Leaves those that stay, in their order, and adds those that come, parcel by parcel.
+  void replace(ParticleSet& set, const std::vector<int>& staying, std::vector<Unpacking>& coming);
   /// Of each block of this rank, the number of its particles.
   Territory::Load load(const std::vector<ParticleSet>& sets) const;
   void find_leaving(const ParticleSet& set, Leaving& leaving) const;
@@ -53,6 +73,7 @@ class HandOver {
   double after_cut_ = 1.0;     ///< what the last division left, as the call after it finds it
   bool just_divided_ = false;  ///< whether that is to be found
   std::uint64_t handed_over_ = 0, divisions_ = 0;
+  Room room_;
 };
 
 }  // namespace mpm

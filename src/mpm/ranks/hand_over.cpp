@@ -45,8 +45,15 @@ void pack(ParticleSet& set, const std::vector<int>& leaving, Communicator::Bytes
   });
 }
 
-/// A parcel that is read from its beginning to its end.
-struct Unpacking {
+}  // namespace
+
+std::size_t room_for_particles(std::size_t particles) {
+  std::size_t step = 1024;
+  while (32 * step < particles) step *= 2;
+  return (particles / step + 1) * step;
+}
+
+struct HandOver::Unpacking {
   const Communicator::Bytes& bytes;
   std::size_t at = 0;
 
@@ -58,16 +65,20 @@ struct Unpacking {
   }
 };
 
-/// Leaves those that stay, in their order, and adds those that come, parcel by parcel.
-void replace(ParticleSet& set, const std::vector<int>& staying, std::vector<Unpacking>& coming) {
+void HandOver::replace(ParticleSet& set, const std::vector<int>& staying, std::vector<Unpacking>& coming) {
   std::vector<std::uint64_t> counts(coming.size());
   std::size_t size = staying.size();
   for (std::size_t i = 0; i < coming.size(); ++i) {
     coming[i].take(&counts[i], 1);
     size += counts[i];
   }
+  const auto make_room = [size](auto& values) {
+    values.resize(room_for_particles(size));
+    values.resize(size);
+  };
   each_column(set, [&](auto& values) {
-    std::decay_t<decltype(values)> kept(size);
+    auto& kept = room_.of(values);
+    make_room(kept);
     auto* to = kept.data();
     for (const int p : staying) *to++ = values[p];
     for (std::size_t i = 0; i < coming.size(); ++i) {
@@ -76,10 +87,9 @@ void replace(ParticleSet& set, const std::vector<int>& staying, std::vector<Unpa
     }
     values.swap(kept);
   });
-  set.fit_scratch();
+  for (PaddedArray<double>& scalar : set.next_x) make_room(scalar);
+  for (ParticleScalar& scalar : set.domain) scalar.visit(make_room);
 }
-
-}  // namespace
 
 Territory::Load HandOver::load(const std::vector<ParticleSet>& sets) const {
   std::unordered_map<std::uint64_t, std::uint64_t> particles;

@@ -11,9 +11,9 @@
 
 namespace mpm {
 
-/// The room that an array of so many particles gets where they come and go. It grows in steps, so that sets that grow
-/// by a few particles keep their arrays: a heap that gets arrays of ever other lengths keeps what it cannot use, up to
-/// the size of all.
+/// The room that an array of so many particles gets where they come and go: more by a sixteenth to a quarter, in steps,
+/// so that few are made anew before the grid is divided anew. A heap that gets arrays of ever other lengths keeps what
+/// it cannot use, up to the size of all; room beyond the particles takes no memory before it is written.
 std::size_t room_for_particles(std::size_t particles);
 
 class HandOver {

@@ -49,8 +49,8 @@ void pack(ParticleSet& set, const std::vector<int>& leaving, Communicator::Bytes
 
 std::size_t room_for_particles(std::size_t particles) {
   std::size_t step = 1024;
-  while (32 * step < particles) step *= 2;
-  return (particles / step + 1) * step;
+  while (16 * step < particles) step *= 2;
+  return (particles / step + 2) * step;
 }
 
 struct HandOver::Unpacking {

@@ -37,8 +37,9 @@ struct Size {
     std::vector<ParticleScalar> field;
     field.reserve(components);
     for (int c = 0; c < components; ++c) {
-      field.emplace_back(precision, room);
-      field.back().visit([this](auto& values) { values.resize(particles); });
+      field.emplace_back(precision);
+      field.back().visit([this](auto& values) { give(values); });
+      field.back().assign(particles, 0.0);
     }
     return field;
   }

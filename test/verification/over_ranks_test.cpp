@@ -38,7 +38,6 @@ const Case kCases[] = {
     {"column_collapse", {}},                                                // soil, mean stresses of cells, rough walls
     {"speed_tool_3d", {"grid.cell=0.04", "rigid_bodies.blade.sides=one"}},  // a tool met at points
     {"sphere_indentation", {"time.end=0.01"}, 300},                         // about an axis
-    {"cone_penetrometer", {"grid.cell=8 mm"}},                             // soil that settles first
     {"end_loaded_cylinder", {}},                                            // tractions
     {"compressed_block", {}},                                               // tools and damping
     {"speed_block_3d", {"grid.cell=0.04", "time.sync=0.005"}},              // free flight

@@ -54,21 +54,6 @@ class PaddedArray {
     }
     size_ = size;
   }
-  /// As resize(), for what grows again and again: with a sixteenth more room where there is too little.
-  void fit(std::size_t size) {
-    if (size > capacity_) resize(size + size / 16);
-    size_ = size;
-  }
-  /// As fit(), and keeps what is there. What is added is not initialised.
-  void extend(std::size_t size) {
-    if (size > capacity_) {
-      PaddedArray larger;
-      larger.fit(size);
-      std::copy_n(data(), size_, larger.data());
-      swap(larger);
-    }
-    size_ = size;
-  }
   void assign(std::size_t size, T value) {
     resize(size);
     std::fill_n(data(), size, value);

@@ -86,8 +86,12 @@ struct ParticleSet {
   }
   /// Makes as much room as there are particles for what a step writes before it reads it.
   void fit_scratch() {
-    for (PaddedArray<double>& scalar : next_x) scalar.fit(id.size());
-    for (ParticleScalar& scalar : domain) scalar.visit([this](auto& values) { values.fit(id.size()); });
+    for (PaddedArray<double>& scalar : next_x) {
+      if (scalar.size() != id.size()) scalar = PaddedArray<double>(id.size());
+    }
+    for (ParticleScalar& scalar : domain) {
+      if (scalar.size() != id.size()) scalar = ParticleScalar(precision, id.size());
+    }
   }
   /// Gives the particles a number of this name, 0 to begin with. Sorting carries it, checkpoints hold it, and it is a
   /// particle field. Returns its place in `brought`.

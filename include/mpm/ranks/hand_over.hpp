@@ -7,7 +7,6 @@
 // would (step/mechanics.hpp, Mixed).
 #pragma once
 
-#include <tuple>
 #include <vector>
 
 #include "mpm/grid/fields.hpp"
@@ -19,6 +18,10 @@ namespace mpm {
 
 /// Keys of the blocks that ParticleSet::begin is of, with the velocity field counted in.
 std::vector<std::uint64_t> owner_keys(const Fields& fields);
+/// The room that an array of so many particles gets where they come and go: more by a sixteenth to a quarter, in steps,
+/// so that few are made anew before the grid is divided anew. A heap that gets arrays of ever other lengths keeps what
+/// it cannot use, up to the size of all; room beyond the particles takes no memory before it is written.
+std::size_t room_for_particles(std::size_t particles);
 
 class HandOver {
  public:
@@ -58,6 +61,17 @@ class HandOver {
     Part staying;
     std::vector<Part> to;  ///< [rank]
   };
+  /// Room for one array of each type, kept: what is written anew takes it, and leaves its own for the next.
+  struct Room {
+    PaddedArray<double> doubles;
+    PaddedArray<float> floats;
+    PaddedArray<std::uint32_t> ids;
+    PaddedArray<std::uint8_t> sides;
+    PaddedArray<double>& of(const PaddedArray<double>&) { return doubles; }
+    PaddedArray<float>& of(const PaddedArray<float>&) { return floats; }
+    PaddedArray<std::uint32_t>& of(const PaddedArray<std::uint32_t>&) { return ids; }
+    PaddedArray<std::uint8_t>& of(const PaddedArray<std::uint8_t>&) { return sides; }
+  };
   struct Unpacking;
   static void pack(ParticleSet& set, const Part& leaving, Communicator::Bytes& bytes);
   /// Leaves those that stay, and puts those that come between them, by the blocks that they were sorted into.
@@ -72,12 +86,11 @@ class HandOver {
   Communicator& ranks_;
   Territory& territory_;
   const GridLayout& layout_;
-  /// Arrays that particles are put in order in; each then becomes one of theirs.
-  std::tuple<PaddedArray<double>, PaddedArray<float>, PaddedArray<std::uint32_t>, PaddedArray<std::uint8_t>> spare_;
   double imbalance_ = 1.0;
   double after_cut_ = 1.0;     ///< what the last division left, as the call after it finds it
   bool just_divided_ = false;  ///< whether that is to be found
   std::uint64_t handed_over_ = 0, divisions_ = 0;
+  Room room_;
 };
 
 }  // namespace mpm

@@ -39,6 +39,12 @@ void put(Communicator::Bytes& bytes, const T* values, std::size_t count) {
 
 }  // namespace
 
+std::size_t room_for_particles(std::size_t particles) {
+  std::size_t step = 1024;
+  while (16 * step < particles) step *= 2;
+  return (particles / step + 2) * step;
+}
+
 /// A parcel that is read from its beginning to its end.
 struct HandOver::Unpacking {
   const Communicator::Bytes& bytes;
@@ -81,9 +87,13 @@ void HandOver::replace(ParticleSet& set, const Part& staying, std::vector<Unpack
     }
   }
   std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.key < b.key; });
+  const auto make_room = [size](auto& values) {
+    values.resize(room_for_particles(size));
+    values.resize(size);
+  };
   each_column(set, [&](auto& values) {
-    auto& merged = std::get<std::decay_t<decltype(values)>>(spare_);
-    merged.fit(size);
+    auto& merged = room_.of(values);
+    make_room(merged);
     auto* to = merged.data();
     auto next = staying.particles.begin();
     for (const Piece& piece : pieces) {
@@ -102,7 +112,8 @@ void HandOver::replace(ParticleSet& set, const Part& staying, std::vector<Unpack
     values.swap(merged);
   });
   set.begin.clear();
-  set.fit_scratch();
+  for (PaddedArray<double>& scalar : set.next_x) make_room(scalar);
+  for (ParticleScalar& scalar : set.domain) scalar.visit(make_room);
 }
 
 std::vector<std::uint64_t> owner_keys(const Fields& fields) {

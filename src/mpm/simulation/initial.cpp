@@ -54,19 +54,39 @@ void store(const InitialState& state, GeometryKind geometry, ParticleSet& set, s
 struct Spread {
   double least = 1.0, most = 1.0;
   double inverse = 0.0;  ///< sum of 1 / J
+  /// Whether no particle is strained.
+  bool is_even() const { return least == 1.0 && most == 1.0; }
 };
 
-/// The same over all ranks, of `whole` particles.
-void add_up(Communicator& ranks, std::uint64_t here, std::uint64_t whole, Spread& spread) {
+/// A sum over the particles of a body in the order of their numbers, so that it has the bits of one process: the first
+/// rank gets what they have piece by piece. Collective.
+double sum_in_order(Communicator& ranks, const BodyPart& part, const std::vector<double>& own) {
+  constexpr std::uint64_t kPiece = std::uint64_t{1} << 20;
+  double sum = 0.0;
+  std::size_t next = 0;
+  for (std::uint64_t first = 0; first < part.whole; first += kPiece) {
+    const std::uint64_t last = std::min(part.whole, first + kPiece);
+    std::vector<double> values;
+    std::vector<std::uint64_t> places;
+    for (; next < own.size() && part.numbers[next] < last; ++next) {
+      values.push_back(own[next]);
+      places.push_back(part.numbers[next] - first);
+    }
+    std::vector<double> piece(ranks.first() ? last - first : 0);
+    ranks.place(values, places, piece.data(), piece.size());
+    for (const double value : piece) sum += value;
+  }
+  return ranks.sum(sum);  // 0 on the others
+}
+
+/// The same over all ranks. `own`: 1 / J of each particle here.
+void add_up(Communicator& ranks, const BodyPart& part, const std::vector<double>& own, Spread& spread) {
   constexpr double kNone = -std::numeric_limits<double>::infinity();
-  double ends[] = {here > 0 ? -spread.least : kNone, here > 0 ? spread.most : kNone};
+  double ends[] = {own.empty() ? kNone : -spread.least, own.empty() ? kNone : spread.most};
   ranks.largest(ends, 2);
   spread.least = -ends[0];
   spread.most = ends[1];
-  spread.inverse = ranks.sum(spread.inverse);
-  if (spread.least != spread.most) return;
-  spread.inverse = 0.0;  // to the bit as one process adds what is the same everywhere
-  for (std::uint64_t p = 0; p < whole; ++p) spread.inverse += 1.0 / spread.least;
+  if (!spread.is_even()) spread.inverse = sum_in_order(ranks, part, own);
 }
 
 void store_everywhere(const InitialState& state, GeometryKind geometry, ParticleSet& set) {
@@ -84,6 +104,7 @@ void start_particles(ParticleSet& set, const DeformableBody& body, const Materia
   const bool asked = !body.stresses.empty() || !body.temperatures.empty();
   InitialState state = states.find({});
   Spread spread;
+  std::vector<double> inverses;  // over several ranks
   if (!asked) store_everywhere(state, geometry, set);
   agree<DefinitionError>(ranks, [&] {
     check_count(body, body.stresses.size(), "stresses");
@@ -111,13 +132,14 @@ void start_particles(ParticleSet& set, const DeformableBody& body, const Materia
       spread.least = p == 0 ? j : std::min(spread.least, j);
       spread.most = p == 0 ? j : std::max(spread.most, j);
       spread.inverse += 1.0 / j;
+      if (ranks != nullptr) inverses.push_back(1.0 / j);
     }
   });
   if (!set.masses.empty()) return;
   const std::uint64_t whole = whole_of(body);
-  if (ranks != nullptr) add_up(*ranks, n, whole, spread);
+  if (ranks != nullptr) add_up(*ranks, *body.part, inverses, spread);
   // The particles of a body have one mass, so where J varies it is their mean mass that is right.
-  if (spread.least != spread.most || spread.least != 1.0) set.mass *= spread.inverse / static_cast<double>(whole);
+  if (!spread.is_even()) set.mass *= spread.inverse / static_cast<double>(whole);
   if (spread.most > (1.0 + kEvenVolume) * spread.least) {
     warnings.push_back(
         fmt::format("body '{}': its initial stress strains it unevenly, J from {:.4g} to {:.4g}, but its particles "

@@ -10,6 +10,7 @@
 #include "mpm/boundary/periodic.hpp"
 #include "mpm/math/dimension.hpp"
 #include "mpm/ranks/agree.hpp"
+#include "mpm/ranks/hand_over.hpp"
 #include "mpm/ranks/own_part.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
@@ -22,12 +23,27 @@ std::uint32_t number_of(const DeformableBody& body, std::size_t p) {
   return body.part ? body.part->numbers[p] : static_cast<std::uint32_t>(p);
 }
 
-std::vector<ParticleScalar> zeros(int components, Precision precision, std::size_t particles) {
-  std::vector<ParticleScalar> field;
-  field.reserve(components);
-  for (int c = 0; c < components; ++c) field.emplace_back(precision, particles);
-  return field;
-}
+/// Over several ranks arrays get room for particles that come.
+struct Size {
+  std::size_t particles, room;
+
+  Size(std::size_t count, bool shares) : particles(count), room(shares ? room_for_particles(count) : count) {}
+  template <class Array>
+  void give(Array& values) const {
+    values.resize(room);
+    values.resize(particles);
+  }
+  std::vector<ParticleScalar> zeros(int components, Precision precision) const {
+    std::vector<ParticleScalar> field;
+    field.reserve(components);
+    for (int c = 0; c < components; ++c) {
+      field.emplace_back(precision);
+      field.back().visit([this](auto& values) { give(values); });
+      field.back().assign(particles, 0.0);
+    }
+    return field;
+  }
+};
 
 /// How far a centre may be beyond a face [cells]. Pressed against a wall, a particle comes to rest only when its box
 /// (`half` of it) is half beyond it; an absorbing face gives way by as much.
@@ -37,13 +53,14 @@ double beyond(WallKind kind, double half) {
 }
 
 /// Masses of rings, and where their functions end. `per_area`: density times the area of a section [kg/m].
-void make_rings(const SimulationDefinition& definition, double per_area, const GridLayout& layout, ParticleSet& set) {
+void make_rings(const SimulationDefinition& definition, double per_area, const GridLayout& layout, const Size& size,
+                ParticleSet& set) {
   constexpr double kOffAxis = 1e-6;  // of a cell; on the axis itself v_r / r is no number
   const AxisRules& rules = definition.method.axis;
   set.whole_domains = rules.domains == AxisDomains::whole;
   set.planar_functions = rules.functions == AxisFunctions::planar;
   if (definition.grid.min.x() == 0.0) set.lowest[0] = kOffAxis;
-  set.masses = zeros(1, set.precision, set.id.size());
+  set.masses = size.zeros(1, set.precision);
   const double half = set.half[0] * layout.cell(0);
   for (int p = 0; p < set.size(); ++p) {
     set.masses[0].set(p, per_area * ring_length(set.x[0][p], half, set.whole_domains));
@@ -51,8 +68,9 @@ void make_rings(const SimulationDefinition& definition, double per_area, const G
 }
 
 ParticleSet place_particles(const SimulationDefinition& definition, const DeformableBody& body,
-                            const MaterialDefinition& material, const Law& law, const GridLayout& layout) {
+                            const MaterialDefinition& material, const Law& law, const GridLayout& layout, bool shares) {
   const std::size_t n = body.positions.size();
+  const Size size(n, shares);
   const std::string start = fmt::format("body '{}': ", body.name);
   if (whole_of(body) == 0) throw DefinitionError(start + "it has no particle");
   if (const std::string reason = refused_material(definition.geometry, material); !reason.empty()) {
@@ -73,11 +91,11 @@ ParticleSet place_particles(const SimulationDefinition& definition, const Deform
     set.lowest[k] = -beyond(definition.walls[face].kind, set.half[k]);
     set.highest[k] = layout.last_node(k) + beyond(definition.walls[face + 1].kind, set.half[k]);
   }
-  set.id.resize(n);
+  size.give(set.id);
   set.precision = definition.method.precision;
   set.x.resize(dim);
-  for (PaddedArray<double>& x : set.x) x.resize(n);
-  set.v = zeros(dim, set.precision, n);
+  for (PaddedArray<double>& x : set.x) size.give(x);
+  set.v = size.zeros(dim, set.precision);
   for (std::size_t p = 0; p < n; ++p) {
     for (int k = 0; k < dim; ++k) {
       const int axis = layout.axis(k);
@@ -91,16 +109,20 @@ ParticleSet place_particles(const SimulationDefinition& definition, const Deform
     }
   }
   with_geometry(definition.geometry, [&](auto geometry) {
-    set.f = zeros(geometry.kMatrix, set.precision, n);
-    set.tau = zeros(geometry.kSymmetric, set.precision, n);
+    set.f = size.zeros(geometry.kMatrix, set.precision);
+    set.tau = size.zeros(geometry.kSymmetric, set.precision);
   });
-  set.history = zeros(history_size(law), set.precision, n);
+  set.history = size.zeros(history_size(law), set.precision);
   if (axisymmetric(definition.geometry)) {
-    make_rings(definition, material.density * body.particle_volume, layout, set);
+    make_rings(definition, material.density * body.particle_volume, layout, size, set);
   } else {
     set.mass = material.density * body.particle_volume;
   }
-  if (definition.method.update != UpdateScheme::usf) set.next_x = set.x;
+  if (definition.method.update != UpdateScheme::usf) {
+    set.next_x.resize(dim);
+    for (PaddedArray<double>& x : set.next_x) size.give(x);
+    for (int k = 0; k < dim; ++k) std::copy(set.x[k].begin(), set.x[k].end(), set.next_x[k].begin());
+  }
   return set;
 }
 
@@ -144,7 +166,8 @@ ParticleSet make_set(const SimulationDefinition& definition, const DeformableBod
                      const MaterialDefinition& material, const Law& law, const GridLayout& layout, std::uint32_t first,
                      Communicator* ranks, std::vector<std::string>& warnings) {
   ParticleSet set;
-  agree<DefinitionError>(ranks, [&] { set = place_particles(definition, body, material, law, layout); });
+  agree<DefinitionError>(ranks,
+                         [&] { set = place_particles(definition, body, material, law, layout, ranks != nullptr); });
   start_particles(set, body, material, definition.geometry, ranks, warnings);
   set.first_id = first;
   for (std::size_t p = 0; p < set.id.size(); ++p) set.id[p] = first + number_of(body, p);

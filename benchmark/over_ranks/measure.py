@@ -3,7 +3,7 @@
 
     scripts/build --mpi
     source build_mpi/devel/setup.bash
-    benchmark/over_ranks/measure.py                # both tables of doc/scale.md, three rounds in turn
+    benchmark/over_ranks/measure.py                # the tables of scaling in doc/scale.md, three rounds
     benchmark/over_ranks/measure.py --rounds 1 --strong 2 --weak ""
 
 Strong: speed_block_3d_million, a million particles in all. Weak: bars of the same cross-section, 250,000 particles a
@@ -56,7 +56,7 @@ def measure(cases, rounds):
 def table(found):
     """Markdown: times are medians; what is counted is the same in every round."""
     print("| | time a step | particle steps a second | messages a step and rank | bytes a step and rank | "
-          "peak memory of the first rank |")
+          "peak memory of the fullest rank |")
     print("|---|---|---|---|---|---|")
     for label, ranks, summaries in found:
         one = summaries[0]

@@ -20,6 +20,7 @@ class PetscCommunicator final : public Communicator {
 
   int rank() const override;
   int size() const override;
+  int on_this_machine() const override;
   using Communicator::sum;
   void sum(double* numbers, int count) override;
   void largest(double* numbers, int count) override;

@@ -34,7 +34,7 @@ struct Notice {
 
 struct PetscCommunicator::State {
   PetscSession session;
-  int rank = 0, size = 1, threads = 1;
+  int rank = 0, size = 1, beside = 1, threads = 1;
   Traffic sent;
   std::vector<double> gathered;
   Together piece{static_cast<int>(kPiece), MPI_BYTE};
@@ -44,7 +44,7 @@ struct PetscCommunicator::State {
     check_mpi(MPI_Comm_size(session.all(), &size));
     MPI_Comm machine = MPI_COMM_NULL;
     check_mpi(MPI_Comm_split_type(session.all(), MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &machine));
-    int beside = 1, own = 0;
+    int own = 0;
     check_mpi(MPI_Comm_size(machine, &beside));
     check_mpi(MPI_Comm_rank(machine, &own));
     std::vector<ProcessorSet> all(beside);
@@ -131,6 +131,7 @@ PetscCommunicator::~PetscCommunicator() = default;
 int PetscCommunicator::rank() const { return state_->rank; }
 int PetscCommunicator::size() const { return state_->size; }
 const Traffic& PetscCommunicator::sent() const { return state_->sent; }
+int PetscCommunicator::on_this_machine() const { return state_->beside; }
 int PetscCommunicator::threads() const { return state_->threads; }
 
 bool PetscCommunicator::all_come(double seconds) const {

@@ -45,6 +45,7 @@ const Case kCases[] = {
     {"ranks_free", {}},                               // a free body in space, heat between it and the material
     {"ranks_plough", {"contact.method=nodes"}, 300},  // a tool in soil, met at nodes
     {"ranks_pair", {}},                               // bodies that meet and warm each other, loads on particles
+    {"ranks_warm", {}},                               // heat, in bodies of which ranks have no particle at the start
     {"ranks_chute", {}},                              // a periodic axis
     {"swelling_strip", {}},                           // a solvent that flows in, velocity conditions
     {"consolidating_cylinder", {}},                   // water in pores
@@ -122,6 +123,15 @@ TEST_F(OverRanksCheckpoint, IsReadByAnyNumberOfRanks) {
     SCOPED_TRACE(count);
     expect_equal(go_on(count), whole, 1e-10);
   }
+}
+
+// Ranks met when the tool was 0.8 cells from where it is when the checkpoint is written: blocks near it are those of
+// that place, and nodes of the absorbing face are stored by the numbers of blocks.
+TEST_F(OverRanksCheckpoint, GoesOnToTheBitWhileAToolMoves) {
+  run_ = {"ranks_plough", {"boundaries.x_max=absorbing"}, 130};
+  const Outcome whole = write(3), resumed = go_on(3);
+  EXPECT_EQ(resumed.state_hash, whole.state_hash);
+  EXPECT_EQ(resumed.memory_hash, whole.memory_hash);
 }
 
 // What a free body, points of contact, heat, pairs and conditions remember, too.

@@ -17,7 +17,7 @@
 // Over several ranks a node of the face and those beyond it may lie in blocks of which a rank has some alone. It has
 // the face's then for its neighbours only, and gathers from none of its nodes; what it does to them does not count.
 // Speeds are means over the particles of all ranks, and held forces are told to all once. Weak: a mean of several
-// materials is that of the last sort, which other numbers of ranks have at other steps.
+// materials is that of the last sort, or of the last meeting of ranks (ranks/halo.hpp).
 //
 // Weak: speeds are those of the undeformed material and do not follow what stiffens; material that flows or shears
 // plastically absorbs by its elastic constants. Dashpots give way to a load that stays: the body creeps through the

@@ -33,9 +33,9 @@ class CrackContact final : public Stage {
   std::string name() const override { return "crack_contact"; }
   Ranks ranks(Hook) const override { return {Rank::pair}; }
 
-  /// @throws FunctionError as ContactLaw::in_step().
   /// Every rank has all nodes near cracks, and solves them for itself.
   bool same_on_all_ranks() const override { return true; }
+  /// @throws FunctionError as ContactLaw::in_step().
   void momentum_gathered(StepContext& context) override;
   void before_strain(StepContext& context) override { nodes_.strain(context.dt); }
   void momentum_updated(StepContext& context) override;

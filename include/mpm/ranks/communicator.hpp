@@ -47,6 +47,8 @@ class Communicator {
   virtual ~Communicator() = default;
   virtual int rank() const = 0;
   virtual int size() const = 0;
+  /// How many ranks share this one's machine, and so its memory, it among them.
+  virtual int on_this_machine() const { return size(); }
   bool first() const { return rank() == 0; }
 
   /// Replaces each of `count` numbers by its sum over all ranks.

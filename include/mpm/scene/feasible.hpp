@@ -18,9 +18,9 @@ WaveStep wave_step(const Scene& scene);
 /// Number of particles that a scene will have, about.
 double expected_particles(const Scene& scene);
 
-/// Refuses too many particles, before any is made, for so many ranks that share them. @throws SceneError with their
-/// number and memory
-void check_particles(const Scene& scene, int ranks = 1);
+/// Refuses too many particles, before any is made. `part`: of the particles, what this machine has, where several share
+/// them. @throws SceneError with their number and memory
+void check_particles(const Scene& scene, double part = 1.0);
 /// Refuses more steps in a sync period than Simulation takes. @throws SceneError
 void check_steps(const Scene& scene);
 /// What to say when memory was refused: the number of particles, and the least memory that they need.

@@ -67,7 +67,8 @@ class PoreWater {
   std::unique_ptr<ScalarTransfer> transfer_;
   bool isotropic_ = true, averaged_;
   NodalField force_, part_;
-  std::vector<std::array<PaddedArray<double>, 3>> push_;
+  std::vector<std::array<PaddedArray<double>, 3>> push_;  ///< of each set, pushed_ of them in use
+  int pushed_ = 0;
   ScalarTransfer::Given pushes_, by_axis_;
   ScalarTransfer::Taken means_;
   std::vector<PaddedArray<double>> mean_;  ///< scratch, where averages are taken

@@ -187,8 +187,9 @@ class TransportedField {
   };
   std::optional<Joined> joined_;
   std::vector<Held> held_;
-  std::uint64_t generation_ = 0;  ///< of the blocks that held_ is of
-  std::vector<std::array<PaddedArray<double>, 3>> scratch_;
+  std::uint64_t generation_ = 0;                             ///< of the blocks that held_ is of
+  std::vector<std::array<PaddedArray<double>, 3>> scratch_;  ///< of each set, vectors_ of them in use
+  int vectors_ = 0;
   ScalarTransfer::Given given_;
   ScalarTransfer::Taken taken_;
   std::vector<double> sums_;

@@ -301,13 +301,16 @@ void CrackFields::clear_nodes() {
   }
 }
 
-// A checkpoint is read before blocks of other ranks have joined.
+// Blocks of other ranks join after a checkpoint has been read, and where ranks meet between sorts. Where there are as
+// many as before, nodes may have other places, but forget_nodes() clears those that they had.
 bool CrackFields::has_room() const {
-  return std::all_of(sets_.begin(), sets_.end(), [this](const ParticleSet& set) {
-    const Grid& grid = choice_.field(set.chooses ? set.field : choice_.chosen().front());
+  for (const ParticleSet& set : sets_) {
+    if (!set.chooses) continue;
+    const Grid& grid = choice_.field(set.field);
     const auto room = static_cast<std::size_t>(grid.blocks.size()) * grid.layout.nodes_per_block();
-    return !set.chooses || node_at_[set.field].size() == room;
-  });
+    if (node_at_[set.field].size() != room) return false;
+  }
+  return true;
 }
 
 void CrackFields::forget_nodes() {

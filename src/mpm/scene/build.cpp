@@ -178,7 +178,7 @@ SimulationDefinition build(const Scene& scene, Communicator* ranks) try {
   double half_spacing = std::numeric_limits<double>::infinity();
   for (const int axis : axes_of(scene)) half_spacing = std::min(half_spacing, 0.5 * particle_spacing(scene, axis));
   for (const BodyDefinition& body : scene.bodies) check_place(body, scene);
-  check_particles(scene, ranks == nullptr ? 1 : ranks->size());
+  check_particles(scene, ranks == nullptr ? 1.0 : static_cast<double>(ranks->on_this_machine()) / ranks->size());
   check_steps(scene);
   std::optional<OwnPart> part;
   if (ranks != nullptr) part.emplace(*ranks, layout_of(definition));

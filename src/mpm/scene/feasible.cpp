@@ -71,8 +71,8 @@ double expected_particles(const Scene& scene) {
   return total;
 }
 
-void check_particles(const Scene& scene, int ranks) {
-  const double memory = usable_memory(), bytes = least_bytes(scene) / ranks;
+void check_particles(const Scene& scene, double part) {
+  const double memory = usable_memory(), bytes = part * least_bytes(scene);
   double total = 0.0;
   for (const BodyDefinition& body : scene.bodies) {
     total += particles_of(body, scene);

@@ -43,10 +43,11 @@ Halo::Everywhere OverRanks::near_tool() const {
   const double reach = half.norm() + (kAround + kMoves) * layout_.largest_cell();
   return [this, half, reach](const std::array<int, 3>& block) {
     const Vec3 middle = layout_.node_position(block, 0) + half;
-    return std::any_of(bodies_.begin(), bodies_.end(), [&](const RigidBody& body) {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
       SurfacePoint point;
-      return body.surface().within(body.pose().to_body(middle), reach, point);
-    });
+      if (bodies_[b].surface().within(met_at_[b].to_body(middle), reach, point)) return true;
+    }
+    return false;
   };
 }
 
@@ -60,8 +61,8 @@ void OverRanks::meet(Fields& fields) {
   halo_.meet(fields, near_tool());
 }
 
-// Where tools were when ranks met is kept: from there they may move until ranks meet the next time.
-void OverRanks::meet_again(Fields& fields) { halo_.meet(fields, near_tool()); }
+// Where tools were when ranks met is kept: by it they had their blocks, and from there tools may move.
+void OverRanks::meet_as_read(Fields& fields) { halo_.meet(fields, near_tool()); }
 
 bool OverRanks::tools_have_moved() const {
   const double most = 0.5 * kMoves * layout_.smallest_cell();  // the rest is for the step that follows

@@ -66,11 +66,11 @@ class OverRanks {
   /// For checkpoints that as many ranks read.
   void serialise(StateArchive& archive);
   /// After the blocks have been read from such a checkpoint.
-  void meet_again(Fields& fields);
+  void meet_as_read(Fields& fields);
 
  private:
   bool tools_have_moved() const;
-  /// Whether a block is near a tool, so that all ranks have to have it.
+  /// Whether a block is near a tool as it was when ranks met, so that all ranks have to have it.
   Halo::Everywhere near_tool() const;
 
   Communicator& ranks_;

@@ -6,8 +6,8 @@ namespace mpm {
 
 std::string ranks_fault(const SimulationDefinition& definition) {
   if (!definition.sleep) return {};
-  return "'sleep' does not work over several ranks yet; start the run as one process (it takes as many threads as are "
-         "of use), or leave that out";
+  return "'sleep' does not work over several ranks yet; write sleep: off (--set sleep=off), or start the run as one "
+         "process, which takes as many threads as are of use";
 }
 
 }  // namespace mpm

@@ -131,7 +131,7 @@ void Simulation::State::serialise(StateArchive& archive) {
     LineFit::serialise(archive, rates);
   }
   if (archive.reading() && over && !archive.merging()) {
-    over->meet_again(fields);
+    over->meet_as_read(fields);
     if (choice) choice->find_places();
   }
   if (archive.merging()) {

@@ -93,9 +93,9 @@ PoreWater::PoreWater(TransportedField& pressure, const TransportParts& parts, st
     PaddedArray<double>& last = parts_.sets[s].brought[last_[s]].values;
     find_volume_ratios(parts_.sets[s], parts_.geometry, 0, parts_.sets[s].size(), last.data());
   }
-  const bool vectors = !isotropic_ || axisymmetric(parts_.geometry);
+  pushed_ = !isotropic_ || axisymmetric(parts_.geometry) ? 3 : 1;
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
-    for (int k = 0; k < (vectors ? 3 : 1); ++k) push_[s][k].assign(parts_.sets[s].size(), 0.0);
+    for (int k = 0; k < pushed_; ++k) push_[s][k].assign(parts_.sets[s].size(), 0.0);
     if (averaged_) mean_.emplace_back(parts_.sets[s].size(), 0.0);
   }
 }
@@ -163,10 +163,8 @@ void PoreWater::push_hoop(int set) {
 void PoreWater::fit_scratch() {
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
     const std::size_t size = parts_.sets[s].id.size();
-    for (PaddedArray<double>& values : push_[s]) {
-      if (values.data() != nullptr && values.size() != size) values.resize(size);
-    }
-    if (averaged_ && mean_[s].size() != size) mean_[s].resize(size);
+    for (int k = 0; k < pushed_; ++k) push_[s][k].resize(size);
+    if (averaged_) mean_[s].resize(size);
   }
 }
 

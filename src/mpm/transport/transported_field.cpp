@@ -86,25 +86,20 @@ void TransportedField::make_room() {
     const std::vector<NodalField> each(parts_.fields.size(), NodalField(1, nodes));
     joined_.emplace(Joined{{}, NodalField(1, nodes), NodalField(1, nodes), each, each});
   }
-  const int vectors = (anisotropic_ || gravity_driven_) ? parts_.fields.front()->layout.dim() : 1;
-  for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
-    for (int k = 0; k < vectors; ++k) scratch_[s][k].resize(parts_.sets[s].size());
-  }
+  vectors_ = (anisotropic_ || gravity_driven_) ? parts_.fields.front()->layout.dim() : 1;
+  fit_scratch();
   if (definition_.method != RateMethod::particle_capacity) return;
   rooms_.assign(parts_.fields.size(), NodalField(1, nodes));
 }
 
 void TransportedField::fit_scratch() {
   for (std::size_t s = 0; s < parts_.sets.size(); ++s) {
-    for (PaddedArray<double>& values : scratch_[s]) {
-      if (values.data() != nullptr && values.size() != parts_.sets[s].id.size())
-        values.resize(parts_.sets[s].id.size());
-    }
+    for (int k = 0; k < vectors_; ++k) scratch_[s][k].resize(parts_.sets[s].id.size());
   }
 }
 
 void TransportedField::add(std::unique_ptr<NodalSource> source) {
-  if (scratch_[0][0].empty()) make_room();
+  if (vectors_ == 0) make_room();
   // A surface that takes h (T_a - T), h as at the start, is read once an update: that must not overshoot.
   const double h = source->conductance(highest_);
   const double cell = parts_.fields.front()->layout.smallest_cell();

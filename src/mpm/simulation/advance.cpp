@@ -53,7 +53,7 @@ void Simulation::State::see_courant(double dt, const StepLimit& found) {
   steps.courant = std::max(steps.courant, dt * definition.time.cfl / found.dt);
 }
 
-bool Simulation::State::step(double start, double dt) {
+bool Simulation::State::step(double start, double dt, bool more) {
   for (RigidBody& body : bodies) body.begin_step(start, dt);
   StepContext context{fields, dt, start};
   constexpr std::array kSchedules = {&step_usf, &step_usl, &step_usavg};  // in the order of UpdateScheme
@@ -67,7 +67,7 @@ bool Simulation::State::step(double start, double dt) {
   const auto asks = [](const Module* module) { return module->needs_sort(); };
   const std::vector<Module*>& list = modules.list();
   StepFlags now{mechanics->failed().has_value(), std::any_of(list.begin(), list.end(), asks),
-                asked_to_stop && asked_to_stop(), false};
+                more && asked_to_stop && asked_to_stop(), false};
   if (over) {
     now = over->shared(now, *mechanics);
   } else {
@@ -101,8 +101,9 @@ void Simulation::State::run_period() {
   double part_begin = begin;  // of those steps
   bool divided = false;
   for (int k = 0; k < steps_ahead.number; ++k) {
-    const bool stops = step(part_begin + k * steps_ahead.dt, steps_ahead.dt);
-    if (k + 1 == steps_ahead.number) break;
+    const bool more = k + 1 < steps_ahead.number;
+    const bool stops = step(part_begin + k * steps_ahead.dt, steps_ahead.dt, more);
+    if (!more) break;
     if (stops) {
       throw StoppedError(fmt::format("stopped within a sync period, {} of {} steps after t = {:.6g} s", k + 1,
                                      steps_ahead.number, part_begin));

@@ -187,7 +187,7 @@ void Simulation::State::settle() {
   try {
     for (bool at_rest = true; residual.mean > wanted && count < kMostSettlingSteps; ++count) {
       if (count % kSurveyEvery == 0) r.previous_limit = r.material_limit = r.survey_material();
-      r.step(0.0, std::min(r.step_limit(r.previous_limit, r.material_limit).dt, period));
+      r.step(0.0, std::min(r.step_limit(r.previous_limit, r.material_limit).dt, period), false);
       if (at_rest) {
         residual = {0.0, 0.0};
         for (const auto& grid : r.fields) add_unbalanced(*grid, r.total_mass * g, g, 0.5 * lightest, residual);

@@ -126,9 +126,9 @@ struct Simulation::State {
   const RunTotals& find_totals();
   /// Runs to the next sync point. @throws PhysicsError, LoadError, DampingError, FunctionError, StoppedError
   void run_period();
-  /// One step of the schedule, with the checks after it; it begins at `start` [s]. Returns whether the run, on any
-  /// rank, is asked to stop.
-  bool step(double start, double dt);
+  /// One step of the schedule, with the checks after it; it begins at `start` [s]. `more`: whether others follow in the
+  /// sync period; then it returns whether the run, on any rank, is asked to stop.
+  bool step(double start, double dt, bool more);
   /// @throws PhysicsError for a particle that is not where it may be
   void sort(double now);
   /// Lets ranks meet where tools have come to, with particles as they lie.

@@ -7,6 +7,7 @@
 // would (step/mechanics.hpp, Mixed).
 #pragma once
 
+#include <unordered_map>
 #include <vector>
 
 #include "mpm/grid/fields.hpp"
@@ -44,6 +45,7 @@ class HandOver {
   void serialise(StateArchive& archive) {
     archive.value("after_cut", after_cut_);
     archive.value("just_divided", just_divided_);
+    if (archive.reading()) inside_.clear();
   }
 
  private:
@@ -78,7 +80,11 @@ class HandOver {
   void replace(ParticleSet& set, const Part& staying, std::vector<Unpacking>& coming);
   /// Of each block of this rank, the number of its particles.
   Territory::Load load(const std::vector<ParticleSet>& sets) const;
-  void find_leaving(const ParticleSet& set, const std::vector<std::uint64_t>& owners, Leaving& leaving) const;
+  /// Whether a block and all around it are this rank's.
+  bool is_inside(std::uint64_t key);
+  /// Whether particles [begin, end) lie in that block or one around it.
+  bool are_around(const ParticleSet& set, int begin, int end, std::uint64_t key) const;
+  void find_leaving(const ParticleSet& set, const std::vector<std::uint64_t>& owners, Leaving& leaving);
   void cut(const std::vector<ParticleSet>& sets);
   void divide_anew_if_due(const std::vector<ParticleSet>& sets);
   void send(std::vector<ParticleSet>& sets, const std::vector<std::uint64_t>& owners);
@@ -86,6 +92,7 @@ class HandOver {
   Communicator& ranks_;
   Territory& territory_;
   const GridLayout& layout_;
+  std::unordered_map<std::uint64_t, bool> inside_;  ///< is_inside() of blocks asked about since the last cut
   double imbalance_ = 1.0;
   double after_cut_ = 1.0;     ///< what the last division left, as the call after it finds it
   bool just_divided_ = false;  ///< whether that is to be found

@@ -298,6 +298,15 @@ void Halo::end(int number, const Values& values) {
       const int nodes = nodal->nodes_per_block();
       for (int k = 0; k < nodal->components(); ++k, ++component) {
         double* own = nodal->block(sum.block) + k * nodes;
+        if (sum.own && sum.count == 1) {  // two numbers, in whichever order
+          const Piece& piece = field.in[sum.first];
+          const double* from = field.received.data() + static_cast<std::size_t>(piece.at) * components;
+          from += component * piece.count;
+          each_run(piece.nodes, [&](int first, int count) {
+            for (int n = first; n < first + count; ++n) own[n] += *from++;
+          });
+          continue;
+        }
         std::array<double, kRow> total{};
         const auto add = [&](int begin, int end) {
           for (int i = begin; i < end; ++i) {

@@ -139,8 +139,37 @@ Territory::Load HandOver::load(const std::vector<ParticleSet>& sets) const {
   return list;
 }
 
-void HandOver::find_leaving(const ParticleSet& set, const std::vector<std::uint64_t>& owners, Leaving& leaving) const {
+bool HandOver::is_inside(std::uint64_t key) {
+  const auto [known, added] = inside_.try_emplace(key, true);
+  if (!added) return known->second;
+  const std::array<int, 3> middle = layout_.block(key);
+  for (int s = 0; s < neighbours_of(layout_.dim()) && known->second; ++s) {
+    std::array<int, 3> block = middle;
+    int rest = s;
+    for (int k = layout_.dim() - 1; k >= 0; --k, rest /= 3) block[k] += rest % 3 - 1;
+    known->second = territory_.owner(layout_.key(block)) == ranks_.rank();
+  }
+  return known->second;
+}
+
+bool HandOver::are_around(const ParticleSet& set, int begin, int end, std::uint64_t key) const {
+  constexpr double kHalf = 0.49;  // of a cell, a little less, so that round-off takes in nothing
+  const std::array<int, 3> block = layout_.block(key);
+  bool around = true;
+  for (int k = 0; k < layout_.dim(); ++k) {
+    const double low = (block[k] - 1) * kBlockEdge - kHalf, high = (block[k] + 2) * kBlockEdge - 1 + kHalf;
+    const double* x = set.x[k].data();
+    for (int p = begin; p < end; ++p) {
+      const double cells = layout_.in_cells(k, x[p]);
+      around = around && cells > low && cells < high;
+    }
+  }
+  return around;
+}
+
+void HandOver::find_leaving(const ParticleSet& set, const std::vector<std::uint64_t>& owners, Leaving& leaving) {
   leaving.staying = {};
+  leaving.staying.particles.reserve(set.size());
   leaving.to.assign(ranks_.size(), {});
   std::uint64_t last = ~std::uint64_t{0};
   int owner = ranks_.rank();  // of the last one; neighbours are in the same block mostly
@@ -148,6 +177,16 @@ void HandOver::find_leaving(const ParticleSet& set, const std::vector<std::uint6
   const std::size_t blocks = set.begin.empty() ? 0 : std::min(owners.size(), set.begin.size() - 1);
   for (int p = 0; p < set.size(); ++p) {
     while (sorted < blocks && static_cast<std::uint32_t>(p) >= set.begin[sorted + 1]) ++sorted;
+    if (sorted < blocks && static_cast<std::uint32_t>(p) == set.begin[sorted]) {  // most blocks stay whole
+      const int end = static_cast<int>(set.begin[sorted + 1]);
+      const std::uint64_t place = owners[sorted] % layout_.keys();
+      if (is_inside(place) && are_around(set, p, end, place)) {
+        leaving.staying.runs.push_back({owners[sorted], static_cast<std::uint64_t>(end - p)});
+        for (; p < end; ++p) leaving.staying.particles.push_back(p);
+        --p;
+        continue;
+      }
+    }
     const auto key = block_of(set, layout_, p);
     if (key && *key != last) {
       last = *key;
@@ -163,6 +202,7 @@ void HandOver::find_leaving(const ParticleSet& set, const std::vector<std::uint6
 
 void HandOver::cut(const std::vector<ParticleSet>& sets) {
   territory_.cut(load(sets), [this](double* numbers, int count) { ranks_.sum(numbers, count); });
+  inside_.clear();
   ++divisions_;
 }
 

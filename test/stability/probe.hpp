@@ -18,7 +18,7 @@ class SimulationProbe {
 
   /// Makes one step of `dt` [s]. @throws PhysicsError
   void step(double dt) {
-    state_.step(time_, dt);
+    state_.step(time_, dt, false);
     time_ += dt;
   }
   /// Advances to the next sync point, in steps that the solver chooses. @throws PhysicsError

@@ -140,7 +140,7 @@ const Part kParts[] = {
      {"wedge_block", {"rigid_bodies.wedge.motion.velocity=[0, -15]", "materials.foam.fracture.j_ic=30"}, 150},
      {{"crack 1 end growth", 0.0}}},
     {"ThinTool", {"ploughed_bed", {}}, {}},
-    // Averages of stress depend on when particles are sorted (mechanics/stress_average.hpp).
+    // Averages of stress depend on when particles are sorted, as they are where others read a checkpoint.
     {"ToolOfParticles", {"ploughed_bed", {"rigid_bodies.blade.sides=one", "method.average_stress=false"}}, {}},
     {"ThinToolMetAtPoints", {"speed_tool_3d", {"grid.cell=0.04"}}, {}},
 };

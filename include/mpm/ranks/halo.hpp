@@ -53,11 +53,8 @@ class Halo {
   const BlockShares& at_border(int field) const { return fields_[field].at_border; }
   const BlockShares& inside(int field) const { return fields_[field].inside; }
 
-  /// Blocks whose nodes come from other ranks in every pass, over all fields.
-  std::uint64_t blocks_received() const;
   /// Numbers received since the start, of 8 bytes each.
   std::uint64_t numbers_received() const { return numbers_received_; }
-  std::uint64_t exchanges() const { return exchanges_; }
 
  private:
   /// The nodes of a block, one bit each.
@@ -121,7 +118,7 @@ class Halo {
   const Territory& territory_;
   std::vector<Everywhere> everywhere_;
   std::vector<OfField> fields_;
-  std::uint64_t numbers_received_ = 0, exchanges_ = 0;
+  std::uint64_t numbers_received_ = 0;
 
   // Of the last meeting.
   std::vector<Use> own_;                 ///< what this rank gives to, ascending

@@ -71,7 +71,9 @@ class FieldPasses {
       owners.by_colour(threads_, [&](int owner) { visit(field, view_of(field.grid, owner)); });
     };
     each_field([&](Field& field) {
-      for (NodalField Grid::*const nodes : to) clear(field.grid, field.grid.*nodes);
+      each_node_range(field.grid, [&](int first, int last) {
+        for (NodalField Grid::*const nodes : to) clear(field.grid.*nodes, first, last);
+      });
     });
     const int fields = static_cast<int>(fields_.size());
     const bool overlaps = halo_ != nullptr && !patches_;
@@ -126,11 +128,15 @@ class FieldPasses {
   }
 
   void clear(const Grid& grid, NodalField& nodes) const {
-    const std::ptrdiff_t numbers = static_cast<std::ptrdiff_t>(nodes.components()) * nodes.nodes_per_block();
-    each_node_range(grid, [&](int first, int last) { std::fill_n(nodes.block(first), (last - first) * numbers, 0.0); });
+    each_node_range(grid, [&](int first, int last) { clear(nodes, first, last); });
   }
 
  private:
+  static void clear(NodalField& nodes, int first, int last) {
+    const std::ptrdiff_t numbers = static_cast<std::ptrdiff_t>(nodes.components()) * nodes.nodes_per_block();
+    std::fill_n(nodes.block(first), (last - first) * numbers, 0.0);
+  }
+
   int threads_;
   NodeChoice* choice_;
   Halo* halo_;

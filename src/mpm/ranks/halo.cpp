@@ -326,13 +326,6 @@ void Halo::end(int number, const Values& values) {
     }
   }
   numbers_received_ += field.received.size();
-  ++exchanges_;
-}
-
-std::uint64_t Halo::blocks_received() const {
-  std::uint64_t blocks = 0;
-  for (const OfField& field : fields_) blocks += field.in.size();
-  return blocks;
 }
 
 }  // namespace mpm

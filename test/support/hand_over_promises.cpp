@@ -225,6 +225,7 @@ void particles_go_to_the_rank_of_their_block(Communicator& ranks) {
       const std::set<std::uint32_t> before = ids_of(sets);
       for (ParticleSet& set : sets) put_in_place(set, round);
       hand_over.hand_over(sets);
+      hand_over.settle(sets);
       const bool one_left = round == kRounds - 1;
       expect_in_place(ranks, territory, layout, sets, one_left);
       const std::set<std::uint32_t> after = ids_of(sets);
@@ -241,8 +242,12 @@ void particles_go_to_the_rank_of_their_block(Communicator& ranks) {
     }
     // Where nothing moves any more a division helps, and only as often as it does.
     hand_over.hand_over(sets);
+    hand_over.settle(sets);
     const double held = hand_over.imbalance();
-    for (int again = 0; again < 4; ++again) hand_over.hand_over(sets);
+    for (int again = 0; again < 4; ++again) {
+      hand_over.hand_over(sets);
+      hand_over.settle(sets);
+    }
     EXPECT_LE(hand_over.imbalance(), held);
     const std::uint64_t divided = hand_over.divisions();
     hand_over.hand_over(sets);
@@ -295,7 +300,7 @@ void particles_keep_the_order_of_one_process(Communicator& ranks) {
     }
     EXPECT_FALSE(sorter_of_all.sort(all, of_all));
     hand_over.hand_over(own, round == 0 ? std::vector<std::uint64_t>() : owner_keys(of_own));
-    EXPECT_FALSE(sorter_of_own.sort(own, of_own));
+    EXPECT_FALSE(sorter_of_own.sort(own, of_own, &hand_over.orders()));
     Order expected = order_of(all, of_all);
     for (const auto& [block, ids] : order_of(own, of_own)) {
       EXPECT_EQ(ids, expected[block]) << "round " << round;

@@ -41,16 +41,26 @@ class PaddedArray {
     std::swap(capacity_, other.capacity_);
   }
 
-  /// Neither preserves nor initialises the contents. Allocates only when there is too little room. @throws
-  /// std::bad_alloc
-  void resize(std::size_t size) {
+  /// Neither preserves nor initialises the contents. Allocates only when there is too little room, and then for `room`
+  /// values if that is more. @throws std::bad_alloc
+  void resize(std::size_t size, std::size_t room = 0) {
     if (size > capacity_) {
       values_.reset();
       capacity_ = size_ = 0;
-      const std::size_t bytes = size * sizeof(T) + kPadding;
+      const std::size_t capacity = std::max(size, room), bytes = capacity * sizeof(T) + kPadding;
       values_.reset(static_cast<T*>(::operator new (bytes, std::align_val_t{kAlignment})));
-      capacity_ = size;
-      std::fill_n(reinterpret_cast<unsigned char*>(values_.get() + size), kPadding, static_cast<unsigned char>(0));
+      capacity_ = capacity;
+      std::fill_n(reinterpret_cast<unsigned char*>(values_.get() + capacity), kPadding, static_cast<unsigned char>(0));
+    }
+    size_ = size;
+  }
+  /// As resize(), but keeps the values that were there.
+  void extend(std::size_t size, std::size_t room) {
+    if (size > capacity_) {
+      PaddedArray longer;
+      longer.resize(size, room);
+      std::copy_n(data(), size_, longer.data());
+      swap(longer);
     }
     size_ = size;
   }

@@ -4,13 +4,15 @@
 //
 // Particles keep the order that they have in one process, which is that of the blocks they were sorted into last, and
 // of the sorts before inside a block: so particles are computed in the same groups, and sorted again when one process
-// would (step/mechanics.hpp, Mixed).
+// would (step/mechanics.hpp, Mixed). Those that come take the places of those that go; the sort that follows puts them
+// in order. What is asleep stays on its rank.
 #pragma once
 
 #include <unordered_map>
 #include <vector>
 
 #include "mpm/grid/fields.hpp"
+#include "mpm/particles/particle_order.hpp"
 #include "mpm/particles/particle_set.hpp"
 #include "mpm/ranks/communicator.hpp"
 #include "mpm/ranks/territory.hpp"
@@ -19,10 +21,6 @@ namespace mpm {
 
 /// Keys of the blocks that ParticleSet::begin is of, with the velocity field counted in.
 std::vector<std::uint64_t> owner_keys(const Fields& fields);
-/// The room that an array of so many particles gets where they come and go: more by a sixteenth to a quarter, in steps,
-/// so that few are made anew before the grid is divided anew. A heap that gets arrays of ever other lengths keeps what
-/// it cannot use, up to the size of all; room beyond the particles takes no memory before it is written.
-std::size_t room_for_particles(std::size_t particles);
 
 class HandOver {
  public:
@@ -33,9 +31,12 @@ class HandOver {
   /// At the start, wherever particles are: divides the grid, and hands over.
   void divide(std::vector<ParticleSet>& sets);
   /// Hands over what has come to others, and takes what has come here. A particle outside its set's bounds stays, for
-  /// the sort to find. `owners`: owner_keys(), or empty before the first sort. Where particles come or go,
-  /// ParticleSet::begin is no more.
+  /// the sort to find. `owners`: owner_keys(), or empty before the first sort. Afterwards each set has the particles of
+  /// its order, in that order: for the sort, or else for settle().
   void hand_over(std::vector<ParticleSet>& sets, const std::vector<std::uint64_t>& owners = {});
+  const std::vector<ParticleOrder>& orders() const { return orders_; }
+  /// Puts particles in their order where no sort has. ParticleSet::begin is no more where they come to lie elsewhere.
+  void settle(std::vector<ParticleSet>& sets);
 
   /// Particles of the fullest rank over the mean of all, at the last call of hand_over().
   double imbalance() const { return imbalance_; }
@@ -53,31 +54,26 @@ class HandOver {
   struct Run {
     std::uint64_t key, count;
   };
-  /// Particles in the order that they have.
+  /// Particles that go to one rank, by their places, in their order.
   struct Part {
-    std::vector<int> particles;
+    std::vector<std::uint32_t> places;
     std::vector<Run> runs;
+  };
+  /// Places one after another of particles that were sorted into one block.
+  struct Piece {
+    std::uint64_t key;
+    ParticleOrder::Span span;
   };
   /// Particles of a set by where they go.
   struct Leaving {
-    Part staying;
-    std::vector<Part> to;  ///< [rank]
-  };
-  /// Room for one array of each type, kept: what is written anew takes it, and leaves its own for the next.
-  struct Room {
-    PaddedArray<double> doubles;
-    PaddedArray<float> floats;
-    PaddedArray<std::uint32_t> ids;
-    PaddedArray<std::uint8_t> sides;
-    PaddedArray<double>& of(const PaddedArray<double>&) { return doubles; }
-    PaddedArray<float>& of(const PaddedArray<float>&) { return floats; }
-    PaddedArray<std::uint32_t>& of(const PaddedArray<std::uint32_t>&) { return ids; }
-    PaddedArray<std::uint8_t>& of(const PaddedArray<std::uint8_t>&) { return sides; }
+    std::vector<Piece> staying;
+    std::vector<std::uint32_t> left;  ///< places of all that go, ascending
+    std::vector<Part> to;             ///< [rank]
   };
   struct Unpacking;
-  static void pack(ParticleSet& set, const Part& leaving, Communicator::Bytes& bytes);
-  /// Leaves those that stay, and puts those that come between them, by the blocks that they were sorted into.
-  void replace(ParticleSet& set, const Part& staying, std::vector<Unpacking>& coming);
+  static void pack(ParticleSet& set, const Part& part, Communicator::Bytes& bytes);
+  /// Puts those that come where others have left, and into the order by the blocks that they were sorted into.
+  static void take_in(ParticleSet& set, Leaving& leaving, std::vector<Unpacking>& coming, ParticleOrder& order);
   /// Of each block of this rank, the number of its particles.
   Territory::Load load(const std::vector<ParticleSet>& sets) const;
   /// Whether a block and all around it are this rank's.
@@ -97,7 +93,7 @@ class HandOver {
   double after_cut_ = 1.0;     ///< what the last division left, as the call after it finds it
   bool just_divided_ = false;  ///< whether that is to be found
   std::uint64_t handed_over_ = 0, divisions_ = 0;
-  Room room_;
+  std::vector<ParticleOrder> orders_;  ///< of each set
 };
 
 }  // namespace mpm

@@ -16,7 +16,7 @@
 
 #include "mpm/grid/fields.hpp"
 #include "mpm/grid/node_choice.hpp"
-#include "mpm/particles/particle_set.hpp"
+#include "mpm/particles/permute.hpp"
 
 namespace mpm {
 
@@ -42,8 +42,9 @@ class Sorter {
 
   /// Sorts, and rebuilds the blocks of every field. Owners are numbered through all fields. Returns the first
   /// particle (by set and index) that is outside the range of its set or not finite, if there is one; then nothing has
-  /// been changed.
-  std::optional<ParticleRef> sort(std::vector<ParticleSet>& sets, Fields& fields);
+  /// been changed. `orders`: of each set, which particles it has and in what order; null where they are as in memory.
+  std::optional<ParticleRef> sort(std::vector<ParticleSet>& sets, Fields& fields,
+                                  const std::vector<ParticleOrder>* orders = nullptr);
 
  private:
   /// Memory that is kept for a set between sorts, one value for each particle.
@@ -52,10 +53,10 @@ class Sorter {
     PaddedArray<std::uint64_t> code;
     PaddedArray<std::uint32_t> order;  ///< place before the sort
     PaddedArray<std::uint8_t> node;    ///< in its block, in sorted order
-    PaddedArray<double> doubles;
-    PaddedArray<float> floats;
-    PaddedArray<std::uint32_t> ids;
-    PaddedArray<std::uint8_t> sides;
+    PermuteScratch values;
+    ParticleOrder in_memory;  ///< where no order is given
+    const ParticleOrder* before = nullptr;
+    std::size_t room = 0;  ///< that arrays get which are made anew [particles]
   };
   /// Memory of a thread.
   struct Part {
@@ -64,14 +65,13 @@ class Sorter {
     std::vector<std::uint32_t> order;
   };
 
-  /// Writes the codes. Returns the first particle outside the range of its set, or how many are awake.
+  /// Writes the codes. Returns the place of the first particle outside the range of its set, or one past all.
   template <int Dim>
-  int find_blocks(const ParticleSet& set, const GridLayout& layout, Scratch& scratch);
+  std::size_t find_blocks(const ParticleSet& set, const GridLayout& layout, Scratch& scratch);
   void collect_owners(const GridLayout& layout);
   void sort_by_block(ParticleSet& set, Scratch& scratch);
   void sort_by_node(ParticleSet& set, Scratch& scratch);
   void fill_groups(ParticleSet& set, const Scratch& scratch) const;
-  void permute(ParticleSet& set, Scratch& scratch) const;
   void rebuild(const std::vector<ParticleSet>& sets, Fields& fields);
   /// First particle of a thread's part of `count`.
   std::size_t part_begin(std::size_t count, int part) const { return count * part / threads_; }

@@ -6,6 +6,8 @@
 #include <optional>
 #include <unordered_map>
 
+#include "mpm/particles/permute.hpp"
+
 namespace mpm {
 namespace {
 
@@ -31,19 +33,34 @@ void each_column(ParticleSet& set, Visit&& visit) {
   if (set.far_field != set.field) visit(set.side);  // it may be empty, where all particles are elsewhere
 }
 
+/// Appends the values at some places.
 template <class T>
-void put(Communicator::Bytes& bytes, const T* values, std::size_t count) {
+void put(Communicator::Bytes& bytes, const T* values, const std::vector<std::uint32_t>& places) {
+  std::size_t at = bytes.size();
+  bytes.resize(at + places.size() * sizeof(T));
+  for (const std::uint32_t place : places) {
+    std::memcpy(bytes.data() + at, values + place, sizeof(T));
+    at += sizeof(T);
+  }
+}
+
+template <class T>
+void put_all(Communicator::Bytes& bytes, const T* values, std::size_t count) {
   const auto* from = reinterpret_cast<const std::byte*>(values);
   bytes.insert(bytes.end(), from, from + count * sizeof(T));
 }
 
-}  // namespace
-
-std::size_t room_for_particles(std::size_t particles) {
-  std::size_t step = 1024;
-  while (16 * step < particles) step *= 2;
-  return (particles / step + 2) * step;
+/// visit(span) for places in sequence, as spans.
+template <class Visit>
+void each_span_of(const std::uint32_t* places, std::size_t count, Visit&& visit) {
+  for (std::size_t i = 0; i < count;) {
+    const std::size_t first = i++;
+    while (i < count && places[i] == places[i - 1] + 1) ++i;
+    visit(ParticleOrder::Span{places[first], static_cast<std::uint32_t>(i - first)});
+  }
 }
+
+}  // namespace
 
 /// A parcel that is read from its beginning to its end.
 struct HandOver::Unpacking {
@@ -58,62 +75,62 @@ struct HandOver::Unpacking {
   }
 };
 
-void HandOver::pack(ParticleSet& set, const Part& leaving, Communicator::Bytes& bytes) {
-  const std::uint64_t runs = leaving.runs.size();
-  put(bytes, &runs, 1);
-  put(bytes, leaving.runs.data(), leaving.runs.size());
-  each_column(set, [&](auto& values) {
-    for (const int p : leaving.particles) put(bytes, values.data() + p, 1);
-  });
+void HandOver::pack(ParticleSet& set, const Part& part, Communicator::Bytes& bytes) {
+  const std::uint64_t runs = part.runs.size();
+  put_all(bytes, &runs, 1);
+  put_all(bytes, part.runs.data(), part.runs.size());
+  each_column(set, [&](auto& values) { put(bytes, values.data(), part.places); });
 }
 
-void HandOver::replace(ParticleSet& set, const Part& staying, std::vector<Unpacking>& coming) {
-  constexpr std::size_t kHere = 0;  // others by the number of the parcel, and one
-  struct Piece {
-    std::uint64_t key;
-    std::size_t from, count;
-  };
-  std::vector<Piece> pieces;
-  std::size_t size = staying.particles.size();
-  for (const Run& run : staying.runs) pieces.push_back({run.key, kHere, run.count});
-  for (std::size_t i = 0; i < coming.size(); ++i) {
+void HandOver::take_in(ParticleSet& set, Leaving& leaving, std::vector<Unpacking>& coming, ParticleOrder& order) {
+  order.begin_anew(set);
+  std::vector<std::vector<Run>> runs;
+  std::vector<std::size_t> counts;
+  std::size_t all = 0;
+  for (Unpacking& parcel : coming) {
     std::uint64_t count = 0;
-    coming[i].take(&count, 1);
-    std::vector<Run> runs(count);
-    coming[i].take(runs.data(), runs.size());
-    for (const Run& run : runs) {
-      pieces.push_back({run.key, i + 1, run.count});
-      size += run.count;
+    parcel.take(&count, 1);
+    runs.emplace_back(count);
+    parcel.take(runs.back().data(), count);
+    counts.push_back(0);
+    for (const Run& run : runs.back()) counts.back() += run.count;
+    all += counts.back();
+  }
+  std::vector<std::uint32_t>& places = leaving.left;  // of those that come; beyond the end where too few have left
+  for (auto place = static_cast<std::uint32_t>(set.size()); places.size() < all; ++place) places.push_back(place);
+  const std::size_t size = all == 0 ? 0 : std::size_t{places[all - 1]} + 1;
+  each_column(set, [&](auto& values) {
+    if (size > values.size()) values.extend(size, room_for_particles(size));
+    auto place = places.begin();
+    for (std::size_t i = 0; i < coming.size(); ++i) {
+      for (std::size_t p = 0; p < counts[i]; ++p) coming[i].take(values.data() + *place++, 1);
+    }
+  });
+  std::vector<Piece>& pieces = leaving.staying;
+  const std::uint32_t* place = places.data();
+  for (const std::vector<Run>& of_one : runs) {
+    for (const Run& run : of_one) {
+      each_span_of(place, run.count, [&](ParticleOrder::Span span) { pieces.push_back({run.key, span}); });
+      place += run.count;
     }
   }
   std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.key < b.key; });
-  const auto make_room = [size](auto& values) {
-    values.resize(room_for_particles(size));
-    values.resize(size);
-  };
-  each_column(set, [&](auto& values) {
-    auto& merged = room_.of(values);
-    make_room(merged);
-    auto* to = merged.data();
-    auto next = staying.particles.begin();
-    for (const Piece& piece : pieces) {
-      if (piece.from != kHere) {
-        coming[piece.from - 1].take(to, piece.count);
-        to += piece.count;
-        continue;
-      }
-      const auto end = next + static_cast<std::ptrdiff_t>(piece.count);
-      if (static_cast<std::uint64_t>(end[-1] - *next) + 1 == piece.count) {  // none of them has left
-        to = std::copy_n(values.data() + *next, piece.count, to);
-        next = end;
-      }
-      while (next != end) *to++ = values[*next++];
-    }
-    values.swap(merged);
-  });
-  set.begin.clear();
-  for (PaddedArray<double>& scalar : set.next_x) make_room(scalar);
-  for (ParticleScalar& scalar : set.domain) scalar.visit(make_room);
+  for (const Piece& piece : pieces) order.add(piece.span);
+}
+
+void HandOver::settle(std::vector<ParticleSet>& sets) {
+  PermuteScratch scratch;
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const ParticleOrder& order = orders_[s];
+    if (order.is_as_in_memory(sets[s])) continue;
+    std::vector<std::uint32_t> places;
+    order.each_span(0, order.count(), [&](std::size_t first, std::size_t end) {
+      for (; first < end; ++first) places.push_back(static_cast<std::uint32_t>(first));
+    });
+    permute(sets[s], places.data(), order, room_for_particles(order.count()), scratch, 1);
+    sets[s].begin.clear();
+    orders_[s].be_as_in_memory(sets[s]);
+  }
 }
 
 std::vector<std::uint64_t> owner_keys(const Fields& fields) {
@@ -130,7 +147,7 @@ std::vector<std::uint64_t> owner_keys(const Fields& fields) {
 Territory::Load HandOver::load(const std::vector<ParticleSet>& sets) const {
   std::unordered_map<std::uint64_t, std::uint64_t> particles;
   for (const ParticleSet& set : sets) {
-    for (int p = 0; p < set.size(); ++p) {
+    for (int p = 0; p < set.awake(); ++p) {
       if (const auto key = block_of(set, layout_, p)) ++particles[*key];
     }
   }
@@ -168,36 +185,39 @@ bool HandOver::are_around(const ParticleSet& set, int begin, int end, std::uint6
 }
 
 void HandOver::find_leaving(const ParticleSet& set, const std::vector<std::uint64_t>& owners, Leaving& leaving) {
-  leaving.staying = {};
-  leaving.staying.particles.reserve(set.size());
   leaving.to.assign(ranks_.size(), {});
   std::uint64_t last = ~std::uint64_t{0};
   int owner = ranks_.rank();  // of the last one; neighbours are in the same block mostly
-  std::size_t sorted = 0;     // into which block, by its number
-  const std::size_t blocks = set.begin.empty() ? 0 : std::min(owners.size(), set.begin.size() - 1);
-  for (int p = 0; p < set.size(); ++p) {
-    while (sorted < blocks && static_cast<std::uint32_t>(p) >= set.begin[sorted + 1]) ++sorted;
-    if (sorted < blocks && static_cast<std::uint32_t>(p) == set.begin[sorted]) {  // most blocks stay whole
-      const int end = static_cast<int>(set.begin[sorted + 1]);
-      const std::uint64_t place = owners[sorted] % layout_.keys();
-      if (is_inside(place) && are_around(set, p, end, place)) {
-        leaving.staying.runs.push_back({owners[sorted], static_cast<std::uint64_t>(end - p)});
-        for (; p < end; ++p) leaving.staying.particles.push_back(p);
-        --p;
-        continue;
+  const auto find_in = [&](std::uint32_t begin, std::uint32_t end, std::uint64_t was) {
+    for (std::uint32_t p = begin; p < end; ++p) {
+      const auto key = block_of(set, layout_, static_cast<int>(p));
+      if (key && *key != last) {
+        last = *key;
+        owner = territory_.owner(*key);
       }
+      if (!key || owner == ranks_.rank()) continue;
+      if (begin < p) leaving.staying.push_back({was, {begin, p - begin}});
+      begin = p + 1;
+      leaving.left.push_back(p);
+      Part& part = leaving.to[owner];
+      part.places.push_back(p);
+      if (part.runs.empty() || part.runs.back().key != was) part.runs.push_back({was, 0});
+      ++part.runs.back().count;
     }
-    const auto key = block_of(set, layout_, p);
-    if (key && *key != last) {
-      last = *key;
-      owner = territory_.owner(*key);
+    if (begin < end) leaving.staying.push_back({was, {begin, end - begin}});
+  };
+  const std::size_t blocks = set.begin.empty() ? 0 : std::min(owners.size(), set.begin.size() - 1);
+  for (std::size_t sorted = 0; sorted < blocks; ++sorted) {
+    const std::uint32_t begin = set.begin[sorted], end = set.begin[sorted + 1];
+    const std::uint64_t place = owners[sorted] % layout_.keys();
+    if (begin < end && is_inside(place) && are_around(set, begin, end, place)) {  // most blocks stay whole
+      leaving.staying.push_back({owners[sorted], {begin, end - begin}});
+    } else {
+      find_in(begin, end, owners[sorted]);
     }
-    Part& part = !key || owner == ranks_.rank() ? leaving.staying : leaving.to[owner];
-    const std::uint64_t was = sorted < blocks ? owners[sorted] : ~std::uint64_t{0};
-    part.particles.push_back(p);
-    if (part.runs.empty() || part.runs.back().key != was) part.runs.push_back({was, 0});
-    ++part.runs.back().count;
   }
+  const std::uint32_t rest = blocks == 0 ? 0 : set.begin[blocks];
+  find_in(rest, static_cast<std::uint32_t>(set.awake()), ~std::uint64_t{0});  // that have not been sorted
 }
 
 void HandOver::cut(const std::vector<ParticleSet>& sets) {
@@ -209,11 +229,12 @@ void HandOver::cut(const std::vector<ParticleSet>& sets) {
 void HandOver::divide(std::vector<ParticleSet>& sets) {
   cut(sets);
   send(sets, {});
+  settle(sets);
 }
 
 void HandOver::divide_anew_if_due(const std::vector<ParticleSet>& sets) {
   double own = 0.0;
-  for (const ParticleSet& set : sets) own += set.size();
+  for (const ParticleSet& set : sets) own += set.awake();
   double most = own;
   ranks_.largest(&most, 1);
   const double all = ranks_.sum(own);
@@ -236,17 +257,17 @@ void HandOver::send(std::vector<ParticleSet>& sets, const std::vector<std::uint6
   std::vector<Communicator::Parcel> parcels;
   for (int rank = 0; rank < ranks_.size(); ++rank) {
     std::size_t count = 0;
-    for (const Leaving& one : leaving) count += one.to[rank].particles.size();
+    for (const Leaving& one : leaving) count += one.to[rank].places.size();
     if (count == 0) continue;
     parcels.push_back({rank, {}});
     for (std::size_t s = 0; s < sets.size(); ++s) pack(sets[s], leaving[s].to[rank], parcels.back().bytes);
     handed_over_ += count;
   }
   const std::vector<Communicator::Parcel> arrived = ranks_.deliver(parcels);
-  if (parcels.empty() && arrived.empty()) return;
   std::vector<Unpacking> coming;
   for (const Communicator::Parcel& parcel : arrived) coming.push_back({parcel.bytes});
-  for (std::size_t s = 0; s < sets.size(); ++s) replace(sets[s], leaving[s].staying, coming);
+  orders_.resize(sets.size());
+  for (std::size_t s = 0; s < sets.size(); ++s) take_in(sets[s], leaving[s], coming, orders_[s]);
 }
 
 }  // namespace mpm

@@ -55,6 +55,11 @@ void OverRanks::hand_over(std::vector<ParticleSet>& sets, const Fields& fields) 
   hand_over_.hand_over(sets, owner_keys(fields));
 }
 
+void OverRanks::settle(std::vector<ParticleSet>& sets, ParticleRef& at) {
+  at.index = static_cast<int>(orders()[at.set].number_of(at.index));
+  hand_over_.settle(sets);
+}
+
 void OverRanks::meet(Fields& fields) {
   met_at_.clear();
   for (const RigidBody& body : bodies_) met_at_.push_back(body.pose());

@@ -16,6 +16,7 @@
 #include "mpm/step/energy.hpp"
 #include "mpm/step/mechanics.hpp"
 #include "mpm/step/modules.hpp"
+#include "mpm/step/sorter.hpp"
 #include "mpm/step/step_limit.hpp"
 
 namespace mpm {
@@ -46,6 +47,10 @@ class OverRanks {
   void divide(std::vector<ParticleSet>& sets) { hand_over_.divide(sets); }
   /// `fields`: as particles have been sorted into them last.
   void hand_over(std::vector<ParticleSet>& sets, const Fields& fields);
+  /// The order of particles after it, for the sort.
+  const std::vector<ParticleOrder>& orders() const { return hand_over_.orders(); }
+  /// After a sort that has failed at a particle: puts particles in that order, and `at` to where it is then.
+  void settle(std::vector<ParticleSet>& sets, ParticleRef& at);
   /// After particles have been sorted.
   void meet(Fields& fields);
   /// After a step: what is true on any rank. Particles are sorted, too, where the mechanics of all ranks together say

@@ -9,8 +9,8 @@
 #include "initial.hpp"
 #include "mpm/boundary/periodic.hpp"
 #include "mpm/math/dimension.hpp"
+#include "mpm/particles/permute.hpp"
 #include "mpm/ranks/agree.hpp"
-#include "mpm/ranks/hand_over.hpp"
 #include "mpm/ranks/own_part.hpp"
 #include "mpm/shape/ring.hpp"
 #include "mpm/simulation/geometry_rules.hpp"
@@ -30,8 +30,7 @@ struct Size {
   Size(std::size_t count, bool shares) : particles(count), room(shares ? room_for_particles(count) : count) {}
   template <class Array>
   void give(Array& values) const {
-    values.resize(room);
-    values.resize(particles);
+    values.resize(particles, room);
   }
   std::vector<ParticleScalar> zeros(int components, Precision precision) const {
     std::vector<ParticleScalar> field;

@@ -76,8 +76,11 @@ void Simulation::State::fail(const std::string& what, ParticleRef particle, doub
 }
 
 std::optional<ParticleRef> Simulation::State::sort_particles() {
-  if (over) over->hand_over(sets, fields);
-  return sorter->sort(sets, fields);
+  if (!over) return sorter->sort(sets, fields);
+  over->hand_over(sets, fields);
+  auto outside = sorter->sort(sets, fields, &over->orders());
+  if (outside) over->settle(sets, *outside);
+  return outside;
 }
 
 void Simulation::State::check_together(const std::function<void()>& check) { agree<PhysicsError>(ranks.get(), check); }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <type_traits>
 
 namespace mpm {
 namespace {
@@ -27,9 +26,10 @@ Sorter::Sorter(int threads, Grouping grouping, NodeChoice* choice)
     : threads_(threads), grouping_(grouping), choice_(choice), parts_(threads) {}
 
 template <int Dim>
-int Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout, Scratch& scratch) {
-  const auto n = static_cast<std::size_t>(set.awake());
-  scratch.code.resize(n);
+std::size_t Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout, Scratch& scratch) {
+  const ParticleOrder& before = *scratch.before;
+  const std::size_t n = before.count();
+  scratch.code.resize(before.end(), scratch.room);
   struct Axis {
     const double* x;
     double lowest, highest;
@@ -44,30 +44,31 @@ int Sorter::find_blocks(const ParticleSet& set, const GridLayout& layout, Scratc
     for (std::uint64_t& key : corner) key += axes[k].stride;
   }
   const std::uint8_t* side = set.side.empty() ? nullptr : set.side.data();
-  int outside = set.awake();
+  std::size_t outside = before.end();
 #pragma omp parallel for schedule(static) num_threads(threads_) reduction(min : outside)
   for (int t = 0; t < threads_; ++t) {
     RecentBlocks recent;
     std::vector<std::uint64_t>& blocks = parts_[t].blocks;
-    const std::size_t end = part_begin(n, t + 1);
-    for (std::size_t p = part_begin(n, t); p < end; ++p) {
-      std::uint64_t key = corner[side == nullptr ? 0 : side[p]], local = 0;
-      bool inside = true;
-      for (int k = 0; k < Dim; ++k) {
-        const double cells = layout.in_cells(k, axes[k].x[p]);
-        inside = inside && cells >= axes[k].lowest && cells <= axes[k].highest;
-        const auto node = static_cast<std::uint32_t>(inside ? GridLayout::nearest(cells) : 0);
-        key += node / kBlockEdge * axes[k].stride;
-        local = local * kBlockEdge + node % kBlockEdge;
+    before.each_span(part_begin(n, t), part_begin(n, t + 1), [&](std::size_t first, std::size_t end) {
+      for (std::size_t p = first; p < end; ++p) {
+        std::uint64_t key = corner[side == nullptr ? 0 : side[p]], local = 0;
+        bool inside = true;
+        for (int k = 0; k < Dim; ++k) {
+          const double cells = layout.in_cells(k, axes[k].x[p]);
+          inside = inside && cells >= axes[k].lowest && cells <= axes[k].highest;
+          const auto node = static_cast<std::uint32_t>(inside ? GridLayout::nearest(cells) : 0);
+          key += node / kBlockEdge * axes[k].stride;
+          local = local * kBlockEdge + node % kBlockEdge;
+        }
+        if (!inside) outside = std::min(outside, p);
+        scratch.code[p] = (key << node_bits_) + local;
+        RecentBlocks::Entry& entry = recent.at(key);
+        if (entry.key != key) {
+          entry.key = key;
+          blocks.push_back(key);
+        }
       }
-      if (!inside) outside = std::min(outside, static_cast<int>(p));
-      scratch.code[p] = (key << node_bits_) + local;
-      RecentBlocks::Entry& entry = recent.at(key);
-      if (entry.key != key) {
-        entry.key = key;
-        blocks.push_back(key);
-      }
-    }
+    });
   }
   return outside;
 }
@@ -91,25 +92,27 @@ void Sorter::collect_owners(const GridLayout& layout) {
 }
 
 void Sorter::sort_by_block(ParticleSet& set, Scratch& scratch) {
-  const std::size_t n = static_cast<std::size_t>(set.awake()), owners = owner_keys_.size();
+  const ParticleOrder& before = *scratch.before;
+  const std::size_t n = before.count(), owners = owner_keys_.size();
   const std::uint64_t node_mask = (std::uint64_t{1} << node_bits_) - 1;
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (int t = 0; t < threads_; ++t) {
     RecentBlocks recent;
     std::vector<std::uint32_t>& count = parts_[t].next;
     count.assign(owners, 0);
-    const std::size_t end = part_begin(n, t + 1);
-    for (std::size_t p = part_begin(n, t); p < end; ++p) {
-      const std::uint64_t code = scratch.code[p], key = code >> node_bits_;
-      RecentBlocks::Entry& entry = recent.at(key);
-      if (entry.key != key) {
-        entry.key = key;
-        const auto found = std::lower_bound(owner_keys_.begin(), owner_keys_.end(), key);
-        entry.value = static_cast<std::uint32_t>(found - owner_keys_.begin());
+    before.each_span(part_begin(n, t), part_begin(n, t + 1), [&](std::size_t first, std::size_t end) {
+      for (std::size_t p = first; p < end; ++p) {
+        const std::uint64_t code = scratch.code[p], key = code >> node_bits_;
+        RecentBlocks::Entry& entry = recent.at(key);
+        if (entry.key != key) {
+          entry.key = key;
+          const auto found = std::lower_bound(owner_keys_.begin(), owner_keys_.end(), key);
+          entry.value = static_cast<std::uint32_t>(found - owner_keys_.begin());
+        }
+        scratch.code[p] = (std::uint64_t{entry.value} << node_bits_) + (code & node_mask);
+        ++count[entry.value];
       }
-      scratch.code[p] = (std::uint64_t{entry.value} << node_bits_) + (code & node_mask);
-      ++count[entry.value];
-    }
+    });
   }
 
   set.begin.resize(owners + 1);
@@ -124,23 +127,24 @@ void Sorter::sort_by_block(ParticleSet& set, Scratch& scratch) {
   }
   set.begin[owners] = sum;
 
-  scratch.order.resize(n);
+  scratch.order.resize(n, scratch.room);
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (int t = 0; t < threads_; ++t) {
     std::vector<std::uint32_t>& next = parts_[t].next;
-    const std::size_t end = part_begin(n, t + 1);
-    for (std::size_t p = part_begin(n, t); p < end; ++p) {
-      scratch.order[next[scratch.code[p] >> node_bits_]++] = static_cast<std::uint32_t>(p);
-    }
+    before.each_span(part_begin(n, t), part_begin(n, t + 1), [&](std::size_t first, std::size_t end) {
+      for (std::size_t p = first; p < end; ++p) {
+        scratch.order[next[scratch.code[p] >> node_bits_]++] = static_cast<std::uint32_t>(p);
+      }
+    });
   }
 }
 
 void Sorter::sort_by_node(ParticleSet& set, Scratch& scratch) {
-  const std::size_t n = set.id.size(), owners = owner_keys_.size();
+  const std::size_t owners = owner_keys_.size();
   const std::uint64_t node_mask = (std::uint64_t{1} << node_bits_) - 1;
   const std::uint32_t lanes = static_cast<std::uint32_t>(grouping_.lanes);
   const std::size_t span = grouping_.by == Grouping::By::column ? kBlockEdge : 1;  // nodes that may share a group
-  scratch.node.resize(n);
+  scratch.node.resize(scratch.before->count(), scratch.room);
   set.group_begin.resize(owners + 1);
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (int t = 0; t < threads_; ++t) {
@@ -200,36 +204,7 @@ void Sorter::fill_groups(ParticleSet& set, const Scratch& scratch) const {
       last = place;
     }
   }
-  set.group.back() = static_cast<std::uint32_t>(set.awake());
-}
-
-void Sorter::permute(ParticleSet& set, Scratch& scratch) const {
-  const int n = set.awake();
-  const bool all = set.asleep == 0;  // then arrays change places; else what is asleep stays where it is
-  const std::uint32_t* order = scratch.order.data();
-  const auto reorder = [&](auto& values, auto& other) {
-    other.resize(n);
-    const auto* from = values.data();
-    auto* to = other.data();
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (int i = 0; i < n; ++i) to[i] = from[order[i]];
-    if (all) {
-      values.swap(other);
-    } else {
-      auto* own = values.data();
-#pragma omp parallel for schedule(static) num_threads(threads_)
-      for (int i = 0; i < n; ++i) own[i] = to[i];
-    }
-  };
-  set.each_scalar([&](auto& values) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(values[0])>, double>) {
-      reorder(values, scratch.doubles);
-    } else {
-      reorder(values, scratch.floats);
-    }
-  });
-  reorder(set.id, scratch.ids);
-  if (!set.side.empty()) reorder(set.side, scratch.sides);
+  set.group.back() = static_cast<std::uint32_t>(scratch.before->count());
 }
 
 void Sorter::rebuild(const std::vector<ParticleSet>& sets, Fields& fields) {
@@ -256,7 +231,8 @@ void Sorter::rebuild(const std::vector<ParticleSet>& sets, Fields& fields) {
   choice_->set_blocks(std::move(keys), static_cast<int>(first - owner_keys_.begin()));
 }
 
-std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Fields& fields) {
+std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Fields& fields,
+                                        const std::vector<ParticleOrder>* orders) {
   static_assert(kBlockEdge == 4);
   const GridLayout& layout = fields.front()->layout;
   const int dim = layout.dim();
@@ -264,17 +240,22 @@ std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Fields& 
   scratch_.resize(sets.size());
   for (Part& part : parts_) part.blocks.clear();
   for (std::size_t s = 0; s < sets.size(); ++s) {
-    const int outside = dim == 3   ? find_blocks<3>(sets[s], layout, scratch_[s])
-                        : dim == 2 ? find_blocks<2>(sets[s], layout, scratch_[s])
-                                   : find_blocks<1>(sets[s], layout, scratch_[s]);
-    if (outside < sets[s].awake()) return ParticleRef{static_cast<int>(s), outside};
+    Scratch& scratch = scratch_[s];
+    if (orders == nullptr) scratch.in_memory.be_as_in_memory(sets[s]);
+    scratch.before = orders == nullptr ? &scratch.in_memory : &(*orders)[s];
+    scratch.room = orders == nullptr ? 0 : room_for_particles(scratch.before->count());
+    const std::size_t outside = dim == 3   ? find_blocks<3>(sets[s], layout, scratch)
+                                : dim == 2 ? find_blocks<2>(sets[s], layout, scratch)
+                                           : find_blocks<1>(sets[s], layout, scratch);
+    if (outside < scratch.before->end()) return ParticleRef{static_cast<int>(s), static_cast<int>(outside)};
   }
   collect_owners(layout);
   for (std::size_t s = 0; s < sets.size(); ++s) {
-    sort_by_block(sets[s], scratch_[s]);
-    sort_by_node(sets[s], scratch_[s]);
-    fill_groups(sets[s], scratch_[s]);
-    permute(sets[s], scratch_[s]);
+    Scratch& scratch = scratch_[s];
+    sort_by_block(sets[s], scratch);
+    sort_by_node(sets[s], scratch);
+    fill_groups(sets[s], scratch);
+    permute(sets[s], scratch.order.data(), *scratch.before, scratch.room, scratch.values, threads_);
   }
   rebuild(sets, fields);
   return std::nullopt;

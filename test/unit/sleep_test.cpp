@@ -3,11 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "mpm/particles/permute.hpp"
 #include "mpm/scene/scene.hpp"
 #include "mpm/simulation/simulation.hpp"
 #include "mpm/sleep/sleeping_blocks.hpp"
@@ -75,19 +79,16 @@ boundaries: {x_min: slip, x_max: slip, z_min: {friction: 0.6}}
 )yaml";
 const std::string kSleep = "sleep={speed: 5 mm/s}";
 
-// Particles with numbers of their own in four blocks: whoever sleeps and wakes, each keeps its own.
-TEST(SleepingBlocks, ParticlesKeepWhatIsTheirs) {
-  const GridLayout layout(2, Vec3(1, 1, 1), Vec3::Zero(), Vec3(16, 1, 16));
-  std::vector<ParticleSet> sets(1);
-  ParticleSet& set = sets[0];
-  constexpr int kParticles = 40;
+/// Particles with numbers of their own, that move.
+ParticleSet numbered_particles(int count) {
+  ParticleSet set;
   set.mass = 2.0;
-  set.id.resize(kParticles);
+  set.id.resize(count);
   set.x.resize(2);
-  for (auto& x : set.x) x.resize(kParticles);
-  set.v = {ParticleScalar(Precision::float64, kParticles), ParticleScalar(Precision::float64, kParticles)};
-  set.f = {ParticleScalar(Precision::float64, kParticles)};
-  for (int p = 0; p < kParticles; ++p) {
+  for (auto& x : set.x) x.resize(count);
+  set.v = {ParticleScalar(Precision::float64, count), ParticleScalar(Precision::float64, count)};
+  set.f = {ParticleScalar(Precision::float64, count)};
+  for (int p = 0; p < count; ++p) {
     set.id[p] = static_cast<std::uint32_t>(100 + p);
     set.x[0][p] = p;
     set.x[1][p] = -p;
@@ -95,34 +96,44 @@ TEST(SleepingBlocks, ParticlesKeepWhatIsTheirs) {
     set.f[0].set(p, 1.0 + p);
   }
   set.next_x = set.x;
-  for (int p = 0; p < kParticles; ++p) set.next_x[0][p] = -1e9;  // of a step before: may not be taken for a place
-  set.begin = {0, 7, 20, 33, 40};
-  const auto check = [&](int asleep) {
-    EXPECT_EQ(set.asleep, asleep);
-    std::vector<bool> seen(kParticles, false);
-    for (int p = 0; p < kParticles; ++p) {
-      const int own = static_cast<int>(set.id[p]) - 100;
-      EXPECT_FALSE(seen[own]);
-      seen[own] = true;
-      EXPECT_EQ(set.x[0][p], own);
-      EXPECT_EQ(set.x[1][p], -own);
-      EXPECT_EQ(set.f[0][p], 1.0 + own);
-      EXPECT_EQ(set.v[0][p] == 0.0, p >= set.awake()) << "those asleep, and no others, are at rest";
-      if (p >= set.awake()) {
-        EXPECT_EQ(set.next_x[0][p], own);
-      }
+  for (int p = 0; p < count; ++p) set.next_x[0][p] = -1e9;  // of a step before: may not be taken for a place
+  return set;
+}
+
+/// Each particle is there once, with what is its own; those asleep, and no others, are at rest.
+void expect_own_numbers(const ParticleSet& set, int asleep) {
+  EXPECT_EQ(set.asleep, asleep);
+  std::set<std::uint32_t> seen;
+  for (int p = 0; p < set.size(); ++p) {
+    const int own = static_cast<int>(set.id[p]) - 100;
+    EXPECT_TRUE(seen.insert(set.id[p]).second);
+    EXPECT_EQ(set.x[0][p], own);
+    EXPECT_EQ(set.x[1][p], -own);
+    EXPECT_EQ(set.f[0][p], 1.0 + own);
+    EXPECT_EQ(set.v[0][p] == 0.0, p >= set.awake());
+    if (p >= set.awake()) {
+      EXPECT_EQ(set.next_x[0][p], own);
     }
-  };
-  SleepingBlocks asleep(sets, layout);
-  const auto sleeper = [](int owner) {
-    return SleepingBlocks::Sleeper{
-        {0, static_cast<std::uint64_t>(10 + owner)}, owner, 3.0, std::make_unique<BlockForces>()};
-  };
+  }
+}
+
+SleepingBlocks::Sleeper sleeper(int owner) {
+  return {{0, static_cast<std::uint64_t>(10 + owner)}, owner, 3.0, std::make_unique<BlockForces>()};
+}
+
+const GridLayout kLayout(2, Vec3(1, 1, 1), Vec3::Zero(), Vec3(16, 1, 16));
+
+// In four blocks: whoever sleeps and wakes, each keeps its own.
+TEST(SleepingBlocks, ParticlesKeepWhatIsTheirs) {
+  std::vector<ParticleSet> sets{numbered_particles(40)};
+  ParticleSet& set = sets[0];
+  set.begin = {0, 7, 20, 33, 40};
+  SleepingBlocks asleep(sets, kLayout);
   std::vector<SleepingBlocks::Sleeper> two;
   two.push_back(sleeper(0));
   two.push_back(sleeper(2));
   const TakenMotion taken = asleep.put_to_sleep(two);
-  check(20);
+  expect_own_numbers(set, 20);
   EXPECT_DOUBLE_EQ(taken.momentum.x(), 20 * 2.0 * 0.5);
   EXPECT_DOUBLE_EQ(taken.energy, 20 * 0.5 * 2.0 * 0.25);
   EXPECT_DOUBLE_EQ(asleep.mass(), 40.0);
@@ -133,19 +144,79 @@ TEST(SleepingBlocks, ParticlesKeepWhatIsTheirs) {
   rest.push_back(sleeper(0));
   rest.back().name.key = 11;
   asleep.put_to_sleep(rest);
-  check(40);
+  expect_own_numbers(set, 40);
 
   const auto wake = [&](std::uint64_t key, int then_asleep) {
     const int before = set.awake();
     asleep.wake({0, key});
     for (int p = before; p < set.awake(); ++p) set.v[0].set(p, 0.5);
-    check(then_asleep);
+    expect_own_numbers(set, then_asleep);
   };
   wake(10, 33);  // seven that lie among the others
   wake(11, 13);
   wake(12, 0);
   EXPECT_EQ(asleep.mass(), 0.0);
   EXPECT_TRUE(asleep.all().empty());
+}
+
+/// Leaves the first `stay` of those awake, and has others come.
+void replace_awake(ParticleSet& set, int stay, int come) {
+  ParticleOrder order;
+  order.begin_anew(set);
+  order.add({0, static_cast<std::uint32_t>(stay)});
+  const int before = set.size();
+  const auto extend = [&](auto& values) { values.extend(before + come, 0); };
+  set.each_scalar(extend);
+  extend(set.id);
+  std::uint32_t next = *std::max_element(set.id.begin(), set.id.begin() + before);
+  for (int p = before; p < before + come; ++p) {
+    set.id[p] = ++next;
+    set.x[0][p] = next - 100.0;
+    set.x[1][p] = 100.0 - next;
+    set.v[0].set(p, 0.5);
+    set.v[1].set(p, 0.0);
+    set.f[0].set(p, next - 99.0);
+  }
+  order.add({static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(come)});
+  std::vector<std::uint32_t> places;
+  order.each_span(0, order.count(), [&](std::size_t first, std::size_t end) {
+    for (; first < end; ++first) places.push_back(static_cast<std::uint32_t>(first));
+  });
+  PermuteScratch scratch;
+  permute(set, places.data(), order, 0, scratch, 1);
+}
+
+// Over several ranks: of those awake some go and others come, more and fewer than are asleep. Then blocks wake, and
+// those that were theirs do.
+TEST(SleepingBlocks, FollowsParticlesThatComeAndGo) {
+  for (const auto& [stay, come] : std::vector<std::pair<int, int>>{{9, 1}, {10, 3}, {6, 0}, {2, 90}, {1, 0}, {0, 0}}) {
+    SCOPED_TRACE(std::to_string(stay) + " stay, " + std::to_string(come) + " come");
+    std::vector<ParticleSet> sets{numbered_particles(40)};
+    ParticleSet& set = sets[0];
+    set.begin = {0, 7, 20, 33, 40};
+    SleepingBlocks asleep(sets, kLayout);
+    std::vector<SleepingBlocks::Sleeper> three;
+    for (const int owner : {0, 1, 3}) three.push_back(sleeper(owner));
+    asleep.put_to_sleep(three);
+    replace_awake(set, stay, come);
+    asleep.follow_moves();
+    expect_own_numbers(set, 27);
+    replace_awake(set, set.awake(), 2);
+    asleep.follow_moves();
+    expect_own_numbers(set, 27);
+    int left = 27;
+    for (const auto& [key, first, end] : {std::array<int, 3>{11, 7, 20}, {10, 0, 7}, {13, 33, 40}}) {
+      const int before = set.awake();
+      asleep.wake({0, static_cast<std::uint64_t>(key)});
+      ASSERT_EQ(set.awake() - before, end - first);
+      for (int p = before; p < set.awake(); ++p) {
+        const int own = static_cast<int>(set.id[p]) - 100;
+        EXPECT_TRUE(own >= first && own < end) << own << " of block " << key;
+        set.v[0].set(p, 0.5);
+      }
+      expect_own_numbers(set, left -= end - first);
+    }
+  }
 }
 
 // Material asleep stays as it is to the bit, and is reported as ever: the energy that is kept for it is m g z of the

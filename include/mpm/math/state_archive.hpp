@@ -80,10 +80,14 @@ class StateArchive {
     bool before_;
   };
 
-  /// While a Share exists, lists are shared out among the ranks that read them, instead of being joined.
+  /// While a Share exists, lists are shared out among the ranks that read them, instead of being joined: whole rows, of
+  /// so many numbers each.
   class Share {
    public:
-    explicit Share(StateArchive& archive) : archive_(archive) { archive.shares_ = true; }
+    explicit Share(StateArchive& archive, std::size_t row = 1) : archive_(archive) {
+      archive.shares_ = true;
+      archive.share_row_ = row;
+    }
     Share(const Share&) = delete;
     Share& operator=(const Share&) = delete;
     ~Share() { archive_.shares_ = false; }
@@ -163,6 +167,8 @@ class StateArchive {
     if (same_) return Merge::same;
     return shares_ && merge_ == Merge::join ? Merge::share : merge_;
   }
+  /// Of what is shared out: so many numbers stay together.
+  std::size_t share_row() const { return share_row_; }
 
  private:
   /// How a value is stored: as kCount numbers of type Scalar.
@@ -230,6 +236,7 @@ class StateArchive {
 
   std::string prefix_;
   std::uint64_t generation_ = 0;
+  std::size_t share_row_ = 1;
   Merge merge_ = Merge::same;
   bool same_ = false, shares_ = false;
 };

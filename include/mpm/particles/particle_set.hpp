@@ -62,6 +62,8 @@ struct ParticleSet {
   PaddedArray<std::uint8_t> side;  ///< of a divided body: the side of a thin tool, 0 or 1
 
   /// First particle of each owner block (the owners of all fields, field by field), and one past the last one awake.
+  /// Where material sleeps it may be empty: some have fallen asleep or woken and others changed places with them, and
+  /// the next sort takes particles of a node in the order of their ids, which is that of any number of ranks.
   std::vector<std::uint32_t> begin;
   /// First particle of each group (particles computed together, step/sorter.hpp), and one past the last one awake.
   std::vector<std::uint32_t> group;

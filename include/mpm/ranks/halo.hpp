@@ -38,6 +38,8 @@ class Halo {
   Halo(Communicator& ranks, const Territory& territory) : ranks_(ranks), territory_(territory) {}
 
   Communicator& ranks() const { return ranks_; }
+  /// The rank whose block this is.
+  int owner(std::uint64_t key) const { return territory_.owner(key); }
   /// Says of more blocks that all ranks have to have them; the answer is the same on all ranks whenever these meet.
   void add_everywhere(Everywhere everywhere) { everywhere_.push_back(std::move(everywhere)); }
   /// After the blocks of `fields` have been made anew from the particles of this rank.
@@ -52,13 +54,17 @@ class Halo {
   /// Owners of a velocity field that may give to a node that another rank knows, and all others.
   const BlockShares& at_border(int field) const { return fields_[field].at_border; }
   const BlockShares& inside(int field) const { return fields_[field].inside; }
+  /// The nodes of a block, one bit each.
+  using Nodes = std::uint64_t;
+  /// Of each block of a velocity field, adds the nodes that others may give to.
+  void add_reached(int field, std::vector<Nodes>& nodes) const {
+    for (const Piece& piece : fields_[field].in) nodes[piece.block] |= piece.nodes;
+  }
 
   /// Numbers received since the start, of 8 bytes each.
   std::uint64_t numbers_received() const { return numbers_received_; }
 
  private:
-  /// The nodes of a block, one bit each.
-  using Nodes = std::uint64_t;
   /// A block of a velocity field that a rank gives to.
   struct Use {
     std::uint64_t field, key;

@@ -13,6 +13,7 @@
 #include "mpm/grid/fields.hpp"
 #include "mpm/math/state_archive.hpp"
 #include "mpm/particles/particle_set.hpp"
+#include "mpm/ranks/halo.hpp"
 
 namespace mpm {
 
@@ -26,6 +27,7 @@ struct RestWatchEntry {
   std::uint32_t looks = 0;          ///< in this half
   Vec3 half_before = Vec3::Zero();  ///< mean velocity in the half before [m/s]
   bool half_at_rest = false;        ///< the half before was at rest
+  bool at_rest = false;             ///< for the time, and since
 };
 
 class RestWatch {
@@ -42,23 +44,25 @@ class RestWatch {
   /// Looks at all particles. Afterwards at_rest() tells of each owner.
   void look(const Fields& fields, const std::vector<ParticleSet>& sets, double now, int threads);
   /// Of owners by number, through all fields: whether they have been at rest for the time, and are since.
-  bool at_rest(int owner) const { return at_rest_[owner] != 0; }
+  bool at_rest(int owner) const { return entries_[owner].at_rest; }
   /// Takes all blocks to have been at rest for the time before.
   void trust_all();
   /// Watches an owner anew, as one that has not been at rest.
-  void begin_again(int owner) {
-    entries_[owner].half_at_rest = false;
-    at_rest_[owner] = 0;
-  }
+  void begin_again(int owner) { entries_[owner].half_at_rest = entries_[owner].at_rest = false; }
+  /// To be called before particles are sorted: what is at rest has to be seen to be so again.
+  void forget_rest();
+  /// Over several ranks, after particles were sorted and before follow(): those whose blocks belong to others go there.
+  /// Collective.
+  void hand_over(Halo& halo);
 
   void serialise(StateArchive& archive);
 
  private:
+  void put_in_order();
   void look_at(RestWatchEntry& entry, int owner, const std::vector<ParticleSet>& sets, double now);
 
   double speed_, half_;
   std::vector<RestWatchEntry> entries_, before_;  ///< of each owner, in their order: ascending by field and key
-  std::vector<std::uint8_t> at_rest_;
 };
 
 }  // namespace mpm

@@ -26,6 +26,7 @@
 
 #include "mpm/rigid/rigid_body.hpp"
 #include "mpm/sleep/rest_watch.hpp"
+#include "mpm/sleep/sleep_across_ranks.hpp"
 #include "mpm/sleep/sleep_border.hpp"
 #include "mpm/sleep/sleep_definition.hpp"
 #include "mpm/sleep/sleeping_blocks.hpp"
@@ -42,6 +43,7 @@ struct SleepParts {
   std::unique_ptr<BlockProbe> probe;
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
   int threads = 1;
+  Halo* halo = nullptr;  ///< null for one process
 };
 
 class Sleep final : public Stage {
@@ -62,6 +64,7 @@ class Sleep final : public Stage {
   /// asleep wait for a sort that is asked for by others, though not for long.
   bool needs_sort() const override;
   void before_sort() override;
+  void share_memory(Communicator&) override;
 
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }
   void energies(EnergyReport& report) const override;
@@ -82,7 +85,12 @@ class Sleep final : public Stage {
     }
   };
 
+  void follow_sort(const StepContext& context);
+  /// After a checkpoint has been read: the numbers of their owners.
+  void find_owners_of_sleepers();
   void look(const StepContext& context);
+  /// On any rank.
+  bool none_asleep() const;
   /// Whether a tool is so near to a block that it has to be awake, in steps of `dt` [s].
   bool tool_near(const std::array<int, 3>& block, double dt) const;
   /// Whether material of another velocity field is near to a block of one.
@@ -97,6 +105,7 @@ class Sleep final : public Stage {
   const GridLayout& layout_;
   SleepingBlocks asleep_;
   RestWatch watch_;
+  std::unique_ptr<SleepAcrossRanks> across_;       ///< null for one process
   std::vector<SleepBorder> borders_;               ///< of each field
   std::uint64_t generation_ = 0;                   ///< of the blocks that borders_ and watch_ were made for
   std::uint32_t steps_ = 0;                        ///< since the last look
@@ -104,6 +113,7 @@ class Sleep final : public Stage {
   std::uint32_t steps_waited_ = 0;                 ///< by those who are to wake
   bool at_once_ = false;                           ///< one of them cannot wait
   bool begun_ = false;                             ///< the first step is done
+  bool just_read_ = false;                         ///< a checkpoint has been, and no step has followed
   std::vector<SleepingBlocks::Sleeper> sleepers_;  ///< who may fall asleep, without forces yet
   std::vector<BlockName> to_wake_;                 ///< ascending, each once
   std::vector<SleepBorder::Unrest> unrest_;        ///< of the nodes of a border

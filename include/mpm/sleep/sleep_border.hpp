@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mpm/grid/fields.hpp"
+#include "mpm/ranks/halo.hpp"
 #include "mpm/sleep/sleeping_blocks.hpp"
 #include "mpm/step/step_context.hpp"
 
@@ -32,8 +33,8 @@ class SleepBorder {
 
   explicit SleepBorder(const GridLayout& layout);
 
-  /// Of a velocity field, as particles are sorted now.
-  void find(int field, const Grid& grid, const SleepingBlocks& asleep);
+  /// Of a velocity field, as particles are sorted now. `halo`: null for one process.
+  void find(int field, const Grid& grid, const SleepingBlocks& asleep, const Halo* halo);
   const std::vector<Node>& nodes() const { return nodes_; }
   std::vector<Node>& nodes() { return nodes_; }
   /// Adds the names of the blocks asleep that reach a node.
@@ -44,6 +45,17 @@ class SleepBorder {
   };
   /// At a node, once the forces are gathered. `part`: of the mean, that this step makes anew.
   static Unrest find_unrest(Node& node, const Grid& grid, const Vec3& gravity, double part);
+
+  /// The mean of the force without balance at a node, as ranks tell each other of it.
+  struct Mean {
+    std::uint64_t key;  ///< of the block
+    std::int32_t field, node;
+    double force[3];  ///< [N]
+  };
+  /// Adds those of a block of this key.
+  void add_means(std::uint64_t key, std::vector<Mean>& list) const;
+  /// Means of nodes that this rank has not known so far, for the next find().
+  void take_means(const std::vector<Mean>& list);
 
   /// The means, which the next find() takes over.
   void serialise(StateArchive& archive);
@@ -59,6 +71,8 @@ class SleepBorder {
   void find_reached(int block, const Grid& grid);
   void add_block(int block, const Grid& grid);
   void keep_means();
+  /// Sorts what is in nodes_ and keys_; what is there twice is there once then.
+  void put_in_order();
 
   const GridLayout* layout_;
   int field_ = 0;
@@ -67,6 +81,7 @@ class SleepBorder {
   std::vector<const SleepingBlock*> around_;    ///< on each side
   std::vector<std::uint8_t> is_awake_;          ///< of each block in use, whether particles in it are awake
   std::vector<std::uint8_t> reached_;           ///< of the nodes of a block
+  std::vector<Halo::Nodes> reached_by_others_;  ///< of each block in use, by particles of other ranks
   std::vector<Node> of_block_, nodes_, before_;
   std::vector<std::uint64_t> keys_, keys_before_;  ///< of the blocks of nodes_ and before_
 };

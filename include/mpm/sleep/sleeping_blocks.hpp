@@ -3,10 +3,14 @@
 // by particle, so that this costs as much as the block has particles, however much is asleep.
 //
 // A block remembers the force that it had on the grid when it fell asleep, so that a loss of balance can be seen.
+//
+// Over several ranks each has here what sleeps on it (sleep_across_ranks.hpp), and of blocks beside its own material
+// that sleep on others, in whole or in part, what they give to the grid.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <unordered_map>
 #include <utility>
@@ -63,14 +67,42 @@ class SleepingBlocks {
   TakenMotion put_to_sleep(const std::vector<Sleeper>& sleepers);
   /// Wakes the block of this name, if it is asleep. Particles have to be sorted after it.
   void wake(const BlockName& name);
+  /// To be called when blocks have fallen asleep or woken, on any rank: particles that are awake may have changed
+  /// places, and the next sort takes those of a node in the order of their ids (ParticleSet::begin).
+  void forget_order();
+  /// To be called when nothing is asleep on any rank.
+  void forget_rate() { rate_ = 0.0; }
 
-  /// Or null.
+  /// Over several ranks: follows particles asleep that have changed places since others that are awake have come to
+  /// this rank or gone (ranks/hand_over.hpp).
+  void follow_moves();
+  /// A block that sleeps on other ranks, too, or on others alone, with what all its material gives to the grid.
+  void know_whole(std::unique_ptr<SleepingBlock> whole) { whole_[whole->name] = std::move(whole); }
+  bool knows_whole(const BlockName& name) const { return whole_.count(name) != 0; }
+  void forget_whole(const BlockName& name) { whole_.erase(name); }
+  /// Forgets all that keep(name) does not ask for.
+  template <class Keep>
+  void forget_wholes_but(Keep&& keep) {
+    for (auto one = whole_.begin(); one != whole_.end();) one = keep(one->first) ? std::next(one) : whole_.erase(one);
+  }
+
+  /// What the block gives to the grid, on whichever rank it sleeps, or null.
   const SleepingBlock* find(const BlockName& name) const {
+    if (!whole_.empty()) {
+      const auto found = whole_.find(name);
+      if (found != whole_.end()) return found->second.get();
+    }
+    return own(name);
+  }
+  /// The block of this name that sleeps on this rank, or null.
+  const SleepingBlock* own(const BlockName& name) const {
     const auto found = by_name_.find(name);
     return found == by_name_.end() ? nullptr : found->second.get();
   }
+  /// Whether find() gives null for any name.
+  bool finds_none() const { return by_name_.empty() && whole_.empty(); }
   using ByName = std::unordered_map<BlockName, std::unique_ptr<SleepingBlock>, BlockName::Hash>;
-  /// In no order.
+  /// Those of this rank, in no order.
   const ByName& all() const { return by_name_; }
   std::size_t particles() const;
   double mass() const { return mass_; }  ///< [kg]
@@ -95,11 +127,18 @@ class SleepingBlocks {
   void put_set(std::size_t s, const std::vector<Sleeper>& sleepers, const std::vector<SleepingBlock*>& blocks,
                TakenMotion& taken);
   void wake_set(std::size_t s, SleepingBlock& block);
+  void follow_moves(std::size_t s);
+  /// Of a set's particles; `block_of`: the key of the block that each sleeps in, or kAwake.
+  void take_places(std::size_t s, std::vector<std::uint64_t> block_of, bool merging);
+  /// The block of this name on this rank; one with nothing in it if there is none.
+  SleepingBlock& block(const BlockName& name);
+  void serialise_blocks(StateArchive& archive);
 
   std::vector<ParticleSet>& sets_;
   const GridLayout& layout_;
-  ByName by_name_;
+  ByName by_name_, whole_;
   std::vector<std::vector<Owned>> owned_;  ///< of each set, by place
+  std::vector<int> first_;                 ///< of each set, the place of the first one asleep
   std::vector<std::uint32_t> free_;        ///< places that put_set() may exchange with
   double mass_ = 0.0, rate_ = 0.0;
 };

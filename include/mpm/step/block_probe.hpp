@@ -14,6 +14,13 @@ struct BlockForces {
 
   std::array<float, kMostNodes> mass{};                  ///< [kg]
   std::array<std::array<float, kMostNodes>, 3> force{};  ///< internal, along the grid's axes [N]
+
+  void add(const BlockForces& other) {
+    for (int t = 0; t < kMostNodes; ++t) {
+      mass[t] += other.mass[t];
+      for (int k = 0; k < 3; ++k) force[k][t] += other.force[k][t];
+    }
+  }
 };
 
 class BlockProbe {

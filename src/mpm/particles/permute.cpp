@@ -52,7 +52,12 @@ void permute(ParticleSet& set, const std::uint32_t* places, const ParticleOrder&
   reorder(set.id);
   if (!set.side.empty()) reorder(set.side);
   const auto fit = [&](auto& values) { values.resize(size, room + order.asleep()); };
-  for (PaddedArray<double>& scalar : set.next_x) fit(scalar);
+  for (std::size_t k = 0; k < set.next_x.size(); ++k) {
+    PaddedArray<double>& next = set.next_x[k];
+    if (!all) next.extend(size, room + order.asleep());  // it has what is asleep, too
+    fit(next);
+    std::copy_n(set.x[k].data() + moved.to, moved.count, next.data() + moved.to);
+  }
   for (ParticleScalar& scalar : set.domain) scalar.visit(fit);
   if (moved.count == 0 || set.rest_changes.empty()) return;
   set.rest_changes.resize(std::max(set.rest_changes.size(), size / ParticleSet::kRestGroup + 1));

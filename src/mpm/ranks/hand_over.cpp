@@ -128,7 +128,7 @@ void HandOver::settle(std::vector<ParticleSet>& sets) {
       for (; first < end; ++first) places.push_back(static_cast<std::uint32_t>(first));
     });
     permute(sets[s], places.data(), order, room_for_particles(order.count()), scratch, 1);
-    sets[s].begin.clear();
+    if (!sets[s].begin.empty()) sets[s].begin.assign(1, 0);  // of no block; empty, it says more (step/sorter.cpp)
     orders_[s].be_as_in_memory(sets[s]);
   }
 }
@@ -227,6 +227,7 @@ void HandOver::cut(const std::vector<ParticleSet>& sets) {
 }
 
 void HandOver::divide(std::vector<ParticleSet>& sets) {
+  for (ParticleSet& set : sets) set.begin.clear();  // of particles from elsewhere, it may be that of others
   cut(sets);
   send(sets, {});
   settle(sets);

@@ -237,9 +237,6 @@ Simulation::Simulation(SimulationDefinition given, SimulationOptions options) : 
     const std::string fault = rigid_fault(definition, body);
     if (!fault.empty()) throw DefinitionError(fmt::format("rigid body '{}': {}", body.name, fault));
   }
-  if (const std::string fault = s.ranks ? ranks_fault(definition) : std::string(); !fault.empty()) {
-    throw DefinitionError(fault);
-  }
   s.field_map = field_map(definition);
   s.fields = make_fields(definition, s.field_map.count());
   s.choice = make_choice(s.field_map, s.fields);

@@ -21,11 +21,6 @@
 
 namespace mpm {
 
-struct SimulationDefinition;
-
-/// Why a definition cannot run on several ranks, with what to do; empty if it can.
-std::string ranks_fault(const SimulationDefinition& definition);
-
 /// What comes after a step.
 struct StepFlags {
   bool failed;  ///< a particle has

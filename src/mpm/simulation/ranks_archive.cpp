@@ -132,8 +132,9 @@ std::vector<std::uint64_t> RanksReader::parts_of(const std::string& name) {
 
 std::pair<std::uint64_t, std::uint64_t> RanksReader::share_of(const std::vector<std::uint64_t>& parts) const {
   const std::uint64_t all = std::accumulate(parts.begin(), parts.end(), std::uint64_t{0});
-  const std::uint64_t begin = all * rank_ / here_, end = all * (rank_ + 1) / here_;
-  return {begin, end - begin};
+  const std::uint64_t row = share_row(), rows = all / row;
+  const std::uint64_t begin = rows * rank_ / here_, end = rows * (rank_ + 1) / here_;
+  return {begin * row, (end - begin) * row};
 }
 
 std::size_t RanksReader::stored(const std::string& name) {

@@ -6,8 +6,8 @@ namespace mpm {
 
 void add_sleep(RunParts& parts) {
   if (!parts.definition.sleep) return;
-  SleepParts needed{parts.fields, parts.sets, parts.bodies, parts.make_probe(), parts.definition.gravity,
-                    parts.threads};
+  SleepParts needed{parts.fields,  parts.sets, parts.bodies, parts.make_probe(), parts.definition.gravity,
+                    parts.threads, parts.halo};
   parts.modules.add(std::make_unique<Sleep>(*parts.definition.sleep, std::move(needed)));
 }
 

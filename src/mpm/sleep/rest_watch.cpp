@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <tuple>
+#include <utility>
+
+#include "mpm/ranks/lists.hpp"
 
 namespace mpm {
 
@@ -26,7 +29,51 @@ void RestWatch::follow(const Fields& fields, double now) {
       entries_.push_back(known ? *old : entry);
     }
   }
-  at_rest_.assign(entries_.size(), 0);
+}
+
+void RestWatch::forget_rest() {
+  for (RestWatchEntry& entry : entries_) entry.at_rest = false;
+}
+
+void RestWatch::put_in_order() {
+  std::sort(entries_.begin(), entries_.end(), [](const RestWatchEntry& a, const RestWatchEntry& b) {
+    return std::tie(a.field, a.key) < std::tie(b.field, b.key);
+  });
+}
+
+void RestWatch::hand_over(Halo& halo) {
+  struct Row {
+    std::uint64_t key;
+    double begun, fastest, mean[3], half_before[3];
+    std::int32_t field;
+    std::uint32_t looks;
+    std::uint8_t half_at_rest, at_rest;
+  };
+  const auto vector = [](const double* of) { return Vec3(of[0], of[1], of[2]); };
+  std::vector<std::vector<Row>> leaving(halo.ranks().size());
+  const auto leaves = [&](const RestWatchEntry& e) {
+    const int rank = halo.owner(e.key);
+    if (rank == halo.ranks().rank()) return false;
+    const Vec3 &m = e.mean, &h = e.half_before;
+    leaving[rank].push_back({e.key,
+                             e.begun,
+                             e.fastest,
+                             {m[0], m[1], m[2]},
+                             {h[0], h[1], h[2]},
+                             e.field,
+                             e.looks,
+                             e.half_at_rest,
+                             e.at_rest});
+    return true;
+  };
+  entries_.erase(std::remove_if(entries_.begin(), entries_.end(), leaves), entries_.end());
+  for (const std::vector<Row>& of_rank : exchange(halo.ranks(), std::move(leaving))) {
+    for (const Row& row : of_rank) {
+      entries_.push_back({row.field, row.key, row.begun, row.fastest, vector(row.mean), row.looks,
+                          vector(row.half_before), row.half_at_rest != 0, row.at_rest != 0});
+    }
+  }
+  put_in_order();
 }
 
 void RestWatch::look_at(RestWatchEntry& entry, int owner, const std::vector<ParticleSet>& sets, double now) {
@@ -49,12 +96,12 @@ void RestWatch::look_at(RestWatchEntry& entry, int owner, const std::vector<Part
   entry.fastest = std::max(entry.fastest, fastest);
   for (std::size_t k = 0; k < 3; ++k) entry.mean[static_cast<int>(k)] += momentum[k] / mass;
   ++entry.looks;
-  at_rest_[owner] = at_rest_[owner] != 0 && fastest < speed_;
+  entry.at_rest = entry.at_rest && fastest < speed_;
   if (now - entry.begun < half_ || entry.looks < kLeastLooks) return;
   const Vec3 mean = entry.mean / entry.looks;
   const bool still = entry.fastest < speed_ && mean.norm() < kMean * speed_;
   const bool sets_off = mean.norm() > kSeen * speed_ && mean.dot(entry.half_before) > entry.half_before.squaredNorm();
-  at_rest_[owner] = still && entry.half_at_rest && !sets_off;
+  entry.at_rest = still && entry.half_at_rest && !sets_off;
   entry.half_at_rest = still;
   entry.half_before = mean;
   entry.begun = now;
@@ -89,7 +136,8 @@ void RestWatch::serialise(StateArchive& archive) {
   archive.column("looks", entries_, &RestWatchEntry::looks);
   archive.column("half_before", entries_, &RestWatchEntry::half_before);
   archive.column("half_at_rest", entries_, &RestWatchEntry::half_at_rest);
-  archive.list("at_rest", at_rest_);
+  archive.column("at_rest", entries_, &RestWatchEntry::at_rest);
+  if (archive.merging()) put_in_order();
 }
 
 }  // namespace mpm

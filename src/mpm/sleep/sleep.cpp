@@ -29,6 +29,7 @@ Sleep::Sleep(const SleepDefinition& definition, SleepParts parts)
       watch_(definition.speed, definition.after),
       borders_(parts_.fields.size(), SleepBorder(layout_)) {
   account_.name = "sleep";
+  if (parts_.halo != nullptr) across_ = std::make_unique<SleepAcrossRanks>(*parts_.halo, parts_.fields, asleep_);
 }
 
 bool Sleep::tool_near(const std::array<int, 3>& block, double dt) const {
@@ -60,6 +61,7 @@ void Sleep::look(const StepContext& context) {
   for (const auto& [name, block] : asleep_.all()) {
     if (tool_near(layout_.block(name.key), context.dt) || other_near(name.field, name.key)) to_wake_.push_back(name);
   }
+  if (across_) across_->add_met(to_wake_);
   watch_.look(parts_.fields, parts_.sets, context.start, parts_.threads);
   for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
     const Grid& grid = *parts_.fields[f];
@@ -73,21 +75,44 @@ void Sleep::look(const StepContext& context) {
   }
 }
 
-void Sleep::momentum_gathered(StepContext& context) {
+void Sleep::follow_sort(const StepContext& context) {
   const std::uint64_t generation = context.fields.front()->blocks.generation();
-  if (generation_ != generation) {
-    generation_ = generation;
-    watch_.follow(context.fields, context.start);
-    for (std::size_t f = 0; f < borders_.size(); ++f) {
-      borders_[f].find(static_cast<int>(f), *context.fields[f], asleep_);
-    }
+  if (generation_ == generation && !just_read_) return;
+  if (generation_ != generation) watch_.follow(context.fields, context.start);
+  generation_ = generation;
+  if (just_read_) {
+    find_owners_of_sleepers();
+    if (across_) across_->meet(borders_);
+    just_read_ = false;
   }
+  for (std::size_t f = 0; f < borders_.size(); ++f) {
+    borders_[f].find(static_cast<int>(f), *context.fields[f], asleep_, parts_.halo);
+  }
+}
+
+void Sleep::find_owners_of_sleepers() {
+  const auto is_found = [&](SleepingBlocks::Sleeper& sleeper) {
+    const Grid& grid = *parts_.fields[sleeper.name.field];
+    int first = 0, last = grid.blocks.owners();
+    while (first < last) {
+      const int middle = (first + last) / 2;
+      (grid.blocks.key(grid.blocks.owner_block(middle)) < sleeper.name.key ? first = middle + 1 : last = middle);
+    }
+    sleeper.owner = grid.first_owner + first;
+    return first < grid.blocks.owners() && grid.blocks.key(grid.blocks.owner_block(first)) == sleeper.name.key;
+  };
+  const auto others = std::stable_partition(sleepers_.begin(), sleepers_.end(), is_found);
+  sleepers_.erase(others, sleepers_.end());
+}
+
+void Sleep::momentum_gathered(StepContext& context) {
+  follow_sort(context);
   if (!begun_ && definition_.from_start) {
     watch_.trust_all();
     looks_waited_ = kLooksToWait;
   }
   if (begun_ && ++steps_ < kStepsBetweenLooks) return;
-  if (!sleepers_.empty()) ++looks_waited_;
+  if (across_ ? across_->ranks().any(!sleepers_.empty()) : !sleepers_.empty()) ++looks_waited_;
   steps_ = 0;
   sleepers_.clear();
   look(context);
@@ -142,6 +167,7 @@ Sleep::Taken Sleep::hold(Grid& grid, const SleepBorder& border, double dt) {
     const Vec3 change = -nodal_vector(grid.velocity, layout_, ref);
     add_nodal_vector(grid.velocity, layout_, ref, change);
     add_nodal_vector(grid.force, layout_, ref, change / dt);
+    if (!grid.counts(ref.block)) return;
     taken.impulse += mass * change;
     taken.energy += nodal_vector(grid.momentum, layout_, ref).squaredNorm() / (2.0 * mass);
   });
@@ -165,6 +191,7 @@ Sleep::Taken Sleep::damp(Grid& grid, double dt) {
         }
         add_nodal_vector(grid.velocity, layout_, ref, change);
         add_nodal_vector(grid.force, layout_, ref, change / dt);
+        if (!grid.counts(ref.block)) return;
         const double mass = grid.mass.at(ref.block, 0, ref.node);
         taken.impulse += mass * change;
         taken.energy -= mass * change.dot(velocity + 0.5 * change);
@@ -200,7 +227,7 @@ void Sleep::increment_found(StepContext& context) {
       if (!grid.carries(node.ref.block, node.ref.node)) continue;
       const Vec3 change = -nodal_vector(grid.increment, layout_, node.ref);
       add_nodal_vector(grid.increment, layout_, node.ref, change);
-      given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
+      if (grid.counts(node.ref.block)) given_ += grid.mass.at(node.ref.block, 0, node.ref.node) * change;
     }
   }
 }
@@ -208,7 +235,14 @@ void Sleep::increment_found(StepContext& context) {
 // In the first step nothing moves yet; what its force would set in motion within the time is not at rest.
 void Sleep::strike_what_sets_off(StepContext& context) {
   double lightest = std::numeric_limits<double>::infinity();
-  for (const ParticleSet& set : parts_.sets) lightest = std::min(lightest, set.least_mass());
+  for (const ParticleSet& set : parts_.sets) {
+    if (set.size() > 0) lightest = std::min(lightest, set.least_mass());
+  }
+  if (across_) {
+    double greatest = -lightest;
+    across_->ranks().largest(&greatest, 1);
+    lightest = -greatest;
+  }
   const auto sets_off = [&](const SleepingBlocks::Sleeper& sleeper) {
     const Grid& grid = *context.fields[sleeper.name.field];
     const int* blocks = grid.blocks.neighbours(sleeper.owner - grid.first_owner);
@@ -236,15 +270,33 @@ void Sleep::grid_advanced(StepContext& context) {
   given_.setZero();
 }
 
+// Where another number of ranks reads a checkpoint particles are sorted once more, for which nobody sleeps or wakes.
 void Sleep::before_sort() {
-  if (sleepers_.empty() && to_wake_.empty()) return;
-  // A block that particles have left holds them under the wrong name, and those put around a periodic axis are far off.
-  const auto wakes = [&](const SleepingBlocks::Sleeper& sleeper) {
-    const Grid& grid = *parts_.fields[sleeper.name.field];
-    return grid.loose[sleeper.owner - grid.first_owner] != 0 ||
-           std::binary_search(to_wake_.begin(), to_wake_.end(), sleeper.name);
+  asleep_.follow_moves();
+  if (just_read_) return;
+  watch_.forget_rest();
+  const bool any = !sleepers_.empty() || !to_wake_.empty();
+  bool falls = false;
+  if (across_ == nullptr && !any) return;
+  const auto leave = [this](auto&& is_out) {
+    sleepers_.erase(std::remove_if(sleepers_.begin(), sleepers_.end(), is_out), sleepers_.end());
   };
-  sleepers_.erase(std::remove_if(sleepers_.begin(), sleepers_.end(), wakes), sleepers_.end());
+  // A block that particles have left holds them under the wrong name, and those put around a periodic axis are far off.
+  leave([&](const SleepingBlocks::Sleeper& sleeper) {
+    const Grid& grid = *parts_.fields[sleeper.name.field];
+    return grid.loose[sleeper.owner - grid.first_owner] != 0;
+  });
+  if (across_) {
+    std::vector<BlockName> falling;
+    for (const SleepingBlocks::Sleeper& sleeper : sleepers_) falling.push_back(sleeper.name);
+    const SleepAcrossRanks::Agreed agreed = across_->agree(any, falling, to_wake_);
+    if (!agreed.any) return;
+    falls = agreed.falls;
+  }
+  leave([&](const SleepingBlocks::Sleeper& sleeper) {
+    return std::binary_search(to_wake_.begin(), to_wake_.end(), sleeper.name);
+  });
+  if (!across_) falls = !sleepers_.empty();
   const double cell = layout_.smallest_cell();
   for (SleepingBlocks::Sleeper& sleeper : sleepers_) {
     const Grid& grid = *parts_.fields[sleeper.name.field];
@@ -264,10 +316,19 @@ void Sleep::before_sort() {
     energy_ += taken.energy;
   }
   for (const BlockName& name : to_wake_) asleep_.wake(name);
+  if (falls || !to_wake_.empty()) asleep_.forget_order();
+  if (none_asleep()) asleep_.forget_rate();
   sleepers_.clear();
   to_wake_.clear();
   looks_waited_ = steps_waited_ = 0;
   at_once_ = false;
+}
+
+void Sleep::share_memory(Communicator&) {
+  asleep_.follow_moves();
+  if (just_read_) return;  // done when all has been read
+  watch_.hand_over(*parts_.halo);
+  across_->meet(borders_);
 }
 
 void Sleep::energies(EnergyReport& report) const {
@@ -280,7 +341,7 @@ void Sleep::numbers(std::vector<NamedNumber>& list) const {
 }
 
 void Sleep::limit_step(const PeriodAhead& period, StepLimit& limit) const {
-  if (asleep_.all().empty()) return;
+  if (asleep_.rate() == 0.0) return;
   StepLimit own;
   own.by = this;
   own.dt = period.cfl / asleep_.rate();
@@ -302,28 +363,36 @@ void Sleep::serialise(StateArchive& archive) {
   archive.rows("sleepers", sleepers_);
   archive.column("sleepers/field", sleepers_, [](Sleeper& sleeper) -> int& { return sleeper.name.field; });
   archive.column("sleepers/key", sleepers_, [](Sleeper& sleeper) -> std::uint64_t& { return sleeper.name.key; });
-  archive.column("sleepers/owner", sleepers_, &Sleeper::owner);
   archive.value("looks_waited", looks_waited_);
   archive.rows("to_wake", to_wake_);
   archive.column("to_wake/field", to_wake_, &BlockName::field);
   archive.column("to_wake/key", to_wake_, &BlockName::key);
-  archive.value("steps_waited", steps_waited_);
-  archive.value("at_once", at_once_);
+  std::vector<std::uint32_t> waited{steps_waited_, at_once_ ? 1U : 0U};  // on this rank
+  archive.list("waited", waited);
   archive.value("steps", steps_);
   archive.value("begun", begun_);
   account_.serialise(archive);
-  archive.value("energy", energy_);
-  archive.value("damped", damped_);
+  archive.sum("energy", energy_);
+  archive.sum("damped", damped_);
   archive.generation("sorts_since", generation_);
   for (std::size_t f = 0; f < borders_.size(); ++f) {
     const StateArchive::Group group(archive, "border_" + std::to_string(f));
     borders_[f].serialise(archive);
   }
-  if (!archive.reading() || generation_ != parts_.fields.front()->blocks.generation()) return;
-  for (std::size_t f = 0; f < borders_.size(); ++f) {
-    borders_[f].find(static_cast<int>(f), *parts_.fields[f], asleep_);
+  if (!archive.reading()) return;
+  steps_waited_ = 0;
+  at_once_ = false;
+  for (std::size_t i = 0; i < waited.size(); i += 2) {  // of each rank where others read it
+    steps_waited_ = std::max(steps_waited_, waited[i]);
+    at_once_ = at_once_ || waited[i + 1] != 0;
   }
+  std::sort(to_wake_.begin(), to_wake_.end());
+  to_wake_.erase(std::unique(to_wake_.begin(), to_wake_.end()), to_wake_.end());
+  just_read_ = true;
+  if (across_) across_->begin_anew();
 }
+
+bool Sleep::none_asleep() const { return across_ ? across_->none_asleep() : asleep_.all().empty(); }
 
 void Sleep::hashed(std::vector<double>& numbers) const {
   std::vector<BlockName> names;

@@ -1,6 +1,8 @@
 #include "mpm/sleep/sleep_border.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace mpm {
 namespace {
@@ -36,16 +38,18 @@ std::uint64_t SleepBorder::key_beside(const std::array<int, 3>& block, int side)
   return layout_->key({block[0] + step[0], block[1] + step[1], block[2] + step[2]});
 }
 
-void SleepBorder::find(int field, const Grid& grid, const SleepingBlocks& asleep) {
+void SleepBorder::find(int field, const Grid& grid, const SleepingBlocks& asleep, const Halo* halo) {
   field_ = field;
   before_.swap(nodes_);
   keys_before_.swap(keys_);
   nodes_.clear();
   keys_.clear();
-  if (asleep.all().empty()) return;
+  if (asleep.finds_none()) return;
   around_.resize(sides_);
   is_awake_.assign(grid.blocks.size(), 0);
   for (int owner = 0; owner < grid.blocks.owners(); ++owner) is_awake_[grid.blocks.owner_block(owner)] = 1;
+  reached_by_others_.assign(halo == nullptr ? 0 : grid.blocks.size(), 0);
+  if (halo != nullptr) halo->add_reached(field, reached_by_others_);
   for (int b = 0; b < grid.blocks.size(); ++b) {
     bool any = false;
     for (int side = 0; side < sides_; ++side) {
@@ -57,7 +61,7 @@ void SleepBorder::find(int field, const Grid& grid, const SleepingBlocks& asleep
   keep_means();
 }
 
-// Both lists are in ascending order of blocks and nodes, unless an axis is periodic; then some begin anew.
+// Both lists are in ascending order of blocks and nodes.
 void SleepBorder::keep_means() {
   std::size_t old = 0;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -77,6 +81,9 @@ void SleepBorder::find_reached(int block, const Grid& grid) {
     const int beside = grid.blocks.find(key_beside(grid.blocks.block(block), side));
     if (beside < 0 || is_awake_[beside] == 0) continue;
     for (const Shared& shared : shared_[side]) reached_[shared.node] = 1;
+  }
+  for (std::size_t n = 0; n < reached_.size() && !reached_by_others_.empty(); ++n) {
+    if ((reached_by_others_[block] >> n & 1U) != 0) reached_[n] = 1;
   }
 }
 
@@ -124,11 +131,48 @@ SleepBorder::Unrest SleepBorder::find_unrest(Node& node, const Grid& grid, const
   return unrest;
 }
 
+void SleepBorder::add_means(std::uint64_t key, std::vector<Mean>& list) const {
+  auto i = std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin();
+  for (; i < static_cast<std::ptrdiff_t>(keys_.size()) && keys_[i] == key; ++i) {
+    const Vec3& mean = nodes_[i].mean;
+    list.push_back({key, field_, nodes_[i].ref.node, {mean[0], mean[1], mean[2]}});
+  }
+}
+
+void SleepBorder::take_means(const std::vector<Mean>& list) {
+  for (const Mean& one : list) {
+    Node node;
+    node.ref = {-1, one.node};
+    node.mean = Vec3(one.force[0], one.force[1], one.force[2]);
+    nodes_.push_back(node);
+    keys_.push_back(one.key);
+  }
+  if (!list.empty()) put_in_order();
+}
+
+void SleepBorder::put_in_order() {
+  std::vector<std::size_t> order(nodes_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto place = [&](std::size_t i) { return std::pair{keys_[i], nodes_[i].ref.node}; };
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return place(a) < place(b); });
+  order.erase(std::unique(order.begin(), order.end(), [&](auto a, auto b) { return place(a) == place(b); }),
+              order.end());
+  std::vector<Node> nodes;
+  std::vector<std::uint64_t> keys;
+  for (const std::size_t i : order) {
+    nodes.push_back(nodes_[i]);
+    keys.push_back(keys_[i]);
+  }
+  nodes_.swap(nodes);
+  keys_.swap(keys);
+}
+
 void SleepBorder::serialise(StateArchive& archive) {
   archive.list("keys", keys_);
   archive.rows("nodes", nodes_);
   archive.column("node", nodes_, [](Node& node) -> int& { return node.ref.node; });
   archive.column("mean", nodes_, &Node::mean);
+  if (archive.merging()) put_in_order();
 }
 
 }  // namespace mpm

@@ -1,11 +1,17 @@
 #include "mpm/sleep/sleeping_blocks.hpp"
 
 #include <algorithm>
-#include <map>
+#include <cstdlib>
+#include <numeric>
 #include <string>
 #include <utility>
 
 namespace mpm {
+namespace {
+
+constexpr std::uint64_t kAwake = ~std::uint64_t{0};  ///< in place of the key of the block that a particle sleeps in
+
+}  // namespace
 
 void SleepingBlocks::exchange(ParticleSet& set, std::uint32_t p, std::uint32_t q) {
   set.each_scalar([&](auto& values) { std::swap(values[p], values[q]); });
@@ -32,6 +38,7 @@ TakenMotion SleepingBlocks::stop(ParticleSet& set, std::uint32_t p) {
 
 void SleepingBlocks::make_room(std::size_t s) {
   owned_.resize(sets_.size());
+  first_.resize(sets_.size());
   owned_[s].resize(sets_[s].id.size());
   sets_[s].rest_changes.resize(sets_[s].id.size() / ParticleSet::kRestGroup + 1);
 }
@@ -74,24 +81,27 @@ void SleepingBlocks::put_set(std::size_t s, const std::vector<Sleeper>& sleepers
     }
   }
   set.asleep += static_cast<int>(count);
+  first_[s] = set.awake();
+}
+
+SleepingBlock& SleepingBlocks::block(const BlockName& name) {
+  std::unique_ptr<SleepingBlock>& block = by_name_[name];
+  if (block == nullptr) {
+    block = std::make_unique<SleepingBlock>();
+    block->name = name;
+    block->particles.resize(sets_.size());
+  }
+  return *block;
 }
 
 TakenMotion SleepingBlocks::put_to_sleep(const std::vector<Sleeper>& sleepers) {
   std::vector<SleepingBlock*> blocks;
   for (const Sleeper& sleeper : sleepers) {
-    std::unique_ptr<SleepingBlock>& block = by_name_[sleeper.name];
-    if (block == nullptr) {
-      block = std::make_unique<SleepingBlock>();
-      block->name = sleeper.name;
-      block->particles.resize(sets_.size());
-    }
-    block->rate = std::max(block->rate, sleeper.rate);
+    SleepingBlock& block = this->block(sleeper.name);
+    block.rate = std::max(block.rate, sleeper.rate);
     rate_ = std::max(rate_, sleeper.rate);
-    for (int t = 0; t < BlockForces::kMostNodes; ++t) {  // material that came to rest where some was asleep adds to it
-      block->forces.mass[t] += sleeper.forces->mass[t];
-      for (int k = 0; k < layout_.dim(); ++k) block->forces.force[k][t] += sleeper.forces->force[k][t];
-    }
-    blocks.push_back(block.get());
+    block.forces.add(*sleeper.forces);  // material that came to rest where some was asleep adds to it
+    blocks.push_back(&block);
   }
   TakenMotion taken;
   for (std::size_t s = 0; s < sets_.size(); ++s) put_set(s, sleepers, blocks, taken);
@@ -120,6 +130,7 @@ void SleepingBlocks::wake_set(std::size_t s, SleepingBlock& block) {
     owned_[s][from] = displaced;
   }
   set.asleep -= static_cast<int>(own.size());
+  first_[s] = set.awake();
 }
 
 void SleepingBlocks::wake(const BlockName& name) {
@@ -128,7 +139,36 @@ void SleepingBlocks::wake(const BlockName& name) {
   for (std::size_t s = 0; s < sets_.size(); ++s) wake_set(s, *found->second);
   mass_ -= found->second->mass;
   by_name_.erase(found);
-  if (by_name_.empty()) mass_ = rate_ = 0.0;
+  if (by_name_.empty()) mass_ = 0.0;
+}
+
+void SleepingBlocks::forget_order() {
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    make_room(s);  // also where nothing has slept yet: the sorter knows by it that something does somewhere
+    sets_[s].begin.clear();
+  }
+}
+
+void SleepingBlocks::follow_moves() {
+  for (std::size_t s = 0; s < first_.size(); ++s) follow_moves(s);
+}
+
+// Which they are: mpm::permute() (particles/permute.hpp).
+void SleepingBlocks::follow_moves(std::size_t s) {
+  ParticleSet& set = sets_[s];
+  const int before = std::exchange(first_[s], set.awake()), first = set.awake();
+  if (first == before || set.asleep == 0) return;
+  const int moved = std::min(std::abs(first - before), set.asleep);
+  const bool to_end = first > before;
+  const int from = to_end ? before : before + set.asleep - moved, to = to_end ? first + set.asleep - moved : first;
+  const std::vector<Owned> owned(owned_[s].begin() + from, owned_[s].begin() + from + moved);
+  make_room(s);
+  for (int i = 0; i < moved; ++i) {
+    const auto place = static_cast<std::uint32_t>(to + i);
+    owned_[s][place] = owned[i];
+    owned[i].block->particles[s][owned[i].rank] = place;
+  }
+  ++set.rest_changes[set.size() / ParticleSet::kRestGroup];  // the last group, which may have lost some
 }
 
 std::size_t SleepingBlocks::particles() const {
@@ -137,62 +177,108 @@ std::size_t SleepingBlocks::particles() const {
   return count;
 }
 
-// Whose a particle is is stored by place; lists in order of place are what waking makes of any order.
+// Whose a particle is is stored by place; lists in order of place are what waking makes of any order. What a block
+// gives to the grid is shared out where another number of ranks reads it, and so are the particles, which others may
+// get: then the block sleeps on several ranks.
 void SleepingBlocks::serialise(StateArchive& archive) {
-  std::vector<SleepingBlock*> blocks;
-  for (const auto& one : by_name_) blocks.push_back(one.second.get());
-  std::sort(blocks.begin(), blocks.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
-  std::vector<std::unique_ptr<SleepingBlock>> read;
-  archive.rows("blocks", blocks);
-  if (archive.reading()) {
-    by_name_.clear();
-    for (SleepingBlock*& block : blocks) {
-      read.push_back(std::make_unique<SleepingBlock>());
-      block = read.back().get();
-      block->particles.resize(sets_.size());
-    }
-  }
-  archive.column("blocks/field", blocks, [](SleepingBlock* block) -> int& { return block->name.field; });
-  archive.column("blocks/key", blocks, [](SleepingBlock* block) -> std::uint64_t& { return block->name.key; });
-  archive.column("blocks/rate", blocks, [](SleepingBlock* block) -> double& { return block->rate; });
-  archive.column("blocks/mass", blocks, [](SleepingBlock* block) -> double& { return block->mass; });
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const StateArchive::Group group(archive, "block_" + std::to_string(b));
-    std::vector<float> values(blocks[b]->forces.mass.begin(), blocks[b]->forces.mass.end());
-    for (const auto& component : blocks[b]->forces.force)
-      values.insert(values.end(), component.begin(), component.end());
-    archive.list("forces", values);
-    const float* from = values.data();
-    std::copy_n(from, BlockForces::kMostNodes, blocks[b]->forces.mass.begin());
-    for (auto& component : blocks[b]->forces.force) {
-      std::copy_n(from += BlockForces::kMostNodes, BlockForces::kMostNodes, component.begin());
-    }
-  }
-  std::map<const SleepingBlock*, std::uint32_t> number;
-  for (std::size_t b = 0; b < blocks.size(); ++b) number[blocks[b]] = static_cast<std::uint32_t>(b);
+  serialise_blocks(archive);
   for (std::size_t s = 0; s < sets_.size(); ++s) {
     const StateArchive::Group group(archive, "set_" + std::to_string(s));
-    ParticleSet& set = sets_[s];
-    archive.value("asleep", set.asleep);
-    std::vector<std::uint32_t> of_block;
+    const StateArchive::Share share(archive);
+    const ParticleSet& set = sets_[s];
+    std::vector<std::uint64_t> block_of;
     if (!archive.reading()) {
-      for (int p = set.awake(); p < set.size(); ++p) of_block.push_back(number.at(owned_[s][p].block));
+      block_of.assign(set.size(), kAwake);
+      for (int p = set.awake(); p < set.size(); ++p) block_of[p] = owned_[s][p].block->name.key;
     }
-    archive.list("of_block", of_block);
-    if (!archive.reading()) continue;
-    make_room(s);
-    for (std::uint32_t& changes : set.rest_changes) ++changes;
-    for (int p = set.awake(); p < set.size(); ++p) {
-      settle_place(set, static_cast<std::uint32_t>(p));
-      note(s, static_cast<std::uint32_t>(p), blocks[of_block[p - set.awake()]]);
+    archive.list("block_of", block_of);
+    if (archive.reading()) take_places(s, block_of, archive.merging());
+  }
+  archive.sum("mass", mass_);
+  std::vector<double> rates{rate_};
+  archive.list("rate", rates);
+  if (!archive.reading()) return;
+  rate_ = *std::max_element(rates.begin(), rates.end());
+  if (!archive.merging()) return;
+  mass_ = 0.0;
+  for (const auto& one : by_name_) mass_ += one.second->mass;
+}
+
+void SleepingBlocks::serialise_blocks(StateArchive& archive) {
+  std::vector<const SleepingBlock*> blocks;
+  for (const auto& one : by_name_) blocks.push_back(one.second.get());
+  std::sort(blocks.begin(), blocks.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
+  std::vector<int> fields;
+  std::vector<std::uint64_t> keys;
+  std::vector<double> rates, masses;
+  for (const SleepingBlock* block : blocks) {
+    fields.push_back(block->name.field);
+    keys.push_back(block->name.key);
+    rates.push_back(block->rate);
+    masses.push_back(block->mass);
+  }
+  const StateArchive::Group group(archive, "blocks");
+  {
+    const StateArchive::Share share(archive);
+    archive.list("field", fields);
+    archive.list("key", keys);
+    archive.list("rate", rates);
+    archive.list("mass", masses);
+  }
+  if (archive.reading()) {
+    by_name_.clear();
+    whole_.clear();
+    for (std::size_t b = 0; b < keys.size(); ++b) {
+      SleepingBlock& read = block({fields[b], keys[b]});
+      read.rate = std::max(read.rate, rates[b]);
+      if (!archive.merging()) read.mass = masses[b];
     }
   }
-  for (std::unique_ptr<SleepingBlock>& block : read) {
-    const BlockName name = block->name;
-    by_name_[name] = std::move(block);
+  const StateArchive::Share share(archive, BlockForces::kMostNodes);
+  std::vector<float> values;
+  for (int c = 0; c <= layout_.dim(); ++c) {  // the masses, then the forces along each axis
+    values.clear();
+    for (const SleepingBlock* block : blocks) {
+      const auto& of_tile = c == 0 ? block->forces.mass : block->forces.force[c - 1];
+      values.insert(values.end(), of_tile.begin(), of_tile.end());
+    }
+    archive.list(c == 0 ? "given_mass" : "given_force" + std::to_string(c - 1), values);
+    for (std::size_t b = 0; b < keys.size() && archive.reading(); ++b) {
+      BlockForces& forces = block({fields[b], keys[b]}).forces;
+      auto& of_tile = c == 0 ? forces.mass : forces.force[c - 1];
+      for (int t = 0; t < BlockForces::kMostNodes; ++t) of_tile[t] += values[b * BlockForces::kMostNodes + t];
+    }
   }
-  archive.value("mass", mass_);
-  archive.value("rate", rate_);
+}
+
+// Where the particles of several ranks are read as one list those asleep are scattered in it; they become the last
+// ones.
+void SleepingBlocks::take_places(std::size_t s, std::vector<std::uint64_t> block_of, bool merging) {
+  ParticleSet& set = sets_[s];
+  std::vector<std::uint32_t> order(block_of.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto asleep = std::stable_partition(order.begin(), order.end(), [&](auto p) { return block_of[p] == kAwake; });
+  if (merging) {
+    const auto reorder = [&](auto& values) {
+      const auto before = values;
+      for (std::size_t p = 0; p < order.size(); ++p) values[p] = before[order[p]];
+    };
+    set.each_scalar(reorder);
+    reorder(set.id);
+    if (!set.side.empty()) reorder(set.side);
+    reorder(block_of);
+    set.begin.clear();  // of what was there before
+  }
+  set.asleep = static_cast<int>(order.end() - asleep);
+  make_room(s);
+  first_[s] = set.awake();
+  for (std::uint32_t& changes : set.rest_changes) ++changes;
+  for (int p = set.awake(); p < set.size(); ++p) {
+    SleepingBlock& block = this->block({set.field_of(p), block_of[p]});
+    settle_place(set, static_cast<std::uint32_t>(p));
+    note(s, static_cast<std::uint32_t>(p), &block);
+    if (merging) block.mass += set.mass_of(p);
+  }
 }
 
 }  // namespace mpm

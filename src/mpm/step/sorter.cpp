@@ -20,6 +20,20 @@ class RecentBlocks {
   std::array<Entry, std::size_t{1} << kBits> entries_;
 };
 
+/// Puts the particles of each node in the order of their ids. `node`: of each, in sorted order; `order`: their places.
+void take_by_ids(const ParticleSet& set, const std::uint8_t* node, std::uint32_t* order, int threads) {
+  const std::size_t owners = set.begin.size() - 1;
+  const auto less = [&](std::uint32_t p, std::uint32_t q) { return set.id[p] < set.id[q]; };
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t owner = 0; owner < owners; ++owner) {
+    const std::uint32_t end = set.begin[owner + 1];
+    for (std::uint32_t first = set.begin[owner], last = first; first < end; first = last) {
+      while (last < end && node[last] == node[first]) ++last;
+      if (!std::is_sorted(order + first, order + last, less)) std::sort(order + first, order + last, less);
+    }
+  }
+}
+
 }  // namespace
 
 Sorter::Sorter(int threads, Grouping grouping, NodeChoice* choice)
@@ -252,8 +266,10 @@ std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Fields& 
   collect_owners(layout);
   for (std::size_t s = 0; s < sets.size(); ++s) {
     Scratch& scratch = scratch_[s];
+    const bool by_ids = sets[s].begin.empty() && !sets[s].rest_changes.empty();  // sleep/sleeping_blocks.hpp
     sort_by_block(sets[s], scratch);
     sort_by_node(sets[s], scratch);
+    if (by_ids) take_by_ids(sets[s], scratch.node.data(), scratch.order.data(), threads_);
     fill_groups(sets[s], scratch);
     permute(sets[s], scratch.order.data(), *scratch.before, scratch.room, scratch.values, threads_);
   }

@@ -4,10 +4,9 @@
 #include <array>
 
 namespace mpm {
-namespace {
 
 // The few blocks that particles in sequence lie in, with a value each.
-class RecentBlocks {
+class Sorter::RecentBlocks {
  public:
   struct Entry {
     std::uint64_t key = ~std::uint64_t{0};
@@ -19,8 +18,6 @@ class RecentBlocks {
   static constexpr int kBits = 8;
   std::array<Entry, std::size_t{1} << kBits> entries_;
 };
-
-}  // namespace
 
 Sorter::Sorter(int threads, Grouping grouping, NodeChoice* choice)
     : threads_(threads), grouping_(grouping), choice_(choice), parts_(threads) {}

@@ -227,6 +227,7 @@ void HandOver::cut(const std::vector<ParticleSet>& sets) {
 }
 
 void HandOver::divide(std::vector<ParticleSet>& sets) {
+  for (ParticleSet& set : sets) set.begin.clear();  // of particles from elsewhere, it may be that of others
   cut(sets);
   send(sets, {});
   settle(sets);

@@ -11,11 +11,11 @@ namespace {
 constexpr const char* kRanks = "ranks_written";
 constexpr const char* kParts = "parts/";
 
-/// How many numbers have one checksum and are written at once. At most so many that HDF5 keeps the chunk it reads,
-/// which several ranks may have parts of; fewer where all ranks would not get one, but not for a few numbers.
-constexpr std::uint64_t kLeastChunk = 1 << 10, kMostChunk = 1 << 16;
+/// How many numbers have one checksum and are written at once: not more than HDF5 keeps while it is read in parts, and
+/// so few that each rank has some chunks to write, but not fewer than are worth a write.
+constexpr std::uint64_t kMostChunk = 1 << 16, kLeastChunk = 1 << 10, kChunksEach = 4;
 
-std::uint64_t rounded_up(std::uint64_t number, std::uint64_t of) { return (number + of - 1) / of; }
+std::uint64_t quotient_up(std::uint64_t number, std::uint64_t by) { return (number + by - 1) / by; }
 
 /// An array of all ranks in chunks, which are written by the rank in whose part they begin; an array of one chunk is
 /// written by the first rank.
@@ -23,8 +23,9 @@ class Chunks {
  public:
   explicit Chunks(const std::vector<std::uint64_t>& parts) : begins_{0} {
     for (const std::uint64_t part : parts) begins_.push_back(begins_.back() + part);
-    const std::uint64_t each = rounded_up(all(), parts.size());
-    size_ = std::clamp(rounded_up(each, kLeastChunk) * kLeastChunk, kLeastChunk, kMostChunk);
+    const std::uint64_t least = quotient_up(all(), kMostChunk), most = std::max<std::uint64_t>(1, all() / kLeastChunk);
+    const std::uint64_t chunks = std::clamp(kChunksEach * parts.size(), least, most);
+    size_ = 2 * std::max<std::uint64_t>(1, quotient_up(all(), 2 * chunks));
   }
   std::uint64_t all() const { return begins_.back(); }
   std::uint64_t size() const { return size_; }
@@ -32,7 +33,7 @@ class Chunks {
   /// The first number of a rank; of that after the last rank: all.
   std::uint64_t begin(int rank) const { return begins_[rank]; }
   /// The first chunk that a rank writes, or a later one does.
-  std::uint64_t first(int rank) const { return one() ? (rank == 0 ? 0 : 1) : rounded_up(begins_[rank], size_); }
+  std::uint64_t first(int rank) const { return one() ? (rank == 0 ? 0 : 1) : quotient_up(begins_[rank], size_); }
   int writer(std::uint64_t chunk) const {
     if (one()) return 0;
     return static_cast<int>(std::upper_bound(begins_.begin(), begins_.end(), chunk * size_) - begins_.begin()) - 1;
@@ -40,7 +41,7 @@ class Chunks {
 
  private:
   std::vector<std::uint64_t> begins_;
-  std::uint64_t size_ = kLeastChunk;
+  std::uint64_t size_ = 2;  ///< even, as the checksum is of pairs of bytes
 };
 
 /// Of one number [bytes].

@@ -37,11 +37,6 @@ std::uint32_t fletcher32(const void* data, std::size_t bytes) {
 
 }  // namespace
 
-std::uint64_t file_number(const std::string& path) {
-  struct stat about {};
-  return stat(path.c_str(), &about) == 0 ? about.st_ino : 0;
-}
-
 ChunkWriter::ChunkWriter(const std::string& path, std::uint64_t number) : path_(path) {
   std::string problem = refused_output(path);  // a pipe would wait to be opened
   if (problem.empty()) {

@@ -19,12 +19,9 @@
 
 namespace mpm {
 
-/// Which file it is, whatever its name.
-std::uint64_t file_number(const std::string& path);
-
 class ChunkWriter {
  public:
-  /// Of a file that another rank has made, and which has that number there. @throws CheckpointError
+  /// Of a file that another rank has made, and which has that file_number() there. @throws CheckpointError
   ChunkWriter(const std::string& path, std::uint64_t number);
   ChunkWriter(const ChunkWriter&) = delete;
   ChunkWriter& operator=(const ChunkWriter&) = delete;

@@ -1,8 +1,11 @@
 #include "ranks_archive.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <numeric>
 
+#include "mpm/math/output_file.hpp"
 #include "mpm/ranks/agree.hpp"
 
 namespace mpm {

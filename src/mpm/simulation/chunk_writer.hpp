@@ -4,9 +4,9 @@
 // Private to this folder.
 //
 // The library's own way, MPI-IO, does not keep what a checkpoint promises (HDF5 1.10.8, Open MPI 4.1 with OMPIO and
-// with ROMIO): where a disk is full some ranks get an error and others wait for them for ever, and a file that could
-// not be written cannot be closed. It also writes every chunk that has a checksum twice, and is slower than one rank
-// that writes all (doc/scale.md). Weak: there is no collective buffering, so each chunk is a write of its own.
+// with ROMIO): where a disk is full some ranks get an error, and others wait for them for ever. It also writes every
+// chunk that has a checksum twice, and is slower than one rank that writes all (doc/decisions.md). Weak: there is no
+// collective buffering, so each chunk is a write of its own.
 //
 // Source: HDF5 file format specification, version 3, "Fletcher32 checksum filter"; Fletcher (1982), An arithmetic
 // checksum for serial transmissions, IEEE Trans. Commun. 30, 247-252.

@@ -23,10 +23,14 @@ std::vector<RanksPromise> communicator_promises();
 std::vector<RanksPromise> hand_over_promises();
 /// Of nodes that several ranks give to.
 std::vector<RanksPromise> halo_promises();
+/// Of a checkpoint that they write together.
+std::vector<RanksPromise> checkpoint_promises();
 
 inline std::vector<RanksPromise> ranks_promises() {
   std::vector<RanksPromise> all = communicator_promises();
-  for (const auto& more : {hand_over_promises(), halo_promises()}) all.insert(all.end(), more.begin(), more.end());
+  for (const auto& more : {hand_over_promises(), halo_promises(), checkpoint_promises()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
   return all;
 }
 

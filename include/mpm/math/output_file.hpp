@@ -1,6 +1,7 @@
 // A name under which a file is to be written.
 #pragma once
 
+#include <cstdint>
 #include <fstream>
 #include <string>
 
@@ -9,6 +10,9 @@ namespace mpm {
 /// Why no file can be made under that name, or replaced: a folder, a device, a pipe or a socket is there, which writing
 /// would replace, or block on. Empty for a regular file or a new one.
 std::string refused_output(const std::string& path);
+
+/// By which machines that share a disk know that a name is of the same file there; 0: there is none.
+std::uint64_t file_number(const std::string& path);
 
 /// Opens a file to be written, replacing what it held. Returns why that cannot be done, and what to do; empty if it
 /// was.

@@ -115,7 +115,7 @@ class Halo {
   Begins plan_sending(const Fields& fields, const std::vector<Given>& given);
   /// Tells others where their parts begin, and hears where this rank's do.
   Begins exchange(const Begins& begins);
-  void plan_receiving(const Fields& fields, const std::vector<Given>& given, const Begins& begins);
+  void plan_receiving(const Fields& fields, std::vector<Given> given, const Begins& begins);
   void find_counted(Fields& fields, const std::vector<Given>& given);
   /// `shared`: of each block of a field, whether another rank knows it.
   void divide(int field, const Grid& grid, const std::vector<std::uint8_t>& shared);

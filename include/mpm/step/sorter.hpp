@@ -47,6 +47,7 @@ class Sorter {
                                   const std::vector<ParticleOrder>* orders = nullptr);
 
  private:
+  class RecentBlocks;
   /// Memory that is kept for a set between sorts, one value for each particle.
   struct Scratch {
     /// Key of the block, counted on from field to field, then its rank among owners; times nodes a block, plus node.

@@ -37,8 +37,11 @@ class RunSceneCheckpoints {
   void at_failure(Run& run, const std::string& reason, std::ostream& err);
 
  private:
-  /// @throws mpm::SceneError where the file cannot be written
-  void try_path() const;
+  /// Makes the file and removes it again; `ranks`: null for a process that is alone. Collective.
+  /// @throws mpm::SceneError where it cannot be written, or is not the same on all ranks
+  void try_path(mpm::Communicator* ranks) const;
+  /// @throws mpm::SceneError
+  void make(const std::string& part) const;
   std::string path_;
   bool over_ranks_ = false;
   std::int64_t period_ = 0;  ///< [ns]; 0: at the end alone

@@ -1,5 +1,7 @@
 #include "mpm/math/output_file.hpp"
 
+#include <sys/stat.h>
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -21,6 +23,11 @@ std::string refused_output(const std::string& path) {
     default:
       return "it is a device, a pipe or a socket; name a regular file, or a new one";
   }
+}
+
+std::uint64_t file_number(const std::string& path) {
+  struct stat about {};
+  return stat(path.c_str(), &about) == 0 ? about.st_ino : 0;
 }
 
 std::string open_output(std::ofstream& file, const std::string& path) {

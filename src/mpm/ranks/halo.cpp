@@ -19,13 +19,13 @@ int number_of(std::uint64_t nodes) { return static_cast<int>(std::bitset<64>(nod
 /// visit(first, count) for every run of nodes.
 template <class Visit>
 void each_run(std::uint64_t nodes, Visit&& visit) {
-  int first = 0;
   while (nodes != 0) {
-    for (; (nodes & 1) == 0; nodes >>= 1) ++first;
-    int count = 0;
-    for (; (nodes & 1) != 0; nodes >>= 1) ++count;
+    const int first = __builtin_ctzll(nodes);
+    const std::uint64_t beyond = ~(nodes >> first);  // its lowest bit is that of the first node after the run
+    const int count = beyond == 0 ? 64 : __builtin_ctzll(beyond);
     visit(first, count);
-    first += count;
+    if (first + count >= 64) return;
+    nodes &= ~std::uint64_t{0} << (first + count);
   }
 }
 
@@ -188,26 +188,27 @@ Halo::Begins Halo::exchange(const Begins& begins) {
   return heard;
 }
 
-void Halo::plan_receiving(const Fields& fields, const std::vector<Given>& given, const Begins& begins) {
+void Halo::plan_receiving(const Fields& fields, std::vector<Given> given, const Begins& begins) {
+  // One rank after the other: what it sends to all, then its part for this rank. Both come in the order of blocks.
+  const auto parts_of = [](const Given& one) { return std::tuple(one.use.field, one.rank, !one.to_all); };
+  std::stable_sort(given.begin(), given.end(),
+                   [&](const Given& a, const Given& b) { return parts_of(a) < parts_of(b); });
+  auto one = given.cbegin();
   for (std::size_t f = 0; f < fields.size(); ++f) {
     OfField& field = fields_[f];
     std::vector<Communicator::Source> sources;
     field.in.clear();
-    // One rank after the other: what it sends to all, and its part for this rank. Both come in the order of blocks.
-    const auto take = [&](int rank, bool to_all, int row) {
-      int at = static_cast<int>(sources.size()) * kRow;
-      const int first = at;
-      for (const Given& one : given) {
-        if (one.rank != rank || one.to_all != to_all || one.use.field != f) continue;
-        const int count = number_of(one.use.nodes);
-        field.in.push_back({fields[f]->blocks.find(one.use.key), one.use.nodes, at, count, rank});
+    while (one != given.cend() && one->use.field == f) {
+      const Given& part = *one;  // the first of what a rank sends to all, or of its part for this rank
+      const int begin = static_cast<int>(sources.size()) * kRow;
+      int at = begin;
+      for (; one != given.cend() && parts_of(*one) == parts_of(part); ++one) {
+        const int count = number_of(one->use.nodes);
+        field.in.push_back({fields[f]->blocks.find(one->use.key), one->use.nodes, at, count, part.rank});
         at += count;
       }
-      for (int i = 0; i < whole_rows(at - first); ++i) sources.push_back({rank, row + i});
-    };
-    for (int rank = 0; rank < ranks_.size(); ++rank) {
-      take(rank, true, 0);
-      if (!begins[rank].empty()) take(rank, false, begins[rank][f]);
+      const int row = part.to_all ? 0 : begins[part.rank][f];
+      for (int i = 0; i < whole_rows(at - begin); ++i) sources.push_back({part.rank, row + i});
     }
     field.in_rows = static_cast<int>(sources.size());
     field.copies = ranks_.make_copies(field.out_rows, sources);

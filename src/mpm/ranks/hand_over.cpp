@@ -122,7 +122,10 @@ void HandOver::settle(std::vector<ParticleSet>& sets) {
   PermuteScratch scratch;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const ParticleOrder& order = orders_[s];
-    if (order.is_as_in_memory(sets[s])) continue;
+    if (order.is_as_in_memory(sets[s])) {
+      sets[s].fit_scratch();  // particles may have come at the end
+      continue;
+    }
     std::vector<std::uint32_t> places;
     order.each_span(0, order.count(), [&](std::size_t first, std::size_t end) {
       for (; first < end; ++first) places.push_back(static_cast<std::uint32_t>(first));

@@ -14,6 +14,9 @@
 namespace mpm {
 namespace {
 
+constexpr std::size_t kChunk = std::size_t{1} << 20;  ///< numbers that have one checksum
+constexpr std::size_t kChecksum = 4;                  ///< [bytes]
+
 hid_t type_of(StateArchive::Number number) {
   switch (number) {
     case StateArchive::Number::float32:
@@ -49,6 +52,12 @@ std::string problem_with(const std::string& path, const char* mode) {
 
 }  // namespace
 
+CheckpointError not_written_whole(const std::string& path, int error) {
+  const std::string reason = error != 0 ? fmt::format(" ({})", std::strerror(error)) : "";
+  return CheckpointError(fmt::format(
+      "checkpoint {}: cannot be written whole{}; check the space on its disk, and try again", path, reason));
+}
+
 bool Hdf5Id::close() {
   if (id_ < 0) return false;
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
@@ -74,56 +83,64 @@ Hdf5Writer::Hdf5Writer(const std::string& path) : path_(path) {
   }
   // The later layouts of HDF5 have checksums for what is not data, and small lists of chunks.
   const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  if (!access || H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110) < 0 ||
-      !write_tolerantly(access, error_))
+  if (!access || H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110) < 0 || !write_tolerantly(access, disk_))
     fail();
   file_ = {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose};
   make_groups_ = {H5Pcreate(H5P_LINK_CREATE), H5Pclose};
   if (!file_ || !make_groups_ || H5Pset_create_intermediate_group(make_groups_, 1) < 0) fail();
 }
 
-Hdf5Id Hdf5Writer::make(const std::string& name, Number number, std::size_t count) {
+Hdf5Id Hdf5Writer::make(const std::string& name, Number number, std::size_t count, std::size_t chunk,
+                        H5D_alloc_time_t placed) {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
   const hsize_t size = count;
   const Hdf5Id space(count == 0 ? H5Screate(H5S_NULL) : H5Screate_simple(1, &size, nullptr), H5Sclose);
   if (!space) fail();
   const Hdf5Id layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  const hsize_t chunk = std::min<hsize_t>(size, kHdf5Chunk);
-  if (!layout || (count > 0 && (H5Pset_chunk(layout, 1, &chunk) < 0 || H5Pset_fletcher32(layout) < 0))) fail();
+  const hsize_t part = std::min(count, chunk);
+  if (!layout || (count > 0 && (H5Pset_chunk(layout, 1, &part) < 0 || H5Pset_fletcher32(layout) < 0 ||
+                                H5Pset_alloc_time(layout, placed) < 0))) {
+    fail();
+  }
   Hdf5Id set(H5Dcreate2(file_, name.c_str(), type_of(number), space, make_groups_, layout, H5P_DEFAULT), H5Dclose);
-  if (!set || error_.code != 0) fail();
+  if (!set || disk_.error != 0) fail();
   return set;
 }
 
 void Hdf5Writer::values(const std::string& name, Number number, void* data, std::size_t count) {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
-  const Hdf5Id set = make(name, number, count);
+  const Hdf5Id set = make(name, number, count, kChunk, H5D_ALLOC_TIME_INCR);
   if (count > 0 && H5Dwrite(set, type_of(number), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail();
-  if (error_.code != 0) fail();  // the rest would be of no use
+  if (disk_.error != 0) fail();  // the rest would be of no use
 }
 
-void Hdf5Writer::piece(const std::string& name, Number number, const void* data, std::size_t first, std::size_t count) {
+std::vector<std::uint64_t> Hdf5Writer::places(const std::string& name, Number number, std::size_t count,
+                                              std::size_t chunk) {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
-  const Hdf5Id set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!set) fail();
-  const hsize_t begin = first, size = count;
-  const Hdf5Id there(H5Dget_space(set), H5Sclose), here(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  if (!there || !here || H5Sselect_hyperslab(there, H5S_SELECT_SET, &begin, nullptr, &size, nullptr) < 0 ||
-      H5Dwrite(set, type_of(number), here, there, H5P_DEFAULT, data) < 0 || error_.code != 0) {
-    fail();
+  disk_.leaves_out = true;  // the library would fill what it makes room for
+  const Hdf5Id set = make(name, number, count, chunk, H5D_ALLOC_TIME_EARLY);
+  disk_.leaves_out = false;
+  const std::size_t whole = chunk * H5Tget_size(type_of(number)) + kChecksum;
+  std::vector<std::uint64_t> list;
+  for (hsize_t first = 0; first < count; first += chunk) {
+    unsigned without = 0;
+    haddr_t place = HADDR_UNDEF;
+    hsize_t bytes = 0;
+    if (H5Dget_chunk_info_by_coord(set, &first, &without, &place, &bytes) < 0 || without != 0 || bytes != whole ||
+        place == HADDR_UNDEF) {
+      fail();
+    }
+    list.push_back(place);
   }
+  return list;
 }
 
 void Hdf5Writer::close() {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);
-  if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0 || !file_.close() || error_.code != 0) fail();
+  if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0 || !file_.close() || disk_.error != 0) fail();
 }
 
-void Hdf5Writer::fail() const {
-  const std::string reason = error_.code != 0 ? fmt::format(" ({})", std::strerror(error_.code)) : "";
-  throw CheckpointError(fmt::format(
-      "checkpoint {}: cannot be written whole{}; check the space on its disk, and try again", path_, reason));
-}
+void Hdf5Writer::fail() const { throw not_written_whole(path_, disk_.error); }
 
 Hdf5Reader::Hdf5Reader(const std::string& path) : path_(path) {
   const std::lock_guard<std::recursive_mutex> lock(one_at_a_time);

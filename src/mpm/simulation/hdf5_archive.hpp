@@ -51,7 +51,8 @@ class Hdf5Silence {
   void* to_ = nullptr;
 };
 
-inline constexpr std::size_t kHdf5Chunk = std::size_t{1} << 20;  ///< numbers that have one checksum
+/// What is told of a disk that did not take all. `error`: a value of errno; 0: not known.
+CheckpointError not_written_whole(const std::string& path, int error);
 
 class Hdf5Writer final : public StateArchive {
  public:
@@ -64,20 +65,20 @@ class Hdf5Writer final : public StateArchive {
   void array(const std::string& name, Number number, void* data, std::size_t count) {
     values(name, number, data, count);
   }
-  /// The same in pieces: one after another, each but the last of kHdf5Chunk numbers. @throws CheckpointError
-  void begin(const std::string& name, Number number, std::size_t count) { make(name, number, count); }
-  void piece(const std::string& name, Number number, const void* data, std::size_t first, std::size_t count);
+  /// Makes an array whose numbers others write, each `chunk` of them with their checksum (chunk_writer.hpp), the last
+  /// ones filled up to as many. Returns where in the file each chunk has its place [bytes]. @throws CheckpointError
+  std::vector<std::uint64_t> places(const std::string& name, Number number, std::size_t count, std::size_t chunk);
 
  protected:
   void values(const std::string& name, Number number, void* data, std::size_t count) override;
   std::size_t stored(const std::string&) override { return 0; }
 
  private:
-  Hdf5Id make(const std::string& name, Number number, std::size_t count);
+  Hdf5Id make(const std::string& name, Number number, std::size_t count, std::size_t chunk, H5D_alloc_time_t placed);
   [[noreturn]] void fail() const;
   std::string path_;
   Hdf5Silence silence_;  // first, so that closing is silent too
-  DiskError error_;
+  TolerantDisk disk_;
   Hdf5Id file_, make_groups_;
 };
 

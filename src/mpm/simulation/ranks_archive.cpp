@@ -1,16 +1,51 @@
 #include "ranks_archive.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 
-#include "mpm/ranks/lists.hpp"
+#include "mpm/math/output_file.hpp"
+#include "mpm/ranks/agree.hpp"
 
 namespace mpm {
 namespace {
 
 constexpr const char* kRanks = "ranks_written";
 constexpr const char* kParts = "parts/";
+
+/// How many numbers have one checksum and are written at once: not more than HDF5 keeps while it is read in parts, and
+/// so few that each rank has some chunks to write, but not fewer than are worth a write.
+constexpr std::uint64_t kMostChunk = 1 << 16, kLeastChunk = 1 << 10, kChunksEach = 4;
+
+std::uint64_t quotient_up(std::uint64_t number, std::uint64_t by) { return (number + by - 1) / by; }
+
+/// An array of all ranks in chunks, which are written by the rank in whose part they begin; an array of one chunk is
+/// written by the first rank.
+class Chunks {
+ public:
+  explicit Chunks(const std::vector<std::uint64_t>& parts) : begins_{0} {
+    for (const std::uint64_t part : parts) begins_.push_back(begins_.back() + part);
+    const std::uint64_t least = quotient_up(all(), kMostChunk), most = std::max<std::uint64_t>(1, all() / kLeastChunk);
+    const std::uint64_t chunks = std::clamp(kChunksEach * parts.size(), least, most);
+    size_ = 2 * std::max<std::uint64_t>(1, quotient_up(all(), 2 * chunks));
+  }
+  std::uint64_t all() const { return begins_.back(); }
+  std::uint64_t size() const { return size_; }
+  bool one() const { return all() <= size_; }
+  /// The first number of a rank; of that after the last rank: all.
+  std::uint64_t begin(int rank) const { return begins_[rank]; }
+  /// The first chunk that a rank writes, or a later one does.
+  std::uint64_t first(int rank) const { return one() ? (rank == 0 ? 0 : 1) : quotient_up(begins_[rank], size_); }
+  int writer(std::uint64_t chunk) const {
+    if (one()) return 0;
+    return static_cast<int>(std::upper_bound(begins_.begin(), begins_.end(), chunk * size_) - begins_.begin()) - 1;
+  }
+
+ private:
+  std::vector<std::uint64_t> begins_;
+  std::uint64_t size_ = 2;  ///< even, as the checksum is of pairs of bytes
+};
 
 /// Of one number [bytes].
 std::size_t size_of(StateArchive::Number number) {
@@ -54,15 +89,20 @@ void with_type(StateArchive::Number number, Visit&& visit) {
 
 RanksWriter::RanksWriter(Communicator& ranks, const std::string& path) : ranks_(ranks) {
   std::uint64_t size = ranks.size();
-  attempt([&] {
+  std::vector<std::uint64_t> made;
+  on_first([&] {
     file_ = std::make_unique<Hdf5Writer>(path);
     file_->value(kRanks, size);
+    made = {file_number(path)};
   });
+  made = gather_list(ranks, made);
+  if (made.empty()) return;
+  attempt([&] { chunks_ = std::make_unique<ChunkWriter>(path, made.front()); });
 }
 
 template <class Do>
 void RanksWriter::attempt(Do&& act) {
-  if (!ranks_.first() || !failure_.empty()) return;
+  if (!failure_.empty()) return;
   try {
     act();
   } catch (const Error& error) {
@@ -70,41 +110,69 @@ void RanksWriter::attempt(Do&& act) {
   }
 }
 
+template <class Do>
+void RanksWriter::on_first(Do&& act) {
+  if (ranks_.first()) attempt(act);
+}
+
 void RanksWriter::values(const std::string& name, Number number, void* data, std::size_t count) {
   if (merge() == Merge::same) {
-    attempt([&] { file_->array(name, number, data, count); });
+    on_first([&] { file_->array(name, number, data, count); });
     return;
   }
   std::vector<std::uint64_t> parts = gather_list(ranks_, std::vector<std::uint64_t>{count});
-  const std::uint64_t all = std::accumulate(parts.begin(), parts.end(), std::uint64_t{0});
-  const std::uint64_t before = std::accumulate(parts.begin(), parts.begin() + ranks_.rank(), std::uint64_t{0});
+  on_first([&] { file_->array(kParts + name, Number::uint64, parts.data(), parts.size()); });
+  write_chunks(name, number, parts, data);
+}
+
+void RanksWriter::write_chunks(const std::string& name, Number number, const std::vector<std::uint64_t>& parts,
+                               const void* data) {
+  const Chunks chunks(parts);
   const std::size_t size = size_of(number);
-  attempt([&] {
-    file_->begin(name, number, all);
-    file_->array(kParts + name, Number::uint64, parts.data(), parts.size());
-  });
-  // Piece by piece, each from all ranks that have some of it.
-  for (std::uint64_t first = 0; first < all; first += kHdf5Chunk) {
-    const std::uint64_t last = std::min<std::uint64_t>(all, first + kHdf5Chunk);
-    const std::uint64_t from = std::clamp(first, before, before + count), to = std::clamp(last, before, before + count);
-    const auto* own = static_cast<const std::byte*>(data) + (from - before) * size;
-    std::vector<Communicator::Parcel> parcels;
-    if (!ranks_.first() && from < to) parcels.push_back({0, Communicator::Bytes(own, own + (to - from) * size)});
-    const std::vector<Communicator::Parcel> arrived = ranks_.deliver(parcels);
-    if (!ranks_.first()) continue;
-    piece_.assign(own, own + (to - from) * size);
-    for (const Communicator::Parcel& parcel : arrived) {  // in the order of ranks
-      piece_.insert(piece_.end(), parcel.bytes.begin(), parcel.bytes.end());
+  const int rank = ranks_.rank();
+  const std::uint64_t begin = chunks.begin(rank), end = chunks.begin(rank + 1);
+  const std::uint64_t first = chunks.first(rank), last = chunks.first(rank + 1);
+  const auto own = [&](std::uint64_t at) { return static_cast<const std::byte*>(data) + (at - begin) * size; };
+
+  std::vector<std::uint64_t> places;
+  if (!chunks.one()) {
+    on_first([&] { places = file_->places(name, number, chunks.all(), chunks.size()); });
+    places = gather_list(ranks_, places);
+    if (places.empty()) return;  // the first rank has failed
+  }
+  // What lies in a chunk that begins before this rank's part.
+  std::vector<Communicator::Parcel> parcels;
+  const std::uint64_t until = std::min(end, first * chunks.size());
+  if (begin < until) {
+    parcels.push_back({chunks.writer(begin / chunks.size()), Communicator::Bytes(own(begin), own(until))});
+  }
+  const std::vector<Communicator::Parcel> arrived = ranks_.deliver(parcels);
+  for (std::uint64_t chunk = first; chunk < last; ++chunk) {
+    const std::uint64_t from = chunk * chunks.size(), to = from + chunks.size();
+    if (!chunks.one() && to <= end) {
+      attempt([&] { chunks_->write(places[chunk], own(from), chunks.size() * size); });
+      continue;
     }
-    attempt([&] { file_->piece(name, number, piece_.data(), first, last - first); });
+    chunk_.assign(own(from), own(end));
+    for (const Communicator::Parcel& parcel : arrived) {  // in the order of ranks
+      chunk_.insert(chunk_.end(), parcel.bytes.begin(), parcel.bytes.end());
+    }
+    if (chunks.one()) {
+      attempt([&] { file_->array(name, number, chunk_.data(), chunks.all()); });
+    } else {
+      chunk_.resize(chunks.size() * size);  // of the last one the rest is zero
+      attempt([&] { chunks_->write(places[chunk], chunk_.data(), chunk_.size()); });
+    }
   }
 }
 
 void RanksWriter::close() {
-  attempt([&] { file_->close(); });
-  const std::vector<char> own(failure_.begin(), failure_.end());
-  const std::vector<char> reason = gather_list(ranks_, own);
-  if (!reason.empty()) throw CheckpointError(std::string(reason.begin(), reason.end()));
+  attempt([&] {
+    if (chunks_) chunks_->close();
+  });
+  on_first([&] { file_->close(); });
+  const std::string reason = first_text(ranks_, failure_);
+  if (!reason.empty()) throw CheckpointError(reason);
 }
 
 RanksReader::RanksReader(const Communicator* ranks, const std::string& path)

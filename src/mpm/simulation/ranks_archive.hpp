@@ -2,9 +2,9 @@
 // "parts/<name>" says how much of it each has. As many ranks read their own again and go on to the bit; any other
 // number, one process too, merges them (StateArchive::Merge). A file that one process wrote is one of one rank.
 //
-// The first rank writes what the others send it, in pieces of an array that take 8 MB at most. Weak: so the disk is as
-// fast as one rank writes to it.
-// Private to this folder.
+// All ranks write into the file at once, each the chunks that begin in its part of an array; what of its numbers lies
+// in the chunk before goes to the rank that has that one. The first rank makes the arrays, and writes what is the same
+// on all and what is one chunk. Private to this folder.
 #pragma once
 
 #include <memory>
@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "chunk_writer.hpp"
 #include "hdf5_archive.hpp"
 #include "mpm/ranks/communicator.hpp"
 
@@ -30,14 +31,19 @@ class RanksWriter final : public StateArchive {
   std::size_t stored(const std::string&) override { return 0; }
 
  private:
-  /// On the first rank: does it unless something has failed before.
+  /// Does it unless something has failed here before.
   template <class Do>
   void attempt(Do&& act);
+  /// The same on the first rank alone.
+  template <class Do>
+  void on_first(Do&& act);
+  void write_chunks(const std::string& name, Number number, const std::vector<std::uint64_t>& parts, const void* data);
 
   Communicator& ranks_;
-  std::unique_ptr<Hdf5Writer> file_;  ///< of the first rank
-  std::string failure_;               ///< of the first rank
-  std::vector<std::byte> piece_;      ///< of an array
+  std::unique_ptr<Hdf5Writer> file_;     ///< of the first rank
+  std::unique_ptr<ChunkWriter> chunks_;  ///< into the same file
+  std::string failure_;                  ///< of this rank
+  std::vector<std::byte> chunk_;         ///< that is put together of parts
 };
 
 class RanksReader final : public StateArchive {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <memory>
 
 #if H5_VERSION_GE(1, 14, 0)
@@ -20,19 +21,19 @@ struct TolerantFile {
   H5FD_t common{};
   int descriptor = -1;
   haddr_t end_of_space = 0, end_of_file = 0;
-  DiskError* error = nullptr;
+  TolerantDisk* disk = nullptr;
 };
 
 /// Carried by the access list, copied by value.
 struct Access {
-  DiskError* error = nullptr;
+  TolerantDisk* disk = nullptr;
 };
 
 TolerantFile& of(H5FD_t* file) { return *reinterpret_cast<TolerantFile*>(file); }
 const TolerantFile& of(const H5FD_t* file) { return *reinterpret_cast<const TolerantFile*>(file); }
 
 void keep(const TolerantFile& file, int code) {
-  if (file.error->code == 0) file.error->code = code == 0 ? EIO : code;
+  if (file.disk->error == 0) file.disk->error = code == 0 ? EIO : code;
 }
 
 void* copy_access(const void* access) { return new Access(*static_cast<const Access*>(access)); }
@@ -46,7 +47,7 @@ H5FD_t* open_file(const char* name, unsigned, hid_t access_list, haddr_t) {
   const auto* access = static_cast<const Access*>(H5Pget_driver_info(access_list));
   if (access == nullptr) return nullptr;
   auto file = std::make_unique<TolerantFile>();
-  file->error = access->error;
+  file->disk = access->disk;
   file->descriptor = open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file->descriptor < 0) {
     keep(*file, errno);
@@ -96,11 +97,12 @@ herr_t read_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, 
   return 0;
 }
 
-herr_t write_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, const void* buffer) {
+herr_t write_file(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t address, size_t size, const void* buffer) {
   TolerantFile& own = of(file);
   own.end_of_file = std::max(own.end_of_file, address + size);
+  if (kind == H5FD_MEM_DRAW && own.disk->leaves_out) return 0;
   const auto* from = static_cast<const char*>(buffer);
-  while (size > 0 && own.error->code == 0) {
+  while (size > 0 && own.disk->error == 0) {
     const ssize_t part = pwrite(own.descriptor, from, size, static_cast<off_t>(address));
     if (part < 0 && errno == EINTR) continue;
     if (part <= 0) {
@@ -117,7 +119,7 @@ herr_t write_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size,
 herr_t truncate_file(H5FD_t* file, hid_t, hbool_t) {
   TolerantFile& own = of(file);
   if (own.end_of_file == own.end_of_space) return 0;
-  if (own.error->code == 0 && ftruncate(own.descriptor, static_cast<off_t>(own.end_of_space)) != 0) keep(own, errno);
+  if (own.disk->error == 0 && ftruncate(own.descriptor, static_cast<off_t>(own.end_of_space)) != 0) keep(own, errno);
   own.end_of_file = own.end_of_space;
   return 0;
 }
@@ -154,8 +156,8 @@ hid_t driver() {
 
 }  // namespace
 
-bool write_tolerantly(hid_t access_list, DiskError& error) {
-  const Access access{&error};
+bool write_tolerantly(hid_t access_list, TolerantDisk& disk) {
+  const Access access{&disk};
   return driver() >= 0 && H5Pset_driver(access_list, driver(), &access) >= 0;
 }
 

@@ -4,10 +4,9 @@
 #include <array>
 
 namespace mpm {
-namespace {
 
 // The few blocks that particles in sequence lie in, with a value each.
-class RecentBlocks {
+class Sorter::RecentBlocks {
  public:
   struct Entry {
     std::uint64_t key = ~std::uint64_t{0};
@@ -19,6 +18,8 @@ class RecentBlocks {
   static constexpr int kBits = 8;
   std::array<Entry, std::size_t{1} << kBits> entries_;
 };
+
+namespace {
 
 /// Puts the particles of each node in the order of their ids. `node`: of each, in sorted order; `order`: their places.
 void take_by_ids(const ParticleSet& set, const std::uint8_t* node, std::uint32_t* order, int threads) {

@@ -10,8 +10,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
 #include "mpm/math/output_file.hpp"
+#include "mpm/ranks/lists.hpp"
 #include "mpm/scene/target_record.hpp"
 #include "mpm/scene/units.hpp"
 #include "mpm/simulation/checkpoint.hpp"
@@ -61,14 +63,32 @@ RunSceneCheckpoints::RunSceneCheckpoints(const RunSceneOptions& options, std::in
     const double periods = std::round(period * 1e9 / static_cast<double>(sync_period));
     period_ = sync_period * std::max<std::int64_t>(1, static_cast<std::int64_t>(periods));
   }
-  // Told before hours of work.
-  together<mpm::SceneError>(options.ranks.get(), [&] {
-    if (!path_.empty() && (!options.ranks || options.ranks->first())) try_path();
-  });
+  if (!path_.empty()) try_path(options.ranks.get());  // told before hours of work
 }
 
-void RunSceneCheckpoints::try_path() const {
+void RunSceneCheckpoints::try_path(mpm::Communicator* ranks) const {
   const std::string part = path_ + ".part";
+  const bool first = ranks == nullptr || ranks->first();
+  together<mpm::SceneError>(ranks, [&] {
+    if (first) make(part);
+  });
+  bool other = false;
+  if (ranks != nullptr) {
+    std::vector<std::uint64_t> made;
+    if (first) made = {mpm::file_number(part)};
+    made = mpm::gather_list(*ranks, made);
+    other = ranks->any(mpm::file_number(part) != made.front());
+  }
+  if (first) std::remove(part.c_str());
+  if (other) {
+    throw mpm::SceneError(fmt::format(
+        "--checkpoint {}: cannot be written by all ranks: it is not the same file on all of them; put it into a folder "
+        "that all their machines share",
+        path_));
+  }
+}
+
+void RunSceneCheckpoints::make(const std::string& part) const {
   for (const std::string& name : {path_, part}) {
     if (const std::string refused = mpm::refused_output(name); !refused.empty())
       throw mpm::SceneError(fmt::format("--checkpoint {}: cannot be written: {}", name, refused));
@@ -80,7 +100,6 @@ void RunSceneCheckpoints::try_path() const {
                     path_, std::strerror(errno)));
   }
   std::fclose(file);
-  std::remove(part.c_str());
 }
 
 void RunSceneCheckpoints::at_sync(Run& run, std::ostream& err) {

@@ -2,8 +2,8 @@
 //
 // Scenes run as they are shipped, but for: cells of the scene of a million particles, which are coarser; and a probe
 // that waits for commands, which presses. Those in which soil sleeps run awake, too, on coarser cells, a blade with one
-// side. The rover's wheel runs awake alone: with soil that sleeps its motion differs over 2 and more ranks from that of
-// one process by more than round-off, 4e-4 of the force after 60 steps (doc/scale.md).
+// side. The rover's wheel runs awake alone: with soil that sleeps its motion over 2 and more ranks differs from that of
+// one process by more than round-off (doc/scale.md).
 //
 // What is computed in single precision is asked to agree to its last places, and to 1e-10 in double precision.
 // Cost: 4 min on two processors, of which scenes that measure speed take 60 s.

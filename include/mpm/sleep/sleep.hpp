@@ -64,6 +64,11 @@ class Sleep final : public Stage {
   /// asleep wait for a sort that is asked for by others, though not for long.
   bool needs_sort() const override;
   void before_sort() override;
+  /// Puts nothing back, but over several ranks others may have come before the sort that failed.
+  bool put_back() override {
+    asleep_.follow_moves();
+    return false;
+  }
   void share_memory(Communicator&) override;
 
   void accounts(std::vector<ImpulseAccount>& list) const override { list.push_back(account_); }

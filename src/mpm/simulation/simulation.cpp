@@ -91,8 +91,8 @@ void Simulation::State::sort(double now) {
   const auto anywhere = [this](bool own) { return over ? over->ranks().any(own) : own; };
   auto outside = sort_particles();
   if (anywhere(outside.has_value())) {
-    const auto put_back = [](Module* module) { return module->put_back(); };
-    const bool back = (outside || over) && std::any_of(list.begin(), list.end(), put_back);
+    bool back = false;
+    for (Module* module : list) back = ((outside || over) && module->put_back()) || back;
     if (!anywhere(outside && !back)) outside = sort_particles();
     check_together([&] {
       if (!outside) return;

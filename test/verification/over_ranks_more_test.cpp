@@ -4,13 +4,10 @@
 // Runs are asked to be equal to 1e-10 of the momentum that was exchanged in a hundred steps, as in over_ranks_test.cpp;
 // they are seen to be so to 1e-14. Cost: 80 s on two cores, most of it the many messages of cracks between threads.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 
-#include "mpm/simulation/checkpoint.hpp"
-#include "over_ranks_run.hpp"
+#include "over_ranks_checkpoint.hpp"
 
 namespace verification {
 namespace over_ranks_more_test {
@@ -59,46 +56,10 @@ void expect_alike(const Outcome& over, const Outcome& alone) {
 
 class OverRanksPart : public testing::TestWithParam<Part> {
  protected:
-  OverRanksPart()
-      : path_((std::filesystem::temp_directory_path() / ("mpm_over_ranks_part_" + std::to_string(getpid()) + ".h5"))
-                  .string()) {}
-  ~OverRanksPart() override { std::filesystem::remove(path_); }
+  Outcome write(int count) const { return half_way_.write(GetParam().run, count); }
+  Outcome go_on(int count) const { return half_way_.go_on(GetParam().run, count); }
 
-  /// Does the work on `count` ranks, or on one process for 1, and returns what has come of it.
-  template <class Work>
-  static Outcome on(int count, const Case& run, Work&& work) {
-    Outcome of_first;
-    if (count == 1) {
-      mpm::Simulation simulation = start_on(run, nullptr);
-      work(simulation);
-      return outcome_of(simulation);
-    }
-    mpm::run_ranks(count, [&](mpm::Communicator& ranks) {
-      mpm::Simulation simulation = start_on(run, &ranks);
-      work(simulation);
-      Outcome own = outcome_of(simulation);
-      if (ranks.first()) of_first = std::move(own);
-    });
-    return of_first;
-  }
-  /// Runs half of the steps, writes the checkpoint, and the rest.
-  Outcome write(int count) const {
-    const Case& run = GetParam().run;
-    return on(count, run, [&](mpm::Simulation& simulation) {
-      run_steps(simulation, run.steps / 2);
-      mpm::save_checkpoint(path_, simulation, {});
-      run_steps(simulation, run.steps);
-    });
-  }
-  Outcome go_on(int count) const {
-    const Case& run = GetParam().run;
-    return on(count, run, [&](mpm::Simulation& simulation) {
-      mpm::load_checkpoint(path_, simulation, "");
-      run_steps(simulation, run.steps);
-    });
-  }
-
-  std::string path_;
+  HalfWay half_way_;
 };
 
 TEST_P(OverRanksPart, IsAsOnOneProcess) {

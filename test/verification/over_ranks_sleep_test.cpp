@@ -3,17 +3,13 @@
 // and wherever the grid is divided meanwhile; forces and motion are those of one process, and checkpoints go on.
 // Cost: 35 s on two processors.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "mpm/simulation/checkpoint.hpp"
-#include "over_ranks_run.hpp"
+#include "over_ranks_checkpoint.hpp"
 
 namespace verification {
 namespace over_ranks {
@@ -124,51 +120,18 @@ TEST(OverRanksSleep, HasTheSameBitsAgain) {
 
 class OverRanksSleepCheckpoint : public testing::Test {
  protected:
-  OverRanksSleepCheckpoint()
-      : path_((std::filesystem::temp_directory_path() / ("mpm_over_ranks_sleep_" + std::to_string(getpid()) + ".h5"))
-                  .string()) {}
-  ~OverRanksSleepCheckpoint() override { std::filesystem::remove(path_); }
+  Outcome write(int count) const { return half_way_.write(run_, count); }
+  Outcome go_on(int count) const { return half_way_.go_on(run_, count); }
 
   /// Means of stresses depend on when particles are sorted, as they are where others read a checkpoint.
-  Outcome on(int count, const std::function<void(mpm::Simulation&)>& work) const {
-    const Case run{kCase.scene, {"method.average_stress=false"}};
-    Outcome of_first;
-    if (count == 1) {
-      mpm::Simulation simulation = start_on(run, nullptr);
-      work(simulation);
-      return outcome_of(simulation);
-    }
-    mpm::run_ranks(count, [&](mpm::Communicator& ranks) {
-      mpm::Simulation simulation = start_on(run, &ranks);
-      work(simulation);
-      Outcome own = outcome_of(simulation);
-      if (ranks.first()) of_first = std::move(own);
-    });
-    return of_first;
-  }
-  /// Runs half of the steps, writes the checkpoint, and the rest.
-  Outcome write(int count) const {
-    return on(count, [&](mpm::Simulation& simulation) {
-      run_steps(simulation, steps_ / 2);
-      mpm::save_checkpoint(path_, simulation, {});
-      run_steps(simulation, steps_);
-    });
-  }
-  Outcome go_on(int count) const {
-    return on(count, [&](mpm::Simulation& simulation) {
-      mpm::load_checkpoint(path_, simulation, "");
-      run_steps(simulation, steps_);
-    });
-  }
-
-  std::uint64_t steps_ = kWoken;
-  std::string path_;
+  Case run_{kCase.scene, {"method.average_stress=false"}, kWoken};
+  HalfWay half_way_;
 };
 
 TEST_F(OverRanksSleepCheckpoint, GoesOnToTheBitOnAsManyRanks) {
   for (const std::uint64_t steps : {kWoken, 2 * kWoken}) {
     SCOPED_TRACE(steps);
-    steps_ = steps;
+    run_.steps = steps;
     const Outcome whole = write(3), resumed = go_on(3);
     EXPECT_EQ(resumed.state_hash, whole.state_hash);
     EXPECT_EQ(resumed.memory_hash, whole.memory_hash);

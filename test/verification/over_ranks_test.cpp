@@ -2,13 +2,10 @@
 // tools and what is dissipated; checkpoints, which any number of ranks reads; and a run that fails on one rank.
 // Cost: 25 s on two processors, of which spheres pressed into an elastic body about an axis take 7.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 
-#include "mpm/simulation/checkpoint.hpp"
-#include "over_ranks_run.hpp"
+#include "over_ranks_checkpoint.hpp"
 
 namespace verification {
 namespace over_ranks {
@@ -66,49 +63,11 @@ TEST(OverRanksRepeated, HasTheSameBits) {
 
 class OverRanksCheckpoint : public testing::Test {
  protected:
-  OverRanksCheckpoint()
-      : path_((std::filesystem::temp_directory_path() / ("mpm_over_ranks_" + std::to_string(getpid()) + ".h5"))
-                  .string()) {}
-  ~OverRanksCheckpoint() override { std::filesystem::remove(path_); }
-
-  /// Runs half of the steps, writes the checkpoint, and the rest.
-  Outcome write(int count) const {
-    Outcome of_first;
-    on(count, [&](mpm::Simulation& simulation) {
-      run_steps(simulation, run_.steps / 2);
-      mpm::save_checkpoint(path_, simulation, {});
-      run_steps(simulation, run_.steps);
-      Outcome own = outcome_of(simulation);
-      if (writes(simulation)) of_first = std::move(own);
-    });
-    return of_first;
-  }
-  Outcome go_on(int count) const {
-    Outcome of_first;
-    on(count, [&](mpm::Simulation& simulation) {
-      mpm::load_checkpoint(path_, simulation, "");
-      run_steps(simulation, run_.steps);
-      Outcome own = outcome_of(simulation);
-      if (writes(simulation)) of_first = std::move(own);
-    });
-    return of_first;
-  }
-  static bool writes(const mpm::Simulation& simulation) {
-    return simulation.ranks() == nullptr || simulation.ranks()->first();
-  }
-  void on(int count, const std::function<void(mpm::Simulation&)>& work) const {
-    if (count == 1) {
-      mpm::Simulation simulation = start_on(run_, nullptr);
-      return work(simulation);
-    }
-    mpm::run_ranks(count, [&](mpm::Communicator& ranks) {
-      mpm::Simulation simulation = start_on(run_, &ranks);
-      work(simulation);
-    });
-  }
+  Outcome write(int count) const { return half_way_.write(run_, count); }
+  Outcome go_on(int count) const { return half_way_.go_on(run_, count); }
 
   Case run_{"column_collapse", {}};
-  std::string path_;
+  HalfWay half_way_;
 };
 
 TEST_F(OverRanksCheckpoint, GoesOnToTheBitOnAsManyRanks) {

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <stdlib.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -64,8 +64,8 @@ class Folder {
   explicit Folder(Communicator& ranks) : ranks_(ranks) {
     std::string name;
     if (ranks.first()) {
-      name = (fs::temp_directory_path() / "mpm_checkpoint_XXXXXX").string();
-      if (mkdtemp(name.data()) == nullptr) throw RanksError("no folder for the test");
+      name = (fs::temp_directory_path() / ("mpm_checkpoint_promises_" + std::to_string(getpid()))).string();
+      fs::create_directory(name);
     }
     path_ = first_text(ranks, name);
   }

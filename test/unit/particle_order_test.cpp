@@ -21,7 +21,6 @@ ParticleSet set_of(const std::vector<std::uint32_t>& ids, int asleep) {
   set.history.assign(1, ParticleScalar(Precision::float32, ids.size()));
   set.next_x.assign(2, PaddedArray<double>(ids.size()));
   set.rest_changes.assign(ids.size() / ParticleSet::kRestGroup + 1, 0);
-  set.begin = {0};  // they lie in the order that they have come to lie in
   for (std::size_t p = 0; p < ids.size(); ++p) {
     std::mt19937 engine(ids[p]);
     std::uniform_real_distribution<double> place(0.0, 1.3);

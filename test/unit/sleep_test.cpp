@@ -178,12 +178,8 @@ void replace_awake(ParticleSet& set, int stay, int come) {
     set.f[0].set(p, next - 99.0);
   }
   order.add({static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(come)});
-  std::vector<std::uint32_t> places;
-  order.each_span(0, order.count(), [&](std::size_t first, std::size_t end) {
-    for (; first < end; ++first) places.push_back(static_cast<std::uint32_t>(first));
-  });
   PermuteScratch scratch;
-  permute(set, places.data(), order, 0, scratch, 1);
+  permute(set, order.places().data(), order, 0, scratch, 1);
 }
 
 // Over several ranks: of those awake some go and others come, more and fewer than are asleep. Then blocks wake, and

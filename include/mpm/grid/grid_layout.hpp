@@ -26,6 +26,11 @@ constexpr int nodes_of_block(int dim) { return dim == 1 ? kBlockEdge : kBlockEdg
 
 /// Blocks around one, itself among them.
 constexpr int neighbours_of(int dim) { return dim == 3 ? 27 : dim == 2 ? 9 : 3; }
+/// One of them by its number, the last axis fastest; the block itself is in the middle.
+inline std::array<int, 3> neighbour_of(std::array<int, 3> block, int number, int dim) {
+  for (int k = dim - 1; k >= 0; --k, number /= 3) block[k] += number % 3 - 1;
+  return block;
+}
 
 class GridLayout {
  public:

@@ -66,6 +66,15 @@ class ParticleOrder {
       number += span.count;
     }
   }
+  /// The places of all, in this order.
+  std::vector<std::uint32_t> places() const {
+    std::vector<std::uint32_t> list;
+    list.reserve(count_);
+    each_span(0, count_, [&](std::size_t first, std::size_t end) {
+      for (; first < end; ++first) list.push_back(static_cast<std::uint32_t>(first));
+    });
+    return list;
+  }
   /// The number in this order of the particle at a place.
   std::size_t number_of(std::size_t place) const {
     std::size_t number = 0;

@@ -68,7 +68,7 @@ class SleepingBlocks {
   /// Wakes the block of this name, if it is asleep. Particles have to be sorted after it.
   void wake(const BlockName& name);
   /// To be called when blocks have fallen asleep or woken, on any rank: particles that are awake may have changed
-  /// places, and the next sort takes those of a node in the order of their ids (ParticleSet::begin).
+  /// places, and the next sort takes those of a node in the order of their ids (ParticleSet::sorts_by_id).
   void forget_order();
   /// To be called when nothing is asleep on any rank.
   void forget_rate() { rate_ = 0.0; }

@@ -52,10 +52,7 @@ void BlockTable::find_wrapped_neighbours(const std::vector<std::uint64_t>& owner
   for (std::size_t o = begin; o < end; ++o) {
     const std::array<int, 3> owner = layout_->block(owner_keys[o]);
     for (int s = 0; s < span_; ++s) {
-      std::array<int, 3> block = owner;
-      int rest = s;
-      for (int k = layout_->dim() - 1; k >= 0; --k, rest /= 3) block[k] += rest % 3 - 1;
-      neighbours_[o * span_ + s] = find(layout_->key(block));
+      neighbours_[o * span_ + s] = find(layout_->key(neighbour_of(owner, s, layout_->dim())));
     }
     owner_block_[o] = neighbours_[o * span_ + span_ / 2];
   }
@@ -65,12 +62,9 @@ void BlockTable::rebuild(const std::vector<std::uint64_t>& owner_keys, int threa
   const int dim = layout_->dim();
   span_ = neighbours_of(dim);
   for (int s = 0; s < span_; ++s) {
-    int rest = s;
+    const std::array<int, 3> step = neighbour_of({}, s, dim);
     offset_[s] = 0;
-    for (int k = dim - 1; k >= 0; --k) {
-      offset_[s] += static_cast<std::uint64_t>((rest % 3 - 1) * layout_->key_stride(k));
-      rest /= 3;
-    }
+    for (int k = 0; k < dim; ++k) offset_[s] += static_cast<std::uint64_t>(step[k] * layout_->key_stride(k));
   }
 
   keys_ = owner_keys;

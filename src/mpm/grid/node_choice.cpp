@@ -41,10 +41,7 @@ void NodeChoice::find_places() {
   for (std::size_t b = 0; b < block_keys_.size(); ++b) {
     const std::array<int, 3> owner = layout.block(block_keys_[b]);
     for (int s = 0; s < span; ++s) {
-      std::array<int, 3> block = owner;
-      int rest = s;
-      for (int k = layout.dim() - 1; k >= 0; --k, rest /= 3) block[k] += rest % 3 - 1;
-      const std::uint64_t key = layout.key(block);
+      const std::uint64_t key = layout.key(neighbour_of(owner, s, layout.dim()));
       for (const int f : chosen_) places_[(b * fields_.size() + f) * span + s] = fields_[f]->blocks.find(key);
     }
   }

@@ -43,10 +43,7 @@ std::vector<int> Halo::ranks_around(const GridLayout& layout, std::uint64_t key)
   const std::array<int, 3> middle = layout.block(key);
   const int count = neighbours_of(layout.dim());
   for (int s = 0; s < count; ++s) {
-    std::array<int, 3> block = middle;
-    int rest = s;
-    for (int k = layout.dim() - 1; k >= 0; --k, rest /= 3) block[k] += rest % 3 - 1;
-    const int rank = territory_.owner(layout.key(block));
+    const int rank = territory_.owner(layout.key(neighbour_of(middle, s, layout.dim())));
     if (rank != ranks_.rank() && std::find(list.begin(), list.end(), rank) == list.end()) list.push_back(rank);
   }
   return list;
@@ -67,12 +64,12 @@ std::vector<Halo::Nodes> Halo::reach(const BlockTable& blocks) const {
   const int span = neighbours_of(layout.dim());
   std::vector<Nodes> of_neighbour(span, 0), nodes(blocks.size(), 0);
   for (int s = 0; s < span; ++s) {
+    const std::array<int, 3> neighbour = neighbour_of({}, s, layout.dim());
     for (int n = 0; n < layout.nodes_per_block(); ++n) {
       const std::array<int, 3> node = layout.node({}, n);
       bool within = true;
-      int rest = s;
-      for (int k = layout.dim() - 1; k >= 0; --k, rest /= 3) {
-        const int at = node[k] + (rest % 3 - 1) * kBlockEdge;  // from the owner's first node
+      for (int k = 0; k < layout.dim(); ++k) {
+        const int at = node[k] + neighbour[k] * kBlockEdge;  // from the owner's first node
         within = within && at >= -kReach && at < kBlockEdge + kReach;
       }
       if (within) of_neighbour[s] |= Nodes{1} << n;

@@ -126,12 +126,8 @@ void HandOver::settle(std::vector<ParticleSet>& sets) {
       sets[s].fit_scratch();  // particles may have come at the end
       continue;
     }
-    std::vector<std::uint32_t> places;
-    order.each_span(0, order.count(), [&](std::size_t first, std::size_t end) {
-      for (; first < end; ++first) places.push_back(static_cast<std::uint32_t>(first));
-    });
-    permute(sets[s], places.data(), order, room_for_particles(order.count()), scratch, 1);
-    if (!sets[s].begin.empty()) sets[s].begin.assign(1, 0);  // of no block; empty, it says more (step/sorter.cpp)
+    permute(sets[s], order.places().data(), order, room_for_particles(order.count()), scratch, 1);
+    sets[s].begin.clear();
     orders_[s].be_as_in_memory(sets[s]);
   }
 }
@@ -164,10 +160,7 @@ bool HandOver::is_inside(std::uint64_t key) {
   if (!added) return known->second;
   const std::array<int, 3> middle = layout_.block(key);
   for (int s = 0; s < neighbours_of(layout_.dim()) && known->second; ++s) {
-    std::array<int, 3> block = middle;
-    int rest = s;
-    for (int k = layout_.dim() - 1; k >= 0; --k, rest /= 3) block[k] += rest % 3 - 1;
-    known->second = territory_.owner(layout_.key(block)) == ranks_.rank();
+    known->second = territory_.owner(layout_.key(neighbour_of(middle, s, layout_.dim()))) == ranks_.rank();
   }
   return known->second;
 }

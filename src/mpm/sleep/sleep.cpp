@@ -93,13 +93,13 @@ void Sleep::follow_sort(const StepContext& context) {
 void Sleep::find_owners_of_sleepers() {
   const auto is_found = [&](SleepingBlocks::Sleeper& sleeper) {
     const Grid& grid = *parts_.fields[sleeper.name.field];
-    int first = 0, last = grid.blocks.owners();
-    while (first < last) {
-      const int middle = (first + last) / 2;
-      (grid.blocks.key(grid.blocks.owner_block(middle)) < sleeper.name.key ? first = middle + 1 : last = middle);
+    const BlockTable& blocks = grid.blocks;
+    for (int owner = 0; owner < blocks.owners(); ++owner) {
+      if (blocks.key(blocks.owner_block(owner)) != sleeper.name.key) continue;
+      sleeper.owner = grid.first_owner + owner;
+      return true;
     }
-    sleeper.owner = grid.first_owner + first;
-    return first < grid.blocks.owners() && grid.blocks.key(grid.blocks.owner_block(first)) == sleeper.name.key;
+    return false;
   };
   const auto others = std::stable_partition(sleepers_.begin(), sleepers_.end(), is_found);
   sleepers_.erase(others, sleepers_.end());

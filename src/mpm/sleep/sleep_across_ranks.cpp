@@ -88,10 +88,7 @@ SleepAcrossRanks::Names SleepAcrossRanks::find_around() const {
     const GridLayout& layout = blocks.layout();
     for (int b = 0; b < blocks.size(); ++b) {
       for (int side = 0; side < neighbours_of(layout.dim()); ++side) {
-        std::array<int, 3> block = blocks.block(b);
-        int rest = side;
-        for (int k = layout.dim() - 1; k >= 0; --k, rest /= 3) block[k] += rest % 3 - 1;
-        const BlockName name{static_cast<int>(f), layout.key(block)};
+        const BlockName name{static_cast<int>(f), layout.key(neighbour_of(blocks.block(b), side, layout.dim()))};
         if (elsewhere_.count(name) != 0) around.insert(name);
       }
     }

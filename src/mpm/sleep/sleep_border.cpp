@@ -5,21 +5,10 @@
 #include <utility>
 
 namespace mpm {
-namespace {
-
-/// Steps from a block to the one on a side of it, along each axis.
-std::array<int, 3> step_to(int dim, int side) {
-  std::array<int, 3> step{};
-  for (int k = dim - 1; k >= 0; --k, side /= 3) step[k] = side % 3 - 1;
-  return step;
-}
-
-}  // namespace
-
 SleepBorder::SleepBorder(const GridLayout& layout) : layout_(&layout), sides_(neighbours_of(layout.dim())) {
   const int dim = layout.dim();
   for (int side = 0; side < sides_; ++side) {
-    const std::array<int, 3> step = step_to(dim, side);
+    const std::array<int, 3> step = neighbour_of({}, side, dim);
     for (int n = 0; n < layout.nodes_per_block(); ++n) {
       int rest = n, of_tile = 0, stride = 1;
       bool inside = true;
@@ -34,8 +23,7 @@ SleepBorder::SleepBorder(const GridLayout& layout) : layout_(&layout), sides_(ne
 }
 
 std::uint64_t SleepBorder::key_beside(const std::array<int, 3>& block, int side) const {
-  const std::array<int, 3> step = step_to(layout_->dim(), side);
-  return layout_->key({block[0] + step[0], block[1] + step[1], block[2] + step[2]});
+  return layout_->key(neighbour_of(block, side, layout_->dim()));
 }
 
 void SleepBorder::find(int field, const Grid& grid, const SleepingBlocks& asleep, const Halo* halo) {

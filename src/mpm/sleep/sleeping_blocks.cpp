@@ -143,9 +143,9 @@ void SleepingBlocks::wake(const BlockName& name) {
 }
 
 void SleepingBlocks::forget_order() {
-  for (std::size_t s = 0; s < sets_.size(); ++s) {
-    make_room(s);  // also where nothing has slept yet: the sorter knows by it that something does somewhere
-    sets_[s].begin.clear();
+  for (ParticleSet& set : sets_) {
+    set.begin.clear();
+    set.sorts_by_id = true;
   }
 }
 
@@ -205,8 +205,10 @@ void SleepingBlocks::serialise(StateArchive& archive) {
 }
 
 void SleepingBlocks::serialise_blocks(StateArchive& archive) {
-  std::vector<const SleepingBlock*> blocks;
-  for (const auto& one : by_name_) blocks.push_back(one.second.get());
+  std::vector<const SleepingBlock*> blocks;  // to write; what is read replaces those that are here
+  if (!archive.reading()) {
+    for (const auto& one : by_name_) blocks.push_back(one.second.get());
+  }
   std::sort(blocks.begin(), blocks.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
   std::vector<int> fields;
   std::vector<std::uint64_t> keys;
@@ -268,6 +270,7 @@ void SleepingBlocks::take_places(std::size_t s, std::vector<std::uint64_t> block
     if (!set.side.empty()) reorder(set.side);
     reorder(block_of);
     set.begin.clear();  // of what was there before
+    set.sorts_by_id = true;
   }
   set.asleep = static_cast<int>(order.end() - asleep);
   make_room(s);

@@ -95,10 +95,14 @@ void PatchSorter::serialise(StateArchive& archive, NodeChoice& choice) {
   int first_owner = choice.grid().first_owner;
   archive.list("blocks", keys);
   archive.sum("first_owner", first_owner);  // each rank has its own
-  if (archive.merging()) return;            // sorted anew
-  if (archive.reading()) choice.set_blocks(std::move(keys), first_owner);
+  std::uint64_t since = choice.sorted() - generation_;
+  archive.sum("sorts_since", since);
+  if (archive.merging()) return;  // sorted anew
+  if (archive.reading()) {
+    choice.set_blocks(std::move(keys), first_owner);
+    generation_ = choice.sorted() - since;
+  }
   for (std::size_t s = 0; s < begin_.size(); ++s) archive.list("begin_" + std::to_string(s), begin_[s]);
-  generation_ = choice.sorted();
 }
 
 }  // namespace mpm

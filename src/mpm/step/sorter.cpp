@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace mpm {
 
@@ -267,10 +268,10 @@ std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Fields& 
   collect_owners(layout);
   for (std::size_t s = 0; s < sets.size(); ++s) {
     Scratch& scratch = scratch_[s];
-    const bool by_ids = sets[s].begin.empty() && !sets[s].rest_changes.empty();  // sleep/sleeping_blocks.hpp
     sort_by_block(sets[s], scratch);
     sort_by_node(sets[s], scratch);
-    if (by_ids) take_by_ids(sets[s], scratch.node.data(), scratch.order.data(), threads_);
+    if (std::exchange(sets[s].sorts_by_id, false))
+      take_by_ids(sets[s], scratch.node.data(), scratch.order.data(), threads_);
     fill_groups(sets[s], scratch);
     permute(sets[s], scratch.order.data(), *scratch.before, scratch.room, scratch.values, threads_);
   }

@@ -228,6 +228,16 @@ TEST(EdgeCover, AnEdgeOnWhichMaterialEndsIsNone) {
   for (std::size_t n = 0; n < found.nodes.size(); ++n) EXPECT_NEAR(found.nodes[n].weight, found.before[n], 1e-14);
 }
 
+// The nodes above it are covered just wholly. Whether a point is at an edge decides on the overlap that it keeps.
+TEST(EdgeCover, RoundOffDecidesNothingWhereAnEdgeLiesHalfACellFromNodes) {
+  Field field(2);
+  for (const double off : {-1e-14, -1e-16, 0.0, 1e-16, 1e-14}) {
+    SCOPED_TRACE(off);
+    expect_no_edge(around(field, blade(0.55 + off), {0.63, 0.0, 0.65}, Vec3::UnitX()));
+  }
+  EXPECT_TRUE(around(field, blade(0.55 + 1e-5), {0.63, 0.0, 0.65}, Vec3::UnitX()).at_edge);
+}
+
 TEST(EdgeCover, APointBeyondAnEdgeIsNoContact) {
   Field field(2);
   const RigidBody body = blade(0.5);

@@ -9,12 +9,13 @@
 namespace mpm {
 namespace {
 
-constexpr double kLook = 2.0;        ///< cells along the surface to where an edge is looked for
-constexpr double kEdge = 0.9;        ///< cosine between the look and the normal met, from which on there is an edge
-constexpr double kLeast = 0.1;       ///< S of a point that counts
-constexpr double kLeastPart = 1e-3;  ///< cover of a node that counts
-constexpr double kHalf = 0.5;        ///< cover from which on a node decides with its whole weight
-constexpr double kThinnest = 1e-2;   ///< mass beyond an edge, over that of the node, from which on there is material
+constexpr double kLook = 2.0;          ///< cells along the surface to where an edge is looked for
+constexpr double kEdge = 0.9;          ///< cosine between the look and the normal met, from which on there is an edge
+constexpr double kLeast = 0.1;         ///< S of a point that counts
+constexpr double kLeastPart = 1e-3;    ///< cover of a node that counts
+constexpr double kWhole = 1.0 - 1e-6;  ///< cover of a node that is whole: round-off must not make an edge
+constexpr double kHalf = 0.5;          ///< cover from which on a node decides with its whole weight
+constexpr double kThinnest = 1e-2;     ///< mass beyond an edge, over that of the node, from which on there is material
 
 /// Directions along the surface across the edges near a point, away from the face.
 struct Edges {
@@ -118,7 +119,7 @@ EdgeCover::Nodes EdgeCover::apply(const ContactPoint& point, const Grid& grid, P
       const Vec3& across = edges.across[e];
       const double cell = edges.cell[e];
       const double part = std::clamp(1.0 - beyond(body, place + 0.5 * cell * across, across) / cell, 0.0, 1.0);
-      if (part >= cover) continue;
+      if (part >= std::min(cover, kWhole)) continue;
       const NodeRef further = nearest_node(grid, place + cell * across);
       if (further.block < 0 || (further.block == ref.block && further.node == ref.node)) continue;
       if (mass_of(further) < kThinnest * mass_of(ref)) continue;

@@ -2,7 +2,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from plot_series import AUDIT_LIMIT, draw_residual, draw_steps, energies_of, frame_residual, steps_of_time
+from plot_series import draw_residual, draw_steps, energies_of, frame_residual, steps_of_time
 from plot_style import CYCLE, RED, caption, name_lines, save, zero_line
 from plot_tables import file_stem
 
@@ -129,9 +129,10 @@ def compare_numbers(compared, folder):
     figure, (residual, step, volume) = plt.subplots(3, 1, figsize=(9.5, 8), sharex=True, constrained_layout=True)
     caption(figure, "Account of the momentum, time step, volume", compared.caption())
     entries = compared.draw(residual, lambda run: (run.state["time"], run.state["momentum error"]), log=True)
-    frame_residual(residual, max(run.state["momentum error"].max() for run in compared.runs))
+    limit = max(run.audit_limit for run in compared.runs)
+    frame_residual(residual, max(run.state["momentum error"].max() for run in compared.runs), limit)
     name_lines(residual, [(max(value, 1e-18), name, color) for value, name, color in entries]
-               + [(AUDIT_LIMIT, "limit", RED)])
+               + [(limit, "limit", RED)])
     entries = [(draw_steps(step, run.state, color), label, color)
                for run, label, color in zip(compared.runs, compared.labels, compared.colors)]
     step.set_ylim(0, 1.15e6 * max(run.state["dt"].max() for run in compared.runs))

@@ -6,7 +6,6 @@ from plot_style import (AXES, BLACK, BLUE, CYCLE, GREEN, GREY, ORANGE, PINK, RED
                         save, with_jumps, zero_line)
 from plot_tables import file_stem
 
-AUDIT_LIMIT = 1e-10
 TIME = "simulated time [s]"
 
 
@@ -202,9 +201,9 @@ def draw_residual(axes, time, error, color):
     axes.semilogy(time, np.maximum(error, smallest), color=color)
 
 
-def frame_residual(axes, largest):
-    axes.axhline(AUDIT_LIMIT, color=RED, linestyle="--", linewidth=1.2)
-    axes.set_ylim(1e-18, max(1e-9, 10 * largest))
+def frame_residual(axes, largest, limit):
+    axes.axhline(limit, color=RED, linestyle="--", linewidth=1.2)
+    axes.set_ylim(1e-18, 10 * max(limit, largest))
     axes.set_yticks(10.0 ** np.arange(-18, np.log10(axes.get_ylim()[1]) + 0.1, 4))
     axes.set_ylabel("residual [1]")
     axes.set_title("Audit: change of momentum less all impulses, over the momentum exchanged")
@@ -235,8 +234,8 @@ def plot_audit(run, folder):
     name_lines(momentum, [(impulse[-1], name, color) for name, impulse, color in sources]
                + [(change[-1], "change of\nmomentum", BLACK)])
     draw_residual(residual, time, error, BLUE)
-    frame_residual(residual, error.max())
-    name_lines(residual, [(max(error[-1], 1e-18), f"worst {error.max():.1e}", BLUE), (AUDIT_LIMIT, "limit", RED)])
+    frame_residual(residual, error.max(), run.audit_limit)
+    name_lines(residual, [(max(error[-1], 1e-18), f"worst {error.max():.1e}", BLUE), (run.audit_limit, "limit", RED)])
     draw_steps(step, state, BLUE)
     step.set_ylim(0, 1.15e6 * state["dt"].max())
     step.set_ylabel("time step [µs]")

@@ -96,6 +96,7 @@ class Run:
         self.about = _about(folder)
         self.label = self.about.get("label") or os.path.basename(os.path.abspath(folder))
         self.title = title or self.about.get("scene") or self.label
+        self.audit_limit = self.about.get("audit", {}).get("limit", 1e-10)  # in double precision
         self.forces = Table(os.path.join(folder, "contact_forces.csv"))
         self.poses = Table(os.path.join(folder, "bodies.csv"))
         self.state = Table(os.path.join(folder, "solver_state.csv"))

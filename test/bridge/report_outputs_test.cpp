@@ -68,6 +68,7 @@ TEST_F(ReportOutputs, JsonHasTheFiguresOfTheTables) {
   EXPECT_NEAR(tool.at("mean_force").at(0), impulse / HalfSineRun::kDuration, 1e-12 * impulse / HalfSineRun::kDuration);
   EXPECT_EQ(tool.at("peak_force").at("time"), 0.051);  // the middle of 101 intervals
   EXPECT_EQ(run.at("audit").at("impulses").at("gravity").at(2), HalfSineRun::kWeight * 0.101);
+  EXPECT_EQ(run.at("audit").at("limit"), 1e-10);
   EXPECT_EQ(run.at("snapshots").at("count"), 11);
   EXPECT_EQ(run.at("commands").at(0).at("late"), 1);
   ASSERT_EQ(run.at("checks").size(), 17U);

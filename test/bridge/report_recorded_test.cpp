@@ -94,6 +94,7 @@ TEST_F(ReportRecorded, ARunInSinglePrecisionPassesByItsOwnLimit) {
   for (const auto& [name, result] : results_of(report))
     EXPECT_EQ(result, name == "balance" ? "not made" : "ok") << name << ": " << detail_of(report, name);
   EXPECT_NE(detail_of(report, "audit").find("limit 1e-07"), std::string::npos) << detail_of(report, "audit");
+  EXPECT_EQ(report.at("audit").at("limit"), 1e-7);
 }
 
 TEST_F(ReportRecorded, MomentumFindsForcesThatAreWrongInAllBooks) {

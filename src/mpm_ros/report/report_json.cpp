@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "mpm_ros/message/audit_limit.hpp"
 #include "mpm_ros/message/conversions.hpp"
 #include "mpm_ros/message/quantities.hpp"
 
@@ -57,8 +58,8 @@ Json energy_json(const SolverState& state) {
   return json;
 }
 
-Json audit_json(const RunStatistics& statistics) {
-  const SolverState& last = statistics.last_state();
+Json audit_json(const RecordedRun& run) {
+  const SolverState& last = run.statistics.last_state();
   Json impulses = Json::object();
   mpm::Vec3 sum = mpm::Vec3::Zero();
   for (const Impulse& impulse : last.impulses) {
@@ -71,7 +72,8 @@ Json audit_json(const RunStatistics& statistics) {
           {"change", array(change)},
           {"exchanged", last.momentum_exchanged},
           {"residual", last.momentum_error},
-          {"worst_residual", statistics.worst_audit()}};
+          {"worst_residual", run.statistics.worst_audit()},
+          {"limit", audit_limit(run.scene.precision)}};
 }
 
 }  // namespace
@@ -105,7 +107,7 @@ Json report_json(const RecordedRun& run) {
   json["failed"] = static_cast<bool>(last.failed);
   json["failure"] = last.failure;
   json["energy"] = {{"start", energy_json(*statistics.first_state())}, {"end", energy_json(last)}};
-  json["audit"] = audit_json(statistics);
+  json["audit"] = audit_json(run);
   json["bodies"] = Json::object();
   for (const BodyStatistics& body : statistics.body_statistics()) json["bodies"][body.name] = body_json(body);
   json["contact_pairs"] = Json::object();

@@ -125,7 +125,7 @@ TEST(CrackBeam, DoubleCantilever) {
 }
 
 // 1 minute for 12 cells.
-TEST(CrackBeam, FullDoubleCantileverOfLongArms) {
+TEST(FullCrackBeam, DoubleCantileverOfLongArms) {
   Page page("crack", "crack_cantilever_long", "A beam split along its middle and opened: long arms");
   page.problem("The arms above, ten times as long as high.").exact("as above", "as above").meaning(kArms);
   check(page, {3, 10, 2}, 0.06, 0.05);
@@ -217,7 +217,7 @@ TEST(CrackBeam, EndNotchedFlexure) {
 }
 
 // 12 cells an arm, about a minute a place.
-TEST(CrackBeam, FullPlacesInShear) {
+TEST(FullCrackBeam, PlacesInShear) {
   Page page("crack", "crack_places_shear", "Where a crack in shear lies in a cell");
   page.problem("The beam bent by 0.1 N in its middle, with 12 cells an arm and the tip at places in a cell.")
       .exact("J of the beam whose crack ends at the first column of nodes that the crack does not divide.",

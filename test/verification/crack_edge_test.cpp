@@ -92,7 +92,7 @@ TEST(CrackEdge, StressIntensity) {
 }
 
 // Eight times the work: about 8 s.
-TEST(CrackEdge, FullStressIntensityOnFortyCells) {
+TEST(FullCrackEdge, StressIntensityOnFortyCells) {
   Strip strip;
   strip.cells = 40;
   const Tip tip = pull(strip);
@@ -159,7 +159,7 @@ TEST(CrackEdge, PlaceInACell) {
 }
 
 // About 30 s.
-TEST(CrackEdge, FullPlacesInACell) {
+TEST(FullCrackEdge, PlacesInACell) {
   Page page("crack", "crack_places_full", "Where a crack lies in a cell: all places");
   page.problem("The strip above, 20 cells across, with the tip and the line at places in a cell.")
       .exact("as above, with each crack's own length", "as above")

@@ -155,7 +155,7 @@ TEST(CrackStepLoad, RunningTip) {
   }
 }
 
-TEST(CrackStepLoad, FullFinerGrid) {
+TEST(FullCrackStepLoad, FinerGrid) {
   const History fine = run({"grid.cell=0.05", "grid.min=[-0.4, -2.425]", "grid.max=[14.4, 2.525]",
                             "cracks.list.crack.points=[[0.015, 0.025], [7.005, 0.025]]",
                             "bodies.plate.shape.box.min=[0, -1.975]", "bodies.plate.shape.box.max=[14, 2.025]"});

@@ -71,7 +71,7 @@ TEST(CrackTool, AWedgeDrivesHalvesApartAsItDoesTwoBodies) {
 }
 
 // At 1 mm a cell is worth less. About 90 s.
-TEST(CrackTool, FullAtFinerCells) {
+TEST(FullCrackTool, AtFinerCells) {
   EXPECT_NEAR(force(1e-3, -0.040, "flip: 1", true) / force(1e-3, -0.040, "flip: 1", false), 1.0, 0.02);
 }
 

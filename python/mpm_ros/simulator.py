@@ -245,19 +245,16 @@ class Simulator:
     def _failures(self, doing):
         return _Failures(self, doing)
 
+    def _topic(self, name):
+        return self._name(name), _message_class(name), self._name("simulator"), self._master, self._caller
+
     def _reader(self, name):
         with self._failures(f"{name} was asked for"):
-            return wire.TopicReader(self._name(name), _message_class(name), self._name("simulator"), self._master,
-                                    self._caller)
+            return wire.TopicReader(*self._topic(name))
 
     def _latched(self, name):
-        """The last message of a latched topic: sent to whoever connects, so it is never an earlier one."""
-        reader = self._reader(name)
-        try:
-            with self._failures(f"{name} was waited for"):
-                return reader.receive(_CLOUD_PATIENCE)
-        finally:
-            reader.close()
+        with self._failures(f"{name} was waited for"):
+            return wire.latched(*self._topic(name))
 
     # --- particles ----------------------------------------------------------------------------------------------------
 

@@ -24,12 +24,18 @@ from .master import UNANSWERED, proxy
 
 _HANDSHAKE = 10.0  # [s] longest wait for a connection and its header
 _SILENCE = 20.0  # [s] longest wait for the rest of a message
+_LATCHED = 5.0  # [s] longest wait for a latched message on one connection
+_CONNECTIONS = 4  # on which a latched message is waited for, one after another
 # An answer may take as long as a step does. A machine that has vanished is noticed after 30 s + 3 * 10 s of silence.
 _KEEPALIVE = {socket.TCP_KEEPIDLE: 30, socket.TCP_KEEPINTVL: 10, socket.TCP_KEEPCNT: 3}
 _LENGTH = struct.Struct("<I")
 
 # What a lost or refused connection raises, before it is known why.
 LOST = (ROSHandshakeException, *UNANSWERED)
+
+
+class _Silent(MpmError):
+    """No message has begun to come in time."""
 
 
 def _receive(connection, size):
@@ -132,7 +138,7 @@ class TopicReader:
     def receive(self, timeout):
         """The next message, decoded. Raises MpmError when none has begun to come after `timeout` [s] of wall time."""
         if not self._poll.poll(1e3 * timeout):
-            raise MpmError(f"no message on {self._name} in {timeout:g} s")
+            raise _Silent(f"no message on {self._name} in {timeout:g} s")
         try:
             message = _receive_message(self._connection)
         except BaseException:
@@ -143,6 +149,21 @@ class TopicReader:
     def close(self):
         self.closed = True
         self._connection.close()
+
+
+def latched(name, message_class, node, master, caller):
+    """The last message of a latched topic: sent to whoever connects, so it is never an earlier one. Under load a node
+    has been seen to send nothing on a new connection; then it is asked on another one. Raises MpmError when none comes
+    on the last of them."""
+    for left in reversed(range(_CONNECTIONS)):
+        reader = TopicReader(name, message_class, node, master, caller)
+        try:
+            return reader.receive(_LATCHED)
+        except _Silent:
+            if left == 0:
+                raise
+        finally:
+            reader.close()
 
 
 def wait_for_service(master, name, keep_waiting):

@@ -58,6 +58,13 @@ class Publisher:
         self.connection.recv(length, socket.MSG_WAITALL)
         write_ros_handshake_header(self.connection, {"type": SceneFile._type, "md5sum": SceneFile._md5sum})
 
+    def accept_silently_and_then_send(self, message):
+        """On the first connection nothing comes, on the second this message."""
+        self._accept()
+        with self.connection:
+            self._accept()
+            self.connection.sendall(message)
+
     def reader(self):
         accepting = threading.Thread(target=self._accept)
         accepting.start()
@@ -88,6 +95,19 @@ class Reading(unittest.TestCase):
             with interrupted_after(0.1):
                 reader.receive(5.0)
             self.assertTrue(reader.closed)
+
+    def test_a_latched_message_that_stays_away_is_asked_for_on_another_connection(self):
+        topic = ("/some", SceneFile, "/node")
+        with mock.patch.object(wire, "_LATCHED", 0.2), Publisher() as publisher:
+            sending = threading.Thread(target=publisher.accept_silently_and_then_send,
+                                       args=[serialised(SceneFile(path="some/path"))])
+            sending.start()
+            self.assertEqual(wire.latched(*topic, publisher, "/test").path, "some/path")
+            sending.join()
+        with mock.patch.multiple(wire, _LATCHED=0.2, _CONNECTIONS=1), Publisher() as publisher:
+            threading.Thread(target=publisher._accept).start()
+            with self.assertRaisesRegex(mpm_ros.MpmError, "no message on /some in 0.2 s"):
+                wire.latched(*topic, publisher, "/test")
 
     def test_a_message_whose_rest_stays_away_is_a_lost_connection(self):
         with mock.patch.object(wire, "_SILENCE", 0.2), Publisher() as publisher:

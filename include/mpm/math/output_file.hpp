@@ -11,8 +11,8 @@ namespace mpm {
 /// would replace, or block on. Empty for a regular file or a new one.
 std::string refused_output(const std::string& path);
 
-/// By which machines that share a disk know that a name is of the same file there; 0: there is none.
-std::uint64_t file_number(const std::string& path);
+/// The inode number of a file, by which machines that share a disk know it; 0 if there is none of this name.
+std::uint64_t inode_of(const std::string& path);
 
 /// Opens a file to be written, replacing what it held. Returns why that cannot be done, and what to do; empty if it
 /// was.

@@ -1,6 +1,6 @@
 // The particles of a set that are awake, in the order in which they count as lying in memory. Over several ranks
 // particles go and come before a sort (ranks/hand_over.hpp): those that come take any place that is free, and the sort,
-// which moves all particles anyway, reads them in this order. Until then places of none may lie between others.
+// which moves all particles anyway, reads them in this order. Until then some places may be empty.
 #pragma once
 
 #include <algorithm>

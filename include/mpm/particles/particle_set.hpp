@@ -36,8 +36,8 @@ struct ParticleSet {
   int asleep = 0;
   /// Of each kRestGroup places: how often particles fell asleep there or changed places. Empty where nothing sleeps.
   std::vector<std::uint32_t> rest_changes;
-  /// Some have fallen asleep or woken on any rank, and others changed places with them: the next sort takes the
-  /// particles of a node in the order of their ids, which is the same on any number of ranks.
+  /// Some have fallen asleep or woken on any rank, and others changed places with them: sorts take the particles of a
+  /// node in the order of their ids, which is the same on any number of ranks.
   bool sorts_by_id = false;
   int field = 0;      ///< velocity field of its particles
   int far_field = 0;  ///< of those on side 1, where a thin tool divides the body
@@ -65,6 +65,7 @@ struct ParticleSet {
   PaddedArray<std::uint8_t> side;  ///< of a divided body: the side of a thin tool, 0 or 1
 
   /// First particle of each owner block (the owners of all fields, field by field), and one past the last one awake.
+  /// Empty before the first sort, and before the next one where particles have changed places since the last.
   std::vector<std::uint32_t> begin;
   /// First particle of each group (particles computed together, step/sorter.hpp), and one past the last one awake.
   std::vector<std::uint32_t> group;

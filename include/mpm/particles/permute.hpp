@@ -21,8 +21,8 @@ struct PermuteScratch {
 };
 
 /// The room that an array of so many particles gets where they come and go: more by a sixteenth to a quarter, in steps,
-/// so that few are made anew before the grid is divided anew. A heap that gets arrays of ever other lengths keeps what
-/// it cannot use, up to the size of all; room beyond the particles takes no memory before it is written.
+/// so that few are made anew before the grid is divided anew: arrays of many different lengths leave holes in the heap
+/// that none of them fits into. Room beyond the particles takes no memory before it is written.
 std::size_t room_for_particles(std::size_t particles);
 
 /// The first particles become those at `places`, order.count() of them, each of which is in the order; what is at other

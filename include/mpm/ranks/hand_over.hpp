@@ -35,7 +35,7 @@ class HandOver {
   /// its order, in that order: for the sort, or else for settle().
   void hand_over(std::vector<ParticleSet>& sets, const std::vector<std::uint64_t>& owners = {});
   const std::vector<ParticleOrder>& orders() const { return orders_; }
-  /// Puts particles in their order where no sort has. ParticleSet::begin is no more where they come to lie elsewhere.
+  /// Puts particles in their order where no sort has, and clears ParticleSet::begin.
   void settle(std::vector<ParticleSet>& sets);
 
   /// Particles of the fullest rank over the mean of all, at the last call of hand_over().

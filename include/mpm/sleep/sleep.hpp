@@ -118,7 +118,7 @@ class Sleep final : public Stage {
   std::uint32_t steps_waited_ = 0;                 ///< by those who are to wake
   bool at_once_ = false;                           ///< one of them cannot wait
   bool begun_ = false;                             ///< the first step is done
-  bool just_read_ = false;                         ///< a checkpoint has been, and no step has followed
+  bool just_read_ = false;                         ///< a checkpoint has been read, and no step has followed
   std::vector<SleepingBlocks::Sleeper> sleepers_;  ///< who may fall asleep, without forces yet
   std::vector<BlockName> to_wake_;                 ///< ascending, each once
   std::vector<SleepBorder::Unrest> unrest_;        ///< of the nodes of a border

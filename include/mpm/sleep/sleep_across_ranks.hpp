@@ -31,7 +31,7 @@ class SleepAcrossRanks {
 
   Communicator& ranks() const { return halo_.ranks(); }
   struct Agreed {
-    bool any;    ///< it holds on any rank
+    bool any;    ///< some rank has a block that is to fall asleep or wake
     bool falls;  ///< a block falls asleep on any rank
   };
   /// `to_wake` becomes what all ranks together want to wake, ascending, each once. `falling`: blocks of this rank that

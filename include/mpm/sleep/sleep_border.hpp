@@ -1,8 +1,7 @@
 // The nodes between material that is awake and blocks that are asleep. What is asleep does not move, so they are held
 // at rest. What happens there says which blocks have to wake:
 // - waves, by the force that both sides and their weight leave without balance, told as the speed of the plane wave
-// that
-//   would bring it, |f| / (m c / h), with m c / h the wave's impedance over the area of a node;
+//   that would bring it, |f| / (m c / h), with m c / h the wave's impedance over the area of a node;
 // - what comes in, by its speed;
 // - a load or a support that changes slowly, by the mean of that force over a time, as a part of the force that the
 //   block had on the node when it fell asleep, and of the node's weight.

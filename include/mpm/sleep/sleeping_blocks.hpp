@@ -8,6 +8,7 @@
 // that sleep on others, in whole or in part, what they give to the grid.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <iterator>
@@ -36,6 +37,17 @@ struct BlockName {
     }
   };
 };
+
+/// Puts what has names into their order, and leaves one of each.
+template <class T, class NameOf>
+void sort_by_name(std::vector<T>& list, NameOf&& name_of) {
+  std::sort(list.begin(), list.end(), [&](const T& a, const T& b) { return name_of(a) < name_of(b); });
+  const auto same = [&](const T& a, const T& b) { return name_of(a) == name_of(b); };
+  list.erase(std::unique(list.begin(), list.end(), same), list.end());
+}
+inline void sort_names(std::vector<BlockName>& names) {
+  sort_by_name(names, [](const BlockName& name) { return name; });
+}
 
 struct SleepingBlock {
   BlockName name;
@@ -70,6 +82,8 @@ class SleepingBlocks {
   /// To be called when blocks have fallen asleep or woken, on any rank: particles that are awake may have changed
   /// places, and the next sort takes those of a node in the order of their ids (ParticleSet::sorts_by_id).
   void forget_order();
+  /// To be called before a sort.
+  void trust_order();
   /// To be called when nothing is asleep on any rank.
   void forget_rate() { rate_ = 0.0; }
 
@@ -112,10 +126,10 @@ class SleepingBlocks {
   void serialise(StateArchive& archive);
 
  private:
-  /// Whose a particle asleep is, and where it stands in the block's list.
+  /// Whose a particle asleep is, and its index in the block's list.
   struct Owned {
     SleepingBlock* block = nullptr;
-    std::uint32_t rank = 0;
+    std::uint32_t index = 0;
   };
 
   void make_room(std::size_t s);

@@ -25,7 +25,7 @@ std::string refused_output(const std::string& path) {
   }
 }
 
-std::uint64_t file_number(const std::string& path) {
+std::uint64_t inode_of(const std::string& path) {
   struct stat about {};
   return stat(path.c_str(), &about) == 0 ? about.st_ino : 0;
 }

@@ -122,12 +122,12 @@ void HandOver::settle(std::vector<ParticleSet>& sets) {
   PermuteScratch scratch;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const ParticleOrder& order = orders_[s];
+    sets[s].begin.clear();
     if (order.is_as_in_memory(sets[s])) {
       sets[s].fit_scratch();  // particles may have come at the end
       continue;
     }
     permute(sets[s], order.places().data(), order, room_for_particles(order.count()), scratch, 1);
-    sets[s].begin.clear();
     orders_[s].be_as_in_memory(sets[s]);
   }
 }
@@ -224,6 +224,8 @@ void HandOver::cut(const std::vector<ParticleSet>& sets) {
 
 void HandOver::divide(std::vector<ParticleSet>& sets) {
   for (ParticleSet& set : sets) set.begin.clear();  // of particles from elsewhere, it may be that of others
+  after_cut_ = 1.0;
+  just_divided_ = false;
   cut(sets);
   send(sets, {});
   settle(sets);

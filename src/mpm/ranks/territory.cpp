@@ -41,6 +41,7 @@ void Territory::cut(const Load& load, const Sum& sum) {
   double all = 0.0;
   for (auto& entry : along) entry.second = all += entry.second;
   sum(&all, 1);
+  if (!(all > 0.0)) return;  // nothing to share out: the cuts stay
 
   // Bisection for all cuts at once: the least place before which a rank's share lies.
   const int inner = parts() - 1;

@@ -37,14 +37,14 @@ std::uint32_t fletcher32(const void* data, std::size_t bytes) {
 
 }  // namespace
 
-ChunkWriter::ChunkWriter(const std::string& path, std::uint64_t number) : path_(path) {
+ChunkWriter::ChunkWriter(const std::string& path, std::uint64_t inode) : path_(path) {
   std::string problem = refused_output(path);  // a pipe would wait to be opened
   if (problem.empty()) {
     descriptor_ = open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor_ < 0) problem = std::strerror(errno);
   }
   struct stat about {};
-  if (problem.empty() && (fstat(descriptor_, &about) != 0 || about.st_ino != number)) {
+  if (problem.empty() && (fstat(descriptor_, &about) != 0 || about.st_ino != inode)) {
     problem = "it is another file than on the first rank";
   }
   if (problem.empty()) return;

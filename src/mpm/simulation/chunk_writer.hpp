@@ -21,8 +21,8 @@ namespace mpm {
 
 class ChunkWriter {
  public:
-  /// Of a file that another rank has made, and which has that file_number() there. @throws CheckpointError
-  ChunkWriter(const std::string& path, std::uint64_t number);
+  /// Of a file that another rank has made, with the inode number that it has there. @throws CheckpointError
+  ChunkWriter(const std::string& path, std::uint64_t inode);
   ChunkWriter(const ChunkWriter&) = delete;
   ChunkWriter& operator=(const ChunkWriter&) = delete;
   ~ChunkWriter();

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kRanks = "ranks_written";
 constexpr const char* kParts = "parts/";
 
-/// How many numbers have one checksum and are written at once: not more than HDF5 keeps while it is read in parts, and
+/// How many numbers have one checksum and are written at once: no more than HDF5's cache of a chunk holds (1 MiB), and
 /// so few that each rank has some chunks to write, but not fewer than are worth a write.
 constexpr std::uint64_t kMostChunk = 1 << 16, kLeastChunk = 1 << 10, kChunksEach = 4;
 
@@ -93,7 +93,7 @@ RanksWriter::RanksWriter(Communicator& ranks, const std::string& path) : ranks_(
   on_first([&] {
     file_ = std::make_unique<Hdf5Writer>(path);
     file_->value(kRanks, size);
-    made = {file_number(path)};
+    made = {inode_of(path)};
   });
   made = gather_list(ranks, made);
   if (made.empty()) return;

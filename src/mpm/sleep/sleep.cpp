@@ -90,19 +90,21 @@ void Sleep::follow_sort(const StepContext& context) {
   }
 }
 
+// Both are in the order of names.
 void Sleep::find_owners_of_sleepers() {
-  const auto is_found = [&](SleepingBlocks::Sleeper& sleeper) {
-    const Grid& grid = *parts_.fields[sleeper.name.field];
-    const BlockTable& blocks = grid.blocks;
-    for (int owner = 0; owner < blocks.owners(); ++owner) {
-      if (blocks.key(blocks.owner_block(owner)) != sleeper.name.key) continue;
-      sleeper.owner = grid.first_owner + owner;
-      return true;
+  std::vector<SleepingBlocks::Sleeper> own;
+  auto next = sleepers_.begin();
+  for (std::size_t f = 0; f < parts_.fields.size(); ++f) {
+    const Grid& grid = *parts_.fields[f];
+    for (int owner = 0; owner < grid.blocks.owners(); ++owner) {
+      const BlockName name{static_cast<int>(f), grid.blocks.key(grid.blocks.owner_block(owner))};
+      while (next != sleepers_.end() && next->name < name) ++next;
+      if (next == sleepers_.end() || !(next->name == name)) continue;
+      next->owner = grid.first_owner + owner;
+      own.push_back(std::move(*next));
     }
-    return false;
-  };
-  const auto others = std::stable_partition(sleepers_.begin(), sleepers_.end(), is_found);
-  sleepers_.erase(others, sleepers_.end());
+  }
+  sleepers_ = std::move(own);
 }
 
 void Sleep::momentum_gathered(StepContext& context) {
@@ -154,8 +156,7 @@ void Sleep::forces_gathered(StepContext& context) {
   for (std::size_t f = 0; f < borders_.size(); ++f) find_unrest(*context.fields[f], borders_[f], context.dt);
   if (to_wake_.empty()) return;
   ++steps_waited_;
-  std::sort(to_wake_.begin(), to_wake_.end());  // those that a look has found are in no order
-  to_wake_.erase(std::unique(to_wake_.begin(), to_wake_.end()), to_wake_.end());
+  sort_names(to_wake_);  // those that a look has found are in no order
 }
 
 Sleep::Taken Sleep::hold(Grid& grid, const SleepBorder& border, double dt) {
@@ -274,6 +275,7 @@ void Sleep::grid_advanced(StepContext& context) {
 void Sleep::before_sort() {
   asleep_.follow_moves();
   if (just_read_) return;
+  asleep_.trust_order();
   watch_.forget_rest();
   const bool any = !sleepers_.empty() || !to_wake_.empty();
   bool falls = false;
@@ -386,8 +388,9 @@ void Sleep::serialise(StateArchive& archive) {
     steps_waited_ = std::max(steps_waited_, waited[i]);
     at_once_ = at_once_ || waited[i + 1] != 0;
   }
-  std::sort(to_wake_.begin(), to_wake_.end());
-  to_wake_.erase(std::unique(to_wake_.begin(), to_wake_.end()), to_wake_.end());
+  sort_names(to_wake_);
+  sort_by_name(sleepers_, [](const Sleeper& sleeper) { return sleeper.name; });
+  given_.setZero();
   just_read_ = true;
   if (across_) across_->begin_anew();
 }

@@ -11,8 +11,8 @@
 namespace mpm {
 namespace {
 
-// What a block is told of for.
-enum What : std::int32_t { kAny, kWakes, kFallsAsleep, kGives, kMeans };
+// Why a rank names a block to the others.
+enum What : std::int32_t { kAny, kWakes, kFallsAsleep, kAsksForces, kAsksMeans };
 
 /// What a rank's part of a block gives to the grid.
 struct Part {
@@ -41,8 +41,7 @@ SleepAcrossRanks::Agreed SleepAcrossRanks::agree(bool any, const std::vector<Blo
       if (told.what == kFallsAsleep) falls.emplace_back(name, rank);
     }
   }
-  std::sort(to_wake.begin(), to_wake.end());
-  to_wake.erase(std::unique(to_wake.begin(), to_wake.end()), to_wake.end());
+  sort_names(to_wake);
   Agreed agreed{any, false};
   for (const auto& [name, rank] : falls) {
     if (std::binary_search(to_wake.begin(), to_wake.end(), name)) continue;
@@ -98,13 +97,13 @@ SleepAcrossRanks::Names SleepAcrossRanks::find_around() const {
 
 void SleepAcrossRanks::ask(const Names& around, std::vector<Told>& asked) const {
   for (const BlockName& name : around) {
-    if (!asleep_.knows_whole(name)) asked.push_back({name.key, name.field, kGives});
+    if (!asleep_.knows_whole(name)) asked.push_back({name.key, name.field, kAsksForces});
   }
   for (std::size_t f = 0; f < fields_.size() && !knows_all_; ++f) {
     const BlockTable& blocks = fields_[f]->blocks;
     for (int b = 0; b < blocks.size(); ++b) {
       if (std::binary_search(known_[f].begin(), known_[f].end(), blocks.key(b))) continue;
-      asked.push_back({blocks.key(b), static_cast<std::int32_t>(f), kMeans});
+      asked.push_back({blocks.key(b), static_cast<std::int32_t>(f), kAsksMeans});
     }
   }
 }
@@ -123,9 +122,9 @@ void SleepAcrossRanks::meet(std::vector<SleepBorder>& borders) {
   std::vector<std::vector<SleepBorder::Mean>> means(ranks().size());
   for (int rank = 0; rank < ranks().size(); ++rank) {
     for (const Told& told : list_of<Told>(asked[rank])) {
-      const SleepingBlock* block = told.what == kGives ? asleep_.own({told.field, told.key}) : nullptr;
+      const SleepingBlock* block = told.what == kAsksForces ? asleep_.own({told.field, told.key}) : nullptr;
       if (block != nullptr) parts[rank].push_back({told.key, told.field, block->rate, block->forces});
-      if (told.what == kMeans && rank != ranks().rank()) borders[told.field].add_means(told.key, means[rank]);
+      if (told.what == kAsksMeans && rank != ranks().rank()) borders[told.field].add_means(told.key, means[rank]);
     }
   }
   std::vector<std::unique_ptr<SleepingBlock>> wholes;

@@ -40,7 +40,8 @@ void SleepingBlocks::make_room(std::size_t s) {
   owned_.resize(sets_.size());
   first_.resize(sets_.size());
   owned_[s].resize(sets_[s].id.size());
-  sets_[s].rest_changes.resize(sets_[s].id.size() / ParticleSet::kRestGroup + 1);
+  std::vector<std::uint32_t>& changes = sets_[s].rest_changes;  // those beyond the end are kept: counts go on
+  changes.resize(std::max(changes.size(), sets_[s].id.size() / ParticleSet::kRestGroup + 1));
 }
 
 void SleepingBlocks::note(std::size_t s, std::uint32_t p, SleepingBlock* block) {
@@ -126,7 +127,7 @@ void SleepingBlocks::wake_set(std::size_t s, SleepingBlock& block) {
     exchange(set, place, from);
     settle_place(set, from);
     const Owned displaced = owned_[s][place];
-    displaced.block->particles[s][displaced.rank] = from;
+    displaced.block->particles[s][displaced.index] = from;
     owned_[s][from] = displaced;
   }
   set.asleep -= static_cast<int>(own.size());
@@ -149,6 +150,10 @@ void SleepingBlocks::forget_order() {
   }
 }
 
+void SleepingBlocks::trust_order() {
+  for (ParticleSet& set : sets_) set.sorts_by_id = false;
+}
+
 void SleepingBlocks::follow_moves() {
   for (std::size_t s = 0; s < first_.size(); ++s) follow_moves(s);
 }
@@ -166,7 +171,7 @@ void SleepingBlocks::follow_moves(std::size_t s) {
   for (int i = 0; i < moved; ++i) {
     const auto place = static_cast<std::uint32_t>(to + i);
     owned_[s][place] = owned[i];
-    owned[i].block->particles[s][owned[i].rank] = place;
+    owned[i].block->particles[s][owned[i].index] = place;
   }
   ++set.rest_changes[set.size() / ParticleSet::kRestGroup];  // the last group, which may have lost some
 }
@@ -270,8 +275,8 @@ void SleepingBlocks::take_places(std::size_t s, std::vector<std::uint64_t> block
     if (!set.side.empty()) reorder(set.side);
     reorder(block_of);
     set.begin.clear();  // of what was there before
-    set.sorts_by_id = true;
   }
+  set.sorts_by_id = merging;
   set.asleep = static_cast<int>(order.end() - asleep);
   make_room(s);
   first_[s] = set.awake();

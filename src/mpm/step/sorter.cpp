@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace mpm {
 
@@ -270,8 +269,7 @@ std::optional<ParticleRef> Sorter::sort(std::vector<ParticleSet>& sets, Fields& 
     Scratch& scratch = scratch_[s];
     sort_by_block(sets[s], scratch);
     sort_by_node(sets[s], scratch);
-    if (std::exchange(sets[s].sorts_by_id, false))
-      take_by_ids(sets[s], scratch.node.data(), scratch.order.data(), threads_);
+    if (sets[s].sorts_by_id) take_by_ids(sets[s], scratch.node.data(), scratch.order.data(), threads_);
     fill_groups(sets[s], scratch);
     permute(sets[s], scratch.order.data(), *scratch.before, scratch.room, scratch.values, threads_);
   }

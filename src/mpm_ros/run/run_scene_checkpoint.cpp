@@ -75,9 +75,9 @@ void RunSceneCheckpoints::try_path(mpm::Communicator* ranks) const {
   bool other = false;
   if (ranks != nullptr) {
     std::vector<std::uint64_t> made;
-    if (first) made = {mpm::file_number(part)};
+    if (first) made = {mpm::inode_of(part)};
     made = mpm::gather_list(*ranks, made);
-    other = ranks->any(mpm::file_number(part) != made.front());
+    other = ranks->any(mpm::inode_of(part) != made.front());
   }
   if (first) std::remove(part.c_str());
   if (other) {

@@ -23,21 +23,21 @@ const std::string kFails = "scene:=" + data_file("leaves_domain.yaml");
 
 std_srvs::Trigger::Response reset(const SimulatorProcess& simulator) {
   std_srvs::Trigger call;
-  EXPECT_TRUE(ros::service::call(simulator.name("reset"), call)) << simulator.log();
+  EXPECT_TRUE(simulator.call("reset", call)) << simulator.log();
   return call.response;
 }
 
 Reset::Response reset_with(const SimulatorProcess& simulator, const std::vector<std::string>& set) {
   Reset call;
   call.request.set = set;
-  EXPECT_TRUE(ros::service::call(simulator.name("reset_with"), call)) << simulator.log();
+  EXPECT_TRUE(simulator.call("reset_with", call)) << simulator.log();
   return call.response;
 }
 
 std_srvs::SetBool::Response pause(const SimulatorProcess& simulator, bool paused) {
   std_srvs::SetBool call;
   call.request.data = paused ? 1 : 0;
-  EXPECT_TRUE(ros::service::call(simulator.name("pause"), call)) << simulator.log();
+  EXPECT_TRUE(simulator.call("pause", call)) << simulator.log();
   return call.response;
 }
 
@@ -53,7 +53,7 @@ void expect_waits_after_failure(const std::string& pacing) {
   ASSERT_TRUE(simulator.ready()) << simulator.log();
   Checkpoint save;
   save.request.path = folder.file("start.h5");
-  ASSERT_TRUE(ros::service::call(simulator.name("save_checkpoint"), save));
+  ASSERT_TRUE(simulator.call("save_checkpoint", save));
   ASSERT_TRUE(save.response.success) << save.response.message;
   pause(simulator, false);
   if (pacing == "lockstep") {
@@ -84,7 +84,7 @@ void expect_waits_after_failure(const std::string& pacing) {
   pause(simulator, true);
   Checkpoint load;
   load.request.path = save.response.path;
-  ASSERT_TRUE(ros::service::call(simulator.name("load_checkpoint"), load));
+  ASSERT_TRUE(simulator.call("load_checkpoint", load));
   EXPECT_TRUE(load.response.success) << load.response.message;
   pause(simulator, false);
   if (pacing == "lockstep") {
@@ -153,7 +153,7 @@ TEST(Alive, PauseInterruptsStepsInLine) {
     callers.emplace_back([&] {
       Step step;
       step.request.count = 1U << 31U;
-      ASSERT_TRUE(ros::service::call(simulator.name("step"), step));
+      ASSERT_TRUE(simulator.call("step", step));
       EXPECT_FALSE(step.response.success);
       const std::string& message = step.response.message;
       if (message.find("interrupted by pause") != std::string::npos) {

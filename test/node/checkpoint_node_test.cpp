@@ -18,7 +18,7 @@ constexpr std::uint32_t kWhole = 60, kHalf = 25;  // sync periods of 2 ms
 Checkpoint::Response call(const SimulatorProcess& simulator, const std::string& service, const std::string& path) {
   Checkpoint message;
   message.request.path = path;
-  EXPECT_TRUE(ros::service::call(simulator.name(service), message)) << simulator.log();
+  EXPECT_TRUE(simulator.call(service, message)) << simulator.log();
   return message.response;
 }
 

@@ -138,12 +138,12 @@ TEST(Endings, PauseHoldsSimulatedTimeAndCommandsAreTakenAfterwards) {
 
   std_srvs::SetBool pause;
   pause.request.data = 0;
-  ASSERT_TRUE(ros::service::call(simulator.name("pause"), pause));
+  ASSERT_TRUE(simulator.call("pause", pause));
   ASSERT_TRUE(bodies.hears(3)) << simulator.log();
   EXPECT_EQ(bodies.heard().back().bodies[1].drive, BodyState::VELOCITY);
   EXPECT_EQ(bodies.heard().back().bodies[1].twist.linear.z, 0.01);
   Step step;
-  ASSERT_TRUE(ros::service::call(simulator.name("step"), step));
+  ASSERT_TRUE(simulator.call("step", step));
   EXPECT_FALSE(step.response.success);  // not in lockstep
 }
 

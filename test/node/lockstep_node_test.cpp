@@ -72,11 +72,11 @@ TEST(Lockstep, TopicsAndServicesHaveTheirTypes) {
 
   // A call with the wrong type fails in the handshake, so a call that succeeds shows the type.
   std_srvs::SetBool set;
-  EXPECT_TRUE(ros::service::call(simulator.name("pause"), set));
+  EXPECT_TRUE(simulator.call("pause", set));
   std_srvs::Trigger trigger;
-  EXPECT_TRUE(ros::service::call(simulator.name("reset"), trigger));
+  EXPECT_TRUE(simulator.call("reset", trigger));
   Step step;
-  EXPECT_TRUE(ros::service::call(simulator.name("step"), step));
+  EXPECT_TRUE(simulator.call("step", step));
 }
 
 TEST(Lockstep, CommandMovesTheBodyAndTheBodyFeelsTheMaterial) {
@@ -322,18 +322,18 @@ TEST(Lockstep, PauseRefusesStepsAndResetBeginsAgain) {
   ASSERT_TRUE(simulator.ready()) << simulator.log();
   std_srvs::SetBool pause;
   pause.request.data = 1;
-  ASSERT_TRUE(ros::service::call(simulator.name("pause"), pause));
+  ASSERT_TRUE(simulator.call("pause", pause));
   EXPECT_TRUE(pause.response.success);
   Step::Response refused = simulator.step(1);
   EXPECT_FALSE(refused.success);
   EXPECT_NE(refused.message.find("paused"), std::string::npos);
   pause.request.data = 0;
-  ASSERT_TRUE(ros::service::call(simulator.name("pause"), pause));
+  ASSERT_TRUE(simulator.call("pause", pause));
 
   const Step::Response first = simulator.step(20, {velocity("plate", -0.2)});
   ASSERT_TRUE(first.success);
   std_srvs::Trigger reset;
-  ASSERT_TRUE(ros::service::call(simulator.name("reset"), reset));
+  ASSERT_TRUE(simulator.call("reset", reset));
   EXPECT_TRUE(reset.response.success) << reset.response.message;
   const Step::Response again = simulator.step(20, {velocity("plate", -0.2)});
   ASSERT_TRUE(again.success);

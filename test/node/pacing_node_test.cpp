@@ -34,13 +34,13 @@ void use_sim_time(bool use) { ros::param::set("/use_sim_time", use); }
 void pause(const SimulatorProcess& simulator, bool paused) {
   std_srvs::SetBool call;
   call.request.data = paused ? 1 : 0;
-  ASSERT_TRUE(ros::service::call(simulator.name("pause"), call)) << simulator.log();
+  ASSERT_TRUE(simulator.call("pause", call)) << simulator.log();
   EXPECT_TRUE(call.response.success) << call.response.message;
 }
 
 std_srvs::Trigger::Response reset(const SimulatorProcess& simulator) {
   std_srvs::Trigger call;
-  EXPECT_TRUE(ros::service::call(simulator.name("reset"), call)) << simulator.log();
+  EXPECT_TRUE(simulator.call("reset", call)) << simulator.log();
   EXPECT_TRUE(call.response.success) << call.response.message;
   return call.response;
 }

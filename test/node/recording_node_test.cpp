@@ -104,7 +104,7 @@ TEST(Recording, SplitBagsOfEachRunReplayToTheSameState) {
     ASSERT_TRUE(simulator.ready()) << simulator.log();
     ASSERT_TRUE(simulator.step(30, {velocity("plate", -0.1)}).success);
     std_srvs::Trigger reset;
-    ASSERT_TRUE(ros::service::call(simulator.name("reset"), reset));
+    ASSERT_TRUE(simulator.call("reset", reset));
     ASSERT_TRUE(simulator.step(30, {velocity("plate", -0.1)}).success);
     ASSERT_TRUE(simulator.step(70, {velocity("plate", -0.05)}).success);
     simulator.signal(SIGINT);

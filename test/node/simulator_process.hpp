@@ -157,14 +157,18 @@ class SimulatorProcess : public ProgramProcess {
     return lines;
   }
 
+  /// Calls one of its services. The connection is kept until the answer is there: on one that the node closes after it
+  /// roscpp now and then loses the answer (ros/ros_comm, issue 1976).
+  template <class Service>
+  bool call(const std::string& service, Service& message) const {
+    return ros::NodeHandle().serviceClient<Service>(name(service), true).call(message);
+  }
+
   Step::Response step(const Step::Request& request) const {
-    Step::Response response;
-    Step::Request copy = request;
-    // A connection that is kept, as users are told to have it (doc/loop.md): on one that ends with the answer roscpp
-    // now and then loses it (ros/ros_comm, issue 1976).
-    if (!step_.isValid()) step_ = ros::NodeHandle().serviceClient<Step>(name("step"), true);
-    EXPECT_TRUE(step_.call(copy, response)) << log();
-    return response;
+    Step call;
+    call.request = request;
+    EXPECT_TRUE(this->call("step", call)) << log();
+    return call.response;
   }
   Step::Response step(std::uint32_t count, const std::vector<mpm_ros::Command>& commands = {}) const {
     Step::Request request;
@@ -178,8 +182,6 @@ class SimulatorProcess : public ProgramProcess {
     for (std::string& parameter : parameters) parameter.insert(0, "_");
     return parameters;
   }
-
-  mutable ros::ServiceClient step_;
 };
 
 /// Subscribes to a topic on a thread of roscpp and keeps every message.

@@ -165,10 +165,10 @@ class SimulatorProcess : public ProgramProcess {
   }
 
   Step::Response step(const Step::Request& request) const {
-    Step call;
-    call.request = request;
-    EXPECT_TRUE(this->call("step", call)) << log();
-    return call.response;
+    Step message;
+    message.request = request;
+    EXPECT_TRUE(call("step", message)) << log();
+    return message.response;
   }
   Step::Response step(std::uint32_t count, const std::vector<mpm_ros::Command>& commands = {}) const {
     Step::Request request;

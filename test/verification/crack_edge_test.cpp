@@ -160,7 +160,7 @@ TEST(CrackEdge, PlaceInACell) {
 
 // About 30 s.
 TEST(FullCrackEdge, PlacesInACell) {
-  Page page("crack", "crack_places_full", "Where a crack lies in a cell: all places");
+  Page page("crack", "crack_places_all", "Where a crack lies in a cell: all places");
   page.problem("The strip above, 20 cells across, with the tip and the line at places in a cell.")
       .exact("as above, with each crack's own length", "as above")
       .meaning(kMapMeaning);

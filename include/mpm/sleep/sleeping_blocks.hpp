@@ -82,7 +82,7 @@ class SleepingBlocks {
   /// To be called when blocks have fallen asleep or woken, on any rank: particles that are awake may have changed
   /// places, and the next sort takes those of a node in the order of their ids (ParticleSet::sorts_by_id).
   void forget_order();
-  /// To be called before a sort.
+  /// To be called before a sort, and before forget_order(): since the last sort no block has fallen asleep or woken.
   void trust_order();
   /// To be called when nothing is asleep on any rank.
   void forget_rate() { rate_ = 0.0; }

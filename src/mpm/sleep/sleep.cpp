@@ -390,7 +390,7 @@ void Sleep::serialise(StateArchive& archive) {
   }
   sort_names(to_wake_);
   sort_by_name(sleepers_, [](const Sleeper& sleeper) { return sleeper.name; });
-  given_.setZero();
+  given_.setZero();  // by a step that failed, if it is not zero
   just_read_ = true;
   if (across_) across_->begin_anew();
 }
